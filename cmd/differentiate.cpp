@@ -1,0 +1,40 @@
+// differentiate - append the time derivative of a column; see differentiate(1)
+#include "cli/tool.h"
+#include "signal/derivative.h"
+#include "text/filter.h"
+
+namespace {
+
+/// v from x, a from v, dNAME from any other.
+rolling::Column derivative_of(const rolling::Column& column) {
+  if (column.name == "x") return {"v", "m/s"};
+  if (column.name == "v") return {"a", "m/s^2"};
+  return {"d" + column.name, column.unit.empty() ? "" : column.unit + "/s"};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace rolling;
+  Tool tool("differentiate", "Append the time derivative of a column.");
+  std::string column;
+  tool.text("-c,--column", column, "the column to differentiate (v, else x)");
+  tool.input();
+  tool.output();
+
+  return tool.run(argc, argv, [&] {
+    Reader& in = tool.read({"t", "v"});
+    const auto t = in.need_time();
+    const auto y = in.need(!column.empty() ? column : in.find("v") || !in.find("x") ? "v" : "x");
+    const Column& from = in.columns()[in.column_of(y)];
+    Filter filter(in, tool.out, fmt::format("differentiate {} central", from.name));
+    filter.append(derivative_of(from));
+    while (filter.next_run()) {
+      CentralDerivative derivative;
+      while (filter.next())
+        for (const double value : derivative.push(filter[t], filter[y])) filter.put(value);
+      for (const double value : derivative.finish()) filter.put(value);
+    }
+    return 0;
+  });
+}

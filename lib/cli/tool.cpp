@@ -1,0 +1,222 @@
+#include "cli/tool.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <new>
+
+#include "text/number.h"
+
+namespace rolling {
+namespace {
+
+constexpr std::string_view version = "1.0.0";
+
+/// The numbers of a scene: what its file may say, whether or not a tool needs it.
+constexpr std::array scene_keys = {"mass", "radius", "shape-factor", "gravity", "coefficient", "exponent", "exact", "v0", "x0", "memory", "damping"};
+
+double to_number(const std::string& option, const std::string& text, const Range& range) {
+  double value;
+  if (!parse_number(text, value)) fail("{}: '{}' is not a number", option, shown(text));
+  if (!range.holds(value)) fail("{}: '{}' must be {}", option, shown(text), range.text);
+  return value;
+}
+
+std::string long_name(const std::string& names) {
+  const auto at = names.find("--");
+  return at == std::string::npos ? std::string() : names.substr(at + 2);
+}
+
+}  // namespace
+
+Tool::Tool(std::string name, const std::string& purpose) : name_(std::move(name)), app_(purpose, name_) {
+  app_.set_help_flag("-h,--help", "print this and exit");
+  app_.set_version_flag("--version", fmt::format("{} (rolling) {}", name_, version), "print the version and exit");
+  app_.add_flag("-q,--quiet", quiet_, "no counts of left-out records on standard error");
+}
+
+void Tool::add(const std::string& names, const std::string& type, const std::string& help, std::function<void(const std::string&)> set) {
+  setters_[long_name(names)] = set;
+  app_.add_option_function<std::string>(names, set, help)->type_name(type);
+}
+
+void Tool::flag(const std::string& names, bool& value, const std::string& help) {
+  setters_[long_name(names)] = [&value, names](const std::string& text) {
+    if (text != "true" && text != "false") fail("{}: '{}' is neither true nor false", names, shown(text));
+    value = text == "true";
+  };
+  app_.add_flag(names, value, help)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+}
+
+void Tool::number(const std::string& names, double& value, const Range& range, const std::string& help) {
+  add(names, "NUMBER", help, [&value, range, names](const std::string& text) { value = to_number(names, text, range); });
+}
+
+void Tool::count(const std::string& names, std::size_t& value, const Range& range, const std::string& help) {
+  add(names, "N", help, [&value, range, names](const std::string& text) { value = static_cast<std::size_t>(to_number(names, text, range)); });
+}
+
+void Tool::text(const std::string& names, std::string& value, const std::string& help) {
+  add(names, "NAME", help, [&value](const std::string& text) { value = text; });
+}
+
+void Tool::list(const std::string& names, std::vector<std::string>& values, const std::string& help) {
+  app_.add_option(names, values, help)->allow_extra_args(false)->type_name("TEXT");
+}
+
+void Tool::body(Body& body, const std::string& which) {
+  body = {not_given, not_given, not_given, 9.81};
+  if (which.find('m') != std::string::npos) number("-m,--mass", body.m, positive, "mass m [kg]");
+  if (which.find('R') != std::string::npos) number("-R,--radius", body.R, positive, "radius R [m]");
+  if (which.find('K') != std::string::npos) number("-K,--shape-factor", body.K, not_negative, "shape factor K of J = K m R^2");
+  if (which.find('g') != std::string::npos) number("-g,--gravity", body.g, positive, "gravity g [m/s^2] (9.81)");
+}
+
+void Tool::law(PowerLaw& law) {
+  law = {not_given, not_given};
+  number("-a,--coefficient", law.a, positive, "coefficient a of the law D = a v^b [m (s/m)^b]");
+  number("-b,--exponent", law.b, any_number, "exponent b of the law");
+}
+
+void Tool::geometry(Geometry& geometry) {
+  geometry = Geometry::approximate;
+  setters_["exact"] = [&geometry](const std::string& text) {
+    if (text != "true" && text != "false") fail("--exact: '{}' is neither true nor false", shown(text));
+    geometry = text == "true" ? Geometry::exact : Geometry::approximate;
+  };
+  app_.add_flag_callback("--exact", [&geometry] { geometry = Geometry::exact; }, "keep A = sqrt(1 - D^2/R^2) (the paper sets A = 1)");
+}
+
+void Tool::scene() {
+  app_.add_option("--scene", scene_file_, "TOML file with the long names of a scene's options; the command line wins")->type_name("FILE");
+}
+
+void Tool::input() {
+  app_.add_option("FILE", input_.files, "input files, read in order; - or none is standard input")->type_name("");
+  list("--use", input_.use, "as NAME=COLUMN: the column (a name or a number from 1) that serves as t, x, v, a or D");
+  add("--run", "N", "read this run only: the number in its header, else its place", [this](const std::string& text) {
+    input_.run = static_cast<int>(to_number("--run", text, whole));
+  });
+  flag("--strict", input_.strict, "a missing reading is an error");
+}
+
+void Tool::output() {
+  add("--digits", "N", "round computed numbers to this many significant digits", [this](const std::string& text) {
+    out.digits = static_cast<int>(to_number("--digits", text, {"a whole number from 1 to 17", [](double x) { return x >= 1 && x <= 17 && x == std::floor(x); }}));
+  });
+  flag("-u,--unbuffered", out.unbuffered, "let each record go out at once");
+}
+
+/// Sets what the command line has left open from the scene file.
+void Tool::read_scene() {
+  if (scene_file_.empty()) return;
+  std::ifstream file(scene_file_);
+  if (!file) fail("{}: {}", shown(scene_file_), std::strerror(errno));
+  std::vector<CLI::ConfigItem> items;
+  try {
+    items = CLI::ConfigTOML().from_config(file);
+  } catch (const CLI::Error&) {
+    fail("{}: this is not TOML", shown(scene_file_));
+  }
+  std::vector<std::string> seen;
+  for (const CLI::ConfigItem& item : items) {
+    const std::string key = item.fullname();
+    if (std::find(scene_keys.begin(), scene_keys.end(), key) == scene_keys.end())
+      fail("{}: '{}' is not a number of a scene (mass, radius, shape-factor, ...)", shown(scene_file_), shown(key));
+    if (item.inputs.size() != 1 || std::find(seen.begin(), seen.end(), key) != seen.end())
+      fail("{}: {} needs one value", shown(scene_file_), key);
+    seen.push_back(key);
+    const auto setter = setters_.find(key);
+    if (setter == setters_.end() || on_command_line(key)) continue;
+    try {
+      setter->second(item.inputs.front());
+    } catch (const Error& error) {
+      fail("{}: {}", shown(scene_file_), error.what());
+    }
+  }
+}
+
+Reader& Tool::read(std::vector<std::string> order) {
+  const bool standard_input = input_.files.empty() || std::find(input_.files.begin(), input_.files.end(), "-") != input_.files.end();
+  if (standard_input && ::isatty(STDIN_FILENO)) say("reading columns from the terminal; end with Ctrl-D");
+  return *readers_.emplace_back(std::make_unique<Reader>(input_, std::move(order)));
+}
+
+Reader& Tool::read_file(const std::string& file, std::vector<std::string> order) {
+  return *readers_.emplace_back(std::make_unique<Reader>(ReaderOptions{{file}, {}, {}, input_.strict}, std::move(order)));
+}
+
+void Tool::need(double value, const std::string& option) const {
+  if (std::isnan(value)) fail("{} is not given, nor is it in a scene", option);
+}
+
+void Tool::need(const Body& body, const std::string& which) const {
+  for (const char c : which) {
+    if (c == 'm') need(body.m, "--mass");
+    if (c == 'R') need(body.R, "--radius");
+    if (c == 'K') need(body.K, "--shape-factor");
+  }
+}
+
+void Tool::need(const PowerLaw& law) const {
+  need(law.a, "--coefficient");
+  need(law.b, "--exponent");
+}
+
+void Tool::say(const std::string& text) const {
+  std::string line = name_ + ": " + text.substr(0, text.find('\n'));
+  for (char& c : line)
+    if (c < ' ' || c > '~') c = '?';
+  line.resize(std::min<std::size_t>(line.size(), 511));
+  line += '\n';
+  [[maybe_unused]] const auto count = ::write(STDERR_FILENO, line.data(), line.size());  // where could one say that it failed?
+}
+
+int Tool::run(int argc, char** argv, const std::function<int()>& work) {
+  constexpr int trouble = 2;
+  try {
+    app_.parse(argc, argv);
+    read_scene();
+    const int status = work();
+    out.flush();
+    std::size_t left_out = 0;
+    for (const auto& reader : readers_) left_out += reader->left_out();
+    if (left_out > 0 && !quiet_) say(fmt::format("{} record{} left out: a reading is missing", left_out, left_out == 1 ? "" : "s"));
+    return status;
+  } catch (const CLI::CallForHelp&) {
+    return print(app_.help());
+  } catch (const CLI::CallForVersion& call) {
+    return print(std::string(call.what()) + '\n');
+  } catch (const CLI::ParseError& error) {
+    say(std::string(error.what()) + " (see --help)");
+  } catch (const Error& error) {
+    const std::string text = error.what(), where = readers_.empty() ? "" : readers_.back()->where();
+    out.drop_line();  // what came before the bad record may stand; the line in the making may not
+    print("");
+    say(where.empty() || text.starts_with(where) ? text : where + ": " + text);
+  } catch (const std::bad_alloc&) {
+    say("out of memory");
+  } catch (const std::exception& error) {
+    say(error.what());
+  }
+  return trouble;
+}
+
+/// Writes what is due and `text`; returns the exit status.
+int Tool::print(const std::string& text) {
+  try {
+    out.line() += text;
+    out.flush();
+    return 0;
+  } catch (const Error& error) {
+    say(error.what());
+    return 2;
+  }
+}
+
+}  // namespace rolling

@@ -1,0 +1,109 @@
+// What every command shares: options, the scene file, input and output, messages, exit status. The only room that knows CLI11.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "rolling/body.h"
+#include "rolling/power_law.h"
+#include "text/output.h"
+#include "text/reader.h"
+
+namespace rolling {
+
+/// What a number on the command line may be.
+struct Range {
+  const char* text;  ///< as the message says it: "greater than 0"
+  bool (*holds)(double);
+};
+inline constexpr Range any_number{"a number", [](double) { return true; }};
+inline constexpr Range positive{"greater than 0", [](double x) { return x > 0; }};
+inline constexpr Range not_negative{"0 or more", [](double x) { return x >= 0; }};
+inline constexpr Range whole{"a whole number greater than 0", [](double x) { return x >= 1 && x <= 1e9 && x == static_cast<double>(static_cast<std::int64_t>(x)); }};
+
+inline constexpr Range odd{"an odd whole number", [](double x) { return whole.holds(x) && static_cast<std::int64_t>(x) % 2 == 1; }};
+
+inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+
+class Tool {
+ public:
+  Tool(std::string name, const std::string& purpose);
+
+  // Options of one tool. `names` as CLI11 writes them: "-w,--width". Each may be given once; the value must be a number of
+  // rolling-columns(5), whole, within the range.
+  void flag(const std::string& names, bool& value, const std::string& help);
+  void number(const std::string& names, double& value, const Range&, const std::string& help);
+  void count(const std::string& names, std::size_t& value, const Range&, const std::string& help);
+  void text(const std::string& names, std::string& value, const std::string& help);
+  void list(const std::string& names, std::vector<std::string>& values, const std::string& help);  ///< may be repeated
+  template <typename T>
+  void choice(const std::string& names, T& value, const std::map<std::string, T>& choices, const std::string& help);
+
+  // Options that tools share.
+  void body(Body&, const std::string& which = "mRKg");  ///< -m -R -K -g, those named
+  void law(PowerLaw&);                                  ///< -a -b
+  void geometry(Geometry&);                             ///< --exact
+  void scene();                                         ///< --scene, for the options above and --v0 --x0
+  void input();                                         ///< operands, --use --run --strict
+  void output();                                        ///< --digits -u
+
+  /// Parses the command line, runs `work`, flushes; returns the exit status: what work returns, or 2 after one line on
+  /// standard error.
+  int run(int argc, char** argv, const std::function<int()>& work);
+
+  /// The records of the operands. `order` names the columns of a file without names.
+  Reader& read(std::vector<std::string> order);
+  /// The records of one file that an option names.
+  Reader& read_file(const std::string& file, std::vector<std::string> order);
+
+  /// One line of printable ASCII on standard error, at most 512 bytes.
+  void say(const std::string& text) const;
+
+  /// Throw Error when a value was neither on the command line nor in the scene.
+  void need(double value, const std::string& option) const;
+  void need(const Body&, const std::string& which) const;
+  void need(const PowerLaw&) const;
+  /// An option, by its long name, that was given on the command line itself.
+  bool on_command_line(const std::string& option) const { return app_.get_option("--" + option)->count() > 0; }
+
+  Output out;
+
+ private:
+  void add(const std::string& names, const std::string& type, const std::string& help, std::function<void(const std::string&)> set);
+  void read_scene();
+  int print(const std::string& text);
+
+  std::string name_;
+  CLI::App app_;
+  ReaderOptions input_;
+  std::string scene_file_;
+  bool quiet_ = false;
+  std::map<std::string, std::function<void(const std::string&)>> setters_;  // by long name
+  std::vector<std::unique_ptr<Reader>> readers_;
+};
+
+template <typename T>
+void Tool::choice(const std::string& names, T& value, const std::map<std::string, T>& choices, const std::string& help) {
+  add(names, "NAME", help, [&value, choices, names](const std::string& text) {
+    const auto found = choices.find(text);
+    if (found == choices.end()) {
+      std::string all;
+      for (const auto& [name, _] : choices) all += (all.empty() ? "" : ", ") + name;
+      fail("{}: '{}' is not one of {}", names, shown(text), all);
+    }
+    value = found->second;
+  });
+}
+
+}  // namespace rolling

@@ -1,0 +1,131 @@
+#include "text/column.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "base/error.h"
+#include "text/number.h"
+
+namespace rolling {
+namespace {
+
+struct Unit { std::string_view name; Conversion to_si; };
+struct Quantity { std::string_view name, long_name, other_name; std::vector<Unit> units; };  // the SI unit first
+
+const std::vector<Unit> lengths = {{"m", {}},           {"mm", {1, 1e3}}, {"cm", {1, 1e2}}, {"dm", {1, 10}},
+                                   {"um", {1, 1e6}},    {"km", {1e3, 1}}, {"in", {254, 1e4}}, {"ft", {3048, 1e4}}};
+const std::array<Quantity, 5> quantities = {{
+    {"t", "time", "time", {{"s", {}}, {"sec", {}}, {"ms", {1, 1e3}}, {"us", {1, 1e6}}, {"min", {60, 1}}, {"h", {3600, 1}}}},
+    {"x", "position", "position", lengths},
+    {"v", "velocity", "speed",
+     {{"m/s", {}}, {"mm/s", {1, 1e3}}, {"cm/s", {1, 1e2}}, {"km/h", {5, 18}}, {"mph", {1397, 3125}}, {"ft/s", {3048, 1e4}}}},
+    {"a", "acceleration", "acceleration", {{"m/s^2", {}}, {"m/s/s", {}}, {"mm/s^2", {1, 1e3}}, {"cm/s^2", {1, 1e2}}}},
+    {"D", "shift", "shift", lengths},
+}};
+
+std::string replace_all(std::string text, std::string_view from, std::string_view to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+  return text;
+}
+
+/// One spelling of a unit: UTF-8 and Latin-1 powers as ^2, both micro signs as u.
+std::string plain_unit(std::string unit) {
+  for (const auto& [from, to] : {std::pair{"\xC2\xB2", "^2"}, {"\xB2", "^2"}, {"\xC2\xB5", "u"}, {"\xCE\xBC", "u"}, {"\xB5", "u"}})
+    unit = replace_all(std::move(unit), from, to);
+  return replace_all(std::move(unit), "s2", "s^2");
+}
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return out;
+}
+
+const Quantity* known(std::string_view name) {
+  for (const Quantity& q : quantities)
+    if (q.name == name) return &q;
+  return nullptr;
+}
+
+/// Takes `Run #2` or `Run 2` off either end of a name, and `Latest:` or `Data Set 1:` off its front.
+int take_run(std::string_view& name) {
+  const auto colon = name.find(':');
+  std::string_view prefix = colon == std::string_view::npos ? std::string_view() : name.substr(0, colon);
+  if (colon != std::string_view::npos) name = trim(name.substr(colon + 1));
+  const std::string_view digits = "0123456789";
+  const auto number_at_end = [&](std::string_view text) {
+    const auto before = text.find_last_not_of(digits);
+    double value = 0;
+    return before + 1 < text.size() && parse_number(text.substr(before + 1), value) && value < 1e6 ? static_cast<int>(value) : 0;
+  };
+  if (const auto at = name.rfind("Run"); at != std::string_view::npos && number_at_end(name) && at > 0 && (name[at - 1] == ' ')) {
+    const std::string_view middle = trim(name.substr(at + 3, name.find_last_not_of(digits) + 1 - (at + 3)));
+    if (middle.empty() || middle == "#") {
+      const int run = number_at_end(name);
+      name = trim(name.substr(0, at));
+      return run;
+    }
+  }
+  return number_at_end(prefix);
+}
+
+}  // namespace
+
+Column read_column(std::string_view text) {
+  Column column;
+  std::string_view name = trim(text);
+  column.run = take_run(name);
+  const char close = name.empty() ? '\0' : name.back();
+  const auto open = close == ')' ? name.rfind('(') : close == ']' ? name.rfind('[') : std::string_view::npos;
+  if (open != std::string_view::npos && open > 0) {
+    column.unit = plain_unit(std::string(trim(name.substr(open + 1, name.size() - open - 2))));
+    name = trim(name.substr(0, open));
+  }
+  const std::string small = lower(name);
+  for (const Quantity& q : quantities)
+    if (small == q.long_name || small == q.other_name) name = q.name;
+  column.name = replace_all(replace_all(std::string(name), " ", "_"), "\t", "_");
+  return column;
+}
+
+std::string to_text(const Column& column) {
+  return column.unit.empty() ? column.name : fmt::format("{}[{}]", column.name, column.unit);
+}
+
+std::string_view si_unit(std::string_view quantity) {
+  const Quantity* q = known(quantity);
+  return q ? q->units.front().name : std::string_view();
+}
+
+Conversion conversion_to_si(std::string_view quantity, const Column& column) {
+  const Quantity* q = known(quantity);
+  if (!q || column.unit.empty()) return {};
+  for (const Unit& unit : q->units)
+    if (unit.name == column.unit) return unit.to_si;
+  fail("column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}, ...); convert it first", shown(to_text(column)),
+       quantity, shown(column.unit), q->units.front().name);
+}
+
+std::vector<std::string> split_names(std::string_view line, char separator) {
+  std::vector<std::string> names;
+  if (separator) {
+    for (std::size_t at = 0; at <= line.size();) {
+      const auto end = std::min(line.find(separator, at), line.size());
+      names.emplace_back(trim(line.substr(at, end - at)));
+      at = end + 1;
+    }
+    return names;
+  }
+  for (std::size_t at = 0; (at = line.find_first_not_of(" \t", at)) != std::string_view::npos;) {
+    const auto end = std::min(line.find_first_of(" \t", at), line.size());
+    const std::string_view word = line.substr(at, end - at);
+    if (!names.empty() && (word.front() == '(' || word.front() == '[')) names.back().append(" ").append(word);
+    else names.emplace_back(word);
+    at = end;
+  }
+  return names;
+}
+
+}  // namespace rolling

@@ -1,0 +1,50 @@
+// Rows on their way through a filter: each waits, as the text it came as, for the numbers that the filter owes it. So a
+// filter may answer late (a window that looks ahead) and every byte that it does not compute still goes out as it came in.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "text/output.h"
+#include "text/reader.h"
+
+namespace rolling {
+
+class Filter {
+ public:
+  /// `history` is the `##` line, without the marks, that says what this filter did.
+  Filter(Reader& in, Output& out, std::string history);
+
+  /// The numbers replace the column in this slot of the reader.
+  void replace(std::size_t slot) { cut_ = in_.column_of(slot); }
+  /// The numbers are a new last column; several columns take them in turn. A column of that name becomes `name_in`.
+  void append(Column);
+
+  /// Goes to the next run or record, as Reader does; the record waits for its numbers.
+  bool next_run();
+  bool next();
+  double operator[](std::size_t slot) const { return in_[slot]; }
+  /// The next number for the oldest row that waits. Throws Error when it is not finite.
+  void put(double value);
+
+ private:
+  struct Row { std::size_t size, first, last; bool comment; };
+
+  void write_header();
+  void hold(std::size_t from, std::size_t first, std::size_t last, bool comment);
+  void comment(std::string_view text);
+  void begin_row();
+  void end_row();
+
+  Reader& in_;
+  Output& out_;
+  const std::string history_;
+  std::vector<Column> columns_;
+  std::size_t appended_ = 0, cut_ = static_cast<std::size_t>(-1);
+  std::string held_;          // the text of the rows that wait, one after the other
+  std::vector<Row> rows_;     // from first_row_ on
+  std::size_t first_row_ = 0, first_byte_ = 0, numbers_ = 0;
+  bool header_written_ = false, break_due_ = false, any_row_ = false;
+};
+
+}  // namespace rolling

@@ -1,0 +1,69 @@
+#include "text/input.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "base/error.h"
+#include "text/number.h"
+
+namespace rolling {
+namespace {
+constexpr std::size_t block = 1 << 18;
+constexpr std::size_t longest_line = 1 << 20;  // a record of motion data has tens of bytes; a megabyte is another kind of file
+}  // namespace
+
+Input::Input(std::string name)
+    : name_(std::move(name)), fd_(name_ == "-" ? STDIN_FILENO : ::open(name_.c_str(), O_RDONLY | O_CLOEXEC)), buffer_(block) {
+  if (fd_ < 0) fail("{}: {}", shown(name_), std::strerror(errno));
+}
+
+Input::~Input() {
+  if (fd_ > STDIN_FILENO) ::close(fd_);
+}
+
+bool Input::fill() {
+  if (begin_ > 0) {
+    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+    end_ -= begin_;
+    begin_ = 0;
+  }
+  if (end_ == buffer_.size()) {
+    if (end_ >= longest_line) fail("{}:{}: a line of more than {} bytes", shown(name_), line_number_ + 1, longest_line);
+    buffer_.resize(2 * end_);
+  }
+  ssize_t count;
+  do count = ::read(fd_, buffer_.data() + end_, buffer_.size() - end_);
+  while (count < 0 && errno == EINTR);
+  if (count < 0) fail("{}: {}", shown(name_), std::strerror(errno));
+  end_ += static_cast<std::size_t>(count);
+  return count > 0;
+}
+
+bool Input::next(std::string_view& line) {
+  std::size_t searched = 0;
+  for (;;) {
+    const char* const first = buffer_.data() + begin_;
+    const auto* const feed = static_cast<const char*>(std::memchr(first + searched, '\n', end_ - begin_ - searched));
+    if (feed) {
+      line = std::string_view(first, static_cast<std::size_t>(feed - first));
+      begin_ += line.size() + 1;
+      break;
+    }
+    searched = end_ - begin_;
+    if (!at_end_ && fill()) continue;
+    at_end_ = true;
+    if (begin_ == end_) return false;
+    line = std::string_view(buffer_.data() + begin_, end_ - begin_);
+    begin_ = end_;
+    break;
+  }
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  if (++line_number_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
+  return true;
+}
+
+}  // namespace rolling

@@ -1,0 +1,34 @@
+// Lines of one input file, in blocks.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rolling {
+
+class Input {
+ public:
+  /// Opens a file; `-` is standard input. Throws Error when it cannot be read.
+  explicit Input(std::string name);
+  ~Input();
+  Input(const Input&) = delete;
+  Input& operator=(const Input&) = delete;
+
+  /// The next line without its end (LF or CR LF), valid until the next call; false at the end of the file.
+  bool next(std::string_view& line);
+
+  const std::string& name() const { return name_; }  ///< as the user gave it
+  std::size_t line_number() const { return line_number_; }
+
+ private:
+  bool fill();
+
+  std::string name_;
+  int fd_;
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0, end_ = 0, line_number_ = 0;
+  bool at_end_ = false;
+};
+
+}  // namespace rolling

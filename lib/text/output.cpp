@@ -1,0 +1,45 @@
+#include "text/output.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+#include "base/error.h"
+
+namespace rolling {
+
+void Output::names(const std::vector<Column>& columns) {
+  const char* before = "# ";
+  for (const Column& column : columns) (buffer_ += before) += to_text(column), before = "\t";
+  end_line();
+}
+
+void Output::row(std::span<const double> values) {
+  const char* before = "";
+  for (const double value : values) {
+    if (!std::isfinite(value)) fail("the result is not a finite number");
+    buffer_ += before;
+    number(value);
+    before = "\t";
+  }
+  end_line();
+}
+
+void Output::flush() {
+  for (std::string_view left = buffer_; !left.empty();) {
+    const ssize_t count = ::write(STDOUT_FILENO, left.data(), left.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) {
+      const int reason = errno;
+      buffer_.clear();
+      fail("standard output: {}", std::strerror(reason));
+    }
+    left.remove_prefix(static_cast<std::size_t>(count));
+  }
+  buffer_.clear();
+  whole_ = 0;
+}
+
+}  // namespace rolling

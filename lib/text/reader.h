@@ -1,0 +1,116 @@
+// Records from files of columns: rolling-columns(5). The reader knows what the header says, which columns are needed, and
+// where each record stands; what the numbers mean is not its business.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+#include "text/column.h"
+#include "text/input.h"
+
+namespace rolling {
+
+struct ReaderOptions {
+  std::vector<std::string> files;  ///< operands, in order; none is standard input
+  std::vector<std::string> use;    ///< NAME=COLUMN
+  std::optional<int> run;          ///< only this one
+  bool strict = false;             ///< a missing reading is an error
+};
+
+class Reader {
+ public:
+  /// Reads up to the first record. `order` names the columns of a file without names.
+  Reader(ReaderOptions, std::vector<std::string> order);
+
+  // The header.
+  const std::vector<Column>& columns() const { return columns_; }
+  /// Index of the column that serves as `name` (a name, a 1-based number, or what --use says), if there is one.
+  std::optional<std::size_t> find(std::string_view name) const;
+  /// The comments before the records and the history in them.
+  const std::vector<std::string>& comments() const { return comments_; }
+
+  /// Declares a column needed: its numbers are parsed, converted to SI, and never missing. Returns its slot for operator[].
+  /// Throws Error when there is none.
+  std::size_t need(std::string_view name);
+  /// Needs t, increasing strictly within a run.
+  std::size_t need_time();
+  /// Where a needed column stands in a record.
+  std::size_t column_of(std::size_t slot) const { return needed_[slot].column; }
+
+  // The records.
+  /// Goes to the next run; false when there is none.
+  bool next_run();
+  /// Goes to the next record of this run; false at its end.
+  bool next();
+  /// The number in a needed column [SI].
+  double operator[](std::size_t slot) const { return values_[slot]; }
+  /// Appends the record as it goes out, tab-separated; if `cut` is a column, its text stands at to[first, last).
+  void copy(std::string& to, std::size_t cut, std::size_t& first, std::size_t& last) const;
+
+  /// Called with each comment line among the records; comments before them are in comments().
+  std::function<void(std::string_view)> on_comment;
+  /// The `##` lines that hold for the present run, without the marks.
+  const std::vector<std::string>& history() const { return history_; }
+  /// True once after the history has changed since the last call.
+  bool history_changed() { return std::exchange(history_changed_, false); }
+
+  /// `file:line` of the present record; empty when all input has been read.
+  std::string where() const;
+  std::size_t left_out() const { return left_out_; }  ///< records left out because a needed cell was missing
+
+ private:
+  struct Needed { std::size_t column; std::string name; Conversion to_si; };
+  enum class Event { record, run_break, end };
+
+  void open_next();
+  void read_header();
+  void choose_separator(std::string_view line);
+  bool is_data(std::string_view line);
+  void comment(std::string_view line);
+  std::optional<std::size_t> find_column(std::string_view name) const;
+  std::string column_list() const;
+
+  Event advance();
+  void split(std::string_view line);
+  void split_quoted(std::string_view line);
+  void read_decimal_marks();
+  bool parse();
+  [[noreturn]] void reject(std::size_t column, std::string_view why) const;
+
+  ReaderOptions options_;
+  std::vector<std::string> order_;
+  std::unique_ptr<Input> input_;
+  std::size_t next_file_ = 0;
+
+  // What the header says.
+  std::vector<Column> columns_, columns_as_read_;
+  std::vector<std::string> comments_, history_;
+  std::string header_line_;  // as it stands, if the names are not in a comment
+  bool named_ = false, in_header_ = true, history_changed_ = false, history_ended_ = false;
+  char separator_ = '\0';     // \0: blanks
+  char decimal_mark_ = '.';   // \0: not seen yet
+
+  // The present record.
+  std::string_view line_;
+  bool line_waits_ = false;  // line_ is read but not taken
+  std::vector<std::string_view> fields_;
+  std::vector<std::string> unquoted_, with_points_;
+
+  // What is needed of it.
+  std::vector<Needed> needed_;
+  std::vector<double> values_;
+  std::size_t time_slot_ = static_cast<std::size_t>(-1);
+  double last_time_ = 0;
+
+  // Runs.
+  int run_ = 0;
+  bool run_found_ = false, run_begins_ = false, first_of_run_ = true, file_ended_ = false, skipping_ = false, at_end_ = false;
+  std::size_t left_out_ = 0;
+};
+
+}  // namespace rolling
