@@ -61,6 +61,13 @@ void Tool::count(const std::string& names, std::size_t& value, const Range& rang
   add(names, "N", help, [&value, range, names](const std::string& text) { value = static_cast<std::size_t>(to_number(names, text, range)); });
 }
 
+void Tool::numbers(const std::string& names, std::vector<double>& values, const Range& range, const std::string& help) {
+  add(names, "NUMBER,...", help, [&values, range, names](const std::string& text) {
+    values.clear();
+    for (const std::string& part : split_names(text, ',')) values.push_back(to_number(names, part, range));
+  });
+}
+
 void Tool::text(const std::string& names, std::string& value, const std::string& help) {
   add(names, "NAME", help, [&value](const std::string& text) { value = text; });
 }
@@ -156,7 +163,7 @@ void Tool::need(double value, const std::string& option) const {
 }
 
 void Tool::need(const Body& body, const std::string& which) const {
-  for (const char c : which) {
+  for (const char c : which) {  // g has a default
     if (c == 'm') need(body.m, "--mass");
     if (c == 'R') need(body.R, "--radius");
     if (c == 'K') need(body.K, "--shape-factor");
@@ -177,6 +184,10 @@ void Tool::say(const std::string& text) const {
   [[maybe_unused]] const auto count = ::write(STDERR_FILENO, line.data(), line.size());  // where could one say that it failed?
 }
 
+void Tool::count_left_out(std::size_t count, const std::string& why) const {
+  if (count > 0 && !quiet_) say(fmt::format("{} record{} left out: {}", count, count == 1 ? "" : "s", why));
+}
+
 int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   constexpr int trouble = 2;
   try {
@@ -186,7 +197,7 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
     out.flush();
     std::size_t left_out = 0;
     for (const auto& reader : readers_) left_out += reader->left_out();
-    if (left_out > 0 && !quiet_) say(fmt::format("{} record{} left out: a reading is missing", left_out, left_out == 1 ? "" : "s"));
+    count_left_out(left_out, "a reading is missing");
     return status;
   } catch (const CLI::CallForHelp&) {
     return print(app_.help());

@@ -45,6 +45,7 @@ class Tool {
   void flag(const std::string& names, bool& value, const std::string& help);
   void number(const std::string& names, double& value, const Range&, const std::string& help);
   void count(const std::string& names, std::size_t& value, const Range&, const std::string& help);
+  void numbers(const std::string& names, std::vector<double>& values, const Range&, const std::string& help);  ///< 0.5,0.83
   void text(const std::string& names, std::string& value, const std::string& help);
   void list(const std::string& names, std::vector<std::string>& values, const std::string& help);  ///< may be repeated
   template <typename T>
@@ -69,6 +70,9 @@ class Tool {
 
   /// One line of printable ASCII on standard error, at most 512 bytes.
   void say(const std::string& text) const;
+
+  /// Says how many records were left out and why, unless -q.
+  void count_left_out(std::size_t count, const std::string& why) const;
 
   /// Throw Error when a value was neither on the command line nor in the scene.
   void need(double value, const std::string& option) const;

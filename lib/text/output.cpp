@@ -16,14 +16,14 @@ void Output::names(const std::vector<Column>& columns) {
   end_line();
 }
 
+void Output::cell(double value) {
+  if (!std::isfinite(value)) fail("the result is not a finite number");
+  separate();
+  number(value);
+}
+
 void Output::row(std::span<const double> values) {
-  const char* before = "";
-  for (const double value : values) {
-    if (!std::isfinite(value)) fail("the result is not a finite number");
-    buffer_ += before;
-    number(value);
-    before = "\t";
-  }
+  for (const double value : values) cell(value);
   end_line();
 }
 

@@ -18,22 +18,33 @@ class Output {
 
   std::string& line() { return buffer_; }  ///< what is appended here is the line in the making
   void number(double value) { append_number(buffer_, value, digits); }
+  /// The next cell of a tab-separated row. Throws Error for a number that is not finite.
+  void cell(double value);
+  void blank() { separate(); }  ///< the next cell, missing
   void end_line() {
     buffer_ += '\n';
     whole_ = buffer_.size();
-    if (unbuffered || buffer_.size() >= block) flush();
+    cells_ = 0;
+    if (unbuffered || whole_ >= block) flush();
   }
-  /// The names line, and a row of computed numbers. Throws Error for a number that is not finite.
-  void names(const std::vector<Column>&);
-  void row(std::span<const double>);
+  void names(const std::vector<Column>&);    ///< the names line
+  void row(std::span<const double> values);  ///< cells and the line's end
   /// Writes what is there. Throws Error when the system does not take it.
   void flush();
   /// Forgets a line in the making.
-  void drop_line() { buffer_.resize(whole_); }
+  void drop_line() {
+    buffer_.resize(whole_);
+    cells_ = 0;
+  }
 
  private:
+  void separate() {
+    if (cells_++ > 0) buffer_ += '\t';
+  }
+
   static constexpr std::size_t block = 1 << 16;
   std::string buffer_;
+  std::size_t cells_ = 0;  // of the line in the making
   std::size_t whole_ = 0;  // bytes of whole lines in it
 };
 

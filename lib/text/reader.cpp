@@ -171,26 +171,33 @@ std::string Reader::column_list() const {
   return named_ ? list : fmt::format("{} without names", columns_.size());
 }
 
-std::size_t Reader::need(std::string_view name) {
-  const auto found = find(name);
-  if (!found)
-    fail("{}: there is no column '{}' among {}; say --use {}=COLUMN", shown(input_->name()), shown(name), column_list(), shown(name));
-  const std::size_t column = *found;
+std::size_t Reader::require(std::string_view name) const {
+  if (const auto column = find(name)) return *column;
+  fail("{}: there is no column '{}' among {}; say --use {}=COLUMN", shown(input_->name()), shown(name), column_list(), shown(name));
+}
+
+std::size_t Reader::add(std::size_t column, const std::string& name, Conversion to_si) {
   for (std::size_t slot = 0; slot < needed_.size(); ++slot)
     if (needed_[slot].column == column) return slot;
+  needed_.push_back({column, name, to_si});
+  values_.push_back(0);
+  return needed_.size() - 1;
+}
+
+std::size_t Reader::need(std::string_view name) {
+  const std::size_t column = require(name);
   // A column asked for by its number is what its name says; one asked for by name serves as that.
-  const std::string plain = read_column(name).name;
   const bool by_number = name.find_first_not_of("0123456789") == npos;
-  const std::string quantity = by_number ? columns_[column].name : plain;
-  const Conversion to_si = conversion_to_si(quantity, columns_[column]);
+  const std::string quantity = by_number ? columns_[column].name : read_column(name).name;
+  const Conversion to_si = conversion_to_si(quantity, columns_as_read_[column]);
   for (std::size_t i = 0; i < columns_.size(); ++i)
     if (i != column && columns_[i].name == quantity) columns_[i].name = named_ ? quantity + "_in" : fmt::format("c{}", i + 1);
   columns_[column].name = quantity;
   if (const auto unit = si_unit(quantity); !unit.empty()) columns_[column].unit = unit;
-  needed_.push_back({column, quantity, to_si});
-  values_.push_back(0);
-  return needed_.size() - 1;
+  return add(column, quantity, to_si);
 }
+
+std::size_t Reader::need_as_is(std::string_view name) { return add(require(name), std::string(name), {}); }
 
 std::size_t Reader::need_time() { return time_slot_ = need("t"); }
 

@@ -37,6 +37,8 @@ class Reader {
   /// Declares a column needed: its numbers are parsed, converted to SI, and never missing. Returns its slot for operator[].
   /// Throws Error when there is none.
   std::size_t need(std::string_view name);
+  /// The same for a column that is no known quantity here, whatever its name and unit (the a of a law): nothing is converted.
+  std::size_t need_as_is(std::string_view name);
   /// Needs t, increasing strictly within a run.
   std::size_t need_time();
   /// Where a needed column stands in a record.
@@ -73,6 +75,8 @@ class Reader {
   bool is_data(std::string_view line);
   void comment(std::string_view line);
   std::optional<std::size_t> find_column(std::string_view name) const;
+  std::size_t require(std::string_view name) const;
+  std::size_t add(std::size_t column, const std::string& name, Conversion);
   std::string column_list() const;
 
   Event advance();

@@ -1,0 +1,114 @@
+// fitpower - fit the power law D = a v^b to columns; see fitpower(1)
+#include <cmath>
+
+#include "cli/history.h"
+#include "cli/tool.h"
+#include "fit/fit.h"
+
+using namespace rolling;
+
+namespace {
+
+std::vector<std::string> columns_of(Route route) {
+  switch (route) {
+    case Route::velocity: return {"t", "v"};
+    case Route::position: return {"t", "x"};
+    default: return {"v", "D"};
+  }
+}
+
+/// The values of NAME=VALUE, repeated.
+void set_parameters(const std::string& option, const std::vector<std::string>& settings,
+                    const std::map<std::string, std::optional<double>*>& parameters) {
+  for (const std::string& setting : settings) {
+    const auto equals = setting.find('=');
+    const auto parameter = parameters.find(setting.substr(0, equals));
+    double value;
+    if (equals == std::string::npos || parameter == parameters.end() || !parse_number(std::string_view(setting).substr(equals + 1), value))
+      fail("{}: '{}' is not NAME=VALUE with a name that it knows", option, shown(setting));
+    *parameter->second = value;
+  }
+}
+
+std::vector<FitRun> read_runs(Reader& in, Route route, const Body& body) {
+  struct Needed { std::size_t slot; std::vector<double> FitRun::*column; };
+  std::vector<Needed> needed;
+  for (const std::string& name : columns_of(route)) {
+    if (name == "t") continue;
+    needed.push_back({in.need(name), name == "x" ? &FitRun::x : name == "v" ? &FitRun::v : &FitRun::D});
+  }
+  if (columns_of(route).front() == "t" || in.find("t")) needed.push_back({in.need_time(), &FitRun::t});
+  std::vector<FitRun> runs;
+  while (in.next_run()) {
+    FitRun& run = runs.emplace_back();
+    run.body = body;
+    while (in.next())
+      for (const auto& [slot, column] : needed) (run.*column).push_back(in[slot]);
+    run.filters = filters_of(in.history(), run.t);
+  }
+  return runs;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("fitpower", "Fit the power law D = a v^b to columns.");
+  std::optional<Route> given_route;
+  std::vector<double> shape_factors;
+  std::vector<std::string> fixed, start;
+  Body body;
+  FitOptions options;
+  bool each = false;
+  tool.choice<std::optional<Route>>("--route", given_route,
+      {{"loglog", Route::loglog}, {"shift", Route::shift}, {"velocity", Route::velocity}, {"position", Route::position}},
+      "loglog or shift (D of v), velocity (v of t), position (x of t); by default shift if there is D, else velocity if v, else position");
+  tool.numbers("-K,--shape-factor", shape_factors, not_negative, "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
+  tool.body(body, "Rg");
+  tool.geometry(options.geometry);
+  tool.flag("--each", each, "fit each run by itself, a row for each");
+  tool.list("--fix", fixed, "as NAME=VALUE: hold a, b, v0 or x0 fixed");
+  tool.list("--start", start, "as NAME=VALUE: begin the search at this a or b");
+  tool.number("--min-speed", options.min_speed, not_negative, "leave slower records out [m/s]");
+  tool.scene();
+  tool.input();
+  tool.output();
+
+  return tool.run(argc, argv, [&] {
+    set_parameters("--fix", fixed, {{"a", &options.a}, {"b", &options.b}, {"v0", &options.v0}, {"x0", &options.x0}});
+    set_parameters("--start", start, {{"a", &options.start_a}, {"b", &options.start_b}});
+    Reader& in = tool.read(columns_of(given_route.value_or(Route::shift)));
+    const Route route = given_route ? *given_route : in.find("D") ? Route::shift : in.find("v") ? Route::velocity : Route::position;
+    const bool trajectory = route == Route::velocity || route == Route::position;
+    if (trajectory) {
+      tool.need(body, "R");
+      if (shape_factors.empty()) fail("--shape-factor is not given, nor is it in a scene");
+    }
+
+    std::vector<FitRun> runs = read_runs(in, route, body);
+    if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
+      fail("--shape-factor gives {} values for {} runs", shape_factors.size(), runs.size());
+    for (std::size_t i = 0; i < runs.size(); ++i) runs[i].body.K = shape_factors.empty() ? 0 : shape_factors[shape_factors.size() > 1 ? i : 0];
+
+    std::vector<std::vector<FitRun>> fits;
+    if (each) for (FitRun& run : runs) fits.push_back({std::move(run)});
+    else fits.push_back(std::move(runs));
+
+    std::vector<Column> names = {{"a", "m"}, {"sigma_a", "m"}, {"b"}, {"sigma_b"}, {"corr"}, {"rms"}, {"n"}};
+    const bool with_v0 = trajectory && fits.front().size() == 1;
+    if (with_v0) names.insert(names.end(), {{"v0", "m/s"}, {"sigma_v0", "m/s"}});
+    std::vector<FitResult> results;
+    for (const auto& joint : fits) results.push_back(fit(route, joint, options));
+
+    tool.out.names(names);
+    std::size_t left_out = 0;
+    for (const FitResult& r : results) {
+      std::vector<double> row = {r.a, r.sigma_a, r.b, r.sigma_b, r.corr, r.rms, static_cast<double>(r.n)};
+      if (with_v0) row.insert(row.end(), {r.v0.front(), r.sigma_v0.front()});
+      for (const double value : row) r.errors == Errors::none && std::isnan(value) ? tool.out.blank() : tool.out.cell(value);
+      tool.out.end_line();
+      left_out += r.left_out;
+    }
+    tool.count_left_out(left_out, trajectory ? "they are too slow" : "they are too slow, or D or v is not positive");
+    return 0;
+  });
+}

@@ -1,0 +1,73 @@
+#include "cli/history.h"
+
+#include "base/error.h"
+#include "rolling/contact.h"
+#include "signal/derivative.h"
+#include "signal/moving_mean.h"
+#include "text/column.h"
+#include "text/number.h"
+
+namespace rolling {
+namespace {
+
+/// A streaming filter as a function of whole columns.
+template <typename Signal>
+std::vector<double> apply(Signal signal, std::span<const double> t, std::span<const double> y) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    for (const double value : signal.push(t[i], y[i])) out.push_back(value);
+  for (const double value : signal.finish()) out.push_back(value);
+  return out;
+}
+
+/// How many samples lie within `seconds` of one, at most.
+std::size_t samples_within(double seconds, std::span<const double> t) {
+  std::size_t most = 0;
+  for (std::size_t i = 0, j = 0; i < t.size(); ++i) {
+    while (t[i] - t[j] > seconds) ++j;
+    most = std::max(most, i - j + 1);
+  }
+  return most;
+}
+
+double number_after(const std::vector<std::string>& words, std::string_view key) {
+  for (std::size_t i = 0; i + 1 < words.size(); ++i)
+    if (double value; words[i] == key && parse_number(words[i + 1], value)) return value;
+  fail("a `##` line does not say its {}", key);
+}
+
+}  // namespace
+
+FilterChain filters_of(const std::vector<std::string>& history, std::span<const double> t) {
+  FilterChain chain;
+  for (const std::string& line : history) {
+    const auto words = split_names(line, '\0');
+    if (words.size() < 3) continue;
+    const std::string &tool = words[0], &column = words[1], &method = words[2];
+    if (tool == "smooth") {
+      if (method != "mean" || words.size() != 5) return {};
+      MovingMean::Window window;
+      const double width = number_after(words, words[3]);
+      if (words[3] == "seconds") window.seconds = width;
+      else window.samples = static_cast<std::size_t>(width);
+      const std::size_t reach = window.seconds > 0 ? samples_within(window.seconds, t) : window.samples / 2;
+      chain.push_back({column, column, reach, [window](auto time, auto y) { return apply(MovingMean(window), time, y); }});
+    } else if (tool == "differentiate") {
+      if (method != "central") return {};
+      const std::string to = column == "x" ? "v" : column == "v" ? "a" : "d" + column;
+      chain.push_back({column, to, 1, [](auto time, auto y) { return apply(CentralDerivative(), time, y); }});
+    } else if (tool == "shift-from-accel") {
+      // The exact root of Eq. 9 bends away from Eq. 11 by (D/R)^2, which does not matter to an error bar.
+      const Body body{0, number_after(words, "R"), number_after(words, "K"), number_after(words, "g")};
+      const double scale = -(1 + body.K) * body.R / body.g;
+      chain.push_back({"a", "D", 0, [scale](auto, auto y) {
+                         std::vector<double> D(y.begin(), y.end());
+                         for (double& value : D) value *= scale;
+                         return D;
+                       }});
+    }
+  }
+  return chain;
+}
+
+}  // namespace rolling
