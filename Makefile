@@ -1,4 +1,6 @@
-# rolling: build, test, and reproduce. `make setup` installs what is missing on Debian.
+# rolling: build, test, reproduce. `make setup` installs what is missing on Debian; `make table1` and `make check` do the rest.
+MAKEFLAGS += --jobs=$(shell nproc)
+
 CXX      ?= g++
 CXXFLAGS ?= -O2 -g
 override CXXFLAGS += -std=c++20 -Wall -Wextra -Wpedantic -Wshadow -Wconversion
@@ -8,10 +10,11 @@ LDLIBS   := -lgsl -lgslcblas -lfmt -lm
 
 source := $(wildcard lib/*/*.cpp)
 tool   := $(patsubst cmd/%.cpp,%,$(wildcard cmd/*.cpp))
-test   := $(wildcard tests/unit/*.cpp tests/unit/*/*.cpp)
+test   := $(wildcard tests/unit/*/*.cpp tests/pipeline/*.cpp)
 object  = $(patsubst %.cpp,build/%.o,$1)
 
-.PHONY: all
+.PHONY: all setup table1 samples check lint clean
+.SECONDARY:
 all: $(tool:%=bin/%)
 
 bin/%: build/cmd/%.o build/lib.a
@@ -21,9 +24,46 @@ bin/%: build/cmd/%.o build/lib.a
 build/lib.a: $(call object,$(source))
 	rm -f $@ && $(AR) rcs $@ $^
 
-build/%.o: %.cpp
+build/%.o: %.cpp | $(filter setup,$(MAKECMDGOALS))
 	@mkdir -p $(@D)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -MMD -MP -c -o $@ $<
 
-.SECONDARY:
+# Catch2 brings its own main: version 3 as a library, version 2 as a header.
+build/unit: CPPFLAGS += -Itests
+build/unit: $(call object,$(test)) build/catch_main.o build/lib.a
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) $$(test -e /usr/include/catch2/catch.hpp || echo -lCatch2)
+
+build/catch_main.o: | $(filter setup,$(MAKECMDGOALS))
+	@mkdir -p $(@D)
+	if test -e /usr/include/catch2/catch.hpp; then echo '#define CATCH_CONFIG_MAIN'; echo '#include <catch2/catch.hpp>'; \
+	else echo '#include <catch2/catch_session.hpp>'; echo 'int main(int argc, char** argv) { return Catch::Session().run(argc, argv); }'; fi \
+	  | $(CXX) $(CXXFLAGS) -x c++ -c -o $@ -
+
 -include $(patsubst %.o,%.d,$(call object,$(source) $(test) $(wildcard cmd/*.cpp)))
+
+# From a fresh machine: only what is missing, and no root when nothing is.
+packages := g++ libgsl-dev libfmt-dev libcli11-dev catch2 mandoc
+setup:
+	@missing=$$(for p in $(packages); do dpkg-query -W -f '$${Status}\n' $$p 2>/dev/null | grep -q '^install ok installed' || echo $$p; done); \
+	test -z "$$missing" || { echo installing $$missing; as_root=$$(test "$$(id -u)" = 0 || echo sudo); \
+	  $$as_root apt-get update -q && $$as_root env DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends $$missing; }
+
+table1: all
+	@PATH="$(CURDIR)/bin:$$PATH" samples/table1.sh
+
+# The raw records: made, with their answer known; see samples/README.md.
+samples: bin/simulate
+	bin/simulate --scene samples/CF.toml --memory 5e-4 --damping 0.02 --sensor pasco --seed 1 >samples/CF.csv
+	bin/simulate --scene samples/CR.toml --memory 5e-4 --damping 0.02 --sensor pasco --seed 2 >samples/CR.csv
+	bin/simulate --scene samples/SF.toml --memory 5e-4 --damping 0.02 --sensor pasco --seed 3 >samples/SF.csv
+	bin/simulate --scene samples/SR.toml --memory 5e-4 --damping 0.02 --sensor pasco --seed 4 >samples/SR.csv
+
+check: all build/unit
+	@PATH="$(CURDIR)/bin:$$PATH" tests/run.sh build/unit
+
+lint:
+	mandoc -Tlint -Wwarning man/*
+	shellcheck samples/*.sh tests/*.sh tests/*/*.sh
+
+clean:
+	rm -rf bin build

@@ -37,7 +37,8 @@ std::vector<FitRun> read_runs(Reader& in, Route route, const Body& body) {
     if (name == "t") continue;
     needed.push_back({in.need(name), name == "x" ? &FitRun::x : name == "v" ? &FitRun::v : &FitRun::D});
   }
-  if (columns_of(route).front() == "t" || in.find("t")) needed.push_back({in.need_time(), &FitRun::t});
+  const bool filtered = !in.history().empty() && in.find("t");  // the filters act on these times
+  if (columns_of(route).front() == "t" || filtered) needed.push_back({in.need_time(), &FitRun::t});
   std::vector<FitRun> runs;
   while (in.next_run()) {
     FitRun& run = runs.emplace_back();
@@ -108,7 +109,7 @@ int main(int argc, char** argv) {
       tool.out.end_line();
       left_out += r.left_out;
     }
-    tool.count_left_out(left_out, trajectory ? "they are too slow" : "they are too slow, or D or v is not positive");
+    tool.count_left_out(left_out, "this route cannot use them");
     return 0;
   });
 }

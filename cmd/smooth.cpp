@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     Reader& in = tool.read({"t", "v"});
     const auto t = in.need_time();
-    if (column.empty()) column = in.find("v") ? "v" : in.column_of(t) == 0 ? "2" : "1";
+    if (column.empty()) column = in.find("v") || in.columns().size() == 1 ? "v" : in.column_of(t) == 0 ? "2" : "1";
     const auto y = in.need(column);
     const std::string width = window.seconds > 0 ? fmt::format("seconds {}", window.seconds) : fmt::format("width {}", window.samples);
     Filter filter(in, tool.out, fmt::format("smooth {} mean {}", in.columns()[in.column_of(y)].name, width));

@@ -13,10 +13,16 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws Error with a formatted message.
-template <typename... Args>
+/// One that says itself where in the input the trouble is.
+class InputError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Throws Error, or another kind, with a formatted message.
+template <typename Kind = Error, typename... Args>
 [[noreturn]] void fail(fmt::format_string<Args...> text, Args&&... args) {
-  throw Error(fmt::format(text, std::forward<Args>(args)...));
+  throw Kind(fmt::format(text, std::forward<Args>(args)...));
 }
 
 }  // namespace rolling

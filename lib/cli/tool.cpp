@@ -123,27 +123,27 @@ void Tool::output() {
 void Tool::read_scene() {
   if (scene_file_.empty()) return;
   std::ifstream file(scene_file_);
-  if (!file) fail("{}: {}", shown(scene_file_), std::strerror(errno));
+  if (!file) fail("{}: {}", scene_file_, std::strerror(errno));
   std::vector<CLI::ConfigItem> items;
   try {
     items = CLI::ConfigTOML().from_config(file);
   } catch (const CLI::Error&) {
-    fail("{}: this is not TOML", shown(scene_file_));
+    fail("{}: this is not TOML", scene_file_);
   }
   std::vector<std::string> seen;
   for (const CLI::ConfigItem& item : items) {
     const std::string key = item.fullname();
     if (std::find(scene_keys.begin(), scene_keys.end(), key) == scene_keys.end())
-      fail("{}: '{}' is not a number of a scene (mass, radius, shape-factor, ...)", shown(scene_file_), shown(key));
+      fail("{}: '{}' is not a number of a scene (mass, radius, shape-factor, ...)", scene_file_, shown(key));
     if (item.inputs.size() != 1 || std::find(seen.begin(), seen.end(), key) != seen.end())
-      fail("{}: {} needs one value", shown(scene_file_), key);
+      fail("{}: {} needs one value", scene_file_, key);
     seen.push_back(key);
     const auto setter = setters_.find(key);
     if (setter == setters_.end() || on_command_line(key)) continue;
     try {
       setter->second(item.inputs.front());
     } catch (const Error& error) {
-      fail("{}: {}", shown(scene_file_), error.what());
+      fail("{}: {}", scene_file_, error.what());
     }
   }
 }
@@ -206,10 +206,10 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   } catch (const CLI::ParseError& error) {
     say(std::string(error.what()) + " (see --help)");
   } catch (const Error& error) {
-    const std::string text = error.what(), where = readers_.empty() ? "" : readers_.back()->where();
     out.drop_line();  // what came before the bad record may stand; the line in the making may not
     print("");
-    say(where.empty() || text.starts_with(where) ? text : where + ": " + text);
+    const bool located = dynamic_cast<const InputError*>(&error) || readers_.empty() || readers_.back()->where().empty();
+    say(located ? error.what() : readers_.back()->where() + ": " + error.what());
   } catch (const std::bad_alloc&) {
     say("out of memory");
   } catch (const std::exception& error) {

@@ -6,6 +6,9 @@
 
 namespace rolling {
 
+/// Throws Error when |D| > R: no point of the body is there.
+void check_shift(const Body&, double D);
+
 /// A = sqrt(1 - D^2/R^2) (Eq. 8), or 1 in the approximate geometry. Needs |D| <= R.
 double arm_factor(const Body&, Geometry, double D);
 
@@ -23,7 +26,7 @@ double acceleration_from_shift(const Body&, Geometry, double D);
 
 /// Shift D [m] from an observed acceleration [m/s^2]: (1 + K) R s with s = -a/g (Eq. 11), or the exact root of Eq. 9,
 /// D/R = s (K + sqrt(1 + s^2 (1 - K^2))) / (1 + s^2). a > 0 gives D < 0; that is reported, not clipped.
-/// Throws Error when |D| > R, in either geometry: no point of the body is there.
+/// Throws Error when |D| > R, in either geometry. The exact geometry has no shift at all for |a| > g/K (A would be negative).
 double shift_from_acceleration(const Body&, Geometry, double a);
 
 }  // namespace rolling

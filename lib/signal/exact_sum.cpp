@@ -50,16 +50,18 @@ double ExactSum::over(std::size_t n) {
 
   std::size_t top = high_;
   while (top > low_ && digit[top] == 0) --top;
-  // The four leading digits are at least 97 bits of the sum; the rest is below 2^-96 of it.
+  // The four leading digits are at least 97 bits of the sum; the rest is below 2^-96 of it. Their last bit goes to make room
+  // for rounding up.
   uint128 leading = 0;
   for (std::size_t k = 0; k < 4; ++k) leading = leading << 32 | (top >= low_ + k ? digit[top - k] : 0);
+  leading >>= 1;
   const auto high = static_cast<double>(leading);
   const auto rounded = static_cast<uint128>(high);
   const double low = leading >= rounded ? static_cast<double>(leading - rounded) : -static_cast<double>(rounded - leading);
   const auto count = static_cast<double>(n);
   const double quotient = high / count;
   const double rest = (std::fma(-quotient, count, high) + low) / count;
-  return std::ldexp(sign * (quotient + rest), 32 * (static_cast<int>(top) - 3) - 1074);
+  return std::ldexp(sign * (quotient + rest), 32 * (static_cast<int>(top) - 3) - 1073);
 }
 
 }  // namespace rolling

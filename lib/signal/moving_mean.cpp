@@ -1,6 +1,7 @@
 #include "signal/moving_mean.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 
@@ -63,22 +64,27 @@ void Filter::comment(std::string_view text) {
   const std::size_t from = held_.size();
   held_ += text;
   hold(from, 0, 0, true);
-  if (rows_.size() - first_row_ == 1) begin_row();
+  if (rows_.size() - first_row_ == 1) write_comments();
 }
 
-/// The oldest row begins to go out: comments whole, a record up to its first number.
-void Filter::begin_row() {
-  while (first_row_ < rows_.size()) {
-    if (break_due_) out_.end_line();
-    break_due_ = false;
-    const Row& row = rows_[first_row_];
-    if (!row.comment) {
-      out_.line().append(held_, first_byte_, cut_ == npos ? row.size : row.first);
-      return;
-    }
-    out_.line().append(held_, first_byte_, row.size);
+/// Comments that no record holds back any more.
+void Filter::write_comments() {
+  while (first_row_ < rows_.size() && rows_[first_row_].comment) {
+    write_break();
+    out_.line().append(held_, first_byte_, rows_[first_row_].size);
     end_row();
   }
+}
+
+/// The oldest record goes out up to its first number.
+void Filter::begin_row() {
+  write_break();
+  const Row& row = rows_[first_row_];
+  out_.line().append(held_, first_byte_, cut_ == npos ? row.size : row.first);
+}
+
+void Filter::write_break() {
+  if (std::exchange(break_due_, false)) out_.end_line();
 }
 
 void Filter::end_row() {
@@ -110,6 +116,7 @@ void Filter::put(double value) {
   numbers_ = 0;
   any_row_ = true;
   end_row();
+  write_comments();
 }
 
 }  // namespace rolling

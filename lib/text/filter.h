@@ -33,6 +33,8 @@ class Filter {
   void write_header();
   void hold(std::size_t from, std::size_t first, std::size_t last, bool comment);
   void comment(std::string_view text);
+  void write_comments();
+  void write_break();
   void begin_row();
   void end_row();
 

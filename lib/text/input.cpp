@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "text/number.h"
 
 namespace rolling {
 namespace {
@@ -18,7 +17,7 @@ constexpr std::size_t longest_line = 1 << 20;  // a record of motion data has te
 
 Input::Input(std::string name)
     : name_(std::move(name)), fd_(name_ == "-" ? STDIN_FILENO : ::open(name_.c_str(), O_RDONLY | O_CLOEXEC)), buffer_(block) {
-  if (fd_ < 0) fail("{}: {}", shown(name_), std::strerror(errno));
+  if (fd_ < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
 }
 
 Input::~Input() {
@@ -32,13 +31,13 @@ bool Input::fill() {
     begin_ = 0;
   }
   if (end_ == buffer_.size()) {
-    if (end_ >= longest_line) fail("{}:{}: a line of more than {} bytes", shown(name_), line_number_ + 1, longest_line);
+    if (end_ >= longest_line) fail<InputError>("{}:{}: a line of more than {} bytes", name_, line_number_ + 1, longest_line);
     buffer_.resize(2 * end_);
   }
   ssize_t count;
   do count = ::read(fd_, buffer_.data() + end_, buffer_.size() - end_);
   while (count < 0 && errno == EINTR);
-  if (count < 0) fail("{}: {}", shown(name_), std::strerror(errno));
+  if (count < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
   end_ += static_cast<std::size_t>(count);
   return count > 0;
 }

@@ -34,6 +34,7 @@ void Output::flush() {
     if (count < 0) {
       const int reason = errno;
       buffer_.clear();
+      whole_ = cells_ = 0;
       fail("standard output: {}", std::strerror(reason));
     }
     left.remove_prefix(static_cast<std::size_t>(count));

@@ -37,9 +37,13 @@ std::string with_point(std::string_view field) {
 
 Reader::Reader(ReaderOptions options, std::vector<std::string> order) : options_(std::move(options)), order_(std::move(order)) {
   if (options_.files.empty()) options_.files = {"-"};
-  for (const std::string& use : options_.use)
-    if (const auto equals = use.find('='); equals == 0 || equals == npos || equals + 1 == use.size())
-      fail("--use: '{}' is not NAME=COLUMN", shown(use));
+  for (const std::string& use : options_.use) {
+    const auto equals = use.find('=');
+    if (equals == 0 || equals == npos || equals + 1 == use.size()) fail("--use: '{}' is not NAME=COLUMN", shown(use));
+    const std::string quantity = read_column(use.substr(0, equals)).name;
+    if (si_unit(quantity).empty()) fail("--use: '{}' is not about t, x, v, a or D", shown(use));
+    if (!use_.emplace(quantity, use.substr(equals + 1)).second) fail("--use: '{}' comes after another for {}", shown(use), quantity);
+  }
   open_next();
   history_changed_ = false;
 }
@@ -47,7 +51,6 @@ Reader::Reader(ReaderOptions options, std::vector<std::string> order) : options_
 // ---------------------------------------------------------------------------------------------------------------- header
 
 void Reader::open_next() {
-  input_.reset();
   input_ = std::make_unique<Input>(options_.files[next_file_++]);
   history_.clear();
   history_changed_ = true;
@@ -79,7 +82,8 @@ bool Reader::is_data(std::string_view line) {
   choose_separator(line);
   decimal_mark_ = separator_ == '\t' || separator_ == ';' ? '\0' : '.';
   split(line);
-  return std::any_of(fields_.begin(), fields_.end(), is_number);
+  return std::any_of(fields_.begin(), fields_.end(),
+                     [this](auto field) { return is_number(field) || (decimal_mark_ != '.' && !with_point(field).empty()); });
 }
 
 void Reader::read_header() {
@@ -93,9 +97,9 @@ void Reader::read_header() {
     if (is_comment(line_)) comments.emplace_back(trim(line_));
     else if (is_data(line_)) found = true;
     else preamble.emplace_back(line_);
-    if (preamble.size() > longest_preamble) fail("{}: no numbers in the first {} lines", shown(input_->name()), longest_preamble);
+    if (preamble.size() > longest_preamble) fail<InputError>("{}: no numbers in the first {} lines", input_->name(), longest_preamble);
   }
-  if (!found) fail("{}: no records", shown(input_->name()));
+  if (!found) fail<InputError>("{}: no records", input_->name());
 
   const std::size_t width = fields_.size();
   std::vector<std::string> names;
@@ -106,7 +110,7 @@ void Reader::read_header() {
     std::erase(plain, '"');
     names = split_names(plain, separator_);
     if (names.size() != width)
-      fail("{}:{}: {} field{} under a line of {} names", shown(input_->name()), input_->line_number(), width, width == 1 ? "" : "s", names.size());
+      fail<InputError>("{}:{}: {} field{} under a line of {} names", input_->name(), input_->line_number(), width, width == 1 ? "" : "s", names.size());
   } else {
     const auto last = std::find_if(comments.rbegin(), comments.rend(), [](const auto& c) { return !c.starts_with("##"); });
     if (last != comments.rend()) {
@@ -121,17 +125,20 @@ void Reader::read_header() {
 
   std::vector<Column> columns;
   for (std::size_t i = 0; i < width; ++i) {
-    columns.push_back(i < names.size() ? read_column(names[i]) : Column{i < order_.size() ? order_[i] : "", "", 0});
+    if (i < names.size()) columns.push_back(read_column(names[i]));
+    else columns.push_back({i < order_.size() ? order_[i] : ""});
     if (columns.back().name.empty()) columns.back().name = fmt::format("c{}", i + 1);
   }
   if (first_file) {
     named_ = !names.empty();
     columns_ = columns_as_read_ = std::move(columns);
+    if (!named_)
+      for (Column& column : columns_) column.unit = si_unit(column.name);
     for (const std::string& text : comments) comment(text);
     in_header_ = false;
   } else {
     if (columns != columns_as_read_ || named_ == names.empty())
-      fail("{}: its columns are not those of {}", shown(input_->name()), shown(options_.files.front()));
+      fail<InputError>("{}: its columns are not those of {}", input_->name(), options_.files.front());
     in_header_ = false;
     for (const std::string& text : comments) comment(text);
   }
@@ -139,23 +146,20 @@ void Reader::read_header() {
 }
 
 std::optional<std::size_t> Reader::find(std::string_view name) const {
-  for (const std::string& use : options_.use)
-    if (use.substr(0, use.find('=')) == name) {
-      const std::string column = use.substr(use.find('=') + 1);
-      if (const auto at = find_column(column)) return at;
-      fail("{}: --use {}: there is no column '{}' among {}", shown(input_->name()), shown(use), shown(column), column_list());
-    }
-  return find_column(name);
+  const auto use = use_.find(read_column(name).name);
+  if (use == use_.end()) return find_column(name, columns_);
+  if (const auto at = find_column(use->second, columns_as_read_)) return at;
+  fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", input_->name(), use->first, shown(use->second), shown(use->second), column_list());
 }
 
-std::optional<std::size_t> Reader::find_column(std::string_view name) const {
+std::optional<std::size_t> Reader::find_column(std::string_view name, const std::vector<Column>& columns) const {
   if (double number; name.find_first_not_of("0123456789") == npos && parse_number(name, number))
-    return number >= 1 && number <= static_cast<double>(columns_.size()) ? std::optional(static_cast<std::size_t>(number) - 1) : std::nullopt;
+    return number >= 1 && number <= static_cast<double>(columns.size()) ? std::optional(static_cast<std::size_t>(number) - 1) : std::nullopt;
   const std::string plain = read_column(name).name;
   std::optional<std::size_t> found;
-  for (std::size_t i = 0; i < columns_.size(); ++i)
-    if (columns_[i].name == plain) {
-      if (found) fail("{}: columns {} and {} are both {}; say --use {}=N", shown(input_->name()), *found + 1, i + 1, plain, plain);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i].name == plain) {
+      if (found) fail<InputError>("{}: columns {} and {} are both {}; say --use {}=N", input_->name(), *found + 1, i + 1, plain, plain);
       found = i;
     }
   return found;
@@ -173,7 +177,8 @@ std::string Reader::column_list() const {
 
 std::size_t Reader::require(std::string_view name) const {
   if (const auto column = find(name)) return *column;
-  fail("{}: there is no column '{}' among {}; say --use {}=COLUMN", shown(input_->name()), shown(name), column_list(), shown(name));
+  fail<InputError>("{}: there is no column '{}' among {}{}", input_->name(), shown(name), column_list(),
+                   is_number(name) ? "" : fmt::format("; say --use {}=COLUMN", shown(name)));
 }
 
 std::size_t Reader::add(std::size_t column, const std::string& name, Conversion to_si) {
@@ -189,9 +194,15 @@ std::size_t Reader::need(std::string_view name) {
   // A column asked for by its number is what its name says; one asked for by name serves as that.
   const bool by_number = name.find_first_not_of("0123456789") == npos;
   const std::string quantity = by_number ? columns_[column].name : read_column(name).name;
+  for (const Needed& other : needed_)
+    if (other.column == column && other.name != quantity)
+      fail<InputError>("{}: column {} cannot serve as both {} and {}", input_->name(), column + 1, other.name, quantity);
   const Conversion to_si = conversion_to_si(quantity, columns_as_read_[column]);
   for (std::size_t i = 0; i < columns_.size(); ++i)
-    if (i != column && columns_[i].name == quantity) columns_[i].name = named_ ? quantity + "_in" : fmt::format("c{}", i + 1);
+    if (i != column && columns_[i].name == quantity) {
+      if (named_) columns_[i].name += "_in";
+      else columns_[i] = {fmt::format("c{}", i + 1)};
+    }
   columns_[column].name = quantity;
   if (const auto unit = si_unit(quantity); !unit.empty()) columns_[column].unit = unit;
   return add(column, quantity, to_si);
@@ -326,10 +337,10 @@ bool Reader::next() {
       at_end_ = event == Event::end;
       if (event != Event::record) return false;
     }
-    history_ended_ = true;
+    begun_ = history_ended_ = true;
     split(line_);
     if (fields_.size() != columns_.size())
-      fail("{}: {} field{} where the first record has {}", where(), fields_.size(), fields_.size() == 1 ? "" : "s", columns_.size());
+      fail<InputError>("{}: {} field{} where the first record has {}", where(), fields_.size(), fields_.size() == 1 ? "" : "s", columns_.size());
     if (decimal_mark_ != '.') read_decimal_marks();
     if (parse()) return true;
     ++left_out_;
@@ -344,7 +355,7 @@ bool Reader::parse() {
     double& value = values_[slot];
     if (!parse_number(field, value)) {
       if (!is_missing(field)) reject(needed.column, "is not a number");
-      if (options_.strict) fail("{}: field {} ({}): a reading is missing", where(), needed.column + 1, shown(needed.name));
+      if (options_.strict) fail<InputError>("{}: field {} ({}): a reading is missing", where(), needed.column + 1, shown(needed.name));
       return false;
     }
     if (needed.to_si.changes()) {
@@ -373,11 +384,11 @@ void Reader::copy(std::string& to, std::size_t cut, std::size_t& first, std::siz
 }
 
 void Reader::reject(std::size_t column, std::string_view why) const {
-  fail("{}: field {} ({}): '{}' {}", where(), column + 1, shown(columns_[column].name), shown(fields_[column]), why);
+  fail<InputError>("{}: field {} ({}): '{}' {}", where(), column + 1, shown(columns_[column].name), shown(fields_[column]), why);
 }
 
 std::string Reader::where() const {
-  return at_end_ ? std::string() : fmt::format("{}:{}", shown(input_->name()), input_->line_number());
+  return begun_ && !at_end_ ? fmt::format("{}:{}", input_->name(), input_->line_number()) : std::string();
 }
 
 }  // namespace rolling

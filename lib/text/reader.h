@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,7 +62,7 @@ class Reader {
   /// True once after the history has changed since the last call.
   bool history_changed() { return std::exchange(history_changed_, false); }
 
-  /// `file:line` of the present record; empty when all input has been read.
+  /// `file:line` of the present record; empty before the first one of a file, and when all input has been read.
   std::string where() const;
   std::size_t left_out() const { return left_out_; }  ///< records left out because a needed cell was missing
 
@@ -74,7 +75,7 @@ class Reader {
   void choose_separator(std::string_view line);
   bool is_data(std::string_view line);
   void comment(std::string_view line);
-  std::optional<std::size_t> find_column(std::string_view name) const;
+  std::optional<std::size_t> find_column(std::string_view name, const std::vector<Column>&) const;
   std::size_t require(std::string_view name) const;
   std::size_t add(std::size_t column, const std::string& name, Conversion);
   std::string column_list() const;
@@ -87,6 +88,7 @@ class Reader {
   [[noreturn]] void reject(std::size_t column, std::string_view why) const;
 
   ReaderOptions options_;
+  std::map<std::string, std::string> use_;  // quantity, column
   std::vector<std::string> order_;
   std::unique_ptr<Input> input_;
   std::size_t next_file_ = 0;
@@ -113,7 +115,7 @@ class Reader {
 
   // Runs.
   int run_ = 0;
-  bool run_found_ = false, run_begins_ = false, first_of_run_ = true, file_ended_ = false, skipping_ = false, at_end_ = false;
+  bool run_found_ = false, run_begins_ = false, first_of_run_ = true, file_ended_ = false, skipping_ = false, begun_ = false, at_end_ = false;
   std::size_t left_out_ = 0;
 };
 

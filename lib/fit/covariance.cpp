@@ -1,0 +1,312 @@
+#include "fit/covariance.h"
+
+#include "base/error.h"
+
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace rolling {
+
+BandMatrix BandMatrix::identity(std::size_t n) {
+  BandMatrix I;
+  for (std::size_t i = 0; i < n; ++i) I.append(i, std::vector<double>{1});
+  return I;
+}
+
+void BandMatrix::append(std::size_t first, std::span<const double> values) {
+  while (!values.empty() && values.back() == 0) values = values.first(values.size() - 1);
+  while (!values.empty() && values.front() == 0) values = values.subspan(1), ++first;
+  first_.push_back(first);
+  values_.insert(values_.end(), values.begin(), values.end());
+  start_.push_back(values_.size());
+}
+
+void BandMatrix::append(std::size_t i, double x, const BandMatrix& X, double y, const BandMatrix& Y) {
+  const auto a = X.row(i), b = Y.row(i);
+  if (a.empty() || b.empty()) {
+    std::vector<double> only(a.empty() ? b.begin() : a.begin(), a.empty() ? b.end() : a.end());
+    for (double& value : only) value *= a.empty() ? y : x;
+    return append(a.empty() ? Y.first(i) : X.first(i), only);
+  }
+  const std::size_t from = std::min(X.first(i), Y.first(i));
+  std::vector<double> sum(std::max(X.first(i) + a.size(), Y.first(i) + b.size()) - from, 0);
+  for (std::size_t j = 0; j < a.size(); ++j) sum[X.first(i) - from + j] += x * a[j];
+  for (std::size_t j = 0; j < b.size(); ++j) sum[Y.first(i) - from + j] += y * b[j];
+  append(from, sum);
+}
+
+double BandMatrix::times(std::size_t i, std::span<const double> x) const {
+  const auto r = row(i);
+  return std::inner_product(r.begin(), r.end(), x.begin() + static_cast<std::ptrdiff_t>(first_[i]), 0.0);
+}
+
+BandMatrix BandMatrix::operator*(const BandMatrix& B) const {
+  BandMatrix product;
+  std::vector<double> sum;
+  for (std::size_t i = 0; i < rows(); ++i) {
+    const auto r = row(i);
+    std::size_t from = B.rows() ? SIZE_MAX : 0, to = 0;
+    for (std::size_t k = first_[i]; k < first_[i] + r.size(); ++k) {
+      if (B.row(k).empty()) continue;
+      from = std::min(from, B.first(k));
+      to = std::max(to, B.first(k) + B.row(k).size());
+    }
+    sum.assign(to > from ? to - from : 0, 0);
+    for (std::size_t k = 0; k < r.size(); ++k) {
+      const auto b = B.row(first_[i] + k);
+      for (std::size_t j = 0; j < b.size(); ++j) sum[B.first(first_[i] + k) - from + j] += r[k] * b[j];
+    }
+    product.append(sum.empty() ? 0 : from, sum);
+  }
+  return product;
+}
+
+BandMatrix probe(const LinearFilter& filter, std::span<const double> t) {
+  // A row reaches at most 2 reach to either side (that far only at the ends), so of impulses 4 reach + 1 apart it sees one.
+  const std::size_t n = t.size(), most = std::min(2 * filter.reach, n), spacing = std::min(4 * filter.reach + 1, n);
+  const auto span_of = [&](std::size_t i) {
+    const bool end = i < filter.reach || i + filter.reach >= n;
+    const std::size_t to_side = end ? most : filter.reach, first = i > to_side ? i - to_side : 0;
+    return std::pair(first, std::min(n, i + to_side + 1));
+  };
+  std::vector<std::size_t> start{0};
+  for (std::size_t i = 0; i < n; ++i) start.push_back(start.back() + span_of(i).second - span_of(i).first);
+  std::vector<double> all(start.back()), comb(n);
+  for (std::size_t k = 0; k < spacing; ++k) {
+    for (std::size_t j = 0; j < n; ++j) comb[j] = j % spacing == k;
+    const auto response = filter.apply(t, comb);
+    if (response.size() != n) fail("a filter of {} gives {} values for {} records", filter.from, response.size(), n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto [first, end] = span_of(i);
+      const std::size_t j = first + (k + spacing - first % spacing) % spacing;  // the first impulse at or after `first`
+      if (j < end) all[start[i] + j - first] = response[i];
+    }
+  }
+  BandMatrix L;
+  for (std::size_t i = 0; i < n; ++i) L.append(span_of(i).first, std::span(all).subspan(start[i], start[i + 1] - start[i]));
+  return L;
+}
+
+NoiseResponse noise_response(const FilterChain& chain, std::span<const double> t) {
+  NoiseResponse response;
+  if (chain.empty()) return response;
+  response.source = chain.front().from;
+  response.of.emplace(response.source, BandMatrix::identity(t.size()));
+  for (const auto& filter : chain) {
+    const auto input = response.of.find(filter.from);
+    if (input == response.of.end())
+      fail("the filters start from two columns, {} and {}: their noises are not known together", response.source, filter.from);
+    response.of.insert_or_assign(filter.to, probe(filter, t) * input->second);
+  }
+  return response;
+}
+
+Whitener::Whitener(const BandMatrix& E, double floor) : n_(E.rows()), band_(1) {
+  // The rows of E^T (one for each source record) and of floor * I, sorted by the first column that they touch:
+  // in that order Givens rotations never fill beyond the band.
+  std::size_t sources = 0;
+  for (std::size_t i = 0; i < n_; ++i) sources = std::max(sources, E.first(i) + E.row(i).size());
+  std::vector<std::size_t> from(sources, n_), to(sources, 0);
+  for (std::size_t i = 0; i < n_; ++i)
+    for (std::size_t j = E.first(i); j < E.first(i) + E.row(i).size(); ++j) {
+      from[j] = std::min(from[j], i);
+      to[j] = i + 1;
+    }
+  std::vector<std::size_t> order;
+  for (std::size_t j = 0; j < sources; ++j)
+    if (from[j] < to[j]) {
+      order.push_back(j);
+      band_ = std::max(band_, to[j] - from[j]);
+    }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return from[i] < from[j]; });
+
+  R_.assign(n_ * band_, 0);
+  std::vector<double> row(n_ + band_, 0);  // the row that is being rotated in, by column
+  const auto rotate_in = [&](std::size_t first, std::size_t end) {
+    for (std::size_t k = first; k < end; ++k) {
+      if (row[k] == 0) continue;
+      double* const R = &R_[k * band_];
+      if (R[0] == 0) {  // nothing ends here yet: the row moves in
+        std::copy_n(&row[k], band_, R);
+        std::fill_n(&row[k], band_, 0.0);
+        return;
+      }
+      const double length = std::hypot(R[0], row[k]), c = R[0] / length, s = row[k] / length;
+      for (std::size_t j = 0; j < band_; ++j) {
+        const double r = R[j], x = row[k + j];
+        R[j] = c * r + s * x;
+        row[k + j] = c * x - s * r;
+      }
+      row[k] = 0;
+      end = std::min(n_, std::max(end, k + band_));
+    }
+  };
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < n_; ++k) {
+    for (; next < order.size() && from[order[next]] == k; ++next) {
+      const std::size_t j = order[next];
+      for (std::size_t i = from[j]; i < to[j]; ++i)
+        if (j >= E.first(i) && j < E.first(i) + E.row(i).size()) row[i] = E.row(i)[j - E.first(i)];
+      rotate_in(from[j], to[j]);
+    }
+    if (floor > 0) {
+      row[k] = floor;
+      rotate_in(k, k + 1);
+    }
+  }
+  // A pivot of rounding size: this residual is a sum of those before it and has no noise of its own. The rest of its row
+  // belongs to the rows below.
+  for (std::size_t k = 0; k < n_; ++k) {
+    double column = 0;
+    for (std::size_t i = k >= band_ ? k - band_ + 1 : 0; i <= k; ++i) column = std::hypot(column, R_[i * band_ + k - i]);
+    double* const R = &R_[k * band_];
+    if (std::abs(R[0]) > 1e-12 * column) continue;
+    std::copy_n(R, band_, &row[k]);
+    std::fill_n(R, band_, 0.0);
+    row[k] = 0;
+    rotate_in(k + 1, std::min(n_, k + band_));
+    std::fill(row.begin() + static_cast<std::ptrdiff_t>(k), row.end(), 0.0);
+  }
+}
+
+void Whitener::apply(double* x, std::size_t stride) const {
+  for (std::size_t k = 0; k < n_; ++k) {
+    const double* const R = &R_[k * band_];
+    double& z = x[k * stride];
+    z = R[0] == 0 ? 0 : z / R[0];
+    const std::size_t end = std::min(band_, n_ - k);
+    for (std::size_t j = 1; j < end; ++j) x[(k + j) * stride] -= R[j] * z;
+  }
+}
+
+void Whitener::apply_transposed(double* x) const {
+  for (std::size_t k = n_; k-- > 0;) {
+    const double* const R = &R_[k * band_];
+    const std::size_t end = std::min(band_, n_ - k);
+    for (std::size_t j = 1; j < end; ++j) x[k] -= R[j] * x[k + j];
+    x[k] = R[0] == 0 ? 0 : x[k] / R[0];
+  }
+}
+
+void KnownNoise::append(BandMatrix E, double share) {
+  std::vector<double> norms;
+  std::size_t sources = 0;
+  for (std::size_t i = 0; i < E.rows(); ++i) {
+    const auto r = E.row(i);
+    norms.push_back(std::sqrt(std::inner_product(r.begin(), r.end(), r.begin(), 0.0)));
+    sources = std::max(sources, E.first(i) + r.size());
+  }
+  const auto middle = norms.begin() + static_cast<std::ptrdiff_t>(norms.size() / 2);
+  std::nth_element(norms.begin(), middle, norms.end());
+  Whitener whitener(E, norms.empty() ? 0 : share * *middle);
+  runs_.push_back({std::move(E), sources, std::move(whitener)});
+}
+
+void KnownNoise::weight(std::vector<double>& f, std::vector<double>& J) const {
+  const std::size_t p = J.size() / std::max<std::size_t>(f.size(), 1);
+  std::size_t start = 0;
+  for (const auto& run : runs_) {
+    if (run.E.rows() == 0) continue;
+    run.whitener.apply(&f[start], 1);
+    for (std::size_t j = 0; j < p; ++j) run.whitener.apply(&J[start * p + j], p);
+    start += run.E.rows();
+  }
+}
+
+std::vector<double> KnownNoise::middle(const std::vector<double>& f, const std::vector<double>& Q) const {
+  const std::size_t n = f.size(), p = Q.size() / n;
+  // theta - truth = -R^-1 Q^T A e with A = W E, e the white noise of the sources: M = sigma^2 (A^T Q)^T (A^T Q).
+  std::vector<double> M(p * p, 0);
+  std::size_t start = 0;
+  for (const auto& run : runs_) {
+    std::vector<double> AQ(run.sources * p, 0), q(run.E.rows());
+    for (std::size_t j = 0; j < p; ++j) {
+      for (std::size_t i = 0; i < q.size(); ++i) q[i] = Q[(start + i) * p + j];
+      run.whitener.apply_transposed(q.data());
+      for (std::size_t i = 0; i < q.size(); ++i)
+        for (std::size_t k = 0; k < run.E.row(i).size(); ++k) AQ[(run.E.first(i) + k) * p + j] += run.E.row(i)[k] * q[i];
+    }
+    for (std::size_t s = 0; s < run.sources; ++s)
+      for (std::size_t j = 0; j < p; ++j)
+        for (std::size_t k = 0; k < p; ++k) M[j * p + k] += AQ[s * p + j] * AQ[s * p + k];
+    start += q.size();
+  }
+  // sigma^2 is the sum of squares over what noise of size one leaves on average, tr((I - Q Q^T) A A^T), taken from random
+  // signs (Hutchinson 1990, Commun. Stat. Simul. 19, 433): 20,000 of them know sigma to 0.5 %.
+  const std::size_t trials = std::max<std::size_t>(1, 20000 / n);
+  std::mt19937 random(1);
+  double expected = 0;
+  for (std::size_t trial = 0; trial < trials; ++trial) {
+    std::vector<double> z;
+    for (const auto& run : runs_) {
+      std::vector<double> e(run.sources);
+      for (double& sign : e) sign = random() & 1 ? 1 : -1;
+      const std::size_t at = z.size();
+      for (std::size_t i = 0; i < run.E.rows(); ++i) z.push_back(run.E.times(i, e));
+      if (z.size() > at) run.whitener.apply(&z[at], 1);
+    }
+    for (double x : z) expected += x * x;
+    for (std::size_t j = 0; j < p; ++j) {
+      double along = 0;
+      for (std::size_t i = 0; i < n; ++i) along += Q[i * p + j] * z[i];
+      expected -= along * along;
+    }
+  }
+  const double variance = std::inner_product(f.begin(), f.end(), f.begin(), 0.0) * static_cast<double>(trials) / expected;
+  for (double& x : M) x *= variance;
+  return M;
+}
+
+namespace {
+
+/// Sum of products `lag` records apart within the runs.
+double lagged(std::span<const double> r, std::span<const std::size_t> runs, std::size_t lag) {
+  double sum = 0;
+  std::size_t start = 0;
+  for (std::size_t n : runs) {
+    for (std::size_t i = start + lag; i < start + n; ++i) sum += r[i] * r[i - lag];
+    start += n;
+  }
+  return sum;
+}
+
+}  // namespace
+
+bool looks_white(std::span<const double> r, std::span<const std::size_t> runs) {
+  const double n = static_cast<double>(r.size()), all = lagged(r, runs, 0);
+  if (!(all > 0)) return true;
+  const std::size_t lags = std::clamp<std::size_t>(r.size() / 5, 1, 10);
+  double Q = 0;
+  for (std::size_t k = 1; k <= lags; ++k) {
+    const double rho = lagged(r, runs, k) / all;
+    Q += n * (n + 2) * rho * rho / (n - static_cast<double>(k));
+  }
+  return gsl_cdf_chisq_Q(Q, static_cast<double>(lags)) > 0.01;
+}
+
+std::vector<double> newey_west(std::span<const double> u, std::size_t p, std::span<const double> residuals,
+                               std::span<const std::size_t> runs) {
+  const double rho = std::clamp(lagged(residuals, runs, 1) / lagged(residuals, runs, 0), -0.97, 0.97);
+  const double n = static_cast<double>(residuals.size());
+  const double alpha = 4 * rho * rho / ((1 - rho * rho) * (1 - rho * rho));
+  const auto width = static_cast<std::size_t>(std::ceil(1.1447 * std::cbrt(alpha * n)));
+  std::vector<double> S(p * p, 0);
+  std::size_t start = 0;
+  for (std::size_t m : runs) {
+    for (std::size_t lag = 0; lag <= std::min(width, m / 2) && lag < m; ++lag) {
+      const double w = (lag ? 1.0 : 0.5) * (1 - static_cast<double>(lag) / static_cast<double>(width + 1));
+      for (std::size_t i = start + lag; i < start + m; ++i)
+        for (std::size_t j = 0; j < p; ++j)
+          for (std::size_t k = 0; k < p; ++k)
+            S[j * p + k] += w * (u[i * p + j] * u[(i - lag) * p + k] + u[i * p + k] * u[(i - lag) * p + j]);
+    }
+    start += m;
+  }
+  return S;
+}
+
+}  // namespace rolling

@@ -1,0 +1,82 @@
+// How the noise of the fitted records hangs together: known from the filters that were applied, or judged from the residuals.
+#pragma once
+
+#include "fit/filter.h"
+
+#include <map>
+#include <string>
+
+namespace rolling {
+
+/// A matrix whose rows are zero outside a short stretch.
+class BandMatrix {
+ public:
+  static BandMatrix identity(std::size_t n);
+  void append(std::size_t first, std::span<const double> values);  ///< zeros at either end are not kept
+  /// Appends x row i of X + y row i of Y.
+  void append(std::size_t i, double x, const BandMatrix& X, double y, const BandMatrix& Y);
+  std::size_t rows() const { return first_.size(); }
+  std::size_t first(std::size_t i) const { return first_[i]; }
+  std::span<const double> row(std::size_t i) const { return {values_.data() + start_[i], start_[i + 1] - start_[i]}; }
+  double times(std::size_t i, std::span<const double> x) const;  ///< element i of the product with x
+  /// This matrix times B.
+  BandMatrix operator*(const BandMatrix& B) const;
+
+ private:
+  std::vector<std::size_t> first_, start_{0};
+  std::vector<double> values_;
+};
+
+/// The matrix of a filter on these times, found by feeding it combs of unit impulses.
+BandMatrix probe(const LinearFilter&, std::span<const double> t);
+
+/// What a chain makes of the noise of its one raw column.
+struct NoiseResponse {
+  std::string source;                    ///< the raw column, whose noise is taken as white
+  std::map<std::string, BandMatrix> of;  ///< each column, the source included, as a linear map of the source
+};
+/// Throws Error for a chain that starts from more than one raw column.
+NoiseResponse noise_response(const FilterChain&, std::span<const double> t);
+
+/// Turns vectors of covariance C = E E^T + floor^2 I into white ones, in O(n band^2), with no n x n matrix: C = R^T R.
+class Whitener {
+ public:
+  Whitener(const BandMatrix& E, double floor);
+  void apply(double* x, std::size_t stride) const;             ///< x becomes R^-T x; a direction without noise becomes 0
+  void apply_transposed(double* x) const;                      ///< x becomes R^-1 x
+
+ private:
+  std::size_t n_, band_;
+  std::vector<double> R_;  ///< E^T = Q R: row k holds columns k .. k + band - 1
+};
+
+/// The noise of the residuals of several runs, E times white noise of one unknown size.
+class KnownNoise {
+ public:
+  /// `share` of the median record's noise is taken as white floor when residuals are weighted (not in their covariance).
+  void append(BandMatrix E, double share);
+  bool empty() const { return runs_.empty(); }
+  /// Residuals (n) and derivatives (n rows of p), weighted.
+  void weight(std::vector<double>& f, std::vector<double>& J) const;
+  /// The middle of the covariance R^-1 M R^-T of parameters that were fitted with weight(), from the weighted residuals and
+  /// Q = J R^-1 of the fit; true whatever the weights.
+  std::vector<double> middle(const std::vector<double>& f, const std::vector<double>& Q) const;
+
+ private:
+  struct Run {
+    BandMatrix E;
+    std::size_t sources;
+    Whitener whitener;
+  };
+  std::vector<Run> runs_;
+};
+
+/// Ljung and Box (1978), Biometrika 65, 297, over min(10, n/5) lags at 1 %. `runs` tells how many residuals each run has.
+bool looks_white(std::span<const double> residuals, std::span<const std::size_t> runs);
+
+/// The middle of the sandwich, sum of w(|i-j|) u_i u_j^T over each run, row by row; u are n rows of p scores. Bartlett weights
+/// (Newey and West 1987, Econometrica 55, 703), bandwidth by Andrews' AR(1) rule (1991, Econometrica 59, 817).
+std::vector<double> newey_west(std::span<const double> scores, std::size_t p, std::span<const double> residuals,
+                               std::span<const std::size_t> runs);
+
+}  // namespace rolling

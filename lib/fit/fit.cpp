@@ -1,0 +1,101 @@
+#include "fit/fit.h"
+
+#include "base/error.h"
+#include "fit/routes.h"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace rolling {
+namespace {
+
+/// Q = J R^-1, in whose columns the covariance R^-1 M R^-T has its middle.
+std::vector<double> orthonormal(const Minimum& m, std::size_t n, std::size_t p) {
+  std::vector<double> u = m.J;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < p; ++j) {
+      double& x = u[i * p + j];
+      for (std::size_t k = 0; k < j; ++k) x -= u[i * p + k] * m.R[k * p + j];
+      x /= m.R[j * p + j];
+    }
+  return u;
+}
+
+double sum_of_squares(const std::vector<double>& f) { return std::inner_product(f.begin(), f.end(), f.begin(), 0.0); }
+
+FitResult conclude(const RouteFit& r) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::size_t n = r.residuals.size(), p = r.minimum.theta.size();
+  FitResult result{.a = r.a.value, .sigma_a = nan, .b = r.b.value, .sigma_b = nan, .corr = 0, .rms = nan, .n = n,
+                   .left_out = r.left_out, .v0 = {}, .sigma_v0 = {}, .x0 = {}, .sigma_x0 = {}, .errors = Errors::none};
+  std::vector<double> middle(p * p, nan);
+  if (n > p) {
+    result.rms = std::sqrt(sum_of_squares(r.residuals) / static_cast<double>(n - p));
+    std::vector<double> Q = orthonormal(r.minimum, n, p);
+    if (!r.noise.empty()) {
+      middle = r.noise.middle(r.minimum.f, Q);
+      result.errors = Errors::filters;
+    } else if (n < 30 || looks_white(r.residuals, r.runs)) {
+      std::fill(middle.begin(), middle.end(), 0);
+      for (std::size_t j = 0; j < p; ++j) middle[j * p + j] = r.minimum.rss / static_cast<double>(n - p);
+      result.errors = Errors::classical;
+    } else {
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < p; ++j) Q[i * p + j] *= r.minimum.f[i];
+      middle = newey_west(Q, p, r.minimum.f, r.runs);
+      for (double& x : middle) x *= static_cast<double>(n) / static_cast<double>(n - p);
+      result.errors = Errors::autocorrelation;
+    }
+  }
+  const Spread covariance(r.minimum.R, middle, p);
+  const auto fixed = [](const Quantity& q) { return sum_of_squares(q.gradient) == 0; };
+  const auto sigma = [&](const Quantity& q) { return fixed(q) ? 0 : std::sqrt(covariance(q.gradient, q.gradient)); };
+  result.sigma_a = sigma(r.a);
+  result.sigma_b = sigma(r.b);
+  if (!fixed(r.a) && !fixed(r.b) && result.sigma_a != 0 && result.sigma_b != 0)
+    result.corr = covariance(r.a.gradient, r.b.gradient) / (result.sigma_a * result.sigma_b);
+  for (const auto& q : r.v0) result.v0.push_back(q.value), result.sigma_v0.push_back(sigma(q));
+  for (const auto& q : r.x0) result.x0.push_back(q.value), result.sigma_x0.push_back(sigma(q));
+  for (double x : {result.a, result.b})
+    if (!std::isfinite(x)) fail("the fit gives no finite a and b");
+  if (result.errors != Errors::none)
+    for (double x : {result.sigma_a, result.sigma_b, result.corr, result.rms})
+      if (!std::isfinite(x)) fail("the fit gives no finite errors of a and b");
+  return result;
+}
+
+}  // namespace
+
+FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+  if (options.a && !(*options.a > 0)) fail("a = {} cannot be held: it must be positive", *options.a);
+  if (route == Route::loglog) return conclude(fit_log_log(runs, options));
+  if (route == Route::shift) return conclude(fit_shift(runs, options));
+  return conclude(fit_trajectory(route, runs, options));
+}
+
+void require_records(std::size_t n, std::size_t p) {
+  if (n == 0) fail("no record can be fitted");
+  if (p == 0) fail("a and b are both held: nothing is left to fit");
+  if (n < p) fail("{} record{} cannot determine {} parameters", n, n == 1 ? "" : "s", p);
+}
+
+WeakTerm::WeakTerm(const std::vector<double>& at, const std::function<std::vector<double>(const std::vector<double>& theta)>& term)
+    : at_(at), value_(term(at)), slopes_(value_.size() * at.size()) {
+  constexpr double step = 1e-4;
+  for (std::size_t j = 0; j < at_.size(); ++j) {
+    auto before = at_, after = at_;
+    before[j] -= step;
+    after[j] += step;
+    const auto low = term(before), high = term(after);
+    for (std::size_t i = 0; i < low.size(); ++i) slopes_[i * at_.size() + j] = (high[i] - low[i]) / (2 * step);
+  }
+}
+
+double WeakTerm::value(std::size_t i, const std::vector<double>& theta) const {
+  double sum = value_[i];
+  for (std::size_t j = 0; j < at_.size(); ++j) sum += slope(i, j) * (theta[j] - at_[j]);
+  return sum;
+}
+
+}  // namespace rolling

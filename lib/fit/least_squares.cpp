@@ -1,0 +1,184 @@
+#include "fit/least_squares.h"
+
+#include "base/error.h"
+#include "base/gsl.h"
+
+#include <gsl/gsl_linalg.h>
+#include <gsl/gsl_multifit_nlinear.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rolling {
+namespace {
+
+constexpr double undetermined = 1e-10;  // sine between a column of J and those before it
+
+double square(const std::vector<double>& f) {
+  double sum = 0;
+  for (double x : f) sum += x * x;
+  return sum;
+}
+
+/// What GSL's callbacks share: f and J come from one evaluation, so J is kept until it is asked for.
+struct Bridge {
+  const System& system;
+  std::vector<double> theta, f, J;
+  bool allowed = false;
+
+  void evaluate(const gsl_vector* x) {
+    std::vector<double> at(system.p);
+    for (std::size_t j = 0; j < system.p; ++j) at[j] = gsl_vector_get(x, j);
+    if (at == theta) return;
+    theta = std::move(at);
+    try {
+      system.evaluate(theta, f, J);
+      allowed = std::isfinite(square(f)) && std::isfinite(square(J));
+    } catch (const Error&) {  // must not cross GSL's C frames
+      allowed = false;
+    }
+  }
+  static int residuals(const gsl_vector* x, void* self, gsl_vector* f) {
+    auto& b = *static_cast<Bridge*>(self);
+    b.evaluate(x);
+    if (b.allowed) std::copy(b.f.begin(), b.f.end(), f->data);
+    else gsl_vector_set_all(f, 1e100);  // finite, and worse than any step from an allowed start: it is rejected
+    return GSL_SUCCESS;
+  }
+  static int jacobian(const gsl_vector* x, void* self, gsl_matrix* J) {
+    auto& b = *static_cast<Bridge*>(self);
+    b.evaluate(x);
+    if (!b.allowed) return GSL_EDOM;
+    std::copy(b.J.begin(), b.J.end(), J->data);
+    return GSL_SUCCESS;
+  }
+};
+
+/// Levenberg-Marquardt from start to where it makes no further progress; whether that is a minimum is not its question.
+std::vector<double> descend(const System& system, const std::vector<double>& start) {
+  Bridge bridge{system, {}, std::vector<double>(system.n), std::vector<double>(system.n * system.p)};
+  gsl_multifit_nlinear_fdf fdf{};
+  fdf.f = Bridge::residuals;
+  fdf.df = Bridge::jacobian;
+  fdf.n = system.n;
+  fdf.p = system.p;
+  fdf.params = &bridge;
+  auto parameters = gsl_multifit_nlinear_default_parameters();
+  auto work = own(gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &parameters, system.n, system.p), gsl_multifit_nlinear_free);
+  auto x = gsl_vector_const_view_array(start.data(), system.p);
+  bridge.evaluate(&x.vector);
+  if (!bridge.allowed) fail("the fit cannot start: the law has no finite values at the starting point");
+  check_gsl(gsl_multifit_nlinear_init(&x.vector, &fdf, work.get()), "fit");
+  for (int i = 0, info = 0; i < 300; ++i) {
+    if (gsl_multifit_nlinear_iterate(work.get()) != GSL_SUCCESS) break;
+    // GSL's gradient test is absolute, so it is off: the residuals may be micrometres.
+    if (gsl_multifit_nlinear_test(1e-9, 0, 0, &info, work.get()) == GSL_SUCCESS) break;
+  }
+  const gsl_vector* at = gsl_multifit_nlinear_position(work.get());
+  std::vector<double> theta(system.p);
+  for (std::size_t j = 0; j < system.p; ++j) theta[j] = gsl_vector_get(at, j);
+  return theta;
+}
+
+/// The Gauss-Newton step from the QR of J, not from the normal equations: their condition is the square of J's.
+struct Step {
+  std::vector<double> R, delta;
+  double size = 0;       ///< largest relative change of a parameter
+  double reduction = 0;  ///< of the sum of squares, that the step promises
+  double angle = 1;      ///< smallest sine between a column of J and the columns before it
+};
+
+Step gauss_newton(const System& system, const Minimum& at) {
+  const std::size_t n = system.n, p = system.p;
+  std::vector<double> QR = at.J, tau(p), rhs = at.f;
+  auto A = gsl_matrix_view_array(QR.data(), n, p);
+  auto t = gsl_vector_view_array(tau.data(), p);
+  auto b = gsl_vector_view_array(rhs.data(), n);
+  check_gsl(gsl_linalg_QR_decomp(&A.matrix, &t.vector), "fit");
+  check_gsl(gsl_linalg_QR_QTvec(&A.matrix, &t.vector, &b.vector), "fit");
+  Step step{std::vector<double>(p * p), std::vector<double>(p)};
+  for (std::size_t j = 0; j < p; ++j) {
+    double column = 0;
+    for (std::size_t i = 0; i <= j; ++i) column = std::hypot(column, step.R[i * p + j] = QR[i * p + j]);
+    step.angle = std::min(step.angle, column > 0 ? std::abs(step.R[j * p + j]) / column : 0);
+    step.reduction += rhs[j] * rhs[j];
+  }
+  for (std::size_t j = p; j-- > 0;) {
+    double sum = -rhs[j];
+    for (std::size_t k = j + 1; k < p; ++k) sum -= step.R[j * p + k] * step.delta[k];
+    step.delta[j] = sum / step.R[j * p + j];
+    step.size = std::max(step.size, std::abs(step.delta[j]) / std::max(1.0, std::abs(at.theta[j])));
+  }
+  return step;
+}
+
+/// Gauss-Newton steps from a point near the minimum, down to round-off; `step` is the one that was not taken.
+Minimum polish(const System& system, std::vector<double> theta, Step& step) {
+  Minimum best{std::move(theta), std::vector<double>(system.n), std::vector<double>(system.n * system.p), {}, 0};
+  system.evaluate(best.theta, best.f, best.J);
+  best.rss = square(best.f);
+  step = gauss_newton(system, best);
+  for (int i = 0; i < 100 && step.angle > undetermined && step.size > std::numeric_limits<double>::epsilon(); ++i) {
+    Minimum next = best;
+    for (std::size_t j = 0; j < system.p; ++j) next.theta[j] += step.delta[j];
+    try {
+      system.evaluate(next.theta, next.f, next.J);
+    } catch (const Error&) {
+      break;
+    }
+    next.rss = square(next.f);
+    if (!(next.rss <= best.rss * (1 + 1e-10))) break;
+    Step after = gauss_newton(system, next);
+    if (step.size < 1e-9 && !(after.size < step.size)) break;  // round-off
+    best = std::move(next);
+    step = std::move(after);
+  }
+  return best;
+}
+
+}  // namespace
+
+Minimum minimise(const System& system, const std::vector<double>& start) {
+  silence_gsl();
+  Step step;
+  Minimum best = polish(system, descend(system, start), step);
+  // Bates & Watts (1981), Technometrics 23, 179: converged when the residuals' part in the tangent plane is small
+  // against the part orthogonal to it. An exact fit has nothing orthogonal; there the step itself must vanish.
+  const auto offset = [&] {
+    const double freedom = system.n > system.p ? static_cast<double>(system.n - system.p) : 0;
+    return std::sqrt(step.reduction / static_cast<double>(system.p) * freedom / std::max(best.rss - step.reduction, 0.0));
+  };
+  const auto converged = [&] { return step.size < 1e-7 || offset() < 1e-3; };
+  for (int round = 0; step.angle > undetermined && !converged(); ++round) {
+    const double before = best.rss;
+    Minimum again = polish(system, descend(system, best.theta), step);
+    if (again.rss <= best.rss) best = std::move(again);
+    else step = gauss_newton(system, best);
+    // The minimum of a trajectory fit may lie on a kink, where the stop meets a record: no step goes down, but the slope of
+    // either side remains. It is worth a fraction of a standard deviation, never more.
+    if (best.rss > before * (1 - 1e-8) && offset() < 0.5) break;
+    if (round == 20) fail("the fit does not converge");
+  }
+  if (!(step.angle > undetermined)) fail("the data do not determine the parameters: they cannot be told apart");
+  best.R = step.R;
+  return best;
+}
+
+std::vector<double> Spread::solve_transposed(std::vector<double> g) const {
+  for (std::size_t j = 0; j < p_; ++j) {
+    for (std::size_t k = 0; k < j; ++k) g[j] -= R_[k * p_ + j] * g[k];
+    g[j] /= R_[j * p_ + j];
+  }
+  return g;
+}
+
+double Spread::operator()(const std::vector<double>& g, const std::vector<double>& h) const {
+  const auto left = solve_transposed(g), right = solve_transposed(h);
+  double sum = 0;
+  for (std::size_t i = 0; i < p_; ++i)
+    for (std::size_t j = 0; j < p_; ++j) sum += left[i] * M_[i * p_ + j] * right[j];
+  return sum;
+}
+
+}  // namespace rolling

@@ -1,0 +1,39 @@
+// Nonlinear least squares to round-off: GSL's Levenberg-Marquardt, finished by Gauss-Newton steps from a QR of the Jacobian.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace rolling {
+
+/// n residuals f (model - data, whitened where their covariance is known) of p parameters, and J = df/dtheta, row by row.
+/// Parameters should be of order one. An Error from evaluate means that theta is not allowed, and the search backs off.
+struct System {
+  std::size_t n, p;
+  std::function<void(const std::vector<double>& theta, std::vector<double>& f, std::vector<double>& J)> evaluate;
+};
+
+struct Minimum {
+  std::vector<double> theta, f, J;
+  std::vector<double> R;  ///< J = Q R: p x p, upper triangle, row by row
+  double rss;
+};
+
+/// Throws Error if there is no convergence, or if the parameters cannot be told apart.
+Minimum minimise(const System&, const std::vector<double>& start);
+
+/// The covariance of the parameters is R^-1 M R^-T.
+class Spread {
+ public:
+  Spread(std::vector<double> R, std::vector<double> M, std::size_t p) : R_(std::move(R)), M_(std::move(M)), p_(p) {}
+  /// Covariance of two functions of the parameters, by their gradients.
+  double operator()(const std::vector<double>& g, const std::vector<double>& h) const;
+
+ private:
+  std::vector<double> solve_transposed(std::vector<double> g) const;
+  std::vector<double> R_, M_;
+  std::size_t p_;
+};
+
+}  // namespace rolling

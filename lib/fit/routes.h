@@ -1,0 +1,75 @@
+// What the four routes hand to fit(): a minimum, and how the quantities that are reported hang on its parameters.
+#pragma once
+
+#include "fit/covariance.h"
+#include "fit/fit.h"
+#include "fit/least_squares.h"
+
+namespace rolling {
+
+/// A reported number and its derivatives by the parameters (all zero for one that was held fixed).
+struct Quantity {
+  double value;
+  std::vector<double> gradient;
+};
+
+struct RouteFit {
+  Minimum minimum;
+  std::vector<std::size_t> runs;   ///< fitted records of each run
+  std::vector<double> residuals;   ///< in the unit of the fitted column; the minimum's f may be whitened
+  KnownNoise noise;                ///< from the filters; empty if they are not known
+  std::size_t left_out;
+  Quantity a, b;
+  std::vector<Quantity> v0, x0;
+};
+
+RouteFit fit_log_log(const std::vector<FitRun>&, const FitOptions&);
+RouteFit fit_shift(const std::vector<FitRun>&, const FitOptions&);
+RouteFit fit_trajectory(Route, const std::vector<FitRun>&, const FitOptions&);
+
+/// The records of one run that a route can use.
+using Rows = std::vector<std::size_t>;
+
+/// Throws Error when n records are too few for p parameters.
+void require_records(std::size_t n, std::size_t p);
+
+/// How often a fit with known filters is repeated: its weights and its bias are taken at the (a, b) before.
+constexpr int rounds = 4;
+
+/// A term of the residuals that hangs on the parameters only weakly, as its value and slopes at one point.
+class WeakTerm {
+ public:
+  explicit WeakTerm(std::size_t n, std::size_t p) : at_(p, 0), value_(n, 0), slopes_(n * p, 0) {}
+  WeakTerm(const std::vector<double>& at, const std::function<std::vector<double>(const std::vector<double>& theta)>& term);
+  double value(std::size_t i, const std::vector<double>& theta) const;
+  double slope(std::size_t i, std::size_t j) const { return slopes_[i * at_.size() + j]; }
+
+ private:
+  std::vector<double> at_, value_, slopes_;
+};
+
+/// v and D of the records that loglog and shift use, all runs one after another, and how their noise arises.
+struct ShiftRecords {
+  std::vector<double> v, D;
+  std::vector<std::size_t> runs;
+  std::size_t left_out = 0;
+  double log_v_ref = 0;  ///< ln of the geometric mean of v: seen from there, ln a and b are all but uncorrelated
+
+  ShiftRecords(const std::vector<FitRun>&, const FitOptions&, bool positive_D);
+  bool filters_known() const { return !response_.empty(); }
+  /// The roll under (a, b) that is closest to the data, filtered like the data: a wide mean of v^b is not the power of the mean.
+  /// For each record its v and D; where there is no such roll, the record's v and a v^b.
+  struct Smoothed {
+    std::vector<double> v, D, law;  ///< law = a v^b
+  };
+  Smoothed smoothed(double a, double b) const;
+  /// Of the residuals (D - a v^b) scale: both columns carry noise, that of v with the slope of the law at the smoothed speeds.
+  KnownNoise noise(double b, const Smoothed&, const std::vector<double>& scale) const;
+
+ private:
+  const std::vector<FitRun>& all_;
+  std::vector<Rows> rows_;
+  std::vector<NoiseResponse> response_;
+};
+
+}  // namespace rolling

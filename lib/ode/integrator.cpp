@@ -1,0 +1,146 @@
+#include "ode/integrator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/error.h"
+#include "base/gsl.h"
+
+namespace rolling {
+
+struct Integrator::Problem {
+  OdeSystem system;
+  gsl_odeiv2_system gsl{};
+  unsigned long evaluations = 0;
+  std::exception_ptr thrown;  // no exception may cross GSL, which is C
+
+  template <typename Call>
+  int guard(Call&& call) {
+    try {
+      call();
+      return GSL_SUCCESS;
+    } catch (...) {
+      thrown = std::current_exception();
+      return GSL_EBADFUNC;
+    }
+  }
+
+  static int derivative(double t, const double* y, double* dydt, void* self) {
+    auto& p = *static_cast<Problem*>(self);
+    ++p.evaluations;
+    return p.guard([&] { p.system.derivative(t, y, dydt); });
+  }
+
+  static int jacobian(double t, const double* y, double* dfdy, double* dfdt, void* self) {
+    auto& p = *static_cast<Problem*>(self);
+    return p.guard([&] { p.system.jacobian(t, y, dfdy, dfdt); });
+  }
+};
+
+namespace {
+
+const gsl_odeiv2_step_type* gsl_type(Stepper stepper) {
+  switch (stepper) {
+    case Stepper::rk2: return gsl_odeiv2_step_rk2;
+    case Stepper::rk4: return gsl_odeiv2_step_rk4;
+    case Stepper::rkf45: return gsl_odeiv2_step_rkf45;
+    case Stepper::rkck: return gsl_odeiv2_step_rkck;
+    case Stepper::rk8pd: return gsl_odeiv2_step_rk8pd;
+    case Stepper::msadams: return gsl_odeiv2_step_msadams;
+    case Stepper::rk1imp: return gsl_odeiv2_step_rk1imp;
+    case Stepper::rk2imp: return gsl_odeiv2_step_rk2imp;
+    case Stepper::rk4imp: return gsl_odeiv2_step_rk4imp;
+    case Stepper::bsimp: return gsl_odeiv2_step_bsimp;
+    case Stepper::msbdf: return gsl_odeiv2_step_msbdf;
+  }
+  fail("unknown stepper");
+}
+
+gsl_odeiv2_driver* new_driver(gsl_odeiv2_system& system, const OdeOptions& options, double h) {
+  silence_gsl();
+  return gsl_odeiv2_driver_alloc_y_new(&system, gsl_type(options.stepper), h, options.atol, options.rtol);
+}
+
+}  // namespace
+
+Integrator::Integrator(OdeSystem system, const OdeOptions& options, double t, std::vector<double> y)
+    : problem_(std::make_shared<Problem>()), driver_(nullptr, gsl_odeiv2_driver_free), steps_left_(options.max_steps), t_(t), y_(std::move(y)) {
+  if (y_.size() != system.dimension) fail("a state of {} numbers for a system of {}", y_.size(), system.dimension);
+  if (!(options.rtol >= 0 && options.atol >= 0 && options.rtol + options.atol > 0 && std::isfinite(options.rtol + options.atol)))
+    fail("the tolerances rtol = {} and atol = {} must be positive", options.rtol, options.atol);
+  if (options.stepper >= Stepper::rk1imp && !system.jacobian) fail("an implicit stepper needs the Jacobian");
+  problem_->system = std::move(system);
+  problem_->gsl = {Problem::derivative, problem_->system.jacobian ? Problem::jacobian : nullptr, y_.size(), problem_.get()};
+  driver_ = own(new_driver(problem_->gsl, options, h_), gsl_odeiv2_driver_free);
+}
+
+unsigned long Integrator::evaluations() const { return problem_->evaluations; }
+
+void Integrator::step(double t) {
+  if (steps_left_ == 0) fail("the integration is not done after the last step allowed, at t = {:.6g} s: an implicit method may need fewer", t_);
+  --steps_left_;
+  const double before = t_;
+  const int status = gsl_odeiv2_evolve_apply(driver_->e, driver_->c, driver_->s, &problem_->gsl, &t_, t, &h_, y_.data());
+  if (problem_->thrown) std::rethrow_exception(std::exchange(problem_->thrown, nullptr));
+  if (status != GSL_SUCCESS) fail("the integration fails at t = {:.6g} s: {}", t_, gsl_strerror(status));
+  // GSL takes an error estimate of NaN for a good step.
+  if (!std::all_of(y_.begin(), y_.end(), [](double y) { return std::isfinite(y); })) fail("the integration leaves the finite numbers at t = {:.6g} s", before);
+  if (t_ == before) fail("the integration cannot go on at t = {:.6g} s: its step is below the rounding of t", t_);
+}
+
+void Integrator::advance(double t) {
+  while (t_ < t) step(t);
+}
+
+bool Integrator::advance(double t, const Event& event) {
+  double before = event(y_);
+  while (t_ < t) {
+    const double t_before = t_;
+    const std::vector<double> y_before = y_;
+    step(t);
+    const double now = event(y_);
+    if (now == 0 && before != 0) return true;
+    if (before != 0 && (before < 0) != (now < 0)) {
+      locate(t_before, y_before, before, event);
+      return true;
+    }
+    before = now;
+  }
+  return false;
+}
+
+/// The sign change within the step just done, by the Illinois form of regula falsi; every try integrates from before the step,
+/// so its state is as good as any other.
+void Integrator::locate(double t_before, const std::vector<double>& y_before, double value_before, const Event& event) {
+  double lo = t_before, f_lo = value_before, hi = t_, f_hi = event(y_);
+  const double rounding = 2 * std::numeric_limits<double>::epsilon() * std::abs(hi), h = h_;
+  for (int i = 0, side = 0; i < 100 && hi - lo > rounding; ++i) {
+    const double last = t_, t = std::clamp(hi - f_hi * (hi - lo) / (f_hi - f_lo), lo, hi);
+    t_ = t_before;
+    restart(y_before);
+    h_ = std::min(h, t - t_before);
+    advance(t);
+    const double f = event(y_);
+    if (f == 0 || std::abs(t - last) <= rounding) break;
+    if ((f < 0) == (f_lo < 0)) {
+      lo = t, f_lo = f;
+      if (side == -1) f_hi /= 2;
+      side = -1;
+    } else {
+      hi = t, f_hi = f;
+      if (side == 1) f_lo /= 2;
+      side = 1;
+    }
+  }
+  h_ = h;
+}
+
+void Integrator::restart(std::vector<double> y) {
+  y_ = std::move(y);
+  gsl_odeiv2_evolve_reset(driver_->e);
+  gsl_odeiv2_step_reset(driver_->s);
+}
+
+}  // namespace rolling

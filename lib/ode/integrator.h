@@ -1,0 +1,64 @@
+// Ordinary differential equations y' = f(t, y) by the adaptive steppers of GSL: forward in time, to given times or to an event.
+#pragma once
+
+#include <gsl/gsl_odeiv2.h>
+
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace rolling {
+
+/// Both functions may throw; the exception comes out of Integrator::advance.
+struct OdeSystem {
+  std::size_t dimension;
+  std::function<void(double t, const double* y, double* dydt)> derivative;
+  /// df/dy row by row, and df/dt; needed by the implicit steppers rk1imp ... msbdf.
+  std::function<void(double t, const double* y, double* dfdy, double* dfdt)> jacobian = {};
+};
+
+/// GSL's names.
+enum class Stepper { rk2, rk4, rkf45, rkck, rk8pd, msadams, rk1imp, rk2imp, rk4imp, bsimp, msbdf };
+
+struct OdeOptions {
+  Stepper stepper = Stepper::rk8pd;
+  double rtol = 1e-10;                   ///< error of a step relative to y ...
+  double atol = 1e-13;                   ///< ... plus this, in the units of y
+  unsigned long max_steps = 10'000'000;  ///< over the whole integration; then it is refused
+};
+
+class Integrator {
+ public:
+  /// Zero where something happens.
+  using Event = std::function<double(const std::vector<double>& y)>;
+
+  Integrator(OdeSystem, const OdeOptions&, double t, std::vector<double> y);
+
+  double time() const { return t_; }
+  const std::vector<double>& state() const { return y_; }
+  unsigned long evaluations() const;  ///< calls of the derivative so far
+
+  /// Integrates to t exactly; a time that is past does nothing. Throws Error when GSL fails, when the state is no longer finite and
+  /// when the steps run out.
+  void advance(double t);
+  /// The same, but stops at the first sign change of the event (located to rounding) and then returns true. t may be infinite.
+  bool advance(double t, const Event&);
+  /// Goes on from another state at the same time: where the system has a kink, start again on its other side.
+  void restart(std::vector<double> y);
+
+ private:
+  struct Problem;  // what GSL points to
+  void step(double t);
+  void locate(double t_before, const std::vector<double>& y_before, double value_before, const Event&);
+
+  std::shared_ptr<Problem> problem_;
+  std::unique_ptr<gsl_odeiv2_driver, void (*)(gsl_odeiv2_driver*)> driver_;
+  unsigned long steps_left_;
+  double t_;
+  std::vector<double> y_;
+  double h_ = 1e-6;  // a first guess; the error control corrects it within a few steps
+};
+
+}  // namespace rolling

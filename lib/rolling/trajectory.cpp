@@ -1,0 +1,111 @@
+#include "rolling/trajectory.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "rolling/contact.h"
+
+namespace rolling {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// D(v0)/R, 0 where the geometry does not look at it.
+double depth(const Body& body, Geometry geometry, PowerLaw law, double v0) {
+  check_roll(body, law, v0);
+  const double D = law(v0);
+  check_shift(body, D);
+  if (geometry == Geometry::approximate) return 0;
+  if (body.K + arm_factor(body, geometry, D) == 0) fail("K = 0 and D(v0) = R: the force of the mat would have no bound");
+  return D / body.R;
+}
+
+}  // namespace
+
+Trajectory::Trajectory(const Body& body, Geometry geometry, PowerLaw law, double v0)
+    : body_(body), geometry_(geometry), law_(law), v0_(v0), integrals_(law.b, body.K, depth(body, geometry, law, v0)) {
+  if (v0 == 0) return;
+  unit_ = std::pow(v0, 1 - law.b) * (body.K + 1) * body.R / (law.a * body.g);
+  stop_time_ = unit_ * integrals_.stop();
+  last_time_ = unit_ * integrals_.end();
+  if (std::isinf(stop_time_)) return;
+  const auto g = integrals_.gradient(infinity);
+  const double length = v0 * unit_, x = length * g.distance;
+  stopped_ = {0, x, 0, 0, 0, -length * g.g0 / law.a, -length * (std::log(v0) * g.g0 - g.g1), unit_ * integrals_.f(0)};
+}
+
+void check_roll(const Body& body, PowerLaw law, double v0) {
+  const auto positive = [](const char* name, double value) {
+    if (!(value > 0 && std::isfinite(value))) fail("{} = {} must be a positive number", name, value);
+  };
+  const auto not_negative = [](const char* name, double value) {
+    if (!(value >= 0 && std::isfinite(value))) fail("{} = {} must be a number that is not negative", name, value);
+  };
+  positive("the radius R", body.R);
+  not_negative("the shape factor K", body.K);
+  positive("gravity g", body.g);
+  positive("the coefficient a", law.a);
+  if (!std::isfinite(law.b)) fail("the exponent b = {} must be finite", law.b);
+  not_negative("the initial velocity v0", v0);
+  check_shift(body, law(v0));
+}
+
+double Trajectory::log_ratio(double t) const {
+  if (t >= stop_time_) return infinity;
+  if (t > last_time_) fail("at t = {:.6g} s the shift has grown beyond the radius {:.6g} m (since t = {:.6g} s): b < 0 has no meaning there", t, body_.R, last_time_);
+  return integrals_.lambda(t / unit_, (stop_time_ - t) / unit_);
+}
+
+double Trajectory::velocity(double lambda) const { return v0_ * std::exp(-lambda); }
+
+double Trajectory::position(double t, double lambda) const {
+  if (lambda == infinity) return stopped_.x;
+  return lambda < 1e-17 ? v0_ * t : v0_ * (unit_ * integrals_.distance(lambda));  // unit_ may be infinite
+}
+
+double Trajectory::shift(double v) const {
+  const double D = law_(v);
+  check_shift(body_, D);
+  return D;
+}
+
+double Trajectory::acceleration(double v) const { return acceleration_from_shift(body_, geometry_, law_(v)); }
+
+// With T(v; a, b, v0) = t the integral over speed, at fixed t:  dv/dp = -(dT/dp) / (dT/dv) = -(dT/dp) dv/dt,  and
+//   dT/da = -int h ... / a,   dT/db = -int ln(u) h ...,   dT/dv0 = -1 / (dv/dt at v0);
+//   dx/dp = dX/dp - v dT/dp,  which is the same integral with a factor u - v.
+Trajectory::Point Trajectory::at(double t) const {
+  if (t == 0) return {v0_, 0, 0, 0, v0_ > 0 ? 1.0 : 0.0, 0, 0, 0};
+  const double lambda = log_ratio(t), a = law_.a, log_v0 = std::log(v0_);
+  if (lambda == infinity) return stopped_;
+  if (lambda < 1e-100) {  // unit_ may be infinite, lambda^2 be 0: a speed that hardly changes
+    const double A = arm_factor(body_, geometry_, law_(v0_)), K = body_.K;
+    const double dv_da = -body_.g / body_.R * std::pow(v0_, law_.b) * t * (K + 1 / A) / ((K + A) * (K + A)), dv_db = a * log_v0 * dv_da;
+    return {v0_, v0_ * t, dv_da, dv_db, 1, dv_da * t / 2, dv_db * t / 2, t};
+  }
+  const auto g = integrals_.gradient(lambda);
+  const double rate = std::exp(-law_.b * lambda) / integrals_.f(lambda);  // -(dv/dt) unit_ / v0
+  const double length = v0_ * unit_;
+  return {velocity(lambda),
+          v0_ * (unit_ * g.distance),
+          -v0_ * rate * g.h0 / a,
+          -v0_ * rate * (log_v0 * g.h0 - g.h1),
+          rate * integrals_.f(0),
+          -length * g.g0 / a,
+          -length * (log_v0 * g.g0 - g.g1),
+          -std::expm1(-lambda) * unit_ * integrals_.f(0)};
+}
+
+TrajectoryMotion::TrajectoryMotion(const Body& body, Geometry geometry, PowerLaw law, double v0, double x0)
+    : trajectory_(body, geometry, law, v0), x0_(x0) {
+  if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
+  seek(0);
+}
+
+void TrajectoryMotion::seek(double t) {
+  t_ = t;
+  lambda_ = trajectory_.log_ratio(t);
+}
+
+}  // namespace rolling

@@ -1,0 +1,14 @@
+#!/bin/bash
+# A million rows through each filter in the memory of a window: 24 MiB of address space, libraries included.
+set -eu
+rows() { awk 'BEGIN { for (i = 0; i < 1000000; i++) printf "%.2f\t%.4f\t%.5f\n", i / 25, 0.5 + sin(i / 1000) / 4, 1e-3 }'; }
+check() {  # NAME COMMAND...
+  local count
+  count=$(rows | { ulimit -v 24576; "$@"; } | wc -l)
+  [ "$count" -ge 1000000 ] || { echo "$1: $count rows"; exit 1; }
+}
+check smooth --width 101
+check smooth --seconds 4
+check differentiate
+check shift-from-accel --use a=3 -K 0.5 -R 0.04
+check energy-ledger -m 1 -K 0.5 -R 0.04

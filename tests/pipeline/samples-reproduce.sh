@@ -1,0 +1,9 @@
+#!/bin/bash
+# `make samples` makes the raw records again byte for byte.
+set -eu
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+make -n samples | grep '^bin/simulate' >"$scratch/recipe"
+[ "$(wc -l <"$scratch/recipe")" = 4 ] || { echo "not four recipes"; exit 1; }
+sed "s#>samples/#>$scratch/#" "$scratch/recipe" | bash -eu
+for name in CF CR SF SR; do cmp "samples/$name.csv" "$scratch/$name.csv"; done
