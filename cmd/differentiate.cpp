@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
   using namespace rolling;
   Tool tool("differentiate", "Append the time derivative of a column.");
   std::string column;
-  tool.text("-c,--column", column, "the column to differentiate (v, else x)");
+  tool.text("-c,--column", column, "COLUMN", "the column to differentiate (v, else x)");
   tool.input();
   tool.output();
 

@@ -67,8 +67,8 @@ int main(int argc, char** argv) {
   tool.body(body, "Rg");
   tool.geometry(options.geometry);
   tool.flag("--each", each, "fit each run by itself, a row for each");
-  tool.list("--fix", fixed, "as NAME=VALUE: hold a, b, v0 or x0 fixed");
-  tool.list("--start", start, "as NAME=VALUE: begin the search at this a or b");
+  tool.list("--fix", fixed, "NAME=VALUE", "hold a, b, v0 or x0 fixed");
+  tool.list("--start", start, "NAME=VALUE", "begin the search at this a or b");
   tool.number("--min-speed", options.min_speed, not_negative, "leave slower records out [m/s]");
   tool.scene();
   tool.input();

@@ -79,9 +79,9 @@ int main(int argc, char** argv) {
   tool.number("--x0", x0, any_number, "position at t = 0 [m] (0)");
   tool.number("--dt", dt, positive, "time between rows [s] (0.01)");
   tool.number("--until", until, not_negative, "time of the last row [s] (the stop)");
-  tool.text("--at", times_file, "file with a column t: the times of the rows, instead");
-  tool.text("--columns", columns, "what to compute, of t,x,v,a,D (all)");
-  tool.text("--law", law_file, "file (- is standard input) with a row of fitpower: a, b and v0 that are not given otherwise");
+  tool.text("--at", times_file, "FILE", "file with a column t: the times of the rows, instead");
+  tool.text("--columns", columns, "NAME,...", "what to compute, of t,x,v,a,D (all)");
+  tool.text("--law", law_file, "FILE", "file (- is standard input) with a row of fitpower: a, b and v0 that are not given otherwise");
   tool.number("--memory", bulge.length, positive, "length over which the bulge follows the law [m]: rolls backwards before rest");
   tool.number("--damping", bulge.damping, not_negative, "damping of the bulge [s] (0)");
   tool.choice<bool>("--sensor", sensor, {{"pasco", true}}, "write what a motion sensor records, push and rest included: pasco");
@@ -123,11 +123,13 @@ int main(int argc, char** argv) {
     }
 
     const std::vector<Quantity> row = chosen(columns);
-    std::vector<Column> names;
-    for (const Quantity& quantity : row) names.push_back(quantity.column);
-    tool.out.line() += fmt::format("## simulate a {} b {} K {} R {} g {} v0 {}", law.a, law.b, body.K, body.R, body.g, v0);
-    tool.out.end_line();
-    tool.out.names(names);
+    const auto write_header = [&] {
+      std::vector<Column> names;
+      for (const Quantity& quantity : row) names.push_back(quantity.column);
+      tool.out.line() += fmt::format("## simulate a {} b {} K {} R {} g {} v0 {}", law.a, law.b, body.K, body.R, body.g, v0);
+      tool.out.end_line();
+      tool.out.names(names);
+    };
     const auto write = [&](double t, Motion& motion) {
       motion.seek(t);
       for (const Quantity& quantity : row) tool.out.cell(quantity.of(t, motion));
@@ -137,10 +139,14 @@ int main(int argc, char** argv) {
     if (!times_file.empty()) {
       Reader& in = tool.read_file(times_file, {"t"});
       const auto t = in.need_time();
+      write_header();
       for (bool first = true; in.next_run(); first = false) {
         if (!first) tool.out.end_line();
         const auto motion = roll();
-        while (in.next()) write(in[t], *motion);
+        while (in.next()) {
+          if (in[t] < 0) fail("t = {} is before the roll, which begins at 0", in[t]);
+          write(in[t], *motion);
+        }
       }
       return 0;
     }
@@ -151,8 +157,9 @@ int main(int argc, char** argv) {
     const double steps = std::floor(end / dt + (to_the_stop ? -1e-9 : 1e-9));  // rounding of end / dt makes no row and loses none
     if (steps > 1e9) fail("these are {:.3g} rows; the most is 1e9: --dt is too small", steps);
     const Clock clock{dt};
+    write_header();
     for (double k = 0; k <= steps; ++k) write(clock.at(k), *motion);
-    if (to_the_stop && end > 0) write(end, *motion);
+    if (to_the_stop) write(end, *motion);
     return 0;
   });
 }

@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
   Tool tool("smooth", "Replace a column by its mean over a moving window.");
   std::string column;
   MovingMean::Window window;
-  tool.text("-c,--column", column, "the column to smooth (v, else the first that is not t)");
+  tool.text("-c,--column", column, "COLUMN", "the column to smooth (v, else the first that is not t)");
   tool.count("-w,--width", window.samples, odd, "width of the window, an odd number of samples (11)");
   tool.number("--seconds", window.seconds, positive, "width of the window in seconds, instead");
   tool.input();

@@ -1,5 +1,7 @@
 #include "cli/history.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "rolling/contact.h"
 #include "signal/derivative.h"
@@ -48,6 +50,7 @@ FilterChain filters_of(const std::vector<std::string>& history, std::span<const 
       if (method != "mean" || words.size() != 5) return {};
       MovingMean::Window window;
       const double width = number_after(words, words[3]);
+      if (!(width > 0 && width < 1e9)) fail("a `##` line has a window of {}", width);
       if (words[3] == "seconds") window.seconds = width;
       else window.samples = static_cast<std::size_t>(width);
       const std::size_t reach = window.seconds > 0 ? samples_within(window.seconds, t) : window.samples / 2;

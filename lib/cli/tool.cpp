@@ -68,12 +68,12 @@ void Tool::numbers(const std::string& names, std::vector<double>& values, const 
   });
 }
 
-void Tool::text(const std::string& names, std::string& value, const std::string& help) {
-  add(names, "NAME", help, [&value](const std::string& text) { value = text; });
+void Tool::text(const std::string& names, std::string& value, const std::string& type, const std::string& help) {
+  add(names, type, help, [&value](const std::string& text) { value = text; });
 }
 
-void Tool::list(const std::string& names, std::vector<std::string>& values, const std::string& help) {
-  app_.add_option(names, values, help)->allow_extra_args(false)->type_name("TEXT");
+void Tool::list(const std::string& names, std::vector<std::string>& values, const std::string& type, const std::string& help) {
+  app_.add_option(names, values, help)->allow_extra_args(false)->type_name(type);
 }
 
 void Tool::body(Body& body, const std::string& which) {
@@ -105,7 +105,7 @@ void Tool::scene() {
 
 void Tool::input() {
   app_.add_option("FILE", input_.files, "input files, read in order; - or none is standard input")->type_name("");
-  list("--use", input_.use, "as NAME=COLUMN: the column (a name or a number from 1) that serves as t, x, v, a or D");
+  list("--use", input_.use, "NAME=COLUMN", "the column (a name or a number from 1) that serves as t, x, v, a or D");
   add("--run", "N", "read this run only: the number in its header, else its place", [this](const std::string& text) {
     input_.run = static_cast<int>(to_number("--run", text, whole));
   });
@@ -130,6 +130,7 @@ void Tool::read_scene() {
   } catch (const CLI::Error&) {
     fail("{}: this is not TOML", scene_file_);
   }
+  if (file.bad()) fail("{}: {}", scene_file_, std::strerror(errno));
   std::vector<std::string> seen;
   for (const CLI::ConfigItem& item : items) {
     const std::string key = item.fullname();
@@ -204,7 +205,11 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   } catch (const CLI::CallForVersion& call) {
     return print(std::string(call.what()) + '\n');
   } catch (const CLI::ParseError& error) {
-    say(std::string(error.what()) + " (see --help)");
+    std::string text;
+    for (const std::string& word : split_names(error.what(), '\0')) text += shown(word) + ' ';
+    say(text + "(see --help)");
+  } catch (const OutputError& error) {
+    say(error.what());
   } catch (const Error& error) {
     out.drop_line();  // what came before the bad record may stand; the line in the making may not
     print("");

@@ -46,8 +46,8 @@ class Tool {
   void number(const std::string& names, double& value, const Range&, const std::string& help);
   void count(const std::string& names, std::size_t& value, const Range&, const std::string& help);
   void numbers(const std::string& names, std::vector<double>& values, const Range&, const std::string& help);  ///< 0.5,0.83
-  void text(const std::string& names, std::string& value, const std::string& help);
-  void list(const std::string& names, std::vector<std::string>& values, const std::string& help);  ///< may be repeated
+  void text(const std::string& names, std::string& value, const std::string& type, const std::string& help);
+  void list(const std::string& names, std::vector<std::string>& values, const std::string& type, const std::string& help);  ///< may be repeated
   template <typename T>
   void choice(const std::string& names, T& value, const std::map<std::string, T>& choices, const std::string& help);
 

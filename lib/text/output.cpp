@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "base/error.h"
-
 namespace rolling {
 
 void Output::names(const std::vector<Column>& columns) {
@@ -35,7 +33,7 @@ void Output::flush() {
       const int reason = errno;
       buffer_.clear();
       whole_ = cells_ = 0;
-      fail("standard output: {}", std::strerror(reason));
+      fail<OutputError>("standard output: {}", std::strerror(reason));
     }
     left.remove_prefix(static_cast<std::size_t>(count));
   }

@@ -6,10 +6,17 @@
 #include <string_view>
 #include <vector>
 
+#include "base/error.h"
 #include "text/column.h"
 #include "text/number.h"
 
 namespace rolling {
+
+/// Standard output does not take it: no record is to blame.
+class OutputError : public Error {
+ public:
+  using Error::Error;
+};
 
 class Output {
  public:
@@ -29,7 +36,7 @@ class Output {
   }
   void names(const std::vector<Column>&);    ///< the names line
   void row(std::span<const double> values);  ///< cells and the line's end
-  /// Writes what is there. Throws Error when the system does not take it.
+  /// Writes what is there. Throws OutputError when the system does not take it.
   void flush();
   /// Forgets a line in the making.
   void drop_line() {

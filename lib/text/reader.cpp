@@ -51,9 +51,10 @@ Reader::Reader(ReaderOptions options, std::vector<std::string> order) : options_
 // ---------------------------------------------------------------------------------------------------------------- header
 
 void Reader::open_next() {
+  begun_ = false;
   input_ = std::make_unique<Input>(options_.files[next_file_++]);
+  history_changed_ = !history_.empty();
   history_.clear();
-  history_changed_ = true;
   read_header();
 }
 
@@ -106,9 +107,12 @@ void Reader::read_header() {
   if (!preamble.empty()) {
     header_line_ = preamble.back();
     preamble.pop_back();
-    std::string plain = header_line_;
-    std::erase(plain, '"');
-    names = split_names(plain, separator_);
+    if (separator_ == '\0') {
+      names = split_names(header_line_, separator_);
+    } else {
+      split(header_line_);
+      names.assign(fields_.begin(), fields_.end());
+    }
     if (names.size() != width)
       fail<InputError>("{}:{}: {} field{} under a line of {} names", input_->name(), input_->line_number(), width, width == 1 ? "" : "s", names.size());
   } else {
@@ -178,7 +182,7 @@ std::string Reader::column_list() const {
 std::size_t Reader::require(std::string_view name) const {
   if (const auto column = find(name)) return *column;
   fail<InputError>("{}: there is no column '{}' among {}{}", input_->name(), shown(name), column_list(),
-                   is_number(name) ? "" : fmt::format("; say --use {}=COLUMN", shown(name)));
+                   si_unit(read_column(name).name).empty() ? "" : fmt::format("; say --use {}=COLUMN", name));
 }
 
 std::size_t Reader::add(std::size_t column, const std::string& name, Conversion to_si) {
