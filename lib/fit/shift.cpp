@@ -66,8 +66,12 @@ std::vector<double> closest_roll(const NoiseResponse& response, const FitRun& ru
   std::vector<double> t, slowing, raw(n), by_v0(n);
   for (double x : run.t) t.push_back(x - run.t[0]);
   for (double x : t) slowing.push_back(position ? -x * x / 2 : -x);
-  // D of unit deceleration is (1 + K) R / g: the filters tell which body this is.
-  const double c = 1 / response.of.at("D").times(n / 2, slowing);
+  // D of unit deceleration is (1 + K) R / g: the filters tell which body this is. At a lost record a window is lopsided and
+  // tells another; half of the records do not see one.
+  std::vector<double> arms;
+  for (std::size_t k : rows) arms.push_back(response.of.at("D").times(k, slowing));
+  std::nth_element(arms.begin(), arms.begin() + static_cast<std::ptrdiff_t>(arms.size() / 2), arms.end());
+  const double c = 1 / arms[arms.size() / 2];
   const Body body{.m = 1, .R = 1, .K = 0, .g = c};
   const BandMatrix& of_v = response.of.at("v");
   double v0 = *std::max_element(run.v.begin(), run.v.end());

@@ -66,7 +66,7 @@ gsl_odeiv2_driver* new_driver(gsl_odeiv2_system& system, const OdeOptions& optio
 }  // namespace
 
 Integrator::Integrator(OdeSystem system, const OdeOptions& options, double t, std::vector<double> y)
-    : problem_(std::make_shared<Problem>()), driver_(nullptr, gsl_odeiv2_driver_free), steps_left_(options.max_steps), t_(t), y_(std::move(y)) {
+    : problem_(std::make_shared<Problem>()), driver_(nullptr, gsl_odeiv2_driver_free), max_steps_(options.max_steps), t_(t), y_(std::move(y)) {
   if (y_.size() != system.dimension) fail("a state of {} numbers for a system of {}", y_.size(), system.dimension);
   if (!(options.rtol >= 0 && options.atol >= 0 && options.rtol + options.atol > 0 && std::isfinite(options.rtol + options.atol)))
     fail("the tolerances rtol = {} and atol = {} must be positive", options.rtol, options.atol);
@@ -79,7 +79,7 @@ Integrator::Integrator(OdeSystem system, const OdeOptions& options, double t, st
 unsigned long Integrator::evaluations() const { return problem_->evaluations; }
 
 void Integrator::step(double t) {
-  if (steps_left_ == 0) fail("the integration is not done after the last step allowed, at t = {:.6g} s: an implicit method may need fewer", t_);
+  if (steps_left_ == 0) fail("the integration has used up its {} steps at t = {:.6g} s (a stiff problem needs an implicit method)", max_steps_, t_);
   --steps_left_;
   const double before = t_;
   const int status = gsl_odeiv2_evolve_apply(driver_->e, driver_->c, driver_->s, &problem_->gsl, &t_, t, &h_, y_.data());
@@ -90,11 +90,17 @@ void Integrator::step(double t) {
   if (t_ == before) fail("the integration cannot go on at t = {:.6g} s: its step is below the rounding of t", t_);
 }
 
-void Integrator::advance(double t) {
+void Integrator::run(double t) {
   while (t_ < t) step(t);
 }
 
+void Integrator::advance(double t) {
+  steps_left_ = max_steps_;
+  run(t);
+}
+
 bool Integrator::advance(double t, const Event& event) {
+  steps_left_ = max_steps_;
   double before = event(y_);
   while (t_ < t) {
     const double t_before = t_;
@@ -121,7 +127,7 @@ void Integrator::locate(double t_before, const std::vector<double>& y_before, do
     t_ = t_before;
     restart(y_before);
     h_ = std::min(h, t - t_before);
-    advance(t);
+    run(t);
     const double f = event(y_);
     if (f == 0 || std::abs(t - last) <= rounding) break;
     if ((f < 0) == (f_lo < 0)) {

@@ -26,7 +26,7 @@ struct OdeOptions {
   Stepper stepper = Stepper::rk8pd;
   double rtol = 1e-10;                   ///< error of a step relative to y ...
   double atol = 1e-13;                   ///< ... plus this, in the units of y
-  unsigned long max_steps = 10'000'000;  ///< over the whole integration; then it is refused
+  unsigned long max_steps = 10'000'000;  ///< of one advance(); then it is refused
 };
 
 class Integrator {
@@ -51,11 +51,12 @@ class Integrator {
  private:
   struct Problem;  // what GSL points to
   void step(double t);
+  void run(double t);
   void locate(double t_before, const std::vector<double>& y_before, double value_before, const Event&);
 
   std::shared_ptr<Problem> problem_;
   std::unique_ptr<gsl_odeiv2_driver, void (*)(gsl_odeiv2_driver*)> driver_;
-  unsigned long steps_left_;
+  unsigned long max_steps_, steps_left_ = 0;
   double t_;
   std::vector<double> y_;
   double h_ = 1e-6;  // a first guess; the error control corrects it within a few steps

@@ -70,7 +70,13 @@ double MemoryRoll::stop_time() const {
   return *stop_time_;
 }
 
-void MemoryRoll::seek(double t) { at_rest_ = at_rest_ || advance(ode_, t); }
+void MemoryRoll::seek(double t) {
+  if (at_rest_) return;
+  // Where the steps end changes the time of rest by a rounding or so: the one that was told counts.
+  const double stop = stop_time_.value_or(std::numeric_limits<double>::infinity());
+  at_rest_ = advance(ode_, std::min(t, stop)) || t >= stop;
+  if (at_rest_ && !stop_time_) stop_time_ = ode_.time();
+}
 
 double MemoryRoll::position() { return ode_.state()[0]; }
 

@@ -27,8 +27,7 @@ constexpr auto inverse_factorial = [] {
 }  // namespace
 
 double power_integral(double s, double lambda) {
-  const double z = s * lambda;
-  return std::abs(z) < 1e-17 || s == 0 ? lambda : -std::expm1(-z) / s;
+  return s == 0 ? lambda : -std::expm1(-s * lambda) / s;
 }
 
 double power_moment(double s, double lambda) {

@@ -32,8 +32,7 @@ constexpr std::array<Node, 8> gauss_legendre{{{0.9894009349916499326, 0.02715245
 /// int_0^lambda e^(-s y) dy = time, solved for lambda; rest is 1/s - time for s > 0.
 double power_integral_inverse(double s, double time, double rest) {
   if (s > 0 && rest < time) return -std::log(s * rest) / s;
-  const double z = s * time;
-  return s == 0 || std::abs(z) < 1e-17 ? time : -std::log1p(-z) / s;
+  return s == 0 ? time : -std::log1p(-s * time) / s;
 }
 
 /// Root of an increasing function between lo and hi: Newton's method from x, bisection where that leaves the bracket.
@@ -57,7 +56,7 @@ double increasing_root(double lo, double hi, double x, Function&& function) {
 SpeedIntegrals::SpeedIntegrals(double b, double K, double depth) : b_(b), s_(1 - b), K_(K), depth_(depth) {
   const double none = s_ > 0 ? far / std::min(s_, 1.0) : infinity;  // nothing is left beyond it
   if (depth == 0 || std::abs(b) < 1e-19) {
-    add_series(0, infinity);
+    add_piece(false, 0, infinity);
     series_ = {{s_, f(0), (K + 1 / A(0)) / (K + 1)}};  // A is constant
   } else if (b > 0) {
     const double from = std::max(0.0, std::log(depth * depth / deep) / (2 * b));
@@ -70,7 +69,8 @@ SpeedIntegrals::SpeedIntegrals(double b, double K, double depth) : b_(b), s_(1 -
     if (to < none) end_ = sums(pieces_.back(), pieces_.back().width).time;
   }
   if (s_ > 0 && end_ == infinity) {
-    double rest = 0;  // added up from the end: the last pieces keep their digits
+    // Added up from the end, so that the last pieces keep their digits; behind the last panel A is taken as constant.
+    double rest = pieces_.back().panel ? f(none) * std::exp(-s_ * none) / s_ : 0;
     for (auto p = pieces_.rbegin(); p != pieces_.rend(); ++p) p->rest = rest += p->power * local_time(*p, p->width);
     stop_ = rest;
   }

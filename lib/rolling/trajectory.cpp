@@ -26,7 +26,8 @@ double depth(const Body& body, Geometry geometry, PowerLaw law, double v0) {
 Trajectory::Trajectory(const Body& body, Geometry geometry, PowerLaw law, double v0)
     : body_(body), geometry_(geometry), law_(law), v0_(v0), integrals_(law.b, body.K, depth(body, geometry, law, v0)) {
   if (v0 == 0) return;
-  unit_ = std::pow(v0, 1 - law.b) * (body.K + 1) * body.R / (law.a * body.g);
+  const double D = law(v0);  // v0^b may have left the range of double, or v0^(1-b)
+  unit_ = (D >= std::numeric_limits<double>::min() ? v0 / D : std::pow(v0, 1 - law.b) / law.a) * ((body.K + 1) * body.R / body.g);
   stop_time_ = unit_ * integrals_.stop();
   last_time_ = unit_ * integrals_.end();
   if (std::isinf(stop_time_)) return;

@@ -1,0 +1,83 @@
+#include "sensor/sonar.h"
+
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/gsl.h"
+
+namespace rolling {
+
+namespace {
+
+void check(const SonarOptions& o) {
+  const auto positive = [](const char* name, double value) {
+    if (!(value > 0 && std::isfinite(value))) fail("the sensor's {} = {} must be a positive number", name, value);
+  };
+  const auto not_negative = [](const char* name, double value) {
+    if (!(value >= 0 && std::isfinite(value))) fail("the sensor's {} = {} must be a number that is not negative", name, value);
+  };
+  positive("rate", o.rate);
+  not_negative("resolution", o.resolution);
+  not_negative("noise", o.noise);
+  if (!(o.lost >= 0 && o.lost <= 1)) fail("the sensor's lost = {} must be a fraction between 0 and 1", o.lost);
+  not_negative("rest_before", o.rest_before);
+  positive("push", o.push);
+  not_negative("rest_after", o.rest_after);
+  if (!std::isfinite(o.start)) fail("the sensor's start = {} must be finite", o.start);
+  if (!(o.until >= 0)) fail("the sensor's until = {} must be a number that is not negative", o.until);
+}
+
+/// x to the nearest multiple of the resolution; divided by 1000 rather than multiplied by 0.001, which is not 1/1000.
+double rounded(double x, double resolution) {
+  if (resolution == 0) return x;
+  const double per_metre = std::round(1 / resolution);
+  if (std::abs(per_metre * resolution - 1) < 1e-12) return std::round(x * per_metre) / per_metre;
+  return std::round(x / resolution) * resolution;
+}
+
+}  // namespace
+
+std::vector<SonarSample> sonar_record(Motion& motion, const SonarOptions& o) {
+  check(o);
+  motion.seek(0);
+  const double v0 = motion.velocity(), x0 = motion.position();
+  const double stop = motion.stop_time(), free = std::min(stop, o.until);
+  if (std::isinf(free)) fail("the body never stops: the sensor needs to know until when to record");
+  const double release = o.rest_before + o.push;
+  const double end = release + free + (stop <= o.until ? o.rest_after : 0);
+
+  const auto position = [&](double t) {
+    if (t <= o.rest_before) return o.start;
+    if (t < release) {  // v = v0 sin^2(pi u / (2 push)), u the time since the hand took hold
+      const double u = t - o.rest_before;
+      return o.start + v0 / 2 * (u - o.push / std::numbers::pi * std::sin(std::numbers::pi * u / o.push));
+    }
+    motion.seek(t - release);
+    return o.start + v0 / 2 * o.push + (motion.position() - x0);
+  };
+
+  silence_gsl();
+  const auto random = own(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
+  gsl_rng_set(random.get(), o.seed);
+  const double records = std::floor(end * o.rate * (1 + 1e-12)) + 1;
+  if (records > 1e9) fail("the sensor would make {:.3g} records", records);
+  std::vector<SonarSample> record(static_cast<std::size_t>(records));
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    record[i].t = static_cast<double>(i) / o.rate;
+    const double x = position(record[i].t) + gsl_ran_gaussian_ziggurat(random.get(), o.noise);
+    if (gsl_rng_uniform(random.get()) >= o.lost) record[i].x = rounded(x, o.resolution);
+  }
+  for (std::size_t i = 2; i + 2 < record.size(); ++i) {
+    const auto &b2 = record[i - 2].x, &b1 = record[i - 1].x, &f1 = record[i + 1].x, &f2 = record[i + 2].x;
+    if (b2 && b1 && f1 && f2) record[i].v = (*f1 + *f2 - *b1 - *b2) * o.rate / 6;
+  }
+  return record;
+}
+
+}  // namespace rolling

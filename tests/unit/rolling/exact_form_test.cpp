@@ -1,0 +1,72 @@
+#include "rolling/exact_form.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "rolling/closed_form.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+
+namespace {
+
+const Body cylinder{1.375, 0.04, 0.5}, shell{1.375, 0.04, 0.83};
+
+}  // namespace
+
+TEST_CASE("ExactForm: the stopping times of model.md", "[rolling]") {
+  CHECK(std::abs(ExactForm(cylinder, {1.87e-3, 0.215}, 0.5, 0).stop_time() - 2.41718911155359) < 5e-15 * 2.4);
+  CHECK(std::abs(ExactForm(shell, {1.78e-3, 0.255}, 0.5, 0).stop_time() - 3.35660676251978) < 5e-15 * 3.4);
+  CHECK(std::abs(ExactForm(shell, {5.75e-4, 0.0244}, 0.5, 0).stop_time() - 6.7638660251676) < 2e-14 * 6.8);
+}
+
+TEST_CASE("ExactForm: x' = v and v' = -g D / ((K + A) R) along the way", "[rolling]") {
+  for (const double b : {0.0, 0.215, 0.8, 1.0, 1.7})
+    for (const double a : {1.87e-3, 0.02, 0.039}) {
+      ExactForm motion(cylinder, {a, b}, 1, 0.1);
+      const double end = std::isinf(motion.stop_time()) ? 2 : motion.stop_time();
+      for (int i = 1; i < 20; ++i) {
+        const double t = end * i / 20.0, h = 1e-4 * end * (1 - i / 20.0);
+        const auto at = [&](double time) {
+          motion.seek(time);
+          return std::pair(motion.position(), motion.velocity());
+        };
+        // fourth order central difference
+        const auto [x1, v1] = at(t - 2 * h);
+        const auto [x2, v2] = at(t - h);
+        const auto [x3, v3] = at(t + h);
+        const auto [x4, v4] = at(t + 2 * h);
+        motion.seek(t);
+        const double D = a * std::pow(motion.velocity(), b), A = std::sqrt(1 - D * D / 0.0016);
+        INFO("a " << a << " b " << b << " i " << i);
+        CHECK(std::abs((x1 - 8 * x2 + 8 * x3 - x4) / (12 * h) - motion.velocity()) < 1e-10);
+        CHECK(std::abs((v1 - 8 * v2 + 8 * v3 - v4) / (12 * h) - motion.acceleration()) < 1e-9);
+        CHECK(std::abs(motion.acceleration() + 9.81 * D / ((0.5 + A) * 0.04)) < 1e-12);
+        CHECK(motion.shift() == D);
+      }
+    }
+}
+
+TEST_CASE("ExactForm: a shallow shift is the closed form, with a difference of second order", "[rolling]") {
+  double before = 0;
+  for (const double a : {8e-3, 4e-3, 2e-3, 1e-3}) {
+    ExactForm exact(cylinder, {a, 0.215}, 0.5, 0);
+    ClosedForm closed(cylinder, {a, 0.215}, 0.5, 0);
+    exact.seek(0.2 / a * 1e-3);
+    closed.seek(0.2 / a * 1e-3);
+    const double difference = closed.velocity() - exact.velocity();
+    CHECK(difference > 0);
+    if (before > 0) CHECK(std::abs(before / difference - 4) < 0.1);
+    before = difference;
+  }
+}
+
+TEST_CASE("ExactForm: rest, and refusals", "[rolling]") {
+  ExactForm motion(cylinder, {0.03, 0.215}, 1, 2);
+  motion.seek(motion.stop_time());
+  CHECK((motion.velocity() == 0 && motion.acceleration() == 0 && motion.shift() == 0));
+  CHECK_THROWS_AS(ExactForm(cylinder, {0.05, 0.215}, 1, 0), Error);
+  ExactForm grows(cylinder, {2e-3, -0.5}, 0.5, 0);
+  CHECK(std::isinf(grows.stop_time()));
+  CHECK_THROWS_AS(grows.seek(10), Error);
+}
