@@ -6,10 +6,10 @@ cd "$(dirname "$0")"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 failed=0
-tolerance=0.02  # of a closure: 1 mm/s at either end is 0.5 %, the error of the fitted law as much again
+tolerance=0.05  # of a closure: over many seeds it scatters about 0 by 1.5 % (the speeds at both ends, the error of the fit)
 
 roll() { awk -f coast.awk "$1.csv"; }                         # the free roll in a raw record
-velocity() { roll "$1" | differentiate -c x | smooth -w 11; }  # v from the positions, smoothed
+velocity() { roll "$1" | differentiate -q -c x | smooth -w 11; }  # v from the positions, smoothed
 shift_of() { velocity "$1" | differentiate | shift-from-accel -K "$2" -R 0.04; }  # Fig. 4: D of v
 
 # The two routes to a and b: through D(v), and by the simulated trajectory.  fits NAME K FILE [K FILE]
@@ -23,7 +23,7 @@ fits() {
     shift 2
   done
   fitpower "${shifts[@]}" >"$scratch/$name.D.fit"
-  fitpower --route position -K "$(IFS=,; echo "${shapes[*]}")" -R 0.04 "${records[@]}" >"$scratch/$name.fit"
+  fitpower -q --route position -K "$(IFS=,; echo "${shapes[*]}")" -R 0.04 "${records[@]}" >"$scratch/$name.fit"
 }
 
 # The row of a fit beside the paper's a and b.

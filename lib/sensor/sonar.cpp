@@ -75,7 +75,7 @@ std::vector<SonarSample> sonar_record(Motion& motion, const SonarOptions& o) {
   }
   for (std::size_t i = 2; i + 2 < record.size(); ++i) {
     const auto &b2 = record[i - 2].x, &b1 = record[i - 1].x, &f1 = record[i + 1].x, &f2 = record[i + 2].x;
-    if (b2 && b1 && f1 && f2) record[i].v = (*f1 + *f2 - *b1 - *b2) * o.rate / 6;
+    if (b2 && b1 && f1 && f2) record[i].v = rounded((*f1 + *f2 - *b1 - *b2) * o.rate / 6, o.resolution / 10) + 0.0;  // no -0
   }
   return record;
 }

@@ -27,7 +27,8 @@ struct SonarOptions {
 struct SonarSample {
   double t;                 ///< since the start of the record [s]
   std::optional<double> x;  ///< distance [m]
-  std::optional<double> v;  ///< (x[i+1] + x[i+2] - x[i-1] - x[i-2]) / (6 dt) of the recorded positions [m/s]
+  std::optional<double> v;  ///< (x[i+1] + x[i+2] - x[i-1] - x[i-2]) / (6 dt) of the recorded positions,
+                            ///< with one decimal more than they have [m/s]
 };
 
 /// Rest, the hand's push from 0 to the motion's speed at its t = 0 (v0 sin^2), free roll, rest. Before the rounding white
