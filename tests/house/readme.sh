@@ -1,0 +1,37 @@
+#!/bin/bash
+# Every example of README.md runs and prints what stands there. `tests/house/readme.sh refresh` rewrites what stands there:
+# read the diff.
+set -u
+readme=$PWD/README.md
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+mkdir "$scratch/run"
+cp -r samples "$scratch/run"
+cd "$scratch/run" || exit 1
+
+examples=0
+inside=0
+command=''
+: >"$scratch/new"
+run() {  # the command collected so far, if any
+  [ -n "$command" ] || return 0
+  bash -o pipefail -c "$command" >>"$scratch/new" 2>&1 || { echo "exit $? from: $command"; exit 1; }
+  command=''
+  examples=$((examples + 1))
+}
+open=0
+while IFS= read -r line; do
+  case $line in
+    '```'*) run; inside=$((1 - inside)); open=0; echo "$line" >>"$scratch/new" ;;
+    '$ '*)
+      if [ $inside = 1 ]; then run; command=${line#\$ }; open=1; fi
+      echo "$line" >>"$scratch/new" ;;
+    *)
+      case $command in
+        *'|' | *\\) command=$command$'\n'$line; echo "$line" >>"$scratch/new"; continue ;;
+      esac
+      [ $inside = 1 ] && [ $open = 1 ] || echo "$line" >>"$scratch/new" ;;  # what an example prints is made anew
+  esac
+done <"$readme"
+[ $examples -ge 5 ] || { echo "only $examples examples found"; exit 1; }
+if [ "${1:-}" = refresh ]; then cp "$scratch/new" "$readme"; else diff -u "$readme" "$scratch/new"; fi
