@@ -1,0 +1,47 @@
+#!/bin/bash
+# Who may include whom: read from the #include "room/..." lines.
+set -u
+cd "$(dirname "$0")/../.." || exit 2
+declare -A may=(
+  [base]=''
+  [text]='base'
+  [signal]='base'
+  [ode]='base'
+  [rolling]='base ode signal'
+  [fit]='base rolling'
+  [sensor]='base rolling'
+  [cli]='base text rolling signal fit'  # signal and fit: what a `##` line says becomes a filter of the fit
+)
+wrong=0 files=0
+complain() { echo "$*" && wrong=1; }
+
+for room in lib/*/; do
+  room=$(basename "$room")
+  [ -n "${may[$room]+known}" ] || { complain "lib/$room: a room without a rule; give it one in $0" && continue; }
+  for file in lib/"$room"/*; do
+    files=$((files + 1))
+    while read -r other; do
+      [[ " $room ${may[$room]} " == *" $other "* ]] || complain "$file includes $other/; $room may include: ${may[$room]:-nothing of ours}"
+    done < <(sed -nE 's|^ *# *include "([^/"]+)/.*|\1|p' "$file")
+    # A file's own room too is named in full.
+    bare=$(grep -nE '^ *# *include "[^/]*"' "$file") && complain "$file: an include without its room: $bare"
+    case $room in
+      cli) ;;
+      *) grep -qE '# *include <CLI/' "$file" && complain "$file: only lib/cli knows CLI11" ;;
+    esac
+    case $room in
+      text | cli) ;;
+      *) grep -qE '# *include <(iostream|fstream|cstdio|stdio\.h|unistd\.h|fcntl\.h)>' "$file" && complain "$file: only lib/text and lib/cli see files" ;;
+    esac
+    case $room in
+      base | ode | fit | sensor | rolling) ;;
+      *) grep -qE '# *include (<gsl/|"base/gsl\.h")' "$file" && complain "$file: $room does without GSL" ;;
+    esac
+  done
+done
+for file in cmd/*.cpp; do
+  files=$((files + 1))
+  grep -qE '# *include <(CLI/|gsl/)' "$file" && complain "$file: a command uses CLI11 and GSL through lib/"
+done
+[ "$files" -gt 20 ] || complain "only $files files were looked at"
+exit $wrong

@@ -1,0 +1,128 @@
+#!/bin/bash
+# Runs the tests and counts them; the last line is `N passed, N failed`, with `, N skipped` if any were.
+#
+#   tests/run.sh [UNIT-PROGRAM] [FOLDER | SCRIPT]...
+#
+# UNIT-PROGRAM is a Catch2 program (2.13 or 3): each of its test cases counts. A FOLDER is searched for cases, a SCRIPT.sh is
+# one test. Without folders and scripts: all cases of tests/tools, all scripts of tests/pipeline and tests/house.
+#
+# A case is a folder with a shell line in `cmd`, which runs there with bin/ on the PATH and nothing on standard input.
+#   expected  standard output, byte for byte; or, if there is a file `approx` with a tolerance, as tests/approx.awk compares
+#   stderr    standard error, byte for byte; empty without that file
+#   status    exit status; 0 without that file. Other than 0, and no `expected`: standard output must be empty
+# A script runs at the top of the checkout: 0 is passed, 77 is skipped (its last line says why), anything else is failed.
+set -u
+root=$(cd "$(dirname "$0")/.." && pwd) || exit 2
+scratch=$(mktemp -d) || exit 2
+trap 'rm -rf "$scratch"' EXIT
+trap 'exit 130' INT TERM
+export PATH="$root/bin:$PATH" LC_ALL=C TMPDIR="$scratch"
+
+# Each of these takes the path of a test and a folder of its own, says what is wrong, and leaves its counts (passed, failed,
+# skipped) in that folder.
+
+run_unit() {
+  local status summary passed failed skipped
+  "$1" >"$2/out" 2>&1
+  status=$?
+  # All tests passed (9 assertions in 3 test cases)  |  test cases: 4 | 2 passed | 1 failed | 1 skipped
+  summary=$(grep -E '^(All tests passed \(|test cases: )' "$2/out" | tail -n 1)
+  count() { grep -oE "[0-9]+ $1" <<<"$summary" | head -n 1 | grep -oE '[0-9]+' || echo 0; }
+  case $summary in
+    All*) passed=$(count 'test case') failed=0 ;;
+    *) passed=$(count passed) failed=$(count 'failed($| *\|)') ;;
+  esac
+  skipped=$(count skipped)
+  if [ "$status" -ne 0 ] || [ "$failed" -ne 0 ] || [ "$passed" -eq 0 ]; then
+    [ "$failed" -ne 0 ] || failed=1
+    cat "$2/out"
+    echo "FAIL $1: exit $status"
+  fi
+  echo "$passed $failed $skipped" >"$2/counts"
+}
+
+run_case() {
+  local status wanted=0 expected=/dev/null errors=/dev/null wrong=''
+  [ ! -f "$1/status" ] || wanted=$(cat "$1/status")
+  [ ! -f "$1/stderr" ] || errors=$1/stderr
+  if [ -f "$1/expected" ]; then expected=$1/expected
+  elif [ "$wanted" = 0 ]; then wrong='there is no file expected'
+  fi
+  (cd "$1" && TMPDIR=$2 exec timeout 60 bash ./cmd) </dev/null >"$2/out" 2>"$2/err"
+  status=$?
+  {
+    [ -z "$wrong" ] || echo "$wrong"
+    [ "$status" = "$wanted" ] || echo "exit $status instead of $wanted"
+    if [ -f "$1/approx" ]; then awk -v tolerance="$(cat "$1/approx")" -f "$root/tests/approx.awk" "$expected" "$2/out"
+    else diff -u --label expected "$expected" --label 'standard output' "$2/out"
+    fi
+    diff -u --label expected "$errors" --label 'standard error' "$2/err"
+  } >"$2/wrong" 2>&1
+  if [ -s "$2/wrong" ]; then
+    echo "FAIL ${1#"$root"/}: $(grep -v '^#' "$1/cmd")"
+    cat "$2/wrong"
+    echo 0 1 0 >"$2/counts"
+  else
+    echo 1 0 0 >"$2/counts"
+  fi
+}
+
+run_script() {
+  (cd "$root" && TMPDIR=$2 exec timeout 1200 "$1") </dev/null >"$2/out" 2>&1
+  local status=$?
+  case $status in
+    0) echo 1 0 0 >"$2/counts" ;;
+    77)
+      echo "SKIP ${1#"$root"/}: $(tail -n 1 "$2/out" | sed 's/^skipped: //')"
+      echo 0 0 1 >"$2/counts"
+      ;;
+    *)
+      echo "FAIL ${1#"$root"/}: exit $status"
+      cat "$2/out"
+      echo 0 1 0 >"$2/counts"
+      ;;
+  esac
+}
+
+absolute() { echo "$(cd "$(dirname "$1")" && pwd)/$(basename "$1")"; }
+
+kinds=() paths=()
+plan() { kinds+=("$1") paths+=("$2"); }
+plan_cases() {
+  local cmd
+  while IFS= read -r cmd; do plan case "${cmd%/cmd}"; done < <(find "$1" -name cmd -type f | sort)
+}
+more=false
+for argument; do
+  if [ -d "$argument" ]; then plan_cases "$(absolute "$argument")" && more=true
+  elif [ ! -x "$argument" ]; then echo "run.sh: $argument: no folder, and no program that can run" && exit 2
+  elif [[ $argument == *.sh ]]; then plan script "$(absolute "$argument")" && more=true
+  else plan unit "$(absolute "$argument")"
+  fi
+done
+if ! $more; then
+  for script in "$root"/tests/pipeline/*.sh "$root"/tests/house/*.sh; do
+    [ ! -e "$script" ] || plan script "$script"
+  done
+  plan_cases "$root/tests/tools"
+fi
+
+# As many at a time as there are processors; what they say comes out in order.
+slots=$(nproc 2>/dev/null || echo 2)
+for i in "${!paths[@]}"; do
+  mkdir "$scratch/$i"
+  [ "$i" -lt "$slots" ] || wait -n
+  "run_${kinds[i]}" "${paths[i]}" "$scratch/$i" >"$scratch/$i/says" 2>&1 &
+done
+wait
+total_passed=0 total_failed=0 total_skipped=0
+for i in "${!paths[@]}"; do
+  cat "$scratch/$i/says"
+  read -r passed failed skipped <"$scratch/$i/counts" || { echo "FAIL ${paths[i]}: no result" && passed=0 failed=1 skipped=0; }
+  total_passed=$((total_passed + passed)) total_failed=$((total_failed + failed)) total_skipped=$((total_skipped + skipped))
+done
+[ "$((total_passed + total_failed))" -gt 0 ] || echo "nothing was tested"
+summary="$total_passed passed, $total_failed failed"
+[ "$total_skipped" -eq 0 ] || summary="$summary, $total_skipped skipped"
+echo "$summary"
+[ "$total_failed" -eq 0 ] && [ "$total_passed" -gt 0 ]

@@ -1,0 +1,108 @@
+#include "fit/covariance.h"
+
+#include "base/error.h"
+#include "unit/fit/simulated.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+
+namespace {
+
+std::vector<double> times(std::size_t n) {
+  std::vector<double> t;
+  for (std::size_t i = 0; i < n; ++i) t.push_back(0.1 * static_cast<double>(i));
+  return t;
+}
+
+std::vector<double> dense(const BandMatrix& M, std::size_t columns) {
+  std::vector<double> all(M.rows() * columns, 0);
+  for (std::size_t i = 0; i < M.rows(); ++i)
+    for (std::size_t j = 0; j < M.row(i).size(); ++j) all[i * columns + M.first(i) + j] = M.row(i)[j];
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("covariance: a probed chain does to a column what the filters do, shrinking and one-sided ends included", "[fit]") {
+  for (std::size_t n : {3u, 4u, 9u, 40u}) {
+    const auto t = times(n);
+    const FilterChain chain{simulated::differentiate("x", "v"), simulated::smooth_v(7), simulated::differentiate("v", "a")};
+    const auto response = noise_response(chain, t);
+    CHECK(response.source == "x");
+    std::vector<double> x;
+    for (std::size_t i = 0; i < n; ++i) x.push_back(std::sin(3.7 * static_cast<double>(i * i)));
+    const auto v = chain[1].apply(t, chain[0].apply(t, x)), a = chain[2].apply(t, v);
+    for (std::size_t i = 0; i < n; ++i) {
+      CHECK(std::abs(response.of.at("v").times(i, x) - v[i]) < 1e-12);
+      CHECK(std::abs(response.of.at("a").times(i, x) - a[i]) < 1e-11);
+    }
+  }
+}
+
+TEST_CASE("covariance: noise from two raw columns is refused", "[fit]") {
+  CHECK_THROWS_AS(noise_response({simulated::smooth_v(3), simulated::differentiate("x", "w")}, times(9)), Error);
+}
+
+TEST_CASE("covariance: whitening turns E into an orthogonal matrix, and drops what has no noise", "[fit]") {
+  constexpr std::size_t n = 25;
+  const auto t = times(n);
+  for (bool difference : {false, true}) {
+    const BandMatrix E = difference ? probe(simulated::differentiate("x", "v"), t) : probe(simulated::smooth_v(5), t);
+    const Whitener whitener(E, 0);
+    auto A = dense(E, n);
+    for (std::size_t j = 0; j < n; ++j) whitener.apply(&A[j], n);  // W E
+    double trace = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < n; ++k) {
+        double sum = 0;
+        for (std::size_t j = 0; j < n; ++j) sum += A[i * n + j] * A[k * n + j];
+        if (i == k) trace += sum;
+        else CHECK(std::abs(sum) < 1e-9);
+      }
+    CHECK(std::abs(trace - (difference ? n - 1 : n)) < 1e-9);  // the differences know nothing of a constant
+  }
+}
+
+TEST_CASE("covariance: the floor is white noise of its own", "[fit]") {
+  const BandMatrix E = probe(simulated::smooth_v(3), times(6));
+  const Whitener whitener(E, 0.5);
+  // C = E E^T + 0.25 I, so (W x).(W x) = x^T C^-1 x; for x = C y that is y^T C y
+  const auto e = dense(E, 6);
+  std::vector<double> y{1, -2, 0.5, 3, -1, 2}, x(6, 0);
+  double expected = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      double c = i == k ? 0.25 : 0;
+      for (std::size_t j = 0; j < 6; ++j) c += e[i * 6 + j] * e[k * 6 + j];
+      x[i] += c * y[k];
+    }
+    expected += y[i] * x[i];
+  }
+  auto z = x;
+  whitener.apply(z.data(), 1);
+  double sum = 0;
+  for (double s : z) sum += s * s;
+  CHECK(std::abs(sum / expected - 1) < 1e-13);
+  whitener.apply_transposed(z.data());  // R^-1 R^-T x = C^-1 x = y
+  for (std::size_t i = 0; i < 6; ++i) CHECK(std::abs(z[i] - y[i]) < 1e-12);
+}
+
+TEST_CASE("covariance: Ljung-Box tells white residuals from correlated ones", "[fit]") {
+  simulated::Noise noise(3);
+  std::vector<double> white, smooth;
+  for (int i = 0; i < 200; ++i) white.push_back(noise(1));
+  smooth = simulated::mean(white, 5);
+  const std::size_t one[] = {200}, two[] = {100, 100};
+  CHECK(looks_white(white, one));
+  CHECK(looks_white(white, two));
+  CHECK(!looks_white(smooth, one));
+}
+
+TEST_CASE("covariance: Newey-West by hand", "[fit]") {
+  // residuals 1 1 -1 -1 twice over: rho, Andrews' bandwidth and Bartlett's weights worked out on paper
+  const std::vector<double> u{1, 1, -1, -1, 1, 1, -1, -1};
+  const std::size_t runs[] = {8};
+  // products one apart: 1 -1 1 -1 1 -1 1 = 1, so rho = 1/8, alpha = 4/64 / (63/64)^2 = 0.0645, width = ceil(1.1447 cbrt(0.516)) = 1
+  const auto S = newey_west(u, 1, u, runs);
+  CHECK(std::abs(S[0] - (8 + 2 * 0.5 * 1)) < 1e-12);
+}

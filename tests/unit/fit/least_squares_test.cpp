@@ -1,0 +1,48 @@
+#include "fit/least_squares.h"
+
+#include "base/error.h"
+#include "unit/catch.h"
+
+#include <cmath>
+
+using namespace rolling;
+
+TEST_CASE("minimise: Rosenbrock's valley, from the usual start", "[fit]") {
+  const System valley{2, 2, [](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+    f = {10 * (x[1] - x[0] * x[0]), 1 - x[0]};
+    J = {-20 * x[0], 10, -1, 0};
+  }};
+  const auto m = minimise(valley, {-1.2, 1});
+  CHECK(std::abs(m.theta[0] - 1) < 1e-14);
+  CHECK(std::abs(m.theta[1] - 1) < 1e-14);
+}
+
+TEST_CASE("minimise: a kink at the minimum is a minimum", "[fit]") {
+  // (1 + |x|/4)^2 + (1 - x/6)^2 has the slopes -1/2 - 1/3 and 1/2 - 1/3 on the two sides of x = 0: no step goes down from there
+  const System kink{2, 1, [](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+    f = {1 + std::abs(x[0]) / 4, 1 - x[0] / 6};
+    J = {x[0] > 0 ? 0.25 : -0.25, -1.0 / 6};
+  }};
+  CHECK(std::abs(minimise(kink, {0.7}).theta[0]) < 1e-6);
+}
+
+TEST_CASE("minimise: refuses what does not converge and what cannot be told apart", "[fit]") {
+  const System runaway{3, 1, [](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+    f = {std::exp(-x[0]), std::exp(-x[0]), 2 * std::exp(-x[0])};
+    J = {-f[0], -f[1], -f[2]};
+  }};
+  CHECK_THROWS_AS(minimise(runaway, {0}), Error);
+  const System twins{3, 2, [](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+    f = {x[0] + x[1] - 1, x[0] + x[1] - 2, x[0] + x[1] - 3};
+    J = {1, 1, 1, 1, 1, 1};
+  }};
+  CHECK_THROWS_AS(minimise(twins, {0, 0}), Error);
+}
+
+TEST_CASE("spread: covariance of functions of the parameters", "[fit]") {
+  // R = [2 1; 0 4], M = I: R^-1 R^-T = [17 -2; -2 4] / 64
+  const Spread spread({2, 1, 0, 4}, {1, 0, 0, 1}, 2);
+  CHECK(std::abs(spread({1, 0}, {1, 0}) - 17.0 / 64) < 1e-15);
+  CHECK(std::abs(spread({1, 0}, {0, 1}) + 2.0 / 64) < 1e-15);
+  CHECK(std::abs(spread({0, 1}, {0, 1}) - 4.0 / 64) < 1e-15);
+}

@@ -1,0 +1,122 @@
+#include "signal/derivative.h"
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include "base/error.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+
+namespace {
+
+std::vector<double> differentiated(const std::vector<double>& t, const std::vector<double>& y) {
+  CentralDerivative derivative;
+  std::vector<double> out;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    for (const double value : derivative.push(t[i], y[i])) out.push_back(value);
+  for (const double value : derivative.finish()) out.push_back(value);
+  return out;
+}
+
+/// Times from 0 to 1 in steps that differ by up to a factor of 3, in a pattern that stays as n grows.
+std::vector<double> uneven_times(int n) {
+  std::vector<double> t;
+  for (int i = 0; i <= n; ++i) t.push_back((i + (i % 2 ? 0.5 : 0) * (i < n)) / n);
+  return t;
+}
+
+struct Errors { double inside, ends; };
+
+Errors worst_errors(const std::vector<double>& t, const std::function<double(double)>& f, const std::function<double(double)>& slope) {
+  std::vector<double> y;
+  for (const double time : t) y.push_back(f(time));
+  const auto d = differentiated(t, y);
+  REQUIRE(d.size() == t.size());
+  Errors worst{0, 0};
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    double& error = i == 0 || i + 1 == t.size() ? worst.ends : worst.inside;
+    error = std::max(error, std::abs(d[i] - slope(t[i])));
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("derivative: exact on a parabola, even times and uneven, ends and all", "[signal]") {
+  // Binary fractions, so that there is no rounding to excuse.
+  const std::vector<double> even = {0, 0.25, 0.5, 0.75, 1}, uneven = {-2, -1.5, 0.5, 1, 5, 5.25};
+  for (const auto& t : {even, uneven}) {
+    std::vector<double> y, slope;
+    for (const double time : t) y.push_back(3 - 2 * time + 4 * time * time), slope.push_back(-2 + 8 * time);
+    const auto d = differentiated(t, y);
+    REQUIRE(d.size() == t.size());
+    for (std::size_t i = 0; i < t.size(); ++i) CHECK(std::abs(d[i] - slope[i]) < 1e-13);
+  }
+}
+
+TEST_CASE("derivative: exact on 100 random parabolas, uneven times", "[signal]") {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int trial = 0; trial < 100; ++trial) {
+    const double a = any(random), b = any(random), c = any(random);
+    std::vector<double> t = {any(random)};
+    for (int i = 0; i < 20; ++i) t.push_back(t.back() + 0.05 + std::abs(any(random)));
+    const Errors worst = worst_errors(t, [&](double x) { return a + b * x + c * x * x; }, [&](double x) { return b + 2 * c * x; });
+    CHECK(std::max(worst.inside, worst.ends) < 1e-11);
+  }
+}
+
+TEST_CASE("derivative: by hand", "[signal]") {
+  CHECK(differentiated({0, 1, 2}, {0, 1, 4}) == std::vector<double>{0, 2, 4});
+  CHECK(differentiated({0, 1, 3}, {0, 1, 9}) == std::vector<double>{0, 2, 6});
+  CHECK(differentiated({0, 1, 2, 3}, {0, 0, 6, 0}) == std::vector<double>{-3, 3, 0, -12});
+}
+
+TEST_CASE("derivative: second order on any spacing, at the ends too", "[signal]") {
+  const auto f = [](double t) { return std::sin(5 * t); };
+  const auto slope = [](double t) { return 5 * std::cos(5 * t); };
+  for (const bool even : {true, false}) {
+    const auto times = [&](int n) {
+      auto t = uneven_times(n);
+      if (even)
+        for (int i = 0; i <= n; ++i) t[static_cast<std::size_t>(i)] = static_cast<double>(i) / n;
+      return t;
+    };
+    Errors last = worst_errors(times(16), f, slope);
+    // The parabola's error is f''' h1 h2 / 6 inside and f''' h1 (h1 + h2) / 6 at an end, f''' <= 125, h <= 1.5 / 16.
+    CHECK(last.inside <= 125 * std::pow(1.5 / 16, 2) / 6);
+    CHECK(last.ends <= 125 * 2 * std::pow(1.5 / 16, 2) / 6);
+    for (int n = 32; n <= 4096; n *= 2) {
+      const Errors now = worst_errors(times(n), f, slope);
+      INFO(n << (even ? " even" : " uneven"));
+      CHECK(std::abs(std::log2(last.inside / now.inside) - 2) < 0.35);
+      CHECK(std::abs(std::log2(last.ends / now.ends) - 2) < 0.35);
+      last = now;
+    }
+  }
+}
+
+TEST_CASE("derivative: two samples have one slope, one sample has none", "[signal]") {
+  CHECK(differentiated({1, 3}, {5, 4}) == std::vector<double>{-0.5, -0.5});
+  CHECK_THROWS_AS(differentiated({1}, {5}), Error);
+  CHECK(differentiated({}, {}).empty());
+}
+
+TEST_CASE("derivative: each is known one sample later", "[signal]") {
+  CentralDerivative derivative;
+  CHECK(derivative.push(0, 0).empty());
+  CHECK(derivative.push(1, 1).empty());
+  CHECK(derivative.push(2, 4).size() == 2);
+  CHECK(derivative.push(3, 9).size() == 1);
+  CHECK(derivative.finish().size() == 1);
+}
+
+TEST_CASE("derivative: a shift of the time axis by a power of two changes no bit", "[signal]") {
+  const std::vector<double> t = {0, 0.25, 0.75, 1, 1.25}, y = {0.1, 0.7, 0.3, 0.2, 0.9};
+  std::vector<double> later;
+  for (const double time : t) later.push_back(time + 1024);
+  CHECK(differentiated(later, y) == differentiated(t, y));
+}

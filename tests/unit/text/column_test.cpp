@@ -1,0 +1,131 @@
+#include "text/column.h"
+
+#include <string>
+
+#include "unit/text/files.h"
+#include "text/number.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+
+TEST_CASE("column: a name says its quantity and its unit", "[text]") {
+  struct Case { const char* text; Column column; };
+  const Case cases[] = {
+      {"v[m/s]", {"v", "m/s", 0}},
+      {"v", {"v", "", 0}},
+      {" v[m/s] ", {"v", "m/s", 0}},
+      {"Velocity (m/s)", {"v", "m/s", 0}},
+      {"Velocity(m/s)", {"v", "m/s", 0}},
+      {"velocity [m/s]", {"v", "m/s", 0}},
+      {"Speed (km/h)", {"v", "km/h", 0}},
+      {"Time (s)", {"t", "s", 0}},
+      {"Time(s)", {"t", "s", 0}},
+      {"TIME", {"t", "", 0}},
+      {"Position (m)", {"x", "m", 0}},
+      {"Acceleration (m/s^2)", {"a", "m/s^2", 0}},
+      {"Acceleration (m/s2)", {"a", "m/s^2", 0}},
+      {"Acceleration (m/s\xC2\xB2)", {"a", "m/s^2", 0}},
+      {"Acceleration (m/s\xB2)", {"a", "m/s^2", 0}},
+      {"Acceleration (m/s/s)", {"a", "m/s/s", 0}},
+      {"Time (\xC2\xB5s)", {"t", "us", 0}},
+      {"Time (\xCE\xBCs)", {"t", "us", 0}},
+      {"Time (\xB5s)", {"t", "us", 0}},
+      {"Latest: Time (s)", {"t", "s", 0}},
+      {"Data Set 1:Time(s)", {"t", "s", 1}},
+      {"Data Set 12: Velocity (m/s)", {"v", "m/s", 12}},
+      {"Velocity (m/s) Run #2", {"v", "m/s", 2}},
+      {"Time (s) Run 3", {"t", "s", 3}},
+      {"D[m]", {"D", "m", 0}},
+      {"d[m]", {"d", "m", 0}},
+      {"T", {"T", "", 0}},
+      {"V [V]", {"V", "V", 0}},
+      {"X", {"X", "", 0}},
+      {"Angular Velocity (rad/s)", {"Angular_Velocity", "rad/s", 0}},
+      {"E_diss[J]", {"E_diss", "J", 0}},
+      {"Runway (m)", {"Runway", "m", 0}},
+      {"Run", {"Run", "", 0}},
+      {"TestRun 2", {"TestRun_2", "", 0}},
+      {"", {"", "", 0}},
+      {"(s)", {"(s)", "", 0}},
+  };
+  for (const Case& c : cases) {
+    INFO(c.text);
+    const Column column = read_column(c.text);
+    CHECK(column.name == c.column.name);
+    CHECK(column.unit == c.column.unit);
+    CHECK(column.run == c.column.run);
+  }
+}
+
+TEST_CASE("column: what goes out is read back as the same", "[text]") {
+  for (const char* text : {"Velocity (m/s)", "Acceleration (m/s\xC2\xB2)", "Angular Velocity (rad/s)", "w", "Time (ms)"}) {
+    const Column column = read_column(text);
+    CHECK(read_column(to_text(column)) == column);
+  }
+  CHECK(to_text(Column{"v", "m/s", 0}) == "v[m/s]");
+  CHECK(to_text(Column{"closure", "", 0}) == "closure");
+}
+
+TEST_CASE("column: each unit against its exact size", "[text]") {
+  struct Case { const char *quantity, *unit; double value, si; };
+  const Case cases[] = {
+      {"t", "s", 0.3, 0.3},       {"t", "sec", 0.3, 0.3},     {"t", "ms", 40, 0.04},       {"t", "us", 5, 5e-6},       {"t", "min", 1.5, 90},
+      {"t", "h", 0.5, 1800},      {"x", "m", 0.7, 0.7},       {"x", "mm", 1, 0.001},       {"x", "cm", 7, 0.07},       {"x", "dm", 3, 0.3},
+      {"x", "um", 3, 3e-6},       {"x", "km", 0.25, 250},     {"x", "in", 1, 0.0254},      {"x", "ft", 1, 0.3048},     {"v", "m/s", 0.1, 0.1},
+      {"v", "mm/s", 1, 0.001},    {"v", "cm/s", 7, 0.07},     {"v", "km/h", 72, 20},       {"v", "km/h", 3.6, 1},      {"v", "mph", 1, 0.44704},
+      {"v", "ft/s", 1, 0.3048},   {"a", "m/s^2", 9.81, 9.81}, {"a", "m/s/s", 9.81, 9.81},  {"a", "mm/s^2", 1, 0.001},  {"a", "cm/s^2", 981, 9.81},
+      {"D", "m", 1e-3, 1e-3},     {"D", "mm", 1.5, 0.0015},   {"D", "um", 1500, 0.0015},
+  };
+  for (const Case& c : cases) {
+    INFO(c.quantity << " in " << c.unit);
+    CHECK(conversion_to_si(c.quantity, Column{c.quantity, c.unit, 0})(c.value) == c.si);
+  }
+}
+
+TEST_CASE("column: a whole number of a decimal unit is the double that one would have typed in SI", "[text]") {
+  const Conversion mm = conversion_to_si("x", Column{"x", "mm", 0}), us = conversion_to_si("t", Column{"t", "us", 0});
+  int different = 0;
+  for (int n = 0; n < 20000; ++n) {
+    double typed;
+    REQUIRE(parse_number(std::to_string(n) + "e-3", typed));
+    different += mm(n) != typed;
+    REQUIRE(parse_number(std::to_string(n) + "e-6", typed));
+    different += us(n) != typed;
+  }
+  CHECK(different == 0);
+}
+
+TEST_CASE("column: SI changes nothing, so that its text can pass", "[text]") {
+  for (const char* unit : {"", "s", "sec"}) CHECK_FALSE(conversion_to_si("t", Column{"t", unit, 0}).changes());
+  CHECK(conversion_to_si("t", Column{"t", "ms", 0}).changes());
+  CHECK_FALSE(conversion_to_si("w", Column{"w", "rpm", 0}).changes());  // not a known quantity: no claim about its unit
+}
+
+TEST_CASE("column: a unit that the quantity cannot have is refused", "[text]") {
+  for (const char* unit : {"m", "furlong/s", "M/S", "m/s^2", "knots"}) {
+    INFO(unit);
+    CHECK_THROWS_AS(conversion_to_si("v", Column{"v", unit, 0}), Error);
+  }
+  CHECK(refusal([] { conversion_to_si("t", Column{"t", "fortnight", 0}); }) ==
+        "column 't[fortnight]' cannot serve as t: its unit 'fortnight' is not one of those known (s, ...); convert it first");
+}
+
+TEST_CASE("column: the SI unit of each quantity", "[text]") {
+  CHECK(si_unit("t") == "s");
+  CHECK(si_unit("x") == "m");
+  CHECK(si_unit("v") == "m/s");
+  CHECK(si_unit("a") == "m/s^2");
+  CHECK(si_unit("D") == "m");
+  CHECK(si_unit("w").empty());
+}
+
+TEST_CASE("column: a names line is one name a field", "[text]") {
+  using Names = std::vector<std::string>;
+  CHECK(split_names("t[s]\tv[m/s]", '\t') == Names{"t[s]", "v[m/s]"});
+  CHECK(split_names("Time (s),Velocity (m/s)", ',') == Names{"Time (s)", "Velocity (m/s)"});
+  CHECK(split_names(" Time (s) ; v ;", ';') == Names{"Time (s)", "v", ""});
+  CHECK(split_names("t v  a", '\0') == Names{"t", "v", "a"});
+  CHECK(split_names("Time (s)  Velocity (m/s)", '\0') == Names{"Time (s)", "Velocity (m/s)"});
+  CHECK(split_names("Time [s]\tv", '\0') == Names{"Time [s]", "v"});
+  CHECK(split_names("", '\0').empty());
+}

@@ -1,0 +1,133 @@
+#include "text/filter.h"
+
+#include <limits>
+
+#include "unit/text/files.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+
+namespace {
+
+/// What a filter prints that replaces v by -v, or appends `columns` of v, 2 v, ..., each record `late` records late.
+std::string filtered(const std::vector<std::string>& texts, const std::vector<Column>& append, std::size_t late = 0) {
+  std::vector<std::unique_ptr<TemporaryFile>> files;
+  ReaderOptions options;
+  for (const std::string& text : texts) options.files.push_back(files.emplace_back(std::make_unique<TemporaryFile>(text))->name());
+  return printed([&] {
+    Reader in(options, {"t", "v"});
+    Output out;
+    const auto v = in.need("v");
+    Filter filter(in, out, "test it");
+    if (append.empty()) filter.replace(v);
+    for (const Column& column : append) filter.append(column);
+    while (filter.next_run()) {
+      std::vector<double> waiting;
+      const auto put = [&] {
+        for (std::size_t i = 0; i < append.size(); ++i) filter.put(static_cast<double>(i + 1) * waiting.front());
+        if (append.empty()) filter.put(-waiting.front());
+        waiting.erase(waiting.begin());
+      };
+      while (filter.next()) {
+        waiting.push_back(filter[v]);
+        if (waiting.size() > late) put();
+      }
+      while (!waiting.empty()) put();
+    }
+    out.flush();
+  });
+}
+
+const std::vector<Column> one = {{"y", "m", 0}}, two = {{"y", "m", 0}, {"z", "", 0}};
+
+}  // namespace
+
+TEST_CASE("filter: a replaced column, whatever stands around it", "[text]") {
+  CHECK(filtered({"# t v note\n0 1.0 a\n01 2 b\n"}, {}) == "## test it\n# t\tv[m/s]\tnote\n0\t-1\ta\n01\t-2\tb\n");
+}
+
+TEST_CASE("filter: appended columns take their numbers in turn", "[text]") {
+  CHECK(filtered({"# t v\n0 1.0\n1 2.0\n"}, two) == "## test it\n# t\tv[m/s]\ty[m]\tz\n0\t1.0\t1\t2\n1\t2.0\t2\t4\n");
+}
+
+TEST_CASE("filter: however late the numbers come, the rows come out the same", "[text]") {
+  const std::string text = "# by hand\n# t v\n0 1\n# among\n1 2\n2 3\n\n# between\n0 4\n1 5\n# last\n";
+  for (const auto& columns : {std::vector<Column>{}, one, two})
+    for (std::size_t late = 1; late < 5; ++late) {
+      INFO(late << " late, " << columns.size() << " appended");
+      CHECK(filtered({text}, columns, late) == filtered({text}, columns, 0));
+    }
+}
+
+TEST_CASE("filter: comments keep their place, also after the last record", "[text]") {
+  for (std::size_t late = 0; late < 4; ++late) {
+    INFO(late << " late");
+    CHECK(filtered({"# by hand\n# t v\n0 1\n# among\n1 2\n# end of run\n\n# between\n0 4\n# last\n"}, one, late) ==
+          "# by hand\n## test it\n# t\tv[m/s]\ty[m]\n0\t1\t1\n# among\n1\t2\t2\n# end of run\n\n# between\n0\t4\t4\n# last\n");
+  }
+}
+
+TEST_CASE("filter: one blank line between runs, none before the first and after the last", "[text]") {
+  CHECK(filtered({"\n\n0 1\n\n\n\n0 2\n\n\n"}, one) == "## test it\n# t[s]\tv[m/s]\ty[m]\n0\t1\t1\n\n0\t2\t2\n");
+  CHECK(filtered({"0 1\n", "0 2\n"}, one) == "## test it\n# t[s]\tv[m/s]\ty[m]\n0\t1\t1\n\n0\t2\t2\n");
+  CHECK(filtered({"# t v\n0 NaN\n\n0 2\n\n0 NaN\n\n0 3\n"}, one) == "## test it\n# t\tv[m/s]\ty[m]\n0\t2\t2\n\n0\t3\t3\n");
+}
+
+TEST_CASE("filter: the name of a computed column is its own, the old one becomes NAME_in", "[text]") {
+  CHECK(filtered({"# t[s] v[m/s] y[km]\n0 1 2\n"}, one) == "## test it\n# t[s]\tv[m/s]\ty_in[km]\ty[m]\n0\t1\t2\t1\n");
+  CHECK(filtered({"# y_in v y\n0 1 2\n"}, one) == "## test it\n# y_in\tv[m/s]\ty_in_in\ty[m]\n0\t1\t2\t1\n");
+}
+
+TEST_CASE("filter: where the history changes, it says again what it does", "[text]") {
+  CHECK(filtered({"## a b c\n# t v\n0 1\n", "# t v\n0 2\n"}, one) ==
+        "## a b c\n## test it\n# t\tv[m/s]\ty[m]\n0\t1\t1\n\n## test it\n0\t2\t2\n");
+}
+
+TEST_CASE("filter: a result that is not finite is refused, and its row is not begun", "[text]") {
+  const TemporaryFile file("0 1\n1 2\n");
+  std::string message;
+  CHECK(printed([&] {
+    Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
+    Output out;
+    in.need("v");
+    Filter filter(in, out, "test it");
+    filter.append({"y", "", 0});
+    message = refusal([&] {
+      filter.next_run();
+      filter.next();
+      filter.put(1);
+      filter.next();
+      filter.put(std::numeric_limits<double>::infinity());
+    });
+    out.drop_line();
+    out.flush();
+  }) == "## test it\n# t[s]\tv[m/s]\ty\n0\t1\t1\n");
+  CHECK(message == "the result is not a finite number");
+}
+
+TEST_CASE("filter: no record with all its readings is an error", "[text]") {
+  const TemporaryFile file("# t v\n0 NaN\n\n1 NaN\n");
+  std::string message;
+  printed([&] {
+    Reader in({{file.name()}, {}, {}, false}, {});
+    Output out;
+    in.need("v");
+    Filter filter(in, out, "test it");
+    filter.append({"y", "", 0});
+    message = refusal([&] {
+      while (filter.next_run())
+        while (filter.next()) filter.put(1);
+    });
+  });
+  CHECK(message == "no records: a needed reading is missing in every one");
+}
+
+TEST_CASE("filter: ten thousand rows that wait for a late filter", "[text]") {
+  std::string text, expected = "## test it\n# t[s]\tv[m/s]\ty[m]\n";
+  for (int i = 0; i < 10000; ++i) {
+    const std::string n = std::to_string(i);
+    text += n + ' ' + n + '\n';
+    expected += n + '\t' + n + '\t' + n + '\n';
+  }
+  CHECK((filtered({text}, one, 3000) == expected));
+}

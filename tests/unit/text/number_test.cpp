@@ -1,0 +1,155 @@
+#include "text/number.h"
+
+#include <bit>
+#include <charconv>
+#include <clocale>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "unit/catch.h"
+
+using namespace rolling;
+
+namespace {
+
+std::string written(double value, int digits = 0) {
+  std::string text = "kept ";
+  append_number(text, value, digits);
+  REQUIRE(text.starts_with("kept "));
+  return text.substr(5);
+}
+
+bool same_bits(double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); }
+
+std::size_t significant_digits(std::string_view text) {
+  std::string digits;
+  for (const char c : text.substr(0, text.find_first_of("eE")))
+    if (c >= '0' && c <= '9' && (c != '0' || !digits.empty())) digits += c;
+  while (!digits.empty() && digits.back() == '0') digits.pop_back();
+  return digits.size();
+}
+
+}  // namespace
+
+TEST_CASE("number: every form of the grammar is read", "[text]") {
+  const std::pair<const char*, double> forms[] = {
+      {"0", 0},        {"7", 7},          {"007", 7},       {"+7", 7},        {"-7", -7},        {"7.", 7},         {"+7.", 7},
+      {".5", .5},      {"+.5", .5},       {"-.5", -.5},     {"0.5", .5},      {"1e3", 1000},     {"1E3", 1000},     {"1e+3", 1000},
+      {"1e-3", 1e-3},  {"1.e3", 1000},    {".5e1", 5},      {"+1.25E-2", 0.0125}, {"1e03", 1000}, {"0e999", 0},     {"123456789012345678901234567890", 123456789012345678901234567890.},
+      {"0.1", 0.1},    {"1.7976931348623157e308", std::numeric_limits<double>::max()},
+      {"2.2250738585072014e-308", std::numeric_limits<double>::min()}, {"4.9e-324", std::numeric_limits<double>::denorm_min()}};
+  for (const auto& [text, expected] : forms) {
+    double value = -99;
+    INFO(text);
+    CHECK(parse_number(text, value));
+    CHECK(same_bits(value, expected));
+  }
+}
+
+TEST_CASE("number: whatever is not wholly a number is refused", "[text]") {
+  for (const char* text : {"",      " ",     "+",     "-",      ".",      "+.",    "-.",   "e5",    ".e5",   "1e",    "1e+",   "1e-",  "1e5.",
+                           "1e5e5", "--1",   "++1",   "+-1",    "-+1",    "1,5",   "1 5",  " 1",    "1 ",    "1\t",   "0x10",  "0x1p3", "1p3",
+                           "0.5abc", "1.2.3", "1..2",  "inf",    "-inf",   "+inf",  "INF",  "Infinity", "nan", "NaN",  "-nan",  "1_000", "1'000",
+                           "1d5",   "1f",    "0b1",   "\xC2\xB2", "1\xE2\x88\x92", "\xE2\x88\x92" "1", "1e400", "-1e400", "1e-400", "1.8e308", "one"}) {
+    double value;
+    INFO(text);
+    CHECK_FALSE(parse_number(text, value));
+  }
+  double value;
+  CHECK_FALSE(parse_number(std::string_view("1\0", 2), value));
+  CHECK_FALSE(parse_number(std::string_view("\0", 1), value));
+}
+
+TEST_CASE("number: only the field is read, not what stands behind it", "[text]") {
+  double value;
+  CHECK(parse_number(std::string_view("1.55", 3), value));
+  CHECK(value == 1.5);
+  CHECK(parse_number(std::string_view("1e5", 1), value));
+  CHECK(value == 1);
+}
+
+TEST_CASE("number: a field of 100000 digits is rounded right", "[text]") {
+  double value;
+  CHECK(parse_number("1." + std::string(100000, '0') + "1", value));
+  CHECK(value == 1);
+  CHECK(parse_number("0." + std::string(99999, '0') + "1e100000", value));
+  CHECK(value == 1);
+  // Half an ulp above 1, and a bit more: up, not to even.
+  CHECK(parse_number("1.00000000000000011102230246251565404236316680908203125", value));
+  CHECK(value == 1);
+  CHECK(parse_number("1.00000000000000011102230246251565404236316680908203125" + std::string(1000, '0') + "1", value));
+  CHECK(value == 1 + std::numeric_limits<double>::epsilon());
+}
+
+TEST_CASE("number: 100000 random doubles are written in the fewest digits and read back to the same bits", "[text]") {
+  std::mt19937_64 random(20240229);
+  int failures = 0, longer = 0, denormals = 0;
+  for (int i = 0; i < 100000; ++i) {
+    std::uint64_t bits = random();
+    if (i % 10 == 0) bits &= 0x800fffffffffffffULL >> (random() % 52) | 0x8000000000000000ULL;  // denormals, and -0
+    const double value = i % 3 == 0 ? std::ldexp(std::floor(std::ldexp(1, 40) * std::sin(i)), -30) : std::bit_cast<double>(bits);
+    if (!std::isfinite(value)) continue;
+    denormals += value != 0 && std::abs(value) < std::numeric_limits<double>::min();
+    const std::string text = written(value);
+    double again;
+    if (!parse_number(text, again) || !same_bits(value, again)) ++failures;
+    char shortest[64];
+    const auto end = std::to_chars(shortest, shortest + sizeof shortest, value, std::chars_format::scientific).ptr;
+    if (significant_digits(text) > significant_digits({shortest, static_cast<std::size_t>(end - shortest)})) ++longer;
+  }
+  CHECK(failures == 0);
+  CHECK(longer == 0);
+  CHECK(denormals > 1000);
+}
+
+TEST_CASE("number: the text of a double, by hand", "[text]") {
+  CHECK(written(0.1) == "0.1");
+  CHECK(written(-0.0) == "-0");
+  CHECK(written(0) == "0");
+  CHECK(written(100) == "100");
+  CHECK(written(1. / 3) == "0.3333333333333333");
+  CHECK(written(5e-324) == "5e-324");
+  CHECK(written(-1.7976931348623157e308) == "-1.7976931348623157e+308");
+}
+
+TEST_CASE("number: digits round to as many significant ones", "[text]") {
+  CHECK(written(2. / 3, 3) == "0.667");
+  CHECK(written(1234.5678, 6) == "1234.57");
+  CHECK(written(-2. / 3, 1) == "-0.7");
+  CHECK(written(0.5, 17) == "0.5");
+  CHECK(written(0.1, 17) == "0.10000000000000001");
+  CHECK(written(-1.2345678901234567e-308, 17).size() < 32);
+}
+
+TEST_CASE("number: the locale has no say", "[text]") {
+  for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE", "nl_NL.UTF-8"})
+    if (std::setlocale(LC_ALL, name)) break;  // one with a decimal comma, if the system has any
+  double value;
+  CHECK(parse_number("1.5", value));
+  CHECK_FALSE(parse_number("1,5", value));
+  CHECK(written(1.5) == "1.5");
+  CHECK(written(1234567.5, 9) == "1234567.5");
+  std::setlocale(LC_ALL, "C");
+}
+
+TEST_CASE("number: a missing reading is nothing, or NaN in any case", "[text]") {
+  for (const char* text : {"", "nan", "NaN", "NAN", "nAn"}) CHECK(is_missing(text));
+  for (const char* text : {" ", "-", "na", "NA", "nann", "-nan", "+nan", "nan(1)", "n", "0", "null", "\x0e\x01n", "NaN "}) {
+    INFO(text);
+    CHECK_FALSE(is_missing(text));
+  }
+}
+
+TEST_CASE("number: a message shows printable ASCII, cut at 40 characters", "[text]") {
+  CHECK(shown("abc") == "abc");
+  CHECK(shown("a\tb\x7f\xC2\xB2\n") == "a?b????");
+  CHECK(shown(std::string(40, 'x')) == std::string(40, 'x'));
+  CHECK(shown(std::string(41, 'x')) == std::string(40, 'x') + "...");
+}
+
+TEST_CASE("number: blanks and tabs are trimmed, nothing else", "[text]") {
+  CHECK(trim(" \t a b\t ") == "a b");
+  CHECK(trim(" \t ").empty());
+  CHECK(trim("\xA0" "1") == "\xA0" "1");
+}

@@ -1,0 +1,350 @@
+#include "text/reader.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "unit/text/files.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+
+namespace {
+
+using Texts = std::vector<std::string>;
+
+/// All that a reader gives of t and v (or `wanted`) in files of these texts: records as "t v", " | " between them, " || "
+/// between runs; or the message that refuses them.
+std::string records(const Texts& texts, ReaderOptions options = {}, const std::vector<std::string>& wanted = {"t", "v"}) {
+  std::vector<std::unique_ptr<TemporaryFile>> files;
+  for (const std::string& text : texts) {
+    files.push_back(std::make_unique<TemporaryFile>(text));
+    options.files.push_back(files.back()->name());
+  }
+  std::string all;
+  const std::string message = refusal([&] {
+    Reader in(options, {"t", "v"});
+    std::vector<std::size_t> slots;
+    for (const std::string& name : wanted) slots.push_back(name == "t" ? in.need_time() : in.need(name));
+    for (bool first_run = true; in.next_run(); first_run = false) {
+      if (!first_run) all += " || ";
+      for (bool first = true; in.next(); first = false) {
+        if (!first) all += " | ";
+        for (std::size_t i = 0; i < slots.size(); ++i) all += fmt::format("{}{}", i ? " " : "", in[slots[i]]);
+      }
+    }
+  });
+  return message.empty() ? all : anonymous(message);
+}
+
+/// The records as they would pass through, lines in < >.
+std::string copies(const std::string& text, ReaderOptions options = {}, const std::vector<std::string>& wanted = {"t", "v"}) {
+  const TemporaryFile file(text);
+  options.files = {file.name()};
+  std::string all;
+  Reader in(options, {"t", "v"});
+  for (const std::string& name : wanted) in.need(name);
+  std::size_t first, last;
+  while (in.next_run())
+    while (in.next()) {
+      all += '<';
+      in.copy(all, static_cast<std::size_t>(-1), first, last);
+      all += '>';
+    }
+  return all;
+}
+
+std::string names(const std::string& text) {
+  const TemporaryFile file(text);
+  Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
+  std::string all;
+  for (const Column& column : in.columns()) all += (all.empty() ? "" : " ") + to_text(column);
+  return all;
+}
+
+ReaderOptions use(const Texts& what) { return {{}, what, {}, false}; }
+ReaderOptions run(int number) { return {{}, {}, number, false}; }
+const ReaderOptions strict{{}, {}, {}, true};
+
+}  // namespace
+
+TEST_CASE("reader: blanks, tabs, commas and semicolons separate", "[text]") {
+  CHECK(records({"0 1\n1 2\n"}) == "0 1 | 1 2");
+  CHECK(records({"  0   1  \n\t1 \t2\n"}) == "0 1 | 1 2");
+  CHECK(records({"0\t1\n1\t2\n"}) == "0 1 | 1 2");
+  CHECK(records({"0,1\n1,2\n"}) == "0 1 | 1 2");
+  CHECK(records({"0 , 1\n 1,\t2\n"}) == "0 1 | 1 2");
+  CHECK(records({"0;1\n1;2\n"}) == "0 1 | 1 2");
+  CHECK(records({"0 1\n1 2"}) == "0 1 | 1 2");
+}
+
+TEST_CASE("reader: the first record sets the separator, and the others have it", "[text]") {
+  CHECK(records({"0,1\n1;2\n"}) == "FILE:2: 1 field where the first record has 2");
+  CHECK(records({"0\t1\n1 2\n"}) == "FILE:2: 1 field where the first record has 2");
+  CHECK(records({"0 1\n1 2 3\n"}) == "FILE:2: 3 fields where the first record has 2");
+  CHECK(records({"0,1\n1,2,\n"}) == "FILE:2: 3 fields where the first record has 2");
+}
+
+TEST_CASE("reader: names in the last # line before the data", "[text]") {
+  CHECK(records({"# v[m/s]\tt[s]\n5 0\n"}) == "0 5");
+  CHECK(records({"# v t\n5,0\n"}) == "0 5");
+  CHECK(records({"# v, t\n5,0\n"}) == "0 5");
+  CHECK(records({"#v;t\n5;0\n"}) == "0 5");
+  CHECK(records({"# Velocity (m/s) Time (s)\n5 0\n"}) == "0 5");
+  CHECK(records({"# made by me\n# on a Monday\n# v t\n5 0\n"}) == "0 5");
+  CHECK(records({"# v t\n## smooth v mean width 3\n5 0\n"}) == "0 5");
+  CHECK(records({"# v t\n# three words here\n5 0\n"}) == "5 0");  // not as many names as columns: no names
+  CHECK(records({"#\n#\n5 0\n"}) == "5 0");
+}
+
+TEST_CASE("reader: names in a first line that is not numeric", "[text]") {
+  CHECK(records({"v t\n5 0\n"}) == "0 5");
+  CHECK(records({"Velocity (m/s),Time (s)\n5,0\n"}) == "0 5");
+  CHECK(records({"Velocity (m/s);Time (s)\n5;0\n"}) == "0 5");
+  CHECK(records({"Velocity (m/s)\tTime (s)\n5\t0\n"}) == "0 5");
+  CHECK(records({"# a comment\n\nv t\n\n5 0\n"}) == "0 5");
+  CHECK(records({"A preamble of words\nv t\n5 0\n"}) == "0 5");
+  CHECK(records({"t v a\n0 5\n"}) == "FILE:2: 2 fields under a line of 3 names");
+  CHECK(records({"\"Velocity (m/s)\",\"Time (s)\"\n5,0\n"}) == "0 5");
+}
+
+TEST_CASE("reader: names of columns that no tool knows, and of none", "[text]") {
+  CHECK(names("# t[s] Angle (rad) w[rad/s]\n0 1 2\n") == "t[s] Angle[rad] w[rad/s]");
+  CHECK(names("Time (s),,Angular Velocity (rad/s)\n0,1,2\n") == "t[s] c2 Angular_Velocity[rad/s]");
+  CHECK(names("0 1 2 3\n") == "t[s] v[m/s] c3 c4");
+  CHECK(names("# one word for two columns\n0 1\n") == "t[s] v[m/s]");
+  CHECK(names("# x\n0 1\n") == "t[s] v[m/s]");  // fewer names than columns: a comment
+}
+
+TEST_CASE("reader: byte order mark, CR LF, quotes", "[text]") {
+  CHECK(records({"\xEF\xBB\xBF" "v,t\r\n5,0\r\n\r\n6,0\r\n"}) == "0 5 || 0 6");
+  CHECK(records({"\xEF\xBB\xBF" "5,0\r\n"}) == "5 0");
+  CHECK(records({"\"t\",\"v\"\n\"0\",\"5\"\n\"1\",6\n"}) == "0 5 | 1 6");
+  CHECK(copies("t,v,note\n0,5,\"a, \"\"b\"\"\"\n") == "<0\t5\ta, \"b\">");
+}
+
+TEST_CASE("reader: a decimal comma where ; or tab separates", "[text]") {
+  CHECK(records({"t;v\n0,5;1,25\n1;2\n1,5;-3,5e2\n"}) == "0.5 1.25 | 1 2 | 1.5 -350");
+  CHECK(records({"t\tv\n0,5\t1,25\n"}) == "0.5 1.25");
+  CHECK(copies("t;v\n0,50;+1,250\n") == "<0.50\t+1.250>");  // only the mark changes
+}
+
+TEST_CASE("reader: a first record that has decimal commas only is a record, not names", "[text]") {  // fixed 2026-11-21
+  CHECK(records({"0,0;1,5\n0,1;1,6\n"}) == "0 1.5 | 0.1 1.6");
+  CHECK(records({"Zeit (s);v (m/s)\n0,0;1,5\n1;1,6\n"}, use({"t=1"})) == "0 1.5 | 1 1.6");
+  CHECK(records({"t\tv\n0,0\t1,5\n1\t2\n"}) == "0 1.5 | 1 2");
+}
+
+TEST_CASE("reader: two decimal marks in one file are refused", "[text]") {
+  CHECK(records({"t;v\n0,5;1\n1.5;2\n"}) == "FILE:3: field 1 (t): '1.5' has another decimal mark than the numbers before it");
+  CHECK(records({"t;v\n0.5;1\n1,5;2\n"}) == "FILE:3: field 1 (t): '1,5' is not a number");
+  CHECK(records({"0.5 1\n1,5 2\n"}) == "FILE:2: field 1 (t): '1,5' is not a number");
+  CHECK(records({"t;v\n0;1,234,567\n"}) == "FILE:2: field 2 (v): '1,234,567' is not a number");
+  CHECK(records({"t;v\n0;1,234.5\n"}) == "FILE:2: field 2 (v): '1,234.5' is not a number");
+}
+
+TEST_CASE("reader: blank lines end a run, however many", "[text]") {
+  CHECK(records({"0 1\n1 2\n\n0 3\n"}) == "0 1 | 1 2 || 0 3");
+  CHECK(records({"\n\n0 1\n \n\t\n\n0 3\n\n\n"}) == "0 1 || 0 3");
+  CHECK(records({"0 1\n# a comment is no break\n1 2\n"}) == "0 1 | 1 2");
+  CHECK(records({"t,v\n0,1\n\nt,v\n0,2\n"}) == "0 1 || 0 2");  // each run under its own names line
+  CHECK(records({"t,v\n0,1\nt,v\n1,2\n"}) == "FILE:3: field 1 (t): 't' is not a number");
+}
+
+TEST_CASE("reader: files in order, a run break between them", "[text]") {
+  CHECK(records({"0 1\n1 2\n", "0 3\n"}) == "0 1 | 1 2 || 0 3");
+  CHECK(records({"0 1", "0 3"}) == "0 1 || 0 3");
+  CHECK(records({"# t v\n0 1\n", "t,v\n0,3\n"}) == "0 1 || 0 3");  // the form is each file's own, the columns are not
+  CHECK(records({"0 1\n\n", "\n0 3\n"}) == "0 1 || 0 3");
+  CHECK(records({"# t v\n0 1\n", "# v t\n0 3\n"}) == "FILE: its columns are not those of FILE");
+  CHECK(records({"# t v\n0 1\n", "0 3\n"}) == "FILE: its columns are not those of FILE");
+  CHECK(records({"# t[s] v[m/s]\n0 1\n", "# t[ms] v[m/s]\n0 3\n"}) == "FILE: its columns are not those of FILE");
+  CHECK(records({"0 1\n", "0 3 4\n"}) == "FILE: its columns are not those of FILE");
+  CHECK(records({"0 1\n", ""}) == "FILE: no records");
+}
+
+TEST_CASE("reader: a second file that is not there is refused, and where() is still safe", "[text]") {
+  const TemporaryFile file("0 1\n");
+  Reader in({{file.name(), "/no/such/file"}, {}, {}, false}, {"t", "v"});
+  in.need_time();
+  REQUIRE(in.next_run());
+  REQUIRE(in.next());
+  CHECK_FALSE(in.next());
+  CHECK(refusal([&] { in.next_run(); }) == "/no/such/file: No such file or directory");
+  CHECK(in.where().empty());
+}
+
+TEST_CASE("reader: --use says which column serves, by name or number", "[text]") {
+  CHECK(records({"0 1 2\n1 3 4\n"}, use({"v=3"})) == "0 2 | 1 4");
+  CHECK(records({"# time_of_day speed_of_light\n0 1\n"}, use({"t=time_of_day", "v=speed_of_light"})) == "0 1");
+  CHECK(records({"# t v\n0 1\n"}, use({"t=v", "v=t"})) == "1 0");
+  CHECK(records({"# t w[rpm]\n0 1\n"}, use({"v=w"})) ==
+        "column 'w[rpm]' cannot serve as v: its unit 'rpm' is not one of those known (m/s, ...); convert it first");
+  CHECK(records({"# t w[km/h]\n0 72\n"}, use({"v=w"})) == "0 20");
+  CHECK(records({"# t w\n0 1\n"}, use({"v=4"})) == "FILE: --use v=4: there is no column '4' among t[s], w");
+  CHECK(records({"# t w\n0 1\n"}, use({"v=0"})) == "FILE: --use v=0: there is no column '0' among t[s], w");
+  CHECK(records({"# t w\n0 1\n"}, use({"v=1.5"})) == "FILE: --use v=1.5: there is no column '1.5' among t[s], w");
+  CHECK(records({"0 1\n"}, use({"v"})) == "--use: 'v' is not NAME=COLUMN");
+  CHECK(records({"0 1\n"}, use({"=2"})) == "--use: '=2' is not NAME=COLUMN");
+  CHECK(records({"0 1\n"}, use({"v="})) == "--use: 'v=' is not NAME=COLUMN");
+}
+
+TEST_CASE("reader: a --use that says nothing, or two things, is refused", "[text]") {
+  CHECK(records({"0 1 2\n"}, use({"w=3"})) == "--use: 'w=3' is not about t, x, v, a or D");
+  CHECK(records({"0 1 2\n"}, use({"V=3"})) == "--use: 'V=3' is not about t, x, v, a or D");
+  CHECK(records({"0 1 2\n"}, use({"v=2", "v=3"})) == "--use: 'v=3' comes after another for v");
+  CHECK(records({"0 1\n"}, use({"v=1"})) == "FILE: column 1 cannot serve as both t and v");
+  CHECK(records({"0 1 2\n"}, use({"Velocity=3"})) == "0 2");  // the long name is the same quantity
+}
+
+TEST_CASE("reader: of two columns of one name, --use says which", "[text]") {
+  CHECK(records({"# t v v\n0 1 2\n"}) == "FILE: columns 2 and 3 are both v; say --use v=N");
+  CHECK(records({"# t v Velocity (m/s)\n0 1 2\n"}, use({"v=2"})) == "0 1");
+  CHECK(records({"# t v v\n0 1 2\n"}, {}, {"t"}) == "0");  // nobody asks for v
+}
+
+TEST_CASE("reader: there is no such column", "[text]") {
+  CHECK(records({"# t[s] w[rad/s]\n0 1\n"}) == "FILE: there is no column 'v' among t[s], w[rad/s]; say --use v=COLUMN");
+  CHECK(records({"0\n"}) == "FILE: there is no column 'v' among 1 without names; say --use v=COLUMN");
+  CHECK(records({"# T V\n0 1\n"}) == "FILE: there is no column 't' among T, V; say --use t=COLUMN");  // case matters in short names
+}
+
+TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]") {
+  CHECK(records({"0 1\n\n0 2\n1 3\n\n0 4\n"}, run(2)) == "0 2 | 1 3");
+  CHECK(records({"0 1\n\n0 2\n"}, run(1)) == "0 1");
+  CHECK(records({"0 1\n\nbad bad\n\n0 4\n"}, run(3)) == "0 4");  // what is not read is not judged
+  CHECK(records({"0 1\n", "0 2\n", "0 3\n"}, run(2)) == "0 2");
+  CHECK(records({"Time (s) Run #7,Velocity (m/s) Run #7\n0,1\n"}, run(7)) == "0 1");
+  CHECK(records({"0 1\n\n0 2\n"}, run(3)) == "there is no run 3 (runs: 2)");
+}
+
+TEST_CASE("reader: units are converted, and go out converted", "[text]") {
+  CHECK(records({"# t[ms] v[km/h]\n0 72\n40 36\n"}) == "0 20 | 0.04 10");
+  CHECK(copies("# t[ms] v[km/h] x[mm]\n40 36 007\n") == "<0.04\t10\t007>");  // x is not needed: as it came
+  CHECK(records({"# t[parsec] v\n0 1\n"}) ==
+        "column 't[parsec]' cannot serve as t: its unit 'parsec' is not one of those known (s, ...); convert it first");
+  CHECK(records({"# t[h] v\n1e308 1\n"}) == "FILE:2: field 1 (t): '1e308' is beyond the range of a double in SI units");
+}
+
+TEST_CASE("reader: a missing reading leaves its record out, and is counted", "[text]") {
+  const TemporaryFile file("t,v,x\n0,1,\n1,,5\n2,NaN,5\n3,nan,\n4,2,NaN\n");
+  Reader in({{file.name()}, {}, {}, false}, {});
+  in.need_time();
+  in.need("v");
+  std::size_t seen = 0;
+  while (in.next_run())
+    while (in.next()) ++seen;
+  CHECK(seen == 2);
+  CHECK(in.left_out() == 3);
+  CHECK(records({"t,v\n0,1\n1,\n2,3\n"}) == "0 1 | 2 3");
+  CHECK(records({"t,v\n0,1\n1,\n"}, strict) == "FILE:3: field 2 (v): a reading is missing");
+  CHECK(records({"t,v,x\n0,1,\n"}, strict) == "0 1");  // x is not needed
+  CHECK(records({"t v\n0 1\n1 NaN\n"}, strict) == "FILE:3: field 2 (v): a reading is missing");
+}
+
+TEST_CASE("reader: what is neither number nor missing is refused, and says where", "[text]") {
+  CHECK(records({"0 1\n1 abc\n"}) == "FILE:2: field 2 (v): 'abc' is not a number");
+  CHECK(records({"0 1\n\n# c\n1 inf\n"}) == "FILE:4: field 2 (v): 'inf' is not a number");
+  CHECK(records({"0 1\n1 1e400\n"}) == "FILE:2: field 2 (v): '1e400' is not a number");
+  CHECK(records({"0 1\n1 0x1\n"}) == "FILE:2: field 2 (v): '0x1' is not a number");
+  CHECK(records({"0 1\n1 " + std::string(50, '9') + "x\n"}) == "FILE:2: field 2 (v): '" + std::string(40, '9') + "...' is not a number");
+  CHECK(records({"0 1\n1 \xE2\x88\x92" "1\n"}) == "FILE:2: field 2 (v): '???1' is not a number");
+}
+
+TEST_CASE("reader: time increases within a run, and starts anew in the next", "[text]") {
+  CHECK(records({"0 1\n0 2\n"}) == "FILE:2: field 1 (t): '0' does not come after 0");
+  CHECK(records({"1 1\n0.5 2\n"}) == "FILE:2: field 1 (t): '0.5' does not come after 1");
+  CHECK(records({"5 1\n\n4 2\n"}) == "5 1 || 4 2");
+  CHECK(records({"-1e308 1\n1e308 2\n"}) == "-1e+308 1 | 1e+308 2");
+  CHECK(records({"0 1\n0 2\n"}, {}, {"v"}) == "1 | 2");  // who does not need t does not judge it
+}
+
+TEST_CASE("reader: an empty file, a header alone, words alone", "[text]") {
+  CHECK(records({""}) == "FILE: no records");
+  CHECK(records({"\n\n"}) == "FILE: no records");
+  CHECK(records({"# t v\n"}) == "FILE: no records");
+  CHECK(records({"t,v\n"}) == "FILE: no records");
+  std::string words;
+  for (int i = 0; i < 200; ++i) words += "once upon a time\n";
+  CHECK(records({words}) == "FILE: no numbers in the first 100 lines");
+}
+
+TEST_CASE("reader: comments pass, those before the records apart from those among them", "[text]") {
+  const TemporaryFile file("# by hand\n## smooth x mean width 3\n# t v\n0 1\n# among\n1 2\n\n# between\n0 3\n# after\n");
+  Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
+  CHECK(in.comments() == Texts{"# by hand", "## smooth x mean width 3"});  // the names line is not among them
+  CHECK(in.history() == Texts{"smooth x mean width 3"});
+  std::string among;
+  in.on_comment = [&](std::string_view text) { among.append(text).append(";"); };
+  while (in.next_run())
+    while (in.next()) continue;
+  CHECK(among == "# among;# between;# after;");
+}
+
+TEST_CASE("reader: a preamble becomes comments", "[text]") {
+  const TemporaryFile file("Motion sensor, hall 3\nt,v\n0,1\n");
+  const Reader in({{file.name()}, {}, {}, false}, {});
+  CHECK(in.comments() == Texts{"# Motion sensor, hall 3"});
+}
+
+TEST_CASE("reader: the history is that of the present run", "[text]") {
+  const TemporaryFile first("## smooth v mean width 3\n## differentiate v central\n# t v\n0 1\n\n0 2\n"), second("# t v\n0 3\n");
+  Reader in({{first.name(), second.name()}, {}, {}, false}, {});
+  CHECK(in.history().size() == 2);
+  CHECK_FALSE(in.history_changed());
+  REQUIRE(in.next_run());
+  while (in.next()) continue;
+  REQUIRE(in.next_run());
+  CHECK(in.history().size() == 2);  // the ## lines hold until there are others
+  while (in.next()) continue;
+  REQUIRE(in.next_run());
+  CHECK(in.history_changed());
+  CHECK(in.history().empty());
+}
+
+TEST_CASE("reader: new ## lines among the records replace the old ones", "[text]") {
+  const TemporaryFile file("## smooth v mean width 3\n# t v\n0 1\n\n## smooth v mean width 5\n## differentiate v central\n0 2\n");
+  Reader in({{file.name()}, {}, {}, false}, {});
+  REQUIRE(in.next_run());
+  while (in.next()) continue;
+  REQUIRE(in.next_run());
+  CHECK(in.history() == Texts{"smooth v mean width 5", "differentiate v central"});
+}
+
+TEST_CASE("reader: what passes through passes byte for byte, its separator aside", "[text]") {
+  CHECK(copies("0.500   +1e0 x_y -0 1E-400\n") == "<0.500\t+1e0\tx_y\t-0\t1E-400>");
+  CHECK(copies("t;v;note\n0;1;caf\xC3\xA9 au lait \n") == "<0\t1\tcaf\xC3\xA9 au lait>");
+}
+
+TEST_CASE("reader: a copy says where a column's text stands", "[text]") {
+  const TemporaryFile file("00 1.50 xyz\n");
+  Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
+  in.need("v");
+  REQUIRE(in.next_run());
+  REQUIRE(in.next());
+  std::string text = "before ";
+  std::size_t first = 0, last = 0;
+  in.copy(text, 1, first, last);
+  CHECK(text.substr(first, last - first) == "1.50");
+  CHECK(in.where() == file.name() + ":1");
+}
+
+TEST_CASE("reader: where() is empty before the first record is taken and after the last", "[text]") {
+  const TemporaryFile file("# t v\n0 1\n");
+  Reader in({{file.name()}, {}, {}, false}, {});
+  CHECK(in.where().empty());
+  REQUIRE(in.next_run());
+  REQUIRE(in.next());
+  CHECK(in.where() == file.name() + ":2");
+  CHECK_FALSE(in.next());
+  CHECK(in.where().empty());
+}
+
+TEST_CASE("reader: a needed column that displaces another of its name", "[text]") {
+  const TemporaryFile file("# t[s] v[m/s] w[cm/s]\n0 1 2\n");
+  Reader in({{file.name()}, {"v=w"}, {}, false}, {});
+  in.need("v");
+  std::string all;
+  for (const Column& column : in.columns()) all += to_text(column) + ' ';
+  CHECK(all == "t[s] v_in[m/s] v[m/s] ");
+}
