@@ -42,7 +42,7 @@ build/catch_main.o: | $(filter setup,$(MAKECMDGOALS))
 -include $(patsubst %.o,%.d,$(call object,$(source) $(test) $(wildcard cmd/*.cpp)))
 
 # From a fresh machine: only what is missing, and no root when nothing is.
-packages := g++ libgsl-dev libfmt-dev libcli11-dev catch2 mandoc
+packages := g++ libgsl-dev libfmt-dev libcli11-dev catch2 libboost-dev mandoc
 setup:
 	@missing=$$(for p in $(packages); do dpkg-query -W -f '$${Status}\n' $$p 2>/dev/null | grep -q '^install ok installed' || echo $$p; done); \
 	test -z "$$missing" || { echo installing $$missing; as_root=$$(test "$$(id -u)" = 0 || echo sudo); \
@@ -63,7 +63,7 @@ check: all build/unit
 
 lint:
 	mandoc -Tlint -Wwarning man/*
-	shellcheck samples/*.sh tests/*.sh tests/*/*.sh
+	shellcheck --severity=warning samples/*.sh tests/*.sh tests/*/*.sh
 
 clean:
 	rm -rf bin build

@@ -49,26 +49,25 @@ const Quantity* known(std::string_view name) {
   return nullptr;
 }
 
-/// Takes `Run #2` or `Run 2` off either end of a name, and `Latest:` or `Data Set 1:` off its front.
-int take_run(std::string_view& name) {
-  const auto colon = name.find(':');
-  std::string_view prefix = colon == std::string_view::npos ? std::string_view() : name.substr(0, colon);
-  if (colon != std::string_view::npos) name = trim(name.substr(colon + 1));
-  const std::string_view digits = "0123456789";
-  const auto number_at_end = [&](std::string_view text) {
-    const auto before = text.find_last_not_of(digits);
-    double value = 0;
-    return before + 1 < text.size() && parse_number(text.substr(before + 1), value) && value < 1e6 ? static_cast<int>(value) : 0;
-  };
-  if (const auto at = name.rfind("Run"); at != std::string_view::npos && number_at_end(name) && at > 0 && (name[at - 1] == ' ')) {
-    const std::string_view middle = trim(name.substr(at + 3, name.find_last_not_of(digits) + 1 - (at + 3)));
-    if (middle.empty() || middle == "#") {
-      const int run = number_at_end(name);
+/// Takes `Run #2` or `Run 2` off the end of a name, `Latest:` or `Data Set 1:` off its front; returns the number, else the word.
+std::string take_run(std::string_view& name) {
+  constexpr std::string_view digits = "0123456789";
+  const auto number_at_end = [](std::string_view text) { return text.substr(text.find_last_not_of(digits) + 1); };
+  std::string_view prefix;
+  if (const auto colon = name.find(':'); colon != std::string_view::npos) {
+    prefix = trim(name.substr(0, colon));
+    name = trim(name.substr(colon + 1));
+  }
+  const std::string_view number = number_at_end(name);
+  const auto at = name.rfind("Run");
+  if (!number.empty() && at != std::string_view::npos && at > 0 && name[at - 1] == ' ') {
+    const std::string_view between = trim(name.substr(at + 3, name.size() - number.size() - (at + 3)));
+    if (between.empty() || between == "#") {
       name = trim(name.substr(0, at));
-      return run;
+      return std::string(number);
     }
   }
-  return number_at_end(prefix);
+  return std::string(number_at_end(prefix).empty() ? prefix : number_at_end(prefix));
 }
 
 }  // namespace
@@ -86,7 +85,8 @@ Column read_column(std::string_view text) {
   const std::string small = lower(name);
   for (const Quantity& q : quantities)
     if (small == q.long_name || small == q.other_name) name = q.name;
-  column.name = replace_all(replace_all(std::string(name), " ", "_"), "\t", "_");
+  column.name = name;
+  std::replace_if(column.name.begin(), column.name.end(), [](char c) { return c == ' ' || c == '\t' || c == '\n'; }, '_');
   return column;
 }
 

@@ -10,7 +10,7 @@ namespace rolling {
 struct Column {
   std::string name{};  ///< short name (t, x, v, a, D), or the name as it stands with blanks as underscores
   std::string unit{};  ///< as it stands, m/s² as m/s^2; empty if the name says none
-  int run = 0;         ///< the number in `Run #2`; 0 if the name says none
+  std::string run{};   ///< the number in `Run #2` or `Data Set 1:`, the word in `Latest:`; empty if the name says none
 
   bool operator==(const Column&) const = default;
 };

@@ -10,6 +10,11 @@ namespace rolling {
 /// False for anything else (inf, nan, hex, blanks) and for what a double cannot hold (1e400, 1e-400).
 bool parse_number(std::string_view field, double& value);
 
+inline bool is_number(std::string_view field) {
+  double value;
+  return parse_number(field, value);
+}
+
 /// A missing reading: nothing at all, or NaN in any case.
 bool is_missing(std::string_view field);
 

@@ -19,20 +19,6 @@ bool is_comment(std::string_view line) {
 
 bool is_blank(std::string_view line) { return line.find_first_not_of(" \t") == std::string_view::npos; }
 
-bool is_number(std::string_view field) {
-  double value;
-  return parse_number(field, value);
-}
-
-/// `1,5` as `1.5`; empty if the field is no number with one decimal comma.
-std::string with_point(std::string_view field) {
-  std::string text(field);
-  const auto comma = text.find(',');
-  if (comma == std::string::npos || text.find('.') != std::string::npos) return {};
-  text[comma] = '.';
-  return is_number(text) ? text : std::string();
-}
-
 }  // namespace
 
 Reader::Reader(ReaderOptions options, std::vector<std::string> order) : options_(std::move(options)), order_(std::move(order)) {
@@ -58,68 +44,35 @@ void Reader::open_next() {
   read_header();
 }
 
-/// The form of a line: the first of tab ; , that it has outside quotes, else blanks. A line of numbers in which tabs and
-/// blanks both separate is one of blanks.
-void Reader::choose_separator(std::string_view line) {
-  bool tab = false, semicolon = false, comma = false, quoted = false;
-  for (const char c : line) {
-    if (c == '"') quoted = !quoted;
-    if (quoted) continue;
-    tab |= c == '\t';
-    semicolon |= c == ';';
-    comma |= c == ',';
-  }
-  separator_ = tab ? '\t' : semicolon ? ';' : comma ? ',' : '\0';
-  if (!tab) return;
-  split(line);
-  const bool blanks_inside = std::any_of(fields_.begin(), fields_.end(), [](auto f) { return f.find(' ') != npos; });
-  if (!blanks_inside) return;
-  separator_ = '\0';
-  split(line);
-  if (!std::all_of(fields_.begin(), fields_.end(), is_number)) separator_ = '\t';
-}
-
-bool Reader::is_data(std::string_view line) {
-  choose_separator(line);
-  decimal_mark_ = separator_ == '\t' || separator_ == ';' ? '\0' : '.';
-  split(line);
-  return std::any_of(fields_.begin(), fields_.end(),
-                     [this](auto field) { return is_number(field) || (decimal_mark_ != '.' && !with_point(field).empty()); });
-}
-
 void Reader::read_header() {
   const bool first_file = next_file_ == 1;
   std::vector<std::string> comments, preamble;
   in_header_ = true;
+  kept_.clear();
   header_line_.clear();
   bool found = false;
-  while (!found && input_->next(line_)) {
+  while (!found && next_line()) {
     if (is_blank(line_)) continue;
     if (is_comment(line_)) comments.emplace_back(trim(line_));
-    else if (is_data(line_)) found = true;
+    else if (dialect_.choose(line_)) found = true;
     else preamble.emplace_back(line_);
     if (preamble.size() > longest_preamble) fail<InputError>("{}: no numbers in the first {} lines", input_->name(), longest_preamble);
   }
   if (!found) fail<InputError>("{}: no records", input_->name());
 
-  const std::size_t width = fields_.size();
+  std::size_t width = dialect_.split(line_).size();
   std::vector<std::string> names;
   if (!preamble.empty()) {
     header_line_ = preamble.back();
     preamble.pop_back();
-    if (separator_ == '\0') {
-      names = split_names(header_line_, separator_);
-    } else {
-      split(header_line_);
-      names.assign(fields_.begin(), fields_.end());
-    }
-    if (names.size() != width)
-      fail<InputError>("{}:{}: {} field{} under a line of {} names", input_->name(), input_->line_number(), width, width == 1 ? "" : "s", names.size());
+    names = names_of(header_line_);
+    if (names.back().empty() && names.size() > 1) names.pop_back();  // a delimiter that ends the line
+    if (width == names.size() + 1 && dialect_.split(line_).back().empty()) --width;
   } else {
     const auto last = std::find_if(comments.rbegin(), comments.rend(), [](const auto& c) { return !c.starts_with("##"); });
     if (last != comments.rend()) {
       const std::string_view text = trim(std::string_view(*last).substr(1));
-      for (const char separator : {'\t', separator_, '\0'})
+      for (const char separator : {'\t', dialect_.separator(), '\0'})
         if (names.size() != width) names = split_names(text, separator);
       if (names.size() == width) comments.erase(std::next(last).base());
       else names.clear();
@@ -127,26 +80,52 @@ void Reader::read_header() {
   }
   for (std::string& line : preamble) comments.push_back("# " + std::move(line));
 
-  std::vector<Column> columns;
-  for (std::size_t i = 0; i < width; ++i) {
-    if (i < names.size()) columns.push_back(read_column(names[i]));
-    else columns.push_back({i < order_.size() ? order_[i] : ""});
-    if (columns.back().name.empty()) columns.back().name = fmt::format("c{}", i + 1);
+  std::vector<Column> line;
+  for (std::size_t i = 0; i < std::max(width, names.size()); ++i) {
+    if (i < names.size()) line.push_back(read_column(names[i]));
+    else line.push_back({i < order_.size() ? order_[i] : ""});
+    if (line.back().name.empty()) line.back().name = fmt::format("c{}", i + 1);
   }
+  try {
+    // A column that --use names by its number is one of the line: then the line is one record, whatever its names say.
+    const bool by_number = std::any_of(use_.begin(), use_.end(), [](const auto& use) { return is_number(use.second); });
+    layout_ = by_number ? Layout::one(line) : Layout::of(line, options_.run ? fmt::format("{}", *options_.run) : "");
+  } catch (const Error& error) {
+    fail<InputError>("{}: {}", input_->name(), error.what());
+  }
+  if (!names.empty() && (layout_.side_by_side ? width > names.size() : width != names.size()))
+    fail<InputError>("{}:{}: {} field{} under a line of {} names{}", input_->name(), line_number_, width, width == 1 ? "" : "s", names.size(),
+                     dialect_.separator() == ',' ? "; if some of its commas are decimal ones, make them points first" : "");
+  if (layout_.runs.size() > 1) keep_lines();
+  side_ = 0;
+
   if (first_file) {
     named_ = !names.empty();
-    columns_ = columns_as_read_ = std::move(columns);
+    columns_ = columns_as_read_ = layout_.columns;
     if (!named_)
       for (Column& column : columns_) column.unit = si_unit(column.name);
-    for (const std::string& text : comments) comment(text);
-    in_header_ = false;
-  } else {
-    if (columns != columns_as_read_ || named_ == names.empty())
-      fail<InputError>("{}: its columns are not those of {}", input_->name(), options_.files.front());
-    in_header_ = false;
-    for (const std::string& text : comments) comment(text);
+  } else if (layout_.columns != columns_as_read_ || named_ == names.empty()) {
+    fail<InputError>("{}: its columns are not those of {}", input_->name(), options_.files.front());
   }
+  in_header_ = first_file;
+  for (const std::string& text : comments) comment(text);
+  in_header_ = false;
   line_waits_ = true;
+}
+
+/// The names in a line, by its form.
+std::vector<std::string> Reader::names_of(std::string_view line) {
+  if (dialect_.separator() == '\0') return split_names(line, '\0');
+  const auto& fields = dialect_.split(line);
+  return {fields.begin(), fields.end()};
+}
+
+/// Runs side by side come out one under another, so all lines but the first run's are read again and again.
+void Reader::keep_lines() {
+  do kept_.push_back({line_number_, std::string(line_)});
+  while (next_line());
+  kept_at_ = 0;
+  take_kept();
 }
 
 std::optional<std::size_t> Reader::find(std::string_view name) const {
@@ -230,58 +209,29 @@ void Reader::comment(std::string_view line) {
   else if (on_comment) on_comment(text);
 }
 
-void Reader::split(std::string_view line) {
-  fields_.clear();
-  if (separator_ == '\0') {
-    const char* at = line.data();
-    const char* const end = at + line.size();
-    for (;;) {
-      while (at != end && (*at == ' ' || *at == '\t')) ++at;
-      if (at == end) return;
-      const char* const first = at;
-      while (at != end && *at != ' ' && *at != '\t') ++at;
-      fields_.emplace_back(first, static_cast<std::size_t>(at - first));
-    }
-  }
-  if (line.find('"') != npos) return split_quoted(line);
-  for (std::size_t at = 0;;) {
-    const auto end = std::min(line.find(separator_, at), line.size());
-    fields_.push_back(trim(line.substr(at, end - at)));
-    if (end == line.size()) break;
-    at = end + 1;
-  }
+/// The next line of the file; a quoted field may hold line ends.
+bool Reader::next_line() {
+  if (!input_->next(line_)) return false;
+  line_number_ = input_->line_number();
+  const auto open = [](std::string_view line) {
+    const auto last = line.rfind('"');
+    return last != npos && std::count(line.begin(), line.end(), '"') % 2 == 1 && (last == 0 || line[last - 1] == ',' || line[last - 1] == ';' || line[last - 1] == '\t');
+  };
+  if (!open(line_)) return true;
+  joined_ = line_;
+  do {
+    if (!input_->next(line_)) fail<InputError>("{}:{}: a quote that does not end", input_->name(), line_number_);
+    (joined_ += '\n') += line_;
+  } while (std::count(joined_.begin(), joined_.end(), '"') % 2 == 1);
+  line_ = joined_;
+  return true;
 }
 
-void Reader::split_quoted(std::string_view line) {
-  unquoted_.clear();
-  std::string field;
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"') {
-      if (quoted && i + 1 < line.size() && line[i + 1] == '"') field += line[++i];
-      else quoted = !quoted;
-    } else if (line[i] == separator_ && !quoted) {
-      unquoted_.push_back(std::exchange(field, {}));
-    } else {
-      field += line[i];
-    }
-  }
-  unquoted_.push_back(std::move(field));
-  for (const std::string& text : unquoted_) fields_.push_back(trim(text));
-}
-
-/// In files that may have decimal commas (delimited by ; or tab): all numbers have one mark, and the comma goes out as a point.
-void Reader::read_decimal_marks() {
-  with_points_.clear();
-  with_points_.reserve(fields_.size());
-  for (std::size_t i = 0; i < fields_.size(); ++i) {
-    std::string text = with_point(fields_[i]);
-    const bool comma = !text.empty();
-    if (!comma && (fields_[i].find('.') == npos || !is_number(fields_[i]))) continue;
-    if (decimal_mark_ == '\0') decimal_mark_ = comma ? ',' : '.';
-    if (decimal_mark_ != (comma ? ',' : '.')) reject(i, "has another decimal mark than the numbers before it");
-    if (comma) fields_[i] = with_points_.emplace_back(std::move(text));
-  }
+bool Reader::take_kept() {
+  if (kept_at_ == kept_.size()) return false;
+  line_number_ = kept_[kept_at_].number;
+  line_ = kept_[kept_at_++].text;
+  return true;
 }
 
 Reader::Event Reader::advance() {
@@ -290,7 +240,12 @@ Reader::Event Reader::advance() {
     return Event::record;
   }
   for (;;) {
-    if (!input_->next(line_)) {
+    if (!(kept_.empty() ? next_line() : take_kept())) {
+      if (side_ + 1 < layout_.runs.size()) {
+        ++side_;
+        kept_at_ = 0;
+        return Event::run_break;
+      }
       file_ended_ = next_file_ < options_.files.size();
       return file_ended_ ? Event::run_break : Event::end;
     }
@@ -299,13 +254,36 @@ Reader::Event Reader::advance() {
       return Event::run_break;
     }
     if (is_comment(line_)) {
-      if (!skipping_) comment(line_);
-    } else if (std::exchange(run_begins_, false) && line_ == header_line_) {
+      if (!skipping_ && side_ == 0) comment(line_);
+    } else if (std::exchange(run_begins_, false) && names_again()) {
       continue;  // each run under its own names line
-    } else {
+    } else if (!layout_.side_by_side || has_own_reading()) {
       return Event::record;
     }
   }
+}
+
+/// The line names the columns once more; only the label of the run may differ.
+bool Reader::names_again() {
+  if (header_line_.empty()) return false;
+  if (line_ == header_line_) return true;
+  const auto names = names_of(line_), first = names_of(header_line_);
+  if (names.size() != first.size() || is_number(names.front())) return false;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const Column column = read_column(names[i]), known = read_column(first[i]);
+    if (column.name != known.name || column.unit != known.unit) return false;
+    if (!layout_.side_by_side && !column.run.empty()) layout_.runs.front().label = column.run;
+  }
+  return true;
+}
+
+/// A run beside longer ones ends in blanks; columns that the runs share do not count.
+bool Reader::has_own_reading() {
+  const auto& fields = split_line();
+  const auto& own = layout_.runs[side_].fields;
+  return std::any_of(own.begin(), own.end(), [&](std::size_t i) {
+    return !layout_.shared[i] && i < fields.size() && !fields[i].empty();
+  });
 }
 
 bool Reader::next_run() {
@@ -322,8 +300,9 @@ bool Reader::next_run() {
     }
     ++run_;
     first_of_run_ = true;
-    const int printed = columns_as_read_.front().run;
-    if (!options_.run || *options_.run == (printed ? printed : run_)) return run_found_ = true;
+    const std::string& label = layout_.runs[side_].label;
+    const bool by_label = is_number(label), picked = layout_.side_by_side;  // the layout has seen to it
+    if (!options_.run || picked || (by_label ? label == fmt::format("{}", *options_.run) : run_ == *options_.run)) return run_found_ = true;
     line_waits_ = false;
     skipping_ = true;
     Event event;
@@ -342,13 +321,33 @@ bool Reader::next() {
       if (event != Event::record) return false;
     }
     begun_ = history_ended_ = true;
-    split(line_);
-    if (fields_.size() != columns_.size())
-      fail<InputError>("{}: {} field{} where the first record has {}", where(), fields_.size(), fields_.size() == 1 ? "" : "s", columns_.size());
-    if (decimal_mark_ != '.') read_decimal_marks();
+    take_fields();
     if (parse()) return true;
     ++left_out_;
   }
+}
+
+std::vector<std::string_view>& Reader::split_line() {
+  try {
+    return dialect_.split(line_);
+  } catch (const Error& error) {
+    fail<InputError>("{}: {}", where(), error.what());
+  }
+}
+
+/// The fields of the line that make this run's record.
+void Reader::take_fields() {
+  std::vector<std::string_view>& line = split_line();
+  if (line.size() == layout_.width + 1 && line.back().empty() && named_) line.pop_back();  // a delimiter that ends the line
+  if (layout_.side_by_side && line.size() < layout_.width) line.resize(layout_.width);     // the longer runs have ended
+  if (line.size() != layout_.width)
+    fail<InputError>("{}: {} field{} where the first record has {}", where(), line.size(), line.size() == 1 ? "" : "s", layout_.width);
+  if (!layout_.side_by_side) {
+    fields_.swap(line);
+    return;
+  }
+  fields_.clear();
+  for (const std::size_t i : layout_.runs[side_].fields) fields_.push_back(line[i]);
 }
 
 /// The needed numbers; false if one is missing.
@@ -359,7 +358,7 @@ bool Reader::parse() {
     double& value = values_[slot];
     if (!parse_number(field, value)) {
       if (!is_missing(field)) reject(needed.column, "is not a number");
-      if (options_.strict) fail<InputError>("{}: field {} ({}): a reading is missing", where(), needed.column + 1, shown(needed.name));
+      if (options_.strict) fail<InputError>("{}: field {} ({}): a reading is missing", where(), layout_.runs[side_].fields[needed.column] + 1, shown(needed.name));
       return false;
     }
     if (needed.to_si.changes()) {
@@ -388,11 +387,11 @@ void Reader::copy(std::string& to, std::size_t cut, std::size_t& first, std::siz
 }
 
 void Reader::reject(std::size_t column, std::string_view why) const {
-  fail<InputError>("{}: field {} ({}): '{}' {}", where(), column + 1, shown(columns_[column].name), shown(fields_[column]), why);
+  fail<InputError>("{}: field {} ({}): '{}' {}", where(), layout_.runs[side_].fields[column] + 1, shown(columns_[column].name), shown(fields_[column]), why);
 }
 
 std::string Reader::where() const {
-  return begun_ && !at_end_ ? fmt::format("{}:{}", input_->name(), input_->line_number()) : std::string();
+  return begun_ && !at_end_ ? fmt::format("{}:{}", input_->name(), line_number_) : std::string();
 }
 
 }  // namespace rolling

@@ -12,7 +12,9 @@
 
 #include "base/error.h"
 #include "text/column.h"
+#include "text/dialect.h"
 #include "text/input.h"
+#include "text/layout.h"
 
 namespace rolling {
 
@@ -72,18 +74,21 @@ class Reader {
 
   void open_next();
   void read_header();
-  void choose_separator(std::string_view line);
-  bool is_data(std::string_view line);
+  std::vector<std::string> names_of(std::string_view line);
+  void keep_lines();
   void comment(std::string_view line);
   std::optional<std::size_t> find_column(std::string_view name, const std::vector<Column>&) const;
   std::size_t require(std::string_view name) const;
   std::size_t add(std::size_t column, const std::string& name, Conversion);
   std::string column_list() const;
 
+  bool next_line();
+  bool take_kept();
   Event advance();
-  void split(std::string_view line);
-  void split_quoted(std::string_view line);
-  void read_decimal_marks();
+  bool names_again();
+  bool has_own_reading();
+  std::vector<std::string_view>& split_line();
+  void take_fields();
   bool parse();
   [[noreturn]] void reject(std::size_t column, std::string_view why) const;
 
@@ -98,14 +103,15 @@ class Reader {
   std::vector<std::string> comments_, history_;
   std::string header_line_;  // as it stands, if the names are not in a comment
   bool named_ = false, in_header_ = true, history_changed_ = false, history_ended_ = false;
-  char separator_ = '\0';     // \0: blanks
-  char decimal_mark_ = '.';   // \0: not seen yet
+  Dialect dialect_;
+  Layout layout_;
 
   // The present record.
   std::string_view line_;
+  std::string joined_;  // a line whose quoted field holds line ends
+  std::size_t line_number_ = 0;
   bool line_waits_ = false;  // line_ is read but not taken
   std::vector<std::string_view> fields_;
-  std::vector<std::string> unquoted_, with_points_;
 
   // What is needed of it.
   std::vector<Needed> needed_;
@@ -114,6 +120,9 @@ class Reader {
   double last_time_ = 0;
 
   // Runs.
+  struct Kept { std::size_t number; std::string text; };
+  std::vector<Kept> kept_;  // the lines of runs side by side
+  std::size_t kept_at_ = 0, side_ = 0;
   int run_ = 0;
   bool run_found_ = false, run_begins_ = false, first_of_run_ = true, file_ended_ = false, skipping_ = false, begun_ = false, at_end_ = false;
   std::size_t left_out_ = 0;

@@ -38,7 +38,7 @@ std::string filtered(const std::vector<std::string>& texts, const std::vector<Co
   });
 }
 
-const std::vector<Column> one = {{"y", "m", 0}}, two = {{"y", "m", 0}, {"z", "", 0}};
+const std::vector<Column> one = {{"y", "m", ""}}, two = {{"y", "m", ""}, {"z", "", ""}};
 
 }  // namespace
 
@@ -91,7 +91,7 @@ TEST_CASE("filter: a result that is not finite is refused, and its row is not be
     Output out;
     in.need("v");
     Filter filter(in, out, "test it");
-    filter.append({"y", "", 0});
+    filter.append({"y", "", ""});
     message = refusal([&] {
       filter.next_run();
       filter.next();
@@ -113,7 +113,7 @@ TEST_CASE("filter: no record with all its readings is an error", "[text]") {
     Output out;
     in.need("v");
     Filter filter(in, out, "test it");
-    filter.append({"y", "", 0});
+    filter.append({"y", "", ""});
     message = refusal([&] {
       while (filter.next_run())
         while (filter.next()) filter.put(1);

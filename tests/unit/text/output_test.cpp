@@ -11,7 +11,7 @@ using namespace rolling;
 TEST_CASE("output: names and rows are tab-separated, numbers shortest", "[text]") {
   CHECK(printed([] {
     Output out;
-    out.names({{"t", "s", 0}, {"closure", "", 0}});
+    out.names({{"t", "s", ""}, {"closure", "", ""}});
     out.row(std::array{0.1, 1. / 3, -0.0});
     out.flush();
   }) == "# t[s]\tclosure\n0.1\t0.3333333333333333\t-0\n");

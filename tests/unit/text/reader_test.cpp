@@ -136,7 +136,7 @@ TEST_CASE("reader: a first record that has decimal commas only is a record, not 
 }
 
 TEST_CASE("reader: two decimal marks in one file are refused", "[text]") {
-  CHECK(records({"t;v\n0,5;1\n1.5;2\n"}) == "FILE:3: field 1 (t): '1.5' has another decimal mark than the numbers before it");
+  CHECK(records({"t;v\n0,5;1\n1.5;2\n"}) == "FILE:3: field 1: '1.5' has another decimal mark than the numbers before it");
   CHECK(records({"t;v\n0.5;1\n1,5;2\n"}) == "FILE:3: field 1 (t): '1,5' is not a number");
   CHECK(records({"0.5 1\n1,5 2\n"}) == "FILE:2: field 1 (t): '1,5' is not a number");
   CHECK(records({"t;v\n0;1,234,567\n"}) == "FILE:2: field 2 (v): '1,234,567' is not a number");
@@ -347,4 +347,39 @@ TEST_CASE("reader: a needed column that displaces another of its name", "[text]"
   std::string all;
   for (const Column& column : in.columns()) all += to_text(column) + ' ';
   CHECK(all == "t[s] v_in[m/s] v[m/s] ");
+}
+
+TEST_CASE("reader: runs side by side come out one under another, the padding of the shorter uncounted", "[text]") {
+  const std::string wide = "Time (s) Run #2,Velocity (m/s) Run #2,Time (s) Run #4,Velocity (m/s) Run #4\n0,1,0,5\n1,2,1,\n2,3,,\n";
+  CHECK(records({wide}) == "0 1 | 1 2 | 2 3 || 0 5");
+  CHECK(records({wide}, run(4)) == "0 5");
+  CHECK(records({wide}, run(2)) == "0 1 | 1 2 | 2 3");
+  CHECK(records({wide}, strict) == "FILE:3: field 4 (v): a reading is missing");
+  CHECK(records({wide}, use({"t=3", "v=4"})) == "0 5");
+  CHECK(records({"Time (s),v Run 1,v Run 2\n0,1,5\n1,2,\n"}) == "0 1 | 1 2 || 0 5");
+  CHECK(records({"t v t v\n0 1 0 5\n1 2 1 6\n"}) == "0 1 | 1 2 || 0 5 | 1 6");
+  CHECK(records({"t;v;t;v\n0;1;0;5\n1;2\n"}) == "0 1 | 1 2 || 0 5");  // a line that ends where the longer runs do
+  CHECK(records({"t Run 1,v Run 1,t Run 2,v Run 2\n0,1,0,x\n"}) == "FILE:2: field 4 (v): 'x' is not a number");
+  CHECK(copies("Time (s) Run #2,v Run #2,Time (s) Run #4,v Run #4\n0.0,1,0.00,5\n") == "<0.0\t1><0.00\t5>");
+}
+
+TEST_CASE("reader: stacked runs under repeated names keep their numbers", "[text]") {
+  const std::string stacked = "Time (s) Run #3,v Run #3\n0,1\n\nTime (s) Run #5,v Run #5\n0,2\n1,3\n";
+  CHECK(records({stacked}) == "0 1 || 0 2 | 1 3");
+  CHECK(records({stacked}, run(5)) == "0 2 | 1 3");
+  CHECK(records({stacked}, run(1)) == "there is no run 1 (runs: 2)");
+  CHECK(records({"t,v\n0,1\n\nt,w\n0,2\n"}) == "FILE:4: field 1 (t): 't' is not a number");
+}
+
+TEST_CASE("reader: a delimiter that ends the line is no cell", "[text]") {
+  CHECK(records({"t,v,\n0,1,\n1,2,\n"}) == "0 1 | 1 2");
+  CHECK(records({"t,v,\n0,1\n1,2,\n"}) == "0 1 | 1 2");
+  CHECK(records({"t,v\n0,1,\n1,2\n"}) == "0 1 | 1 2");
+  CHECK(records({"t,v\n0,1,7\n"}) == "FILE:2: 3 fields under a line of 2 names; if some of its commas are decimal ones, make them points first");
+}
+
+TEST_CASE("reader: a quoted field may hold separators and line ends", "[text]") {
+  CHECK(records({"\"t\",\"v, of\nthe cart\"\n0,1\n"}, {}, {"t", "v,_of_the_cart"}) == "0 1");
+  CHECK(records({"note,t,v\n\"one\ntwo, three\",0,1\nfour,1,x\n"}) == "FILE:4: field 3 (v): 'x' is not a number");
+  CHECK(records({"t,v,note\n0,1,\"open\n1,2,x\n"}) == "FILE:2: a quote that does not end");
 }
