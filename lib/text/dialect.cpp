@@ -48,6 +48,7 @@ bool Dialect::choose(std::string_view line) {
 
 std::vector<std::string_view>& Dialect::split(std::string_view line) {
   fields_.clear();
+  changed_ = false;
   if (separator_ == '\0') {
     split_blanks(line);
   } else if (line.find('"') != npos) {
@@ -77,6 +78,7 @@ void Dialect::split_blanks(std::string_view line) {
 }
 
 void Dialect::split_quoted(std::string_view line) {
+  changed_ = true;
   unquoted_.clear();
   std::string field;
   bool quoted = false;
@@ -105,6 +107,7 @@ void Dialect::rewrite_numbers() {
     if (decimal_mark_ == '\0' && (comma || point)) decimal_mark_ = comma ? ',' : '.';
     if ((comma || point) && decimal_mark_ != (comma ? ',' : '.'))
       fail("field {}: '{}' has another decimal mark than the numbers before it", i + 1, shown(field));
+    changed_ |= !text.empty();
     if (!text.empty()) field = rewritten_.emplace_back(std::move(text));
   }
 }

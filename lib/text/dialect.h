@@ -17,6 +17,8 @@ class Dialect {
   /// Throws Error where two decimal marks meet.
   std::vector<std::string_view>& split(std::string_view line);
 
+  /// The last line was its fields with a tab between them, blanks around them aside.
+  bool tabs_only() const { return separator_ == '\t' && !changed_; }
   char separator() const { return separator_; }  ///< '\0' for blanks
 
  private:
@@ -27,6 +29,7 @@ class Dialect {
   char separator_ = '\0';
   bool foreign_numbers_ = false;  // numbers may have decimal commas and U+2212
   char decimal_mark_ = '\0';      // the one seen
+  bool changed_ = false;          // the last line had quotes or numbers to rewrite
   std::vector<std::string_view> fields_;
   std::vector<std::string> unquoted_, rewritten_;
 };

@@ -168,6 +168,7 @@ std::size_t Reader::add(std::size_t column, const std::string& name, Conversion 
   for (std::size_t slot = 0; slot < needed_.size(); ++slot)
     if (needed_[slot].column == column) return slot;
   needed_.push_back({column, name, to_si});
+  converts_ |= to_si.changes();
   values_.push_back(0);
   return needed_.size() - 1;
 }
@@ -213,11 +214,10 @@ void Reader::comment(std::string_view line) {
 bool Reader::next_line() {
   if (!input_->next(line_)) return false;
   line_number_ = input_->line_number();
-  const auto open = [](std::string_view line) {
-    const auto last = line.rfind('"');
-    return last != npos && std::count(line.begin(), line.end(), '"') % 2 == 1 && (last == 0 || line[last - 1] == ',' || line[last - 1] == ';' || line[last - 1] == '\t');
-  };
-  if (!open(line_)) return true;
+  if (line_.find('"') == npos) return true;
+  const auto last = line_.rfind('"');
+  const bool opens = last == 0 || line_[last - 1] == ',' || line_[last - 1] == ';' || line_[last - 1] == '\t';
+  if (!opens || std::count(line_.begin(), line_.end(), '"') % 2 == 0) return true;
   joined_ = line_;
   do {
     if (!input_->next(line_)) fail<InputError>("{}:{}: a quote that does not end", input_->name(), line_number_);
@@ -376,12 +376,23 @@ bool Reader::parse() {
 }
 
 void Reader::copy(std::string& to, std::size_t cut, std::size_t& first, std::size_t& last) const {
+  std::size_t length = fields_.size() - 1;
+  for (const std::string_view field : fields_) length += field.size();
+  const bool as_it_stands = !converts_ && !layout_.side_by_side && dialect_.tabs_only() && length == line_.size();
+  if (as_it_stands) {
+    if (cut < fields_.size()) {
+      first = to.size() + static_cast<std::size_t>(fields_[cut].data() - line_.data());
+      last = first + fields_[cut].size();
+    }
+    to += line_;
+    return;
+  }
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     if (i) to += '\t';
     const auto from = to.size();
-    const auto needed = std::find_if(needed_.begin(), needed_.end(), [i](const Needed& n) { return n.column == i && n.to_si.changes(); });
-    if (needed == needed_.end()) to += fields_[i];
-    else append_number(to, values_[static_cast<std::size_t>(needed - needed_.begin())]);
+    const auto converted = std::find_if(needed_.begin(), needed_.end(), [i](const Needed& n) { return n.column == i && n.to_si.changes(); });
+    if (converted == needed_.end()) to += fields_[i];
+    else append_number(to, values_[static_cast<std::size_t>(converted - needed_.begin())]);
     if (i == cut) first = from, last = to.size();
   }
 }

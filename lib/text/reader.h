@@ -115,6 +115,7 @@ class Reader {
 
   // What is needed of it.
   std::vector<Needed> needed_;
+  bool converts_ = false;
   std::vector<double> values_;
   std::size_t time_slot_ = static_cast<std::size_t>(-1);
   double last_time_ = 0;
