@@ -51,8 +51,7 @@ const Quantity* known(std::string_view name) {
 
 /// Takes `Run #2` or `Run 2` off the end of a name, `Latest:` or `Data Set 1:` off its front; returns the number, else the word.
 std::string take_run(std::string_view& name) {
-  constexpr std::string_view digits = "0123456789";
-  const auto number_at_end = [](std::string_view text) { return text.substr(text.find_last_not_of(digits) + 1); };
+  const auto number_at_end = [](std::string_view text) { return text.substr(text.find_last_not_of("0123456789") + 1); };
   std::string_view prefix;
   if (const auto colon = name.find(':'); colon != std::string_view::npos) {
     prefix = trim(name.substr(0, colon));
