@@ -41,8 +41,10 @@ build/catch_main.o: | $(filter setup,$(MAKECMDGOALS))
 
 -include $(patsubst %.o,%.d,$(call object,$(source) $(test) $(wildcard cmd/*.cpp)))
 
-# From a fresh machine: only what is missing, and no root when nothing is.
-packages := g++ libgsl-dev libfmt-dev libcli11-dev catch2 libboost-dev mandoc
+# From a fresh machine: only what is missing, and no root when nothing is. `make setup table1` leaves out what only tests need.
+goals    := $(filter-out setup,$(MAKECMDGOALS))
+testing  := $(if $(goals),$(filter-out all table1 samples,$(goals)),everything)
+packages := g++ libgsl-dev libfmt-dev libcli11-dev $(if $(testing),catch2 libboost-dev mandoc)
 setup:
 	@missing=$$(for p in $(packages); do dpkg-query -W -f '$${Status}\n' $$p 2>/dev/null | grep -q '^install ok installed' || echo $$p; done); \
 	test -z "$$missing" || { echo installing $$missing; as_root=$$(test "$$(id -u)" = 0 || echo sudo); \

@@ -2,9 +2,9 @@
 # Every example of the manual pages runs, and prints what the page shows (blanks aside). An example that ends in `# exits N`
 # must exit with N.
 set -u
+overstrike=$(printf '\b')
 cd "$(dirname "$0")/../.." || exit 2
 command -v mandoc >/dev/null || { echo "skipped: mandoc is not installed"; exit 77; }
-command -v col >/dev/null || { echo "skipped: col is not installed"; exit 77; }
 
 top=$PWD
 scratch=$(mktemp -d) || exit 2
@@ -53,7 +53,7 @@ for page in man/*.[1-9]; do
     fi
     continued=0
     [[ $command == *\\ ]] && continued=1
-  done < <(mandoc -Tascii "$page" | col -bx; echo .)
+  done < <(mandoc -Tascii "$page" | sed "s/.$overstrike//g"; echo .)
 done
 
 [[ $count -gt 0 ]] || { echo "no examples found in man/"; exit 1; }
