@@ -13,7 +13,7 @@ tool   := $(patsubst cmd/%.cpp,%,$(wildcard cmd/*.cpp))
 test   := $(wildcard tests/unit/*/*.cpp tests/pipeline/*.cpp)
 object  = $(patsubst %.cpp,build/%.o,$1)
 
-.PHONY: all setup table1 samples check lint clean
+.PHONY: all setup table1 samples figures check lint clean
 .SECONDARY:
 all: $(tool:%=bin/%)
 
@@ -43,8 +43,8 @@ build/catch_main.o: | $(filter setup,$(MAKECMDGOALS))
 
 # From a fresh machine: only what is missing, and no root when nothing is. `make setup table1` leaves out what only tests need.
 goals    := $(filter-out setup,$(MAKECMDGOALS))
-testing  := $(if $(goals),$(filter-out all table1 samples,$(goals)),everything)
-packages := g++ libgsl-dev libfmt-dev libcli11-dev $(if $(testing),catch2 libboost-dev mandoc)
+testing  := $(if $(goals),$(filter-out all table1 samples figures figures/%,$(goals)),everything)
+packages := g++ libgsl-dev libfmt-dev libcli11-dev $(if $(testing),catch2 libboost-dev mandoc) $(if $(filter figures figures/%,$(goals)),gnuplot-nox)
 setup:
 	@missing=$$(for p in $(packages); do dpkg-query -W -f '$${Status}\n' $$p 2>/dev/null | grep -q '^install ok installed' || echo $$p; done); \
 	test -z "$$missing" || { echo installing $$missing; as_root=$$(test "$$(id -u)" = 0 || echo sudo); \
@@ -60,12 +60,25 @@ samples: bin/simulate
 	bin/simulate --scene samples/SF.toml --memory 5e-4 --damping 0.02 --sensor pasco --seed 3 >samples/SF.csv
 	bin/simulate --scene samples/SR.toml --memory 5e-4 --damping 0.02 --sensor pasco --seed 4 >samples/SR.csv
 
+# Figures of the paper, each from the script of its name in samples/figures and the tools that it runs.
+figures: $(patsubst samples/%.sh,%.svg,$(wildcard samples/figures/*.sh)) $(patsubst samples/%.sh,%.png,$(wildcard samples/figures/*.sh))
+tools_in = $(addprefix bin/,$(shell grep -v '^\#' $1 | grep -owE '$(subst $(space),|,$(tool))' | sort -u))
+empty   :=
+space   := $(empty) $(empty)
+.SECONDEXPANSION:
+figures/%.svg: samples/figures/%.sh $$(call tools_in,samples/figures/$$*.sh)
+	@mkdir -p $(@D)
+	cd samples && PATH="$(CURDIR)/bin:$$PATH" figures/$*.sh svg >../$@.new && mv ../$@.new ../$@
+figures/%.png: samples/figures/%.sh $$(call tools_in,samples/figures/$$*.sh)
+	@mkdir -p $(@D)
+	cd samples && PATH="$(CURDIR)/bin:$$PATH" figures/$*.sh pngcairo >../$@.new && mv ../$@.new ../$@
+
 check: all build/unit
 	@PATH="$(CURDIR)/bin:$$PATH" tests/run.sh build/unit
 
 lint:
 	mandoc -Tlint -Wwarning man/*
-	shellcheck --severity=warning samples/*.sh tests/*.sh tests/*/*.sh
+	shellcheck --severity=warning samples/*.sh samples/figures/*.sh tests/*.sh tests/*/*.sh
 
 clean:
-	rm -rf bin build
+	rm -rf bin build figures
