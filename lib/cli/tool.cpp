@@ -45,12 +45,16 @@ void Tool::add(const std::string& names, const std::string& type, const std::str
   app_.add_option_function<std::string>(names, set, help)->type_name(type);
 }
 
-void Tool::flag(const std::string& names, bool& value, const std::string& help) {
-  setters_[long_name(names)] = [&value, names](const std::string& text) {
+void Tool::add_flag(const std::string& names, const std::string& help, std::function<void(bool)> set) {
+  setters_[long_name(names)] = [set, names](const std::string& text) {
     if (text != "true" && text != "false") fail("{}: '{}' is neither true nor false", names, shown(text));
-    value = text == "true";
+    set(text == "true");
   };
-  app_.add_flag(names, value, help)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  app_.add_flag_function(names, [set](std::int64_t) { set(true); }, help)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+}
+
+void Tool::flag(const std::string& names, bool& value, const std::string& help) {
+  add_flag(names, help, [&value](bool on) { value = on; });
 }
 
 void Tool::number(const std::string& names, double& value, const Range& range, const std::string& help) {
@@ -92,11 +96,8 @@ void Tool::law(PowerLaw& law) {
 
 void Tool::geometry(Geometry& geometry) {
   geometry = Geometry::approximate;
-  setters_["exact"] = [&geometry](const std::string& text) {
-    if (text != "true" && text != "false") fail("--exact: '{}' is neither true nor false", shown(text));
-    geometry = text == "true" ? Geometry::exact : Geometry::approximate;
-  };
-  app_.add_flag_callback("--exact", [&geometry] { geometry = Geometry::exact; }, "keep A = sqrt(1 - D^2/R^2) (the paper sets A = 1)");
+  add_flag("--exact", "keep A = sqrt(1 - D^2/R^2) (the paper sets A = 1)",
+           [&geometry](bool on) { geometry = on ? Geometry::exact : Geometry::approximate; });
 }
 
 void Tool::scene() {

@@ -85,6 +85,7 @@ class Tool {
 
  private:
   void add(const std::string& names, const std::string& type, const std::string& help, std::function<void(const std::string&)> set);
+  void add_flag(const std::string& names, const std::string& help, std::function<void(bool)> set);
   void read_scene();
   int print(const std::string& text);
 
