@@ -13,7 +13,7 @@ tool   := $(patsubst cmd/%.cpp,%,$(wildcard cmd/*.cpp))
 test   := $(wildcard tests/unit/*/*.cpp tests/pipeline/*.cpp)
 object  = $(patsubst %.cpp,build/%.o,$1)
 
-.PHONY: all setup table1 samples figures check lint clean
+.PHONY: all setup table1 samples figures check coverage work-precision work-precision-signal lint clean
 .SECONDARY:
 all: $(tool:%=bin/%)
 
@@ -39,7 +39,7 @@ build/catch_main.o: | $(filter setup,$(MAKECMDGOALS))
 	else echo '#include <catch2/catch_session.hpp>'; echo 'int main(int argc, char** argv) { return Catch::Session().run(argc, argv); }'; fi \
 	  | $(CXX) $(CXXFLAGS) -x c++ -c -o $@ -
 
--include $(patsubst %.o,%.d,$(call object,$(source) $(test) $(wildcard cmd/*.cpp)))
+-include $(patsubst %.o,%.d,$(call object,$(source) $(test) $(wildcard cmd/*.cpp tests/bench/*.cpp)))
 
 # From a fresh machine: only what is missing, and no root when nothing is. `make setup table1` leaves out what only tests need.
 goals    := $(filter-out setup,$(MAKECMDGOALS))
@@ -75,6 +75,30 @@ figures/%.png: samples/figures/%.sh $$(call tools_in,samples/figures/$$*.sh)
 
 check: all build/unit
 	@PATH="$(CURDIR)/bin:$$PATH" tests/run.sh build/unit
+
+# How often the errors of fitpower hold, by case and route: 1000 simulated runs each, a few minutes.
+build/tests/bench/coverage.o: CPPFLAGS += -Itests
+build/coverage: build/tests/bench/coverage.o build/lib.a
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) -pthread
+coverage: build/coverage
+	@build/coverage
+
+# Error against run time of all methods: some minutes; figures where gnuplot is installed. See tests/bench/README.md.
+build/bench/%: CPPFLAGS += -Itests
+build/bench/%: build/tests/bench/%.o build/lib.a
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+
+work-precision: build/bench/ulp build/bench/work_precision
+	@mkdir -p build/work-precision
+	build/bench/ulp | tee build/work-precision/ulp.tsv
+	build/bench/work_precision build/work-precision
+	tests/bench/work-precision.sh build/work-precision | tee build/work-precision/failures.tsv
+
+# The errors of smooth and differentiate on noisy records, by method and window: some seconds.
+work-precision-signal: build/bench/signal
+	@mkdir -p build/work-precision
+	tests/bench/signal.sh build/work-precision
 
 lint:
 	mandoc -Tlint -Wwarning man/*

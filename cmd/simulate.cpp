@@ -1,15 +1,30 @@
-// simulate - roll a body under the law D = a v^b; see simulate(1)
+// simulate - roll a body under a law D(v); see simulate(1)
 #include <cmath>
 
 #include "cli/tool.h"
-#include "rolling/closed_form.h"
-#include "rolling/exact_form.h"
-#include "rolling/memory.h"
+#include "rolling/measure.h"
+#include "rolling/roll.h"
 #include "sensor/sonar.h"
 
 using namespace rolling;
 
 namespace {
+
+const std::map<std::string, Method> methods = {
+    {"closed", {Method::closed}},
+    {"exact", {Method::exact}},
+    {"rk2", {Method::solver, Stepper::rk2}},
+    {"rk4", {Method::solver, Stepper::rk4}},
+    {"rkf45", {Method::solver, Stepper::rkf45}},
+    {"rkck", {Method::solver, Stepper::rkck}},
+    {"rk8pd", {Method::solver, Stepper::rk8pd}},
+    {"msadams", {Method::solver, Stepper::msadams}},
+    {"rk1imp", {Method::solver, Stepper::rk1imp}},
+    {"rk2imp", {Method::solver, Stepper::rk2imp}},
+    {"rk4imp", {Method::solver, Stepper::rk4imp}},
+    {"bsimp", {Method::solver, Stepper::bsimp}},
+    {"msbdf", {Method::solver, Stepper::msbdf}},
+};
 
 struct Quantity {
   Column column;
@@ -59,31 +74,76 @@ void write_record(Output& out, const std::vector<SonarSample>& record) {
   }
 }
 
+/// A table of v D, or a row of fitpower: that has the columns a and b. The command line wins over the row.
+void read_law(Tool& tool, const std::string& file, Roll& roll) {
+  Reader& in = tool.read_file(file, {"v", "D"});
+  if (in.find("a") && in.find("b")) {
+    const auto a = in.need_as_is("a"), b = in.need_as_is("b");
+    const bool has_v0 = in.find("v0").has_value();
+    const auto v0 = has_v0 ? in.need_as_is("v0") : a;
+    if (!in.next_run() || !in.next()) fail("{}: no row of fitpower", shown(file));
+    if (!tool.on_command_line("coefficient")) roll.law.a = in[a];
+    if (!tool.on_command_line("exponent")) roll.law.b = in[b];
+    if (has_v0 && !tool.on_command_line("v0")) roll.v0 = in[v0];
+    if (in.next() || in.next_run()) fail("more than one row: a law is one row of fitpower");
+    return;
+  }
+  if (tool.on_command_line("coefficient") || tool.on_command_line("exponent")) fail("-a and -b do not go with a table of v D");
+  const auto v = in.need("v"), D = in.need("D");
+  std::vector<double> speeds, shifts;
+  while (in.next_run())
+    while (in.next()) speeds.push_back(in[v]), shifts.push_back(in[D]);
+  roll.table.emplace(speeds, shifts);
+}
+
+/// On standard error: what the methods cost on this scene, and how far they are off.
+void report(const Tool& tool, const Roll& roll, double rtol, double end) {
+  const Reference right = reference(roll, 200, end);
+  const Method best = best_method(roll);
+  tool.say(fmt::format("{:8} {:>7} {:>9} {:>10} {:>11} {:>11} {:>8}", "method", "rtol", "max|dv|/v0", "dt*/t*", "evaluations", "ns/sample", "scatter"));
+  const auto row = [&](const std::string& name, const Method& method, double tolerance) {
+    const Measured m = measure([&] { return start(roll, method, tolerance); }, right, roll.v0, 7);
+    const std::string text = fmt::format("{:8} {:>7}", name, method.kind == Method::solver ? fmt::format("{:g}", tolerance) : "-");
+    if (!m.failure.empty()) return tool.say(text + " failed: " + m.failure);
+    tool.say(fmt::format("{} {:10.2g} {:10.2g} {:11} {:11.4g} {:8.2g}", text, m.v_error, m.stop_error, m.evaluations, 1e9 * m.seconds, 1e9 * m.scatter));
+  };
+  for (const auto& [name, method] : methods)
+    if (method.kind == best.kind && (best.kind != Method::solver || method.stepper == best.stepper)) row(name, method, rtol);
+  for (const char* name : {"rkf45", "rk8pd", "rk4imp", "bsimp", "msbdf"})
+    for (const double tolerance : {1e-6, rtol}) row(name, methods.at(name), tolerance);
+  tool.say(best.kind == Method::solver ? "errors are against the first at rtol 1e-13" : "errors are against the first");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool("simulate", "Roll a body on a mat under the law D = a v^b.");
-  Body body;
-  PowerLaw law;
-  Geometry geometry;
-  Bulge bulge{0};
+  Tool tool("simulate", "Roll a body on a mat under a law D(v).");
+  Roll roll{};
+  Body& body = roll.body;
+  PowerLaw& law = roll.law;
+  Bulge& bulge = roll.bulge;
+  double& v0 = roll.v0 = not_given;
+  Method method{};
   SonarOptions sonar;
-  double v0 = not_given, x0 = 0, dt = 0.01, until = not_given;
+  double dt = 0.01, until = not_given, rtol = 1e-10;
   std::size_t seed = 1;
   std::string times_file, law_file, columns = "t,x,v,a,D";
-  bool sensor = false;
+  bool sensor = false, with_report = false;
   tool.body(body, "RKg");
   tool.law(law);
-  tool.geometry(geometry);
+  tool.geometry(roll.geometry);
   tool.number("--v0", v0, not_negative, "speed at t = 0 [m/s]");
-  tool.number("--x0", x0, any_number, "position at t = 0 [m] (0)");
+  tool.number("--x0", roll.x0, any_number, "position at t = 0 [m] (0)");
   tool.number("--dt", dt, positive, "time between rows [s] (0.01)");
   tool.number("--until", until, not_negative, "time of the last row [s] (the stop)");
   tool.text("--at", times_file, "FILE", "file with a column t: the times of the rows, instead");
   tool.text("--columns", columns, "NAME,...", "what to compute, of t,x,v,a,D (all)");
-  tool.text("--law", law_file, "FILE", "file (- is standard input) with a row of fitpower: a, b and v0 that are not given otherwise");
+  tool.text("--law", law_file, "FILE", "file (- is standard input) with a table of v D, or with a row of fitpower: a, b and v0 that are not given otherwise");
   tool.number("--memory", bulge.length, positive, "length over which the bulge follows the law [m]: rolls backwards before rest");
   tool.number("--damping", bulge.damping, not_negative, "damping of the bulge [s] (0)");
+  tool.choice("--method", method, methods, "closed, exact, or a solver: rk2, rk4, rkf45, rkck, rk8pd, msadams, rk1imp, rk2imp, rk4imp, bsimp, msbdf (the cheapest that is exact)");
+  tool.number("--rtol", rtol, {"from 1e-14 to 0.1", [](double x) { return x >= 1e-14 && x <= 0.1; }}, "relative tolerance of a solver's step (1e-10)");
+  tool.flag("--report", with_report, "on standard error, error against run time of the methods on this scene");
   tool.choice<bool>("--sensor", sensor, {{"pasco", true}}, "write what a motion sensor records, push and rest included: pasco");
   tool.count("--seed", seed, whole, "seed of the sensor's noise (1)");
   tool.number("--rate", sonar.rate, positive, "records of the sensor a second (25)");
@@ -94,31 +154,19 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    if (!law_file.empty()) {
-      Reader& in = tool.read_file(law_file, {});
-      const auto a = in.need_as_is("a"), b = in.need_as_is("b");
-      const bool has_v0 = in.find("v0").has_value();
-      const auto fitted_v0 = has_v0 ? in.need_as_is("v0") : a;
-      if (!in.next_run() || !in.next()) fail("{}: no row of fitpower", shown(law_file));
-      if (!tool.on_command_line("coefficient")) law.a = in[a];
-      if (!tool.on_command_line("exponent")) law.b = in[b];
-      if (has_v0 && !tool.on_command_line("v0")) v0 = in[fitted_v0];
-      if (in.next() || in.next_run()) fail("more than one row: a law is one row of fitpower");
-    }
+    if (!law_file.empty()) read_law(tool, law_file, roll);
     tool.need(body, "RK");
-    tool.need(law);
+    if (!roll.table) tool.need(law);
     tool.need(v0, "--v0");
     if (bulge.length == 0 && bulge.damping > 0) fail("--damping goes with --memory");
+    if (!tool.on_command_line("method")) method = best_method(roll);
+    if (method.kind != Method::solver && !with_report && tool.on_command_line("rtol")) fail("--rtol goes with a solver: there is no tolerance here");
 
-    const auto roll = [&]() -> std::unique_ptr<Motion> {
-      if (bulge.length > 0) return std::make_unique<MemoryRoll>(body, geometry, law, bulge, v0, x0);
-      if (geometry == Geometry::exact) return std::make_unique<ExactForm>(body, law, v0, x0);
-      return std::make_unique<ClosedForm>(body, law, v0, x0);
-    };
+    if (with_report) report(tool, roll, rtol, std::isnan(until) ? 10 : until);
     if (sensor) {
       sonar.seed = seed;
       if (!std::isnan(until)) sonar.until = until;
-      write_record(tool.out, sonar_record(*roll(), sonar));
+      write_record(tool.out, sonar_record(*start(roll, method, rtol), sonar));
       return 0;
     }
 
@@ -126,7 +174,7 @@ int main(int argc, char** argv) {
     const auto write_header = [&] {
       std::vector<Column> names;
       for (const Quantity& quantity : row) names.push_back(quantity.column);
-      tool.out.line() += fmt::format("## simulate a {} b {} K {} R {} g {} v0 {}", law.a, law.b, body.K, body.R, body.g, v0);
+      tool.out.line() += "## simulate " + (roll.table ? "table" : fmt::format("a {} b {}", law.a, law.b)) + fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, v0);
       tool.out.end_line();
       tool.out.names(names);
     };
@@ -142,7 +190,7 @@ int main(int argc, char** argv) {
       write_header();
       for (bool first = true; in.next_run(); first = false) {
         if (!first) tool.out.end_line();
-        const auto motion = roll();
+        const auto motion = start(roll, method, rtol);
         while (in.next()) {
           if (in[t] < 0) fail("t = {} is before the roll, which begins at 0", in[t]);
           write(in[t], *motion);
@@ -150,7 +198,7 @@ int main(int argc, char** argv) {
       }
       return 0;
     }
-    const auto motion = roll();
+    const auto motion = start(roll, method, rtol);
     const bool to_the_stop = std::isnan(until);
     const double end = to_the_stop ? motion->stop_time() : until;
     if (!std::isfinite(end)) fail("the body never stops: say --until when to end");

@@ -8,14 +8,30 @@
 #include "base/error.h"
 #include "rolling/contact.h"
 #include "rolling/trajectory.h"
+#include "rolling/trial.h"
 
 namespace rolling {
 
 namespace {
 
 constexpr double rest_fraction = 1e-3;
+constexpr double stiff = 3e4;  // measured: from here on an implicit solver is faster
+
+OdeOptions options(Stepper stepper) {
+  OdeOptions options;
+  options.stepper = stepper;
+  return options;
+}
 
 }  // namespace
+
+Stepper memory_stepper(const Body& body, PowerLaw law, Bulge bulge, double v0) {
+  const double slowing = v0 / -trial_acceleration(body, Geometry::approximate, law(v0)), following = bulge.length / v0;
+  return slowing > stiff * following ? Stepper::rk4imp : Stepper::rk8pd;
+}
+
+MemoryRoll::MemoryRoll(const Body& body, Geometry geometry, PowerLaw law, Bulge bulge, double v0, double x0)
+    : MemoryRoll(body, geometry, law, bulge, v0, x0, options(memory_stepper(body, law, bulge, v0))) {}
 
 MemoryRoll::MemoryRoll(const Body& body, Geometry geometry, PowerLaw law, Bulge bulge, double v0, double x0, const OdeOptions& options)
     : body_(body), geometry_(geometry), law_(law), bulge_(bulge), v0_(v0), x0_(x0), options_(options), ode_(start()), at_rest_(v0 == 0) {}
@@ -31,14 +47,12 @@ Integrator MemoryRoll::start() const {
     const double v = y[1], z = y[2];
     dydt[0] = v;
     dydt[2] = std::abs(v) * (law(v) - z) / bulge.length;
-    dydt[1] = acceleration_from_shift(body, geometry, z + bulge.damping * dydt[2]);
+    dydt[1] = trial_acceleration(body, geometry, z + bulge.damping * dydt[2]);
   };
   const auto jacobian = [body = body_, geometry = geometry_, law = law_, bulge = bulge_](double, const double* y, double* dfdy, double* dfdt) {
     const double v = y[1], z = y[2], speed = std::abs(v);
-    const double D = z + bulge.damping * speed * (law(v) - z) / bulge.length, A = arm_factor(body, geometry, D), arm = (body.K + A) * body.R;
+    const double dv_dD = trial_acceleration_slope(body, geometry, z + bulge.damping * speed * (law(v) - z) / bulge.length);
     const double dz_dv = ((1 + law.b) * std::abs(law(v)) - std::copysign(1.0, v) * z) / bulge.length, dz_dz = -speed / bulge.length;
-    const double dA_dD = geometry == Geometry::approximate ? 0 : -D / (body.R * body.R * A);
-    const double dv_dD = -body.g / arm * (1 - D * dA_dD * body.R / arm);
     const double rows[9] = {0, 1, 0, 0, dv_dD * bulge.damping * dz_dv, dv_dD * (1 + bulge.damping * dz_dz), 0, dz_dv, dz_dz};
     std::copy(rows, rows + 9, dfdy);
     dfdt[0] = dfdt[1] = dfdt[2] = 0;

@@ -16,6 +16,10 @@ struct Bulge {
   double damping = 0;  ///< sigma_1 [s], >= 0
 };
 
+/// The shift follows v within the time length/v0, the body slows down within v0/(c D(v0)). Where these differ by more than 3e4 the system
+/// is stiff: rk4imp, else rk8pd.
+Stepper memory_stepper(const Body&, PowerLaw, Bulge, double v0);
+
 /// x' = v, v' = -g D / ((K + A) R) (Eq. 12), z as in Bulge; z = D(v0) at t = 0.
 ///
 /// Rest: with c = g / ((K + A) R),  E = c z^2 / 2 + a |v|^(2+b) / ((2+b) length)  never grows (while damping |v| < 4 length), so it
@@ -25,7 +29,10 @@ struct Bulge {
 class MemoryRoll final : public Motion {
  public:
   /// Refuses what check_roll refuses, b < 0 (no shift at rest to return to), length <= 0, damping < 0.
-  MemoryRoll(const Body&, Geometry, PowerLaw, Bulge, double v0, double x0, const OdeOptions& = {});
+  MemoryRoll(const Body&, Geometry, PowerLaw, Bulge, double v0, double x0, const OdeOptions&);
+  /// The same by the solver that memory_stepper() names.
+  MemoryRoll(const Body&, Geometry, PowerLaw, Bulge, double v0, double x0);
+
 
   /// The first call integrates to the rest, apart from where seek() stands.
   double stop_time() const override;
@@ -34,6 +41,7 @@ class MemoryRoll final : public Motion {
   double velocity() override;
   double acceleration() override;
   double shift() override;
+  unsigned long evaluations() const override { return ode_.evaluations(); }
 
  private:
   Integrator start() const;

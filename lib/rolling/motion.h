@@ -15,6 +15,8 @@ class Motion {
   virtual double velocity() = 0;      ///< v [m/s]
   virtual double acceleration() = 0;  ///< dv/dt [m/s^2]
   virtual double shift() = 0;         ///< D [m]
+  /// How often seek() has evaluated a differential equation.
+  virtual unsigned long evaluations() const { return 0; }
 };
 
 }  // namespace rolling

@@ -1,10 +1,10 @@
 #include "rolling/speed_integrals.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
+#include "rolling/gauss_legendre.h"
 #include "rolling/power_integral.h"
 
 namespace rolling {
@@ -15,19 +15,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double shallow = 1e-20;  // z below it: A = 1
 constexpr double deep = 0.25;      // z above it: the series takes more than 30 terms
 constexpr double far = 40;         // e^-40: what lies beyond y = 40 or s y = 40 does not show in a double
-
-// Abscissas and weights of the 16-point Gauss-Legendre rule on (-1, 1), the positive half.
-struct Node {
-  double x, weight;
-};
-constexpr std::array<Node, 8> gauss_legendre{{{0.9894009349916499326, 0.027152459411754094852},
-                                              {0.94457502307323257608, 0.062253523938647892863},
-                                              {0.86563120238783174388, 0.09515851168249278481},
-                                              {0.7554044083550030339, 0.12462897125553387205},
-                                              {0.61787624440264374845, 0.14959598881657673208},
-                                              {0.45801677765722738634, 0.16915651939500253819},
-                                              {0.28160355077925891323, 0.18260341504492358887},
-                                              {0.095012509837637440185, 0.18945061045506849629}}};
 
 /// int_0^lambda e^(-s y) dy = time, solved for lambda; rest is 1/s - time for s > 0.
 double power_integral_inverse(double s, double time, double rest) {
@@ -148,7 +135,7 @@ void SpeedIntegrals::quadrature(const Piece& p, double width, Integrand&& integr
   if (width == 0) return;
   const double w_end = -std::expm1(-2 * b_ * width);  // w = 1 - z/p.z
   const double slope = 1 / (p.A + std::sqrt(std::max(0.0, p.A * p.A + p.z * w_end)));
-  for (const Node& node : gauss_legendre)
+  for (const GaussNode& node : gauss_legendre)
     for (const double x : {node.x, -node.x}) {
       const double dA = slope * p.z * w_end * (1 + x) / 2, A = p.A + dA, w = slope * w_end * (1 + x) / 2 * (A + p.A);
       const double y = -std::log1p(-w) / (2 * b_);

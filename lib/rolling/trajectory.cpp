@@ -98,15 +98,4 @@ Trajectory::Point Trajectory::at(double t) const {
           -std::expm1(-lambda) * unit_ * integrals_.f(0)};
 }
 
-TrajectoryMotion::TrajectoryMotion(const Body& body, Geometry geometry, PowerLaw law, double v0, double x0)
-    : trajectory_(body, geometry, law, v0), x0_(x0) {
-  if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
-  seek(0);
-}
-
-void TrajectoryMotion::seek(double t) {
-  t_ = t;
-  lambda_ = trajectory_.log_ratio(t);
-}
-
 }  // namespace rolling

@@ -1,9 +1,8 @@
 // The free roll under D(v) = a v^b, in either geometry, as a function of time and of its parameters. One way through the
-// code for ClosedForm, ExactForm and the trajectory fits.
+// code for ExactForm and the trajectory fits.
 #pragma once
 
 #include "rolling/body.h"
-#include "rolling/motion.h"
 #include "rolling/power_law.h"
 #include "rolling/speed_integrals.h"
 
@@ -59,25 +58,6 @@ class Trajectory {
   double stop_time_ = 0;
   double last_time_ = std::numeric_limits<double>::infinity();  // beyond it the law has no meaning
   Point stopped_{};
-};
-
-/// A Trajectory as a Motion that starts at x0 [m].
-class TrajectoryMotion : public Motion {
- public:
-  TrajectoryMotion(const Body&, Geometry, PowerLaw, double v0, double x0);
-
-  double stop_time() const override { return trajectory_.stop_time(); }
-  void seek(double t) override;
-  double position() override { return x0_ + trajectory_.position(t_, lambda_); }
-  double velocity() override { return trajectory_.velocity(lambda_); }
-  double acceleration() override { return trajectory_.acceleration(velocity()); }
-  double shift() override { return trajectory_.shift(velocity()); }
-
- private:
-  Trajectory trajectory_;
-  double x0_;
-  double t_ = 0;
-  double lambda_ = 0;
 };
 
 }  // namespace rolling

@@ -17,9 +17,7 @@ namespace {
 const Body cylinder{1.375, 0.04, 0.5};
 const PowerLaw rubber{1.87e-3, 0.215};
 
-MemoryRoll roll(Bulge bulge, Geometry geometry = Geometry::approximate, const OdeOptions& options = {}) {
-  return {cylinder, geometry, rubber, bulge, 0.5, 0, options};
-}
+MemoryRoll roll(Bulge bulge, Geometry geometry = Geometry::approximate) { return {cylinder, geometry, rubber, bulge, 0.5, 0}; }
 
 struct Backwards {
   double begin, end, lowest, distance;
@@ -82,9 +80,26 @@ TEST_CASE("MemoryRoll: every stepper that is fit for it finds the same rest", "[
         OdeOptions options;
         options.stepper = stepper;
         INFO("length " << length << " damping " << bulge.damping << " stepper " << static_cast<int>(stepper));
-        CHECK(std::abs(roll(bulge, Geometry::approximate, options).stop_time() / stop - 1) < 1e-6);
+        MemoryRoll motion(cylinder, Geometry::approximate, rubber, bulge, 0.5, 0, options);
+        CHECK(std::abs(motion.stop_time() / stop - 1) < 1e-6);
       }
     }
+}
+
+TEST_CASE("MemoryRoll: stiff lengths take an implicit solver, with few evaluations and damping too", "[rolling]") {
+  CHECK(memory_stepper(cylinder, rubber, {1e-3}, 0.5) == Stepper::rk8pd);
+  for (const double damping : {0.0, 1e-3, 0.02}) {
+    MemoryRoll motion = roll({1e-7, damping});
+    CHECK(memory_stepper(cylinder, rubber, {1e-7, damping}, 0.5) == Stepper::rk4imp);
+    ClosedForm law(cylinder, {1.87e-3, 0.215}, 0.5, 0);
+    motion.seek(2);
+    law.seek(2);
+    if (damping == 0) CHECK(std::abs(motion.velocity() - law.velocity()) < 1e-7);
+    motion.seek(10);
+    CHECK(motion.velocity() == 0);
+    CHECK(std::abs(motion.stop_time() - law.stop_time()) < 0.06);
+    CHECK(motion.evaluations() < 300000);  // rk8pd: 1e7
+  }
 }
 
 TEST_CASE("MemoryRoll: rest is rest, and comes sooner with damping", "[rolling]") {

@@ -1,0 +1,187 @@
+#include "rolling/double_double.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace rolling {
+
+namespace {
+
+/// ln((1 + z)/(1 - z)) = 2 artanh z, |z| < 1/5.
+constexpr DoubleDouble twice_artanh(DoubleDouble z) {
+  const DoubleDouble square = z * z;
+  DoubleDouble sum = 0.0;
+  for (int n = 49; n > 0; n -= 2) sum = sum * square + DoubleDouble(1) / n;
+  return sum * z * 2;
+}
+
+/// e^x for |x| < 1/2.
+constexpr DoubleDouble exp_series(DoubleDouble x) {
+  DoubleDouble sum = 1;
+  for (int n = 28; n > 0; --n) sum = sum * x / n + 1;
+  return sum;
+}
+
+constexpr DoubleDouble ln2 = twice_artanh(DoubleDouble(1) / 7) * 2 + twice_artanh(DoubleDouble(1) / 17);  // 2 = (4/3)^2 9/8
+
+// x = 2^k m: m is divided by the number c of 9 bits that is nearest to the middle of its interval, and ln x = k ln2 + ln c + ln(m/c).
+constexpr int log_bits = 7, log_size = 1 << log_bits;
+constexpr std::uint64_t log_offset = 0x3fe6a00000000000;  // m from 0.707 to 1.414
+
+constexpr double ln2_top = cut(ln2.hi, 11), ln2_rest = (ln2.hi - ln2_top) + ln2.lo;  // k ln2_top is exact
+
+struct LogEntry {
+  double inverse;  // 1/c, a multiple of 2^-9
+  DoubleDouble log;
+};
+constexpr auto log_table = [] {
+  std::array<LogEntry, log_size> table{};
+  for (std::size_t i = 0; i < log_size; ++i) {
+    const std::uint64_t begin = (log_offset & ~((1ull << 45) - 1)) + (i << 45), end = begin + (1ull << 45);
+    const double middle = (std::bit_cast<double>(begin) + std::bit_cast<double>(end)) / 2;
+    const double inverse = static_cast<double>(static_cast<int>(512 / middle + 0.5)) / 512;
+    table[i] = {inverse, twice_artanh(DoubleDouble(1 - inverse) / (1 + inverse))};
+  }
+  return table;
+}();
+
+// e^x = 2^(n/128) e^r. The powers have 26 bits and a rest.
+constexpr int exp_bits = 7, exp_size = 1 << exp_bits;
+constexpr auto exp_table = [] {
+  std::array<DoubleDouble, exp_size> table{};
+  for (std::size_t i = 0; i < exp_size; ++i) {
+    const DoubleDouble power = exp_series(ln2 * static_cast<double>(i) / (2 * exp_size)), square = power * power;
+    const double hi = split(square.hi).hi;
+    table[i] = {hi, (square.hi - hi) + square.lo};
+  }
+  return table;
+}();
+
+constexpr double step1 = cut(ln2.hi / exp_size, 21), step2 = (ln2.hi / exp_size - step1) + ln2.lo / exp_size;  // n step1 is exact
+
+double power_of_two(int n) { return std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52); }
+
+}  // namespace
+
+DoubleDouble exp(DoubleDouble x) {
+  const double n = std::round(x.hi / ln2.hi);
+  const DoubleDouble series = exp_series(x - ln2 * n);
+  const int half = static_cast<int>(n / 2), other = static_cast<int>(n) - half;
+  return {std::ldexp(std::ldexp(series.hi, half), other), std::ldexp(std::ldexp(series.lo, half), other)};
+}
+
+DoubleDouble log(DoubleDouble x) {
+  int k = 0;
+  const double m = std::frexp(x.hi, &k);
+  const DoubleDouble mantissa(m, std::ldexp(x.lo, -k));
+  const DoubleDouble first = std::log(m);  // and one step of Newton's method
+  return first + (mantissa * exp(-first) - 1.0) + ln2 * static_cast<double>(k);
+}
+
+namespace {
+
+/// ln(1 + x) - x + x^2/2
+double log1p_cubic(double x) {
+  const double x2 = x * x;
+  return x * x2 * ((1. / 3 - x * (1. / 4)) + x2 * ((1. / 5 - x * (1. / 6)) + x2 * ((1. / 7 - x * (1. / 8)) + x2 * (1. / 9))));
+}
+
+}  // namespace
+
+DoubleDouble log1p_ratio(DoubleDouble r) {
+  const DoubleDouble line = quick_two_sum(1, -r.hi / 2);
+  return quick_two_sum(line.hi, line.lo + (r.hi == 0 ? 0 : log1p_cubic(r.hi) / r.hi) - r.lo / 2);
+}
+
+DoubleDouble quick_log(DoubleDouble x) {
+  const std::uint64_t bits = std::bit_cast<std::uint64_t>(x.hi), above = bits - log_offset;
+  const int k = static_cast<int>(static_cast<std::int64_t>(above) >> 52);
+  const LogEntry& entry = log_table[(above >> (52 - log_bits)) % log_size];
+  const double m = std::bit_cast<double>(bits - (static_cast<std::uint64_t>(k) << 52)), m_lo = x.lo * power_of_two(-k);
+  const double top = cut(m, 21);
+  const DoubleDouble r = quick_two_sum(top * entry.inverse - 1, (m - top) * entry.inverse + m_lo * entry.inverse);
+  // ln(1 + r) = r - r^2/2 + cubic
+  const double r_top = cut(r.hi, 27), rest = (r.hi - r_top) * (r.hi + r_top) / 2 + r.hi * r.lo;
+  const DoubleDouble high = quick_two_sum(k * ln2_top, entry.log.hi), sum = two_sum(high.hi, r.hi), all = quick_two_sum(sum.hi, -r_top * r_top / 2);
+  return quick_two_sum(all.hi, all.lo + (sum.lo + (high.lo + (k * ln2_rest + entry.log.lo + (r.lo - rest + log1p_cubic(r.hi))))));
+}
+
+namespace {
+
+/// m 2^exponent, rounded once but for the denormals.
+double scale(double m, int exponent) {
+  return exponent > -1000 && exponent < 1000 ? m * power_of_two(exponent) : std::ldexp(m, exponent);
+}
+
+/// e^x = 2^(n/128) (1 + expm1).
+struct Reduced {
+  int n;
+  double expm1;
+  const DoubleDouble& power() const { return exp_table[static_cast<std::size_t>(n) % exp_size]; }
+  int exponent() const { return n >> exp_bits; }
+};
+
+Reduced reduce(DoubleDouble x) {
+  constexpr double rounder = 0x1.8p52;
+  const double n = (x.hi * (exp_size / ln2.hi) + rounder) - rounder;
+  const double r = (x.hi - n * step1) + (x.lo - n * step2), r2 = r * r;
+  return {static_cast<int>(n), r + r2 * ((1. / 2 + r * (1. / 6)) + r2 * ((1. / 24 + r * (1. / 120)) + r2 * (1. / 720)))};
+}
+
+}  // namespace
+
+Scaled::Scaled(DoubleDouble x) {
+  m.hi = std::frexp(x.hi, &exponent);
+  m.lo = std::ldexp(x.lo, -exponent);
+}
+
+double Scaled::value() const { return scale(m.hi, exponent); }
+
+Scaled operator*(const Scaled& a, const Scaled& b) {
+  Scaled product(a.m * b.m);
+  product.exponent += a.exponent + b.exponent;
+  return product;
+}
+
+Scaled operator/(const Scaled& a, const Scaled& b) {
+  Scaled quotient(a.m / b.m);
+  quotient.exponent += a.exponent - b.exponent;
+  return quotient;
+}
+
+Scaled power(double x, DoubleDouble p) {
+  const Scaled s(x);
+  const DoubleDouble binary = p * static_cast<double>(s.exponent);  // of 2
+  const double whole = std::round(binary.hi);
+  Scaled result(exp(p * log(s.m) + (binary - whole) * ln2));
+  result.exponent += static_cast<int>(whole);
+  return result;
+}
+
+double ScaledFactor::operator*(DoubleDouble x) const { return scale((m * x).hi, exponent); }
+
+double times_exp(const ScaledFactor& f, DoubleDouble x) {
+  const Reduced e = reduce(x);
+  const double hi = f.m.hi * e.power().hi, lo = f.m.lo * e.power().hi + (f.m.hi + f.m.lo) * e.power().lo;  // hi is exact
+  return scale(hi + (lo + (hi + lo) * e.expm1), f.exponent + e.exponent());
+}
+
+DoubleDouble one_minus_exp(DoubleDouble x) {
+  const Reduced e = reduce(x);
+  const DoubleDouble& power = e.power();
+  const double unit = power_of_two(std::clamp(e.exponent(), -1022, 1023));
+  const DoubleDouble sum = two_sum(1, -power.hi * unit);
+  return quick_two_sum(sum.hi, sum.lo - (power.lo + (power.hi + power.lo) * e.expm1) * unit);
+}
+
+DoubleDouble expm1_ratio(DoubleDouble x) {
+  double sum = 0;
+  for (int n = 9; n > 1; --n) sum = (sum * x.hi + 1) / n;  // (e^x - 1)/x - 1 = x/2 (1 + x/3 (1 + ...)), over x
+  return quick_two_sum(1, sum * x.hi);
+}
+
+}  // namespace rolling

@@ -1,0 +1,127 @@
+// Numbers of about 106 bits as an unevaluated sum of two doubles, and the logarithm and exponential that the closed form needs.
+//
+// The sums and products are those of Dekker (1971) and Knuth. The product splits its factors and does not call std::fma, which without
+// -mfma is a call of libm for each product and cannot make tables at compile time.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+namespace rolling {
+
+/// hi + lo, |lo| <= ulp(hi)/2. Of magnitude 1e-290 .. 1e290: the products split their factors.
+struct DoubleDouble {
+  double hi = 0, lo = 0;
+
+  constexpr DoubleDouble() = default;
+  constexpr DoubleDouble(double x) : hi(x) {}
+  constexpr DoubleDouble(double high, double low) : hi(high), lo(low) {}
+  constexpr DoubleDouble operator-() const { return {-hi, -lo}; }
+};
+
+constexpr DoubleDouble two_sum(double a, double b) {
+  const double sum = a + b, of_b = sum - a;
+  return {sum, (a - (sum - of_b)) + (b - of_b)};
+}
+
+/// The same for |a| >= |b|.
+constexpr DoubleDouble quick_two_sum(double a, double b) {
+  const double sum = a + b;
+  return {sum, b - (sum - a)};
+}
+
+/// a into 26 + 26 bits: products of the parts are exact.
+constexpr DoubleDouble split(double a) {
+  const double c = 134217729 * a, hi = c - (c - a);
+  return {hi, a - hi};
+}
+
+constexpr DoubleDouble two_product(double a, double b) {
+  const double p = a * b;
+  const auto [a1, a2] = split(a);
+  const auto [b1, b2] = split(b);
+  return {p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2};
+}
+
+constexpr DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
+  const DoubleDouble s = two_sum(a.hi, b.hi), t = two_sum(a.lo, b.lo), u = quick_two_sum(s.hi, s.lo + t.hi);
+  return quick_two_sum(u.hi, u.lo + t.lo);
+}
+constexpr DoubleDouble operator-(DoubleDouble a, DoubleDouble b) { return a + -b; }
+
+constexpr DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
+  const DoubleDouble p = two_product(a.hi, b.hi);
+  return quick_two_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
+}
+
+constexpr DoubleDouble operator*(DoubleDouble a, double b) {
+  const DoubleDouble p = two_product(a.hi, b);
+  return quick_two_sum(p.hi, p.lo + a.lo * b);
+}
+
+constexpr DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
+  const double q1 = a.hi / b.hi;
+  const DoubleDouble r = a - b * q1;
+  const double q2 = r.hi / b.hi;
+  const DoubleDouble left = r - b * q2;
+  return quick_two_sum(q1, q2) + left.hi / b.hi;
+}
+
+/// ln(x) and e^x to about 1e-31 max(1, |ln x|) and 1e-31 max(1, |x|), relatively for e^x; slow. x as far as e^x is in range.
+DoubleDouble log(DoubleDouble x);
+DoubleDouble exp(DoubleDouble x);
+
+/// x without its last `bits` bits.
+constexpr double cut(double x, int bits) { return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & ~((1ull << bits) - 1)); }
+
+/// A constant factor: its upper part has 26 bits, so that a product with 26 more needs no splitting.
+struct Factor {
+  double hi = 0, lo = 0;
+
+  Factor() = default;
+  Factor(DoubleDouble x) : hi(cut(x.hi, 27)), lo((x.hi - hi) + x.lo) {}
+};
+/// Relative error below 2^-76.
+inline DoubleDouble operator*(Factor f, DoubleDouble x) {
+  const double top = cut(x.hi, 27);
+  return quick_two_sum(f.hi * top, f.hi * (x.hi - top) + (f.lo * x.hi + f.hi * x.lo));
+}
+
+/// log1p(r)/r for |r| <= 1/128: relative error below 2^-66.
+DoubleDouble log1p_ratio(DoubleDouble r);
+
+/// ln(x), fast: absolute error below 2^-66 max(1, |ln x|). x a normal number.
+DoubleDouble quick_log(DoubleDouble x);
+
+/// m 2^exponent: products that may leave the range of double on the way.
+struct Scaled {
+  DoubleDouble m;
+  int exponent = 0;
+
+  Scaled(DoubleDouble x);
+  Scaled(double x) : Scaled(DoubleDouble(x)) {}
+  double value() const;  ///< rounded
+};
+Scaled operator*(const Scaled&, const Scaled&);
+Scaled operator/(const Scaled&, const Scaled&);
+/// x^p for x > 0: relative error about 1e-31 max(1, |p|).
+Scaled power(double x, DoubleDouble p);
+
+/// A factor made ready for products: m 2^exponent.
+struct ScaledFactor {
+  Factor m;
+  int exponent = 0;
+
+  ScaledFactor() = default;
+  ScaledFactor(const Scaled& x) : m(x.m), exponent(x.exponent) {}
+  double operator*(DoubleDouble x) const;  ///< rounded
+};
+
+/// f e^x, fast: within 0.51 ulp; |x| below 1e5.
+double times_exp(const ScaledFactor& f, DoubleDouble x);
+/// 1 - e^x, fast: relative error below 2^-55 for |x| > 1/32.
+DoubleDouble one_minus_exp(DoubleDouble x);
+/// (e^x - 1)/x for |x| <= 1/32: relative error below 2^-57.
+DoubleDouble expm1_ratio(DoubleDouble x);
+
+}  // namespace rolling

@@ -1,0 +1,75 @@
+#include "rolling/integrated_roll.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "rolling/contact.h"
+#include "rolling/trial.h"
+
+namespace rolling {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr unsigned long most_steps = 1'000'000;
+
+}  // namespace
+
+IntegratedRoll::IntegratedRoll(const Body& body, Geometry geometry, AnyLaw law, double v0, double x0, Stepper stepper, double rtol)
+    : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0), x0_(x0),
+      options_{stepper, rtol, v0 > 0 ? 1e-3 * rtol * v0 : 1, most_steps}, ode_(start()), at_rest_(v0 == 0) {}
+
+Integrator IntegratedRoll::start() const {
+  if (!(v0_ >= 0 && std::isfinite(v0_))) fail("the initial velocity v0 = {} must be a number that is not negative", v0_);
+  if (!std::isfinite(x0_)) fail("the initial position x0 = {} must be finite", x0_);
+  if (v0_ > 0) check_shift(body_, law_.shift(v0_));
+  // Below its floor D goes on as a constant: nothing holds a solver at v = 0, and v falls through the floor.
+  const auto shift = [law = law_.shift, floor = floor()](double v) { return floor > 0 || v > 0 ? law(std::max(v, floor)) : 0; };
+  const auto derivative = [body = body_, geometry = geometry_, shift](double, const double* y, double* dydt) {
+    dydt[0] = y[1];
+    dydt[1] = trial_acceleration(body, geometry, shift(y[1]));
+  };
+  const auto jacobian = [body = body_, geometry = geometry_, shift, slope = law_.slope, floor = floor()](double, const double* y, double* dfdy, double* dfdt) {
+    dfdy[0] = 0, dfdy[1] = 1, dfdy[2] = 0;
+    dfdy[3] = y[1] <= floor ? 0 : trial_acceleration_slope(body, geometry, shift(y[1])) * slope(y[1]);
+    dfdt[0] = dfdt[1] = 0;
+  };
+  return {{2, derivative, jacobian}, options_, 0, {x0_, v0_}};
+}
+
+Integrator::Event IntegratedRoll::stop_event() const {
+  return [floor = floor()](const std::vector<double>& y) { return y[1] - floor; };
+}
+
+double IntegratedRoll::stop_time() const {
+  if (v0_ == 0) return 0;
+  if (!law_.stops) return infinity;
+  if (!stop_time_) {
+    Integrator ode = start();
+    ode.advance(infinity, stop_event());
+    stop_time_ = ode.time();
+  }
+  return *stop_time_;
+}
+
+void IntegratedRoll::seek(double t) {
+  if (at_rest_) return;
+  // Where the steps end changes the time of the stop by its error: the one that was told counts.
+  const double stop = stop_time_.value_or(infinity);
+  at_rest_ = ode_.advance(std::min(t, stop), stop_event()) || t >= stop;
+  if (at_rest_ && !stop_time_) stop_time_ = ode_.time();
+}
+
+double IntegratedRoll::shift() {
+  const double v = velocity(), D = v == 0 ? 0 : law_.shift(v);
+  check_shift(body_, D);
+  return D;
+}
+
+double IntegratedRoll::acceleration() { return acceleration_from_shift(body_, geometry_, shift()); }
+
+}  // namespace rolling
