@@ -18,22 +18,29 @@ int main(int argc, char** argv) {
   using namespace rolling;
   Tool tool("differentiate", "Append the time derivative of a column.");
   std::string column;
+  DerivativeOptions options;
   tool.text("-c,--column", column, "COLUMN", "the column to differentiate (v, else x)");
+  tool.choice("-M,--method", options.method, derivative_methods, "central, savgol, spline, vernier or pasco (central)");
+  tool.count("-w,--width", options.width, odd, "width of savgol's window, an odd number of samples (23)");
+  tool.count("--order", options.order, whole, "order of savgol's polynomial (2)");
   tool.input();
   tool.output();
 
   return tool.run(argc, argv, [&] {
+    if (options.method != DerivativeMethod::savgol && (tool.on_command_line("width") || tool.on_command_line("order")))
+      fail("--width and --order go with --method savgol");
+    make_derivative(options);  // refuses what does not go together, before anything is read
     Reader& in = tool.read({"t", "v"});
     const auto t = in.need_time();
     const auto y = in.need(!column.empty() ? column : in.find("v") || !in.find("x") ? "v" : "x");
     const Column& from = in.columns()[in.column_of(y)];
-    Filter filter(in, tool.out, fmt::format("differentiate {} central", from.name));
+    Filter filter(in, tool.out, fmt::format("differentiate {} {}", from.name, describe(options)));
     filter.append(derivative_of(from));
     while (filter.next_run()) {
-      CentralDerivative derivative;
+      const auto derivative = make_derivative(options);
       while (filter.next())
-        for (const double value : derivative.push(filter[t], filter[y])) filter.put(value);
-      for (const double value : derivative.finish()) filter.put(value);
+        for (const double value : derivative->push(filter[t], filter[y])) filter.put(value);
+      for (const double value : derivative->finish()) filter.put(value);
     }
     return 0;
   });

@@ -1,33 +1,102 @@
-// smooth - replace a column by its moving mean; see smooth(1)
+// smooth - smooth a column and select its records; see smooth(1)
 #include "cli/tool.h"
-#include "signal/moving_mean.h"
+#include "signal/selection.h"
+#include "signal/smoother.h"
 #include "text/filter.h"
 
+namespace {
+
+using namespace rolling;
+
+std::size_t odd_number(const std::string& text) {
+  double value;
+  if (!parse_number(text, value)) fail("-w,--width: '{}' is not a number", shown(text));
+  if (!odd.holds(value)) fail("-w,--width: '{}' must be {}", shown(text), odd.text);
+  return static_cast<std::size_t>(value);
+}
+
+/// The `##` lines.
+std::string history(const std::string& column, const SelectionOptions& selected, const SmootherOptions& smoothed) {
+  std::string text;
+  if (std::isfinite(selected.from)) text += fmt::format("smooth t from {}\n## ", selected.from);
+  if (std::isfinite(selected.to)) text += fmt::format("smooth t to {}\n## ", selected.to);
+  if (selected.outliers > 0) text += fmt::format("smooth {} outliers {}\n## ", column, selected.outliers);
+  if (selected.coast) text += fmt::format("smooth {} coast\n## ", column);
+  return text + fmt::format("smooth {} {}", column, describe(smoothed));
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  using namespace rolling;
-  Tool tool("smooth", "Replace a column by its mean over a moving window.");
-  std::string column;
-  MovingMean::Window window;
+  Tool tool("smooth", "Replace a column by its mean over a moving window, or smooth it otherwise; select its records.");
+  std::string column, width = "11";
+  SelectionOptions select;
+  SmootherOptions options;
   tool.text("-c,--column", column, "COLUMN", "the column to smooth (v, else the first that is not t)");
-  tool.count("-w,--width", window.samples, odd, "width of the window, an odd number of samples (11)");
-  tool.number("--seconds", window.seconds, positive, "width of the window in seconds, instead");
+  tool.choice("-M,--method", options.method, smoothing_methods, "mean, median or savgol (mean)");
+  tool.text("-w,--width", width, "N", "width of the window, an odd number of samples (11), or auto");
+  tool.number("--seconds", options.width.seconds, positive, "width of the window in seconds, instead");
+  tool.count("--order", options.order, whole, "order of savgol's polynomial (2)");
+  tool.number("--outliers", select.outliers, positive, "leave out readings further than this many scaled MADs from their window's median");
+  tool.flag("--coast", select.coast, "keep the free roll only: after the push, up to the stop");
+  tool.number("--from", select.from, any_number, "leave out the records before this time [s]");
+  tool.number("--to", select.to, any_number, "leave out the records after this time [s]");
   tool.input();
   tool.output();
 
   return tool.run(argc, argv, [&] {
+    bool choose = width == "auto" && options.width.seconds == 0;
+    if (width != "auto") options.width.samples = odd_number(width);
+    if (options.method != SmoothingMethod::savgol && tool.on_command_line("order")) fail("--order goes with --method savgol");
+    select.width = options.width;
+    make_smoother(options);  // refuses what does not go together, before anything is read
     Reader& in = tool.read({"t", "v"});
     const auto t = in.need_time();
     if (column.empty()) column = in.find("v") || in.columns().size() == 1 ? "v" : in.column_of(t) == 0 ? "2" : "1";
     const auto y = in.need(column);
-    const std::string width = window.seconds > 0 ? fmt::format("seconds {}", window.seconds) : fmt::format("width {}", window.samples);
-    Filter filter(in, tool.out, fmt::format("smooth {} mean {}", in.columns()[in.column_of(y)].name, width));
+    const std::string name = in.columns()[in.column_of(y)].name;
+    select.positions = name == "x";
+    if (select.coast && name != "x" && name != "v") fail("--coast needs the column x or v, not {}", shown(name));
+
+    const bool streams = !choose && !select.coast;  // else nothing goes out before the first run has been read
+    Filter filter(in, tool.out, streams ? history(name, select, options) : "");
     filter.replace(y);
+    bool told = streams;
+    std::size_t outliers = 0;
     while (filter.next_run()) {
-      MovingMean mean(window);
-      while (filter.next())
-        for (const double value : mean.push(filter[t], filter[y])) filter.put(value);
-      for (const double value : mean.finish()) filter.put(value);
+      Selection selection(select);
+      std::unique_ptr<Signal> smoother;
+      if (choose) smoother = std::make_unique<AutoSmoother>(options);
+      else smoother = make_smoother(options);
+      std::size_t record = 0, kept = 0;
+      const auto put = [&](std::span<const double> values) {
+        for (const double value : values) filter.put(value);
+      };
+      const auto take = [&](std::span<const Judged> samples) {
+        for (const Judged& s : samples) {
+          if (s.kept) put(smoother->push(s.t, s.y)), ++kept;
+          else filter.drop(record);
+          ++record;
+        }
+      };
+      while (filter.next()) take(selection.push(filter[t], filter[y]));
+      const auto last = selection.finish();
+      const auto tell = [&] {
+        if (!told) filter.tell(history(name, select, options));
+        told = true;
+      };
+      if (!choose) tell();
+      take(last);
+      const auto rest = smoother->finish();
+      if (choose && kept > 0) {  // the first run with records decides for all
+        options = static_cast<AutoSmoother&>(*smoother).options();
+        choose = false;
+        tell();
+      }
+      put(rest);
+      outliers += selection.outliers();
     }
+    tool.count_left_out(outliers, "outliers");
     return 0;
   });
 }

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "rolling/contact.h"
 #include "signal/derivative.h"
-#include "signal/moving_mean.h"
+#include "signal/smoother.h"
 #include "text/column.h"
 #include "text/number.h"
 
@@ -13,12 +13,11 @@ namespace rolling {
 namespace {
 
 /// A streaming filter as a function of whole columns.
-template <typename Signal>
-std::vector<double> apply(Signal signal, std::span<const double> t, std::span<const double> y) {
+std::vector<double> apply(const std::unique_ptr<Signal>& signal, std::span<const double> t, std::span<const double> y) {
   std::vector<double> out;
   for (std::size_t i = 0; i < t.size(); ++i)
-    for (const double value : signal.push(t[i], y[i])) out.push_back(value);
-  for (const double value : signal.finish()) out.push_back(value);
+    for (const double value : signal->push(t[i], y[i])) out.push_back(value);
+  for (const double value : signal->finish()) out.push_back(value);
   return out;
 }
 
@@ -38,6 +37,12 @@ double number_after(const std::vector<std::string>& words, std::string_view key)
   fail("a `##` line does not say its {}", key);
 }
 
+std::size_t count_after(const std::vector<std::string>& words, std::string_view key) {
+  const double value = number_after(words, key);
+  if (!(value >= 1 && value < 1e9)) fail("a `##` line has a {} of {}", key, value);
+  return static_cast<std::size_t>(value);
+}
+
 }  // namespace
 
 FilterChain filters_of(const std::vector<std::string>& history, std::span<const double> t) {
@@ -47,18 +52,29 @@ FilterChain filters_of(const std::vector<std::string>& history, std::span<const 
     if (words.size() < 3) continue;
     const std::string &tool = words[0], &column = words[1], &method = words[2];
     if (tool == "smooth") {
-      if (method != "mean" || words.size() != 5) return {};
-      MovingMean::Window window;
-      const double width = number_after(words, words[3]);
-      if (!(width > 0 && width < 1e9)) fail("a `##` line has a window of {}", width);
-      if (words[3] == "seconds") window.seconds = width;
-      else window.samples = static_cast<std::size_t>(width);
-      const std::size_t reach = window.seconds > 0 ? samples_within(window.seconds, t) : window.samples / 2;
-      chain.push_back({column, column, reach, [window](auto time, auto y) { return apply(MovingMean(window), time, y); }});
+      if (method == "coast" || method == "from" || method == "to") continue;  // these choose records, no more
+      const auto known = smoothing_methods.find(method);
+      if (known == smoothing_methods.end() || known->second == SmoothingMethod::median || words.size() != (method == "savgol" ? 7U : 5U)) return {};
+      SmootherOptions options{known->second};
+      if (words[3] == "seconds") options.width.seconds = number_after(words, "seconds");
+      else options.width.samples = count_after(words, "width");
+      if (method == "savgol") options.order = count_after(words, "order");
+      const double seconds = options.width.seconds;
+      if (!(seconds >= 0)) fail("a `##` line has a window of {} seconds", seconds);
+      const std::size_t reach = seconds > 0 ? samples_within(seconds, t) : options.width.samples / 2;
+      chain.push_back({column, column, reach, [options](auto time, auto y) { return apply(make_smoother(options), time, y); }});
     } else if (tool == "differentiate") {
-      if (method != "central") return {};
+      const auto known = derivative_methods.find(method);
+      if (known == derivative_methods.end() || known->second == DerivativeMethod::spline || words.size() != (method == "savgol" ? 7U : 3U)) return {};
+      DerivativeOptions options{known->second};
+      std::size_t reach = method == "vernier" ? 3 : method == "pasco" ? 2 : 1;
+      if (method == "savgol") {
+        options.width = count_after(words, "width");
+        options.order = count_after(words, "order");
+        reach = options.width / 2;
+      }
       const std::string to = column == "x" ? "v" : column == "v" ? "a" : "d" + column;
-      chain.push_back({column, to, 1, [](auto time, auto y) { return apply(CentralDerivative(), time, y); }});
+      chain.push_back({column, to, reach, [options](auto time, auto y) { return apply(make_derivative(options), time, y); }});
     } else if (tool == "shift-from-accel") {
       // The exact root of Eq. 9 bends away from Eq. 11 by (D/R)^2, which does not matter to an error bar.
       const Body body{0, number_after(words, "R"), number_after(words, "K"), number_after(words, "g")};

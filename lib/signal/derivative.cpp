@@ -1,6 +1,9 @@
 #include "signal/derivative.h"
 
+#include <algorithm>
+
 #include "base/error.h"
+#include "signal/smoothing_spline.h"
 
 namespace rolling {
 
@@ -24,6 +27,51 @@ std::span<const double> CentralDerivative::finish() {
   if (count_ == 1) fail("a run of one record has no derivative");
   known_[0] = known_[1] = slope_ + bend_ * step_;  // the bend is 0 in a run of two
   return {known_.data(), count_ == 2 ? std::size_t{2} : std::size_t{1}};
+}
+
+// To the last bit as Vernier's programs write it: each weight times the rise comes before the division.
+double VernierDerivative::value(const Windows& window) {
+  if (window.size() == 1) fail("a run of one record has no derivative");
+  const std::size_t i = window.at(), last = window.end() - 1;
+  const auto slope = [&](std::size_t k, double weight) {
+    const Sample &a = window.sample(std::max(i, window.begin() + k) - k), &b = window.sample(std::min(i + k, last));
+    return weight * (b.y - a.y) / (b.t - a.t);
+  };
+  return (slope(1, 3) + slope(2, 2) + slope(3, 1)) / 6;
+}
+
+double PascoDerivative::value(const Windows& window) {
+  if (window.size() == 1) fail("a run of one record has no derivative");
+  const std::size_t i = window.at(), before = i - window.begin(), after = window.end() - 1 - i;
+  const auto rise = [&](const Sample& a, const Sample& b) { return Sample{b.t - a.t, b.y - a.y}; };
+  if (before > 0 && after > 0) {
+    const Sample one = rise(window.sample(i - 1), window.sample(i + 1));
+    if (before == 1 || after == 1) return one.y / one.t;
+    const Sample two = rise(window.sample(i - 2), window.sample(i + 2));
+    return (one.y + two.y) / (one.t + two.t);
+  }
+  const auto inwards = [&](std::size_t k) -> const Sample& { return window.sample(before == 0 ? i + k : i - k); };
+  const Sample one = rise(inwards(0), inwards(1));
+  if (window.size() == 2) return one.y / one.t;
+  const Sample two = rise(inwards(1), inwards(2));
+  return one.y / one.t - (two.y / two.t - one.y / one.t) / (one.t + two.t) * one.t;
+}
+
+std::string describe(const DerivativeOptions& options) {
+  const auto named = std::find_if(derivative_methods.begin(), derivative_methods.end(), [&](const auto& m) { return m.second == options.method; });
+  if (options.method != DerivativeMethod::savgol) return named->first;
+  return fmt::format("{} width {} order {}", named->first, options.width, options.order);
+}
+
+std::unique_ptr<Signal> make_derivative(const DerivativeOptions& options) {
+  switch (options.method) {
+    case DerivativeMethod::savgol:
+      return std::make_unique<SavitzkyGolay>(Width{options.width, 0}, options.order, SavitzkyGolay::What::slope);
+    case DerivativeMethod::spline: return std::make_unique<SplineDerivative>();
+    case DerivativeMethod::vernier: return std::make_unique<VernierDerivative>();
+    case DerivativeMethod::pasco: return std::make_unique<PascoDerivative>();
+    default: return std::make_unique<CentralDerivative>();
+  }
 }
 
 }  // namespace rolling

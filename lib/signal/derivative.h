@@ -1,20 +1,22 @@
-// The time derivative of a column, one sample in at a time.
+// The time derivative of a column, one sample in at a time. All of these throw Error for a run of one sample.
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <span>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "signal/savitzky_golay.h"
+#include "signal/signal.h"
 
 namespace rolling {
 
 /// Of the parabola through three neighbouring samples at any spacing: at the middle one inside (the central difference),
 /// at the outer one at the ends. Second order in the spacing, exact on a parabola. A run of two samples has their slope.
-class CentralDerivative {
+class CentralDerivative : public Signal {
  public:
-  /// Takes the next sample (times increase); returns the derivatives that are now known, in order. Valid until the next call.
-  std::span<const double> push(double t, double y);
-  /// The run has ended: the derivatives still owed. Throws Error for a run of one sample.
-  std::span<const double> finish();
+  std::span<const double> push(double t, double y) override;
+  std::span<const double> finish() override;
 
  private:
   std::size_t count_ = 0;
@@ -23,5 +25,44 @@ class CentralDerivative {
   double bend_ = 0;               // half of the parabola's second derivative
   std::array<double, 2> known_{};
 };
+
+/// As Vernier's programs do it: the slopes over one, two and three samples to either side, weighted 3, 2, 1; a sample beyond
+/// the end of the run is the one at the end.
+class VernierDerivative : public WindowedSignal {
+ public:
+  VernierDerivative() : WindowedSignal({7, 0}, Windows::Ends::cut) {}
+
+ private:
+  double value(const Windows&) override;
+};
+
+/// As PASCO's programs do it: (y[i+1] + y[i+2] - y[i-1] - y[i-2]) / (6 dt), the times in place of the y below the line. The
+/// second sample and the last but one have the slope between their neighbours, as there; the first and the last, which have
+/// none there, that of the parabola through three samples.
+class PascoDerivative : public WindowedSignal {
+ public:
+  PascoDerivative() : WindowedSignal({5, 0}, Windows::Ends::cut) {}
+
+ private:
+  double value(const Windows&) override;
+};
+
+enum class DerivativeMethod { central, savgol, spline, vernier, pasco };
+
+inline const std::map<std::string, DerivativeMethod> derivative_methods = {
+    {"central", DerivativeMethod::central}, {"savgol", DerivativeMethod::savgol}, {"spline", DerivativeMethod::spline},
+    {"vernier", DerivativeMethod::vernier}, {"pasco", DerivativeMethod::pasco},
+};
+
+struct DerivativeOptions {
+  DerivativeMethod method = DerivativeMethod::central;
+  std::size_t width = 23, order = 2;  ///< of savgol
+};
+
+/// As a `##` line says it: `central`, `savgol width 11 order 2`.
+std::string describe(const DerivativeOptions&);
+
+/// Throws Error for a width and an order that do not go together.
+std::unique_ptr<Signal> make_derivative(const DerivativeOptions&);
 
 }  // namespace rolling

@@ -12,8 +12,15 @@ constexpr std::size_t npos = static_cast<std::size_t>(-1);
 }
 
 Filter::Filter(Reader& in, Output& out, std::string history)
-    : in_(in), out_(out), history_("## " + std::move(history)), columns_(in.columns()) {
+    : in_(in), out_(out), columns_(in.columns()) {
+  if (!history.empty()) history_ = "## " + std::move(history);
   in_.on_comment = [this](std::string_view text) { comment(text); };
+}
+
+void Filter::tell(std::string history) {
+  history_ = "## " + std::move(history);
+  write_header();
+  clear_front();
 }
 
 void Filter::append(Column column) {
@@ -35,45 +42,60 @@ void Filter::write_header() {
   for (const std::string& text : in_.comments()) (out_.line() += text), out_.end_line();
   (out_.line() += history_), out_.end_line();
   out_.names(columns_);
+  header_written_ = true;
 }
 
 bool Filter::next_run() {
-  if (!header_written_) write_header();
-  header_written_ = true;
+  if (!header_written_ && !history_.empty()) write_header();
   break_due_ = any_row_;
+  gone_ = 0;
   if (in_.next_run()) return true;
+  if (!any_row_ && any_dropped_) fail("no records are left");
   if (!any_row_) fail("no records: a needed reading is missing in every one");
   return false;
 }
 
 bool Filter::next() {
   if (!in_.next()) return false;
-  if (in_.history_changed()) comment(history_);
+  if (in_.history_changed() && header_written_) comment(history_);
   const std::size_t from = held_.size();
   std::size_t first = 0, last = 0;
   in_.copy(held_, cut_, first, last);
-  hold(from, first, last, false);
+  hold(from, first, last, Kind::record);
   return true;
 }
 
-void Filter::hold(std::size_t from, std::size_t first, std::size_t last, bool comment) {
-  rows_.push_back({held_.size() - from, first - from, last - from, comment});
+void Filter::hold(std::size_t from, std::size_t first, std::size_t last, Kind kind) {
+  rows_.push_back({held_.size() - from, first - from, last - from, kind});
 }
 
 void Filter::comment(std::string_view text) {
   const std::size_t from = held_.size();
   held_ += text;
-  hold(from, 0, 0, true);
-  if (rows_.size() - first_row_ == 1) write_comments();
+  hold(from, from, from, Kind::comment);
+  if (rows_.size() - first_row_ == 1) clear_front();
 }
 
-/// Comments that no record holds back any more.
-void Filter::write_comments() {
-  while (first_row_ < rows_.size() && rows_[first_row_].comment) {
-    write_break();
-    out_.line().append(held_, first_byte_, rows_[first_row_].size);
-    end_row();
+/// Comments that no record holds back any more go out, dropped records go away.
+void Filter::clear_front() {
+  while (header_written_ && first_row_ < rows_.size() && rows_[first_row_].kind != Kind::record) {
+    if (rows_[first_row_].kind == Kind::comment) {
+      write_break();
+      out_.line().append(held_, first_byte_, rows_[first_row_].size);
+      out_.end_line();
+    } else {
+      ++gone_;
+    }
+    remove_row();
   }
+}
+
+void Filter::drop(std::size_t i) {
+  auto row = rows_.begin() + static_cast<std::ptrdiff_t>(first_row_);
+  for (std::size_t records = gone_; row->kind == Kind::comment || records++ < i;) ++row;
+  row->kind = Kind::dropped;
+  any_dropped_ = true;
+  clear_front();
 }
 
 /// The oldest record goes out up to its first number.
@@ -87,8 +109,7 @@ void Filter::write_break() {
   if (std::exchange(break_due_, false)) out_.end_line();
 }
 
-void Filter::end_row() {
-  out_.end_line();
+void Filter::remove_row() {
   first_byte_ += rows_[first_row_++].size;
   if (first_row_ == rows_.size()) {
     rows_.clear();
@@ -115,8 +136,10 @@ void Filter::put(double value) {
   }
   numbers_ = 0;
   any_row_ = true;
-  end_row();
-  write_comments();
+  out_.end_line();
+  remove_row();
+  ++gone_;
+  clear_front();
 }
 
 }  // namespace rolling

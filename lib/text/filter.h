@@ -12,8 +12,10 @@ namespace rolling {
 
 class Filter {
  public:
-  /// `history` is the `##` line, without the marks, that says what this filter did.
-  Filter(Reader& in, Output& out, std::string history);
+  /// `history` is the `##` line, without the marks, that says what this filter did. Without it nothing goes out before
+  /// it has been told.
+  Filter(Reader& in, Output& out, std::string history = {});
+  void tell(std::string history);
 
   /// The numbers replace the column in this slot of the reader.
   void replace(std::size_t slot) { cut_ = in_.column_of(slot); }
@@ -26,27 +28,31 @@ class Filter {
   double operator[](std::size_t slot) const { return in_[slot]; }
   /// The next number for the oldest row that waits. Throws Error when it is not finite.
   void put(double value);
+  /// Leaves out the record that is the i-th of this run, from 0: it waits for no numbers.
+  void drop(std::size_t i);
 
  private:
-  struct Row { std::size_t size, first, last; bool comment; };
+  enum class Kind { record, comment, dropped };
+  struct Row { std::size_t size, first, last; Kind kind; };
 
   void write_header();
-  void hold(std::size_t from, std::size_t first, std::size_t last, bool comment);
+  void hold(std::size_t from, std::size_t first, std::size_t last, Kind);
   void comment(std::string_view text);
-  void write_comments();
+  void clear_front();
   void write_break();
   void begin_row();
-  void end_row();
+  void remove_row();
 
   Reader& in_;
   Output& out_;
-  const std::string history_;
+  std::string history_;
   std::vector<Column> columns_;
   std::size_t appended_ = 0, cut_ = static_cast<std::size_t>(-1);
   std::string held_;          // the text of the rows that wait, one after the other
   std::vector<Row> rows_;     // from first_row_ on
   std::size_t first_row_ = 0, first_byte_ = 0, numbers_ = 0;
-  bool header_written_ = false, break_due_ = false, any_row_ = false;
+  std::size_t gone_ = 0;      // records of this run that are no longer among them
+  bool header_written_ = false, break_due_ = false, any_row_ = false, any_dropped_ = false;
 };
 
 }  // namespace rolling

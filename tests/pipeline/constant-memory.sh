@@ -9,6 +9,12 @@ check() {  # NAME COMMAND...
 }
 check smooth --width 101
 check smooth --seconds 4
+check smooth -M savgol
+check smooth -M median
+check smooth -q --outliers 9 --from 0
 check differentiate
+check differentiate -M savgol
+check differentiate -M vernier
+check differentiate -M pasco
 check shift-from-accel --use a=3 -K 0.5 -R 0.04
 check energy-ledger -m 1 -K 0.5 -R 0.04

@@ -21,7 +21,7 @@ Series even_times(std::size_t n) {
   return t;
 }
 
-Series smoothed(const Series& t, const Series& y, MovingMean::Window window) {
+Series smoothed(const Series& t, const Series& y, Width window) {
   MovingMean mean(window);
   Series out;
   for (std::size_t i = 0; i < t.size(); ++i)
@@ -117,7 +117,7 @@ TEST_CASE("moving_mean: it commutes with reversing time", "[signal]") {
   }
   Series back;
   for (const double time : reversed(t)) back.push_back(-time);
-  for (const MovingMean::Window window : {MovingMean::Window{11, 0}, {51, 0}, {0, 0.3}, {0, 2}})
+  for (const Width window : {Width{11, 0}, {51, 0}, {0, 0.3}, {0, 2}})
     CHECK(smoothed(back, reversed(y), window) == reversed(smoothed(t, y, window)));
 }
 

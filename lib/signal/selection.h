@@ -1,0 +1,39 @@
+// Which samples of a run are worth looking at: those between two times, without outliers, of the free roll.
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "signal/free_roll.h"
+#include "signal/hampel.h"
+
+namespace rolling {
+
+struct SelectionOptions {
+  double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();  ///< [s]
+  double outliers = 0;     ///< leaves out what is further off than this many scaled MADs; 0: nothing
+  Width width{};           ///< of the window for that
+  bool coast = false;      ///< the free roll only: needs the whole run
+  bool positions = false;  ///< for that: the column is a position, not a speed
+};
+
+class Selection {
+ public:
+  explicit Selection(const SelectionOptions&);
+
+  /// The samples that are now decided on, in order. Valid until the next call.
+  std::span<const Judged> push(double t, double y);
+  /// The run has ended. Throws Error as free_roll does.
+  std::span<const Judged> finish();
+  std::size_t outliers() const { return outliers_; }  ///< so far
+
+ private:
+  void take(std::span<const Judged>);
+
+  SelectionOptions options_;
+  std::optional<Hampel> hampel_;
+  std::vector<Judged> decided_;
+  std::size_t outliers_ = 0;
+};
+
+}  // namespace rolling

@@ -1,0 +1,109 @@
+#include "signal/smoothing_spline.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace rolling {
+
+// Notation of Green and Silverman (1994), Nonparametric Regression and Generalized Linear Models, section 2.3: with the
+// second derivatives g at the inner knots, (R + alpha Q^T Q) g = Q^T y and the spline's values are y - alpha Q g.
+
+std::span<const double> SplineDerivative::push(double t, double y) {
+  t_.push_back(t);
+  y_.push_back(y);
+  return {};
+}
+
+/// Solves for the second derivatives; returns the score of generalised cross-validation, |Q g|^2 / tr(B^-1 Q^T Q)^2 times
+/// what does not depend on the parameter: in that form nothing cancels, however small or large the parameter.
+double SplineDerivative::solve(double alpha) {
+  const std::size_t m = qy_.size();
+  for (std::size_t j = 0; j < m; ++j) {
+    D_[j] = (h_[j] + h_[j + 1]) / 3 + alpha * q0_[j];
+    L1_[j] = h_[j + 1] / 6 + alpha * q1_[j];
+    L2_[j] = alpha * q2_[j];
+    bend_[j] = qy_[j];
+    if (j >= 1) {
+      D_[j] -= L1_[j - 1] * L1_[j - 1] * D_[j - 1];
+      L1_[j] -= L1_[j - 1] * L2_[j - 1] * D_[j - 1];
+      bend_[j] -= L1_[j - 1] * bend_[j - 1];
+    }
+    if (j >= 2) {
+      D_[j] -= L2_[j - 2] * L2_[j - 2] * D_[j - 2];
+      bend_[j] -= L2_[j - 2] * bend_[j - 2];
+    }
+    L1_[j] /= D_[j];
+    L2_[j] /= D_[j];
+  }
+  // Backwards: the solution, and the three bands of B^-1 that the trace takes (s01 is its element j, j+1).
+  double trace = 0, s11 = 0, s12 = 0, s22 = 0;
+  for (std::size_t j = m; j-- > 0;) {
+    bend_[j] = bend_[j] / D_[j] - (j + 1 < m ? L1_[j] * bend_[j + 1] : 0) - (j + 2 < m ? L2_[j] * bend_[j + 2] : 0);
+    const double s01 = -L1_[j] * s11 - L2_[j] * s12, s02 = -L1_[j] * s12 - L2_[j] * s22;
+    const double s00 = 1 / D_[j] - L1_[j] * s01 - L2_[j] * s02;
+    trace += q0_[j] * s00 + (j + 1 < m ? 2 * q1_[j] * s01 : 0) + (j + 2 < m ? 2 * q2_[j] * s02 : 0);
+    s22 = s11, s12 = s01, s11 = s00;
+  }
+  double square = 0;
+  for (std::size_t i = 0; i < m + 2; ++i) {
+    double Qg = 0;
+    if (i < m) Qg += bend_[i] / h_[i];
+    if (i >= 1 && i <= m) Qg -= bend_[i - 1] * (1 / h_[i - 1] + 1 / h_[i]);
+    if (i >= 2) Qg += bend_[i - 2] / h_[i - 1];
+    square += Qg * Qg;
+  }
+  return square / (trace * trace);
+}
+
+std::span<const double> SplineDerivative::finish() {
+  const std::size_t n = t_.size();
+  if (n == 0) return {};
+  if (n == 1) fail("a run of one record has no derivative");
+  const double unit = (t_.back() - t_.front()) / static_cast<double>(n - 1);
+  for (std::size_t i = 0; i + 1 < n; ++i) h_.push_back((t_[i + 1] - t_[i]) / unit);
+  const std::size_t m = n - 2;
+  qy_.resize(m), q0_.resize(m), q1_.resize(m), q2_.resize(m), D_.resize(m), L1_.resize(m), L2_.resize(m), bend_.resize(m);
+  const auto inverse = [this](std::size_t i) { return i < h_.size() ? 1 / h_[i] : 0; };
+  for (std::size_t j = 0; j < m; ++j) {
+    const double a = inverse(j), b = inverse(j + 1), c = inverse(j + 2);
+    qy_[j] = (y_[j + 2] - y_[j + 1]) * b - (y_[j + 1] - y_[j]) * a;
+    q0_[j] = a * a + (a + b) * (a + b) + b * b;
+    q1_[j] = -b * (a + 2 * b + c);
+    q2_[j] = b * c;
+  }
+
+  // From what changes nothing between neighbours to what is a straight line over a thousand of them.
+  double alpha = 0;
+  if (m > 1) {  // three samples do not tell noise from a bend: the spline goes through them
+    constexpr double lowest = -6, highest = 12, coarse = 0.5;
+    const auto score = [this](double exponent) { return solve(std::pow(10, exponent)); };
+    double best = lowest, least = score(lowest);
+    for (double e = lowest + coarse; e <= highest; e += coarse)
+      if (const double now = score(e); now < least) least = now, best = e;
+    double from = std::max(lowest, best - coarse), to = std::min(highest, best + coarse);
+    while (to - from > 0.01) {  // thirds: the score is flat at its least
+      const double a = from + (to - from) / 3, b = to - (to - from) / 3;
+      if (score(a) < score(b)) to = b;
+      else from = a;
+    }
+    alpha = std::pow(10, (from + to) / 2);
+  }
+  solve(alpha);
+
+  const auto bend = [&](std::size_t i) { return i >= 1 && i <= m ? bend_[i - 1] : 0; };
+  const auto over = [&](double rise, std::size_t i) { return i < h_.size() ? rise / h_[i] : 0; };
+  const auto value = [&](std::size_t i) {
+    double Qg = over(bend(i + 1) - bend(i), i);
+    if (i > 0) Qg -= over(bend(i) - bend(i - 1), i - 1);
+    return y_[i] - alpha * Qg;
+  };
+  slopes_.reserve(n);
+  for (std::size_t i = 0; i + 1 < n; ++i)
+    slopes_.push_back(((value(i + 1) - value(i)) / h_[i] - h_[i] * (2 * bend(i) + bend(i + 1)) / 6) / unit);
+  slopes_.push_back(((value(n - 1) - value(n - 2)) / h_[n - 2] + h_[n - 2] * (bend(n - 2) + 2 * bend(n - 1)) / 6) / unit);
+  return slopes_;
+}
+
+}  // namespace rolling

@@ -1,0 +1,63 @@
+#include "signal/windows.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace rolling {
+
+Windows::Windows(Width width, Ends ends) : width_(width), ends_(ends) {
+  if (width_.seconds == 0 && width_.samples % 2 == 0)
+    fail("the width of a centred window is an odd number of samples, not {}", width_.samples);
+}
+
+void Windows::push(double t, double y) {
+  const std::size_t needed = width_.seconds > 0 ? left_ : begin_;  // neither falls
+  while (first_ < needed && !samples_.empty()) samples_.pop_front(), ++first_;
+  if (count_++ == 0) start_ = t;
+  samples_.push_back({t, y});
+}
+
+bool Windows::next() {
+  if (next_ == count_ || !(width_.seconds > 0 ? by_time(next_) : by_count(next_))) return false;
+  ++next_;
+  return true;
+}
+
+bool Windows::by_count(std::size_t i) {
+  const std::size_t half = width_.samples / 2;
+  const std::size_t ahead = ends_ == Ends::shrink ? std::min(i, half) : half;
+  const std::size_t middle = ends_ == Ends::stay ? std::max(i, half) : i;
+  if (!finished_ && count_ <= middle + ahead) return false;
+  if (ends_ == Ends::shrink) {
+    const std::size_t k = std::min(ahead, count_ - 1 - i);
+    begin_ = i - k;
+    end_ = i + k + 1;
+    return true;
+  }
+  begin_ = middle - std::min(middle, half);
+  if (ends_ == Ends::stay) begin_ = std::min(begin_, count_ - std::min(count_, width_.samples));
+  end_ = std::min(middle + half + 1, count_);
+  return true;
+}
+
+bool Windows::by_time(std::size_t i) {
+  const double half = width_.seconds / 2 * (1 + 1e-9);  // rounding of the times does not decide
+  const double newest = samples_.back().t;
+  double middle = sample(i).t;
+  if (ends_ == Ends::stay) middle = std::max(middle, start_ + width_.seconds / 2);
+  double from = middle - half, to = middle + half;
+  if (finished_ && ends_ == Ends::stay && to > newest) from = newest - 2 * half;
+  while (sample(left_).t < from) ++left_;
+  while (right_ < count_ && sample(right_).t <= to) ++right_;
+  const bool complete = right_ < count_ || finished_;
+  begin_ = left_;
+  end_ = right_;
+  if (ends_ != Ends::shrink) return complete;
+  const std::size_t k = std::min(i - left_, right_ - 1 - i);
+  begin_ = i - k;
+  end_ = i + k + 1;
+  return complete || k == i - left_;
+}
+
+}  // namespace rolling

@@ -1,0 +1,57 @@
+// The window about each sample of a run in turn, as soon as the samples are there; in the memory of one window.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+
+namespace rolling {
+
+struct Sample { double t, y; };
+
+/// An odd number of samples; or, if seconds > 0, a duration of which half lies on either side [s].
+struct Width { std::size_t samples = 11; double seconds = 0; };
+
+class Windows {
+ public:
+  /// What a window does at the end of a run: `shrink` on both sides alike; be `cut` off there; or `stay` as wide as it is,
+  /// the first or the last whole one, so that the sample is not in its middle.
+  enum class Ends { shrink, cut, stay };
+  /// Throws Error for an even width.
+  Windows(Width, Ends);
+
+  void push(double t, double y);
+  void finish() { finished_ = true; }
+  /// Goes to the next sample whose window is complete; false when there is none yet.
+  bool next();
+
+  /// The samples of the window are those from begin() to before end(), counted from the start of the run; at() is among them.
+  std::size_t begin() const { return begin_; }
+  std::size_t end() const { return end_; }
+  std::size_t size() const { return end_ - begin_; }
+  std::size_t at() const { return next_ - 1; }
+  const Sample& sample(std::size_t i) const { return samples_[i - first_]; }
+
+  /// Moves [from, to), a former window, to the present one, one sample at a time.
+  template <typename Add, typename Remove>
+  void slide(std::size_t& from, std::size_t& to, Add add, Remove remove) const {
+    while (from > begin_) add(sample(--from));
+    while (to < end_) add(sample(to++));
+    while (from < begin_) remove(sample(from++));
+    while (to > end_) remove(sample(--to));
+  }
+
+ private:
+  bool by_count(std::size_t i);
+  bool by_time(std::size_t i);
+
+  Width width_;
+  Ends ends_;
+  bool finished_ = false;
+  std::deque<Sample> samples_;              // those from index first_ on
+  std::size_t first_ = 0, count_ = 0, next_ = 0;
+  std::size_t begin_ = 0, end_ = 0;         // the present window
+  std::size_t left_ = 0, right_ = 0;        // the samples within reach in time
+  double start_ = 0;                        // time of the first sample
+};
+
+}  // namespace rolling

@@ -1,0 +1,40 @@
+// What smooth and differentiate say in their `##` lines, read back.
+#include "cli/history.h"
+
+#include "base/error.h"
+#include "signal/derivative.h"
+#include "signal/smoother.h"
+#include "unit/catch.h"
+#include "unit/signal/through.h"
+
+using namespace rolling;
+
+TEST_CASE("history: each linear method comes back as the same filter", "[cli]") {
+  const Series t = uneven_times(60), y = noise(60, 1);
+  for (const auto& [name, method] : derivative_methods) {
+    INFO(name);
+    const DerivativeOptions options{method, 7, 3};
+    const auto chain = filters_of({"differentiate x " + describe(options)}, t);
+    if (method == DerivativeMethod::spline) {  // its parameter depends on the data
+      CHECK(chain.empty());
+      continue;
+    }
+    REQUIRE(chain.size() == 1);
+    CHECK(chain[0].to == "v");
+    CHECK(chain[0].reach == (name == "central" ? 1 : name == "pasco" ? 2 : 3));
+    CHECK(chain[0].apply(t, y) == through(*make_derivative(options), t, y));
+  }
+  for (const auto& [name, method] : smoothing_methods)
+    for (const Width width : {Width{7, 0}, Width{0, 0.3}}) {
+      INFO(name);
+      const SmootherOptions options{method, width, 3};
+      const auto chain = filters_of({"smooth v coast", "smooth t from 1.5", "smooth t to 2", "smooth v " + describe(options)}, t);
+      if (method == SmoothingMethod::median) {  // not linear
+        CHECK(chain.empty());
+        continue;
+      }
+      REQUIRE(chain.size() == 1);
+      CHECK(chain[0].apply(t, y) == through(*make_smoother(options), t, y));
+    }
+  CHECK(filters_of({"smooth v outliers 4", "smooth v mean width 11"}, t).empty());
+}

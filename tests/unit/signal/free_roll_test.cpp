@@ -1,0 +1,77 @@
+#include "signal/free_roll.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "unit/catch.h"
+#include "unit/signal/through.h"
+
+using namespace rolling;
+
+namespace {
+
+/// Rest for 1 s, a push of 0.5 s up to 0.5 m/s, a roll that slows by 0.1 m/s^2 and stops at 6.5 s, rest until 8 s.
+double speed(double t) { return t < 1 || t > 6.5 ? 0 : t < 1.5 ? 0.5 * std::pow(std::sin(3.14159265358979 * (t - 1)), 2) : 0.1 * (6.5 - t); }
+constexpr double release = 1.5, stop = 6.5;
+
+std::vector<Sample> record(double rate, double size, unsigned seed, bool positions, double sign = 1) {
+  std::vector<Sample> run;
+  double x = 0.3;
+  const auto n = static_cast<std::size_t>(8 * rate);
+  const Series e = noise(n, seed);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double t = static_cast<double>(i) / rate;
+    if (i > 0)
+      for (int k = 0; k < 20; ++k) x += speed(t - (k + 0.5) / (20 * rate)) / (20 * rate);
+    run.push_back({t, sign * (positions ? x : speed(t)) + size * e[i]});
+  }
+  return run;
+}
+
+}  // namespace
+
+TEST_CASE("free_roll: from after the push up to the stop, speeds and positions, many seeds", "[signal]") {
+  for (const double sign : {1.0, -1.0})
+    for (const double rate : {25.0, 100.0})
+      for (unsigned seed = 1; seed <= 100; ++seed) {
+        const auto v = record(rate, 0.004, seed, false, sign), x = record(rate, 0.0004, seed, true, sign);
+        for (const auto* run : {&v, &x}) {
+          const auto [begin, end] = free_roll(*run, run == &x);
+          INFO((run == &x ? "x " : "v ") << rate << " Hz, seed " << seed << ": " << (*run)[begin].t << " to " << (*run)[end - 1].t);
+          CHECK((*run)[begin].t >= release + 1.9 / rate);  // a derivative over two samples knows nothing of the push
+          CHECK((*run)[begin].t < release + 1);
+          CHECK((*run)[end - 1].t <= stop + 2 / rate);
+          CHECK((*run)[end - 1].t > stop - 0.8);
+        }
+      }
+}
+
+TEST_CASE("free_roll: a record that begins with the roll keeps its beginning, one that ends in it its end", "[signal]") {
+  const auto run = record(25, 0, 1, false);
+  const std::span<const Sample> whole(run);
+  const auto begins = free_roll(whole.subspan(40), false);
+  CHECK(begins.begin == 0);
+  const auto ends = free_roll(whole.subspan(0, 100), false);
+  CHECK(ends.end == 100);
+}
+
+TEST_CASE("free_roll: without noise the roll ends where the speed is 0", "[signal]") {
+  const auto run = record(25, 0, 1, false);
+  const auto [begin, end] = free_roll(run, false);
+  CHECK(std::abs(run[end - 1].t - stop) < 0.09);
+  CHECK(run[end - 1].y > 0);
+  CHECK(begin > 38);
+}
+
+TEST_CASE("free_roll: rest, noise alone and a handful of records have none", "[signal]") {
+  std::vector<Sample> run;
+  for (const double y : Series(100, 0)) run.push_back({static_cast<double>(run.size()), y});
+  CHECK_THROWS_AS(free_roll(run, false), Error);
+  CHECK_THROWS_AS(free_roll(run, true), Error);
+  CHECK_THROWS_AS(free_roll(std::span(run).subspan(0, 9), false), Error);
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Series e = noise(100, seed);
+    for (std::size_t i = 0; i < run.size(); ++i) run[i].y = 0.004 * e[i];
+    CHECK_THROWS_AS(free_roll(run, false), Error);
+  }
+}

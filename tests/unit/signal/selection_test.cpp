@@ -1,0 +1,46 @@
+#include "signal/selection.h"
+
+#include "unit/catch.h"
+#include "unit/signal/through.h"
+
+using namespace rolling;
+
+TEST_CASE("selection: times, then outliers, then the roll; nothing reaches into what is left out", "[signal]") {
+  std::vector<Sample> run;  // rest, a push to 0.5 m/s at 1.5 s, a roll that stops at 6.5 s, rest
+  const Series e = noise(200, 3);
+  for (std::size_t i = 0; i < 200; ++i) {
+    const double t = 0.04 * static_cast<double>(i);
+    run.push_back({t, (t < 1 || t > 6.5 ? 0 : t < 1.5 ? t - 1 : 0.1 * (6.5 - t)) + 0.002 * e[i]});
+  }
+  run[20].y = 9, run[100].y = 9;  // the greatest speeds by far
+  SelectionOptions options;
+  options.outliers = 5, options.coast = true, options.from = 0.5, options.to = 4.3;
+  Selection selection(options);
+  for (const Sample& s : run) CHECK(selection.push(s.t, s.y).empty());  // it waits for the whole run
+  const auto all = selection.finish();
+  REQUIRE(all.size() == run.size());
+  CHECK(selection.outliers() == 2);
+  for (const Judged& s : all) {
+    INFO(s.t);
+    if (s.t < 1.55 || s.t > 4.3 || s.t == run[100].t) CHECK(!s.kept);
+    else if (s.t > 2) CHECK(s.kept);
+  }
+}
+
+TEST_CASE("selection: without the roll it waits for no more than a window", "[signal]") {
+  SelectionOptions options;
+  options.from = 2, options.to = 7;
+  Selection times(options);
+  for (int i = 0; i < 10; ++i) {
+    const auto now = times.push(i, 0);
+    REQUIRE(now.size() == 1);
+    CHECK(now[0].kept == (i >= 2 && i <= 7));
+  }
+  CHECK(times.finish().empty());
+  options.outliers = 3, options.width = {5, 0};
+  Selection both(options);
+  std::vector<std::size_t> counts;
+  for (int i = 0; i < 10; ++i) counts.push_back(both.push(i, 0).size());
+  CHECK(counts == std::vector<std::size_t>{1, 1, 0, 0, 1, 1, 1, 1, 3, 1});  // the window ends with the selection
+  CHECK(both.finish().empty());
+}

@@ -1,0 +1,76 @@
+#include "signal/smoother.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "signal/savitzky_golay.h"
+#include "unit/catch.h"
+#include "unit/signal/through.h"
+
+using namespace rolling;
+
+namespace {
+
+std::size_t width_for(double curvature, double size, unsigned seed, SmoothingMethod method = SmoothingMethod::mean) {
+  const Series t = even_times(300), e = noise(300, seed);
+  std::vector<Sample> run;
+  for (std::size_t i = 0; i < t.size(); ++i) run.push_back({t[i], std::sin(curvature * t[i]) + size * e[i]});
+  return best_width(run, {method});
+}
+
+double error_of(std::size_t width, double curvature, double size, unsigned seed) {
+  const Series t = even_times(300), e = noise(300, seed);
+  Series y;
+  for (std::size_t i = 0; i < t.size(); ++i) y.push_back(std::sin(curvature * t[i]) + size * e[i]);
+  const auto s = through(*make_smoother({SmoothingMethod::mean, {width, 0}}), t, y);
+  double sum = 0;
+  for (std::size_t i = 3; i + 3 < t.size(); ++i) sum += std::pow(s[i] - std::sin(curvature * t[i]), 2);
+  return std::sqrt(sum / 294);
+}
+
+}  // namespace
+
+TEST_CASE("smoother: the best width grows with the noise and falls with the curvature", "[signal]") {
+  CHECK(width_for(3, 0.2, 1) > width_for(3, 0.01, 1));
+  CHECK(width_for(1, 0.05, 2) > width_for(5, 0.05, 2));
+  CHECK(width_for(3, 0.05, 3, SmoothingMethod::savgol) > width_for(3, 0.05, 3));
+  CHECK(width_for(3, 0, 1) == 7);
+  CHECK(width_for(3, 0, 1, SmoothingMethod::savgol) == 9);
+}
+
+TEST_CASE("smoother: the best width has nearly the least error that any width has", "[signal]") {
+  for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u})
+    for (const double curvature : {1.0, 3.0}) {
+      double least = INFINITY;
+      for (std::size_t width = 7; width < 150; width += 2) least = std::min(least, error_of(width, curvature, 0.1, seed));
+      CHECK(error_of(width_for(curvature, 0.1, seed), curvature, 0.1, seed) < 1.3 * least);
+    }
+}
+
+TEST_CASE("smoother: the best width is not misled by the noise of central differences", "[signal]") {
+  // Their noise is bound at a distance of two; leaving out the one record alone would take it for a signal.
+  const Series t = even_times(300), e = noise(302, 5);
+  std::vector<Sample> run;
+  for (std::size_t i = 0; i < t.size(); ++i) run.push_back({t[i], 0.5 - 0.1 * t[i] + 0.01 * (e[i + 2] - e[i])});
+  CHECK(best_width(run, {}) > 31);
+}
+
+TEST_CASE("smoother: automatic is the same as the width it finds, and short runs have the narrowest", "[signal]") {
+  const Series t = uneven_times(120), y = noise(120, 2);
+  for (const auto& [name, method] : smoothing_methods) {
+    AutoSmoother automatic({method});
+    const auto out = through(automatic, t, y);
+    CHECK(out == through(*make_smoother(automatic.options()), t, y));
+  }
+  for (std::size_t n = 0; n < 9; ++n) {
+    AutoSmoother automatic({SmoothingMethod::mean});
+    CHECK(through(automatic, even_times(n), noise(n, 1)).size() == n);
+    CHECK(automatic.options().width.samples == 7);
+  }
+}
+
+TEST_CASE("smoother: a method says itself as the history does", "[signal]") {
+  CHECK(describe(SmootherOptions{}) == "mean width 11");
+  CHECK(describe(SmootherOptions{SmoothingMethod::median, {0, 0.4}}) == "median seconds 0.4");
+  CHECK(describe(SmootherOptions{SmoothingMethod::savgol, {7, 0}, 3}) == "savgol width 7 order 3");
+}
