@@ -59,6 +59,7 @@ samples: bin/simulate
 	bin/simulate --scene samples/CR.toml --memory 5e-4 --damping 0.02 --sensor pasco --seed 2 >samples/CR.csv
 	bin/simulate --scene samples/SF.toml --memory 5e-4 --damping 0.02 --sensor pasco --seed 3 >samples/SF.csv
 	bin/simulate --scene samples/SR.toml --memory 5e-4 --damping 0.02 --sensor pasco --seed 4 >samples/SR.csv
+	samples/exports/make.sh samples/exports
 
 # Figures of the paper, each from the script of its name in samples/figures and the tools that it runs.
 figures: $(patsubst samples/%.sh,%.svg,$(wildcard samples/figures/*.sh)) $(patsubst samples/%.sh,%.png,$(wildcard samples/figures/*.sh))

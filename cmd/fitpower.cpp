@@ -1,4 +1,6 @@
 // fitpower - fit the power law D = a v^b to columns; see fitpower(1)
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "cli/history.h"
@@ -17,6 +19,9 @@ std::vector<std::string> columns_of(Route route) {
   }
 }
 
+const std::map<std::string, std::optional<Route>> routes{
+    {"loglog", Route::loglog}, {"shift", Route::shift}, {"velocity", Route::velocity}, {"position", Route::position}};
+
 /// The values of NAME=VALUE, repeated.
 void set_parameters(const std::string& option, const std::vector<std::string>& settings,
                     const std::map<std::string, std::optional<double>*>& parameters) {
@@ -30,15 +35,18 @@ void set_parameters(const std::string& option, const std::vector<std::string>& s
   }
 }
 
-std::vector<FitRun> read_runs(Reader& in, Route route, const Body& body) {
+std::vector<FitRun> read_runs(Reader& in, Route route, const Body& body, bool all_columns) {
   struct Needed { std::size_t slot; std::vector<double> FitRun::*column; };
   std::vector<Needed> needed;
-  for (const std::string& name : columns_of(route)) {
-    if (name == "t") continue;
-    needed.push_back({in.need(name), name == "x" ? &FitRun::x : name == "v" ? &FitRun::v : &FitRun::D});
-  }
-  const bool filtered = !in.history().empty() && in.find("t");  // the filters act on these times
-  if (columns_of(route).front() == "t" || filtered) needed.push_back({in.need_time(), &FitRun::t});
+  const auto column_of = [](std::string_view name) { return name == "x" ? &FitRun::x : name == "v" ? &FitRun::v : &FitRun::D; };
+  const auto names = columns_of(route);
+  for (const std::string& name : names)
+    if (name != "t") needed.push_back({in.need(name), column_of(name)});
+  const bool times_wanted = (all_columns || !in.history().empty()) && in.find("t");  // the filters act on these times
+  if (names.front() == "t" || times_wanted) needed.push_back({in.need_time(), &FitRun::t});
+  if (all_columns)  // what other routes would fit
+    for (const char* name : {"x", "v", "D"})
+      if (in.find(name) && std::find(names.begin(), names.end(), name) == names.end()) needed.push_back({in.want(name), column_of(name)});
   std::vector<FitRun> runs;
   while (in.next_run()) {
     FitRun& run = runs.emplace_back();
@@ -50,6 +58,31 @@ std::vector<FitRun> read_runs(Reader& in, Route route, const Body& body) {
   return runs;
 }
 
+/// For these runs, what each route finds at which cost, and which law describes them on the route that was asked for.
+void report(const Tool& tool, Route asked, const std::vector<FitRun>& runs, const FitOptions& options) {
+  const std::map<Errors, const char*> kinds{{Errors::none, "none"}, {Errors::classical, "classical"}, {Errors::filters, "of the filters"}, {Errors::autocorrelation, "of the autocorrelation"}};
+  for (const auto& [name, route] : routes) try {
+      for (const FitRun& run : runs)
+        for (const std::string& column : columns_of(*route))
+          if ((column == "t" ? run.t : column == "x" ? run.x : column == "v" ? run.v : run.D).empty()) fail("there is no column {}", column);
+      const auto begin = std::chrono::steady_clock::now();
+      const FitResult r = fit(*route, runs, options);
+      const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
+      tool.say(fmt::format("{}: a {:.5g} +- {:.2g}, b {:.5g} +- {:.2g}, rms {:.3g}, n {}, errors {}{}, {:.2g} ms", name, r.a, r.sigma_a, r.b, r.sigma_b, r.rms, r.n,
+                           kinds.at(r.errors), std::isnan(r.whiteness) ? "" : fmt::format(" (Ljung-Box p {:.2g})", r.whiteness), time.count()));
+    } catch (const Error& error) {
+      tool.say(fmt::format("{}: {}", name, error.what()));
+    }
+  if (options.robust) return;
+  const auto scores = compare_laws(asked, runs, options);
+  double least = scores.front().aicc;
+  for (const LawScore& s : scores) least = std::min(least, s.aicc);
+  if (std::isinf(scores.front().aicc)) return tool.say("too few independent records to compare a v^b with other laws");
+  std::string line = "AICc above the least:";
+  for (const LawScore& s : scores) line += fmt::format(" {} {:.1f};", s.law, s.aicc - least);
+  tool.say(line + (scores.front().aicc - least <= 2 ? " D = a v^b is adequate" : " D = a v^b is not adequate"));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -59,9 +92,8 @@ int main(int argc, char** argv) {
   std::vector<std::string> fixed, start;
   Body body;
   FitOptions options;
-  bool each = false;
-  tool.choice<std::optional<Route>>("--route", given_route,
-      {{"loglog", Route::loglog}, {"shift", Route::shift}, {"velocity", Route::velocity}, {"position", Route::position}},
+  bool each = false, with_report = false;
+  tool.choice("--route", given_route, routes,
       "loglog or shift (D of v), velocity (v of t), position (x of t); by default shift if there is D, else velocity if v, else position");
   tool.numbers("-K,--shape-factor", shape_factors, not_negative, "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
   tool.body(body, "Rg");
@@ -70,6 +102,8 @@ int main(int argc, char** argv) {
   tool.list("--fix", fixed, "NAME=VALUE", "hold a, b, v0 or x0 fixed");
   tool.list("--start", start, "NAME=VALUE", "begin the search at this a or b");
   tool.number("--min-speed", options.min_speed, not_negative, "leave slower records out [m/s]");
+  tool.flag("--robust", options.robust, "let outliers count little: bisquare loss instead of squares");
+  tool.flag("--report", with_report, "tell on standard error what each route finds, and whether the law is adequate");
   tool.scene();
   tool.input();
   tool.output();
@@ -85,9 +119,9 @@ int main(int argc, char** argv) {
       if (shape_factors.empty()) fail("--shape-factor is not given, nor is it in a scene");
     }
 
-    std::vector<FitRun> runs = read_runs(in, route, body);
+    std::vector<FitRun> runs = read_runs(in, route, body, with_report);
     if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
-      fail("--shape-factor gives {} values for {} runs", shape_factors.size(), runs.size());
+      fail("--shape-factor gives {} values, but runs are {}", shape_factors.size(), runs.size());
     for (std::size_t i = 0; i < runs.size(); ++i) runs[i].body.K = shape_factors.empty() ? 0 : shape_factors[shape_factors.size() > 1 ? i : 0];
 
     std::vector<std::vector<FitRun>> fits;
@@ -109,6 +143,7 @@ int main(int argc, char** argv) {
       tool.out.end_line();
       left_out += r.left_out;
     }
+    if (with_report) for (const auto& joint : fits) report(tool, route, joint, options);
     tool.count_left_out(left_out, "this route cannot use them");
     return 0;
   });

@@ -8,7 +8,7 @@ trap 'rm -rf "$scratch"' EXIT
 failed=0
 tolerance=0.05  # of a closure: over many seeds it scatters about 0 by 1.5 % (the speeds at both ends, the error of the fit)
 
-roll() { awk -f coast.awk "$1.csv"; }                         # the free roll in a raw record
+roll() { smooth -q --coast -c x -w 1 "$1.csv"; }               # the free roll in a raw record, its positions as they are
 velocity() { roll "$1" | differentiate -q -c x | smooth -w 11; }  # v from the positions, smoothed
 shift_of() { velocity "$1" | differentiate | shift-from-accel -K "$2" -R 0.04; }  # Fig. 4: D of v
 
@@ -22,7 +22,7 @@ fits() {
     shapes+=("$1") shifts+=("$scratch/$2.D") records+=("$scratch/$2.roll")
     shift 2
   done
-  fitpower "${shifts[@]}" >"$scratch/$name.D.fit"
+  fitpower -q "${shifts[@]}" >"$scratch/$name.D.fit"
   fitpower -q --route position -K "$(IFS=,; echo "${shapes[*]}")" -R 0.04 "${records[@]}" >"$scratch/$name.fit"
 }
 

@@ -192,18 +192,33 @@ void Whitener::apply_transposed(double* x) const {
   }
 }
 
-void KnownNoise::append(BandMatrix E, double share) {
+namespace {
+
+std::vector<double> row_norms(const BandMatrix& E) {
   std::vector<double> norms;
+  for (std::size_t i = 0; i < E.rows(); ++i) norms.push_back(std::sqrt(std::inner_product(E.row(i).begin(), E.row(i).end(), E.row(i).begin(), 0.0)));
+  return norms;
+}
+
+}  // namespace
+
+void KnownNoise::append(BandMatrix E, double share) {
+  std::vector<double> norms = row_norms(E);
   std::size_t sources = 0;
-  for (std::size_t i = 0; i < E.rows(); ++i) {
-    const auto r = E.row(i);
-    norms.push_back(std::sqrt(std::inner_product(r.begin(), r.end(), r.begin(), 0.0)));
-    sources = std::max(sources, E.first(i) + r.size());
-  }
+  for (std::size_t i = 0; i < E.rows(); ++i) sources = std::max(sources, E.first(i) + E.row(i).size());
   const auto middle = norms.begin() + static_cast<std::ptrdiff_t>(norms.size() / 2);
   std::nth_element(norms.begin(), middle, norms.end());
   Whitener whitener(E, norms.empty() ? 0 : share * *middle);
   runs_.push_back({std::move(E), sources, std::move(whitener)});
+}
+
+std::vector<double> KnownNoise::sizes() const {
+  std::vector<double> all;
+  for (const auto& run : runs_) {
+    const auto norms = row_norms(run.E);
+    all.insert(all.end(), norms.begin(), norms.end());
+  }
+  return all;
 }
 
 void KnownNoise::weight(std::vector<double>& f, std::vector<double>& J) const {
@@ -235,6 +250,13 @@ std::vector<double> KnownNoise::middle(const std::vector<double>& f, const std::
         for (std::size_t k = 0; k < p; ++k) M[j * p + k] += AQ[s * p + j] * AQ[s * p + k];
     start += q.size();
   }
+  const double sigma2 = variance(f, Q);
+  for (double& x : M) x *= sigma2;
+  return M;
+}
+
+double KnownNoise::variance(const std::vector<double>& f, const std::vector<double>& Q) const {
+  const std::size_t n = f.size(), p = Q.size() / n;
   // sigma^2 is the sum of squares over what noise of size one leaves on average, tr((I - Q Q^T) A A^T), taken from random
   // signs (Hutchinson 1990, Commun. Stat. Simul. 19, 433): 20,000 of them know sigma to 0.5 %.
   const std::size_t trials = std::max<std::size_t>(1, 20000 / n);
@@ -256,14 +278,9 @@ std::vector<double> KnownNoise::middle(const std::vector<double>& f, const std::
       expected -= along * along;
     }
   }
-  const double variance = std::inner_product(f.begin(), f.end(), f.begin(), 0.0) * static_cast<double>(trials) / expected;
-  for (double& x : M) x *= variance;
-  return M;
+  return std::inner_product(f.begin(), f.end(), f.begin(), 0.0) * static_cast<double>(trials) / expected;
 }
 
-namespace {
-
-/// Sum of products `lag` records apart within the runs.
 double lagged(std::span<const double> r, std::span<const std::size_t> runs, std::size_t lag) {
   double sum = 0;
   std::size_t start = 0;
@@ -274,24 +291,42 @@ double lagged(std::span<const double> r, std::span<const std::size_t> runs, std:
   return sum;
 }
 
-}  // namespace
-
-bool looks_white(std::span<const double> r, std::span<const std::size_t> runs) {
+double ljung_box(std::span<const double> r, std::span<const std::size_t> runs) {
   const double n = static_cast<double>(r.size()), all = lagged(r, runs, 0);
-  if (!(all > 0)) return true;
+  if (!(all > 0)) return 1;
   const std::size_t lags = std::clamp<std::size_t>(r.size() / 5, 1, 10);
   double Q = 0;
   for (std::size_t k = 1; k <= lags; ++k) {
     const double rho = lagged(r, runs, k) / all;
     Q += n * (n + 2) * rho * rho / (n - static_cast<double>(k));
   }
-  return gsl_cdf_chisq_Q(Q, static_cast<double>(lags)) > 0.01;
+  return gsl_cdf_chisq_Q(Q, static_cast<double>(lags));
 }
 
-std::vector<double> newey_west(std::span<const double> u, std::size_t p, std::span<const double> residuals,
+namespace {
+
+/// x[i] - rho x[i - 1] for rows of p numbers, the first of each run by its own size.
+std::vector<double> prewhitened(std::span<const double> x, std::size_t p, std::span<const std::size_t> runs, double rho) {
+  std::vector<double> e(x.begin(), x.end());
+  std::size_t start = 0;
+  for (std::size_t m : runs) {
+    for (std::size_t i = start * p; i < (start + m) * p; ++i) e[i] = i < (start + 1) * p ? std::sqrt(1 - rho * rho) * x[i] : x[i] - rho * x[i - p];
+    start += m;
+  }
+  return e;
+}
+
+double correlation_of_neighbours(std::span<const double> r, std::span<const std::size_t> runs) {
+  return std::clamp(lagged(r, runs, 1) / lagged(r, runs, 0), -0.97, 0.97);
+}
+
+}  // namespace
+
+std::vector<double> newey_west(std::span<const double> scores, std::size_t p, std::span<const double> residuals,
                                std::span<const std::size_t> runs) {
-  const double rho = std::clamp(lagged(residuals, runs, 1) / lagged(residuals, runs, 0), -0.97, 0.97);
-  const double n = static_cast<double>(residuals.size());
+  const double AR = correlation_of_neighbours(residuals, runs), n = static_cast<double>(residuals.size());
+  const auto u = prewhitened(scores, p, runs, AR);
+  const double rho = correlation_of_neighbours(prewhitened(residuals, 1, runs, AR), runs);
   const double alpha = 4 * rho * rho / ((1 - rho * rho) * (1 - rho * rho));
   const auto width = static_cast<std::size_t>(std::ceil(1.1447 * std::cbrt(alpha * n)));
   std::vector<double> S(p * p, 0);
@@ -306,6 +341,7 @@ std::vector<double> newey_west(std::span<const double> u, std::size_t p, std::sp
     }
     start += m;
   }
+  for (double& x : S) x /= (1 - AR) * (1 - AR);
   return S;
 }
 

@@ -58,6 +58,10 @@ class KnownNoise {
   bool empty() const { return runs_.empty(); }
   /// Residuals (n) and derivatives (n rows of p), weighted.
   void weight(std::vector<double>& f, std::vector<double>& J) const;
+  /// Standard deviation of each residual for white noise of size one.
+  std::vector<double> sizes() const;
+  /// The variance of that white noise, from the weighted residuals and Q = J R^-1 of the fit.
+  double variance(const std::vector<double>& f, const std::vector<double>& Q) const;
   /// The middle of the covariance R^-1 M R^-T of parameters that were fitted with weight(), from the weighted residuals and
   /// Q = J R^-1 of the fit; true whatever the weights.
   std::vector<double> middle(const std::vector<double>& f, const std::vector<double>& Q) const;
@@ -71,11 +75,16 @@ class KnownNoise {
   std::vector<Run> runs_;
 };
 
-/// Ljung and Box (1978), Biometrika 65, 297, over min(10, n/5) lags at 1 %. `runs` tells how many residuals each run has.
-bool looks_white(std::span<const double> residuals, std::span<const std::size_t> runs);
+/// Significance of the autocorrelation by Ljung and Box (1978), Biometrika 65, 297, over min(10, n/5) lags: small where the residuals
+/// are not white. `runs` tells how many residuals each run has.
+double ljung_box(std::span<const double> residuals, std::span<const std::size_t> runs);
+
+/// Sum of the products of residuals `lag` records apart within the runs.
+double lagged(std::span<const double> residuals, std::span<const std::size_t> runs, std::size_t lag);
 
 /// The middle of the sandwich, sum of w(|i-j|) u_i u_j^T over each run, row by row; u are n rows of p scores. Bartlett weights
-/// (Newey and West 1987, Econometrica 55, 703), bandwidth by Andrews' AR(1) rule (1991, Econometrica 59, 817).
+/// (Newey and West 1987, Econometrica 55, 703), bandwidth by Andrews' AR(1) rule (1991, Econometrica 59, 817),
+/// after prewhitening by the residuals' own AR(1) (Andrews and Monahan 1992, Econometrica 60, 953): short records need it.
 std::vector<double> newey_west(std::span<const double> scores, std::size_t p, std::span<const double> residuals,
                                std::span<const std::size_t> runs);
 

@@ -10,33 +10,25 @@
 namespace rolling {
 namespace {
 
-/// Q = J R^-1, in whose columns the covariance R^-1 M R^-T has its middle.
-std::vector<double> orthonormal(const Minimum& m, std::size_t n, std::size_t p) {
-  std::vector<double> u = m.J;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < p; ++j) {
-      double& x = u[i * p + j];
-      for (std::size_t k = 0; k < j; ++k) x -= u[i * p + k] * m.R[k * p + j];
-      x /= m.R[j * p + j];
-    }
-  return u;
-}
-
 double sum_of_squares(const std::vector<double>& f) { return std::inner_product(f.begin(), f.end(), f.begin(), 0.0); }
 
 FitResult conclude(const RouteFit& r) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::size_t n = r.residuals.size(), p = r.minimum.theta.size();
   FitResult result{.a = r.a.value, .sigma_a = nan, .b = r.b.value, .sigma_b = nan, .corr = 0, .rms = nan, .n = n,
-                   .left_out = r.left_out, .v0 = {}, .sigma_v0 = {}, .x0 = {}, .sigma_x0 = {}, .errors = Errors::none};
+                   .left_out = r.left_out, .whiteness = nan, .v0 = {}, .sigma_v0 = {}, .x0 = {}, .sigma_x0 = {}, .errors = Errors::none};
   std::vector<double> middle(p * p, nan);
   if (n > p) {
     result.rms = std::sqrt(sum_of_squares(r.residuals) / static_cast<double>(n - p));
-    std::vector<double> Q = orthonormal(r.minimum, n, p);
-    if (!r.noise.empty()) {
+    std::vector<double> Q = orthonormal(r.minimum);
+    // Weighted residuals are white if the filters are all that ties them together; not those of loglog and shift, whose weights
+    // are not the inverse of their covariance.
+    if (r.noise.empty() || !r.rolls.empty()) result.whiteness = ljung_box(r.minimum.f, r.runs);
+    const bool white = n < 30 || !(result.whiteness <= 0.01);
+    if (white && !r.noise.empty()) {
       middle = r.noise.middle(r.minimum.f, Q);
       result.errors = Errors::filters;
-    } else if (n < 30 || looks_white(r.residuals, r.runs)) {
+    } else if (white) {
       std::fill(middle.begin(), middle.end(), 0);
       for (std::size_t j = 0; j < p; ++j) middle[j * p + j] = r.minimum.rss / static_cast<double>(n - p);
       result.errors = Errors::classical;
@@ -62,17 +54,20 @@ FitResult conclude(const RouteFit& r) {
   if (result.errors != Errors::none)
     for (double x : {result.sigma_a, result.sigma_b, result.corr, result.rms})
       if (!std::isfinite(x)) fail("the fit gives no finite errors of a and b");
+  if (result.sigma_b > 3) fail("the data do not determine b: it comes out as {:.3g} +- {:.2g}", result.b, result.sigma_b);
   return result;
 }
 
 }  // namespace
 
-FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+RouteFit fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   if (options.a && !(*options.a > 0)) fail("a = {} cannot be held: it must be positive", *options.a);
-  if (route == Route::loglog) return conclude(fit_log_log(runs, options));
-  if (route == Route::shift) return conclude(fit_shift(runs, options));
-  return conclude(fit_trajectory(route, runs, options));
+  if (route == Route::loglog) return fit_log_log(runs, options);
+  if (route == Route::shift) return fit_shift(runs, options);
+  return fit_trajectory(route, runs, options);
 }
+
+FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) { return conclude(fit_route(route, runs, options)); }
 
 void require_records(std::size_t n, std::size_t p) {
   if (n == 0) fail("no record can be fitted");
@@ -80,22 +75,10 @@ void require_records(std::size_t n, std::size_t p) {
   if (n < p) fail("{} record{} cannot determine {} parameters", n, n == 1 ? "" : "s", p);
 }
 
-WeakTerm::WeakTerm(const std::vector<double>& at, const std::function<std::vector<double>(const std::vector<double>& theta)>& term)
-    : at_(at), value_(term(at)), slopes_(value_.size() * at.size()) {
-  constexpr double step = 1e-4;
-  for (std::size_t j = 0; j < at_.size(); ++j) {
-    auto before = at_, after = at_;
-    before[j] -= step;
-    after[j] += step;
-    const auto low = term(before), high = term(after);
-    for (std::size_t i = 0; i < low.size(); ++i) slopes_[i * at_.size() + j] = (high[i] - low[i]) / (2 * step);
-  }
-}
-
-double WeakTerm::value(std::size_t i, const std::vector<double>& theta) const {
-  double sum = value_[i];
-  for (std::size_t j = 0; j < at_.size(); ++j) sum += slope(i, j) * (theta[j] - at_[j]);
-  return sum;
+Minimum solve(const System& system, const std::vector<double>& start, const FitOptions& options, bool filters_known) {
+  if (!options.robust) return minimise(system, start);
+  if (filters_known) fail("robust fits judge single records, but filters have spread each outlier over many: fit the raw column");
+  return minimise_robust(system, start);
 }
 
 }  // namespace rolling

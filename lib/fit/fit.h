@@ -25,6 +25,7 @@ struct FitOptions {
   std::optional<double> origin;                       ///< when v0 and x0 hold [s]; else the first fitted record of each run
   std::optional<double> start_a, start_b;             ///< where to start; found from the data otherwise
   double min_speed = 0;                               ///< records slower than this are left out [m/s]
+  bool robust = false;                                ///< bisquare loss instead of squares; not for filtered columns
 };
 
 /// How the standard errors were made; `none` where there are as many parameters as records (the errors and rms are NaN).
@@ -36,12 +37,25 @@ struct FitResult {
   double rms;                     ///< sqrt(RSS / (n - p)) in the unit of the fitted column (of ln D for loglog)
   std::size_t n;                  ///< records that were fitted
   std::size_t left_out;           ///< records that the route could not use
+  double whiteness;               ///< significance of the residuals' autocorrelation (Ljung and Box); NaN for filtered v and D
   std::vector<double> v0, sigma_v0, x0, sigma_x0;  ///< trajectory routes, one a run
   Errors errors;
 };
 
 /// One joint fit over all runs: one a and b, own v0 and x0 for each run (trajectory routes). Throws Error with one clear line
-/// for what cannot be determined: fewer than two points, all v equal, no positive D (loglog), no convergence.
+/// for what cannot be determined: fewer than two points, all v equal, no positive D (loglog), no convergence, a standard error
+/// of b above 3.
 FitResult fit(Route, const std::vector<FitRun>&, const FitOptions&);
+
+/// How well a law describes the records of a route, by AICc (Burnham and Anderson 2002, Model Selection and Multimodel Inference):
+/// smaller is better, differences below 2 say nothing. Infinite where the law cannot be fitted.
+struct LawScore {
+  const char* law;
+  double aicc;
+};
+
+/// D = a v^b first, then the coast-down laws D = d0, d0 + d1 v, d0 + d1 v + d2 v^2 on the same records with the same weights (A = 1).
+/// Records with correlated residuals count as n (1 - r)/(1 + r) independent ones, r their correlation from one to the next.
+std::vector<LawScore> compare_laws(Route, const std::vector<FitRun>&, const FitOptions&);
 
 }  // namespace rolling

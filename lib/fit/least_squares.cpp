@@ -165,6 +165,86 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
   return best;
 }
 
+namespace {
+
+/// psi(u)/u and psi'(u) of a loss.
+struct Influence {
+  double weight, slope;
+};
+Influence huber(double u) {
+  constexpr double c = 1.345;
+  return std::abs(u) <= c ? Influence{1, 1} : Influence{c / std::abs(u), 0};
+}
+Influence bisquare(double u) {
+  constexpr double c = 4.685;
+  const double rest = 1 - u * u / (c * c);
+  return rest > 0 ? Influence{rest * rest, rest * (5 * rest - 4)} : Influence{0, 0};
+}
+
+/// The median absolute residual over that of a standard normal; the p smallest, which the fit has made small, are not counted.
+double median_scale(std::vector<double> f, std::size_t p) {
+  for (double& x : f) x = std::abs(x);
+  std::sort(f.begin(), f.end());
+  const std::size_t first = std::min(p, f.size() - 1);
+  return f[first + (f.size() - first) / 2] / 0.6745;
+}
+
+}  // namespace
+
+Minimum minimise_robust(const System& system, const std::vector<double>& start) {
+  Minimum at{start, std::vector<double>(system.n), std::vector<double>(system.n * system.p), {}, 0};
+  double scale = 0;
+  for (const auto influence : {huber, bisquare}) {
+    double change = 1;
+    for (int round = 0; change > 1e-9; ++round) {
+      if (round == 100) fail("the robust fit does not converge");
+      system.evaluate(at.theta, at.f, at.J);
+      if (influence == huber) scale = median_scale(at.f, system.p);  // bisquare keeps the last one
+      if (!(scale > 0)) return minimise(system, at.theta);
+      std::vector<double> roots;
+      for (double r : at.f) roots.push_back(std::sqrt(influence(r / scale).weight));
+      const System weighted{system.n, system.p, [&](const std::vector<double>& theta, std::vector<double>& f, std::vector<double>& J) {
+        system.evaluate(theta, f, J);
+        for (std::size_t i = 0; i < system.n; ++i) {
+          f[i] *= roots[i];
+          for (std::size_t j = 0; j < system.p; ++j) J[i * system.p + j] *= roots[i];
+        }
+      }};
+      const auto next = minimise(weighted, at.theta).theta;
+      change = 0;
+      for (std::size_t j = 0; j < system.p; ++j) change = std::max(change, std::abs(next[j] - at.theta[j]) / std::max(1.0, std::abs(next[j])));
+      at.theta = next;
+      if (influence == huber && change < 1e-3) break;  // only a place to start from
+    }
+  }
+  system.evaluate(at.theta, at.f, at.J);
+  at.R = gauss_newton(system, at).R;
+  const double n = static_cast<double>(system.n);
+  double mean = 0, squares = 0;
+  for (double r : at.f) {
+    const double slope = bisquare(r / scale).slope;
+    mean += slope / n;
+    squares += slope * slope / n;
+  }
+  if (!(mean > 0)) fail("too many outliers: no robust fit");
+  const double correction = 1 + static_cast<double>(system.p) / n * (squares - mean * mean) / (mean * mean);
+  for (double& r : at.f) r *= bisquare(r / scale).weight * correction / mean;
+  at.rss = square(at.f);
+  return at;
+}
+
+std::vector<double> orthonormal(const Minimum& m) {
+  const std::size_t p = m.theta.size(), n = m.f.size();
+  std::vector<double> u = m.J;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < p; ++j) {
+      double& x = u[i * p + j];
+      for (std::size_t k = 0; k < j; ++k) x -= u[i * p + k] * m.R[k * p + j];
+      x /= m.R[j * p + j];
+    }
+  return u;
+}
+
 std::vector<double> Spread::solve_transposed(std::vector<double> g) const {
   for (std::size_t j = 0; j < p_; ++j) {
     for (std::size_t k = 0; k < j; ++k) g[j] -= R_[k * p_ + j] * g[k];

@@ -23,6 +23,14 @@ struct Minimum {
 /// Throws Error if there is no convergence, or if the parameters cannot be told apart.
 Minimum minimise(const System&, const std::vector<double>& start);
 
+/// The same with Tukey's bisquare loss (tuned for 95 % efficiency) by reweighting, from Huber's on the way; the scale is the MAD of the
+/// residuals. What comes back are pseudo-residuals f (Huber 1981, Robust Statistics, section 7.6) with the unweighted J, so that the
+/// errors of least squares made from them are those of the robust fit. The scale must be that of single records: no correlated noise.
+Minimum minimise_robust(const System&, const std::vector<double>& start);
+
+/// Q = J R^-1 (n rows of p), in whose columns the covariance R^-1 M R^-T of the parameters has its middle M.
+std::vector<double> orthonormal(const Minimum&);
+
 /// The covariance of the parameters is R^-1 M R^-T.
 class Spread {
  public:

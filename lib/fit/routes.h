@@ -13,6 +13,17 @@ struct Quantity {
   std::vector<double> gradient;
 };
 
+/// One run, as the trajectory sees it. `way` is +1 or -1: a body that rolls towards the sensor has falling x and v < 0.
+struct FittedRun {
+  Body body;
+  double way, origin;
+  std::vector<double> t, y;      ///< the fitted records, t from the origin
+  std::vector<double> model_t;   ///< where the model is needed: the same, or all records of the raw column if filters are known
+  BandMatrix filters;            ///< fitted column = filters * raw column; no rows if nothing is known
+  bool raw_is_position = false;  ///< what the raw column is (without filters, the route's own)
+  double v0, x0;                 ///< coarse; v0 along the way
+};
+
 struct RouteFit {
   Minimum minimum;
   std::vector<std::size_t> runs;   ///< fitted records of each run
@@ -21,8 +32,11 @@ struct RouteFit {
   std::size_t left_out;
   Quantity a, b;
   std::vector<Quantity> v0, x0;
+  std::vector<double> v = {};    ///< speeds of the fitted records (loglog and shift)
+  std::vector<FittedRun> rolls = {};  ///< the fitted runs (trajectory routes)
 };
 
+RouteFit fit_route(Route, const std::vector<FitRun>&, const FitOptions&);
 RouteFit fit_log_log(const std::vector<FitRun>&, const FitOptions&);
 RouteFit fit_shift(const std::vector<FitRun>&, const FitOptions&);
 RouteFit fit_trajectory(Route, const std::vector<FitRun>&, const FitOptions&);
@@ -33,20 +47,11 @@ using Rows = std::vector<std::size_t>;
 /// Throws Error when n records are too few for p parameters.
 void require_records(std::size_t n, std::size_t p);
 
-/// How often a fit with known filters is repeated: its weights and its bias are taken at the (a, b) before.
+/// The minimum by the loss that the options name; Error for a robust one of filtered columns.
+Minimum solve(const System&, const std::vector<double>& start, const FitOptions&, bool filters_known);
+
+/// How often a fit with known filters is repeated: its weights are taken at the (a, b) before.
 constexpr int rounds = 4;
-
-/// A term of the residuals that hangs on the parameters only weakly, as its value and slopes at one point.
-class WeakTerm {
- public:
-  explicit WeakTerm(std::size_t n, std::size_t p) : at_(p, 0), value_(n, 0), slopes_(n * p, 0) {}
-  WeakTerm(const std::vector<double>& at, const std::function<std::vector<double>(const std::vector<double>& theta)>& term);
-  double value(std::size_t i, const std::vector<double>& theta) const;
-  double slope(std::size_t i, std::size_t j) const { return slopes_[i * at_.size() + j]; }
-
- private:
-  std::vector<double> at_, value_, slopes_;
-};
 
 /// v and D of the records that loglog and shift use, all runs one after another, and how their noise arises.
 struct ShiftRecords {
@@ -58,9 +63,10 @@ struct ShiftRecords {
   ShiftRecords(const std::vector<FitRun>&, const FitOptions&, bool positive_D);
   bool filters_known() const { return !response_.empty(); }
   /// The roll under (a, b) that is closest to the data, filtered like the data: a wide mean of v^b is not the power of the mean.
-  /// For each record its v and D; where there is no such roll, the record's v and a v^b.
+  /// For each record its v and D, and a v^b, with the derivatives by a and b; where there is no such roll, the record's v and
+  /// a v^b for D, without derivatives.
   struct Smoothed {
-    std::vector<double> v, D, law;  ///< law = a v^b
+    std::vector<double> v, D, law, D_a, D_b, law_a, law_b;
   };
   Smoothed smoothed(double a, double b) const;
   /// Of the residuals (D - a v^b) scale: both columns carry noise, that of v with the slope of the law at the smoothed speeds.

@@ -59,11 +59,15 @@ KnownNoise ShiftRecords::noise(double b, const Smoothed& smooth, const std::vect
 
 namespace {
 
-/// The roll under the law that comes closest to the filtered speeds: its raw column, as the filters know it; empty if there is none.
-std::vector<double> closest_roll(const NoiseResponse& response, const FitRun& run, const Rows& rows, PowerLaw law) {
+/// The roll under the law that has the mean of the filtered speeds: its raw column, as the filters know it, and how that hangs on
+/// a and b when v0 follows.
+struct ClosestRoll {
+  std::vector<double> raw, by_a, by_b;
+};
+ClosestRoll closest_roll(const NoiseResponse& response, const FitRun& run, const Rows& rows, PowerLaw law) {
   const bool position = response.source == "x";
   const std::size_t n = run.t.size();
-  std::vector<double> t, slowing, raw(n), by_v0(n);
+  std::vector<double> t, slowing, by_v0(n);
   for (double x : run.t) t.push_back(x - run.t[0]);
   for (double x : t) slowing.push_back(position ? -x * x / 2 : -x);
   // D of unit deceleration is (1 + K) R / g: the filters tell which body this is. At a lost record a window is lopsided and
@@ -74,43 +78,66 @@ std::vector<double> closest_roll(const NoiseResponse& response, const FitRun& ru
   const double c = 1 / arms[arms.size() / 2];
   const Body body{.m = 1, .R = 1, .K = 0, .g = c};
   const BandMatrix& of_v = response.of.at("v");
-  double v0 = *std::max_element(run.v.begin(), run.v.end());
-  for (int i = 0; i < 8; ++i) {
+  ClosestRoll closest{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
+  double v0 = *std::max_element(run.v.begin(), run.v.end()), step = v0;
+  for (int i = 0; i < 20 && std::abs(step) > 1e-12 * v0; ++i) {
     const Trajectory roll(body, Geometry::approximate, law, v0);
     for (std::size_t k = 0; k < n; ++k) {
       const auto at = roll.at(t[k]);
-      raw[k] = position ? at.x : at.v;
+      closest.raw[k] = position ? at.x : at.v;
+      closest.by_a[k] = position ? at.x_a : at.v_a;
+      closest.by_b[k] = position ? at.x_b : at.v_b;
       by_v0[k] = position ? at.x_v0 : at.v_v0;
     }
-    double slope = 0, square = 0;
+    double short_of = 0, slope = 0, a = 0, b = 0;
     for (std::size_t k : rows) {
-      const double g = of_v.times(k, by_v0);
-      slope += g * (run.v[k] - of_v.times(k, raw));
-      square += g * g;
+      short_of += run.v[k] - of_v.times(k, closest.raw);
+      slope += of_v.times(k, by_v0);
+      a -= of_v.times(k, closest.by_a);
+      b -= of_v.times(k, closest.by_b);
     }
-    v0 += slope / square;
+    v0 += step = short_of / slope;
+    for (std::size_t k = 0; k < n; ++k) {
+      closest.by_a[k] += a / slope * by_v0[k];
+      closest.by_b[k] += b / slope * by_v0[k];
+    }
   }
-  return raw;
+  return closest;
 }
 
 }  // namespace
 
 ShiftRecords::Smoothed ShiftRecords::smoothed(double a, double b) const {
   Smoothed result;
-  std::size_t at = 0;
   for (std::size_t r = 0; r < response_.size(); ++r) {
     const auto& [source, of] = response_[r];
-    std::vector<double> raw;
+    ClosestRoll roll;
     if (of.contains("v") && (source == "x" || source == "v") && !rows_[r].empty()) try {
-        raw = closest_roll(response_[r], all_[r], rows_[r], {a, b});
+        roll = closest_roll(response_[r], all_[r], rows_[r], {a, b});
       } catch (const Error&) {  // no such roll: the law is fitted as it stands
       }
+    // Within a record of the stop v^b is steeper than differences can tell: below that speed the law counts as if at it, with a
+    // smooth passage, u^4 = rolled^4 + slowest^4.
+    const double slowest = rows_[r].empty() ? 0 : *std::max_element(all_[r].v.begin(), all_[r].v.end()) / static_cast<double>(all_[r].v.size());
     for (std::size_t i : rows_[r]) {
-      const double rolled = raw.empty() ? 0 : of.at("v").times(i, raw);
-      result.v.push_back(rolled > 0 ? rolled : v[at]);
-      result.law.push_back(a * std::pow(result.v.back(), b));
-      result.D.push_back(rolled > 0 ? of.at("D").times(i, raw) : result.law.back());
-      ++at;
+      if (roll.raw.empty()) {
+        const double u = v[result.v.size()];
+        result.v.push_back(u);
+        result.law.push_back(a * std::pow(u, b));
+        result.D.push_back(result.law.back());
+        for (auto* slopes : {&result.law_a, &result.law_b, &result.D_a, &result.D_b}) slopes->push_back(0);
+        continue;
+      }
+      const BandMatrix &of_v = of.at("v"), &of_D = of.at("D");
+      const double rolled = std::max(of_v.times(i, roll.raw), 0.0), u = std::pow(std::pow(rolled, 4) + std::pow(slowest, 4), 0.25);
+      const double law = a * std::pow(u, b), slope = b / u * std::pow(rolled / u, 3);
+      result.v.push_back(u);
+      result.law.push_back(law);
+      result.law_a.push_back(law * (1 / a + slope * of_v.times(i, roll.by_a)));
+      result.law_b.push_back(law * (std::log(u) + slope * of_v.times(i, roll.by_b)));
+      result.D.push_back(of_D.times(i, roll.raw));
+      result.D_a.push_back(of_D.times(i, roll.by_a));
+      result.D_b.push_back(of_D.times(i, roll.by_b));
     }
   }
   return result;
@@ -118,22 +145,17 @@ ShiftRecords::Smoothed ShiftRecords::smoothed(double a, double b) const {
 
 namespace {
 
-/// The best height for the exponent b, and what is left of the sum of squares; u = v / v_ref.
+/// The height that fits best for the exponent b (or the one that is held), and the weighted sum of squares that is left; u = v / v_ref.
 struct Height {
   double value, rss;
 };
-Height best_height(const std::vector<double>& log_u, const std::vector<double>& D, double b) {
-  double mm = 0, mD = 0, rss = 0;
-  for (std::size_t i = 0; i < D.size(); ++i) {
-    const double m = std::exp(b * log_u[i]);
-    mm += m * m;
-    mD += m * D[i];
-  }
-  const double height = mD / mm;
-  for (std::size_t i = 0; i < D.size(); ++i) {
-    const double r = height * std::exp(b * log_u[i]) - D[i];
-    rss += r * r;
-  }
+Height best_height(const std::vector<double>& log_u, std::vector<double> D, double b, const KnownNoise& noise, std::optional<double> held) {
+  std::vector<double> m;
+  for (double x : log_u) m.push_back(std::exp(b * x));
+  noise.weight(D, m);
+  const double height = held.value_or(std::inner_product(m.begin(), m.end(), D.begin(), 0.0) / std::inner_product(m.begin(), m.end(), m.begin(), 0.0));
+  double rss = 0;
+  for (std::size_t i = 0; i < D.size(); ++i) rss += (height * m[i] - D[i]) * (height * m[i] - D[i]);
   return {height, rss};
 }
 
@@ -156,59 +178,64 @@ RouteFit fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   const auto exponent = [&](const std::vector<double>& theta) { return options.b ? *options.b : theta[p - 1]; };
   const auto height = [&](const std::vector<double>& theta) { return options.a ? *options.a * std::exp(exponent(theta) * L) : theta[0] * unit; };
   KnownNoise noise;
-  WeakTerm bias(n, p);
+  bool smoothed = false;  // whether what smoothing does to the law is part of the model
   const System system{n, p, [&](const std::vector<double>& theta, std::vector<double>& f, std::vector<double>& J) {
-    const double b = exponent(theta), h = height(theta);
+    const double b = exponent(theta), h = height(theta), a = h * std::exp(-b * L);
     for (std::size_t i = 0; i < n; ++i) {
       const double power = std::exp(b * log_u[i]);
-      f[i] = h * power + bias.value(i, theta) - D[i];
-      for (std::size_t j = 0; j < p; ++j) J[i * p + j] = bias.slope(i, j);
-      if (!options.a) J[i * p] += unit * power;
-      if (!options.b) J[i * p + p - 1] += h * power * (log_u[i] + (options.a ? L : 0));  // at fixed a, the height moves with b
+      f[i] = h * power - D[i];
+      if (!options.a) J[i * p] = unit * power;
+      if (!options.b) J[i * p + p - 1] = h * power * (log_u[i] + (options.a ? L : 0));  // at fixed a, the height moves with b
+    }
+    if (smoothed) {
+      const auto s = records.smoothed(a, b);
+      for (std::size_t i = 0; i < n; ++i) {
+        f[i] += s.D[i] - s.law[i];
+        const double by_a = s.D_a[i] - s.law_a[i], by_b = s.D_b[i] - s.law_b[i];
+        if (!options.a) J[i * p] += by_a * unit * std::exp(-b * L);
+        if (!options.b) J[i * p + p - 1] += by_b - (options.a ? 0 : by_a * a * L);
+      }
     }
     noise.weight(f, J);
   }};
 
-  // A start: the exponent of a coarse grid that fits best (for each, the height is linear), unless the user knows one.
-  std::vector<double> theta;
+  // A start: the exponent of a coarse grid that fits best (for each, the height is linear), unless the user knows one. Known noise
+  // counts from the start, as far as it comes by D: one wild record near the stop would send an unweighted fit to a wrong minimum.
+  if (records.filters_known()) noise = records.noise(0, {.v = v, .D = D, .law = D, .D_a = {}, .D_b = {}, .law_a = {}, .law_b = {}}, std::vector<double>(n, 1));
+  const auto held = [&](double b) { return options.a ? std::optional(*options.a * std::exp(b * L)) : options.start_a ? std::optional(*options.start_a * std::exp(b * L)) : std::nullopt; };
   double b = options.b ? *options.b : options.start_b.value_or(0);
   if (!options.b && !options.start_b) {
     double least = std::numeric_limits<double>::infinity();
-    for (double candidate = -4; candidate <= 8; candidate += 0.25) {
-      const double rss = options.a ? [&] {
-        double sum = 0;
-        for (std::size_t i = 0; i < n; ++i) sum += std::pow(*options.a * std::exp(candidate * (log_u[i] + L)) - D[i], 2);
-        return sum;
-      }() : best_height(log_u, D, candidate).rss;
-      if (rss < least) least = rss, b = candidate;
-    }
+    for (double candidate = -4; candidate <= 8; candidate += 0.25)
+      if (const double rss = best_height(log_u, D, candidate, noise, held(candidate)).rss; rss < least) least = rss, b = candidate;
   }
-  if (!options.a) theta.push_back((options.start_a ? *options.start_a * std::exp(b * L) : best_height(log_u, D, b).value) / unit);
+  std::vector<double> theta;
+  if (!options.a) theta.push_back(best_height(log_u, D, b, noise, held(b)).value / unit);
   if (!options.b) theta.push_back(b);
 
-  Minimum minimum = minimise(system, theta);
-  if (records.filters_known())
-    for (int round = 0; round < rounds; ++round) {  // the noise that v brings in, and the bias of smoothing, hang on a and b
-      b = exponent(minimum.theta);
-      const double a = height(minimum.theta) * std::exp(-b * L);
-      noise = records.noise(b, records.smoothed(a, b), std::vector<double>(n, 1));
-      bias = WeakTerm(minimum.theta, [&](const std::vector<double>& point) {
-        auto smooth = records.smoothed(height(point) * std::exp(-exponent(point) * L), exponent(point));
-        for (std::size_t i = 0; i < n; ++i) smooth.D[i] -= smooth.law[i];
-        return std::move(smooth.D);
-      });
-      minimum = minimise(system, minimum.theta);
-    }
+  Minimum minimum = solve(system, theta, options, records.filters_known());
+  smoothed = records.filters_known();
+  for (int round = 0; smoothed && round < rounds; ++round) {  // the noise that v brings in hangs on a and b
+    b = exponent(minimum.theta);
+    noise = records.noise(b, records.smoothed(height(minimum.theta) * std::exp(-b * L), b), std::vector<double>(n, 1));
+    minimum = minimise(system, minimum.theta);
+  }
 
   b = exponent(minimum.theta);
   const double a = options.a ? *options.a : height(minimum.theta) * std::exp(-b * L);
-  std::vector<double> residuals(n), by_a(p, 0), by_b(p, 0);
-  for (std::size_t i = 0; i < n; ++i) residuals[i] = height(minimum.theta) * std::exp(b * log_u[i]) + bias.value(i, minimum.theta) - D[i];
+  std::vector<double> residuals(n), by_a(p, 0), by_b(p, 0), unused(n * p);
+  KnownNoise known;
+  if (records.filters_known()) {  // the plain residuals, for rms
+    std::swap(noise, known);
+    system.evaluate(minimum.theta, residuals, unused);
+  } else {
+    residuals = minimum.f;
+  }
   if (!options.a) by_a[0] = unit * std::exp(-b * L);
   if (!options.a && !options.b) by_a[1] = -a * L;
   if (!options.b) by_b[p - 1] = 1;
-  return {.minimum = std::move(minimum), .runs = records.runs, .residuals = std::move(residuals), .noise = std::move(noise),
-          .left_out = records.left_out, .a = {a, by_a}, .b = {b, by_b}, .v0 = {}, .x0 = {}};
+  return {.minimum = std::move(minimum), .runs = records.runs, .residuals = std::move(residuals), .noise = std::move(known),
+          .left_out = records.left_out, .a = {a, by_a}, .b = {b, by_b}, .v0 = {}, .x0 = {}, .v = v};
 }
 
 }  // namespace rolling

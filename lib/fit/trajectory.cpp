@@ -13,17 +13,6 @@
 namespace rolling {
 namespace {
 
-/// One run, as the trajectory sees it. `way` is +1 or -1: a body that rolls towards the sensor has falling x and v < 0.
-struct Roll {
-  Body body;
-  double way, origin;
-  std::vector<double> t, y;      ///< the fitted records, t from the origin
-  std::vector<double> model_t;   ///< where the model is needed: the same, or all records of the raw column if filters are known
-  BandMatrix filters;            ///< fitted column = filters * raw column; no rows if nothing is known
-  bool raw_is_position = false;  ///< what the raw column is (without filters, the route's own)
-  double v0, x0;                 ///< coarse; v0 along the way
-};
-
 /// The law in the fit's own parameters, all of order one: ln of the height D(v_ref) (ln a itself is nearly collinear with b),
 /// b, and of every run v0 in units of v_ref and x0 in units of x_ref. What is held fixed has no place in theta.
 struct Parameters {
@@ -46,7 +35,7 @@ struct Parameters {
 };
 
 /// Model minus data and derivatives of one run, into f[i] and J[i * p + ...], i from `at`.
-void evaluate(const Roll& roll, std::size_t r, const Parameters& q, Geometry geometry, const std::vector<double>& theta,
+void evaluate(const FittedRun& roll, std::size_t r, const Parameters& q, Geometry geometry, const std::vector<double>& theta,
               std::size_t at, std::vector<double>& f, std::vector<double>& J) {
   const std::size_t p = q.count(), m = roll.model_t.size();
   const double a = q.a(theta), L = std::log(q.v_ref);
@@ -82,7 +71,7 @@ void evaluate(const Roll& roll, std::size_t r, const Parameters& q, Geometry geo
   }
 }
 
-System system_of(const std::vector<Roll>& rolls, const Parameters& q, Geometry geometry, const KnownNoise& noise) {
+System system_of(const std::vector<FittedRun>& rolls, const Parameters& q, Geometry geometry, const KnownNoise& noise) {
   std::size_t n = 0;
   std::vector<std::size_t> runs;
   for (const auto& roll : rolls) n += roll.t.size(), runs.push_back(roll.t.size());
@@ -95,7 +84,7 @@ System system_of(const std::vector<Roll>& rolls, const Parameters& q, Geometry g
 
 /// The run thinned to at most 64 means, without a long rest at its end; and a coarse v0 and x0 from the way covered: v0 times the
 /// time of half the way is 0.5 to 0.7 of the way, whatever the law.
-Roll thinned(Roll& roll, bool position, const FitOptions& options) {
+FittedRun thinned(FittedRun& roll, bool position, const FitOptions& options) {
   const std::size_t n = roll.t.size();
   std::vector<double> way(n, 0);
   roll.x0 = options.x0.value_or(position ? roll.y[0] : 0);
@@ -110,7 +99,7 @@ Roll thinned(Roll& roll, bool position, const FitOptions& options) {
   if (!(roll.v0 > 0) || !std::isfinite(roll.v0)) fail("the body does not move: a and b cannot be determined");
 
   const std::size_t used = std::min(n, reached(0.95) + std::max<std::size_t>(reached(0.95) / 3, 8)), block = (used + 63) / 64;
-  Roll thin = roll;
+  FittedRun thin = roll;
   thin.filters = {};
   thin.raw_is_position = position;
   thin.t.clear();
@@ -131,7 +120,7 @@ Roll thinned(Roll& roll, bool position, const FitOptions& options) {
 struct Trial {
   double rss, factor, x0;
 };
-Trial try_shape(const Roll& thin, const FitOptions& options, bool position, PowerLaw law) {
+Trial try_shape(const FittedRun& thin, const FitOptions& options, bool position, PowerLaw law) {
   const Trajectory trajectory(thin.body, options.geometry, law, thin.v0);
   double mm = 0, my = 0, m_mean = 0, y_mean = 0;
   std::vector<double> m, y;
@@ -156,7 +145,7 @@ Trial try_shape(const Roll& thin, const FitOptions& options, bool position, Powe
 }
 
 /// Starting points from the data alone, best first: over a grid of b and of the time scale v/|dv/dt| at the start.
-std::vector<std::vector<double>> starts(const std::vector<Roll>& thin, const Parameters& q) {
+std::vector<std::vector<double>> starts(const std::vector<FittedRun>& thin, const Parameters& q) {
   const FitOptions& options = q.options;
   std::vector<double> exponents{-0.5, 0, 0.25, 0.5, 1, 1.5, 2, 3};
   if (options.b || options.start_b) exponents = {options.b ? *options.b : *options.start_b};
@@ -201,7 +190,7 @@ std::vector<std::vector<double>> starts(const std::vector<Roll>& thin, const Par
 }
 
 /// The best of the minima of the thinned runs that are reached from the three best starts; the best start if none is.
-std::vector<double> start(const std::vector<Roll>& thin, const Parameters& q) {
+std::vector<double> start(const std::vector<FittedRun>& thin, const Parameters& q) {
   auto candidates = starts(thin, q);
   if (candidates.size() > 3) candidates.resize(3);
   std::vector<double> best = candidates.front();
@@ -248,7 +237,7 @@ RouteFit fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOp
   Parameters q{options, position, all.size()};
   RouteFit result{};
   std::vector<double> theta;
-  std::vector<Roll> rolls;
+  std::vector<FittedRun> rolls;
   // The position route knows speeds only from its own fit: slow records leave after it, and the fit is repeated without them.
   for (int round = 0; round < 4; ++round) {
     std::size_t n = 0;
@@ -259,7 +248,7 @@ RouteFit fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOp
     for (std::size_t r = 0; r < all.size(); ++r) {
       const FitRun& run = all[r];
       if (rows[r].empty()) fail("run {} has no record that can be fitted", r + 1);
-      Roll roll{};
+      FittedRun roll{};
       roll.body = run.body;
       roll.origin = options.origin.value_or(run.t[known ? 0 : rows[r].front()]);
       if (roll.origin > run.t[known ? 0 : rows[r].front()]) fail("run {} begins before the time {} at which v0 and x0 are to hold", r + 1, roll.origin);
@@ -281,13 +270,13 @@ RouteFit fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOp
       rolls.push_back(std::move(roll));
     }
     if (round == 0) {
-      std::vector<Roll> thin;
+      std::vector<FittedRun> thin;
       for (auto& roll : rolls) thin.push_back(thinned(roll, position, options));
       q.v_ref = thin.front().v0 / 2;
       if (position) q.x_ref = thin.front().v0 * std::max(thin.front().t.back(), std::numeric_limits<double>::min());
       theta = start(thin, q);
     }
-    result.minimum = minimise(system_of(rolls, q, options.geometry, result.noise), theta);
+    result.minimum = solve(system_of(rolls, q, options.geometry, result.noise), theta, options, known);
     theta = result.minimum.theta;
     if (!position || options.min_speed <= 0) break;
     std::size_t slow = 0;
@@ -299,6 +288,7 @@ RouteFit fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOp
     if (slow == 0) break;
   }
 
+  result.rolls = rolls;
   const std::size_t p = q.count();
   const Quantity zero{0, std::vector<double>(p, 0)};
   const double a = q.a(theta), b = q.b(theta);

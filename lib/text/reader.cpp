@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "text/number.h"
@@ -192,6 +193,12 @@ std::size_t Reader::need(std::string_view name) {
   return add(column, quantity, to_si);
 }
 
+std::size_t Reader::want(std::string_view name) {
+  const std::size_t known = needed_.size(), slot = need(name);
+  if (slot == known) needed_[slot].may_miss = true;  // not one that is needed already
+  return slot;
+}
+
 std::size_t Reader::need_as_is(std::string_view name) { return add(require(name), std::string(name), {}); }
 
 std::size_t Reader::need_time() { return time_slot_ = need("t"); }
@@ -358,6 +365,10 @@ bool Reader::parse() {
     double& value = values_[slot];
     if (!parse_number(field, value)) {
       if (!is_missing(field)) reject(needed.column, "is not a number");
+      if (needed.may_miss) {
+        value = std::numeric_limits<double>::quiet_NaN();
+        continue;
+      }
       if (options_.strict) fail<InputError>("{}: field {} ({}): a reading is missing", where(), layout_.runs[side_].fields[needed.column] + 1, shown(needed.name));
       return false;
     }

@@ -40,7 +40,9 @@ class Reader {
   /// Declares a column needed: its numbers are parsed, converted to SI, and never missing. Returns its slot for operator[].
   /// Throws Error when there is none.
   std::size_t need(std::string_view name);
-  /// The same for a column that is no known quantity here, whatever its name and unit (the a of a law): nothing is converted.
+  /// The same for a column whose readings may be missing: they are NaN.
+  std::size_t want(std::string_view name);
+  /// The same as need() for a column that is no known quantity here, whatever its name and unit (the a of a law): nothing is converted.
   std::size_t need_as_is(std::string_view name);
   /// Needs t, increasing strictly within a run.
   std::size_t need_time();
@@ -69,7 +71,7 @@ class Reader {
   std::size_t left_out() const { return left_out_; }  ///< records left out because a needed cell was missing
 
  private:
-  struct Needed { std::size_t column; std::string name; Conversion to_si; };
+  struct Needed { std::size_t column; std::string name; Conversion to_si; bool may_miss = false; };
   enum class Event { record, run_break, end };
 
   void open_next();

@@ -5,11 +5,11 @@ set -euo pipefail
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 fit() {  # NAME K: the free roll's velocities, and the trajectory that fits its positions, from the first of them on
-  awk -f coast.awk "$1.csv" >"$scratch/$1.roll"
+  smooth -q --coast -c x -w 1 "$1.csv" >"$scratch/$1.roll"
   awk -F, '$2 != "" && FNR > 1 { print $1, $2 }' "$1.csv" | differentiate --use x=2 -c x >"$scratch/$1.v"
   fitpower -q --route position -K "$2" -R 0.04 "$scratch/$1.roll" >"$scratch/$1.fit"
   local start
-  start=$(awk -F, '$2 ~ /^[0-9]/ { print $1; exit }' "$scratch/$1.roll")
+  start=$(awk '!/^#/ { print $1; exit }' "$scratch/$1.roll")
   simulate --law "$scratch/$1.fit" -K "$2" -R 0.04 --columns t,v | awk -v start="$start" '!/^#/ { print $1 + start, $2 }' >"$scratch/$1.line"
 }
 fit CR 0.5; fit SR 0.83; fit CF 0.5; fit SF 0.83

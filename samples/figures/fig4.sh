@@ -6,7 +6,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 law=""
 shifts() {  # NAME K: the points, and the law fitted to them with its band of one standard error
-  awk -f coast.awk "$1.csv" | differentiate -q -c x | smooth -w 11 | differentiate | shift-from-accel -K "$2" -R 0.04 >"$scratch/$1"
+  smooth -q --coast -c x -w 1 "$1.csv" | differentiate -c x | smooth -w 11 | differentiate | shift-from-accel -K "$2" -R 0.04 >"$scratch/$1"
   # The first and last means have shrunken windows: fitpower weighs them, a picture leaves them away.
   awk '!/^#/ { row[++n] = $4 "\t" $6 } END { for (i = 6; i <= n - 5; i++) print row[i] }' "$scratch/$1" >"$scratch/$1.D"
   read -r a sa b sb corr _ < <(fitpower -q "$scratch/$1" | tail -n 1)

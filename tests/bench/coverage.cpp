@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
   std::vector<std::unique_ptr<Job>> jobs;
   for (const auto& what : coverage::cases())
     for (const auto& scene : {coverage::CR, coverage::CF})
-      if (argc < 3 || std::strstr(what.name, argv[2])) jobs.push_back(std::make_unique<Job>(what, scene));
+      if (argc < 3 || std::strstr(what.name, argv[2])) jobs.emplace_back(new Job{what, scene, {}});
   std::printf("# %d runs each; biases and sd of b; 95 %% intervals; far: beyond 6 standard errors\n", runs);
   std::printf("%-27s %-8s %-5s %7s %7s %8s %9s %7s %7s %4s %8s %6s\n", "# case", "route", "scene", "bias_a", "bias_b", "sd_b", "sd/bound", "cover_a", "cover_b", "far", "refused", "ms");
   std::atomic<std::size_t> next = 0;

@@ -39,8 +39,8 @@ inline Column capstone(const Column& x) {
   Column v;
   for (std::ptrdiff_t i = 0; i < std::ssize(x); ++i) {
     const std::ptrdiff_t k = std::min({std::ptrdiff_t{2}, i, std::ssize(x) - 1 - i});
-    v.push_back(k == 2 ? (x[i + 1] + x[i + 2] - x[i - 1] - x[i - 2]) / (6 * dt)
-                       : k == 1 ? (x[i + 1] - x[i - 1]) / (2 * dt) : i == 0 ? (x[1] - x[0]) / dt : (x[i] - x[i - 1]) / dt);
+    v.push_back(k == 2 ? (clamped(x, i + 1) + clamped(x, i + 2) - clamped(x, i - 1) - clamped(x, i - 2)) / (6 * dt)
+                       : k == 1 ? (clamped(x, i + 1) - clamped(x, i - 1)) / (2 * dt) : i == 0 ? (clamped(x, 1) - clamped(x, 0)) / dt : (clamped(x, i) - clamped(x, i - 1)) / dt);
   }
   return v;
 }

@@ -93,16 +93,17 @@ TEST_CASE("covariance: Ljung-Box tells white residuals from correlated ones", "[
   for (int i = 0; i < 200; ++i) white.push_back(noise(1));
   smooth = simulated::mean(white, 5);
   const std::size_t one[] = {200}, two[] = {100, 100};
-  CHECK(looks_white(white, one));
-  CHECK(looks_white(white, two));
-  CHECK(!looks_white(smooth, one));
+  CHECK(ljung_box(white, one) > 0.01);
+  CHECK(ljung_box(white, two) > 0.01);
+  CHECK(ljung_box(smooth, one) < 1e-6);
 }
 
 TEST_CASE("covariance: Newey-West by hand", "[fit]") {
-  // residuals 1 1 -1 -1 twice over: rho, Andrews' bandwidth and Bartlett's weights worked out on paper
-  const std::vector<double> u{1, 1, -1, -1, 1, 1, -1, -1};
-  const std::size_t runs[] = {8};
-  // products one apart: 1 -1 1 -1 1 -1 1 = 1, so rho = 1/8, alpha = 4/64 / (63/64)^2 = 0.0645, width = ceil(1.1447 cbrt(0.516)) = 1
-  const auto S = newey_west(u, 1, u, runs);
-  CHECK(std::abs(S[0] - (8 + 2 * 0.5 * 1)) < 1e-12);
+  const std::size_t five[] = {5}, two[] = {2};
+  // products one apart: 1 - 1 + 1 - 1 = 0, nothing to whiten, and Andrews' bandwidth is 0
+  const std::vector<double> u{1, 1, -1, -1, 1};
+  CHECK(std::abs(newey_west(u, 1, u, five)[0] - 5) < 1e-12);
+  // 2, 1: AR = 2/5, whitened 2 sqrt(0.84), 0.2; squares 3.4, product 0.4 sqrt(0.84), so rho = 0.108, alpha = 0.048, width = ceil(0.52) = 1
+  const std::vector<double> w{2, 1};
+  CHECK(std::abs(newey_west(w, 1, w, two)[0] - (3.4 + 0.4 * std::sqrt(0.84)) / 0.36) < 1e-12);
 }

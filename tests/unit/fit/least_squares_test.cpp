@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "unit/catch.h"
+#include "unit/fit/simulated.h"
 
 #include <cmath>
 
@@ -45,4 +46,31 @@ TEST_CASE("spread: covariance of functions of the parameters", "[fit]") {
   CHECK(std::abs(spread({1, 0}, {1, 0}) - 17.0 / 64) < 1e-15);
   CHECK(std::abs(spread({1, 0}, {0, 1}) + 2.0 / 64) < 1e-15);
   CHECK(std::abs(spread({0, 1}, {0, 1}) - 4.0 / 64) < 1e-15);
+}
+
+TEST_CASE("minimise_robust: a mean that outliers do not move, by hand", "[fit]") {
+  // Of -2 -1 0 1 2 and 100: the last counts nothing. Bisquare is even, so the mean of the five is their centre, 0.
+  const std::vector<double> y{-2, -1, 0, 1, 2, 100};
+  const System mean{6, 1, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+    for (std::size_t i = 0; i < 6; ++i) f[i] = x[0] - y[i], J[i] = 1;
+  }};
+  const auto m = minimise_robust(mean, {10});
+  CHECK(std::abs(m.theta[0]) < 1e-8);
+  CHECK(m.f[5] == 0);
+  CHECK(std::abs(m.f[0] + m.f[4]) < 1e-7);
+  CHECK(m.f[0] > m.f[1]);
+  CHECK(std::abs(m.R[0] * m.R[0] - 6) < 1e-12);  // J is not weighted
+}
+
+TEST_CASE("minimise_robust: without outliers a line with its classical errors, nearly", "[fit]") {
+  simulated::Noise noise(17);
+  constexpr std::size_t n = 4000;
+  std::vector<double> t, y;
+  for (std::size_t i = 0; i < n; ++i) t.push_back(static_cast<double>(i) / n), y.push_back(1 + 2 * t.back() + noise(0.1));
+  const System line{n, 2, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+    for (std::size_t i = 0; i < n; ++i) f[i] = x[0] + x[1] * t[i] - y[i], J[2 * i] = 1, J[2 * i + 1] = t[i];
+  }};
+  const auto plain = minimise(line, {0, 0}), robust = minimise_robust(line, {0, 0});
+  CHECK(std::abs(robust.theta[1] - 2) < 0.02);
+  CHECK(std::abs(robust.rss / plain.rss - 1 / 0.95) < 0.02);  // the efficiency that 4.685 is made for
 }

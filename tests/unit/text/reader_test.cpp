@@ -383,3 +383,18 @@ TEST_CASE("reader: a quoted field may hold separators and line ends", "[text]") 
   CHECK(records({"note,t,v\n\"one\ntwo, three\",0,1\nfour,1,x\n"}) == "FILE:4: field 3 (v): 'x' is not a number");
   CHECK(records({"t,v,note\n0,1,\"open\n1,2,x\n"}) == "FILE:2: a quote that does not end");
 }
+
+TEST_CASE("reader: a column that is wanted but not needed may miss its readings", "[text]") {
+  const TemporaryFile file("t,v,x\n0,1,2\n1,2,\n2,,4\n3,4,y\n");
+  Reader in({{file.name()}, {}, {}, false}, {});
+  const auto v = in.need("v"), x = in.want("x"), again = in.want("v");
+  REQUIRE(in.next_run());
+  REQUIRE(in.next());
+  CHECK(in[x] == 2);
+  CHECK(again == v);
+  REQUIRE(in.next());
+  CHECK(in[x] != in[x]);
+  CHECK(in[v] == 2);
+  CHECK_THROWS_AS(in.next(), InputError);  // past the record without v, to one whose x is no number
+  CHECK(in.left_out() == 1);
+}
