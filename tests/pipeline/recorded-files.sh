@@ -70,6 +70,14 @@ flywheel | smooth -w 1 -c rpm | awk '!/^#/ { w = $2 * atan2(0, -1) / 30; e = 0.5
   END { exit bad > 0 }' || { echo "flywheel: energy beside rpm"; failed=1; }
 refuse "9 fields where the first record has 3" smooth "$data/flywheel-spindown/spindown_poweredOff_badSprocket.txt"
 expect 9904 smooth -c 'RR_Wheel Speed' "$data/small-car-coastdown/RR-Coastdown-1.txt"
+# Figures that its owners or its README give: the top of the spin-up, the top speed, the spacing of the phone's records.
+check() { awk "$2" || { echo "$1"; false; }; }
+smooth -w 1 -c 'RR_Wheel Speed' "$data/small-car-coastdown/RR-Coastdown-1.txt" |
+  check "small car: not 431 rpm at 9.54 s" '!/^#/ && $8 > most { most = $8; at = $1 } END { exit !(int(most + 0.5) == 431 && at > 9.53 && at < 9.55) }' || failed=1
+drum | check "drum: not about 95 km/h" '!/^#/ && 3.6 * $2 > most { most = 3.6 * $2 } END { exit !(most > 93 && most < 98) }' || failed=1
+smooth -c 'Acceleration y' "$data/falling-phone/fall_2/Raw Data.csv" |
+  check "phone: records not 5.00 to 5.07 ms apart" '!/^#/ { if (n++ && ($1 - last < 0.004995 || $1 - last > 0.005075)) bad++; last = $1 } END { exit !(n == 1520 && !bad) }' || failed=1
+
 # Video marks: 0,0,0 is no position; the time comes from the frame.
 marks() { awk -F, 'NR == 1 { print "t[s] x"; next } $4 > 0 { print $1 / 250, $2 }' "$data/sphere-on-wet-grains/detections.csv"; }
 expect 82 eval 'marks | differentiate -c x'
