@@ -14,7 +14,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double shallow = 1e-20;  // z below it: A = 1
 constexpr double deep = 0.25;      // z above it: the series takes more than 30 terms
-constexpr double far = 40;         // e^-40: what lies beyond y = 40 or s y = 40 does not show in a double
+constexpr double far = 64;         // what lies beyond y = 64 or s y = 64 does not show in a double, nor in a rest of 1e-10 of the whole
 
 /// int_0^lambda e^(-s y) dy = time, solved for lambda; rest is 1/s - time for s > 0.
 double power_integral_inverse(double s, double time, double rest) {
@@ -57,8 +57,12 @@ SpeedIntegrals::SpeedIntegrals(double b, double K, double depth) : b_(b), s_(1 -
   }
   if (s_ > 0 && end_ == infinity) {
     // Added up from the end, so that the last pieces keep their digits; behind the last panel A is taken as constant.
-    double rest = pieces_.back().panel ? f(none) * std::exp(-s_ * none) / s_ : 0;
-    for (auto p = pieces_.rbegin(); p != pieces_.rend(); ++p) p->rest = rest += p->power * local_time(*p, p->width);
+    const double behind = pieces_.back().panel ? std::exp(-s_ * none) / s_ : 0;
+    double rest = f(none) * behind, lag_rest = (1 - f(none)) * behind;
+    for (auto p = pieces_.rbegin(); p != pieces_.rend(); ++p) {
+      p->rest = rest += p->power * local_time(*p, p->width);
+      p->lag_rest = lag_rest += p->power * local_lag(*p, p->width);
+    }
     stop_ = rest;
   }
 }
@@ -73,7 +77,7 @@ double SpeedIntegrals::f(double lambda) const { return depth_ == 0 ? 1 : (K_ + A
 
 void SpeedIntegrals::add_piece(bool panel, double y, double width) {
   const Sums before = pieces_.empty() ? Sums{} : sums(pieces_.back(), pieces_.back().width);
-  pieces_.push_back({panel, y, z(y), A(y), width, std::exp(-s_ * y), before, infinity});
+  pieces_.push_back({panel, y, z(y), A(y), width, std::exp(-s_ * y), before, infinity, infinity});
 }
 
 void SpeedIntegrals::add_panels(double from, double to) {
@@ -99,7 +103,8 @@ SpeedIntegrals::Sums SpeedIntegrals::sums(const Piece& p, double y) const {
   const Gradient local = local_gradient(p, y);
   const double rho = std::exp(-y), power1 = p.power * std::exp(-p.y);
   const double x0 = local.g0 + rho * local.h0, x1 = local.g1 + rho * local.h1;
-  return {p.before.time + p.power * local_time(p, y), p.before.distance + power1 * local.distance,
+  return {p.before.time + p.power * local_time(p, y), p.before.lag + p.power * local_lag(p, y),
+          p.before.distance + power1 * local.distance,
           p.before.h0 + p.power * local.h0,           p.before.h1 + p.power * (local.h1 + p.y * local.h0),
           p.before.x0 + power1 * x0,                  p.before.x1 + power1 * (x1 + p.y * x0)};
 }
@@ -115,6 +120,17 @@ double SpeedIntegrals::lambda(double time, double rest) const {
 double SpeedIntegrals::distance(double lambda) const {
   const Piece& p = piece_at(lambda);
   return p.before.distance + p.power * std::exp(-p.y) * local_distance(p, std::min(lambda - p.y, p.width));
+}
+
+double SpeedIntegrals::lag(double lambda) const {
+  const Piece& p = piece_at(lambda);
+  return p.before.lag + p.power * local_lag(p, std::min(lambda - p.y, p.width));
+}
+
+double SpeedIntegrals::lag_rest(double lambda) const {
+  const Piece& p = piece_at(lambda);
+  const double y = std::min(lambda - p.y, p.width);
+  return p.panel || p.width < infinity ? p.lag_rest - p.power * local_lag(p, y) : p.power * series_lag_rest(y);
 }
 
 SpeedIntegrals::Gradient SpeedIntegrals::gradient(double lambda) const {
@@ -150,6 +166,25 @@ double SpeedIntegrals::local_time(const Piece& p, double y) const {
   else
     for (const Term& term : series_) sum += term.f * power_integral(term.s, y);
   return sum;
+}
+
+double SpeedIntegrals::local_lag(const Piece& p, double y) const {
+  double sum = 0;
+  if (p.panel)
+    quadrature(p, y, [&](double, double A, double dq) { sum += (1 - A) / (K_ + 1) * A * dq; });
+  else if (series_.size() == 1)
+    sum = (1 - series_[0].f) * power_integral(s_, y);
+  else
+    for (auto term = series_.begin() + 1; term != series_.end(); ++term) sum -= term->f * power_integral(term->s, y);
+  return sum;
+}
+
+double SpeedIntegrals::series_lag_rest(double y) const {
+  if (series_.size() == 1) return (1 - series_[0].f) * std::exp(-s_ * y) / s_;
+  double sum = 0;
+  const double ratio = std::exp(-2 * b_ * y);
+  for (auto term = series_.end() - 1; term != series_.begin(); --term) sum = (sum - term->f / term->s) * ratio;
+  return sum * std::exp(-s_ * y);
 }
 
 double SpeedIntegrals::local_distance(const Piece& p, double y) const {

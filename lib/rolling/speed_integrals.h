@@ -31,6 +31,10 @@ class SpeedIntegrals {
   /// int_0^lambda f e^(-(s+1) y) dy.
   double distance(double lambda) const;
 
+  /// int (1 - f) e^(-s y) dy, from 0 to lambda and from lambda to infinity (for s > 0): what the geometry takes from A = 1.
+  double lag(double lambda) const;
+  double lag_rest(double lambda) const;
+
   /// The distance, and what derivatives need. All integrals run over 0 < y < lambda.
   struct Gradient {
     double distance;
@@ -44,7 +48,7 @@ class SpeedIntegrals {
     double s, f, h;
   };
   struct Sums {
-    double time = 0, distance = 0;
+    double time = 0, lag = 0, distance = 0;
     double h0 = 0, h1 = 0, x0 = 0, x1 = 0;  // of h e^(-s y) and of h e^(-(s+1) y), with a factor y
   };
   struct Piece {
@@ -53,7 +57,7 @@ class SpeedIntegrals {
     double width;
     double power;    // e^(-s y)
     Sums before;     // integrals up to it
-    double rest;     // stop() - before.time
+    double rest, lag_rest;  // from it to the stop
   };
 
   void add_piece(bool panel, double y, double width);
@@ -66,6 +70,8 @@ class SpeedIntegrals {
   template <typename Integrand>
   void quadrature(const Piece&, double y, Integrand&&) const;
   double local_time(const Piece&, double y) const;
+  double local_lag(const Piece&, double y) const;
+  double series_lag_rest(double y) const;
   double local_distance(const Piece&, double y) const;
   Gradient local_gradient(const Piece&, double y) const;
   double panel_lambda(const Piece&, double time) const;

@@ -52,10 +52,10 @@ void check_roll(const Body& body, PowerLaw law, double v0) {
   check_shift(body, law(v0));
 }
 
-double Trajectory::log_ratio(double t) const {
-  if (t >= stop_time_) return infinity;
+double Trajectory::log_ratio(double t, double rest) const {
+  if (rest <= 0) return infinity;
   if (t > last_time_) fail("at t = {:.6g} s the shift has grown beyond the radius {:.6g} m (since t = {:.6g} s): b < 0 has no meaning there", t, body_.R, last_time_);
-  return integrals_.lambda(t / unit_, (stop_time_ - t) / unit_);
+  return integrals_.lambda(t / unit_, rest / unit_);
 }
 
 double Trajectory::velocity(double lambda) const { return v0_ * std::exp(-lambda); }

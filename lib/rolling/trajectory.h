@@ -39,7 +39,9 @@ class Trajectory {
   Point at(double t) const;
 
   /// ln(v0 / v) at time t >= 0; infinity from the stop on.
-  double log_ratio(double t) const;
+  double log_ratio(double t) const { return log_ratio(t, stop_time_ - t); }
+  /// The same for one who knows stop_time() - t without cancellation.
+  double log_ratio(double t, double rest) const;
   /// v [m/s], from log_ratio(t).
   double velocity(double lambda) const;
   /// x [m] at time t, from log_ratio(t).
@@ -47,6 +49,8 @@ class Trajectory {
   /// D [m] and dv/dt [m/s^2] at speed v. Throw Error where |D| > R (A = 1 and b < 0, just before the stop).
   double shift(double v) const;
   double acceleration(double v) const;
+
+  const SpeedIntegrals& integrals() const { return integrals_; }
 
  private:
   Body body_;

@@ -1,4 +1,5 @@
-// ulp SAMPLES - the largest errors of the closed form against 80 digits, and its time beside the ways without it.
+// ulp SAMPLES - the largest errors of the closed form against 80 digits and, for a tenth of the samples, of the exact geometry against 60;
+// and their times beside the ways without them.
 #include <fmt/format.h>
 #include <gsl/gsl_odeiv2.h>
 
@@ -11,7 +12,9 @@
 
 #include "base/gsl.h"
 #include "rolling/closed_form.h"
+#include "rolling/exact_form.h"
 #include "unit/rolling/closed_form_reference.h"
+#include "unit/rolling/exact_form_reference.h"
 
 using namespace rolling;
 
@@ -37,6 +40,13 @@ Time nanoseconds(Work&& work) {
   return {runs[7], (runs[11] - runs[3]) / 2};
 }
 
+/// Scene n of the exact geometry: mostly as they come, a fifth with D(v0)/R up to 0.99, one in a thousand up to 0.999.
+RandomScene exact_scene(std::mt19937_64& random, int n) {
+  RandomScene scene = random_scene(random);
+  if (n % 5 == 0) deepen(scene, 1 - std::pow(10, std::uniform_real_distribution(n % 1000 == 0 ? -3.0 : -2.0, 0.0)(random)));
+  return scene;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -58,6 +68,24 @@ int main(int argc, char** argv) {
     }
   }
   fmt::print("# largest error in ulp over {} samples of random scenes\nv\t{:.3f}\nx\t{:.3f}\na\t{:.3f}\n", samples, v, x, a);
+
+  v = x = 0;
+  for (int n = 0, scenes = 0; n < samples / 10; ++scenes) {
+    const RandomScene scene = exact_scene(random, scenes);
+    const ExactFormReference reference(scene.body, scene.law, scene.v0);
+    ExactForm motion(scene.body, scene.law, scene.v0, 0);
+    const double T = motion.stop_time();
+    for (int i = 0; i < 4; ++i) {
+      const double t = i < 3 && std::isfinite(T) ? T * (1 - std::pow(1e-3, i + 1)) : random_time(random, scene, T, i);
+      motion.seek(t);
+      if (motion.velocity() < 1e-300) continue;  // denormal
+      const auto error = reference.errors(t, motion.velocity(), motion.position());
+      v = std::max(v, std::abs(error.v)), x = std::max(x, std::abs(error.x));
+      ++n;
+    }
+  }
+  fmt::print("# exact geometry: largest relative error over {} samples, D(v0)/R up to 0.999, three of four at T(1 - 1e-3, 1e-6, 1e-9)\nv\t{:.2g}\nx\t{:.2g}\n",
+             samples / 10, v, x);
 
   ClosedForm motion({1.375, 0.04, 0.5}, {1.87e-3, 0.215}, 0.5, 0);
   const auto along = [&](auto&& of) {
@@ -89,6 +117,12 @@ int main(int argc, char** argv) {
   print("v", along([&] { return motion.velocity(); }));
   print("v,x", along([&] { return motion.velocity() + motion.position(); }));
   print("v,x,a", along([&] { return motion.velocity() + motion.position() + motion.acceleration(); }));
+  ExactForm exact({1.375, 0.04, 0.5}, {1.87e-3, 0.215}, 0.5, 0);
+  print("exact v", nanoseconds([&](int calls) {
+          double sum = 0;
+          for (int i = 0; i < calls; ++i) exact.seek(2.4 * i / calls), sum += exact.velocity();
+          return sum;
+        }));
   print("pow", power);
   print("rkf45", gsl);
 }

@@ -1,10 +1,14 @@
 #include "rolling/exact_form.h"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "base/error.h"
 #include "rolling/closed_form.h"
 #include "unit/catch.h"
+#include "unit/rolling/closed_form_reference.h"
+#include "unit/rolling/exact_form_reference.h"
 
 using namespace rolling;
 
@@ -13,6 +17,25 @@ namespace {
 const Body cylinder{1.375, 0.04, 0.5}, shell{1.375, 0.04, 0.83};
 
 }  // namespace
+
+TEST_CASE("ExactForm: random scenes against 60 digits, until just before the stop", "[rolling]") {
+  std::mt19937_64 random(4);
+  for (int n = 0; n < 2000; ++n) {  // tests/bench/ulp takes more
+    RandomScene scene = random_scene(random);
+    if (n % 10 == 0) deepen(scene, 1 - std::pow(10, std::uniform_real_distribution(-2.0, 0.0)(random)));
+    const ExactFormReference reference(scene.body, scene.law, scene.v0);
+    ExactForm motion(scene.body, scene.law, scene.v0, 0);
+    for (int i = 0; i < 4; ++i) {
+      const double T = motion.stop_time(), t = i < 3 && std::isfinite(T) ? T * (1 - std::pow(1e-3, i + 1)) : random_time(random, scene, T, i);
+      motion.seek(t);
+      if (motion.velocity() < 1e-300) continue;  // denormal
+      const auto error = reference.errors(t, motion.velocity(), motion.position());
+      INFO("a " << scene.law.a << " b " << scene.law.b << " K " << scene.body.K << " R " << scene.body.R << " v0 " << scene.v0 << " t " << t
+                << " D/R " << scene.law(scene.v0) / scene.body.R << " t/T " << t / T << " v " << error.v << " x " << error.x);
+      REQUIRE((std::abs(error.v) <= 1e-13 && std::abs(error.x) <= 1e-13));
+    }
+  }
+}
 
 TEST_CASE("ExactForm: the stopping times of model.md", "[rolling]") {
   CHECK(std::abs(ExactForm(cylinder, {1.87e-3, 0.215}, 0.5, 0).stop_time() - 2.41718911155359) < 5e-15 * 2.4);
