@@ -1,6 +1,4 @@
 // A chain through text gives bit for bit what the library gives in one process. Needs the tools on PATH.
-#include <unistd.h>
-
 #include <bit>
 #include <cstdint>
 #include <cstdio>
@@ -13,6 +11,7 @@
 #include "signal/moving_mean.h"
 #include "text/number.h"
 #include "unit/catch.h"
+#include "unit/text/files.h"
 
 using namespace rolling;
 
@@ -45,12 +44,8 @@ TEST_CASE("smooth | differentiate | shift-from-accel through text equals the lib
   const Body body{1, 0.04, 0.83};
   const std::vector<double> smooth = through(MovingMean({.samples = 11, .seconds = 0}), t, v), a = through(CentralDerivative(), t, smooth);
 
-  char file[] = "/tmp/rolling-through-text-XXXXXX";
-  const int descriptor = ::mkstemp(file);
-  REQUIRE(descriptor >= 0);
-  REQUIRE(::write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size()));
-  ::close(descriptor);
-  const std::string command = std::string("smooth ") + file + " | differentiate | shift-from-accel -K 0.83 -R 0.04 | grep -v '^#'";
+  const TemporaryFile file(text);
+  const std::string command = "smooth " + file.name() + " | differentiate | shift-from-accel -K 0.83 -R 0.04 | grep -v '^#'";
   std::FILE* pipe = ::popen(command.c_str(), "r");
   REQUIRE(pipe);
   std::size_t rows = 0, equal = 0;
@@ -60,7 +55,6 @@ TEST_CASE("smooth | differentiate | shift-from-accel through text equals the lib
              same(row[3], shift_from_acceleration(body, Geometry::approximate, a[rows]));
   }
   ::pclose(pipe);
-  ::unlink(file);
   CHECK(rows == t.size());
   CHECK(equal == t.size());
 }
