@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 
@@ -16,8 +17,9 @@ std::span<const double> SplineDerivative::push(double t, double y) {
   return {};
 }
 
-/// Solves for the second derivatives; returns the score of generalised cross-validation, |Q g|^2 / tr(B^-1 Q^T Q)^2 times
-/// what does not depend on the parameter: in that form nothing cancels, however small or large the parameter.
+/// Solves for the second derivatives; returns the score of the modified generalised cross-validation, RSS / (n - 1.4 tr A)^2
+/// where y -> A y smooths, infinite where its root would not be positive. RSS is alpha^2 |Q g|^2 and n - tr A is
+/// alpha tr(B^-1 Q^T Q): in that form nothing cancels, however small or large the parameter.
 double SplineDerivative::solve(double alpha) {
   const std::size_t m = qy_.size();
   for (std::size_t j = 0; j < m; ++j) {
@@ -54,7 +56,9 @@ double SplineDerivative::solve(double alpha) {
     if (i >= 2) Qg += bend_[i - 2] / h_[i - 1];
     square += Qg * Qg;
   }
-  return square / (trace * trace);
+  constexpr double weight = 1.4;
+  const double freedom = weight * trace - (weight - 1) * static_cast<double>(m + 2) / alpha;
+  return freedom > 0 ? square / (freedom * freedom) : std::numeric_limits<double>::infinity();
 }
 
 std::span<const double> SplineDerivative::finish() {

@@ -6,8 +6,10 @@
 
 namespace rolling {
 
-/// The parameter is that of least generalised cross-validation (Craven and Wahba 1979, Numer. Math. 31, 377), each trial in
-/// O(n) (Hutchinson and de Hoog 1985, Numer. Math. 47, 99): right for noise that is white.
+/// The parameter is that of least generalised cross-validation (Craven and Wahba 1979, Numer. Math. 31, 377), with every
+/// degree of freedom counted 1.4 times (Kim and Gu 2004, J. R. Statist. Soc. B 66, 337): counted once, as it was at first, now
+/// and then next to nothing is smoothed, and always where the noise of neighbours is bound. Each trial takes O(n) (Hutchinson
+/// and de Hoog 1985, Numer. Math. 47, 99).
 class SplineDerivative : public Signal {
  public:
   std::span<const double> push(double t, double y) override;

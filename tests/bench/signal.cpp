@@ -8,6 +8,7 @@
 // v is smoothed and differentiated by central differences, or differentiated by a method that smooths as it goes.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -114,21 +115,22 @@ int main(int argc, char** argv) {
   }
   const unsigned long seeds = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 200;
   fmt::print("# {} seeds each; errors are root mean squares over records and seeds, of D relative to its truth; ends: the first\n"
-             "# and last five records; bias and scatter: of a inside, over records of the mean over seeds and about it\n"
+             "# and last five records; bias and scatter: of a inside, over records of the mean over seeds and about it;\n"
+             "# seconds: median over the seeds\n"
              "# scene\tmethod\twidth\terror_v[m/s]\terror_a[m/s^2]\tbias_a[m/s^2]\tscatter_a[m/s^2]\tends_a[m/s^2]\terror_D\tseconds_per_row\n", seeds);
   constexpr std::size_t ends = 5;
   for (const Scene& scene : scenes)
     for (const Method& method : methods()) {
-      std::vector<double> sum, squares, smooth, a, truth;
-      double v_errors = 0, inside = 0, outside = 0, relative = 0, seconds = 0, rows = 0;
+      std::vector<double> sum, squares, smooth, a, seconds;  // seconds: of each record, a row
+      double v_errors = 0, inside = 0, outside = 0, relative = 0;
       std::size_t n = 0;
       for (unsigned long seed = 1; seed <= seeds; ++seed) {
         const Roll r = roll(scene, seed);
         const Series v = derivative({}, r.t, r.x);
         const auto begin = std::chrono::steady_clock::now();
         method.apply(r, v, smooth, a);
-        seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        n = r.t.size(), rows += static_cast<double>(n);
+        n = r.t.size();
+        seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / static_cast<double>(n));
         sum.resize(n), squares.resize(n);
         for (std::size_t i = 0; i < n; ++i) {
           const double error = a[i] - r.a[i];
@@ -140,6 +142,8 @@ int main(int argc, char** argv) {
           }
         }
       }
+      const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
+      std::nth_element(seconds.begin(), middle, seconds.end());
       const auto count = static_cast<double>(seeds), inner = static_cast<double>(n - 2 * ends);
       double bias = 0, scatter = 0;
       for (std::size_t i = ends; i + ends < n; ++i) {
@@ -148,6 +152,6 @@ int main(int argc, char** argv) {
       }
       fmt::print("{}\t{}\t{}\t{:.3e}\t{:.3e}\t{:.3e}\t{:.3e}\t{:.3e}\t{:.4f}\t{:.2e}\n", scene.name, method.name, std::isnan(method.width) ? "NaN" : fmt::format("{}", method.width),
                  std::sqrt(v_errors / count / inner), std::sqrt(inside / count / inner), std::sqrt(bias), std::sqrt(scatter),
-                 std::sqrt(outside / count / (2 * ends)), std::sqrt(relative / count / inner), seconds / rows);
+                 std::sqrt(outside / count / (2 * ends)), std::sqrt(relative / count / inner), *middle);
     }
 }

@@ -1,6 +1,7 @@
 #!/bin/bash
 # tests/bench/signal.sh FOLDER: the errors of smooth and differentiate on noisy records, as FOLDER/signal.tsv, with SciPy's
-# beside them where it is installed, and as FOLDER/signal.svg where gnuplot is. Prints the best and the usual for each scene.
+# beside them where it is installed, and against window and run time as FOLDER/signal{,-time}.{svg,png} where gnuplot is.
+# Prints the best and the usual for each scene.
 set -euo pipefail
 folder=$1
 build/bench/signal >"$folder/signal.tsv"
@@ -19,25 +20,53 @@ awk -F'\t' -v OFS='\t' '
     for (i = 1; i <= n; i++) print name[i], best[name[i]], least[name[i]], ends[name[i]], name[i] in usual ? usual[name[i]] : "NaN"
   }' "$folder/signal.tsv"
 if command -v gnuplot >/dev/null; then
-  gnuplot <<END
-set terminal svg size 900,700 font "sans,12" background "white"
-set output "$folder/signal.svg"
+  for terminal in svg pngcairo; do
+    gnuplot <<END
+folder = "$folder"
+suffix = "$terminal" eq "svg" ? ".svg" : ".png"
+set terminal $terminal size 1200,750 font "sans,11" background "white"
 set datafile separator "\t"
-set multiplot layout 2,2 title "Error of D against the window, 25 Hz sonar (thick: v' of the same fit; dashed: smoothed, then central)"
 set logscale y
-set xrange [0:63]
-set yrange [0.008:30]
-set xlabel "width [records]"
+set yrange [0.008:5]
 set ylabel "relative error of D"
-set key top right
-pick(scene, method) = sprintf("< awk -F'\\\\t' '\$1 == \"%s\" && \$2 == \"%s\"' $folder/signal.tsv", scene, method)
+pick(scene, method) = sprintf("< awk -F'\\\\t' '\$1 == \"%s\" && \$2 == \"%s\"' %s/signal.tsv", scene, method, folder)
+level(scene, method) = real(system(sprintf("awk -F'\\\\t' '\$1 == \"%s\" && \$2 == \"%s\" { print \$9 }' %s/signal.tsv", scene, method, folder)))
+
+set output folder . "/signal" . suffix
+set multiplot layout 2,2 title "Error of D against the window, 25 Hz sonar (thick: v' of the same fit; dashed: smoothed, then central)"
+set xrange [0:63]
+set xlabel "width [records]"
+set key outside right
 do for [scene in "CF CR SF SR"] {
   set title scene
   plot pick(scene, "mean+central") using 3:9 with linespoints dt 2 lc 1 title "mean, central", \
        pick(scene, "median+central") using 3:9 with linespoints dt 2 lc 4 title "median, central", \
        pick(scene, "savgol+central") using 3:9 with linespoints dt 2 lc 2 title "savgol 2, central", \
        pick(scene, "savgol1") using 3:9 with linespoints lw 2 lc 7 title "savgol 1", \
-       pick(scene, "savgol2") using 3:9 with linespoints lw 2 lc 2 title "savgol 2"
+       pick(scene, "savgol2") using 3:9 with linespoints lw 2 lc 2 title "savgol 2", \
+       level(scene, "spline") lc 3 title "spline"
 }
+unset multiplot
+
+set output folder . "/signal-time" . suffix
+set multiplot layout 2,2 title "Error of D against run time, windows of 5 to 61 records along the lines"
+set logscale x
+set xrange [0.02:20]
+set xlabel "us a record"
+do for [scene in "CF CR SF SR"] {
+  set title scene
+  plot pick(scene, "mean+central") using (1e6*\$10):9 with linespoints dt 2 lc 1 title "mean, central", \
+       pick(scene, "savgol+central") using (1e6*\$10):9 with linespoints dt 2 lc 2 title "savgol 2, central", \
+       pick(scene, "savgol1") using (1e6*\$10):9 with linespoints lw 2 lc 7 title "savgol 1", \
+       pick(scene, "savgol2") using (1e6*\$10):9 with linespoints lw 2 lc 2 title "savgol 2", \
+       pick(scene, "pasco") using (1e6*\$10):9 with points lc 4 title "pasco", \
+       pick(scene, "vernier") using (1e6*\$10):9 with points lc 5 title "vernier", \
+       pick(scene, "spline") using (1e6*\$10):9 with points lc 3 title "spline", \
+       pick(scene, "spline_of_x+central") using (1e6*\$10):9 with points lc 6 title "spline of x, central", \
+       pick(scene, "scipy_savgol2") using (1e6*\$10):9 with points lc 8 title "SciPy savgol 2", \
+       pick(scene, "scipy_spline_of_x") using (1e6*\$10):9 with points lc 9 title "SciPy spline of x"
+}
+unset multiplot
 END
+  done
 fi

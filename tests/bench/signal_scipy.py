@@ -34,13 +34,12 @@ rows = (line.split() for line in sys.stdin)
 for scene, runs in groupby(rows, key=lambda r: r[0]):
     runs = [np.array([[float(c) for c in r[2:]] for r in run]).T for _, run in groupby(runs, key=lambda r: r[1])]
     for (name, width), apply in methods.items():
-        v_error, a_error, ends, relative, seconds, count = [], [], [], [], 0, 0
+        v_error, a_error, ends, relative, seconds = [], [], [], [], []
         for t, x, v_true, a_true in runs:
             v = np.gradient(x, t, edge_order=2)
             begin = time.perf_counter()
             smooth, a = apply(t, x, v)
-            seconds += time.perf_counter() - begin
-            count += len(t)
+            seconds.append((time.perf_counter() - begin) / len(t))
             error = a - a_true
             inside = slice(ENDS, -ENDS)
             v_error.append(smooth[inside] - v_true[inside])
@@ -50,4 +49,4 @@ for scene, runs in groupby(rows, key=lambda r: r[0]):
         bias = np.mean(a_error, axis=0)
         rms = lambda x: np.sqrt(np.mean(np.square(x)))
         print(scene, name, width, *(f"{f:.3e}" for f in (rms(v_error), rms(a_error), rms(bias), rms(a_error - bias), rms(ends))),
-              f"{rms(relative):.4f}", f"{seconds / count:.2e}", sep="\t")
+              f"{rms(relative):.4f}", f"{np.median(seconds):.2e}", sep="\t")

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "signal/derivative.h"
 #include "unit/catch.h"
 #include "unit/signal/through.h"
 
@@ -34,7 +35,7 @@ Matrix solve(Matrix A, Matrix B) {
   return B;
 }
 
-/// The same spline by dense matrices: S = (I + alpha Q R^-1 Q^T)^-1, its GCV score from S itself, its slopes from the
+/// The same spline by dense matrices: S = (I + alpha Q R^-1 Q^T)^-1, its modified GCV score from S itself, its slopes from the
 /// cardinal functions of the natural spline through S y.
 struct Dense {
   Series t, y;
@@ -67,13 +68,13 @@ struct Dense {
       A[i][i] += 1, I[i][i] = 1;
     }
     const Matrix S = solve(A, I);
-    long double rss = 0, trace = 0;
+    long double rss = 0, left = 0;
     f.assign(n, 0);
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < n; ++j) f[i] += S[i][j] * y[j];
-      rss += (y[i] - f[i]) * (y[i] - f[i]), trace += 1 - S[i][i];
+      rss += (y[i] - f[i]) * (y[i] - f[i]), left += 1 - 1.4L * S[i][i];
     }
-    return rss / (trace * trace);
+    return left > 0 ? rss / (left * left) : INFINITY;
   }
 
   Series best_slopes() const {
@@ -144,6 +145,27 @@ TEST_CASE("smoothing_spline: white noise: far better than differences", "[signal
     double sum = 0;
     for (std::size_t i = 0; i < t.size(); ++i) sum += std::pow(s[i] - 0.5 + 0.06 * t[i], 2) / 200;
     CHECK(std::sqrt(sum) < 0.004);  // central differences: 0.018
+  }
+}
+
+TEST_CASE("smoothing_spline: in no record next to no smoothing, not where the noise of neighbours is bound either", "[signal]") {
+  const std::size_t n = 100;
+  const Series t = even_times(n);
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    const Series e = noise(n + 2, seed);
+    Series white, bound;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double line = 0.5 * t[i] - 0.03 * t[i] * t[i];
+      white.push_back(line + 0.001 * e[i + 1]);
+      bound.push_back(line + 0.001 * (e[i + 2] - e[i]));  // as after a central difference
+    }
+    for (const Series& y : {white, bound}) {
+      const auto s = slopes(t, y), raw = through(CentralDerivative(), t, y);
+      double sum = 0, rough = 0;
+      for (std::size_t i = 5; i + 5 < n; ++i) sum += std::pow(s[i] - 0.5 + 0.06 * t[i], 2), rough += std::pow(raw[i] - 0.5 + 0.06 * t[i], 2);
+      INFO(seed << (y == bound ? " bound: " : " white: ") << std::sqrt(sum / rough));
+      CHECK(sum < 0.25 * rough);
+    }
   }
 }
 
