@@ -43,8 +43,13 @@ named 't[s]\tx[m]\tv[m/s]\ta_in[m/s^2]\ta[m/s^2]' differentiate "$vernier"
 
 # phyphox, saved again and as it comes: an acceleration named by hand.
 expect 621 shift-from-accel --use 'a=Linear Acceleration y' -K 0 -R 1 "$data/cart-push-smartphone/cart-pushFriction1.csv"
+named 't[s]\tLinear_Acceleration_x[m/s^2]\tLinear_Acceleration_y[m/s^2]\tLinear_Acceleration_z[m/s^2]\tAbsolute_acceleration[m/s^2]' \
+  smooth -c 'Linear Acceleration y' "$data/cart-push-smartphone/cart-pushFriction1.csv"
 expect 1520 smooth -c 'Acceleration y' "$data/falling-phone/fall_2/Raw Data.csv"
-expect 1 awk 'NR == 1 && NF == 5 && $1 > 0.032 && $1 < 0.033' "$data/falling-phone/fall_vertical_1.txt"
+named 't[s]\tAcceleration_x[m/s^2]\tAcceleration_y[m/s^2]\tAcceleration_z[m/s^2]\tAbsolute_acceleration[m/s^2]' \
+  smooth -c 'Acceleration y' "$data/falling-phone/fall_2/Raw Data.csv"
+expect 2237 smooth -c 3 "$data/falling-phone/fall_vertical_1.txt"
+expect 132 smooth -c x "$data/ball-on-curved-track/mass_a.txt"
 named 't[s]\tx[m]\ty' smooth "$data/ball-on-curved-track/mass_a.txt"
 
 # Tracker: the track's name above the names line; semicolons, tabs.
