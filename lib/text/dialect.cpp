@@ -43,7 +43,8 @@ bool Dialect::choose(std::string_view line) {
     split(line);
     if (!std::all_of(fields_.begin(), fields_.end(), is_number)) separator_ = '\t', split(line);
   }
-  return std::any_of(fields_.begin(), fields_.end(), is_number);
+  // A quoted decimal comma among commas makes a record too, which is then refused with the way out.
+  return std::any_of(fields_.begin(), fields_.end(), [](auto f) { return is_number(f) || !rewritten(f).empty(); });
 }
 
 std::vector<std::string_view>& Dialect::split(std::string_view line) {

@@ -112,6 +112,7 @@ void Reader::read_header() {
   for (const std::string& text : comments) comment(text);
   in_header_ = false;
   line_waits_ = true;
+  first_record_ = line_number_;
 }
 
 /// The names in a line, by its form.
@@ -364,7 +365,7 @@ bool Reader::parse() {
     const std::string_view field = fields_[needed.column];
     double& value = values_[slot];
     if (!parse_number(field, value)) {
-      if (!is_missing(field)) reject(needed.column, "is not a number");
+      if (!is_missing(field)) reject(needed.column, "is not a number" + way_out(field));
       if (needed.may_miss) {
         value = std::numeric_limits<double>::quiet_NaN();
         continue;
@@ -410,6 +411,16 @@ void Reader::copy(std::string& to, std::size_t cut, std::size_t& first, std::siz
 
 void Reader::reject(std::size_t column, std::string_view why) const {
   fail<InputError>("{}: field {} ({}): '{}' {}", where(), layout_.runs[side_].fields[column] + 1, shown(columns_[column].name), shown(fields_[column]), why);
+}
+
+/// After a field that is no number, what to do about what it often is: a decimal comma, a minus sign of print, a heading.
+std::string Reader::way_out(std::string_view field) const {
+  const bool in_field = field.find(',') != npos && field.find('.') == npos;
+  const bool beside = dialect_.separator() == ',' && field.find(' ') != npos && is_number(field.substr(0, field.find(' ')));
+  if (in_field || beside) return "; if a comma here is a decimal one, make it a point first";
+  if (field.starts_with("\xE2\x88\x92")) return "; make its minus sign (U+2212) a hyphen first";
+  const bool word = !field.empty() && std::string_view("+-.0123456789").find(field.front()) == npos;
+  return word && !named_ && line_number_ == first_record_ ? "; if this line is no record, begin it with #" : "";
 }
 
 std::string Reader::where() const {

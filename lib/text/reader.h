@@ -93,6 +93,7 @@ class Reader {
   void take_fields();
   bool parse();
   [[noreturn]] void reject(std::size_t column, std::string_view why) const;
+  std::string way_out(std::string_view field) const;
 
   ReaderOptions options_;
   std::map<std::string, std::string> use_;  // quantity, column
@@ -111,7 +112,7 @@ class Reader {
   // The present record.
   std::string_view line_;
   std::string joined_;  // a line whose quoted field holds line ends
-  std::size_t line_number_ = 0;
+  std::size_t line_number_ = 0, first_record_ = 0;
   bool line_waits_ = false;  // line_ is read but not taken
   std::vector<std::string_view> fields_;
 
