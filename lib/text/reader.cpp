@@ -415,7 +415,7 @@ void Reader::reject(std::size_t column, std::string_view why) const {
 
 /// After a field that is no number, what to do about what it often is: a decimal comma, a minus sign of print, a heading.
 std::string Reader::way_out(std::string_view field) const {
-  const bool in_field = field.find(',') != npos && field.find('.') == npos;
+  const bool in_field = std::count(field.begin(), field.end(), ',') == 1 && field.find('.') == npos;
   const bool beside = dialect_.separator() == ',' && field.find(' ') != npos && is_number(field.substr(0, field.find(' ')));
   if (in_field || beside) return "; if a comma here is a decimal one, make it a point first";
   if (field.starts_with("\xE2\x88\x92")) return "; make its minus sign (U+2212) a hyphen first";

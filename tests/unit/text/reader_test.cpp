@@ -137,8 +137,8 @@ TEST_CASE("reader: a first record that has decimal commas only is a record, not 
 
 TEST_CASE("reader: two decimal marks in one file are refused", "[text]") {
   CHECK(records({"t;v\n0,5;1\n1.5;2\n"}) == "FILE:3: field 1: '1.5' has another decimal mark than the numbers before it");
-  CHECK(records({"t;v\n0.5;1\n1,5;2\n"}) == "FILE:3: field 1 (t): '1,5' is not a number");
-  CHECK(records({"0.5 1\n1,5 2\n"}) == "FILE:2: field 1 (t): '1,5' is not a number");
+  CHECK(records({"t;v\n0.5;1\n1,5;2\n"}) == "FILE:3: field 1 (t): '1,5' is not a number; if a comma here is a decimal one, make it a point first");
+  CHECK(records({"0.5 1\n1,5 2\n"}) == "FILE:2: field 1 (t): '1,5' is not a number; if a comma here is a decimal one, make it a point first");
   CHECK(records({"t;v\n0;1,234,567\n"}) == "FILE:2: field 2 (v): '1,234,567' is not a number");
   CHECK(records({"t;v\n0;1,234.5\n"}) == "FILE:2: field 2 (v): '1,234.5' is not a number");
 }
@@ -248,7 +248,7 @@ TEST_CASE("reader: what is neither number nor missing is refused, and says where
   CHECK(records({"0 1\n1 1e400\n"}) == "FILE:2: field 2 (v): '1e400' is not a number");
   CHECK(records({"0 1\n1 0x1\n"}) == "FILE:2: field 2 (v): '0x1' is not a number");
   CHECK(records({"0 1\n1 " + std::string(50, '9') + "x\n"}) == "FILE:2: field 2 (v): '" + std::string(40, '9') + "...' is not a number");
-  CHECK(records({"0 1\n1 \xE2\x88\x92" "1\n"}) == "FILE:2: field 2 (v): '???1' is not a number");
+  CHECK(records({"0 1\n1 \xE2\x88\x92" "1\n"}) == "FILE:2: field 2 (v): '???1' is not a number; make its minus sign (U+2212) a hyphen first");
 }
 
 TEST_CASE("reader: time increases within a run, and starts anew in the next", "[text]") {
