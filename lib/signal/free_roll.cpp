@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -41,31 +42,41 @@ double noise_of(const std::vector<double>& speeds, std::size_t peak, std::size_t
   return 1.4826 * *middle / std::sqrt(6.0);
 }
 
+/// A run seen through windows of 2k + 1 samples.
+struct View {
+  std::size_t k, peak;
+  std::vector<double> speeds;
+  double fastest, noise;
+
+  View(std::span<const Sample> run, bool positions, std::size_t half) : k(half), speeds(local_speeds(run, positions, half)) {
+    const auto slower = [](double a, double b) { return std::abs(a) < std::abs(b); };
+    peak = static_cast<std::size_t>(std::max_element(speeds.begin(), speeds.end(), slower) - speeds.begin());
+    fastest = std::abs(speeds[peak]), noise = noise_of(speeds, peak, k);
+  }
+};
+
 }  // namespace
 
 Stretch free_roll(std::span<const Sample> run, bool positions) {
   const std::size_t n = run.size();
   if (n < 10) fail("a run of {} records is too short to find its free roll", n);
-  for (std::size_t k = 2;; k += (k + 1) / 2) {
-    const auto speeds = local_speeds(run, positions, k);
-    const auto slower = [](double a, double b) { return std::abs(a) < std::abs(b); };
-    const auto peak = static_cast<std::size_t>(std::max_element(speeds.begin(), speeds.end(), slower) - speeds.begin());
-    const double fastest = std::abs(speeds[peak]), noise = noise_of(speeds, peak, k);
-    if (noise > 0.02 * fastest && 20 * k < n) continue;
-    if (!(fastest > 8 * noise)) fail("nothing moves in this run: it has no free roll");
+  View view(run, positions, 2);
+  for (std::size_t k = 3; view.noise > 0.02 * view.fastest && 20 * k < n; k += (k + 1) / 2)
+    if (View wider(run, positions, k); wider.noise * view.fastest < view.noise * wider.fastest) view = std::move(wider);
+  const auto& [k, peak, speeds, fastest, noise] = view;
+  if (!(fastest > 8 * noise)) fail("nothing moves in this run: it has no free roll");
 
-    const double sign = speeds[peak] < 0 ? -1 : 1;
-    std::size_t release = peak;  // where the speed is last as great as its noise can tell
-    for (std::size_t i = peak; i < n && sign * speeds[i] > 0.9 * fastest; ++i)
-      if (sign * speeds[i] > fastest - noise) release = i;
-    const std::size_t begin = peak <= k ? 0 : std::min(release + k + 3, n);  // no push: the record begins with the roll
-    std::size_t end = begin;
-    while (end < n && sign * speeds[end] > 2 * noise) ++end;
-    if (end < n) end -= std::min(k, end - begin);
-    while (!positions && end > begin && sign * run[end - 1].y <= 0) --end;
-    if (end - begin < 3) fail("no free roll is found after the push");
-    return {begin, end};
-  }
+  const double sign = speeds[peak] < 0 ? -1 : 1;
+  std::size_t release = peak;  // where the speed is last as great as its noise can tell
+  for (std::size_t i = peak; i < n && sign * speeds[i] > 0.9 * fastest; ++i)
+    if (sign * speeds[i] > fastest - noise) release = i;
+  const std::size_t begin = peak <= k ? 0 : std::min(release + k + 3, n);  // no push: the record begins with the roll
+  std::size_t end = begin;
+  while (end < n && sign * speeds[end] > 2 * noise) ++end;
+  if (end < n) end -= std::min(k, end - begin);
+  while (!positions && end > begin && sign * run[end - 1].y <= 0) --end;
+  if (end - begin < 3) fail("no free roll is found after the push");
+  return {begin, end};
 }
 
 }  // namespace rolling

@@ -63,15 +63,42 @@ TEST_CASE("free_roll: without noise the roll ends where the speed is 0", "[signa
   CHECK(begin > 38);
 }
 
+TEST_CASE("free_roll: a short roll in a long rest, stopped by hand", "[signal]") {
+  // Pushed from 2 s to 2.8 s, slowed by 0.25 m/s^2 for 0.9 s, stopped within 0.1 s, at 20 Hz.
+  const auto v = [](double t) {
+    if (t < 2 || t > 3.8) return 0.0;
+    if (t < 2.8) return 0.5 * std::pow(std::sin(3.14159265358979 * (t - 2) / 1.6), 2);
+    return t < 3.7 ? 0.5 - 0.25 * (t - 2.8) : 0.275 * (3.8 - t) / 0.1;
+  };
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    const Series e = noise(110, seed);
+    std::vector<Sample> run;
+    double x = 0;
+    for (std::size_t i = 0; i < 110; ++i) {
+      const double t = 0.05 * static_cast<double>(i);
+      for (int k = 0; k < 20; ++k) x += v(t - 0.05 + 0.0025 * (k + 0.5)) * 0.0025;
+      run.push_back({t, x + 0.0003 * e[i]});
+    }
+    const auto [begin, end] = free_roll(run, true);
+    INFO(seed << ": " << run[begin].t << " to " << run[end - 1].t);
+    CHECK(run[begin].t > 2.85);
+    CHECK(run[begin].t < 3.4);
+    CHECK(run[end - 1].t > 3.5);
+    CHECK(run[end - 1].t <= 3.8);
+  }
+}
+
 TEST_CASE("free_roll: rest, noise alone and a handful of records have none", "[signal]") {
   std::vector<Sample> run;
   for (const double y : Series(100, 0)) run.push_back({static_cast<double>(run.size()), y});
   CHECK_THROWS_AS(free_roll(run, false), Error);
   CHECK_THROWS_AS(free_roll(run, true), Error);
   CHECK_THROWS_AS(free_roll(std::span(run).subspan(0, 9), false), Error);
-  for (unsigned seed = 1; seed <= 20; ++seed) {
-    const Series e = noise(100, seed);
-    for (std::size_t i = 0; i < run.size(); ++i) run[i].y = 0.004 * e[i];
-    CHECK_THROWS_AS(free_roll(run, false), Error);
-  }
+  for (const std::size_t n : {30u, 100u, 500u})
+    for (unsigned seed = 1; seed <= 100; ++seed) {
+      const Series e = noise(n, seed);
+      run.clear();
+      for (std::size_t i = 0; i < n; ++i) run.push_back({static_cast<double>(i), 0.004 * e[i]});
+      for (const bool positions : {false, true}) CHECK_THROWS_AS(free_roll(run, positions), Error);
+    }
 }
