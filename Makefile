@@ -62,17 +62,21 @@ samples: bin/simulate
 	samples/exports/make.sh samples/exports
 
 # Figures of the paper, each from the script of its name in samples/figures and the tools that it runs.
-figures: $(patsubst samples/%.sh,%.svg,$(wildcard samples/figures/*.sh)) $(patsubst samples/%.sh,%.png,$(wildcard samples/figures/*.sh))
+figure := $(patsubst samples/figures/%.sh,%,$(filter-out %/common.sh,$(wildcard samples/figures/*.sh)))
+figures: $(figure:%=figures/%.svg) $(figure:%=figures/%.png)
 tools_in = $(addprefix bin/,$(shell grep -v '^\#' $1 | grep -owE '$(subst $(space),|,$(tool))' | sort -u))
 empty   :=
 space   := $(empty) $(empty)
+drawn_from := samples/figures/common.sh $(wildcard samples/figures/*.gp samples/*.csv samples/*.toml)
+define draw
+	@mkdir -p $(@D)
+	PATH="$(CURDIR)/bin:$$PATH" $< $1 >$@.new && mv $@.new $@
+endef
 .SECONDEXPANSION:
-figures/%.svg: samples/figures/%.sh $$(call tools_in,samples/figures/$$*.sh)
-	@mkdir -p $(@D)
-	cd samples && PATH="$(CURDIR)/bin:$$PATH" figures/$*.sh svg >../$@.new && mv ../$@.new ../$@
-figures/%.png: samples/figures/%.sh $$(call tools_in,samples/figures/$$*.sh)
-	@mkdir -p $(@D)
-	cd samples && PATH="$(CURDIR)/bin:$$PATH" figures/$*.sh pngcairo >../$@.new && mv ../$@.new ../$@
+figures/%.svg: samples/figures/%.sh $$(call tools_in,samples/figures/$$*.sh) $(drawn_from)
+	$(call draw,svg)
+figures/%.png: samples/figures/%.sh $$(call tools_in,samples/figures/$$*.sh) $(drawn_from)
+	$(call draw,pngcairo)
 
 check: all build/unit
 	@PATH="$(CURDIR)/bin:$$PATH" tests/run.sh build/unit

@@ -1,24 +1,29 @@
 #!/bin/bash
-# Fig. 1, v(t) of the four experiments: points of the sensor's positions, lines of the fitted trajectories. `make figures/fig1.svg`
-# Run in samples/ with the tools on PATH; writes gnuplot's output for the terminal in $1 (svg or pngcairo) to standard output.
-set -euo pipefail
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-fit() {  # NAME K: the free roll's velocities, and the trajectory that fits its positions, from the first of them on
+# Fig. 1, v(t) of the four experiments: differences of the sensor's positions, the same smoothed, and the trajectory that fits the
+# positions, both of the free roll. `make figures/fig1.svg`, or samples/figures/fig1.sh svg >fig1.svg
+. "$(dirname "$0")/common.sh"
+run() {  # NAME K
+  differentiate -q -c x "$1.csv" >"$scratch/$1.raw"
   smooth -q --coast -c x -w 1 "$1.csv" >"$scratch/$1.roll"
-  awk -F, '$2 != "" && FNR > 1 { print $1, $2 }' "$1.csv" | differentiate --use x=2 -c x >"$scratch/$1.v"
-  fitpower -q --route position -K "$2" -R 0.04 "$scratch/$1.roll" >"$scratch/$1.fit"
+  differentiate -c x "$scratch/$1.roll" | smooth -w 11 | whole_windows >"$scratch/$1.v"
+  # The fit's time begins with the roll.
   local start
   start=$(awk '!/^#/ { print $1; exit }' "$scratch/$1.roll")
-  simulate --law "$scratch/$1.fit" -K "$2" -R 0.04 --columns t,v | awk -v start="$start" '!/^#/ { print $1 + start, $2 }' >"$scratch/$1.line"
+  fitpower -q --route position -K "$2" -R 0.04 "$scratch/$1.roll" | simulate --law - -K "$2" -R 0.04 --columns t,v |
+    awk -v start="$start" '!/^#/ { print $1 + start "\t" $2 }' >"$scratch/$1.line"
 }
-fit CR 0.5; fit SR 0.83; fit CF 0.5; fit SF 0.83
-cd figures
-gnuplot -e "scratch = '$scratch'; set terminal $1 size 800,500 font 'sans,12'" - <<'PLOT'
-load 'style.gp'
-set xlabel 'time t / s'; set ylabel 'velocity v / (m/s)'
-set yrange [-0.05:0.6]; set xzeroaxis lt -1 lw 0.5
-plot for [i=1:4] sprintf('%s/%s.v', scratch, word('CR SR CF SF', i)) using 1:3 with points ls i \
-       title word('"C on rubber" "S on rubber" "C on felt" "S on felt"', i), \
-     for [i=1:4] sprintf('%s/%s.line', scratch, word('CR SR CF SF', i)) with lines ls i notitle
+run CR 0.5; run SR 0.83; run CF 0.5; run SF 0.83
+draw 720 760 <<'PLOT'
+set multiplot layout 2,1 margins 0.12,0.98,0.09,0.98 spacing 0.08
+set xrange [0.8:9.2]; set yrange [-0.05:0.55]; set xzeroaxis lt -1 lw 0.5
+set ylabel 'velocity v / (m/s)'; set xlabel 'time t / s'
+of(i, kind) = scratch . word(runs, i) . kind
+do for [mat = 0:1] {
+  plot for [i = 2*mat+1:2*mat+2] of(i, '.raw') using 1:4 with points ls i ps 0.3 lc rgb grey notitle, \
+       for [i = 2*mat+1:2*mat+2] of(i, '.v') using 1:4 every 2 with points ls i ps 0.8 notitle, \
+       for [i = 2*mat+1:2*mat+2] of(i, '.line') with lines ls 10+i notitle, \
+       for [i = 2*mat+1:2*mat+2] keyentry with points ls i ps 1 title label[i], \
+       for [i = 2*mat+1:2*mat+2] keyentry with lines ls 10+i title body[i].', fitted trajectory', \
+       keyentry with points pt 7 ps 0.5 lc rgb grey title 'before smoothing'
+}
 PLOT
