@@ -60,7 +60,7 @@ awk '
   FNR == 1 { file = FILENAME; sub(/.*\//, "", file); sub(/\.fit$/, "", file) }
   !/^#/ { a[file] = $1; b[file] = $3 }
   function D(which, v) { return a[which] * v^b[which] }
-  function say(what, figure, rule, holds) { printf "  %-52s %-22s %-14s %s\n", what, figure, rule, holds ? "yes" : "NO"; failed += !holds }
+  function say(what, figure, rule, holds) { printf "  %-53s %-22s %-14s %s\n", what, figure, rule, holds ? "yes" : "NO"; failed += !holds }
   END {
     rubber = D("S", 0.25) / D("C", 0.25); felt = D("SF", 0.25) / D("CF", 0.25)
     say("nearly the same for both bodies: D_S/D_C at 0.25 m/s", sprintf("rubber %.3f felt %.3f", rubber, felt), "within 15 %", (rubber - 1)^2 < 0.0225 && (felt - 1)^2 < 0.0225)
@@ -68,7 +68,7 @@ awk '
     say("strongly nonlinear on rubber: D(0.5)/D(0.1)", sprintf("C %.3f S %.3f", C, S), "above 1.25", C > 1.25 && S > 1.25)
     say("hardly on felt: D(0.5)/D(0.1)", sprintf("%.3f", F), "below 1.10", F < 1.1)
     say("smaller on felt: D_felt/D_rubber at 0.25 m/s", sprintf("C %.3f S %.3f", D("F", 0.25) / D("C", 0.25), D("F", 0.25) / D("S", 0.25)), "below 1", D("F", 0.25) < D("C", 0.25) && D("F", 0.25) < D("S", 0.25))
-    printf "  %-52s %.1e on rubber, %.1e on felt\n", "1 - A, which the fits set to 0, at 0.5 m/s", 1 - sqrt(1 - (D("C", 0.5) / 0.04)^2), 1 - sqrt(1 - (D("F", 0.5) / 0.04)^2)
+    printf "  %-53s %.1e on rubber, %.1e on felt\n", "1 - A, which the fits set to 0, at 0.5 m/s", 1 - sqrt(1 - (D("C", 0.5) / 0.04)^2), 1 - sqrt(1 - (D("F", 0.5) / 0.04)^2)
     exit failed > 0
   }' "$scratch"/{S,C,F,CF,SF}.fit || failed=1
 
