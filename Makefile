@@ -13,7 +13,7 @@ tool   := $(patsubst cmd/%.cpp,%,$(wildcard cmd/*.cpp))
 test   := $(wildcard tests/unit/*/*.cpp tests/pipeline/*.cpp)
 object  = $(patsubst %.cpp,build/%.o,$1)
 
-.PHONY: all setup table1 samples figures check coverage work-precision work-precision-signal lint clean
+.PHONY: all setup table1 samples figures report check coverage work-precision work-precision-signal lint clean
 .SECONDARY:
 all: $(tool:%=bin/%)
 
@@ -43,8 +43,8 @@ build/catch_main.o: | $(filter setup,$(MAKECMDGOALS))
 
 # From a fresh machine: only what is missing, and no root when nothing is. `make setup table1` leaves out what only tests need.
 goals    := $(filter-out setup,$(MAKECMDGOALS))
-testing  := $(if $(goals),$(filter-out all table1 samples figures figures/%,$(goals)),everything)
-packages := g++ libgsl-dev libfmt-dev libcli11-dev $(if $(testing),catch2 libboost-dev mandoc) $(if $(filter figures figures/%,$(goals)),gnuplot-nox)
+testing  := $(if $(goals),$(filter-out all table1 samples figures figures/% report,$(goals)),everything)
+packages := g++ libgsl-dev libfmt-dev libcli11-dev $(if $(testing),catch2 libboost-dev mandoc) $(if $(filter figures figures/% report,$(goals)),gnuplot-nox)
 setup:
 	@missing=$$(for p in $(packages); do dpkg-query -W -f '$${Status}\n' $$p 2>/dev/null | grep -q '^install ok installed' || echo $$p; done); \
 	test -z "$$missing" || { echo installing $$missing; as_root=$$(test "$$(id -u)" = 0 || echo sudo); \
@@ -77,6 +77,11 @@ figures/%.svg: samples/figures/%.sh $$(call tools_in,samples/figures/$$*.sh) $(d
 	$(call draw,svg)
 figures/%.png: samples/figures/%.sh $$(call tools_in,samples/figures/$$*.sh) $(drawn_from)
 	$(call draw,pngcairo)
+
+# One page with the table, the energy check and the figures in it, those of work-precision too where they have been made.
+report: figures/report.html
+figures/report.html: samples/report.sh samples/table1.sh $(figure:%=figures/%.svg) $(wildcard build/work-precision/*.svg) | all
+	PATH="$(CURDIR)/bin:$$PATH" $< figures $(if $(wildcard build/work-precision/CR.svg),build/work-precision) >$@.new && mv $@.new $@
 
 check: all build/unit
 	@PATH="$(CURDIR)/bin:$$PATH" tests/run.sh build/unit

@@ -60,7 +60,7 @@ awk '
   FNR == 1 { file = FILENAME; sub(/.*\//, "", file); sub(/\.fit$/, "", file) }
   !/^#/ { a[file] = $1; b[file] = $3 }
   function D(which, v) { return a[which] * v^b[which] }
-  function say(what, figure, rule, holds) { printf "  %-53s %-22s %-14s %s\n", what, figure, rule, holds ? "yes" : "NO"; failed += !holds }
+  function say(what, figure, rule, holds) { printf "  %-53s %-24s %-14s %s\n", what, figure, rule, holds ? "yes" : "NO"; failed += !holds }
   END {
     rubber = D("S", 0.25) / D("C", 0.25); felt = D("SF", 0.25) / D("CF", 0.25)
     say("nearly the same for both bodies: D_S/D_C at 0.25 m/s", sprintf("rubber %.3f felt %.3f", rubber, felt), "within 15 %", (rubber - 1)^2 < 0.0225 && (felt - 1)^2 < 0.0225)

@@ -19,6 +19,6 @@ array what[4] = ['translational', 'rotational', 'dissipated', 'sum']
 # The field of E_trans; the measured record has two more columns before it, x and the sensor's velocity.
 energy(i, f) = i == 1 ? column(f) : i == 2 ? column(f + 1) : i == 3 ? column(f + 9) : column(f) + column(f + 1) + column(f + 9)
 plot for [i=1:4] scratch.'fitted' using 1:(energy(i, 3)) with lines ls i notitle, \
-     for [i=1:4] scratch.'measured' using ($1-start):(energy(i, 5)) every 2 with points ls i ps 0.9 notitle, \
-     for [i=1:4] keyentry with linespoints ls i ps 0.9 title what[i]
+     for [i=1:4] scratch.'measured' using ($1-start):(energy(i, 5)) every 2 with points ls i ps 0.7 notitle, \
+     for [i=1:4] keyentry with linespoints ls i ps 0.7 title what[i]
 PLOT

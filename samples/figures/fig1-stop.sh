@@ -16,11 +16,11 @@ set multiplot layout 2,1 margins 0.13,0.98,0.09,0.98 spacing 0.08
 set xrange [-0.52:0.82]; set xzeroaxis lt -1 lw 0.5; set xlabel 'time after the stop that the law D(v) alone foretells / s'
 after(t, start) = t - word(stop, 2) - (start ? word(stop, 1) : 0)
 set ylabel 'velocity v / (mm/s)' offset 0.7, 0; set yrange [-22:110]
-plot scratch.'raw' using (after($1,1)):(1e3*$4) with points ls 1 ps 0.8 title 'C on rubber: differences of the positions', \
+plot scratch.'raw' using (after($1,1)):(1e3*$4) with points ls 1 ps 0.6 title 'C on rubber: differences of the positions', \
      scratch.'memory' using (after($1,0)):(1e3*$3) with lines ls 1 title 'fitted law with a memory of 0.5 mm', \
      scratch.'law' using (after($1,0)):(1e3*$3) with lines ls 12 title 'fitted law alone'
 set ylabel 'position from the place of rest / mm'; set yrange [-8:2]; set key bottom right
-plot scratch.'raw' using (after($1,1)):(1e3*($2-word(rest,1))) with points ls 1 ps 0.8 title 'C on rubber: positions by the sonar', \
+plot scratch.'raw' using (after($1,1)):(1e3*($2-word(rest,1))) with points ls 1 ps 0.6 title 'C on rubber: positions by the sonar', \
      scratch.'memory' using (after($1,0)):(1e3*($2-word(rest,3))) with lines ls 1 title 'fitted law with a memory of 0.5 mm', \
      scratch.'law' using (after($1,0)):(1e3*($2-word(rest,2))) with lines ls 12 title 'fitted law alone'
 PLOT

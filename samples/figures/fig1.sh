@@ -19,11 +19,11 @@ set xrange [0.8:9.2]; set yrange [-0.05:0.55]; set xzeroaxis lt -1 lw 0.5
 set ylabel 'velocity v / (m/s)'; set xlabel 'time t / s'
 of(i, kind) = scratch . word(runs, i) . kind
 do for [mat = 0:1] {
-  plot for [i = 2*mat+1:2*mat+2] of(i, '.raw') using 1:4 with points ls i ps 0.3 lc rgb grey notitle, \
-       for [i = 2*mat+1:2*mat+2] of(i, '.v') using 1:4 every 2 with points ls i ps 0.8 notitle, \
+  plot for [i = 2*mat+1:2*mat+2] of(i, '.raw') using 1:4 with points pt 7 ps 0.3 lc rgb grey notitle, \
+       for [i = 2*mat+1:2*mat+2] of(i, '.v') using 1:4 every 2 with points ls i ps 0.6 notitle, \
        for [i = 2*mat+1:2*mat+2] of(i, '.line') with lines ls 10+i notitle, \
-       for [i = 2*mat+1:2*mat+2] keyentry with points ls i ps 1 title label[i], \
+       for [i = 2*mat+1:2*mat+2] keyentry with points ls i ps 0.8 title label[i], \
        for [i = 2*mat+1:2*mat+2] keyentry with lines ls 10+i title body[i].', fitted trajectory', \
-       keyentry with points pt 7 ps 0.5 lc rgb grey title 'before smoothing'
+       keyentry with points pt 7 ps 0.3 lc rgb grey title 'before smoothing'
 }
 PLOT

@@ -9,9 +9,9 @@ F_H = m*a; F_N = P_R2*R/(v*D); h = 2*F_H; n = 2*F_N
 set multiplot
 left = 0; bottom = 0; width = 400; height = 470; x0 = -58; y0 = -36; scale = 3.45; load 'figures/panel.gp'
 unset border
-set object 1 circle at 0, r size r fs empty border lc rgb black lw 2
+set object 1 circle at 0, r size r fc rgb black fs empty lw 2
 set object 2 circle at 0, r size 1 fc rgb black
-set object 3 rectangle front from -0.9, -1.1 to 2.7, 2.3 fs empty border lc rgb black lw 1
+set object 3 rectangle front from -0.9, -1.1 to 2.7, 2.3 fc rgb black fs empty lw 1
 set arrow from 0, r to 0, r-n as 1 lc rgb blue
 set arrow from d, p to d, p+n as 1 lc rgb vermilion
 set arrow from 0, r to -r*cos(0.5), r+r*sin(0.5) as 2

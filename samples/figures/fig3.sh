@@ -9,9 +9,9 @@ F_H = m*a; F_N = P_R2*R/(v*D); v_H = -I_E1/F_H; v_V = -I_E2/F_N; h = 50*v_H; f =
 set multiplot
 left = 0; bottom = 310; width = 400; height = 470; x0 = -58; y0 = -36; scale = 3.45; load 'figures/panel.gp'
 unset border
-set object 1 circle at 0, r size r fs empty border lc rgb black lw 2
+set object 1 circle at 0, r size r fc rgb black fs empty lw 2
 set object 2 circle at 0, r size 1 fc rgb black
-set object 3 rectangle front from -0.9, -1.1 to 2.7, 2.3 fs empty border lc rgb black lw 1
+set object 3 rectangle front from -0.9, -1.1 to 2.7, 2.3 fc rgb black fs empty lw 1
 set arrow from 0, 0 to 2*u, 2*r as 3
 set arrow from 0, 2*r to 2*u, 2*r as 1 lc rgb blue
 set arrow from 0, r to u, r as 1 lc rgb blue
@@ -34,7 +34,7 @@ set label 'P' at d+0.08, -0.14 left front
 set label sprintf("to the axis,\n%.2g° off\nthe vertical", asin(D/R)*180/pi) at d-0.16, 1.2 right
 set label sprintf("%.0f times\nlarger", 125/3.45) at graph 0.97, 0.95 right
 set object 1 circle front at d, p size 0.035 fc rgb black
-set object 2 rectangle front from d-0.13, p-0.05 to d+0.13, p+0.045 fs empty border lc rgb black lw 1
+set object 2 rectangle front from d-0.13, p-0.05 to d+0.13, p+0.045 fc rgb black fs empty lw 1
 plot '+' using 1:(y0):(mat($1)) with filledcurves lc rgb pale notitle, '+' using 1:(outline($1)) with lines lc rgb black lw 2 notitle
 left = 15; bottom = 15; width = 820; height = 290; scale = 3000; x0 = d-0.13; y0 = p-0.055; load 'figures/panel.gp'
 set border 15

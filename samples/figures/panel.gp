@@ -10,5 +10,5 @@ mat(x) = x < 0 ? 0 : x < d ? outline(x) : x < 2*d ? p*(1 + cos(pi*(x/d - 1)))/2 
 set samples 1001; set style fill solid noborder
 set style arrow 1 front head filled size screen 0.012, 18 lw 2.5   # forces and velocities
 set style arrow 2 front heads filled size screen 0.008, 18 lw 1    # lengths
-set style arrow 3 front nohead lw 1 dt 2                           # lines of the construction
+set style arrow 3 front nohead lw 0.8 dt 2                         # lines of the construction; svg drops the dashes at the width of 2
 set style arrow 4 front nohead lw 2.5                              # an arrow that leaves the panel

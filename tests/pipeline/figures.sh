@@ -1,7 +1,8 @@
 #!/bin/bash
 # The figures say what the tools say: each script draws, in silence, a well-formed picture; the arrows of Fig. 5 are as wide as the
 # powers of energy-ledger and are labelled with them; the bands of Fig. 4 lie about their laws by 1.96 standard errors; Figs. 2 and 3
-# have the forces and velocities of the equations; the sum in energy stays. And make builds for a figure no more than it needs.
+# have the forces and velocities of the equations; the sum in energy stays; the report has them all in it. And make builds for a figure no
+# more than it needs.
 set -eu
 command -v gnuplot >/dev/null || { echo "skipped: gnuplot is not installed"; exit 77; }
 scratch=$(mktemp -d)
@@ -105,6 +106,33 @@ bottom=$(grep -oE "d='M[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+" "$scra
   END { if (n["line"] < 100 || n["point"] < 15 || high["line"] - low["line"] > 1 || low["point"] < 0.97 * low["line"] || high["point"] > 1.03 * low["line"] ||
             low["dissipated"] > 1 || (last["dissipated"] - low["line"])^2 > 1) {
     print "energy: sum", low["line"], high["line"], "points", low["point"], high["point"], "dissipated", low["dissipated"], last["dissipated"]; exit 1 } }' || wrong=1
+
+# The report: one well-formed page that loads nothing, each name in it once, the figures, and every number of table1.sh.
+samples/report.sh "$scratch" >"$scratch/report.html" 2>"$scratch/said" || complain "report: exit $?"
+[ ! -s "$scratch/said" ] || { complain "report says:"; cat "$scratch/said"; }
+if command -v python3 >/dev/null; then
+  python3 - "$scratch/report.html" <<'PYTHON' || complain "report: not as it should be"
+import collections, sys, xml.dom.minidom
+page = xml.dom.minidom.parse(sys.argv[1])
+elements = page.getElementsByTagName("*")
+names = collections.Counter(e.getAttribute("id") for e in elements if e.hasAttribute("id"))
+wrong = [f"{n} times id {i}" for i, n in names.items() if n > 1]
+for e in elements:
+    for attribute in ("src", "href", "xlink:href", "data"):
+        to = e.getAttribute(attribute)
+        if to and not (to.startswith("#") and to[1:] in names):
+            wrong.append(f"{e.tagName} refers to {to}")
+wrong += [f"no svg in {f}" for f in ("fig1", "fig1-stop", "fig2", "fig3", "fig4", "fig5", "energy")
+          if not any(e.getElementsByTagName("svg") for e in elements if e.getAttribute("id") == f and e.tagName == "figure")]
+print(*wrong, sep="\n")
+sys.exit(bool(wrong))
+PYTHON
+fi
+sed 's/<[^>]*>/ /g; s/−/-/g' "$scratch/report.html" | grep -oE '[-+]?[0-9]+[.][0-9]+' | sort -u >"$scratch/in-page"
+samples/table1.sh | grep '^  ' | grep -oE '[-+]?[0-9]+[.][0-9]+' | sort -u >"$scratch/in-table"
+[ "$(wc -l <"$scratch/in-table")" -gt 40 ] || complain "report: table1.sh prints too little"
+missing=$(comm -23 "$scratch/in-table" "$scratch/in-page")
+[ -z "$missing" ] || complain "report: not in the page:" $missing
 
 # What make would do: Fig. 5 needs two tools; gnuplot is installed for figures and the report, not for Table 1.
 needs() { make -nB "$1" 2>/dev/null | grep -oE -e '-o bin/[a-z-]+' | sort | tr -d '\n'; }
