@@ -10,7 +10,7 @@ measured=''
 cd "$(dirname "$0")"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-./table1.sh >"$scratch/table1" || echo "report: table1.sh finds a value too far off, or a balance open; the page shows it" >&2
+./table1.sh >"$scratch/table1" || echo "report: table1.sh finds a value too far off, or an open balance; see the page" >&2
 
 # figure FILE TITLE COMMAND: the picture in the page, with the names in it made its own, and the caption from standard input.
 figure() {
@@ -19,7 +19,8 @@ figure() {
   printf '<figure id="%s">\n' "$name"
   echo '<div class="wide">'
   sed -e '/^<?xml/d; /^<desc>/d; s/<title>[^<]*<\/title>//; s/^ width="[0-9]*" height="[0-9]*"$//' \
-    -e "s/ id=\([\"']\)/ id=\1$name-/g; s/href='#/href='#$name-/g; s/url(#/url(#$name-/g; s/^<svg *$/<svg role=\"img\" aria-label=\"$2\"/" "$1"
+    -e "s/ id=\([\"']\)/ id=\1$name-/g; s/href='#/href='#$name-/g; s/url(#/url(#$name-/g" \
+    -e "s/^<svg *$/<svg role=\"img\" aria-label=\"$2\"/" "$1"
   printf '</div>\n<figcaption><b>%s.</b> %s <code>%s</code></figcaption>\n</figure>\n' "$2" "$(cat)" "$3"
 }
 drawn() { figure "$figures/$1.svg" "$2" "make figures/$1.svg"; }
@@ -27,7 +28,9 @@ drawn() { figure "$figures/$1.svg" "$2" "make figures/$1.svg"; }
 # table TITLE: that section of table1.sh; its cells are two blanks apart, a line without an indent is a heading within it.
 table() {
   awk -v title="$1" '
-    function cell(text, tag) { gsub(/\+-/, "±", text); sub(/^-/, "−", text); sub(/ - /, " − ", text); gsub(/1e-3/, "10<sup>−3</sup>", text); return "<" tag ">" text "</" tag ">" }
+    function cell(text, tag) {
+      gsub(/\+-/, "±", text); sub(/^-/, "−", text); sub(/ - /, " − ", text); gsub(/1e-3/, "10<sup>−3</sup>", text)
+      return "<" tag ">" text "</" tag ">" }
     index($0, title) == 1 { inside = 1; print "<div class=\"wide\"><table>"; next }
     !inside || (/^$/ && !rows) { next }
     /^$/ { exit }
@@ -65,64 +68,71 @@ th { white-space: nowrap; }
 /* On a phone a figure is wider than the screen, and moves under the finger: its letters stay legible. */
 @media (max-width: 36rem) { body { font-size: 1rem; padding: .7rem; } th, td { padding-right: .5rem; font-size: .85rem; }
   .wide svg { width: 28rem; } }
-@media print { body { max-width: none; font-size: 10.5pt; padding: 0; } figure, table { break-inside: avoid; } figure svg { max-height: 11.5cm; } h2, h3 { break-after: avoid; } }
+@media print {
+  body { max-width: none; font-size: 10.5pt; padding: 0; }
+  figure, table { break-inside: avoid; }
+  figure svg { max-height: 11.5cm; }
+  h2, h3 { break-after: avoid; } }
 </style>
 </head>
 <body>
 <h1>A cylinder and a shell roll to rest on a soft mat</h1>
 <p>A rigid body on a rigid floor would roll for ever. On a mat it does not: the mat bulges in front of the body and pushes back at a
-point P, a distance <i>D</i> ahead of the lowest point. How <i>D</i> depends on the velocity is the law of the mat, and where the energy
-goes follows from it. After Corridoni, D’Anna and Fuchs, <cite>Experiments and Models in Rolling Motion: Momentum, Angular Momentum,
-Energy, and Dissipation</cite>; the numbers of the equations are theirs.</p>
-<p>Four experiments: a solid cylinder C and a cylindrical shell S, on felt and on a rubber mat, followed by a sonar. <b>The records here are
-not the authors’ measurements:</b> <code>simulate</code> made them from the paper’s values, with the noise, the rounding and the lost echoes
-of such a sensor. So the answer is known, and one can see how well it is found.</p>
+point P, a distance <i>D</i> ahead of the lowest point. How <i>D</i> depends on the velocity is the law of the mat, and where the
+energy goes follows from it. After Corridoni, D’Anna and Fuchs, <cite>Experiments and Models in Rolling Motion: Momentum, Angular
+Momentum, Energy, and Dissipation</cite>; the numbers of the equations are theirs.</p>
+<p>Four experiments: a solid cylinder C and a cylindrical shell S, on felt and on a rubber mat, followed by a sonar. <b>The
+records here are not the authors’ measurements:</b> <code>simulate</code> made them from the paper’s values, with the noise, the
+rounding and the lost echoes of such a sensor. So the answer is known, and one can see how well it is found.</p>
 
 <h2>The motion</h2>
 HTML
 drawn fig1 "Fig. 1: velocity against time" <<'HTML'
 The hand pushes, lets go, and the body rolls freely. Grey: differences of the sonar’s positions; coloured: the mean over eleven of
 them; black: the motion that the law <i>D = a v<sup>b</sup></i> foretells, fitted to the positions. <i>To discuss:</i> on felt the
-lines are nearly straight, on rubber they are not; what does that say about the force? Why does the shell roll further than the cylinder
-of equal mass and radius?
+lines are nearly straight, on rubber they are not; what does that say about the force? Why does the shell roll further than the
+cylinder of equal mass and radius?
 HTML
 drawn fig1-stop "Fig. 1, the stop: a brief roll backwards" <<'HTML'
-The last half second of the cylinder on rubber. The paper reports that the bodies roll backwards for a moment before they rest. A shift that
-depends on the velocity alone cannot do that: it vanishes with the velocity. One that needs a rolled length of half a millimetre to build up and
-to vanish does, for at <i>v</i> = 0 the bulge is still there and pushes back. This is beyond the paper. The sonar, with its steps of a
-millimetre, only just sees it.
+The last half second of the cylinder on rubber. The paper reports that the bodies roll backwards for a moment before they rest. A
+shift that depends on the velocity alone cannot do that: it vanishes with the velocity. One that needs a rolled length of half a
+millimetre to build up and to vanish does, for at <i>v</i> = 0 the bulge is still there and pushes back. This is beyond the paper.
+The sonar, with its steps of a millimetre, only just sees it.
 HTML
 cat <<'HTML'
 <h2>The forces, and the point where they act</h2>
-<p>The mat’s force has a normal part <i>F</i><sub>N</sub> = <i>m g</i> and a horizontal part <i>F</i><sub>H</sub>. The horizontal part brakes the
-translation, but its torque would spin the body up; only because <i>F</i><sub>N</sub> acts ahead of the axis do both slow down together.
-With the arm factor <span class="together"><i>A</i> = √(1 − <i>D</i>²/<i>R</i>²)</span> and the moment of inertia <i>K m R</i>²,</p>
+<p>The mat’s force has a normal part <i>F</i><sub>N</sub> = <i>m g</i> and a horizontal part <i>F</i><sub>H</sub>. The horizontal
+part brakes the translation, but its torque would spin the body up; only because <i>F</i><sub>N</sub> acts ahead of the axis do
+both slow down together. With the arm factor <span class="together"><i>A</i> = √(1 − <i>D</i>²/<i>R</i>²)</span> and the moment of
+inertia <i>K m R</i>²,</p>
 <p class="formula"><i>F</i><sub>H</sub> = −<i>D F</i><sub>N</sub> / ((<i>K</i> + <i>A</i>) <i>R</i>) <span>(9)</span><br/>
 τ<sub>H</sub> = −<i>A R F</i><sub>H</sub> <span>(6)</span><br/>
 τ<sub>N</sub> = −<i>D F</i><sub>N</sub> <span>(7)</span></p>
 HTML
 drawn fig2 "Fig. 2: the forces, to scale" <<'HTML'
-All lengths are in proportion, and so are all forces. The shift is so small beside the radius that it takes the enlarged panel to see it; the
-horizontal force, too, is small beside the weight. The torque of <i>F</i><sub>H</sub> undoes a part of that of <i>F</i><sub>N</sub>; what is left slows the rotation. (The outline of the mat in
-front of P is only sketched.) <i>To discuss:</i> where would P have to be if the body sped up?
+All lengths are in proportion, and so are all forces. The shift is so small beside the radius that it takes the enlarged panel to
+see it; the horizontal force, too, is small beside the weight. The torque of <i>F</i><sub>H</sub> undoes a part of that of
+<i>F</i><sub>N</sub>; what is left slows the rotation. (The outline of the mat in front of P is only sketched.) <i>To discuss:</i>
+where would P have to be if the body sped up?
 HTML
 drawn fig3 "Fig. 3: the velocity of P, to scale" <<'HTML'
-As a point of the rolling body, P turns about the lowest point. It moves down into the mat with (<i>D</i>/<i>R</i>) <i>v</i>, Eq. 20, and forward
-with (1 − <i>A</i>) <i>v</i> only, Eq. 16: a small quantity of the first and one of the second order, so that each needs a panel of its own.
-<i>To discuss:</i> which of the two carries the energy into the mat?
+As a point of the rolling body, P turns about the lowest point. It moves down into the mat with (<i>D</i>/<i>R</i>) <i>v</i>, Eq.
+20, and forward with (1 − <i>A</i>) <i>v</i> only, Eq. 16: a small quantity of the first and one of the second order, so that each
+needs a panel of its own. <i>To discuss:</i> which of the two carries the energy into the mat?
 HTML
 cat <<'HTML'
 <h2>The law of the mat</h2>
 HTML
 drawn fig4 "Fig. 4: the shift against the velocity" <<'HTML'
-Each point is <i>D</i> = −(1 + <i>K</i>) <i>R</i> d<i>v</i>/d<i>t</i> / <i>g</i>, Eq. 11, from the smoothed velocities; lines are the power laws
-fitted to them, bands the 95 % confidence of each line. On felt <i>D</i> is small and hardly depends on the velocity, and the lines of the two
-bodies lie on each other; on rubber it grows with the velocity. The points of one body are not independent: each sample is in eleven means,
-and the fit takes that into account.
+Each point is <i>D</i> = −(1 + <i>K</i>) <i>R</i> d<i>v</i>/d<i>t</i> / <i>g</i>, Eq. 11, from the smoothed velocities; lines are
+the power laws fitted to them, bands the 95 % confidence of each line. On felt <i>D</i> is small and hardly depends on the
+velocity, and the lines of the two bodies lie on each other; on rubber it grows with the velocity. The points of one body are not
+independent: each sample is in eleven means, and the fit takes that into account.
 HTML
 echo "<h3>Table 1: <i>D</i> = <i>a v<sup>b</sup></i></h3>
-<p>By two routes: through the points of Fig. 4, and by the motion of Fig. 1 fitted to the positions, which is more precise. <i>a</i> is the shift at
-1 m/s. The columns “off” tell by how many standard errors a value differs from the paper’s, from which the records were made. <code>make table1</code></p>"
+<p>By two routes: through the points of Fig. 4, and by the motion of Fig. 1 fitted to the positions, which is more precise.
+<i>a</i> is the shift at 1 m/s. The columns “off” tell by how many standard errors a value differs from the paper’s, from which
+the records were made. <code>make table1</code></p>"
 table "Table 1" "$scratch/table1"
 echo "<h3>What the paper expects</h3>"
 table "What the paper" "$scratch/table1"
@@ -130,27 +140,29 @@ cat <<'HTML'
 <h2>Where the energy goes</h2>
 HTML
 drawn energy "Energy against time" <<'HTML'
-The cylinder on rubber. What is stored is reckoned from the measured velocities alone (points), what is dissipated from the fitted shift, that is from
-the forces; lines are the same for the fitted motion. Their sum stays level only if the shift is right. The rotation of the cylinder has half the
-energy of its translation, at any speed: that is its <i>K</i>.
+The cylinder on rubber. What is stored is reckoned from the measured velocities alone (points), what is dissipated from the fitted
+shift, that is from the forces; lines are the same for the fitted motion. Their sum stays level only if the shift is right. The
+rotation of the cylinder has half the energy of its translation, at any speed: that is its <i>K</i>.
 HTML
 echo "<h3>The check</h3>
-<p>The measured loss of each run beside what the shift of Table 1 dissipates; the closure is their relative difference (Eq. 23). Over many such records
-it scatters by some 1.5 %.</p>"
+<p>The measured loss of each run beside what the shift of Table 1 dissipates; the closure is their relative difference (Eq. 23).
+Over many such records it scatters by some 1.5 %.</p>"
 table "Energy" "$scratch/table1"
 drawn fig5 "Fig. 5: the process diagram" <<'HTML'
-Horizontal momentum flows from the body to the mat and falls from the speed <i>v</i> of the axis to that of P. The power it releases,
-<i>P</i><sub>T1</sub>, pumps angular momentum into the body, <i>P</i><sub>R1</sub>. Angular momentum leaves again, falls from ω to nothing and releases
-<i>P</i><sub>R2</sub>, which pumps vertical momentum from P, moving down, to the body at rest in height, <i>P</i><sub>T2</sub>. With these two
-momenta the energy currents <i>I</i><sub>E1</sub> and <i>I</i><sub>E2</sub> reach the mat, where everything is dissipated. The arrows are as wide as
-<code>energy-ledger</code> computes their powers; what leaves the body or is released counts as positive. <i>To discuss:</i> nearly all of the energy
-goes through the rotation, although two thirds of it are translational. How?
+Horizontal momentum flows from the body to the mat and falls from the speed <i>v</i> of the axis to that of P. The power it
+releases, <i>P</i><sub>T1</sub>, pumps angular momentum into the body, <i>P</i><sub>R1</sub>. Angular momentum leaves again, falls
+from ω to nothing and releases <i>P</i><sub>R2</sub>, which pumps vertical momentum from P, moving down, to the body at rest in
+height, <i>P</i><sub>T2</sub>. With these two momenta the energy currents <i>I</i><sub>E1</sub> and <i>I</i><sub>E2</sub> reach
+the mat, where everything is dissipated. The arrows are as wide as <code>energy-ledger</code> computes their powers; what leaves
+the body or is released counts as positive. <i>To discuss:</i> nearly all of the energy goes through the rotation, although two
+thirds of it are translational. How?
 HTML
 echo '<h2>How exact, in what time</h2>'
 if [ -n "$measured" ]; then
-  echo "<p>The error of the velocity against the time that a sample takes, for every method and a row of tolerances: to the lower left is better. The points at
-10<sup>−17</sup> have no error at all beyond rounding. Filled: the methods of <code>simulate</code>, which locate the stop; open: GSL’s solvers used in the
-ordinary way, as far as they came through, “odd” with a law that goes on to negative velocities. Of one run on one machine: the ratios count.</p>"
+  echo "<p>The error of the velocity against the time that a sample takes, for every method and a row of tolerances: to the lower
+left is better. Points at 10<sup>−17</sup> do not differ from the reference. Filled: the methods of <code>simulate</code>,
+which locate the stop; open: GSL’s solvers used in the ordinary way, as far as they came through, “odd” with a law that goes on to
+negative velocities. Of one run on one machine: the ratios count.</p>"
   while read -r name title; do
     [ -r "$measured/$name.svg" ] || continue
     figure "$measured/$name.svg" "$title" "make work-precision" <<<""
@@ -161,17 +173,22 @@ memory-1e-4 The cylinder on rubber, with a memory of 0.1 mm
 memory-1e-7 The cylinder on rubber, with a memory of 0.1 µm, which is stiff
 LIST
 else
-  echo "<p>The methods of <code>simulate</code> on the cylinder on rubber: the largest error of the velocity beside the closed form, the error of the time of
-the stop, and the time a sample takes. Of one run on one machine: the ratios count. <code>simulate --scene samples/CR.toml --report</code>. All methods on
-many problems, as figures: <code>make work-precision</code>, some minutes, and then <code>make report</code>.</p>"
-  { echo methods; simulate --scene CR.toml --report 2>&1 >/dev/null | sed -n 's/^simulate: *\([a-z0-9]* .*[0-9a-z]\)$/  \1/p' | grep -v 'errors are' | sed 's/\([^ ]\) \+\([^ ]\)/\1  \2/g; s/|dv|/|Δv|/'; } >"$scratch/methods"
+  echo "<p>The methods of <code>simulate</code> on the cylinder on rubber: the largest error of the velocity beside the closed
+form, the error of the time of the stop, and the time a sample takes. Of one run on one machine: the ratios count. <code>simulate
+--scene samples/CR.toml --report</code>. All methods on many problems, as figures: <code>make work-precision</code>, some minutes,
+and then <code>make report</code>.</p>"
+  # The lines "simulate: METHOD RTOL ..." as table1.sh sets its rows.
+  { echo methods; simulate --scene CR.toml --report 2>&1 >/dev/null; } |
+    awk 'NR == 1 { print } NF == 8 { sub(/^simulate: */, ""); gsub(/ +/, "  "); sub(/\|dv\|/, "|Δv|"); print "  " $0 }' \
+      >"$scratch/methods"
   table methods "$scratch/methods"
 fi
 cat <<HTML
 <h2>How this page was made</h2>
-<p><code>make report</code> ran $(simulate --version | sed 's/^simulate (\(.*\)) \(.*\)/\1 \2/'): six small tools, <code>smooth</code>, <code>differentiate</code>,
-<code>shift-from-accel</code>, <code>fitpower</code>, <code>simulate</code> and <code>energy-ledger</code>, which read and write plain columns and are joined by pipes. The pipeline of each
-figure is the script of its name in <code>samples/figures</code>.</p>
+<p><code>make report</code> ran $(simulate --version | sed 's/^simulate (\(.*\)) \(.*\)/\1 \2/'): six small tools,
+<code>smooth</code>, <code>differentiate</code>, <code>shift-from-accel</code>, <code>fitpower</code>, <code>simulate</code> and
+<code>energy-ledger</code>, which read and write plain columns and are joined by pipes. The pipeline of each figure is the script
+of its name in <code>samples/figures</code>.</p>
 </body>
 </html>
 HTML

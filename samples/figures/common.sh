@@ -6,13 +6,14 @@ terminal=${1:-svg}
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-# draw WIDTH HEIGHT [ASSIGNMENTS]: gnuplot on the commands of standard input, after style.gp. The two terminals' symbols are made alike:
-# those of svg are thinner than its lines, those of pngcairo smaller.
+# draw WIDTH HEIGHT [ASSIGNMENTS]: gnuplot on the commands of standard input, after style.gp. The symbols of the two terminals are
+# made alike: those of svg are thin, those of pngcairo small.
 draw() {
   local options=''
   [ "$terminal" != pngcairo ] || options='pointscale 1.4'
-  LC_ALL=C.UTF-8 gnuplot -e "set terminal $terminal $options size $1,$2 font 'sans-serif,14' background 'white'; scratch = '$scratch/'; ${3:-}" \
-    figures/style.gp /dev/stdin | if [ "$terminal" = svg ]; then sed "/id='gpPt/s/stroke-width='0[.0-9]*'/stroke-width='0.4'/"; else cat; fi
+  LC_ALL=C.UTF-8 gnuplot -e "set terminal $terminal $options size $1,$2 font 'sans-serif,14' background 'white'" \
+    -e "scratch = '$scratch/'; ${3:-}" figures/style.gp /dev/stdin |
+    if [ "$terminal" = svg ]; then sed "/id='gpPt/s/stroke-width='0[.0-9]*'/stroke-width='0.4'/"; else cat; fi
 }
 
 # The one row of columns on standard input as assignments that gnuplot, awk and bc take: v = 0.5; D = 0.0016; ...

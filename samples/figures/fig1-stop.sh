@@ -10,7 +10,8 @@ roll --until 4 --dt 0.005 --memory 5e-4 --damping 0.02 >"$scratch/memory"
 differentiate -q -c x CR.csv >"$scratch/raw"
 # Times from the stop that the law alone foretells; positions from the place of rest, for the record the mean of its last second.
 stop=$(awk '!/^#/ { print $1; exit }' "$scratch/roll"; roll | awk 'END { print $1 }')
-rest=$(tail -n 25 "$scratch/raw" | awk '{ sum += $2 } END { print sum / NR }'; for file in law memory; do awk 'END { print $2 }' "$scratch/$file"; done)
+rest=$(tail -n 25 "$scratch/raw" | awk '{ sum += $2 } END { print sum / NR }'
+  for file in law memory; do awk 'END { print $2 }' "$scratch/$file"; done)
 draw 720 760 "stop = '${stop//$'\n'/ }'; rest = '${rest//$'\n'/ }'" <<'PLOT'
 set multiplot layout 2,1 margins 0.13,0.98,0.09,0.98 spacing 0.08
 set xrange [-0.52:0.82]; set xzeroaxis lt -1 lw 0.5; set xlabel 'time after the stop that the law D(v) alone foretells / s'
@@ -20,7 +21,7 @@ plot scratch.'raw' using (after($1,1)):(1e3*$4) with points ls 1 ps 0.6 title 'C
      scratch.'memory' using (after($1,0)):(1e3*$3) with lines ls 1 title 'fitted law with a memory of 0.5 mm', \
      scratch.'law' using (after($1,0)):(1e3*$3) with lines ls 12 title 'fitted law alone'
 set ylabel 'position from the place of rest / mm'; set yrange [-8:2]; set key bottom right
-plot scratch.'raw' using (after($1,1)):(1e3*($2-word(rest,1))) with points ls 1 ps 0.6 title 'C on rubber: positions by the sonar', \
+plot scratch.'raw' using (after($1,1)):(1e3*($2-word(rest,1))) with points ls 1 ps 0.6 title 'C on rubber: the positions', \
      scratch.'memory' using (after($1,0)):(1e3*($2-word(rest,3))) with lines ls 1 title 'fitted law with a memory of 0.5 mm', \
      scratch.'law' using (after($1,0)):(1e3*($2-word(rest,2))) with lines ls 12 title 'fitted law alone'
 PLOT

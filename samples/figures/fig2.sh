@@ -39,5 +39,6 @@ set label sprintf('P is %.2g mm above the lowest point', p) at 0.5*(x0+x1), -0.9
 set label sprintf("to the axis,\n%.2g° off\nthe vertical", asin(D/R)*180/pi) at d-0.16, 1.5 right
 set label sprintf("%.0f times\nlarger", 125/3.45) at graph 0.97, 0.95 right
 set object 1 circle front at d, p size 0.035 fc rgb black
-plot '+' using 1:(y0):(mat($1)) with filledcurves lc rgb pale notitle, '+' using 1:(outline($1)) with lines lc rgb black lw 2 notitle
+plot '+' using 1:(y0):(mat($1)) with filledcurves lc rgb pale notitle, \
+     '+' using 1:(outline($1)) with lines lc rgb black lw 2 notitle
 PLOT

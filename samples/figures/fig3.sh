@@ -1,6 +1,7 @@
 #!/bin/bash
 # Fig. 3, the velocity of P as a point of the body, drawn to scale for the cylinder on rubber at 0.5 m/s: P turns about the lowest
-# point, so it moves down with (D/R) v and forward with (1 - A) v only; each panel is a part of the one before. `make figures/fig3.svg`
+# point, so it moves down with (D/R) v and forward with (1 - A) v only. Each panel is a part of the one before.
+# `make figures/fig3.svg`
 . "$(dirname "$0")/common.sh"
 now=$(echo 0 | simulate --scene CR.toml --exact --at - | energy-ledger --scene CR.toml --exact | assignments)
 draw 840 780 "W = 840.0; H = 780.0; $(scene CR.toml) $now" <<'PLOT'
@@ -35,7 +36,8 @@ set label sprintf("to the axis,\n%.2g° off\nthe vertical", asin(D/R)*180/pi) at
 set label sprintf("%.0f times\nlarger", 125/3.45) at graph 0.97, 0.95 right
 set object 1 circle front at d, p size 0.035 fc rgb black
 set object 2 rectangle front from d-0.13, p-0.05 to d+0.13, p+0.045 fc rgb black fs empty lw 1
-plot '+' using 1:(y0):(mat($1)) with filledcurves lc rgb pale notitle, '+' using 1:(outline($1)) with lines lc rgb black lw 2 notitle
+plot '+' using 1:(y0):(mat($1)) with filledcurves lc rgb pale notitle, \
+     '+' using 1:(outline($1)) with lines lc rgb black lw 2 notitle
 left = 15; bottom = 15; width = 820; height = 290; scale = 3000; x0 = d-0.13; y0 = p-0.055; load 'figures/panel.gp'
 set border 15
 set arrow from d, p to d+h, p as 1 lc rgb vermilion
@@ -50,5 +52,6 @@ set label 'v(P)_V' at d+0.004, p-0.05 left front
 set label 'the level of the lowest point' at x1-0.002, -0.008 right front
 set label sprintf("%.0f times larger", 3000/3.45) at graph 0.97, 0.95 right
 set object 1 circle front at d, p size 0.0015 fc rgb black
-plot '+' using 1:(y0):(mat($1)) with filledcurves lc rgb pale notitle, '+' using 1:(outline($1)) with lines lc rgb black lw 2 notitle
+plot '+' using 1:(y0):(mat($1)) with filledcurves lc rgb pale notitle, \
+     '+' using 1:(outline($1)) with lines lc rgb black lw 2 notitle
 PLOT

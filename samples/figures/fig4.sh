@@ -3,7 +3,8 @@
 . "$(dirname "$0")/common.sh"
 laws=''
 shifts() {  # NAME K
-  smooth -q --coast -c x -w 1 "$1.csv" | differentiate -c x | smooth -w 11 | differentiate | shift-from-accel -K "$2" -R 0.04 >"$scratch/$1"
+  smooth -q --coast -c x -w 1 "$1.csv" | differentiate -c x | smooth -w 11 |
+    differentiate | shift-from-accel -K "$2" -R 0.04 >"$scratch/$1"
   whole_windows <"$scratch/$1" >"$scratch/$1.D"  # for the picture: fitpower knows by the ## lines how noisy the ends are
   laws+=$(fitpower -q "$scratch/$1" | assignments | sed "s/\([a-z_]*\) =/$1_\1 =/g")
 }

@@ -51,7 +51,8 @@ top = y + 35; low = y - 45
 title(s) = sprintf('set label at %g, %g center ', x(s), y + 66)
 eval title(1).'"p_x"'; eval title(2).'"L"'; eval title(3).'"p_y"'; eval title(4).'"the mat"'
 set arrow from x(1) - 58, top to x(1) - 58, low as 1
-set label sprintf('%.3f m/s', v) at x(1) - 46, top left font ',13'; set label sprintf('%.2g mm/s', 1e3*v_H) at x(1) - 46, low left font ',13'
+set label sprintf('%.3f m/s', v) at x(1) - 46, top left font ',13'
+set label sprintf('%.2g mm/s', 1e3*v_H) at x(1) - 46, low left font ',13'
 set arrow from x(2) - 58, low to x(2) - 58, top as 2; set arrow from x(2) + 58, top to x(2) + 58, low as 1
 set label sprintf('%.3g /s', v/R) at x(2), top center font ',13'; set label '0' at x(2), low center font ',13'
 set arrow from x(3) - 58, low to x(3) - 58, top as 2
@@ -60,7 +61,8 @@ set label "p_x and p_y\nfall to 0,\nall that they\ncarry is\ndissipated" at x(4)
 # I_E1 is too narrow to be drawn as wide as it is.
 corner = x(4) - wide/2 - 22; under = y - high/2 - 42
 set arrow from x(1), y - high/2 to x(1), under nohead lw 1; set arrow from x(1), under to corner, under nohead lw 1
-set arrow from corner, under to corner, y - 65 nohead lw 1; set arrow from corner, y - 65 to x(4) - wide/2, y - 65 head filled size 8, 20 lw 1
+set arrow from corner, under to corner, y - 65 nohead lw 1
+set arrow from corner, y - 65 to x(4) - wide/2, y - 65 head filled size 8, 20 lw 1
 set label sprintf("I_{E1} = %.3g mW: to scale a hair of %.2f pixels", 1e3*I_E1, pixels*I_E1) at x(1) + 10, under + 14 left
 # The key.
 set object rectangle from 30, 95 to 60, 95 + 0.1*pixels fc rgb 0xF5D0A0 fs solid 1 border rgb black lw 1

@@ -18,7 +18,8 @@ for table in *.txt; do
       set terminal $terminal size 720,520 font 'sans-serif,14' background 'white'
       set output '${table%.txt}.${terminal%cairo}'
       set title '${table%.txt}' noenhanced
-      set logscale xy; set format xy '10^{%L}'; set yrange [1e-18:1]; set xrange [10:1e7]; set key below font ",12" samplen 1.5 height 0.6
+      set logscale xy; set format xy '10^{%L}'; set yrange [1e-18:1]; set xrange [10:1e7]
+      set key below font ',12' samplen 1.5 height 0.6
       set xlabel 'time a sample / ns'; set ylabel 'largest error of v, over v_0' offset 0, 0
       methods = 'closed exact rkf45 rk8pd rk4imp bsimp msbdf'; series = '$series'
       array hue[7] = [0x000000, 0x000000, 0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7, 0x56B4E9]
@@ -26,7 +27,8 @@ for table in *.txt; do
       number_of(method) = sum [i = 1:7] (word(methods, i) eq method ? i : 0)
       m(s) = number_of(word(word(series, s), 2)); own(s) = word(word(series, s), 1) eq 'rolling'
       do for [s = 1:words(series)] { set style line s lc rgb hue[m(s)] lw 1.5 dt 2 - own(s) pt mark[m(s)] + own(s) ps 0.7 }
-      plot for [s = 1:words(series)] '$table' using (strcol(1).' '.strcol(2) eq word(series, s) ? \$7 : NaN):(\$4 < 1e-17 ? 1e-17 : \$4) \
+      is(s) = strcol(1).' '.strcol(2) eq word(series, s)
+      plot for [s = 1:words(series)] '$table' using (is(s) ? \$7 : NaN):(\$4 < 1e-17 ? 1e-17 : \$4) \
         with linespoints ls s title word(series, s)
 GP
   done

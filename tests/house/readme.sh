@@ -13,8 +13,10 @@ examples=0
 inside=0
 command=''
 : >"$scratch/new"
+absent() { [[ $command == *gnuplot* ]] && ! command -v gnuplot >/dev/null; }  # what it prints is left as it is
 run() {  # the command collected so far, if any
   [ -n "$command" ] || return 0
+  if absent; then command=''; return; fi
   bash -o pipefail -c "$command" >>"$scratch/new" 2>&1 || { echo "exit $? from: $command"; exit 1; }
   command=''
   examples=$((examples + 1))
@@ -30,8 +32,9 @@ while IFS= read -r line; do
       case $command in
         *'|' | *\\) command=$command$'\n'$line; echo "$line" >>"$scratch/new"; continue ;;
       esac
-      [ $inside = 1 ] && [ $open = 1 ] || echo "$line" >>"$scratch/new" ;;  # what an example prints is made anew
+      [ $inside = 1 ] && [ $open = 1 ] && ! absent || echo "$line" >>"$scratch/new" ;;  # what an example prints is made anew
   esac
 done <"$readme"
+sed -i 's/[[:space:]]*$//' "$scratch/new"  # gnuplot begins with a form feed, and pads its lines
 [ $examples -ge 5 ] || { echo "only $examples examples found"; exit 1; }
 if [ "${1:-}" = refresh ]; then cp "$scratch/new" "$readme"; else diff -u "$readme" "$scratch/new"; fi

@@ -1,8 +1,8 @@
 #!/bin/bash
 # The figures say what the tools say: each script draws, in silence, a well-formed picture; the arrows of Fig. 5 are as wide as the
-# powers of energy-ledger and are labelled with them; the bands of Fig. 4 lie about their laws by 1.96 standard errors; Figs. 2 and 3
-# have the forces and velocities of the equations; the sum in energy stays; the report has them all in it. And make builds for a figure no
-# more than it needs.
+# powers of energy-ledger and labelled with them; the bands of Fig. 4 lie about their laws by 1.96 standard errors; Figs. 2 and 3
+# have the forces and velocities of the equations, to scale; the sum in energy stays; the report has them all in it; and make builds
+# for a figure no more than it needs.
 set -eu
 command -v gnuplot >/dev/null || { echo "skipped: gnuplot is not installed"; exit 77; }
 scratch=$(mktemp -d)
@@ -14,7 +14,8 @@ complain() { echo "$*"; wrong=1; }
 draw() {
   "samples/figures/$1.sh" svg "${@:2}" >"$scratch/$1.svg" 2>"$scratch/said" || complain "$1: exit $?"
   [ ! -s "$scratch/said" ] || { complain "$1 says:"; cat "$scratch/said"; }
-  tr -d '\n\t' <"$scratch/$1.svg" | sed 's|<title>[^<]*</title>||g; s|</text>|\n|g' | sed 's/<[^>]*>//g; s/^ *//; s/ *$//; s/−/-/g' >"$scratch/$1.text"
+  tr -d '\n\t' <"$scratch/$1.svg" | sed 's|<title>[^<]*</title>||g; s|</text>|\n|g' |
+    sed 's/<[^>]*>//g; s/^ *//; s/ *$//; s/−/-/g' >"$scratch/$1.text"
 }
 has() {  # NAME TEXT...
   local name=$1 text
@@ -27,24 +28,45 @@ for script in samples/figures/*.sh; do
   draw "$name"
   grep -q '^</svg>' "$scratch/$name.svg" || complain "$name: no end"
   if command -v python3 >/dev/null; then
-    python3 -c 'import sys, xml.dom.minidom; xml.dom.minidom.parse(sys.argv[1])' "$scratch/$name.svg" || complain "$name: not well-formed"
+    python3 -c 'import sys, xml.dom.minidom; xml.dom.minidom.parse(sys.argv[1])' "$scratch/$name.svg" ||
+      complain "$name: not well-formed"
   fi
 done
 samples/figures/fig2.sh pngcairo | head -c 8 | cmp -s - <(printf '\211PNG\r\n\032\n') || complain "fig2: no PNG"
-has fig1 'velocity v / (m/s)' 'time t / s' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt' 'C, fitted trajectory' 'before smoothing'
+has fig1 'velocity v / (m/s)' 'time t / s' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt' 'C, fitted trajectory' \
+  'before smoothing'
 has fig1-stop 'velocity v / (mm/s)' 'position from the place of rest / mm' 'fitted law with a memory of 0.5 mm'
 has fig4 'velocity v / (m/s)' 'shift D / mm' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt'
 has energy 'energy / J' 'time t / s' translational rotational dissipated sum
 
-# Figs. 2 and 3 by the equations, from a, b, K, R, m of the scene and v = 0.5 m/s: the tools computed what the pictures say.
+# Figs. 2 and 3 by the equations, from a, b, K, R, m of the scene and v = 0.5 m/s: the numbers that they say, and where the tips of
+# their arrows are, by the lower left corner of each panel in pixels and in millimetres, and its scale.
 awk 'function say(text, x) { printf "%s\n", sprintf(text, x) }
-  BEGIN { K = 0.5; R = 0.04; W = 1.375 * 9.81; v = 0.5; D = 1.87e-3 * v^0.215; A = sqrt(1 - (D / R)^2); F = -D * W / ((K + A) * R)
+  function tip(figure, height, left, bottom, x0, y0, scale, x, y) {
+    printf "%d tip %.3f %.3f\n", figure, left + (x - x0) * scale, height - bottom - (y - y0) * scale }
+  BEGIN {
+    K = 0.5; R = 0.04; W = 1.375 * 9.81; v = 0.5; D = 1.87e-3 * v^0.215; A = sqrt(1 - (D / R)^2); F = -D * W / ((K + A) * R)
     say("2 D = %.3g mm", 1e3 * D); say("2 FH = %.3g N", F); say("2 %.3g N", W); say("2 τN = -D FN = %.3g mN m", -1e3 * D * W)
     say("2 τH = -A R FH = +%.3g mN m", -1e3 * A * R * F); say("2 P is %.2g mm above the lowest point", 1e3 * R * (1 - A))
     say("2 %.2g° off", atan2(D / R, A) * 45 / atan2(1, 1))
     say("3 D = %.3g mm", 1e3 * D); say("3 = %.3g mm/s", -1e3 * v * D / R); say("3 v(P)H = (1 - A) v = %.3g mm/s", 1e3 * (1 - A) * v)
-    say("3 = %.2g mm", 1e3 * R * (1 - A)) }' >"$scratch/geometry"
-while read -r figure text; do has "fig$figure" "$text"; done <"$scratch/geometry"
+    say("3 = %.2g mm", 1e3 * R * (1 - A))
+    d = 1e3 * D; r = 1e3 * R; p = r * (1 - A); newton = 2; speed = 50  # mm for 1 N, for 1 m/s
+    tip(2, 470, 0, 0, -58, -36, 3.45, 0, r - newton * W); tip(2, 470, 0, 0, -58, -36, 3.45, d, p + newton * W)
+    tip(2, 470, 415, 15, -0.7, -1.1, 125, d + newton * F, p)
+    tip(3, 780, 0, 310, -58, -36, 3.45, speed * v, r); tip(3, 780, 0, 310, -58, -36, 3.45, speed * 2 * v, 2 * r)
+    tip(3, 780, 415, 325, -0.7, -1.6, 125, d, p - speed * v * D / R)
+    tip(3, 780, 15, 15, d - 0.13, p - 0.055, 3000, d + speed * v * (1 - A), p) }' >"$scratch/geometry"
+while read -r figure text; do
+  case $text in
+    tip*) grep -oE "points = '[^']*" "$scratch/fig$figure.svg" | awk -v want="$text" '
+            BEGIN { split(want, at, " ") }
+            { split($5, head, ","); if ((head[1] - at[2])^2 < 0.01 && (head[2] - at[3])^2 < 0.01) found = 1 }
+            END { exit !found }' || complain "fig$figure: no arrow ends at ${text#tip }" ;;
+    *) has "fig$figure" "$text" ;;
+  esac
+done <"$scratch/geometry"
+[ "$(wc -l <"$scratch/geometry")" = 18 ] || complain "the geometry has $(wc -l <"$scratch/geometry") lines"
 
 # Fig. 5 at its own instant and at another: label after label, and the widths of the shafts in the order in which they are drawn.
 for instant in 0.5 1.5; do
@@ -53,9 +75,13 @@ for instant in 0.5 1.5; do
   grep -oE "fill = 'rgb\(245, 208, 160\)' points = '[^']*" "$scratch/fig5.svg" | sed "s/.*'//" >"$scratch/shafts"
   awk -v instant="$instant" '
     function off(x, y) { return (x / y - 1)^2 > 0.006^2 }  # three figures; a hundredth of a pixel
-    function compare(what, x, y) { checks++; if (off(x, y)) { print "fig5 at " instant ": " what " is " x ", energy-ledger says " y; bad = 1 } }
+    function compare(what, x, y) {
+      checks++
+      if (off(x, y)) { print "fig5 at " instant ": " what " is " x ", energy-ledger says " y; bad = 1 } }
     FILENAME ~ /row$/ && /^# / { sub(/^# /, ""); for (i = 1; i <= NF; i++) { name[i] = $i; sub(/\[.*/, "", name[i]) } next }
-    FILENAME ~ /row$/ && !/^#/ { for (i = 1; i <= NF; i++) is[name[i]] = $i; is["trans"] = -1.375 * is["v"] * is["a"]; is["rot"] = is["trans"] / 2; next }
+    FILENAME ~ /row$/ && !/^#/ {
+      for (i = 1; i <= NF; i++) is[name[i]] = $i
+      is["trans"] = -1.375 * is["v"] * is["a"]; is["rot"] = is["trans"] / 2; next }
     FILENAME ~ /text$/ {
       if (before ~ /^(P[TR][12]|IE2)$/) { key = before; sub(/E/, "_E", key); sub(/^P/, "P_", key); compare(before, $1, is[key]) }
       if (before == "Pdiss = IE1 + IE2") compare("P_diss", $2, is["P_diss"])
@@ -71,13 +97,15 @@ for instant in 0.5 1.5; do
 done
 
 # Fig. 4: at 0.1 and 0.5 m/s each law and its band, read off the picture, where fitpower puts them.
-curve() { awk -v n="$1" '/id="gnuplot_plot_/ { on = index($0, "\"gnuplot_plot_" n "\"") } on' "$scratch/fig4.svg" | grep -oE '[0-9.]+,[0-9.]+' | tr ',' ' '; }
-frame=$(grep -oE "d='M[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+" "$scratch/fig4.svg" | tail -n 1 | tr -c '0-9.\n' ' ')
+part() { awk -v n="$2" '/id="gnuplot_plot_/ { on = index($0, "\"gnuplot_plot_" n "\"") } on' "$scratch/$1.svg"; }
+curve() { part fig4 "$1" | grep -oE '[0-9.]+,[0-9.]+' | tr ',' ' '; }
+axes() { grep -oE "d='M[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+" "$scratch/$1.svg" | tail -n 1 | tr -c '0-9.\n' ' '; }
+frame=$(axes fig4)
 i=0
 for run in CR:0.5 SR:0.83 CF:0.5 SF:0.83; do
   i=$((i + 1))
-  smooth -q --coast -c x -w 1 "samples/${run%:*}.csv" | differentiate -c x | smooth -w 11 | differentiate | shift-from-accel -K "${run#*:}" -R 0.04 |
-    fitpower -q | tail -n 1 >"$scratch/law"
+  smooth -q --coast -c x -w 1 "samples/${run%:*}.csv" | differentiate -c x | smooth -w 11 | differentiate |
+    shift-from-accel -K "${run#*:}" -R 0.04 | fitpower -q | tail -n 1 >"$scratch/law"
   curve $i >"$scratch/band"
   curve $((i + 8)) >"$scratch/line"
   awk -v frame="$frame" -v run="$run" '
@@ -86,26 +114,32 @@ for run in CR:0.5 SR:0.83 CF:0.5 SF:0.83; do
     function at(v) { return f[1] + (f[5] - f[1]) * v / 0.5 }
     function near(x, v) { return (x - at(v))^2 < 2.6 }
     FILENAME ~ /law$/ { a = $1; sa = $2; b = $3; sb = $4; corr = $5; next }
-    FILENAME ~ /band$/ { for (v = 0.1; v <= 0.5; v += 0.4) if (near($1, v)) { if (!(v in low) || D($2) < low[v]) low[v] = D($2); if (D($2) > high[v]) high[v] = D($2) } next }
+    FILENAME ~ /band$/ {
+      for (v = 0.1; v <= 0.5; v += 0.4) if (near($1, v)) {
+        if (!(v in low) || D($2) < low[v]) low[v] = D($2)
+        if (D($2) > high[v]) high[v] = D($2) }
+      next }
     { for (v = 0.1; v <= 0.5; v += 0.4) if (near($1, v)) law[v] = D($2) }
     END {
       for (v = 0.1; v <= 0.5; v += 0.4) {
         want = a * v^b; s = 1.96 * sqrt((sa / a)^2 + (sb * log(v))^2 + 2 * corr * sa / a * sb * log(v)); checks++
-        pixel = 2.2e-3 / (f[4] - f[2])
+        below = want * exp(-s); above = want * exp(s); pixel = 2.2e-3 / (f[4] - f[2])
         if (!(low[v] < law[v] && law[v] < high[v])) { print run ": the law is not in its band at " v; bad = 1 }
-        if ((law[v] - want)^2 > pixel^2 || (low[v] - want * exp(-s))^2 > pixel^2 || (high[v] - want * exp(s))^2 > pixel^2) {
-          print run " at " v ": drawn", low[v], law[v], high[v], "for", want * exp(-s), want, want * exp(s); bad = 1 } }
+        if ((law[v] - want)^2 > pixel^2 || (low[v] - below)^2 > pixel^2 || (high[v] - above)^2 > pixel^2) {
+          print run " at " v ": drawn", low[v], law[v], high[v], "for", below, want, above; bad = 1 } }
       exit bad || checks != 2 }' "$scratch/law" "$scratch/band" "$scratch/line" || complain "fig4: $run"
 done
 
 # energy: the line of the sum is level within a pixel in 500, its points within 3 %; what is dissipated ends there.
-heights() { awk -v n="$1" '/id="gnuplot_plot_/ { on = index($0, "\"gnuplot_plot_" n "\"") } on' "$scratch/energy.svg" | grep -oE "$2[0-9.]+,[0-9.]+" | sed 's/.*,//'; }
-bottom=$(grep -oE "d='M[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+" "$scratch/energy.svg" | tail -n 1 | sed 's/.*,//')
-{ heights 4 '[ML]' | sed 's/^/line /'; heights 8 'translate.' | sed 's/^/point /'; heights 3 '[ML]' | sed 's/^/dissipated /'; } | awk -v bottom="$bottom" '
+heights() { part energy "$2" | grep -oE "$3[0-9.]+,[0-9.]+" | sed "s/.*,/$1 /"; }
+read -r _ _ _ bottom _ < <(axes energy)
+{ heights line 4 '[ML]'; heights point 8 'translate.'; heights dissipated 3 '[ML]'; } | awk -v bottom="$bottom" '
   { y = bottom - $2; n[$1]++; last[$1] = y; if (!($1 in low) || y < low[$1]) low[$1] = y; if (y > high[$1]) high[$1] = y }
-  END { if (n["line"] < 100 || n["point"] < 15 || high["line"] - low["line"] > 1 || low["point"] < 0.97 * low["line"] || high["point"] > 1.03 * low["line"] ||
-            low["dissipated"] > 1 || (last["dissipated"] - low["line"])^2 > 1) {
-    print "energy: sum", low["line"], high["line"], "points", low["point"], high["point"], "dissipated", low["dissipated"], last["dissipated"]; exit 1 } }' || wrong=1
+  END {
+    sum = low["line"]
+    if (n["line"] < 100 || n["point"] < 15 || high["line"] - sum > 1 || low["point"] < 0.97 * sum || high["point"] > 1.03 * sum ||
+        low["dissipated"] > 1 || (last["dissipated"] - sum)^2 > 1) {
+      print "energy: sum", sum, high["line"], "points", low["point"], high["point"], "dissipated to", last["dissipated"]; exit 1 } }' || wrong=1
 
 # The report: one well-formed page that loads nothing, each name in it once, the figures, and every number of table1.sh.
 samples/report.sh "$scratch" >"$scratch/report.html" 2>"$scratch/said" || complain "report: exit $?"
@@ -137,7 +171,10 @@ missing=$(comm -23 "$scratch/in-table" "$scratch/in-page")
 # What make would do: Fig. 5 needs two tools; gnuplot is installed for figures and the report, not for Table 1.
 needs() { make -nB "$1" 2>/dev/null | grep -oE -e '-o bin/[a-z-]+' | sort | tr -d '\n'; }
 [ "$(needs figures/fig5.svg)" = '-o bin/energy-ledger-o bin/simulate' ] || complain "fig5.svg needs $(needs figures/fig5.svg)"
-[ "$(needs figures/fig4.png)" = '-o bin/differentiate-o bin/fitpower-o bin/shift-from-accel-o bin/smooth' ] || complain "fig4.png needs $(needs figures/fig4.png)"
-for goal in figures figures/fig4.svg report; do make -n setup "$goal" 2>/dev/null | grep -q gnuplot-nox || complain "make setup $goal does not install gnuplot"; done
+[ "$(needs figures/fig4.png)" = '-o bin/differentiate-o bin/fitpower-o bin/shift-from-accel-o bin/smooth' ] ||
+  complain "fig4.png needs $(needs figures/fig4.png)"
+for goal in figures figures/fig4.svg report; do
+  make -n setup "$goal" 2>/dev/null | grep -q gnuplot-nox || complain "make setup $goal does not install gnuplot"
+done
 if make -n setup table1 2>/dev/null | grep -q gnuplot-nox; then complain "make setup table1 installs gnuplot"; fi
 exit $wrong
