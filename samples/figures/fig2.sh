@@ -9,7 +9,6 @@ F_H = m*a; F_N = P_R2*R/(v*D); h = 2*F_H; n = 2*F_N
 set multiplot
 left = 0; bottom = 0; width = 400; height = 470; x0 = -58; y0 = -36; scale = 3.45; load 'figures/panel.gp'
 unset border
-set object 1 circle at 0, r size r fc rgb black fs empty lw 2
 set object 2 circle at 0, r size 1 fc rgb black
 set object 3 rectangle front from -0.9, -1.1 to 2.7, 2.3 fc rgb black fs empty lw 1
 set arrow from 0, r to 0, r-n as 1 lc rgb blue
@@ -22,7 +21,8 @@ set label "m g\n".number(F_N).' N' at -3, r-12 right
 set label "F_N\n".number(F_N).' N' at d+3, p+20 left
 set label 'τ_N = −D F_N = '.number(-1e3*D*F_N).' mN m' at 0, -16 center front
 set label 'τ_H = −A R F_H = +'.number(-1e3*A*R*F_H).' mN m' at 0, -24 center front
-plot '+' using (x=$1):(-8):(mat($1)) with filledcurves lc rgb pale notitle
+plot '+' using 1:(-8):(mat($1)) with filledcurves lc rgb pale notitle, \
+     [t=0:2*pi] '+' using (r*sin(t)):(r - r*cos(t)) with lines lc rgb black lw 2 notitle
 left = 415; bottom = 15; width = 420; height = 440; x0 = -0.7; y0 = -1.1; scale = 125; load 'figures/panel.gp'
 set border 15
 set arrow from d, p to d, y1 as 4 lc rgb vermilion

@@ -10,7 +10,6 @@ F_H = m*a; F_N = P_R2*R/(v*D); v_H = -I_E1/F_H; v_V = -I_E2/F_N; h = 50*v_H; f =
 set multiplot
 left = 0; bottom = 310; width = 400; height = 470; x0 = -58; y0 = -36; scale = 3.45; load 'figures/panel.gp'
 unset border
-set object 1 circle at 0, r size r fc rgb black fs empty lw 2
 set object 2 circle at 0, r size 1 fc rgb black
 set object 3 rectangle front from -0.9, -1.1 to 2.7, 2.3 fc rgb black fs empty lw 1
 set arrow from 0, 0 to 2*u, 2*r as 3
@@ -21,7 +20,8 @@ set label 'v = '.number(v).' m/s' at -3, r right
 set label '2v' at 2*u+2, 2*r left
 set label 'velocities of points of the body' at 0, 2*r+10 center
 set label 'the lowest point is at rest' at 0, -16 center front
-plot '+' using (x=$1):(-8):(mat($1)) with filledcurves lc rgb pale notitle
+plot '+' using 1:(-8):(mat($1)) with filledcurves lc rgb pale notitle, \
+     [t=0:2*pi] '+' using (r*sin(t)):(r - r*cos(t)) with lines lc rgb black lw 2 notitle
 left = 415; bottom = 325; width = 420; height = 440; x0 = -0.7; y0 = -1.6; scale = 125; load 'figures/panel.gp'
 set border 15
 set arrow from d, p to d, p+f as 1 lc rgb vermilion

@@ -10,6 +10,8 @@ trap 'rm -rf "$scratch"' EXIT
 wrong=0
 complain() { echo "$*"; wrong=1; }
 
+parser() { python3 -c 'import xml.dom.minidom' 2>/dev/null; }  # whether there is one for what is well-formed
+
 # draw NAME [INSTANT]: the picture, and its texts, a line each.
 draw() {
   "samples/figures/$1.sh" svg "${@:2}" >"$scratch/$1.svg" 2>"$scratch/said" || complain "$1: exit $?"
@@ -27,9 +29,8 @@ for script in samples/figures/*.sh; do
   [ "$name" != common ] || continue
   draw "$name"
   grep -q '^</svg>' "$scratch/$name.svg" || complain "$name: no end"
-  if command -v python3 >/dev/null; then
-    python3 -c 'import sys, xml.dom.minidom; xml.dom.minidom.parse(sys.argv[1])' "$scratch/$name.svg" ||
-      complain "$name: not well-formed"
+  if parser; then
+    python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' "$scratch/$name.svg" || complain "$name: not well-formed"
   fi
 done
 samples/figures/fig2.sh pngcairo | head -c 8 | cmp -s - <(printf '\211PNG\r\n\032\n') || complain "fig2: no PNG"
@@ -57,6 +58,16 @@ awk 'function say(text, x) { printf "%s\n", sprintf(text, x) }
     tip(3, 780, 0, 310, -58, -36, 3.45, speed * v, r); tip(3, 780, 0, 310, -58, -36, 3.45, speed * 2 * v, 2 * r)
     tip(3, 780, 415, 325, -0.7, -1.6, 125, d, p - speed * v * D / R)
     tip(3, 780, 15, 15, d - 0.13, p - 0.055, 3000, d + speed * v * (1 - A), p) }' >"$scratch/geometry"
+for figure in 2 3; do  # the body: a black circle of 2 R in height and width
+  tr -d '\n\t' <"$scratch/fig$figure.svg" | sed 's/</\n</g' | grep "^<path stroke='rgb(  0,   0,   0)'" | awk '
+    { n = split($0, at, /[ ML]+/); left = right = ""
+      for (i = 1; i <= n; i++) if (at[i] ~ /^[0-9.]+,[0-9.]+/) {
+        split(at[i], xy, ","); if (left == "") { left = right = xy[1]; top = bottom = xy[2] }
+        if (xy[1] < left) left = xy[1]; if (xy[1] > right) right = xy[1]
+        if (xy[2] < top) top = xy[2]; if (xy[2] > bottom) bottom = xy[2] }
+      if ((right - left - 80 * 3.45)^2 + (bottom - top - 80 * 3.45)^2 < 0.01) found = 1 }
+    END { exit !found }' || complain "fig$figure: no circle"
+done
 while read -r figure text; do
   case $text in
     tip*) grep -oE "points = '[^']*" "$scratch/fig$figure.svg" | awk -v want="$text" '
@@ -139,12 +150,13 @@ read -r _ _ _ bottom _ < <(axes energy)
     sum = low["line"]
     if (n["line"] < 100 || n["point"] < 15 || high["line"] - sum > 1 || low["point"] < 0.97 * sum || high["point"] > 1.03 * sum ||
         low["dissipated"] > 1 || (last["dissipated"] - sum)^2 > 1) {
-      print "energy: sum", sum, high["line"], "points", low["point"], high["point"], "dissipated to", last["dissipated"]; exit 1 } }' || wrong=1
+      print "energy: sum", sum, high["line"], "points", low["point"], high["point"], "dissipated", last["dissipated"]; bad = 1 }
+    exit bad }' || wrong=1
 
 # The report: one well-formed page that loads nothing, each name in it once, the figures, and every number of table1.sh.
 samples/report.sh "$scratch" >"$scratch/report.html" 2>"$scratch/said" || complain "report: exit $?"
 [ ! -s "$scratch/said" ] || { complain "report says:"; cat "$scratch/said"; }
-if command -v python3 >/dev/null; then
+if parser; then
   python3 - "$scratch/report.html" <<'PYTHON' || complain "report: not as it should be"
 import collections, sys, xml.dom.minidom
 page = xml.dom.minidom.parse(sys.argv[1])
