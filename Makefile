@@ -112,7 +112,7 @@ work-precision-signal: build/bench/signal
 
 lint:
 	mandoc -Tlint -Wwarning man/*
-	shellcheck --severity=warning samples/*.sh samples/figures/*.sh tests/*.sh tests/*/*.sh
+	shellcheck -x -P SCRIPTDIR --severity=warning samples/*.sh samples/figures/*.sh tests/*.sh tests/*/*.sh
 
 clean:
 	rm -rf bin build figures

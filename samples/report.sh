@@ -129,10 +129,12 @@ the power laws fitted to them, bands the 95 % confidence of each line. On felt <
 velocity, and the lines of the two bodies lie on each other; on rubber it grows with the velocity. The points of one body are not
 independent: each sample is in eleven means, and the fit takes that into account.
 HTML
-echo "<h3>Table 1: <i>D</i> = <i>a v<sup>b</sup></i></h3>
+cat <<'HTML'
+<h3>Table 1: <i>D</i> = <i>a v<sup>b</sup></i></h3>
 <p>By two routes: through the points of Fig. 4, and by the motion of Fig. 1 fitted to the positions, which is more precise.
 <i>a</i> is the shift at 1 m/s. The columns “off” tell by how many standard errors a value differs from the paper’s, from which
-the records were made. <code>make table1</code></p>"
+the records were made. <code>make table1</code></p>
+HTML
 table "Table 1" "$scratch/table1"
 echo "<h3>What the paper expects</h3>"
 table "What the paper" "$scratch/table1"
@@ -144,9 +146,11 @@ The cylinder on rubber. What is stored is reckoned from the measured velocities 
 shift, that is from the forces; lines are the same for the fitted motion. Their sum stays level only if the shift is right. The
 rotation of the cylinder has half the energy of its translation, at any speed: that is its <i>K</i>.
 HTML
-echo "<h3>The check</h3>
+cat <<'HTML'
+<h3>The check</h3>
 <p>The measured loss of each run beside what the shift of Table 1 dissipates; the closure is their relative difference (Eq. 23).
-Over many such records it scatters by some 1.5 %.</p>"
+Over many such records it scatters by some 1.5 %.</p>
+HTML
 table "Energy" "$scratch/table1"
 drawn fig5 "Fig. 5: the process diagram" <<'HTML'
 Horizontal momentum flows from the body to the mat and falls from the speed <i>v</i> of the axis to that of P. The power it
@@ -159,10 +163,12 @@ thirds of it are translational. How?
 HTML
 echo '<h2>How exact, in what time</h2>'
 if [ -n "$measured" ]; then
-  echo "<p>The error of the velocity against the time that a sample takes, for every method and a row of tolerances: to the lower
+  cat <<'HTML'
+<p>The error of the velocity against the time that a sample takes, for every method and a row of tolerances: to the lower
 left is better. Points at 10<sup>−17</sup> do not differ from the reference. Filled: the methods of <code>simulate</code>,
 which locate the stop; open: GSL’s solvers used in the ordinary way, as far as they came through, “odd” with a law that goes on to
-negative velocities. Of one run on one machine: the ratios count.</p>"
+negative velocities. Of one run on one machine: the ratios count.</p>
+HTML
   while read -r name title; do
     [ -r "$measured/$name.svg" ] || continue
     figure "$measured/$name.svg" "$title" "make work-precision" <<<""
@@ -173,10 +179,12 @@ memory-1e-4 The cylinder on rubber, with a memory of 0.1 mm
 memory-1e-7 The cylinder on rubber, with a memory of 0.1 µm, which is stiff
 LIST
 else
-  echo "<p>The methods of <code>simulate</code> on the cylinder on rubber: the largest error of the velocity beside the closed
+  cat <<'HTML'
+<p>The methods of <code>simulate</code> on the cylinder on rubber: the largest error of the velocity beside the closed
 form, the error of the time of the stop, and the time a sample takes. Of one run on one machine: the ratios count. <code>simulate
 --scene samples/CR.toml --report</code>. All methods on many problems, as figures: <code>make work-precision</code>, some minutes,
-and then <code>make report</code>.</p>"
+and then <code>make report</code>.</p>
+HTML
   # The lines "simulate: METHOD RTOL ..." as table1.sh sets its rows.
   { echo methods; simulate --scene CR.toml --report 2>&1 >/dev/null; } |
     awk 'NR == 1 { print } NF == 8 { sub(/^simulate: */, ""); gsub(/ +/, "  "); sub(/\|dv\|/, "|Δv|"); print "  " $0 }' \

@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # What the figures' scripts share; each sources it first. $1 is gnuplot's terminal, svg (the default) or pngcairo; the picture goes
 # to standard output. The tools are on PATH; the scripts work in samples/.
 set -euo pipefail
