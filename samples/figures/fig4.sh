@@ -13,6 +13,7 @@ draw 720 560 "$laws" <<'PLOT'
 set xlabel 'velocity v / (m/s)'; set ylabel 'shift D / mm'
 set xrange [0:0.5]; set yrange [0:2.2]; set samples 201; set style fill transparent solid 0.2 noborder
 set key top left maxrows 2 width 2
+set label 'rubber' at 0.495, 1.74 right; set label 'felt' at 0.495, 0.68 right
 of(run, name) = value(run.'_'.name)
 D(run, v) = 1e3*of(run, 'a')*v**of(run, 'b')
 # The law by name of its run, and sigma of ln D = ln a + b ln v.
