@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
   std::string column;
   DerivativeOptions options;
   tool.text("-c,--column", column, "COLUMN", "the column to differentiate (v, else x)");
-  tool.choice("-M,--method", options.method, derivative_methods, "central, savgol, spline, vernier or pasco (central)");
+  tool.choice("-M,--method", options.method, derivative_methods, "how the slope is found (central)");
   tool.count("-w,--width", options.width, odd, "width of savgol's window, an odd number of samples (23)");
   tool.count("--order", options.order, whole, "order of savgol's polynomial (2)");
   tool.input();

@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
   FitOptions options;
   bool each = false, with_report = false;
   tool.choice("--route", given_route, routes,
-      "loglog or shift (D of v), velocity (v of t), position (x of t); by default shift if there is D, else velocity if v, else position");
+      "what is fitted: D of v (loglog, shift), v of t or x of t (shift if there is D, else velocity if v, else position)");
   tool.numbers("-K,--shape-factor", shape_factors, not_negative, "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
   tool.body(body, "Rg");
   tool.geometry(options.geometry);

@@ -141,10 +141,10 @@ int main(int argc, char** argv) {
   tool.text("--law", law_file, "FILE", "file (- is standard input) with a table of v D, or with a row of fitpower: a, b and v0 that are not given otherwise");
   tool.number("--memory", bulge.length, positive, "length over which the bulge follows the law [m]: rolls backwards before rest");
   tool.number("--damping", bulge.damping, not_negative, "damping of the bulge [s] (0)");
-  tool.choice("--method", method, methods, "closed, exact, or a solver: rk2, rk4, rkf45, rkck, rk8pd, msadams, rk1imp, rk2imp, rk4imp, bsimp, msbdf (the cheapest that is exact)");
+  tool.choice("--method", method, methods, "how v(t) is found: closed, exact, or else a solver (the cheapest that is exact)");
   tool.number("--rtol", rtol, {"from 1e-14 to 0.1", [](double x) { return x >= 1e-14 && x <= 0.1; }}, "relative tolerance of a solver's step (1e-10)");
   tool.flag("--report", with_report, "on standard error, error against run time of the methods on this scene");
-  tool.choice<bool>("--sensor", sensor, {{"pasco", true}}, "write what a motion sensor records, push and rest included: pasco");
+  tool.choice<bool>("--sensor", sensor, {{"pasco", true}}, "write what this motion sensor records, push and rest included");
   tool.count("--seed", seed, whole, "seed of the sensor's noise (1)");
   tool.number("--rate", sonar.rate, positive, "records of the sensor a second (25)");
   tool.number("--resolution", sonar.resolution, not_negative, "resolution of the sensor [m] (0.001)");

@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
   SelectionOptions select;
   SmootherOptions options;
   tool.text("-c,--column", column, "COLUMN", "the column to smooth (v, else the first that is not t)");
-  tool.choice("-M,--method", options.method, smoothing_methods, "mean, median or savgol (mean)");
+  tool.choice("-M,--method", options.method, smoothing_methods, "what takes the place of a reading (mean)");
   tool.text("-w,--width", width, "N", "width of the window, an odd number of samples (11), or auto");
   tool.number("--seconds", options.width.seconds, positive, "width of the window in seconds, instead");
   tool.count("--order", options.order, whole, "order of savgol's polynomial (2)");

@@ -36,8 +36,8 @@ std::string long_name(const std::string& names) {
 
 Tool::Tool(std::string name, const std::string& purpose) : name_(std::move(name)), app_(purpose, name_) {
   app_.set_help_flag("-h,--help", "print this and exit");
-  app_.set_version_flag("--version", fmt::format("{} (rolling) {}", name_, version), "print the version and exit");
-  app_.add_flag("-q,--quiet", quiet_, "no counts of left-out records on standard error");
+  app_.set_version_flag("--version", [this] { return fmt::format("{} (rolling) {}", name_, version); }, "print the version and exit");
+  app_.add_flag("-q,--quiet", quiet_, "neither counts of left-out records nor progress on standard error");
 }
 
 void Tool::add(const std::string& names, const std::string& type, const std::string& help, std::function<void(const std::string&)> set) {
@@ -105,7 +105,7 @@ void Tool::scene() {
 }
 
 void Tool::input() {
-  app_.add_option("FILE", input_.files, "input files, read in order; - or none is standard input")->type_name("");
+  app_.add_option("FILE", input_.files, "input files, read in order; - or none is standard input");
   list("--use", input_.use, "NAME=COLUMN", "the column (a name or a number from 1) that serves as t, x, v, a or D");
   add("--run", "N", "read this run only: the number in its header, else its place", [this](const std::string& text) {
     input_.run = static_cast<int>(to_number("--run", text, whole));
@@ -160,6 +160,39 @@ Reader& Tool::read_file(const std::string& file, std::vector<std::string> order)
   return *readers_.emplace_back(std::make_unique<Reader>(ReaderOptions{{file}, {}, {}, input_.strict}, std::move(order)));
 }
 
+/// What --help prints, from the options as CLI11 holds them; cmd/install/completion.awk reads it.
+std::string Tool::help() const {
+  constexpr std::size_t width = 79, indent = 30;
+  std::string text, operands = "\n", options = "\nOptions:\n";
+  const auto item = [](std::string& to, const std::string& names, std::string_view words) {
+    std::string line = "  " + names;
+    if (line.size() + 2 > indent) to += line + '\n', line.clear();
+    line.resize(indent, ' ');
+    while (line.size() + words.size() > width) {
+      const std::size_t blank = words.rfind(' ', width - line.size());
+      (to += line) += words.substr(0, blank);
+      to += '\n';
+      line.assign(indent, ' ');
+      words.remove_prefix(blank + 1);
+    }
+    ((to += line) += words) += '\n';
+  };
+  for (const CLI::Option* option : app_.get_options()) {
+    if (!option->nonpositional()) {
+      item(operands, option->get_name() + "...", option->get_description());
+      continue;
+    }
+    std::string names;
+    for (const std::string& name : option->get_snames()) names += '-' + name + ',';
+    names += "--" + option->get_lnames().front();
+    if (option->get_type_size() > 0) names += ' ' + option->get_type_name();
+    if (option->get_type_size() > 0 && option->get_items_expected_max() > 1) names += " ...";
+    item(options, names, option->get_description());
+  }
+  const bool reads = operands.size() > 1;
+  return fmt::format("Usage: {} [OPTION...]{}\n", name_, reads ? " [FILE...]" : "") + app_.get_description() + '\n' + (reads ? operands : "") + options;
+}
+
 void Tool::need(double value, const std::string& option) const {
   if (std::isnan(value)) fail("{} is not given, nor is it in a scene", option);
 }
@@ -192,6 +225,8 @@ void Tool::count_left_out(std::size_t count, const std::string& why) const {
 
 int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   constexpr int trouble = 2;
+  if (argc > 0) name_ = argv[0];  // as it is installed: see PROGRAM_PREFIX in the Makefile
+  name_.erase(0, name_.rfind('/') + 1);
   try {
     app_.parse(argc, argv);
     read_scene();
@@ -202,7 +237,7 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
     count_left_out(left_out, "a reading is missing");
     return status;
   } catch (const CLI::CallForHelp&) {
-    return print(app_.help());
+    return print(help());
   } catch (const CLI::CallForVersion& call) {
     return print(std::string(call.what()) + '\n');
   } catch (const CLI::ParseError& error) {

@@ -87,6 +87,7 @@ class Tool {
   void add(const std::string& names, const std::string& type, const std::string& help, std::function<void(const std::string&)> set);
   void add_flag(const std::string& names, const std::string& help, std::function<void(bool)> set);
   void read_scene();
+  std::string help() const;
   int print(const std::string& text);
 
   std::string name_;
@@ -100,13 +101,14 @@ class Tool {
 
 template <typename T>
 void Tool::choice(const std::string& names, T& value, const std::map<std::string, T>& choices, const std::string& help) {
-  add(names, "NAME", help, [&value, choices, names](const std::string& text) {
+  const auto all = [&choices](const char* between) {
+    std::string text;
+    for (const auto& [name, _] : choices) text += (text.empty() ? "" : between) + name;
+    return text;
+  };
+  add(names, '{' + all(",") + '}', help, [&value, choices, names, all = all(", ")](const std::string& text) {
     const auto found = choices.find(text);
-    if (found == choices.end()) {
-      std::string all;
-      for (const auto& [name, _] : choices) all += (all.empty() ? "" : ", ") + name;
-      fail("{}: '{}' is not one of {}", names, shown(text), all);
-    }
+    if (found == choices.end()) fail("{}: '{}' is not one of {}", names, shown(text), all);
     value = found->second;
   });
 }
