@@ -13,7 +13,7 @@ tool   := $(patsubst cmd/%.cpp,%,$(wildcard cmd/*.cpp))
 test   := $(wildcard tests/unit/*/*.cpp tests/pipeline/*.cpp)
 object  = $(patsubst %.cpp,build/%.o,$1)
 
-.PHONY: all setup table1 samples figures report check coverage work-precision work-precision-signal lint clean
+.PHONY: all setup table1 samples figures report check install uninstall deb coverage work-precision work-precision-signal lint clean always
 .SECONDARY:
 all: $(tool:%=bin/%)
 
@@ -43,8 +43,9 @@ build/catch_main.o: | $(filter setup,$(MAKECMDGOALS))
 
 # From a fresh machine: only what is missing, and no root when nothing is. `make setup table1` leaves out what only tests need.
 goals    := $(filter-out setup,$(MAKECMDGOALS))
-testing  := $(if $(goals),$(filter-out all table1 samples figures figures/% report,$(goals)),everything)
-packages := g++ libgsl-dev libfmt-dev libcli11-dev $(if $(testing),catch2 libboost-dev mandoc) $(if $(filter figures figures/% report,$(goals)),gnuplot-nox)
+testing  := $(if $(goals),$(filter-out all table1 samples figures figures/% report install uninstall deb,$(goals)),everything)
+packages := g++ libgsl-dev libfmt-dev libcli11-dev $(if $(testing),catch2 libboost-dev mandoc) \
+            $(if $(filter figures figures/% report,$(goals)),gnuplot-nox) $(if $(filter deb,$(goals)),dpkg-dev)
 setup:
 	@missing=$$(for p in $(packages); do dpkg-query -W -f '$${Status}\n' $$p 2>/dev/null | grep -q '^install ok installed' || echo $$p; done); \
 	test -z "$$missing" || { echo installing $$missing; as_root=$$(test "$$(id -u)" = 0 || echo sudo); \
@@ -86,6 +87,46 @@ figures/report.html: samples/report.sh samples/table1.sh $(figure:%=figures/%.sv
 check: all build/unit
 	@PATH="$(CURDIR)/bin:$$PATH" tests/run.sh build/unit
 
+# The names smooth and simulate are common: PROGRAM_PREFIX=roll- installs roll-smooth, roll-simulate, ... and their pages so.
+PREFIX    ?= /usr/local
+root      := $(DESTDIR)$(PREFIX)
+share     := $(root)/share
+documents := $(wildcard samples/README.md samples/*.csv samples/*.toml samples/exports/*.csv samples/exports/*.txt)
+installed := $(tool:%=$(root)/bin/$(PROGRAM_PREFIX)%) \
+             $(tool:%=$(share)/man/man1/$(PROGRAM_PREFIX)%.1) $(share)/man/man5/rolling-columns.5 $(share)/man/man7/rolling-motion.7 \
+             $(tool:%=$(share)/bash-completion/completions/$(PROGRAM_PREFIX)%) $(tool:%=$(share)/zsh/site-functions/_$(PROGRAM_PREFIX)%) \
+             $(documents:%=$(share)/doc/rolling/%)
+
+install: $(installed)
+uninstall:
+	rm -f $(installed)
+	for d in rolling/samples/exports rolling/samples rolling; do rmdir $(share)/doc/$$d 2>/dev/null || true; done  # if empty
+
+# What is newer there may be another's: all is installed anew.
+$(root)/bin/$(PROGRAM_PREFIX)%: bin/% always
+	install -D -m 755 $< $@
+install_page = install -D -m 644 $< $@ && cmd/install/rename-page.sh "$(PROGRAM_PREFIX)" $@ $(tool)
+$(share)/man/man1/$(PROGRAM_PREFIX)%.1: man/%.1 always
+	$(install_page)
+$(share)/man/man5/%: man/% always
+	$(install_page)
+$(share)/man/man7/%: man/% always
+	$(install_page)
+install_completion = install -D -m 644 /dev/null $@ && help=$$($< --help) && \
+                     printf '%s\n' "$$help" | awk -v shell=$1 -v name=$(PROGRAM_PREFIX)$* -f cmd/install/completion.awk >$@
+$(share)/bash-completion/completions/$(PROGRAM_PREFIX)%: bin/% always
+	$(call install_completion,bash)
+$(share)/zsh/site-functions/_$(PROGRAM_PREFIX)%: bin/% always
+	$(call install_completion,zsh)
+$(share)/doc/rolling/%: % always
+	install -D -m 644 $< $@
+
+# build/rolling_VERSION_ARCHITECTURE.deb
+deb: all
+	rm -rf build/deb
+	$(MAKE) install DESTDIR=build/deb PREFIX=/usr
+	cmd/install/deb.sh build/deb "$(PROGRAM_PREFIX)"
+
 # How often the errors of fitpower hold, by case and route: 1000 simulated runs each, a few minutes.
 build/tests/bench/coverage.o: CPPFLAGS += -Itests
 build/coverage: build/tests/bench/coverage.o build/lib.a
@@ -112,7 +153,7 @@ work-precision-signal: build/bench/signal
 
 lint:
 	mandoc -Tlint -Wwarning man/*
-	shellcheck -x -P SCRIPTDIR --severity=warning samples/*.sh samples/figures/*.sh tests/*.sh tests/*/*.sh
+	shellcheck -x -P SCRIPTDIR --severity=warning cmd/install/*.sh samples/*.sh samples/*/*.sh tests/*.sh tests/*/*.sh
 
 clean:
 	rm -rf bin build figures

@@ -1,15 +1,19 @@
 #!/bin/bash
 # Every example of the manual pages runs, and prints what the page shows (blanks aside). An example that ends in `# exits N`
 # must exit with N.
+#
+#   tests/house/man-examples.sh [PREFIX]     those of the source, or what is installed there
 set -u
 overstrike=$(printf '\b')
 cd "$(dirname "$0")/../.." || exit 2
 command -v mandoc >/dev/null || { echo "skipped: mandoc is not installed"; exit 77; }
 
 top=$PWD
+bin=${1:-$top}/bin pages=(man/*.[1-9])
+[[ $# -eq 0 ]] || pages=("$1"/share/man/man?/*.?)
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
-export PATH="$top/bin:$PATH" LC_ALL=C
+export PATH="$bin:$PATH" LC_ALL=C
 failed=0 count=0
 
 # run PAGE COMMAND SHOWN: runs in a fresh copy, as from the top of the checkout; SHOWN is empty if the page shows no output.
@@ -31,7 +35,7 @@ run() {
   fi
 }
 
-for page in man/*.[1-9]; do
+for page in "${pages[@]}"; do
   command='' shown='' blank='' indent='' continued=0
   while IFS= read -r line; do
     text=${line#"${line%%[! ]*}"}

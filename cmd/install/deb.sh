@@ -1,0 +1,61 @@
+#!/bin/bash
+# deb.sh TREE PREFIX: a Debian package in build/ from the tree that `make install` has made under TREE/usr, its tools named with PREFIX.
+# DEBFULLNAME and DEBEMAIL name its maintainer, else git's author does; SOURCE_DATE_EPOCH dates it, else the last commit.
+set -euo pipefail
+export LC_ALL=C
+tree=$1 prefix=${2-}
+version=$(bin/smooth --version | awk '{ print $NF }')
+architecture=$(dpkg --print-architecture)
+maintainer="${DEBFULLNAME:-$(git log -1 --format=%an)} <${DEBEMAIL:-$(git log -1 --format=%ae)}>"
+moment=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}
+umask 022
+
+strip --strip-unneeded --remove-section=.comment --remove-section=.note "$tree"/usr/bin/*
+gzip -9n "$tree"/usr/share/man/man?/*
+mkdir "$tree/usr/share/zsh/vendor-completions"  # where Debian's zsh looks
+mv "$tree"/usr/share/zsh/site-functions/* "$tree/usr/share/zsh/vendor-completions"
+rmdir "$tree/usr/share/zsh/site-functions"
+
+doc=$tree/usr/share/doc/rolling
+cat >"$doc/copyright" <<END
+Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
+Upstream-Name: rolling
+
+Files: *
+Copyright: $(date -u -d "@$moment" +%Y) the authors of rolling
+License: GPL-3.0+
+ This program is free software: you can redistribute it and/or modify it under the terms of the GNU General Public License as
+ published by the Free Software Foundation, either version 3 of the License, or (at your option) any later version.
+ .
+ On Debian systems its text is in /usr/share/common-licenses/GPL-3.
+END
+gzip -9n >"$doc/changelog.gz" <<END
+rolling ($version) unstable; urgency=medium
+
+  * Built from the source.
+
+ -- $maintainer  $(date -u -R -d "@$moment")
+END
+
+mkdir -p "$tree/debian" "$tree/DEBIAN"
+printf 'Source: rolling\n\nPackage: rolling\nArchitecture: any\n' >"$tree/debian/control"  # which dpkg-shlibdeps wants to see
+depends=$(cd "$tree" && dpkg-shlibdeps -O usr/bin/*)
+rm -r "$tree/debian"
+cat >"$tree/DEBIAN/control" <<END
+Package: rolling
+Version: $version
+Architecture: $architecture
+Maintainer: $maintainer
+Installed-Size: $(du -sk --apparent-size "$tree/usr" | cut -f 1)
+Depends: ${depends#shlibs:Depends=}
+Section: science
+Priority: optional
+Description: from motion-sensor data to the physics of a rolling body
+ Six small tools that read plain columns and write plain columns: ${prefix}smooth,
+ ${prefix}differentiate, ${prefix}shift-from-accel, ${prefix}fitpower, ${prefix}simulate, ${prefix}energy-ledger.
+ They find the law D = a v^b by which a soft mat slows a rolling cylinder, with
+ standard errors, and account for the energy that is lost.
+END
+(cd "$tree" && find usr -type f -print0 | sort -z | xargs -0 md5sum >DEBIAN/md5sums)
+find "$tree" -exec touch -h -d "@$moment" {} +
+dpkg-deb --root-owner-group --build "$tree" "build/rolling_${version}_$architecture.deb"

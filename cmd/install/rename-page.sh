@@ -1,0 +1,22 @@
+#!/bin/sh
+# rename-page.sh PREFIX PAGE TOOL...: gives the tools their prefix where the page names them, in macros and in the commands of
+# examples. `##` lines keep the plain names, as a renamed tool writes them.
+set -eu
+prefix=$1 page=$2
+shift 2
+[ -n "$prefix" ] || exit 0
+tools=$(echo "$*" | tr ' ' '|')
+upper() { echo "$*" | tr '[:lower:]' '[:upper:]'; }
+sed -E -i "
+s/^\\.Dt ($(upper "$tools")) /.Dt $(upper "$prefix")\\1 /
+s/^\\.(Nm|Ql) ($tools)( |\$)/.\\1 $prefix\\2\\3/
+s/Xr ($tools) 1/Xr $prefix\\1 1/g
+s/^($tools): /$prefix\\1: /
+/^\\$ /{
+  :command
+  s/(^\\$ |^ *|\\| )($tools)( |\$)/\\1$prefix\\2\\3/g
+  /\\\\e\$/{
+    n
+    b command
+  }
+}" "$page"

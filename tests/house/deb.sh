@@ -1,0 +1,34 @@
+#!/bin/bash
+# `make deb` makes a package that holds what `make install` installs, whose tools run, and which lintian finds no error in.
+set -u
+cd "$(dirname "$0")/../.." || exit 2
+command -v dpkg-shlibdeps >/dev/null || { echo "skipped: no dpkg-shlibdeps" && exit 77; }
+git rev-parse HEAD >/dev/null 2>&1 || { echo "skipped: no git checkout, which names the maintainer" && exit 77; }
+scratch=$(mktemp -d) || exit 2
+trap 'rm -rf "$scratch"' EXIT
+unset MAKEFLAGS MAKELEVEL DESTDIR PREFIX PROGRAM_PREFIX
+wrong=0
+complain() { echo "$*" && wrong=1; }
+
+make deb >"$scratch/made" 2>&1 || { cat "$scratch/made" && exit 1; }
+version=$(bin/smooth --version | cut -d ' ' -f 3)
+package=build/rolling_${version}_$(dpkg --print-architecture).deb
+[ "$(dpkg-deb --field "$package" Version)" = "$version" ] || complain "its version is not $version"
+depends=$(dpkg-deb --field "$package" Depends)
+for library in libc6 libstdc++6 libgsl libfmt; do
+  grep -q "$library" <<<"$depends" || complain "it does not depend on $library: $depends"
+done
+
+dpkg-deb --extract "$package" "$scratch/tree"
+make install DESTDIR="$scratch/stage" PREFIX=/usr >"$scratch/made" 2>&1 || { cat "$scratch/made" && exit 1; }
+files() { (cd "$1" && find . ! -type d | sed 's/\.gz$//; s|zsh/vendor-completions|zsh/site-functions|' | sort); }
+diff <(files "$scratch/stage") <(files "$scratch/tree" | grep -vE '/(changelog|copyright)$') || complain "its files are not those of make install"
+for tool in "$scratch"/tree/usr/bin/*; do
+  "$tool" --version | grep -q " $version$" || complain "$tool does not run"
+done
+(cd "$scratch/tree" && dpkg-deb --info "$OLDPWD/$package" md5sums | md5sum --quiet -c) || complain "its md5sums"
+
+if command -v lintian >/dev/null; then
+  lintian --fail-on error "$package" 2>/dev/null || complain "lintian"
+fi
+exit $wrong
