@@ -59,7 +59,7 @@ std::vector<FitRun> read_runs(Reader& in, Route route, const Body& body, bool al
 }
 
 /// For these runs, what each route finds at which cost, and which law describes them on the route that was asked for.
-void report(const Tool& tool, Route asked, const std::vector<FitRun>& runs, const FitOptions& options) {
+void report(Tool& tool, Route asked, const std::vector<FitRun>& runs, const FitOptions& options) {
   const std::map<Errors, const char*> kinds{{Errors::none, "none"}, {Errors::classical, "classical"}, {Errors::filters, "of the filters"}, {Errors::autocorrelation, "of the autocorrelation"}};
   for (const auto& [name, route] : routes) try {
       for (const FitRun& run : runs)
@@ -132,7 +132,10 @@ int main(int argc, char** argv) {
     const bool with_v0 = trajectory && fits.front().size() == 1;
     if (with_v0) names.insert(names.end(), {{"v0", "m/s"}, {"sigma_v0", "m/s"}});
     std::vector<FitResult> results;
-    for (const auto& joint : fits) results.push_back(fit(route, joint, options));
+    for (const auto& joint : fits) {
+      tool.progress.at("fitting", fits.size() == 1 ? not_given : static_cast<double>(results.size()) / static_cast<double>(fits.size()));
+      results.push_back(fit(route, joint, options));
+    }
 
     tool.out.names(names);
     std::size_t left_out = 0;

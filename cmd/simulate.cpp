@@ -97,7 +97,7 @@ void read_law(Tool& tool, const std::string& file, Roll& roll) {
 }
 
 /// On standard error: what the methods cost on this scene, and how far they are off.
-void report(const Tool& tool, const Roll& roll, double rtol, double end) {
+void report(Tool& tool, const Roll& roll, double rtol, double end) {
   const Reference right = reference(roll, 200, end);
   const Method best = best_method(roll);
   tool.say(fmt::format("{:8} {:>7} {:>9} {:>10} {:>11} {:>11} {:>8}", "method", "rtol", "max|dv|/v0", "dt*/t*", "evaluations", "ns/sample", "scatter"));

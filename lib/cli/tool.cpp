@@ -153,11 +153,16 @@ void Tool::read_scene() {
 Reader& Tool::read(std::vector<std::string> order) {
   const bool standard_input = input_.files.empty() || std::find(input_.files.begin(), input_.files.end(), "-") != input_.files.end();
   if (standard_input && ::isatty(STDIN_FILENO)) say("reading columns from the terminal; end with Ctrl-D");
-  return *readers_.emplace_back(std::make_unique<Reader>(input_, std::move(order)));
+  return open(input_, std::move(order));
 }
 
 Reader& Tool::read_file(const std::string& file, std::vector<std::string> order) {
-  return *readers_.emplace_back(std::make_unique<Reader>(ReaderOptions{{file}, {}, {}, input_.strict}, std::move(order)));
+  return open({{file}, {}, {}, input_.strict, {}}, std::move(order));
+}
+
+Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
+  options.on_block = [this](const std::string& name, double part) { progress.at(name == "-" ? "standard input" : name, part); };
+  return *readers_.emplace_back(std::make_unique<Reader>(std::move(options), std::move(order)));
 }
 
 /// What --help prints, from the options as CLI11 holds them; cmd/install/completion.awk reads it.
@@ -210,7 +215,8 @@ void Tool::need(const PowerLaw& law) const {
   need(law.b, "--exponent");
 }
 
-void Tool::say(const std::string& text) const {
+void Tool::say(const std::string& text) {
+  progress.stop();
   std::string line = name_ + ": " + text.substr(0, text.find('\n'));
   for (char& c : line)
     if (c < ' ' || c > '~') c = '?';
@@ -219,7 +225,7 @@ void Tool::say(const std::string& text) const {
   [[maybe_unused]] const auto count = ::write(STDERR_FILENO, line.data(), line.size());  // where could one say that it failed?
 }
 
-void Tool::count_left_out(std::size_t count, const std::string& why) const {
+void Tool::count_left_out(std::size_t count, const std::string& why) {
   if (count > 0 && !quiet_) say(fmt::format("{} record{} left out: {}", count, count == 1 ? "" : "s", why));
 }
 
@@ -230,8 +236,11 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   try {
     app_.parse(argc, argv);
     read_scene();
+    if (!quiet_) progress.start(name_);
+    if (::isatty(STDOUT_FILENO)) out.before_write = [this] { progress.stop(); };  // rows are progress enough
     const int status = work();
     out.flush();
+    progress.stop();
     std::size_t left_out = 0;
     for (const auto& reader : readers_) left_out += reader->left_out();
     count_left_out(left_out, "a reading is missing");

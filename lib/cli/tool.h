@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "cli/progress.h"
 #include "rolling/body.h"
 #include "rolling/power_law.h"
 #include "text/output.h"
@@ -69,10 +70,10 @@ class Tool {
   Reader& read_file(const std::string& file, std::vector<std::string> order);
 
   /// One line of printable ASCII on standard error, at most 512 bytes.
-  void say(const std::string& text) const;
+  void say(const std::string& text);
 
   /// Says how many records were left out and why, unless -q.
-  void count_left_out(std::size_t count, const std::string& why) const;
+  void count_left_out(std::size_t count, const std::string& why);
 
   /// Throw Error when a value was neither on the command line nor in the scene.
   void need(double value, const std::string& option) const;
@@ -82,10 +83,12 @@ class Tool {
   bool on_command_line(const std::string& option) const { return app_.get_option("--" + option)->count() > 0; }
 
   Output out;
+  Progress progress;  ///< of work that takes its time; Readers tell it themselves
 
  private:
   void add(const std::string& names, const std::string& type, const std::string& help, std::function<void(const std::string&)> set);
   void add_flag(const std::string& names, const std::string& help, std::function<void(bool)> set);
+  Reader& open(ReaderOptions, std::vector<std::string> order);
   void read_scene();
   std::string help() const;
   int print(const std::string& text);

@@ -1,8 +1,10 @@
 #include "text/input.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -15,9 +17,11 @@ constexpr std::size_t block = 1 << 18;
 constexpr std::size_t longest_line = 1 << 20;  // a record of motion data has tens of bytes; a megabyte is another kind of file
 }  // namespace
 
-Input::Input(std::string name)
-    : name_(std::move(name)), fd_(name_ == "-" ? STDIN_FILENO : ::open(name_.c_str(), O_RDONLY | O_CLOEXEC)), buffer_(block) {
+Input::Input(std::string name, BlockHook on_block)
+    : name_(std::move(name)), on_block_(std::move(on_block)), fd_(name_ == "-" ? STDIN_FILENO : ::open(name_.c_str(), O_RDONLY | O_CLOEXEC)), buffer_(block) {
   if (fd_ < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
+  struct stat status;
+  if (on_block_ && ::fstat(fd_, &status) == 0 && S_ISREG(status.st_mode)) size_ = static_cast<double>(status.st_size);
 }
 
 Input::~Input() {
@@ -39,6 +43,8 @@ bool Input::fill() {
   while (count < 0 && errno == EINTR);
   if (count < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
   end_ += static_cast<std::size_t>(count);
+  read_ += static_cast<double>(count);
+  if (size_ > 0) on_block_(name_, std::min(read_ / size_, 1.0));
   return count > 0;
 }
 

@@ -1,16 +1,20 @@
 // Lines of one input file, in blocks.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace rolling {
 
+/// Told after each block of a file whose size is known: its name, and which part of it has been read.
+using BlockHook = std::function<void(const std::string& name, double part)>;
+
 class Input {
  public:
   /// Opens a file; `-` is standard input. Throws Error when it cannot be read.
-  explicit Input(std::string name);
+  explicit Input(std::string name, BlockHook = {});
   ~Input();
   Input(const Input&) = delete;
   Input& operator=(const Input&) = delete;
@@ -25,7 +29,9 @@ class Input {
   bool fill();
 
   std::string name_;
+  BlockHook on_block_;
   int fd_;
+  double size_ = 0, read_ = 0;  // bytes; no size: not known, or not asked for
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0, line_number_ = 0;
   bool at_end_ = false;

@@ -1,6 +1,7 @@
 // Standard output, whole lines at a time, every write checked.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,6 +23,7 @@ class Output {
  public:
   int digits = 0;           ///< significant digits of computed numbers; 0: the shortest text that reads back
   bool unbuffered = false;  ///< every line goes out at once
+  std::function<void()> before_write;
 
   std::string& line() { return buffer_; }  ///< what is appended here is the line in the making
   void number(double value) { append_number(buffer_, value, digits); }

@@ -39,7 +39,7 @@ Reader::Reader(ReaderOptions options, std::vector<std::string> order) : options_
 
 void Reader::open_next() {
   begun_ = false;
-  input_ = std::make_unique<Input>(options_.files[next_file_++]);
+  input_ = std::make_unique<Input>(options_.files[next_file_++], options_.on_block);
   history_changed_ = !history_.empty();
   history_.clear();
   read_header();

@@ -1,11 +1,15 @@
 // Prints the table of tests/bench/coverage.h: coverage [RUNS [WORD]], only the cases whose name has WORD. `make coverage`.
 #include "bench/coverage.h"
 
+#include <unistd.h>
+
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <thread>
+
+#include "cli/progress.h"
 
 int main(int argc, char** argv) {
   const int runs = argc > 1 ? std::atoi(argv[1]) : 1000;
@@ -23,6 +27,7 @@ int main(int argc, char** argv) {
   std::printf("# %d runs each; biases and sd of b; 95 %% intervals; far: beyond 6 standard errors\n", runs);
   std::printf("%-27s %-8s %-5s %7s %7s %8s %9s %7s %7s %4s %8s %6s\n", "# case", "route", "scene", "bias_a", "bias_b", "sd_b", "sd/bound", "cover_a", "cover_b", "far", "refused", "ms");
   std::atomic<std::size_t> next = 0;
+  std::size_t finished = 0;
   const auto work = [&] {
     for (std::size_t i; (i = next++) < jobs.size();) {
       Job& job = *jobs[i];
@@ -31,9 +36,12 @@ int main(int argc, char** argv) {
       job.done.notify_one();
     }
   };
+  rolling::Progress progress;
+  if (!::isatty(STDOUT_FILENO)) progress.start("coverage");  // else its rows show it
   std::vector<std::thread> threads;
   for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i) threads.emplace_back(work);
   for (const auto& job : jobs) {
+    progress.at("cases", static_cast<double>(finished++) / static_cast<double>(jobs.size()));
     job->done.wait(false);
     const auto& r = job->row;
     char bound[16] = "-";

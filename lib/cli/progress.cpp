@@ -1,0 +1,61 @@
+#include "cli/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+
+namespace rolling {
+namespace {
+
+using std::chrono::steady_clock;
+constexpr std::chrono::milliseconds patience(2000), interval(500);
+constexpr std::size_t width = 79;
+
+/// To the beginning of the line, which is wiped, and there `text`.
+void put(const std::string& text) {
+  const std::string line = "\r\033[K" + text;
+  [[maybe_unused]] const auto count = ::write(STDERR_FILENO, line.data(), line.size());
+}
+
+}  // namespace
+
+void Progress::start(std::string name) {
+  if (!::isatty(STDERR_FILENO)) return;
+  name_ = std::move(name);
+  part_ = std::nan("");
+  thread_ = std::jthread([this](const std::stop_token& stop) { show(stop); });
+}
+
+void Progress::at(std::string_view what, double part) {
+  if (!thread_.joinable()) return;
+  const std::lock_guard lock(mutex_);
+  what_ = what;
+  part_ = part;
+}
+
+void Progress::stop() {
+  if (!thread_.joinable()) return;
+  thread_.request_stop();
+  thread_.join();
+}
+
+void Progress::show(const std::stop_token& stop) {
+  const auto begin = steady_clock::now();
+  bool shown = false;
+  std::unique_lock lock(mutex_);
+  for (auto next = begin + patience; !stopped_.wait_until(lock, stop, next, [] { return false; }) && !stop.stop_requested(); next += interval) {
+    if (what_.empty()) continue;
+    std::string text = name_ + ": " + what_;
+    for (char& c : text)
+      if (c < ' ' || c > '~') c = '?';
+    text.resize(std::min(text.size(), width - 16));
+    if (!std::isnan(part_)) text += fmt::format(" {:.0f} %", 100 * part_);
+    put(text + fmt::format(", {} s", std::chrono::duration_cast<std::chrono::seconds>(steady_clock::now() - begin).count()));
+    shown = true;
+  }
+  if (shown) put("");
+}
+
+}  // namespace rolling

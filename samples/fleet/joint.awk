@@ -1,0 +1,29 @@
+# awk -f joint.awk table.txt: the fits of all records as one. The laws of the mats scatter: (ln a, b) of a record is the mean law, plus
+# the scatter T, plus the error C of its fit. T is the covariance of the rows less the mean C (0 if that is negative); the mean law
+# is the generalised least squares of the rows with T + C, as it is of all records at once if nothing scatters (T = 0).
+/^#/ { next }
+{
+  ++n
+  x[n] = log($2); y[n] = $4
+  sx = $3 / $2; sy = $5
+  Cxx[n] = sx ^ 2; Cyy[n] = sy ^ 2; Cxy[n] = $6 * sx * sy
+  mx += x[n]; my += y[n]; cxx += Cxx[n]; cxy += Cxy[n]; cyy += Cyy[n]
+}
+END {
+  if (n < 2) { print "fewer than two rows" >"/dev/stderr"; exit 2 }
+  mx /= n; my /= n
+  for (i = 1; i <= n; ++i) { Txx += (x[i] - mx) ^ 2; Txy += (x[i] - mx) * (y[i] - my); Tyy += (y[i] - my) ^ 2 }
+  Txx = Txx / (n - 1) - cxx / n; Txy = Txy / (n - 1) - cxy / n; Tyy = Tyy / (n - 1) - cyy / n
+  if (Txx <= 0 || Tyy <= 0) Txx = Txy = Tyy = 0
+  if (Txy ^ 2 > Txx * Tyy) Txy = (Txy > 0 ? 1 : -1) * sqrt(Txx * Tyy)
+  for (i = 1; i <= n; ++i) {  # W = sum of (T + C)^-1, r = sum of (T + C)^-1 (x, y)
+    p = Txx + Cxx[i]; q = Txy + Cxy[i]; s = Tyy + Cyy[i]; d = p * s - q ^ 2
+    Wxx += s / d; Wxy -= q / d; Wyy += p / d
+    rx += (s * x[i] - q * y[i]) / d; ry += (p * y[i] - q * x[i]) / d
+  }
+  d = Wxx * Wyy - Wxy ^ 2
+  lna = (Wyy * rx - Wxy * ry) / d; b = (Wxx * ry - Wxy * rx) / d
+  sx = sqrt(Wyy / d); sy = sqrt(Wxx / d)
+  print "# a[m]\tsigma_a[m]\tb\tsigma_b\tcorr\tscatter_ln_a\tscatter_b\tn"
+  printf "%.6g\t%.2g\t%.5g\t%.2g\t%.4f\t%.3g\t%.3g\t%d\n", exp(lna), exp(lna) * sx, b, sy, -Wxy / d / (sx * sy), sqrt(Txx), sqrt(Tyy), n
+}

@@ -1,0 +1,35 @@
+#!/bin/bash
+# What takes more than two seconds says at a terminal how far it is, and wipes that; not what is quick, nor with -q, nor into a file.
+set -u
+command -v script >/dev/null || { echo "skipped: no script, which makes a terminal" && exit 77; }
+scratch=$(mktemp -d) || exit 2
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch" || exit 2
+wrong=0
+at_terminal() { script -qec "$1" /dev/null </dev/null | tr '\r\033' '>^'; }
+silent() { [ -z "$("${@:2}")" ] || { echo "$1: $("${@:2}")" && wrong=1; }; }
+wipe='>^[K'
+
+awk 'BEGIN { for (i = 0; i < 100000; i++) printf "%.2f\t%.4f\n", i / 25, 0.5 + sin(i / 1000) / 4 }' >big
+slow_reader='(sleep 4; cat >/dev/null)'
+said=$(at_terminal "smooth big | $slow_reader")
+[[ $said == "${wipe}smooth: big "[1-9]*" %, 2 s$wipe"*"$wipe" ]] || { echo "smooth says '$said'" && wrong=1; }
+said=$(at_terminal "smooth <big | $slow_reader")
+[[ $said == *"smooth: standard input "* ]] || { echo "smooth of its standard input says '$said'" && wrong=1; }
+silent 'with -q' at_terminal "smooth -q big | $slow_reader"
+silent 'quick' at_terminal 'smooth big >out'
+into_file() { smooth big 2>err | { sleep 3; cat >/dev/null; }; cat err; }
+silent 'into a file' into_file
+
+# Fits of one run each, as many as take three seconds.
+roll=$(simulate -K 0.5 -R 0.04 -a 1.87e-3 -b 0.215 --v0 0.5 --dt 0.04 --columns t,x --digits 3)
+for ((runs = 300; ; runs *= 2)); do
+  for ((i = 0; i < runs; i++)); do printf '%s\n\n' "$roll"; done >runs
+  SECONDS=0
+  said=$(at_terminal 'fitpower --each --route position -K 0.5 -R 0.04 runs >out')
+  [ "$SECONDS" -lt 4 ] || break
+done
+[[ $said == "${wipe}fitpower: fitting "[0-9]*" %, 2 s$wipe"*"$wipe" ]] || { echo "fitpower of $runs runs says '$said'" && wrong=1; }
+said=$(at_terminal 'fitpower --each --route position -K 0.5 -R 0.04 runs' | head -n 1)  # and its rows on the terminal too
+[[ $said == *"$wipe# a[m]"* ]] || { echo "before its rows fitpower says '$said'" && wrong=1; }
+exit $wrong
