@@ -32,11 +32,16 @@ constexpr DoubleDouble ln2 = twice_artanh(DoubleDouble(1) / 7) * 2 + twice_artan
 constexpr int log_bits = 7, log_size = 1 << log_bits;
 constexpr std::uint64_t log_offset = 0x3fe6a00000000000;  // m from 0.707 to 1.414
 
-constexpr double ln2_top = cut(ln2.hi, 11), ln2_rest = (ln2.hi - ln2_top) + ln2.lo;  // k ln2_top is exact
+/// A part that is a multiple of 2^-42, and the rest: sums of such parts below 1024 are exact.
+constexpr DoubleDouble coarse(DoubleDouble x) {
+  const double top = static_cast<double>(static_cast<std::int64_t>(x.hi * 0x1p42)) * 0x1p-42;
+  return {top, (x.hi - top) + x.lo};
+}
+constexpr DoubleDouble log_2 = coarse(ln2);
 
 struct LogEntry {
   double inverse;  // 1/c, a multiple of 2^-9
-  DoubleDouble log;
+  DoubleDouble log;  // coarse
 };
 constexpr auto log_table = [] {
   std::array<LogEntry, log_size> table{};
@@ -44,7 +49,7 @@ constexpr auto log_table = [] {
     const std::uint64_t begin = (log_offset & ~((1ull << 45) - 1)) + (i << 45), end = begin + (1ull << 45);
     const double middle = (std::bit_cast<double>(begin) + std::bit_cast<double>(end)) / 2;
     const double inverse = static_cast<double>(static_cast<int>(512 / middle + 0.5)) / 512;
-    table[i] = {inverse, twice_artanh(DoubleDouble(1 - inverse) / (1 + inverse))};
+    table[i] = {inverse, coarse(twice_artanh(DoubleDouble(1 - inverse) / (1 + inverse)))};
   }
   return table;
 }();
@@ -100,14 +105,12 @@ DoubleDouble log1p_ratio(DoubleDouble r) {
 DoubleDouble quick_log(DoubleDouble x) {
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x.hi), above = bits - log_offset;
   const int k = static_cast<int>(static_cast<std::int64_t>(above) >> 52);
-  const LogEntry& entry = log_table[(above >> (52 - log_bits)) % log_size];
-  const double m = std::bit_cast<double>(bits - (static_cast<std::uint64_t>(k) << 52)), m_lo = x.lo * power_of_two(-k);
-  const double top = cut(m, 21);
-  const DoubleDouble r = quick_two_sum(top * entry.inverse - 1, (m - top) * entry.inverse + m_lo * entry.inverse);
-  // ln(1 + r) = r - r^2/2 + cubic
-  const double r_top = cut(r.hi, 27), rest = (r.hi - r_top) * (r.hi + r_top) / 2 + r.hi * r.lo;
-  const DoubleDouble high = quick_two_sum(k * ln2_top, entry.log.hi), sum = two_sum(high.hi, r.hi), all = quick_two_sum(sum.hi, -r_top * r_top / 2);
-  return quick_two_sum(all.hi, all.lo + (sum.lo + (high.lo + (k * ln2_rest + entry.log.lo + (r.lo - rest + log1p_cubic(r.hi))))));
+  const auto& [inverse, log_c] = log_table[(above >> (52 - log_bits)) % log_size];
+  const double m = std::bit_cast<double>(bits - (static_cast<std::uint64_t>(k) << 52)), top = cut(m, 32);
+  // m/c - 1 = r1 + r2 and ln(1 + r) = r - r^2/2 + cubic. Exact: r1 of 23 bits and its square, r2, k log_2.hi + ln c + r1, r2 - r1^2/2.
+  const double r1 = top * inverse - 1, r2 = (m - top) * inverse, r = r1 + r2;
+  const DoubleDouble sum = quick_two_sum(k * log_2.hi + log_c.hi + r1, r2 - r1 * r1 / 2);
+  return {sum.hi, sum.lo + (x.lo / x.hi + (k * log_2.lo + log_c.lo) + (log1p_cubic(r) - r2 * (r1 + r) / 2))};
 }
 
 namespace {
@@ -129,7 +132,7 @@ Reduced reduce(DoubleDouble x) {
   constexpr double rounder = 0x1.8p52;
   const double n = (x.hi * (exp_size / ln2.hi) + rounder) - rounder;
   const double r = (x.hi - n * step1) + (x.lo - n * step2), r2 = r * r;
-  return {static_cast<int>(n), r + r2 * ((1. / 2 + r * (1. / 6)) + r2 * ((1. / 24 + r * (1. / 120)) + r2 * (1. / 720)))};
+  return {static_cast<int>(n), r + r2 * ((1. / 2 + r * (1. / 6)) + r2 * (1. / 24 + r * (1. / 120)))};
 }
 
 }  // namespace
@@ -162,7 +165,10 @@ Scaled power(double x, DoubleDouble p) {
   return result;
 }
 
-double ScaledFactor::operator*(DoubleDouble x) const { return scale((m * x).hi, exponent); }
+double ScaledFactor::operator*(DoubleDouble x) const {
+  const DoubleDouble product = m * x;
+  return scale(product.hi + product.lo, exponent);
+}
 
 double times_exp(const ScaledFactor& f, DoubleDouble x) {
   const Reduced e = reduce(x);
@@ -180,8 +186,8 @@ DoubleDouble one_minus_exp(DoubleDouble x) {
 
 DoubleDouble expm1_ratio(DoubleDouble x) {
   double sum = 0;
-  for (int n = 9; n > 1; --n) sum = (sum * x.hi + 1) / n;  // (e^x - 1)/x - 1 = x/2 (1 + x/3 (1 + ...)), over x
-  return quick_two_sum(1, sum * x.hi);
+  for (int n = 9; n > 1; --n) sum = (sum * (x.hi + x.lo) + 1) / n;  // (e^x - 1)/x - 1 = x/2 (1 + x/3 (1 + ...)), over x
+  return quick_two_sum(1, sum * (x.hi + x.lo));
 }
 
 }  // namespace rolling

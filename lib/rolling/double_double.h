@@ -9,7 +9,7 @@
 
 namespace rolling {
 
-/// hi + lo, |lo| <= ulp(hi)/2. Of magnitude 1e-290 .. 1e290: the products split their factors.
+/// hi + lo, |lo| <= ulp(hi)/2, or as the function that made it says. Of magnitude 1e-290 .. 1e290: the products split their factors.
 struct DoubleDouble {
   double hi = 0, lo = 0;
 
@@ -36,16 +36,21 @@ constexpr DoubleDouble split(double a) {
   return {hi, a - hi};
 }
 
-constexpr DoubleDouble two_product(double a, double b) {
+/// The same with the parts of a at hand.
+constexpr DoubleDouble two_product(double a, DoubleDouble parts, double b) {
   const double p = a * b;
-  const auto [a1, a2] = split(a);
   const auto [b1, b2] = split(b);
-  return {p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2};
+  return {p, ((parts.hi * b1 - p) + parts.hi * b2 + parts.lo * b1) + parts.lo * b2};
 }
+constexpr DoubleDouble two_product(double a, double b) { return two_product(a, split(a), b); }
 
 constexpr DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
   const DoubleDouble s = two_sum(a.hi, b.hi), t = two_sum(a.lo, b.lo), u = quick_two_sum(s.hi, s.lo + t.hi);
   return quick_two_sum(u.hi, u.lo + t.lo);
+}
+constexpr DoubleDouble operator+(DoubleDouble a, double b) {
+  const DoubleDouble s = two_sum(a.hi, b);
+  return quick_two_sum(s.hi, s.lo + a.lo);
 }
 constexpr DoubleDouble operator-(DoubleDouble a, DoubleDouble b) { return a + -b; }
 
@@ -74,6 +79,8 @@ DoubleDouble exp(DoubleDouble x);
 /// x without its last `bits` bits.
 constexpr double cut(double x, int bits) { return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & ~((1ull << bits) - 1)); }
 
+// What follows is fast, and leaves out the last step that makes lo small: it gives and takes |lo| up to 2^-16 |hi|.
+
 /// A constant factor: its upper part has 26 bits, so that a product with 26 more needs no splitting.
 struct Factor {
   double hi = 0, lo = 0;
@@ -81,16 +88,29 @@ struct Factor {
   Factor() = default;
   Factor(DoubleDouble x) : hi(cut(x.hi, 27)), lo((x.hi - hi) + x.lo) {}
 };
-/// Relative error below 2^-76.
+/// Relative error below 2^-68.
 inline DoubleDouble operator*(Factor f, DoubleDouble x) {
   const double top = cut(x.hi, 27);
-  return quick_two_sum(f.hi * top, f.hi * (x.hi - top) + (f.lo * x.hi + f.hi * x.lo));
+  return {f.hi * top, f.hi * ((x.hi - top) + x.lo) + f.lo * (x.hi + x.lo)};
+}
+
+/// A constant factor of all its bits.
+struct SplitFactor {
+  DoubleDouble value, parts;
+
+  SplitFactor() = default;
+  SplitFactor(DoubleDouble x) : value(x), parts(split(x.hi)) {}
+};
+/// As exact as DoubleDouble times double.
+inline DoubleDouble operator*(const SplitFactor& f, double x) {
+  const DoubleDouble p = two_product(f.value.hi, f.parts, x);
+  return {p.hi, p.lo + f.value.lo * x};
 }
 
 /// log1p(r)/r for |r| <= 1/128: relative error below 2^-66.
 DoubleDouble log1p_ratio(DoubleDouble r);
 
-/// ln(x), fast: absolute error below 2^-66 max(1, |ln x|). x a normal number.
+/// ln(x): absolute error below 2^-66 max(1, |ln x|). x a normal number, |lo| <= ulp(hi).
 DoubleDouble quick_log(DoubleDouble x);
 
 /// m 2^exponent: products that may leave the range of double on the way.
@@ -117,9 +137,9 @@ struct ScaledFactor {
   double operator*(DoubleDouble x) const;  ///< rounded
 };
 
-/// f e^x, fast: within 0.51 ulp; |x| below 1e5.
+/// f e^x: within 0.51 ulp; |x| below 1e5.
 double times_exp(const ScaledFactor& f, DoubleDouble x);
-/// 1 - e^x, fast: relative error below 2^-55 for |x| > 1/32.
+/// 1 - e^x: relative error below 2^-55 for |x| > 1/32.
 DoubleDouble one_minus_exp(DoubleDouble x);
 /// (e^x - 1)/x for |x| <= 1/32: relative error below 2^-57.
 DoubleDouble expm1_ratio(DoubleDouble x);

@@ -62,6 +62,22 @@ TEST_CASE("DoubleDouble: arithmetic to about 2^-104", "[rolling]") {
   CHECK(worst(2000, sample([](auto a, auto b) { return decltype(a)(a / b); })) < 0x1p-100);
 }
 
+TEST_CASE("DoubleDouble: constant factors, as if they were none", "[rolling]") {
+  CHECK(worst(2000, [](auto between) {
+          const DoubleDouble f = any(between);
+          const double x = any(between).hi;
+          const Real exact = real(f) * x;
+          return Compared{real(SplitFactor(f) * x), exact, abs(exact)};
+        }) < 0x1p-102);
+  CHECK(worst(2000, [](auto between) {
+          const DoubleDouble f = any(between);
+          DoubleDouble x = any(between);
+          x.lo += x.hi * between(-1, 1) * 0x1p-16;
+          const Real exact = real(f) * real(x);
+          return Compared{real(Factor(f) * x), exact, abs(exact)};
+        }) < 0x1p-68);
+}
+
 TEST_CASE("DoubleDouble: the functions keep the errors that they state", "[rolling]") {
   CHECK(worst(100, [](auto between) {
           const DoubleDouble x(std::pow(10, between(-9, 9)), 0);
