@@ -53,11 +53,9 @@ std::vector<Quantity> chosen(const std::string& list) {
 
 /// The times 0, dt, 2 dt, ...; where 1/dt is a whole number (25 Hz), each the double nearest to k/rate.
 struct Clock {
-  double dt;
-  double at(double k) const {
-    const double rate = std::round(1 / dt);
-    return rate * dt == 1 ? k / rate : k * dt;
-  }
+  double dt, rate = std::round(1 / dt);
+  bool whole = rate * dt == 1;
+  double at(double k) const { return whole ? k / rate : k * dt; }
 };
 
 /// Comma-separated with a names line and blank cells, as such programs export it.
@@ -178,8 +176,9 @@ int main(int argc, char** argv) {
       tool.out.end_line();
       tool.out.names(names);
     };
+    const bool only_t = row.size() == 1 && row[0].column.name == "t";
     const auto write = [&](double t, Motion& motion) {
-      motion.seek(t);
+      if (!only_t) motion.seek(t);
       for (const Quantity& quantity : row) tool.out.cell(quantity.of(t, motion));
       tool.out.end_line();
     };
