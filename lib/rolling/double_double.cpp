@@ -142,7 +142,7 @@ Scaled::Scaled(DoubleDouble x) {
   m.lo = std::ldexp(x.lo, -exponent);
 }
 
-double Scaled::value() const { return scale(m.hi, exponent); }
+DoubleDouble Scaled::value() const { return {std::ldexp(m.hi, exponent), std::ldexp(m.lo, exponent)}; }
 
 Scaled operator*(const Scaled& a, const Scaled& b) {
   Scaled product(a.m * b.m);

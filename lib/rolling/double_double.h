@@ -120,7 +120,7 @@ struct Scaled {
 
   Scaled(DoubleDouble x);
   Scaled(double x) : Scaled(DoubleDouble(x)) {}
-  double value() const;  ///< rounded
+  DoubleDouble value() const;  ///< 0 or infinite beyond the range
 };
 Scaled operator*(const Scaled&, const Scaled&);
 Scaled operator/(const Scaled&, const Scaled&);

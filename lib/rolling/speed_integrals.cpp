@@ -40,7 +40,8 @@ double increasing_root(double lo, double hi, double x, Function&& function) {
 
 }  // namespace
 
-SpeedIntegrals::SpeedIntegrals(double b, double K, double depth) : b_(b), s_(1 - b), K_(K), depth_(depth) {
+SpeedIntegrals::SpeedIntegrals(double b, double K, double depth, double arm_square)
+    : b_(b), s_(1 - b), K_(K), depth_(depth), arm_square_(arm_square) {
   const double none = s_ > 0 ? far / std::min(s_, 1.0) : infinity;  // nothing is left beyond it
   if (depth == 0 || std::abs(b) < 1e-19) {
     add_piece(false, 0, infinity);
@@ -70,7 +71,7 @@ SpeedIntegrals::SpeedIntegrals(double b, double K, double depth) : b_(b), s_(1 -
 double SpeedIntegrals::z(double y) const { return depth_ * depth_ * std::exp(-2 * b_ * y); }
 
 double SpeedIntegrals::A(double y) const {
-  return std::sqrt(std::max(0.0, (1 - depth_) * (1 + depth_) - depth_ * depth_ * std::expm1(-2 * b_ * y)));
+  return std::sqrt(std::max(0.0, arm_square_ - depth_ * depth_ * std::expm1(-2 * b_ * y)));
 }
 
 double SpeedIntegrals::f(double lambda) const { return depth_ == 0 ? 1 : (K_ + A(lambda)) / (K_ + 1); }

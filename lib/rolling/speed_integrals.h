@@ -14,8 +14,10 @@ namespace rolling {
 /// (dy = A dA / (b z)), which removes the root of A and the pole of 1/A at D = R.
 class SpeedIntegrals {
  public:
-  /// depth = D(v0)/R in 0 .. 1, and 0 for A = 1. K + A must not be 0.
-  SpeedIntegrals(double b, double K, double depth);
+  /// depth = D(v0)/R in 0 .. 1, and 0 for A = 1; arm_square = 1 - depth^2, from a caller who knows it without cancellation.
+  /// K + A must not be 0.
+  SpeedIntegrals(double b, double K, double depth, double arm_square);
+  SpeedIntegrals(double b, double K, double depth) : SpeedIntegrals(b, K, depth, (1 - depth) * (1 + depth)) {}
 
   /// int_0^inf f e^(-s y) dy: the time to the stop; infinity if there is no stop.
   double stop() const { return stop_; }
@@ -80,7 +82,7 @@ class SpeedIntegrals {
   double z(double y) const;  // and A, at y from the start
   double A(double y) const;
 
-  double b_, s_, K_, depth_;
+  double b_, s_, K_, depth_, arm_square_;
   std::vector<Piece> pieces_;
   std::vector<Term> series_;
   double stop_ = std::numeric_limits<double>::infinity();

@@ -1,9 +1,11 @@
 #include "rolling/trajectory.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
 #include "rolling/contact.h"
+#include "rolling/double_double.h"
 
 namespace rolling {
 
@@ -11,20 +13,19 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// D(v0)/R, 0 where the geometry does not look at it.
-double depth(const Body& body, Geometry geometry, PowerLaw law, double v0) {
+SpeedIntegrals integrals_of(const Body& body, Geometry geometry, PowerLaw law, double v0) {
   check_roll(body, law, v0);
-  const double D = law(v0);
-  check_shift(body, D);
-  if (geometry == Geometry::approximate) return 0;
-  if (body.K + arm_factor(body, geometry, D) == 0) fail("K = 0 and D(v0) = R: the force of the mat would have no bound");
-  return D / body.R;
+  if (geometry == Geometry::approximate || v0 == 0) return {law.b, body.K, 0};
+  const DoubleDouble depth = (Scaled(law.a) * power(v0, law.b) / Scaled(body.R)).value();
+  const double arm_square = std::max(0.0, (-(depth * depth) + 1).hi);
+  if (body.K == 0 && arm_square == 0) fail("K = 0 and D(v0) = R: the force of the mat would have no bound");
+  return {law.b, body.K, std::min(depth.hi, 1.0), arm_square};
 }
 
 }  // namespace
 
 Trajectory::Trajectory(const Body& body, Geometry geometry, PowerLaw law, double v0)
-    : body_(body), geometry_(geometry), law_(law), v0_(v0), integrals_(law.b, body.K, depth(body, geometry, law, v0)) {
+    : body_(body), geometry_(geometry), law_(law), v0_(v0), integrals_(integrals_of(body, geometry, law, v0)) {
   if (v0 == 0) return;
   const double D = law(v0);  // v0^b may have left the range of double, or v0^(1-b)
   unit_ = (D >= std::numeric_limits<double>::min() ? v0 / D : std::pow(v0, 1 - law.b) / law.a) * ((body.K + 1) * body.R / body.g);

@@ -15,6 +15,7 @@
 #include "rolling/exact_form.h"
 #include "unit/rolling/closed_form_reference.h"
 #include "unit/rolling/exact_form_reference.h"
+#include "unit/rolling/random_scene.h"
 
 using namespace rolling;
 
@@ -38,13 +39,6 @@ Time nanoseconds(Work&& work) {
   (void)sink;
   std::sort(runs.begin(), runs.end());
   return {runs[7], (runs[11] - runs[3]) / 2};
-}
-
-/// Scene n of the exact geometry: mostly as they come, a fifth with D(v0)/R up to 0.99, one in a thousand up to 0.999.
-RandomScene exact_scene(std::mt19937_64& random, int n) {
-  RandomScene scene = random_scene(random);
-  if (n % 5 == 0) deepen(scene, 1 - std::pow(10, std::uniform_real_distribution(n % 1000 == 0 ? -3.0 : -2.0, 0.0)(random)));
-  return scene;
 }
 
 }  // namespace
@@ -71,7 +65,7 @@ int main(int argc, char** argv) {
 
   v = x = 0;
   for (int n = 0, scenes = 0; n < samples / 10; ++scenes) {
-    const RandomScene scene = exact_scene(random, scenes);
+    const RandomScene scene = scenes % 20 == 0 ? deep_scene(random, scenes / 20) : random_scene(random);
     const ExactFormReference reference(scene.body, scene.law, scene.v0);
     ExactForm motion(scene.body, scene.law, scene.v0, 0);
     const double T = motion.stop_time();
@@ -84,7 +78,7 @@ int main(int argc, char** argv) {
       ++n;
     }
   }
-  fmt::print("# exact geometry: largest relative error over {} samples, D(v0)/R up to 0.999, three of four at T(1 - 1e-3, 1e-6, 1e-9)\nv\t{:.2g}\nx\t{:.2g}\n",
+  fmt::print("# exact geometry: largest relative error over {} samples, one scene of twenty with D(v0) near R, three of four at T(1 - 1e-3, 1e-6, 1e-9)\nv\t{:.2g}\nx\t{:.2g}\n",
              samples / 10, v, x);
 
   ClosedForm motion({1.375, 0.04, 0.5}, {1.87e-3, 0.215}, 0.5, 0);

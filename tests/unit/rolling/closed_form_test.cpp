@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "unit/catch.h"
 #include "unit/rolling/closed_form_reference.h"
+#include "unit/rolling/random_scene.h"
 
 using namespace rolling;
 

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "base/error.h"
 #include "rolling/closed_form.h"
 #include "unit/catch.h"
-#include "unit/rolling/closed_form_reference.h"
 #include "unit/rolling/exact_form_reference.h"
+#include "unit/rolling/random_scene.h"
 
 using namespace rolling;
 
@@ -16,25 +17,57 @@ namespace {
 
 const Body cylinder{1.375, 0.04, 0.5}, shell{1.375, 0.04, 0.83};
 
+/// At T(1 - 1e-3), T(1 - 1e-6), T(1 - 1e-9) and at a random time.
+void check(const RandomScene& scene, std::mt19937_64& random) {
+  const ExactFormReference reference(scene.body, scene.law, scene.v0);
+  ExactForm motion(scene.body, scene.law, scene.v0, 0);
+  for (int i = 0; i < 4; ++i) {
+    const double T = motion.stop_time(), t = i < 3 && std::isfinite(T) ? T * (1 - std::pow(1e-3, i + 1)) : random_time(random, scene, T, i);
+    motion.seek(t);
+    if (motion.velocity() < 1e-300) continue;  // denormal
+    const auto error = reference.errors(t, motion.velocity(), motion.position());
+    INFO("a " << scene.law.a << " b " << scene.law.b << " K " << scene.body.K << " R " << scene.body.R << " v0 " << scene.v0 << " t " << t
+              << " 1 - D/R " << 1 - scene.law(scene.v0) / scene.body.R << " t/T " << t / T << " v " << error.v << " x " << error.x);
+    REQUIRE((std::abs(error.v) <= 1e-13 && std::abs(error.x) <= 1e-13));
+  }
+}
+
 }  // namespace
 
 TEST_CASE("ExactForm: random scenes against 60 digits, until just before the stop", "[rolling]") {
   std::mt19937_64 random(4);
-  for (int n = 0; n < 2000; ++n) {  // tests/bench/ulp takes more
+  for (int n = 0; n < 2000; ++n) check(random_scene(random), random);  // tests/bench/ulp takes more
+}
+
+TEST_CASE("ExactForm: D(v0) near R, against 60 digits", "[rolling]") {
+  std::mt19937_64 random(5);
+  for (int n = 0; n < 60; ++n) check(deep_scene(random, n), random);
+}
+
+TEST_CASE("ExactForm: b < 0, where the roll ends as D reaches R", "[rolling]") {
+  std::mt19937_64 random(6);
+  const auto between = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+  int stops = 0;
+  for (int n = 0; n < 40; ++n) {
     RandomScene scene = random_scene(random);
-    if (n % 10 == 0) deepen(scene, 1 - std::pow(10, std::uniform_real_distribution(-2.0, 0.0)(random)));
+    scene.law.b = -std::pow(10, between(-2, 0.5));
+    deepen(scene, std::pow(10, between(-4, -0.1)));
     const ExactFormReference reference(scene.body, scene.law, scene.v0);
     ExactForm motion(scene.body, scene.law, scene.v0, 0);
-    for (int i = 0; i < 4; ++i) {
-      const double T = motion.stop_time(), t = i < 3 && std::isfinite(T) ? T * (1 - std::pow(1e-3, i + 1)) : random_time(random, scene, T, i);
-      motion.seek(t);
-      if (motion.velocity() < 1e-300) continue;  // denormal
-      const auto error = reference.errors(t, motion.velocity(), motion.position());
-      INFO("a " << scene.law.a << " b " << scene.law.b << " K " << scene.body.K << " R " << scene.body.R << " v0 " << scene.v0 << " t " << t
-                << " D/R " << scene.law(scene.v0) / scene.body.R << " t/T " << t / T << " v " << error.v << " x " << error.x);
-      REQUIRE((std::abs(error.v) <= 1e-13 && std::abs(error.x) <= 1e-13));
+    const double unit = scene.v0 / (scene.law(scene.v0) * scene.body.g / ((scene.body.K + 1) * scene.body.R));
+    const double end = std::min(motion.stop_time(), unit * SpeedIntegrals(scene.law.b, scene.body.K, scene.law(scene.v0) / scene.body.R).end());
+    for (const double part : {0.1, 0.9, 1 - 1e-6, 1 - 1e-9}) {
+      motion.seek(part * end);
+      const auto error = reference.errors(part * end, motion.velocity(), motion.position());
+      INFO("a " << scene.law.a << " b " << scene.law.b << " K " << scene.body.K << " R " << scene.body.R << " v0 " << scene.v0 << " t/end " << part
+                << " v " << error.v << " x " << error.x << " by t " << error.v_by_t);
+      CHECK(std::abs(error.v) <= 1e-13 + 4 * std::numeric_limits<double>::epsilon() * error.v_by_t);  // as good as t is as a double
+      CHECK(std::abs(error.x) <= 1e-13);
     }
+    if (std::isinf(motion.stop_time())) CHECK_THROWS_AS(motion.seek(end * (1 + 1e-9)), Error);
+    stops += std::isfinite(motion.stop_time());
   }
+  CHECK((stops > 0 && stops < 20));  // b so near 0 that nobody sees D reach R, and others
 }
 
 TEST_CASE("ExactForm: the stopping times of model.md", "[rolling]") {
