@@ -60,7 +60,8 @@ std::vector<FitRun> read_runs(Reader& in, Route route, const Body& body, bool al
 
 /// For these runs, what each route finds at which cost, and which law describes them on the route that was asked for.
 void report(Tool& tool, Route asked, const std::vector<FitRun>& runs, const FitOptions& options) {
-  const std::map<Errors, const char*> kinds{{Errors::none, "none"}, {Errors::classical, "classical"}, {Errors::filters, "of the filters"}, {Errors::autocorrelation, "of the autocorrelation"}};
+  const std::map<Errors, const char*> kinds{{Errors::none, "none"}, {Errors::classical, "classical"}, {Errors::filters, "of the filters"},
+                                              {Errors::differences, "of differences of positions"}, {Errors::autocorrelation, "of the autocorrelation"}};
   for (const auto& [name, route] : routes) try {
       for (const FitRun& run : runs)
         for (const std::string& column : columns_of(*route))
@@ -113,6 +114,7 @@ int main(int argc, char** argv) {
     set_parameters("--start", start, {{"a", &options.start_a}, {"b", &options.start_b}});
     Reader& in = tool.read(columns_of(given_route.value_or(Route::shift)));
     const Route route = given_route ? *given_route : in.find("D") ? Route::shift : in.find("v") ? Route::velocity : Route::position;
+    options.speeds_of_positions = speeds_of_positions();
     const bool trajectory = route == Route::velocity || route == Route::position;
     if (trajectory) {
       tool.need(body, "R");

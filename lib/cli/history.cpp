@@ -1,6 +1,7 @@
 #include "cli/history.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 #include "rolling/contact.h"
@@ -43,16 +44,37 @@ std::size_t count_after(const std::vector<std::string>& words, std::string_view 
   return static_cast<std::size_t>(value);
 }
 
+LinearFilter derivative(const std::string& from, const std::string& to, const DerivativeOptions& options) {
+  const std::size_t reach = options.method == DerivativeMethod::savgol ? options.width / 2 : options.method == DerivativeMethod::vernier ? 3 : options.method == DerivativeMethod::pasco ? 2 : 1;
+  return {from, to, reach, [options](auto time, auto y) { return apply(make_derivative(options), time, y); }};
+}
+
 }  // namespace
+
+std::vector<LinearFilter> speeds_of_positions() {
+  std::vector<LinearFilter> filters;
+  for (auto method : {DerivativeMethod::central, DerivativeMethod::vernier, DerivativeMethod::pasco}) filters.push_back(derivative("x", "v", {method}));
+  return filters;
+}
 
 FilterChain filters_of(const std::vector<std::string>& history, std::span<const double> t) {
   FilterChain chain;
+  bool cut_begin = false, cut_end = false;
+  const auto append = [&](LinearFilter filter) {
+    filter.cut_begin = std::exchange(cut_begin, false);
+    filter.cut_end = std::exchange(cut_end, false);
+    chain.push_back(std::move(filter));
+  };
   for (const std::string& line : history) {
     const auto words = split_names(line, '\0');
     if (words.size() < 3) continue;
     const std::string &tool = words[0], &column = words[1], &method = words[2];
     if (tool == "smooth") {
-      if (method == "coast" || method == "from" || method == "to") continue;  // these choose records, no more
+      if (method == "coast" || method == "from" || method == "to") {
+        cut_begin = cut_begin || method != "to";
+        cut_end = cut_end || method != "from";
+        continue;
+      }
       const auto known = smoothing_methods.find(method);
       if (known == smoothing_methods.end() || known->second == SmoothingMethod::median || words.size() != (method == "savgol" ? 7U : 5U)) return {};
       SmootherOptions options{known->second};
@@ -62,24 +84,21 @@ FilterChain filters_of(const std::vector<std::string>& history, std::span<const 
       const double seconds = options.width.seconds;
       if (!(seconds >= 0)) fail("a `##` line has a window of {} seconds", seconds);
       const std::size_t reach = seconds > 0 ? samples_within(seconds, t) : options.width.samples / 2;
-      chain.push_back({column, column, reach, [options](auto time, auto y) { return apply(make_smoother(options), time, y); }});
+      append({column, column, reach, [options](auto time, auto y) { return apply(make_smoother(options), time, y); }});
     } else if (tool == "differentiate") {
       const auto known = derivative_methods.find(method);
       if (known == derivative_methods.end() || known->second == DerivativeMethod::spline || words.size() != (method == "savgol" ? 7U : 3U)) return {};
       DerivativeOptions options{known->second};
-      std::size_t reach = method == "vernier" ? 3 : method == "pasco" ? 2 : 1;
       if (method == "savgol") {
         options.width = count_after(words, "width");
         options.order = count_after(words, "order");
-        reach = options.width / 2;
       }
-      const std::string to = column == "x" ? "v" : column == "v" ? "a" : "d" + column;
-      chain.push_back({column, to, reach, [options](auto time, auto y) { return apply(make_derivative(options), time, y); }});
+      append(derivative(column, column == "x" ? "v" : column == "v" ? "a" : "d" + column, options));
     } else if (tool == "shift-from-accel") {
       // The exact root of Eq. 9 bends away from Eq. 11 by (D/R)^2, which does not matter to an error bar.
       const Body body{0, number_after(words, "R"), number_after(words, "K"), number_after(words, "g")};
       const double scale = -(1 + body.K) * body.R / body.g;
-      chain.push_back({"a", "D", 0, [scale](auto, auto y) {
+      append({"a", "D", 0, [scale](auto, auto y) {
                          std::vector<double> D(y.begin(), y.end());
                          for (double& value : D) value *= scale;
                          return D;

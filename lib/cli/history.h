@@ -13,4 +13,7 @@ namespace rolling {
 /// of others say nothing. Empty if a line names a filter that is not linear or not known here: then nothing can be said.
 FilterChain filters_of(const std::vector<std::string>& history, std::span<const double> t);
 
+/// How speeds are made of positions at the sensor: the central difference, and what Vernier's and PASCO's programs do.
+std::vector<LinearFilter> speeds_of_positions();
+
 }  // namespace rolling

@@ -65,6 +65,12 @@ BandMatrix BandMatrix::operator*(const BandMatrix& B) const {
   return product;
 }
 
+BandMatrix BandMatrix::without(std::size_t before, std::size_t after) const {
+  BandMatrix rest;
+  for (std::size_t i = before; i + after < rows(); ++i) rest.append(first(i), row(i));
+  return rest;
+}
+
 BandMatrix probe(const LinearFilter& filter, std::span<const double> t) {
   // A row reaches at most 2 reach to either side (that far only at the ends), so of impulses 4 reach + 1 apart it sees one.
   const std::size_t n = t.size(), most = std::min(2 * filter.reach, n), spacing = std::min(4 * filter.reach + 1, n);
@@ -94,13 +100,35 @@ BandMatrix probe(const LinearFilter& filter, std::span<const double> t) {
 NoiseResponse noise_response(const FilterChain& chain, std::span<const double> t) {
   NoiseResponse response;
   if (chain.empty()) return response;
+  std::size_t reach = 0, before = 0, after = 0;  // how far beyond the run the filters ahead of the last cut reach
+  for (const auto& filter : chain) {
+    if (filter.cut_begin) before = reach;
+    if (filter.cut_end) after = reach;
+    reach += filter.reach;
+  }
+  const std::size_t n = t.size();
+  for (std::size_t k = before; k > 0 && n > 1; --k) response.t.push_back(t[0] - static_cast<double>(k) * (t[1] - t[0]));
+  response.t.insert(response.t.end(), t.begin(), t.end());
+  for (std::size_t k = 1; k <= after && n > 1; ++k) response.t.push_back(t[n - 1] + static_cast<double>(k) * (t[n - 1] - t[n - 2]));
+
+  std::span<const double> present = response.t;
+  std::size_t still_before = before, still_after = after;
+  reach = 0;
   response.source = chain.front().from;
-  response.of.emplace(response.source, BandMatrix::identity(t.size()));
+  response.of.emplace(response.source, BandMatrix::identity(present.size()));
   for (const auto& filter : chain) {
     const auto input = response.of.find(filter.from);
     if (input == response.of.end())
       fail("the filters start from two columns, {} and {}: their noises are not known together", response.source, filter.from);
-    response.of.insert_or_assign(filter.to, probe(filter, t) * input->second);
+    const std::size_t first = filter.cut_begin && n > 1 ? still_before - (before - reach) : 0, last = filter.cut_end && n > 1 ? still_after - (after - reach) : 0;
+    if (first + last > 0) {
+      for (auto& [name, matrix] : response.of) matrix = matrix.without(first, last);
+      present = present.subspan(first, present.size() - first - last);
+      still_before -= first;
+      still_after -= last;
+    }
+    response.of.insert_or_assign(filter.to, probe(filter, present) * input->second);
+    reach += filter.reach;
   }
   return response;
 }
@@ -192,6 +220,12 @@ void Whitener::apply_transposed(double* x) const {
   }
 }
 
+double Whitener::log_size() const {
+  double sum = 0;
+  for (std::size_t k = 0; k < n_; ++k) sum += std::log(std::abs(R_[k * band_]));
+  return sum;
+}
+
 namespace {
 
 std::vector<double> row_norms(const BandMatrix& E) {
@@ -210,6 +244,12 @@ void KnownNoise::append(BandMatrix E, double share) {
   std::nth_element(norms.begin(), middle, norms.end());
   Whitener whitener(E, norms.empty() ? 0 : share * *middle);
   runs_.push_back({std::move(E), sources, std::move(whitener)});
+}
+
+double KnownNoise::log_size() const {
+  double sum = 0;
+  for (const auto& run : runs_) sum += run.whitener.log_size();
+  return sum;
 }
 
 std::vector<double> KnownNoise::sizes() const {

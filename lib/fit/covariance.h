@@ -21,6 +21,7 @@ class BandMatrix {
   double times(std::size_t i, std::span<const double> x) const;  ///< element i of the product with x
   /// This matrix times B.
   BandMatrix operator*(const BandMatrix& B) const;
+  BandMatrix without(std::size_t before, std::size_t after) const;  ///< the first and the last rows
 
  private:
   std::vector<std::size_t> first_, start_{0};
@@ -33,9 +34,10 @@ BandMatrix probe(const LinearFilter&, std::span<const double> t);
 /// What a chain makes of the noise of its one raw column.
 struct NoiseResponse {
   std::string source;                    ///< the raw column, whose noise is taken as white
-  std::map<std::string, BandMatrix> of;  ///< each column, the source included, as a linear map of the source
+  std::vector<double> t;                 ///< times of the raw records: the run's, and those that were cut away after filters had used them
+  std::map<std::string, BandMatrix> of;  ///< each column, the source included, as a linear map of the source; a row for each record of the run
 };
-/// Throws Error for a chain that starts from more than one raw column.
+/// Records that were cut away are taken as spaced like those at that end. Throws Error for a chain that starts from more than one raw column.
 NoiseResponse noise_response(const FilterChain&, std::span<const double> t);
 
 /// Turns vectors of covariance C = E E^T + floor^2 I into white ones, in O(n band^2), with no n x n matrix: C = R^T R.
@@ -44,6 +46,7 @@ class Whitener {
   Whitener(const BandMatrix& E, double floor);
   void apply(double* x, std::size_t stride) const;             ///< x becomes R^-T x; a direction without noise becomes 0
   void apply_transposed(double* x) const;                      ///< x becomes R^-1 x
+  double log_size() const;                                     ///< ln of the determinant of R
 
  private:
   std::size_t n_, band_;
@@ -58,6 +61,8 @@ class KnownNoise {
   bool empty() const { return runs_.empty(); }
   /// Residuals (n) and derivatives (n rows of p), weighted.
   void weight(std::vector<double>& f, std::vector<double>& J) const;
+  /// ln of the factor by which weighting shrinks a volume.
+  double log_size() const;
   /// Standard deviation of each residual for white noise of size one.
   std::vector<double> sizes() const;
   /// The variance of that white noise, from the weighted residuals and Q = J R^-1 of the fit.

@@ -15,8 +15,10 @@ struct LinearFilter {
   std::string from, to;  ///< columns, by their short names
   std::size_t reach;
   std::function<std::vector<double>(std::span<const double> t, std::span<const double> y)> apply;
+  bool cut_begin = false, cut_end = false;  ///< then records were cut away there before this filter came
 };
 
+/// In order; it starts with the filter of the raw column.
 using FilterChain = std::vector<LinearFilter>;
 
 }  // namespace rolling

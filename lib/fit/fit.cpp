@@ -12,6 +12,11 @@ namespace {
 
 double sum_of_squares(const std::vector<double>& f) { return std::inner_product(f.begin(), f.end(), f.begin(), 0.0); }
 
+/// Of the weighted residuals, where weighting makes them white. The weights of loglog and shift are not the inverse of their covariance.
+double whiteness(const RouteFit& r) {
+  return r.noise.empty() || !r.rolls.empty() ? ljung_box(r.minimum.f, r.runs) : std::numeric_limits<double>::quiet_NaN();
+}
+
 FitResult conclude(const RouteFit& r) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::size_t n = r.residuals.size(), p = r.minimum.theta.size();
@@ -21,17 +26,15 @@ FitResult conclude(const RouteFit& r) {
   if (n > p) {
     result.rms = std::sqrt(sum_of_squares(r.residuals) / static_cast<double>(n - p));
     std::vector<double> Q = orthonormal(r.minimum);
-    // Weighted residuals are white if the filters are all that ties them together; not those of loglog and shift, whose weights
-    // are not the inverse of their covariance.
-    if (r.noise.empty() || !r.rolls.empty()) result.whiteness = ljung_box(r.minimum.f, r.runs);
-    const bool white = n < 30 || !(result.whiteness <= 0.01);
-    if (white && !r.noise.empty()) {
+    result.whiteness = whiteness(r);
+    const bool white = look_white(r);
+    if (white && !r.noise.empty() && !r.judged) {
       middle = r.noise.middle(r.minimum.f, Q);
       result.errors = Errors::filters;
     } else if (white) {
       std::fill(middle.begin(), middle.end(), 0);
       for (std::size_t j = 0; j < p; ++j) middle[j * p + j] = r.minimum.rss / static_cast<double>(n - p);
-      result.errors = Errors::classical;
+      result.errors = r.judged ? Errors::differences : Errors::classical;
     } else {
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < p; ++j) Q[i * p + j] *= r.minimum.f[i];
@@ -59,6 +62,8 @@ FitResult conclude(const RouteFit& r) {
 }
 
 }  // namespace
+
+bool look_white(const RouteFit& r) { return r.residuals.size() < 30 || !(whiteness(r) <= 0.01); }
 
 RouteFit fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   if (options.a && !(*options.a > 0)) fail("a = {} cannot be held: it must be positive", *options.a);

@@ -25,11 +25,13 @@ struct FitOptions {
   std::optional<double> origin;                       ///< when v0 and x0 hold [s]; else the first fitted record of each run
   std::optional<double> start_a, start_b;             ///< where to start; found from the data otherwise
   double min_speed = 0;                               ///< records slower than this are left out [m/s]
+  /// What programs may have made speeds of positions with: tried on the velocity route where no filters are known.
+  std::vector<LinearFilter> speeds_of_positions;
   bool robust = false;                                ///< bisquare loss instead of squares; not for filtered columns
 };
 
 /// How the standard errors were made; `none` where there are as many parameters as records (the errors and rms are NaN).
-enum class Errors { none, classical, filters, autocorrelation };
+enum class Errors { none, classical, filters, differences, autocorrelation };
 
 struct FitResult {
   double a, sigma_a, b, sigma_b;  ///< a [m (s/m)^b]

@@ -233,6 +233,12 @@ Minimum minimise_robust(const System& system, const std::vector<double>& start) 
   return at;
 }
 
+double linear_rss(const System& system, const std::vector<double>& theta) {
+  Minimum at{theta, std::vector<double>(system.n), std::vector<double>(system.n * system.p), {}, 0};
+  system.evaluate(at.theta, at.f, at.J);
+  return std::max(square(at.f) - gauss_newton(system, at).reduction, 0.0);
+}
+
 std::vector<double> orthonormal(const Minimum& m) {
   const std::size_t p = m.theta.size(), n = m.f.size();
   std::vector<double> u = m.J;

@@ -16,7 +16,7 @@ struct Quantity {
 /// One run, as the trajectory sees it. `way` is +1 or -1: a body that rolls towards the sensor has falling x and v < 0.
 struct FittedRun {
   Body body;
-  double way, origin;
+  double way, origin, start;     ///< v0 and x0 are fitted at the time origin, and told at start
   std::vector<double> t, y;      ///< the fitted records, t from the origin
   std::vector<double> model_t;   ///< where the model is needed: the same, or all records of the raw column if filters are known
   BandMatrix filters;            ///< fitted column = filters * raw column; no rows if nothing is known
@@ -29,12 +29,16 @@ struct RouteFit {
   std::vector<std::size_t> runs;   ///< fitted records of each run
   std::vector<double> residuals;   ///< in the unit of the fitted column; the minimum's f may be whitened
   KnownNoise noise;                ///< from the filters; empty if they are not known
+  bool judged = false;             ///< the filters are not known, but found by the residuals: noise.weight() leaves nothing but white noise
   std::size_t left_out;
   Quantity a, b;
   std::vector<Quantity> v0, x0;
   std::vector<double> v = {};    ///< speeds of the fitted records (loglog and shift)
   std::vector<FittedRun> rolls = {};  ///< the fitted runs (trajectory routes)
 };
+
+/// Whether the (weighted) residuals are taken as independent: white in the test of Ljung and Box at 1 %, or fewer than 30.
+bool look_white(const RouteFit&);
 
 RouteFit fit_route(Route, const std::vector<FitRun>&, const FitOptions&);
 RouteFit fit_log_log(const std::vector<FitRun>&, const FitOptions&);

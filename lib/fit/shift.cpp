@@ -66,9 +66,9 @@ struct ClosestRoll {
 };
 ClosestRoll closest_roll(const NoiseResponse& response, const FitRun& run, const Rows& rows, PowerLaw law) {
   const bool position = response.source == "x";
-  const std::size_t n = run.t.size();
+  const std::size_t n = response.t.size();
   std::vector<double> t, slowing, by_v0(n);
-  for (double x : run.t) t.push_back(x - run.t[0]);
+  for (double x : response.t) t.push_back(x - response.t[0]);
   for (double x : t) slowing.push_back(position ? -x * x / 2 : -x);
   // D of unit deceleration is (1 + K) R / g: the filters tell which body this is. At a lost record a window is lopsided and
   // tells another; half of the records do not see one.
@@ -110,7 +110,7 @@ ClosestRoll closest_roll(const NoiseResponse& response, const FitRun& run, const
 ShiftRecords::Smoothed ShiftRecords::smoothed(double a, double b) const {
   Smoothed result;
   for (std::size_t r = 0; r < response_.size(); ++r) {
-    const auto& [source, of] = response_[r];
+    const auto& [source, raw_t, of] = response_[r];
     ClosestRoll roll;
     if (of.contains("v") && (source == "x" || source == "v") && !rows_[r].empty()) try {
         roll = closest_roll(response_[r], all_[r], rows_[r], {a, b});

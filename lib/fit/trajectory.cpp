@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace rolling {
 namespace {
@@ -19,7 +20,7 @@ struct Parameters {
   const FitOptions& options;
   bool position;
   std::size_t runs;
-  double v_ref = 1, x_ref = 1;
+  double v_ref = 1, log_v_ref = 0, x_ref = 1;
 
   bool free_x0() const { return position && !options.x0; }
   std::size_t of_law() const { return !options.a + !options.b; }
@@ -29,55 +30,55 @@ struct Parameters {
   std::size_t x0_at(std::size_t r) const { return v0_at(r) + !options.v0; }
 
   double b(const std::vector<double>& theta) const { return options.b ? *options.b : theta[of_law() - 1]; }
-  double a(const std::vector<double>& theta) const { return options.a ? *options.a : std::exp(theta[0] - b(theta) * std::log(v_ref)); }
+  double a(const std::vector<double>& theta) const { return options.a ? *options.a : std::exp(theta[0] - b(theta) * log_v_ref); }
   double v0(const std::vector<double>& theta, std::size_t r) const { return options.v0 ? std::abs(*options.v0) : theta[v0_at(r)] * v_ref; }
   double x0(const std::vector<double>& theta, std::size_t r) const { return !position ? 0 : options.x0 ? *options.x0 : theta[x0_at(r)] * x_ref; }
+  Trajectory trajectory(const FittedRun& roll, const std::vector<double>& theta, std::size_t r) const {
+    return {roll.body, options.geometry, {a(theta), b(theta)}, v0(theta, r)};
+  }
+
+  /// Into a row of count() numbers the derivatives by theta of what has these by a, b, and by v0 and x0 of run r.
+  void chain(double* row, double a, std::size_t r, double by_a, double by_b, double by_v0 = 0, double by_x0 = 0) const {
+    std::fill_n(row, count(), 0.0);
+    if (!options.a) row[0] = a * by_a;
+    if (!options.b) row[of_law() - 1] = by_b - (options.a ? 0 : log_v_ref * a * by_a);
+    if (!options.v0) row[v0_at(r)] = by_v0 * v_ref;
+    if (free_x0()) row[x0_at(r)] = by_x0 * x_ref;
+  }
 };
 
-/// Model minus data and derivatives of one run, into f[i] and J[i * p + ...], i from `at`.
-void evaluate(const FittedRun& roll, std::size_t r, const Parameters& q, Geometry geometry, const std::vector<double>& theta,
-              std::size_t at, std::vector<double>& f, std::vector<double>& J) {
-  const std::size_t p = q.count(), m = roll.model_t.size();
-  const double a = q.a(theta), L = std::log(q.v_ref);
-  const Trajectory trajectory(roll.body, geometry, {a, q.b(theta)}, q.v0(theta, r));
-  const bool filtered = roll.filters.rows() > 0;
-  enum { value, by_height, by_b, by_v0, kinds };
-  std::vector<double> raw[kinds];
-  if (filtered) for (auto& column : raw) column.reserve(m);
-  const auto store = [&](std::size_t i, const double (&g)[kinds], double by_x0) {
-    double* const row = &J[(at + i) * p];
-    std::fill_n(row, p, 0.0);
-    f[at + i] = g[value] - roll.y[i];
-    if (!q.options.a) row[0] = g[by_height];
-    if (!q.options.b) row[q.of_law() - 1] = g[by_b];
-    if (!q.options.v0) row[q.v0_at(r)] = g[by_v0];
-    if (q.free_x0()) row[q.x0_at(r)] = by_x0;
-  };
-  for (std::size_t i = 0; i < m; ++i) {
+/// Model minus data and derivatives of one run, into n elements of f and n rows of J.
+void evaluate(const FittedRun& roll, std::size_t r, const Parameters& q, const std::vector<double>& theta, double* f, double* J) {
+  const std::size_t p = q.count(), m = roll.model_t.size(), n = roll.t.size();
+  const double a = q.a(theta), x0 = q.x0(theta, r), way = roll.way;
+  const Trajectory trajectory = q.trajectory(roll, theta, r);
+  const auto model = [&](std::size_t i, double* row) {
     const auto s = trajectory.at(roll.model_t[i]);
-    const bool x = roll.raw_is_position;
-    const double y = x ? s.x : s.v, y_a = x ? s.x_a : s.v_a, y_b = x ? s.x_b : s.v_b, y_v0 = x ? s.x_v0 : s.v_v0;
-    const double g[kinds] = {(x ? q.x0(theta, r) : 0) + roll.way * y, roll.way * a * y_a,
-                             roll.way * (y_b - (q.options.a ? 0 : L * a * y_a)), roll.way * y_v0 * q.v_ref};
-    if (!filtered) store(i, g, q.x_ref);
-    else for (int k = 0; k < kinds; ++k) raw[k].push_back(g[k]);
+    if (roll.raw_is_position) q.chain(row, a, r, way * s.x_a, way * s.x_b, way * s.x_v0, 1);
+    else q.chain(row, a, r, way * s.v_a, way * s.v_b, way * s.v_v0);
+    return roll.raw_is_position ? x0 + way * s.x : way * s.v;
+  };
+  if (roll.filters.rows() == 0) {
+    for (std::size_t i = 0; i < n; ++i) f[i] = model(i, J + i * p) - roll.y[i];
+    return;
   }
-  if (!filtered) return;
-  for (std::size_t i = 0; i < roll.t.size(); ++i) {
+  std::vector<double> raw(m), slopes(m * p);
+  for (std::size_t i = 0; i < m; ++i) raw[i] = model(i, &slopes[i * p]);
+  std::fill_n(J, n * p, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    f[i] = roll.filters.times(i, raw) - roll.y[i];
     const auto weights = roll.filters.row(i);
-    const double g[kinds] = {roll.filters.times(i, raw[value]), roll.filters.times(i, raw[by_height]), roll.filters.times(i, raw[by_b]),
-                             roll.filters.times(i, raw[by_v0])};
-    store(i, g, q.x_ref * std::accumulate(weights.begin(), weights.end(), 0.0));
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      for (std::size_t j = 0; j < p; ++j) J[i * p + j] += weights[k] * slopes[(roll.filters.first(i) + k) * p + j];
   }
 }
 
-System system_of(const std::vector<FittedRun>& rolls, const Parameters& q, Geometry geometry, const KnownNoise& noise) {
+System system_of(const std::vector<FittedRun>& rolls, const Parameters& q, const KnownNoise& noise) {
   std::size_t n = 0;
-  std::vector<std::size_t> runs;
-  for (const auto& roll : rolls) n += roll.t.size(), runs.push_back(roll.t.size());
-  return {n, q.count(), [&rolls, &q, &noise, geometry, runs](const std::vector<double>& theta, std::vector<double>& f, std::vector<double>& J) {
+  for (const auto& roll : rolls) n += roll.t.size();
+  return {n, q.count(), [&rolls, &q, &noise](const std::vector<double>& theta, std::vector<double>& f, std::vector<double>& J) {
     std::size_t at = 0;
-    for (std::size_t r = 0; r < rolls.size(); at += runs[r], ++r) evaluate(rolls[r], r, q, geometry, theta, at, f, J);
+    for (std::size_t r = 0; r < rolls.size(); at += rolls[r++].t.size()) evaluate(rolls[r], r, q, theta, &f[at], &J[at * q.count()]);
     noise.weight(f, J);
   }};
 }
@@ -165,7 +166,7 @@ std::vector<std::vector<double>> starts(const std::vector<FittedRun>& thin, cons
     Candidate candidate{std::numeric_limits<double>::infinity(), {}};
     for (double a : as) {
       Candidate here{0, std::vector<double>(q.count())};
-      if (!options.a) here.theta[0] = std::log(a) + b * std::log(q.v_ref);
+      if (!options.a) here.theta[0] = std::log(a) + b * q.log_v_ref;
       if (!options.b) here.theta[q.of_law() - 1] = b;
       try {
         for (std::size_t r = 0; r < thin.size(); ++r) {
@@ -196,7 +197,7 @@ std::vector<double> start(const std::vector<FittedRun>& thin, const Parameters& 
   std::vector<double> best = candidates.front();
   if (candidates.size() == 1) return best;
   const KnownNoise none;
-  const System system = system_of(thin, q, q.options.geometry, none);
+  const System system = system_of(thin, q, none);
   double least = std::numeric_limits<double>::infinity();
   for (const auto& candidate : candidates) try {
       Minimum minimum = minimise(system, candidate);
@@ -207,22 +208,168 @@ std::vector<double> start(const std::vector<FittedRun>& thin, const Parameters& 
 }
 
 // The model goes through the same filters as the data, so the residuals are noise in every direction; the floor only covers rounding.
-constexpr double floor_share = 1e-6;
+constexpr double rounding_share = 1e-6;
+
+/// What made the fitted column of each run, and how much of its noise is white; no responses if that is not known.
+struct Making {
+  std::vector<NoiseResponse> responses;
+  double white_share = rounding_share;
+};
+
+/// The runs as they are fitted, and the noise that ties their records together.
+struct Rolls {
+  std::vector<FittedRun> of;
+  KnownNoise noise;
+};
+Rolls make_rolls(const std::vector<FitRun>& all, const std::vector<Rows>& rows, bool position, const Making& making, const FitOptions& options) {
+  Rolls rolls;
+  const bool known = !making.responses.empty();
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    const FitRun& run = all[r];
+    if (rows[r].empty()) fail("run {} has no record that can be fitted", r + 1);
+    const auto& y = position ? run.x : run.v;
+    FittedRun roll{};
+    roll.body = run.body;
+    const double first = known ? making.responses[r].t.front() : run.t[rows[r].front()];
+    roll.origin = options.origin.value_or(first);
+    if (roll.origin > first) fail("run {} begins before the time {} at which v0 and x0 are to hold", r + 1, roll.origin);
+    roll.start = options.origin || options.v0 || options.x0 ? roll.origin : run.t[rows[r].front()];
+    if (known && first < run.t[0] && roll.start == roll.origin) fail("v0 and x0 cannot be held: filters have reached back to what was cut away before run {} begins", r + 1);
+    for (std::size_t i : rows[r]) roll.t.push_back(run.t[i] - roll.origin), roll.y.push_back(y[i]);
+    const double sign = options.v0 ? *options.v0 : position ? roll.y.back() - options.x0.value_or(roll.y.front()) : std::accumulate(roll.y.begin(), roll.y.end(), 0.0);
+    roll.way = sign < 0 ? -1 : 1;
+    roll.raw_is_position = known ? making.responses[r].source == "x" : position;
+    if (known) {
+      const BandMatrix& of = making.responses[r].of.at(position ? "x" : "v");
+      for (std::size_t i : rows[r]) roll.filters.append(of.first(i), of.row(i));
+      rolls.noise.append(roll.filters, making.white_share);
+      for (double t : making.responses[r].t) roll.model_t.push_back(t - roll.origin);
+    } else {
+      roll.model_t = roll.t;
+    }
+    rolls.of.push_back(std::move(roll));
+  }
+  return rolls;
+}
+
+RouteFit fit_rolls(const std::vector<FitRun>& all, std::vector<Rows> rows, Parameters& q, const Making& making, std::vector<double> theta = {}) {
+  const FitOptions& options = q.options;
+  RouteFit result{};
+  Rolls rolls;
+  // The position route knows speeds only from its own fit: slow records leave after it, and the fit is repeated without them.
+  for (int round = 0; round < 4; ++round) {
+    std::size_t n = 0;
+    for (const auto& r : rows) n += r.size();
+    require_records(n, q.count());
+    rolls = make_rolls(all, rows, q.position, making, options);
+    if (theta.empty()) {
+      std::vector<FittedRun> thin;
+      for (auto& roll : rolls.of) thin.push_back(thinned(roll, q.position, options));
+      q.v_ref = thin.front().v0 / 2;
+      q.log_v_ref = std::log(q.v_ref);
+      if (q.position) q.x_ref = thin.front().v0 * std::max(thin.front().t.back(), std::numeric_limits<double>::min());
+      theta = start(thin, q);
+    }
+    result.minimum = solve(system_of(rolls.of, q, rolls.noise), theta, options, !rolls.noise.empty());
+    theta = result.minimum.theta;
+    if (!q.position || options.min_speed <= 0) break;
+    std::size_t slow = 0;
+    for (std::size_t r = 0; r < all.size(); ++r) {
+      const Trajectory fitted = q.trajectory(rolls.of[r], theta, r);
+      slow += std::erase_if(rows[r], [&](std::size_t i) { return fitted.at(all[r].t[i] - rolls.of[r].origin).v < options.min_speed; });
+    }
+    if (slow == 0) break;
+  }
+
+  const double a = q.a(theta);
+  const auto quantity = [&](double value, std::size_t r, double by_a, double by_b, double by_v0 = 0, double by_x0 = 0) {
+    Quantity here{value, std::vector<double>(q.count())};
+    q.chain(here.gradient.data(), a, r, by_a, by_b, by_v0, by_x0);
+    return here;
+  };
+  result.a = quantity(a, 0, 1, 0);
+  result.b = quantity(q.b(theta), 0, 0, 1);
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    const FittedRun& roll = rolls.of[r];
+    const auto s = q.trajectory(roll, theta, r).at(roll.start - roll.origin);
+    result.v0.push_back(quantity(roll.way * s.v, r, roll.way * s.v_a, roll.way * s.v_b, roll.way * s.v_v0));
+    if (q.position) result.x0.push_back(quantity(q.x0(theta, r) + roll.way * s.x, r, roll.way * s.x_a, roll.way * s.x_b, roll.way * s.x_v0, 1));
+    result.runs.push_back(rows[r].size());
+    result.left_out += all[r].t.size() - rows[r].size();
+  }
+  result.residuals = result.minimum.f;
+  if (!rolls.noise.empty()) {  // the plain ones, for rms
+    std::vector<double> unused(result.minimum.J.size());
+    system_of(rolls.of, q, {}).evaluate(theta, result.residuals, unused);
+  }
+  result.noise = std::move(rolls.noise);
+  result.rolls = std::move(rolls.of);
+  return result;
+}
+
+/// The making, by one of these filters and with some white noise added, under which the residuals of speeds are most likely
+/// (the fit is linear around theta); none if white noise alone is nearly as likely.
+Making most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows, const std::vector<LinearFilter>& filters, const Parameters& q,
+                   const std::vector<double>& theta) {
+  Making best;
+  double most = 0;
+  for (const LinearFilter& filter : filters) {
+    Making making;
+    for (const auto& run : all) making.responses.push_back(noise_response({filter}, run.t));
+    const Rolls rolls = make_rolls(all, rows, false, making, q.options);
+    System system = system_of(rolls.of, q, {});
+    const std::size_t n = system.n;
+    std::vector<double> f(n), J(n * system.p);
+    system.evaluate(theta, f, J);
+    KnownNoise noise;
+    system.evaluate = [&](const std::vector<double>&, std::vector<double>& weighted_f, std::vector<double>& weighted_J) {
+      weighted_f = f;
+      weighted_J = J;
+      noise.weight(weighted_f, weighted_J);
+    };
+    const auto likelihood = [&](double log_share) {
+      noise = {};
+      for (const auto& roll : rolls.of) noise.append(roll.filters, std::exp(log_share));
+      return -0.5 * static_cast<double>(n) * std::log(linear_rss(system, theta)) - noise.log_size();
+    };
+    constexpr double decisive = 3;  // in white noise exceeded once in a hundred
+    double low = -12, high = 4;     // golden section
+    const double white = likelihood(high) + decisive;
+    constexpr double golden = 0.6180339887498949;
+    double left = high - golden * (high - low), right = low + golden * (high - low), at_left = likelihood(left), at_right = likelihood(right);
+    while (high - low > 0.1) {
+      if (at_left > at_right) {
+        high = std::exchange(right, left);
+        at_right = at_left;
+        at_left = likelihood(left = high - golden * (high - low));
+      } else {
+        low = std::exchange(left, right);
+        at_left = at_right;
+        at_right = likelihood(right = low + golden * (high - low));
+      }
+    }
+    const double gain = std::max(at_left, at_right) - white;
+    if (gain <= most) continue;
+    most = gain;
+    best = std::move(making);
+    best.white_share = std::exp(at_left > at_right ? left : right);
+  }
+  return best;
+}
 
 }  // namespace
 
 RouteFit fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOptions& options) {
   const bool position = route == Route::position;
   const char* const column = position ? "x" : "v";
-
-  std::vector<NoiseResponse> responses;
-  for (const auto& run : all) responses.push_back(noise_response(run.filters, run.t));
-  const bool known = std::all_of(responses.begin(), responses.end(), [&](const NoiseResponse& r) {
-    return r.of.contains(column) && (r.source == "x" || r.source == "v") && (position ? r.source == "x" : true);
+  Making making;
+  for (const auto& run : all) making.responses.push_back(noise_response(run.filters, run.t));
+  const bool known = std::all_of(making.responses.begin(), making.responses.end(), [&](const NoiseResponse& r) {
+    return r.of.contains(column) && (r.source == "x" || (r.source == "v" && !position));
   });
+  if (!known) making.responses.clear();
 
   std::vector<Rows> rows;
-  std::size_t left_out = 0;
   for (const auto& run : all) {
     const auto& y = position ? run.x : run.v;
     Rows usable;
@@ -230,93 +377,26 @@ RouteFit fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOp
     for (std::size_t i = 0; i < y.size(); ++i)
       if (std::isfinite(y[i])) usable.push_back(i), way += y[i];
     if (!position && options.min_speed > 0) std::erase_if(usable, [&](std::size_t i) { return std::copysign(y[i], y[i] * way) < options.min_speed; });
-    left_out += y.size() - usable.size();
     rows.push_back(std::move(usable));
   }
 
   Parameters q{options, position, all.size()};
-  RouteFit result{};
-  std::vector<double> theta;
-  std::vector<FittedRun> rolls;
-  // The position route knows speeds only from its own fit: slow records leave after it, and the fit is repeated without them.
-  for (int round = 0; round < 4; ++round) {
-    std::size_t n = 0;
-    for (const auto& r : rows) n += r.size();
-    require_records(n, q.count());
-    rolls.clear();
-    result.noise = {};
-    for (std::size_t r = 0; r < all.size(); ++r) {
-      const FitRun& run = all[r];
-      if (rows[r].empty()) fail("run {} has no record that can be fitted", r + 1);
-      FittedRun roll{};
-      roll.body = run.body;
-      roll.origin = options.origin.value_or(run.t[known ? 0 : rows[r].front()]);
-      if (roll.origin > run.t[known ? 0 : rows[r].front()]) fail("run {} begins before the time {} at which v0 and x0 are to hold", r + 1, roll.origin);
-      const auto& y = position ? run.x : run.v;
-      for (std::size_t i : rows[r]) roll.t.push_back(run.t[i] - roll.origin), roll.y.push_back(y[i]);
-      const double sign = options.v0 ? *options.v0 : position ? roll.y.back() - options.x0.value_or(roll.y.front()) : std::accumulate(roll.y.begin(), roll.y.end(), 0.0);
-      roll.way = sign < 0 ? -1 : 1;
-      roll.raw_is_position = known ? responses[r].source == "x" : position;
-      if (known) {
-        BandMatrix E;
-        const BandMatrix& of = responses[r].of.at(column);
-        for (std::size_t i : rows[r]) E.append(of.first(i), of.row(i));
-        roll.filters = E;
-        result.noise.append(std::move(E), floor_share);
-        for (double t : run.t) roll.model_t.push_back(t - roll.origin);
-      } else {
-        roll.model_t = roll.t;
-      }
-      rolls.push_back(std::move(roll));
-    }
-    if (round == 0) {
-      std::vector<FittedRun> thin;
-      for (auto& roll : rolls) thin.push_back(thinned(roll, position, options));
-      q.v_ref = thin.front().v0 / 2;
-      if (position) q.x_ref = thin.front().v0 * std::max(thin.front().t.back(), std::numeric_limits<double>::min());
-      theta = start(thin, q);
-    }
-    result.minimum = solve(system_of(rolls, q, options.geometry, result.noise), theta, options, known);
-    theta = result.minimum.theta;
-    if (!position || options.min_speed <= 0) break;
-    std::size_t slow = 0;
-    for (std::size_t r = 0; r < all.size(); ++r) {
-      const Trajectory fitted(rolls[r].body, options.geometry, {q.a(theta), q.b(theta)}, q.v0(theta, r));
-      slow += std::erase_if(rows[r], [&](std::size_t i) { return fitted.at(all[r].t[i] - rolls[r].origin).v < options.min_speed; });
-    }
-    left_out += slow;
-    if (slow == 0) break;
-  }
+  RouteFit fitted = fit_rolls(all, rows, q, making);
+  if (known || position || options.robust || options.speeds_of_positions.empty() || fitted.residuals.size() < 30) return fitted;
 
-  result.rolls = rolls;
-  const std::size_t p = q.count();
-  const Quantity zero{0, std::vector<double>(p, 0)};
-  const double a = q.a(theta), b = q.b(theta);
-  result.left_out = left_out;
-  result.a = result.b = zero;
-  result.a.value = a;
-  result.b.value = b;
-  if (!options.a) result.a.gradient[0] = a;
-  if (!options.a && !options.b) result.a.gradient[1] = -a * std::log(q.v_ref);
-  if (!options.b) result.b.gradient[q.of_law() - 1] = 1;
-  for (std::size_t r = 0; r < rolls.size(); ++r) {
-    result.runs.push_back(rolls[r].t.size());
-    result.v0.push_back(zero);
-    result.v0.back().value = rolls[r].way * q.v0(theta, r);
-    if (!options.v0) result.v0.back().gradient[q.v0_at(r)] = q.v_ref;
-    if (!position) continue;
-    result.x0.push_back(zero);
-    result.x0.back().value = q.x0(theta, r);
-    if (q.free_x0()) result.x0.back().gradient[q.x0_at(r)] = q.x_ref;
+  // What programs do at the ends of a run differs; inside they are known.
+  std::size_t reach = 0;
+  for (const auto& filter : options.speeds_of_positions) reach = std::max(reach, filter.reach);
+  for (std::size_t r = 0; r < all.size(); ++r) std::erase_if(rows[r], [&](std::size_t i) { return i < reach || i + reach >= all[r].t.size(); });
+  try {
+    making = most_likely(all, rows, options.speeds_of_positions, q, fitted.minimum.theta);
+    if (making.responses.empty()) return fitted;
+    RouteFit differences = fit_rolls(all, rows, q, making, fitted.minimum.theta);
+    differences.judged = true;
+    if (look_white(differences)) return differences;
+  } catch (const Error&) {  // none of them it is
   }
-  if (known) {  // the plain residuals, for rms
-    Minimum plain = result.minimum;
-    system_of(rolls, q, options.geometry, KnownNoise{}).evaluate(theta, plain.f, plain.J);
-    result.residuals = std::move(plain.f);
-  } else {
-    result.residuals = result.minimum.f;
-  }
-  return result;
+  return fitted;
 }
 
 }  // namespace rolling
