@@ -233,10 +233,14 @@ Minimum minimise_robust(const System& system, const std::vector<double>& start) 
   return at;
 }
 
-double linear_rss(const System& system, const std::vector<double>& theta) {
-  Minimum at{theta, std::vector<double>(system.n), std::vector<double>(system.n * system.p), {}, 0};
+double restricted_likelihood(const System& system, const std::vector<double>& theta) {
+  const std::size_t n = system.n, p = system.p;
+  Minimum at{theta, std::vector<double>(n), std::vector<double>(n * p), {}, 0};
   system.evaluate(at.theta, at.f, at.J);
-  return std::max(square(at.f) - gauss_newton(system, at).reduction, 0.0);
+  const Step step = gauss_newton(system, at);
+  double log_det = 0;
+  for (std::size_t j = 0; j < p; ++j) log_det += std::log(std::abs(step.R[j * p + j]));
+  return -0.5 * static_cast<double>(n - p) * std::log(square(at.f) - step.reduction) - log_det;
 }
 
 std::vector<double> orthonormal(const Minimum& m) {

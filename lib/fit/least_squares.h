@@ -28,8 +28,9 @@ Minimum minimise(const System&, const std::vector<double>& start);
 /// errors of least squares made from them are those of the robust fit. The scale must be that of single records: no correlated noise.
 Minimum minimise_robust(const System&, const std::vector<double>& start);
 
-/// The sum of squares at theta after the Gauss-Newton step, if the system were linear.
-double linear_rss(const System&, const std::vector<double>& theta);
+/// ln of the restricted likelihood (Patterson and Thompson 1971, Biometrika 58, 545) of residuals that are normal and white, up to a
+/// constant, in the linear approximation around theta: -(n - p)/2 ln RSS - ln det R, J = Q R.
+double restricted_likelihood(const System&, const std::vector<double>& theta);
 
 /// Q = J R^-1 (n rows of p), in whose columns the covariance R^-1 M R^-T of the parameters has its middle M.
 std::vector<double> orthonormal(const Minimum&);

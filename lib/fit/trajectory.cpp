@@ -330,7 +330,7 @@ Making most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows
     const auto likelihood = [&](double log_share) {
       noise = {};
       for (const auto& roll : rolls.of) noise.append(roll.filters, std::exp(log_share));
-      return -0.5 * static_cast<double>(n) * std::log(linear_rss(system, theta)) - noise.log_size();
+      return restricted_likelihood(system, theta) - noise.log_size();
     };
     constexpr double decisive = 3;  // in white noise exceeded once in a hundred
     double low = -12, high = 4;     // golden section
