@@ -1,6 +1,7 @@
 #include "cli/history.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "base/error.h"
@@ -54,6 +55,12 @@ LinearFilter derivative(const std::string& from, const std::string& to, const De
 std::vector<LinearFilter> speeds_of_positions() {
   std::vector<LinearFilter> filters;
   for (auto method : {DerivativeMethod::central, DerivativeMethod::vernier, DerivativeMethod::pasco}) filters.push_back(derivative("x", "v", {method}));
+  for (std::size_t width : {2, 3, 5})
+    filters.push_back({"v", "v", width / 2, [width](auto, auto y) {
+                         std::vector<double> means(y.size());
+                         for (std::size_t i = width / 2; i + width - width / 2 <= y.size(); ++i) means[i] = std::accumulate(&y[i - width / 2], &y[i - width / 2] + width, 0.0) / static_cast<double>(width);
+                         return means;
+                       }});
   return filters;
 }
 

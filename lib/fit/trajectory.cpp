@@ -390,7 +390,7 @@ RouteFit fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOp
   for (std::size_t r = 0; r < all.size(); ++r) std::erase_if(rows[r], [&](std::size_t i) { return i < reach || i + reach >= all[r].t.size(); });
   try {
     making = most_likely(all, rows, options.speeds_of_positions, q, fitted.minimum.theta);
-    if (making.responses.empty()) return fitted;
+    if (making.responses.empty() || making.responses.front().source == "v") return fitted;
     RouteFit differences = fit_rolls(all, rows, q, making, fitted.minimum.theta);
     differences.judged = true;
     if (look_white(differences)) return differences;
