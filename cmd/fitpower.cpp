@@ -114,7 +114,7 @@ int main(int argc, char** argv) {
     set_parameters("--start", start, {{"a", &options.start_a}, {"b", &options.start_b}});
     Reader& in = tool.read(columns_of(given_route.value_or(Route::shift)));
     const Route route = given_route ? *given_route : in.find("D") ? Route::shift : in.find("v") ? Route::velocity : Route::position;
-    options.speeds_of_positions = speeds_of_positions();
+    options.possible_filters = filters_of_sensors();
     const bool trajectory = route == Route::velocity || route == Route::position;
     if (trajectory) {
       tool.need(body, "R");

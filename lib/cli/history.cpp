@@ -46,19 +46,21 @@ std::size_t count_after(const std::vector<std::string>& words, std::string_view 
 }
 
 LinearFilter derivative(const std::string& from, const std::string& to, const DerivativeOptions& options) {
-  const std::size_t reach = options.method == DerivativeMethod::savgol ? options.width / 2 : options.method == DerivativeMethod::vernier ? 3 : options.method == DerivativeMethod::pasco ? 2 : 1;
+  const auto method = options.method;
+  const std::size_t reach = method == DerivativeMethod::savgol ? options.width / 2 : method == DerivativeMethod::vernier ? 3 : method == DerivativeMethod::pasco ? 2 : 1;
   return {from, to, reach, [options](auto time, auto y) { return apply(make_derivative(options), time, y); }};
 }
 
 }  // namespace
 
-std::vector<LinearFilter> speeds_of_positions() {
+std::vector<LinearFilter> filters_of_sensors() {
   std::vector<LinearFilter> filters;
   for (auto method : {DerivativeMethod::central, DerivativeMethod::vernier, DerivativeMethod::pasco}) filters.push_back(derivative("x", "v", {method}));
   for (std::size_t width : {2, 3, 5})
     filters.push_back({"v", "v", width / 2, [width](auto, auto y) {
                          std::vector<double> means(y.size());
-                         for (std::size_t i = width / 2; i + width - width / 2 <= y.size(); ++i) means[i] = std::accumulate(&y[i - width / 2], &y[i - width / 2] + width, 0.0) / static_cast<double>(width);
+                         for (std::size_t i = 0; i + width <= y.size(); ++i)
+                           means[i + width / 2] = std::accumulate(&y[i], &y[i] + width, 0.0) / static_cast<double>(width);
                          return means;
                        }});
   return filters;

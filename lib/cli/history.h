@@ -13,7 +13,8 @@ namespace rolling {
 /// of others say nothing. Empty if a line names a filter that is not linear or not known here: then nothing can be said.
 FilterChain filters_of(const std::vector<std::string>& history, std::span<const double> t);
 
-/// How speeds are made of positions at the sensor: the central difference, and what Vernier's and PASCO's programs do.
-std::vector<LinearFilter> speeds_of_positions();
+/// What may be done to speeds before they are exported: the central difference of positions, and what Vernier's and PASCO's programs
+/// do; and means of 2, 3 or 5 speeds, which look like some of these.
+std::vector<LinearFilter> filters_of_sensors();
 
 }  // namespace rolling

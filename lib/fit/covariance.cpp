@@ -331,16 +331,17 @@ double lagged(std::span<const double> r, std::span<const std::size_t> runs, std:
   return sum;
 }
 
-double ljung_box(std::span<const double> r, std::span<const std::size_t> runs) {
+double ljung_box(std::span<const double> r, std::size_t p, std::span<const std::size_t> runs) {
   const double n = static_cast<double>(r.size()), all = lagged(r, runs, 0);
   if (!(all > 0)) return 1;
-  const std::size_t lags = std::clamp<std::size_t>(r.size() / 5, 1, 10);
-  double Q = 0;
+  const std::size_t lags = std::clamp<std::size_t>(r.size() / 10, 1, 10);
+  double Q = 0, least = 1;
   for (std::size_t k = 1; k <= lags; ++k) {
-    const double rho = lagged(r, runs, k) / all;
+    const double rho = lagged(r, runs, k) / all + static_cast<double>(p) / n;
     Q += n * (n + 2) * rho * rho / (n - static_cast<double>(k));
+    if (k == 1 || k == lags) least = std::min(least, gsl_cdf_chisq_Q(Q, static_cast<double>(k)));
   }
-  return gsl_cdf_chisq_Q(Q, static_cast<double>(lags));
+  return least;
 }
 
 namespace {
@@ -366,7 +367,7 @@ std::vector<double> newey_west(std::span<const double> scores, std::size_t p, st
                                std::span<const std::size_t> runs) {
   const double n = static_cast<double>(residuals.size()), fitted = static_cast<double>(p);
   // A fit of p smooth terms takes (p (1 + AR) + 2 AR)/n off the correlation that its residuals show (Kendall 1954 for p = 1).
-  const double AR = std::clamp((n * correlation_of_neighbours(residuals, runs) + fitted) / (n - fitted - 2), -0.97, 0.97);
+  const double AR = std::clamp((n * correlation_of_neighbours(residuals, runs) + fitted) / std::max(n - fitted - 2, 1.0), -0.97, 0.97);
   const auto u = prewhitened(scores, p, runs, AR);
   const double rho = correlation_of_neighbours(prewhitened(residuals, 1, runs, AR), runs);
   const double alpha = 4 * rho * rho / ((1 - rho * rho) * (1 - rho * rho));

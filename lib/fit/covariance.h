@@ -80,9 +80,10 @@ class KnownNoise {
   std::vector<Run> runs_;
 };
 
-/// Significance of the autocorrelation by Ljung and Box (1978), Biometrika 65, 297, over min(10, n/5) lags: small where the residuals
-/// are not white. `runs` tells how many residuals each run has.
-double ljung_box(std::span<const double> residuals, std::span<const std::size_t> runs);
+/// Significance of the autocorrelation of the residuals of p parameters by Ljung and Box (1978), Biometrika 65, 297, over one lag or
+/// over min(10, n/10), whichever shows more: small where they are not white. The p/n that the fit takes off each correlation is added
+/// again. `runs` tells how many residuals each run has.
+double ljung_box(std::span<const double> residuals, std::size_t p, std::span<const std::size_t> runs);
 
 /// Sum of the products of residuals `lag` records apart within the runs.
 double lagged(std::span<const double> residuals, std::span<const std::size_t> runs, std::size_t lag);

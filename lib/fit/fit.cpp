@@ -14,7 +14,7 @@ double sum_of_squares(const std::vector<double>& f) { return std::inner_product(
 
 /// Of the weighted residuals, where weighting makes them white. The weights of loglog and shift are not the inverse of their covariance.
 double whiteness(const RouteFit& r) {
-  return r.noise.empty() || !r.rolls.empty() ? ljung_box(r.minimum.f, r.runs) : std::numeric_limits<double>::quiet_NaN();
+  return r.noise.empty() || !r.rolls.empty() ? ljung_box(r.minimum.f, r.minimum.theta.size(), r.runs) : std::numeric_limits<double>::quiet_NaN();
 }
 
 FitResult conclude(const RouteFit& r) {

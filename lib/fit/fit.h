@@ -25,8 +25,9 @@ struct FitOptions {
   std::optional<double> origin;                       ///< when v0 and x0 hold [s]; else the first fitted record of each run
   std::optional<double> start_a, start_b;             ///< where to start; found from the data otherwise
   double min_speed = 0;                               ///< records slower than this are left out [m/s]
-  /// What programs may have made speeds of positions with: tried on the velocity route where no filters are known.
-  std::vector<LinearFilter> speeds_of_positions;
+  /// What may have made the speeds of 30 or more records whose filters are not known (velocity route): differences of x, and means of v
+  /// to compare with. A difference is believed if the residuals are most likely with it, and white once it is reckoned with.
+  std::vector<LinearFilter> possible_filters;
   bool robust = false;                                ///< bisquare loss instead of squares; not for filtered columns
 };
 

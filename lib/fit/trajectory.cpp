@@ -382,14 +382,14 @@ RouteFit fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOp
 
   Parameters q{options, position, all.size()};
   RouteFit fitted = fit_rolls(all, rows, q, making);
-  if (known || position || options.robust || options.speeds_of_positions.empty() || fitted.residuals.size() < 30) return fitted;
+  if (known || position || options.robust || options.possible_filters.empty() || fitted.residuals.size() < 30) return fitted;
 
   // What programs do at the ends of a run differs; inside they are known.
   std::size_t reach = 0;
-  for (const auto& filter : options.speeds_of_positions) reach = std::max(reach, filter.reach);
+  for (const auto& filter : options.possible_filters) reach = std::max(reach, filter.reach);
   for (std::size_t r = 0; r < all.size(); ++r) std::erase_if(rows[r], [&](std::size_t i) { return i < reach || i + reach >= all[r].t.size(); });
   try {
-    making = most_likely(all, rows, options.speeds_of_positions, q, fitted.minimum.theta);
+    making = most_likely(all, rows, options.possible_filters, q, fitted.minimum.theta);
     if (making.responses.empty() || making.responses.front().source == "v") return fitted;
     RouteFit differences = fit_rolls(all, rows, q, making, fitted.minimum.theta);
     differences.judged = true;

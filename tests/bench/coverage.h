@@ -113,7 +113,7 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
   run.filters = rolling::filters_of(c.history, run.t);
   rolling::FitOptions options;
   options.robust = c.outliers > 0;
-  options.speeds_of_positions = rolling::speeds_of_positions();
+  options.possible_filters = rolling::filters_of_sensors();
   simulated::Noise noise(seed);
   std::mt19937 echo(seed + 1);
   const auto uniform = [&] { return static_cast<double>(echo()) / 4294967296.0; };

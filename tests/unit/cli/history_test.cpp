@@ -63,6 +63,25 @@ TEST_CASE("history: the filters of a chain stand in its order, lines of others s
   CHECK(filters_of({}, times).empty());
 }
 
+TEST_CASE("history: records that a line cuts away are missing to the next filter", "[cli]") {
+  const FilterChain chain = filters_of({"smooth t from 1", "differentiate x central", "smooth t to 5", "smooth v mean width 3", "smooth v coast", "smooth v mean width 1"}, times);
+  REQUIRE(chain.size() == 3);
+  CHECK((chain[0].cut_begin && !chain[0].cut_end));
+  CHECK((!chain[1].cut_begin && chain[1].cut_end));
+  CHECK((chain[2].cut_begin && chain[2].cut_end));
+}
+
+TEST_CASE("history: what sensors may have done to speeds: differences of x, exact on a line, and means of v", "[cli]") {
+  std::size_t differences = 0;
+  for (const LinearFilter& filter : filters_of_sensors()) {
+    CHECK(filter.to == "v");
+    const Series line = {0, 2, 4, 6, 8, 10}, out = filter.apply(times, line);
+    if (filter.from == "x") CHECK((++differences && std::abs(out[3] - 2) < 1e-12));
+    else CHECK(std::abs(out[2] - line[2]) <= 1);  // at most half a record late
+  }
+  CHECK(differences == 3);
+}
+
 TEST_CASE("history: of a filter that is not linear, or not known, nothing can be said", "[cli]") {
   CHECK(filters_of({"smooth v median width 11", "differentiate v central"}, times).empty());
   CHECK(filters_of({"smooth v mean width 11", "differentiate v savgol"}, times).empty());

@@ -144,6 +144,68 @@ TEST_CASE("velocity: differences of x with their filter known are as good as x",
   CHECK(std::abs(v.sigma_b / x.sigma_b - 1) < 0.02);
 }
 
+TEST_CASE("velocity: differences and means that reach beyond a cut are known there too; v0 is that of the first record left", "[fit]") {
+  const auto truth = simulated::roll(cylinder, 1.87e-3, 0.215, 0.5);
+  std::vector<double> t, x;
+  for (int i = 0; i < 75; ++i) t.push_back(0.04 * i), x.push_back(truth.x(0.04 * i));
+  FilterChain chain{simulated::differentiate("x", "v"), simulated::smooth_v(7), simulated::smooth_v(1)};
+  const auto v = chain[1].apply(t, chain[0].apply(t, x));
+  chain[2].cut_begin = chain[2].cut_end = true;
+  FitRun run{};
+  run.body = cylinder;
+  run.t.assign(t.begin() + 10, t.begin() + 57);
+  run.v.assign(v.begin() + 10, v.begin() + 57);
+  run.filters = chain;
+  const auto r = fit(Route::velocity, {run}, {});
+  CHECK(std::abs(r.a / 1.87e-3 - 1) < 1e-9);
+  CHECK(std::abs(r.b - 0.215) < 1e-9);
+  CHECK(std::abs(r.v0.at(0) - truth.v(0.4)) < 1e-9);
+  run.filters[2].cut_begin = run.filters[2].cut_end = false;  // as if the ends were shrunken windows
+  CHECK(std::abs(fit(Route::velocity, {run}, {}).b - 0.215) > 1e-5);
+  run.filters = chain;
+  FitOptions options;
+  options.v0 = 0.5;
+  CHECK_THROWS_AS(fit(Route::velocity, {run}, options), Error);  // of which time would that be?
+}
+
+TEST_CASE("velocity: differences that nothing tells of are found by the residuals, means of speeds are not taken for them", "[fit]") {
+  const auto truth = simulated::roll(cylinder, 5.75e-4, 0.1, 0.5);
+  const LinearFilter difference = simulated::differentiate("x", "v");
+  LinearFilter mean = simulated::smooth_v(3);
+  FitOptions options;
+  options.possible_filters = {difference, mean};
+  simulated::Noise noise(12);
+  std::size_t found[4] = {}, covered = 0;
+  constexpr std::size_t runs = 50;
+  for (std::size_t k = 0; k < runs; ++k) {
+    FitRun run{};
+    run.body = cylinder;
+    std::vector<double> x, v;
+    for (int i = 0; i < 120; ++i) {
+      run.t.push_back(0.04 * i);
+      x.push_back(truth.x(run.t.back()) + noise(3e-4));
+      v.push_back(truth.v(run.t.back()) + noise(5e-3));
+    }
+    run.v = difference.apply(run.t, x);
+    const auto r = fit(Route::velocity, {run}, options);
+    found[0] += r.errors == Errors::differences;
+    covered += std::abs(r.b - 0.1) < 1.96 * r.sigma_b;
+    if (r.errors == Errors::differences) CHECK(r.left_out == 2);  // the ends, where nobody knows what was done
+    run.v = v;
+    found[1] += fit(Route::velocity, {run}, options).errors == Errors::differences;
+    run.v = mean.apply(run.t, v);
+    found[2] += fit(Route::velocity, {run}, options).errors == Errors::differences;
+    run.t.resize(29);
+    run.v = difference.apply(run.t, std::vector<double>(x.begin(), x.begin() + 29));
+    found[3] += fit(Route::velocity, {run}, options).errors == Errors::differences;
+  }
+  CHECK(found[0] >= 45);
+  CHECK(covered >= 42);  // fewer of 95 % by chance in 0.2 %
+  CHECK(found[1] <= 4);
+  CHECK(found[2] == 0);
+  CHECK(found[3] == 0);  // too few records
+}
+
 TEST_CASE("trajectory: white noise, intervals that hold and no bias", "[fit]") {
   const auto truth = simulated::roll(cylinder, 1.87e-3, 0.215, 0.5);
   for (Route route : {Route::velocity, Route::position}) {
