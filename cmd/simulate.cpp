@@ -60,13 +60,13 @@ struct Clock {
 
 /// Comma-separated with a names line and blank cells, as such programs export it.
 void write_record(Output& out, const std::vector<SonarSample>& record) {
-  out.line() += "Time (s),Position (m),Velocity (m/s)";
+  out.text("Time (s),Position (m),Velocity (m/s)");
   out.end_line();
   for (const SonarSample& sample : record) {
     out.number(sample.t);
-    out.line() += ',';
+    out.text(',');
     if (sample.x) out.number(*sample.x);
-    out.line() += ',';
+    out.text(',');
     if (sample.v) out.number(*sample.v);
     out.end_line();
   }
@@ -172,7 +172,7 @@ int main(int argc, char** argv) {
     const auto write_header = [&] {
       std::vector<Column> names;
       for (const Quantity& quantity : row) names.push_back(quantity.column);
-      tool.out.line() += "## simulate " + (roll.table ? "table" : fmt::format("a {} b {}", law.a, law.b)) + fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, v0);
+      tool.out.text("## simulate " + (roll.table ? "table" : fmt::format("a {} b {}", law.a, law.b)) + fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, v0));
       tool.out.end_line();
       tool.out.names(names);
     };

@@ -271,7 +271,7 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
 /// Writes what is due and `text`; returns the exit status.
 int Tool::print(const std::string& text) {
   try {
-    out.line() += text;
+    out.text(text);
     out.flush();
     return 0;
   } catch (const Error& error) {

@@ -12,105 +12,134 @@ namespace {
 constexpr std::size_t npos = std::string_view::npos;
 constexpr std::string_view minus = "\xE2\x88\x92";  // U+2212
 
-/// `1,5` as `1.5`, U+2212 as `-`; empty if there is nothing to rewrite or no number comes of it.
-std::string rewritten(std::string_view field) {
+/// `1,5` as `1.5`, U+2212 as `-`.
+std::string plain_form(std::string_view field) {
   std::string text(field);
-  for (auto at = text.find(minus); at != npos; at = text.find(minus)) {
-    text[at] = '-';
-    text.erase(at + 1, minus.size() - 1);
-  }
+  for (auto at = text.find(minus); at != npos; at = text.find(minus, at)) text.erase(at + 1, minus.size() - 1)[at] = '-';
   if (const auto at = text.find(','); at != npos && text.find('.') == npos) text[at] = '.';
-  return text != field && is_number(text) ? text : std::string();
+  return text;
 }
-
 }  // namespace
 
 bool Dialect::choose(std::string_view line) {
-  bool tab = false, semicolon = false, comma = false, quoted = false;
+  bool tab = false, semicolon = false, comma = false, quoted = false, field_begins = true;
   for (const char c : line) {
-    if (c == '"') quoted = !quoted;
+    if (c == '"' && (quoted || field_begins)) quoted = !quoted;
     if (quoted) continue;
     tab |= c == '\t';
     semicolon |= c == ';';
     comma |= c == ',';
+    field_begins = c == '\t' || c == ';' || c == ',' || (c == ' ' && field_begins);
   }
   separator_ = tab ? '\t' : semicolon ? ';' : comma ? ',' : '\0';
   foreign_numbers_ = tab || semicolon;
   decimal_mark_ = '\0';
+  wanted_.clear();
   split(line);
-  if (tab && std::any_of(fields_.begin(), fields_.end(), [](auto f) { return f.find(' ') != npos; })) {
+  const auto numeric = [](const Field& field) { return is_number(field.text); };
+  if (tab && std::any_of(fields_.begin(), fields_.end(), [](const Field& field) { return field.text.find(' ') != npos; })) {
     separator_ = '\0';  // a line of numbers in which tabs and blanks both separate is one of blanks
     split(line);
-    if (!std::all_of(fields_.begin(), fields_.end(), is_number)) separator_ = '\t', split(line);
+    if (!std::all_of(fields_.begin(), fields_.end(), numeric)) separator_ = '\t', split(line);
   }
   // A quoted decimal comma among commas makes a record too, which is then refused with the way out.
-  return std::any_of(fields_.begin(), fields_.end(), [](auto f) { return is_number(f) || !rewritten(f).empty(); });
+  return std::any_of(fields_.begin(), fields_.end(), [](const Field& field) { return is_number(plain_form(field.text)); });
 }
 
-std::vector<std::string_view>& Dialect::split(std::string_view line) {
+void Dialect::want(std::size_t field) {
+  if (wanted_.size() <= field) wanted_.resize(field + 1);
+  wanted_[field] = true;
+}
+
+// A wanted number is read where it stands, which shows where its field ends: no other search, no second pass.
+
+std::vector<Field>& Dialect::split(std::string_view line) {
   fields_.clear();
-  changed_ = false;
+  if (!made_.empty()) made_.clear();
+  as_it_stands_ = separator_ == '\t';
+  const char *at = line.data(), *const end = at + line.size();
   if (separator_ == '\0') {
-    split_blanks(line);
-  } else if (line.find('"') != npos) {
-    split_quoted(line);
-  } else {
-    for (std::size_t at = 0;;) {
-      const auto end = std::min(line.find(separator_, at), line.size());
-      fields_.push_back(trim(line.substr(at, end - at)));
-      if (end == line.size()) break;
-      at = end + 1;
-    }
+    split_blanks(at, end);
+    return fields_;
   }
-  if (foreign_numbers_ && (decimal_mark_ != '.' || line.find(minus[0]) != npos)) rewrite_numbers();
-  return fields_;
-}
-
-void Dialect::split_blanks(std::string_view line) {
-  const char* at = line.data();
-  const char* const end = at + line.size();
-  for (;;) {
-    while (at != end && (*at == ' ' || *at == '\t')) ++at;
-    if (at == end) return;
+  const bool foreign = foreign_numbers_ && decimal_mark_ != '.';
+  for (std::size_t i = 0;; ++i, ++at) {
+    Field& field = fields_.emplace_back();
     const char* const first = at;
-    while (at != end && *at != ' ' && *at != '\t') ++at;
-    fields_.emplace_back(first, static_cast<std::size_t>(at - first));
-  }
-}
-
-void Dialect::split_quoted(std::string_view line) {
-  changed_ = true;
-  unquoted_.clear();
-  std::string field;
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"') {
-      if (quoted && i + 1 < line.size() && line[i + 1] == '"') field += line[++i];
-      else quoted = !quoted;
-    } else if (line[i] == separator_ && !quoted) {
-      unquoted_.push_back(std::exchange(field, {}));
+    if (!foreign && wanted(i)) at = read_number(at, end, field.number);
+    if (at != first && (at == end || *at == separator_)) {
+      field.text = {first, at};
     } else {
-      field += line[i];
+      at = take_text(first, end, field);
+      if (wanted(i) && !parse_number(field.text, field.number)) field.number = Field().number;
     }
+    if (at == end) return fields_;
   }
-  unquoted_.push_back(std::move(field));
-  for (const std::string& text : unquoted_) fields_.push_back(trim(text));
 }
 
-void Dialect::rewrite_numbers() {
-  rewritten_.clear();
-  rewritten_.reserve(fields_.size());
-  for (std::size_t i = 0; i < fields_.size(); ++i) {
-    std::string_view& field = fields_[i];
-    const bool comma = field.find(',') != npos, point = field.find('.') != npos;
-    std::string text = rewritten(field);
-    if (text.empty() && !is_number(field)) continue;
-    if (decimal_mark_ == '\0' && (comma || point)) decimal_mark_ = comma ? ',' : '.';
-    if ((comma || point) && decimal_mark_ != (comma ? ',' : '.'))
-      fail("field {}: '{}' has another decimal mark than the numbers before it", i + 1, shown(field));
-    changed_ |= !text.empty();
-    if (!text.empty()) field = rewritten_.emplace_back(std::move(text));
+void Dialect::split_blanks(const char* at, const char* end) {
+  for (std::size_t i = 0;; ++i) {
+    while (at != end && is_blank(*at)) ++at;
+    if (at == end) return;
+    Field& field = fields_.emplace_back();
+    const char* const first = at;
+    if (wanted(i)) at = read_number(at, end, field.number);
+    if (at != end && !is_blank(*at)) {
+      field.number = Field().number;
+      while (at != end && !is_blank(*at)) ++at;
+    }
+    field.text = {first, at};
   }
+}
+
+/// Takes the text of the field that begins at `at`, whatever it holds; returns its end.
+const char* Dialect::take_text(const char* at, const char* end, Field& field) {
+  const char* const first = at;
+  while (at != end && is_blank(*at) && *at != separator_) ++at;
+  if (at != end && *at == '"') {
+    field.text = trim(take_quoted(at, end));
+    as_it_stands_ = false;
+  } else {
+    at = std::find(at, end, separator_);
+    field.text = trim({first, at});
+    as_it_stands_ &= field.text.size() == static_cast<std::size_t>(at - first);
+  }
+  if (foreign_numbers_) field.text = rewritten(field.text);
+  return at;
+}
+
+/// The field whose quote opens at `at`, which goes to its end. What stands behind the closing quote belongs to it too.
+std::string_view Dialect::take_quoted(const char*& at, const char* end) {
+  const char *const first = ++at, *const close = std::find(first, end, '"');
+  if (close != end && (close + 1 == end || close[1] == separator_)) {
+    at = close + 1;
+    return {first, close};
+  }
+  std::string& text = made_.emplace_back();
+  for (bool quoted = true; at != end && (quoted || *at != separator_); ++at) {
+    if (*at != '"') text += *at;
+    else if (quoted && at + 1 != end && at[1] == '"') text += *at++;
+    else quoted = !quoted;
+  }
+  return text;
+}
+
+/// A number with a decimal comma or U+2212 in its plain form; any other text as it is.
+std::string_view Dialect::rewritten(std::string_view field) {
+  bool comma = false, point = false, other_minus = false;
+  for (const char c : field) comma |= c == ',', point |= c == '.', other_minus |= c == minus[0];
+  if (!other_minus && (decimal_mark_ == '.' || (!comma && !point))) return field;
+  std::string text = plain_form(field);
+  if (!is_number(text)) return field;
+  if (comma || point) {
+    const char mark = comma ? ',' : '.';
+    if (decimal_mark_ == '\0') decimal_mark_ = mark;
+    if (decimal_mark_ != mark)
+      fail("field {}: '{}' has another decimal mark than the numbers before it", fields_.size(), shown(field));
+  }
+  if (text == field) return field;
+  as_it_stands_ = false;
+  return made_.emplace_back(std::move(text));
 }
 
 }  // namespace rolling

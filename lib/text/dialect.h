@@ -1,37 +1,49 @@
 // How the lines of a file fall into fields.
 #pragma once
 
+#include <deque>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace rolling {
 
+/// A field without its quotes and the blanks around it.
+struct Field {
+  std::string_view text{};
+  double number = std::numeric_limits<double>::quiet_NaN();  ///< if its number is wanted; NaN if the text is none
+};
+
 class Dialect {
  public:
   /// Takes the form from a line: the first of tab ; , that it has outside quotes, else blanks. True if it holds a number.
   bool choose(std::string_view line);
+  /// The number of this field is wanted, from 0, until the next choice.
+  void want(std::size_t field);
 
-  /// The fields of a line, without quotes and the blanks around them. Valid until the next call or the line's end.
-  /// In files delimited by ; or tab, where they leave no doubt, a decimal comma becomes a point and U+2212 a minus.
-  /// Throws Error where two decimal marks meet.
-  std::vector<std::string_view>& split(std::string_view line);
+  /// The fields of a line, valid until the next call or the line's end. In files delimited by ; or tab, where they leave no
+  /// doubt, a decimal comma becomes a point and U+2212 a minus. Throws Error where two decimal marks meet.
+  std::vector<Field>& split(std::string_view line);
 
-  /// The last line was its fields with a tab between them, blanks around them aside.
-  bool tabs_only() const { return separator_ == '\t' && !changed_; }
+  /// The last line was its fields with a tab between them.
+  bool as_it_stands() const { return as_it_stands_; }
   char separator() const { return separator_; }  ///< '\0' for blanks
 
  private:
-  void split_blanks(std::string_view line);
-  void split_quoted(std::string_view line);
-  void rewrite_numbers();
+  bool wanted(std::size_t field) const { return field < wanted_.size() && wanted_[field]; }
+  void split_blanks(const char* at, const char* end);
+  const char* take_text(const char* at, const char* end, Field&);
+  std::string_view take_quoted(const char*& at, const char* end);
+  std::string_view rewritten(std::string_view text);
 
   char separator_ = '\0';
   bool foreign_numbers_ = false;  // numbers may have decimal commas and U+2212
   char decimal_mark_ = '\0';      // the one seen
-  bool changed_ = false;          // the last line had quotes or numbers to rewrite
-  std::vector<std::string_view> fields_;
-  std::vector<std::string> unquoted_, rewritten_;
+  bool as_it_stands_ = false;
+  std::vector<char> wanted_;
+  std::vector<Field> fields_;
+  std::deque<std::string> made_;  // the texts of fields that do not stand in the line
 };
 
 }  // namespace rolling

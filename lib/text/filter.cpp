@@ -39,8 +39,8 @@ void Filter::append(Column column) {
 }
 
 void Filter::write_header() {
-  for (const std::string& text : in_.comments()) (out_.line() += text), out_.end_line();
-  (out_.line() += history_), out_.end_line();
+  for (const std::string& text : in_.comments()) out_.text(text), out_.end_line();
+  out_.text(history_), out_.end_line();
   out_.names(columns_);
   header_written_ = true;
 }
@@ -58,30 +58,26 @@ bool Filter::next_run() {
 bool Filter::next() {
   if (!in_.next()) return false;
   if (in_.history_changed() && header_written_) comment(history_);
-  const std::size_t from = held_.size();
-  std::size_t first = 0, last = 0;
-  in_.copy(held_, cut_, first, last);
-  hold(from, first, last, Kind::record);
+  Row& row = rows_.emplace_back();
+  in_.copy(held_, cut_, row.first, row.last);
+  row.end = held_.size();
+  if (cut_ == npos) row.first = row.last = row.end;
   return true;
 }
 
-void Filter::hold(std::size_t from, std::size_t first, std::size_t last, Kind kind) {
-  rows_.push_back({held_.size() - from, first - from, last - from, kind});
-}
-
 void Filter::comment(std::string_view text) {
-  const std::size_t from = held_.size();
   held_ += text;
-  hold(from, from, from, Kind::comment);
-  if (rows_.size() - first_row_ == 1) clear_front();
+  rows_.emplace_back().kind = Kind::comment;
+  rows_.back().end = held_.size();
+  if (rows_.size() - front_ == 1) clear_front();
 }
 
 /// Comments that no record holds back any more go out, dropped records go away.
 void Filter::clear_front() {
-  while (header_written_ && first_row_ < rows_.size() && rows_[first_row_].kind != Kind::record) {
-    if (rows_[first_row_].kind == Kind::comment) {
+  while (header_written_ && front_ < rows_.size() && rows_[front_].kind != Kind::record) {
+    if (rows_[front_].kind == Kind::comment) {
       write_break();
-      out_.line().append(held_, first_byte_, rows_[first_row_].size);
+      out_.text(held(front_begin_, rows_[front_].end));
       out_.end_line();
     } else {
       ++gone_;
@@ -91,18 +87,11 @@ void Filter::clear_front() {
 }
 
 void Filter::drop(std::size_t i) {
-  auto row = rows_.begin() + static_cast<std::ptrdiff_t>(first_row_);
+  auto row = rows_.begin() + static_cast<std::ptrdiff_t>(front_);
   for (std::size_t records = gone_; row->kind == Kind::comment || records++ < i;) ++row;
   row->kind = Kind::dropped;
   any_dropped_ = true;
   clear_front();
-}
-
-/// The oldest record goes out up to its first number.
-void Filter::begin_row() {
-  write_break();
-  const Row& row = rows_[first_row_];
-  out_.line().append(held_, first_byte_, cut_ == npos ? row.size : row.first);
 }
 
 void Filter::write_break() {
@@ -110,36 +99,36 @@ void Filter::write_break() {
 }
 
 void Filter::remove_row() {
-  first_byte_ += rows_[first_row_++].size;
-  if (first_row_ == rows_.size()) {
+  front_begin_ = rows_[front_++].end;
+  if (front_ == rows_.size()) {
     rows_.clear();
     held_.clear();
-    first_row_ = first_byte_ = 0;
-  } else if (first_row_ > 1024 && 2 * first_row_ > rows_.size()) {  // amortised: at most one move a row
-    rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(first_row_));
-    held_.erase(0, first_byte_);
-    first_row_ = first_byte_ = 0;
+    front_ = front_begin_ = 0;
+  } else if (front_ >= 1024 && 2 * front_ > rows_.size()) {  // amortised: at most one move a row
+    rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(front_));
+    held_.erase(0, front_begin_);
+    for (Row& row : rows_) row.first -= front_begin_, row.last -= front_begin_, row.end -= front_begin_;
+    front_ = front_begin_ = 0;
   }
 }
 
 void Filter::put(double value) {
   if (!std::isfinite(value)) fail("the result is not a finite number");
-  if (numbers_ == 0) begin_row();
-  const Row row = rows_[first_row_];
-  if (cut_ != npos) {
-    out_.number(value);
-    out_.line().append(held_, first_byte_ + row.last, row.size - row.last);
-  } else {
-    out_.line() += '\t';
-    out_.number(value);
-    if (++numbers_ < appended_) return;
+  const Row& row = rows_[front_];
+  if (numbers_++ == 0) {
+    if (break_due_) write_break();
+    out_.text(held(front_begin_, row.first));
   }
+  if (appended_ > 0) out_.text('\t');
+  out_.number(value);
+  if (numbers_ < appended_) return;
+  if (row.last < row.end) out_.text(held(row.last, row.end));
+  out_.end_line();
   numbers_ = 0;
   any_row_ = true;
-  out_.end_line();
   remove_row();
   ++gone_;
-  clear_front();
+  if (!rows_.empty() && rows_[front_].kind != Kind::record) clear_front();
 }
 
 }  // namespace rolling

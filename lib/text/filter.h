@@ -33,14 +33,17 @@ class Filter {
 
  private:
   enum class Kind { record, comment, dropped };
-  struct Row { std::size_t size, first, last; Kind kind; };
+  struct Row {  // in held_, where the texts of the rows stand one after the other
+    Kind kind = Kind::record;
+    std::size_t first = 0, last = 0;  // of a record: its numbers go between
+    std::size_t end = 0;
+  };
 
+  std::string_view held(std::size_t begin, std::size_t end) const { return {held_.data() + begin, end - begin}; }
   void write_header();
-  void hold(std::size_t from, std::size_t first, std::size_t last, Kind);
   void comment(std::string_view text);
   void clear_front();
   void write_break();
-  void begin_row();
   void remove_row();
 
   Reader& in_;
@@ -48,9 +51,11 @@ class Filter {
   std::string history_;
   std::vector<Column> columns_;
   std::size_t appended_ = 0, cut_ = static_cast<std::size_t>(-1);
-  std::string held_;          // the text of the rows that wait, one after the other
-  std::vector<Row> rows_;     // from first_row_ on
-  std::size_t first_row_ = 0, first_byte_ = 0, numbers_ = 0;
+  std::string held_;
+  std::vector<Row> rows_;     // those that wait, from front_ on
+  std::size_t front_ = 0;
+  std::size_t front_begin_ = 0;  // where the text of the front row begins
+  std::size_t numbers_ = 0;   // that the front row has got
   std::size_t gone_ = 0;      // records of this run that are no longer among them
   bool header_written_ = false, break_due_ = false, any_row_ = false, any_dropped_ = false;
 };

@@ -42,6 +42,7 @@ bool Input::fill() {
   do count = ::read(fd_, buffer_.data() + end_, buffer_.size() - end_);
   while (count < 0 && errno == EINTR);
   if (count < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
+  quotes_ = quotes_ || std::memchr(buffer_.data() + end_, '"', static_cast<std::size_t>(count));
   end_ += static_cast<std::size_t>(count);
   read_ += static_cast<double>(count);
   if (size_ > 0) on_block_(name_, std::min(read_ / size_, 1.0));

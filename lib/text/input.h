@@ -24,6 +24,7 @@ class Input {
 
   const std::string& name() const { return name_; }  ///< as the user gave it
   std::size_t line_number() const { return line_number_; }
+  bool quotes() const { return quotes_; }  ///< a " is in what has been read so far
 
  private:
   bool fill();
@@ -34,7 +35,7 @@ class Input {
   double size_ = 0, read_ = 0;  // bytes; no size: not known, or not asked for
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0, line_number_ = 0;
-  bool at_end_ = false;
+  bool at_end_ = false, quotes_ = false;
 };
 
 }  // namespace rolling

@@ -4,30 +4,61 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstdint>
 
 namespace rolling {
 
+namespace {
+
+/// The powers of ten up to the last one that 19 digits can ask for; each is exact.
+constexpr double power_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,
+                                   1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19};
+
+}  // namespace
+
+const char* read_number(const char* const begin, const char* const end, double& value) {
+  const char* at = begin;
+  const bool negative = at != end && *at == '-';
+  if (at != end && (*at == '-' || *at == '+')) ++at;
+  const char* const first = at;
+  std::uint64_t digits = 0;
+  const auto take_digits = [&] {
+    const char* const from = at;
+    for (unsigned digit; at != end && (digit = static_cast<unsigned char>(*at - '0')) <= 9; ++at) digits = 10 * digits + digit;
+    return static_cast<std::size_t>(at - from);
+  };
+  std::size_t count = take_digits(), decimals = 0;
+  if (at != end && *at == '.') {
+    ++at;
+    count += decimals = take_digits();
+  }
+  if (count == 0) return begin;  // inf, nan, +-1 as well
+  if (count <= 19 && digits <= 1ULL << 53 && (at == end || (*at | 32) != 'e')) {
+    // A short decimal: two exact numbers, so that one division rounds once.
+    value = static_cast<double>(static_cast<std::int64_t>(digits)) / power_of_ten[decimals];
+    if (negative) value = -value;
+    return at;
+  }
+  const auto [behind, status] = std::from_chars(negative ? first - 1 : first, end, value);  // which knows no plus
+  return status == std::errc() ? behind : begin;
+}
+
 bool parse_number(std::string_view field, double& value) {
-  const char* first = field.data();
-  const char* const last = first + field.size();
-  if (first == last) return false;
-  if (*first == '+') ++first;  // from_chars knows no plus
-  const char* digit = first;
-  if (digit != last && *digit == '-' && digit == field.data()) ++digit;
-  if (digit == last || (*digit != '.' && (*digit < '0' || *digit > '9'))) return false;  // inf, nan, +-1
-  const auto [end, status] = std::from_chars(first, last, value);
-  return status == std::errc() && end == last;
+  const char* const end = field.data() + field.size();
+  return !field.empty() && read_number(field.data(), end, value) == end;
 }
 
 bool is_missing(std::string_view field) {
   return field.empty() || (field.size() == 3 && (field[0] | 32) == 'n' && (field[1] | 32) == 'a' && (field[2] | 32) == 'n');
 }
 
+char* write_number(char* to, double value, int digits) {
+  return digits > 0 ? fmt::format_to(to, FMT_COMPILE("{:.{}g}"), value, digits) : fmt::format_to(to, FMT_COMPILE("{}"), value);
+}
+
 void append_number(std::string& to, double value, int digits) {
-  char text[32];
-  const char* const end = digits > 0 ? fmt::format_to(text, FMT_COMPILE("{:.{}g}"), value, digits)
-                               : fmt::format_to(text, FMT_COMPILE("{}"), value);
-  to.append(text, static_cast<std::size_t>(end - text));
+  char text[longest_number];
+  to.append(text, write_number(text, value, digits));
 }
 
 std::string shown(std::string_view text) {
@@ -36,12 +67,6 @@ std::string shown(std::string_view text) {
     if (c < ' ' || c > '~') c = '?';
   if (text.size() > 40) out += "...";
   return out;
-}
-
-std::string_view trim(std::string_view field) {
-  while (!field.empty() && (field.front() == ' ' || field.front() == '\t')) field.remove_prefix(1);
-  while (!field.empty() && (field.back() == ' ' || field.back() == '\t')) field.remove_suffix(1);
-  return field;
 }
 
 }  // namespace rolling

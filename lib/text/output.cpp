@@ -10,7 +10,7 @@ namespace rolling {
 
 void Output::names(const std::vector<Column>& columns) {
   const char* before = "# ";
-  for (const Column& column : columns) (buffer_ += before) += to_text(column), before = "\t";
+  for (const Column& column : columns) text(before), text(to_text(column)), before = "\t";
   end_line();
 }
 
@@ -27,7 +27,7 @@ void Output::row(std::span<const double> values) {
 
 void Output::flush() {
   if (before_write && !buffer_.empty()) before_write();
-  for (std::string_view left = buffer_; !left.empty();) {
+  for (std::string_view left(buffer_.data(), buffer_.size()); !left.empty();) {
     const ssize_t count = ::write(STDOUT_FILENO, left.data(), left.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) {

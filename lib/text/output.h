@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,13 +24,19 @@ class Output {
   bool unbuffered = false;  ///< every line goes out at once
   std::function<void()> before_write;
 
-  std::string& line() { return buffer_; }  ///< what is appended here is the line in the making
-  void number(double value) { append_number(buffer_, value, digits); }
+  // The line in the making.
+  void text(std::string_view text) { buffer_.append(text.data(), text.data() + text.size()); }
+  void text(char c) { buffer_.push_back(c); }
+  void number(double value) {
+    buffer_.reserve(buffer_.size() + longest_number);
+    const char* const end = write_number(buffer_.end(), value, digits);
+    buffer_.resize(static_cast<std::size_t>(end - buffer_.data()));
+  }
   /// The next cell of a tab-separated row. Throws Error for a number that is not finite.
   void cell(double value);
   void blank() { separate(); }  ///< the next cell, missing
   void end_line() {
-    buffer_ += '\n';
+    text('\n');
     whole_ = buffer_.size();
     cells_ = 0;
     if (unbuffered || whole_ >= block) flush();
@@ -48,11 +53,11 @@ class Output {
 
  private:
   void separate() {
-    if (cells_++ > 0) buffer_ += '\t';
+    if (cells_++ > 0) text('\t');
   }
 
   static constexpr std::size_t block = 1 << 16;
-  std::string buffer_;
+  fmt::memory_buffer buffer_;
   std::size_t cells_ = 0;  // of the line in the making
   std::size_t whole_ = 0;  // bytes of whole lines in it
 };

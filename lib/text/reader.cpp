@@ -13,12 +13,15 @@ namespace {
 constexpr std::size_t npos = static_cast<std::size_t>(-1);
 constexpr std::size_t longest_preamble = 100;  // lines; more without a number is not a file of columns
 
-bool is_comment(std::string_view line) {
-  const auto at = line.find_first_not_of(" \t");
-  return at != std::string_view::npos && line[at] == '#';
+constexpr char comment_mark = '#', nothing = '\n';
+
+/// The first character that is not a blank; `nothing`, which no line begins with, if there is none.
+char first_mark(std::string_view line) {
+  for (const char c : line)
+    if (!is_blank(c)) return c;
+  return '\n';
 }
 
-bool is_blank(std::string_view line) { return line.find_first_not_of(" \t") == std::string_view::npos; }
 
 }  // namespace
 
@@ -53,9 +56,10 @@ void Reader::read_header() {
   header_line_.clear();
   bool found = false;
   while (!found && next_line()) {
-    if (is_blank(line_)) continue;
-    if (is_comment(line_)) comments.emplace_back(trim(line_));
-    else if (dialect_.choose(line_)) found = true;
+    const char mark = first_mark(line_);
+    if (mark == nothing) continue;
+    if (mark == comment_mark) comments.emplace_back(trim(line_));
+    else if (dialect_.choose(line_) || is_missing_record(comments, preamble)) found = true;
     else preamble.emplace_back(line_);
     if (preamble.size() > longest_preamble) fail<InputError>("{}: no numbers in the first {} lines", input_->name(), longest_preamble);
   }
@@ -68,16 +72,11 @@ void Reader::read_header() {
     preamble.pop_back();
     names = names_of(header_line_);
     if (names.back().empty() && names.size() > 1) names.pop_back();  // a delimiter that ends the line
-    if (width == names.size() + 1 && dialect_.split(line_).back().empty()) --width;
+    if (width == names.size() + 1 && dialect_.split(line_).back().text.empty()) --width;
   } else {
     const auto last = std::find_if(comments.rbegin(), comments.rend(), [](const auto& c) { return !c.starts_with("##"); });
-    if (last != comments.rend()) {
-      const std::string_view text = trim(std::string_view(*last).substr(1));
-      for (const char separator : {'\t', dialect_.separator(), '\0'})
-        if (names.size() != width) names = split_names(text, separator);
-      if (names.size() == width) comments.erase(std::next(last).base());
-      else names.clear();
-    }
+    if (last != comments.rend()) names = commented_names(*last, width);
+    if (!names.empty()) comments.erase(std::next(last).base());
   }
   for (std::string& line : preamble) comments.push_back("# " + std::move(line));
 
@@ -108,6 +107,7 @@ void Reader::read_header() {
   } else if (layout_.columns != columns_as_read_ || named_ == names.empty()) {
     fail<InputError>("{}: its columns are not those of {}", input_->name(), options_.files.front());
   }
+  want_numbers();
   in_header_ = first_file;
   for (const std::string& text : comments) comment(text);
   in_header_ = false;
@@ -118,8 +118,28 @@ void Reader::read_header() {
 /// The names in a line, by its form.
 std::vector<std::string> Reader::names_of(std::string_view line) {
   if (dialect_.separator() == '\0') return split_names(line, '\0');
-  const auto& fields = dialect_.split(line);
-  return {fields.begin(), fields.end()};
+  std::vector<std::string> names;
+  for (const Field& field : dialect_.split(line)) names.emplace_back(field.text);
+  return names;
+}
+
+/// As many names as there are fields, if the comment has them.
+std::vector<std::string> Reader::commented_names(std::string_view comment, std::size_t width) const {
+  for (const char separator : {'\t', dialect_.separator(), '\0'})
+    if (auto names = split_names(trim(comment.substr(1)), separator); names.size() == width) return names;
+  return {};
+}
+
+/// The line is a record all of whose readings are missing: nobody names columns NaN; and blanks, under names already given, are
+/// no names.
+bool Reader::is_missing_record(const std::vector<std::string>& comments, const std::vector<std::string>& preamble) {
+  const auto& fields = dialect_.split(line_);
+  if (!std::all_of(fields.begin(), fields.end(), [](const Field& field) { return is_missing(field.text); })) return false;
+  if (!std::all_of(fields.begin(), fields.end(), [](const Field& field) { return field.text.empty(); })) return true;
+  const std::size_t width = fields.size();
+  if (preamble.empty()) return !comments.empty() && !commented_names(comments.back(), width).empty();
+  const auto names = names_of(preamble.back());
+  return names.size() == width && std::none_of(names.begin(), names.end(), [](const std::string& name) { return name.empty(); });
 }
 
 /// Runs side by side come out one under another, so all lines but the first run's are read again and again.
@@ -172,7 +192,13 @@ std::size_t Reader::add(std::size_t column, const std::string& name, Conversion 
   needed_.push_back({column, name, to_si});
   converts_ |= to_si.changes();
   values_.push_back(0);
+  want_numbers();
   return needed_.size() - 1;
+}
+
+void Reader::want_numbers() {
+  for (const Layout::Run& run : layout_.runs)
+    for (const Needed& needed : needed_) dialect_.want(run.fields[needed.column]);
 }
 
 std::size_t Reader::need(std::string_view name) {
@@ -222,7 +248,7 @@ void Reader::comment(std::string_view line) {
 bool Reader::next_line() {
   if (!input_->next(line_)) return false;
   line_number_ = input_->line_number();
-  if (line_.find('"') == npos) return true;
+  if (!input_->quotes() || line_.find('"') == npos) return true;
   const auto last = line_.rfind('"');
   const bool opens = last == 0 || line_[last - 1] == ',' || line_[last - 1] == ';' || line_[last - 1] == '\t';
   if (!opens || std::count(line_.begin(), line_.end(), '"') % 2 == 0) return true;
@@ -257,11 +283,12 @@ Reader::Event Reader::advance() {
       file_ended_ = next_file_ < options_.files.size();
       return file_ended_ ? Event::run_break : Event::end;
     }
-    if (is_blank(line_)) {
+    const char mark = first_mark(line_);
+    if (mark == nothing) {
       run_begins_ = true;
       return Event::run_break;
     }
-    if (is_comment(line_)) {
+    if (mark == comment_mark) {
       if (!skipping_ && side_ == 0) comment(line_);
     } else if (std::exchange(run_begins_, false) && names_again()) {
       continue;  // each run under its own names line
@@ -290,7 +317,7 @@ bool Reader::has_own_reading() {
   const auto& fields = split_line();
   const auto& own = layout_.runs[side_].fields;
   return std::any_of(own.begin(), own.end(), [&](std::size_t i) {
-    return !layout_.shared[i] && i < fields.size() && !fields[i].empty();
+    return !layout_.shared[i] && i < fields.size() && !fields[i].text.empty();
   });
 }
 
@@ -329,13 +356,12 @@ bool Reader::next() {
       if (event != Event::record) return false;
     }
     begun_ = history_ended_ = true;
-    take_fields();
-    if (parse()) return true;
+    if (take_record()) return true;
     ++left_out_;
   }
 }
 
-std::vector<std::string_view>& Reader::split_line() {
+std::vector<Field>& Reader::split_line() {
   try {
     return dialect_.split(line_);
   } catch (const Error& error) {
@@ -343,40 +369,34 @@ std::vector<std::string_view>& Reader::split_line() {
   }
 }
 
-/// The fields of the line that make this run's record.
-void Reader::take_fields() {
-  std::vector<std::string_view>& line = split_line();
-  if (line.size() == layout_.width + 1 && line.back().empty() && named_) line.pop_back();  // a delimiter that ends the line
-  if (layout_.side_by_side && line.size() < layout_.width) line.resize(layout_.width);     // the longer runs have ended
+/// The fields of the line that make this run's record, and the needed numbers in them; false if one is missing.
+bool Reader::take_record() {
+  std::vector<Field>& line = split_line();
+  if (line.size() == layout_.width + 1 && line.back().text.empty() && named_) line.pop_back();  // a delimiter that ends the line
+  if (layout_.side_by_side && line.size() < layout_.width) line.resize(layout_.width);          // the longer runs have ended
   if (line.size() != layout_.width)
     fail<InputError>("{}: {} field{} where the first record has {}", where(), line.size(), line.size() == 1 ? "" : "s", layout_.width);
-  if (!layout_.side_by_side) {
-    fields_.swap(line);
-    return;
+  fields_ = line;
+  if (layout_.side_by_side) {
+    own_fields_.clear();
+    for (const std::size_t i : layout_.runs[side_].fields) own_fields_.push_back(line[i]);
+    fields_ = own_fields_;
   }
-  fields_.clear();
-  for (const std::size_t i : layout_.runs[side_].fields) fields_.push_back(line[i]);
-}
 
-/// The needed numbers; false if one is missing.
-bool Reader::parse() {
-  for (std::size_t slot = 0; slot < needed_.size(); ++slot) {
-    const Needed& needed = needed_[slot];
-    const std::string_view field = fields_[needed.column];
-    double& value = values_[slot];
-    if (!parse_number(field, value)) {
-      if (!is_missing(field)) reject(needed.column, "is not a number" + way_out(field));
-      if (needed.may_miss) {
-        value = std::numeric_limits<double>::quiet_NaN();
-        continue;
-      }
-      if (options_.strict) fail<InputError>("{}: field {} ({}): a reading is missing", where(), layout_.runs[side_].fields[needed.column] + 1, shown(needed.name));
-      return false;
-    }
-    if (needed.to_si.changes()) {
+  double* to = values_.data();
+  for (const Needed& needed : needed_) {
+    const Field& field = fields_[needed.column];
+    double value = field.number;
+    if (std::isnan(value)) {
+      if (!is_missing(field.text)) reject(needed.column, "is not a number" + way_out(field.text));
+      if (options_.strict && !needed.may_miss)
+        fail<InputError>("{}: field {} ({}): a reading is missing", where(), layout_.runs[side_].fields[needed.column] + 1, shown(needed.name));
+      if (!needed.may_miss) return false;
+    } else if (needed.to_si.changes()) {
       value = needed.to_si(value);
       if (!std::isfinite(value)) reject(needed.column, "is beyond the range of a double in SI units");
     }
+    *to++ = value;
   }
   if (time_slot_ != npos) {
     const double t = values_[time_slot_];
@@ -388,13 +408,10 @@ bool Reader::parse() {
 }
 
 void Reader::copy(std::string& to, std::size_t cut, std::size_t& first, std::size_t& last) const {
-  std::size_t length = fields_.size() - 1;
-  for (const std::string_view field : fields_) length += field.size();
-  const bool as_it_stands = !converts_ && !layout_.side_by_side && dialect_.tabs_only() && length == line_.size();
-  if (as_it_stands) {
+  if (dialect_.as_it_stands() && !converts_ && !layout_.side_by_side) {
     if (cut < fields_.size()) {
-      first = to.size() + static_cast<std::size_t>(fields_[cut].data() - line_.data());
-      last = first + fields_[cut].size();
+      first = to.size() + static_cast<std::size_t>(fields_[cut].text.data() - line_.data());
+      last = first + fields_[cut].text.size();
     }
     to += line_;
     return;
@@ -403,14 +420,14 @@ void Reader::copy(std::string& to, std::size_t cut, std::size_t& first, std::siz
     if (i) to += '\t';
     const auto from = to.size();
     const auto converted = std::find_if(needed_.begin(), needed_.end(), [i](const Needed& n) { return n.column == i && n.to_si.changes(); });
-    if (converted == needed_.end()) to += fields_[i];
+    if (converted == needed_.end()) to += fields_[i].text;
     else append_number(to, values_[static_cast<std::size_t>(converted - needed_.begin())]);
     if (i == cut) first = from, last = to.size();
   }
 }
 
 void Reader::reject(std::size_t column, std::string_view why) const {
-  fail<InputError>("{}: field {} ({}): '{}' {}", where(), layout_.runs[side_].fields[column] + 1, shown(columns_[column].name), shown(fields_[column]), why);
+  fail<InputError>("{}: field {} ({}): '{}' {}", where(), layout_.runs[side_].fields[column] + 1, shown(columns_[column].name), shown(fields_[column].text), why);
 }
 
 /// After a field that is no number, what to do about what it often is: a decimal comma, a minus sign of print, a heading.

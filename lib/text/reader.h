@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -78,6 +79,9 @@ class Reader {
   void open_next();
   void read_header();
   std::vector<std::string> names_of(std::string_view line);
+  std::vector<std::string> commented_names(std::string_view comment, std::size_t width) const;
+  bool is_missing_record(const std::vector<std::string>& comments, const std::vector<std::string>& preamble);
+  void want_numbers();
   void keep_lines();
   void comment(std::string_view line);
   std::optional<std::size_t> find_column(std::string_view name, const std::vector<Column>&) const;
@@ -90,9 +94,8 @@ class Reader {
   Event advance();
   bool names_again();
   bool has_own_reading();
-  std::vector<std::string_view>& split_line();
-  void take_fields();
-  bool parse();
+  std::vector<Field>& split_line();
+  bool take_record();
   [[noreturn]] void reject(std::size_t column, std::string_view why) const;
   std::string way_out(std::string_view field) const;
 
@@ -115,7 +118,8 @@ class Reader {
   std::string joined_;  // a line whose quoted field holds line ends
   std::size_t line_number_ = 0, first_record_ = 0;
   bool line_waits_ = false;  // line_ is read but not taken
-  std::vector<std::string_view> fields_;
+  std::span<const Field> fields_;
+  std::vector<Field> own_fields_;  // of runs side by side
 
   // What is needed of it.
   std::vector<Needed> needed_;

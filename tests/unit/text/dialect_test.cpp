@@ -1,5 +1,7 @@
 #include "text/dialect.h"
 
+#include <cmath>
+
 #include "base/error.h"
 #include "unit/catch.h"
 
@@ -9,7 +11,7 @@ namespace {
 
 std::string fields(Dialect& dialect, std::string_view line) {
   std::string all;
-  for (const auto field : dialect.split(line)) all += '<' + std::string(field) + '>';
+  for (const Field& field : dialect.split(line)) all += '<' + std::string(field.text) + '>';
   return all;
 }
 
@@ -49,4 +51,45 @@ TEST_CASE("dialect: decimal commas and U+2212 are read where they leave no doubt
   CHECK(fields(comma, "1,\xE2\x88\x92" "2") == "<1><\xE2\x88\x92" "2>");
   REQUIRE(blanks.choose("0 1"));
   CHECK(fields(blanks, "1 \xE2\x88\x92" "2") == "<1><\xE2\x88\x92" "2>");
+}
+
+TEST_CASE("dialect: a quote opens where a field begins; elsewhere it is a character", "[text]") {  // fixed 2026-11-21
+  CHECK(chosen("5\" pipe,7") == "<5\" pipe><7>");
+  CHECK(chosen("a, \"b,c\" ,7") == "<a><b,c><7>");
+  CHECK(chosen("\"a\"\"\",\"\",7") == "<a\"><><7>");
+  CHECK(chosen("\"a\" b,\"c\"d\"e,7") == "<a b><cde,7>");  // what stands behind the closing quote, up to another that opens
+  CHECK(chosen("7,\"open") == "<7><open>");
+}
+
+TEST_CASE("dialect: a wanted number is that of its field, wherever and however it stands", "[text]") {
+  const auto numbers = [](std::string_view first, std::string_view line) {
+    Dialect dialect;
+    REQUIRE(dialect.choose(first));
+    dialect.want(0);
+    dialect.want(2);
+    std::string all;
+    for (const Field& field : dialect.split(line)) all += std::isnan(field.number) ? "- " : fmt::format("{} ", field.number);
+    return all;
+  };
+  for (const std::string line : {"1.5\t7\t-2e3", "1.5 \t\"7\"\t \"-2e3\"", "+1.50\t\t-2000."}) CHECK(numbers("0\t0\t0", line) == "1.5 - -2000 ");
+  for (const std::string line : {"1,5;7;-2e3", "\"1,5\" ;7;\xE2\x88\x92" "2000"}) CHECK(numbers("0,5;0;0", line) == "1.5 - -2000 ");
+  CHECK(numbers("0 0 0", "  1.5 7\t-2e3  ") == "1.5 - -2000 ");
+  CHECK(numbers("0,0,0", "1.5 , 7 ,-2e3") == "1.5 - -2000 ");
+  for (const std::string line : {"1.5x,7,-2e3e", "nan,7,", ",7,inf", "1 5,7,--2", "\"\",7,1e400"}) CHECK(numbers("0,0,0", line) == "- - - ");
+  for (const std::string line : {"1.5x 7 -2e3e", "nan 7 x", "1,5 7 1e400"}) CHECK(numbers("0 0 0", line) == "- - - ");
+  CHECK(numbers("0,0,0", "1,2") == "1 - ");
+  CHECK(numbers("0,0,0", "1,2,3,4") == "1 - 3 - ");
+}
+
+TEST_CASE("dialect: a line is as it stands where nothing but tabs is between its fields", "[text]") {
+  Dialect dialect;
+  REQUIRE(dialect.choose("0.5\t1\tx"));
+  dialect.want(0);
+  const auto stands = [&](std::string_view line) {
+    dialect.split(line);
+    return dialect.as_it_stands();
+  };
+  CHECK(stands("0.5\t1\tx y"));
+  CHECK(stands("NaN\t\t"));
+  for (const char* line : {"0.5 \t1\tx", " 0.5\t1\tx", "0.5\t1 \tx", "0.5\t1\t x", "0.5\t\"1\"\tx", "0.5\t1\t\xE2\x88\x92" "1"}) CHECK_FALSE(stands(line));
 }

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <clocale>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <random>
 
@@ -152,4 +153,32 @@ TEST_CASE("number: blanks and tabs are trimmed, nothing else", "[text]") {
   CHECK(trim(" \t a b\t ") == "a b");
   CHECK(trim(" \t ").empty());
   CHECK(trim("\xA0" "1") == "\xA0" "1");
+}
+
+TEST_CASE("number: short decimals are rounded as strtod rounds them, on both sides of what is exact", "[text]") {
+  std::mt19937_64 random(7);
+  int wrong = 0;
+  for (int i = 0; i < 200000; ++i) {
+    std::string text = std::to_string(i % 3 == 0 ? (1ULL << 53) - 5 + random() % 10 : random() >> random() % 64);
+    const auto point = random() % (text.size() + 3);
+    text = point < text.size() ? text.substr(0, point) + '.' + text.substr(point) : "0." + std::string(point - text.size(), '0') + text;
+    if (random() % 2) text = '-' + text;
+    double value = 0;
+    wrong += !parse_number(text, value) || !same_bits(value, std::strtod(text.c_str(), nullptr));
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("number: read_number ends where the number does", "[text]") {
+  const auto rest = [](std::string_view text) {
+    double value = -99;
+    const char* const end = read_number(text.data(), text.data() + text.size(), value);
+    CHECK((end == text.data()) == (value == -99));
+    return std::string(end, text.data() + text.size());
+  };
+  CHECK(rest("1.5\t2") == "\t2");
+  CHECK(rest("+1.5e3,") == ",");
+  CHECK(rest("-.5abc") == "abc");
+  CHECK(rest("12345678901234567890.5 x") == " x");
+  for (const char* none : {"", "x", "-", "+-1", ".e5", "1e400 ", "inf"}) CHECK(rest(none) == none);
 }

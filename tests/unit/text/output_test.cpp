@@ -41,7 +41,7 @@ TEST_CASE("output: a dropped line leaves the whole lines before it", "[text]") {
   CHECK(printed([] {
     Output out;
     out.row(std::array{1.0});
-    out.line() += "half a";
+    out.text("half a");
     out.drop_line();
     out.flush();
   }) == "1\n");

@@ -135,6 +135,21 @@ TEST_CASE("reader: a first record that has decimal commas only is a record, not 
   CHECK(records({"t\tv\n0,0\t1,5\n1\t2\n"}) == "0 1.5 | 1 2");
 }
 
+TEST_CASE("reader: a first record whose readings are all missing is a record, not names", "[text]") {  // fixed 2026-11-21
+  CHECK(records({"# t v\nNaN NaN\n0 1\n"}) == "0 1");
+  CHECK(records({"t,v\nNaN,nan\n0,1\n"}) == "0 1");
+  CHECK(records({"NaN NaN\n0 1\n"}) == "0 1");
+  CHECK(records({"t,v\n,\n0,1\n"}) == "0 1");
+  CHECK(records({"# v t\n;\n5;0\n"}) == "0 5");
+  CHECK(records({"t,v\n,\n0,1\n"}, strict) == "FILE:2: field 1 (t): a reading is missing");
+  CHECK(records({"My cart,\n,\nt,v\n0,1\n"}) == "0 1");  // blank cells of a preamble
+}
+
+TEST_CASE("reader: a line of tabs is a blank line, in a file delimited by tabs too", "[text]") {
+  CHECK(records({"t\tv\n0\t1\n\t\n0\t2\n"}) == "0 1 || 0 2");
+  CHECK(records({"t,v\n0,1\n,\n1,2\n"}) == "0 1 | 1 2");
+}
+
 TEST_CASE("reader: two decimal marks in one file are refused", "[text]") {
   CHECK(records({"t;v\n0,5;1\n1.5;2\n"}) == "FILE:3: field 1: '1.5' has another decimal mark than the numbers before it");
   CHECK(records({"t;v\n0.5;1\n1,5;2\n"}) == "FILE:3: field 1 (t): '1,5' is not a number; if a comma here is a decimal one, make it a point first");
