@@ -6,62 +6,54 @@
 
 namespace rolling {
 namespace {
-__extension__ typedef unsigned __int128 uint128;
-}
 
-void ExactSum::accumulate(double y, std::int64_t sign) {
+/// 2^e for -1022 <= e <= 1023.
+double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + e) << 52); }
+
+}  // namespace
+
+void ExactSum::accumulate(double y, int sign) {
   const auto bits = std::bit_cast<std::uint64_t>(y);
   const auto exponent = static_cast<unsigned>(bits >> 52 & 0x7ff);
-  std::uint64_t mantissa = bits & 0xfffffffffffffULL;
-  if (exponent) mantissa |= 1ULL << 52;
-  if (bits >> 63) sign = -sign;
-  const unsigned position = exponent ? exponent - 1 : 0;  // y = mantissa * 2^(position - 1074)
+  auto mantissa = static_cast<std::int64_t>(bits & 0xfffffffffffffULL);
+  if (exponent) mantissa |= 1LL << 52;
+  else if (mantissa == 0) negative_zeros_ += static_cast<std::size_t>(sign * static_cast<int>(bits >> 63));
+  const unsigned position = exponent ? exponent - 1 : 0;  // |y| = mantissa * 2^(position - 1074)
   const std::size_t at = position / 32;
-  const auto shifted = static_cast<uint128>(mantissa) << position % 32;
-  limb_[at] += sign * static_cast<std::int64_t>(shifted & 0xffffffffU);
-  limb_[at + 1] += sign * static_cast<std::int64_t>(shifted >> 32 & 0xffffffffU);
-  limb_[at + 2] += sign * static_cast<std::int64_t>(shifted >> 64);
+  const int128 term = static_cast<int128>(mantissa) << position % 32;
+  limb_[at] += (bits >> 63) == (sign < 0) ? term : -term;
   low_ = std::min(low_, at);
-  high_ = std::max(high_, at + 3);
+  high_ = std::max(high_, at + 1);
 }
 
 double ExactSum::over(std::size_t n) {
   while (high_ > low_ && limb_[high_ - 1] == 0) --high_;
   while (high_ > low_ && limb_[low_] == 0) ++low_;
-  if (high_ == low_) {
-    low_ = limbs, high_ = 0;
-    return 0;
-  }
-  // Carries, into digits of 32 bits and a sign.
-  std::array<std::uint32_t, limbs + 1> digit;
-  const auto carry_through = [&](std::int64_t sign) {
-    std::int64_t carry = 0;
-    for (std::size_t i = low_; i < high_; ++i) {
-      const std::int64_t sum = sign * limb_[i] + carry;
-      digit[i] = static_cast<std::uint32_t>(sum);
-      carry = sum >> 32;
-    }
-    return carry;
-  };
-  double sign = 1;
-  std::int64_t carry = carry_through(1);
-  if (carry < 0) carry = carry_through(-1), sign = -1;
-  digit[high_] = static_cast<std::uint32_t>(carry);
 
-  std::size_t top = high_;
-  while (top > low_ && digit[top] == 0) --top;
-  // The four leading digits are at least 97 bits of the sum; the rest is below 2^-96 of it. Their last bit goes to make room
-  // for rounding up.
-  uint128 leading = 0;
-  for (std::size_t k = 0; k < 4; ++k) leading = leading << 32 | (top >= low_ + k ? digit[top - k] : 0);
-  leading >>= 1;
-  const auto high = static_cast<double>(leading);
-  const auto rounded = static_cast<uint128>(high);
-  const double low = leading >= rounded ? static_cast<double>(leading - rounded) : -static_cast<double>(rounded - leading);
-  const auto count = static_cast<double>(n);
-  const double quotient = high / count;
-  const double rest = (std::fma(-quotient, count, high) + low) / count;
-  return std::ldexp(sign * (quotient + rest), 32 * (static_cast<int>(top) - 3) - 1073);
+  // Carries: what is left are digits of 32 bits, 0 or more, below `sum`, which has the sign.
+  std::array<std::uint32_t, limbs> digit;
+  int128 sum = 0;
+  std::uint32_t any = 0;
+  for (std::size_t i = low_; i < high_; ++i) {
+    sum += limb_[i];
+    any |= digit[i] = static_cast<std::uint32_t>(sum);
+    sum >>= 32;
+  }
+  if (sum == 0 && any == 0) {
+    low_ = limbs, high_ = 0;
+    return negative_zeros_ == n ? -0.0 : 0;
+  }
+  // As many leading digits as make 2^73 <= |sum| < 2^105: the rest is below 2^-73 of it, and both halves are exact doubles.
+  std::size_t at = high_;
+  int scale = 32 * static_cast<int>(high_) - 1074;
+  for (; sum >> 73 == sum >> 127; scale -= 32) sum = sum << 32 | (at > low_ ? digit[--at] : 0);
+  const auto leading = static_cast<std::int64_t>((sum + (1LL << 51)) >> 52);
+  const double high = static_cast<double>(leading) * 0x1p52;
+  const auto low = static_cast<double>(static_cast<std::int64_t>(sum - (static_cast<int128>(leading) << 52)));
+  // The rest is below 2^-20 of the quotient: that 1/n is rounded does not matter to it.
+  const double count = static_cast<double>(n), quotient = high / count, inverse = 1 / count;
+  const double rest = (std::fma(-quotient, count, high) + low) * inverse;
+  return (quotient + rest) * power_of_two(scale / 2) * power_of_two(scale - scale / 2);  // scale is -1170 to 1000: rounds once at most
 }
 
 }  // namespace rolling

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace rolling {
@@ -11,17 +12,21 @@ class ExactSum {
  public:
   void add(double y) { accumulate(y, 1); }
   void subtract(double y) { accumulate(y, -1); }
-  /// Sum / n, within 1 ulp of the exact quotient. At most 2^30 terms; n > 0.
+  /// Sum / n, within 1 ulp of the exact quotient; -0 if all of n terms are -0. At most 2^30 terms; n > 0.
   double over(std::size_t n);
 
  private:
-  void accumulate(double y, std::int64_t sign);
+  __extension__ typedef __int128 int128;
 
-  // A fixed-point number of 2^-1074 in limbs of 32 bits, each with room for 2^31 terms: no carries while adding, so taking a
-  // term away restores every limb (after Kulisch's long accumulator).
-  static constexpr std::size_t limbs = 68;
-  std::array<std::int64_t, limbs> limb_{};
+  void accumulate(double y, int sign);
+
+  // A fixed-point number of 2^-1074, in overlapping limbs 32 bits apart: a term goes whole into the one where it begins, which
+  // has room for 2^43 of them. No carries while adding, so taking a term away restores its limb (after Kulisch's long
+  // accumulator).
+  static constexpr std::size_t limbs = 64;
+  std::array<int128, limbs> limb_{};
   std::size_t low_ = limbs, high_ = 0;  // limbs outside [low_, high_) are 0
+  std::size_t negative_zeros_ = 0;
 };
 
 }  // namespace rolling

@@ -15,13 +15,13 @@ void Selection::take(std::span<const Judged> samples) {
 
 std::span<const Judged> Selection::push(double t, double y) {
   if (!options_.coast) decided_.clear();
-  if (t < options_.from || t > options_.to) {
-    if (hampel_ && t > options_.to) take(hampel_->finish());
-    decided_.push_back({t, y, false});
-  } else if (hampel_) {
+  const bool within = t >= options_.from && t <= options_.to;
+  if (hampel_ && t > options_.to) take(hampel_->finish());
+  if (hampel_ && within) {
     take(hampel_->push(t, y));
   } else {
-    decided_.push_back({t, y, true});
+    Judged& judged = decided_.emplace_back();
+    judged.t = t, judged.y = y, judged.kept = within;
   }
   return options_.coast ? std::span<const Judged>() : decided_;
 }

@@ -1,27 +1,28 @@
 #include "signal/windows.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 
 namespace rolling {
 
-Windows::Windows(Width width, Ends ends) : width_(width), ends_(ends) {
+Windows::Windows(Width width, Ends ends) : width_(width), ends_(ends), ring_(16) {
   if (width_.seconds == 0 && width_.samples % 2 == 0)
     fail("the width of a centred window is an odd number of samples, not {}", width_.samples);
 }
 
 void Windows::push(double t, double y) {
-  const std::size_t needed = width_.seconds > 0 ? left_ : begin_;  // neither falls
-  while (first_ < needed && !samples_.empty()) samples_.pop_front(), ++first_;
-  if (count_++ == 0) start_ = t;
-  samples_.push_back({t, y});
+  first_ = std::max(first_, width_.seconds > 0 ? left_ : begin_);  // neither falls
+  if (count_ - first_ == ring_.size()) grow();
+  if (count_ == 0) start_ = t;
+  ring_[count_++ & (ring_.size() - 1)] = {t, y};
 }
 
-bool Windows::next() {
-  if (next_ == count_ || !(width_.seconds > 0 ? by_time(next_) : by_count(next_))) return false;
-  ++next_;
-  return true;
+void Windows::grow() {
+  std::vector<Sample> larger(2 * ring_.size());
+  for (std::size_t i = first_; i < count_; ++i) larger[i & (larger.size() - 1)] = sample(i);
+  ring_ = std::move(larger);
 }
 
 bool Windows::by_count(std::size_t i) {
@@ -43,7 +44,7 @@ bool Windows::by_count(std::size_t i) {
 
 bool Windows::by_time(std::size_t i) {
   const double half = width_.seconds / 2 * (1 + 1e-9);  // rounding of the times does not decide
-  const double newest = samples_.back().t;
+  const double newest = sample(count_ - 1).t;
   double middle = sample(i).t;
   if (ends_ == Ends::stay) middle = std::max(middle, start_ + width_.seconds / 2);
   double from = middle - half, to = middle + half;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
+#include <vector>
 
 namespace rolling {
 
@@ -22,14 +22,18 @@ class Windows {
   void push(double t, double y);
   void finish() { finished_ = true; }
   /// Goes to the next sample whose window is complete; false when there is none yet.
-  bool next();
+  bool next() {
+    if (next_ == count_ || !(width_.seconds > 0 ? by_time(next_) : by_count(next_))) return false;
+    ++next_;
+    return true;
+  }
 
   /// The samples of the window are those from begin() to before end(), counted from the start of the run; at() is among them.
   std::size_t begin() const { return begin_; }
   std::size_t end() const { return end_; }
   std::size_t size() const { return end_ - begin_; }
   std::size_t at() const { return next_ - 1; }
-  const Sample& sample(std::size_t i) const { return samples_[i - first_]; }
+  const Sample& sample(std::size_t i) const { return ring_[i & (ring_.size() - 1)]; }
 
   /// Moves [from, to), a former window, to the present one, one sample at a time.
   template <typename Add, typename Remove>
@@ -41,13 +45,14 @@ class Windows {
   }
 
  private:
+  void grow();
   bool by_count(std::size_t i);
   bool by_time(std::size_t i);
 
   Width width_;
   Ends ends_;
   bool finished_ = false;
-  std::deque<Sample> samples_;              // those from index first_ on
+  std::vector<Sample> ring_;                // sample i at i modulo its size, a power of two; those from first_ on are there
   std::size_t first_ = 0, count_ = 0, next_ = 0;
   std::size_t begin_ = 0, end_ = 0;         // the present window
   std::size_t left_ = 0, right_ = 0;        // the samples within reach in time

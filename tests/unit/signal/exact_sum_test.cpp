@@ -27,6 +27,10 @@ TEST_CASE("exact_sum: what can be said by hand", "[signal]") {
   CHECK(mean_of({-1, -2}) == -1.5);
   CHECK(mean_of({1, -1}) == 0);
   CHECK(mean_of({-0.0}) == 0);
+  CHECK(std::signbit(mean_of({-0.0})));
+  CHECK(std::signbit(mean_of({-0.0, -0.0})));
+  CHECK_FALSE(std::signbit(mean_of({-0.0, 0.0})));
+  CHECK_FALSE(std::signbit(mean_of({1, -1})));
   CHECK(mean_of({1e308, 1e308, 1e308}) == 1e308);
   CHECK(mean_of({largest, largest, largest, largest}) == largest);
   CHECK(mean_of({-largest, -largest}) == -largest);
@@ -97,6 +101,18 @@ TEST_CASE("exact_sum: subtracting restores the sum to the last bit", "[signal]")
   CHECK(sum.over(1) == 0);
   sum.add(-3);
   CHECK(sum.over(3) == -1);
+}
+
+TEST_CASE("exact_sum: -0 is forgotten with the terms that were", "[signal]") {
+  ExactSum sum;
+  sum.add(-0.0);
+  sum.add(0.5);
+  sum.subtract(0.5);
+  CHECK(std::signbit(sum.over(1)));
+  sum.add(0.0);
+  CHECK_FALSE(std::signbit(sum.over(2)));
+  sum.subtract(-0.0);
+  CHECK_FALSE(std::signbit(sum.over(1)));
 }
 
 TEST_CASE("exact_sum: ten million terms do not overflow the limbs", "[signal]") {
