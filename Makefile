@@ -13,7 +13,7 @@ tool   := $(patsubst cmd/%.cpp,%,$(wildcard cmd/*.cpp))
 test   := $(wildcard tests/unit/*/*.cpp tests/pipeline/*.cpp)
 object  = $(patsubst %.cpp,build/%.o,$1)
 
-.PHONY: all setup table1 samples figures report check install uninstall deb coverage work-precision work-precision-signal lint clean always
+.PHONY: all setup table1 samples figures report check install uninstall deb coverage work-precision work-precision-signal bench lint clean always
 .SECONDARY:
 all: $(tool:%=bin/%)
 
@@ -150,6 +150,10 @@ work-precision: build/bench/ulp build/bench/work_precision
 work-precision-signal: build/bench/signal
 	@mkdir -p build/work-precision
 	tests/bench/signal.sh build/work-precision
+
+# How fast the tools are beside peers and bare loops: five minutes.
+bench: all build/bench/speed
+	@PATH="$(CURDIR)/bin:$$PATH" tests/bench/speed.sh
 
 lint:
 	mandoc -Tlint -Wwarning man/*

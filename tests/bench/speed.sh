@@ -1,0 +1,192 @@
+#!/bin/bash
+# How fast the tools are, beside the peers that are installed and beside bare loops: one table with ratios, spread and goal.
+#
+#   tests/bench/speed.sh [--long] [ROWS [ROUNDS]]
+#
+# Rows of the large file (5000000) and rounds of each pair, in turn (3). --long measures memory and growth up to 10^8 rows.
+# Needs build/bench/speed, and the tools on the PATH; leaves its files in build/speed/.
+set -euo pipefail
+export LC_ALL=C
+long=false
+[ "${1:-}" != --long ] || { long=true && shift; }
+rows=${1:-5000000} rounds=${2:-3}
+speed=$PWD/build/bench/speed approx=$PWD/tests/approx.awk tools=$(dirname "$(command -v smooth)")
+mkdir -p build/speed
+cd build/speed
+body='-K 0.5 -R 0.04' ledger='-m 1.375 -K 0.5 -R 0.04'
+
+# --- files: t v of a cart that rolls to and fro, with the sensor's digits and some noise
+make_tv() {  # ROWS
+  mawk -v n="$1" 'BEGIN {
+    srand(1)
+    print "# t[s]\tv[m/s]"
+    for (i = 0; i < n; i++) printf "%.3f\t%.6f\n", i / 1000, 0.5 * sin(i / 30000) + 0.002 * rand()
+  }'
+}
+make_tv "$rows" >tv.txt
+tail -n +2 tv.txt >tv.plain                     # for the bare loop and peers without names
+small=$((rows < 1000000 ? rows : 1000000))
+head -n $((small + 1)) tv.txt >small.txt
+tail -n +2 small.txt >small.plain
+head -n 20001 tv.txt >head.txt
+sed 's/\t/,/; s/^# //' small.txt >comma.csv
+sed 's/[^\t]*/"&"/g; s/\t/,/; s/"# /"/' small.txt >quoted.csv
+sed 's/\t/;/; /^#/!s/\./,/g; s/^# //' small.txt >decimal-comma.csv
+differentiate small.txt >tva.txt
+mawk 'BEGIN { OFS = "\t"; print "# t[s]\tv[m/s]\tD[m]" } !/^#/ { print $1, $2, 0.0018 * (1 + $2 / 4) }' small.txt >tvD.txt
+mawk -v n="$small" 'BEGIN { srand(2); print "# v[m/s]\tD[m]"; for (i = 1; i <= n; i++) printf "%.6f\t%.9f\n", v = 0.02 + 0.5 * i / n, 0.00187 * v ^ 0.215 * (1 + 0.02 * rand()) }' >vD.txt
+simulate -K 0.5 -R 0.04 -a 1.87e-3 -b 0.215 --v0 0.5 --dt "$(mawk -v n="$small" 'BEGIN { print 2.2 / n }')" --until 2 --columns t,v |
+  mawk 'BEGIN { srand(3); OFS = "\t"; print "# t[s]\tv[m/s]" } !/^#/ { printf "%s\t%.6f\n", $1, $2 + 0.002 * (rand() + rand() - 1) }' >roll.txt
+
+# --- the peers' programs, at full precision, for evenly spaced times
+mean='!/^#/ {
+  s += $2 - (n >= 11 ? V[n % 11] : 0); V[n % 11] = $2; T[n % 11] = $1; n++
+  if (n >= 11) printf "%s\t%.17g\n", T[(n + 5) % 11], s / 11
+  else if (n % 2) printf "%s\t%.17g\n", T[(n - 1) / 2], s / n
+}
+END { for (w = 9; w > 0; w -= 2) { s -= V[(n - w - 1) % 11] + V[(n - w - 2) % 11]; printf "%s\t%.17g\n", T[(n - (w + 1) / 2) % 11], s / w } }'
+slope='!/^#/ {
+  if (++n > 2) {
+    if (n == 3) printf "%s\t%.17g\n", L[1], (4 * v2 - 3 * v1 - $2) / ($1 - t1)
+    printf "%s\t%.17g\n", l2, ($2 - v1) / ($1 - t1)
+  } else L[n] = $0
+  t0 = t1; v0 = v1; t1 = t2; v1 = v2; l2 = $0; t2 = $1; v2 = $2
+}
+END { printf "%s\t%.17g\n", l2, (3 * v2 - 4 * v1 + v0) / (t2 - t0) }'
+shift_='!/^#/ { printf "%s\t%.17g\n", $0, -1.5 * 0.04 * $3 / 9.81 }'
+energies='!/^#/ {
+  v = $2; D = $3; F = -D * m * g / (1.5 * R); P = D / R * v * m * g
+  if (n++) E += (P + P0) / 2 * ($1 - t0)
+  P0 = P; t0 = $1
+  printf "%s\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\n", $0, m * v * v / 2, 0.5 * m * v * v / 2, 0, P, -F * v, F * v, P, -P, P, E
+}'
+energies="BEGIN { m = 1.375; R = 0.04; g = 9.81 } $energies"
+loglog='!/^#/ { x = log($1); y = log($2); n++; sx += x; sy += y; sxx += x * x; sxy += x * y }
+END { b = (n * sxy - sx * sy) / (n * sxx - sx * sx); printf "%.17g\t%.17g\n", exp((sy - b * sx) / n), b }'
+
+have() { command -v "$1" >/dev/null; }
+same() {  # WHAT TOLERANCE EXPECTED ACTUAL: the peer computes the same
+  mawk -v tolerance="$2" -f "$approx" <(grep -v '^#' "$3") <(grep -v '^#' "$4") || { echo "speed.sh: $1: the peer computes something else" >&2; exit 1; }
+}
+last=''
+row() {  # WHAT PEER RATE RATIO LEAST GREATEST GOAL: a goal is at least N, or at most N with <
+  local met=''
+  case $7 in
+    '') ;;
+    '<'*) met=$(mawk -v r="$4" -v g="${7#<}" 'BEGIN { print r <= g ? "yes" : "NO" }') ;;
+    *) met=$(mawk -v r="$4" -v g="$7" 'BEGIN { print r >= g ? "yes" : "NO" }') ;;
+  esac
+  [ "$1" != "$last" ] || set -- '' "${@:2}"
+  last=${1:-$last}
+  printf '%-38s %-22s %9s %8.4g  %8.4g - %-8.4g %6s  %s\n' "$1" "$2" "$3" "$4" "$5" "$6" "$7" "$met"
+}
+# Ratio of the peer's time to ours; `inverse`: of ours to the other's.
+against() {  # WHAT PEER ROWS GOAL OURS THEIRS [cpu|elapsed [inverse]]
+  local a b r least greatest
+  read -r a b r least greatest < <("$speed" compare "$rounds" "${7:-cpu}" "$5" "$6")
+  local rate
+  rate=$(mawk -v n="$3" -v t="$a" 'BEGIN { printf "%.2f", n / t / 1e6 }')
+  [ "${8:-}" != inverse ] || read -r r least greatest < <(mawk -v r="$r" -v l="$least" -v g="$greatest" 'BEGIN { print 1 / r, 1 / g, 1 / l }')
+  row "$1" "$2" "$rate" "$r" "$least" "$greatest" "$4"
+}
+
+printf '# %s rows of t v, %d rounds; %s\n' "$rows" "$rounds" "$(uname -m), $(nproc) processors, $(date +%Y-%m-%d)"
+printf '%-38s %-22s %9s %8s  %-19s %6s  %s\n' '# what' beside Mrow/s ratio '   least - greatest' goal met
+
+# --- peers: how many times faster
+if have mawk; then
+  mawk "$mean" head.txt >peer.out && smooth head.txt >ours.out && same smooth '1e-9 1e-12' peer.out ours.out
+  mawk "$slope" head.txt >peer.out && differentiate head.txt >ours.out && same differentiate '1e-6 1e-6' peer.out ours.out
+  head -n 20001 tva.txt >head3.txt
+  mawk "$shift_" head3.txt >peer.out && shift-from-accel $body head3.txt >ours.out && same shift-from-accel '1e-14 1e-300' peer.out ours.out
+  head -n 20001 tvD.txt >head3.txt
+  mawk "$energies" head3.txt >peer.out && energy-ledger $ledger head3.txt >ours.out && same energy-ledger '1e-9 1e-14' peer.out ours.out
+  against smooth 'mawk %.17g' "$rows" 8 'smooth tv.txt' "mawk '$mean' tv.txt"
+fi
+if have python3 && python3 -c 'import pandas' 2>/dev/null; then
+  against smooth pandas "$small" '' 'smooth small.txt' "python3 -c '
+import pandas
+f = pandas.read_csv(\"small.txt\", sep=\"\t\", skiprows=1, names=[\"t\", \"v\"])
+f.v = f.v.rolling(11, center=True).mean()
+f.to_csv(\"/dev/stdout\", sep=\"\t\", index=False)'"
+fi
+if have mlr; then against smooth Miller "$small" '' 'smooth small.txt' "mlr --inidx --otsv --ifs tab step -a slwin_5_5 -f 2 small.plain"; fi
+against smooth 'bare loop (at most)' "$rows" '<1.25' 'smooth tv.txt' "$speed filter <tv.txt" cpu inverse
+if have mawk; then against differentiate 'mawk %.17g' "$rows" 8 'differentiate tv.txt' "mawk '$slope' tv.txt"; fi
+against differentiate 'bare loop (at most)' "$rows" '<1.25' 'differentiate tv.txt' "$speed filter <tv.txt" cpu inverse
+if have mawk; then against shift-from-accel 'mawk %.17g' "$small" 4 "shift-from-accel $body tva.txt" "mawk '$shift_' tva.txt"; fi
+against shift-from-accel 'bare loop (at most)' "$small" '<1.25' "shift-from-accel $body tva.txt" "$speed filter <tva.txt" cpu inverse
+if have mawk; then
+  against 'the three in a pipe' 'mawk %.17g' "$rows" 7 "smooth tv.txt | differentiate | shift-from-accel $body" "mawk '$mean' tv.txt | mawk '$slope' | mawk '$shift_'" elapsed
+fi
+against 'the three in a pipe' 'three bare loops' "$rows" '' "smooth tv.txt | differentiate | shift-from-accel $body" "$speed filter <tv.txt | $speed filter | $speed filter" elapsed inverse
+if have mawk; then against 'energy-ledger, 10 columns' 'mawk %.17g' "$small" 6 "energy-ledger $ledger tvD.txt" "mawk '$energies' tvD.txt"; fi
+against 'energy-ledger, 10 columns' 'bare loop (at most)' "$small" '<1.25' "energy-ledger $ledger tvD.txt" "$speed filter 10 <tvD.txt" cpu inverse
+if have datamash; then
+  against 'energy-ledger --summary' 'datamash mean 1-3' "$small" '' "energy-ledger --summary $ledger tvD.txt" "tail -n +2 tvD.txt | datamash mean 1 mean 2 mean 3"
+fi
+if have mawk; then against 'fitpower --route loglog' mawk "$small" 8 'fitpower --route loglog vD.txt' "mawk '$loglog' vD.txt"; fi
+against 'fitpower --route loglog' 'bare loop' "$small" '' 'fitpower --route loglog vD.txt' "$speed fit <vD.txt" cpu inverse
+if have python3 && python3 -c 'import scipy' 2>/dev/null; then
+  cat >curve_fit.py <<'END'
+import numpy, scipy.optimize, sys
+t, v = numpy.loadtxt("roll.txt", unpack=True)
+def speed(t, a, b, v0):  # v^(1 - b) = v0^(1 - b) - (1 - b) g a t / ((1 + K) R)
+    return numpy.maximum(v0 ** (1 - b) - (1 - b) * 9.81 * a * t / (1.5 * 0.04), 0) ** (1 / (1 - b))
+p, C = scipy.optimize.curve_fit(speed, t, v, p0=[1e-3, 0.1, 0.5])
+print(*p[:2])
+END
+  against 'fitpower --route velocity' 'scipy curve_fit' "$small" 5 "fitpower --route velocity $body roll.txt" 'python3 curve_fit.py'
+fi
+if have gnuplot; then
+  against 'fitpower --route loglog' gnuplot "$small" '' 'fitpower --route loglog vD.txt' "gnuplot -e 'set fit quiet logfile \"/dev/null\"; la = -6; b = 0.1; fit la + b * x \"vD.txt\" using (log(\$1)):(log(\$2)) via la, b' 2>/dev/null"
+fi
+scene='-K 0.5 -R 0.04 -a 1.87e-3 -b 0.215 --v0 0.5'
+dt=$(mawk -v n="$rows" 'BEGIN { printf "%.17g", 2 / n }')
+against 'simulate --columns t,v' 'bare loop (at most)' "$rows" '<1.25' "simulate $scene --dt $dt --until 2 --columns t,v" "$speed print $rows" cpu inverse
+
+# --- what should not matter: ratios near 1
+against 'smooth -w 10001' '-w 11 (at most)' "$rows" '<1.3' 'smooth -w 10001 tv.txt' 'smooth tv.txt' cpu inverse
+for form in comma quoted decimal-comma; do
+  against "differentiate $form.csv" 'tabs (at most)' "$small" '<2' "differentiate $form.csv" 'differentiate small.txt' cpu inverse
+done
+
+# --- growth, memory: numbers from the tool itself in a pipe, so that nothing large is kept
+echo
+echo '# rows      ns a row, peak MiB: smooth       differentiate    shift-from-accel energy-ledger    (at most 8 MiB; user and system time)'
+for n in 1000 100000 1000000 10000000 $($long && echo 100000000 || true); do
+  printf '%9d                    ' "$n"
+  simulate $scene --dt "$(mawk -v n="$n" 'BEGIN { printf "%.17g", 2.1 / n }')" --until 2 --columns t,v,a,D >grow.txt
+  for tool in smooth differentiate "shift-from-accel $body" "energy-ledger $ledger"; do
+    read -r t _ < <("$speed" compare 1 cpu "$tool grow.txt" true)
+    peak=$("$speed" peak "$tool grow.txt")
+    mawk -v t="$t" -v n="$n" -v p="$peak" 'BEGIN { printf "%7.0f %5.1f    ", 1e9 * t * 2.1 / 2 / n, p / 1024 }'
+  done
+  echo
+done
+rm -f grow.txt
+
+echo
+echo '# tool            start-up beyond true [ms] (at most 3)   size [MiB] (stripped; at most 1.5)'
+head -n 12 tv.txt >few.txt
+printf '# v\tD\n1\t1e-3\n2\t3e-3\n3\t4e-3\n4\t6e-3\n' >few-vD.txt
+sed '1s/.*/# t\tv\tD/; 2,$s/$/\t1e-3/' few.txt >few-tvD.txt
+for tool in 'smooth few.txt' 'differentiate few.txt' "shift-from-accel $body --use a=2 few.txt" "energy-ledger $ledger few-tvD.txt" \
+  'fitpower few-vD.txt' "simulate $scene --dt 1"; do
+  times='i=0; while [ $i -lt 100 ]; do'
+  read -r a b _ < <("$speed" compare "$rounds" elapsed "$times $tool; i=\$((i + 1)); done" "$times /bin/true; i=\$((i + 1)); done")
+  strip -o stripped "$tools/${tool%% *}"
+  mawk -v tool="${tool%% *}" -v a="$a" -v b="$b" -v size="$(stat -c %s stripped)" 'BEGIN { printf "%-18s %12.2f %38.2f\n", tool, 10 * (a - b), size / 1048576 }'
+done
+
+if have parallel; then
+  echo
+  echo '# chains of three at once, GNU parallel: rows a second in all [Mrow/s]'
+  cat >chain.sh <<END
+smooth small.txt | differentiate | shift-from-accel $body >/dev/null
+END
+  for jobs in 1 2 4; do
+    read -r t _ < <("$speed" compare "$rounds" elapsed "seq $jobs | parallel -j $jobs -n0 sh chain.sh" true)
+    mawk -v j="$jobs" -v n="$small" -v t="$t" 'BEGIN { printf "%d %8.2f\n", j, j * n / t / 1e6 }'
+  done
+fi
