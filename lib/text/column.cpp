@@ -73,7 +73,9 @@ std::string take_run(std::string_view& name) {
 
 Column read_column(std::string_view text) {
   Column column;
-  std::string_view name = trim(text);
+  std::string line(text);
+  std::replace(line.begin(), line.end(), '\n', ' ');  // a quoted name may go over two lines
+  std::string_view name = trim(line);
   column.run = take_run(name);
   const char close = name.empty() ? '\0' : name.back();
   const auto open = close == ')' ? name.rfind('(') : close == ']' ? name.rfind('[') : std::string_view::npos;
@@ -85,7 +87,7 @@ Column read_column(std::string_view text) {
   for (const Quantity& q : quantities)
     if (small == q.long_name || small == q.other_name) name = q.name;
   column.name = name;
-  std::replace_if(column.name.begin(), column.name.end(), [](char c) { return c == ' ' || c == '\t' || c == '\n'; }, '_');
+  std::replace_if(column.name.begin(), column.name.end(), [](char c) { return c == ' ' || c == '\t'; }, '_');
   return column;
 }
 
