@@ -31,7 +31,7 @@ for prefix in '' roll-; do
     fi
     # A page refers to what is there: with the prefix too.
     while read -r name section; do
-      case $name in awk | sort | gnuplot) continue ;; esac
+      case $name in awk | sed | sort | gnuplot) continue ;; esac
       [ -r "$root/share/man/man$section/$name.$section" ] || complain "$page refers to $name($section), which is not installed"
     done < <(grep -ohE 'Xr [^ ]+ [1-8]' "$page" "$root"/share/man/man[57]/* | cut -d ' ' -f 2,3 | sort -u)
   done
