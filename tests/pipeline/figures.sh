@@ -141,6 +141,23 @@ for run in CR:0.5 SR:0.83 CF:0.5 SF:0.83; do
       exit bad || checks != 2 }' "$scratch/law" "$scratch/band" "$scratch/line" || complain "fig4: $run"
 done
 
+# The stop: in the upper panel, from -22 to 110 mm/s, the law alone ends at 0, and with memory the lowest velocity is simulate's.
+smooth -q --coast -c x -w 1 samples/CR.csv | fitpower -q --route position -K 0.5 -R 0.04 >"$scratch/fit"
+back=$(simulate --law "$scratch/fit" -K 0.5 -R 0.04 --until 4 --dt 0.005 --columns v --memory 5e-4 --damping 0.02 |
+  awk '!/^#/ && $1 < least { least = $1 } END { print least }')
+read -r _ top _ bottom _ < <(grep -oE "d='M[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+" "$scratch/fig1-stop.svg" |
+  head -n 1 | tr -c '0-9.\n' ' ')
+lowest() {  # the lowest point of a curve that is above the axis
+  part fig1-stop "$1" | grep -oE '[ML][0-9.]+,[0-9.]+' |
+    awk -F, -v bottom="$bottom" '$2 < bottom - 1 && $2 > y { y = $2 } END { print y }'
+}
+awk -v law="$(lowest 3a)" -v memory="$(lowest 2a)" -v back="$back" -v top="$top" -v bottom="$bottom" '
+  function v(y) { return (bottom - y) / (bottom - top) * 0.132 - 0.022 }
+  BEGIN {
+    pixel = 0.132 / (bottom - top)
+    if (!(back < -2e-3 && v(law)^2 < pixel^2 && (v(memory) - back)^2 < pixel^2)) {
+      print "fig1-stop: lowest", v(law), v(memory), "instead of 0 and", back; exit 1 } }' || wrong=1
+
 # energy: the line of the sum is level within a pixel in 500, its points within 3 %; what is dissipated ends there.
 heights() { part energy "$2" | grep -oE "$3[0-9.]+,[0-9.]+" | sed "s/.*,/$1 /"; }
 read -r _ _ _ bottom _ < <(axes energy)
