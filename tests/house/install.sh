@@ -51,4 +51,5 @@ for prefix in '' roll-; do
   put uninstall
   [ ! -e "$root/share/doc/rolling" ] || complain "uninstall leaves share/doc/rolling"
 done
+grep -q "version $(bin/smooth --version | cut -d " " -f 3)\." README.md || { echo "README.md names another version" && wrong=1; }
 exit $wrong
