@@ -124,7 +124,7 @@ $(share)/doc/rolling/%: % always
 # build/rolling_VERSION_ARCHITECTURE.deb
 deb: all
 	rm -rf build/deb
-	$(MAKE) install DESTDIR=build/deb PREFIX=/usr
+	$(MAKE) install DESTDIR=build/deb/debian/rolling PREFIX=/usr
 	cmd/install/deb.sh build/deb "$(PROGRAM_PREFIX)"
 
 # How often the errors of fitpower hold, by case and route: 1000 simulated runs each, a few minutes.

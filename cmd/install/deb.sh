@@ -1,9 +1,10 @@
 #!/bin/bash
-# deb.sh TREE PREFIX: a Debian package in build/ from the tree that `make install` has made under TREE/usr, its tools named with PREFIX.
+# deb.sh FOLDER PREFIX: a Debian package in build/ of what `make install` has put below FOLDER/debian/rolling/usr, the tools named with
+# PREFIX.
 # DEBFULLNAME and DEBEMAIL name its maintainer, else git's author does; SOURCE_DATE_EPOCH dates it, else the last commit.
 set -euo pipefail
 export LC_ALL=C
-tree=$1 prefix=${2-}
+folder=$1 tree=$1/debian/rolling prefix=${2-}
 version=$(bin/smooth --version | awk '{ print $NF }')
 architecture=$(dpkg --print-architecture)
 maintainer="${DEBFULLNAME:-$(git log -1 --format=%an)} <${DEBEMAIL:-$(git log -1 --format=%ae)}>"
@@ -37,10 +38,9 @@ rolling ($version) unstable; urgency=medium
  -- $maintainer  $(date -u -R -d "@$moment")
 END
 
-mkdir -p "$tree/debian" "$tree/DEBIAN"
-printf 'Source: rolling\n\nPackage: rolling\nArchitecture: any\n' >"$tree/debian/control"  # which dpkg-shlibdeps wants to see
-depends=$(cd "$tree" && dpkg-shlibdeps -O usr/bin/*)
-rm -r "$tree/debian"
+printf 'Source: rolling\n\nPackage: rolling\nArchitecture: any\n' >"$folder/debian/control"  # which dpkg-shlibdeps wants to see
+depends=$(cd "$folder" && dpkg-shlibdeps -O debian/rolling/usr/bin/*)
+mkdir "$tree/DEBIAN"
 cat >"$tree/DEBIAN/control" <<END
 Package: rolling
 Version: $version
