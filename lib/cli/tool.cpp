@@ -157,7 +157,7 @@ Reader& Tool::read(std::vector<std::string> order) {
 }
 
 Reader& Tool::read_file(const std::string& file, std::vector<std::string> order) {
-  return open({{file}, {}, {}, input_.strict, {}}, std::move(order));
+  return open({{file}, {}, {}, input_.strict}, std::move(order));
 }
 
 Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {

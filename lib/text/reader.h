@@ -24,7 +24,7 @@ struct ReaderOptions {
   std::vector<std::string> use;    ///< NAME=COLUMN
   std::optional<int> run;          ///< only this one
   bool strict = false;             ///< a missing reading is an error
-  BlockHook on_block;
+  BlockHook on_block = {};         ///< told how far a file has been read
 };
 
 class Reader {

@@ -51,7 +51,7 @@ typed() {  # SHELL KEYS: what the stand-in saw
 }
 tab=$(printf '\t')
 for shell in bash zsh; do
-  command -v $shell script >/dev/null || continue
+  command -v $shell >/dev/null && command -v script >/dev/null || continue
   between=$([ $shell = zsh ] && echo '=' || echo '|')  # --method=savgol, --method savgol
   expect "$(typed $shell "smooth --coa${tab}--meth${tab}sav${tab}run${tab}")" "--coast|--method${between}savgol|run of CR.csv|" "$shell, smooth"
   expect "$(typed $shell "energy-ledger --scene S${tab}")" '--scene|SF.toml|' "$shell, energy-ledger"
