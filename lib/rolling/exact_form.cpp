@@ -53,6 +53,7 @@ ExactForm::ExactForm(const Body& body, PowerLaw law, double v0, double x0)
     const Scaled D = Scaled(law.a) * power(v0, law.b), rate = D / (Scaled(two_sum(body.K, 1)) * Scaled(body.R) / Scaled(body.g)) / Scaled(v0);
     refine_ = std::abs(rate.exponent) < 900;
     s_ = two_sum(1, -law.b), rate_ = rate.value();
+    if (s_.hi != 0) minus_inverse_s_ = DoubleDouble(-1) / s_;
     const DoubleDouble depth = (D / Scaled(body.R)).value(), square = -(depth * depth) + 1;
     const double A = std::sqrt(std::max(0.0, square.hi)), p = s_.hi / (2 * law.b);
     const double border = p > 4 ? std::exp2(-std::ceil(std::log2(p) / 2)) : 0.5;  // a power of two, p border^2 <= 1
@@ -75,11 +76,11 @@ void ExactForm::seek(double t) {
 DoubleDouble ExactForm::refined(double lambda, DoubleDouble rest) const {
   const SpeedIntegrals& integrals = trajectory_.integrals();
   DoubleDouble next;
-  if (rest.hi < t_) {
-    next = -quick_log(s_ * (rate_ * rest + integrals.lag_rest(lambda))) / s_;
+  if (rest.hi < 2 * t_) {
+    next = minus_inverse_s_ * quick_log(s_ * (rate_ * rest + integrals.lag_rest(lambda)));
   } else {
     const DoubleDouble time = rate_ * t_ + integrals.lag(lambda), sum = -(s_ * time);
-    next = std::abs(sum.hi) < 0x1p-7 ? time * log1p_ratio(sum) : -quick_log(DoubleDouble(1) + sum) / s_;
+    next = std::abs(sum.hi) < 0x1p-7 ? time * log1p_ratio(sum) : minus_inverse_s_ * quick_log(sum + 1);
   }
   return DoubleDouble(lambda) + (next - lambda).hi / integrals.f(lambda);
 }

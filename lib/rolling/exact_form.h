@@ -31,6 +31,7 @@ class ExactForm final : public Motion {
   bool refine_ = false;
   DoubleDouble s_, rate_, stop_;  // 1 - b, 1/unit, T
   double stop_time_;
+  Factor minus_inverse_s_;
   ScaledFactor speed_;  // v0
 
   double t_ = 0;

@@ -33,7 +33,7 @@ double increasing_root(double lo, double hi, double x, Function&& function) {
     if (!(next >= lo && next <= hi)) next = lo + (hi - lo) / 2;
     const double step = std::abs(next - x);
     x = next;
-    if (step <= 1e-10 * x) break;  // convergence is quadratic
+    if (step <= 1e-8 * x) break;  // convergence is quadratic
   }
   return x;
 }
@@ -45,7 +45,7 @@ SpeedIntegrals::SpeedIntegrals(double b, double K, double depth, double arm_squa
   const double none = s_ > 0 ? far / std::min(s_, 1.0) : infinity;  // nothing is left beyond it
   if (depth == 0 || std::abs(b) < 1e-19) {
     add_piece(false, 0, infinity);
-    series_ = {{s_, f(0), (K + 1 / A(0)) / (K + 1)}};  // A is constant
+    series_ = {{s_, f(0), f(0) / s_, (K + 1 / A(0)) / (K + 1)}};  // A is constant
   } else if (b > 0) {
     const double from = std::max(0.0, std::log(depth * depth / deep) / (2 * b));
     add_panels(0, std::min(from, none));
@@ -89,10 +89,12 @@ void SpeedIntegrals::add_panels(double from, double to) {
 
 void SpeedIntegrals::add_series(double from, double to) {
   add_piece(false, from, to - from);
-  series_ = {{s_, 1, 1}};
+  series_ = {{s_, 1, 1 / s_, 1}};
   double c = 1;  // binom(2n, n) (z/4)^n: 1/A is the sum of c, A that of -c / (2n - 1)
-  for (int n = 1; (c *= pieces_.back().z * (2 * n - 1) / (2 * n)) > 1e-18; ++n)
-    series_.push_back({s_ + 2 * b_ * n, -c / ((2 * n - 1) * (K_ + 1)), c / (K_ + 1)});
+  for (int n = 1; (c *= pieces_.back().z * (2 * n - 1) / (2 * n)) > 1e-18; ++n) {
+    const double s = s_ + 2 * b_ * n, f = -c / ((2 * n - 1) * (K_ + 1));
+    series_.push_back({s, f, f / s, c / (K_ + 1)});
+  }
 }
 
 const SpeedIntegrals::Piece& SpeedIntegrals::piece_at(double lambda) const {
@@ -184,7 +186,7 @@ double SpeedIntegrals::series_lag_rest(double y) const {
   if (series_.size() == 1) return (1 - series_[0].f) * std::exp(-s_ * y) / s_;
   double sum = 0;
   const double ratio = std::exp(-2 * b_ * y);
-  for (auto term = series_.end() - 1; term != series_.begin(); --term) sum = (sum - term->f / term->s) * ratio;
+  for (auto term = series_.end() - 1; term != series_.begin(); --term) sum = (sum - term->f_by_s) * ratio;
   return sum * std::exp(-s_ * y);
 }
 
@@ -223,18 +225,19 @@ double SpeedIntegrals::panel_lambda(const Piece& p, double time) const {
 
 double SpeedIntegrals::series_lambda(const Piece& p, double time, double rest) const {
   const double most = series_[0].f, least = series_.size() == 1 ? most : (K_ + p.A) / (K_ + 1);  // f is between
-  const double start = power_integral_inverse(s_, time / most, rest / most);
-  if (series_.size() == 1) return start;
-  if (s_ > 0 && rest < time) {
+  if (series_.size() > 1 && s_ > 0 && rest < 2 * time) {  // two exponential functions, where a sum of integrals takes one for each term
     // int_y^inf f e^(-s y) dy = e^(-s y) S(z) is nearly a power of the speed: its logarithm is nearly a line.
-    const double lo = std::max(0.0, std::log(least / (s_ * rest)) / s_);
-    return increasing_root(lo, start, start, [&](double y) {
+    const auto inverse = [&](double f) { return std::max(0.0, std::log(f / (s_ * rest)) / s_); };
+    const double start = inverse(most);
+    return increasing_root(inverse(least), start, start, [&](double y) {
       const double ratio = std::exp(-2 * b_ * y);
       double S = 0, f_y = 0;
-      for (auto term = series_.rbegin(); term != series_.rend(); ++term) S = S * ratio + term->f / term->s, f_y = f_y * ratio + term->f;
+      for (auto term = series_.rbegin(); term != series_.rend(); ++term) S = S * ratio + term->f_by_s, f_y = f_y * ratio + term->f;
       return std::pair(s_ * y - std::log(S / rest), f_y / S);
     });
   }
+  const double start = power_integral_inverse(s_, time / most, rest / most);
+  if (series_.size() == 1) return start;
   return increasing_root(start, power_integral_inverse(s_, time / least, infinity), start, [&](double y) {
     double value = -time;
     for (const Term& term : series_) value += term.f * power_integral(term.s, y);

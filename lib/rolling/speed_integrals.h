@@ -47,7 +47,7 @@ class SpeedIntegrals {
 
  private:
   struct Term {
-    double s, f, h;
+    double s, f, f_by_s, h;
   };
   struct Sums {
     double time = 0, lag = 0, distance = 0;
