@@ -140,6 +140,11 @@ build/bench/%: build/tests/bench/%.o build/lib.a
 	@mkdir -p $(@D)
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
 
+# CVODE beside them where libsundials-dev is installed: see tests/bench/cvode.h.
+ifneq ($(wildcard /usr/include/cvode/cvode.h),)
+build/bench/work_precision: LDLIBS += -lsundials_cvode -lsundials_nvecserial -lsundials_sunmatrixdense -lsundials_sunlinsoldense
+endif
+
 work-precision: build/bench/ulp build/bench/work_precision
 	@mkdir -p build/work-precision
 	build/bench/ulp | tee build/work-precision/ulp.tsv

@@ -21,19 +21,21 @@ constexpr unsigned long most_steps = 1'000'000;
 
 IntegratedRoll::IntegratedRoll(const Body& body, Geometry geometry, AnyLaw law, double v0, double x0, Stepper stepper, double rtol)
     : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0), x0_(x0),
-      options_{stepper, rtol, v0 > 0 ? 1e-3 * rtol * v0 : 1, most_steps}, ode_(start()), at_rest_(v0 == 0) {}
+      floor_(law_.stops ? 1e-3 * rtol * v0 : 0), options_{stepper, rtol, v0 > 0 ? 1e-3 * rtol * rtol * v0 : 1, most_steps}, ode_(start()) {
+  if (v0 == 0) tail_ = {0, 0, 0, 0};
+}
 
 Integrator IntegratedRoll::start() const {
   if (!(v0_ >= 0 && std::isfinite(v0_))) fail("the initial velocity v0 = {} must be a number that is not negative", v0_);
   if (!std::isfinite(x0_)) fail("the initial position x0 = {} must be finite", x0_);
   if (v0_ > 0) check_shift(body_, law_.shift(v0_));
   // Below its floor D goes on as a constant: nothing holds a solver at v = 0, and v falls through the floor.
-  const auto shift = [law = law_.shift, floor = floor()](double v) { return floor > 0 || v > 0 ? law(std::max(v, floor)) : 0; };
+  const auto shift = [law = law_.shift, floor = floor_](double v) { return floor > 0 || v > 0 ? law(std::max(v, floor)) : 0; };
   const auto derivative = [body = body_, geometry = geometry_, shift](double, const double* y, double* dydt) {
     dydt[0] = y[1];
     dydt[1] = trial_acceleration(body, geometry, shift(y[1]));
   };
-  const auto jacobian = [body = body_, geometry = geometry_, shift, slope = law_.slope, floor = floor()](double, const double* y, double* dfdy, double* dfdt) {
+  const auto jacobian = [body = body_, geometry = geometry_, shift, slope = law_.slope, floor = floor_](double, const double* y, double* dfdy, double* dfdt) {
     dfdy[0] = 0, dfdy[1] = 1, dfdy[2] = 0;
     dfdy[3] = y[1] <= floor ? 0 : trial_acceleration_slope(body, geometry, shift(y[1])) * slope(y[1]);
     dfdt[0] = dfdt[1] = 0;
@@ -41,27 +43,43 @@ Integrator IntegratedRoll::start() const {
   return {{2, derivative, jacobian}, options_, 0, {x0_, v0_}};
 }
 
-Integrator::Event IntegratedRoll::stop_event() const {
-  return [floor = floor()](const std::vector<double>& y) { return y[1] - floor; };
+Integrator::Event IntegratedRoll::floor_event() const {
+  return [floor = floor_](const std::vector<double>& y) { return y[1] - floor; };
+}
+
+IntegratedRoll::Tail IntegratedRoll::tail(const Integrator& ode) const {
+  const double v = ode.state()[1], D = law_.shift(v), q = v * law_.slope(v) / D;
+  return {ode.time(), v / ((1 - q) * -trial_acceleration(body_, geometry_, D)), v, q};
 }
 
 double IntegratedRoll::stop_time() const {
-  if (v0_ == 0) return 0;
-  if (!law_.stops) return infinity;
-  if (!stop_time_) {
+  if (v0_ > 0 && !law_.stops) return infinity;
+  if (!tail_) {
     Integrator ode = start();
-    ode.advance(infinity, stop_event());
-    stop_time_ = ode.time();
+    ode.advance(infinity, floor_event());
+    tail_ = tail(ode);
   }
-  return *stop_time_;
+  return tail_->begin + tail_->duration;
 }
 
 void IntegratedRoll::seek(double t) {
-  if (at_rest_) return;
+  t_ = t;
   // Where the steps end changes the time of the stop by its error: the one that was told counts.
-  const double stop = stop_time_.value_or(infinity);
-  at_rest_ = ode_.advance(std::min(t, stop), stop_event()) || t >= stop;
-  if (at_rest_ && !stop_time_) stop_time_ = ode_.time();
+  if (ode_.advance(tail_ ? std::min(t, tail_->begin) : t, floor_event()) && !tail_) tail_ = tail(ode_);
+}
+
+double IntegratedRoll::left() const { return std::max(0.0, 1 - (t_ - tail_->begin) / tail_->duration); }
+
+double IntegratedRoll::velocity() {
+  if (!tail_ || t_ < tail_->begin) return ode_.state()[1];
+  return t_ < stop_time() ? tail_->v * std::pow(left(), 1 / (1 - tail_->q)) : 0;
+}
+
+double IntegratedRoll::position() {
+  const double x = ode_.state()[0];
+  if (!tail_ || t_ <= tail_->begin) return x;
+  const double q = tail_->q;
+  return x + tail_->v * tail_->duration * (1 - q) / (2 - q) * (1 - std::pow(left(), (2 - q) / (1 - q)));
 }
 
 double IntegratedRoll::shift() {

@@ -7,7 +7,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "base/gsl.h"
@@ -21,24 +24,34 @@ using namespace rolling;
 
 namespace {
 
-struct Time {
-  double median, scatter;  // ns
-};
+constexpr int calls = 20000, rounds = 25;
 
-/// Of one call of the 20000 that `work` does: median of 15 runs after a first, and half the distance of their quartiles.
-template <typename Work>
-Time nanoseconds(Work&& work) {
-  constexpr int calls = 20000;
-  volatile double sink = work(calls);
-  std::vector<double> runs;
-  for (int i = 0; i < 15; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
-    sink = work(calls);
-    runs.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() * 1e9 / calls);
-  }
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+/// One after the other in each round, so that what else the machine does hits all of them; a first round is not counted.
+using Jobs = std::vector<std::pair<std::string, std::function<double()>>>;
+void print_times(const Jobs& jobs) {
+  std::vector<std::vector<double>> ns(jobs.size());
+  volatile double sink = 0;
+  for (int round = 0; round <= rounds; ++round)
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+      const auto begin = std::chrono::steady_clock::now();
+      sink = jobs[i].second();
+      if (round > 0) ns[i].push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() * 1e9 / calls);
+    }
   (void)sink;
-  std::sort(runs.begin(), runs.end());
-  return {runs[7], (runs[11] - runs[3]) / 2};
+  const auto ratio = [&](std::size_t i, std::size_t to) {
+    std::vector<double> ratios;
+    for (int round = 0; round < rounds; ++round) ratios.push_back(ns[i][static_cast<std::size_t>(round)] / ns[to][static_cast<std::size_t>(round)]);
+    return median(ratios);
+  };
+  const std::size_t step = jobs.size() - 1, pow = step - 1;
+  fmt::print("# ns a sample: median, least; parts of a step of GSL's rkf45 with pow, and of pow: medians of {} rounds\n", rounds);
+  for (std::size_t i = 0; i < jobs.size(); ++i)
+    fmt::print("{}\t{:.1f}\t{:.1f}\t{:.3f}\t{:.2f}\n", jobs[i].first, median(ns[i]), *std::min_element(ns[i].begin(), ns[i].end()), ratio(i, step), ratio(i, pow));
 }
 
 }  // namespace
@@ -81,42 +94,36 @@ int main(int argc, char** argv) {
   fmt::print("# exact geometry: largest relative error over {} samples, one scene of twenty with D(v0) near R, three of four at T(1 - 1e-3, 1e-6, 1e-9)\nv\t{:.2g}\nx\t{:.2g}\n",
              samples / 10, v, x);
 
-  ClosedForm motion({1.375, 0.04, 0.5}, {1.87e-3, 0.215}, 0.5, 0);
-  const auto along = [&](auto&& of) {
-    return nanoseconds([&](int calls) {
+  ClosedForm closed({1.375, 0.04, 0.5}, {1.87e-3, 0.215}, 0.5, 0);
+  ExactForm exact({1.375, 0.04, 0.5}, {1.87e-3, 0.215}, 0.5, 0);
+  const auto along = [](auto& motion, auto of) {
+    return [&motion, of] {
       double sum = 0;
-      for (int i = 0; i < calls; ++i) motion.seek(2.4 * i / calls), sum += of();
+      for (int i = 0; i < calls; ++i) motion.seek(2.4 * i / calls), sum += of(motion);
       return sum;
-    });
+    };
   };
   const volatile double b = 0.215;
-  const Time power = nanoseconds([&](int calls) {
+  const auto power = [&] {
     double sum = 0;
     for (int i = 0; i < calls; ++i) sum += std::pow(0.5 - 2.4e-5 * i * 0.2, b);
     return sum;
-  });
+  };
   const auto derivative = [](double, const double* y, double* dydt, void*) {
     dydt[0] = -0.305745 * std::pow(y[0], 0.215);
     return 0;
   };
   gsl_odeiv2_system system{derivative, nullptr, 1, nullptr};
-  const auto step = own(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rkf45, 1), gsl_odeiv2_step_free);
-  const Time gsl = nanoseconds([&](int calls) {
+  const auto stepper = own(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rkf45, 1), gsl_odeiv2_step_free);
+  const auto step = [&] {
     double y = 0.5, error = 0;
-    for (int i = 0; i < calls; ++i) gsl_odeiv2_step_apply(step.get(), 0, 1e-5, &y, &error, nullptr, nullptr, &system);
+    for (int i = 0; i < calls; ++i) gsl_odeiv2_step_apply(stepper.get(), 0, 1e-5, &y, &error, nullptr, nullptr, &system);
     return y;
-  });
-  fmt::print("# ns a sample, scatter, parts of a step of GSL's rkf45 with pow\n");
-  const auto print = [&](const char* what, Time t) { fmt::print("{}\t{:.1f}\t{:.1f}\t{:.2f}\n", what, t.median, t.scatter, t.median / gsl.median); };
-  print("v", along([&] { return motion.velocity(); }));
-  print("v,x", along([&] { return motion.velocity() + motion.position(); }));
-  print("v,x,a", along([&] { return motion.velocity() + motion.position() + motion.acceleration(); }));
-  ExactForm exact({1.375, 0.04, 0.5}, {1.87e-3, 0.215}, 0.5, 0);
-  print("exact v", nanoseconds([&](int calls) {
-          double sum = 0;
-          for (int i = 0; i < calls; ++i) exact.seek(2.4 * i / calls), sum += exact.velocity();
-          return sum;
-        }));
-  print("pow", power);
-  print("rkf45", gsl);
+  };
+  print_times({{"v", along(closed, [](auto& m) { return m.velocity(); })},
+               {"v,x", along(closed, [](auto& m) { return m.velocity() + m.position(); })},
+               {"v,x,a", along(closed, [](auto& m) { return m.velocity() + m.position() + m.acceleration(); })},
+               {"exact v", along(exact, [](auto& m) { return m.velocity(); })},
+               {"pow", power},
+               {"rkf45", step}});
 }

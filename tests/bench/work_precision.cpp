@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/bare_gsl.h"
+#include "bench/cvode.h"
 #include "rolling/measure.h"
 
 using namespace rolling;
@@ -91,6 +92,13 @@ int main(int argc, char** argv) {
         fmt::print(file, "\n\n");
       }
     }
+#ifdef HAVE_CVODE
+    for (const auto& [method, kind] : {std::pair("adams", CV_ADAMS), std::pair("bdf", CV_BDF)}) {
+      for (const double rtol : tolerances)
+        row(file, "CVODE", method, rtol, measure([&, &scene = roll, kind = kind] { return std::make_unique<Cvode>(scene, kind, rtol); }, right, roll.v0, repeats));
+      fmt::print(file, "\n\n");
+    }
+#endif
     if (std::fclose(file) != 0) {
       std::perror(path.c_str());
       return 2;

@@ -56,6 +56,25 @@ TEST_CASE("IntegratedRoll: the explicit steppers find the law, the stop included
     }
 }
 
+TEST_CASE("IntegratedRoll: the stop, also where v has long been below the tolerance (b near 1)", "[rolling]") {
+  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+    for (const double b : {0.0, 1e-8, 0.215, 0.5, 0.9, 0.99})
+      for (const Stepper stepper : {Stepper::rkf45, Stepper::rk8pd, Stepper::rk4imp, Stepper::bsimp, Stepper::msbdf}) {
+        const Roll roll = scene(2e-3, b, geometry);
+        const auto exact = start(roll, best_method(roll), 0), motion = start(roll, {Method::solver, stepper}, 1e-10);
+        const double stop = motion->stop_time();
+        INFO("b " << b << " stepper " << static_cast<int>(stepper) << " error " << stop / exact->stop_time() - 1);
+        CHECK(std::abs(stop / exact->stop_time() - 1) < 1e-7);
+        for (const double part : {1 - 1e-6, 1.0}) {
+          motion->seek(stop * part);
+          exact->seek(stop * part);
+          CHECK(std::abs(motion->position() - exact->position()) < 1e-8);
+          CHECK(std::abs(motion->velocity() - exact->velocity()) < 1e-7);
+        }
+        CHECK(motion->velocity() == 0);
+      }
+}
+
 TEST_CASE("IntegratedRoll: stop_time() does not move seek(), and is met", "[rolling]") {
   const auto exact = start(scene(1.87e-3, 0.215), {Method::closed}, 0);
   const auto motion = start(scene(1.87e-3, 0.215), {Method::solver, Stepper::rk8pd}, 1e-10);
