@@ -200,7 +200,7 @@ int main(int argc, char** argv) {
     const auto motion = start(roll, method, rtol);
     const bool to_the_stop = std::isnan(until);
     const double end = to_the_stop ? motion->stop_time() : until;
-    if (!std::isfinite(end)) fail("the body never stops: say --until when to end");
+    if (!std::isfinite(end)) fail("the {}: say --until when to end", law.b < 0 ? "shift grows to the radius before the body stops" : "body never stops");
     const double steps = std::floor(end / dt + (to_the_stop ? -1e-9 : 1e-9));  // rounding of end / dt makes no row and loses none
     if (steps > 1e9) fail("these are {:.3g} rows; the most is 1e9: --dt is too small", steps);
     const Clock clock{dt};

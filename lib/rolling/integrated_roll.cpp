@@ -44,11 +44,16 @@ Integrator IntegratedRoll::start() const {
 }
 
 Integrator::Event IntegratedRoll::floor_event() const {
-  return [floor = floor_](const std::vector<double>& y) { return y[1] - floor; };
+  const double limit = geometry_ == Geometry::exact ? body_.R : infinity;
+  return [floor = floor_, limit, shift = law_.shift](const std::vector<double>& y) {
+    return limit < infinity && y[1] > 0 ? std::min(y[1] - floor, limit - shift(y[1])) : y[1] - floor;
+  };
 }
 
 IntegratedRoll::Tail IntegratedRoll::tail(const Integrator& ode) const {
-  const double v = ode.state()[1], D = law_.shift(v), q = v * law_.slope(v) / D;
+  const double v = ode.state()[1], D = law_.shift(v);
+  if (geometry_ == Geometry::exact && D >= body_.R * (1 - 1e-9)) fail("at t = {:.6g} s the shift has grown to the radius {:.6g} m", ode.time(), body_.R);
+  const double q = v * law_.slope(v) / D;
   return {ode.time(), v / ((1 - q) * -trial_acceleration(body_, geometry_, D)), v, q};
 }
 

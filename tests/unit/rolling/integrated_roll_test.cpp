@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "base/error.h"
 #include "rolling/roll.h"
@@ -94,6 +95,15 @@ TEST_CASE("IntegratedRoll: rest, and what is refused", "[rolling]") {
   CHECK(rest->stop_time() == 0);
   rest->seek(3);
   CHECK((rest->velocity() == 0 && rest->position() == 0));
+  // b < 0 in exact geometry: D reaches R before the stop, at the time that ExactForm tells
+  const auto grows = start(scene(2e-3, -0.5, Geometry::exact), {Method::solver, Stepper::rk8pd}, 1e-10);
+  std::string message;
+  try {
+    grows->seek(1);
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  CHECK(message == "at t = 0.717118 s the shift has grown to the radius 0.04 m");
   CHECK_THROWS_AS(start(scene(0.05, 0), {Method::solver, Stepper::rkf45}, 1e-8), Error);
   CHECK_THROWS_AS(start(scene(1e-3, 0.2, Geometry::approximate, -1), {Method::solver, Stepper::rkf45}, 1e-8), Error);
   CHECK_THROWS_AS(start(scene(1e-3, 0.2, Geometry::approximate, std::nan("")), {Method::solver, Stepper::rkf45}, 1e-8), Error);
