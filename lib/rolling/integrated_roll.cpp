@@ -16,12 +16,13 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr unsigned long most_steps = 1'000'000;
+constexpr double least_part = 1e-8;  // of v0; much below it the steps are a rounding of t
 
 }  // namespace
 
 IntegratedRoll::IntegratedRoll(const Body& body, Geometry geometry, AnyLaw law, double v0, double x0, Stepper stepper, double rtol)
     : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0), x0_(x0),
-      floor_(law_.stops ? 1e-3 * rtol * v0 : 0), options_{stepper, rtol, v0 > 0 ? 1e-3 * rtol * rtol * v0 : 1, most_steps}, ode_(start()) {
+      floor_(law_.stops ? least_part * v0 : 0), options_{stepper, rtol, v0 > 0 ? rtol * least_part * v0 : 1, most_steps}, ode_(start()) {
   if (v0 == 0) tail_ = {0, 0, 0, 0};
 }
 
@@ -53,8 +54,8 @@ Integrator::Event IntegratedRoll::floor_event() const {
 IntegratedRoll::Tail IntegratedRoll::tail(const Integrator& ode) const {
   const double v = ode.state()[1], D = law_.shift(v);
   if (geometry_ == Geometry::exact && D >= body_.R * (1 - 1e-9)) fail("at t = {:.6g} s the shift has grown to the radius {:.6g} m", ode.time(), body_.R);
-  const double q = v * law_.slope(v) / D;
-  return {ode.time(), v / ((1 - q) * -trial_acceleration(body_, geometry_, D)), v, q};
+  const double a = trial_acceleration(body_, geometry_, D), q = v * trial_acceleration_slope(body_, geometry_, D) * law_.slope(v) / a;
+  return {ode.time(), v / ((1 - q) * -a), v, q};
 }
 
 double IntegratedRoll::stop_time() const {

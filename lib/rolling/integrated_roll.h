@@ -18,9 +18,9 @@ struct AnyLaw {
 
 /// y = (x, v), v' = -g D(v) / ((K + A) R) (Eq. 12). The tolerance is rtol of x and v in each step.
 ///
-/// About v = 0 the right-hand side has no bounded derivative, and solvers chatter. So the solver goes to v = 1e-3 rtol v0, located as an
-/// event. The rest is taken as a power law, D ~ v^q with the q = v D'/D that D has there: it stops v / ((1 - q) |dv/dt|) later. That is no
-/// small part where q is near 1 (5 % of the whole for b = 0.9 and rtol 1e-10). From the stop on v, D and dv/dt are exactly 0.
+/// About v = 0 the right-hand side has no bounded derivative, and solvers chatter. So the solver goes to v = 1e-8 v0, located as an event.
+/// The rest is taken as a power, dv/dt ~ -v^q with the q that it has there: it stops v / ((1 - q) |dv/dt|) later. That is no small part
+/// where q is near 1 (16 % of the whole for b = 0.9). From the stop on v, D and dv/dt are exactly 0.
 class IntegratedRoll final : public Motion {
  public:
   /// Refuses R, g, v0 and K as check_roll does. Errors of the solver come out of seek() and stop_time(): steps that run out (1e6 between
