@@ -31,7 +31,15 @@ row "$scratch/wheel.row" | { read -r a _ b _ _ _ _ v0 _; awk -v a="$a" -v b="$b"
   NF == 9 && ++n % 2000 == 1 && n < 9000 { t = ($6 - 783072) / 1000; w = (v0^(1 - b) - (1 - b) * a * t)^(1 / (1 - b)); E = 0.5 * 0.8489 * w^2
     printf "wheel: %.0f s, energy by the law %.1f J, recorded %.1f J\n", t, E, $8; far += (E / $8 - 1)^2 > 0.02^2; seen++ }
   END { exit far || seen < 4 }' "$data/flywheel-spindown/spindown_poweredOff_badSprocket.txt"; } || complain "wheel: the energy"
-grep -q 'v^b is adequate' "$scratch/wheel.report" || complain "wheel: the law is not adequate"
+# Down to the stop it is no power law: dry friction in the bearings holds the wheel to the end, where a v^b fades away. The law
+# stops late; over the last 16 s the record slows down much more than the law has it; the quadratic law is the better one.
+fit whole --route velocity -K 0 -R 1 -g 1 "$scratch/wheel"
+grep -q 'd2 v^2 0.0; .*v^b is not adequate' "$scratch/whole.report" || complain "wheel: down to its stop a power law is said to be adequate"
+row "$scratch/whole.row" | { read -r a _ b _ _ _ _ v0 _; awk -v a="$a" -v b="$b" -v v0="$v0" '
+  $2 > 0 { stop = $1 } $1 > 241 && !slow { slow = $1; w = $2 }
+  END { law = v0^(1 - b) / ((1 - b) * a); last = w / (stop - slow); at_half = a * (w / 2)^b
+    printf "wheel: stop at %.0f s, by the law at %.0f s; the last %.0f s slow down by %.3f rad/s^2, by the law %.3f\n", stop, law, stop - slow, last, at_half
+    exit !(law > stop + 5 && last > 1.2 * at_half) }' "$scratch/wheel"; } || complain "wheel: the law stops on time"
 
 # Small car: 500 Hz, rpm of a wheel of 0.5842 m, from the top of the spin-up. Its brake grows as it slows: no power law.
 awk -F '\t' 'NR > 1 && $1 >= 9.6 && ++n % 10 == 1 { print $1, $8 / 60 * 3.14159265 * 0.5842 }' "$data/small-car-coastdown/RR-Coastdown-1.txt" >"$scratch/car"
@@ -40,8 +48,19 @@ grep -q 'v^b is not adequate' "$scratch/car.report" || complain "car: a law is s
 awk '{ t = $1; v = $2; if (v > 10 && !high) high = t; if (v > 10) fast = t; if (v > 4) mid = t; if (v > 1) slow = t } END { exit !(6 / (mid - fast) < 3 / (slow - mid)) }' "$scratch/car" ||
   complain "car: it does not brake harder when it is slow"
 
-# Sphere on wet grains: 82 positions, scale and rate unverified; b is not known to better than about 1.
+# Sphere on wet grains: positions of a camera, scale and rate unverified. It flies at 0.7 m/s until it meets the grains at 0.18 s, so
+# the whole record is no roll and is refused. From 0.2 s on it is one, known to a pixel (0.3 mm): b = 0.20 +- 0.06, not a constant D, but
+# one linear in v does as well. The positions before 0.34 s tell to 2 mm in 32 where it lies still after 0.37 s.
 awk -F , 'NR > 1 && $2 > 0 { if (!n++) { x = $2; y = $3 } print $1 / 250, sqrt(($2 - x)^2 + ($3 - y)^2) * 0.000307 }' "$data/sphere-on-wet-grains/detections.csv" >"$scratch/sphere"
-fit sphere --route position -K 0.4 -R 0.0075 "$scratch/sphere"
-row "$scratch/sphere.row" | awk '{ exit !($4 > 0.2 && $7 == 82) }' || complain "sphere: b is given as better known than it is"
+if fitpower -q --route position -K 0.4 -R 0.0075 "$scratch/sphere" 2>"$scratch/refusal"; then complain "sphere: the flight is taken for a roll"; fi
+grep -q 'do not determine b' "$scratch/refusal" || complain "sphere: $(cat "$scratch/refusal")"
+awk '$1 >= 0.2' "$scratch/sphere" >"$scratch/roll"
+fit sphere --route position -K 0.4 -R 0.0075 "$scratch/roll"
+row "$scratch/sphere.row" | awk '{ exit !($4 > 0.04 && $3 > 2 * $4 && $6 < 0.000307 && $7 == 43) }' || complain "sphere: b, or the roll is not known to a pixel"
+grep -q 'v^b 0.8; d0 8.0; d0 + d1 v 0.0; .*v^b is adequate' "$scratch/sphere.report" || complain "sphere: the laws"
+awk '$1 < 0.34' "$scratch/roll" | fitpower -q --route position -K 0.4 -R 0.0075 >"$scratch/early"
+simulate --law "$scratch/early" -K 0.4 -R 0.0075 --dt 0.01 --columns t,x | tail -n 1 | { read -r stop way; awk -v stop="$stop" -v way="$way" '
+  NR == 1 { start = $2 } $1 > 0.37 { rest += $2; n++ }
+  END { printf "sphere: stops at %.3f s after %.1f mm; recorded %.1f mm\n", stop, 1e3 * way, 1e3 * (rest / n - start); exit !(n == 10 && (rest / n - start - way)^2 < 4e-6) }' "$scratch/roll"; } ||
+  complain "sphere: it comes to rest elsewhere"
 exit $wrong
