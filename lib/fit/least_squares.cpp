@@ -145,8 +145,8 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
   Minimum best = polish(system, descend(system, start), step);
   // Bates & Watts (1981), Technometrics 23, 179: converged when the residuals' part in the tangent plane is small
   // against the part orthogonal to it. An exact fit has nothing orthogonal; there the step itself must vanish.
+  const double freedom = system.n > system.p ? static_cast<double>(system.n - system.p) : 0;
   const auto offset = [&] {
-    const double freedom = system.n > system.p ? static_cast<double>(system.n - system.p) : 0;
     return std::sqrt(step.reduction / static_cast<double>(system.p) * freedom / std::max(best.rss - step.reduction, 0.0));
   };
   const auto converged = [&] { return step.size < 1e-7 || offset() < 1e-3; };
@@ -155,9 +155,9 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
     Minimum again = polish(system, descend(system, best.theta), step);
     if (again.rss <= best.rss) best = std::move(again);
     else step = gauss_newton(system, best);
-    // The minimum of a trajectory fit may lie on a kink, where the stop meets a record: no step goes down, but the slope of
+    // The minimum of a trajectory fit may lie on a kink, where the stop meets a record: hardly a step goes down, but the slope of
     // either side remains. It is worth a fraction of a standard deviation, never more.
-    if (best.rss > before * (1 - 1e-8) && offset() < 0.5) break;
+    if (best.rss > before * (1 - std::max(1e-8, 1e-4 / freedom)) && offset() < 1) break;
     if (round == 20) fail("the fit does not converge");
   }
   if (!(step.angle > undetermined)) fail("the data do not determine the parameters: they cannot be told apart");
