@@ -58,6 +58,8 @@ class KnownNoise {
  public:
   /// `share` of the median record's noise is taken as white floor when residuals are weighted (not in their covariance).
   void append(BandMatrix E, double share);
+  /// Standard deviation of further noise of each residual, white and of known size; none if empty. It is not reckoned with in the weights.
+  std::vector<double> own;
   bool empty() const { return runs_.empty(); }
   /// Residuals (n) and derivatives (n rows of p), weighted.
   void weight(std::vector<double>& f, std::vector<double>& J) const;

@@ -157,7 +157,7 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
     else step = gauss_newton(system, best);
     // The minimum of a trajectory fit may lie on a kink, where the stop meets a record: hardly a step goes down, but the slope of
     // either side remains. It is worth a fraction of a standard deviation, never more.
-    if (best.rss > before * (1 - std::max(1e-8, 1e-4 / freedom)) && offset() < 1) break;
+    if (best.rss > before * (1 - std::max(1e-8, 1e-3 / freedom)) && offset() < 1) break;
     if (round == 20) fail("the fit does not converge");
   }
   if (!(step.angle > undetermined)) fail("the data do not determine the parameters: they cannot be told apart");

@@ -1,34 +1,68 @@
 // The straight line of ln D on ln v: linear, but a different estimator from least squares on D (each record is weighted by D^2).
 #include "base/error.h"
 #include "fit/routes.h"
+#include "rolling/power_law.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rolling {
 
 namespace {
 
-/// Mean of ln(1 + e) for normal e of standard deviation s, of those with 1 + e > 0, which have a logarithm.
-double mean_log(double s) {
+/// Mean and standard deviation of ln(1 + e) for normal e of standard deviation s, of those with 1 + e > 0, which have a logarithm.
+struct Logarithm {
+  double mean, sd;
+};
+Logarithm of_noise(double s) {
   constexpr int steps = 400;
-  double sum = 0, weight = 0;
+  double weight = 0, sum = 0, squares = 0;
   for (int i = 0; i < steps; ++i) {
     const double z = 6 * ((i + 0.5) * 2 / steps - 1), w = std::exp(-z * z / 2);
     if (1 + s * z <= 0) continue;
-    sum += w * std::log1p(s * z);
+    const double log = std::log1p(s * z);
     weight += w;
+    sum += w * log;
+    squares += w * log * log;
   }
-  return sum / weight;
+  return {sum / weight, std::sqrt(squares / weight - sum / weight * (sum / weight))};
 }
 
 }  // namespace
 
 RouteFit fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) {
-  const ShiftRecords records(all, options, true);
+  ShiftRecords records(all, options, true);
+  if (records.v.empty() && records.left_out) fail("no record has v > 0 and D > 0: there is no logarithm to fit");
+  KnownNoise noise;
+  std::vector<double> expected;  // of the logarithm of the noise
+  PowerLaw start{1, 0};
+  if (records.filters_known()) {  // the noise of ln D is that of D over D: its size, and D itself, are what least squares on D finds
+    const RouteFit law = fit_shift(all, options);
+    start = {law.a.value, law.b.value};
+    const double sigma = std::sqrt(law.noise.variance(law.minimum.f, orthonormal(law.minimum)));
+    const auto noise_of = [&](const std::vector<double>& excess) {
+      const auto around = records.smoothed(law.a.value, law.b.value);
+      std::vector<double> scale;
+      for (double d : around.D) scale.push_back(d > 0 ? 1 / d : 1e100);
+      return records.noise(law.b.value, around, scale, excess);
+    };
+    // A D that is not well above its noise has no logarithm worth the name, and leaving out D <= 0 would favour the large ones.
+    std::vector<bool> drowned;
+    for (double size : noise_of({}).sizes()) drowned.push_back(sigma * size > 0.4);
+    records.leave_out(drowned);
+    if (records.v.empty()) fail("no record has a D of 2.5 times its noise: there is no logarithm to fit");
+    std::vector<double> excess;  // what the curved logarithm adds to the noise
+    for (double size : noise_of({}).sizes()) {
+      const double s = sigma * size;
+      const auto [mean, sd] = of_noise(s);
+      expected.push_back(mean);
+      excess.push_back(std::sqrt(std::max(sd * sd - s * s, 0.0)));
+    }
+    noise = noise_of(excess);
+  }
   const auto& v = records.v;
   const std::size_t n = v.size(), p = !options.a + !options.b;
-  if (n == 0 && records.left_out) fail("no record has v > 0 and D > 0: there is no logarithm to fit");
   require_records(n, p);
   if (!options.b && std::all_of(v.begin(), v.end(), [&](double x) { return x == v[0]; })) fail("all speeds are equal: b cannot be determined");
 
@@ -41,16 +75,13 @@ RouteFit fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) 
   }
   const auto exponent = [&](const std::vector<double>& theta) { return options.b ? *options.b : theta[p - 1]; };
   const auto height = [&](const std::vector<double>& theta) { return options.a ? std::log(*options.a) + exponent(theta) * L : theta[0]; };
-  KnownNoise noise;
-  bool smoothed = false;         // whether what smoothing does to the law is part of the model
-  std::vector<double> expected;  // and what the logarithm does to the noise
   const System system{n, p, [&](const std::vector<double>& theta, std::vector<double>& f, std::vector<double>& J) {
     for (std::size_t i = 0; i < n; ++i) {
       f[i] = height(theta) + exponent(theta) * log_u[i] - log_D[i];
       if (!options.a) J[i * p] = 1;
       if (!options.b) J[i * p + p - 1] = log_u[i] + (options.a ? L : 0);
     }
-    if (smoothed) {
+    if (!expected.empty()) {  // what smoothing does to the law, and the logarithm to the noise
       const double a = std::exp(height(theta) - exponent(theta) * L);
       const auto s = records.smoothed(a, exponent(theta));
       for (std::size_t i = 0; i < n; ++i) {
@@ -63,32 +94,12 @@ RouteFit fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) 
     }
     noise.weight(f, J);
   }};
-  if (records.filters_known()) {  // the noise of ln D is that of D over D: its size, and D itself, are what least squares on D finds
-    const RouteFit law = fit_shift(all, options);
-    const auto around = records.smoothed(law.a.value, law.b.value);
-    std::vector<double> scale;
-    for (double d : around.D) scale.push_back(d > 0 ? 1 / d : 0);
-    noise = records.noise(law.b.value, around, scale);
-    const double sigma = std::sqrt(law.noise.variance(law.minimum.f, orthonormal(law.minimum)));
-    for (double size : noise.sizes()) expected.push_back(mean_log(sigma * size));
-    smoothed = true;
-  }
-  Minimum minimum = solve(system, std::vector<double>(p, 0), options, records.filters_known());
-
-  const double b = exponent(minimum.theta), h = height(minimum.theta), a = options.a ? *options.a : std::exp(h - b * L);
-  std::vector<double> residuals(n), by_a(p, 0), by_b(p, 0), unused(n * p);
-  KnownNoise known;
-  if (records.filters_known()) {  // the plain residuals, for rms
-    std::swap(noise, known);
-    system.evaluate(minimum.theta, residuals, unused);
-  } else {
-    residuals = minimum.f;
-  }
-  if (!options.a) by_a[0] = a;
-  if (!options.a && !options.b) by_a[1] = -a * L;
-  if (!options.b) by_b[p - 1] = 1;
-  return {.minimum = std::move(minimum), .runs = records.runs, .residuals = std::move(residuals), .noise = std::move(known),
-          .left_out = records.left_out, .a = {a, by_a}, .b = {b, by_b}, .v0 = {}, .x0 = {}, .v = v};
+  std::vector<double> theta;
+  if (!options.a) theta.push_back(std::log(start.a) + start.b * L);
+  if (!options.b) theta.push_back(start.b);
+  Minimum minimum = solve(system, theta, options, records.filters_known());
+  const double b = exponent(minimum.theta), a = std::exp(height(minimum.theta) - b * L);
+  return records.hand_over(system, std::move(minimum), noise, options.a.value_or(a), a, b);
 }
 
 }  // namespace rolling

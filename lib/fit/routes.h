@@ -73,11 +73,17 @@ struct ShiftRecords {
     std::vector<double> v, D, law, D_a, D_b, law_a, law_b;
   };
   Smoothed smoothed(double a, double b) const;
-  /// Of the residuals (D - a v^b) scale: both columns carry noise, that of v with the slope of the law at the smoothed speeds.
-  KnownNoise noise(double b, const Smoothed&, const std::vector<double>& scale) const;
+  /// Of the residuals (D - a v^b) scale: both columns carry noise, that of v with the slope of the law at the smoothed speeds. `own`
+  /// as in KnownNoise.
+  KnownNoise noise(double b, const Smoothed&, const std::vector<double>& scale, std::vector<double> own = {}) const;
+  void leave_out(const std::vector<bool>& lost);  ///< a flag for each record
+  /// The result at a minimum of a system that weights its residuals with this noise. Its first parameter is one of height, with the
+  /// derivative a_slope of a by it, its last is b, as far as they are free.
+  RouteFit hand_over(const System&, Minimum, KnownNoise& noise, double a, double a_slope, double b) const;
 
  private:
   const std::vector<FitRun>& all_;
+  const FitOptions& options_;
   std::vector<Rows> rows_;
   std::vector<NoiseResponse> response_;
 };

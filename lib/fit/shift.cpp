@@ -7,10 +7,11 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace rolling {
 
-ShiftRecords::ShiftRecords(const std::vector<FitRun>& all, const FitOptions& options, bool positive_D) : all_(all) {
+ShiftRecords::ShiftRecords(const std::vector<FitRun>& all, const FitOptions& options, bool positive_D) : all_(all), options_(options) {
   bool known = true;
   for (const auto& run : all) {
     Rows rows;
@@ -30,16 +31,41 @@ ShiftRecords::ShiftRecords(const std::vector<FitRun>& all, const FitOptions& opt
     known = known && response_.back().of.contains("D");
   }
   if (!known) response_.clear();
-  if (v.empty()) return;
-  for (double x : v) log_v_ref += std::log(x);
-  log_v_ref /= static_cast<double>(v.size());
+  for (double x : v) log_v_ref += std::log(x) / static_cast<double>(v.size());
+}
+
+void ShiftRecords::leave_out(const std::vector<bool>& lost) {
+  std::vector<double> old_v = std::exchange(v, {}), old_D = std::exchange(D, {});
+  std::size_t at = 0;
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    std::erase_if(rows_[r], [&](std::size_t) {
+      if (!lost[at]) v.push_back(old_v[at]), D.push_back(old_D[at]);
+      return lost[at++];
+    });
+    runs[r] = rows_[r].size();
+  }
+  left_out += old_v.size() - v.size();
+  log_v_ref = 0;
+  for (double x : v) log_v_ref += std::log(x) / static_cast<double>(v.size());
+}
+
+RouteFit ShiftRecords::hand_over(const System& system, Minimum minimum, KnownNoise& noise, double a, double a_slope, double b) const {
+  const std::size_t p = system.p;
+  std::vector<double> residuals = minimum.f, by_a(p, 0), by_b(p, 0), unused(minimum.J.size());
+  KnownNoise known = std::exchange(noise, {});
+  if (!known.empty()) system.evaluate(minimum.theta, residuals, unused);  // the plain ones, for rms
+  if (!options_.a) by_a[0] = a_slope;
+  if (!options_.a && !options_.b) by_a[1] = -a * log_v_ref;
+  if (!options_.b) by_b[p - 1] = 1;
+  return {.minimum = std::move(minimum), .runs = runs, .residuals = std::move(residuals), .noise = std::move(known), .left_out = left_out,
+          .a = {a, by_a}, .b = {b, by_b}, .v0 = {}, .x0 = {}, .v = v};
 }
 
 // Full weight by the covariance would rest on directions that look all but free of noise (the zeros of a moving mean, the
 // frequency zero of a difference), where the residuals are not noise but what smoothing did to the law.
 constexpr double floor_share = 1;
 
-KnownNoise ShiftRecords::noise(double b, const Smoothed& smooth, const std::vector<double>& scale) const {
+KnownNoise ShiftRecords::noise(double b, const Smoothed& smooth, const std::vector<double>& scale, std::vector<double> own) const {
   KnownNoise result;
   std::size_t at = 0;
   for (std::size_t r = 0; r < response_.size(); ++r) {
@@ -54,6 +80,7 @@ KnownNoise ShiftRecords::noise(double b, const Smoothed& smooth, const std::vect
     }
     result.append(std::move(E), floor_share);
   }
+  result.own = std::move(own);
   return result;
 }
 
@@ -222,20 +249,8 @@ RouteFit fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   }
 
   b = exponent(minimum.theta);
-  const double a = options.a ? *options.a : height(minimum.theta) * std::exp(-b * L);
-  std::vector<double> residuals(n), by_a(p, 0), by_b(p, 0), unused(n * p);
-  KnownNoise known;
-  if (records.filters_known()) {  // the plain residuals, for rms
-    std::swap(noise, known);
-    system.evaluate(minimum.theta, residuals, unused);
-  } else {
-    residuals = minimum.f;
-  }
-  if (!options.a) by_a[0] = unit * std::exp(-b * L);
-  if (!options.a && !options.b) by_a[1] = -a * L;
-  if (!options.b) by_b[p - 1] = 1;
-  return {.minimum = std::move(minimum), .runs = records.runs, .residuals = std::move(residuals), .noise = std::move(known),
-          .left_out = records.left_out, .a = {a, by_a}, .b = {b, by_b}, .v0 = {}, .x0 = {}, .v = v};
+  const double a = options.a.value_or(height(minimum.theta) * std::exp(-b * L));
+  return records.hand_over(system, std::move(minimum), noise, a, unit * std::exp(-b * L), b);
 }
 
 }  // namespace rolling
