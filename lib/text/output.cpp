@@ -26,7 +26,7 @@ void Output::row(std::span<const double> values) {
 }
 
 void Output::flush() {
-  if (before_write && !buffer_.empty()) before_write();
+  if (before_write && buffer_.size() > 0) before_write();
   for (std::string_view left(buffer_.data(), buffer_.size()); !left.empty();) {
     const ssize_t count = ::write(STDOUT_FILENO, left.data(), left.size());
     if (count < 0 && errno == EINTR) continue;
