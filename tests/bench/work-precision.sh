@@ -10,7 +10,7 @@ for table in *.txt; do
     END { for (key in n) print key "\t" n[key] }' "$table"
 done | sort
 command -v gnuplot >/dev/null || { echo "no figures: gnuplot is not installed" && exit 0; }
-# A curve for each method that came through at least once: this project's filled and full, GSL's own steppers open and dashed.
+# A curve for each method that came through at least once: this project's filled and full, GSL's own steppers and CVODE open and dashed.
 for table in *.txt; do
   series=$(awk -F '\t' '!/^#/ && $4 != "nan" && NF > 8 { key = $1 " " $2; if (!seen[key]++) printf "\"%s\" ", key }' "$table")
   for terminal in svg pngcairo; do
@@ -21,10 +21,10 @@ for table in *.txt; do
       set logscale xy; set format xy '10^{%L}'; set yrange [1e-18:1]; set xrange [10:1e7]
       set key below font ',12' samplen 1.5 height 0.6
       set xlabel 'time a sample / ns'; set ylabel 'largest error of v, over v_0' offset 0, 0
-      methods = 'closed exact rkf45 rk8pd rk4imp bsimp msbdf'; series = '$series'
-      array hue[7] = [0x000000, 0x000000, 0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7, 0x56B4E9]
-      array mark[7] = [4, 4, 6, 8, 10, 12, 14]
-      number_of(method) = sum [i = 1:7] (word(methods, i) eq method ? i : 0)
+      methods = 'closed exact rkf45 rk8pd rk4imp bsimp msbdf adams bdf'; series = '$series'
+      array hue[9] = [0x000000, 0x000000, 0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7, 0x56B4E9, 0x8C6D1F, 0x7F7F7F]
+      array mark[9] = [4, 4, 6, 8, 10, 12, 14, 2, 1]
+      number_of(method) = sum [i = 1:9] (word(methods, i) eq method ? i : 0)
       m(s) = number_of(word(word(series, s), 2)); own(s) = word(word(series, s), 1) eq 'rolling'
       do for [s = 1:words(series)] { set style line s lc rgb hue[m(s)] lw 1.5 dt 2 - own(s) pt mark[m(s)] + own(s) ps 0.7 }
       is(s) = strcol(1).' '.strcol(2) eq word(series, s)
