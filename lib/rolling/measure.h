@@ -25,7 +25,7 @@ struct Measured {
   double v_error = 0;      ///< largest |v - reference| / v0
   double stop_error = 0;   ///< relative; 0 without a stop
   unsigned long evaluations = 0;
-  double seconds = 0;      ///< per sample, its motion set up included: median of the repeats
+  double seconds = 0;      ///< of the processor per sample, its motion set up included: median of the repeats
   double scatter = 0;      ///< half the distance of their quartiles [s]
   std::string failure;     ///< the Error that ended it, or empty
 };
