@@ -4,9 +4,9 @@
 #include <gsl/gsl_odeiv2.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <random>
 #include <string>
@@ -38,9 +38,9 @@ void print_times(const Jobs& jobs) {
   volatile double sink = 0;
   for (int round = 0; round <= rounds; ++round)
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-      const auto begin = std::chrono::steady_clock::now();
+      const std::clock_t begin = std::clock();
       sink = jobs[i].second();
-      if (round > 0) ns[i].push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() * 1e9 / calls);
+      if (round > 0) ns[i].push_back(static_cast<double>(std::clock() - begin) * (1e9 / CLOCKS_PER_SEC) / calls);
     }
   (void)sink;
   const auto ratio = [&](std::size_t i, std::size_t to) {
@@ -49,7 +49,7 @@ void print_times(const Jobs& jobs) {
     return median(ratios);
   };
   const std::size_t step = jobs.size() - 1, pow = step - 1;
-  fmt::print("# ns a sample: median, least; parts of a step of GSL's rkf45 with pow, and of pow: medians of {} rounds\n", rounds);
+  fmt::print("# ns of the processor a sample: median, least; parts of a step of GSL's rkf45 with pow, and of pow: medians of {} rounds\n", rounds);
   for (std::size_t i = 0; i < jobs.size(); ++i)
     fmt::print("{}\t{:.1f}\t{:.1f}\t{:.3f}\t{:.2f}\n", jobs[i].first, median(ns[i]), *std::min_element(ns[i].begin(), ns[i].end()), ratio(i, step), ratio(i, pow));
 }
