@@ -20,6 +20,9 @@ constexpr std::size_t longest_line = 1 << 20;  // a record of motion data has te
 Input::Input(std::string name, BlockHook on_block)
     : name_(std::move(name)), on_block_(std::move(on_block)), fd_(name_ == "-" ? STDIN_FILENO : ::open(name_.c_str(), O_RDONLY | O_CLOEXEC)), buffer_(block) {
   if (fd_ < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
+#ifdef F_SETPIPE_SZ
+  ::fcntl(fd_, F_SETPIPE_SZ, 1 << 20);  // the tools of a chain wait less for each other; where it is refused, or no pipe, no matter
+#endif
   struct stat status;
   if (on_block_ && ::fstat(fd_, &status) == 0 && S_ISREG(status.st_mode)) size_ = static_cast<double>(status.st_size);
 }

@@ -23,6 +23,13 @@ char first_mark(std::string_view line) {
 }
 
 
+/// The last comment that is no history.
+std::size_t last_remark(const std::vector<std::string>& comments) {
+  for (std::size_t i = comments.size(); i-- > 0;)
+    if (!comments[i].starts_with("##")) return i;
+  return npos;
+}
+
 }  // namespace
 
 Reader::Reader(ReaderOptions options, std::vector<std::string> order) : options_(std::move(options)), order_(std::move(order)) {
@@ -74,9 +81,9 @@ void Reader::read_header() {
     if (names.back().empty() && names.size() > 1) names.pop_back();  // a delimiter that ends the line
     if (width == names.size() + 1 && dialect_.split(line_).back().text.empty()) --width;
   } else {
-    const auto last = std::find_if(comments.rbegin(), comments.rend(), [](const auto& c) { return !c.starts_with("##"); });
-    if (last != comments.rend()) names = commented_names(*last, width);
-    if (!names.empty()) comments.erase(std::next(last).base());
+    const std::size_t last = last_remark(comments);
+    if (last != npos) names = commented_names(comments[last], width);
+    if (!names.empty()) comments.erase(comments.begin() + static_cast<std::ptrdiff_t>(last));
   }
   for (std::string& line : preamble) comments.push_back("# " + std::move(line));
 
@@ -137,7 +144,7 @@ bool Reader::is_missing_record(const std::vector<std::string>& comments, const s
   if (!std::all_of(fields.begin(), fields.end(), [](const Field& field) { return is_missing(field.text); })) return false;
   if (!std::all_of(fields.begin(), fields.end(), [](const Field& field) { return field.text.empty(); })) return true;
   const std::size_t width = fields.size();
-  if (preamble.empty()) return !comments.empty() && !commented_names(comments.back(), width).empty();
+  if (preamble.empty()) return last_remark(comments) != npos && !commented_names(comments[last_remark(comments)], width).empty();
   const auto names = names_of(preamble.back());
   return names.size() == width && std::none_of(names.begin(), names.end(), [](const std::string& name) { return name.empty(); });
 }

@@ -141,6 +141,7 @@ TEST_CASE("reader: a first record whose readings are all missing is a record, no
   CHECK(records({"NaN NaN\n0 1\n"}) == "0 1");
   CHECK(records({"t,v\n,\n0,1\n"}) == "0 1");
   CHECK(records({"# v t\n;\n5;0\n"}) == "0 5");
+  CHECK(records({"# v t\n## smooth v mean width 3\n;\n5;0\n"}) == "0 5");
   CHECK(records({"t,v\n,\n0,1\n"}, strict) == "FILE:2: field 1 (t): a reading is missing");
   CHECK(records({"My cart,\n,\nt,v\n0,1\n"}) == "0 1");  // blank cells of a preamble
 }
