@@ -384,10 +384,20 @@ RouteFit fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOp
   RouteFit fitted = fit_rolls(all, rows, q, making);
   if (known || position || options.robust || options.possible_filters.empty() || fitted.residuals.size() < 30) return fitted;
 
-  // What programs do at the ends of a run differs; inside they are known.
+  // What programs do at the ends of a run and at a lost record differs; elsewhere they are known.
   std::size_t reach = 0;
   for (const auto& filter : options.possible_filters) reach = std::max(reach, filter.reach);
-  for (std::size_t r = 0; r < all.size(); ++r) std::erase_if(rows[r], [&](std::size_t i) { return i < reach || i + reach >= all[r].t.size(); });
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    const auto& t = all[r].t;
+    std::vector<double> spans;  // of the windows
+    for (std::size_t i = 2 * reach; i < t.size(); ++i) spans.push_back(t[i] - t[i - 2 * reach]);
+    if (spans.empty()) return fitted;
+    auto sorted = spans;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    const double most = *middle * (1 + 0.25 / static_cast<double>(reach));  // half a record more than is usual
+    std::erase_if(rows[r], [&](std::size_t i) { return i < reach || i + reach >= t.size() || spans[i - reach] > most; });
+  }
   try {
     making = most_likely(all, rows, options.possible_filters, q, fitted.minimum.theta);
     if (making.responses.empty() || making.responses.front().source == "v") return fitted;
