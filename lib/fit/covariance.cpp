@@ -369,7 +369,7 @@ double correlation_of_neighbours(std::span<const double> r, std::span<const std:
 std::vector<double> newey_west(std::span<const double> scores, std::size_t p, std::span<const double> residuals,
                                std::span<const std::size_t> runs) {
   const double n = static_cast<double>(residuals.size()), fitted = static_cast<double>(p);
-  // A fit of p smooth terms takes (p (1 + AR) + 2 AR)/n off the correlation that its residuals show (Kendall 1954 for p = 1).
+  // A fit of p smooth terms takes (p (1 + AR) + 2 AR)/n off the correlation that its residuals show (Kendall 1954, Biometrika 41, 403, for p = 1).
   const double AR = std::clamp((n * correlation_of_neighbours(residuals, runs) + fitted) / std::max(n - fitted - 2, 1.0), -0.97, 0.97);
   const auto u = prewhitened(scores, p, runs, AR);
   const double rho = correlation_of_neighbours(prewhitened(residuals, 1, runs, AR), runs);

@@ -92,7 +92,8 @@ double lagged(std::span<const double> residuals, std::span<const std::size_t> ru
 
 /// The middle of the sandwich, sum of w(|i-j|) u_i u_j^T over each run, row by row; u are n rows of p scores. Bartlett weights
 /// (Newey and West 1987, Econometrica 55, 703), bandwidth by Andrews' AR(1) rule (1991, Econometrica 59, 817),
-/// after prewhitening by the residuals' own AR(1) (Andrews and Monahan 1992, Econometrica 60, 953): short records need it.
+/// after prewhitening by the residuals' own AR(1) (Andrews and Monahan 1992, Econometrica 60, 953), corrected for the fit: short records
+/// need both.
 std::vector<double> newey_west(std::span<const double> scores, std::size_t p, std::span<const double> residuals,
                                std::span<const std::size_t> runs);
 
