@@ -24,6 +24,7 @@ for source in lib/*/*.cpp; do
   esac
   [ -e "tests/unit/${name%.cpp}_test.cpp" ] || complain "$source has no tests/unit/${name%.cpp}_test.cpp"
 done
+if grep -rnE '^(<<<<<<<|>>>>>>>)( |$)' Makefile README.md cmd lib tests samples man; then complain "a merge that was not finished"; fi
 for script in tests/*.sh tests/*/*.sh; do
   [ -x "$script" ] || complain "$script cannot be run"
 done
