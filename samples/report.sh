@@ -166,8 +166,8 @@ if [ -n "$measured" ]; then
   cat <<'HTML'
 <p>The error of the velocity against the time that a sample takes, for every method and a row of tolerances: to the lower
 left is better. Points at 10<sup>−17</sup> do not differ from the reference. Filled: the methods of <code>simulate</code>,
-which locate the stop; open: GSL’s solvers used in the ordinary way, as far as they came through, “odd” with a law that goes on to
-negative velocities. Of one run on one machine: the ratios count.</p>
+which locate the stop; open and dashed: the solvers of GSL, and of CVODE where it is installed, used in the ordinary way, as far as
+they came through; “odd” with a law that goes on to negative velocities. Of one run on one machine: the ratios count.</p>
 HTML
   while read -r name title; do
     [ -r "$measured/$name.svg" ] || continue
