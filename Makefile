@@ -11,9 +11,10 @@ LDLIBS   := -lgsl -lgslcblas -lfmt -lm
 source := $(wildcard lib/*/*.cpp)
 tool   := $(patsubst cmd/%.cpp,%,$(wildcard cmd/*.cpp))
 test   := $(wildcard tests/unit/*/*.cpp tests/pipeline/*.cpp)
+target := number reader scene $(tool)
 object  = $(patsubst %.cpp,build/%.o,$1)
 
-.PHONY: all setup table1 samples figures report check install uninstall deb coverage work-precision work-precision-signal bench lint clean always
+.PHONY: all setup table1 samples figures report check install uninstall deb coverage work-precision work-precision-signal bench lint fuzz sanitize coverage-lines mutate clean always
 .SECONDARY:
 all: $(tool:%=bin/%)
 
@@ -39,7 +40,7 @@ build/catch_main.o: | $(filter setup,$(MAKECMDGOALS))
 	else echo '#include <catch2/catch_session.hpp>'; echo 'int main(int argc, char** argv) { return Catch::Session().run(argc, argv); }'; fi \
 	  | $(CXX) $(CXXFLAGS) -x c++ -c -o $@ -
 
--include $(patsubst %.o,%.d,$(call object,$(source) $(test) $(wildcard cmd/*.cpp tests/bench/*.cpp)))
+-include $(patsubst %.o,%.d,$(call object,$(source) $(test) $(wildcard cmd/*.cpp tests/bench/*.cpp tests/fuzz/*.cpp)))
 
 # From a fresh machine: only what is missing, and no root when nothing is. `make setup table1` leaves out what only tests need.
 goals    := $(filter-out setup,$(MAKECMDGOALS))
@@ -84,8 +85,46 @@ report: figures/report.html
 figures/report.html: samples/report.sh samples/table1.sh $(figure:%=figures/%.svg) $(wildcard build/work-precision/*.svg) | all
 	PATH="$(CURDIR)/bin:$$PATH" $< figures $(if $(wildcard build/work-precision/CR.svg),build/work-precision) >$@.new && mv $@.new $@
 
-check: all build/unit
+check: all build/unit build/shim.so $(target:%=build/replay/%)
 	@PATH="$(CURDIR)/bin:$$PATH" tests/run.sh build/unit
+
+# What tests/faults preloads into the tools; nothing of it may depend on the C++ library or on a sanitizer.
+build/shim.so: tests/faults/shim.cpp
+	@mkdir -p $(@D)
+	$(CXX) -O1 -Wall -Wextra -shared -fPIC -o $@ $<
+
+# Fuzz targets: the readers, and each tool with its main() under another name. build/replay runs them on the files of
+# tests/fuzz/corpus; `make fuzz` looks for more, SECONDS for each, in a copy built by clang for its fuzzer.
+build/tests/fuzz/%.o: CPPFLAGS += -Itests/fuzz
+$(tool:%=build/fuzz/%.o): build/fuzz/%.o: build/cmd/%.o tests/fuzz/tool.cpp tests/fuzz/streams.h
+	@mkdir -p $(@D)
+	objcopy --redefine-sym main=_Z9tool_mainiPPc $< $(@:.o=-main.o)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -DTOOL='"$*"' -c -o $(@:.o=-target.o) tests/fuzz/tool.cpp
+	$(LD) -r -o $@ $(@:.o=-main.o) $(@:.o=-target.o)
+build/fuzz/%.o: build/tests/fuzz/%.o
+	@mkdir -p $(@D)
+	cp $< $@
+build/replay/%: build/fuzz/%.o build/tests/fuzz/replay.o build/lib.a
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+build/fuzzer/%: build/fuzz/%.o build/lib.a
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) -fsanitize=fuzzer $(LDFLAGS) -o $@ $^ $(LDLIBS)
+
+# A copy of the sources for a build of another kind; what has not changed there is not built again.
+copy = mkdir -p $1 && rm -rf $(addprefix $1/,cmd lib man samples tests) && tar -cf - Makefile README.md cmd lib man samples tests | tar -xf - -C $1
+SECONDS ?= 60
+sanitized := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all
+fuzz:
+	@$(call copy,build/fuzzing)
+	$(MAKE) -C build/fuzzing CXX=clang++-14 CXXFLAGS="$(sanitized) -fsanitize=fuzzer-no-link" $(target:%=build/fuzzer/%)
+	tests/fuzz/fuzz.sh build/fuzzing/build/fuzzer $(SECONDS) $(target)
+
+# The whole suite under AddressSanitizer and UndefinedBehaviorSanitizer; then the cases of the tools under valgrind.
+sanitize:
+	@$(call copy,build/sanitized)
+	$(MAKE) -C build/sanitized check CXXFLAGS="$(sanitized)"
+	tests/valgrind.sh
 
 # The names smooth and simulate are common: PROGRAM_PREFIX=roll- installs roll-smooth, roll-simulate, ... and their pages so.
 PREFIX    ?= /usr/local

@@ -31,6 +31,7 @@ void set_parameters(const std::string& option, const std::vector<std::string>& s
     double value;
     if (equals == std::string::npos || parameter == parameters.end() || !parse_number(std::string_view(setting).substr(equals + 1), value))
       fail("{}: '{}' is not NAME=VALUE with a name that it knows", option, shown(setting));
+    if (*parameter->second) fail("{}: '{}' comes after another for {}", option, shown(setting), parameter->first);
     *parameter->second = value;
   }
 }

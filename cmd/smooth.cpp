@@ -45,7 +45,8 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    bool choose = width == "auto" && options.width.seconds == 0;
+    if (options.width.seconds > 0 && tool.on_command_line("width")) fail("--width and --seconds are two widths: give one");
+    bool choose = width == "auto";
     if (width != "auto") options.width.samples = odd_number(width);
     if (options.method != SmoothingMethod::savgol && tool.on_command_line("order")) fail("--order goes with --method savgol");
     select.width = options.width;

@@ -4,7 +4,7 @@
 #   tests/run.sh [UNIT-PROGRAM] [FOLDER | SCRIPT]...
 #
 # UNIT-PROGRAM is a Catch2 program (2.13 or 3): each of its test cases counts. A FOLDER is searched for cases, a SCRIPT.sh is
-# one test. Without folders and scripts: all cases of tests/tools, all scripts of tests/pipeline and tests/house.
+# one test. Without folders and scripts: all cases of tests/tools, all scripts of tests/pipeline, tests/faults and tests/house.
 #
 # A case is a folder with a shell line in `cmd`, which runs there with bin/ on the PATH and nothing on standard input.
 #   expected  standard output, byte for byte; or, if there is a file `approx` with a tolerance, as tests/approx.awk compares
@@ -101,7 +101,7 @@ for argument; do
   fi
 done
 if ! $more; then
-  for script in "$root"/tests/pipeline/*.sh "$root"/tests/house/*.sh; do
+  for script in "$root"/tests/pipeline/*.sh "$root"/tests/faults/*.sh "$root"/tests/house/*.sh; do
     [ ! -e "$script" ] || plan script "$script"
   done
   plan_cases "$root/tests/tools"

@@ -6,7 +6,9 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <new>
 
@@ -16,6 +18,7 @@ namespace rolling {
 namespace {
 
 constexpr std::string_view version = "1.0.0";
+constexpr int trouble = 2;  // the exit status
 
 /// The numbers of a scene: what its file may say, whether or not a tool needs it.
 constexpr std::array scene_keys = {"mass", "radius", "shape-factor", "gravity", "coefficient", "exponent", "exact", "v0", "x0", "memory", "damping"};
@@ -27,6 +30,33 @@ double to_number(const std::string& option, const std::string& text, const Range
   return value;
 }
 
+/// One line of printable ASCII on standard error, at most 512 bytes. Needs no memory: that may be what has run out.
+void write_line(std::string_view name, std::string_view text) {
+  std::array<char, 512> line;
+  char* const end = fmt::format_to_n(line.data(), line.size() - 1, "{}: {}", name, text).out;
+  std::replace_if(line.data(), end, [](char c) { return c < ' ' || c > '~'; }, '?');
+  *end = '\n';
+  [[maybe_unused]] const auto count = ::write(STDERR_FILENO, line.data(), static_cast<std::size_t>(end + 1 - line.data()));  // where could one say that it failed?
+}
+
+/// What is thrown where nothing catches: before main(), by a static object, or while a message is being made.
+[[noreturn]] void last_words() {
+  const char* what = "unknown trouble";
+  try {
+    if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    what = "out of memory";
+  } catch (const std::exception& error) {
+    what = error.what();
+  } catch (...) {
+  }
+  write_line(program_invocation_short_name, what);
+  ::_exit(trouble);
+}
+
+/// Ahead of all static objects.
+[[gnu::constructor(101)]] void set_last_words() { std::set_terminate(last_words); }
+
 std::string long_name(const std::string& names) {
   const auto at = names.find("--");
   return at == std::string::npos ? std::string() : names.substr(at + 2);
@@ -35,9 +65,9 @@ std::string long_name(const std::string& names) {
 }  // namespace
 
 Tool::Tool(std::string name, const std::string& purpose) : name_(std::move(name)), app_(purpose, name_) {
-  app_.set_help_flag("-h,--help", "print this and exit");
-  app_.set_version_flag("--version", [this] { return fmt::format("{} (rolling) {}", name_, version); }, "print the version and exit");
-  app_.add_flag("-q,--quiet", quiet_, "neither counts of left-out records nor progress on standard error");
+  app_.set_help_flag("-h,--help", "print this and exit")->disable_flag_override();
+  app_.set_version_flag("--version", [this] { return fmt::format("{} (rolling) {}", name_, version); }, "print the version and exit")->disable_flag_override();
+  flag("-q,--quiet", quiet_, "neither counts of left-out records nor progress on standard error");
 }
 
 void Tool::add(const std::string& names, const std::string& type, const std::string& help, std::function<void(const std::string&)> set) {
@@ -50,7 +80,9 @@ void Tool::add_flag(const std::string& names, const std::string& help, std::func
     if (text != "true" && text != "false") fail("{}: '{}' is neither true nor false", names, shown(text));
     set(text == "true");
   };
-  app_.add_flag_function(names, [set](std::int64_t) { set(true); }, help)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  app_.add_flag_function(names, [set](std::int64_t) { set(true); }, help)
+      ->multi_option_policy(CLI::MultiOptionPolicy::Throw)
+      ->disable_flag_override();
 }
 
 void Tool::flag(const std::string& names, bool& value, const std::string& help) {
@@ -73,7 +105,10 @@ void Tool::numbers(const std::string& names, std::vector<double>& values, const 
 }
 
 void Tool::text(const std::string& names, std::string& value, const std::string& type, const std::string& help) {
-  add(names, type, help, [&value](const std::string& text) { value = text; });
+  add(names, type, help, [&value, names](const std::string& text) {
+    if (text.empty()) fail("{}: '' is no value", names);
+    value = text;
+  });
 }
 
 void Tool::list(const std::string& names, std::vector<std::string>& values, const std::string& type, const std::string& help) {
@@ -101,7 +136,7 @@ void Tool::geometry(Geometry& geometry) {
 }
 
 void Tool::scene() {
-  app_.add_option("--scene", scene_file_, "TOML file with the long names of a scene's options; the command line wins")->type_name("FILE");
+  text("--scene", scene_file_, "FILE", "TOML file with the long names of a scene's options; the command line wins");
 }
 
 void Tool::input() {
@@ -217,12 +252,7 @@ void Tool::need(const PowerLaw& law) const {
 
 void Tool::say(const std::string& text) {
   progress.stop();
-  std::string line = name_ + ": " + text.substr(0, text.find('\n'));
-  for (char& c : line)
-    if (c < ' ' || c > '~') c = '?';
-  line.resize(std::min<std::size_t>(line.size(), 511));
-  line += '\n';
-  [[maybe_unused]] const auto count = ::write(STDERR_FILENO, line.data(), line.size());  // where could one say that it failed?
+  write_line(name_, text);
 }
 
 void Tool::count_left_out(std::size_t count, const std::string& why) {
@@ -230,9 +260,9 @@ void Tool::count_left_out(std::size_t count, const std::string& why) {
 }
 
 int Tool::run(int argc, char** argv, const std::function<int()>& work) {
-  constexpr int trouble = 2;
   if (argc > 0) name_ = argv[0];  // as it is installed: see PROGRAM_PREFIX in the Makefile
   name_.erase(0, name_.rfind('/') + 1);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is one that cannot be written: told by flush()
   try {
     app_.parse(argc, argv);
     read_scene();
@@ -242,11 +272,15 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
     out.flush();
     progress.stop();
     std::size_t left_out = 0;
-    for (const auto& reader : readers_) left_out += reader->left_out();
+    bool coarse_time = false;
+    for (const auto& reader : readers_) left_out += reader->left_out(), coarse_time |= reader->coarse_time();
+    if (coarse_time && !quiet_) say("the times are so large that the time between records keeps fewer than four digits; subtract the first");
     count_left_out(left_out, "a reading is missing");
     return status;
   } catch (const CLI::CallForHelp&) {
-    return print(help());
+    const std::string text = help();
+    if (text != help()) throw std::bad_alloc();  // CLI11 writes it into streams, which are silent when memory runs out
+    return print(text);
   } catch (const CLI::CallForVersion& call) {
     return print(std::string(call.what()) + '\n');
   } catch (const CLI::ParseError& error) {
@@ -276,7 +310,7 @@ int Tool::print(const std::string& text) {
     return 0;
   } catch (const Error& error) {
     say(error.what());
-    return 2;
+    return trouble;
   }
 }
 

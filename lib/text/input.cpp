@@ -15,11 +15,19 @@ namespace rolling {
 namespace {
 constexpr std::size_t block = 1 << 18;
 constexpr std::size_t longest_line = 1 << 20;  // a record of motion data has tens of bytes; a megabyte is another kind of file
+
+/// Rows that go into the file they come from would be read again.
+bool is_standard_output(int fd) {
+  struct stat in, out;
+  return fd != STDOUT_FILENO && ::fstat(fd, &in) == 0 && ::fstat(STDOUT_FILENO, &out) == 0 && S_ISREG(in.st_mode) && in.st_dev == out.st_dev && in.st_ino == out.st_ino;
+}
+
 }  // namespace
 
 Input::Input(std::string name, BlockHook on_block)
     : name_(std::move(name)), on_block_(std::move(on_block)), fd_(name_ == "-" ? STDIN_FILENO : ::open(name_.c_str(), O_RDONLY | O_CLOEXEC)), buffer_(block) {
   if (fd_ < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
+  if (is_standard_output(fd_)) fail<InputError>("{}: this input is the output too", name_);
 #ifdef F_SETPIPE_SZ
   ::fcntl(fd_, F_SETPIPE_SZ, 1 << 20);  // the tools of a chain wait less for each other; where it is refused, or no pipe, no matter
 #endif

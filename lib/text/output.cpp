@@ -1,12 +1,32 @@
 #include "text/output.h"
 
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 
 namespace rolling {
+namespace {
+
+/// Signals that end a tool wait while it writes, so that they cut no line in two.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t ending;
+    sigemptyset(&ending);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, signal);
+    sigprocmask(SIG_BLOCK, &ending, &before_);
+  }
+  ~SignalsWait() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+}  // namespace
 
 void Output::names(const std::vector<Column>& columns) {
   const char* before = "# ";
@@ -15,7 +35,6 @@ void Output::names(const std::vector<Column>& columns) {
 }
 
 void Output::cell(double value) {
-  if (!std::isfinite(value)) fail("the result is not a finite number");
   separate();
   number(value);
 }
@@ -27,6 +46,7 @@ void Output::row(std::span<const double> values) {
 
 void Output::flush() {
   if (before_write && buffer_.size() > 0) before_write();
+  const SignalsWait waiting;
   for (std::string_view left(buffer_.data(), buffer_.size()); !left.empty();) {
     const ssize_t count = ::write(STDOUT_FILENO, left.data(), left.size());
     if (count < 0 && errno == EINTR) continue;

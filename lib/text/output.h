@@ -1,6 +1,7 @@
 // Standard output, whole lines at a time, every write checked.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <span>
 #include <string_view>
@@ -27,12 +28,14 @@ class Output {
   // The line in the making.
   void text(std::string_view text) { buffer_.append(text.data(), text.data() + text.size()); }
   void text(char c) { buffer_.push_back(c); }
+  /// Throws Error for a number that is not finite.
   void number(double value) {
+    if (!std::isfinite(value)) fail("the result is not a finite number");
     buffer_.reserve(buffer_.size() + longest_number);
     const char* const end = write_number(buffer_.end(), value, digits);
     buffer_.resize(static_cast<std::size_t>(end - buffer_.data()));
   }
-  /// The next cell of a tab-separated row. Throws Error for a number that is not finite.
+  /// The next cell of a tab-separated row.
   void cell(double value);
   void blank() { separate(); }  ///< the next cell, missing
   void end_line() {

@@ -63,6 +63,8 @@ void Reader::read_header() {
   header_line_.clear();
   bool found = false;
   while (!found && next_line()) {
+    if (line_.find('\0') != npos) fail<InputError>("{}:{}: a NUL byte; UTF-16 must be made UTF-8 first (iconv -f UTF-16)", input_->name(), line_number_);
+    if (line_.find('\r') != npos) fail<InputError>("{}:{}: a carriage return within the line; make the line ends LF first (tr '\\r' '\\n')", input_->name(), line_number_);
     const char mark = first_mark(line_);
     if (mark == nothing) continue;
     if (mark == comment_mark) comments.emplace_back(trim(line_));
@@ -408,6 +410,7 @@ bool Reader::take_record() {
   if (time_slot_ != npos) {
     const double t = values_[time_slot_];
     if (!first_of_run_ && !(t > last_time_)) reject(needed_[time_slot_].column, fmt::format("does not come after {}", last_time_));
+    if (!first_of_run_) coarse_time_ |= t - last_time_ < 0x1p-39 * std::abs(t);  // two roundings of 2^-53 t are 2^-13 of it
     last_time_ = t;
   }
   first_of_run_ = false;

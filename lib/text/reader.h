@@ -71,6 +71,8 @@ class Reader {
   /// `file:line` of the present record; empty before the first one of a file, and when all input has been read.
   std::string where() const;
   std::size_t left_out() const { return left_out_; }  ///< records left out because a needed cell was missing
+  /// Some times are so large that a double keeps fewer than four digits of the time between two records.
+  bool coarse_time() const { return coarse_time_; }
 
  private:
   struct Needed { std::size_t column; std::string name; Conversion to_si; bool may_miss = false; };
@@ -127,6 +129,7 @@ class Reader {
   std::vector<double> values_;
   std::size_t time_slot_ = static_cast<std::size_t>(-1);
   double last_time_ = 0;
+  bool coarse_time_ = false;
 
   // Runs.
   struct Kept { std::size_t number; std::string text; };

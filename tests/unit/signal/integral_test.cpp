@@ -82,3 +82,42 @@ TEST_CASE("integral: a constant over a million steps is constant times time", "[
     REQUIRE(std::abs(sum - 0.1 * t) <= eps * sum);
   }
 }
+
+namespace {
+
+/// The largest distance, in ulps, of the running integral over `rows` samples from the exact sum of its trapezoids.
+double drift_in_ulps(std::size_t rows) {
+  __extension__ typedef __int128 Exact;  // in units of 2^-80: the trapezoids are doubles between 2^-9 and 2^-4
+  rolling::Integral integral;
+  std::mt19937_64 random(12);
+  Exact exact = 0;
+  double t_before = 0, y_before = 0, largest = 0;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double t = 0.04 * static_cast<double>(i), y = 0.1 + std::ldexp(static_cast<double>(random() >> 11), -53);
+    const double sum = integral.push(t, y);
+    if (i > 0) {
+      const double part = 0.5 * (t - t_before) * (y + y_before);
+      exact += static_cast<Exact>(std::ldexp(part, 80));
+      const double ulp = std::nextafter(sum, 1e300) - sum;
+      const auto off = static_cast<double>(exact - static_cast<Exact>(std::ldexp(sum, 80)));
+      largest = std::max(largest, std::abs(std::ldexp(off, -80)) / ulp);
+    }
+    t_before = t, y_before = y;
+  }
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("integral: it does not drift over a million rows", "[signal]") {
+  const double ulps = drift_in_ulps(1'000'000);
+  CAPTURE(ulps);
+  CHECK(ulps <= 1);
+  CHECK(ulps > 0.4);  // the measure sees rounding
+}
+
+TEST_CASE("integral: it does not drift over a hundred million rows", "[.long]") {
+  const double ulps = drift_in_ulps(100'000'000);
+  WARN("largest drift: " << ulps << " ulp");
+  CHECK(ulps <= 1);
+}

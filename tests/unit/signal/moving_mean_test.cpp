@@ -170,3 +170,59 @@ TEST_CASE("moving_mean: an even width is refused", "[signal]") {
   CHECK_THROWS_AS(MovingMean({10, 0}), Error);
   CHECK_THROWS_AS(MovingMean({0, 0}), Error);
 }
+
+namespace {
+
+/// The largest distance, in ulps, of a mean over 11 of `rows` samples from the exact mean of its window. The samples come in
+/// stretches, each harder on a running sum than the last: speeds, an outlier of -9e33, 1e308 three times, denormal numbers, 0.1.
+double largest_error_in_ulps(std::size_t rows) {
+  constexpr std::size_t half = 5, width = 2 * half + 1, stretch = 1000;
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> speed(-0.5, 0.5);
+  const auto sample = [&](std::size_t i) {
+    const std::size_t at = i % stretch;
+    switch (i / stretch % 5) {
+      case 0: return speed(random);
+      case 1: return at == 500 ? -9e33 : speed(random);
+      case 2: return at >= 500 && at < 503 ? 1e308 : speed(random);
+      case 3: return std::ldexp(static_cast<double>(random() % 100000), -1074);
+      default: return 0.1;
+    }
+  };
+  MovingMean mean({width, 0});
+  std::vector<double> y;  // the last `width`
+  double largest = 0;
+  std::size_t known = 0;
+  const auto judge = [&](double value) {
+    if (known++ < half) return;
+    double most = 0;
+    for (const double v : y) most = std::max(most, std::abs(v));
+    const double scale = most > 1e300 ? std::ldexp(1, -20) : most < 1e-300 ? std::ldexp(1, 300) : 1;
+    Expansion off;
+    for (const double v : y) off.add(scale * v);
+    off.add_product(-static_cast<double>(width), scale * value);
+    const double ulp = scale * (std::nextafter(std::abs(value), std::numeric_limits<double>::infinity()) - std::abs(value));
+    largest = std::max(largest, std::abs(off.nearly()) / (static_cast<double>(width) * ulp));
+  };
+  for (std::size_t i = 0; i < rows; ++i) {
+    if (y.size() == width) y.erase(y.begin());
+    y.push_back(sample(i));
+    for (const double value : mean.push(static_cast<double>(i), y.back())) judge(value);
+  }
+  return known + half == rows ? largest : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+TEST_CASE("moving_mean: within 1 ulp over a million rows, whatever they are", "[signal]") {
+  const double ulps = largest_error_in_ulps(1'000'000);
+  CAPTURE(ulps);
+  CHECK(ulps <= 1);
+  CHECK(ulps > 0.4);  // the measure sees rounding
+}
+
+TEST_CASE("moving_mean: within 1 ulp over ten million rows", "[.long]") {
+  const double ulps = largest_error_in_ulps(10'000'000);
+  WARN("largest error: " << ulps << " ulp");
+  CHECK(ulps <= 1);
+}

@@ -1,0 +1,35 @@
+#!/bin/bash
+# Every allocation of every tool fails in turn, by itself and with all after it: each time one line and 2, never an abort.
+# LONG=1 takes each of them, otherwise every seventh.
+. "$(dirname "$0")/tools"
+shim=$PWD/build/shim.so
+preloads || { echo 'skipped: nothing can be preloaded into this build'; exit 77; }
+good 40 >"$scratch/good"
+printf 'radius = 0.04\nshape-factor = 0.5\nmass = 1\n' >"$scratch/scene"
+step=7
+[ -z "${LONG:-}" ] || step=1
+
+each_allocation() {  # COMMAND...
+  local mode
+  for mode in once on; do
+    FAULT_MALLOC=$mode/$step LD_PRELOAD=$shim "$@" >"$scratch/says" || { wrong=1 && echo "$*:" && cat "$scratch/says"; }
+    tried=$((tried + $(sed -nE 's/.*: ([0-9]+) allocations failed.*/\1/p' "$scratch/says")))
+  done
+}
+for tool in $tools; do
+  # shellcheck disable=SC2086
+  each_allocation ${command[$tool]} "$scratch/good"
+done
+each_allocation smooth -M savgol --outliers 9 -u --digits 3 "$scratch/good"
+each_allocation smooth -M median --coast "$scratch/good"
+each_allocation smooth -w auto "$scratch/good"
+each_allocation differentiate -M spline "$scratch/good"
+each_allocation fitpower --route velocity -K 0.5 --scene "$scratch/scene" "$scratch/good"
+for method in rkf45 msadams; do  # GSL's implicit steppers read through null pointers of their own
+  each_allocation simulate --scene "$scratch/scene" -a 1e-3 -b 0.2 --v0 0.5 --dt 0.5 --method $method
+done
+each_allocation simulate --scene "$scratch/scene" -a 1e-3 -b 0.2 --v0 0.5 --sensor pasco
+each_allocation energy-ledger --scene "$scratch/scene" --summary "$scratch/good"
+each_allocation smooth --help
+each_allocation smooth --version
+finish

@@ -1,0 +1,39 @@
+// The reader on any bytes: every record has as many fields as there are columns, finite numbers, rising times.
+#include "text/reader.h"
+
+#include <cmath>
+#include <cstdint>
+
+#include "streams.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace rolling;
+  if (size == 0) return 0;
+  const unsigned choice = data[0];
+  const MemoryFile file({reinterpret_cast<const char*>(data) + 1, size - 1});
+  ReaderOptions options;
+  options.files.assign(1 + choice % 2, file.path());
+  options.strict = choice & 2;
+  if (choice & 4) options.run = 1 + (choice >> 6);
+  if (choice & 8) options.use = {"v=2"};
+  try {
+    Reader in(options, {"t", "v"});
+    const auto t = in.need_time(), v = choice & 16 ? in.want("v") : in.need(choice & 32 ? "2" : "v");
+    double last = 0;
+    while (in.next_run()) {
+      bool first = true;
+      while (in.next()) {
+        require(std::isfinite(in[t]) && (first || in[t] > last), "times do not rise");
+        require(std::isfinite(in[v]) || (choice & 16), "a number is not finite");
+        first = false, last = in[t];
+        std::string row;
+        std::size_t from = 0, to = 0;
+        in.copy(row, in.column_of(v), from, to);
+        require(from <= to && to <= row.size(), "a column stands outside its row", row);
+      }
+    }
+  } catch (const Error& error) {
+    require(error.what()[0] != '\0', "an error without words");
+  }
+  return 0;
+}
