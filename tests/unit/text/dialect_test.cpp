@@ -57,7 +57,7 @@ TEST_CASE("dialect: a quote opens where a field begins; elsewhere it is a charac
   CHECK(chosen("5\" pipe,7") == "<5\" pipe><7>");
   CHECK(chosen("a, \"b,c\" ,7") == "<a><b,c><7>");
   CHECK(chosen("\"a\"\"\",\"\",7") == "<a\"><><7>");
-  CHECK(chosen("\"a\" b,\"c\"d\"e,7") == "<a b><cde,7>");  // what stands behind the closing quote, up to another that opens
+  CHECK(chosen("\"a\" b,\"c\"d\"e,7") == "no number: <a b><cde,7>");  // what stands behind the closing quote, up to another that opens
   CHECK(chosen("7,\"open") == "<7><open>");
 }
 
