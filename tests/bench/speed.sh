@@ -64,6 +64,7 @@ energies="BEGIN { m = 1.375; R = 0.04; g = 9.81 } $energies"
 loglog='!/^#/ { x = log($1); y = log($2); n++; sx += x; sy += y; sxx += x * x; sxy += x * y }
 END { b = (n * sxy - sx * sy) / (n * sxx - sx * sx); printf "%.17g\t%.17g\n", exp((sy - b * sx) / n), b }'
 
+python=$(for p in python3 /usr/bin/python3; do ! "$p" -c 'import pandas, scipy' 2>/dev/null || { echo "$p" && break; }; done)
 have() { command -v "$1" >/dev/null; }
 same() {  # WHAT TOLERANCE EXPECTED ACTUAL: the peer computes the same
   mawk -v tolerance="$2" -f "$approx" <(grep -v '^#' "$3") <(grep -v '^#' "$4") || { echo "speed.sh: $1: the peer computes something else" >&2; exit 1; }
@@ -103,8 +104,8 @@ if have mawk; then
   mawk "$energies" head3.txt >peer.out && energy-ledger $ledger head3.txt >ours.out && same energy-ledger '1e-9 1e-14' peer.out ours.out
   against smooth 'mawk %.17g' "$rows" 8 'smooth tv.txt' "mawk '$mean' tv.txt"
 fi
-if have python3 && python3 -c 'import pandas' 2>/dev/null; then
-  against smooth pandas "$small" '' 'smooth small.txt' "python3 -c '
+if [ -n "$python" ]; then
+  against smooth pandas "$small" '' 'smooth small.txt' "$python -c '
 import pandas
 f = pandas.read_csv(\"small.txt\", sep=\"\t\", skiprows=1, names=[\"t\", \"v\"])
 f.v = f.v.rolling(11, center=True).mean()
@@ -127,7 +128,7 @@ if have datamash; then
 fi
 if have mawk; then against 'fitpower --route loglog' mawk "$small" 8 'fitpower --route loglog vD.txt' "mawk '$loglog' vD.txt"; fi
 against 'fitpower --route loglog' 'bare loop' "$small" '' 'fitpower --route loglog vD.txt' "$speed fit <vD.txt" cpu inverse
-if have python3 && python3 -c 'import scipy' 2>/dev/null; then
+if [ -n "$python" ]; then
   cat >curve_fit.py <<'END'
 import numpy, scipy.optimize, sys
 t, v = numpy.loadtxt("roll.txt", unpack=True)
@@ -136,7 +137,7 @@ def speed(t, a, b, v0):  # v^(1 - b) = v0^(1 - b) - (1 - b) g a t / ((1 + K) R)
 p, C = scipy.optimize.curve_fit(speed, t, v, p0=[1e-3, 0.1, 0.5])
 print(*p[:2])
 END
-  against 'fitpower --route velocity' 'scipy curve_fit' "$small" 5 "fitpower --route velocity $body roll.txt" 'python3 curve_fit.py'
+  against 'fitpower --route velocity' 'scipy curve_fit' "$small" 5 "fitpower --route velocity $body roll.txt" "$python curve_fit.py"
 fi
 if have gnuplot; then
   against 'fitpower --route loglog' gnuplot "$small" '' 'fitpower --route loglog vD.txt' "gnuplot -e 'set fit quiet logfile \"/dev/null\"; la = -6; b = 0.1; fit la + b * x \"vD.txt\" using (log(\$1)):(log(\$2)) via la, b' 2>/dev/null"
