@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     tool.scene();
     std::string program = "scene", option = "--scene", path = file.path();
     char* arguments[] = {program.data(), option.data(), path.data(), nullptr};
-    return tool.run(3, arguments, [&] { return tool.out.line() += "read\n", 0; });
+    return tool.run(3, arguments, [&] { return tool.out.text("read\n"), 0; });
   });
   check_contract(ran, "scene");
   if (ran.status != 0) return 0;
