@@ -38,9 +38,9 @@ rolling ($version) unstable; urgency=medium
  -- $maintainer  $(date -u -R -d "@$moment")
 END
 
+mkdir "$tree/DEBIAN"
 printf 'Source: rolling\n\nPackage: rolling\nArchitecture: any\n' >"$folder/debian/control"  # which dpkg-shlibdeps wants to see
 depends=$(cd "$folder" && dpkg-shlibdeps -O debian/rolling/usr/bin/*)
-mkdir "$tree/DEBIAN"
 cat >"$tree/DEBIAN/control" <<END
 Package: rolling
 Version: $version
