@@ -1,6 +1,7 @@
 #include "cli/progress.h"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -42,6 +43,9 @@ void Progress::stop() {
 }
 
 void Progress::show(const std::stop_token& stop) {
+  sigset_t all;  // signals are for the thread that writes the rows, and when it lets them come
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, nullptr);
   const auto begin = steady_clock::now();
   bool shown = false;
   std::unique_lock lock(mutex_);
