@@ -14,7 +14,7 @@ test   := $(wildcard tests/unit/*/*.cpp tests/pipeline/*.cpp)
 target := number reader scene $(tool)
 object  = $(patsubst %.cpp,build/%.o,$1)
 
-.PHONY: all setup table1 samples figures report check install uninstall deb coverage work-precision work-precision-signal bench lint fuzz sanitize coverage-lines mutate clean always
+.PHONY: all setup table1 samples figures report check install uninstall deb coverage work-precision work-precision-signal bench lint fuzz sanitize coverage-lines mutate check-long clean always
 .SECONDARY:
 all: $(tool:%=bin/%)
 
@@ -166,6 +166,24 @@ deb: all
 	$(MAKE) install DESTDIR=build/deb/debian/rolling PREFIX=/usr
 	cmd/install/deb.sh build/deb "$(PROGRAM_PREFIX)"
 
+# Lines and branches of lib/ that the tests reach; less than every line is an error.
+coverage-lines:
+	@$(call copy,build/covered)
+	find build/covered -name '*.gcda' -delete
+	$(MAKE) -C build/covered check CXXFLAGS="-O0 -g --coverage -fprofile-update=atomic"
+	gcovr --root build/covered --filter build/covered/lib/ --exclude-throw-branches --exclude-unreachable-branches \
+	  --txt build/covered/lines.txt --txt-summary --fail-under-line 100 build/covered/build || { cat build/covered/lines.txt; exit 1; }
+
+# Mutants of lib/ and cmd/ that no test notices; half an hour and more.
+MUTANTS ?= 150
+mutate: check
+	tests/mutate.py --count $(MUTANTS)
+
+# The long form of the tests of numbers and memory.
+check-long: check
+	PATH="$(CURDIR)/bin:$$PATH" build/unit '[.long]'
+	LONG=1 tests/faults/memory.sh
+
 # How often the errors of fitpower hold, by case and route: 1000 simulated runs each, a few minutes.
 build/tests/bench/coverage.o: CPPFLAGS += -Itests
 build/coverage: build/tests/bench/coverage.o build/lib.a
@@ -199,9 +217,13 @@ work-precision-signal: build/bench/signal
 bench: all build/bench/speed
 	@PATH="$(CURDIR)/bin:$$PATH" tests/bench/speed.sh
 
+# Static analysis; what it checks is in .clang-tidy.
 lint:
 	mandoc -Tlint -Wwarning man/*
 	shellcheck -x -P SCRIPTDIR --severity=warning cmd/install/*.sh samples/*.sh samples/*/*.sh tests/*.sh tests/*/*.sh
+	cppcheck --quiet --std=c++20 --language=c++ --enable=warning,performance,portability --inline-suppr --error-exitcode=1 -Ilib \
+	  --suppress=internalAstError --suppress=derefInvalidIteratorRedundantCheck --suppress=containerOutOfBounds lib cmd
+	printf '%s\n' $(source) $(wildcard cmd/*.cpp) | xargs -P $(shell nproc) -n 4 clang-tidy-14 --quiet --warnings-as-errors='*' -- -x c++ -std=c++20 -Ilib
 
 clean:
 	rm -rf bin build figures

@@ -317,7 +317,8 @@ Making most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows
     Making making;
     for (const auto& run : all) making.responses.push_back(noise_response({filter}, run.t));
     const Rolls rolls = make_rolls(all, rows, false, making, q.options);
-    System system = system_of(rolls.of, q, {});
+    const KnownNoise none;  // the system refers to it
+    System system = system_of(rolls.of, q, none);
     const std::size_t n = system.n;
     std::vector<double> f(n), J(n * system.p);
     system.evaluate(theta, f, J);

@@ -35,7 +35,7 @@ std::size_t best_width(std::span<const Sample> run, const SmootherOptions&);
 /// Smooths as the options say, but by the best width of the run, which it therefore needs whole.
 class AutoSmoother : public Signal {
  public:
-  explicit AutoSmoother(SmootherOptions options) : options_(options) {}
+  explicit AutoSmoother(const SmootherOptions& options) : options_(options) {}
   std::span<const double> push(double t, double y) override;
   std::span<const double> finish() override;
   const SmootherOptions& options() const { return options_; }  ///< with the width, once finished

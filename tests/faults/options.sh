@@ -3,7 +3,7 @@
 . "$(dirname "$0")/tools"
 good 9 >"$scratch/good"
 
-values=('' abc 0.5abc 1e400 -1e400 1e-400 0x10 inf nan '1 ' ' 1' 1,5e 1e 1d3 -- '٣' $'1\n2' $'\e[31m')
+values=('' abc 0.5abc 1e400 -1e400 1e-400 0x10 inf nan '1 ' ' 1' '1,5e' 1e 1d3 -- '٣' $'1\n2' $'\e[31m')
 declare -A names=()  # option, tools
 for tool in $tools; do
   operand=$scratch/good

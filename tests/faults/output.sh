@@ -59,18 +59,16 @@ for tool in $tools; do
 
   # A signal in mid-stream: what has gone out is whole rows. The reader is slow, so that it comes in the middle of a write.
   [ "$tool" = fitpower ] || for signal in TERM INT HUP; do
+    { sleep 0.1; cat >"$scratch/out"; } <"$scratch/fifo" &
+    reader=$!
     # shellcheck disable=SC2086
-    for delay in 0.05; do
-      { sleep 0.1; cat >"$scratch/out"; } <"$scratch/fifo" &
-      reader=$!
-      (trap - INT; while cat "$scratch/long"; do echo; done 2>/dev/null) | (trap - INT; exec ${command[$tool]} - >"$scratch/fifo") &
-      writer=$!
-      sleep $delay
-      kill -$signal $writer
-      wait $writer $reader 2>/dev/null
-      tried=$((tried + 1))
-      [ -z "$(tail -c 1 "$scratch/out")" ] || complain "$tool: SIG$signal leaves half a row: $(tail -n 1 "$scratch/out")"
-    done
+    (trap - INT; while cat "$scratch/long"; do echo; done 2>/dev/null) | (trap - INT; exec ${command[$tool]} - >"$scratch/fifo") &
+    writer=$!
+    sleep 0.05
+    kill -$signal $writer
+    wait $writer $reader 2>/dev/null
+    tried=$((tried + 1))
+    [ -z "$(tail -c 1 "$scratch/out")" ] || complain "$tool: SIG$signal leaves half a row: $(tail -n 1 "$scratch/out")"
   done
 done
 finish
