@@ -172,7 +172,7 @@ coverage-lines:
 	find build/covered -name '*.gcda' -delete
 	$(MAKE) -C build/covered check CXXFLAGS="-O0 -g --coverage -fprofile-update=atomic"
 	gcovr --root build/covered --filter build/covered/lib/ --exclude-throw-branches --exclude-unreachable-branches \
-	  --txt build/covered/lines.txt --txt-summary --fail-under-line 100 build/covered/build || { cat build/covered/lines.txt; exit 1; }
+	  --print-summary -o build/covered/lines.txt --fail-under-line 100 build/covered/build || { cat build/covered/lines.txt; exit 1; }
 
 # Mutants of lib/ and cmd/ that no test notices; half an hour and more.
 MUTANTS ?= 150
