@@ -20,7 +20,10 @@ constexpr std::size_t terms = 18;  // 1/20! < 2^-60
 constexpr auto inverse_factorial = [] {
   std::array<double, terms + 3> c{1};
   double factorial = 1;  // exact up to 22!
-  for (std::size_t k = 1; k < c.size(); ++k) c[k] = 1 / (factorial *= static_cast<double>(k));
+  for (std::size_t k = 1; k < c.size(); ++k) {
+    factorial *= static_cast<double>(k);
+    c[k] = 1 / factorial;
+  }
   return c;
 }();
 

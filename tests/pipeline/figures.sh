@@ -197,6 +197,12 @@ samples/table1.sh | grep '^  ' | grep -oE '[-+]?[0-9]+[.][0-9]+' | sort -u >"$sc
 missing=$(comm -23 "$scratch/in-table" "$scratch/in-page")
 [ -z "$missing" ] || complain "report: not in the page:" $missing
 
+# The README shows Fig. 4 as this gnuplot, if it is the same one, draws it today.
+if grep -q "GNUPLOT $(gnuplot --version | sed -E 's/^gnuplot ([0-9.]+) .*/\1/') " samples/fig4.svg; then
+  diff <(grep -v '<desc>' samples/fig4.svg) <(grep -v '<desc>' "$scratch/fig4.svg") >/dev/null ||
+    complain "samples/fig4.svg is not what samples/figures/fig4.sh draws: make figures/fig4.svg && cp figures/fig4.svg samples"
+fi
+
 # What make would do: Fig. 5 needs two tools; gnuplot is installed for figures and the report, not for Table 1.
 needs() { make -nB "$1" 2>/dev/null | grep -oE -e '-o bin/[a-z-]+' | sort | tr -d '\n'; }
 [ "$(needs figures/fig5.svg)" = '-o bin/energy-ledger-o bin/simulate' ] || complain "fig5.svg needs $(needs figures/fig5.svg)"
