@@ -17,8 +17,9 @@ struct Reference {
   double stop;  ///< infinity: none
 };
 
-/// n times evenly to 1.2 times the stop, or to `end` [s] where there is none. Speeds from the best method; with memory from its
-/// solver at a relative tolerance of 1e-13.
+/// n times evenly to 1.2 times the stop, or to `end` [s] where there is none before 1000 times that; with memory to the stop, for
+/// rest is declared there, where solvers by themselves ring on. Speeds from the best method; with memory from its solver at a
+/// relative tolerance of 1e-13.
 Reference reference(const Roll&, std::size_t n, double end);
 
 struct Measured {

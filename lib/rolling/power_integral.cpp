@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t terms = 18;  // 1/20! < 2^-60
 
-constexpr auto inverse_factorial = [] {
+constexpr std::array<double, terms + 3> inverse_factorials() {
   std::array<double, terms + 3> c{1};
   double factorial = 1;  // exact up to 22!
   for (std::size_t k = 1; k < c.size(); ++k) {
@@ -25,7 +25,9 @@ constexpr auto inverse_factorial = [] {
     c[k] = 1 / factorial;
   }
   return c;
-}();
+}
+
+constexpr auto inverse_factorial = inverse_factorials();
 
 }  // namespace
 

@@ -15,7 +15,7 @@ using namespace rolling;
 
 namespace {
 
-constexpr std::size_t samples = 200;  // to 1.2 times the stop, or to 10 s
+constexpr std::size_t samples = 200;  // to 1.2 times the stop, with memory to the stop, or to 10 s
 constexpr int repeats = 5;
 
 Roll scene(double a, double b, double K) {
