@@ -100,7 +100,7 @@ const char* Dialect::take_text(const char* at, const char* end, Field& field) {
     field.text = trim(take_quoted(at, end));
     as_it_stands_ = false;
   } else {
-    at = std::find(at, end, separator_);
+    at += std::min(std::string_view(at, end).find(separator_), static_cast<std::size_t>(end - at));
     field.text = trim({first, at});
     as_it_stands_ &= field.text.size() == static_cast<std::size_t>(at - first);
   }
@@ -126,9 +126,11 @@ std::string_view Dialect::take_quoted(const char*& at, const char* end) {
 
 /// A number with a decimal comma or U+2212 in its plain form; any other text as it is.
 std::string_view Dialect::rewritten(std::string_view field) {
-  bool comma = false, point = false, other_minus = false;
-  for (const char c : field) comma |= c == ',', point |= c == '.', other_minus |= c == minus[0];
-  if (!other_minus && (decimal_mark_ == '.' || (!comma && !point))) return field;
+  const auto has = [field](char c) { return field.find(c) != npos; };
+  const bool other_minus = has(minus[0]);
+  if (!other_minus && decimal_mark_ == '.') return field;
+  const bool comma = has(','), point = has('.');
+  if (!other_minus && !comma && !point) return field;
   std::string text = plain_form(field);
   if (!is_number(text)) return field;
   if (comma || point) {

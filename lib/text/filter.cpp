@@ -56,19 +56,26 @@ bool Filter::next_run() {
 }
 
 bool Filter::next() {
+  hold();
   if (!in_.next()) return false;
   if (in_.history_changed() && header_written_) comment(history_);
-  Row& row = rows_.emplace_back();
-  in_.copy(held_, cut_, row.first, row.last);
-  row.end = held_.size();
-  if (cut_ == npos) row.first = row.last = row.end;
+  text_ = in_.text(cut_, present_.first, present_.last);
+  present_.size = text_.size();
+  if (cut_ == npos) present_.first = present_.last = present_.size;
+  present_waits_ = true;
   return true;
+}
+
+/// The text of the present record goes with the next one.
+void Filter::hold() {
+  if (!std::exchange(present_waits_, false)) return;
+  held_ += text_;
+  rows_.push_back(present_);
 }
 
 void Filter::comment(std::string_view text) {
   held_ += text;
-  rows_.emplace_back().kind = Kind::comment;
-  rows_.back().end = held_.size();
+  rows_.push_back({Kind::comment, text.size()});
   if (rows_.size() - front_ == 1) clear_front();
 }
 
@@ -77,7 +84,7 @@ void Filter::clear_front() {
   while (header_written_ && front_ < rows_.size() && rows_[front_].kind != Kind::record) {
     if (rows_[front_].kind == Kind::comment) {
       write_break();
-      out_.text(held(front_begin_, rows_[front_].end));
+      out_.text({held_.data() + front_begin_, rows_[front_].size});
       out_.end_line();
     } else {
       ++gone_;
@@ -87,6 +94,7 @@ void Filter::clear_front() {
 }
 
 void Filter::drop(std::size_t i) {
+  hold();
   auto row = rows_.begin() + static_cast<std::ptrdiff_t>(front_);
   for (std::size_t records = gone_; row->kind == Kind::comment || records++ < i;) ++row;
   row->kind = Kind::dropped;
@@ -99,7 +107,7 @@ void Filter::write_break() {
 }
 
 void Filter::remove_row() {
-  front_begin_ = rows_[front_++].end;
+  front_begin_ += rows_[front_++].size;
   if (front_ == rows_.size()) {
     rows_.clear();
     held_.clear();
@@ -107,28 +115,33 @@ void Filter::remove_row() {
   } else if (front_ >= 1024 && 2 * front_ > rows_.size()) {  // amortised: at most one move a row
     rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(front_));
     held_.erase(0, front_begin_);
-    for (Row& row : rows_) row.first -= front_begin_, row.last -= front_begin_, row.end -= front_begin_;
     front_ = front_begin_ = 0;
   }
 }
 
 void Filter::put(double value) {
   if (!std::isfinite(value)) fail("the result is not a finite number");
-  const Row& row = rows_[front_];
+  const bool waited = !rows_.empty();
+  const Row& row = waited ? rows_[front_] : present_;
+  const char* const text = waited ? held_.data() + front_begin_ : text_.data();
   if (numbers_++ == 0) {
     if (break_due_) write_break();
-    out_.text(held(front_begin_, row.first));
+    out_.text({text, row.first});
   }
   if (appended_ > 0) out_.text('\t');
   out_.number(value);
   if (numbers_ < appended_) return;
-  if (row.last < row.end) out_.text(held(row.last, row.end));
+  if (row.last < row.size) out_.text({text + row.last, row.size - row.last});
   out_.end_line();
   numbers_ = 0;
   any_row_ = true;
-  remove_row();
   ++gone_;
-  if (!rows_.empty() && rows_[front_].kind != Kind::record) clear_front();
+  if (waited) {
+    remove_row();
+    if (!rows_.empty() && rows_[front_].kind != Kind::record) clear_front();
+  } else {
+    present_waits_ = false;
+  }
 }
 
 }  // namespace rolling

@@ -1,5 +1,6 @@
 // Rows on their way through a filter: each waits, as the text it came as, for the numbers that the filter owes it. So a
 // filter may answer late (a window that looks ahead) and every byte that it does not compute still goes out as it came in.
+// What is answered before the next record is read has not been copied for that.
 #pragma once
 
 #include <string>
@@ -33,13 +34,13 @@ class Filter {
 
  private:
   enum class Kind { record, comment, dropped };
-  struct Row {  // in held_, where the texts of the rows stand one after the other
+  struct Row {
     Kind kind = Kind::record;
+    std::size_t size = 0;             // of its text
     std::size_t first = 0, last = 0;  // of a record: its numbers go between
-    std::size_t end = 0;
   };
 
-  std::string_view held(std::size_t begin, std::size_t end) const { return {held_.data() + begin, end - begin}; }
+  void hold();
   void write_header();
   void comment(std::string_view text);
   void clear_front();
@@ -51,8 +52,11 @@ class Filter {
   std::string history_;
   std::vector<Column> columns_;
   std::size_t appended_ = 0, cut_ = static_cast<std::size_t>(-1);
-  std::string held_;
-  std::vector<Row> rows_;     // those that wait, from front_ on
+  Row present_;               // the record read last, as long as it is not among those that wait
+  std::string_view text_;     // its text
+  bool present_waits_ = false;
+  std::vector<Row> rows_;     // those before it that wait, from front_ on
+  std::string held_;          // their texts, one after the other
   std::size_t front_ = 0;
   std::size_t front_begin_ = 0;  // where the text of the front row begins
   std::size_t numbers_ = 0;   // that the front row has got

@@ -417,23 +417,24 @@ bool Reader::take_record() {
   return true;
 }
 
-void Reader::copy(std::string& to, std::size_t cut, std::size_t& first, std::size_t& last) const {
+std::string_view Reader::text(std::size_t cut, std::size_t& first, std::size_t& last) {
   if (dialect_.as_it_stands() && !converts_ && !layout_.side_by_side) {
     if (cut < fields_.size()) {
-      first = to.size() + static_cast<std::size_t>(fields_[cut].text.data() - line_.data());
+      first = static_cast<std::size_t>(fields_[cut].text.data() - line_.data());
       last = first + fields_[cut].text.size();
     }
-    to += line_;
-    return;
+    return line_;
   }
+  text_.clear();
   for (std::size_t i = 0; i < fields_.size(); ++i) {
-    if (i) to += '\t';
-    const auto from = to.size();
+    if (i) text_ += '\t';
+    const auto from = text_.size();
     const auto converted = std::find_if(needed_.begin(), needed_.end(), [i](const Needed& n) { return n.column == i && n.to_si.changes(); });
-    if (converted == needed_.end()) to += fields_[i].text;
-    else append_number(to, values_[static_cast<std::size_t>(converted - needed_.begin())]);
-    if (i == cut) first = from, last = to.size();
+    if (converted == needed_.end()) text_ += fields_[i].text;
+    else append_number(text_, values_[static_cast<std::size_t>(converted - needed_.begin())]);
+    if (i == cut) first = from, last = text_.size();
   }
+  return text_;
 }
 
 void Reader::reject(std::size_t column, std::string_view why) const {

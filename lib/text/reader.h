@@ -58,8 +58,8 @@ class Reader {
   bool next();
   /// The number in a needed column [SI].
   double operator[](std::size_t slot) const { return values_[slot]; }
-  /// Appends the record as it goes out, tab-separated; if `cut` is a column, its text stands at to[first, last).
-  void copy(std::string& to, std::size_t cut, std::size_t& first, std::size_t& last) const;
+  /// The record as it goes out, tab-separated, valid until the next one; if `cut` is a column, its text is [first, last) of that.
+  std::string_view text(std::size_t cut, std::size_t& first, std::size_t& last);
 
   /// Called with each comment line among the records; comments before them are in comments().
   std::function<void(std::string_view)> on_comment;
@@ -118,6 +118,7 @@ class Reader {
   // The present record.
   std::string_view line_;
   std::string joined_;  // a line whose quoted field holds line ends
+  std::string text_;    // of a record that does not go out as it came
   std::size_t line_number_ = 0, first_record_ = 0;
   bool line_waits_ = false;  // line_ is read but not taken
   std::span<const Field> fields_;

@@ -26,9 +26,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         require(std::isfinite(in[t]) && (first || in[t] > last), "times do not rise");
         require(std::isfinite(in[v]) || (choice & 16), "a number is not finite");
         first = false, last = in[t];
-        std::string row;
         std::size_t from = 0, to = 0;
-        in.copy(row, in.column_of(v), from, to);
+        const std::string_view row = in.text(in.column_of(v), from, to);
         require(from <= to && to <= row.size(), "a column stands outside its row", row);
       }
     }
