@@ -16,8 +16,12 @@ void ExactSum::accumulate(double y, int sign) {
   const auto bits = std::bit_cast<std::uint64_t>(y);
   const auto exponent = static_cast<unsigned>(bits >> 52 & 0x7ff);
   auto mantissa = static_cast<std::int64_t>(bits & 0xfffffffffffffULL);
-  if (exponent) mantissa |= 1LL << 52;
-  else if (mantissa == 0) negative_zeros_ += static_cast<std::size_t>(sign * static_cast<int>(bits >> 63));
+  if (exponent) {
+    mantissa |= 1LL << 52;
+  } else if (mantissa == 0) {
+    negative_zeros_ += static_cast<std::size_t>(sign * static_cast<int>(bits >> 63));
+    return;
+  }
   const unsigned position = exponent ? exponent - 1 : 0;  // |y| = mantissa * 2^(position - 1074)
   const std::size_t at = position / 32;
   const int128 term = static_cast<int128>(mantissa) << position % 32;
