@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "base/gsl.h"
+#include "fit/dot.h"
 
-#include <gsl/gsl_linalg.h>
 #include <gsl/gsl_multifit_nlinear.h>
 
 #include <algorithm>
@@ -15,34 +15,37 @@ namespace {
 
 constexpr double undetermined = 1e-10;  // sine between a column of J and those before it
 
-double square(const std::vector<double>& f) {
-  double sum = 0;
-  for (double x : f) sum += x * x;
-  return sum;
+double square(const std::vector<double>& f) { return dot(f.data(), f.data(), f.size()); }
+
+Minimum nowhere(const System& system) { return {{}, std::vector<double>(system.n), std::vector<double>(system.n * system.p), {}, 0}; }
+
+/// Moves a Minimum to theta; whether theta is allowed there.
+bool move(const System& system, Minimum& m, std::vector<double> theta) {
+  m.theta = std::move(theta);
+  try {
+    system.evaluate(m.theta, m.f, m.J);
+  } catch (const Error&) {
+    return false;
+  }
+  m.rss = square(m.f);
+  return std::isfinite(m.rss) && std::isfinite(square(m.J));
 }
 
 /// What GSL's callbacks share: f and J come from one evaluation, so J is kept until it is asked for.
 struct Bridge {
   const System& system;
-  std::vector<double> theta, f, J;
+  Minimum at;
   bool allowed = false;
 
   void evaluate(const gsl_vector* x) {
-    std::vector<double> at(system.p);
-    for (std::size_t j = 0; j < system.p; ++j) at[j] = gsl_vector_get(x, j);
-    if (at == theta) return;
-    theta = std::move(at);
-    try {
-      system.evaluate(theta, f, J);
-      allowed = std::isfinite(square(f)) && std::isfinite(square(J));
-    } catch (const Error&) {  // must not cross GSL's C frames
-      allowed = false;
-    }
+    std::vector<double> theta(system.p);
+    for (std::size_t j = 0; j < system.p; ++j) theta[j] = gsl_vector_get(x, j);
+    if (theta != at.theta) allowed = move(system, at, std::move(theta));
   }
   static int residuals(const gsl_vector* x, void* self, gsl_vector* f) {
     auto& b = *static_cast<Bridge*>(self);
     b.evaluate(x);
-    if (b.allowed) std::copy(b.f.begin(), b.f.end(), f->data);
+    if (b.allowed) std::copy(b.at.f.begin(), b.at.f.end(), f->data);
     else gsl_vector_set_all(f, 1e100);  // finite, and worse than any step from an allowed start: it is rejected
     return GSL_SUCCESS;
   }
@@ -50,14 +53,14 @@ struct Bridge {
     auto& b = *static_cast<Bridge*>(self);
     b.evaluate(x);
     if (!b.allowed) return GSL_EDOM;
-    std::copy(b.J.begin(), b.J.end(), J->data);
+    std::copy(b.at.J.begin(), b.at.J.end(), J->data);
     return GSL_SUCCESS;
   }
 };
 
 /// Levenberg-Marquardt from start to where it makes no further progress; whether that is a minimum is not its question.
 std::vector<double> descend(const System& system, const std::vector<double>& start) {
-  Bridge bridge{system, {}, std::vector<double>(system.n), std::vector<double>(system.n * system.p)};
+  Bridge bridge{system, nowhere(system)};
   gsl_multifit_nlinear_fdf fdf{};
   fdf.f = Bridge::residuals;
   fdf.df = Bridge::jacobian;
@@ -81,6 +84,37 @@ std::vector<double> descend(const System& system, const std::vector<double>& sta
   return theta;
 }
 
+/// The triangle R of [J f] = Q R, row by row, with p + 1 columns: the last is Q^T f. Rows are folded in by blocks, each under the
+/// triangle so far, by Householder reflections: no copy of J is made, and columns in which a block is 0 cost nothing.
+std::vector<double> triangle(const System& system, const Minimum& at) {
+  constexpr std::size_t rows = 256;
+  const std::size_t p = system.p, columns = p + 1;
+  std::vector<double> R(p * columns, 0), block(columns * rows);
+  for (std::size_t first = 0; first < system.n; first += rows) {
+    const std::size_t m = std::min(rows, system.n - first);
+    for (std::size_t i = 0; i < m; ++i) {
+      for (std::size_t j = 0; j < p; ++j) block[j * rows + i] = at.J[(first + i) * p + j];
+      block[p * rows + i] = at.f[first + i];
+    }
+    for (std::size_t j = 0; j < p; ++j) {
+      const double* const x = &block[j * rows];
+      const double below = dot(x, x, m);
+      if (below == 0) continue;
+      double* const row = &R[j * columns];
+      const double length = -std::copysign(std::sqrt(row[j] * row[j] + below), row[j]), head = row[j] - length;
+      row[j] = length;
+      for (std::size_t k = j + 1; k < columns; ++k) {
+        double* const y = &block[k * rows];
+        const double w = (head * row[k] + dot(x, y, m)) / (length * head);
+        if (w == 0) continue;
+        row[k] += w * head;
+        for (std::size_t i = 0; i < m; ++i) y[i] += w * x[i];
+      }
+    }
+  }
+  return R;
+}
+
 /// The Gauss-Newton step from the QR of J, not from the normal equations: their condition is the square of J's.
 struct Step {
   std::vector<double> R, delta;
@@ -90,22 +124,17 @@ struct Step {
 };
 
 Step gauss_newton(const System& system, const Minimum& at) {
-  const std::size_t n = system.n, p = system.p;
-  std::vector<double> QR = at.J, tau(p), rhs = at.f;
-  auto A = gsl_matrix_view_array(QR.data(), n, p);
-  auto t = gsl_vector_view_array(tau.data(), p);
-  auto b = gsl_vector_view_array(rhs.data(), n);
-  check_gsl(gsl_linalg_QR_decomp(&A.matrix, &t.vector), "fit");
-  check_gsl(gsl_linalg_QR_QTvec(&A.matrix, &t.vector, &b.vector), "fit");
+  const std::size_t p = system.p, columns = p + 1;
+  const std::vector<double> QR = triangle(system, at);
   Step step{std::vector<double>(p * p), std::vector<double>(p)};
   for (std::size_t j = 0; j < p; ++j) {
     double column = 0;
-    for (std::size_t i = 0; i <= j; ++i) column = std::hypot(column, step.R[i * p + j] = QR[i * p + j]);
+    for (std::size_t i = 0; i <= j; ++i) column = std::hypot(column, step.R[i * p + j] = QR[i * columns + j]);
     step.angle = std::min(step.angle, column > 0 ? std::abs(step.R[j * p + j]) / column : 0);
-    step.reduction += rhs[j] * rhs[j];
+    step.reduction += QR[j * columns + p] * QR[j * columns + p];
   }
   for (std::size_t j = p; j-- > 0;) {
-    double sum = -rhs[j];
+    double sum = -QR[j * columns + p];
     for (std::size_t k = j + 1; k < p; ++k) sum -= step.R[j * p + k] * step.delta[k];
     step.delta[j] = sum / step.R[j * p + j];
     step.size = std::max(step.size, std::abs(step.delta[j]) / std::max(1.0, std::abs(at.theta[j])));
@@ -113,25 +142,19 @@ Step gauss_newton(const System& system, const Minimum& at) {
   return step;
 }
 
-/// Gauss-Newton steps from a point near the minimum, down to round-off; `step` is the one that was not taken.
-Minimum polish(const System& system, std::vector<double> theta, Step& step) {
-  Minimum best{std::move(theta), std::vector<double>(system.n), std::vector<double>(system.n * system.p), {}, 0};
-  system.evaluate(best.theta, best.f, best.J);
-  best.rss = square(best.f);
+/// Gauss-Newton steps, down to round-off, as long as each takes off the sum of squares at least this share of what it promises;
+/// `step` is the one that was not taken.
+Minimum polish(const System& system, std::vector<double> theta, double share, Step& step) {
+  Minimum best = nowhere(system), next = nowhere(system);
+  if (!move(system, best, std::move(theta))) fail("the fit cannot start: the law has no finite values at the starting point");
   step = gauss_newton(system, best);
   for (int i = 0; i < 100 && step.angle > undetermined && step.size > std::numeric_limits<double>::epsilon(); ++i) {
-    Minimum next = best;
-    for (std::size_t j = 0; j < system.p; ++j) next.theta[j] += step.delta[j];
-    try {
-      system.evaluate(next.theta, next.f, next.J);
-    } catch (const Error&) {
-      break;
-    }
-    next.rss = square(next.f);
-    if (!(next.rss <= best.rss * (1 + 1e-10))) break;
+    std::vector<double> there = best.theta;
+    for (std::size_t j = 0; j < system.p; ++j) there[j] += step.delta[j];
+    if (!move(system, next, std::move(there)) || !(next.rss <= best.rss * (1 + 1e-10) - share * step.reduction)) break;
     Step after = gauss_newton(system, next);
     if (step.size < 1e-9 && !(after.size < step.size)) break;  // round-off
-    best = std::move(next);
+    std::swap(best, next);
     step = std::move(after);
   }
   return best;
@@ -142,17 +165,19 @@ Minimum polish(const System& system, std::vector<double> theta, Step& step) {
 Minimum minimise(const System& system, const std::vector<double>& start) {
   silence_gsl();
   Step step;
-  Minimum best = polish(system, descend(system, start), step);
+  // Where the residuals are linear, or all but so between the start and the minimum, Gauss-Newton steps do all.
+  Minimum best = polish(system, start, 0.9, step);
   // Bates & Watts (1981), Technometrics 23, 179: converged when the residuals' part in the tangent plane is small
   // against the part orthogonal to it. An exact fit has nothing orthogonal; there the step itself must vanish.
   const double freedom = system.n > system.p ? static_cast<double>(system.n - system.p) : 0;
   const auto offset = [&] {
     return std::sqrt(step.reduction / static_cast<double>(system.p) * freedom / std::max(best.rss - step.reduction, 0.0));
   };
-  const auto converged = [&] { return step.size < 1e-7 || offset() < 1e-3; };
-  for (int round = 0; step.angle > undetermined && !converged(); ++round) {
+  const auto determined = [&] { return step.angle > undetermined; };
+  const auto converged = [&] { return determined() && (step.size < 1e-7 || offset() < 1e-3); };
+  for (int round = 0; !converged() && (round == 0 || determined()); ++round) {
     const double before = best.rss;
-    Minimum again = polish(system, descend(system, best.theta), step);
+    Minimum again = polish(system, descend(system, best.theta), 0, step);
     if (again.rss <= best.rss) best = std::move(again);
     else step = gauss_newton(system, best);
     // The minimum of a trajectory fit may lie on a kink, where the stop meets a record: hardly a step goes down, but the slope of
@@ -160,7 +185,7 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
     if (best.rss > before * (1 - std::max(1e-8, 1e-3 / freedom)) && offset() < 1) break;
     if (round == 20) fail("the fit does not converge");
   }
-  if (!(step.angle > undetermined)) fail("the data do not determine the parameters: they cannot be told apart");
+  if (!determined()) fail("the data do not determine the parameters: they cannot be told apart");
   best.R = step.R;
   return best;
 }
@@ -192,7 +217,8 @@ double median_scale(std::vector<double> f, std::size_t p) {
 }  // namespace
 
 Minimum minimise_robust(const System& system, const std::vector<double>& start) {
-  Minimum at{start, std::vector<double>(system.n), std::vector<double>(system.n * system.p), {}, 0};
+  Minimum at = nowhere(system);
+  at.theta = start;
   double scale = 0;
   for (const auto influence : {huber, bisquare}) {
     double change = 1;
@@ -235,7 +261,8 @@ Minimum minimise_robust(const System& system, const std::vector<double>& start) 
 
 double restricted_likelihood(const System& system, const std::vector<double>& theta) {
   const std::size_t n = system.n, p = system.p;
-  Minimum at{theta, std::vector<double>(n), std::vector<double>(n * p), {}, 0};
+  Minimum at = nowhere(system);
+  at.theta = theta;
   system.evaluate(at.theta, at.f, at.J);
   const Step step = gauss_newton(system, at);
   double log_det = 0;

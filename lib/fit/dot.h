@@ -1,0 +1,21 @@
+// The inner product, in four sums at a time: in one, each addition waits for the one before it.
+#pragma once
+
+#include <cstddef>
+
+namespace rolling {
+
+inline double dot(const double* x, const double* y, std::size_t n) {
+  double a = 0, b = 0, c = 0, d = 0;
+  std::size_t i = 0;
+  for (; i + 4 <= n; i += 4) {
+    a += x[i] * y[i];
+    b += x[i + 1] * y[i + 1];
+    c += x[i + 2] * y[i + 2];
+    d += x[i + 3] * y[i + 3];
+  }
+  for (; i < n; ++i) a += x[i] * y[i];
+  return (a + b) + (c + d);
+}
+
+}  // namespace rolling
