@@ -1,6 +1,7 @@
 #include "fit/covariance.h"
 
 #include "base/error.h"
+#include "fit/dot.h"
 
 #include <gsl/gsl_cdf.h>
 
@@ -328,7 +329,7 @@ double lagged(std::span<const double> r, std::span<const std::size_t> runs, std:
   double sum = 0;
   std::size_t start = 0;
   for (std::size_t n : runs) {
-    for (std::size_t i = start + lag; i < start + n; ++i) sum += r[i] * r[i - lag];
+    if (n > lag) sum += dot(&r[start], &r[start + lag], n - lag);
     start += n;
   }
   return sum;

@@ -17,6 +17,8 @@ double whiteness(const RouteFit& r) {
   return r.noise.empty() || !r.rolls.empty() ? ljung_box(r.minimum.f, r.minimum.theta.size(), r.runs) : std::numeric_limits<double>::quiet_NaN();
 }
 
+bool taken_as_white(std::size_t n, double significance) { return n < 30 || !(significance <= 0.01); }
+
 FitResult conclude(const RouteFit& r) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::size_t n = r.residuals.size(), p = r.minimum.theta.size();
@@ -25,17 +27,17 @@ FitResult conclude(const RouteFit& r) {
   std::vector<double> middle(p * p, nan);
   if (n > p) {
     result.rms = std::sqrt(sum_of_squares(r.residuals) / static_cast<double>(n - p));
-    std::vector<double> Q = orthonormal(r.minimum);
     result.whiteness = whiteness(r);
-    const bool white = look_white(r);
+    const bool white = taken_as_white(n, result.whiteness);
     if (white && !r.noise.empty() && !r.judged) {
-      middle = r.noise.middle(r.minimum.f, Q);
+      middle = r.noise.middle(r.minimum.f, orthonormal(r.minimum));
       result.errors = Errors::filters;
     } else if (white) {
       std::fill(middle.begin(), middle.end(), 0);
       for (std::size_t j = 0; j < p; ++j) middle[j * p + j] = r.minimum.rss / static_cast<double>(n - p);
       result.errors = r.judged ? Errors::differences : Errors::classical;
     } else {
+      std::vector<double> Q = orthonormal(r.minimum);
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < p; ++j) Q[i * p + j] *= r.minimum.f[i];
       middle = newey_west(Q, p, r.minimum.f, r.runs);
@@ -63,7 +65,7 @@ FitResult conclude(const RouteFit& r) {
 
 }  // namespace
 
-bool look_white(const RouteFit& r) { return r.residuals.size() < 30 || !(whiteness(r) <= 0.01); }
+bool look_white(const RouteFit& r) { return taken_as_white(r.residuals.size(), whiteness(r)); }
 
 RouteFit fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   if (options.a && !(*options.a > 0)) fail("a = {} cannot be held: it must be positive", *options.a);

@@ -68,22 +68,22 @@ RouteFit fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) 
 
   // Parameters: ln D at the mean of ln v (so the sums are centred and the columns orthogonal), and b.
   const double L = records.log_v_ref;
-  std::vector<double> log_u, log_D;
-  for (std::size_t i = 0; i < n; ++i) {
-    log_u.push_back(std::log(v[i]) - L);
-    log_D.push_back(std::log(records.D[i]));
-  }
+  const std::vector<double>& log_v = records.log_v;
+  std::vector<double> log_D(n);
+  std::transform(records.D.begin(), records.D.end(), log_D.begin(), [](double x) { return std::log(x); });
   const auto exponent = [&](const std::vector<double>& theta) { return options.b ? *options.b : theta[p - 1]; };
   const auto height = [&](const std::vector<double>& theta) { return options.a ? std::log(*options.a) + exponent(theta) * L : theta[0]; };
   const System system{n, p, [&](const std::vector<double>& theta, std::vector<double>& f, std::vector<double>& J) {
+    const double b = exponent(theta), h = height(theta);
     for (std::size_t i = 0; i < n; ++i) {
-      f[i] = height(theta) + exponent(theta) * log_u[i] - log_D[i];
+      const double log_u = log_v[i] - L;
+      f[i] = h + b * log_u - log_D[i];
       if (!options.a) J[i * p] = 1;
-      if (!options.b) J[i * p + p - 1] = log_u[i] + (options.a ? L : 0);
+      if (!options.b) J[i * p + p - 1] = options.a ? log_v[i] : log_u;
     }
     if (!expected.empty()) {  // what smoothing does to the law, and the logarithm to the noise
-      const double a = std::exp(height(theta) - exponent(theta) * L);
-      const auto s = records.smoothed(a, exponent(theta));
+      const double a = std::exp(h - b * L);
+      const auto s = records.smoothed(a, b);
       for (std::size_t i = 0; i < n; ++i) {
         if (!(s.D[i] > 0)) continue;
         f[i] += std::log(s.D[i] / s.law[i]) + expected[i];
@@ -99,7 +99,7 @@ RouteFit fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) 
   if (!options.b) theta.push_back(start.b);
   Minimum minimum = solve(system, theta, options, records.filters_known());
   const double b = exponent(minimum.theta), a = std::exp(height(minimum.theta) - b * L);
-  return records.hand_over(system, std::move(minimum), noise, options.a.value_or(a), a, b);
+  return std::move(records).hand_over(system, std::move(minimum), noise, options.a.value_or(a), a, b);
 }
 
 }  // namespace rolling

@@ -59,7 +59,7 @@ constexpr int rounds = 4;
 
 /// v and D of the records that loglog and shift use, all runs one after another, and how their noise arises.
 struct ShiftRecords {
-  std::vector<double> v, D;
+  std::vector<double> v, D, log_v;
   std::vector<std::size_t> runs;
   std::size_t left_out = 0;
   double log_v_ref = 0;  ///< ln of the geometric mean of v: seen from there, ln a and b are all but uncorrelated
@@ -79,9 +79,10 @@ struct ShiftRecords {
   void leave_out(const std::vector<bool>& lost);  ///< a flag for each record
   /// The result at a minimum of a system that weights its residuals with this noise. Its first parameter is one of height, with the
   /// derivative a_slope of a by it, its last is b, as far as they are free.
-  RouteFit hand_over(const System&, Minimum, KnownNoise& noise, double a, double a_slope, double b) const;
+  RouteFit hand_over(const System&, Minimum, KnownNoise& noise, double a, double a_slope, double b) &&;
 
  private:
+  void refer();  ///< makes log_v and log_v_ref
   const std::vector<FitRun>& all_;
   const FitOptions& options_;
   std::vector<Rows> rows_;

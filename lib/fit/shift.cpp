@@ -15,6 +15,9 @@ ShiftRecords::ShiftRecords(const std::vector<FitRun>& all, const FitOptions& opt
   bool known = true;
   for (const auto& run : all) {
     Rows rows;
+    rows.reserve(run.v.size());
+    v.reserve(v.size() + run.v.size());
+    D.reserve(v.size() + run.v.size());
     for (std::size_t i = 0; i < run.v.size(); ++i) {
       const bool usable = std::isfinite(run.v[i]) && std::isfinite(run.D[i]) && run.v[i] > 0 && run.v[i] >= options.min_speed && !(positive_D && run.D[i] <= 0);
       if (!usable) {
@@ -31,7 +34,13 @@ ShiftRecords::ShiftRecords(const std::vector<FitRun>& all, const FitOptions& opt
     known = known && response_.back().of.contains("D");
   }
   if (!known) response_.clear();
-  for (double x : v) log_v_ref += std::log(x) / static_cast<double>(v.size());
+  refer();
+}
+
+void ShiftRecords::refer() {
+  log_v.resize(v.size());
+  std::transform(v.begin(), v.end(), log_v.begin(), [](double x) { return std::log(x); });
+  log_v_ref = std::accumulate(log_v.begin(), log_v.end(), 0.0) / static_cast<double>(std::max<std::size_t>(v.size(), 1));
 }
 
 void ShiftRecords::leave_out(const std::vector<bool>& lost) {
@@ -45,20 +54,22 @@ void ShiftRecords::leave_out(const std::vector<bool>& lost) {
     runs[r] = rows_[r].size();
   }
   left_out += old_v.size() - v.size();
-  log_v_ref = 0;
-  for (double x : v) log_v_ref += std::log(x) / static_cast<double>(v.size());
+  refer();
 }
 
-RouteFit ShiftRecords::hand_over(const System& system, Minimum minimum, KnownNoise& noise, double a, double a_slope, double b) const {
+RouteFit ShiftRecords::hand_over(const System& system, Minimum minimum, KnownNoise& noise, double a, double a_slope, double b) && {
   const std::size_t p = system.p;
-  std::vector<double> residuals = minimum.f, by_a(p, 0), by_b(p, 0), unused(minimum.J.size());
+  std::vector<double> residuals = minimum.f, by_a(p, 0), by_b(p, 0);
   KnownNoise known = std::exchange(noise, {});
-  if (!known.empty()) system.evaluate(minimum.theta, residuals, unused);  // the plain ones, for rms
+  if (!known.empty()) {  // the plain ones, for rms
+    std::vector<double> unused(minimum.J.size());
+    system.evaluate(minimum.theta, residuals, unused);
+  }
   if (!options_.a) by_a[0] = a_slope;
   if (!options_.a && !options_.b) by_a[1] = -a * log_v_ref;
   if (!options_.b) by_b[p - 1] = 1;
   return {.minimum = std::move(minimum), .runs = runs, .residuals = std::move(residuals), .noise = std::move(known), .left_out = left_out,
-          .a = {a, by_a}, .b = {b, by_b}, .v0 = {}, .x0 = {}, .v = v};
+          .a = {a, by_a}, .b = {b, by_b}, .v0 = {}, .x0 = {}, .v = std::move(v)};
 }
 
 // Full weight by the covariance would rest on directions that look all but free of noise (the zeros of a moving mean, the
@@ -189,7 +200,7 @@ Height best_height(const std::vector<double>& log_u, std::vector<double> D, doub
 }  // namespace
 
 RouteFit fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
-  const ShiftRecords records(all, options, false);
+  ShiftRecords records(all, options, false);
   const auto &v = records.v, &D = records.D;
   const double L = records.log_v_ref;
   const std::size_t n = v.size(), p = !options.a + !options.b;
@@ -201,7 +212,7 @@ RouteFit fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   for (double d : D) unit = std::max(unit, std::abs(d));
   if (unit == 0) fail("all shifts are 0: b cannot be determined");
   std::vector<double> log_u;
-  for (double x : v) log_u.push_back(std::log(x) - L);
+  for (double x : records.log_v) log_u.push_back(x - L);
   const auto exponent = [&](const std::vector<double>& theta) { return options.b ? *options.b : theta[p - 1]; };
   const auto height = [&](const std::vector<double>& theta) { return options.a ? *options.a * std::exp(exponent(theta) * L) : theta[0] * unit; };
   KnownNoise noise;
@@ -250,7 +261,7 @@ RouteFit fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
 
   b = exponent(minimum.theta);
   const double a = options.a.value_or(height(minimum.theta) * std::exp(-b * L));
-  return records.hand_over(system, std::move(minimum), noise, a, unit * std::exp(-b * L), b);
+  return std::move(records).hand_over(system, std::move(minimum), noise, a, unit * std::exp(-b * L), b);
 }
 
 }  // namespace rolling
