@@ -26,7 +26,8 @@ struct FitOptions {
   std::optional<double> start_a, start_b;             ///< where to start; found from the data otherwise
   double min_speed = 0;                               ///< records slower than this are left out [m/s]
   /// What may have made the speeds of 30 or more records whose filters are not known (velocity route): differences of x, and means of v
-  /// to compare with. A difference is believed if the residuals are most likely with it, and white once it is reckoned with.
+  /// to compare with. A difference is believed if the residuals of the first records of each run are most likely with it, and all of
+  /// them white once it is reckoned with.
   std::vector<LinearFilter> possible_filters;
   bool robust = false;                                ///< bisquare loss instead of squares; not for filtered columns
 };

@@ -53,7 +53,7 @@ void evaluate(const FittedRun& roll, std::size_t r, const Parameters& q, const s
   const double a = q.a(theta), x0 = q.x0(theta, r), way = roll.way;
   const Trajectory trajectory = q.trajectory(roll, theta, r);
   const auto model = [&](std::size_t i, double* row) {
-    const auto s = trajectory.at(roll.model_t[i]);
+    const auto s = roll.raw_is_position ? trajectory.at(roll.model_t[i]) : trajectory.speed_at(roll.model_t[i]);
     if (roll.raw_is_position) q.chain(row, a, r, way * s.x_a, way * s.x_b, way * s.x_v0, 1);
     else q.chain(row, a, r, way * s.v_a, way * s.v_b, way * s.v_v0);
     return roll.raw_is_position ? x0 + way * s.x : way * s.v;
@@ -126,8 +126,8 @@ Trial try_shape(const FittedRun& thin, const FitOptions& options, bool position,
   double mm = 0, my = 0, m_mean = 0, y_mean = 0;
   std::vector<double> m, y;
   for (std::size_t i = 0; i < thin.t.size(); ++i) {
-    const auto s = trajectory.at(thin.t[i]);
-    m.push_back(thin.way * (position ? s.x : s.v));
+    const double lambda = trajectory.log_ratio(thin.t[i]);
+    m.push_back(thin.way * (position ? trajectory.position(thin.t[i], lambda) : trajectory.velocity(lambda)));
     y.push_back(thin.y[i] - (position ? options.x0.value_or(0) : 0));
   }
   const double n = static_cast<double>(m.size());
@@ -235,6 +235,8 @@ Rolls make_rolls(const std::vector<FitRun>& all, const std::vector<Rows>& rows, 
     if (roll.origin > first) fail("run {} begins before the time {} at which v0 and x0 are to hold", r + 1, roll.origin);
     roll.start = options.origin || options.v0 || options.x0 ? roll.origin : run.t[rows[r].front()];
     if (known && first < run.t[0] && roll.start == roll.origin) fail("v0 and x0 cannot be held: filters have reached back to what was cut away before run {} begins", r + 1);
+    roll.t.reserve(rows[r].size());
+    roll.y.reserve(rows[r].size());
     for (std::size_t i : rows[r]) roll.t.push_back(run.t[i] - roll.origin), roll.y.push_back(y[i]);
     const double sign = options.v0 ? *options.v0 : position ? roll.y.back() - options.x0.value_or(roll.y.front()) : std::accumulate(roll.y.begin(), roll.y.end(), 0.0);
     roll.way = sign < 0 ? -1 : 1;
@@ -276,7 +278,7 @@ RouteFit fit_rolls(const std::vector<FitRun>& all, std::vector<Rows> rows, Param
     std::size_t slow = 0;
     for (std::size_t r = 0; r < all.size(); ++r) {
       const Trajectory fitted = q.trajectory(rolls.of[r], theta, r);
-      slow += std::erase_if(rows[r], [&](std::size_t i) { return fitted.at(all[r].t[i] - rolls.of[r].origin).v < options.min_speed; });
+      slow += std::erase_if(rows[r], [&](std::size_t i) { return fitted.velocity(fitted.log_ratio(all[r].t[i] - rolls.of[r].origin)) < options.min_speed; });
     }
     if (slow == 0) break;
   }
@@ -307,16 +309,26 @@ RouteFit fit_rolls(const std::vector<FitRun>& all, std::vector<Rows> rows, Param
   return result;
 }
 
-/// The making, by one of these filters and with some white noise added, under which the residuals of speeds are most likely
-/// (the fit is linear around theta); none if white noise alone is nearly as likely.
-Making most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows, const std::vector<LinearFilter>& filters, const Parameters& q,
-                   const std::vector<double>& theta) {
-  Making best;
+/// What may have made the speeds of all runs, and how much of their noise is white.
+struct Maker {
+  const LinearFilter* filter = nullptr;
+  double white_share = rounding_share;
+};
+
+Making making_by(const Maker& maker, const std::vector<FitRun>& all) {
+  Making making{{}, maker.white_share};
+  for (const auto& run : all) making.responses.push_back(noise_response({*maker.filter}, run.t));
+  return making;
+}
+
+/// The filter, and the white noise added to what it makes, under which the residuals of speeds are most likely (the fit is linear
+/// around theta); none if white noise alone is nearly as likely.
+Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows, const std::vector<LinearFilter>& filters, const Parameters& q,
+                  const std::vector<double>& theta) {
+  Maker best;
   double most = 0;
   for (const LinearFilter& filter : filters) {
-    Making making;
-    for (const auto& run : all) making.responses.push_back(noise_response({filter}, run.t));
-    const Rolls rolls = make_rolls(all, rows, false, making, q.options);
+    const Rolls rolls = make_rolls(all, rows, false, making_by({&filter}, all), q.options);
     const KnownNoise none;  // the system refers to it
     System system = system_of(rolls.of, q, none);
     const std::size_t n = system.n;
@@ -352,11 +364,30 @@ Making most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows
     const double gain = std::max(at_left, at_right) - white;
     if (gain <= most) continue;
     most = gain;
-    best = std::move(making);
-    best.white_share = std::exp(at_left > at_right ? left : right);
+    best = {&filter, std::exp(at_left > at_right ? left : right)};
   }
   return best;
 }
+
+/// What programs do at the ends of a run and at a lost record differs; elsewhere they are known. Leaves out the records of which an
+/// end or a gap is within reach; false if a run is too short to tell.
+bool leave_out_irregular(const std::vector<FitRun>& all, std::vector<Rows>& rows, std::size_t reach) {
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    const auto& t = all[r].t;
+    std::vector<double> spans;  // of the windows
+    for (std::size_t i = 2 * reach; i < t.size(); ++i) spans.push_back(t[i] - t[i - 2 * reach]);
+    if (spans.empty()) return false;
+    auto sorted = spans;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    const double most = *middle * (1 + 0.25 / static_cast<double>(reach));  // half a record more than is usual
+    std::erase_if(rows[r], [&](std::size_t i) { return i < reach || i + reach >= t.size() || spans[i - reach] > most; });
+  }
+  return true;
+}
+
+/// How many records at the beginning of a run are asked what made its speeds: the factor e^3 of likelihood shows in a hundred.
+constexpr std::size_t telling = 2000;
 
 }  // namespace
 
@@ -374,6 +405,7 @@ RouteFit fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOp
   for (const auto& run : all) {
     const auto& y = position ? run.x : run.v;
     Rows usable;
+    usable.reserve(y.size());
     double way = 0;
     for (std::size_t i = 0; i < y.size(); ++i)
       if (std::isfinite(y[i])) usable.push_back(i), way += y[i];
@@ -385,24 +417,21 @@ RouteFit fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOp
   RouteFit fitted = fit_rolls(all, rows, q, making);
   if (known || position || options.robust || options.possible_filters.empty() || fitted.residuals.size() < 30) return fitted;
 
-  // What programs do at the ends of a run and at a lost record differs; elsewhere they are known.
   std::size_t reach = 0;
   for (const auto& filter : options.possible_filters) reach = std::max(reach, filter.reach);
+  std::vector<FitRun> heads;
+  std::vector<Rows> head_rows = rows;
   for (std::size_t r = 0; r < all.size(); ++r) {
-    const auto& t = all[r].t;
-    std::vector<double> spans;  // of the windows
-    for (std::size_t i = 2 * reach; i < t.size(); ++i) spans.push_back(t[i] - t[i - 2 * reach]);
-    if (spans.empty()) return fitted;
-    auto sorted = spans;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    const double most = *middle * (1 + 0.25 / static_cast<double>(reach));  // half a record more than is usual
-    std::erase_if(rows[r], [&](std::size_t i) { return i < reach || i + reach >= t.size() || spans[i - reach] > most; });
+    const std::size_t n = std::min(all[r].t.size(), telling);
+    const auto head = [n](const std::vector<double>& x) { return std::vector(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n)); };
+    heads.push_back({.t = head(all[r].t), .x = {}, .v = head(all[r].v), .D = {}, .body = all[r].body, .filters = {}});
+    head_rows[r].erase(std::lower_bound(head_rows[r].begin(), head_rows[r].end(), n), head_rows[r].end());
   }
   try {
-    making = most_likely(all, rows, options.possible_filters, q, fitted.minimum.theta);
-    if (making.responses.empty() || making.responses.front().source == "v") return fitted;
-    RouteFit differences = fit_rolls(all, rows, q, making, fitted.minimum.theta);
+    if (!leave_out_irregular(heads, head_rows, reach)) return fitted;
+    const Maker maker = most_likely(heads, head_rows, options.possible_filters, q, fitted.minimum.theta);
+    if (!maker.filter || maker.filter->from == "v" || !leave_out_irregular(all, rows, reach)) return fitted;
+    RouteFit differences = fit_rolls(all, rows, q, making_by(maker, all), fitted.minimum.theta);
     differences.judged = true;
     if (look_white(differences)) return differences;
   } catch (const Error&) {  // none of them it is

@@ -29,6 +29,13 @@ constexpr std::array<double, terms + 3> inverse_factorials() {
 
 constexpr auto inverse_factorial = inverse_factorials();
 
+constexpr auto moment_coefficient = [] {
+  std::array<double, terms> c{};
+  for (std::size_t k = 0; k < terms; ++k) c[k] = static_cast<double>(k + 1) * inverse_factorial[k + 2];
+  return c;
+}();
+static_assert(terms % 2 == 0);
+
 }  // namespace
 
 double power_integral(double s, double lambda) {
@@ -39,9 +46,12 @@ double power_moment(double s, double lambda) {
   const double z = s * lambda;
   if (s == 0 || std::abs(z) <= 1) {
     const double x = s == 0 ? 0 : -z;
-    double sum = 0;  // sum of (k + 1) x^k / (k + 2)!
-    for (std::size_t k = terms; k-- > 0;) sum = sum * x + static_cast<double>(k + 1) * inverse_factorial[k + 2];
-    return lambda * lambda * sum;
+    double even = 0, odd = 0;  // terms of the sum of (k + 1) x^k / (k + 2)!: two chains that do not wait for one another
+    for (std::size_t k = terms; k > 0; k -= 2) {
+      even = even * (x * x) + moment_coefficient[k - 2];
+      odd = odd * (x * x) + moment_coefficient[k - 1];
+    }
+    return lambda * lambda * (even + x * odd);
   }
   if (z > 800) return 1 / (s * s);
   return (power_integral(s, lambda) - lambda * std::exp(-z)) / s;

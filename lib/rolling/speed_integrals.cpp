@@ -103,7 +103,7 @@ const SpeedIntegrals::Piece& SpeedIntegrals::piece_at(double lambda) const {
 }
 
 SpeedIntegrals::Sums SpeedIntegrals::sums(const Piece& p, double y) const {
-  const Gradient local = local_gradient(p, y);
+  const Gradient local = local_gradient(p, y, true);
   const double rho = std::exp(-y), power1 = p.power * std::exp(-p.y);
   const double x0 = local.g0 + rho * local.h0, x1 = local.g1 + rho * local.h1;
   return {p.before.time + p.power * local_time(p, y), p.before.lag + p.power * local_lag(p, y),
@@ -136,9 +136,9 @@ double SpeedIntegrals::lag_rest(double lambda) const {
   return p.panel || p.width < infinity ? p.lag_rest - p.power * local_lag(p, y) : p.power * series_lag_rest(y);
 }
 
-SpeedIntegrals::Gradient SpeedIntegrals::gradient(double lambda) const {
+SpeedIntegrals::Gradient SpeedIntegrals::gradient(double lambda, bool way) const {
   const Piece& p = piece_at(lambda);
-  const Gradient local = local_gradient(p, std::min(lambda - p.y, p.width));
+  const Gradient local = local_gradient(p, std::min(lambda - p.y, p.width), way);
   if (p.y == 0) return local;
   const double rho = std::exp(-lambda), power1 = p.power * std::exp(-p.y);
   return {p.before.distance + power1 * local.distance,
@@ -199,17 +199,17 @@ double SpeedIntegrals::local_distance(const Piece& p, double y) const {
   return sum;
 }
 
-SpeedIntegrals::Gradient SpeedIntegrals::local_gradient(const Piece& p, double y) const {
-  Gradient sum{local_distance(p, y), 0, 0, 0, 0};
+SpeedIntegrals::Gradient SpeedIntegrals::local_gradient(const Piece& p, double y, bool way) const {
+  Gradient sum{way ? local_distance(p, y) : 0, 0, 0, 0, 0};
   const auto add = [&](double h0, double h1, double g0, double g1) { sum.h0 += h0, sum.h1 += h1, sum.g0 += g0, sum.g1 += g1; };
   if (p.panel)
     quadrature(p, y, [&](double u, double A, double dq) {
-      const double h = (K_ * A + 1) / (K_ + 1) * dq, ahead = -std::exp(-u) * std::expm1(u - y);
+      const double h = (K_ * A + 1) / (K_ + 1) * dq, ahead = way ? -std::exp(-u) * std::expm1(u - y) : 0;
       add(h, u * h, ahead * h, u * ahead * h);
     });
   else
     for (const Term& term : series_) {
-      const auto [g0, g1] = headway_integrals(term.s, y);
+      const auto [g0, g1] = way ? headway_integrals(term.s, y) : HeadwayIntegrals{0, 0};
       add(term.h * power_integral(term.s, y), term.h * power_moment(term.s, y), term.h * g0, term.h * g1);
     }
   return sum;

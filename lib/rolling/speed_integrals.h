@@ -43,7 +43,8 @@ class SpeedIntegrals {
     double h0, h1;  ///< of h e^(-s y), with a factor y
     double g0, g1;  ///< of h (e^-y - e^-lambda) e^(-s y), with a factor y
   };
-  Gradient gradient(double lambda) const;
+  /// Without `way` only h0 and h1.
+  Gradient gradient(double lambda, bool way = true) const;
 
  private:
   struct Term {
@@ -75,7 +76,7 @@ class SpeedIntegrals {
   double local_lag(const Piece&, double y) const;
   double series_lag_rest(double y) const;
   double local_distance(const Piece&, double y) const;
-  Gradient local_gradient(const Piece&, double y) const;
+  Gradient local_gradient(const Piece&, double y, bool way) const;
   double panel_lambda(const Piece&, double time) const;
   double series_lambda(const Piece&, double time, double rest) const;
 

@@ -77,7 +77,7 @@ double Trajectory::acceleration(double v) const { return acceleration_from_shift
 // With T(v; a, b, v0) = t the integral over speed, at fixed t:  dv/dp = -(dT/dp) / (dT/dv) = -(dT/dp) dv/dt,  and
 //   dT/da = -int h ... / a,   dT/db = -int ln(u) h ...,   dT/dv0 = -1 / (dv/dt at v0);
 //   dx/dp = dX/dp - v dT/dp,  which is the same integral with a factor u - v.
-Trajectory::Point Trajectory::at(double t) const {
+Trajectory::Point Trajectory::at(double t, bool way) const {
   if (t == 0) return {v0_, 0, 0, 0, v0_ > 0 ? 1.0 : 0.0, 0, 0, 0};
   const double lambda = log_ratio(t), a = law_.a, log_v0 = std::log(v0_);
   if (lambda == infinity) return stopped_;
@@ -86,17 +86,16 @@ Trajectory::Point Trajectory::at(double t) const {
     const double dv_da = -body_.g / body_.R * std::pow(v0_, law_.b) * t * (K + 1 / A) / ((K + A) * (K + A)), dv_db = a * log_v0 * dv_da;
     return {v0_, v0_ * t, dv_da, dv_db, 1, dv_da * t / 2, dv_db * t / 2, t};
   }
-  const auto g = integrals_.gradient(lambda);
+  const auto g = integrals_.gradient(lambda, way);
   const double rate = std::exp(-law_.b * lambda) / integrals_.f(lambda);  // -(dv/dt) unit_ / v0
+  Point point{velocity(lambda), 0, -v0_ * rate * g.h0 / a, -v0_ * rate * (log_v0 * g.h0 - g.h1), rate * integrals_.f(0), 0, 0, 0};
+  if (!way) return point;
   const double length = v0_ * unit_;
-  return {velocity(lambda),
-          v0_ * (unit_ * g.distance),
-          -v0_ * rate * g.h0 / a,
-          -v0_ * rate * (log_v0 * g.h0 - g.h1),
-          rate * integrals_.f(0),
-          -length * g.g0 / a,
-          -length * (log_v0 * g.g0 - g.g1),
-          -std::expm1(-lambda) * unit_ * integrals_.f(0)};
+  point.x = v0_ * (unit_ * g.distance);
+  point.x_a = -length * g.g0 / a;
+  point.x_b = -length * (log_v0 * g.g0 - g.g1);
+  point.x_v0 = -std::expm1(-lambda) * unit_ * integrals_.f(0);
+  return point;
 }
 
 }  // namespace rolling

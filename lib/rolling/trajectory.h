@@ -36,7 +36,9 @@ class Trajectory {
   double stop_time() const { return stop_time_; }
 
   /// t >= 0 [s]. From the stop on: v = 0 with zero derivatives, x the stopping distance with its derivatives.
-  Point at(double t) const;
+  Point at(double t) const { return at(t, true); }
+  /// The same without x and its derivatives, which are left 0, in half the time.
+  Point speed_at(double t) const { return at(t, false); }
 
   /// ln(v0 / v) at time t >= 0; infinity from the stop on.
   double log_ratio(double t) const { return log_ratio(t, stop_time_ - t); }
@@ -53,6 +55,8 @@ class Trajectory {
   const SpeedIntegrals& integrals() const { return integrals_; }
 
  private:
+  Point at(double t, bool way) const;
+
   Body body_;
   Geometry geometry_;
   PowerLaw law_;
