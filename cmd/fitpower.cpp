@@ -143,9 +143,12 @@ int main(int argc, char** argv) {
     tool.out.names(names);
     std::size_t left_out = 0;
     for (const FitResult& r : results) {
-      std::vector<double> row = {r.a, r.sigma_a, r.b, r.sigma_b, r.corr, r.rms, static_cast<double>(r.n)};
-      if (with_v0) row.insert(row.end(), {r.v0.front(), r.sigma_v0.front()});
-      for (const double value : row) r.errors == Errors::none && std::isnan(value) ? tool.out.blank() : tool.out.cell(value);
+      const auto cell = [&](double value) { r.errors == Errors::none && std::isnan(value) ? tool.out.blank() : tool.out.cell(value); };
+      for (const double value : {r.a, r.sigma_a, r.b, r.sigma_b, r.corr, r.rms}) cell(value);
+      tool.out.blank();
+      tool.out.text(std::to_string(r.n));  // a count is never rounded to --digits
+      if (with_v0)
+        for (const double value : {r.v0.front(), r.sigma_v0.front()}) cell(value);
       tool.out.end_line();
       left_out += r.left_out;
     }
