@@ -19,8 +19,8 @@ double square(const std::vector<double>& f) { return dot(f.data(), f.data(), f.s
 
 Minimum nowhere(const System& system) { return {{}, std::vector<double>(system.n), std::vector<double>(system.n * system.p), {}, 0}; }
 
-/// Moves a Minimum to theta; whether theta is allowed there.
-bool move(const System& system, Minimum& m, std::vector<double> theta) {
+/// The residuals and derivatives of a Minimum at theta; whether theta is allowed.
+bool evaluate_at(const System& system, Minimum& m, std::vector<double> theta) {
   m.theta = std::move(theta);
   try {
     system.evaluate(m.theta, m.f, m.J);
@@ -40,7 +40,7 @@ struct Bridge {
   void evaluate(const gsl_vector* x) {
     std::vector<double> theta(system.p);
     for (std::size_t j = 0; j < system.p; ++j) theta[j] = gsl_vector_get(x, j);
-    if (theta != at.theta) allowed = move(system, at, std::move(theta));
+    if (theta != at.theta) allowed = evaluate_at(system, at, std::move(theta));
   }
   static int residuals(const gsl_vector* x, void* self, gsl_vector* f) {
     auto& b = *static_cast<Bridge*>(self);
@@ -146,12 +146,12 @@ Step gauss_newton(const System& system, const Minimum& at) {
 /// `step` is the one that was not taken.
 Minimum polish(const System& system, std::vector<double> theta, double share, Step& step) {
   Minimum best = nowhere(system), next = nowhere(system);
-  if (!move(system, best, std::move(theta))) fail("the fit cannot start: the law has no finite values at the starting point");
+  if (!evaluate_at(system, best, std::move(theta))) fail("the fit cannot start: the law has no finite values at the starting point");
   step = gauss_newton(system, best);
   for (int i = 0; i < 100 && step.angle > undetermined && step.size > std::numeric_limits<double>::epsilon(); ++i) {
     std::vector<double> there = best.theta;
     for (std::size_t j = 0; j < system.p; ++j) there[j] += step.delta[j];
-    if (!move(system, next, std::move(there)) || !(next.rss <= best.rss * (1 + 1e-10) - share * step.reduction)) break;
+    if (!evaluate_at(system, next, std::move(there)) || !(next.rss <= best.rss * (1 + 1e-10) - share * step.reduction)) break;
     Step after = gauss_newton(system, next);
     if (step.size < 1e-9 && !(after.size < step.size)) break;  // round-off
     std::swap(best, next);

@@ -74,3 +74,22 @@ TEST_CASE("minimise_robust: without outliers a line with its classical errors, n
   CHECK(std::abs(robust.theta[1] - 2) < 0.02);
   CHECK(std::abs(robust.rss / plain.rss - 1 / 0.95) < 0.02);  // the efficiency that 4.685 is made for
 }
+
+TEST_CASE("minimise: a line through many records has the sums of the closed form, and R^T R = J^T J", "[fit]") {
+  simulated::Noise noise(3);
+  constexpr std::size_t n = 1000;  // several blocks, the last one short
+  std::vector<double> t, y;
+  for (std::size_t i = 0; i < n; ++i) t.push_back(static_cast<double>(i) - 499.5), y.push_back(3 - 0.01 * t.back() + noise(0.1));
+  const System line{n, 2, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+    for (std::size_t i = 0; i < n; ++i) f[i] = x[0] + x[1] * t[i] - y[i], J[2 * i] = 1, J[2 * i + 1] = t[i];
+  }};
+  const auto m = minimise(line, {0, 0});
+  long double mean = 0, ty = 0;
+  for (std::size_t i = 0; i < n; ++i) mean += y[i], ty += static_cast<long double>(t[i]) * y[i];
+  constexpr double tt = n * (n * n - 1.0) / 12;
+  CHECK(std::abs(m.theta[0] - static_cast<double>(mean / n)) < 1e-14);
+  CHECK(std::abs(m.theta[1] - static_cast<double>(ty / tt)) < 1e-16);
+  CHECK(std::abs(m.R[0] * m.R[0] / n - 1) < 1e-13);
+  CHECK(std::abs(m.R[1]) < 1e-9);  // the times are centred
+  CHECK(std::abs(m.R[3] * m.R[3] / tt - 1) < 1e-13);
+}

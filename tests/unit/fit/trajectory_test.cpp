@@ -234,3 +234,19 @@ TEST_CASE("trajectory: white noise, intervals that hold and no bias", "[fit]") {
     CHECK(std::abs(sum / runs) < 3.3 * std::sqrt(squares) / runs);
   }
 }
+
+TEST_CASE("velocity: differences that the first records of a long run tell of are reckoned with in all of it", "[fit]") {
+  const auto truth = simulated::roll(cylinder, 5.75e-4, 0.1, 0.5);
+  FitOptions options;
+  options.possible_filters = {simulated::differentiate("x", "v")};
+  simulated::Noise noise(5);
+  FitRun run{};
+  run.body = cylinder;
+  std::vector<double> x;
+  for (int i = 0; i < 5000; ++i) run.t.push_back(1e-3 * i), x.push_back(truth.x(run.t.back()) + noise(3e-6));
+  run.v = options.possible_filters[0].apply(run.t, x);
+  const auto r = fit(Route::velocity, {run}, options);
+  CHECK(r.errors == Errors::differences);
+  CHECK(r.n == 4998);
+  CHECK(std::abs(r.b - 0.1) < 4 * r.sigma_b);
+}
