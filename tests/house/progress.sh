@@ -1,7 +1,7 @@
 #!/bin/bash
 # What takes more than two seconds says at a terminal how far it is, and wipes that; not what is quick, nor with -q, nor into a file.
 set -u
-command -v script >/dev/null || { echo "skipped: no script, which makes a terminal" && exit 77; }
+script -qec 'test -t 2' /dev/null </dev/null >/dev/null 2>&1 || { echo "skipped: no script, or no terminal that it could make" && exit 77; }
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch" || exit 2
