@@ -50,8 +50,9 @@ typed() {  # SHELL KEYS: what the stand-in saw
   cat "$scratch/saw" 2>/dev/null || cat -v "$scratch/terminal"
 }
 tab=$(printf '\t')
+script -qec 'test -t 2' /dev/null </dev/null >/dev/null 2>&1 || exit $wrong  # no terminal can be made here
 for shell in bash zsh; do
-  command -v $shell >/dev/null && command -v script >/dev/null || continue
+  command -v $shell >/dev/null || continue
   between=$([ $shell = zsh ] && echo '=' || echo '|')  # --method=savgol, --method savgol
   expect "$(typed $shell "smooth --coa${tab}--meth${tab}sav${tab}run${tab}")" "--coast|--method${between}savgol|run of CR.csv|" "$shell, smooth"
   expect "$(typed $shell "energy-ledger --scene S${tab}")" '--scene|SF.toml|' "$shell, energy-ledger"
