@@ -56,7 +56,7 @@ LinearFilter derivative(const std::string& from, const std::string& to, const De
 std::vector<LinearFilter> filters_of_sensors() {
   std::vector<LinearFilter> filters;
   for (auto method : {DerivativeMethod::central, DerivativeMethod::vernier, DerivativeMethod::pasco}) filters.push_back(derivative("x", "v", {method}));
-  for (std::size_t width : {2, 3, 5})
+  for (std::size_t width : {2U, 3U, 5U})
     filters.push_back({"v", "v", width / 2, [width](auto, auto y) {
                          std::vector<double> means(y.size());
                          for (std::size_t i = 0; i + width <= y.size(); ++i)

@@ -20,7 +20,7 @@ set ylabel 'velocity v / (mm/s)' offset 0.7, 0; set yrange [-22:110]
 plot scratch.'raw' using (after($1,1)):(1e3*$4) with points ls 1 ps 0.6 title 'C on rubber: differences of the positions', \
      scratch.'memory' using (after($1,0)):(1e3*$3) with lines ls 1 title 'fitted law with a memory of 0.5 mm', \
      scratch.'law' using (after($1,0)):(1e3*$3) with lines ls 12 title 'fitted law alone'
-set ylabel 'position from the place of rest / mm' offset -1, 0; set yrange [-8:2]; set key bottom right
+set ylabel 'distance from rest / mm' offset -1, 0; set yrange [-8:2]; set key bottom right
 plot scratch.'raw' using (after($1,1)):(1e3*($2-word(rest,1))) with points ls 1 ps 0.6 title 'C on rubber: the positions', \
      scratch.'memory' using (after($1,0)):(1e3*($2-word(rest,3))) with lines ls 1 title 'fitted law with a memory of 0.5 mm', \
      scratch.'law' using (after($1,0)):(1e3*($2-word(rest,2))) with lines ls 12 title 'fitted law alone'

@@ -36,7 +36,7 @@ done
 samples/figures/fig2.sh pngcairo | head -c 8 | cmp -s - <(printf '\211PNG\r\n\032\n') || complain "fig2: no PNG"
 has fig1 'velocity v / (m/s)' 'time t / s' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt' 'C, fitted trajectory' \
   'before smoothing'
-has fig1-stop 'velocity v / (mm/s)' 'position from the place of rest / mm' 'fitted law with a memory of 0.5 mm'
+has fig1-stop 'velocity v / (mm/s)' 'distance from rest / mm' 'fitted law with a memory of 0.5 mm'
 has fig4 'velocity v / (m/s)' 'shift D / mm' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt'
 has energy 'energy / J' 'time t / s' translational rotational dissipated sum
 
