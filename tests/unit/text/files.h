@@ -44,7 +44,7 @@ class TemporaryFile {
   }
 
  private:
-  std::string name_ = temporary_name() + "XXXXXX";
+  std::string name_ = temporary_name() + std::string(6, 'X');  // mkstemp's template
 };
 
 /// Another file in the place of a standard one, as long as the object lives.
