@@ -184,7 +184,7 @@ check-long: check
 	PATH="$(CURDIR)/bin:$$PATH" build/unit '[.long]'
 	LONG=1 tests/faults/memory.sh
 
-# How often the errors of fitpower hold, by case and route: 1000 simulated runs each, a few minutes.
+# How often the errors of fitpower hold, by case and route: 1000 simulated runs each, some ten minutes.
 build/tests/bench/coverage.o: CPPFLAGS += -Itests
 build/coverage: build/tests/bench/coverage.o build/lib.a
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) -pthread
@@ -213,7 +213,7 @@ work-precision-signal: build/bench/signal
 	@mkdir -p build/work-precision
 	tests/bench/signal.sh build/work-precision
 
-# How fast the tools are beside peers and bare loops: five minutes.
+# How fast the tools are beside peers and bare loops: some minutes.
 bench: all build/bench/speed
 	@PATH="$(CURDIR)/bin:$$PATH" tests/bench/speed.sh
 

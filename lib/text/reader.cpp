@@ -19,7 +19,7 @@ constexpr char comment_mark = '#', nothing = '\n';
 char first_mark(std::string_view line) {
   for (const char c : line)
     if (!is_blank(c)) return c;
-  return '\n';
+  return nothing;
 }
 
 
