@@ -1,5 +1,5 @@
 #!/bin/bash
-# NIST's certified data sets (StRD) through the tools: the mean of NumAcc1 to 4, Lew and Lottery by the window that holds them all, DanWood's power law.
+# NIST's certified data sets (StRD) through the tools: the mean of NumAcc1 to 4, Lew and Lottery by the window that holds them all, DanWood's power law and Bennett5's trajectory.
 set -eu
 data=${NIST_DATA:-}
 [ -r "$data/NumAcc4.dat" ] || { echo "skipped: NIST_DATA names no reference data"; exit 77; }
@@ -18,3 +18,9 @@ mean Lottery 518.958715596330
 awk 'NR > 60 && NF == 2 { print $2, $1 }' "$data/DanWood.dat" | fitpower --route shift |
   awk 'function off(x, c) { return (x / c - 1)^2 > 1e-20 }
     !/^#/ && (off($1, 7.6886226176E-01) || off($2, 1.8281973860E-02) || off($3, 3.8604055871E+00) || off($4, 5.1726610913E-02)) { print "DanWood:", $0; exit 1 }'
+# Bennett5, y = b1 (b2 + x)^(-1/b3), is v(t) with g = 1, K = 0, R = 1: a = 1 / (b3 |b1|^b3), b = 1 + b3. Its errors are not compared:
+# the residuals are correlated, which NIST's do not count.
+awk 'BEGIN { print "# t v" } NR > 60 && NF == 2 { print $2, $1 }' "$data/Bennett5.dat" | fitpower --route velocity -K 0 -R 1 -g 1 |
+  awk 'function off(x, c) { return !((x / c - 1)^2 < 1e-18) }
+    !/^#/ { rows = 1; b3 = 0.9321848319330336; if (off($3, 1 + b3) || off($1, 1 / (b3 * 2523.505804303253 ^ b3))) bad = 1; if (bad) print "Bennett5:", $0 }
+    END { exit bad || !rows }'
