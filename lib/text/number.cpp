@@ -3,8 +3,11 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
+#include <cstring>
 
 namespace rolling {
 
@@ -14,17 +17,62 @@ namespace {
 constexpr double power_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,
                                    1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19};
 
+constexpr std::uint64_t whole_power_of_ten[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000, 1000000000, 10000000000,
+                                                100000000000, 1000000000000, 10000000000000, 100000000000000, 1000000000000000,
+                                                10000000000000000, 100000000000000000};
+
+/// Writes the eight digits of a number below 10^8, each in a byte of one word.
+void write_eight_digits(char* to, std::uint64_t number) {
+  std::uint64_t word = number / 10000 | number % 10000 << 32;
+  std::uint64_t tens = word * 5243 >> 19 & 0x0000007f0000007f;  // / 100
+  word = tens | (word - 100 * tens) << 16;
+  tens = word * 103 >> 10 & 0x000f000f000f000f;  // / 10
+  word = (tens | (word - 10 * tens) << 8) + 0x3030303030303030;
+  if constexpr (std::endian::native == std::endian::big) word = __builtin_bswap64(word);  // the first one stands lowest
+  std::memcpy(to, &word, sizeof word);
+}
+
+/// The shortest text that reads back to the same double: fmt's digits (Dragonbox), in the form that fmt gives them.
+char* write_shortest(char* to, double value) {
+  *to = '-';
+  to += std::signbit(value);
+  if (value == 0) return *to = '0', to + 1;
+  const auto decimal = fmt::detail::dragonbox::to_decimal(std::abs(value));
+  int count = static_cast<int>(std::bit_width(decimal.significand)) * 1233 >> 12;  // of its digits: log10(2) = 0.30103
+  count += decimal.significand >= whole_power_of_ten[count];
+  const int point = count + decimal.exponent;  // stands behind so many digits
+  const bool scientific = point < -3 || point > 16;
+  const int whole = scientific ? 1 : point;
+
+  std::memcpy(to, "0.000", 5);
+  char* const digits = whole > 0 ? to + 1 : to + 2 - whole;
+  const std::uint64_t seventeen = decimal.significand * whole_power_of_ten[17 - count], nine = seventeen / 100000000;
+  digits[0] = static_cast<char>('0' + nine / 100000000);
+  write_eight_digits(digits + 1, nine % 100000000);
+  write_eight_digits(digits + 9, seventeen % 100000000);
+  if (whole <= 0) return digits + count;
+  std::memmove(to, digits, static_cast<std::size_t>(whole));
+  to[whole] = '.';
+  to += count > whole ? count + 1 : whole;
+  return scientific ? fmt::format_to(to, FMT_COMPILE("e{:+03}"), point - 1) : to;
+}
+
+/// What has more digits than are exact, or an exponent.
+[[gnu::noinline]] const char* read_long_number(const char* const begin, const char* const end, double& value) {
+  const auto [behind, status] = std::from_chars(*begin == '+' ? begin + 1 : begin, end, value);  // which knows no plus
+  return status == std::errc() ? behind : begin;
+}
+
 }  // namespace
 
 const char* read_number(const char* const begin, const char* const end, double& value) {
   const char* at = begin;
   const bool negative = at != end && *at == '-';
   if (at != end && (*at == '-' || *at == '+')) ++at;
-  const char* const first = at;
   std::uint64_t digits = 0;
   const auto take_digits = [&] {
     const char* const from = at;
-    for (unsigned digit; at != end && (digit = static_cast<unsigned char>(*at - '0')) <= 9; ++at) digits = 10 * digits + digit;
+    for (unsigned digit; at != end && (digit = static_cast<unsigned>(*at) - '0') <= 9; ++at) digits = 10 * digits + digit;
     return static_cast<std::size_t>(at - from);
   };
   std::size_t count = take_digits(), decimals = 0;
@@ -39,8 +87,7 @@ const char* read_number(const char* const begin, const char* const end, double& 
     if (negative) value = -value;
     return at;
   }
-  const auto [behind, status] = std::from_chars(negative ? first - 1 : first, end, value);  // which knows no plus
-  return status == std::errc() ? behind : begin;
+  return read_long_number(begin, end, value);
 }
 
 bool parse_number(std::string_view field, double& value) {
@@ -53,7 +100,7 @@ bool is_missing(std::string_view field) {
 }
 
 char* write_number(char* to, double value, int digits) {
-  return digits > 0 ? fmt::format_to(to, FMT_COMPILE("{:.{}g}"), value, digits) : fmt::format_to(to, FMT_COMPILE("{}"), value);
+  return digits > 0 ? fmt::format_to(to, FMT_COMPILE("{:.{}g}"), value, digits) : write_shortest(to, value);
 }
 
 void append_number(std::string& to, double value, int digits) {

@@ -1,5 +1,8 @@
 #include "text/number.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <clocale>
@@ -7,6 +10,8 @@
 #include <cstdlib>
 #include <limits>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "unit/catch.h"
 
@@ -112,6 +117,43 @@ TEST_CASE("number: the text of a double, by hand", "[text]") {
   CHECK(written(1. / 3) == "0.3333333333333333");
   CHECK(written(5e-324) == "5e-324");
   CHECK(written(-1.7976931348623157e308) == "-1.7976931348623157e+308");
+}
+
+TEST_CASE("number: a double has the text that fmt gives it, for 300000 of all sizes and lengths", "[text]") {
+  std::mt19937_64 random(20250406);
+  std::vector<double> values = {0, -0.0, std::numeric_limits<double>::max(), std::numeric_limits<double>::min(), std::numeric_limits<double>::denorm_min(), 0x1p53, 0x1p53 + 2};
+  for (int e = -330; e <= 308; ++e) {  // every power of ten, and its neighbours
+    const double power = std::strtod(("1e" + std::to_string(e)).c_str(), nullptr);
+    for (const double value : {power, std::nextafter(power, 1), std::nextafter(power, std::numeric_limits<double>::infinity())}) values.push_back(value);
+  }
+  for (int i = 0; i < 100000; ++i) {
+    const double any = std::bit_cast<double>(random()), whole = static_cast<double>(random() % 1'000'000'000'000'000'000 >> random() % 60);
+    for (const double value : {any, whole * std::pow(10, -static_cast<int>(random() % 25)), whole}) values.push_back(random() % 2 ? value : -value);
+  }
+  int compared = 0, other = 0;
+  for (const double value : values)
+    if (std::isfinite(value)) ++compared, other += written(value) != fmt::format("{}", value);
+  CHECK(compared > 299000);
+  CHECK(other == 0);
+}
+
+TEST_CASE("number: digits are read wherever they end, in fields of every length", "[text]") {
+  std::mt19937_64 random(20250407);
+  int other = 0;
+  for (int i = 0; i < 200000; ++i) {
+    std::string text(random() % 2, '-');
+    for (auto n = random() % 20; n-- > 0;) text += static_cast<char>('0' + random() % 10);
+    if (random() % 4) text += '.';
+    for (auto n = random() % 20; n-- > 0;) text += static_cast<char>('0' + random() % 10);
+    const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+    if (std::none_of(text.begin(), text.end(), digit)) continue;
+    const std::string behind = std::string(1, "\t;, x-/:"[random() % 8]) + std::to_string(random());
+    const std::string line = text + behind.substr(0, random() % 10);
+    double value = 0;
+    const char* const end = read_number(line.data(), line.data() + line.size(), value);
+    other += end != line.data() + text.size() || !same_bits(value, std::strtod(text.c_str(), nullptr));
+  }
+  CHECK(other == 0);
 }
 
 TEST_CASE("number: digits round to as many significant ones", "[text]") {
