@@ -19,6 +19,13 @@ std::string plain_form(std::string_view field) {
   if (const auto at = text.find(','); at != npos && text.find('.') == npos) text[at] = '.';
   return text;
 }
+
+/// Up to the first character that may separate fields, quote one, or stand in a number of another form.
+const char* skip_plain(const char* at, const char* end) {
+  while (at != end && *at >= '-' && *at <= 'z' && *at != ';') ++at;
+  return at;
+}
+
 }  // namespace
 
 bool Dialect::choose(std::string_view line) {
@@ -51,7 +58,7 @@ void Dialect::want(std::size_t field) {
   wanted_[field] = true;
 }
 
-// A wanted number is read where it stands, which shows where its field ends: no other search, no second pass.
+// A number is read, or passed over, where it stands, which shows where its field ends: no other search, no second pass.
 
 std::vector<Field>& Dialect::split(std::string_view line) {
   fields_.clear();
@@ -66,7 +73,7 @@ std::vector<Field>& Dialect::split(std::string_view line) {
   for (std::size_t i = 0;; ++i, ++at) {
     Field& field = fields_.emplace_back();
     const char* const first = at;
-    if (!foreign && wanted(i)) at = read_number(at, end, field.number);
+    if (!foreign) at = wanted(i) ? read_number(at, end, field.number) : skip_plain(at, end);
     if (at != first && (at == end || *at == separator_)) {
       field.text = {first, at};
     } else {

@@ -1,7 +1,6 @@
 #include "text/filter.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "base/error.h"
@@ -120,12 +119,11 @@ void Filter::remove_row() {
 }
 
 void Filter::put(double value) {
-  if (!std::isfinite(value)) fail("the result is not a finite number");
   const bool waited = !rows_.empty();
   const Row& row = waited ? rows_[front_] : present_;
   const char* const text = waited ? held_.data() + front_begin_ : text_.data();
   if (numbers_++ == 0) {
-    if (break_due_) write_break();
+    write_break();
     out_.text({text, row.first});
   }
   if (appended_ > 0) out_.text('\t');

@@ -60,24 +60,22 @@ bool Input::fill() {
   return count > 0;
 }
 
-bool Input::next(std::string_view& line) {
-  std::size_t searched = 0;
-  for (;;) {
-    const char* const first = buffer_.data() + begin_;
-    const auto* const feed = static_cast<const char*>(std::memchr(first + searched, '\n', end_ - begin_ - searched));
-    if (feed) {
-      line = std::string_view(first, static_cast<std::size_t>(feed - first));
-      begin_ += line.size() + 1;
-      break;
-    }
+/// The end of the line that begins at begin_; null if it has none.
+const char* Input::line_feed() {
+  for (std::size_t searched = 0;;) {
+    const void* const feed = std::memchr(buffer_.data() + begin_ + searched, '\n', end_ - begin_ - searched);
+    if (feed) return static_cast<const char*>(feed);
     searched = end_ - begin_;
-    if (!at_end_ && fill()) continue;
-    at_end_ = true;
-    if (begin_ == end_) return false;
-    line = std::string_view(buffer_.data() + begin_, end_ - begin_);
-    begin_ = end_;
-    break;
+    if (at_end_ || !fill()) return at_end_ = true, nullptr;
   }
+}
+
+bool Input::next(std::string_view& line) {
+  const char* const feed = line_feed();
+  if (!feed && begin_ == end_) return false;
+  const char* const first = buffer_.data() + begin_;
+  line = std::string_view(first, feed ? static_cast<std::size_t>(feed - first) : end_ - begin_);
+  begin_ += line.size() + (feed ? 1 : 0);
   if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
   if (++line_number_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
   return true;

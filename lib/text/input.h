@@ -28,6 +28,7 @@ class Input {
 
  private:
   bool fill();
+  const char* line_feed();
 
   std::string name_;
   BlockHook on_block_;

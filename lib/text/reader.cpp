@@ -253,21 +253,25 @@ void Reader::comment(std::string_view line) {
   else if (on_comment) on_comment(text);
 }
 
-/// The next line of the file; a quoted field may hold line ends.
 bool Reader::next_line() {
   if (!input_->next(line_)) return false;
   line_number_ = input_->line_number();
-  if (!input_->quotes() || line_.find('"') == npos) return true;
+  if (input_->quotes()) join_quoted();
+  return true;
+}
+
+/// A quoted field may hold line ends.
+void Reader::join_quoted() {
   const auto last = line_.rfind('"');
+  if (last == npos) return;
   const bool opens = last == 0 || line_[last - 1] == ',' || line_[last - 1] == ';' || line_[last - 1] == '\t';
-  if (!opens || std::count(line_.begin(), line_.end(), '"') % 2 == 0) return true;
+  if (!opens || std::count(line_.begin(), line_.end(), '"') % 2 == 0) return;
   joined_ = line_;
   do {
     if (!input_->next(line_)) fail<InputError>("{}:{}: a quote that does not end", input_->name(), line_number_);
     (joined_ += '\n') += line_;
   } while (std::count(joined_.begin(), joined_.end(), '"') % 2 == 1);
   line_ = joined_;
-  return true;
 }
 
 bool Reader::take_kept() {

@@ -92,6 +92,7 @@ class Reader {
   std::string column_list() const;
 
   bool next_line();
+  void join_quoted();
   bool take_kept();
   Event advance();
   bool names_again();
