@@ -1,8 +1,8 @@
 // The roll with the paper's A = 1: Eq. 13 to the last bits, for every b.
 #pragma once
 
+#include "base/double_double.h"
 #include "rolling/body.h"
-#include "rolling/double_double.h"
 #include "rolling/motion.h"
 #include "rolling/power_law.h"
 

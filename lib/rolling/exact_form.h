@@ -1,7 +1,7 @@
 // The roll with A = sqrt(1 - D^2/R^2) (Eqs. 8, 12).
 #pragma once
 
-#include "rolling/double_double.h"
+#include "base/double_double.h"
 #include "rolling/motion.h"
 #include "rolling/trajectory.h"
 

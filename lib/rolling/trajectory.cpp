@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/double_double.h"
 #include "base/error.h"
 #include "rolling/contact.h"
-#include "rolling/double_double.h"
 
 namespace rolling {
 

@@ -12,25 +12,43 @@ double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint6
 
 }  // namespace
 
-void ExactSum::accumulate(double y, int sign) {
+void ExactSum::add_zero(double zero, int sign) { negative_zeros_ += static_cast<std::size_t>(std::signbit(zero) ? sign : 0); }
+
+void ExactSum::add_term(double y) {
+  const DoubleDouble high = two_sum(pair_.hi, y), low = two_sum(pair_.lo, high.lo);
+  if (!std::isfinite(low.lo)) return to_limbs(y);  // beyond a double on the way
+  pair_ = {high.hi, low.hi};
+  if (low.lo != 0) to_limbs(low.lo);
+}
+
+void ExactSum::to_limbs(double y) {
+  if (y == 0) return;
   const auto bits = std::bit_cast<std::uint64_t>(y);
   const auto exponent = static_cast<unsigned>(bits >> 52 & 0x7ff);
-  auto mantissa = static_cast<std::int64_t>(bits & 0xfffffffffffffULL);
-  if (exponent) {
-    mantissa |= 1LL << 52;
-  } else if (mantissa == 0) {
-    negative_zeros_ += static_cast<std::size_t>(sign * static_cast<int>(bits >> 63));
-    return;
-  }
+  const auto mantissa = static_cast<std::int64_t>((bits & 0xfffffffffffffULL) | (exponent ? 1ULL << 52 : 0));
   const unsigned position = exponent ? exponent - 1 : 0;  // |y| = mantissa * 2^(position - 1074)
   const std::size_t at = position / 32;
   const int128 term = static_cast<int128>(mantissa) << position % 32;
-  limb_[at] += (bits >> 63) == (sign < 0) ? term : -term;
+  limb_[at] += std::signbit(y) ? -term : term;
   low_ = std::min(low_, at);
   high_ = std::max(high_, at + 1);
 }
 
 double ExactSum::over(std::size_t n) {
+  if (low_ < high_) {
+    to_limbs(pair_.hi);
+    to_limbs(pair_.lo);
+    pair_ = {};
+    return limbs_over(n);
+  }
+  pair_ = two_sum(pair_.hi, pair_.lo);
+  if (pair_.hi == 0) return negative_zeros_ == n ? -0.0 : 0;
+  // The quotient need not be the nearest one: the rest makes up for that, and is so small that 1/n may be rounded.
+  const double count = static_cast<double>(n), inverse = 1 / count, quotient = pair_.hi * inverse;
+  return quotient + (std::fma(-quotient, count, pair_.hi) + pair_.lo) * inverse;
+}
+
+double ExactSum::limbs_over(std::size_t n) {
   while (high_ > low_ && limb_[high_ - 1] == 0) --high_;
   while (high_ > low_ && limb_[low_] == 0) ++low_;
 

@@ -6,23 +6,29 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/double_double.h"
+
 namespace rolling {
 
 class ExactSum {
  public:
-  void add(double y) { accumulate(y, 1); }
-  void subtract(double y) { accumulate(y, -1); }
+  void add(double y) { y == 0 ? add_zero(y, 1) : add_term(y); }
+  void subtract(double y) { y == 0 ? add_zero(y, -1) : add_term(-y); }
   /// Sum / n, within 1 ulp of the exact quotient; -0 if all of n terms are -0. At most 2^30 terms; n > 0.
   double over(std::size_t n);
 
  private:
   __extension__ typedef __int128 int128;
 
-  void accumulate(double y, int sign);
+  void add_zero(double zero, int sign);
+  void add_term(double y);
+  void to_limbs(double y);
+  double limbs_over(std::size_t n);
 
-  // A fixed-point number of 2^-1074, in overlapping limbs 32 bits apart: a term goes whole into the one where it begins, which
-  // has room for 2^43 of them. No carries while adding, so taking a term away restores its limb (after Kulisch's long
-  // accumulator).
+  // The sum is that of pair_, which holds readings of one instrument exactly, and of the limbs for what it cannot hold: a
+  // fixed-point number of 2^-1074, in overlapping limbs 32 bits apart. A term goes whole into the one where it begins, which
+  // has room for 2^43 of them; no carries while adding (after Kulisch's long accumulator).
+  DoubleDouble pair_;
   static constexpr std::size_t limbs = 64;
   std::array<int128, limbs> limb_{};
   std::size_t low_ = limbs, high_ = 0;  // limbs outside [low_, high_) are 0

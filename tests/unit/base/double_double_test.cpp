@@ -1,4 +1,4 @@
-#include "rolling/double_double.h"
+#include "base/double_double.h"
 
 #include <algorithm>
 #include <cmath>
