@@ -41,16 +41,16 @@ bool Dialect::choose(std::string_view line) {
   separator_ = tab ? '\t' : semicolon ? ';' : comma ? ',' : '\0';
   foreign_numbers_ = tab || semicolon;
   decimal_mark_ = '\0';
-  wanted_.clear();
-  split(line);
+  wanted_.assign(fields_.size(), false);
+  auto fields = split(line);
   const auto numeric = [](const Field& field) { return is_number(field.text); };
-  if (tab && std::any_of(fields_.begin(), fields_.end(), [](const Field& field) { return field.text.find(' ') != npos; })) {
+  if (tab && std::any_of(fields.begin(), fields.end(), [](const Field& field) { return field.text.find(' ') != npos; })) {
     separator_ = '\0';  // a line of numbers in which tabs and blanks both separate is one of blanks
-    split(line);
-    if (!std::all_of(fields_.begin(), fields_.end(), numeric)) separator_ = '\t', split(line);
+    fields = split(line);
+    if (!std::all_of(fields.begin(), fields.end(), numeric)) separator_ = '\t', fields = split(line);
   }
   // A quoted decimal comma among commas makes a record too, which is then refused with the way out.
-  return std::any_of(fields_.begin(), fields_.end(), [](const Field& field) { return is_number(plain_form(field.text)); });
+  return std::any_of(fields.begin(), fields.end(), [](const Field& field) { return is_number(plain_form(field.text)); });
 }
 
 void Dialect::want(std::size_t field) {
@@ -60,37 +60,43 @@ void Dialect::want(std::size_t field) {
 
 // A number is read, or passed over, where it stands, which shows where its field ends: no other search, no second pass.
 
-std::vector<Field>& Dialect::split(std::string_view line) {
-  fields_.clear();
+void Dialect::add_field() {
+  fields_.emplace_back();
+  wanted_.resize(std::max(wanted_.size(), fields_.size()));
+}
+
+std::span<const Field> Dialect::split(std::string_view line) {
+  count_ = 0;
   if (!made_.empty()) made_.clear();
   as_it_stands_ = separator_ == '\t';
   const char *at = line.data(), *const end = at + line.size();
   if (separator_ == '\0') {
     split_blanks(at, end);
-    return fields_;
+    return {fields_.data(), count_};
   }
   const bool foreign = foreign_numbers_ && decimal_mark_ != '.';
-  for (std::size_t i = 0;; ++i, ++at) {
-    Field& field = fields_.emplace_back();
+  for (;; ++at) {
+    Field& field = next_field();
+    const bool wanted = wanted_[count_ - 1];
     const char* const first = at;
-    if (!foreign) at = wanted(i) ? read_number(at, end, field.number) : skip_plain(at, end);
+    if (!foreign) at = wanted ? read_number(at, end, field.number) : skip_plain(at, end);
     if (at != first && (at == end || *at == separator_)) {
       field.text = {first, at};
     } else {
       at = take_text(first, end, field);
-      if (wanted(i) && !parse_number(field.text, field.number)) field.number = Field().number;
+      if (wanted && !parse_number(field.text, field.number)) field.number = Field().number;
     }
-    if (at == end) return fields_;
+    if (at == end) return {fields_.data(), count_};
   }
 }
 
 void Dialect::split_blanks(const char* at, const char* end) {
-  for (std::size_t i = 0;; ++i) {
+  for (;;) {
     while (at != end && is_blank(*at)) ++at;
     if (at == end) return;
-    Field& field = fields_.emplace_back();
+    Field& field = next_field();
     const char* const first = at;
-    if (wanted(i)) at = read_number(at, end, field.number);
+    if (wanted_[count_ - 1]) at = read_number(at, end, field.number);
     if (at != end && !is_blank(*at)) {
       field.number = Field().number;
       while (at != end && !is_blank(*at)) ++at;
@@ -144,7 +150,7 @@ std::string_view Dialect::rewritten(std::string_view field) {
     const char mark = comma ? ',' : '.';
     if (decimal_mark_ == '\0') decimal_mark_ = mark;
     if (decimal_mark_ != mark)
-      fail("field {}: '{}' has another decimal mark than the numbers before it", fields_.size(), shown(field));
+      fail("field {}: '{}' has another decimal mark than the numbers before it", count_, shown(field));
   }
   if (text == field) return field;
   as_it_stands_ = false;

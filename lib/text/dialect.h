@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,14 +25,20 @@ class Dialect {
 
   /// The fields of a line, valid until the next call or the line's end. In files delimited by ; or tab, where they leave no
   /// doubt, a decimal comma becomes a point and U+2212 a minus. Throws Error where two decimal marks meet.
-  std::vector<Field>& split(std::string_view line);
+  std::span<const Field> split(std::string_view line);
 
   /// The last line was its fields with a tab between them.
   bool as_it_stands() const { return as_it_stands_; }
   char separator() const { return separator_; }  ///< '\0' for blanks
 
  private:
-  bool wanted(std::size_t field) const { return field < wanted_.size() && wanted_[field]; }
+  Field& next_field() {
+    if (count_ == fields_.size()) add_field();
+    Field& field = fields_[count_++];
+    field.number = Field().number;
+    return field;
+  }
+  void add_field();
   void split_blanks(const char* at, const char* end);
   const char* take_text(const char* at, const char* end, Field&);
   std::string_view take_quoted(const char*& at, const char* end);
@@ -41,8 +48,9 @@ class Dialect {
   bool foreign_numbers_ = false;  // numbers may have decimal commas and U+2212
   char decimal_mark_ = '\0';      // the one seen
   bool as_it_stands_ = false;
-  std::vector<char> wanted_;
-  std::vector<Field> fields_;
+  std::vector<Field> fields_;  // room for those of the longest line
+  std::vector<char> wanted_;   // not shorter
+  std::size_t count_ = 0;      // of the fields of this line
   std::deque<std::string> made_;  // the texts of fields that do not stand in the line
 };
 

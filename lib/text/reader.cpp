@@ -142,7 +142,7 @@ std::vector<std::string> Reader::commented_names(std::string_view comment, std::
 /// The line is a record all of whose readings are missing: nobody names columns NaN; and blanks, under names already given, are
 /// no names.
 bool Reader::is_missing_record(const std::vector<std::string>& comments, const std::vector<std::string>& preamble) {
-  const auto& fields = dialect_.split(line_);
+  const auto fields = dialect_.split(line_);
   if (!std::all_of(fields.begin(), fields.end(), [](const Field& field) { return is_missing(field.text); })) return false;
   if (!std::all_of(fields.begin(), fields.end(), [](const Field& field) { return field.text.empty(); })) return true;
   const std::size_t width = fields.size();
@@ -327,7 +327,7 @@ bool Reader::names_again() {
 
 /// A run beside longer ones ends in blanks; columns that the runs share do not count.
 bool Reader::has_own_reading() {
-  const auto& fields = split_line();
+  const auto fields = split_line();
   const auto& own = layout_.runs[side_].fields;
   return std::any_of(own.begin(), own.end(), [&](std::size_t i) {
     return !layout_.shared[i] && i < fields.size() && !fields[i].text.empty();
@@ -374,7 +374,7 @@ bool Reader::next() {
   }
 }
 
-std::vector<Field>& Reader::split_line() {
+std::span<const Field> Reader::split_line() {
   try {
     return dialect_.split(line_);
   } catch (const Error& error) {
@@ -384,15 +384,15 @@ std::vector<Field>& Reader::split_line() {
 
 /// The fields of the line that make this run's record, and the needed numbers in them; false if one is missing.
 bool Reader::take_record() {
-  std::vector<Field>& line = split_line();
-  if (line.size() == layout_.width + 1 && line.back().text.empty() && named_) line.pop_back();  // a delimiter that ends the line
-  if (layout_.side_by_side && line.size() < layout_.width) line.resize(layout_.width);          // the longer runs have ended
-  if (line.size() != layout_.width)
-    fail<InputError>("{}: {} field{} where the first record has {}", where(), line.size(), line.size() == 1 ? "" : "s", layout_.width);
-  fields_ = line;
+  fields_ = split_line();
+  if (fields_.size() != layout_.width) {
+    if (fields_.size() == layout_.width + 1 && fields_.back().text.empty() && named_) fields_ = fields_.first(layout_.width);  // a delimiter that ends the line
+    else if (!layout_.side_by_side || fields_.size() > layout_.width)  // beside it longer runs may have ended
+      fail<InputError>("{}: {} field{} where the first record has {}", where(), fields_.size(), fields_.size() == 1 ? "" : "s", layout_.width);
+  }
   if (layout_.side_by_side) {
     own_fields_.clear();
-    for (const std::size_t i : layout_.runs[side_].fields) own_fields_.push_back(line[i]);
+    for (const std::size_t i : layout_.runs[side_].fields) own_fields_.push_back(i < fields_.size() ? fields_[i] : Field());
     fields_ = own_fields_;
   }
 

@@ -97,7 +97,7 @@ class Reader {
   Event advance();
   bool names_again();
   bool has_own_reading();
-  std::vector<Field>& split_line();
+  std::span<const Field> split_line();
   bool take_record();
   [[noreturn]] void reject(std::size_t column, std::string_view why) const;
   std::string way_out(std::string_view field) const;
