@@ -216,6 +216,7 @@ work-precision-signal: build/bench/signal
 # How fast the tools are beside peers and bare loops: some minutes.
 bench: all build/bench/speed
 	@PATH="$(CURDIR)/bin:$$PATH" tests/bench/speed.sh
+	@PATH="$(CURDIR)/bin:$$PATH" tests/bench/profile.sh
 
 # Static analysis; what it checks is in .clang-tidy.
 lint:
