@@ -167,10 +167,12 @@ deb: all
 	cmd/install/deb.sh build/deb "$(PROGRAM_PREFIX)"
 
 # Lines and branches of lib/ that the tests reach; less than every line is an error.
+covered := -O0 -g --coverage -fprofile-update=atomic
 coverage-lines:
 	@$(call copy,build/covered)
 	find build/covered -name '*.gcda' -delete
-	$(MAKE) -C build/covered check CXXFLAGS="-O0 -g --coverage -fprofile-update=atomic"
+	$(MAKE) -C build/covered build/tests/gcov_exit.o CXXFLAGS="$(covered)"
+	$(MAKE) -C build/covered check CXXFLAGS="$(covered)" LDFLAGS=build/tests/gcov_exit.o
 	gcovr --root build/covered --filter build/covered/lib/ --exclude-throw-branches --exclude-unreachable-branches \
 	  --print-summary -o build/covered/lines.txt --fail-under-line 100 build/covered/build || { cat build/covered/lines.txt; exit 1; }
 

@@ -160,12 +160,7 @@ void Tool::read_scene() {
   if (scene_file_.empty()) return;
   std::ifstream file(scene_file_);
   if (!file) fail("{}: {}", scene_file_, std::strerror(errno));
-  std::vector<CLI::ConfigItem> items;
-  try {
-    items = CLI::ConfigTOML().from_config(file);
-  } catch (const CLI::Error&) {
-    fail("{}: this is not TOML", scene_file_);
-  }
+  const std::vector<CLI::ConfigItem> items = CLI::ConfigTOML().from_config(file);
   if (file.bad()) fail("{}: {}", scene_file_, std::strerror(errno));
   std::vector<std::string> seen;
   for (const CLI::ConfigItem& item : items) {

@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <fmt/ranges.h>
 
 #include <cstdint>
 #include <functional>
@@ -104,14 +105,11 @@ class Tool {
 
 template <typename T>
 void Tool::choice(const std::string& names, T& value, const std::map<std::string, T>& choices, const std::string& help) {
-  const auto all = [&choices](const char* between) {
-    std::string text;
-    for (const auto& [name, _] : choices) text += (text.empty() ? "" : between) + name;
-    return text;
-  };
-  add(names, '{' + all(",") + '}', help, [&value, choices, names, all = all(", ")](const std::string& text) {
+  std::vector<std::string> all;
+  for (const auto& choice : choices) all.push_back(choice.first);
+  add(names, fmt::format("{{{}}}", fmt::join(all, ",")), help, [&value, choices, names, all](const std::string& text) {
     const auto found = choices.find(text);
-    if (found == choices.end()) fail("{}: '{}' is not one of {}", names, shown(text), all);
+    if (found == choices.end()) fail("{}: '{}' is not one of {}", names, shown(text), fmt::join(all, ", "));
     value = found->second;
   });
 }

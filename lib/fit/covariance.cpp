@@ -28,11 +28,6 @@ void BandMatrix::append(std::size_t first, std::span<const double> values) {
 
 void BandMatrix::append(std::size_t i, double x, const BandMatrix& X, double y, const BandMatrix& Y) {
   const auto a = X.row(i), b = Y.row(i);
-  if (a.empty() || b.empty()) {
-    std::vector<double> only(a.empty() ? b.begin() : a.begin(), a.empty() ? b.end() : a.end());
-    for (double& value : only) value *= a.empty() ? y : x;
-    return append(a.empty() ? Y.first(i) : X.first(i), only);
-  }
   const std::size_t from = std::min(X.first(i), Y.first(i));
   std::vector<double> sum(std::max(X.first(i) + a.size(), Y.first(i) + b.size()) - from, 0);
   for (std::size_t j = 0; j < a.size(); ++j) sum[X.first(i) - from + j] += x * a[j];

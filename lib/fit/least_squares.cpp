@@ -177,9 +177,7 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
   const auto converged = [&] { return determined() && (step.size < 1e-7 || offset() < 1e-3); };
   for (int round = 0; !converged() && (round == 0 || determined()); ++round) {
     const double before = best.rss;
-    Minimum again = polish(system, descend(system, best.theta), 0, step);
-    if (again.rss <= best.rss) best = std::move(again);
-    else step = gauss_newton(system, best);
+    best = polish(system, descend(system, best.theta), 0, step);
     // The minimum of a trajectory fit may lie on a kink, where the stop meets a record: hardly a step goes down, but the slope of
     // either side remains. It is worth a fraction of a standard deviation, never more.
     if (best.rss > before * (1 - std::max(1e-8, 1e-3 / freedom)) && offset() < 1) break;

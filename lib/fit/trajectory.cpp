@@ -38,7 +38,7 @@ struct Parameters {
   }
 
   /// Into a row of count() numbers the derivatives by theta of what has these by a, b, and by v0 and x0 of run r.
-  void chain(double* row, double a, std::size_t r, double by_a, double by_b, double by_v0 = 0, double by_x0 = 0) const {
+  void chain(double* row, double a, std::size_t r, double by_a, double by_b, double by_v0 = 0, double by_x0 = 0) const noexcept {
     std::fill_n(row, count(), 0.0);
     if (!options.a) row[0] = a * by_a;
     if (!options.b) row[of_law() - 1] = by_b - (options.a ? 0 : log_v_ref * a * by_a);

@@ -51,6 +51,16 @@ TEST_CASE("coast_down: on every route the law that made the record is not beaten
     }
 }
 
+TEST_CASE("coast_down: a law that the records cannot determine is not among those that win", "[fit]") {
+  FitRun run{};
+  run.body = unit;
+  simulated::Noise noise(3);
+  for (int i = 0; i < 20; ++i) run.v.push_back(i % 2 ? 1 : 2), run.D.push_back(run.v.back() + noise(0.01));
+  const auto scores = compare_laws(Route::shift, {run}, {});  // two speeds: a line through them, and no parabola
+  CHECK(std::isfinite(scores[linear].aicc));
+  CHECK(scores[quadratic].aicc == std::numeric_limits<double>::infinity());
+}
+
 TEST_CASE("coast_down: what is held stays held, and a robust comparison is refused", "[fit]") {
   FitRun run = roll(linear, Route::velocity, 1e-3);
   FitOptions options;

@@ -43,6 +43,15 @@ TEST_CASE("covariance: noise from two raw columns is refused", "[fit]") {
   CHECK_THROWS_AS(noise_response({simulated::smooth_v(3), simulated::differentiate("x", "w")}, times(9)), Error);
 }
 
+TEST_CASE("covariance: a sum of rows, of which one or both may be all 0", "[fit]") {
+  const std::vector<double> values{0, 2, 3}, none(3, 0);
+  BandMatrix X, Y, sum;
+  for (const auto* row : {&values, &none, &values, &none}) X.append(1, *row);
+  for (const auto* row : {&values, &values, &none, &none}) Y.append(0, *row);
+  for (std::size_t i = 0; i < 4; ++i) sum.append(i, 5, X, 7, Y);
+  CHECK(dense(sum, 4) == std::vector<double>{0, 14, 31, 15, 0, 14, 21, 0, 0, 0, 10, 15, 0, 0, 0, 0});
+}
+
 TEST_CASE("covariance: whitening turns E into an orthogonal matrix, and drops what has no noise", "[fit]") {
   constexpr std::size_t n = 25;
   const auto t = times(n);
