@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <system_error>
 
 namespace rolling {
 namespace {
@@ -26,7 +27,10 @@ void Progress::start(std::string name) {
   if (!::isatty(STDERR_FILENO)) return;
   name_ = std::move(name);
   part_ = std::nan("");
-  thread_ = std::jthread([this](const std::stop_token& stop) { show(stop); });
+  try {
+    thread_ = std::jthread([this](const std::stop_token& stop) { show(stop); });
+  } catch (const std::system_error&) {  // no thread to be had: the work goes on without
+  }
 }
 
 void Progress::at(std::string_view what, double part) {

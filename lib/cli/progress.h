@@ -13,7 +13,7 @@ namespace rolling {
 /// A thread writes it, so that the work need not look at the clock.
 class Progress {
  public:
-  /// The clock begins. Without this, or without a terminal, nothing is ever shown.
+  /// The clock begins. Without this, a terminal, or a thread to be had, nothing is ever shown.
   void start(std::string name);
   /// What is being done, and the part of it that is done, from 0 to 1; NaN if that is not known. Nothing is shown before the first.
   void at(std::string_view what, double part);

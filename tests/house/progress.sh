@@ -18,6 +18,8 @@ said=$(at_terminal "smooth <big | $slow_reader")
 [[ $said == *"smooth: standard input "* ]] || { echo "smooth of its standard input says '$said'" && wrong=1; }
 silent 'with -q' at_terminal "smooth -q big | $slow_reader"
 silent 'quick' at_terminal 'smooth big >out'
+grep -q __asan_init "$(command -v smooth)" ||  # which needs more memory
+  silent 'without memory for a thread' at_terminal '(ulimit -s 200000 && ulimit -v 100000; smooth big >out) || echo "exit $?"'
 into_file() { smooth big 2>err | { sleep 3; cat >/dev/null; }; cat err; }
 silent 'into a file' into_file
 
