@@ -62,6 +62,22 @@ TEST_CASE("minimise_robust: a mean that outliers do not move, by hand", "[fit]")
   CHECK(std::abs(m.R[0] * m.R[0] - 6) < 1e-12);  // J is not weighted
 }
 
+TEST_CASE("minimise_robust: the pseudo-residuals are orthogonal to J, where the records are not symmetric", "[fit]") {
+  // The estimating equation, sum_i psi(r_i/s) J_i = 0: it names neither the scale nor the weights
+  const std::vector<double> t{0, 1, 2, 3, 4, 5, 6, 7}, y{0, 1.2, 1.9, 3.8, 4.1, 4.2, 6.9, 50};
+  const System line{8, 2, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+    for (std::size_t i = 0; i < 8; ++i) f[i] = x[0] + x[1] * t[i] - y[i], J[2 * i] = 1, J[2 * i + 1] = t[i];
+  }};
+  const auto m = minimise_robust(line, {0, 0});
+  const auto weight = [&](std::size_t i) { return m.f[i] / (m.theta[0] + m.theta[1] * t[i] - y[i]); };
+  double f = 0, tf = 0;
+  for (std::size_t i = 0; i < 8; ++i) f += m.f[i], tf += t[i] * m.f[i];
+  CHECK(std::abs(f) < 1e-8);
+  CHECK(std::abs(tf) < 1e-8);
+  CHECK(weight(7) == 0);
+  CHECK(weight(5) < weight(1));
+}
+
 TEST_CASE("minimise_robust: without outliers a line with its classical errors, nearly", "[fit]") {
   simulated::Noise noise(17);
   constexpr std::size_t n = 4000;
