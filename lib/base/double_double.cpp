@@ -48,7 +48,7 @@ constexpr auto log_table = [] {
   for (std::size_t i = 0; i < log_size; ++i) {
     const std::uint64_t begin = (log_offset & ~((1ull << 45) - 1)) + (i << 45), end = begin + (1ull << 45);
     const double middle = (std::bit_cast<double>(begin) + std::bit_cast<double>(end)) / 2;
-    const double inverse = static_cast<double>(static_cast<int>(512 / middle + 0.5)) / 512;
+    const double inverse = static_cast<double>(static_cast<int>(512 / middle + 0.5)) / 512;  // NOLINT: lround is not constexpr
     table[i] = {inverse, coarse(twice_artanh(DoubleDouble(1 - inverse) / (1 + inverse)))};
   }
   return table;

@@ -70,12 +70,12 @@ Tool::Tool(std::string name, const std::string& purpose) : name_(std::move(name)
   flag("-q,--quiet", quiet_, "neither counts of left-out records nor progress on standard error");
 }
 
-void Tool::add(const std::string& names, const std::string& type, const std::string& help, std::function<void(const std::string&)> set) {
+void Tool::add(const std::string& names, const std::string& type, const std::string& help, const std::function<void(const std::string&)>& set) {
   setters_[long_name(names)] = set;
   app_.add_option_function<std::string>(names, set, help)->type_name(type);
 }
 
-void Tool::add_flag(const std::string& names, const std::string& help, std::function<void(bool)> set) {
+void Tool::add_flag(const std::string& names, const std::string& help, const std::function<void(bool)>& set) {
   setters_[long_name(names)] = [set, names](const std::string& text) {
     if (text != "true" && text != "false") fail("{}: '{}' is neither true nor false", names, shown(text));
     set(text == "true");

@@ -87,8 +87,8 @@ class Tool {
   Progress progress;  ///< of work that takes its time; Readers tell it themselves
 
  private:
-  void add(const std::string& names, const std::string& type, const std::string& help, std::function<void(const std::string&)> set);
-  void add_flag(const std::string& names, const std::string& help, std::function<void(bool)> set);
+  void add(const std::string& names, const std::string& type, const std::string& help, const std::function<void(const std::string&)>& set);
+  void add_flag(const std::string& names, const std::string& help, const std::function<void(bool)>& set);
   Reader& open(ReaderOptions, std::vector<std::string> order);
   void read_scene();
   std::string help() const;

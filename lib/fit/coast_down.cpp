@@ -40,7 +40,8 @@ class CoastDown {
 };
 
 /// Residuals with derivatives by central differences: enough for a sum of squares, which is flat at its minimum.
-System differenced(std::size_t n, std::size_t p, const KnownNoise& noise, std::function<std::vector<double>(const std::vector<double>&)> residuals) {
+System differenced(std::size_t n, std::size_t p, const KnownNoise& noise,
+                   const std::function<std::vector<double>(const std::vector<double>&)>& residuals) {
   return {n, p, [=, &noise](const std::vector<double>& theta, std::vector<double>& f, std::vector<double>& J) {
     f = residuals(theta);
     for (std::size_t j = 0; j < p; ++j) {

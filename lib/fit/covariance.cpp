@@ -275,18 +275,19 @@ std::vector<double> KnownNoise::middle(const std::vector<double>& f, const std::
   std::vector<double> M(p * p, 0);
   std::size_t start = 0;
   for (const auto& run : runs_) {
-    std::vector<double> WQ(own.empty() ? 0 : run.E.rows() * p), AQ(run.sources * p, 0), q(run.E.rows());
+    const std::size_t owned = own.empty() ? 0 : run.E.rows();
+    std::vector<double> WQ(owned * p), AQ(run.sources * p, 0), q(run.E.rows());
     for (std::size_t j = 0; j < p; ++j) {
       for (std::size_t i = 0; i < q.size(); ++i) q[i] = Q[(start + i) * p + j];
       run.whitener.apply_transposed(q.data());
-      for (std::size_t i = 0; i < WQ.size() / p; ++i) WQ[i * p + j] = own[start + i] * q[i];
+      for (std::size_t i = 0; i < owned; ++i) WQ[i * p + j] = own[start + i] * q[i];
       for (std::size_t i = 0; i < q.size(); ++i)
         for (std::size_t k = 0; k < run.E.row(i).size(); ++k) AQ[(run.E.first(i) + k) * p + j] += run.E.row(i)[k] * q[i];
     }
     for (std::size_t s = 0; s < run.sources; ++s)
       for (std::size_t j = 0; j < p; ++j)
         for (std::size_t k = 0; k < p; ++k) M[j * p + k] += sigma2 * AQ[s * p + j] * AQ[s * p + k];
-    for (std::size_t i = 0; i < WQ.size() / p; ++i)
+    for (std::size_t i = 0; i < owned; ++i)
       for (std::size_t j = 0; j < p; ++j)
         for (std::size_t k = 0; k < p; ++k) M[j * p + k] += WQ[i * p + j] * WQ[i * p + k];
     start += q.size();
