@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Breaks the sources in one place at a time and sees whether the tests notice.
 
-    tests/mutate.py [--count N] [--seed S] [--jobs J] [--only PATH] [TREE]
+    tests/mutate.py [--count N] [--seed S] [--jobs J] [--only PATH] [--again OUTPUT] [TREE]
 
-TREE is a checkout to copy (the present one by default). Mutants are drawn at random, evenly over the places in lib/ and cmd/ where one of the
-RULES applies; comments, strings of messages and preprocessor lines are left alone. Each is built in a copy, and the tests run in the order
-unit, tools, faults, pipeline, up to the first that fails. A mutant that does not build is not counted; one that takes too long is killed.
+TREE is a checkout to copy (the present one by default). Mutants are drawn at random, evenly over the places in the .cpp files of lib/ and cmd/
+where one of the RULES applies; comments, strings of messages and preprocessor lines are left alone. With --again they are those that survived
+in the OUTPUT of an earlier run. Each is built in a copy, and the tests run, those nearest to it first, up to the first that fails. A mutant
+that does not build is not counted; one that takes far longer than the tests do without it is killed.
 Ends with `M of N killed` and the survivors; exits with 1 when less than 85 % are.
 """
-import argparse, os, random, re, shutil, signal, subprocess, sys, tempfile
+import argparse, os, random, re, shutil, signal, subprocess, sys, tempfile, time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from queue import Queue
@@ -64,8 +65,9 @@ def places(text):
 
 
 def run(command, where, seconds):
-    """Exit status, or None after too long. The whole group is ended."""
-    process = subprocess.Popen(command, cwd=where, env={**os.environ, "PATH": f"{where}/bin:{os.environ['PATH']}"}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True)
+    """Exit status (None after too long: the whole group is ended) and output. A mutant may take memory without end, so that is limited."""
+    process = subprocess.Popen(["prlimit", f"--as={2 << 30}", *command], cwd=where, env={**os.environ, "PATH": f"{where}/bin:{os.environ['PATH']}"},
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True)
     try:
         output, _ = process.communicate(timeout=seconds)
         return process.returncode, output
@@ -75,14 +77,24 @@ def run(command, where, seconds):
         return None, ""
 
 
-def tests(tree):
-    """The stages, the quickest to find something first."""
-    scripts = lambda *names: [str(p) for name in names for p in sorted((tree / "tests").glob(name))]
-    return [
-        ["build/unit", "--abort"],
-        ["tests/run.sh", "tests/tools"],
-        ["tests/run.sh", *scripts("house/man-examples.sh", "house/readme.sh", "faults/fields.sh", "faults/options.sh", "faults/output.sh", "faults/surroundings.sh", "faults/numbers.sh")],
-        ["tests/run.sh", *scripts("faults/memory.sh", "pipeline/*.sh")],
+def make(goals, where):
+    """As `run`. What has been built before may have been of another kind."""
+    return run(["make", "MAKEFLAGS=", "CXXFLAGS=-O1", *goals.split()], where, 900)
+
+
+def stages(tree, path):
+    """(goals of make, command) of the tests that can notice a mutant of path: its own first, the long ones last."""
+    room = path.parts[1]
+    if path.parts[0] == "cmd":
+        near = [("all", ["tests/run.sh", f"tests/tools/{path.stem}"])]
+    else:
+        near = [("build/unit", ["build/unit", "--abort", *([] if room == "base" else [f"[{room}]"])])] + [("build/unit", ["build/unit", "--abort"])]
+    scripts = lambda room, names="*": [str(p.relative_to(tree)) for name in names.split() for p in sorted((tree / "tests" / room).glob(f"{name}.sh"))]
+    replay = " ".join(f"build/replay/{p.name}" for p in sorted((tree / "tests/fuzz/corpus").iterdir()))
+    return near + [
+        ("all build/shim.so", ["tests/run.sh", "tests/tools", *scripts("house", "man-examples readme help-matches-man completion negative-control")]),
+        ("all", ["tests/run.sh", *scripts("pipeline")]),
+        (f"all build/shim.so {replay}", ["tests/run.sh", *scripts("faults"), *scripts("house", "progress")]),
     ]
 
 
@@ -92,42 +104,50 @@ def main():
     options.add_argument("--seed", type=int, default=1)
     options.add_argument("--jobs", type=int, default=os.cpu_count())
     options.add_argument("--only", default="")
+    options.add_argument("--again", type=Path)
     options.add_argument("tree", nargs="?", default=str(Path(__file__).resolve().parent.parent))
     options = options.parse_args()
     tree = Path(options.tree)
     sources = sorted(p for room in ("lib", "cmd") for p in (tree / room).rglob("*.cpp") if options.only in str(p))
     mutants = [(p.relative_to(tree), *place) for p in sources for place in places(p.read_text())]
     print(f"{len(mutants)} places in {len(sources)} files", flush=True)
-    chosen = random.Random(options.seed).sample(mutants, min(options.count, len(mutants)))
+
+    def describe(mutant):
+        path, start, end, replacement = mutant
+        original = (tree / path).read_text()
+        first, last = original.rfind("\n", 0, start) + 1, original.find("\n", end)
+        return f"{path}:{original.count(chr(10), 0, start) + 1}: {original[first:last].strip()} => {(original[first:start] + replacement + original[end:last]).strip()}"
+
+    if options.again:
+        without_line = lambda what: re.sub(r":\d+:", ":", what, count=1)
+        survived = {without_line(what) for what in re.findall(r"^SURVIVED: (.*)$", options.again.read_text(), re.M)}
+        chosen = [m for m in mutants if without_line(describe(m)) in survived]
+    else:
+        chosen = random.Random(options.seed).sample(mutants, min(options.count, len(mutants)))
+    chosen = [(m, describe(m)) for m in chosen]
     scratch = Path(tempfile.mkdtemp(prefix="mutate."))
     copies = Queue()
     for i in range(options.jobs):
         shutil.copytree(tree, scratch / str(i), symlinks=True, ignore=shutil.ignore_patterns(".git"), copy_function=shutil.copy2)
         copies.put(scratch / str(i))
-    make = ["make", "MAKEFLAGS=", "CXXFLAGS=-O1", "all", "build/unit", "build/shim.so"]  # the rest of the objects may be of any build
+    usual = {}  # seconds that a command takes without a mutation
 
-    def build(copy):
-        return run(make, copy, 900)
-
-    def judge(mutant):
-        path, start, end, replacement = mutant
+    def judge(one):
+        (path, start, end, replacement), what = one
         copy = copies.get()
         try:
             source, object = copy / path, copy / "build" / path.with_suffix(".o")
             original, times, built = source.read_text(), source.stat(), object.read_bytes()
-            changed = original[:start] + replacement + original[end:]
-            line = original.count("\n", 0, start) + 1
-            what = f"{path}:{line}: {original.splitlines()[line - 1].strip()} => {changed.splitlines()[line - 1].strip()}"
-            source.write_text(changed)
-            status, _ = build(copy)
-            verdict = "does not build"
-            if status == 0:
-                verdict = "SURVIVED"
-                for stage in tests(copy):
-                    status, _ = run(stage, copy, 300)
-                    if status != 0:
-                        verdict = f"killed by {Path(stage[0]).name} {Path(stage[1]).name}" + (" (too long)" if status is None else "")
-                        break
+            source.write_text(original[:start] + replacement + original[end:])
+            verdict = "SURVIVED"
+            for goals, command in stages(copy, path):
+                if make(goals, copy)[0] != 0:
+                    verdict = "does not build"
+                    break
+                status, _ = run(command, copy, 30 + 5 * usual[tuple(command)])
+                if status != 0:
+                    verdict = f"killed by {' '.join(Path(word).name for word in command[:3])}" + (" (too long)" if status is None else "")
+                    break
             source.write_text(original)
             os.utime(source, ns=(times.st_atime_ns, times.st_mtime_ns))
             object.write_bytes(built)  # newer than its source, and than what is linked from it
@@ -138,13 +158,15 @@ def main():
 
     try:
         for copy in list(copies.queue):
-            status, output = build(copy)
-            if status != 0:
-                sys.exit(f"the sources do not build:\n{output[-2000:]}")
-        for stage in tests(copy):
-            status, output = run(stage, copy, 900)
-            if status != 0:
-                sys.exit(f"{stage}: fails without a mutation:\n{output[-2000:]}")
+            for goals, command in {str(stage): stage for mutant, _ in chosen for stage in stages(copy, mutant[0])}.values():
+                status, output = make(goals, copy)
+                if status != 0:
+                    sys.exit(f"the sources do not build:\n{output[-2000:]}")
+                since = time.monotonic()
+                status, output = run(command, copy, 900)
+                if status != 0:
+                    sys.exit(f"{command}: fails without a mutation:\n{output[-2000:]}")
+                usual[tuple(command)] = time.monotonic() - since
         with ThreadPoolExecutor(options.jobs) as pool:
             results = [r for r in pool.map(judge, chosen) if r[0] != "does not build"]
     finally:
