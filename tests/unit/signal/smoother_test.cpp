@@ -47,6 +47,33 @@ TEST_CASE("smoother: the best width has nearly the least error that any width ha
     }
 }
 
+TEST_CASE("smoother: the best width is that of all the lines through the others, where there are few", "[signal]") {
+  const Series t = uneven_times(35);  // half widths from 3 to 8
+  for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u}) {
+    const Series e = noise(35, seed);
+    std::vector<Sample> run;
+    for (std::size_t i = 0; i < t.size(); ++i) run.push_back({t[i], std::sin(2 * t[i]) + 0.1 * e[i]});
+    std::size_t best = 0;
+    long double least = INFINITY;
+    for (std::size_t half = 3; half <= 8; ++half) {
+      long double sum = 0;
+      for (std::size_t i = 3; i + 3 < run.size(); ++i) {
+        const std::size_t k = std::min({half, i, run.size() - 1 - i});
+        long double n = 0, s = 0, ss = 0, y = 0, sy = 0;  // of the regression of y on s, the time from record i
+        for (std::size_t j = i - k; j <= i + k; ++j) {
+          if (std::max(i, j) - std::min(i, j) <= 2) continue;
+          const long double from = static_cast<long double>(run[j].t) - run[i].t;
+          ++n, s += from, ss += from * from, y += run[j].y, sy += from * run[j].y;
+        }
+        const long double off = run[i].y - (ss * y - s * sy) / (n * ss - s * s);
+        sum += off * off;
+      }
+      if (sum < least) least = sum, best = 2 * half + 1;
+    }
+    CHECK(best_width(run, {}) == best);
+  }
+}
+
 TEST_CASE("smoother: the best width is not misled by the noise of central differences", "[signal]") {
   // Their noise is bound at a distance of two; leaving out the one record alone would take it for a signal.
   const Series t = even_times(300), e = noise(302, 5);
