@@ -33,7 +33,7 @@ each_allocation fitpower --route velocity -K 0.5 --scene "$scratch/scene" "$scra
 for method in rkf45 msadams; do  # GSL's implicit ones crash where memory for them runs out, or take too long
   each_allocation simulate --scene "$scratch/scene" -a 1e-3 -b 0.2 --v0 0.5 --dt 0.5 --method $method
 done
-each_allocation simulate --scene "$scratch/scene" -a 1e-3 -b 0.2 --v0 0.5 --sensor pasco
+step=1 each_allocation simulate --scene "$scratch/scene" -a 1e-3 -b 0.2 --v0 0.5 --sensor pasco  # of which GSL makes but two
 each_allocation energy-ledger --scene "$scratch/scene" --summary "$scratch/good"
 each_allocation smooth --help
 each_allocation smooth --version

@@ -105,6 +105,7 @@ TEST_CASE("reader: names in a first line that is not numeric", "[text]") {
   CHECK(records({"# a comment\n\nv t\n\n5 0\n"}) == "0 5");
   CHECK(records({"A preamble of words\nv t\n5 0\n"}) == "0 5");
   CHECK(records({"t v a\n0 5\n"}) == "FILE:2: 2 fields under a line of 3 names");
+  CHECK(records({"t v\n0\n"}) == "FILE:2: 1 field under a line of 2 names");
   CHECK(records({"\"Velocity (m/s)\",\"Time (s)\"\n5,0\n"}) == "0 5");
 }
 
@@ -369,6 +370,7 @@ TEST_CASE("reader: runs side by side come out one under another, the padding of 
   CHECK(records({wide}) == "0 1 | 1 2 | 2 3 || 0 5");
   CHECK(records({wide}, run(4)) == "0 5");
   CHECK(records({wide}, run(2)) == "0 1 | 1 2 | 2 3");
+  CHECK(records({wide, "Time (s),Velocity (m/s)\n0,7\n", wide}) == "0 1 | 1 2 | 2 3 || 0 5 || 0 7 || 0 1 | 1 2 | 2 3 || 0 5");
   CHECK(records({wide}, strict) == "FILE:3: field 4 (v): a reading is missing");
   CHECK(records({wide}, use({"t=3", "v=4"})) == "0 5");
   CHECK(records({"Time (s),v Run 1,v Run 2\n0,1,5\n1,2,\n"}) == "0 1 | 1 2 || 0 5");
