@@ -88,7 +88,7 @@ def stages(tree, path):
     if path.parts[0] == "cmd":
         near = [("all", ["tests/run.sh", f"tests/tools/{path.stem}"])]
     else:
-        near = [("build/unit", ["build/unit", "--abort", *([] if room == "base" else [f"[{room}]"])])] + [("build/unit", ["build/unit", "--abort"])]
+        near = [("build/unit", ["build/unit", "--abort", f"[{room}]"]), ("build/unit", ["build/unit", "--abort"])]
     scripts = lambda room, names="*": [str(p.relative_to(tree)) for name in names.split() for p in sorted((tree / "tests" / room).glob(f"{name}.sh"))]
     replay = " ".join(f"build/replay/{p.name}" for p in sorted((tree / "tests/fuzz/corpus").iterdir()))
     return near + [

@@ -37,7 +37,7 @@ DoubleDouble any(Uniform&& between) {
 
 }  // namespace
 
-TEST_CASE("DoubleDouble: sums and products of doubles are exact", "[rolling]") {
+TEST_CASE("DoubleDouble: sums and products of doubles are exact", "[base]") {
   CHECK(worst(2000, [](auto between) {
           const double a = any(between).hi, b = any(between).hi;
           return Compared{real(two_sum(a, b)), Real(a) + b, 1};
@@ -48,7 +48,7 @@ TEST_CASE("DoubleDouble: sums and products of doubles are exact", "[rolling]") {
         }) == 0);
 }
 
-TEST_CASE("DoubleDouble: arithmetic to about 2^-104", "[rolling]") {
+TEST_CASE("DoubleDouble: arithmetic to about 2^-104", "[base]") {
   const auto sample = [](auto operation) {
     return [operation](auto between) {
       const DoubleDouble a = any(between), b = any(between);
@@ -62,7 +62,7 @@ TEST_CASE("DoubleDouble: arithmetic to about 2^-104", "[rolling]") {
   CHECK(worst(2000, sample([](auto a, auto b) { return decltype(a)(a / b); })) < 0x1p-100);
 }
 
-TEST_CASE("DoubleDouble: constant factors, as if they were none", "[rolling]") {
+TEST_CASE("DoubleDouble: constant factors, as if they were none", "[base]") {
   CHECK(worst(2000, [](auto between) {
           const DoubleDouble f = any(between);
           const double x = any(between).hi;
@@ -78,7 +78,7 @@ TEST_CASE("DoubleDouble: constant factors, as if they were none", "[rolling]") {
         }) < 0x1p-68);
 }
 
-TEST_CASE("DoubleDouble: the functions keep the errors that they state", "[rolling]") {
+TEST_CASE("DoubleDouble: the functions keep the errors that they state", "[base]") {
   CHECK(worst(100, [](auto between) {
           const DoubleDouble x(std::pow(10, between(-9, 9)), 0);
           const Real exact = log(real(x));
