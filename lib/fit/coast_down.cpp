@@ -39,26 +39,36 @@ class CoastDown {
   double stop_ = std::numeric_limits<double>::infinity();
 };
 
-/// Residuals with derivatives by central differences: enough for a sum of squares, which is flat at its minimum.
-System differenced(std::size_t n, std::size_t p, const KnownNoise& noise,
+/// Residuals with derivatives by central differences: enough for a sum of squares, which is flat at its minimum. Those by the own
+/// parameters of all runs are taken at once.
+System differenced(const std::vector<std::size_t>& runs, std::size_t own, std::size_t shared, const KnownNoise& noise,
                    const std::function<std::vector<double>(const std::vector<double>&)>& residuals) {
-  return {n, p, [=, &noise](const std::vector<double>& theta, std::vector<double>& f, std::vector<double>& J) {
-    f = residuals(theta);
-    for (std::size_t j = 0; j < p; ++j) {
-      const double step = 1e-6 * std::max(1.0, std::abs(theta[j]));
+  const System shape{runs, own, shared, {}};
+  return {runs, own, shared, [=, &noise](const std::vector<double>& theta, const TakeRows& take) {
+    const auto step = [&](std::size_t run, std::size_t column) { return 1e-6 * std::max(1.0, std::abs(theta[shape.place(run, column)])); };
+    const auto f = residuals(theta);
+    std::vector<std::vector<double>> low, high;
+    for (std::size_t j = 0; j < shape.columns(); ++j) {
       auto before = theta, after = theta;
-      before[j] -= step;
-      after[j] += step;
-      const auto low = residuals(before), high = residuals(after);
-      for (std::size_t i = 0; i < n; ++i) J[i * p + j] = (high[i] - low[i]) / (2 * step);
+      for (std::size_t r = 0; r < (j < own ? runs.size() : 1); ++r) {
+        before[shape.place(r, j)] -= step(r, j);
+        after[shape.place(r, j)] += step(r, j);
+      }
+      low.push_back(residuals(before));
+      high.push_back(residuals(after));
     }
-    noise.weight(f, J);
+    hand_over_rows(runs, shape.columns(), !noise.empty(), noise, take, [&](std::size_t r, std::size_t first, std::vector<double>& part, std::vector<double>& J) {
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        part[i] = f[first + i];
+        for (std::size_t j = 0; j < shape.columns(); ++j) J[j * part.size() + i] = (high[j][first + i] - low[j][first + i]) / (2 * step(r, j));
+      }
+    });
   }};
 }
 
-double polynomial(const std::vector<double>& c, std::size_t terms, double u) {
+double polynomial(std::span<const double> c, double u) {
   double sum = 0;
-  for (std::size_t j = terms; j-- > 0;) sum = sum * u + c[j];
+  for (std::size_t j = c.size(); j-- > 0;) sum = sum * u + c[j];
   return sum;
 }
 
@@ -67,35 +77,35 @@ double polynomial(const std::vector<double>& c, std::size_t terms, double u) {
 Minimum fit_polynomial(Route route, const RouteFit& power, const FitOptions& options, std::size_t terms, std::vector<double> simpler) {
   const double a = power.a.value, b = power.b.value;
   double v_ref = 0;
-  for (double v : power.v) v_ref = std::max(v_ref, v);
+  for (double log_u : power.log_u) v_ref = std::max(v_ref, std::exp(log_u + power.log_v_ref));
   for (const auto& q : power.v0) v_ref = std::max(v_ref, std::abs(q.value));
   const double D_ref = a * std::pow(v_ref, b);
 
   // Without one: the polynomial that is closest to the power law over the speeds.
   const std::size_t points = 20;
   const KnownNoise none;
-  std::vector<double> theta = minimise(differenced(points, terms, none, [&](const std::vector<double>& c) {
+  std::vector<double> theta = minimise(differenced({points}, 0, terms, none, [&](const std::vector<double>& c) {
     std::vector<double> f;
     for (std::size_t i = 1; i <= points; ++i) {
       const double u = static_cast<double>(i) / points;
-      f.push_back(polynomial(c, terms, u) - std::pow(u, b));
+      f.push_back(polynomial(c, u) - std::pow(u, b));
     }
     return f;
   }), std::vector<double>(terms, 1)).theta;
 
   if (!simpler.empty()) {
     theta = std::move(simpler);
-    theta.insert(theta.begin() + static_cast<std::ptrdiff_t>(terms) - 1, 0);
+    theta.push_back(0);
   }
 
-  const std::size_t n = power.residuals.size();
+  const auto& residuals = power.plain.empty() ? power.minimum.f : power.plain;
   if (power.rolls.empty())  // what smoothing does to the law is taken as it is under the power law
-    return minimise(differenced(n, terms, power.noise, [&](const std::vector<double>& c) {
+    return minimise(differenced(power.runs, 0, terms, power.noise, [&](const std::vector<double>& c) {
       std::vector<double> f;
-      for (std::size_t i = 0; i < n; ++i) {
-        const double law = a * std::pow(power.v[i], b), D = D_ref * polynomial(c, terms, power.v[i] / v_ref);
+      for (std::size_t i = 0; i < residuals.size(); ++i) {
+        const double v = std::exp(power.log_u[i] + power.log_v_ref), law = a * std::pow(v, b), D = D_ref * polynomial(c, v / v_ref);
         if (route == Route::loglog && !(D > 0)) fail("no logarithm");
-        f.push_back((route == Route::loglog ? std::log(D / law) : D - law) + power.residuals[i]);
+        f.push_back((route == Route::loglog ? std::log(D / law) : D - law) + residuals[i]);
       }
       return f;
     }), theta);
@@ -103,21 +113,26 @@ Minimum fit_polynomial(Route route, const RouteFit& power, const FitOptions& opt
   const bool position = route == Route::position, free_x0 = position && !options.x0;
   double x_ref = 1;
   for (const auto& roll : power.rolls) x_ref = std::max(x_ref, std::abs(roll.y.back() - roll.y.front()));
-  const bool alone = theta.size() == terms;
-  for (std::size_t r = 0; alone && r < power.rolls.size(); ++r) {
-    if (!options.v0) theta.push_back(std::abs(power.v0[r].value) / v_ref);
-    if (free_x0) theta.push_back(power.x0[r].value / x_ref);
+  const std::size_t own = !options.v0 + free_x0, runs = power.rolls.size();
+  if (theta.size() == terms) {
+    std::vector<double> of_runs;
+    for (std::size_t r = 0; r < runs; ++r) {
+      if (!options.v0) of_runs.push_back(std::abs(power.v0[r].value) / v_ref);
+      if (free_x0) of_runs.push_back(power.x0[r].value / x_ref);
+    }
+    theta.insert(theta.begin(), of_runs.begin(), of_runs.end());
   }
-  return minimise(differenced(n, theta.size(), power.noise, [&](const std::vector<double>& c) {
+  return minimise(differenced(power.runs, own, terms, power.noise, [&](const std::vector<double>& c) {
     std::vector<double> f;
-    std::size_t next = terms;
+    const auto law = std::span(c).last(terms);
+    std::size_t next = 0;
     for (const auto& roll : power.rolls) {
       const double v0 = options.v0 ? std::abs(*options.v0) : c[next++] * v_ref, x0 = free_x0 ? c[next++] * x_ref : options.x0.value_or(0);
       const double unit = roll.body.g / ((roll.body.K + 1) * roll.body.R) * D_ref;
-      const CoastDown coast(unit * c[0], terms > 1 ? unit * c[1] / v_ref / 2 : 0, terms > 2 ? unit * c[2] / (v_ref * v_ref) : 0, v0);
+      const CoastDown coast(unit * law[0], terms > 1 ? unit * law[1] / v_ref / 2 : 0, terms > 2 ? unit * law[2] / (v_ref * v_ref) : 0, v0);
       std::vector<double> raw;
       double last = 0, x = 0;
-      for (double t : roll.model_t) {
+      for (double t : roll.filters.rows() ? roll.raw_t : roll.t) {
         x += coast.way(last, t);
         last = t;
         raw.push_back(roll.raw_is_position ? x0 + roll.way * x : roll.way * coast.v(t));
@@ -139,7 +154,7 @@ std::vector<LawScore> compare_laws(Route route, const std::vector<FitRun>& runs,
     } catch (const Error&) {  // it has no minimum on these records
       minima.emplace_back().rss = std::numeric_limits<double>::infinity();
     }
-  const double n = static_cast<double>(power.residuals.size());
+  const double n = static_cast<double>(power.minimum.f.size());
   double correlation = 1;
   for (const auto& m : minima)
     if (m.rss > 0 && std::isfinite(m.rss)) correlation = std::min(correlation, lagged(m.f, power.runs, 1) / m.rss);

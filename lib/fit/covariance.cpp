@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "fit/dot.h"
+#include "fit/least_squares.h"
 
 #include <gsl/gsl_cdf.h>
 
@@ -159,7 +160,7 @@ Whitener::Whitener(const BandMatrix& E, double floor) : n_(E.rows()), band_(1) {
         std::fill_n(&row[k], band_, 0.0);
         return;
       }
-      const double length = std::hypot(R[0], row[k]), c = R[0] / length, s = row[k] / length;
+      const double inverse = 1 / std::sqrt(R[0] * R[0] + row[k] * row[k]), c = R[0] * inverse, s = row[k] * inverse;
       for (std::size_t j = 0; j < band_; ++j) {
         const double r = R[j], x = row[k + j];
         R[j] = c * r + s * x;
@@ -185,10 +186,10 @@ Whitener::Whitener(const BandMatrix& E, double floor) : n_(E.rows()), band_(1) {
   // A pivot of rounding size: this residual is a sum of those before it and has no noise of its own. The rest of its row
   // belongs to the rows below.
   for (std::size_t k = 0; k < n_; ++k) {
-    double column = 0;
-    for (std::size_t i = k >= band_ ? k - band_ + 1 : 0; i <= k; ++i) column = std::hypot(column, R_[i * band_ + k - i]);
+    double squares = 0;  // of its column
+    for (std::size_t i = k >= band_ ? k - band_ + 1 : 0; i <= k; ++i) squares += R_[i * band_ + k - i] * R_[i * band_ + k - i];
     double* const R = &R_[k * band_];
-    if (std::abs(R[0]) > 1e-12 * column) continue;
+    if (std::abs(R[0]) > 1e-12 * std::sqrt(squares)) continue;
     std::copy_n(R, band_, &row[k]);
     std::fill_n(R, band_, 0.0);
     row[k] = 0;
@@ -197,13 +198,12 @@ Whitener::Whitener(const BandMatrix& E, double floor) : n_(E.rows()), band_(1) {
   }
 }
 
-void Whitener::apply(double* x, std::size_t stride) const {
+void Whitener::apply(double* x) const {
   for (std::size_t k = 0; k < n_; ++k) {
     const double* const R = &R_[k * band_];
-    double& z = x[k * stride];
-    z = R[0] == 0 ? 0 : z / R[0];
+    const double z = x[k] = R[0] == 0 ? 0 : x[k] / R[0];
     const std::size_t end = std::min(band_, n_ - k);
-    for (std::size_t j = 1; j < end; ++j) x[(k + j) * stride] -= R[j] * z;
+    for (std::size_t j = 1; j < end; ++j) x[k + j] -= R[j] * z;
   }
 }
 
@@ -257,26 +257,21 @@ std::vector<double> KnownNoise::sizes() const {
   return all;
 }
 
-void KnownNoise::weight(std::vector<double>& f, std::vector<double>& J) const {
-  const std::size_t p = J.size() / std::max<std::size_t>(f.size(), 1);
-  std::size_t start = 0;
-  for (const auto& run : runs_) {
-    if (run.E.rows() == 0) continue;
-    run.whitener.apply(&f[start], 1);
-    for (std::size_t j = 0; j < p; ++j) run.whitener.apply(&J[start * p + j], p);
-    start += run.E.rows();
-  }
+void KnownNoise::weight(std::size_t run, std::span<double> f, std::span<double> J) const {
+  if (f.empty()) return;
+  runs_[run].whitener.apply(f.data());
+  for (std::size_t at = 0; at < J.size(); at += f.size()) runs_[run].whitener.apply(&J[at]);
 }
 
-std::vector<double> KnownNoise::middle(const std::vector<double>& f, const std::vector<double>& Q) const {
-  const std::size_t n = f.size(), p = Q.size() / n;
+std::vector<double> KnownNoise::middle(const std::vector<double>& f, const std::vector<double>& Q, std::size_t shared) const {
+  const std::size_t p = Q.size() / f.size();
   // theta - truth = -R^-1 Q^T A e with A = W E, e the white noise of the sources: M = sigma^2 (A^T Q)^T (A^T Q).
-  const double sigma2 = variance(f, Q);
-  std::vector<double> M(p * p, 0);
+  const double sigma2 = variance(f, Q, shared);
+  std::vector<double> all;
   std::size_t start = 0;
   for (const auto& run : runs_) {
     const std::size_t owned = own.empty() ? 0 : run.E.rows();
-    std::vector<double> WQ(owned * p), AQ(run.sources * p, 0), q(run.E.rows());
+    std::vector<double> WQ(owned * p), AQ(run.sources * p, 0), q(run.E.rows()), M(p * p, 0);
     for (std::size_t j = 0; j < p; ++j) {
       for (std::size_t i = 0; i < q.size(); ++i) q[i] = Q[(start + i) * p + j];
       run.whitener.apply_transposed(q.data());
@@ -290,33 +285,39 @@ std::vector<double> KnownNoise::middle(const std::vector<double>& f, const std::
     for (std::size_t i = 0; i < owned; ++i)
       for (std::size_t j = 0; j < p; ++j)
         for (std::size_t k = 0; k < p; ++k) M[j * p + k] += WQ[i * p + j] * WQ[i * p + k];
+    all.insert(all.end(), M.begin(), M.end());
     start += q.size();
   }
-  return M;
+  add_shared(all, p, shared);
+  return all;
 }
 
-double KnownNoise::variance(const std::vector<double>& f, const std::vector<double>& Q) const {
+double KnownNoise::variance(const std::vector<double>& f, const std::vector<double>& Q, std::size_t shared) const {
   const std::size_t n = f.size(), p = Q.size() / n;
   // sigma^2 is the sum of squares over what noise of size one leaves on average, tr((I - Q Q^T) A A^T), taken from random
   // signs (Hutchinson 1990, Commun. Stat. Simul. 19, 433): 20,000 of them know sigma to 0.5 %.
   const std::size_t trials = std::max<std::size_t>(1, 20000 / n);
   std::mt19937 random(1);
   double expected = 0;
+  const auto leave_out = [&](double along) { expected -= along * along; };
   for (std::size_t trial = 0; trial < trials; ++trial) {
-    std::vector<double> z;
+    std::vector<double> z, along(p, 0);
+    std::size_t start = 0;
     for (const auto& run : runs_) {
       std::vector<double> e(run.sources);
       for (double& sign : e) sign = random() & 1 ? 1 : -1;
-      const std::size_t at = z.size();
+      z.clear();
       for (std::size_t i = 0; i < run.E.rows(); ++i) z.push_back(run.E.times(i, e));
-      if (z.size() > at) run.whitener.apply(&z[at], 1);
+      run.whitener.apply(z.data());
+      for (std::size_t i = 0; i < z.size(); ++i) {
+        expected += z[i] * z[i];
+        for (std::size_t j = 0; j < p; ++j) along[j] += Q[(start + i) * p + j] * z[i];
+      }
+      std::for_each(along.begin(), along.end() - static_cast<std::ptrdiff_t>(shared), leave_out);
+      std::fill(along.begin(), along.end() - static_cast<std::ptrdiff_t>(shared), 0.0);
+      start += z.size();
     }
-    for (double x : z) expected += x * x;
-    for (std::size_t j = 0; j < p; ++j) {
-      double along = 0;
-      for (std::size_t i = 0; i < n; ++i) along += Q[i * p + j] * z[i];
-      expected -= along * along;
-    }
+    std::for_each(along.begin(), along.end(), leave_out);
   }
   return std::inner_product(f.begin(), f.end(), f.begin(), 0.0) * static_cast<double>(trials) / expected;
 }
@@ -366,26 +367,28 @@ double correlation_of_neighbours(std::span<const double> r, std::span<const std:
 std::vector<double> newey_west(std::span<const double> scores, std::size_t p, std::span<const double> residuals,
                                std::span<const std::size_t> runs) {
   const double n = static_cast<double>(residuals.size()), fitted = static_cast<double>(p);
+  const std::size_t q = scores.size() / residuals.size();
   // A fit of p smooth terms takes (p (1 + AR) + 2 AR)/n off the correlation that its residuals show (Kendall 1954, Biometrika 41, 403, for p = 1).
   const double AR = std::clamp((n * correlation_of_neighbours(residuals, runs) + fitted) / std::max(n - fitted - 2, 1.0), -0.97, 0.97);
-  const auto u = prewhitened(scores, p, runs, AR);
+  const auto u = prewhitened(scores, q, runs, AR);
   const double rho = correlation_of_neighbours(prewhitened(residuals, 1, runs, AR), runs);
   const double alpha = 4 * rho * rho / ((1 - rho * rho) * (1 - rho * rho));
   const auto width = static_cast<std::size_t>(std::ceil(1.1447 * std::cbrt(alpha * n)));
-  std::vector<double> S(p * p, 0);
+  std::vector<double> all;
   std::size_t start = 0;
   for (std::size_t m : runs) {
+    std::vector<double> S(q * q, 0);
     for (std::size_t lag = 0; lag <= std::min(width, m / 2) && lag < m; ++lag) {
       const double w = (lag ? 1.0 : 0.5) * (1 - static_cast<double>(lag) / static_cast<double>(width + 1));
       for (std::size_t i = start + lag; i < start + m; ++i)
-        for (std::size_t j = 0; j < p; ++j)
-          for (std::size_t k = 0; k < p; ++k)
-            S[j * p + k] += w * (u[i * p + j] * u[(i - lag) * p + k] + u[i * p + k] * u[(i - lag) * p + j]);
+        for (std::size_t j = 0; j < q; ++j)
+          for (std::size_t k = 0; k < q; ++k)
+            S[j * q + k] += w * (u[i * q + j] * u[(i - lag) * q + k] + u[i * q + k] * u[(i - lag) * q + j]);
     }
+    for (double x : S) all.push_back(x / ((1 - AR) * (1 - AR)));
     start += m;
   }
-  for (double& x : S) x /= (1 - AR) * (1 - AR);
-  return S;
+  return all;
 }
 
 }  // namespace rolling

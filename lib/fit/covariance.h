@@ -44,9 +44,9 @@ NoiseResponse noise_response(const FilterChain&, std::span<const double> t);
 class Whitener {
  public:
   Whitener(const BandMatrix& E, double floor);
-  void apply(double* x, std::size_t stride) const;             ///< x becomes R^-T x; a direction without noise becomes 0
-  void apply_transposed(double* x) const;                      ///< x becomes R^-1 x
-  double log_size() const;                                     ///< ln of the determinant of R
+  void apply(double* x) const;             ///< x becomes R^-T x; a direction without noise becomes 0
+  void apply_transposed(double* x) const;  ///< x becomes R^-1 x
+  double log_size() const;                 ///< ln of the determinant of R
 
  private:
   std::size_t n_, band_;
@@ -61,17 +61,17 @@ class KnownNoise {
   /// Standard deviation of further noise of each residual, white and of known size; none if empty. It is not reckoned with in the weights.
   std::vector<double> own;
   bool empty() const { return runs_.empty(); }
-  /// Residuals (n) and derivatives (n rows of p), weighted.
-  void weight(std::vector<double>& f, std::vector<double>& J) const;
+  /// Weights all residuals of a run, and their derivatives column by column.
+  void weight(std::size_t run, std::span<double> f, std::span<double> J) const;
   /// ln of the factor by which weighting shrinks a volume.
   double log_size() const;
   /// Standard deviation of each residual for white noise of size one.
   std::vector<double> sizes() const;
-  /// The variance of that white noise, from the weighted residuals and Q = J R^-1 of the fit.
-  double variance(const std::vector<double>& f, const std::vector<double>& Q) const;
-  /// The middle of the covariance R^-1 M R^-T of parameters that were fitted with weight(), from the weighted residuals and
-  /// Q = J R^-1 of the fit; true whatever the weights.
-  std::vector<double> middle(const std::vector<double>& f, const std::vector<double>& Q) const;
+  /// The variance of that white noise, from the weighted residuals and Q = J R^-1 of the fit, with its shared columns.
+  double variance(const std::vector<double>& f, const std::vector<double>& Q, std::size_t shared) const;
+  /// The middle of the covariance R^-1 M R^-T of parameters that were fitted with weight(), run by run, from the weighted residuals and
+  /// Q = J R^-1 of the fit, with its shared columns; true whatever the weights.
+  std::vector<double> middle(const std::vector<double>& f, const std::vector<double>& Q, std::size_t shared) const;
 
  private:
   struct Run {
@@ -90,7 +90,8 @@ double ljung_box(std::span<const double> residuals, std::size_t p, std::span<con
 /// Sum of the products of residuals `lag` records apart within the runs.
 double lagged(std::span<const double> residuals, std::span<const std::size_t> runs, std::size_t lag);
 
-/// The middle of the sandwich, sum of w(|i-j|) u_i u_j^T over each run, row by row; u are n rows of p scores. Bartlett weights
+/// The middle of the sandwich, sum of w(|i-j|) u_i u_j^T over each run, row by row, run by run; u are n rows of scores, for the columns of
+/// each run, of p parameters in all. Bartlett weights
 /// (Newey and West 1987, Econometrica 55, 703), bandwidth by Andrews' AR(1) rule (1991, Econometrica 59, 817),
 /// after prewhitening by the residuals' own AR(1) (Andrews and Monahan 1992, Econometrica 60, 953), corrected for the fit: short records
 /// need both.

@@ -5,9 +5,11 @@
 #include "fit/fit.h"
 #include "fit/least_squares.h"
 
+#include <algorithm>
+
 namespace rolling {
 
-/// A reported number and its derivatives by the parameters (all zero for one that was held fixed).
+/// A reported number and its derivatives by the parameters of its run and the shared ones (all zero for one that was held fixed).
 struct Quantity {
   double value;
   std::vector<double> gradient;
@@ -18,7 +20,7 @@ struct FittedRun {
   Body body;
   double way, origin, start;     ///< v0 and x0 are fitted at the time origin, and told at start
   std::vector<double> t, y;      ///< the fitted records, t from the origin
-  std::vector<double> model_t;   ///< where the model is needed: the same, or all records of the raw column if filters are known
+  std::vector<double> raw_t;     ///< where the model is needed if filters are known: all records of the raw column
   BandMatrix filters;            ///< fitted column = filters * raw column; no rows if nothing is known
   bool raw_is_position = false;  ///< what the raw column is (without filters, the route's own)
   double v0, x0;                 ///< coarse; v0 along the way
@@ -27,18 +29,23 @@ struct FittedRun {
 struct RouteFit {
   Minimum minimum;
   std::vector<std::size_t> runs;   ///< fitted records of each run
-  std::vector<double> residuals;   ///< in the unit of the fitted column; the minimum's f may be whitened
+  std::vector<double> plain = {};  ///< residuals in the unit of the fitted column, where the minimum's f are whitened
+  std::vector<double> Q = {};      ///< J R^-1 of the minimum, where the errors need it; the last of its columns are shared
+  std::size_t shared = 0;
   KnownNoise noise;                ///< from the filters; empty if they are not known
+  double whiteness = 0;            ///< as in FitResult
   bool judged = false;             ///< the filters are not known, but found by the residuals: noise.weight() leaves nothing but white noise
-  std::size_t left_out;
+  std::size_t left_out = 0;
   Quantity a, b;
   std::vector<Quantity> v0, x0;
-  std::vector<double> v = {};    ///< speeds of the fitted records (loglog and shift)
+  std::vector<double> log_u = {};  ///< of the fitted records (loglog and shift), ln v - log_v_ref
+  double log_v_ref = 0;
   std::vector<FittedRun> rolls = {};  ///< the fitted runs (trajectory routes)
 };
 
-/// Whether the (weighted) residuals are taken as independent: white in the test of Ljung and Box at 1 %, or fewer than 30.
-bool look_white(const RouteFit&);
+/// What the errors need of the system at its minimum: whiteness, Q. True if the (weighted) residuals are taken as independent: white in the
+/// test of Ljung and Box at 1 %, or fewer than 30.
+bool assess(const System&, RouteFit&);
 
 RouteFit fit_route(Route, const std::vector<FitRun>&, const FitOptions&);
 RouteFit fit_log_log(const std::vector<FitRun>&, const FitOptions&);
@@ -51,6 +58,23 @@ using Rows = std::vector<std::size_t>;
 /// Throws Error when n records are too few for p parameters.
 void require_records(std::size_t n, std::size_t p);
 
+/// Hands over what fill(run, first, f, J) makes of the records `first` and on, numbered through all runs, weighted where the noise is known:
+/// whole runs, as it needs, or else few records at a time, which stay in the cache.
+template <typename Fill>
+void hand_over_rows(const std::vector<std::size_t>& runs, std::size_t columns, bool whole, const KnownNoise& noise, const TakeRows& take, Fill&& fill) {
+  std::vector<double> f, J;
+  std::size_t first = 0;
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    for (const std::size_t end = first + runs[r]; first < end; first += f.size()) {
+      const std::size_t m = whole ? runs[r] : std::min<std::size_t>(end - first, 256);
+      f.resize(m);
+      J.resize(m * columns);
+      fill(r, first, f, J);
+      if (!noise.empty()) noise.weight(r, f, J);
+      take(r, f, J);
+    }
+}
+
 /// The minimum by the loss that the options name; Error for a robust one of filtered columns.
 Minimum solve(const System&, const std::vector<double>& start, const FitOptions&, bool filters_known);
 
@@ -59,7 +83,7 @@ constexpr int rounds = 4;
 
 /// v and D of the records that loglog and shift use, all runs one after another, and how their noise arises.
 struct ShiftRecords {
-  std::vector<double> v, D, log_v;
+  std::vector<double> D, log_u;  ///< log_u = ln v - log_v_ref
   std::vector<std::size_t> runs;
   std::size_t left_out = 0;
   double log_v_ref = 0;  ///< ln of the geometric mean of v: seen from there, ln a and b are all but uncorrelated
@@ -82,11 +106,12 @@ struct ShiftRecords {
   RouteFit hand_over(const System&, Minimum, KnownNoise& noise, double a, double a_slope, double b) &&;
 
  private:
-  void refer();  ///< makes log_v and log_v_ref
+  void refer();  ///< makes log_u of ln v, and log_v_ref
   const std::vector<FitRun>& all_;
   const FitOptions& options_;
+  std::vector<NoiseResponse> response_;  // none if the filters are not known, nor
   std::vector<Rows> rows_;
-  std::vector<NoiseResponse> response_;
+  std::vector<double> v_;
 };
 
 }  // namespace rolling

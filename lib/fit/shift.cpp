@@ -12,64 +12,63 @@
 namespace rolling {
 
 ShiftRecords::ShiftRecords(const std::vector<FitRun>& all, const FitOptions& options, bool positive_D) : all_(all), options_(options) {
-  bool known = true;
+  std::size_t most = 0;
+  for (const auto& run : all) response_.push_back(noise_response(run.filters, run.t)), most += run.v.size();
+  if (!std::all_of(response_.begin(), response_.end(), [](const NoiseResponse& r) { return r.of.contains("D"); })) response_.clear();
+  log_u.reserve(most);
+  D.reserve(most);
   for (const auto& run : all) {
+    const std::size_t before = D.size();
     Rows rows;
-    rows.reserve(run.v.size());
-    v.reserve(v.size() + run.v.size());
-    D.reserve(v.size() + run.v.size());
     for (std::size_t i = 0; i < run.v.size(); ++i) {
       const bool usable = std::isfinite(run.v[i]) && std::isfinite(run.D[i]) && run.v[i] > 0 && run.v[i] >= options.min_speed && !(positive_D && run.D[i] <= 0);
       if (!usable) {
         ++left_out;
         continue;
       }
-      rows.push_back(i);
-      v.push_back(run.v[i]);
+      log_u.push_back(std::log(run.v[i]));
       D.push_back(run.D[i]);
+      if (filters_known()) rows.push_back(i), v_.push_back(run.v[i]);
     }
-    runs.push_back(rows.size());
+    runs.push_back(D.size() - before);
     rows_.push_back(std::move(rows));
-    response_.push_back(noise_response(run.filters, run.t));
-    known = known && response_.back().of.contains("D");
   }
-  if (!known) response_.clear();
   refer();
 }
 
 void ShiftRecords::refer() {
-  log_v.resize(v.size());
-  std::transform(v.begin(), v.end(), log_v.begin(), [](double x) { return std::log(x); });
-  log_v_ref = std::accumulate(log_v.begin(), log_v.end(), 0.0) / static_cast<double>(std::max<std::size_t>(v.size(), 1));
+  log_v_ref = std::accumulate(log_u.begin(), log_u.end(), 0.0) / static_cast<double>(std::max<std::size_t>(log_u.size(), 1));
+  for (double& x : log_u) x -= log_v_ref;
 }
 
 void ShiftRecords::leave_out(const std::vector<bool>& lost) {
-  std::vector<double> old_v = std::exchange(v, {}), old_D = std::exchange(D, {});
+  std::vector<double> old_v = std::exchange(v_, {}), old_D = std::exchange(D, {});
+  log_u.clear();
   std::size_t at = 0;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     std::erase_if(rows_[r], [&](std::size_t) {
-      if (!lost[at]) v.push_back(old_v[at]), D.push_back(old_D[at]);
+      if (!lost[at]) v_.push_back(old_v[at]), D.push_back(old_D[at]), log_u.push_back(std::log(old_v[at]));
       return lost[at++];
     });
     runs[r] = rows_[r].size();
   }
-  left_out += old_v.size() - v.size();
+  left_out += old_v.size() - v_.size();
   refer();
 }
 
 RouteFit ShiftRecords::hand_over(const System& system, Minimum minimum, KnownNoise& noise, double a, double a_slope, double b) && {
-  const std::size_t p = system.p;
-  std::vector<double> residuals = minimum.f, by_a(p, 0), by_b(p, 0);
-  KnownNoise known = std::exchange(noise, {});
-  if (!known.empty()) {  // the plain ones, for rms
-    std::vector<double> unused(minimum.J.size());
-    system.evaluate(minimum.theta, residuals, unused);
-  }
+  const std::size_t p = system.shared;
+  std::vector<double> by_a(p, 0), by_b(p, 0);
   if (!options_.a) by_a[0] = a_slope;
   if (!options_.a && !options_.b) by_a[1] = -a * log_v_ref;
   if (!options_.b) by_b[p - 1] = 1;
-  return {.minimum = std::move(minimum), .runs = runs, .residuals = std::move(residuals), .noise = std::move(known), .left_out = left_out,
-          .a = {a, by_a}, .b = {b, by_b}, .v0 = {}, .x0 = {}, .v = std::move(v)};
+  RouteFit result{.minimum = std::move(minimum), .runs = runs, .noise = noise, .left_out = left_out, .a = {a, by_a}, .b = {b, by_b}, .v0 = {}, .x0 = {}};
+  assess(system, result);
+  noise = {};
+  if (!result.noise.empty()) result.plain = residuals_at(system, result.minimum.theta);
+  result.log_u = std::move(log_u);
+  result.log_v_ref = log_v_ref;
+  return result;
 }
 
 // Full weight by the covariance would rest on directions that look all but free of noise (the zeros of a moving mean, the
@@ -159,7 +158,7 @@ ShiftRecords::Smoothed ShiftRecords::smoothed(double a, double b) const {
     const double slowest = rows_[r].empty() ? 0 : *std::max_element(all_[r].v.begin(), all_[r].v.end()) / static_cast<double>(all_[r].v.size());
     for (std::size_t i : rows_[r]) {
       if (roll.raw.empty()) {
-        const double u = v[result.v.size()];
+        const double u = v_[result.v.size()];
         result.v.push_back(u);
         result.law.push_back(a * std::pow(u, b));
         result.D.push_back(result.law.back());
@@ -187,70 +186,91 @@ namespace {
 struct Height {
   double value, rss;
 };
-Height best_height(const std::vector<double>& log_u, std::vector<double> D, double b, const KnownNoise& noise, std::optional<double> held) {
+Height best_height(const std::vector<double>& log_u, std::vector<double> D, double b, const std::vector<std::size_t>& runs, const KnownNoise& noise,
+                   std::optional<double> held) {
   std::vector<double> m;
+  m.reserve(log_u.size());
   for (double x : log_u) m.push_back(std::exp(b * x));
-  noise.weight(D, m);
+  std::size_t first = 0;
+  for (std::size_t r = 0; !noise.empty() && r < runs.size(); first += runs[r++])
+    noise.weight(r, std::span(D).subspan(first, runs[r]), std::span(m).subspan(first, runs[r]));
   const double height = held.value_or(std::inner_product(m.begin(), m.end(), D.begin(), 0.0) / std::inner_product(m.begin(), m.end(), m.begin(), 0.0));
   double rss = 0;
   for (std::size_t i = 0; i < D.size(); ++i) rss += (height * m[i] - D[i]) * (height * m[i] - D[i]);
   return {height, rss};
 }
 
+/// At most so many values, evenly spread.
+std::vector<double> some(const std::vector<double>& x, std::size_t most) {
+  std::vector<double> few;
+  for (std::size_t i = 0, step = (x.size() + most - 1) / most; i < x.size(); i += step) few.push_back(x[i]);
+  return few;
+}
+
 }  // namespace
 
 RouteFit fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   ShiftRecords records(all, options, false);
-  const auto &v = records.v, &D = records.D;
+  const auto &log_u = records.log_u, &D = records.D;
   const double L = records.log_v_ref;
-  const std::size_t n = v.size(), p = !options.a + !options.b;
+  const std::size_t n = D.size(), p = !options.a + !options.b;
   require_records(n, p);
-  if (!options.b && std::all_of(v.begin(), v.end(), [&](double x) { return x == v[0]; })) fail("all speeds are equal: b cannot be determined");
+  if (!options.b && std::all_of(log_u.begin(), log_u.end(), [&](double x) { return x == log_u[0]; })) fail("all speeds are equal: b cannot be determined");
 
   // Parameters: the height D(v_ref) in units of the largest |D|, and b; ln a and b themselves are nearly collinear.
   double unit = 0;
   for (double d : D) unit = std::max(unit, std::abs(d));
   if (unit == 0) fail("all shifts are 0: b cannot be determined");
-  std::vector<double> log_u;
-  for (double x : records.log_v) log_u.push_back(x - L);
   const auto exponent = [&](const std::vector<double>& theta) { return options.b ? *options.b : theta[p - 1]; };
   const auto height = [&](const std::vector<double>& theta) { return options.a ? *options.a * std::exp(exponent(theta) * L) : theta[0] * unit; };
   KnownNoise noise;
   bool smoothed = false;  // whether what smoothing does to the law is part of the model
-  const System system{n, p, [&](const std::vector<double>& theta, std::vector<double>& f, std::vector<double>& J) {
-    const double b = exponent(theta), h = height(theta), a = h * std::exp(-b * L);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double power = std::exp(b * log_u[i]);
-      f[i] = h * power - D[i];
-      if (!options.a) J[i * p] = unit * power;
-      if (!options.b) J[i * p + p - 1] = h * power * (log_u[i] + (options.a ? L : 0));  // at fixed a, the height moves with b
-    }
-    if (smoothed) {
-      const auto s = records.smoothed(a, b);
-      for (std::size_t i = 0; i < n; ++i) {
-        f[i] += s.D[i] - s.law[i];
-        const double by_a = s.D_a[i] - s.law_a[i], by_b = s.D_b[i] - s.law_b[i];
-        if (!options.a) J[i * p] += by_a * unit * std::exp(-b * L);
-        if (!options.b) J[i * p + p - 1] += by_b - (options.a ? 0 : by_a * a * L);
-      }
-    }
-    noise.weight(f, J);
-  }};
+  const auto system_of = [&](const std::vector<std::size_t>& runs, const std::vector<double>& log_of, const std::vector<double>& D_of) {
+    return System{runs, 0, p, [&](const std::vector<double>& theta, const TakeRows& take) {
+      const double b = exponent(theta), h = height(theta), a = h * std::exp(-b * L);
+      const auto s = smoothed ? records.smoothed(a, b) : ShiftRecords::Smoothed{};
+      hand_over_rows(runs, p, !noise.empty(), noise, take, [&](std::size_t, std::size_t first, std::vector<double>& f, std::vector<double>& J) {
+        for (std::size_t k = 0; k < f.size(); ++k) {
+          const std::size_t i = first + k;
+          const double power = std::exp(b * log_of[i]);
+          f[k] = h * power - D_of[i];
+          if (!options.a) J[k] = unit * power;
+          if (!options.b) J[J.size() - f.size() + k] = h * power * (log_of[i] + (options.a ? L : 0));  // at fixed a, the height moves with b
+          if (!smoothed) continue;
+          f[k] += s.D[i] - s.law[i];
+          const double by_a = s.D_a[i] - s.law_a[i], by_b = s.D_b[i] - s.law_b[i];
+          if (!options.a) J[k] += by_a * unit * std::exp(-b * L);
+          if (!options.b) J[J.size() - f.size() + k] += by_b - (options.a ? 0 : by_a * a * L);
+        }
+      });
+    }};
+  };
 
   // A start: the exponent of a coarse grid that fits best (for each, the height is linear), unless the user knows one. Known noise
   // counts from the start, as far as it comes by D: one wild record near the stop would send an unweighted fit to a wrong minimum.
-  if (records.filters_known()) noise = records.noise(0, {.v = v, .D = D, .law = D, .D_a = {}, .D_b = {}, .law_a = {}, .law_b = {}}, std::vector<double>(n, 1));
-  const auto held = [&](double b) { return options.a ? std::optional(*options.a * std::exp(b * L)) : options.start_a ? std::optional(*options.start_a * std::exp(b * L)) : std::nullopt; };
+  if (records.filters_known()) noise = records.noise(0, {.v = std::vector<double>(n, 1), .D = D, .law = D, .D_a = {}, .D_b = {}, .law_a = {}, .law_b = {}}, std::vector<double>(n, 1));
+  const std::size_t most = noise.empty() && !options.robust ? 4096 : n;
+  const std::vector<double> some_log_u = some(log_u, most), some_D = some(D, most);
+  const auto best_at = [&](double b) {
+    const auto held = options.a ? options.a : options.start_a;
+    return best_height(some_log_u, some_D, b, records.runs, noise, held ? std::optional(*held * std::exp(b * L)) : std::nullopt);
+  };
   double b = options.b ? *options.b : options.start_b.value_or(0);
   if (!options.b && !options.start_b) {
     double least = std::numeric_limits<double>::infinity();
     for (double candidate = -4; candidate <= 8; candidate += 0.25)
-      if (const double rss = best_height(log_u, D, candidate, noise, held(candidate)).rss; rss < least) least = rss, b = candidate;
+      if (const double rss = best_at(candidate).rss; rss < least) least = rss, b = candidate;
   }
   std::vector<double> theta;
-  if (!options.a) theta.push_back(best_height(log_u, D, b, noise, held(b)).value / unit);
+  if (!options.a) theta.push_back(best_at(b).value / unit);
   if (!options.b) theta.push_back(b);
+  if (some_D.size() < n) try {  // most of the way on few of many records
+      const std::vector<std::size_t> few{some_D.size()};
+      theta = minimise(system_of(few, some_log_u, some_D), theta).theta;
+    } catch (const Error&) {  // all of them may do better
+    }
 
+  const System system = system_of(records.runs, log_u, D);
   Minimum minimum = solve(system, theta, options, records.filters_known());
   smoothed = records.filters_known();
   for (int round = 0; smoothed && round < rounds; ++round) {  // the noise that v brings in hangs on a and b

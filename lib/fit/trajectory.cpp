@@ -14,8 +14,8 @@
 namespace rolling {
 namespace {
 
-/// The law in the fit's own parameters, all of order one: ln of the height D(v_ref) (ln a itself is nearly collinear with b),
-/// b, and of every run v0 in units of v_ref and x0 in units of x_ref. What is held fixed has no place in theta.
+/// The law in the fit's own parameters, all of order one: of every run v0 in units of v_ref and x0 in units of x_ref; then, shared,
+/// ln of the height D(v_ref) (ln a itself is nearly collinear with b), and b. What is held fixed has no place in theta.
 struct Parameters {
   const FitOptions& options;
   bool position;
@@ -25,96 +25,106 @@ struct Parameters {
   bool free_x0() const { return position && !options.x0; }
   std::size_t of_law() const { return !options.a + !options.b; }
   std::size_t per_run() const { return !options.v0 + free_x0(); }
-  std::size_t count() const { return of_law() + runs * per_run(); }
-  std::size_t v0_at(std::size_t r) const { return of_law() + r * per_run(); }
+  std::size_t columns() const { return per_run() + of_law(); }
+  std::size_t count() const { return runs * per_run() + of_law(); }
+  std::size_t v0_at(std::size_t r) const { return r * per_run(); }
   std::size_t x0_at(std::size_t r) const { return v0_at(r) + !options.v0; }
+  std::size_t a_at() const { return runs * per_run(); }
 
-  double b(const std::vector<double>& theta) const { return options.b ? *options.b : theta[of_law() - 1]; }
-  double a(const std::vector<double>& theta) const { return options.a ? *options.a : std::exp(theta[0] - b(theta) * log_v_ref); }
+  double b(const std::vector<double>& theta) const { return options.b ? *options.b : theta.back(); }
+  double a(const std::vector<double>& theta) const { return options.a ? *options.a : std::exp(theta[a_at()] - b(theta) * log_v_ref); }
   double v0(const std::vector<double>& theta, std::size_t r) const { return options.v0 ? std::abs(*options.v0) : theta[v0_at(r)] * v_ref; }
   double x0(const std::vector<double>& theta, std::size_t r) const { return !position ? 0 : options.x0 ? *options.x0 : theta[x0_at(r)] * x_ref; }
   Trajectory trajectory(const FittedRun& roll, const std::vector<double>& theta, std::size_t r) const {
     return {roll.body, options.geometry, {a(theta), b(theta)}, v0(theta, r)};
   }
 
-  /// Into a row of count() numbers the derivatives by theta of what has these by a, b, and by v0 and x0 of run r.
-  void chain(double* row, double a, std::size_t r, double by_a, double by_b, double by_v0 = 0, double by_x0 = 0) const noexcept {
-    std::fill_n(row, count(), 0.0);
-    if (!options.a) row[0] = a * by_a;
-    if (!options.b) row[of_law() - 1] = by_b - (options.a ? 0 : log_v_ref * a * by_a);
-    if (!options.v0) row[v0_at(r)] = by_v0 * v_ref;
-    if (free_x0()) row[x0_at(r)] = by_x0 * x_ref;
+  /// The derivatives by the parameters of a run and the shared ones, `stride` apart, of what has these by a, b, and by its v0 and x0.
+  void chain(double* to, std::size_t stride, double a, double by_a, double by_b, double by_v0 = 0, double by_x0 = 0) const noexcept {
+    const auto put = [&](double value) { *std::exchange(to, to + stride) = value; };
+    if (!options.v0) put(by_v0 * v_ref);
+    if (free_x0()) put(by_x0 * x_ref);
+    if (!options.a) put(a * by_a);
+    if (!options.b) put(by_b - (options.a ? 0 : log_v_ref * a * by_a));
   }
 };
 
-/// Model minus data and derivatives of one run, into n elements of f and n rows of J.
-void evaluate(const FittedRun& roll, std::size_t r, const Parameters& q, const std::vector<double>& theta, double* f, double* J) {
-  const std::size_t p = q.count(), m = roll.model_t.size(), n = roll.t.size();
-  const double a = q.a(theta), x0 = q.x0(theta, r), way = roll.way;
-  const Trajectory trajectory = q.trajectory(roll, theta, r);
-  const auto model = [&](std::size_t i, double* row) {
-    const auto s = roll.raw_is_position ? trajectory.at(roll.model_t[i]) : trajectory.speed_at(roll.model_t[i]);
-    if (roll.raw_is_position) q.chain(row, a, r, way * s.x_a, way * s.x_b, way * s.x_v0, 1);
-    else q.chain(row, a, r, way * s.v_a, way * s.v_b, way * s.v_v0);
-    return roll.raw_is_position ? x0 + way * s.x : way * s.v;
-  };
-  if (roll.filters.rows() == 0) {
-    for (std::size_t i = 0; i < n; ++i) f[i] = model(i, J + i * p) - roll.y[i];
-    return;
-  }
-  std::vector<double> raw(m), slopes(m * p);
-  for (std::size_t i = 0; i < m; ++i) raw[i] = model(i, &slopes[i * p]);
-  std::fill_n(J, n * p, 0.0);
-  for (std::size_t i = 0; i < n; ++i) {
-    f[i] = roll.filters.times(i, raw) - roll.y[i];
-    const auto weights = roll.filters.row(i);
-    for (std::size_t k = 0; k < weights.size(); ++k)
-      for (std::size_t j = 0; j < p; ++j) J[i * p + j] += weights[k] * slopes[(roll.filters.first(i) + k) * p + j];
-  }
+System system_of(const std::vector<FittedRun>& rolls, const Parameters& q, const KnownNoise& noise) {
+  std::vector<std::size_t> runs;
+  for (const auto& roll : rolls) runs.push_back(roll.t.size());
+  return {runs, q.per_run(), q.of_law(), [runs, &rolls, &q, &noise](const std::vector<double>& theta, const TakeRows& take) {
+    std::vector<Trajectory> trajectories;
+    std::vector<std::size_t> begin;
+    for (std::size_t r = 0; r < rolls.size(); ++r) {
+      trajectories.push_back(q.trajectory(rolls[r], theta, r));
+      begin.push_back(r ? begin.back() + runs[r - 1] : 0);
+    }
+    const double a = q.a(theta);
+    hand_over_rows(runs, q.columns(), rolls.front().filters.rows() > 0, noise, take, [&](std::size_t r, std::size_t first, std::vector<double>& f, std::vector<double>& J) {
+      const FittedRun& roll = rolls[r];
+      const double x0 = q.x0(theta, r), way = roll.way;
+      const auto model = [&](double t, double* slopes, std::size_t stride) {
+        const auto s = roll.raw_is_position ? trajectories[r].at(t) : trajectories[r].speed_at(t);
+        if (roll.raw_is_position) q.chain(slopes, stride, a, way * s.x_a, way * s.x_b, way * s.x_v0, 1);
+        else q.chain(slopes, stride, a, way * s.v_a, way * s.v_b, way * s.v_v0);
+        return roll.raw_is_position ? x0 + way * s.x : way * s.v;
+      };
+      const double *const t = &roll.t[first - begin[r]], *const y = &roll.y[first - begin[r]];
+      const std::size_t n = f.size(), m = roll.raw_t.size();
+      if (roll.filters.rows() == 0) {
+        for (std::size_t i = 0; i < n; ++i) f[i] = model(t[i], &J[i], n) - y[i];
+        return;
+      }
+      std::vector<double> raw(m), slopes(m * q.columns());
+      for (std::size_t i = 0; i < m; ++i) raw[i] = model(roll.raw_t[i], &slopes[i], m);
+      for (std::size_t i = 0; i < n; ++i) {
+        f[i] = roll.filters.times(i, raw) - y[i];
+        for (std::size_t j = 0; j < q.columns(); ++j) J[j * n + i] = roll.filters.times(i, std::span(slopes).subspan(j * m, m));
+      }
+    });
+  }};
 }
 
-System system_of(const std::vector<FittedRun>& rolls, const Parameters& q, const KnownNoise& noise) {
-  std::size_t n = 0;
-  for (const auto& roll : rolls) n += roll.t.size();
-  return {n, q.count(), [&rolls, &q, &noise](const std::vector<double>& theta, std::vector<double>& f, std::vector<double>& J) {
-    std::size_t at = 0;
-    for (std::size_t r = 0; r < rolls.size(); at += rolls[r++].t.size()) evaluate(rolls[r], r, q, theta, &f[at], &J[at * q.count()]);
-    noise.weight(f, J);
-  }};
+/// The run as means of the records from each edge to the next.
+FittedRun means(const FittedRun& roll, bool position, const std::vector<std::size_t>& edges) {
+  FittedRun thin{.body = roll.body, .way = roll.way, .origin = roll.origin, .start = roll.start, .t = {}, .y = {}, .raw_t = {}, .filters = {},
+                 .raw_is_position = position, .v0 = roll.v0, .x0 = roll.x0};
+  for (auto edge = edges.begin(); edge + 1 != edges.end(); ++edge) {
+    const auto mean = [&](const std::vector<double>& x) {
+      return std::accumulate(x.begin() + static_cast<std::ptrdiff_t>(edge[0]), x.begin() + static_cast<std::ptrdiff_t>(edge[1]), 0.0) / static_cast<double>(edge[1] - edge[0]);
+    };
+    thin.t.push_back(mean(roll.t));
+    thin.y.push_back(mean(roll.y));
+  }
+  return thin;
 }
 
 /// The run thinned to at most 64 means, without a long rest at its end; and a coarse v0 and x0 from the way covered: v0 times the
 /// time of half the way is 0.5 to 0.7 of the way, whatever the law.
 FittedRun thinned(FittedRun& roll, bool position, const FitOptions& options) {
   const std::size_t n = roll.t.size();
-  std::vector<double> way(n, 0);
   roll.x0 = options.x0.value_or(position ? roll.y[0] : 0);
-  for (std::size_t i = 0; i < n; ++i)
-    way[i] = position ? roll.way * (roll.y[i] - roll.x0) : i ? way[i - 1] + roll.way * (roll.y[i] + roll.y[i - 1]) / 2 * (roll.t[i] - roll.t[i - 1]) : 0;
-  const double most = *std::max_element(way.begin(), way.end());
-  const auto reached = [&](double share) {
-    return static_cast<std::size_t>(std::find_if(way.begin(), way.end(), [&](double x) { return x >= share * most; }) - way.begin());
+  double most = 0;
+  const auto reached = [&](double goal) {  // the first record with that way; n if none has it, and then `most` is the longest way
+    double way = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (position) way = roll.way * (roll.y[i] - roll.x0);
+      else if (i) way += roll.way * (roll.y[i] + roll.y[i - 1]) / 2 * (roll.t[i] - roll.t[i - 1]);
+      if (way >= goal) return i;
+      most = std::max(most, way);
+    }
+    return n;
   };
-  const double half_time = roll.t[std::max<std::size_t>(reached(0.5), n > 1)] - (position && options.x0 ? 0 : roll.t[0]);
+  reached(std::numeric_limits<double>::infinity());
+  const std::size_t half = reached(0.5 * most), end = reached(0.95 * most);
+  const double half_time = roll.t[std::max<std::size_t>(half, n > 1)] - (position && options.x0 ? 0 : roll.t[0]);
   roll.v0 = options.v0 ? std::abs(*options.v0) : 0.6 * most / half_time;
   if (!(roll.v0 > 0) || !std::isfinite(roll.v0)) fail("the body does not move: a and b cannot be determined");
-
-  const std::size_t used = std::min(n, reached(0.95) + std::max<std::size_t>(reached(0.95) / 3, 8)), block = (used + 63) / 64;
-  FittedRun thin = roll;
-  thin.filters = {};
-  thin.raw_is_position = position;
-  thin.t.clear();
-  thin.y.clear();
-  for (std::size_t i = 0; i < used; i += block) {
-    const std::size_t end = std::min(used, i + block);
-    const auto mean = [&](const std::vector<double>& x) {
-      return std::accumulate(x.begin() + static_cast<std::ptrdiff_t>(i), x.begin() + static_cast<std::ptrdiff_t>(end), 0.0) / static_cast<double>(end - i);
-    };
-    thin.t.push_back(mean(roll.t));
-    thin.y.push_back(mean(roll.y));
-  }
-  thin.model_t = thin.t;
-  return thin;
+  const std::size_t used = std::min(n, end + std::max<std::size_t>(end / 3, 8)), block = (used + 63) / 64;
+  std::vector<std::size_t> edges;
+  for (std::size_t i = 0; i < used; i += block) edges.push_back(i);
+  edges.push_back(used);
+  return means(roll, position, edges);
 }
 
 /// How well the thinned run follows the shape of (a, b) when v0 (as a factor) and x0 are taken as they fit best.
@@ -166,8 +176,8 @@ std::vector<std::vector<double>> starts(const std::vector<FittedRun>& thin, cons
     Candidate candidate{std::numeric_limits<double>::infinity(), {}};
     for (double a : as) {
       Candidate here{0, std::vector<double>(q.count())};
-      if (!options.a) here.theta[0] = std::log(a) + b * q.log_v_ref;
-      if (!options.b) here.theta[q.of_law() - 1] = b;
+      if (!options.a) here.theta[q.a_at()] = std::log(a) + b * q.log_v_ref;
+      if (!options.b) here.theta.back() = b;
       try {
         for (std::size_t r = 0; r < thin.size(); ++r) {
           const Trial trial = try_shape(thin[r], options, q.position, {a, b});
@@ -189,6 +199,9 @@ std::vector<std::vector<double>> starts(const std::vector<FittedRun>& thin, cons
   for (auto& candidate : best) result.push_back(std::move(candidate.theta));
   return result;
 }
+
+/// Means of so many stretches of a long run follow its roll closely: at their minimum its own is all but reached.
+constexpr std::size_t longest = 4096;
 
 /// The best of the minima of the thinned runs that are reached from the three best starts; the best start if none is.
 std::vector<double> start(const std::vector<FittedRun>& thin, const Parameters& q) {
@@ -245,16 +258,14 @@ Rolls make_rolls(const std::vector<FitRun>& all, const std::vector<Rows>& rows, 
       const BandMatrix& of = making.responses[r].of.at(position ? "x" : "v");
       for (std::size_t i : rows[r]) roll.filters.append(of.first(i), of.row(i));
       rolls.noise.append(roll.filters, making.white_share);
-      for (double t : making.responses[r].t) roll.model_t.push_back(t - roll.origin);
-    } else {
-      roll.model_t = roll.t;
+      for (double t : making.responses[r].t) roll.raw_t.push_back(t - roll.origin);
     }
     rolls.of.push_back(std::move(roll));
   }
   return rolls;
 }
 
-RouteFit fit_rolls(const std::vector<FitRun>& all, std::vector<Rows> rows, Parameters& q, const Making& making, std::vector<double> theta = {}) {
+RouteFit fit_rolls(const std::vector<FitRun>& all, std::vector<Rows>& rows, Parameters& q, const Making& making, std::vector<double> theta = {}) {
   const FitOptions& options = q.options;
   RouteFit result{};
   Rolls rolls;
@@ -271,6 +282,17 @@ RouteFit fit_rolls(const std::vector<FitRun>& all, std::vector<Rows> rows, Param
       q.log_v_ref = std::log(q.v_ref);
       if (q.position) q.x_ref = thin.front().v0 * std::max(thin.front().t.back(), std::numeric_limits<double>::min());
       theta = start(thin, q);
+      if (n > longest * all.size() && !options.robust) try {  // most of the way on these
+          for (std::size_t r = 0; r < thin.size(); ++r) {
+            const std::size_t records = rolls.of[r].t.size(), most = std::min(records, longest);
+            std::vector<std::size_t> edges;  // of all but the same number of records: the means count the same
+            for (std::size_t k = 0; k <= most; ++k) edges.push_back(k * records / most);
+            thin[r] = means(rolls.of[r], q.position, edges);
+          }
+          const KnownNoise none;
+          theta = minimise(system_of(thin, q, none), theta).theta;
+        } catch (const Error&) {  // the full data may do better
+        }
     }
     result.minimum = solve(system_of(rolls.of, q, rolls.noise), theta, options, !rolls.noise.empty());
     theta = result.minimum.theta;
@@ -284,25 +306,24 @@ RouteFit fit_rolls(const std::vector<FitRun>& all, std::vector<Rows> rows, Param
   }
 
   const double a = q.a(theta);
-  const auto quantity = [&](double value, std::size_t r, double by_a, double by_b, double by_v0 = 0, double by_x0 = 0) {
-    Quantity here{value, std::vector<double>(q.count())};
-    q.chain(here.gradient.data(), a, r, by_a, by_b, by_v0, by_x0);
+  const auto quantity = [&](double value, double by_a, double by_b, double by_v0 = 0, double by_x0 = 0) {
+    Quantity here{value, std::vector<double>(q.columns())};
+    q.chain(here.gradient.data(), 1, a, by_a, by_b, by_v0, by_x0);
     return here;
   };
-  result.a = quantity(a, 0, 1, 0);
-  result.b = quantity(q.b(theta), 0, 0, 1);
+  result.a = quantity(a, 1, 0);
+  result.b = quantity(q.b(theta), 0, 1);
   for (std::size_t r = 0; r < all.size(); ++r) {
     const FittedRun& roll = rolls.of[r];
     const auto s = q.trajectory(roll, theta, r).at(roll.start - roll.origin);
-    result.v0.push_back(quantity(roll.way * s.v, r, roll.way * s.v_a, roll.way * s.v_b, roll.way * s.v_v0));
-    if (q.position) result.x0.push_back(quantity(q.x0(theta, r) + roll.way * s.x, r, roll.way * s.x_a, roll.way * s.x_b, roll.way * s.x_v0, 1));
+    result.v0.push_back(quantity(roll.way * s.v, roll.way * s.v_a, roll.way * s.v_b, roll.way * s.v_v0));
+    if (q.position) result.x0.push_back(quantity(q.x0(theta, r) + roll.way * s.x, roll.way * s.x_a, roll.way * s.x_b, roll.way * s.x_v0, 1));
     result.runs.push_back(rows[r].size());
     result.left_out += all[r].t.size() - rows[r].size();
   }
-  result.residuals = result.minimum.f;
-  if (!rolls.noise.empty()) {  // the plain ones, for rms
-    std::vector<double> unused(result.minimum.J.size());
-    system_of(rolls.of, q, {}).evaluate(theta, result.residuals, unused);
+  if (!rolls.noise.empty()) {
+    const KnownNoise none;
+    result.plain = residuals_at(system_of(rolls.of, q, none), theta);
   }
   result.noise = std::move(rolls.noise);
   result.rolls = std::move(rolls.of);
@@ -331,14 +352,18 @@ Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
     const Rolls rolls = make_rolls(all, rows, false, making_by({&filter}, all), q.options);
     const KnownNoise none;  // the system refers to it
     System system = system_of(rolls.of, q, none);
-    const std::size_t n = system.n;
-    std::vector<double> f(n), J(n * system.p);
-    system.evaluate(theta, f, J);
+    struct Linear {
+      std::vector<double> f, J;
+    };
+    std::vector<Linear> of(rolls.of.size());
+    system.evaluate(theta, [&](std::size_t r, std::span<double> f, std::span<double> J) { of[r] = {{f.begin(), f.end()}, {J.begin(), J.end()}}; });
     KnownNoise noise;
-    system.evaluate = [&](const std::vector<double>&, std::vector<double>& weighted_f, std::vector<double>& weighted_J) {
-      weighted_f = f;
-      weighted_J = J;
-      noise.weight(weighted_f, weighted_J);
+    system.evaluate = [&](const std::vector<double>&, const TakeRows& take) {
+      for (std::size_t r = 0; r < of.size(); ++r) {
+        auto [f, J] = of[r];
+        noise.weight(r, f, J);
+        take(r, f, J);
+      }
     };
     const auto likelihood = [&](double log_share) {
       noise = {};
@@ -414,27 +439,29 @@ RouteFit fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOp
 
   Parameters q{options, position, all.size()};
   RouteFit fitted = fit_rolls(all, rows, q, making);
-  if (known || position || options.robust || options.possible_filters.empty() || fitted.residuals.size() < 30) return fitted;
-
-  std::size_t reach = 0;
-  for (const auto& filter : options.possible_filters) reach = std::max(reach, filter.reach);
-  std::vector<FitRun> heads;
-  std::vector<Rows> head_rows = rows;
-  for (std::size_t r = 0; r < all.size(); ++r) {
-    const std::size_t n = std::min(all[r].t.size(), telling);
-    const auto head = [n](const std::vector<double>& x) { return std::vector(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n)); };
-    heads.push_back({.t = head(all[r].t), .x = {}, .v = head(all[r].v), .D = {}, .body = all[r].body, .filters = {}});
-    head_rows[r].erase(std::lower_bound(head_rows[r].begin(), head_rows[r].end(), n), head_rows[r].end());
-  }
-  try {
-    if (!leave_out_irregular(heads, head_rows, reach)) return fitted;
-    const Maker maker = most_likely(heads, head_rows, options.possible_filters, q, fitted.minimum.theta);
-    if (!maker.filter || maker.filter->from == "v" || !leave_out_irregular(all, rows, reach)) return fitted;
-    RouteFit differences = fit_rolls(all, rows, q, making_by(maker, all), fitted.minimum.theta);
-    differences.judged = true;
-    if (look_white(differences)) return differences;
-  } catch (const Error&) {  // none of them it is
-  }
+  const auto look_white = [&](RouteFit& r) { return assess(system_of(r.rolls, q, r.noise), r); };
+  if (!known && !position && !options.robust && !options.possible_filters.empty() && fitted.minimum.f.size() >= 30) try {
+      std::size_t reach = 0;
+      for (const auto& filter : options.possible_filters) reach = std::max(reach, filter.reach);
+      std::vector<FitRun> heads;
+      std::vector<Rows> head_rows;
+      for (std::size_t r = 0; r < all.size(); ++r) {
+        const std::size_t n = std::min(all[r].t.size(), telling);
+        const auto head = [n](const std::vector<double>& x) { return std::vector(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n)); };
+        heads.push_back({.t = head(all[r].t), .x = {}, .v = head(all[r].v), .D = {}, .body = all[r].body, .filters = {}});
+        head_rows.emplace_back(rows[r].begin(), std::lower_bound(rows[r].begin(), rows[r].end(), n));
+      }
+      if (leave_out_irregular(heads, head_rows, reach)) {
+        const Maker maker = most_likely(heads, head_rows, options.possible_filters, q, fitted.minimum.theta);
+        if (maker.filter && maker.filter->from != "v" && leave_out_irregular(all, rows, reach)) {
+          RouteFit differences = fit_rolls(all, rows, q, making_by(maker, all), fitted.minimum.theta);
+          differences.judged = true;
+          if (look_white(differences)) return differences;
+        }
+      }
+    } catch (const Error&) {  // none of them it is
+    }
+  look_white(fitted);
   return fitted;
 }
 

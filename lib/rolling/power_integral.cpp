@@ -42,19 +42,28 @@ double power_integral(double s, double lambda) {
   return s == 0 ? lambda : -std::expm1(-s * lambda) / s;
 }
 
-double power_moment(double s, double lambda) {
-  const double z = s * lambda;
-  if (s == 0 || std::abs(z) <= 1) {
-    const double x = s == 0 ? 0 : -z;
-    double even = 0, odd = 0;  // terms of the sum of (k + 1) x^k / (k + 2)!: two chains that do not wait for one another
-    for (std::size_t k = terms; k > 0; k -= 2) {
-      even = even * (x * x) + moment_coefficient[k - 2];
-      odd = odd * (x * x) + moment_coefficient[k - 1];
-    }
-    return lambda * lambda * (even + x * odd);
+namespace {
+
+double power_moment_series(double s, double lambda) {
+  const double x = s == 0 ? 0 : -s * lambda;
+  double even = 0, odd = 0;  // terms of the sum of (k + 1) x^k / (k + 2)!: two chains that do not wait for one another
+  for (std::size_t k = terms; k > 0; k -= 2) {
+    even = even * (x * x) + moment_coefficient[k - 2];
+    odd = odd * (x * x) + moment_coefficient[k - 1];
   }
-  if (z > 800) return 1 / (s * s);
-  return (power_integral(s, lambda) - lambda * std::exp(-z)) / s;
+  return lambda * lambda * (even + x * odd);
+}
+
+}  // namespace
+
+double power_moment(double s, double lambda) {
+  if (s == 0 || std::abs(s * lambda) <= 1) return power_moment_series(s, lambda);
+  return power_moment(s, lambda, power_integral(s, lambda), std::exp(-s * lambda));
+}
+
+double power_moment(double s, double lambda, double integral, double decay) {
+  if (s * lambda > 800) return 1 / (s * s);
+  return s == 0 || std::abs(s * lambda) <= 0.25 ? power_moment_series(s, lambda) : (integral - lambda * decay) / s;
 }
 
 HeadwayIntegrals headway_integrals(double s, double lambda) {

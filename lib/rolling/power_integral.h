@@ -11,6 +11,8 @@ double power_integral(double s, double lambda);
 /// int_0^lambda y e^(-s y) dy, which is -d/ds of power_integral:
 ///   dP/ds = int_v^v0 ln(u) u^(s-1) du = v0^s (ln(v0) power_integral - power_moment).
 double power_moment(double s, double lambda);
+/// The same, to 4 ulp, for one who knows power_integral and decay = e^(-s lambda).
+double power_moment(double s, double lambda, double integral, double decay);
 
 /// int_0^lambda (e^(-y) - e^(-lambda)) e^(-s y) dy, and the same with a factor y under the integral. As differences of the
 /// above they would lose all their digits for small lambda.

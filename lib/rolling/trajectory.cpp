@@ -6,6 +6,7 @@
 #include "base/double_double.h"
 #include "base/error.h"
 #include "rolling/contact.h"
+#include "rolling/power_integral.h"
 
 namespace rolling {
 
@@ -25,7 +26,7 @@ SpeedIntegrals integrals_of(const Body& body, Geometry geometry, PowerLaw law, d
 }  // namespace
 
 Trajectory::Trajectory(const Body& body, Geometry geometry, PowerLaw law, double v0)
-    : body_(body), geometry_(geometry), law_(law), v0_(v0), integrals_(integrals_of(body, geometry, law, v0)) {
+    : body_(body), geometry_(geometry), law_(law), v0_(v0), log_v0_(std::log(v0)), integrals_(integrals_of(body, geometry, law, v0)) {
   if (v0 == 0) return;
   const double D = law(v0);  // v0^b may have left the range of double, or v0^(1-b)
   unit_ = (D >= std::numeric_limits<double>::min() ? v0 / D : std::pow(v0, 1 - law.b) / law.a) * ((body.K + 1) * body.R / body.g);
@@ -34,7 +35,7 @@ Trajectory::Trajectory(const Body& body, Geometry geometry, PowerLaw law, double
   if (std::isinf(stop_time_)) return;
   const auto g = integrals_.gradient(infinity);
   const double length = v0 * unit_, x = length * g.distance;
-  stopped_ = {0, x, 0, 0, 0, -length * g.g0 / law.a, -length * (std::log(v0) * g.g0 - g.g1), unit_ * integrals_.f(0)};
+  stopped_ = {0, x, 0, 0, 0, -length * g.g0 / law.a, -length * (log_v0_ * g.g0 - g.g1), unit_ * integrals_.f(0)};
 }
 
 void check_roll(const Body& body, PowerLaw law, double v0) {
@@ -79,7 +80,7 @@ double Trajectory::acceleration(double v) const { return acceleration_from_shift
 //   dx/dp = dX/dp - v dT/dp,  which is the same integral with a factor u - v.
 Trajectory::Point Trajectory::at(double t, bool way) const {
   if (t == 0) return {v0_, 0, 0, 0, v0_ > 0 ? 1.0 : 0.0, 0, 0, 0};
-  const double lambda = log_ratio(t), a = law_.a, log_v0 = std::log(v0_);
+  const double lambda = log_ratio(t), a = law_.a, log_v0 = log_v0_;
   if (lambda == infinity) return stopped_;
   if (lambda < 1e-100) {  // unit_ may be infinite, lambda^2 be 0: a speed that hardly changes
     const double A = arm_factor(body_, geometry_, law_(v0_)), K = body_.K;
@@ -96,6 +97,16 @@ Trajectory::Point Trajectory::at(double t, bool way) const {
   point.x_b = -length * (log_v0 * g.g0 - g.g1);
   point.x_v0 = -std::expm1(-lambda) * unit_ * integrals_.f(0);
   return point;
+}
+
+// With w = (v/v0)^s = 1 - s t/unit all of the above are powers: h0 is t/unit, and the rate e^(-b lambda) = (v/v0)/w.
+Trajectory::Point Trajectory::speed_at(double t) const {
+  const double s = 1 - law_.b, rest = stop_time_ - t, time = t / unit_;
+  if (geometry_ == Geometry::exact || s == 0 || !(time > 1e-100 && rest > 0)) return at(t, false);
+  const double left = s * (rest / unit_), w = rest < t ? left : 1 - s * time;
+  const double lambda = -(rest < t ? std::log(w) : std::log1p(-s * time)) / s, ratio = std::exp(-lambda), rate = ratio / w;
+  const double h1 = power_moment(s, lambda, time, w);
+  return {v0_ * ratio, 0, -v0_ * rate * time / law_.a, -v0_ * rate * (log_v0_ * time - h1), rate, 0, 0, 0};
 }
 
 }  // namespace rolling

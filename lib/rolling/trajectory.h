@@ -37,8 +37,8 @@ class Trajectory {
 
   /// t >= 0 [s]. From the stop on: v = 0 with zero derivatives, x the stopping distance with its derivatives.
   Point at(double t) const { return at(t, true); }
-  /// The same without x and its derivatives, which are left 0, in half the time.
-  Point speed_at(double t) const { return at(t, false); }
+  /// The same without x and its derivatives, which are left 0, in half the time; for A = 1 in closed form, in a quarter of it.
+  Point speed_at(double t) const;
 
   /// ln(v0 / v) at time t >= 0; infinity from the stop on.
   double log_ratio(double t) const { return log_ratio(t, stop_time_ - t); }
@@ -60,7 +60,7 @@ class Trajectory {
   Body body_;
   Geometry geometry_;
   PowerLaw law_;
-  double v0_;
+  double v0_, log_v0_;
   double unit_ = 0;  // v0^(1-b) / (a c) [s]: v0 divided by the deceleration at v0 for A = 1
   SpeedIntegrals integrals_;
   double stop_time_ = 0;

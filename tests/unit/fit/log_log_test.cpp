@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "fit/covariance.h"
 #include "unit/fit/simulated.h"
 #include "unit/catch.h"
 
@@ -37,4 +38,36 @@ TEST_CASE("loglog: a held exponent leaves the mean of the logarithms", "[fit]") 
   FitOptions options;
   options.b = 0;
   CHECK(std::abs(fit(Route::loglog, {run}, options).a / std::cbrt(3 * 7 * 11.0) - 1) < 1e-14);
+}
+
+TEST_CASE("loglog: correlated residuals of two runs have the errors of their autocorrelation, by the sums of a line", "[fit]") {
+  simulated::Noise noise(8);
+  std::vector<FitRun> runs(2);
+  std::vector<double> log_v, log_D;
+  for (FitRun& run : runs) {
+    double error = 0;
+    for (int i = 1; i <= 100; ++i) {
+      error = 0.7 * error + noise(0.05);
+      run.v.push_back(0.01 * i);
+      run.D.push_back(2 * std::sqrt(0.01 * i) * std::exp(error));
+      log_v.push_back(std::log(run.v.back()));
+      log_D.push_back(std::log(run.D.back()));
+    }
+  }
+  const auto r = fit(Route::loglog, runs, {});
+  REQUIRE(r.errors == Errors::autocorrelation);
+  constexpr double n = 200;
+  double x = 0, y = 0, xx = 0, xy = 0;
+  for (std::size_t i = 0; i < 200; ++i) x += log_v[i] / n, y += log_D[i] / n;
+  for (std::size_t i = 0; i < 200; ++i) xx += (log_v[i] - x) * (log_v[i] - x), xy += (log_v[i] - x) * (log_D[i] - y);
+  CHECK(std::abs(r.b / (xy / xx) - 1) < 1e-12);
+  CHECK(std::abs(r.a / std::exp(y - xy / xx * x) - 1) < 1e-12);
+  std::vector<double> residuals, scores;  // of the slope: its column over its length
+  for (std::size_t i = 0; i < 200; ++i) {
+    residuals.push_back(y + r.b * (log_v[i] - x) - log_D[i]);
+    scores.push_back(residuals.back() * (log_v[i] - x) / std::sqrt(xx));
+  }
+  const std::size_t each[] = {100, 100};
+  const auto middle = newey_west(scores, 2, residuals, each);
+  CHECK(std::abs(r.sigma_b / std::sqrt((middle[0] + middle[1]) * n / (n - 2) / xx) - 1) < 1e-10);
 }

@@ -172,3 +172,29 @@ TEST_CASE("shift: smoothed and differentiated speeds, the filters known: nothing
     if (b < 1) CHECK(std::sqrt(squares / runs) < 0.020);  // measured: 0.014; of a plain fit 0.05
   }
 }
+
+TEST_CASE("shift: of many records all count, where few are enough to come near; of these few some may be worth nothing", "[fit]") {
+  simulated::Noise noise(12);
+  FitRun run{};
+  for (int i = 0; i < 20000; ++i) {
+    run.v.push_back(0.02 + 0.5 * i / 20000);
+    run.D.push_back(2e-3 * std::pow(run.v.back(), 0.3) + noise(1e-4));
+  }
+  const auto check = [&] {
+    const auto r = fit(Route::shift, {run}, {});
+    double by_a = 0, by_b = 0, squares = 0, squares_b = 0;  // the residuals are orthogonal to the derivatives
+    for (std::size_t i = 0; i < run.v.size(); ++i) {
+      const double power = std::pow(run.v[i], r.b), f = r.a * power - run.D[i], log = std::log(run.v[i]);
+      by_a += f * power;
+      by_b += f * power * log;
+      squares += power * power;
+      squares_b += power * log * power * log;
+    }
+    const double size = r.rms * std::sqrt(20000.0);
+    CHECK(std::abs(by_a) < 1e-10 * size * std::sqrt(squares));
+    CHECK(std::abs(by_b) < 1e-10 * size * std::sqrt(squares_b));
+  };
+  check();
+  for (std::size_t i = 0; i < run.v.size(); i += 5) run.v[i] = 0.3;  // every fifth of them is looked at first
+  check();
+}

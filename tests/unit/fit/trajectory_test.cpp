@@ -250,3 +250,37 @@ TEST_CASE("velocity: differences that the first records of a long run tell of ar
   CHECK(r.n == 4998);
   CHECK(std::abs(r.b - 0.1) < 4 * r.sigma_b);
 }
+
+TEST_CASE("trajectory: of a long run all records count, where means of them come near", "[fit]") {
+  const double v0 = 0.5, a = 1.87e-3, b = 0.215;
+  constexpr std::size_t n = 10000;
+  const auto truth = simulated::roll(cylinder, a, b, v0);
+  simulated::Noise noise(14);
+  FitRun run{};
+  run.body = cylinder;
+  for (std::size_t i = 0; i < n; ++i) {
+    run.t.push_back(2.2 * static_cast<double>(i) / n);
+    run.v.push_back(truth.v(run.t.back()) + noise(2e-3));
+    run.x.push_back(truth.x(run.t.back()) + noise(3e-4));
+  }
+  for (Route route : {Route::velocity, Route::position}) {
+    FitOptions options;
+    options.x0 = 0;
+    const auto r = fit(route, {run}, options);
+    // No neighbour is better: the sum of squares has its minimum there, by differences of the closed formula that is typed in simulated.h.
+    const auto residual = [&](std::size_t i, double da, double db, double dv0) {
+      const auto roll = simulated::roll(cylinder, r.a + da, r.b + db, r.v0[0] + dv0);
+      return route == Route::velocity ? roll.v(run.t[i]) - run.v[i] : roll.x(run.t[i]) - run.x[i];
+    };
+    for (int j = 0; j < 3; ++j) {
+      const double step = 1e-5, da = j == 0 ? step * a : 0, db = j == 1 ? step : 0, dv0 = j == 2 ? step * v0 : 0;
+      double slope = 0, squares = 0;
+      for (std::size_t i = 0; i < n; ++i) {
+        const double change = residual(i, da, db, dv0) - residual(i, -da, -db, -dv0);
+        slope += change * residual(i, 0, 0, 0);
+        squares += change * change;
+      }
+      CHECK(std::abs(slope) < 1e-7 * r.rms * std::sqrt(n * squares));
+    }
+  }
+}

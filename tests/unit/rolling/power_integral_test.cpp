@@ -29,6 +29,7 @@ TEST_CASE("power integrals: high precision, s through 0 and -1, lambda from 1e-1
     INFO("s " << r.s << " lambda " << r.lambda);
     CHECK(std::abs(power_integral(r.s, r.lambda) - r.integral) <= tolerance * r.integral);
     CHECK(std::abs(power_moment(r.s, r.lambda) - r.moment) <= tolerance * r.moment);
+    CHECK(std::abs(power_moment(r.s, r.lambda, r.integral, std::exp(-r.s * r.lambda)) - r.moment) <= 4 * tolerance * r.moment);
     // From lambda = 1 on, or where s is large, they are a difference.
     const double loss = std::abs(r.s + 1) * r.lambda <= 1 && r.lambda <= 1 ? 1 : 3 + 2 / r.lambda;
     CHECK(std::abs(headway.integral - r.headway) <= loss * tolerance * r.headway);

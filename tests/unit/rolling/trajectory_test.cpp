@@ -52,6 +52,11 @@ TEST_CASE("Trajectory: speed, distance and derivatives against quadrature with 4
     const double log_u = std::abs(std::log(r.v0)) + std::abs(std::log(r.v));
     CHECK(close(s.v_b, r.v_b, std::abs(r.a * r.v_a) * log_u));
     CHECK(close(s.x_b, r.x_b, std::abs(r.a * r.x_a) * log_u));
+    const auto speed = roll(r).speed_at(r.t);
+    CHECK(close(speed.v, r.v, r.v));
+    CHECK(close(speed.v_a, r.v_a, std::abs(r.v_a)));
+    CHECK(close(speed.v_b, r.v_b, std::abs(r.a * r.v_a) * log_u));
+    CHECK(close(speed.v_v0, r.v_v0, std::abs(r.v_v0)));
   }
 }
 
