@@ -173,6 +173,25 @@ TEST_CASE("shift: smoothed and differentiated speeds, the filters known: nothing
   }
 }
 
+TEST_CASE("shift: another unit of length gives the same law, the filters known", "[fit]") {
+  const auto fitted = [](double unit) {
+    Body body{1.375, 0.04 * unit, 0.5};
+    body.g *= unit;
+    const auto truth = simulated::roll(body, 1.87e-3 * std::pow(unit, 1 - 0.215), 0.215, 0.5 * unit);
+    simulated::Noise noise(2026);
+    FitRun run{};
+    for (int i = 0; i <= 58; ++i) run.t.push_back(0.04 * i), run.v.push_back(truth.v(0.04 * i) + unit * noise(0.0053));
+    run.filters = {simulated::smooth_v(9), simulated::differentiate("v", "a"), simulated::shift(body)};
+    run.v = run.filters[0].apply(run.t, run.v);
+    run.D = run.filters[2].apply(run.t, run.filters[1].apply(run.t, run.v));
+    return fit(Route::shift, {run}, {});
+  };
+  const auto metres = fitted(1), megametres = fitted(1e-6);
+  CHECK(std::abs(megametres.b / metres.b - 1) < 1e-9);
+  CHECK(std::abs(megametres.sigma_b / metres.sigma_b - 1) < 1e-7);
+  CHECK(std::abs(megametres.a / std::pow(1e-6, 1 - metres.b) / metres.a - 1) < 1e-8);
+}
+
 TEST_CASE("shift: of many records all count, where few are enough to come near; of these few some may be worth nothing", "[fit]") {
   simulated::Noise noise(12);
   FitRun run{};

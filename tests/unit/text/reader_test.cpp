@@ -233,6 +233,8 @@ TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]
   CHECK(records({"0 1\n", "0 2\n", "0 3\n"}, run(2)) == "0 2");
   CHECK(records({"Time (s) Run #7,Velocity (m/s) Run #7\n0,1\n"}, run(7)) == "0 1");
   CHECK(records({"0 1\n\n0 2\n"}, run(3)) == "there is no run 3 (runs: 2)");
+  CHECK(records({"t Run 2,v Run 2,t Run 4,v Run 4\n0,1,0,5\n"}, run(4)) == "0 5");
+  CHECK(records({"t Run 2,v Run 2,t Run 4,v Run 4\n0,1,0,5\n"}, run(3)) == "FILE: there is no run 3 among the 2 side by side: 2, 4");
 }
 
 TEST_CASE("reader: units are converted, and go out converted", "[text]") {
