@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace rolling {
@@ -265,6 +266,23 @@ Rolls make_rolls(const std::vector<FitRun>& all, const std::vector<Rows>& rows, 
   return rolls;
 }
 
+/// The minimum for as many means of neighbouring records as `longest` allows, most of the way to that for all; `theta` if there is none.
+std::vector<double> fit_means(const std::vector<FittedRun>& rolls, const Parameters& q, std::vector<double> theta) {
+  std::vector<FittedRun> few;
+  for (const FittedRun& roll : rolls) {
+    const std::size_t records = roll.t.size(), most = std::min(records, longest);
+    std::vector<std::size_t> edges;  // of all but the same number of records: the means count the same
+    for (std::size_t k = 0; k <= most; ++k) edges.push_back(k * records / most);
+    few.push_back(means(roll, q.position, edges));
+  }
+  const KnownNoise none;
+  try {
+    return minimise(system_of(few, q, none), theta).theta;
+  } catch (const Error&) {
+    return theta;
+  }
+}
+
 RouteFit fit_rolls(const std::vector<FitRun>& all, std::vector<Rows>& rows, Parameters& q, const Making& making, std::vector<double> theta = {}) {
   const FitOptions& options = q.options;
   RouteFit result{};
@@ -282,17 +300,7 @@ RouteFit fit_rolls(const std::vector<FitRun>& all, std::vector<Rows>& rows, Para
       q.log_v_ref = std::log(q.v_ref);
       if (q.position) q.x_ref = thin.front().v0 * std::max(thin.front().t.back(), std::numeric_limits<double>::min());
       theta = start(thin, q);
-      if (n > longest * all.size() && !options.robust) try {  // most of the way on these
-          for (std::size_t r = 0; r < thin.size(); ++r) {
-            const std::size_t records = rolls.of[r].t.size(), most = std::min(records, longest);
-            std::vector<std::size_t> edges;  // of all but the same number of records: the means count the same
-            for (std::size_t k = 0; k <= most; ++k) edges.push_back(k * records / most);
-            thin[r] = means(rolls.of[r], q.position, edges);
-          }
-          const KnownNoise none;
-          theta = minimise(system_of(thin, q, none), theta).theta;
-        } catch (const Error&) {  // the full data may do better
-        }
+      if (n > longest * all.size() && !options.robust) theta = fit_means(rolls.of, q, std::move(theta));
     }
     result.minimum = solve(system_of(rolls.of, q, rolls.noise), theta, options, !rolls.noise.empty());
     theta = result.minimum.theta;
@@ -414,6 +422,31 @@ bool leave_out_irregular(const std::vector<FitRun>& all, std::vector<Rows>& rows
 /// How many records at the beginning of a run are asked what made its speeds: the factor e^3 of likelihood shows in a hundred.
 constexpr std::size_t telling = 2000;
 
+/// The fit through the positions of which the speeds are most likely differences; none if they are not, or if it leaves residuals that
+/// do not look white.
+std::optional<RouteFit> fit_differences(const std::vector<FitRun>& all, std::vector<Rows> rows, Parameters& q, const std::vector<double>& theta) {
+  std::size_t reach = 0;
+  for (const auto& filter : q.options.possible_filters) reach = std::max(reach, filter.reach);
+  std::vector<FitRun> heads;
+  std::vector<Rows> head_rows;
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    const std::size_t n = std::min(all[r].t.size(), telling);
+    const auto head = [n](const std::vector<double>& x) { return std::vector(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n)); };
+    heads.push_back({.t = head(all[r].t), .x = {}, .v = head(all[r].v), .D = {}, .body = all[r].body, .filters = {}});
+    head_rows.emplace_back(rows[r].begin(), std::lower_bound(rows[r].begin(), rows[r].end(), n));
+  }
+  try {
+    if (!leave_out_irregular(heads, head_rows, reach)) return {};
+    const Maker maker = most_likely(heads, head_rows, q.options.possible_filters, q, theta);
+    if (!maker.filter || maker.filter->from == "v" || !leave_out_irregular(all, rows, reach)) return {};
+    RouteFit fitted = fit_rolls(all, rows, q, making_by(maker, all), theta);
+    fitted.judged = true;
+    if (assess(system_of(fitted.rolls, q, fitted.noise), fitted)) return fitted;
+  } catch (const Error&) {  // too few records, or no minimum
+  }
+  return {};
+}
+
 }  // namespace
 
 RouteFit fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOptions& options) {
@@ -439,29 +472,10 @@ RouteFit fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOp
 
   Parameters q{options, position, all.size()};
   RouteFit fitted = fit_rolls(all, rows, q, making);
-  const auto look_white = [&](RouteFit& r) { return assess(system_of(r.rolls, q, r.noise), r); };
-  if (!known && !position && !options.robust && !options.possible_filters.empty() && fitted.minimum.f.size() >= 30) try {
-      std::size_t reach = 0;
-      for (const auto& filter : options.possible_filters) reach = std::max(reach, filter.reach);
-      std::vector<FitRun> heads;
-      std::vector<Rows> head_rows;
-      for (std::size_t r = 0; r < all.size(); ++r) {
-        const std::size_t n = std::min(all[r].t.size(), telling);
-        const auto head = [n](const std::vector<double>& x) { return std::vector(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n)); };
-        heads.push_back({.t = head(all[r].t), .x = {}, .v = head(all[r].v), .D = {}, .body = all[r].body, .filters = {}});
-        head_rows.emplace_back(rows[r].begin(), std::lower_bound(rows[r].begin(), rows[r].end(), n));
-      }
-      if (leave_out_irregular(heads, head_rows, reach)) {
-        const Maker maker = most_likely(heads, head_rows, options.possible_filters, q, fitted.minimum.theta);
-        if (maker.filter && maker.filter->from != "v" && leave_out_irregular(all, rows, reach)) {
-          RouteFit differences = fit_rolls(all, rows, q, making_by(maker, all), fitted.minimum.theta);
-          differences.judged = true;
-          if (look_white(differences)) return differences;
-        }
-      }
-    } catch (const Error&) {  // none of them it is
-    }
-  look_white(fitted);
+  const bool may_be_differences = !known && !position && !options.robust && !options.possible_filters.empty() && fitted.minimum.f.size() >= 30;
+  if (may_be_differences)
+    if (auto differences = fit_differences(all, rows, q, fitted.minimum.theta)) return *std::move(differences);
+  assess(system_of(fitted.rolls, q, fitted.noise), fitted);
   return fitted;
 }
 
