@@ -44,7 +44,7 @@ char* write_shortest(char* to, double value) {
   const bool scientific = point < -3 || point > 16;
   const int whole = scientific ? 1 : point;
 
-  std::memcpy(to, "0.000", 5);
+  std::string_view("0.000").copy(to, 5);
   char* const digits = whole > 0 ? to + 1 : to + 2 - whole;
   const std::uint64_t seventeen = decimal.significand * whole_power_of_ten[17 - count], nine = seventeen / 100000000;
   digits[0] = static_cast<char>('0' + nine / 100000000);
