@@ -284,3 +284,19 @@ TEST_CASE("trajectory: of a long run all records count, where means of them come
     }
   }
 }
+
+TEST_CASE("trajectory: a long record whose means have no minimum is refused for what the whole of it lacks", "[fit]") {
+  const auto refused = [](double (*v)(int)) {
+    FitRun run{};
+    run.body = cylinder;
+    for (int i = 0; i < 5000; ++i) run.t.push_back(0.01 * i), run.v.push_back(v(i));
+    try {
+      fit(Route::velocity, {run}, {});
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("not at all");
+  };
+  CHECK(refused([](int) { return 1.0; }) == "the data do not determine the parameters: they cannot be told apart");
+  CHECK(refused([](int i) { return i < 2 ? 1.0 : 0.0; }) == "the fit cannot start: the law has no finite values at the starting point");
+}
