@@ -68,8 +68,6 @@ constexpr auto exp_table = [] {
 
 constexpr double step1 = cut(ln2.hi / exp_size, 21), step2 = (ln2.hi / exp_size - step1) + ln2.lo / exp_size;  // n step1 is exact
 
-double power_of_two(int n) { return std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52); }
-
 }  // namespace
 
 DoubleDouble exp(DoubleDouble x) {

@@ -19,6 +19,9 @@ struct DoubleDouble {
   constexpr DoubleDouble operator-() const { return {-hi, -lo}; }
 };
 
+/// 2^n for -1022 <= n <= 1023.
+constexpr double power_of_two(int n) { return std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52); }
+
 constexpr DoubleDouble two_sum(double a, double b) {
   const double sum = a + b, of_b = sum - a;
   return {sum, (a - (sum - of_b)) + (b - of_b)};

@@ -261,6 +261,14 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
   return {std::move(best.theta), std::move(best.f), best.R.without_f(), best.rss};
 }
 
+std::vector<double> approach(const System& system, std::vector<double> start) {
+  try {
+    return minimise(system, start).theta;
+  } catch (const Error&) {
+    return start;
+  }
+}
+
 namespace {
 
 /// psi(u)/u and psi'(u) of a loss.

@@ -36,7 +36,10 @@ struct Minimum {
 /// Throws Error if there is no convergence, or if the parameters cannot be told apart.
 Minimum minimise(const System&, const std::vector<double>& start);
 
-/// The same with Tukey's bisquare loss (tuned for 95 % efficiency) by reweighting, from Huber's on the way; the scale is the MAD of the
+/// theta of the minimum of a system that stands in for a larger one; the start if it has none.
+std::vector<double> approach(const System&, std::vector<double> start);
+
+/// minimise() with Tukey's bisquare loss (tuned for 95 % efficiency) by reweighting, from Huber's on the way; the scale is the MAD of the
 /// residuals. What comes back are pseudo-residuals f (Huber 1981, Robust Statistics, section 7.6) with the unweighted R, so that the
 /// errors of least squares made from them are those of the robust fit. The scale must be that of single records: no correlated noise.
 Minimum minimise_robust(const System&, const std::vector<double>& start);

@@ -264,11 +264,8 @@ RouteFit fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   std::vector<double> theta;
   if (!options.a) theta.push_back(best_at(b).value / unit);
   if (!options.b) theta.push_back(b);
-  if (some_D.size() < n) try {  // most of the way on few of many records
-      const std::vector<std::size_t> few{some_D.size()};
-      theta = minimise(system_of(few, some_log_u, some_D), theta).theta;
-    } catch (const Error&) {  // all of them may do better
-    }
+  const std::vector<std::size_t> few{some_D.size()};
+  if (some_D.size() < n) theta = approach(system_of(few, some_log_u, some_D), std::move(theta));  // most of the way on few of many records
 
   const System system = system_of(records.runs, log_u, D);
   Minimum minimum = solve(system, theta, options, records.filters_known());

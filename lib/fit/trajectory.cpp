@@ -276,11 +276,7 @@ std::vector<double> fit_means(const std::vector<FittedRun>& rolls, const Paramet
     few.push_back(means(roll, q.position, edges));
   }
   const KnownNoise none;
-  try {
-    return minimise(system_of(few, q, none), theta).theta;
-  } catch (const Error&) {
-    return theta;
-  }
+  return approach(system_of(few, q, none), std::move(theta));
 }
 
 RouteFit fit_rolls(const std::vector<FitRun>& all, std::vector<Rows>& rows, Parameters& q, const Making& making, std::vector<double> theta = {}) {

@@ -5,12 +5,6 @@
 #include <cmath>
 
 namespace rolling {
-namespace {
-
-/// 2^e for -1022 <= e <= 1023.
-double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + e) << 52); }
-
-}  // namespace
 
 void ExactSum::add_zero(double zero, int sign) { negative_zeros_ += static_cast<std::size_t>(std::signbit(zero) ? sign : 0); }
 

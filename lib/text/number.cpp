@@ -3,6 +3,7 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -13,13 +14,14 @@ namespace rolling {
 
 namespace {
 
-/// The powers of ten up to the last one that 19 digits can ask for; each is exact.
-constexpr double power_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,
-                                   1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19};
-
-constexpr std::uint64_t whole_power_of_ten[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000, 1000000000, 10000000000,
-                                                100000000000, 1000000000000, 10000000000000, 100000000000000, 1000000000000000,
-                                                10000000000000000, 100000000000000000};
+template <typename T, std::size_t count>
+constexpr std::array<T, count> powers_of_ten() {
+  std::array<T, count> powers{1};
+  for (std::size_t i = 1; i < count; ++i) powers[i] = 10 * powers[i - 1];
+  return powers;
+}
+constexpr auto power_of_ten = powers_of_ten<double, 20>();  // up to the last one that 19 digits can ask for; each is exact
+constexpr auto whole_power_of_ten = powers_of_ten<std::uint64_t, 18>();
 
 /// Writes the eight digits of a number below 10^8, each in a byte of one word.
 void write_eight_digits(char* to, std::uint64_t number) {

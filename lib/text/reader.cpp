@@ -22,7 +22,6 @@ char first_mark(std::string_view line) {
   return nothing;
 }
 
-
 /// The last comment that is no history.
 std::size_t last_remark(const std::vector<std::string>& comments) {
   for (std::size_t i = comments.size(); i-- > 0;)
