@@ -1,16 +1,21 @@
 #!/bin/bash
-# The corpus of each tool under valgrind: no byte read that was not written, none lost. The tools are those of bin/.
+# The suite under valgrind, but for the tests of limits and of the house: no byte used that nobody wrote, none lost. In a copy
+# whose bin/ holds, for each tool, a script that runs it so.
 set -u
 cd "$(dirname "$0")/.." || exit 2
 command -v valgrind >/dev/null || { echo 'skipped: no valgrind'; exit 77; }
-wrong=0 count=0
-for file in tests/fuzz/corpus/{smooth,differentiate,shift-from-accel,fitpower,simulate,energy-ledger}/*; do
-  tool=$(basename "$(dirname "$file")")
-  read -r -a arguments <"$file"
-  tail -n +2 "$file" | valgrind --quiet --leak-check=full --error-exitcode=99 "bin/$tool" "${arguments[@]}" >/dev/null 2>"${TMPDIR:-/tmp}/valgrind.$$"
-  [ "${PIPESTATUS[1]}" -ne 99 ] || { wrong=1 && echo "$file:" && head -n 20 "${TMPDIR:-/tmp}/valgrind.$$"; }
-  count=$((count + 1))
-done
-rm -f "${TMPDIR:-/tmp}/valgrind.$$"
-echo "$count runs under valgrind"
-exit $wrong
+copy=$PWD/build/valgrind
+rm -rf "$copy"
+mkdir -p "$copy/bin" "$copy/build" "$copy/log"
+cp -R Makefile README.md samples man tests "$copy"
+under_valgrind() {  # PROGRAM SCRIPT
+  printf '#!/bin/sh\nexec valgrind --quiet --leak-check=full --error-exitcode=99 --log-file="%s/log/%%p" "%s" "$@"\n' "$copy" "$1" >"$2"
+  chmod +x "$2"
+}
+for tool in bin/*; do under_valgrind "$PWD/$tool" "$copy/$tool"; done
+under_valgrind "$PWD/build/unit" "$copy/build/unit"
+"$copy/tests/run.sh" "$copy/build/unit" "$copy"/tests/{tools,pipeline/*.sh,faults/{corpus,fields,options}.sh}
+status=$?
+find "$copy/log" -size +0 -exec cat {} +
+echo "$(find "$copy/log" -type f | wc -l) runs under valgrind, $(find "$copy/log" -size +0 | wc -l) of them with findings"
+[ "$status" -eq 0 ] && [ -z "$(find "$copy/log" -size +0)" ]

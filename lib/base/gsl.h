@@ -7,7 +7,8 @@
 
 namespace rolling {
 
-/// Turns GSL's default handler (which aborts) off, once; call it before the first use of GSL in a room.
+/// In place of GSL's default handler, which aborts: an allocation that fails is std::bad_alloc, all else a status. Call it
+/// before the first use of GSL in a room.
 void silence_gsl();
 
 /// Throws Error("what: reason") when a GSL status is not GSL_SUCCESS.

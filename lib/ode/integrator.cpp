@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <utility>
 
 #include "base/error.h"
 #include "base/gsl.h"
-
-extern "C" const gsl_odeiv2_control_type* gsl_odeiv2_control_standard;  // in GSL's library, not in its header
 
 namespace rolling {
 
@@ -61,28 +58,6 @@ const gsl_odeiv2_step_type* gsl_type(Stepper stepper) {
   return gsl_odeiv2_step_msbdf;
 }
 
-using Driver = std::unique_ptr<gsl_odeiv2_driver, void (*)(gsl_odeiv2_driver*)>;
-
-/// gsl_odeiv2_driver_alloc_y_new from its parts: its control object goes unchecked in GSL, which crashes when memory runs out.
-Driver new_driver(gsl_odeiv2_system& system, const OdeOptions& options, double h) {
-  silence_gsl();
-  auto step = own(gsl_odeiv2_step_alloc(gsl_type(options.stepper), system.dimension), gsl_odeiv2_step_free);
-  auto evolve = own(gsl_odeiv2_evolve_alloc(system.dimension), gsl_odeiv2_evolve_free);
-  auto control = own(gsl_odeiv2_control_alloc(gsl_odeiv2_control_standard), gsl_odeiv2_control_free);
-  check_gsl(gsl_odeiv2_control_init(control.get(), options.atol, options.rtol, 1, 0), "the error control");
-  Driver driver = own(static_cast<gsl_odeiv2_driver*>(std::calloc(1, sizeof(gsl_odeiv2_driver))), gsl_odeiv2_driver_free);
-  driver->sys = &system;
-  driver->s = step.release();
-  driver->e = evolve.release();
-  driver->c = control.release();
-  driver->h = h;
-  driver->hmax = std::numeric_limits<double>::max();
-  gsl_odeiv2_step_set_driver(driver->s, driver.get());
-  gsl_odeiv2_evolve_set_driver(driver->e, driver.get());
-  gsl_odeiv2_control_set_driver(driver->c, driver.get());
-  return driver;
-}
-
 }  // namespace
 
 Integrator::Integrator(OdeSystem system, const OdeOptions& options, double t, std::vector<double> y)
@@ -93,7 +68,8 @@ Integrator::Integrator(OdeSystem system, const OdeOptions& options, double t, st
   if (options.stepper >= Stepper::rk1imp && !system.jacobian) fail("an implicit stepper needs the Jacobian");
   problem_->system = std::move(system);
   problem_->gsl = {Problem::derivative, problem_->system.jacobian ? Problem::jacobian : nullptr, y_.size(), problem_.get()};
-  driver_ = new_driver(problem_->gsl, options, h_);
+  silence_gsl();
+  driver_ = own(gsl_odeiv2_driver_alloc_y_new(&problem_->gsl, gsl_type(options.stepper), h_, options.atol, options.rtol), gsl_odeiv2_driver_free);
 }
 
 unsigned long Integrator::evaluations() const { return problem_->evaluations; }
