@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
     const bool streams = !choose && !select.coast;  // else nothing goes out before the first run has been read
     Filter filter(in, tool.out, streams ? history(name, select, options) : "");
     filter.replace(y);
+    const bool all = select.all();
     bool told = streams;
     std::size_t outliers = 0;
     while (filter.next_run()) {
@@ -80,7 +81,10 @@ int main(int argc, char** argv) {
           ++record;
         }
       };
-      while (filter.next()) take(selection.push(filter[t], filter[y]));
+      while (filter.next()) {
+        if (all) put(smoother->push(filter[t], filter[y])), ++kept;
+        else take(selection.push(filter[t], filter[y]));
+      }
       const auto last = selection.finish();
       const auto tell = [&] {
         if (!told) filter.tell(history(name, select, options));

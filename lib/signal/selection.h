@@ -1,6 +1,7 @@
 // Which samples of a run are worth looking at: those between two times, without outliers, of the free roll.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -15,6 +16,8 @@ struct SelectionOptions {
   Width width{};           ///< of the window for that
   bool coast = false;      ///< the free roll only: needs the whole run
   bool positions = false;  ///< for that: the column is a position, not a speed
+
+  bool all() const { return !coast && outliers == 0 && std::isinf(from) && std::isinf(to); }  ///< nothing is left out
 };
 
 class Selection {

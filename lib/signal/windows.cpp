@@ -1,34 +1,38 @@
 #include "signal/windows.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "base/error.h"
 
 namespace rolling {
 
-Windows::Windows(Width width, Ends ends) : width_(width), ends_(ends), ring_(16) {
+Windows::Windows(Width width, Ends ends)
+    : width_(width), ends_(ends), half_(width_.seconds > 0 ? std::numeric_limits<std::size_t>::max() : width_.samples / 2), ring_(16), mask_(ring_.size() - 1) {
   if (width_.seconds == 0 && width_.samples % 2 == 0)
     fail("the width of a centred window is an odd number of samples, not {}", width_.samples);
 }
 
-void Windows::push(double t, double y) {
+void Windows::make_room() {
   first_ = std::max(first_, width_.seconds > 0 ? left_ : begin_);  // neither falls
-  if (count_ - first_ == ring_.size()) grow();
-  if (count_ == 0) start_ = t;
-  ring_[count_++ & (ring_.size() - 1)] = {t, y};
-}
-
-void Windows::grow() {
+  if (count_ - first_ < ring_.size()) return;
   std::vector<Sample> larger(2 * ring_.size());
   for (std::size_t i = first_; i < count_; ++i) larger[i & (larger.size() - 1)] = sample(i);
   ring_ = std::move(larger);
+  mask_ = ring_.size() - 1;
+}
+
+/// next(), where the ends of the run may matter.
+bool Windows::near_end() {
+  if (!(width_.seconds > 0 ? by_time(next_) : by_count(next_))) return false;
+  ++next_;
+  return true;
 }
 
 bool Windows::by_count(std::size_t i) {
-  const std::size_t half = width_.samples / 2;
-  const std::size_t ahead = ends_ == Ends::shrink ? std::min(i, half) : half;
-  const std::size_t middle = ends_ == Ends::stay ? std::max(i, half) : i;
+  const std::size_t ahead = ends_ == Ends::shrink ? std::min(i, half_) : half_;
+  const std::size_t middle = ends_ == Ends::stay ? std::max(i, half_) : i;
   if (!finished_ && count_ <= middle + ahead) return false;
   if (ends_ == Ends::shrink) {
     const std::size_t k = std::min(ahead, count_ - 1 - i);
@@ -36,9 +40,9 @@ bool Windows::by_count(std::size_t i) {
     end_ = i + k + 1;
     return true;
   }
-  begin_ = middle - std::min(middle, half);
+  begin_ = middle - std::min(middle, half_);
   if (ends_ == Ends::stay) begin_ = std::min(begin_, count_ - std::min(count_, width_.samples));
-  end_ = std::min(middle + half + 1, count_);
+  end_ = std::min(middle + half_ + 1, count_);
   return true;
 }
 

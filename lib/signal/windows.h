@@ -19,12 +19,18 @@ class Windows {
   /// Throws Error for an even width.
   Windows(Width, Ends);
 
-  void push(double t, double y);
+  void push(double t, double y) {
+    if (count_ - first_ == ring_.size()) make_room();
+    if (count_ == 0) start_ = t;
+    ring_[count_++ & mask_] = {t, y};
+  }
   void finish() { finished_ = true; }
   /// Goes to the next sample whose window is complete; false when there is none yet.
   bool next() {
-    if (next_ == count_ || !(width_.seconds > 0 ? by_time(next_) : by_count(next_))) return false;
-    ++next_;
+    if (next_ < half_ || finished_) return next_ < count_ && near_end();
+    if (next_ + half_ >= count_) return false;
+    begin_ = next_ - half_;
+    end_ = ++next_ + half_;
     return true;
   }
 
@@ -33,7 +39,7 @@ class Windows {
   std::size_t end() const { return end_; }
   std::size_t size() const { return end_ - begin_; }
   std::size_t at() const { return next_ - 1; }
-  const Sample& sample(std::size_t i) const { return ring_[i & (ring_.size() - 1)]; }
+  const Sample& sample(std::size_t i) const { return ring_[i & mask_]; }
 
   /// Moves [from, to), a former window, to the present one, one sample at a time.
   template <typename Add, typename Remove>
@@ -45,14 +51,17 @@ class Windows {
   }
 
  private:
-  void grow();
+  void make_room();
+  bool near_end();
   bool by_count(std::size_t i);
   bool by_time(std::size_t i);
 
   Width width_;
   Ends ends_;
   bool finished_ = false;
+  std::size_t half_;                        // of the width in samples; in seconds it is none, and every sample counts as near an end
   std::vector<Sample> ring_;                // sample i at i modulo its size, a power of two; those from first_ on are there
+  std::size_t mask_;                        // its size - 1
   std::size_t first_ = 0, count_ = 0, next_ = 0;
   std::size_t begin_ = 0, end_ = 0;         // the present window
   std::size_t left_ = 0, right_ = 0;        // the samples within reach in time

@@ -41,7 +41,7 @@ bool Dialect::choose(std::string_view line) {
   separator_ = tab ? '\t' : semicolon ? ';' : comma ? ',' : '\0';
   foreign_numbers_ = tab || semicolon;
   decimal_mark_ = '\0';
-  wanted_.assign(fields_.size(), false);
+  fields_.clear();
   auto fields = split(line);
   const auto numeric = [](const Field& field) { return is_number(field.text); };
   if (tab && std::any_of(fields.begin(), fields.end(), [](const Field& field) { return field.text.find(' ') != npos; })) {
@@ -54,16 +54,11 @@ bool Dialect::choose(std::string_view line) {
 }
 
 void Dialect::want(std::size_t field) {
-  if (wanted_.size() <= field) wanted_.resize(field + 1);
-  wanted_[field] = true;
+  if (fields_.size() <= field) fields_.resize(field + 1);
+  fields_[field].wanted = true;
 }
 
 // A number is read, or passed over, where it stands, which shows where its field ends: no other search, no second pass.
-
-void Dialect::add_field() {
-  fields_.emplace_back();
-  wanted_.resize(std::max(wanted_.size(), fields_.size()));
-}
 
 std::span<const Field> Dialect::split(std::string_view line) {
   count_ = 0;
@@ -77,14 +72,13 @@ std::span<const Field> Dialect::split(std::string_view line) {
   const bool foreign = foreign_numbers_ && decimal_mark_ != '.';
   for (;; ++at) {
     Field& field = next_field();
-    const bool wanted = wanted_[count_ - 1];
     const char* const first = at;
-    if (!foreign) at = wanted ? read_number(at, end, field.number) : skip_plain(at, end);
+    if (!foreign) at = field.wanted ? read_number(at, end, field.number) : skip_plain(at, end);
     if (at != first && (at == end || *at == separator_)) {
       field.text = {first, at};
     } else {
       at = take_text(first, end, field);
-      if (wanted && !parse_number(field.text, field.number)) field.number = Field().number;
+      if (field.wanted && !parse_number(field.text, field.number)) field.number = Field().number;
     }
     if (at == end) return {fields_.data(), count_};
   }
@@ -96,7 +90,7 @@ void Dialect::split_blanks(const char* at, const char* end) {
     if (at == end) return;
     Field& field = next_field();
     const char* const first = at;
-    if (wanted_[count_ - 1]) at = read_number(at, end, field.number);
+    if (field.wanted) at = read_number(at, end, field.number);
     if (at != end && !is_blank(*at)) {
       field.number = Field().number;
       while (at != end && !is_blank(*at)) ++at;

@@ -13,7 +13,8 @@ namespace rolling {
 /// A field without its quotes and the blanks around it.
 struct Field {
   std::string_view text{};
-  double number = std::numeric_limits<double>::quiet_NaN();  ///< if its number is wanted; NaN if the text is none
+  double number = std::numeric_limits<double>::quiet_NaN();  ///< if it is wanted; NaN if the text is none
+  bool wanted = false;
 };
 
 class Dialect {
@@ -33,12 +34,9 @@ class Dialect {
 
  private:
   Field& next_field() {
-    if (count_ == fields_.size()) add_field();
-    Field& field = fields_[count_++];
-    field.number = Field().number;
-    return field;
+    if (count_ == fields_.size()) fields_.emplace_back();
+    return fields_[count_++];
   }
-  void add_field();
   void split_blanks(const char* at, const char* end);
   const char* take_text(const char* at, const char* end, Field&);
   std::string_view take_quoted(const char*& at, const char* end);
@@ -49,7 +47,6 @@ class Dialect {
   char decimal_mark_ = '\0';      // the one seen
   bool as_it_stands_ = false;
   std::vector<Field> fields_;  // room for those of the longest line
-  std::vector<char> wanted_;   // not shorter
   std::size_t count_ = 0;      // of the fields of this line
   std::deque<std::string> made_;  // the texts of fields that do not stand in the line
 };

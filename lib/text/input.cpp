@@ -25,7 +25,7 @@ bool is_standard_output(int fd) {
 }  // namespace
 
 Input::Input(std::string name, BlockHook on_block)
-    : name_(std::move(name)), on_block_(std::move(on_block)), fd_(name_ == "-" ? STDIN_FILENO : ::open(name_.c_str(), O_RDONLY | O_CLOEXEC)), buffer_(block) {
+    : name_(std::move(name)), on_block_(std::move(on_block)), fd_(name_ == "-" ? STDIN_FILENO : ::open(name_.c_str(), O_RDONLY | O_CLOEXEC)), buffer_(block), at_(buffer_.data()), end_(at_) {
   if (fd_ < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
   if (is_standard_output(fd_)) fail<InputError>("{}: this input is the output too", name_);
 #ifdef F_SETPIPE_SZ
@@ -40,42 +40,42 @@ Input::~Input() {
 }
 
 bool Input::fill() {
-  if (begin_ > 0) {
-    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
-    end_ -= begin_;
-    begin_ = 0;
+  const auto kept = static_cast<std::size_t>(end_ - at_);
+  std::memmove(buffer_.data(), at_, kept);
+  if (kept == buffer_.size()) {
+    if (kept >= longest_line) fail<InputError>("{}:{}: a line of more than {} bytes", name_, line_number_ + 1, longest_line);
+    buffer_.resize(2 * kept);
   }
-  if (end_ == buffer_.size()) {
-    if (end_ >= longest_line) fail<InputError>("{}:{}: a line of more than {} bytes", name_, line_number_ + 1, longest_line);
-    buffer_.resize(2 * end_);
-  }
+  at_ = buffer_.data();
+  char* const to = buffer_.data() + kept;
+  end_ = to;
   ssize_t count;
-  do count = ::read(fd_, buffer_.data() + end_, buffer_.size() - end_);
+  do count = ::read(fd_, to, buffer_.size() - kept);
   while (count < 0 && errno == EINTR);
   if (count < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
-  quotes_ = quotes_ || std::memchr(buffer_.data() + end_, '"', static_cast<std::size_t>(count));
-  end_ += static_cast<std::size_t>(count);
+  quotes_ = quotes_ || std::memchr(to, '"', static_cast<std::size_t>(count));
+  end_ += count;
   read_ += static_cast<double>(count);
   if (size_ > 0) on_block_(name_, std::min(read_ / size_, 1.0));
   return count > 0;
 }
 
-/// The end of the line that begins at begin_; null if it has none.
-const char* Input::line_feed() {
-  for (std::size_t searched = 0;;) {
-    const void* const feed = std::memchr(buffer_.data() + begin_ + searched, '\n', end_ - begin_ - searched);
+/// The end of the line that begins at at_, of which the line feed has not been read yet; null if there is no line.
+const char* Input::end_of_line() {
+  for (std::size_t searched = 0; !at_end_;) {
+    searched = static_cast<std::size_t>(end_ - at_);
+    at_end_ = !fill();
+    const void* const feed = std::memchr(at_ + searched, '\n', static_cast<std::size_t>(end_ - at_) - searched);
     if (feed) return static_cast<const char*>(feed);
-    searched = end_ - begin_;
-    if (at_end_ || !fill()) return at_end_ = true, nullptr;
   }
+  return at_ == end_ ? nullptr : end_;
 }
 
 bool Input::next(std::string_view& line) {
-  const char* const feed = line_feed();
-  if (!feed && begin_ == end_) return false;
-  const char* const first = buffer_.data() + begin_;
-  line = std::string_view(first, feed ? static_cast<std::size_t>(feed - first) : end_ - begin_);
-  begin_ += line.size() + (feed ? 1 : 0);
+  const char* feed = static_cast<const char*>(std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_)));
+  if (!feed && !(feed = end_of_line())) return false;
+  line = {at_, feed};
+  at_ = feed == end_ ? feed : feed + 1;
   if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
   if (++line_number_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
   return true;

@@ -28,14 +28,15 @@ class Input {
 
  private:
   bool fill();
-  const char* line_feed();
+  const char* end_of_line();
 
   std::string name_;
   BlockHook on_block_;
   int fd_;
   double size_ = 0, read_ = 0;  // bytes; no size: not known, or not asked for
   std::vector<char> buffer_;
-  std::size_t begin_ = 0, end_ = 0, line_number_ = 0;
+  const char *at_, *end_;  // what has been read of it and not taken
+  std::size_t line_number_ = 0;
   bool at_end_ = false, quotes_ = false;
 };
 

@@ -281,16 +281,16 @@ bool Reader::take_kept() {
 }
 
 Reader::Event Reader::advance() {
-  if (std::exchange(file_ended_, false)) {
-    open_next();  // up to its first record
-    return Event::record;
-  }
   for (;;) {
     if (!(kept_.empty() ? next_line() : take_kept())) {
       if (side_ + 1 < layout_.runs.size()) {
         ++side_;
         kept_at_ = 0;
         return Event::run_break;
+      }
+      if (std::exchange(file_ended_, false)) {
+        open_next();  // up to its first record
+        return Event::record;
       }
       file_ended_ = next_file_ < options_.files.size();
       return file_ended_ ? Event::run_break : Event::end;
@@ -336,7 +336,7 @@ bool Reader::has_own_reading() {
 bool Reader::next_run() {
   for (;;) {
     if (!line_waits_) {
-      const Event event = at_end_ ? Event::end : advance();
+      const Event event = advance();
       if (event == Event::run_break) continue;
       if (event == Event::end) {
         at_end_ = true;
@@ -363,7 +363,7 @@ bool Reader::next_run() {
 bool Reader::next() {
   for (;;) {
     if (!std::exchange(line_waits_, false)) {
-      const Event event = at_end_ ? Event::end : advance();
+      const Event event = advance();
       at_end_ = event == Event::end;
       if (event != Event::record) return false;
     }
@@ -420,14 +420,8 @@ bool Reader::take_record() {
   return true;
 }
 
-std::string_view Reader::text(std::size_t cut, std::size_t& first, std::size_t& last) {
-  if (dialect_.as_it_stands() && !converts_ && !layout_.side_by_side) {
-    if (cut < fields_.size()) {
-      first = static_cast<std::size_t>(fields_[cut].text.data() - line_.data());
-      last = first + fields_[cut].text.size();
-    }
-    return line_;
-  }
+/// text() of a record that does not go out as it came.
+std::string_view Reader::made_text(std::size_t cut, std::size_t& first, std::size_t& last) {
   text_.clear();
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     if (i) text_ += '\t';

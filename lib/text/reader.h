@@ -59,7 +59,14 @@ class Reader {
   /// The number in a needed column [SI].
   double operator[](std::size_t slot) const { return values_[slot]; }
   /// The record as it goes out, tab-separated, valid until the next one; if `cut` is a column, its text is [first, last) of that.
-  std::string_view text(std::size_t cut, std::size_t& first, std::size_t& last);
+  std::string_view text(std::size_t cut, std::size_t& first, std::size_t& last) {
+    if (!dialect_.as_it_stands() || converts_ || layout_.side_by_side) return made_text(cut, first, last);
+    if (cut < fields_.size()) {
+      first = static_cast<std::size_t>(fields_[cut].text.data() - line_.data());
+      last = first + fields_[cut].text.size();
+    }
+    return line_;
+  }
 
   /// Called with each comment line among the records; comments before them are in comments().
   std::function<void(std::string_view)> on_comment;
@@ -99,6 +106,7 @@ class Reader {
   bool has_own_reading();
   std::span<const Field> split_line();
   bool take_record();
+  std::string_view made_text(std::size_t cut, std::size_t& first, std::size_t& last);
   [[noreturn]] void reject(std::size_t column, std::string_view why) const;
   std::string way_out(std::string_view field) const;
 
