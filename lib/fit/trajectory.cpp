@@ -459,6 +459,7 @@ RouteFit fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOp
   for (const auto& run : all) {
     const auto& y = position ? run.x : run.v;
     Rows usable;
+    usable.reserve(y.size());
     double way = 0;
     for (std::size_t i = 0; i < y.size(); ++i)
       if (std::isfinite(y[i])) usable.push_back(i), way += y[i];
