@@ -3,7 +3,7 @@
 
     tests/mutate.py [--count N] [--seed S] [--jobs J] [--only PATH] [--again OUTPUT] [TREE]
 
-TREE is a checkout to copy (the present one by default). Mutants are drawn at random, evenly over the places in the .cpp files of lib/ and cmd/
+TREE is a checkout to copy (the present one by default). Mutants are drawn at random, evenly over the places in the files of lib/ and cmd/
 where one of the RULES applies; comments, strings of messages and preprocessor lines are left alone. With --again they are those that survived
 in the OUTPUT of an earlier run. Each is built in a copy, and the tests run, those nearest to it first, up to the first that fails. A mutant
 that does not build is not counted; one that takes far longer than the tests do without it is killed.
@@ -108,7 +108,7 @@ def main():
     options.add_argument("tree", nargs="?", default=str(Path(__file__).resolve().parent.parent))
     options = options.parse_args()
     tree = Path(options.tree)
-    sources = sorted(p for room in ("lib", "cmd") for p in (tree / room).rglob("*.cpp") if options.only in str(p))
+    sources = sorted(p for room in ("lib", "cmd") for p in (tree / room).rglob("*.[ch]*") if p.suffix in (".cpp", ".h") and options.only in str(p))
     mutants = [(p.relative_to(tree), *place) for p in sources for place in places(p.read_text())]
     print(f"{len(mutants)} places in {len(sources)} files", flush=True)
 
@@ -137,7 +137,7 @@ def main():
         copy = copies.get()
         try:
             source, object = copy / path, copy / "build" / path.with_suffix(".o")
-            original, times, built = source.read_text(), source.stat(), object.read_bytes()
+            original, times, built = source.read_text(), source.stat(), object.read_bytes() if path.suffix == ".cpp" else b""
             source.write_text(original[:start] + replacement + original[end:])
             verdict = "SURVIVED"
             for goals, command in stages(copy, path):
@@ -149,8 +149,9 @@ def main():
                     verdict = f"killed by {' '.join(Path(word).name for word in command[:3])}" + (" (too long)" if status is None else "")
                     break
             source.write_text(original)
-            os.utime(source, ns=(times.st_atime_ns, times.st_mtime_ns))
-            object.write_bytes(built)  # newer than its source, and than what is linked from it
+            if built:  # newer than its source, and than what is linked from it; after a header all that includes it is built again
+                os.utime(source, ns=(times.st_atime_ns, times.st_mtime_ns))
+                object.write_bytes(built)
             print(f"{verdict}: {what}", flush=True)
             return verdict, what
         finally:
