@@ -8,13 +8,6 @@ namespace rolling {
 
 void ExactSum::add_zero(double zero, int sign) { negative_zeros_ += static_cast<std::size_t>(std::signbit(zero) ? sign : 0); }
 
-void ExactSum::add_term(double y) {
-  const DoubleDouble high = two_sum(pair_.hi, y), low = two_sum(pair_.lo, high.lo);
-  if (!std::isfinite(low.lo)) return to_limbs(y);  // beyond a double on the way
-  pair_ = {high.hi, low.hi};
-  if (low.lo != 0) to_limbs(low.lo);
-}
-
 void ExactSum::to_limbs(double y) {
   if (y == 0) return;
   const auto bits = std::bit_cast<std::uint64_t>(y);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -21,7 +22,12 @@ class ExactSum {
   __extension__ typedef __int128 int128;
 
   void add_zero(double zero, int sign);
-  void add_term(double y);
+  void add_term(double y) {
+    const DoubleDouble high = two_sum(pair_.hi, y), low = two_sum(pair_.lo, high.lo);
+    if (!std::isfinite(low.lo)) return to_limbs(y);  // beyond a double on the way
+    pair_ = {high.hi, low.hi};
+    if (low.lo != 0) to_limbs(low.lo);
+  }
   void to_limbs(double y);
   double limbs_over(std::size_t n);
 

@@ -90,6 +90,24 @@ TEST_CASE("IntegratedRoll: stop_time() does not move seek(), and is met", "[roll
   CHECK(std::isinf(start(scene(1.87e-3, 1), {Method::solver, Stepper::rkf45}, 1e-8)->stop_time()));
 }
 
+TEST_CASE("IntegratedRoll: close to the stop, speed and way left follow the law to its end", "[rolling]") {
+  for (const double b : {0.5, 0.9}) {
+    const Roll roll = scene(2e-3, b);
+    const auto motion = start(roll, {Method::solver}, 1e-6);
+    const double stop = motion->stop_time(), c = roll.law.a * cylinder.g / ((1 + cylinder.K) * cylinder.R);  // dv/dt = -c v^b
+    motion->seek(stop);
+    const double end = motion->position();
+    CHECK(motion->velocity() == 0);
+    for (const double left : {1.0, 0.5, 0.1}) {
+      const double v = 4e-9 * left, t = stop - std::pow(v, 1 - b) / (c * (1 - b));
+      motion->seek(t);
+      INFO("b " << b << " v " << v);
+      CHECK(motion->velocity() == Approx(v).epsilon(1e-4));
+      CHECK(end - motion->position() == Approx(std::pow(v, 2 - b) / (c * (2 - b))).epsilon(1e-2).margin(2e-16));
+    }
+  }
+}
+
 TEST_CASE("IntegratedRoll: rest, and what is refused", "[rolling]") {
   const auto rest = start(scene(1e-3, 0.2, Geometry::approximate, 0), {Method::solver, Stepper::rkf45}, 1e-8);
   CHECK(rest->stop_time() == 0);
