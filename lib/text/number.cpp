@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "base/double_double.h"
+
 namespace rolling {
 
 namespace {
@@ -20,7 +22,7 @@ constexpr std::array<T, count> powers_of_ten() {
   for (std::size_t i = 1; i < count; ++i) powers[i] = 10 * powers[i - 1];
   return powers;
 }
-constexpr auto power_of_ten = powers_of_ten<double, 20>();  // up to the last one that 19 digits can ask for; each is exact
+constexpr auto power_of_ten = powers_of_ten<double, 23>();  // all that are exact
 constexpr auto whole_power_of_ten = powers_of_ten<std::uint64_t, 18>();
 
 /// Writes the eight digits of a number below 10^8, each in a byte of one word.
@@ -59,8 +61,18 @@ char* write_shortest(char* to, double value) {
   return scientific ? fmt::format_to(to, FMT_COMPILE("e{:+03}"), point - 1) : to;
 }
 
-/// What has more digits than are exact, or an exponent.
-[[gnu::noinline]] const char* read_long_number(const char* const begin, const char* const end, double& value) {
+/// digits / 10^decimals, correctly rounded; false where that cannot be told. The quotient's rest is exact, so that the sum of both
+/// is known to 2^-52 of its last bit: only what lies that close to the middle of two doubles is in doubt.
+bool divide(std::uint64_t digits, std::size_t decimals, double& value) {
+  const double power = power_of_ten[decimals], most = static_cast<double>(digits), quotient = most / power;
+  const DoubleDouble product = two_product(quotient, power);
+  const auto lost = static_cast<double>(static_cast<std::int64_t>(digits - static_cast<std::uint64_t>(most)));
+  const double rest = (((most - product.hi) - product.lo) + lost) / power;
+  value = quotient + rest * (1 + 0x1p-40);
+  return value == quotient + rest * (1 - 0x1p-40);
+}
+
+[[gnu::noinline]] const char* read_any_number(const char* const begin, const char* const end, double& value) {
   const auto [behind, status] = std::from_chars(*begin == '+' ? begin + 1 : begin, end, value);  // which knows no plus
   return status == std::errc() ? behind : begin;
 }
@@ -69,8 +81,8 @@ char* write_shortest(char* to, double value) {
 
 const char* read_number(const char* const begin, const char* const end, double& value) {
   const char* at = begin;
-  const bool negative = at != end && *at == '-';
-  if (at != end && (*at == '-' || *at == '+')) ++at;
+  const bool negative = at != end && *at == '-', sign = negative || (at != end && *at == '+');
+  at += sign;
   std::uint64_t digits = 0;
   const auto take_digits = [&] {
     const char* const from = at;
@@ -83,13 +95,15 @@ const char* read_number(const char* const begin, const char* const end, double& 
     count += decimals = take_digits();
   }
   if (count == 0) return begin;  // inf, nan, +-1 as well
-  if (count <= 19 && digits <= 1ULL << 53 && (at == end || (*at | 32) != 'e')) {
-    // A short decimal: two exact numbers, so that one division rounds once.
-    value = static_cast<double>(static_cast<std::int64_t>(digits)) / power_of_ten[decimals];
-    if (negative) value = -value;
-    return at;
-  }
-  return read_long_number(begin, end, value);
+  if (at != end && (*at | 32) == 'e') return read_any_number(begin, end, value);
+  if (count > 19)  // than which no more are sure to be in `digits`, but for zeros in front
+    for (const char* zero = begin + sign; zero != at && (*zero == '0' || *zero == '.'); ++zero) count -= *zero == '0';
+  if (count > 19 || decimals >= power_of_ten.size()) return read_any_number(begin, end, value);
+  double size;
+  if (digits <= 1ULL << 53) size = static_cast<double>(static_cast<std::int64_t>(digits)) / power_of_ten[decimals];  // of exact numbers: rounds once
+  else if (!divide(digits, decimals, size)) return read_any_number(begin, end, value);
+  value = negative ? -size : size;
+  return at;
 }
 
 bool parse_number(std::string_view field, double& value) {

@@ -211,6 +211,21 @@ TEST_CASE("number: short decimals are rounded as strtod rounds them, on both sid
   CHECK(wrong == 0);
 }
 
+TEST_CASE("number: decimals in the middle between two doubles, and next to it, are rounded as strtod rounds them", "[text]") {
+  std::mt19937_64 random(8);
+  int wrong = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const int power = static_cast<int>(random() % 10);  // of the last bit of a double; the middle is half of it
+    const std::uint64_t middle = ((1ULL << 52 | random() >> 12) << 1 | 1) << power >> 1;
+    std::string text = std::to_string(power == 0 ? middle : middle + random() % 3 - 1);
+    if (power == 0) text += ".5" + std::string(random() % 2, "01"[random() % 2]);
+    if (random() % 2) text = std::string(random() % 8, '0') + text;
+    double value = 0;
+    wrong += !parse_number(text, value) || !same_bits(value, std::strtod(text.c_str(), nullptr));
+  }
+  CHECK(wrong == 0);
+}
+
 TEST_CASE("number: read_number ends where the number does", "[text]") {
   const auto rest = [](std::string_view text) {
     double value = -99;
