@@ -1,6 +1,7 @@
 #include "text/dialect.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "base/error.h"
@@ -20,9 +21,15 @@ std::string plain_form(std::string_view field) {
   return text;
 }
 
+constexpr auto plain = [] {
+  std::array<bool, 256> is{};
+  for (std::size_t c = '-'; c <= 'z'; ++c) is[c] = c != ';';
+  return is;
+}();
+
 /// Up to the first character that may separate fields, quote one, or stand in a number of another form.
 const char* skip_plain(const char* at, const char* end) {
-  while (at != end && *at >= '-' && *at <= 'z' && *at != ';') ++at;
+  while (at != end && plain[static_cast<unsigned char>(*at)]) ++at;
   return at;
 }
 

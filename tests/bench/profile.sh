@@ -18,7 +18,7 @@ by_part='
 /rolling::|main|speed/ { part = "computing" }
 /rolling::(Reader|Input|Dialect|Layout)|memchr/ { part = "reading" }
 /rolling::(Filter|Output)|mem(move|cpy)|Writer::/ { part = "writing" }
-/read_number|read_long_number|from_chars/ { part = "parsing" }
+/read_number|read_any_number|rolling::.*divide|from_chars/ { part = "parsing" }
 /write_number|write_shortest|write_eight_digits|to_decimal|fmt::/ { part = "formatting" }
 { sum[part] += n; sum["all"] += n }
 END { for (p in sum) print p, sum[p] }'
