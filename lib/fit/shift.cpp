@@ -225,8 +225,9 @@ RouteFit fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   const auto height = [&](const std::vector<double>& theta) { return options.a ? *options.a * std::exp(exponent(theta) * L) : theta[0] * unit; };
   KnownNoise noise;
   bool smoothed = false;  // whether what smoothing does to the law is part of the model
+  // (The runs are copied so because g++ 14 warns of a memmove beyond the one run that is there if they are copied whole.)
   const auto system_of = [&](const std::vector<std::size_t>& runs, const std::vector<double>& log_of, const std::vector<double>& D_of) {
-    return System{runs, 0, p, [&](const std::vector<double>& theta, const TakeRows& take) {
+    return System{{runs.begin(), runs.end()}, 0, p, [&](const std::vector<double>& theta, const TakeRows& take) {
       const double b = exponent(theta), h = height(theta), a = h * std::exp(-b * L);
       const auto s = smoothed ? records.smoothed(a, b) : ShiftRecords::Smoothed{};
       hand_over_rows(runs, p, !noise.empty(), noise, take, [&](std::size_t, std::size_t first, std::vector<double>& f, std::vector<double>& J) {
