@@ -120,8 +120,8 @@ fuzz:
 	$(MAKE) -C build/fuzzing CXX=clang++-14 CXXFLAGS="$(sanitized) -fsanitize=fuzzer-no-link" $(target:%=build/fuzzer/%)
 	tests/fuzz/fuzz.sh build/fuzzing/build/fuzzer $(SECONDS) $(target)
 
-# The whole suite under AddressSanitizer and UndefinedBehaviorSanitizer; then the cases of the tools under valgrind.
-sanitize:
+# The whole suite under AddressSanitizer and UndefinedBehaviorSanitizer; then most of it under valgrind.
+sanitize: all build/unit $(target:%=build/replay/%)
 	@$(call copy,build/sanitized)
 	$(MAKE) -C build/sanitized check CXXFLAGS="$(sanitized)"
 	tests/valgrind.sh
