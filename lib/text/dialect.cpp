@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "base/error.h"
 #include "text/number.h"
@@ -13,12 +12,13 @@ namespace {
 constexpr std::size_t npos = std::string_view::npos;
 constexpr std::string_view minus = "\xE2\x88\x92";  // U+2212
 
-/// `1,5` as `1.5`, U+2212 as `-`.
-std::string plain_form(std::string_view field) {
-  std::string text(field);
-  for (auto at = text.find(minus); at != npos; at = text.find(minus, at)) text.erase(at + 1, minus.size() - 1)[at] = '-';
-  if (const auto at = text.find(','); at != npos && text.find('.') == npos) text[at] = '.';
-  return text;
+/// Appends `1,5` as `1.5`, U+2212 as `-`; returns what it has appended.
+std::string_view append_plain(std::string& to, std::string_view field) {
+  const auto from = to.size();
+  to += field;
+  for (auto at = to.find(minus, from); at != npos; at = to.find(minus, at)) to.erase(at + 1, minus.size() - 1)[at] = '-';
+  if (const auto at = to.find(',', from); at != npos && to.find('.', from) == npos) to[at] = '.';
+  return std::string_view(to).substr(from);
 }
 
 constexpr auto plain = [] {
@@ -57,7 +57,10 @@ bool Dialect::choose(std::string_view line) {
     if (!std::all_of(fields.begin(), fields.end(), numeric)) separator_ = '\t', fields = split(line);
   }
   // A quoted decimal comma among commas makes a record too, which is then refused with the way out.
-  return std::any_of(fields.begin(), fields.end(), [](const Field& field) { return is_number(plain_form(field.text)); });
+  return std::any_of(fields.begin(), fields.end(), [](const Field& field) {
+    std::string text;
+    return is_number(append_plain(text, field.text));
+  });
 }
 
 void Dialect::want(std::size_t field) {
@@ -69,7 +72,8 @@ void Dialect::want(std::size_t field) {
 
 std::span<const Field> Dialect::split(std::string_view line) {
   count_ = 0;
-  if (!made_.empty()) made_.clear();
+  made_.clear();
+  if (made_.capacity() < 2 * line.size()) made_.reserve(2 * line.size());  // a text without its quotes, and then in plain form
   as_it_stands_ = separator_ == '\t';
   const char *at = line.data(), *const end = at + line.size();
   if (separator_ == '\0') {
@@ -85,7 +89,6 @@ std::span<const Field> Dialect::split(std::string_view line) {
       field.text = {first, at};
     } else {
       at = take_text(first, end, field);
-      if (field.wanted && !parse_number(field.text, field.number)) field.number = Field().number;
     }
     if (at == end) return {fields_.data(), count_};
   }
@@ -106,7 +109,7 @@ void Dialect::split_blanks(const char* at, const char* end) {
   }
 }
 
-/// Takes the text of the field that begins at `at`, whatever it holds; returns its end.
+/// Takes the field that begins at `at`, whatever it holds; returns its end.
 const char* Dialect::take_text(const char* at, const char* end, Field& field) {
   const char* const first = at;
   while (at != end && is_blank(*at) && *at != separator_) ++at;
@@ -118,7 +121,8 @@ const char* Dialect::take_text(const char* at, const char* end, Field& field) {
     field.text = trim({first, at});
     as_it_stands_ &= field.text.size() == static_cast<std::size_t>(at - first);
   }
-  if (foreign_numbers_) field.text = rewritten(field.text);
+  if (foreign_numbers_ && rewrite(field)) return at;
+  if (field.wanted && !parse_number(field.text, field.number)) field.number = Field().number;
   return at;
 }
 
@@ -129,33 +133,36 @@ std::string_view Dialect::take_quoted(const char*& at, const char* end) {
     at = close + 1;
     return {first, close};
   }
-  std::string& text = made_.emplace_back();
+  const auto from = made_.size();
   for (bool quoted = true; at != end && (quoted || *at != separator_); ++at) {
-    if (*at != '"') text += *at;
-    else if (quoted && at + 1 != end && at[1] == '"') text += *at++;
+    if (*at != '"') made_ += *at;
+    else if (quoted && at + 1 != end && at[1] == '"') made_ += *at++;
     else quoted = !quoted;
   }
-  return text;
+  return std::string_view(made_).substr(from);
 }
 
-/// A number with a decimal comma or U+2212 in its plain form; any other text as it is.
-std::string_view Dialect::rewritten(std::string_view field) {
-  const auto has = [field](char c) { return field.find(c) != npos; };
+/// A number with a decimal comma or U+2212 takes its plain form, and is read; false for any other text, which stays as it is.
+bool Dialect::rewrite(Field& field) {
+  const auto has = [&](char c) { return field.text.find(c) != npos; };
   const bool other_minus = has(minus[0]);
-  if (!other_minus && decimal_mark_ == '.') return field;
+  if (!other_minus && decimal_mark_ == '.') return false;
   const bool comma = has(','), point = has('.');
-  if (!other_minus && !comma && !point) return field;
-  std::string text = plain_form(field);
-  if (!is_number(text)) return field;
+  if (!other_minus && !comma && !point) return false;
+  const std::string_view text = append_plain(made_, field.text);
+  double number;
+  if (!parse_number(text, number)) return false;
   if (comma || point) {
     const char mark = comma ? ',' : '.';
     if (decimal_mark_ == '\0') decimal_mark_ = mark;
     if (decimal_mark_ != mark)
-      fail("field {}: '{}' has another decimal mark than the numbers before it", count_, shown(field));
+      fail("field {}: '{}' has another decimal mark than the numbers before it", count_, shown(field.text));
   }
-  if (text == field) return field;
+  if (field.wanted) field.number = number;
+  if (!other_minus && !comma) return true;
   as_it_stands_ = false;
-  return made_.emplace_back(std::move(text));
+  field.text = text;
+  return true;
 }
 
 }  // namespace rolling

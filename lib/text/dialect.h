@@ -1,7 +1,6 @@
 // How the lines of a file fall into fields.
 #pragma once
 
-#include <deque>
 #include <limits>
 #include <span>
 #include <string>
@@ -40,7 +39,7 @@ class Dialect {
   void split_blanks(const char* at, const char* end);
   const char* take_text(const char* at, const char* end, Field&);
   std::string_view take_quoted(const char*& at, const char* end);
-  std::string_view rewritten(std::string_view text);
+  bool rewrite(Field&);
 
   char separator_ = '\0';
   bool foreign_numbers_ = false;  // numbers may have decimal commas and U+2212
@@ -48,7 +47,7 @@ class Dialect {
   bool as_it_stands_ = false;
   std::vector<Field> fields_;  // room for those of the longest line
   std::size_t count_ = 0;      // of the fields of this line
-  std::deque<std::string> made_;  // the texts of fields that do not stand in the line
+  std::string made_;  // the texts of fields that do not stand in the line, with room for all
 };
 
 }  // namespace rolling
