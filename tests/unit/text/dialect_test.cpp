@@ -81,6 +81,17 @@ TEST_CASE("dialect: a wanted number is that of its field, wherever and however i
   CHECK(numbers("0,0,0", "1,2,3,4") == "1 - 3 - ");
 }
 
+TEST_CASE("dialect: the texts of a long line that do not stand in it all last until the next", "[text]") {
+  Dialect dialect;
+  std::string line = "1,5", expected = "<1.5>";
+  CHECK(dialect.choose("0,5;x"));
+  for (int i = 0; i < 1000; ++i) {
+    line += ";\"1\"2,5;\"a \"\"b\"\"\";\xE2\x88\x92" + std::to_string(i) + ",25;\"" + std::string(static_cast<std::size_t>(i % 40), '7') + ",\"8";
+    expected += "<12.5><a \"b\"><-" + std::to_string(i) + ".25><" + std::string(static_cast<std::size_t>(i % 40), '7') + ".8>";
+  }
+  CHECK(fields(dialect, line) == expected);
+}
+
 TEST_CASE("dialect: a line is as it stands where nothing but tabs is between its fields", "[text]") {
   Dialect dialect;
   REQUIRE(dialect.choose("0.5\t1\tx"));
