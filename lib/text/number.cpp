@@ -43,14 +43,14 @@ char* write_shortest(char* to, double value) {
   if (value == 0) return *to = '0', to + 1;
   const auto decimal = fmt::detail::dragonbox::to_decimal(std::abs(value));
   int count = static_cast<int>(std::bit_width(decimal.significand)) * 1233 >> 12;  // of its digits: log10(2) = 0.30103
-  count += decimal.significand >= whole_power_of_ten[count];
+  count += decimal.significand >= whole_power_of_ten[static_cast<std::size_t>(count)];
   const int point = count + decimal.exponent;  // stands behind so many digits
   const bool scientific = point < -3 || point > 16;
   const int whole = scientific ? 1 : point;
 
   std::string_view("0.000").copy(to, 5);
   char* const digits = whole > 0 ? to + 1 : to + 2 - whole;
-  const std::uint64_t seventeen = decimal.significand * whole_power_of_ten[17 - count], nine = seventeen / 100000000;
+  const std::uint64_t seventeen = decimal.significand * whole_power_of_ten[static_cast<std::size_t>(17 - count)], nine = seventeen / 100000000;
   digits[0] = static_cast<char>('0' + nine / 100000000);
   write_eight_digits(digits + 1, nine % 100000000);
   write_eight_digits(digits + 9, seventeen % 100000000);
