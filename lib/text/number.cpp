@@ -72,6 +72,7 @@ bool divide(std::uint64_t digits, std::size_t decimals, double& value) {
   return value == quotient + rest * (1 - 0x1p-40);
 }
 
+/// What the two exact ways below do not settle: an exponent, more than 19 digits, the middle of two doubles.
 [[gnu::noinline]] const char* read_any_number(const char* const begin, const char* const end, double& value) {
   const auto [behind, status] = std::from_chars(*begin == '+' ? begin + 1 : begin, end, value);  // which knows no plus
   return status == std::errc() ? behind : begin;

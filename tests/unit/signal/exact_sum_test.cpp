@@ -51,7 +51,7 @@ TEST_CASE("exact_sum: an even count of one number is that number", "[signal]") {
   }
 }
 
-TEST_CASE("exact_sum: a hair below a power of two rounds to it, wherever the limbs part", "[signal]") {  // fixed 2026-11-21
+TEST_CASE("exact_sum: a hair below a power of two rounds to it, wherever the limbs part", "[signal]") {
   for (int power = -900; power < 1000; ++power) {
     const double whole = std::ldexp(1, power);
     for (const int below : {60, 84, 97, 110, 160}) {

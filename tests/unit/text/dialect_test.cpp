@@ -53,7 +53,7 @@ TEST_CASE("dialect: decimal commas and U+2212 are read where they leave no doubt
   CHECK(fields(blanks, "1 \xE2\x88\x92" "2") == "<1><\xE2\x88\x92" "2>");
 }
 
-TEST_CASE("dialect: a quote opens where a field begins; elsewhere it is a character", "[text]") {  // fixed 2026-11-21
+TEST_CASE("dialect: a quote opens where a field begins; elsewhere it is a character", "[text]") {
   CHECK(chosen("5\" pipe,7") == "<5\" pipe><7>");
   CHECK(chosen("a, \"b,c\" ,7") == "<a><b,c><7>");
   CHECK(chosen("\"a\"\"\",\"\",7") == "<a\"><><7>");

@@ -130,13 +130,13 @@ TEST_CASE("reader: a decimal comma where ; or tab separates", "[text]") {
   CHECK(copies("t;v\n0,50;+1,250\n") == "<0.50\t+1.250>");  // only the mark changes
 }
 
-TEST_CASE("reader: a first record that has decimal commas only is a record, not names", "[text]") {  // fixed 2026-11-21
+TEST_CASE("reader: a first record that has decimal commas only is a record, not names", "[text]") {
   CHECK(records({"0,0;1,5\n0,1;1,6\n"}) == "0 1.5 | 0.1 1.6");
   CHECK(records({"Zeit (s);v (m/s)\n0,0;1,5\n1;1,6\n"}, use({"t=1"})) == "0 1.5 | 1 1.6");
   CHECK(records({"t\tv\n0,0\t1,5\n1\t2\n"}) == "0 1.5 | 1 2");
 }
 
-TEST_CASE("reader: a first record whose readings are all missing is a record, not names", "[text]") {  // fixed 2026-11-21
+TEST_CASE("reader: a first record whose readings are all missing is a record, not names", "[text]") {
   CHECK(records({"# t v\nNaN NaN\n0 1\n"}) == "0 1");
   CHECK(records({"t,v\nNaN,nan\n0,1\n"}) == "0 1");
   CHECK(records({"NaN NaN\n0 1\n"}) == "0 1");
