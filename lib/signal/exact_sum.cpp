@@ -8,6 +8,13 @@ namespace rolling {
 
 void ExactSum::add_zero(double zero, int sign) { negative_zeros_ += static_cast<std::size_t>(std::signbit(zero) ? sign : 0); }
 
+/// add_term() of what the pair cannot take whole.
+void ExactSum::add_beyond(double y, double high, DoubleDouble low) {
+  if (!std::isfinite(low.lo)) return to_limbs(y);  // beyond a double on the way
+  pair_ = {high, low.hi};
+  to_limbs(low.lo);
+}
+
 void ExactSum::to_limbs(double y) {
   if (y == 0) return;
   const auto bits = std::bit_cast<std::uint64_t>(y);

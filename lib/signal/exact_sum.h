@@ -24,10 +24,10 @@ class ExactSum {
   void add_zero(double zero, int sign);
   void add_term(double y) {
     const DoubleDouble high = two_sum(pair_.hi, y), low = two_sum(pair_.lo, high.lo);
-    if (!std::isfinite(low.lo)) return to_limbs(y);  // beyond a double on the way
+    if (low.lo != 0) return add_beyond(y, high.hi, low);  // NaN too
     pair_ = {high.hi, low.hi};
-    if (low.lo != 0) to_limbs(low.lo);
   }
+  void add_beyond(double y, double high, DoubleDouble low);
   void to_limbs(double y);
   double limbs_over(std::size_t n);
 

@@ -80,11 +80,10 @@ std::span<const Field> Dialect::split(std::string_view line) {
     split_blanks(at, end);
     return {fields_.data(), count_};
   }
-  const bool foreign = foreign_numbers_ && decimal_mark_ != '.';
   for (;; ++at) {
     Field& field = next_field();
     const char* const first = at;
-    if (!foreign) at = field.wanted ? read_number(at, end, field.number) : skip_plain(at, end);
+    if (!foreign()) at = field.wanted ? read_number(at, end, field.number) : skip_plain(at, end);
     if (at != first && (at == end || *at == separator_)) {
       field.text = {first, at};
     } else {
@@ -92,6 +91,23 @@ std::span<const Field> Dialect::split(std::string_view line) {
     }
     if (at == end) return {fields_.data(), count_};
   }
+}
+
+const char* Dialect::split_plain(std::string_view text, std::span<const Field>& fields) {
+  if (separator_ == '\0' || foreign()) return nullptr;
+  const char *at = text.data(), *const end = at + text.size();
+  for (Field* field = fields_.data(); field != fields_.data() + fields_.size(); ++field, ++at) {
+    const char* const first = at;
+    at = field->wanted ? read_number(at, end, field->number) : skip_plain(at, end);
+    if (at == first || at == end) return nullptr;
+    field->text = {first, at};
+    if (*at == separator_) continue;
+    if (*at != '\n' && (*at != '\r' || end - at < 2 || at[1] != '\n')) return nullptr;
+    as_it_stands_ = separator_ == '\t';
+    fields = {fields_.data(), field + 1};
+    return at;
+  }
+  return nullptr;
 }
 
 void Dialect::split_blanks(const char* at, const char* end) {

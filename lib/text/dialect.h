@@ -26,12 +26,16 @@ class Dialect {
   /// The fields of a line, valid until the next call or the line's end. In files delimited by ; or tab, where they leave no
   /// doubt, a decimal comma becomes a point and U+2212 a minus. Throws Error where two decimal marks meet.
   std::span<const Field> split(std::string_view line);
+  /// The same for the line that begins `text`, whose end is not known yet, if its fields leave no doubt where each ends: numbers,
+  /// or plain text, between separators, up to a line feed within `text`. Returns the end of the last one; null if there is doubt.
+  const char* split_plain(std::string_view text, std::span<const Field>& fields);
 
   /// The last line was its fields with a tab between them.
   bool as_it_stands() const { return as_it_stands_; }
   char separator() const { return separator_; }  ///< '\0' for blanks
 
  private:
+  bool foreign() const { return foreign_numbers_ && decimal_mark_ != '.'; }  ///< the next number may still be of another form
   Field& next_field() {
     if (count_ == fields_.size()) fields_.emplace_back();
     return fields_[count_++];

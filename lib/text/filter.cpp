@@ -8,18 +8,26 @@
 namespace rolling {
 namespace {
 constexpr std::size_t npos = static_cast<std::size_t>(-1);
+constexpr std::size_t together = 32;  // rows
 }
 
 Filter::Filter(Reader& in, Output& out, std::string history)
-    : in_(in), out_(out), columns_(in.columns()) {
+    : in_(in), out_(out), columns_(in.columns()), enough_(out.unbuffered ? 1 : together) {
   if (!history.empty()) history_ = "## " + std::move(history);
   in_.on_comment = [this](std::string_view text) { comment(text); };
+}
+
+Filter::~Filter() {
+  try {
+    if (!writing_) write_rows();
+  } catch (...) {  // an error is on its way already
+  }
 }
 
 void Filter::tell(std::string history) {
   history_ = "## " + std::move(history);
   write_header();
-  clear_front();
+  write_rows();
 }
 
 void Filter::append(Column column) {
@@ -34,7 +42,7 @@ void Filter::append(Column column) {
       old.name = name;
     }
   columns_.push_back(std::move(column));
-  ++appended_;
+  if (appended_++ > 0) enough_ = enough_ / (appended_ - 1) * appended_;
 }
 
 void Filter::write_header() {
@@ -46,8 +54,9 @@ void Filter::write_header() {
 
 bool Filter::next_run() {
   if (!header_written_ && !history_.empty()) write_header();
+  write_rows();
   break_due_ = any_row_;
-  gone_ = 0;
+  gone_ = -std::count_if(rows_.begin() + static_cast<std::ptrdiff_t>(front_), rows_.end(), [](const Row& row) { return row.kind != Kind::comment; });
   if (in_.next_run()) return true;
   if (!any_row_ && any_dropped_) fail("no records are left");
   if (!any_row_) fail("no records: a needed reading is missing in every one");
@@ -55,91 +64,71 @@ bool Filter::next_run() {
 }
 
 bool Filter::next() {
-  hold();
   if (!in_.next()) return false;
   if (in_.history_changed() && header_written_) comment(history_);
-  text_ = in_.text(cut_, present_.first, present_.last);
-  present_.size = text_.size();
-  if (cut_ == npos) present_.first = present_.last = present_.size;
-  present_waits_ = true;
+  Row& row = rows_.emplace_back();
+  const std::string_view text = in_.text(cut_, row.first, row.last);
+  row.size = text.size();
+  if (cut_ == npos) row.first = row.last = row.size;
+  held_.append(text);
   return true;
 }
 
-/// The text of the present record goes with the next one.
-void Filter::hold() {
-  if (!std::exchange(present_waits_, false)) return;
-  held_ += text_;
-  rows_.push_back(present_);
-}
-
 void Filter::comment(std::string_view text) {
-  held_ += text;
+  held_.append(text);
   rows_.push_back({Kind::comment, text.size()});
-  if (rows_.size() - front_ == 1) clear_front();
-}
-
-/// Comments that no record holds back any more go out, dropped records go away.
-void Filter::clear_front() {
-  while (header_written_ && front_ < rows_.size() && rows_[front_].kind != Kind::record) {
-    if (rows_[front_].kind == Kind::comment) {
-      write_break();
-      out_.text({held_.data() + front_begin_, rows_[front_].size});
-      out_.end_line();
-    } else {
-      ++gone_;
-    }
-    remove_row();
-  }
+  write_rows();
 }
 
 void Filter::drop(std::size_t i) {
-  hold();
   auto row = rows_.begin() + static_cast<std::ptrdiff_t>(front_);
-  for (std::size_t records = gone_; row->kind == Kind::comment || records++ < i;) ++row;
+  for (auto records = gone_; row->kind == Kind::comment || records++ < static_cast<std::ptrdiff_t>(i);) ++row;
   row->kind = Kind::dropped;
   any_dropped_ = true;
-  clear_front();
+  write_rows();
 }
 
 void Filter::write_break() {
   if (std::exchange(break_due_, false)) out_.end_line();
 }
 
-void Filter::remove_row() {
-  front_begin_ += rows_[front_++].size;
-  if (front_ == rows_.size()) {
-    rows_.clear();
-    held_.clear();
-    front_ = front_begin_ = 0;
-  } else if (front_ >= 1024 && 2 * front_ > rows_.size()) {  // amortised: at most one move a row
-    rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(front_));
-    held_.erase(0, front_begin_);
-    front_ = front_begin_ = 0;
-  }
-}
-
-void Filter::put(double value) {
-  const bool waited = !rows_.empty();
-  const Row& row = waited ? rows_[front_] : present_;
-  const char* const text = waited ? held_.data() + front_begin_ : text_.data();
-  if (numbers_++ == 0) {
+/// Up to the first that has not all its numbers.
+void Filter::write_rows() {
+  if (!header_written_) return;
+  writing_ = true;
+  const auto each = static_cast<std::ptrdiff_t>(std::max<std::size_t>(appended_, 1));
+  auto number = numbers_.cbegin();
+  for (; front_ < rows_.size(); front_begin_ += rows_[front_++].size) {
+    const Row& row = rows_[front_];
+    const char* const text = held_.data() + front_begin_;
+    if (row.kind == Kind::dropped) {
+      ++gone_;
+      continue;
+    }
+    if (row.kind == Kind::record && numbers_.cend() - number < each) break;
     write_break();
     out_.text({text, row.first});
+    if (row.kind == Kind::record) {
+      for (const auto end = number + each; number != end; ++number) {
+        if (appended_ > 0) out_.text('\t');
+        out_.number(*number);
+      }
+      any_row_ = true;
+      ++gone_;
+    }
+    if (row.last < row.size) out_.text({text + row.last, row.size - row.last});
+    out_.end_line();
   }
-  if (appended_ > 0) out_.text('\t');
-  out_.number(value);
-  if (numbers_ < appended_) return;
-  if (row.last < row.size) out_.text({text + row.last, row.size - row.last});
-  out_.end_line();
-  numbers_ = 0;
-  any_row_ = true;
-  ++gone_;
-  if (waited) {
-    remove_row();
-    if (!rows_.empty() && rows_[front_].kind != Kind::record) clear_front();
-  } else {
-    present_waits_ = false;
-  }
+  numbers_.erase(numbers_.cbegin(), number);
+  if (front_ == rows_.size() || (front_ >= 1024 && 2 * front_ > rows_.size())) forget_rows();
+  writing_ = false;
+}
+
+/// Those before the front one; amortised, at most one move a row.
+void Filter::forget_rows() {
+  rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(front_));
+  held_.drop(front_begin_);
+  front_ = front_begin_ = 0;
 }
 
 }  // namespace rolling

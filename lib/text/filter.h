@@ -1,11 +1,15 @@
 // Rows on their way through a filter: each waits, as the text it came as, for the numbers that the filter owes it. So a
 // filter may answer late (a window that looks ahead) and every byte that it does not compute still goes out as it came in.
-// What is answered before the next record is read has not been copied for that.
+// Answered rows wait for company: the digits of one number wait for each other, those of several numbers do not.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
+#include "base/error.h"
+#include "text/bytes.h"
 #include "text/output.h"
 #include "text/reader.h"
 
@@ -16,6 +20,10 @@ class Filter {
   /// `history` is the `##` line, without the marks, that says what this filter did. Without it nothing goes out before
   /// it has been told.
   Filter(Reader& in, Output& out, std::string history = {});
+  /// Writes the rows that have all their numbers, when an Error ends the work before the last run has.
+  ~Filter();
+  Filter(const Filter&) = delete;
+  Filter& operator=(const Filter&) = delete;
   void tell(std::string history);
 
   /// The numbers replace the column in this slot of the reader.
@@ -27,8 +35,12 @@ class Filter {
   bool next_run();
   bool next();
   double operator[](std::size_t slot) const { return in_[slot]; }
-  /// The next number for the oldest row that waits. Throws Error when it is not finite.
-  void put(double value);
+  /// The next number for the oldest row that has not all of them. Throws Error when it is not finite.
+  void put(double value) {
+    if (!std::isfinite(value)) fail("the result is not a finite number");
+    numbers_.push_back(value);
+    if (numbers_.size() >= enough_) write_rows();
+  }
   /// Leaves out the record that is the i-th of this run, from 0: it waits for no numbers.
   void drop(std::size_t i);
 
@@ -40,28 +52,26 @@ class Filter {
     std::size_t first = 0, last = 0;  // of a record: its numbers go between
   };
 
-  void hold();
   void write_header();
   void comment(std::string_view text);
-  void clear_front();
+  void write_rows();
   void write_break();
-  void remove_row();
+  void forget_rows();
 
   Reader& in_;
   Output& out_;
   std::string history_;
   std::vector<Column> columns_;
   std::size_t appended_ = 0, cut_ = static_cast<std::size_t>(-1);
-  Row present_;               // the record read last, as long as it is not among those that wait
-  std::string_view text_;     // its text
-  bool present_waits_ = false;
-  std::vector<Row> rows_;     // those before it that wait, from front_ on
-  std::string held_;          // their texts, one after the other
+  std::vector<Row> rows_;        // those that wait, from front_ on
+  Bytes held_;                   // their texts, one after the other
+  std::vector<double> numbers_;  // for them, in order
+  std::size_t enough_;           // numbers to write rows for
   std::size_t front_ = 0;
   std::size_t front_begin_ = 0;  // where the text of the front row begins
-  std::size_t numbers_ = 0;   // that the front row has got
-  std::size_t gone_ = 0;      // records of this run that are no longer among them
+  std::ptrdiff_t gone_ = 0;      // records of this run that are no longer among them, less those of earlier runs that are
   bool header_written_ = false, break_due_ = false, any_row_ = false, any_dropped_ = false;
+  bool writing_ = false;         // true for good when a write has failed
 };
 
 }  // namespace rolling

@@ -21,6 +21,13 @@ class Input {
 
   /// The next line without its end (LF or CR LF), valid until the next call; false at the end of the file.
   bool next(std::string_view& line);
+  /// What has been read and not taken: lines, and perhaps a part of one.
+  std::string_view ahead() const { return {at_, end_}; }
+  /// Takes the line that begins ahead() and is `size` bytes long with its end, as next() does.
+  void skip(std::size_t size) {
+    at_ += size;
+    ++line_number_;
+  }
 
   const std::string& name() const { return name_; }  ///< as the user gave it
   std::size_t line_number() const { return line_number_; }

@@ -53,7 +53,7 @@ char* write_shortest(char* to, double value) {
   const std::uint64_t seventeen = decimal.significand * whole_power_of_ten[static_cast<std::size_t>(17 - count)], nine = seventeen / 100000000;
   digits[0] = static_cast<char>('0' + nine / 100000000);
   write_eight_digits(digits + 1, nine % 100000000);
-  write_eight_digits(digits + 9, seventeen % 100000000);
+  if (count > 9 || whole > 9) write_eight_digits(digits + 9, seventeen % 100000000);
   if (whole <= 0) return digits + count;
   std::memmove(to, digits, static_cast<std::size_t>(whole));
   to[whole] = '.';

@@ -45,18 +45,10 @@ void Output::row(std::span<const double> values) {
   end_line();
 }
 
-void Output::grow(std::size_t count) {
-  const std::size_t written = size(), capacity = 2 * (written + count);
-  auto larger = std::make_unique_for_overwrite<char[]>(capacity);
-  to_ = std::copy(buffer_.get(), to_, larger.get());
-  limit_ = larger.get() + capacity;
-  buffer_ = std::move(larger);
-}
-
 void Output::flush() {
-  if (before_write && to_ > buffer_.get()) before_write();
+  if (before_write && !buffer_.empty()) before_write();
   const SignalsWait waiting;
-  for (std::string_view left(buffer_.get(), size()); !left.empty();) {
+  for (std::string_view left(buffer_.data(), buffer_.size()); !left.empty();) {
     const ssize_t count = ::write(STDOUT_FILENO, left.data(), left.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) {

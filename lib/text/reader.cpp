@@ -362,15 +362,29 @@ bool Reader::next_run() {
 
 bool Reader::next() {
   for (;;) {
-    if (!std::exchange(line_waits_, false)) {
-      const Event event = advance();
+    if (line_waits_ || !take_plain_line()) {
+      const Event event = std::exchange(line_waits_, false) ? Event::record : advance();
       at_end_ = event == Event::end;
       if (event != Event::record) return false;
+      begun_ = true;
+      fields_ = split_line();
     }
-    begun_ = history_ended_ = true;
+    history_ended_ = true;
     if (take_record()) return true;
     ++left_out_;
   }
+}
+
+/// What most lines are, a record like the one before it in this run, is found and split in one pass; all else is advance()'s.
+bool Reader::take_plain_line() {
+  if (run_begins_ || layout_.side_by_side) return false;
+  const std::string_view ahead = input_->ahead();
+  const char* const end = dialect_.split_plain(ahead, fields_);
+  if (!end) return false;
+  line_ = {ahead.data(), end};
+  input_->skip(line_.size() + (*end == '\r' ? 2 : 1));
+  line_number_ = input_->line_number();
+  return true;
 }
 
 std::span<const Field> Reader::split_line() {
@@ -383,7 +397,6 @@ std::span<const Field> Reader::split_line() {
 
 /// The fields of the line that make this run's record, and the needed numbers in them; false if one is missing.
 bool Reader::take_record() {
-  fields_ = split_line();
   if (fields_.size() != layout_.width) {
     if (fields_.size() == layout_.width + 1 && fields_.back().text.empty() && named_) fields_ = fields_.first(layout_.width);  // a delimiter that ends the line
     else if (!layout_.side_by_side || fields_.size() > layout_.width)  // beside it longer runs may have ended
@@ -404,7 +417,7 @@ bool Reader::take_record() {
       if (options_.strict && !needed.may_miss)
         fail<InputError>("{}: field {} ({}): a reading is missing", where(), layout_.runs[side_].fields[needed.column] + 1, shown(needed.name));
       if (!needed.may_miss) return false;
-    } else if (needed.to_si.changes()) {
+    } else if (converts_) {
       value = needed.to_si(value);
       if (!std::isfinite(value)) reject(needed.column, "is beyond the range of a double in SI units");
     }

@@ -102,6 +102,7 @@ class Reader {
   void join_quoted();
   bool take_kept();
   Event advance();
+  bool take_plain_line();
   bool names_again();
   bool has_own_reading();
   std::span<const Field> split_line();

@@ -104,3 +104,81 @@ TEST_CASE("dialect: a line is as it stands where nothing but tabs is between its
   CHECK(stands("NaN\t\t"));
   for (const char* line : {"0.5 \t1\tx", " 0.5\t1\tx", "0.5\t1 \tx", "0.5\t1\t x", "0.5\t\"1\"\tx", "0.5\t1\t\xE2\x88\x92" "1"}) CHECK_FALSE(stands(line));
 }
+
+namespace {
+
+/// What split_plain() makes of the line that begins `text`: its fields, as numbers where these are wanted; "?" if there is doubt.
+std::string plain_fields(Dialect& dialect, std::string_view text, std::size_t size) {
+  std::span<const Field> found;
+  const char* const end = dialect.split_plain(text, found);
+  if (!end) return "?";
+  CHECK(end == text.data() + size);
+  std::string all;
+  for (const Field& field : found) all += fmt::format("<{}|{}>", field.text, field.number);
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("dialect: a line of numbers and plain text is split before its end is known", "[text]") {
+  for (const char separator : {'\t', ';', ','}) {
+    Dialect dialect;
+    const auto line = [&](std::string_view first, std::string_view second, std::string_view third) {
+      return std::string(first) + separator + std::string(second) + separator + std::string(third);
+    };
+    REQUIRE(dialect.choose(line("0.5", "1", "x")));
+    dialect.want(0);
+    dialect.want(1);
+    for (const char* end : {"\n", "\r\n"}) {
+      const std::string plain = line("-1.5", "2e3", "a.b");
+      CHECK(plain_fields(dialect, plain + end + "3", plain.size()) == "<-1.5|-1.5><2e3|2000><a.b|nan>");
+    }
+    const std::string plain = line("1", "2", "x");
+    CHECK(plain_fields(dialect, line("1", "2", "") + "\n", 0) == "?");
+    CHECK(plain_fields(dialect, line("", "2", "x") + "\n", 0) == "?");
+    for (const char* odd : {"", "\r", "\r\r\n", " \n", "\"\n", "#\n"}) CHECK(plain_fields(dialect, plain + odd, 0) == "?");
+    for (const char* odd : {"NaN", "1 ", " 1", "\"1\"", "1\"", "#1", "1x", "0x1", "1e", "1e400", "\xE2\x88\x92" "1"})
+      for (const std::string& text : {line(odd, "2", "x"), line("1", odd, "x")}) {
+        INFO(text);
+        CHECK(plain_fields(dialect, text + "\n", 0) == "?");
+      }
+    CHECK(plain_fields(dialect, "\n", 0) == "?");
+    CHECK(plain_fields(dialect, "1\n", 1) == "<1|1>");  // how many fields there must be is not its business
+  }
+}
+
+TEST_CASE("dialect: columns of blanks, and numbers whose decimal mark is not known yet, are not split before their end is known", "[text]") {
+  for (const char* line : {"1 2", "1;2", "1\t2"}) {
+    Dialect dialect;
+    REQUIRE(dialect.choose(line));
+    dialect.want(0);
+    CHECK(plain_fields(dialect, std::string(line) + "\n", 0) == "?");
+  }
+}
+
+TEST_CASE("dialect: what is split before its end is known is split alike after it", "[text]") {
+  std::uint32_t state = 1;
+  const auto draw = [&](std::size_t count) { return (state = state * 1664525 + 1013904223) / 65536 % count; };
+  const std::string_view alphabet = "0123456789019..-+eE\t\t\t;, \"#x";
+  int taken = 0;
+  for (int i = 0; i < 100000; ++i) {
+    std::string line;
+    for (std::size_t size = 1 + draw(12); line.size() < size;) line += alphabet[draw(alphabet.size())];
+    const auto dialect_of = [&] {
+      Dialect dialect;
+      dialect.choose("0.5\t1.5");
+      dialect.want(0);
+      dialect.want(2);
+      return dialect;
+    };
+    Dialect one = dialect_of(), other = dialect_of();
+    const std::string plain = plain_fields(one, line + "\n", line.size());
+    if (plain == "?") continue;
+    ++taken;
+    std::string all;
+    for (const Field& field : other.split(line)) all += fmt::format("<{}|{}>", field.text, field.number);
+    CHECK(plain == all);
+    CHECK(one.as_it_stands() == other.as_it_stands());
+  }
+  CHECK(taken > 1000);
+}

@@ -90,9 +90,9 @@ TEST_CASE("filter: a result that is not finite is refused, and its row is not be
     Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
     Output out;
     in.need("v");
-    Filter filter(in, out, "test it");
-    filter.append({"y", "", ""});
     message = refusal([&] {
+      Filter filter(in, out, "test it");
+      filter.append({"y", "", ""});
       filter.next_run();
       filter.next();
       filter.put(1);
@@ -103,6 +103,50 @@ TEST_CASE("filter: a result that is not finite is refused, and its row is not be
     out.flush();
   }) == "## test it\n# t[s]\tv[m/s]\ty\n0\t1\t1\n");
   CHECK(message == "the result is not a finite number");
+}
+
+TEST_CASE("filter: rows that could not be written are not written later", "[text]") {
+  const TemporaryFile file("0 1\n1 2\n");
+  CHECK(printed([&] {
+    Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
+    Output out;
+    out.unbuffered = true;
+    in.need("v");
+    std::string message;
+    {
+      Filter filter(in, out, "test it");
+      filter.append({"y", "", ""});
+      filter.next_run();
+      filter.next();
+      {
+        const Redirect full(STDOUT_FILENO, "/dev/full");
+        message = refusal([&] { filter.put(1); });
+      }
+    }
+    CHECK(message == "standard output: No space left on device");
+    out.flush();
+  }) == "## test it\n# t[s]\tv[m/s]\ty\n");
+}
+
+TEST_CASE("filter: rows left out before the first run with a history", "[text]") {
+  const TemporaryFile file("0 1\n1 2\n# between\n\n0 3\n1 4\n2 5\n");
+  CHECK(printed([&] {
+    Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
+    Output out;
+    const auto v = in.need("v");
+    Filter filter(in, out);
+    filter.replace(v);
+    filter.next_run();
+    for (std::size_t i = 0; filter.next(); ++i) filter.drop(i);
+    filter.next_run();
+    while (filter.next());
+    filter.drop(1);
+    filter.put(30);
+    filter.put(50);
+    filter.tell("test it");
+    filter.next_run();
+    out.flush();
+  }) == "## test it\n# t[s]\tv[m/s]\n# between\n0\t30\n2\t50\n");
 }
 
 TEST_CASE("filter: no record with all its readings is an error", "[text]") {
