@@ -71,3 +71,25 @@ TEST_CASE("loglog: correlated residuals of two runs have the errors of their aut
   const auto middle = newey_west(scores, 2, residuals, each);
   CHECK(std::abs(r.sigma_b / std::sqrt((middle[0] + middle[1]) * n / (n - 2) / xx) - 1) < 1e-10);
 }
+
+TEST_CASE("loglog: noise of a third of D does not bend the law, for what it does to the mean logarithm is known", "[fit]") {
+  const Body body{1, 0.04, 0.5};
+  const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.5);
+  std::vector<FitRun> runs;
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    simulated::Noise noise(seed);
+    FitRun& run = runs.emplace_back();
+    run.body = body;
+    for (int i = 0; i < 1500; ++i) {
+      run.t.push_back(0.001 * i);
+      run.v.push_back(truth.v(run.t.back()) + noise(9e-4));
+    }
+    run.filters = {simulated::smooth_v(11), simulated::differentiate("v", "a"), simulated::shift(body)};
+    run.v = simulated::mean(run.v, 11);
+    run.D = run.filters[2].apply(run.t, simulated::slope(run.t, run.v));
+  }
+  const auto r = fit(Route::loglog, runs, {});
+  const double at = 0.3, size = r.a * std::pow(at, r.b) / (1.87e-3 * std::pow(at, 0.215));
+  INFO("a " << r.a << " +- " << r.sigma_a << ", b " << r.b << " +- " << r.sigma_b << ", D(" << at << ") " << size << " times the true one, left out " << r.left_out);
+  CHECK(std::abs(size - 1) < 0.01);
+}

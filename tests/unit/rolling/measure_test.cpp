@@ -36,6 +36,14 @@ TEST_CASE("measure: the reference itself, a solver that comes closer, and memory
   CHECK((memory.v_error > 0 && memory.v_error < 1e-7 && memory.stop_error > 0));
 }
 
+TEST_CASE("measure: the reference goes beyond the stop, with memory to the stop", "[rolling]") {
+  for (const double length : {0.0, 1e-4}) {
+    const Reference right = reference(scene(0.215, length), 5, 5);
+    CHECK(right.times.front() == 0);
+    CHECK(right.times.back() == (length > 0 ? 1 : 1.2) * right.stop);
+  }
+}
+
 TEST_CASE("measure: the stop by a method that is off shows in the errors", "[rolling]") {
   Roll other = scene(0.215);
   other.law.a *= 1.01;

@@ -43,6 +43,10 @@ TEST_CASE("layout: runs side by side, grouped by run, by quantity, with a shared
   CHECK(layout({"t", "v", "t", "v", "room"}) == "t v room :014 :234 ");
 }
 
+TEST_CASE("layout: columns of one name keep their places in every run", "[text]") {
+  CHECK(layout({"v Run 1", "t Run 1", "v Run 1", "v Run 2", "t Run 2", "v Run 2"}) == "v t v 1:012 2:345 ");
+}
+
 TEST_CASE("layout: --run picks by the number that is printed, else by place", "[text]") {
   const std::vector<std::string> printed = {"t Run #2", "v Run #2", "t Run #4", "v Run #4"}, plain = {"t", "v", "t", "v"};
   CHECK(layout(printed, "4") == "t v 4:23 ");

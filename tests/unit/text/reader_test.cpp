@@ -387,6 +387,7 @@ TEST_CASE("reader: stacked runs under repeated names keep their numbers", "[text
   CHECK(records({stacked}) == "0 1 || 0 2 | 1 3");
   CHECK(records({stacked}, run(5)) == "0 2 | 1 3");
   CHECK(records({stacked}, run(1)) == "there is no run 1 (runs: 2)");
+  CHECK(records({"v Run #3,t\n1,0\n\nv Run #5,t\n2,0\n"}, run(5), {"v"}) == "2");  // not every name has it
   CHECK(records({"t,v\n0,1\n\nt,w\n0,2\n"}) == "FILE:4: field 1 (t): 't' is not a number");
 }
 
