@@ -11,23 +11,6 @@ namespace rolling {
 namespace {
 
 constexpr std::size_t npos = static_cast<std::size_t>(-1);
-constexpr std::size_t longest_preamble = 100;  // lines; more without a number is not a file of columns
-
-constexpr char comment_mark = '#', nothing = '\n';
-
-/// The first character that is not a blank; `nothing`, which no line begins with, if there is none.
-char first_mark(std::string_view line) {
-  for (const char c : line)
-    if (!is_blank(c)) return c;
-  return nothing;
-}
-
-/// The last comment that is no history.
-std::size_t last_remark(const std::vector<std::string>& comments) {
-  for (std::size_t i = comments.size(); i-- > 0;)
-    if (!comments[i].starts_with("##")) return i;
-  return npos;
-}
 
 }  // namespace
 
@@ -44,125 +27,40 @@ Reader::Reader(ReaderOptions options, std::vector<std::string> order) : options_
   history_changed_ = false;
 }
 
-// ---------------------------------------------------------------------------------------------------------------- header
+// --------------------------------------------------------------------------------------------------------------- columns
 
 void Reader::open_next() {
   begun_ = false;
-  input_ = std::make_unique<Input>(options_.files[next_file_++], options_.on_block);
+  const bool first_file = next_file_ == 0;
+  lines_ = std::make_unique<Lines>(options_.files[next_file_++], options_.on_block);
   history_changed_ = !history_.empty();
   history_.clear();
-  read_header();
-}
-
-void Reader::read_header() {
-  const bool first_file = next_file_ == 1;
-  std::vector<std::string> comments, preamble;
-  in_header_ = true;
-  kept_.clear();
-  header_line_.clear();
-  bool found = false;
-  while (!found && next_line()) {
-    if (line_.find('\0') != npos) fail<InputError>("{}:{}: a NUL byte; UTF-16 must be made UTF-8 first (iconv -f UTF-16)", input_->name(), line_number_);
-    if (line_.find('\r') != npos) fail<InputError>("{}:{}: a carriage return within the line; make the line ends LF first (tr '\\r' '\\n')", input_->name(), line_number_);
-    const char mark = first_mark(line_);
-    if (mark == nothing) continue;
-    if (mark == comment_mark) comments.emplace_back(trim(line_));
-    else if (dialect_.choose(line_) || is_missing_record(comments, preamble)) found = true;
-    else preamble.emplace_back(line_);
-    if (preamble.size() > longest_preamble) fail<InputError>("{}: no numbers in the first {} lines", input_->name(), longest_preamble);
-  }
-  if (!found) fail<InputError>("{}: no records", input_->name());
-
-  std::size_t width = dialect_.split(line_).size();
-  std::vector<std::string> names;
-  if (!preamble.empty()) {
-    header_line_ = preamble.back();
-    preamble.pop_back();
-    names = names_of(header_line_);
-    if (names.back().empty() && names.size() > 1) names.pop_back();  // a delimiter that ends the line
-    if (width == names.size() + 1 && dialect_.split(line_).back().text.empty()) --width;
-  } else {
-    const std::size_t last = last_remark(comments);
-    if (last != npos) names = commented_names(comments[last], width);
-    if (!names.empty()) comments.erase(comments.begin() + static_cast<std::ptrdiff_t>(last));
-  }
-  for (std::string& line : preamble) comments.push_back("# " + std::move(line));
-
-  std::vector<Column> line;
-  for (std::size_t i = 0; i < std::max(width, names.size()); ++i) {
-    if (i < names.size()) line.push_back(read_column(names[i]));
-    else line.push_back({i < order_.size() ? order_[i] : ""});
-    if (line.back().name.empty()) line.back().name = fmt::format("c{}", i + 1);
-  }
-  try {
-    // A column that --use names by its number is one of the line: then the line is one record, whatever its names say.
-    const bool by_number = std::any_of(use_.begin(), use_.end(), [](const auto& use) { return is_number(use.second); });
-    layout_ = by_number ? Layout::one(line) : Layout::of(line, options_.run ? fmt::format("{}", *options_.run) : "");
-  } catch (const Error& error) {
-    fail<InputError>("{}: {}", input_->name(), error.what());
-  }
-  if (!names.empty() && (layout_.side_by_side ? width > names.size() : width != names.size()))
-    fail<InputError>("{}:{}: {} field{} under a line of {} names{}", input_->name(), line_number_, width, width == 1 ? "" : "s", names.size(),
-                     dialect_.separator() == ',' ? "; if some of its commas are decimal ones, make them points first" : "");
-  if (layout_.runs.size() > 1) keep_lines();
+  // A column that --use names by its number is one of the line: then the line is one record.
+  const bool by_number = std::any_of(use_.begin(), use_.end(), [](const auto& use) { return is_number(use.second); });
+  header_ = read_header(*lines_, dialect_, order_, options_.run ? fmt::format("{}", *options_.run) : "", by_number);
+  if (header_.layout.runs.size() > 1) lines_->keep();
   side_ = 0;
-
   if (first_file) {
-    named_ = !names.empty();
-    columns_ = columns_as_read_ = layout_.columns;
+    named_ = header_.named;
+    columns_ = columns_as_read_ = header_.layout.columns;
     if (!named_)
       for (Column& column : columns_) column.unit = si_unit(column.name);
-  } else if (layout_.columns != columns_as_read_ || named_ == names.empty()) {
-    fail<InputError>("{}: its columns are not those of {}", input_->name(), options_.files.front());
+  } else if (header_.layout.columns != columns_as_read_ || named_ != header_.named) {
+    fail<InputError>("{}: its columns are not those of {}", lines_->name(), options_.files.front());
   }
   want_numbers();
   in_header_ = first_file;
-  for (const std::string& text : comments) comment(text);
+  for (const std::string& text : header_.comments) comment(text);
   in_header_ = false;
   line_waits_ = true;
-  first_record_ = line_number_;
-}
-
-/// The names in a line, by its form.
-std::vector<std::string> Reader::names_of(std::string_view line) {
-  if (dialect_.separator() == '\0') return split_names(line, '\0');
-  std::vector<std::string> names;
-  for (const Field& field : dialect_.split(line)) names.emplace_back(field.text);
-  return names;
-}
-
-/// As many names as there are fields, if the comment has them.
-std::vector<std::string> Reader::commented_names(std::string_view comment, std::size_t width) const {
-  for (const char separator : {'\t', dialect_.separator(), '\0'})
-    if (auto names = split_names(trim(comment.substr(1)), separator); names.size() == width) return names;
-  return {};
-}
-
-/// The line is a record all of whose readings are missing: nobody names columns NaN; and blanks, under names already given, are
-/// no names.
-bool Reader::is_missing_record(const std::vector<std::string>& comments, const std::vector<std::string>& preamble) {
-  const auto fields = dialect_.split(line_);
-  if (!std::all_of(fields.begin(), fields.end(), [](const Field& field) { return is_missing(field.text); })) return false;
-  if (!std::all_of(fields.begin(), fields.end(), [](const Field& field) { return field.text.empty(); })) return true;
-  const std::size_t width = fields.size();
-  if (preamble.empty()) return last_remark(comments) != npos && !commented_names(comments[last_remark(comments)], width).empty();
-  const auto names = names_of(preamble.back());
-  return names.size() == width && std::none_of(names.begin(), names.end(), [](const std::string& name) { return name.empty(); });
-}
-
-/// Runs side by side come out one under another, so all lines but the first run's are read again and again.
-void Reader::keep_lines() {
-  do kept_.push_back({line_number_, std::string(line_)});
-  while (next_line());
-  kept_at_ = 0;
-  take_kept();
+  first_record_ = lines_->number();
 }
 
 std::optional<std::size_t> Reader::find(std::string_view name) const {
   const auto use = use_.find(read_column(name).name);
   if (use == use_.end()) return find_column(name, columns_);
   if (const auto at = find_column(use->second, columns_as_read_)) return at;
-  fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", input_->name(), use->first, shown(use->second), shown(use->second), column_list());
+  fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", lines_->name(), use->first, shown(use->second), shown(use->second), column_list());
 }
 
 std::optional<std::size_t> Reader::find_column(std::string_view name, const std::vector<Column>& columns) const {
@@ -172,7 +70,7 @@ std::optional<std::size_t> Reader::find_column(std::string_view name, const std:
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < columns.size(); ++i)
     if (columns[i].name == plain) {
-      if (found) fail<InputError>("{}: columns {} and {} are both {}; say --use {}=N", input_->name(), *found + 1, i + 1, plain, plain);
+      if (found) fail<InputError>("{}: columns {} and {} are both {}; say --use {}=N", lines_->name(), *found + 1, i + 1, plain, plain);
       found = i;
     }
   return found;
@@ -190,7 +88,7 @@ std::string Reader::column_list() const {
 
 std::size_t Reader::require(std::string_view name) const {
   if (const auto column = find(name)) return *column;
-  fail<InputError>("{}: there is no column '{}' among {}{}", input_->name(), shown(name), column_list(),
+  fail<InputError>("{}: there is no column '{}' among {}{}", lines_->name(), shown(name), column_list(),
                    si_unit(read_column(name).name).empty() ? "" : fmt::format("; say --use {}=COLUMN", name));
 }
 
@@ -205,7 +103,7 @@ std::size_t Reader::add(std::size_t column, const std::string& name, Conversion 
 }
 
 void Reader::want_numbers() {
-  for (const Layout::Run& run : layout_.runs)
+  for (const Layout::Run& run : header_.layout.runs)
     for (const Needed& needed : needed_) dialect_.want(run.fields[needed.column]);
 }
 
@@ -216,7 +114,7 @@ std::size_t Reader::need(std::string_view name) {
   const std::string quantity = by_number ? columns_[column].name : read_column(name).name;
   for (const Needed& other : needed_)
     if (other.column == column && other.name != quantity)
-      fail<InputError>("{}: column {} cannot serve as both {} and {}", input_->name(), column + 1, other.name, quantity);
+      fail<InputError>("{}: column {} cannot serve as both {} and {}", lines_->name(), column + 1, other.name, quantity);
   const Conversion to_si = conversion_to_si(quantity, columns_as_read_[column]);
   for (std::size_t i = 0; i < columns_.size(); ++i)
     if (i != column && columns_[i].name == quantity) {
@@ -252,40 +150,12 @@ void Reader::comment(std::string_view line) {
   else if (on_comment) on_comment(text);
 }
 
-bool Reader::next_line() {
-  if (!input_->next(line_)) return false;
-  line_number_ = input_->line_number();
-  if (input_->quotes()) join_quoted();
-  return true;
-}
-
-/// A quoted field may hold line ends.
-void Reader::join_quoted() {
-  const auto last = line_.rfind('"');
-  if (last == npos) return;
-  const bool opens = last == 0 || line_[last - 1] == ',' || line_[last - 1] == ';' || line_[last - 1] == '\t';
-  if (!opens || std::count(line_.begin(), line_.end(), '"') % 2 == 0) return;
-  joined_ = line_;
-  do {
-    if (!input_->next(line_)) fail<InputError>("{}:{}: a quote that does not end", input_->name(), line_number_);
-    (joined_ += '\n') += line_;
-  } while (std::count(joined_.begin(), joined_.end(), '"') % 2 == 1);
-  line_ = joined_;
-}
-
-bool Reader::take_kept() {
-  if (kept_at_ == kept_.size()) return false;
-  line_number_ = kept_[kept_at_].number;
-  line_ = kept_[kept_at_++].text;
-  return true;
-}
-
 Reader::Event Reader::advance() {
   for (;;) {
-    if (!(kept_.empty() ? next_line() : take_kept())) {
-      if (side_ + 1 < layout_.runs.size()) {
+    if (!lines_->next()) {
+      if (side_ + 1 < header_.layout.runs.size()) {
         ++side_;
-        kept_at_ = 0;
+        lines_->again();
         return Event::run_break;
       }
       if (std::exchange(file_ended_, false)) {
@@ -295,16 +165,16 @@ Reader::Event Reader::advance() {
       file_ended_ = next_file_ < options_.files.size();
       return file_ended_ ? Event::run_break : Event::end;
     }
-    const char mark = first_mark(line_);
-    if (mark == nothing) {
+    const char mark = first_mark(lines_->text());
+    if (mark == no_mark) {
       run_begins_ = true;
       return Event::run_break;
     }
     if (mark == comment_mark) {
-      if (!skipping_ && side_ == 0) comment(line_);
+      if (!skipping_ && side_ == 0) comment(lines_->text());
     } else if (std::exchange(run_begins_, false) && names_again()) {
       continue;  // each run under its own names line
-    } else if (!layout_.side_by_side || has_own_reading()) {
+    } else if (!header_.layout.side_by_side || has_own_reading()) {
       return Event::record;
     }
   }
@@ -312,14 +182,14 @@ Reader::Event Reader::advance() {
 
 /// The line names the columns once more; only the label of the run may differ.
 bool Reader::names_again() {
-  if (header_line_.empty()) return false;
-  if (line_ == header_line_) return true;
-  const auto names = names_of(line_), first = names_of(header_line_);
+  if (header_.names_line.empty()) return false;
+  if (lines_->text() == header_.names_line) return true;
+  const auto names = names_in(lines_->text(), dialect_), first = names_in(header_.names_line, dialect_);
   if (names.size() != first.size() || is_number(names.front())) return false;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const Column column = read_column(names[i]), known = read_column(first[i]);
     if (column.name != known.name || column.unit != known.unit) return false;
-    if (!layout_.side_by_side && !column.run.empty()) layout_.runs.front().label = column.run;
+    if (!header_.layout.side_by_side && !column.run.empty()) header_.layout.runs.front().label = column.run;
   }
   return true;
 }
@@ -327,9 +197,9 @@ bool Reader::names_again() {
 /// A run beside longer ones ends in blanks; columns that the runs share do not count.
 bool Reader::has_own_reading() {
   const auto fields = split_line();
-  const auto& own = layout_.runs[side_].fields;
+  const auto& own = header_.layout.runs[side_].fields;
   return std::any_of(own.begin(), own.end(), [&](std::size_t i) {
-    return !layout_.shared[i] && i < fields.size() && !fields[i].text.empty();
+    return !header_.layout.shared[i] && i < fields.size() && !fields[i].text.empty();
   });
 }
 
@@ -347,8 +217,8 @@ bool Reader::next_run() {
     }
     ++run_;
     first_of_run_ = true;
-    const std::string& label = layout_.runs[side_].label;
-    const bool by_label = is_number(label), picked = layout_.side_by_side;  // the layout has seen to it
+    const std::string& label = header_.layout.runs[side_].label;
+    const bool by_label = is_number(label), picked = header_.layout.side_by_side;  // the layout has seen to it
     if (!options_.run || picked || (by_label ? label == fmt::format("{}", *options_.run) : run_ == *options_.run)) return run_found_ = true;
     line_waits_ = false;
     skipping_ = true;
@@ -377,19 +247,16 @@ bool Reader::next() {
 
 /// What most lines are, a record like the one before it in this run, is found and split in one pass; all else is advance()'s.
 bool Reader::take_plain_line() {
-  if (run_begins_ || layout_.side_by_side) return false;
-  const std::string_view ahead = input_->ahead();
+  if (run_begins_ || header_.layout.side_by_side) return false;
+  const std::string_view ahead = lines_->ahead();
   const char* const end = dialect_.split_plain(ahead, fields_);
-  if (!end) return false;
-  line_ = {ahead.data(), end};
-  input_->skip(line_.size() + (*end == '\r' ? 2 : 1));
-  line_number_ = input_->line_number();
-  return true;
+  if (end) lines_->take(static_cast<std::size_t>(end - ahead.data()), *end == '\r' ? 2 : 1);
+  return end;
 }
 
 std::span<const Field> Reader::split_line() {
   try {
-    return dialect_.split(line_);
+    return dialect_.split(lines_->text());
   } catch (const Error& error) {
     fail<InputError>("{}: {}", where(), error.what());
   }
@@ -397,14 +264,14 @@ std::span<const Field> Reader::split_line() {
 
 /// The fields of the line that make this run's record, and the needed numbers in them; false if one is missing.
 bool Reader::take_record() {
-  if (fields_.size() != layout_.width) {
-    if (fields_.size() == layout_.width + 1 && fields_.back().text.empty() && named_) fields_ = fields_.first(layout_.width);  // a delimiter that ends the line
-    else if (!layout_.side_by_side || fields_.size() > layout_.width)  // beside it longer runs may have ended
-      fail<InputError>("{}: {} field{} where the first record has {}", where(), fields_.size(), fields_.size() == 1 ? "" : "s", layout_.width);
+  if (fields_.size() != header_.layout.width) {
+    if (fields_.size() == header_.layout.width + 1 && fields_.back().text.empty() && named_) fields_ = fields_.first(header_.layout.width);  // a delimiter that ends the line
+    else if (!header_.layout.side_by_side || fields_.size() > header_.layout.width)  // beside it longer runs may have ended
+      fail<InputError>("{}: {} field{} where the first record has {}", where(), fields_.size(), fields_.size() == 1 ? "" : "s", header_.layout.width);
   }
-  if (layout_.side_by_side) {
+  if (header_.layout.side_by_side) {
     own_fields_.clear();
-    for (const std::size_t i : layout_.runs[side_].fields) own_fields_.push_back(i < fields_.size() ? fields_[i] : Field());
+    for (const std::size_t i : header_.layout.runs[side_].fields) own_fields_.push_back(i < fields_.size() ? fields_[i] : Field());
     fields_ = own_fields_;
   }
 
@@ -415,7 +282,7 @@ bool Reader::take_record() {
     if (std::isnan(value)) {
       if (!is_missing(field.text)) reject(needed.column, "is not a number" + way_out(field.text));
       if (options_.strict && !needed.may_miss)
-        fail<InputError>("{}: field {} ({}): a reading is missing", where(), layout_.runs[side_].fields[needed.column] + 1, shown(needed.name));
+        fail<InputError>("{}: field {} ({}): a reading is missing", where(), header_.layout.runs[side_].fields[needed.column] + 1, shown(needed.name));
       if (!needed.may_miss) return false;
     } else if (converts_) {
       value = needed.to_si(value);
@@ -448,7 +315,7 @@ std::string_view Reader::made_text(std::size_t cut, std::size_t& first, std::siz
 }
 
 void Reader::reject(std::size_t column, std::string_view why) const {
-  fail<InputError>("{}: field {} ({}): '{}' {}", where(), layout_.runs[side_].fields[column] + 1, shown(columns_[column].name), shown(fields_[column].text), why);
+  fail<InputError>("{}: field {} ({}): '{}' {}", where(), header_.layout.runs[side_].fields[column] + 1, shown(columns_[column].name), shown(fields_[column].text), why);
 }
 
 /// After a field that is no number, what to do about what it often is: a decimal comma, a minus sign of print, a heading.
@@ -458,11 +325,11 @@ std::string Reader::way_out(std::string_view field) const {
   if (in_field || beside) return "; if a comma here is a decimal one, make it a point first";
   if (field.starts_with("\xE2\x88\x92")) return "; make its minus sign (U+2212) a hyphen first";
   const bool word = !field.empty() && std::string_view("+-.0123456789").find(field.front()) == npos;
-  return word && !named_ && line_number_ == first_record_ ? "; if this line is no record, begin it with #" : "";
+  return word && !named_ && lines_->number() == first_record_ ? "; if this line is no record, begin it with #" : "";
 }
 
 std::string Reader::where() const {
-  return begun_ && !at_end_ ? fmt::format("{}:{}", input_->name(), line_number_) : std::string();
+  return begun_ && !at_end_ ? fmt::format("{}:{}", lines_->name(), lines_->number()) : std::string();
 }
 
 }  // namespace rolling

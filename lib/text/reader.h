@@ -14,8 +14,8 @@
 #include "base/error.h"
 #include "text/column.h"
 #include "text/dialect.h"
-#include "text/input.h"
-#include "text/layout.h"
+#include "text/header.h"
+#include "text/lines.h"
 
 namespace rolling {
 
@@ -60,12 +60,13 @@ class Reader {
   double operator[](std::size_t slot) const { return values_[slot]; }
   /// The record as it goes out, tab-separated, valid until the next one; if `cut` is a column, its text is [first, last) of that.
   std::string_view text(std::size_t cut, std::size_t& first, std::size_t& last) {
-    if (!dialect_.as_it_stands() || converts_ || layout_.side_by_side) return made_text(cut, first, last);
+    if (!dialect_.as_it_stands() || converts_ || header_.layout.side_by_side) return made_text(cut, first, last);
+    const std::string_view line = lines_->text();
     if (cut < fields_.size()) {
-      first = static_cast<std::size_t>(fields_[cut].text.data() - line_.data());
+      first = static_cast<std::size_t>(fields_[cut].text.data() - line.data());
       last = first + fields_[cut].text.size();
     }
-    return line_;
+    return line;
   }
 
   /// Called with each comment line among the records; comments before them are in comments().
@@ -86,21 +87,13 @@ class Reader {
   enum class Event { record, run_break, end };
 
   void open_next();
-  void read_header();
-  std::vector<std::string> names_of(std::string_view line);
-  std::vector<std::string> commented_names(std::string_view comment, std::size_t width) const;
-  bool is_missing_record(const std::vector<std::string>& comments, const std::vector<std::string>& preamble);
   void want_numbers();
-  void keep_lines();
   void comment(std::string_view line);
   std::optional<std::size_t> find_column(std::string_view name, const std::vector<Column>&) const;
   std::size_t require(std::string_view name) const;
   std::size_t add(std::size_t column, const std::string& name, Conversion);
   std::string column_list() const;
 
-  bool next_line();
-  void join_quoted();
-  bool take_kept();
   Event advance();
   bool take_plain_line();
   bool names_again();
@@ -114,23 +107,20 @@ class Reader {
   ReaderOptions options_;
   std::map<std::string, std::string> use_;  // quantity, column
   std::vector<std::string> order_;
-  std::unique_ptr<Input> input_;
+  std::unique_ptr<Lines> lines_;
   std::size_t next_file_ = 0;
 
-  // What the header says.
+  // What the headers say.
+  Header header_;
+  Dialect dialect_;
   std::vector<Column> columns_, columns_as_read_;
   std::vector<std::string> comments_, history_;
-  std::string header_line_;  // as it stands, if the names are not in a comment
   bool named_ = false, in_header_ = true, history_changed_ = false, history_ended_ = false;
-  Dialect dialect_;
-  Layout layout_;
 
   // The present record.
-  std::string_view line_;
-  std::string joined_;  // a line whose quoted field holds line ends
-  std::string text_;    // of a record that does not go out as it came
-  std::size_t line_number_ = 0, first_record_ = 0;
-  bool line_waits_ = false;  // line_ is read but not taken
+  std::string text_;         // if it does not go out as it came
+  bool line_waits_ = false;  // the present line is read but not taken
+  std::size_t first_record_ = 0;
   std::span<const Field> fields_;
   std::vector<Field> own_fields_;  // of runs side by side
 
@@ -143,9 +133,7 @@ class Reader {
   bool coarse_time_ = false;
 
   // Runs.
-  struct Kept { std::size_t number; std::string text; };
-  std::vector<Kept> kept_;  // the lines of runs side by side
-  std::size_t kept_at_ = 0, side_ = 0;
+  std::size_t side_ = 0;
   int run_ = 0;
   bool run_found_ = false, run_begins_ = false, first_of_run_ = true, file_ended_ = false, skipping_ = false, begun_ = false, at_end_ = false;
   std::size_t left_out_ = 0;
