@@ -36,9 +36,15 @@ const char* skip_plain(const char* at, const char* end) {
 }  // namespace
 
 bool Dialect::choose(std::string_view line) {
-  bool tab = false, semicolon = false, comma = false, quoted = false, field_begins = true;
+  bool tab = false, semicolon = false, comma = false, quoted = false, field_begins = true, closed = false;
   for (const char c : line) {
-    if (c == '"' && (quoted || field_begins)) quoted = !quoted;
+    if (c == '"' && (quoted || field_begins || closed)) {  // a quote behind one that seemed to close was one of two
+      closed = quoted;
+      quoted = !quoted;
+      field_begins = false;
+      continue;
+    }
+    closed = false;
     if (quoted) continue;
     tab |= c == '\t';
     semicolon |= c == ';';

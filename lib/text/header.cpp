@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "text/number.h"
 
 namespace rolling {
 namespace {

@@ -8,7 +8,6 @@
 #include "text/dialect.h"
 #include "text/layout.h"
 #include "text/lines.h"
-#include "text/number.h"
 
 namespace rolling {
 
@@ -26,14 +25,5 @@ Header read_header(Lines&, Dialect&, const std::vector<std::string>& order, cons
 
 /// The names in a line that is no comment.
 std::vector<std::string> names_in(std::string_view line, Dialect&);
-
-inline constexpr char comment_mark = '#', no_mark = '\n';
-
-/// The first character that is not a blank; no_mark, which no line begins with, if there is none.
-inline char first_mark(std::string_view line) {
-  for (const char c : line)
-    if (!is_blank(c)) return c;
-  return no_mark;
-}
 
 }  // namespace rolling

@@ -1,21 +1,35 @@
 #include "text/lines.h"
 
-#include <algorithm>
-
 #include "base/error.h"
 
 namespace rolling {
+namespace {
+
+constexpr std::size_t longest = 1 << 20;  // as Input has it
+
+/// The text ends within a quoted field, if it begins in one or not. Which character separates fields may not be known yet.
+bool ends_in_quotes(std::string_view text, bool quoted) {
+  bool opens = true;
+  for (auto c = text.begin(); c != text.end(); ++c)
+    if (!quoted) {
+      quoted = *c == '"' && opens;
+      opens = *c == ',' || *c == ';' || *c == '\t';
+    } else if (*c == '"') {
+      if (c + 1 != text.end() && c[1] == '"') ++c;  // stands for one
+      else quoted = opens = false;
+    }
+  return quoted;
+}
+
+}  // namespace
 
 void Lines::join_quoted() {
-  const auto last = text_.rfind('"');
-  if (last == text_.npos) return;
-  const bool opens = last == 0 || text_[last - 1] == ',' || text_[last - 1] == ';' || text_[last - 1] == '\t';
-  if (!opens || std::count(text_.begin(), text_.end(), '"') % 2 == 0) return;
+  if (first_mark(text_) == comment_mark || !ends_in_quotes(text_, false)) return;
   joined_ = text_;
   do {
-    if (!input_.next(text_)) fail<InputError>("{}:{}: a quote that does not end", name(), number_);
+    if (joined_.size() > longest || !input_.next(text_)) fail<InputError>("{}:{}: a quote that does not end", name(), number_);
     (joined_ += '\n') += text_;
-  } while (std::count(joined_.begin(), joined_.end(), '"') % 2 == 1);
+  } while (ends_in_quotes(text_, true));
   text_ = joined_;
 }
 

@@ -7,8 +7,18 @@
 #include <vector>
 
 #include "text/input.h"
+#include "text/number.h"
 
 namespace rolling {
+
+inline constexpr char comment_mark = '#', no_mark = '\n';
+
+/// The first character that is not a blank; no_mark, which no line begins with, if there is none.
+inline char first_mark(std::string_view line) {
+  for (const char c : line)
+    if (!is_blank(c)) return c;
+  return no_mark;
+}
 
 class Lines {
  public:

@@ -40,6 +40,17 @@ TEST_CASE("loglog: a held exponent leaves the mean of the logarithms", "[fit]") 
   CHECK(std::abs(fit(Route::loglog, {run}, options).a / std::cbrt(3 * 7 * 11.0) - 1) < 1e-14);
 }
 
+TEST_CASE("loglog: a held coefficient, squares and bisquare alike", "[fit]") {
+  FitRun run{};
+  for (int i = 1; i <= 40; ++i) run.v.push_back(0.05 * i), run.D.push_back(3 * std::pow(0.05 * i, 0.7));
+  FitOptions options;
+  options.a = 3;
+  for (const bool robust : {false, true}) {
+    options.robust = robust;
+    CHECK(std::abs(fit(Route::loglog, {run}, options).b - 0.7) < 1e-12);
+  }
+}
+
 TEST_CASE("loglog: correlated residuals of two runs have the errors of their autocorrelation, by the sums of a line", "[fit]") {
   simulated::Noise noise(8);
   std::vector<FitRun> runs(2);

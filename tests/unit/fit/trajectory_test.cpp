@@ -168,44 +168,6 @@ TEST_CASE("velocity: differences and means that reach beyond a cut are known the
   CHECK_THROWS_AS(fit(Route::velocity, {run}, options), Error);  // of which time would that be?
 }
 
-TEST_CASE("velocity: differences that nothing tells of are found by the residuals, means of speeds are not taken for them", "[fit]") {
-  const auto truth = simulated::roll(cylinder, 5.75e-4, 0.1, 0.5);
-  const LinearFilter difference = simulated::differentiate("x", "v");
-  LinearFilter mean = simulated::smooth_v(3);
-  FitOptions options;
-  options.possible_filters = {difference, mean};
-  simulated::Noise noise(12);
-  std::size_t found[4] = {}, covered = 0;
-  constexpr std::size_t runs = 50;
-  for (std::size_t k = 0; k < runs; ++k) {
-    FitRun run{};
-    run.body = cylinder;
-    std::vector<double> x, v;
-    for (int i = 0; i < 120; ++i) {
-      run.t.push_back(0.04 * i);
-      x.push_back(truth.x(run.t.back()) + noise(3e-4));
-      v.push_back(truth.v(run.t.back()) + noise(5e-3));
-    }
-    run.v = difference.apply(run.t, x);
-    const auto r = fit(Route::velocity, {run}, options);
-    found[0] += r.errors == Errors::differences;
-    covered += std::abs(r.b - 0.1) < 1.96 * r.sigma_b;
-    if (r.errors == Errors::differences) CHECK(r.left_out == 2);  // the ends, where nobody knows what was done
-    run.v = v;
-    found[1] += fit(Route::velocity, {run}, options).errors == Errors::differences;
-    run.v = mean.apply(run.t, v);
-    found[2] += fit(Route::velocity, {run}, options).errors == Errors::differences;
-    run.t.resize(29);
-    run.v = difference.apply(run.t, std::vector<double>(x.begin(), x.begin() + 29));
-    found[3] += fit(Route::velocity, {run}, options).errors == Errors::differences;
-  }
-  CHECK(found[0] >= 45);
-  CHECK(covered >= 42);  // fewer of 95 % by chance in 0.2 %
-  CHECK(found[1] <= 4);
-  CHECK(found[2] == 0);
-  CHECK(found[3] == 0);  // too few records
-}
-
 TEST_CASE("trajectory: white noise, intervals that hold and no bias", "[fit]") {
   const auto truth = simulated::roll(cylinder, 1.87e-3, 0.215, 0.5);
   for (Route route : {Route::velocity, Route::position}) {
@@ -233,70 +195,4 @@ TEST_CASE("trajectory: white noise, intervals that hold and no bias", "[fit]") {
     CHECK(covered_b <= 198);
     CHECK(std::abs(sum / runs) < 3.3 * std::sqrt(squares) / runs);
   }
-}
-
-TEST_CASE("velocity: differences that the first records of a long run tell of are reckoned with in all of it", "[fit]") {
-  const auto truth = simulated::roll(cylinder, 5.75e-4, 0.1, 0.5);
-  FitOptions options;
-  options.possible_filters = {simulated::differentiate("x", "v")};
-  simulated::Noise noise(5);
-  FitRun run{};
-  run.body = cylinder;
-  std::vector<double> x;
-  for (int i = 0; i < 5000; ++i) run.t.push_back(1e-3 * i), x.push_back(truth.x(run.t.back()) + noise(3e-6));
-  run.v = options.possible_filters[0].apply(run.t, x);
-  const auto r = fit(Route::velocity, {run}, options);
-  CHECK(r.errors == Errors::differences);
-  CHECK(r.n == 4998);
-  CHECK(std::abs(r.b - 0.1) < 4 * r.sigma_b);
-}
-
-TEST_CASE("trajectory: of a long run all records count, where means of them come near", "[fit]") {
-  const double v0 = 0.5, a = 1.87e-3, b = 0.215;
-  constexpr std::size_t n = 10000;
-  const auto truth = simulated::roll(cylinder, a, b, v0);
-  simulated::Noise noise(14);
-  FitRun run{};
-  run.body = cylinder;
-  for (std::size_t i = 0; i < n; ++i) {
-    run.t.push_back(2.2 * static_cast<double>(i) / n);
-    run.v.push_back(truth.v(run.t.back()) + noise(2e-3));
-    run.x.push_back(truth.x(run.t.back()) + noise(3e-4));
-  }
-  for (Route route : {Route::velocity, Route::position}) {
-    FitOptions options;
-    options.x0 = 0;
-    const auto r = fit(route, {run}, options);
-    // No neighbour is better: the sum of squares has its minimum there, by differences of the closed formula that is typed in simulated.h.
-    const auto residual = [&](std::size_t i, double da, double db, double dv0) {
-      const auto roll = simulated::roll(cylinder, r.a + da, r.b + db, r.v0[0] + dv0);
-      return route == Route::velocity ? roll.v(run.t[i]) - run.v[i] : roll.x(run.t[i]) - run.x[i];
-    };
-    for (int j = 0; j < 3; ++j) {
-      const double step = 1e-5, da = j == 0 ? step * a : 0, db = j == 1 ? step : 0, dv0 = j == 2 ? step * v0 : 0;
-      double slope = 0, squares = 0;
-      for (std::size_t i = 0; i < n; ++i) {
-        const double change = residual(i, da, db, dv0) - residual(i, -da, -db, -dv0);
-        slope += change * residual(i, 0, 0, 0);
-        squares += change * change;
-      }
-      CHECK(std::abs(slope) < 1e-7 * r.rms * std::sqrt(n * squares));
-    }
-  }
-}
-
-TEST_CASE("trajectory: a long record whose means have no minimum is refused for what the whole of it lacks", "[fit]") {
-  const auto refused = [](double (*v)(int)) {
-    FitRun run{};
-    run.body = cylinder;
-    for (int i = 0; i < 5000; ++i) run.t.push_back(0.01 * i), run.v.push_back(v(i));
-    try {
-      fit(Route::velocity, {run}, {});
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string("not at all");
-  };
-  CHECK(refused([](int) { return 1.0; }) == "the data do not determine the parameters: they cannot be told apart");
-  CHECK(refused([](int i) { return i < 2 ? 1.0 : 0.0; }) == "the fit cannot start: the law has no finite values at the starting point");
 }

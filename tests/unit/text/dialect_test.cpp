@@ -32,6 +32,7 @@ TEST_CASE("dialect: the form is the first of tab ; , outside quotes, else blanks
   CHECK(chosen("1 , 2,") == "<1><2><>");
   CHECK(chosen("  1   2  ") == "<1><2>");
   CHECK(chosen("\"a,b\",\"say \"\"so\"\"\",7") == "<a,b><say \"so\"><7>");
+  CHECK(chosen("\"a\"\"\tb\",1") == "<a\"\tb><1>");
   CHECK(chosen("Time (s),Velocity (m/s)") == "no number: <Time (s)><Velocity (m/s)>");
   CHECK(chosen("\"0,5\",\"1,5\"") == "<0,5><1,5>");  // a record that is refused, not a heading
   CHECK(chosen("") == "no number: ");

@@ -1,0 +1,89 @@
+#include "fit/trajectory.h"
+
+#include <numeric>
+
+#include "base/error.h"
+#include "unit/fit/simulated.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+
+namespace {
+const Body cylinder{1.375, 0.04, 0.5};
+}
+
+TEST_CASE("first guess: near the law of exact runs, whatever the exponent, from the data alone", "[fit]") {
+  for (const bool position : {false, true})
+    for (const double b : {-0.3, 0.1, 0.4, 0.8, 1.2, 1.7}) {
+      const auto truth = simulated::roll(cylinder, 1e-3, b, 0.4);
+      FitRun run{};
+      run.body = cylinder;
+      for (int i = 0; i < 150; ++i) {
+        run.t.push_back(0.02 * i);
+        run.x.push_back(0.3 + truth.x(run.t.back()));
+        run.v.push_back(truth.v(run.t.back()));
+      }
+      Rows all(150);
+      std::iota(all.begin(), all.end(), 0);
+      const FitOptions options;
+      Parameters q{options, position, 1};
+      Rolls rolls = make_rolls({run}, {all}, position, {}, options);
+      const auto theta = first_guess(rolls.of, q);
+      const double at = 0.3, D = q.a(theta) * std::pow(at, q.b(theta)), true_D = 1e-3 * std::pow(at, b);
+      INFO((position ? "x, b " : "v, b ") << b << ": guessed b " << q.b(theta) << ", v0 " << q.v0(theta, 0) << ", D(0.3) " << D / true_D << " of the true one");
+      CHECK(std::abs(q.b(theta) - b) < 0.1);
+      CHECK(std::abs(q.v0(theta, 0) / 0.4 - 1) < 0.02);
+      CHECK(std::abs(D / true_D - 1) < 0.05);
+      if (position) CHECK(std::abs(q.x0(theta, 0) - 0.3) < 0.01);
+    }
+}
+
+TEST_CASE("first guess: of a long run all records count, where means of them come near", "[fit]") {
+  const double v0 = 0.5, a = 1.87e-3, b = 0.215;
+  constexpr std::size_t n = 10000;
+  const auto truth = simulated::roll(cylinder, a, b, v0);
+  simulated::Noise noise(14);
+  FitRun run{};
+  run.body = cylinder;
+  for (std::size_t i = 0; i < n; ++i) {
+    run.t.push_back(2.2 * static_cast<double>(i) / n);
+    run.v.push_back(truth.v(run.t.back()) + noise(2e-3));
+    run.x.push_back(truth.x(run.t.back()) + noise(3e-4));
+  }
+  for (Route route : {Route::velocity, Route::position}) {
+    FitOptions options;
+    options.x0 = 0;
+    const auto r = fit(route, {run}, options);
+    // No neighbour is better: the sum of squares has its minimum there, by differences of the closed formula that is typed in simulated.h.
+    const auto residual = [&](std::size_t i, double da, double db, double dv0) {
+      const auto roll = simulated::roll(cylinder, r.a + da, r.b + db, r.v0[0] + dv0);
+      return route == Route::velocity ? roll.v(run.t[i]) - run.v[i] : roll.x(run.t[i]) - run.x[i];
+    };
+    for (int j = 0; j < 3; ++j) {
+      const double step = 1e-5, da = j == 0 ? step * a : 0, db = j == 1 ? step : 0, dv0 = j == 2 ? step * v0 : 0;
+      double slope = 0, squares = 0;
+      for (std::size_t i = 0; i < n; ++i) {
+        const double change = residual(i, da, db, dv0) - residual(i, -da, -db, -dv0);
+        slope += change * residual(i, 0, 0, 0);
+        squares += change * change;
+      }
+      CHECK(std::abs(slope) < 1e-7 * r.rms * std::sqrt(n * squares));
+    }
+  }
+}
+
+TEST_CASE("first guess: a long record whose means have no minimum is refused for what the whole of it lacks", "[fit]") {
+  const auto refused = [](double (*v)(int)) {
+    FitRun run{};
+    run.body = cylinder;
+    for (int i = 0; i < 5000; ++i) run.t.push_back(0.01 * i), run.v.push_back(v(i));
+    try {
+      fit(Route::velocity, {run}, {});
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("not at all");
+  };
+  CHECK(refused([](int) { return 1.0; }) == "the data do not determine the parameters: they cannot be told apart");
+  CHECK(refused([](int i) { return i < 2 ? 1.0 : 0.0; }) == "the fit cannot start: the law has no finite values at the starting point");
+}

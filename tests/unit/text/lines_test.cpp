@@ -1,0 +1,80 @@
+#include "text/lines.h"
+
+#include "unit/text/files.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+
+namespace {
+
+/// The lines from the next one on, each as <number text>.
+std::string rest(Lines& lines) {
+  std::string all;
+  while (lines.next()) all.append("<").append(std::to_string(lines.number())).append(" ").append(lines.text()).append(">");
+  return all;
+}
+
+std::string lines(std::string_view text) {
+  const TemporaryFile file(text);
+  Lines all(file.name());
+  return rest(all);
+}
+
+}  // namespace
+
+TEST_CASE("lines: a quoted field takes its line ends with it, and has the number of its first line", "[text]") {
+  CHECK(lines("a\nb\n") == "<1 a><2 b>");
+  CHECK(lines("1,\"a\nb\",2\n3\n") == "<1 1,\"a\nb\",2><3 3>");
+  CHECK(lines("\"a\n\nb\nc\"\n3") == "<1 \"a\n\nb\nc\"><5 3>");
+  CHECK(lines("1\t\"a\nb\"\n") == "<1 1\t\"a\nb\">");
+  CHECK(lines("1;\"a\"\"\nb\"\n") == "<1 1;\"a\"\"\nb\">");
+}
+
+TEST_CASE("lines: a quote that begins no field ends at its line", "[text]") {
+  CHECK(lines("5\" wheel\n1\n") == "<1 5\" wheel><2 1>");
+  CHECK(lines("\"a\",\"b\"\n1\n") == "<1 \"a\",\"b\"><2 1>");
+  CHECK(lines("he said, \"go\n1\n") == "<1 he said, \"go><2 1>");
+  CHECK(lines("# a,\"b\n1\n") == "<1 # a,\"b><2 1>");
+  CHECK(lines(" # a,\"b\n1\n") == "<1  # a,\"b><2 1>");  // nor one in a comment
+}
+
+TEST_CASE("lines: a quote that does not end is refused where it begins", "[text]") {
+  const TemporaryFile file("1\n2,\"a\n3\n");
+  Lines all(file.name());
+  REQUIRE(all.next());
+  CHECK(refusal([&] { all.next(); }) == file.name() + ":2: a quote that does not end");
+  const TemporaryFile many("2,\"a\n" + std::string(1 << 20, '\n') + "\"\n");  // in a megabyte
+  Lines megabyte(many.name());
+  CHECK(refusal([&] { megabyte.next(); }) == many.name() + ":1: a quote that does not end");
+}
+
+TEST_CASE("lines: taken from what is there, and counted", "[text]") {
+  const TemporaryFile file("a\nbc\r\nd\ne");
+  Lines all(file.name());
+  REQUIRE(all.next());
+  REQUIRE(all.ahead() == "bc\r\nd\ne");
+  all.take(2, 2);
+  CHECK(all.text() == "bc");
+  CHECK(all.number() == 2);
+  all.take(1, 1);
+  CHECK(all.text() == "d");
+  CHECK(rest(all) == "<4 e>");
+  CHECK(all.ahead().empty());
+}
+
+TEST_CASE("lines: what is kept is read again, as often as asked for", "[text]") {
+  const TemporaryFile file("names\n1\n2\n\"3\n4\"\n");
+  Lines all(file.name());
+  REQUIRE(all.next());
+  REQUIRE(all.next());
+  all.keep();
+  CHECK(all.text() == "1");
+  CHECK(all.number() == 2);
+  CHECK(all.ahead().empty());
+  CHECK(rest(all) == "<3 2><4 \"3\n4\">");
+  CHECK_FALSE(all.next());
+  for (int i = 0; i < 2; ++i) {
+    all.again();
+    CHECK(rest(all) == "<2 1><3 2><4 \"3\n4\">");
+  }
+}
