@@ -38,9 +38,8 @@ int main(int argc, char** argv) {
     filter.append(derivative_of(from));
     while (filter.next_run()) {
       const auto derivative = make_derivative(options);
-      while (filter.next())
-        for (const double value : derivative->push(filter[t], filter[y])) filter.put(value);
-      for (const double value : derivative->finish()) filter.put(value);
+      while (filter.next()) filter.put(derivative->push(filter[t], filter[y]));
+      filter.put(derivative->finish());
     }
     return 0;
   });

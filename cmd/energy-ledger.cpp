@@ -56,8 +56,7 @@ int main(int argc, char** argv) {
         Balance balance(body, geometry);
         while (filter.next()) {
           const Ledger& l = push(balance);
-          for (const double value : {l.E_trans, l.E_rot, l.I_E1, l.I_E2, l.P_T1, l.P_R1, l.P_R2, l.P_T2, l.P_diss, balance.dissipated()})
-            filter.put(value);
+          filter.put(std::array{l.E_trans, l.E_rot, l.I_E1, l.I_E2, l.P_T1, l.P_R1, l.P_R2, l.P_T2, l.P_diss, balance.dissipated()});
         }
         check(balance);
       }

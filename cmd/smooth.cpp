@@ -71,18 +71,15 @@ int main(int argc, char** argv) {
       if (choose) smoother = std::make_unique<AutoSmoother>(options);
       else smoother = make_smoother(options);
       std::size_t record = 0, kept = 0;
-      const auto put = [&](std::span<const double> values) {
-        for (const double value : values) filter.put(value);
-      };
       const auto take = [&](std::span<const Judged> samples) {
         for (const Judged& s : samples) {
-          if (s.kept) put(smoother->push(s.t, s.y)), ++kept;
+          if (s.kept) filter.put(smoother->push(s.t, s.y)), ++kept;
           else filter.drop(record);
           ++record;
         }
       };
       while (filter.next()) {
-        if (all) put(smoother->push(filter[t], filter[y])), ++kept;
+        if (all) filter.put(smoother->push(filter[t], filter[y])), ++kept;
         else take(selection.push(filter[t], filter[y]));
       }
       const auto last = selection.finish();
@@ -98,7 +95,7 @@ int main(int argc, char** argv) {
         choose = false;
         tell();
       }
-      put(rest);
+      filter.put(rest);
       outliers += selection.outliers();
     }
     tool.count_left_out(outliers, "outliers");

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,9 @@ class Filter {
     if (!std::isfinite(value)) fail("the result is not a finite number");
     numbers_.push_back(value);
     if (numbers_.size() >= enough_) write_rows();
+  }
+  void put(std::span<const double> values) {
+    for (const double value : values) put(value);
   }
   /// Leaves out the record that is the i-th of this run, from 0: it waits for no numbers.
   void drop(std::size_t i);

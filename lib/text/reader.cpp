@@ -230,6 +230,15 @@ bool Reader::next_run() {
   }
 }
 
+/// What most lines are, a record like the one before it in this run, is found and split in one pass; all else is advance()'s.
+inline bool Reader::take_plain_line() {
+  if (run_begins_ || header_.layout.side_by_side) return false;
+  const std::string_view ahead = lines_->ahead();
+  const char* const end = dialect_.split_plain(ahead, fields_);
+  if (end) lines_->take(static_cast<std::size_t>(end - ahead.data()), *end == '\r' ? 2 : 1);
+  return end;
+}
+
 bool Reader::next() {
   for (;;) {
     if (line_waits_ || !take_plain_line()) {
@@ -243,15 +252,6 @@ bool Reader::next() {
     if (take_record()) return true;
     ++left_out_;
   }
-}
-
-/// What most lines are, a record like the one before it in this run, is found and split in one pass; all else is advance()'s.
-bool Reader::take_plain_line() {
-  if (run_begins_ || header_.layout.side_by_side) return false;
-  const std::string_view ahead = lines_->ahead();
-  const char* const end = dialect_.split_plain(ahead, fields_);
-  if (end) lines_->take(static_cast<std::size_t>(end - ahead.data()), *end == '\r' ? 2 : 1);
-  return end;
 }
 
 std::span<const Field> Reader::split_line() {
@@ -292,8 +292,10 @@ bool Reader::take_record() {
   }
   if (time_slot_ != npos) {
     const double t = values_[time_slot_];
-    if (!first_of_run_ && !(t > last_time_)) reject(needed_[time_slot_].column, fmt::format("does not come after {}", last_time_));
-    if (!first_of_run_) coarse_time_ |= t - last_time_ < 0x1p-39 * std::abs(t);  // two roundings of 2^-53 t are 2^-13 of it
+    if (!first_of_run_) {
+      if (!(t > last_time_)) reject(needed_[time_slot_].column, fmt::format("does not come after {}", last_time_));
+      coarse_time_ |= t - last_time_ < 0x1p-39 * std::abs(t);  // two roundings of 2^-53 t are 2^-13 of it
+    }
     last_time_ = t;
   }
   first_of_run_ = false;
