@@ -35,11 +35,6 @@ void Output::names(const std::vector<Column>& columns) {
   end_line();
 }
 
-void Output::cell(double value) {
-  separate();
-  number(value);
-}
-
 void Output::row(std::span<const double> values) {
   for (const double value : values) cell(value);
   end_line();

@@ -35,7 +35,10 @@ class Output {
     buffer_.end(write_number(buffer_.room(longest_number), value, digits));
   }
   /// The next cell of a tab-separated row.
-  void cell(double value);
+  void cell(double value) {
+    separate();
+    number(value);
+  }
   void blank() { separate(); }  ///< the next cell, missing
   void end_line() {
     text('\n');

@@ -16,7 +16,7 @@ cd build/speed
 by_part='
 { n = $1; gsub(/,/, "", n); sub(/^[^)]*\) /, ""); sub(/ \[[^]]*\]$/, ""); part = "other" }
 /rolling::|main|speed/ { part = "computing" }
-/rolling::(Reader|Input|Dialect|Layout)|memchr/ { part = "reading" }
+/rolling::(Reader|Lines|Input|Dialect|Layout)|memchr/ { part = "reading" }
 /rolling::(Filter|Output)|mem(move|cpy)|Writer::/ { part = "writing" }
 /read_number|read_any_number|rolling::.*divide|from_chars/ { part = "parsing" }
 /write_number|write_shortest|write_eight_digits|to_decimal|fmt::/ { part = "formatting" }
