@@ -59,8 +59,9 @@ void Reader::open_next() {
 std::optional<std::size_t> Reader::find(std::string_view name) const {
   const auto use = use_.find(read_column(name).name);
   if (use == use_.end()) return find_column(name, columns_);
-  if (const auto at = find_column(use->second, columns_as_read_)) return at;
-  fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", lines_->name(), use->first, shown(use->second), shown(use->second), column_list());
+  const auto at = find_column(use->second, columns_as_read_);
+  if (!at) fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", lines_->name(), use->first, shown(use->second), shown(use->second), column_list());
+  return at;
 }
 
 std::optional<std::size_t> Reader::find_column(std::string_view name, const std::vector<Column>& columns) const {
@@ -87,9 +88,11 @@ std::string Reader::column_list() const {
 }
 
 std::size_t Reader::require(std::string_view name) const {
-  if (const auto column = find(name)) return *column;
-  fail<InputError>("{}: there is no column '{}' among {}{}", lines_->name(), shown(name), column_list(),
-                   si_unit(read_column(name).name).empty() ? "" : fmt::format("; say --use {}=COLUMN", name));
+  const auto column = find(name);
+  if (!column)
+    fail<InputError>("{}: there is no column '{}' among {}{}", lines_->name(), shown(name), column_list(),
+                     si_unit(read_column(name).name).empty() ? "" : fmt::format("; say --use {}=COLUMN", name));
+  return *column;
 }
 
 std::size_t Reader::add(std::size_t column, const std::string& name, Conversion to_si) {
