@@ -8,11 +8,10 @@
 namespace rolling {
 namespace {
 constexpr std::size_t npos = static_cast<std::size_t>(-1);
-constexpr std::size_t together = 32;  // rows
 }
 
 Filter::Filter(Reader& in, Output& out, std::string history)
-    : in_(in), out_(out), columns_(in.columns()), enough_(out.unbuffered ? 1 : together) {
+    : in_(in), out_(out), columns_(in.columns()), enough_(rows_at_once()) {
   if (!history.empty()) history_ = "## " + std::move(history);
   in_.on_comment = [this](std::string_view text) { comment(text); };
 }
@@ -42,7 +41,7 @@ void Filter::append(Column column) {
       old.name = name;
     }
   columns_.push_back(std::move(column));
-  if (appended_++ > 0) enough_ = enough_ / (appended_ - 1) * appended_;
+  enough_ = rows_at_once() * ++appended_;
 }
 
 void Filter::write_header() {

@@ -3,13 +3,11 @@
 // Answered rows wait for company: the digits of one number wait for each other, those of several numbers do not.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "base/error.h"
 #include "text/bytes.h"
 #include "text/output.h"
 #include "text/reader.h"
@@ -38,7 +36,7 @@ class Filter {
   double operator[](std::size_t slot) const { return in_[slot]; }
   /// The next number for the oldest row that has not all of them. Throws Error when it is not finite.
   void put(double value) {
-    if (!std::isfinite(value)) fail("the result is not a finite number");
+    require_finite(value);
     numbers_.push_back(value);
     if (numbers_.size() >= enough_) write_rows();
   }
@@ -56,6 +54,7 @@ class Filter {
     std::size_t first = 0, last = 0;  // of a record: its numbers go between
   };
 
+  std::size_t rows_at_once() const { return out_.unbuffered ? 1 : 32; }
   void write_header();
   void comment(std::string_view text);
   void write_rows();

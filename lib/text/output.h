@@ -20,6 +20,10 @@ class OutputError : public Error {
   using Error::Error;
 };
 
+inline void require_finite(double value) {
+  if (!std::isfinite(value)) fail("the result is not a finite number");
+}
+
 class Output {
  public:
   int digits = 0;           ///< significant digits of computed numbers; 0: the shortest text that reads back
@@ -31,7 +35,7 @@ class Output {
   void text(char c) { buffer_.append(c); }
   /// Throws Error for a number that is not finite.
   void number(double value) {
-    if (!std::isfinite(value)) fail("the result is not a finite number");
+    require_finite(value);
     buffer_.end(write_number(buffer_.room(longest_number), value, digits));
   }
   /// The next cell of a tab-separated row.

@@ -31,7 +31,7 @@ Reader::Reader(ReaderOptions options, std::vector<std::string> order) : options_
 
 void Reader::open_next() {
   begun_ = false;
-  const bool first_file = next_file_ == 0;
+  const bool first_file = next_file_ == 0, named = header_.named;
   lines_ = std::make_unique<Lines>(options_.files[next_file_++], options_.on_block);
   history_changed_ = !history_.empty();
   history_.clear();
@@ -41,11 +41,10 @@ void Reader::open_next() {
   if (header_.layout.runs.size() > 1) lines_->keep();
   side_ = 0;
   if (first_file) {
-    named_ = header_.named;
     columns_ = columns_as_read_ = header_.layout.columns;
-    if (!named_)
+    if (!header_.named)
       for (Column& column : columns_) column.unit = si_unit(column.name);
-  } else if (header_.layout.columns != columns_as_read_ || named_ != header_.named) {
+  } else if (header_.layout.columns != columns_as_read_ || named != header_.named) {
     fail<InputError>("{}: its columns are not those of {}", lines_->name(), options_.files.front());
   }
   want_numbers();
@@ -84,7 +83,7 @@ std::string Reader::column_list() const {
     list += shown(to_text(column));
     if (list.size() > 200) return list + ", ...";
   }
-  return named_ ? list : fmt::format("{} without names", columns_.size());
+  return header_.named ? list : fmt::format("{} without names", columns_.size());
 }
 
 std::size_t Reader::require(std::string_view name) const {
@@ -121,7 +120,7 @@ std::size_t Reader::need(std::string_view name) {
   const Conversion to_si = conversion_to_si(quantity, columns_as_read_[column]);
   for (std::size_t i = 0; i < columns_.size(); ++i)
     if (i != column && columns_[i].name == quantity) {
-      if (named_) columns_[i].name += "_in";
+      if (header_.named) columns_[i].name += "_in";
       else columns_[i] = {fmt::format("c{}", i + 1)};
     }
   columns_[column].name = quantity;
@@ -268,7 +267,7 @@ std::span<const Field> Reader::split_line() {
 /// The fields of the line that make this run's record, and the needed numbers in them; false if one is missing.
 bool Reader::take_record() {
   if (fields_.size() != header_.layout.width) {
-    if (fields_.size() == header_.layout.width + 1 && fields_.back().text.empty() && named_) fields_ = fields_.first(header_.layout.width);  // a delimiter that ends the line
+    if (fields_.size() == header_.layout.width + 1 && fields_.back().text.empty() && header_.named) fields_ = fields_.first(header_.layout.width);  // a delimiter that ends the line
     else if (!header_.layout.side_by_side || fields_.size() > header_.layout.width)  // beside it longer runs may have ended
       fail<InputError>("{}: {} field{} where the first record has {}", where(), fields_.size(), fields_.size() == 1 ? "" : "s", header_.layout.width);
   }
@@ -330,7 +329,7 @@ std::string Reader::way_out(std::string_view field) const {
   if (in_field || beside) return "; if a comma here is a decimal one, make it a point first";
   if (field.starts_with("\xE2\x88\x92")) return "; make its minus sign (U+2212) a hyphen first";
   const bool word = !field.empty() && std::string_view("+-.0123456789").find(field.front()) == npos;
-  return word && !named_ && lines_->number() == first_record_ ? "; if this line is no record, begin it with #" : "";
+  return word && !header_.named && lines_->number() == first_record_ ? "; if this line is no record, begin it with #" : "";
 }
 
 std::string Reader::where() const {

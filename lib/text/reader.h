@@ -115,7 +115,7 @@ class Reader {
   Dialect dialect_;
   std::vector<Column> columns_, columns_as_read_;
   std::vector<std::string> comments_, history_;
-  bool named_ = false, in_header_ = true, history_changed_ = false, history_ended_ = false;
+  bool in_header_ = true, history_changed_ = false, history_ended_ = false;
 
   // The present record.
   std::string text_;         // if it does not go out as it came

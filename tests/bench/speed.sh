@@ -120,7 +120,7 @@ against shift-from-accel 'bare loop (at most)' "$small" '<1.25' "shift-from-acce
 if have mawk; then
   against 'the three in a pipe' 'mawk %.17g' "$rows" 7 "smooth tv.txt | differentiate | shift-from-accel $body" "mawk '$mean' tv.txt | mawk '$slope' | mawk '$shift_'" elapsed
 fi
-against 'the three in a pipe' 'three bare loops' "$rows" '' "smooth tv.txt | differentiate | shift-from-accel $body" "$speed filter <tv.txt | $speed filter | $speed filter" elapsed inverse
+against 'the three in a pipe' 'three loops (at most)' "$rows" '' "smooth tv.txt | differentiate | shift-from-accel $body" "$speed filter <tv.txt | $speed filter | $speed filter" elapsed inverse
 if have mawk; then against 'energy-ledger, 10 columns' 'mawk %.17g' "$small" 6 "energy-ledger $ledger tvD.txt" "mawk '$energies' tvD.txt"; fi
 against 'energy-ledger, 10 columns' 'bare loop (at most)' "$small" '<1.25' "energy-ledger $ledger tvD.txt" "$speed filter 10 <tvD.txt" cpu inverse
 if have datamash; then
