@@ -1,32 +1,14 @@
 // How the noise of the fitted records hangs together: known from the filters that were applied, or judged from the residuals.
 #pragma once
 
+#include "fit/band_matrix.h"
 #include "fit/filter.h"
+#include "fit/whitener.h"
 
 #include <map>
 #include <string>
 
 namespace rolling {
-
-/// A matrix whose rows are zero outside a short stretch.
-class BandMatrix {
- public:
-  static BandMatrix identity(std::size_t n);
-  void append(std::size_t first, std::span<const double> values);  ///< zeros at either end are not kept
-  /// Appends x row i of X + y row i of Y.
-  void append(std::size_t i, double x, const BandMatrix& X, double y, const BandMatrix& Y);
-  std::size_t rows() const { return first_.size(); }
-  std::size_t first(std::size_t i) const { return first_[i]; }
-  std::span<const double> row(std::size_t i) const { return {values_.data() + start_[i], start_[i + 1] - start_[i]}; }
-  double times(std::size_t i, std::span<const double> x) const;  ///< element i of the product with x
-  /// This matrix times B.
-  BandMatrix operator*(const BandMatrix& B) const;
-  BandMatrix without(std::size_t before, std::size_t after) const;  ///< the first and the last rows
-
- private:
-  std::vector<std::size_t> first_, start_{0};
-  std::vector<double> values_;
-};
 
 /// The matrix of a filter on these times, found by feeding it combs of unit impulses.
 BandMatrix probe(const LinearFilter&, std::span<const double> t);
@@ -39,19 +21,6 @@ struct NoiseResponse {
 };
 /// Records that were cut away are taken as spaced like those at that end. Throws Error for a chain that starts from more than one raw column.
 NoiseResponse noise_response(const FilterChain&, std::span<const double> t);
-
-/// Turns vectors of covariance C = E E^T + floor^2 I into white ones, in O(n band^2), with no n x n matrix: C = R^T R.
-class Whitener {
- public:
-  Whitener(const BandMatrix& E, double floor);
-  void apply(double* x) const;             ///< x becomes R^-T x; a direction without noise becomes 0
-  void apply_transposed(double* x) const;  ///< x becomes R^-1 x
-  double log_size() const;                 ///< ln of the determinant of R
-
- private:
-  std::size_t n_, band_;
-  std::vector<double> R_;  ///< E^T = Q R: row k holds columns k .. k + band - 1
-};
 
 /// The noise of the residuals of several runs, E times white noise of one unknown size.
 class KnownNoise {

@@ -14,13 +14,6 @@ std::vector<double> times(std::size_t n) {
   return t;
 }
 
-std::vector<double> dense(const BandMatrix& M, std::size_t columns) {
-  std::vector<double> all(M.rows() * columns, 0);
-  for (std::size_t i = 0; i < M.rows(); ++i)
-    for (std::size_t j = 0; j < M.row(i).size(); ++j) all[i * columns + M.first(i) + j] = M.row(i)[j];
-  return all;
-}
-
 }  // namespace
 
 TEST_CASE("covariance: a probed chain does to a column what the filters do, shrinking and one-sided ends included", "[fit]") {
@@ -41,64 +34,6 @@ TEST_CASE("covariance: a probed chain does to a column what the filters do, shri
 
 TEST_CASE("covariance: noise from two raw columns is refused", "[fit]") {
   CHECK_THROWS_AS(noise_response({simulated::smooth_v(3), simulated::differentiate("x", "w")}, times(9)), Error);
-}
-
-TEST_CASE("covariance: a sum of rows, of which one or both may be all 0", "[fit]") {
-  const std::vector<double> values{0, 2, 3}, none(3, 0);
-  BandMatrix X, Y, sum;
-  for (const auto* row : {&values, &none, &values, &none}) X.append(1, *row);
-  for (const auto* row : {&values, &values, &none, &none}) Y.append(0, *row);
-  for (std::size_t i = 0; i < 4; ++i) sum.append(i, 5, X, 7, Y);
-  CHECK(dense(sum, 4) == std::vector<double>{0, 14, 31, 15, 0, 14, 21, 0, 0, 0, 10, 15, 0, 0, 0, 0});
-}
-
-TEST_CASE("covariance: whitening turns E into an orthogonal matrix, and drops what has no noise", "[fit]") {
-  constexpr std::size_t n = 25;
-  const auto t = times(n);
-  for (bool difference : {false, true}) {
-    const BandMatrix E = difference ? probe(simulated::differentiate("x", "v"), t) : probe(simulated::smooth_v(5), t);
-    const Whitener whitener(E, 0);
-    auto A = dense(E, n);
-    for (std::size_t j = 0; j < n; ++j) {  // W E
-      std::vector<double> column;
-      for (std::size_t i = 0; i < n; ++i) column.push_back(A[i * n + j]);
-      whitener.apply(column.data());
-      for (std::size_t i = 0; i < n; ++i) A[i * n + j] = column[i];
-    }
-    double trace = 0;
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t k = 0; k < n; ++k) {
-        double sum = 0;
-        for (std::size_t j = 0; j < n; ++j) sum += A[i * n + j] * A[k * n + j];
-        if (i == k) trace += sum;
-        else CHECK(std::abs(sum) < 1e-9);
-      }
-    CHECK(std::abs(trace - (difference ? n - 1 : n)) < 1e-9);  // the differences know nothing of a constant
-  }
-}
-
-TEST_CASE("covariance: the floor is white noise of its own", "[fit]") {
-  const BandMatrix E = probe(simulated::smooth_v(3), times(6));
-  const Whitener whitener(E, 0.5);
-  // C = E E^T + 0.25 I, so (W x).(W x) = x^T C^-1 x; for x = C y that is y^T C y
-  const auto e = dense(E, 6);
-  std::vector<double> y{1, -2, 0.5, 3, -1, 2}, x(6, 0);
-  double expected = 0;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t k = 0; k < 6; ++k) {
-      double c = i == k ? 0.25 : 0;
-      for (std::size_t j = 0; j < 6; ++j) c += e[i * 6 + j] * e[k * 6 + j];
-      x[i] += c * y[k];
-    }
-    expected += y[i] * x[i];
-  }
-  auto z = x;
-  whitener.apply(z.data());
-  double sum = 0;
-  for (double s : z) sum += s * s;
-  CHECK(std::abs(sum / expected - 1) < 1e-13);
-  whitener.apply_transposed(z.data());  // R^-1 R^-T x = C^-1 x = y
-  for (std::size_t i = 0; i < 6; ++i) CHECK(std::abs(z[i] - y[i]) < 1e-12);
 }
 
 TEST_CASE("covariance: Ljung-Box tells white residuals from correlated ones", "[fit]") {

@@ -1,0 +1,64 @@
+#include "fit/band_matrix.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+
+namespace rolling {
+
+BandMatrix BandMatrix::identity(std::size_t n) {
+  BandMatrix I;
+  for (std::size_t i = 0; i < n; ++i) I.append(i, std::vector<double>{1});
+  return I;
+}
+
+void BandMatrix::append(std::size_t first, std::span<const double> values) {
+  while (!values.empty() && values.back() == 0) values = values.first(values.size() - 1);
+  while (!values.empty() && values.front() == 0) values = values.subspan(1), ++first;
+  first_.push_back(first);
+  values_.insert(values_.end(), values.begin(), values.end());
+  start_.push_back(values_.size());
+}
+
+void BandMatrix::append(std::size_t i, double x, const BandMatrix& X, double y, const BandMatrix& Y) {
+  const auto a = X.row(i), b = Y.row(i);
+  const std::size_t from = std::min(X.first(i), Y.first(i));
+  std::vector<double> sum(std::max(X.first(i) + a.size(), Y.first(i) + b.size()) - from, 0);
+  for (std::size_t j = 0; j < a.size(); ++j) sum[X.first(i) - from + j] += x * a[j];
+  for (std::size_t j = 0; j < b.size(); ++j) sum[Y.first(i) - from + j] += y * b[j];
+  append(from, sum);
+}
+
+double BandMatrix::times(std::size_t i, std::span<const double> x) const {
+  const auto r = row(i);
+  return std::inner_product(r.begin(), r.end(), x.begin() + static_cast<std::ptrdiff_t>(first_[i]), 0.0);
+}
+
+BandMatrix BandMatrix::operator*(const BandMatrix& B) const {
+  BandMatrix product;
+  std::vector<double> sum;
+  for (std::size_t i = 0; i < rows(); ++i) {
+    const auto r = row(i);
+    std::size_t from = B.rows() ? SIZE_MAX : 0, to = 0;
+    for (std::size_t k = first_[i]; k < first_[i] + r.size(); ++k) {
+      if (B.row(k).empty()) continue;
+      from = std::min(from, B.first(k));
+      to = std::max(to, B.first(k) + B.row(k).size());
+    }
+    sum.assign(to > from ? to - from : 0, 0);
+    for (std::size_t k = 0; k < r.size(); ++k) {
+      const auto b = B.row(first_[i] + k);
+      for (std::size_t j = 0; j < b.size(); ++j) sum[B.first(first_[i] + k) - from + j] += r[k] * b[j];
+    }
+    product.append(sum.empty() ? 0 : from, sum);
+  }
+  return product;
+}
+
+BandMatrix BandMatrix::without(std::size_t before, std::size_t after) const {
+  BandMatrix rest;
+  for (std::size_t i = before; i + after < rows(); ++i) rest.append(first(i), row(i));
+  return rest;
+}
+
+}  // namespace rolling

@@ -1,0 +1,111 @@
+#include "fit/whitener.h"
+
+#include "fit/covariance.h"
+#include "unit/fit/simulated.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+
+namespace {
+
+std::vector<double> times(std::size_t n) {
+  std::vector<double> t;
+  for (std::size_t i = 0; i < n; ++i) t.push_back(0.1 * static_cast<double>(i));
+  return t;
+}
+
+std::vector<double> dense(const BandMatrix& M, std::size_t columns) {
+  std::vector<double> all(M.rows() * columns, 0);
+  for (std::size_t i = 0; i < M.rows(); ++i)
+    for (std::size_t j = 0; j < M.row(i).size(); ++j) all[i * columns + M.first(i) + j] = M.row(i)[j];
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("whitener: whitening turns E into an orthogonal matrix, and drops what has no noise", "[fit]") {
+  constexpr std::size_t n = 25;
+  const auto t = times(n);
+  for (bool difference : {false, true}) {
+    const BandMatrix E = difference ? probe(simulated::differentiate("x", "v"), t) : probe(simulated::smooth_v(5), t);
+    const Whitener whitener(E, 0);
+    auto A = dense(E, n);
+    for (std::size_t j = 0; j < n; ++j) {  // W E
+      std::vector<double> column;
+      for (std::size_t i = 0; i < n; ++i) column.push_back(A[i * n + j]);
+      whitener.apply(column.data());
+      for (std::size_t i = 0; i < n; ++i) A[i * n + j] = column[i];
+    }
+    double trace = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < n; ++k) {
+        double sum = 0;
+        for (std::size_t j = 0; j < n; ++j) sum += A[i * n + j] * A[k * n + j];
+        if (i == k) trace += sum;
+        else CHECK(std::abs(sum) < 1e-9);
+      }
+    CHECK(std::abs(trace - (difference ? n - 1 : n)) < 1e-9);  // the differences know nothing of a constant
+  }
+}
+
+TEST_CASE("whitener: the floor is white noise of its own", "[fit]") {
+  const BandMatrix E = probe(simulated::smooth_v(3), times(6));
+  const Whitener whitener(E, 0.5);
+  // C = E E^T + 0.25 I, so (W x).(W x) = x^T C^-1 x; for x = C y that is y^T C y
+  const auto e = dense(E, 6);
+  std::vector<double> y{1, -2, 0.5, 3, -1, 2}, x(6, 0);
+  double expected = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      double c = i == k ? 0.25 : 0;
+      for (std::size_t j = 0; j < 6; ++j) c += e[i * 6 + j] * e[k * 6 + j];
+      x[i] += c * y[k];
+    }
+    expected += y[i] * x[i];
+  }
+  auto z = x;
+  whitener.apply(z.data());
+  double sum = 0;
+  for (double s : z) sum += s * s;
+  CHECK(std::abs(sum / expected - 1) < 1e-13);
+  whitener.apply_transposed(z.data());  // R^-1 R^-T x = C^-1 x = y
+  for (std::size_t i = 0; i < 6; ++i) CHECK(std::abs(z[i] - y[i]) < 1e-12);
+}
+
+
+TEST_CASE("whitener: floors of every size leave white noise of size one, and say by how much a volume shrinks", "[fit]") {
+  constexpr std::size_t n = 40;
+  const auto t = times(n);
+  const BandMatrix E = probe(simulated::differentiate("v", "a"), t) * probe(simulated::smooth_v(7), t);
+  const auto dense_E = dense(E, n);
+  for (double floor : {1e-5, 1e-4, 1e-3, 1e-2, 1.0, 1e3}) {
+    const Whitener whitener(E, floor);
+    std::vector<std::vector<double>> columns;  // of R^-T [E, floor I]
+    for (std::size_t j = 0; j < 2 * n; ++j) {
+      std::vector<double> x(n, 0);
+      for (std::size_t i = 0; i < n; ++i) x[i] = j < n ? dense_E[i * n + j] : i == j - n ? floor : 0;
+      whitener.apply(x.data());
+      columns.push_back(std::move(x));
+    }
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < n; ++k) {
+        double sum = 0;
+        for (const auto& x : columns) sum += x[i] * x[k];
+        CHECK(std::abs(sum - (i == k)) < 1e-8);
+      }
+    // Elimination of the dense C, in long double: its pivots are the squares of R's.
+    std::vector<long double> C(n * n, 0);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < n; ++k) {
+        C[i * n + k] = i == k ? static_cast<long double>(floor) * floor : 0;
+        for (std::size_t j = 0; j < n; ++j) C[i * n + k] += static_cast<long double>(dense_E[i * n + j]) * dense_E[k * n + j];
+      }
+    long double log_size = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      log_size += std::log(C[k * n + k]) / 2;
+      for (std::size_t i = k + 1; i < n; ++i)
+        for (std::size_t j = n; j-- > k;) C[i * n + j] -= C[i * n + k] / C[k * n + k] * C[k * n + j];  // column k last
+    }
+    CHECK(std::abs(whitener.log_size() - static_cast<double>(log_size)) < 1e-8);
+  }
+}
