@@ -28,23 +28,19 @@ class CentralDerivative : public Signal {
 
 /// As Vernier's programs do it: the slopes over one, two and three samples to either side, weighted 3, 2, 1; a sample beyond
 /// the end of the run is the one at the end.
-class VernierDerivative : public WindowedSignal {
+class VernierDerivative : public WindowedSignal<VernierDerivative> {
  public:
   VernierDerivative() : WindowedSignal({7, 0}, Windows::Ends::cut) {}
-
- private:
-  double value(const Windows&) override;
+  double value(const Windows&);
 };
 
 /// As PASCO's programs do it: (y[i+1] + y[i+2] - y[i-1] - y[i-2]) / (6 dt), the times in place of the y below the line. The
 /// second sample and the last but one have the slope between their neighbours, as there; the first and the last, which have
 /// none there, that of the parabola through three samples.
-class PascoDerivative : public WindowedSignal {
+class PascoDerivative : public WindowedSignal<PascoDerivative> {
  public:
   PascoDerivative() : WindowedSignal({5, 0}, Windows::Ends::cut) {}
-
- private:
-  double value(const Windows&) override;
+  double value(const Windows&);
 };
 
 enum class DerivativeMethod { central, savgol, spline, vernier, pasco };

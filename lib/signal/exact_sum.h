@@ -15,6 +15,13 @@ class ExactSum {
  public:
   void add(double y) { y == 0 ? add_zero(y, 1) : add_term(y); }
   void subtract(double y) { y == 0 ? add_zero(y, -1) : add_term(-y); }
+  /// Adds one term and subtracts another.
+  void exchange(double y, double old) {
+    const DoubleDouble change = two_sum(y, -old);  // mostly exact, of neighbours in a column
+    if (change.lo == 0 && y != 0 && old != 0) return add_term(change.hi);
+    add(y);
+    subtract(old);
+  }
   /// Sum / n, within 1 ulp of the exact quotient; -0 if all of n terms are -0. At most 2^30 terms; n > 0.
   double over(std::size_t n);
 

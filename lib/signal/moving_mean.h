@@ -7,14 +7,18 @@
 
 namespace rolling {
 
-class MovingMean : public WindowedSignal {
+class MovingMean : public WindowedSignal<MovingMean> {
  public:
   /// Throws Error for an even width.
   explicit MovingMean(Width width) : WindowedSignal(width, Windows::Ends::shrink) {}
 
- private:
-  double value(const Windows&) override;
+  double value(const Windows& window) {
+    if (begin_ + 1 == window.begin() && end_ + 1 == window.end()) sum_.exchange(window.sample(end_++).y, window.sample(begin_++).y);
+    else window.slide(begin_, end_, [this](const Sample& s) { sum_.add(s.y); }, [this](const Sample& s) { sum_.subtract(s.y); });
+    return sum_.over(window.size());
+  }
 
+ private:
   ExactSum sum_;
   std::size_t begin_ = 0, end_ = 0;  // the samples in sum_
 };

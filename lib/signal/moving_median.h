@@ -6,13 +6,14 @@
 
 namespace rolling {
 
-class MovingMedian : public WindowedSignal {
+class MovingMedian : public WindowedSignal<MovingMedian> {
  public:
   /// Throws Error for an even width.
   explicit MovingMedian(Width width) : WindowedSignal(width, Windows::Ends::shrink) {}
 
+  double value(const Windows&);
+
  private:
-  double value(const Windows&) override;
 
   std::vector<double> sorted_;
   std::size_t begin_ = 0, end_ = 0;  // the samples in sorted_

@@ -18,16 +18,15 @@ class LocalPolynomial {
 };
 
 /// At the ends of a run the polynomial is that of the first or last whole window. Exact for polynomials of its order.
-class SavitzkyGolay : public WindowedSignal {
+class SavitzkyGolay : public WindowedSignal<SavitzkyGolay> {
  public:
   enum class What { value, slope };
   /// Throws Error for an even width, and for an order that a window of so many samples does not determine.
   SavitzkyGolay(Width, std::size_t order, What);
+  /// Throws Error for the slope in a window of one sample.
+  double value(const Windows&);
 
  private:
-  /// Throws Error for the slope in a window of one sample.
-  double value(const Windows&) override;
-
   std::size_t order_;
   What what_;
   LocalPolynomial polynomial_;

@@ -17,7 +17,8 @@ class Signal {
   virtual std::span<const double> finish() = 0;
 };
 
-/// One whose number for a sample depends on a window about it.
+/// One whose number for a sample depends on a window about it: Of::value(window).
+template <typename Of>
 class WindowedSignal : public Signal {
  public:
   std::span<const double> push(double t, double y) final {
@@ -33,10 +34,9 @@ class WindowedSignal : public Signal {
   WindowedSignal(Width width, Windows::Ends ends) : windows_(width, ends) {}
 
  private:
-  virtual double value(const Windows&) = 0;
   std::span<const double> known() {
     known_.clear();
-    while (windows_.next()) known_.push_back(value(windows_));
+    while (windows_.next()) known_.push_back(static_cast<Of*>(this)->value(windows_));
     return known_;
   }
 

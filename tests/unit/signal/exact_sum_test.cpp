@@ -103,6 +103,29 @@ TEST_CASE("exact_sum: subtracting restores the sum to the last bit", "[signal]")
   CHECK(sum.over(3) == -1);
 }
 
+TEST_CASE("exact_sum: terms that are exchanged leave nothing behind, near one another or not", "[signal]") {
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> mantissa(-1, 1);
+  std::vector<double> window(7, 1.0);
+  ExactSum sum;
+  for (const double y : window) sum.add(y);
+  int failures = 0;
+  for (std::size_t i = 0; i < 20000; ++i) {
+    const int kind = static_cast<int>(random() % 8);
+    const double old = window[i % 7];
+    const double y = kind == 0 ? 0.0 : kind == 1 ? -0.0 : kind == 2 ? 0x1p900 : kind == 3 ? std::ldexp(mantissa(random), static_cast<int>(random() % 600) - 300) : old + mantissa(random) / 8;
+    sum.exchange(y, old);
+    window[i % 7] = y;
+    if (!within_one_ulp(window, sum.over(7))) ++failures;
+  }
+  CHECK(failures == 0);
+  for (double& y : window) sum.exchange(-0.0, y), y = -0.0;
+  CHECK(std::signbit(sum.over(7)));
+  sum.exchange(largest, -0.0);
+  sum.exchange(-largest, largest);
+  CHECK(sum.over(1) == -largest);
+}
+
 TEST_CASE("exact_sum: -0 is forgotten with the terms that were", "[signal]") {
   ExactSum sum;
   sum.add(-0.0);
