@@ -52,6 +52,8 @@ std::vector<FitRun> read_runs(Reader& in, Route route, const Body& body, bool al
   while (in.next_run()) {
     FitRun& run = runs.emplace_back();
     run.body = body;
+    const std::size_t room = runs.size() == 1 ? in.records_ahead() : 0;  // most files are one run
+    for (const auto& [slot, column] : needed) (run.*column).reserve(room);
     while (in.next())
       for (const auto& [slot, column] : needed) (run.*column).push_back(in[slot]);
     run.filters = filters_of(in.history(), run.t);

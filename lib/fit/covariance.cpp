@@ -91,8 +91,13 @@ void KnownNoise::append(BandMatrix E, double share) {
   for (std::size_t i = 0; i < E.rows(); ++i) sources = std::max(sources, E.first(i) + E.row(i).size());
   const auto middle = norms.begin() + static_cast<std::ptrdiff_t>(norms.size() / 2);
   std::nth_element(norms.begin(), middle, norms.end());
-  Whitener whitener(E, norms.empty() ? 0 : share * *middle);
-  runs_.push_back({std::move(E), sources, std::move(whitener)});
+  const double median = norms.empty() ? 0 : *middle;
+  Whitener whitener(E, share * median);
+  runs_.push_back({std::move(E), sources, median, std::move(whitener)});
+}
+
+void KnownNoise::set_floor(double share) {
+  for (auto& run : runs_) run.whitener = Whitener(run.E, share * run.median);
 }
 
 double KnownNoise::log_size() const {

@@ -27,6 +27,8 @@ class KnownNoise {
  public:
   /// `share` of the median record's noise is taken as white floor when residuals are weighted (not in their covariance).
   void append(BandMatrix E, double share);
+  /// Weights with another share.
+  void set_floor(double share);
   /// Standard deviation of further noise of each residual, white and of known size; none if empty. It is not reckoned with in the weights.
   std::vector<double> own;
   bool empty() const { return runs_.empty(); }
@@ -46,6 +48,7 @@ class KnownNoise {
   struct Run {
     BandMatrix E;
     std::size_t sources;
+    double median;  // of the norms of E's rows
     Whitener whitener;
   };
   std::vector<Run> runs_;

@@ -29,7 +29,7 @@ Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
   Maker best;
   double most = 0;
   for (const LinearFilter& filter : filters) {
-    const Rolls rolls = make_rolls(all, rows, false, making_by({&filter}, all), q.options);
+    Rolls rolls = make_rolls(all, rows, false, making_by({&filter, 1}, all), q.options);
     const KnownNoise none;  // the system refers to it
     System system = system_of(rolls.of, q, none);
     struct Linear {
@@ -37,7 +37,7 @@ Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
     };
     std::vector<Linear> of(rolls.of.size());
     system.evaluate(theta, [&](std::size_t r, std::span<double> f, std::span<double> J) { of[r] = {{f.begin(), f.end()}, {J.begin(), J.end()}}; });
-    KnownNoise noise;
+    KnownNoise& noise = rolls.noise;
     system.evaluate = [&](const std::vector<double>&, const TakeRows& take) {
       for (std::size_t r = 0; r < of.size(); ++r) {
         auto [f, J] = of[r];
@@ -46,8 +46,7 @@ Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
       }
     };
     const auto likelihood = [&](double log_share) {
-      noise = {};
-      for (const auto& roll : rolls.of) noise.append(roll.filters, std::exp(log_share));
+      noise.set_floor(std::exp(log_share));
       return restricted_likelihood(system, theta) - noise.log_size();
     };
     constexpr double decisive = 3;  // in white noise exceeded once in a hundred
@@ -96,7 +95,7 @@ constexpr std::size_t telling = 2000;
 
 }  // namespace
 
-std::optional<RouteFit> fit_differences(const std::vector<FitRun>& all, std::vector<Rows> rows, Parameters& q, const std::vector<double>& theta) {
+std::optional<RouteFit> fit_differences(const std::vector<FitRun>& all, const std::vector<Rows>& rows, Parameters& q, const std::vector<double>& theta) {
   std::size_t reach = 0;
   for (const auto& filter : q.options.possible_filters) reach = std::max(reach, filter.reach);
   std::vector<FitRun> heads;
@@ -110,8 +109,9 @@ std::optional<RouteFit> fit_differences(const std::vector<FitRun>& all, std::vec
   try {
     if (!leave_out_irregular(heads, head_rows, reach)) return {};
     const Maker maker = most_likely(heads, head_rows, q.options.possible_filters, q, theta);
-    if (!maker.filter || maker.filter->from == "v" || !leave_out_irregular(all, rows, reach)) return {};
-    RouteFit fitted = fit_rolls(all, rows, q, making_by(maker, all), theta);
+    std::vector<Rows> regular;
+    if (!maker.filter || maker.filter->from == "v" || !leave_out_irregular(all, regular = rows, reach)) return {};
+    RouteFit fitted = fit_rolls(all, regular, q, making_by(maker, all), theta);
     fitted.judged = true;
     if (assess(system_of(fitted.rolls, q, fitted.noise), fitted)) return fitted;
   } catch (const Error&) {  // too few records, or no minimum

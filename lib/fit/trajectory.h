@@ -72,6 +72,6 @@ RouteFit fit_rolls(const std::vector<FitRun>&, std::vector<Rows>&, Parameters&, 
 
 /// The fit through the positions of which the speeds are most likely differences; none if they are not, or if it leaves residuals that
 /// do not look white.
-std::optional<RouteFit> fit_differences(const std::vector<FitRun>&, std::vector<Rows>, Parameters&, const std::vector<double>& theta);
+std::optional<RouteFit> fit_differences(const std::vector<FitRun>&, const std::vector<Rows>&, Parameters&, const std::vector<double>& theta);
 
 }  // namespace rolling

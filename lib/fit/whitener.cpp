@@ -1,7 +1,5 @@
 #include "fit/whitener.h"
 
-#include "fit/dot.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -24,8 +22,11 @@ std::vector<Reach> reaches(const BandMatrix& E) {
 
 /// Element (i, j) of E E^T.
 double product(const BandMatrix& E, std::size_t i, std::size_t j) {
-  const std::size_t from = std::max(E.first(i), E.first(j)), to = std::min(E.first(i) + E.row(i).size(), E.first(j) + E.row(j).size());
-  return from < to ? dot(&E.row(i)[from - E.first(i)], &E.row(j)[from - E.first(j)], to - from) : 0;
+  const auto x = E.row(i), y = E.row(j);
+  const std::size_t from = std::max(E.first(i), E.first(j)), to = std::min(E.first(i) + x.size(), E.first(j) + y.size());
+  double sum = 0;
+  for (std::size_t k = from; k < to; ++k) sum += x[k - E.first(i)] * y[k - E.first(j)];
+  return sum;
 }
 
 }  // namespace

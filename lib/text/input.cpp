@@ -32,7 +32,7 @@ Input::Input(std::string name, BlockHook on_block)
   ::fcntl(fd_, F_SETPIPE_SZ, 1 << 20);  // the tools of a chain wait less for each other; where it is refused, or no pipe, no matter
 #endif
   struct stat status;
-  if (on_block_ && ::fstat(fd_, &status) == 0 && S_ISREG(status.st_mode)) size_ = static_cast<double>(status.st_size);
+  if (::fstat(fd_, &status) == 0 && S_ISREG(status.st_mode)) size_ = static_cast<double>(status.st_size);
 }
 
 Input::~Input() {
@@ -56,7 +56,7 @@ bool Input::fill() {
   quotes_ = quotes_ || std::memchr(to, '"', static_cast<std::size_t>(count));
   end_ += count;
   read_ += static_cast<double>(count);
-  if (size_ > 0) on_block_(name_, std::min(read_ / size_, 1.0));
+  if (on_block_ && size_ > 0) on_block_(name_, std::min(read_ / size_, 1.0));
   return count > 0;
 }
 
@@ -69,6 +69,12 @@ const char* Input::end_of_line() {
     if (feed) return static_cast<const char*>(feed);
   }
   return at_ == end_ ? nullptr : end_;
+}
+
+std::size_t Input::lines_ahead() const {
+  const std::string_view some = ahead().substr(0, 4096);
+  const double left = std::max(size_ - read_, 0.0) + static_cast<double>(end_ - at_), feeds = static_cast<double>(std::count(some.begin(), some.end(), '\n'));
+  return some.empty() ? 0 : static_cast<std::size_t>(1.125 * left * (feeds / static_cast<double>(some.size())));
 }
 
 bool Input::next(std::string_view& line) {

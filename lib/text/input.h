@@ -29,6 +29,9 @@ class Input {
     ++line_number_;
   }
 
+  /// About as many lines as are left, and an eighth more: by those that come next, and the size of a file (else of what has been read).
+  std::size_t lines_ahead() const;
+
   const std::string& name() const { return name_; }  ///< as the user gave it
   std::size_t line_number() const { return line_number_; }
   bool quotes() const { return quotes_; }  ///< a " is in what has been read so far
@@ -40,7 +43,7 @@ class Input {
   std::string name_;
   BlockHook on_block_;
   int fd_;
-  double size_ = 0, read_ = 0;  // bytes; no size: not known, or not asked for
+  double size_ = 0, read_ = 0;  // bytes; no size: not known
   std::vector<char> buffer_;
   const char *at_, *end_;  // what has been read of it and not taken
   std::size_t line_number_ = 0;

@@ -47,6 +47,8 @@ class Lines {
     number_ = input_.line_number();
   }
 
+  std::size_t lines_ahead() const { return input_.lines_ahead(); }
+
   /// Keeps the lines from the present one on, so that they can be read again; stays at it.
   void keep();
   /// Goes back before the first line that is kept.

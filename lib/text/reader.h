@@ -56,6 +56,8 @@ class Reader {
   bool next_run();
   /// Goes to the next record of this run; false at its end.
   bool next();
+  /// About as many records as this file still has, and an eighth more; of a pipe, as have been read.
+  std::size_t records_ahead() const { return lines_->lines_ahead(); }
   /// The number in a needed column [SI].
   double operator[](std::size_t slot) const { return values_[slot]; }
   /// The record as it goes out, tab-separated, valid until the next one; if `cut` is a column, its text is [first, last) of that.
