@@ -116,9 +116,8 @@ std::vector<double> KnownNoise::sizes() const {
 }
 
 void KnownNoise::weight(std::size_t run, std::span<double> f, std::span<double> J) const {
-  if (f.empty()) return;
-  runs_[run].whitener.apply(f.data());
-  for (std::size_t at = 0; at < J.size(); at += f.size()) runs_[run].whitener.apply(&J[at]);
+  runs_[run].whitener.apply(f);
+  runs_[run].whitener.apply(J);
 }
 
 std::vector<double> KnownNoise::middle(const std::vector<double>& f, const std::vector<double>& Q, std::size_t shared) const {
@@ -132,7 +131,7 @@ std::vector<double> KnownNoise::middle(const std::vector<double>& f, const std::
     std::vector<double> WQ(owned * p), AQ(run.sources * p, 0), q(run.E.rows()), M(p * p, 0);
     for (std::size_t j = 0; j < p; ++j) {
       for (std::size_t i = 0; i < q.size(); ++i) q[i] = Q[(start + i) * p + j];
-      run.whitener.apply_transposed(q.data());
+      run.whitener.apply_transposed(q);
       for (std::size_t i = 0; i < owned; ++i) WQ[i * p + j] = own[start + i] * q[i];
       for (std::size_t i = 0; i < q.size(); ++i)
         for (std::size_t k = 0; k < run.E.row(i).size(); ++k) AQ[(run.E.first(i) + k) * p + j] += run.E.row(i)[k] * q[i];
@@ -166,7 +165,7 @@ double KnownNoise::variance(const std::vector<double>& f, const std::vector<doub
       for (double& sign : e) sign = random() & 1 ? 1 : -1;
       z.clear();
       for (std::size_t i = 0; i < run.E.rows(); ++i) z.push_back(run.E.times(i, e));
-      run.whitener.apply(z.data());
+      run.whitener.apply(z);
       for (std::size_t i = 0; i < z.size(); ++i) {
         expected += z[i] * z[i];
         for (std::size_t j = 0; j < p; ++j) along[j] += Q[(start + i) * p + j] * z[i];

@@ -110,16 +110,19 @@ void Whitener::triangulate(const BandMatrix& E, double floor) {
   }
 }
 
-void Whitener::apply(double* x) const {
+void Whitener::apply(std::span<double> X) const {
   for (std::size_t k = 0; k < n_; ++k) {
     const double* const R = &R_[k * band_];
-    const double z = x[k] = R[0] == 0 ? 0 : x[k] / R[0];
     const std::size_t end = std::min(band_, n_ - k);
-    for (std::size_t j = 1; j < end; ++j) x[k + j] -= R[j] * z;
+    for (std::size_t at = k; at < X.size(); at += n_) {  // of all columns at once: the steps of one wait for each other
+      double* const x = &X[at];
+      const double z = x[0] = R[0] == 0 ? 0 : x[0] / R[0];
+      for (std::size_t j = 1; j < end; ++j) x[j] -= R[j] * z;
+    }
   }
 }
 
-void Whitener::apply_transposed(double* x) const {
+void Whitener::apply_transposed(std::span<double> x) const {
   for (std::size_t k = n_; k-- > 0;) {
     const double* const R = &R_[k * band_];
     const std::size_t end = std::min(band_, n_ - k);

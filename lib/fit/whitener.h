@@ -9,9 +9,10 @@ namespace rolling {
 class Whitener {
  public:
   Whitener(const BandMatrix& E, double floor);
-  void apply(double* x) const;             ///< x becomes R^-T x; a direction without noise becomes 0
-  void apply_transposed(double* x) const;  ///< x becomes R^-1 x
-  double log_size() const;                 ///< ln of the determinant of R
+  /// X becomes R^-T X, column by column, a column for each vector; a direction without noise becomes 0.
+  void apply(std::span<double> X) const;
+  void apply_transposed(std::span<double> x) const;  ///< x becomes R^-1 x
+  double log_size() const;                         ///< ln of the determinant of R
 
  private:
   std::size_t n_, band_;

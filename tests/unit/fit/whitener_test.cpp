@@ -33,7 +33,7 @@ TEST_CASE("whitener: whitening turns E into an orthogonal matrix, and drops what
     for (std::size_t j = 0; j < n; ++j) {  // W E
       std::vector<double> column;
       for (std::size_t i = 0; i < n; ++i) column.push_back(A[i * n + j]);
-      whitener.apply(column.data());
+      whitener.apply(column);
       for (std::size_t i = 0; i < n; ++i) A[i * n + j] = column[i];
     }
     double trace = 0;
@@ -64,11 +64,11 @@ TEST_CASE("whitener: the floor is white noise of its own", "[fit]") {
     expected += y[i] * x[i];
   }
   auto z = x;
-  whitener.apply(z.data());
+  whitener.apply(z);
   double sum = 0;
   for (double s : z) sum += s * s;
   CHECK(std::abs(sum / expected - 1) < 1e-13);
-  whitener.apply_transposed(z.data());  // R^-1 R^-T x = C^-1 x = y
+  whitener.apply_transposed(z);  // R^-1 R^-T x = C^-1 x = y
   for (std::size_t i = 0; i < 6; ++i) CHECK(std::abs(z[i] - y[i]) < 1e-12);
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("whitener: floors of every size leave white noise of size one, and say
     for (std::size_t j = 0; j < 2 * n; ++j) {
       std::vector<double> x(n, 0);
       for (std::size_t i = 0; i < n; ++i) x[i] = j < n ? dense_E[i * n + j] : i == j - n ? floor : 0;
-      whitener.apply(x.data());
+      whitener.apply(x);
       columns.push_back(std::move(x));
     }
     for (std::size_t i = 0; i < n; ++i)
