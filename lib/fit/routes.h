@@ -78,9 +78,6 @@ void hand_over_rows(const std::vector<std::size_t>& runs, std::size_t columns, b
 /// The minimum by the loss that the options name; Error for a robust one of filtered columns.
 Minimum solve(const System&, const std::vector<double>& start, const FitOptions&, bool filters_known);
 
-/// How often a fit with known filters is repeated: its weights are taken at the (a, b) before.
-constexpr int rounds = 4;
-
 /// v and D of the records that loglog and shift use, all runs one after another, and how their noise arises.
 struct ShiftRecords {
   std::vector<double> D, log_u;  ///< log_u = ln v - log_v_ref

@@ -207,6 +207,19 @@ std::vector<double> some(const std::vector<double>& x, std::size_t most) {
   return few;
 }
 
+/// Whether the minimum has moved by less than a thousandth of its standard deviations, as minimise() knows it, or by rounding alone.
+bool all_but_equal(const Minimum& from, const Minimum& to) {
+  const std::size_t n = to.f.size(), p = to.theta.size();
+  double largest = 0, squares = 0;
+  for (std::size_t i = 0; i < p; ++i) {
+    double along = 0;
+    for (std::size_t j = i; j < p; ++j) along += to.R[i * p + j] * (to.theta[j] - from.theta[j]);
+    squares += along * along;
+    largest = std::max(largest, std::abs(to.theta[i] - from.theta[i]) / std::max(1.0, std::abs(to.theta[i])));
+  }
+  return largest < 1e-8 || squares * static_cast<double>(n - p) < 1e-6 * to.rss;
+}
+
 }  // namespace
 
 RouteFit fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
@@ -271,10 +284,13 @@ RouteFit fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   const System system = system_of(records.runs, log_u, D);
   Minimum minimum = solve(system, theta, options, records.filters_known());
   smoothed = records.filters_known();
-  for (int round = 0; smoothed && round < rounds; ++round) {  // the noise that v brings in hangs on a and b
+  for (int round = 0, still = !smoothed; !still; ++round) {  // the noise that v brings in hangs on a and b
+    if (round == 20) fail("the fit does not converge: are all of these records of the free roll?");
     b = exponent(minimum.theta);
     noise = records.noise(b, records.smoothed(height(minimum.theta) * std::exp(-b * L), b), std::vector<double>(n, 1));
-    minimum = minimise(system, minimum.theta);
+    Minimum next = minimise(system, minimum.theta);
+    still = all_but_equal(minimum, next);
+    minimum = std::move(next);
   }
 
   b = exponent(minimum.theta);
