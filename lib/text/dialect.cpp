@@ -12,12 +12,19 @@ namespace {
 constexpr std::size_t npos = std::string_view::npos;
 constexpr std::string_view minus = "\xE2\x88\x92";  // U+2212
 
+/// Where a number may be of another form.
+struct Marks {
+  std::size_t first_minus, comma, point;
+};
+Marks marks_in(std::string_view field) { return {field.find(minus[0]), field.find(','), field.find('.')}; }
+
 /// Appends `1,5` as `1.5`, U+2212 as `-`; returns what it has appended.
-std::string_view append_plain(std::string& to, std::string_view field) {
+std::string_view append_plain(std::string& to, std::string_view field, Marks marks) {
   const auto from = to.size();
   to += field;
-  for (auto at = to.find(minus, from); at != npos; at = to.find(minus, at)) to.erase(at + 1, minus.size() - 1)[at] = '-';
-  if (const auto at = to.find(',', from); at != npos && to.find('.', from) == npos) to[at] = '.';
+  if (marks.comma != npos && marks.point == npos) to[from + marks.comma] = '.';
+  if (marks.first_minus != npos)
+    for (auto at = to.find(minus, from); at != npos; at = to.find(minus, at)) to.erase(at + 1, minus.size() - 1)[at] = '-';
   return std::string_view(to).substr(from);
 }
 
@@ -31,6 +38,11 @@ constexpr auto plain = [] {
 const char* skip_plain(const char* at, const char* end) {
   while (at != end && plain[static_cast<unsigned char>(*at)]) ++at;
   return at;
+}
+
+/// Reads a number, if it is wanted, or passes over plain text; returns its end.
+const char* read_plain(const char* at, const char* end, Field& field) {
+  return field.wanted ? read_number(at, end, field.number) : skip_plain(at, end);
 }
 
 }  // namespace
@@ -65,7 +77,7 @@ bool Dialect::choose(std::string_view line) {
   // A quoted decimal comma among commas makes a record too, which is then refused with the way out.
   return std::any_of(fields.begin(), fields.end(), [](const Field& field) {
     std::string text;
-    return is_number(append_plain(text, field.text));
+    return is_number(append_plain(text, field.text, marks_in(field.text)));
   });
 }
 
@@ -89,7 +101,7 @@ std::span<const Field> Dialect::split(std::string_view line) {
   for (;; ++at) {
     Field& field = next_field();
     const char* const first = at;
-    if (!foreign()) at = field.wanted ? read_number(at, end, field.number) : skip_plain(at, end);
+    if (!foreign()) at = read_plain(at, end, field);
     if (at != first && (at == end || *at == separator_)) {
       field.text = {first, at};
     } else {
@@ -102,14 +114,23 @@ std::span<const Field> Dialect::split(std::string_view line) {
 const char* Dialect::split_plain(std::string_view text, std::span<const Field>& fields) {
   if (separator_ == '\0' || foreign()) return nullptr;
   const char *at = text.data(), *const end = at + text.size();
+  as_it_stands_ = separator_ == '\t';
   for (Field* field = fields_.data(); field != fields_.data() + fields_.size(); ++field, ++at) {
-    const char* const first = at;
-    at = field->wanted ? read_number(at, end, field->number) : skip_plain(at, end);
-    if (at == first || at == end) return nullptr;
-    field->text = {first, at};
+    const char* first = at;
+    at = read_plain(at, end, *field);
+    if (at == first) {  // perhaps a quoted one, which costs the others nothing
+      if (at == end || *at != '"') return nullptr;
+      first = ++at;
+      at = read_plain(at, end, *field);
+      field->text = {first, at};
+      if (at == first || at == end || *at++ != '"') return nullptr;
+      as_it_stands_ = false;
+    } else {
+      field->text = {first, at};
+    }
+    if (at == end) return nullptr;
     if (*at == separator_) continue;
     if (*at != '\n' && (*at != '\r' || end - at < 2 || at[1] != '\n')) return nullptr;
-    as_it_stands_ = separator_ == '\t';
     fields = {fields_.data(), field + 1};
     return at;
   }
@@ -166,12 +187,11 @@ std::string_view Dialect::take_quoted(const char*& at, const char* end) {
 
 /// A number with a decimal comma or U+2212 takes its plain form, and is read; false for any other text, which stays as it is.
 bool Dialect::rewrite(Field& field) {
-  const auto has = [&](char c) { return field.text.find(c) != npos; };
-  const bool other_minus = has(minus[0]);
-  if (!other_minus && decimal_mark_ == '.') return false;
-  const bool comma = has(','), point = has('.');
-  if (!other_minus && !comma && !point) return false;
-  const std::string_view text = append_plain(made_, field.text);
+  const Marks marks = marks_in(field.text);
+  const bool other_minus = marks.first_minus != npos, comma = marks.comma != npos, point = marks.point != npos;
+  if (!other_minus && (decimal_mark_ == '.' || (!comma && !point))) return false;
+  const bool is_plain = !other_minus && !comma;
+  const std::string_view text = is_plain ? field.text : append_plain(made_, field.text, marks);
   double number;
   if (!parse_number(text, number)) return false;
   if (comma || point) {
@@ -181,8 +201,7 @@ bool Dialect::rewrite(Field& field) {
       fail("field {}: '{}' has another decimal mark than the numbers before it", count_, shown(field.text));
   }
   if (field.wanted) field.number = number;
-  if (!other_minus && !comma) return true;
-  as_it_stands_ = false;
+  as_it_stands_ &= is_plain;
   field.text = text;
   return true;
 }

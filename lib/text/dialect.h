@@ -27,7 +27,7 @@ class Dialect {
   /// doubt, a decimal comma becomes a point and U+2212 a minus. Throws Error where two decimal marks meet.
   std::span<const Field> split(std::string_view line);
   /// The same for the line that begins `text`, whose end is not known yet, if its fields leave no doubt where each ends: numbers,
-  /// or plain text, between separators, up to a line feed within `text`. Returns the end of the last one; null if there is doubt.
+  /// or plain text, quoted or not, between separators, up to a line feed within `text`. Returns the end of the last one; null if there is doubt.
   const char* split_plain(std::string_view text, std::span<const Field>& fields);
 
   /// The last line was its fields with a tab between them.

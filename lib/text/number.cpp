@@ -120,11 +120,6 @@ char* write_number(char* to, double value, int digits) {
   return digits > 0 ? fmt::format_to(to, FMT_COMPILE("{:.{}g}"), value, digits) : write_shortest(to, value);
 }
 
-void append_number(std::string& to, double value, int digits) {
-  char text[longest_number];
-  to.append(text, write_number(text, value, digits));
-}
-
 std::string shown(std::string_view text) {
   std::string out(text.substr(0, 40));
   for (char& c : out)

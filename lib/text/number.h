@@ -25,7 +25,6 @@ bool is_missing(std::string_view field);
 /// end, which is at most longest_number behind `to`.
 char* write_number(char* to, double value, int digits = 0);
 inline constexpr std::size_t longest_number = 32;
-void append_number(std::string& to, double value, int digits = 0);
 
 /// `text` for a message: printable ASCII only, cut at 40 characters.
 std::string shown(std::string_view text);

@@ -306,16 +306,16 @@ bool Reader::take_record() {
 
 /// text() of a record that does not go out as it came.
 std::string_view Reader::made_text(std::size_t cut, std::size_t& first, std::size_t& last) {
-  text_.clear();
+  text_.cut(0);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
-    if (i) text_ += '\t';
+    if (i) text_.append('\t');
     const auto from = text_.size();
-    const auto converted = std::find_if(needed_.begin(), needed_.end(), [i](const Needed& n) { return n.column == i && n.to_si.changes(); });
-    if (converted == needed_.end()) text_ += fields_[i].text;
-    else append_number(text_, values_[static_cast<std::size_t>(converted - needed_.begin())]);
+    const auto converted = !converts_ ? needed_.end() : std::find_if(needed_.begin(), needed_.end(), [i](const Needed& n) { return n.column == i && n.to_si.changes(); });
+    if (converted == needed_.end()) text_.append(fields_[i].text);
+    else text_.end(write_number(text_.room(longest_number), values_[static_cast<std::size_t>(converted - needed_.begin())]));
     if (i == cut) first = from, last = text_.size();
   }
-  return text_;
+  return {text_.data(), text_.size()};
 }
 
 void Reader::reject(std::size_t column, std::string_view why) const {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "text/bytes.h"
 #include "text/column.h"
 #include "text/dialect.h"
 #include "text/header.h"
@@ -120,7 +121,7 @@ class Reader {
   bool in_header_ = true, history_changed_ = false, history_ended_ = false;
 
   // The present record.
-  std::string text_;         // if it does not go out as it came
+  Bytes text_;               // if it does not go out as it came
   bool line_waits_ = false;  // the present line is read but not taken
   std::size_t first_record_ = 0;
   std::span<const Field> fields_;

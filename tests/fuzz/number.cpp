@@ -1,4 +1,4 @@
-// parse_number against the grammar of rolling-columns(5), written out, and strtod; append_number against parse_number.
+// parse_number against the grammar of rolling-columns(5), written out, and strtod; write_number against parse_number.
 #include "text/number.h"
 
 #include <cmath>
@@ -37,6 +37,11 @@ std::uint64_t bits(double x) {
   return b;
 }
 
+std::string written(double value, int digits) {
+  char text[rolling::longest_number];
+  return {text, rolling::write_number(text, value, digits)};
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -52,8 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(!read, "what is no number is read", text);
   }
   if (read) {
-    std::string again;
-    rolling::append_number(again, value);
+    const std::string again = written(value, 0);
     double same = 0;
     require(rolling::parse_number(again, same) && bits(same) == bits(value), "does not read back", again);
   }
@@ -61,8 +65,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::memcpy(&value, data, size);
     if (!std::isfinite(value)) return 0;
     for (int digits = 0; digits <= 17; ++digits) {
-      std::string out;
-      rolling::append_number(out, value, digits);
+      const std::string out = written(value, digits);
       double back = 0;
       const bool overflows = digits > 0 && digits < 17 && std::isinf(std::strtod(out.c_str(), nullptr));  // 1.6e308 in one digit
       require(overflows || rolling::parse_number(out, back) || std::abs(value) < 2.3e-308, "what is written is no number", out);

@@ -1,4 +1,6 @@
 // A chain through text gives bit for bit what the library gives in one process. Needs the tools on PATH.
+#include <fmt/format.h>
+
 #include <bit>
 #include <cstdint>
 #include <cstdio>
@@ -36,10 +38,7 @@ TEST_CASE("smooth | differentiate | shift-from-accel through text equals the lib
   for (int i = 0; i < 5000; ++i) {
     t.push_back((i ? t.back() : 0) + 0.02 + 0.04 * uniform(random));
     v.push_back(0.5 + 0.1 * uniform(random) - 5e-5 * i);
-    append_number(text, t.back());
-    text += '\t';
-    append_number(text, v.back());
-    text += '\n';
+    text += fmt::format("{}\t{}\n", t.back(), v.back());
   }
   const Body body{1, 0.04, 0.83};
   const std::vector<double> smooth = through(MovingMean({.samples = 11, .seconds = 0}), t, v), a = through(CentralDerivative(), t, smooth);

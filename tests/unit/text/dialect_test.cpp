@@ -134,11 +134,14 @@ TEST_CASE("dialect: a line of numbers and plain text is split before its end is 
       const std::string plain = line("-1.5", "2e3", "a.b");
       CHECK(plain_fields(dialect, plain + end + "3", plain.size()) == "<-1.5|-1.5><2e3|2000><a.b|nan>");
     }
+    const std::string quoted = line("\"1\"", "2", "\"x\"");
+    CHECK(plain_fields(dialect, quoted + "\n", quoted.size()) == "<1|1><2|2><x|nan>");
+    CHECK_FALSE(dialect.as_it_stands());
     const std::string plain = line("1", "2", "x");
     CHECK(plain_fields(dialect, line("1", "2", "") + "\n", 0) == "?");
     CHECK(plain_fields(dialect, line("", "2", "x") + "\n", 0) == "?");
     for (const char* odd : {"", "\r", "\r\r\n", " \n", "\"\n", "#\n"}) CHECK(plain_fields(dialect, plain + odd, 0) == "?");
-    for (const char* odd : {"NaN", "1 ", " 1", "\"1\"", "1\"", "#1", "1x", "0x1", "1e", "1e400", "\xE2\x88\x92" "1"})
+    for (const char* odd : {"NaN", "1 ", " 1", "\"1", "\"\"", "\"1 \"", "\"1\"1", "\"1\" ", "1\"", "#1", "1x", "0x1", "1e", "1e400", "\xE2\x88\x92" "1"})
       for (const std::string& text : {line(odd, "2", "x"), line("1", odd, "x")}) {
         INFO(text);
         CHECK(plain_fields(dialect, text + "\n", 0) == "?");

@@ -20,10 +20,8 @@ using namespace rolling;
 namespace {
 
 std::string written(double value, int digits = 0) {
-  std::string text = "kept ";
-  append_number(text, value, digits);
-  REQUIRE(text.starts_with("kept "));
-  return text.substr(5);
+  char text[longest_number];
+  return {text, write_number(text, value, digits)};
 }
 
 bool same_bits(double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); }
