@@ -97,7 +97,7 @@ void KnownNoise::append(BandMatrix E, double share) {
 }
 
 void KnownNoise::set_floor(double share) {
-  for (auto& run : runs_) run.whitener = Whitener(run.E, share * run.median);
+  for (auto& run : runs_) run.whitener.set_floor(run.E, share * run.median);
 }
 
 double KnownNoise::log_size() const {

@@ -34,6 +34,10 @@ double product(const BandMatrix& E, std::size_t i, std::size_t j) {
 Whitener::Whitener(const BandMatrix& E, double floor) : n_(E.rows()), band_(1) {
   for (const auto& [from, to] : reaches(E))
     if (from < to) band_ = std::max(band_, to - from);
+  set_floor(E, floor);
+}
+
+void Whitener::set_floor(const BandMatrix& E, double floor) {
   R_.assign(n_ * band_, 0);
   double largest = 0;
   for (std::size_t i = 0; i < n_; ++i) largest = std::max(largest, product(E, i, i));

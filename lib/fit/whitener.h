@@ -9,6 +9,7 @@ namespace rolling {
 class Whitener {
  public:
   Whitener(const BandMatrix& E, double floor);
+  void set_floor(const BandMatrix& E, double floor);  ///< another one, of the same E
   /// X becomes R^-T X, column by column, a column for each vector; a direction without noise becomes 0.
   void apply(std::span<double> X) const;
   void apply_transposed(std::span<double> x) const;  ///< x becomes R^-1 x

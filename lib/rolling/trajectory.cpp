@@ -103,7 +103,7 @@ Trajectory::Point Trajectory::at(double t, bool way) const {
 Trajectory::Point Trajectory::speed_at(double t) const {
   const double s = 1 - law_.b, rest = stop_time_ - t, time = t / unit_;
   if (geometry_ == Geometry::exact || s == 0 || !(time > 1e-100 && rest > 0)) return at(t, false);
-  const double left = s * (rest / unit_), w = rest < t ? left : 1 - s * time;
+  const double w = rest < t ? s * (rest / unit_) : 1 - s * time;
   const double lambda = -(rest < t ? std::log(w) : std::log1p(-s * time)) / s, ratio = std::exp(-lambda), rate = ratio / w;
   const double h1 = power_moment(s, lambda, time, w);
   return {v0_ * ratio, 0, -v0_ * rate * time / law_.a, -v0_ * rate * (log_v0_ * time - h1), rate, 0, 0, 0};
