@@ -1,19 +1,9 @@
 #include "fit/band_matrix.h"
 
+#include "unit/fit/dense.h"
 #include "unit/catch.h"
 
 using namespace rolling;
-
-namespace {
-
-std::vector<double> dense(const BandMatrix& M, std::size_t columns) {
-  std::vector<double> all(M.rows() * columns, 0);
-  for (std::size_t i = 0; i < M.rows(); ++i)
-    for (std::size_t j = 0; j < M.row(i).size(); ++j) all[i * columns + M.first(i) + j] = M.row(i)[j];
-  return all;
-}
-
-}  // namespace
 
 TEST_CASE("band matrix: a sum of rows, of which one or both may be all 0", "[fit]") {
   const std::vector<double> values{0, 2, 3}, none(3, 0);
@@ -23,4 +13,3 @@ TEST_CASE("band matrix: a sum of rows, of which one or both may be all 0", "[fit
   for (std::size_t i = 0; i < 4; ++i) sum.append(i, 5, X, 7, Y);
   CHECK(dense(sum, 4) == std::vector<double>{0, 14, 31, 15, 0, 14, 21, 0, 0, 0, 10, 15, 0, 0, 0, 0});
 }
-

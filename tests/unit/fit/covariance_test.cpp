@@ -6,19 +6,9 @@
 
 using namespace rolling;
 
-namespace {
-
-std::vector<double> times(std::size_t n) {
-  std::vector<double> t;
-  for (std::size_t i = 0; i < n; ++i) t.push_back(0.1 * static_cast<double>(i));
-  return t;
-}
-
-}  // namespace
-
 TEST_CASE("covariance: a probed chain does to a column what the filters do, shrinking and one-sided ends included", "[fit]") {
   for (std::size_t n : {3u, 4u, 9u, 40u}) {
-    const auto t = times(n);
+    const auto t = simulated::times(n);
     const FilterChain chain{simulated::differentiate("x", "v"), simulated::smooth_v(7), simulated::differentiate("v", "a")};
     const auto response = noise_response(chain, t);
     CHECK(response.source == "x");
@@ -33,7 +23,7 @@ TEST_CASE("covariance: a probed chain does to a column what the filters do, shri
 }
 
 TEST_CASE("covariance: noise from two raw columns is refused", "[fit]") {
-  CHECK_THROWS_AS(noise_response({simulated::smooth_v(3), simulated::differentiate("x", "w")}, times(9)), Error);
+  CHECK_THROWS_AS(noise_response({simulated::smooth_v(3), simulated::differentiate("x", "w")}, simulated::times(9)), Error);
 }
 
 TEST_CASE("covariance: Ljung-Box tells white residuals from correlated ones", "[fit]") {
@@ -59,7 +49,7 @@ TEST_CASE("covariance: Newey-West by hand", "[fit]") {
 }
 
 TEST_CASE("covariance: of records that were cut after a filter, the first and the last are interior ones", "[fit]") {
-  const auto t = times(40);
+  const auto t = simulated::times(40);
   simulated::Noise noise(2);
   std::vector<double> x;
   for (std::size_t i = 0; i < t.size(); ++i) x.push_back(noise(1));

@@ -18,6 +18,12 @@ struct Roll {
 
 inline Roll roll(const rolling::Body& body, double a, double b, double v0) { return {body.g / ((1 + body.K) * body.R), a, b, v0}; }
 
+inline std::vector<double> times(std::size_t n) {  // a tenth of a second apart
+  std::vector<double> t;
+  for (std::size_t i = 0; i < n; ++i) t.push_back(0.1 * static_cast<double>(i));
+  return t;
+}
+
 inline std::vector<double> mean(std::span<const double> y, std::size_t width) {
   std::vector<double> result;
   for (std::size_t i = 0; i < y.size(); ++i) {

@@ -2,30 +2,14 @@
 
 #include "fit/covariance.h"
 #include "unit/fit/simulated.h"
+#include "unit/fit/dense.h"
 #include "unit/catch.h"
 
 using namespace rolling;
 
-namespace {
-
-std::vector<double> times(std::size_t n) {
-  std::vector<double> t;
-  for (std::size_t i = 0; i < n; ++i) t.push_back(0.1 * static_cast<double>(i));
-  return t;
-}
-
-std::vector<double> dense(const BandMatrix& M, std::size_t columns) {
-  std::vector<double> all(M.rows() * columns, 0);
-  for (std::size_t i = 0; i < M.rows(); ++i)
-    for (std::size_t j = 0; j < M.row(i).size(); ++j) all[i * columns + M.first(i) + j] = M.row(i)[j];
-  return all;
-}
-
-}  // namespace
-
 TEST_CASE("whitener: whitening turns E into an orthogonal matrix, and drops what has no noise", "[fit]") {
   constexpr std::size_t n = 25;
-  const auto t = times(n);
+  const auto t = simulated::times(n);
   for (bool difference : {false, true}) {
     const BandMatrix E = difference ? probe(simulated::differentiate("x", "v"), t) : probe(simulated::smooth_v(5), t);
     const Whitener whitener(E, 0);
@@ -49,7 +33,7 @@ TEST_CASE("whitener: whitening turns E into an orthogonal matrix, and drops what
 }
 
 TEST_CASE("whitener: the floor is white noise of its own", "[fit]") {
-  const BandMatrix E = probe(simulated::smooth_v(3), times(6));
+  const BandMatrix E = probe(simulated::smooth_v(3), simulated::times(6));
   const Whitener whitener(E, 0.5);
   // C = E E^T + 0.25 I, so (W x).(W x) = x^T C^-1 x; for x = C y that is y^T C y
   const auto e = dense(E, 6);
@@ -75,11 +59,14 @@ TEST_CASE("whitener: the floor is white noise of its own", "[fit]") {
 
 TEST_CASE("whitener: floors of every size leave white noise of size one, and say by how much a volume shrinks", "[fit]") {
   constexpr std::size_t n = 40;
-  const auto t = times(n);
+  const auto t = simulated::times(n);
   const BandMatrix E = probe(simulated::differentiate("v", "a"), t) * probe(simulated::smooth_v(7), t);
   const auto dense_E = dense(E, n);
   for (double floor : {1e-5, 1e-4, 1e-3, 1e-2, 1.0, 1e3}) {
     const Whitener whitener(E, floor);
+    Whitener other(E, 1e-2);
+    other.set_floor(E, floor);
+    CHECK(other.log_size() == whitener.log_size());
     std::vector<std::vector<double>> columns;  // of R^-T [E, floor I]
     for (std::size_t j = 0; j < 2 * n; ++j) {
       std::vector<double> x(n, 0);
