@@ -120,7 +120,7 @@ ClosestRoll closest_roll(const NoiseResponse& response, const FitRun& run, const
   for (int i = 0; i < 20 && std::abs(step) > 1e-12 * v0; ++i) {
     const Trajectory roll(body, Geometry::approximate, law, v0);
     for (std::size_t k = 0; k < n; ++k) {
-      const auto at = roll.at(t[k]);
+      const auto at = position ? roll.at(t[k]) : roll.speed_at(t[k]);
       closest.raw[k] = position ? at.x : at.v;
       closest.by_a[k] = position ? at.x_a : at.v_a;
       closest.by_b[k] = position ? at.x_b : at.v_b;
