@@ -182,18 +182,23 @@ ShiftRecords::Smoothed ShiftRecords::smoothed(double a, double b) const {
 
 namespace {
 
-/// The height that fits best for the exponent b (or the one that is held), and the weighted sum of squares that is left; u = v / v_ref.
+std::vector<double> weighted(std::vector<double> all, const std::vector<std::size_t>& runs, const KnownNoise& noise) {
+  std::size_t first = 0;
+  for (std::size_t r = 0; !noise.empty() && r < runs.size(); first += runs[r++]) noise.weight(r, std::span(all).subspan(first, runs[r]), {});
+  return all;
+}
+
+/// The height that fits best for the exponent b (or the one that is held) to the weighted D, and the weighted sum of squares that is
+/// left; u = v / v_ref.
 struct Height {
   double value, rss;
 };
-Height best_height(const std::vector<double>& log_u, std::vector<double> D, double b, const std::vector<std::size_t>& runs, const KnownNoise& noise,
+Height best_height(const std::vector<double>& log_u, const std::vector<double>& D, double b, const std::vector<std::size_t>& runs, const KnownNoise& noise,
                    std::optional<double> held) {
   std::vector<double> m;
   m.reserve(log_u.size());
   for (double x : log_u) m.push_back(std::exp(b * x));
-  std::size_t first = 0;
-  for (std::size_t r = 0; !noise.empty() && r < runs.size(); first += runs[r++])
-    noise.weight(r, std::span(D).subspan(first, runs[r]), std::span(m).subspan(first, runs[r]));
+  m = weighted(std::move(m), runs, noise);
   const double height = held.value_or(std::inner_product(m.begin(), m.end(), D.begin(), 0.0) / std::inner_product(m.begin(), m.end(), m.begin(), 0.0));
   double rss = 0;
   for (std::size_t i = 0; i < D.size(); ++i) rss += (height * m[i] - D[i]) * (height * m[i] - D[i]);
@@ -264,10 +269,10 @@ RouteFit fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   // counts from the start, as far as it comes by D: one wild record near the stop would send an unweighted fit to a wrong minimum.
   if (records.filters_known()) noise = records.noise(0, {.v = std::vector<double>(n, 1), .D = D, .law = D, .D_a = {}, .D_b = {}, .law_a = {}, .law_b = {}}, std::vector<double>(n, 1));
   const std::size_t most = noise.empty() && !options.robust ? 4096 : n;
-  const std::vector<double> some_log_u = some(log_u, most), some_D = some(D, most);
+  const std::vector<double> some_log_u = some(log_u, most), some_D = some(D, most), weighted_D = weighted(some_D, records.runs, noise);
   const auto best_at = [&](double b) {
     const auto held = options.a ? options.a : options.start_a;
-    return best_height(some_log_u, some_D, b, records.runs, noise, held ? std::optional(*held * std::exp(b * L)) : std::nullopt);
+    return best_height(some_log_u, weighted_D, b, records.runs, noise, held ? std::optional(*held * std::exp(b * L)) : std::nullopt);
   };
   double b = options.b ? *options.b : options.start_b.value_or(0);
   if (!options.b && !options.start_b) {
