@@ -289,13 +289,13 @@ RouteFit fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   const System system = system_of(records.runs, log_u, D);
   Minimum minimum = solve(system, theta, options, records.filters_known());
   smoothed = records.filters_known();
-  for (int round = 0, still = !smoothed; !still; ++round) {  // the noise that v brings in hangs on a and b
+  for (int round = 0; smoothed; ++round) {  // the noise that v brings in hangs on a and b
     if (round == 20) fail("the fit does not converge: are all of these records of the free roll?");
     b = exponent(minimum.theta);
     noise = records.noise(b, records.smoothed(height(minimum.theta) * std::exp(-b * L), b), std::vector<double>(n, 1));
     Minimum next = minimise(system, minimum.theta);
-    still = all_but_equal(minimum, next);
-    minimum = std::move(next);
+    std::swap(minimum, next);
+    if (all_but_equal(next, minimum)) break;
   }
 
   b = exponent(minimum.theta);
