@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "base/large_pages.h"
 #include "cli/history.h"
 #include "cli/tool.h"
 #include "fit/fit.h"
@@ -53,7 +54,7 @@ std::vector<FitRun> read_runs(Reader& in, Route route, const Body& body, bool al
     FitRun& run = runs.emplace_back();
     run.body = body;
     const std::size_t room = runs.size() == 1 ? in.records_ahead() : 0;  // most files are one run
-    for (const auto& [slot, column] : needed) (run.*column).reserve(room);
+    for (const auto& [slot, column] : needed) reserve_large(run.*column, room);
     while (in.next())
       for (const auto& [slot, column] : needed) (run.*column).push_back(in[slot]);
     run.filters = filters_of(in.history(), run.t);

@@ -1,6 +1,7 @@
 #include "fit/least_squares.h"
 
 #include "base/error.h"
+#include "base/large_pages.h"
 #include "fit/dot.h"
 
 #include <algorithm>
@@ -141,7 +142,7 @@ double square(const std::vector<double>& f) { return dot(f.data(), f.data(), f.s
 /// What an evaluation leaves, and the Gauss-Newton step from there: from the QR of J, not from the normal equations, whose condition is
 /// the square of J's.
 struct Point {
-  explicit Point(const System& system) : R(system) { f.reserve(system.residuals()); }
+  explicit Point(const System& system) : R(system) { reserve_large(f, system.residuals()); }
 
   std::vector<double> theta, f;
   Triangles R;

@@ -1,5 +1,6 @@
 // The straight line of ln D on ln v: linear, but a different estimator from least squares on D (each record is weighted by D^2).
 #include "base/error.h"
+#include "base/large_pages.h"
 #include "fit/dot.h"
 #include "fit/routes.h"
 #include "rolling/power_law.h"
@@ -37,7 +38,9 @@ Minimum straight_line(const ShiftRecords& records, const std::vector<double>& lo
   const double at = options.a ? records.log_v_ref : 0;  // where the line is held, or else its mean
   const double N = static_cast<double>(n), xx = dot(log_u.data(), log_u.data(), n) + N * at * at;
   double height = options.a ? std::log(*options.a) : 0, slope = options.b.value_or(0);
-  std::vector<double> f(n);
+  std::vector<double> f;
+  reserve_large(f, n);
+  f.resize(n);
   for (int round = 0; round < 3; ++round) {
     double sum = 0, product = 0;
     for (std::size_t i = 0; i < n; ++i) {

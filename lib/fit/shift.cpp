@@ -1,5 +1,6 @@
 // Least squares on D = a v^b: of D itself, so that D <= 0 (noise) counts as it should.
 #include "base/error.h"
+#include "base/large_pages.h"
 #include "fit/routes.h"
 #include "rolling/trajectory.h"
 
@@ -15,8 +16,8 @@ ShiftRecords::ShiftRecords(const std::vector<FitRun>& all, const FitOptions& opt
   std::size_t most = 0;
   for (const auto& run : all) response_.push_back(noise_response(run.filters, run.t)), most += run.v.size();
   if (!std::all_of(response_.begin(), response_.end(), [](const NoiseResponse& r) { return r.of.contains("D"); })) response_.clear();
-  log_u.reserve(most);
-  D.reserve(most);
+  reserve_large(log_u, most);
+  reserve_large(D, most);
   for (const auto& run : all) {
     const std::size_t before = D.size();
     Rows rows;

@@ -3,6 +3,7 @@
 #include "fit/trajectory.h"
 
 #include "base/error.h"
+#include "base/large_pages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,8 +62,8 @@ Rolls make_rolls(const std::vector<FitRun>& all, const std::vector<Rows>& rows, 
     if (roll.origin > first) fail("run {} begins before the time {} at which v0 and x0 are to hold", r + 1, roll.origin);
     roll.start = options.origin || options.v0 || options.x0 ? roll.origin : run.t[rows[r].front()];
     if (known && first < run.t[0] && roll.start == roll.origin) fail("v0 and x0 cannot be held: filters have reached back to what was cut away before run {} begins", r + 1);
-    roll.t.reserve(rows[r].size());
-    roll.y.reserve(rows[r].size());
+    reserve_large(roll.t, rows[r].size());
+    reserve_large(roll.y, rows[r].size());
     for (std::size_t i : rows[r]) roll.t.push_back(run.t[i] - roll.origin), roll.y.push_back(y[i]);
     const double sign = options.v0 ? *options.v0 : position ? roll.y.back() - options.x0.value_or(roll.y.front()) : std::accumulate(roll.y.begin(), roll.y.end(), 0.0);
     roll.way = sign < 0 ? -1 : 1;
@@ -139,7 +140,7 @@ RouteFit fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOp
   for (const auto& run : all) {
     const auto& y = position ? run.x : run.v;
     Rows usable;
-    usable.reserve(y.size());
+    reserve_large(usable, y.size());
     double way = 0;
     for (std::size_t i = 0; i < y.size(); ++i)
       if (std::isfinite(y[i])) usable.push_back(i), way += y[i];
