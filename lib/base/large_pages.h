@@ -2,7 +2,6 @@
 #pragma once
 
 #include <sys/mman.h>
-#include <unistd.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -18,8 +17,8 @@ void reserve_large(std::vector<T>& column, std::size_t n) {
 #ifdef MADV_HUGEPAGE
   const std::size_t bytes = n * sizeof(T);
   if (bytes < std::size_t{4} << 20) return;
-  const auto begin = reinterpret_cast<std::uintptr_t>(column.data()), within = begin % static_cast<std::uintptr_t>(::getpagesize());
-  ::madvise(reinterpret_cast<void*>(begin - within), bytes + within, MADV_HUGEPAGE);  // where it is refused, no matter
+  const auto begin = reinterpret_cast<std::uintptr_t>(column.data()), within = begin % 4096;
+  ::madvise(reinterpret_cast<void*>(begin - within), bytes + within, MADV_HUGEPAGE);  // where it is refused, or pages are of another size, no matter
 #endif
 }
 
