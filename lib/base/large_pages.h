@@ -17,8 +17,9 @@ void reserve_large(std::vector<T>& column, std::size_t n) {
 #ifdef MADV_HUGEPAGE
   const std::size_t bytes = n * sizeof(T);
   if (bytes < std::size_t{4} << 20) return;
-  const auto begin = reinterpret_cast<std::uintptr_t>(column.data()), within = begin % 4096;
-  ::madvise(reinterpret_cast<void*>(begin - within), bytes + within, MADV_HUGEPAGE);  // where it is refused, or pages are of another size, no matter
+  char* const begin = reinterpret_cast<char*>(column.data());
+  const std::size_t within = reinterpret_cast<std::uintptr_t>(begin) % 4096;
+  ::madvise(begin - within, bytes + within, MADV_HUGEPAGE);  // where it is refused, or pages are of another size, no matter
 #endif
 }
 
