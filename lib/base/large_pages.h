@@ -9,8 +9,8 @@
 
 namespace rolling {
 
-/// column.reserve(n). From 4 MiB on the system is asked for pages of 2 MiB, where it has them: a fit of a million records spends a sixth
-/// of its time on the first touch of pages of 4 KiB.
+/// column.reserve(n). From 4 MiB on the system is asked for pages of 2 MiB, where it has them: loglog spends a sixth
+/// of its time with a million records on the first touch of pages of 4 KiB.
 template <typename T>
 void reserve_large(std::vector<T>& column, std::size_t n) {
   column.reserve(n);

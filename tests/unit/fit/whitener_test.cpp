@@ -56,7 +56,6 @@ TEST_CASE("whitener: the floor is white noise of its own", "[fit]") {
   for (std::size_t i = 0; i < 6; ++i) CHECK(std::abs(z[i] - y[i]) < 1e-12);
 }
 
-
 TEST_CASE("whitener: floors of every size leave white noise of size one, and say by how much a volume shrinks", "[fit]") {
   constexpr std::size_t n = 40;
   const auto t = simulated::times(n);
