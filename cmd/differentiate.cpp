@@ -20,14 +20,17 @@ int main(int argc, char** argv) {
   std::string column;
   DerivativeOptions options;
   tool.text("-c,--column", column, "COLUMN", "the column to differentiate (v, else x)");
-  tool.choice("-M,--method", options.method, derivative_methods, "how the slope is found (central)");
-  tool.count("-w,--width", options.width, odd, "width of savgol's window, an odd number of samples (23)");
+  tool.choice("-M,--method", options.method, derivative_methods,
+              "how the slope is found (central)");
+  tool.count("-w,--width", options.width, odd,
+             "width of savgol's window, an odd number of samples (23)");
   tool.count("--order", options.order, whole, "order of savgol's polynomial (2)");
   tool.input();
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    if (options.method != DerivativeMethod::savgol && (tool.on_command_line("width") || tool.on_command_line("order")))
+    if (options.method != DerivativeMethod::savgol &&
+        (tool.on_command_line("width") || tool.on_command_line("order")))
       fail("--width and --order go with --method savgol");
     make_derivative(options);  // refuses what does not go together, before anything is read
     Reader& in = tool.read({"t", "v"});

@@ -14,14 +14,19 @@ namespace {
 
 std::vector<std::string> columns_of(Route route) {
   switch (route) {
-    case Route::velocity: return {"t", "v"};
-    case Route::position: return {"t", "x"};
-    default: return {"v", "D"};
+    case Route::velocity:
+      return {"t", "v"};
+    case Route::position:
+      return {"t", "x"};
+    default:
+      return {"v", "D"};
   }
 }
 
-const std::map<std::string, std::optional<Route>> routes{
-    {"loglog", Route::loglog}, {"shift", Route::shift}, {"velocity", Route::velocity}, {"position", Route::position}};
+const std::map<std::string, std::optional<Route>> routes{{"loglog", Route::loglog},
+                                                         {"shift", Route::shift},
+                                                         {"velocity", Route::velocity},
+                                                         {"position", Route::position}};
 
 /// The values of NAME=VALUE, repeated.
 void set_parameters(const std::string& option, const std::vector<std::string>& settings,
@@ -30,25 +35,34 @@ void set_parameters(const std::string& option, const std::vector<std::string>& s
     const auto equals = setting.find('=');
     const auto parameter = parameters.find(setting.substr(0, equals));
     double value;
-    if (equals == std::string::npos || parameter == parameters.end() || !parse_number(std::string_view(setting).substr(equals + 1), value))
+    if (equals == std::string::npos || parameter == parameters.end() ||
+        !parse_number(std::string_view(setting).substr(equals + 1), value))
       fail("{}: '{}' is not NAME=VALUE with a name that it knows", option, shown(setting));
-    if (*parameter->second) fail("{}: '{}' comes after another for {}", option, shown(setting), parameter->first);
+    if (*parameter->second)
+      fail("{}: '{}' comes after another for {}", option, shown(setting), parameter->first);
     *parameter->second = value;
   }
 }
 
 std::vector<FitRun> read_runs(Reader& in, Route route, const Body& body, bool all_columns) {
-  struct Needed { std::size_t slot; std::vector<double> FitRun::*column; };
+  struct Needed {
+    std::size_t slot;
+    std::vector<double> FitRun::*column;
+  };
   std::vector<Needed> needed;
-  const auto column_of = [](std::string_view name) { return name == "x" ? &FitRun::x : name == "v" ? &FitRun::v : &FitRun::D; };
+  const auto column_of = [](std::string_view name) {
+    return name == "x" ? &FitRun::x : name == "v" ? &FitRun::v : &FitRun::D;
+  };
   const auto names = columns_of(route);
   for (const std::string& name : names)
     if (name != "t") needed.push_back({in.need(name), column_of(name)});
-  const bool times_wanted = (all_columns || !in.history().empty()) && in.find("t");  // the filters act on these times
+  const bool times_wanted =
+      (all_columns || !in.history().empty()) && in.find("t");  // the filters act on these times
   if (names.front() == "t" || times_wanted) needed.push_back({in.need_time(), &FitRun::t});
   if (all_columns)  // what other routes would fit
     for (const char* name : {"x", "v", "D"})
-      if (in.find(name) && std::find(names.begin(), names.end(), name) == names.end()) needed.push_back({in.want(name), column_of(name)});
+      if (in.find(name) && std::find(names.begin(), names.end(), name) == names.end())
+        needed.push_back({in.want(name), column_of(name)});
   std::vector<FitRun> runs;
   while (in.next_run()) {
     FitRun& run = runs.emplace_back();
@@ -62,19 +76,32 @@ std::vector<FitRun> read_runs(Reader& in, Route route, const Body& body, bool al
   return runs;
 }
 
-/// For these runs, what each route finds at which cost, and which law describes them on the route that was asked for.
+/// For these runs, what each route finds at which cost, and which law describes them on the route
+/// that was asked for.
 void report(Tool& tool, Route asked, const std::vector<FitRun>& runs, const FitOptions& options) {
-  const std::map<Errors, const char*> kinds{{Errors::none, "none"}, {Errors::classical, "classical"}, {Errors::filters, "of the filters"},
-                                              {Errors::differences, "of differences of positions"}, {Errors::autocorrelation, "of the autocorrelation"}};
+  const std::map<Errors, const char*> kinds{{Errors::none, "none"},
+                                            {Errors::classical, "classical"},
+                                            {Errors::filters, "of the filters"},
+                                            {Errors::differences, "of differences of positions"},
+                                            {Errors::autocorrelation, "of the autocorrelation"}};
   for (const auto& [name, route] : routes) try {
       for (const FitRun& run : runs)
         for (const std::string& column : columns_of(*route))
-          if ((column == "t" ? run.t : column == "x" ? run.x : column == "v" ? run.v : run.D).empty()) fail("there is no column {}", column);
+          if ((column == "t"   ? run.t
+               : column == "x" ? run.x
+               : column == "v" ? run.v
+                               : run.D)
+                  .empty())
+            fail("there is no column {}", column);
       const auto begin = std::chrono::steady_clock::now();
       const FitResult r = fit(*route, runs, options);
-      const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
-      tool.say(fmt::format("{}: a {:.5g} +- {:.2g}, b {:.5g} +- {:.2g}, rms {:.3g}, n {}, errors {}{}, {:.2g} ms", name, r.a, r.sigma_a, r.b, r.sigma_b, r.rms, r.n,
-                           kinds.at(r.errors), std::isnan(r.whiteness) ? "" : fmt::format(" (Ljung-Box p {:.2g})", r.whiteness), time.count()));
+      const std::chrono::duration<double, std::milli> time =
+          std::chrono::steady_clock::now() - begin;
+      tool.say(fmt::format(
+          "{}: a {:.5g} +- {:.2g}, b {:.5g} +- {:.2g}, rms {:.3g}, n {}, errors {}{}, {:.2g} ms",
+          name, r.a, r.sigma_a, r.b, r.sigma_b, r.rms, r.n, kinds.at(r.errors),
+          std::isnan(r.whiteness) ? "" : fmt::format(" (Ljung-Box p {:.2g})", r.whiteness),
+          time.count()));
     } catch (const Error& error) {
       tool.say(fmt::format("{}: {}", name, error.what()));
     }
@@ -82,10 +109,12 @@ void report(Tool& tool, Route asked, const std::vector<FitRun>& runs, const FitO
   const auto scores = compare_laws(asked, runs, options);
   double least = scores.front().aicc;
   for (const LawScore& s : scores) least = std::min(least, s.aicc);
-  if (std::isinf(scores.front().aicc)) return tool.say("too few independent records to compare a v^b with other laws");
+  if (std::isinf(scores.front().aicc))
+    return tool.say("too few independent records to compare a v^b with other laws");
   std::string line = "AICc above the least:";
   for (const LawScore& s : scores) line += fmt::format(" {} {:.1f};", s.law, s.aicc - least);
-  tool.say(line + (scores.front().aicc - least <= 2 ? " D = a v^b is adequate" : " D = a v^b is not adequate"));
+  tool.say(line + (scores.front().aicc - least <= 2 ? " D = a v^b is adequate"
+                                                    : " D = a v^b is not adequate"));
 }
 
 }  // namespace
@@ -99,25 +128,34 @@ int main(int argc, char** argv) {
   FitOptions options;
   bool each = false, with_report = false;
   tool.choice("--route", given_route, routes,
-      "what is fitted: D of v (loglog, shift), v of t or x of t (shift if there is D, else velocity if v, else position)");
-  tool.numbers("-K,--shape-factor", shape_factors, not_negative, "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
+              "what is fitted: D of v (loglog, shift), v of t or x of t (shift if there is D, else "
+              "velocity if v, else position)");
+  tool.numbers("-K,--shape-factor", shape_factors, not_negative,
+               "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
   tool.body(body, "Rg");
   tool.geometry(options.geometry);
   tool.flag("--each", each, "fit each run by itself, a row for each");
   tool.list("--fix", fixed, "NAME=VALUE", "hold a, b, v0 or x0 fixed");
   tool.list("--start", start, "NAME=VALUE", "begin the search at this a or b");
   tool.number("--min-speed", options.min_speed, not_negative, "leave slower records out [m/s]");
-  tool.flag("--robust", options.robust, "let outliers count little: bisquare loss instead of squares");
-  tool.flag("--report", with_report, "tell on standard error what each route finds, and whether the law is adequate");
+  tool.flag("--robust", options.robust,
+            "let outliers count little: bisquare loss instead of squares");
+  tool.flag("--report", with_report,
+            "tell on standard error what each route finds, and whether the law is adequate");
   tool.scene();
   tool.input();
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    set_parameters("--fix", fixed, {{"a", &options.a}, {"b", &options.b}, {"v0", &options.v0}, {"x0", &options.x0}});
+    set_parameters(
+        "--fix", fixed,
+        {{"a", &options.a}, {"b", &options.b}, {"v0", &options.v0}, {"x0", &options.x0}});
     set_parameters("--start", start, {{"a", &options.start_a}, {"b", &options.start_b}});
     Reader& in = tool.read(columns_of(given_route.value_or(Route::shift)));
-    const Route route = given_route ? *given_route : in.find("D") ? Route::shift : in.find("v") ? Route::velocity : Route::position;
+    const Route route = given_route    ? *given_route
+                        : in.find("D") ? Route::shift
+                        : in.find("v") ? Route::velocity
+                                       : Route::position;
     options.possible_filters = filters_of_sensors();
     const bool trajectory = route == Route::velocity || route == Route::position;
     if (trajectory) {
@@ -128,25 +166,32 @@ int main(int argc, char** argv) {
     std::vector<FitRun> runs = read_runs(in, route, body, with_report);
     if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
       fail("--shape-factor gives {} values, but runs are {}", shape_factors.size(), runs.size());
-    for (std::size_t i = 0; i < runs.size(); ++i) runs[i].body.K = shape_factors.empty() ? 0 : shape_factors[shape_factors.size() > 1 ? i : 0];
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      runs[i].body.K = shape_factors.empty() ? 0 : shape_factors[shape_factors.size() > 1 ? i : 0];
 
     std::vector<std::vector<FitRun>> fits;
-    if (each) for (FitRun& run : runs) fits.push_back({std::move(run)});
+    if (each)
+      for (FitRun& run : runs) fits.push_back({std::move(run)});
     else fits.push_back(std::move(runs));
 
-    std::vector<Column> names = {{"a", "m"}, {"sigma_a", "m"}, {"b"}, {"sigma_b"}, {"corr"}, {"rms"}, {"n"}};
+    std::vector<Column> names = {{"a", "m"}, {"sigma_a", "m"}, {"b"}, {"sigma_b"},
+                                 {"corr"},   {"rms"},          {"n"}};
     const bool with_v0 = trajectory && fits.front().size() == 1;
     if (with_v0) names.insert(names.end(), {{"v0", "m/s"}, {"sigma_v0", "m/s"}});
     std::vector<FitResult> results;
     for (const auto& joint : fits) {
-      tool.progress.at("fitting", fits.size() == 1 ? not_given : static_cast<double>(results.size()) / static_cast<double>(fits.size()));
+      tool.progress.at("fitting", fits.size() == 1 ? not_given
+                                                   : static_cast<double>(results.size()) /
+                                                         static_cast<double>(fits.size()));
       results.push_back(fit(route, joint, options));
     }
 
     tool.out.names(names);
     std::size_t left_out = 0;
     for (const FitResult& r : results) {
-      const auto cell = [&](double value) { r.errors == Errors::none && std::isnan(value) ? tool.out.blank() : tool.out.cell(value); };
+      const auto cell = [&](double value) {
+        r.errors == Errors::none&& std::isnan(value) ? tool.out.blank() : tool.out.cell(value);
+      };
       for (const double value : {r.a, r.sigma_a, r.b, r.sigma_b, r.corr, r.rms}) cell(value);
       tool.out.blank();
       tool.out.text(std::to_string(r.n));  // a count is never rounded to --digits
@@ -155,7 +200,8 @@ int main(int argc, char** argv) {
       tool.out.end_line();
       left_out += r.left_out;
     }
-    if (with_report) for (const auto& joint : fits) report(tool, route, joint, options);
+    if (with_report)
+      for (const auto& joint : fits) report(tool, route, joint, options);
     tool.count_left_out(left_out, "this route cannot use them");
     return 0;
   });

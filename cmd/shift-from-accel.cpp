@@ -1,11 +1,13 @@
-// shift-from-accel - append the shift D of the contact force, from the acceleration; see shift-from-accel(1)
+// shift-from-accel - append the shift D of the contact force, from the acceleration; see
+// shift-from-accel(1)
 #include "cli/tool.h"
-#include "rolling/contact.h"
+#include "contact/contact.h"
 #include "text/filter.h"
 
 int main(int argc, char** argv) {
   using namespace rolling;
-  Tool tool("shift-from-accel", "Append the forward shift D of the contact force, from the acceleration.");
+  Tool tool("shift-from-accel",
+            "Append the forward shift D of the contact force, from the acceleration.");
   Body body;
   Geometry geometry;
   tool.body(body, "KRg");
@@ -18,7 +20,9 @@ int main(int argc, char** argv) {
     tool.need(body, "KR");
     Reader& in = tool.read({"t", "v", "a"});
     const auto a = in.need("a");
-    Filter filter(in, tool.out, fmt::format("shift-from-accel {}K {} R {} g {}", geometry == Geometry::exact ? "exact " : "", body.K, body.R, body.g));
+    Filter filter(in, tool.out,
+                  fmt::format("shift-from-accel {}K {} R {} g {}",
+                              geometry == Geometry::exact ? "exact " : "", body.K, body.R, body.g));
     filter.append({"D", "m"});
     while (filter.next_run())
       while (filter.next()) filter.put(shift_from_acceleration(body, geometry, filter[a]));

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "cli/tool.h"
-#include "rolling/measure.h"
-#include "rolling/roll.h"
+#include "motion/measure.h"
+#include "motion/roll.h"
 #include "sensor/sonar.h"
 
 using namespace rolling;
@@ -51,7 +51,8 @@ std::vector<Quantity> chosen(const std::string& list) {
   return chosen;
 }
 
-/// The times 0, dt, 2 dt, ...; where 1/dt is a whole number (25 Hz), each the double nearest to k/rate.
+/// The times 0, dt, 2 dt, ...; where 1/dt is a whole number (25 Hz), each the double nearest to
+/// k/rate.
 struct Clock {
   double dt, rate = std::round(1 / dt);
   bool whole = rate * dt == 1;
@@ -72,7 +73,8 @@ void write_record(Output& out, const std::vector<SonarSample>& record) {
   }
 }
 
-/// A table of v D, or a row of fitpower: that has the columns a and b. The command line wins over the row.
+/// A table of v D, or a row of fitpower: that has the columns a and b. The command line wins over
+/// the row.
 void read_law(Tool& tool, const std::string& file, Roll& roll) {
   Reader& in = tool.read_file(file, {"v", "D"});
   if (in.find("a") && in.find("b")) {
@@ -86,7 +88,8 @@ void read_law(Tool& tool, const std::string& file, Roll& roll) {
     if (in.next() || in.next_run()) fail("more than one row: a law is one row of fitpower");
     return;
   }
-  if (tool.on_command_line("coefficient") || tool.on_command_line("exponent")) fail("-a and -b do not go with a table of v D");
+  if (tool.on_command_line("coefficient") || tool.on_command_line("exponent"))
+    fail("-a and -b do not go with a table of v D");
   const auto v = in.need("v"), D = in.need("D");
   std::vector<double> speeds, shifts;
   while (in.next_run())
@@ -98,18 +101,23 @@ void read_law(Tool& tool, const std::string& file, Roll& roll) {
 void report(Tool& tool, const Roll& roll, double rtol, double end) {
   const Reference right = reference(roll, 200, end);
   const Method best = best_method(roll);
-  tool.say(fmt::format("{:8} {:>7} {:>9} {:>10} {:>11} {:>11} {:>8}", "method", "rtol", "max|dv|/v0", "dt*/t*", "evaluations", "ns/sample", "scatter"));
+  tool.say(fmt::format("{:8} {:>7} {:>9} {:>10} {:>11} {:>11} {:>8}", "method", "rtol",
+                       "max|dv|/v0", "dt*/t*", "evaluations", "ns/sample", "scatter"));
   const auto row = [&](const std::string& name, const Method& method, double tolerance) {
     const Measured m = measure([&] { return start(roll, method, tolerance); }, right, roll.v0, 7);
-    const std::string text = fmt::format("{:8} {:>7}", name, method.kind == Method::solver ? fmt::format("{:g}", tolerance) : "-");
+    const std::string text = fmt::format(
+        "{:8} {:>7}", name, method.kind == Method::solver ? fmt::format("{:g}", tolerance) : "-");
     if (!m.failure.empty()) return tool.say(text + " failed: " + m.failure);
-    tool.say(fmt::format("{} {:10.2g} {:10.2g} {:11} {:11.4g} {:8.2g}", text, m.v_error, m.stop_error, m.evaluations, 1e9 * m.seconds, 1e9 * m.scatter));
+    tool.say(fmt::format("{} {:10.2g} {:10.2g} {:11} {:11.4g} {:8.2g}", text, m.v_error,
+                         m.stop_error, m.evaluations, 1e9 * m.seconds, 1e9 * m.scatter));
   };
   for (const auto& [name, method] : methods)
-    if (method.kind == best.kind && (best.kind != Method::solver || method.stepper == best.stepper)) row(name, method, rtol);
+    if (method.kind == best.kind && (best.kind != Method::solver || method.stepper == best.stepper))
+      row(name, method, rtol);
   for (const char* name : {"rkf45", "rk8pd", "rk4imp", "bsimp", "msbdf"})
     for (const double tolerance : {1e-6, rtol}) row(name, methods.at(name), tolerance);
-  tool.say(best.kind == Method::solver ? "errors are against the first at rtol 1e-13" : "errors are against the first");
+  tool.say(best.kind == Method::solver ? "errors are against the first at rtol 1e-13"
+                                       : "errors are against the first");
 }
 
 }  // namespace
@@ -136,18 +144,29 @@ int main(int argc, char** argv) {
   tool.number("--until", until, not_negative, "time of the last row [s] (the stop)");
   tool.text("--at", times_file, "FILE", "file with a column t: the times of the rows, instead");
   tool.text("--columns", columns, "NAME,...", "what to compute, of t,x,v,a,D (all)");
-  tool.text("--law", law_file, "FILE", "file (- is standard input) with a table of v D, or with a row of fitpower: a, b and v0 that are not given otherwise");
-  tool.number("--memory", bulge.length, positive, "length over which the bulge follows the law [m]: rolls backwards before rest");
+  tool.text("--law", law_file, "FILE",
+            "file (- is standard input) with a table of v D, or with a row of fitpower: a, b and "
+            "v0 that are not given otherwise");
+  tool.number("--memory", bulge.length, positive,
+              "length over which the bulge follows the law [m]: rolls backwards before rest");
   tool.number("--damping", bulge.damping, not_negative, "damping of the bulge [s] (0)");
-  tool.choice("--method", method, methods, "how v(t) is found: closed, exact, or else a solver (the cheapest that is exact)");
-  tool.number("--rtol", rtol, {"from 1e-14 to 0.1", [](double x) { return x >= 1e-14 && x <= 0.1; }}, "relative tolerance of a solver's step (1e-10)");
-  tool.flag("--report", with_report, "on standard error, error against run time of the methods on this scene");
-  tool.choice<bool>("--sensor", sensor, {{"pasco", true}}, "write what this motion sensor records, push and rest included");
+  tool.choice("--method", method, methods,
+              "how v(t) is found: closed, exact, or else a solver (the cheapest that is exact)");
+  tool.number("--rtol", rtol,
+              {"from 1e-14 to 0.1", [](double x) { return x >= 1e-14 && x <= 0.1; }},
+              "relative tolerance of a solver's step (1e-10)");
+  tool.flag("--report", with_report,
+            "on standard error, error against run time of the methods on this scene");
+  tool.choice<bool>("--sensor", sensor, {{"pasco", true}},
+                    "write what this motion sensor records, push and rest included");
   tool.count("--seed", seed, whole, "seed of the sensor's noise (1)");
   tool.number("--rate", sonar.rate, positive, "records of the sensor a second (25)");
-  tool.number("--resolution", sonar.resolution, not_negative, "resolution of the sensor [m] (0.001)");
-  tool.number("--noise", sonar.noise, not_negative, "noise of a position before it is rounded [m] (0.0003)");
-  tool.number("--lost", sonar.lost, {"from 0 to below 1", [](double x) { return x >= 0 && x < 1; }}, "share of lost echoes (0.01)");
+  tool.number("--resolution", sonar.resolution, not_negative,
+              "resolution of the sensor [m] (0.001)");
+  tool.number("--noise", sonar.noise, not_negative,
+              "noise of a position before it is rounded [m] (0.0003)");
+  tool.number("--lost", sonar.lost, {"from 0 to below 1", [](double x) { return x >= 0 && x < 1; }},
+              "share of lost echoes (0.01)");
   tool.scene();
   tool.output();
 
@@ -158,7 +177,8 @@ int main(int argc, char** argv) {
     tool.need(v0, "--v0");
     if (bulge.length == 0 && bulge.damping > 0) fail("--damping goes with --memory");
     if (!tool.on_command_line("method")) method = best_method(roll);
-    if (method.kind != Method::solver && !with_report && tool.on_command_line("rtol")) fail("--rtol goes with a solver: there is no tolerance here");
+    if (method.kind != Method::solver && !with_report && tool.on_command_line("rtol"))
+      fail("--rtol goes with a solver: there is no tolerance here");
 
     if (with_report) report(tool, roll, rtol, std::isnan(until) ? 10 : until);
     if (sensor) {
@@ -172,7 +192,9 @@ int main(int argc, char** argv) {
     const auto write_header = [&] {
       std::vector<Column> names;
       for (const Quantity& quantity : row) names.push_back(quantity.column);
-      tool.out.text("## simulate " + (roll.table ? "table" : fmt::format("a {} b {}", law.a, law.b)) + fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, v0));
+      tool.out.text("## simulate " +
+                    (roll.table ? "table" : fmt::format("a {} b {}", law.a, law.b)) +
+                    fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, v0));
       tool.out.end_line();
       tool.out.names(names);
     };
@@ -200,8 +222,12 @@ int main(int argc, char** argv) {
     const auto motion = start(roll, method, rtol);
     const bool to_the_stop = std::isnan(until);
     const double end = to_the_stop ? motion->stop_time() : until;
-    if (!std::isfinite(end)) fail("the {}: say --until when to end", law.b < 0 ? "shift grows to the radius before the body stops" : "body never stops");
-    const double steps = std::floor(end / dt + (to_the_stop ? -1e-9 : 1e-9));  // rounding of end / dt makes no row and loses none
+    if (!std::isfinite(end))
+      fail("the {}: say --until when to end",
+           law.b < 0 ? "shift grows to the radius before the body stops" : "body never stops");
+    const double steps = std::floor(
+        end / dt +
+        (to_the_stop ? -1e-9 : 1e-9));  // rounding of end / dt makes no row and loses none
     if (steps > 1e9) fail("these are {:.3g} rows; the most is 1e9: --dt is too small", steps);
     const Clock clock{dt};
     write_header();

@@ -16,11 +16,13 @@ std::size_t odd_number(const std::string& text) {
 }
 
 /// The `##` lines.
-std::string history(const std::string& column, const SelectionOptions& selected, const SmootherOptions& smoothed) {
+std::string history(const std::string& column, const SelectionOptions& selected,
+                    const SmootherOptions& smoothed) {
   std::string text;
   if (std::isfinite(selected.from)) text += fmt::format("smooth t from {}\n## ", selected.from);
   if (std::isfinite(selected.to)) text += fmt::format("smooth t to {}\n## ", selected.to);
-  if (selected.outliers > 0) text += fmt::format("smooth {} outliers {}\n## ", column, selected.outliers);
+  if (selected.outliers > 0)
+    text += fmt::format("smooth {} outliers {}\n## ", column, selected.outliers);
   if (selected.coast) text += fmt::format("smooth {} coast\n## ", column);
   return text + fmt::format("smooth {} {}", column, describe(smoothed));
 }
@@ -28,16 +30,23 @@ std::string history(const std::string& column, const SelectionOptions& selected,
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool("smooth", "Replace a column by its mean over a moving window, or smooth it otherwise; select its records.");
+  Tool tool("smooth",
+            "Replace a column by its mean over a moving window, or smooth it otherwise; select its "
+            "records.");
   std::string column, width = "11";
   SelectionOptions select;
   SmootherOptions options;
-  tool.text("-c,--column", column, "COLUMN", "the column to smooth (v, else the first that is not t)");
-  tool.choice("-M,--method", options.method, smoothing_methods, "what takes the place of a reading (mean)");
-  tool.text("-w,--width", width, "N", "width of the window, an odd number of samples (11), or auto");
-  tool.number("--seconds", options.width.seconds, positive, "width of the window in seconds, instead");
+  tool.text("-c,--column", column, "COLUMN",
+            "the column to smooth (v, else the first that is not t)");
+  tool.choice("-M,--method", options.method, smoothing_methods,
+              "what takes the place of a reading (mean)");
+  tool.text("-w,--width", width, "N",
+            "width of the window, an odd number of samples (11), or auto");
+  tool.number("--seconds", options.width.seconds, positive,
+              "width of the window in seconds, instead");
   tool.count("--order", options.order, whole, "order of savgol's polynomial (2)");
-  tool.number("--outliers", select.outliers, positive, "leave out readings further than this many scaled MADs from their window's median");
+  tool.number("--outliers", select.outliers, positive,
+              "leave out readings further than this many scaled MADs from their window's median");
   tool.flag("--coast", select.coast, "keep the free roll only: after the push, up to the stop");
   tool.number("--from", select.from, any_number, "leave out the records before this time [s]");
   tool.number("--to", select.to, any_number, "leave out the records after this time [s]");
@@ -45,21 +54,26 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    if (options.width.seconds > 0 && tool.on_command_line("width")) fail("--width and --seconds are two widths: give one");
+    if (options.width.seconds > 0 && tool.on_command_line("width"))
+      fail("--width and --seconds are two widths: give one");
     bool choose = width == "auto";
     if (width != "auto") options.width.samples = odd_number(width);
-    if (options.method != SmoothingMethod::savgol && tool.on_command_line("order")) fail("--order goes with --method savgol");
+    if (options.method != SmoothingMethod::savgol && tool.on_command_line("order"))
+      fail("--order goes with --method savgol");
     select.width = options.width;
     make_smoother(options);  // refuses what does not go together, before anything is read
     Reader& in = tool.read({"t", "v"});
     const auto t = in.need_time();
-    if (column.empty()) column = in.find("v") || in.columns().size() == 1 ? "v" : in.column_of(t) == 0 ? "2" : "1";
+    if (column.empty())
+      column = in.find("v") || in.columns().size() == 1 ? "v" : in.column_of(t) == 0 ? "2" : "1";
     const auto y = in.need(column);
     const std::string name = in.columns()[in.column_of(y)].name;
     select.positions = name == "x";
-    if (select.coast && name != "x" && name != "v") fail("--coast needs the column x or v, not {}", shown(name));
+    if (select.coast && name != "x" && name != "v")
+      fail("--coast needs the column x or v, not {}", shown(name));
 
-    const bool streams = !choose && !select.coast;  // else nothing goes out before the first run has been read
+    const bool streams =
+        !choose && !select.coast;  // else nothing goes out before the first run has been read
     Filter filter(in, tool.out, streams ? history(name, select, options) : "");
     filter.replace(y);
     const bool all = select.all();

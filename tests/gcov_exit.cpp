@@ -1,5 +1,6 @@
-// Linked into what `make coverage-lines` builds: a process that ends by _exit(), or in which allocations fail, leaves its counts of
-// lines too. Not where files may not grow: what gcov cannot finish to write would be lost for all.
+// Linked into what `make coverage-lines` builds: a process that ends by _exit(), or in which
+// allocations fail, leaves its counts of lines too. Not where files may not grow: what gcov cannot
+// finish to write would be lost for all.
 #include <cstdlib>
 #include <dlfcn.h>
 #include <sys/resource.h>
@@ -16,7 +17,8 @@ bool can_write() {
 }
 
 void end_faults() {
-  if (const auto end = reinterpret_cast<void (*)()>(dlsym(RTLD_DEFAULT, "end_faults"))) end();  // of tests/faults/shim.cpp
+  if (const auto end = reinterpret_cast<void (*)()>(dlsym(RTLD_DEFAULT, "end_faults")))
+    end();  // of tests/faults/shim.cpp
 }
 
 void before_gcov(int status, void*) {

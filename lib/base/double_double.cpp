@@ -26,9 +26,11 @@ constexpr DoubleDouble exp_series(DoubleDouble x) {
   return sum;
 }
 
-constexpr DoubleDouble ln2 = twice_artanh(DoubleDouble(1) / 7) * 2 + twice_artanh(DoubleDouble(1) / 17);  // 2 = (4/3)^2 9/8
+constexpr DoubleDouble ln2 =
+    twice_artanh(DoubleDouble(1) / 7) * 2 + twice_artanh(DoubleDouble(1) / 17);  // 2 = (4/3)^2 9/8
 
-// x = 2^k m: m is divided by the number c of 9 bits that is nearest to the middle of its interval, and ln x = k ln2 + ln c + ln(m/c).
+// x = 2^k m: m is divided by the number c of 9 bits that is nearest to the middle of its interval,
+// and ln x = k ln2 + ln c + ln(m/c).
 constexpr int log_bits = 7, log_size = 1 << log_bits;
 constexpr std::uint64_t log_offset = 0x3fe6a00000000000;  // m from 0.707 to 1.414
 
@@ -40,15 +42,17 @@ constexpr DoubleDouble coarse(DoubleDouble x) {
 constexpr DoubleDouble log_2 = coarse(ln2);
 
 struct LogEntry {
-  double inverse;  // 1/c, a multiple of 2^-9
+  double inverse;    // 1/c, a multiple of 2^-9
   DoubleDouble log;  // coarse
 };
 constexpr auto log_table = [] {
   std::array<LogEntry, log_size> table{};
   for (std::size_t i = 0; i < log_size; ++i) {
-    const std::uint64_t begin = (log_offset & ~((1ull << 45) - 1)) + (i << 45), end = begin + (1ull << 45);
+    const std::uint64_t begin = (log_offset & ~((1ull << 45) - 1)) + (i << 45),
+                        end = begin + (1ull << 45);
     const double middle = (std::bit_cast<double>(begin) + std::bit_cast<double>(end)) / 2;
-    const double inverse = static_cast<double>(static_cast<int>(512 / middle + 0.5)) / 512;  // NOLINT: lround is not constexpr
+    const double inverse = static_cast<double>(static_cast<int>(512 / middle + 0.5)) /
+                           512;  // NOLINT: lround is not constexpr
     table[i] = {inverse, coarse(twice_artanh(DoubleDouble(1 - inverse) / (1 + inverse)))};
   }
   return table;
@@ -59,14 +63,16 @@ constexpr int exp_bits = 7, exp_size = 1 << exp_bits;
 constexpr auto exp_table = [] {
   std::array<DoubleDouble, exp_size> table{};
   for (std::size_t i = 0; i < exp_size; ++i) {
-    const DoubleDouble power = exp_series(ln2 * static_cast<double>(i) / (2 * exp_size)), square = power * power;
+    const DoubleDouble power = exp_series(ln2 * static_cast<double>(i) / (2 * exp_size)),
+                       square = power * power;
     const double hi = split(square.hi).hi;
     table[i] = {hi, (square.hi - hi) + square.lo};
   }
   return table;
 }();
 
-constexpr double step1 = cut(ln2.hi / exp_size, 21), step2 = (ln2.hi / exp_size - step1) + ln2.lo / exp_size;  // n step1 is exact
+constexpr double step1 = cut(ln2.hi / exp_size, 21),
+                 step2 = (ln2.hi / exp_size - step1) + ln2.lo / exp_size;  // n step1 is exact
 
 }  // namespace
 
@@ -74,7 +80,8 @@ DoubleDouble exp(DoubleDouble x) {
   const double n = std::round(x.hi / ln2.hi);
   const DoubleDouble series = exp_series(x - ln2 * n);
   const int half = static_cast<int>(n / 2), other = static_cast<int>(n) - half;
-  return {std::ldexp(std::ldexp(series.hi, half), other), std::ldexp(std::ldexp(series.lo, half), other)};
+  return {std::ldexp(std::ldexp(series.hi, half), other),
+          std::ldexp(std::ldexp(series.lo, half), other)};
 }
 
 DoubleDouble log(DoubleDouble x) {
@@ -90,7 +97,9 @@ namespace {
 /// ln(1 + x) - x + x^2/2
 double log1p_cubic(double x) {
   const double x2 = x * x;
-  return x * x2 * ((1. / 3 - x * (1. / 4)) + x2 * ((1. / 5 - x * (1. / 6)) + x2 * ((1. / 7 - x * (1. / 8)) + x2 * (1. / 9))));
+  return x * x2 *
+         ((1. / 3 - x * (1. / 4)) +
+          x2 * ((1. / 5 - x * (1. / 6)) + x2 * ((1. / 7 - x * (1. / 8)) + x2 * (1. / 9))));
 }
 
 }  // namespace
@@ -104,11 +113,14 @@ DoubleDouble quick_log(DoubleDouble x) {
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x.hi), above = bits - log_offset;
   const int k = static_cast<int>(static_cast<std::int64_t>(above) >> 52);
   const auto& [inverse, log_c] = log_table[(above >> (52 - log_bits)) % log_size];
-  const double m = std::bit_cast<double>(bits - (static_cast<std::uint64_t>(k) << 52)), top = cut(m, 32);
-  // m/c - 1 = r1 + r2 and ln(1 + r) = r - r^2/2 + cubic. Exact: r1 of 23 bits and its square, r2, k log_2.hi + ln c + r1, r2 - r1^2/2.
+  const double m = std::bit_cast<double>(bits - (static_cast<std::uint64_t>(k) << 52)),
+               top = cut(m, 32);
+  // m/c - 1 = r1 + r2 and ln(1 + r) = r - r^2/2 + cubic. Exact: r1 of 23 bits and its square, r2, k
+  // log_2.hi + ln c + r1, r2 - r1^2/2.
   const double r1 = top * inverse - 1, r2 = (m - top) * inverse, r = r1 + r2;
   const DoubleDouble sum = quick_two_sum(k * log_2.hi + log_c.hi + r1, r2 - r1 * r1 / 2);
-  return {sum.hi, sum.lo + (x.lo / x.hi + (k * log_2.lo + log_c.lo) + (log1p_cubic(r) - r2 * (r1 + r) / 2))};
+  return {sum.hi, sum.lo + (x.lo / x.hi + (k * log_2.lo + log_c.lo) +
+                            (log1p_cubic(r) - r2 * (r1 + r) / 2))};
 }
 
 namespace {
@@ -130,7 +142,8 @@ Reduced reduce(DoubleDouble x) {
   constexpr double rounder = 0x1.8p52;
   const double n = (x.hi * (exp_size / ln2.hi) + rounder) - rounder;
   const double r = (x.hi - n * step1) + (x.lo - n * step2), r2 = r * r;
-  return {static_cast<int>(n), r + r2 * ((1. / 2 + r * (1. / 6)) + r2 * (1. / 24 + r * (1. / 120)))};
+  return {static_cast<int>(n),
+          r + r2 * ((1. / 2 + r * (1. / 6)) + r2 * (1. / 24 + r * (1. / 120)))};
 }
 
 }  // namespace
@@ -140,7 +153,9 @@ Scaled::Scaled(DoubleDouble x) {
   m.lo = std::ldexp(x.lo, -exponent);
 }
 
-DoubleDouble Scaled::value() const { return {std::ldexp(m.hi, exponent), std::ldexp(m.lo, exponent)}; }
+DoubleDouble Scaled::value() const {
+  return {std::ldexp(m.hi, exponent), std::ldexp(m.lo, exponent)};
+}
 
 Scaled operator*(const Scaled& a, const Scaled& b) {
   Scaled product(a.m * b.m);
@@ -170,7 +185,8 @@ double ScaledFactor::operator*(DoubleDouble x) const {
 
 double times_exp(const ScaledFactor& f, DoubleDouble x) {
   const Reduced e = reduce(x);
-  const double hi = f.m.hi * e.power().hi, lo = f.m.lo * e.power().hi + (f.m.hi + f.m.lo) * e.power().lo;  // hi is exact
+  const double hi = f.m.hi * e.power().hi,
+               lo = f.m.lo * e.power().hi + (f.m.hi + f.m.lo) * e.power().lo;  // hi is exact
   return scale(hi + (lo + (hi + lo) * e.expm1), f.exponent + e.exponent());
 }
 
@@ -184,7 +200,8 @@ DoubleDouble one_minus_exp(DoubleDouble x) {
 
 DoubleDouble expm1_ratio(DoubleDouble x) {
   double sum = 0;
-  for (int n = 9; n > 1; --n) sum = (sum * (x.hi + x.lo) + 1) / n;  // (e^x - 1)/x - 1 = x/2 (1 + x/3 (1 + ...)), over x
+  for (int n = 9; n > 1; --n)
+    sum = (sum * (x.hi + x.lo) + 1) / n;  // (e^x - 1)/x - 1 = x/2 (1 + x/3 (1 + ...)), over x
   return quick_two_sum(1, sum * (x.hi + x.lo));
 }
 

@@ -1,7 +1,9 @@
-// Numbers of about 106 bits as an unevaluated sum of two doubles, and the logarithm and exponential that the closed form needs.
+// Numbers of about 106 bits as an unevaluated sum of two doubles, and the logarithm and exponential
+// that the closed form needs.
 //
-// The sums and products are those of Dekker (1971) and Knuth. The product splits its factors and does not call std::fma, which without
-// -mfma is a call of libm for each product and cannot make tables at compile time.
+// The sums and products are those of Dekker (1971) and Knuth. The product splits its factors and
+// does not call std::fma, which without -mfma is a call of libm for each product and cannot make
+// tables at compile time.
 #pragma once
 
 #include <bit>
@@ -9,7 +11,8 @@
 
 namespace rolling {
 
-/// hi + lo, |lo| <= ulp(hi)/2, or as the function that made it says. Of magnitude 1e-290 .. 1e290: the products split their factors.
+/// hi + lo, |lo| <= ulp(hi)/2, or as the function that made it says. Of magnitude 1e-290 .. 1e290:
+/// the products split their factors.
 struct DoubleDouble {
   double hi = 0, lo = 0;
 
@@ -20,7 +23,9 @@ struct DoubleDouble {
 };
 
 /// 2^n for -1022 <= n <= 1023.
-constexpr double power_of_two(int n) { return std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52); }
+constexpr double power_of_two(int n) {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52);
+}
 
 constexpr DoubleDouble two_sum(double a, double b) {
   const double sum = a + b, of_b = sum - a;
@@ -48,7 +53,8 @@ constexpr DoubleDouble two_product(double a, DoubleDouble parts, double b) {
 constexpr DoubleDouble two_product(double a, double b) { return two_product(a, split(a), b); }
 
 constexpr DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
-  const DoubleDouble s = two_sum(a.hi, b.hi), t = two_sum(a.lo, b.lo), u = quick_two_sum(s.hi, s.lo + t.hi);
+  const DoubleDouble s = two_sum(a.hi, b.hi), t = two_sum(a.lo, b.lo),
+                     u = quick_two_sum(s.hi, s.lo + t.hi);
   return quick_two_sum(u.hi, u.lo + t.lo);
 }
 constexpr DoubleDouble operator+(DoubleDouble a, double b) {
@@ -75,16 +81,21 @@ constexpr DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
   return quick_two_sum(q1, q2) + left.hi / b.hi;
 }
 
-/// ln(x) and e^x to about 1e-31 max(1, |ln x|) and 1e-31 max(1, |x|), relatively for e^x; slow. x as far as e^x is in range.
+/// ln(x) and e^x to about 1e-31 max(1, |ln x|) and 1e-31 max(1, |x|), relatively for e^x; slow. x
+/// as far as e^x is in range.
 DoubleDouble log(DoubleDouble x);
 DoubleDouble exp(DoubleDouble x);
 
 /// x without its last `bits` bits.
-constexpr double cut(double x, int bits) { return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & ~((1ull << bits) - 1)); }
+constexpr double cut(double x, int bits) {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & ~((1ull << bits) - 1));
+}
 
-// What follows is fast, and leaves out the last step that makes lo small: it gives and takes |lo| up to 2^-16 |hi|.
+// What follows is fast, and leaves out the last step that makes lo small: it gives and takes |lo|
+// up to 2^-16 |hi|.
 
-/// A constant factor: its upper part has 26 bits, so that a product with 26 more needs no splitting.
+/// A constant factor: its upper part has 26 bits, so that a product with 26 more needs no
+/// splitting.
 struct Factor {
   double hi = 0, lo = 0;
 

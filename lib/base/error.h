@@ -1,4 +1,5 @@
-// The one exception type: trouble that the user can read about in one line. Every command catches it in one place.
+// The one exception type: trouble that the user can read about in one line. Every command catches
+// it in one place.
 #pragma once
 
 #include <fmt/format.h>

@@ -4,8 +4,9 @@
 
 namespace rolling {
 
-// An exception, through C: GSL does not look whether all its allocations succeed (that of LU_decomp, that of a driver's error
-// control), and would go on with a null pointer. What it holds at that moment is lost.
+// An exception, through C: GSL does not look whether all its allocations succeed (that of
+// LU_decomp, that of a driver's error control), and would go on with a null pointer. What it holds
+// at that moment is lost.
 void silence_gsl() {
   gsl_set_error_handler([](const char*, const char*, int, int status) {
     if (status == GSL_ENOMEM) throw std::bad_alloc();

@@ -9,8 +9,8 @@
 
 namespace rolling {
 
-/// column.reserve(n). From 4 MiB on the system is asked for pages of 2 MiB, where it has them: loglog spends a sixth
-/// of its time with a million records on the first touch of pages of 4 KiB.
+/// column.reserve(n). From 4 MiB on the system is asked for pages of 2 MiB, where it has them:
+/// loglog spends a sixth of its time with a million records on the first touch of pages of 4 KiB.
 template <typename T>
 void reserve_large(std::vector<T>& column, std::size_t n) {
   column.reserve(n);
@@ -19,7 +19,8 @@ void reserve_large(std::vector<T>& column, std::size_t n) {
   if (bytes < std::size_t{4} << 20) return;
   char* const begin = reinterpret_cast<char*>(column.data());
   const std::size_t within = reinterpret_cast<std::uintptr_t>(begin) % 4096;
-  ::madvise(begin - within, bytes + within, MADV_HUGEPAGE);  // where it is refused, or pages are of another size, no matter
+  ::madvise(begin - within, bytes + within,
+            MADV_HUGEPAGE);  // where it is refused, or pages are of another size, no matter
 #endif
 }
 

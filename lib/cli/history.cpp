@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "rolling/contact.h"
+#include "contact/contact.h"
 #include "signal/derivative.h"
 #include "signal/smoother.h"
 #include "text/column.h"
@@ -15,7 +15,8 @@ namespace rolling {
 namespace {
 
 /// A streaming filter as a function of whole columns.
-std::vector<double> apply(const std::unique_ptr<Signal>& signal, std::span<const double> t, std::span<const double> y) {
+std::vector<double> apply(const std::unique_ptr<Signal>& signal, std::span<const double> t,
+                          std::span<const double> y) {
   std::vector<double> out;
   for (std::size_t i = 0; i < t.size(); ++i)
     for (const double value : signal->push(t[i], y[i])) out.push_back(value);
@@ -45,22 +46,30 @@ std::size_t count_after(const std::vector<std::string>& words, std::string_view 
   return static_cast<std::size_t>(value);
 }
 
-LinearFilter derivative(const std::string& from, const std::string& to, const DerivativeOptions& options) {
+LinearFilter derivative(const std::string& from, const std::string& to,
+                        const DerivativeOptions& options) {
   const auto method = options.method;
-  const std::size_t reach = method == DerivativeMethod::savgol ? options.width / 2 : method == DerivativeMethod::vernier ? 3 : method == DerivativeMethod::pasco ? 2 : 1;
-  return {from, to, reach, [options](auto time, auto y) { return apply(make_derivative(options), time, y); }};
+  const std::size_t reach = method == DerivativeMethod::savgol    ? options.width / 2
+                            : method == DerivativeMethod::vernier ? 3
+                            : method == DerivativeMethod::pasco   ? 2
+                                                                  : 1;
+  return {from, to, reach,
+          [options](auto time, auto y) { return apply(make_derivative(options), time, y); }};
 }
 
 }  // namespace
 
 std::vector<LinearFilter> filters_of_sensors() {
   std::vector<LinearFilter> filters;
-  for (auto method : {DerivativeMethod::central, DerivativeMethod::vernier, DerivativeMethod::pasco}) filters.push_back(derivative("x", "v", {method}));
+  for (auto method :
+       {DerivativeMethod::central, DerivativeMethod::vernier, DerivativeMethod::pasco})
+    filters.push_back(derivative("x", "v", {method}));
   for (std::size_t width : {2U, 3U, 5U})
     filters.push_back({"v", "v", width / 2, [width](auto, auto y) {
                          std::vector<double> means(y.size());
                          for (std::size_t i = 0; i + width <= y.size(); ++i)
-                           means[i + width / 2] = std::accumulate(&y[i], &y[i] + width, 0.0) / static_cast<double>(width);
+                           means[i + width / 2] = std::accumulate(&y[i], &y[i] + width, 0.0) /
+                                                  static_cast<double>(width);
                          return means;
                        }});
   return filters;
@@ -85,18 +94,24 @@ FilterChain filters_of(const std::vector<std::string>& history, std::span<const 
         continue;
       }
       const auto known = smoothing_methods.find(method);
-      if (known == smoothing_methods.end() || known->second == SmoothingMethod::median || words.size() != (method == "savgol" ? 7U : 5U)) return {};
+      if (known == smoothing_methods.end() || known->second == SmoothingMethod::median ||
+          words.size() != (method == "savgol" ? 7U : 5U))
+        return {};
       SmootherOptions options{known->second};
       if (words[3] == "seconds") options.width.seconds = number_after(words, "seconds");
       else options.width.samples = count_after(words, "width");
       if (method == "savgol") options.order = count_after(words, "order");
       const double seconds = options.width.seconds;
       if (!(seconds >= 0)) fail("a `##` line has a window of {} seconds", seconds);
-      const std::size_t reach = seconds > 0 ? samples_within(seconds, t) : options.width.samples / 2;
-      append({column, column, reach, [options](auto time, auto y) { return apply(make_smoother(options), time, y); }});
+      const std::size_t reach =
+          seconds > 0 ? samples_within(seconds, t) : options.width.samples / 2;
+      append({column, column, reach,
+              [options](auto time, auto y) { return apply(make_smoother(options), time, y); }});
     } else if (tool == "differentiate") {
       const auto known = derivative_methods.find(method);
-      if (known == derivative_methods.end() || known->second == DerivativeMethod::spline || words.size() != (method == "savgol" ? 7U : 3U)) return {};
+      if (known == derivative_methods.end() || known->second == DerivativeMethod::spline ||
+          words.size() != (method == "savgol" ? 7U : 3U))
+        return {};
       DerivativeOptions options{known->second};
       if (method == "savgol") {
         options.width = count_after(words, "width");
@@ -104,14 +119,16 @@ FilterChain filters_of(const std::vector<std::string>& history, std::span<const 
       }
       append(derivative(column, column == "x" ? "v" : column == "v" ? "a" : "d" + column, options));
     } else if (tool == "shift-from-accel") {
-      // The exact root of Eq. 9 bends away from Eq. 11 by (D/R)^2, which does not matter to an error bar.
-      const Body body{0, number_after(words, "R"), number_after(words, "K"), number_after(words, "g")};
+      // The exact root of Eq. 9 bends away from Eq. 11 by (D/R)^2, which does not matter to an
+      // error bar.
+      const Body body{0, number_after(words, "R"), number_after(words, "K"),
+                      number_after(words, "g")};
       const double scale = -(1 + body.K) * body.R / body.g;
       append({"a", "D", 0, [scale](auto, auto y) {
-                         std::vector<double> D(y.begin(), y.end());
-                         for (double& value : D) value *= scale;
-                         return D;
-                       }});
+                std::vector<double> D(y.begin(), y.end());
+                for (double& value : D) value *= scale;
+                return D;
+              }});
     }
   }
   return chain;

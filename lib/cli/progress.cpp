@@ -53,14 +53,19 @@ void Progress::show(const std::stop_token& stop) {
   const auto begin = steady_clock::now();
   bool shown = false;
   std::unique_lock lock(mutex_);
-  for (auto next = begin + patience; !stopped_.wait_until(lock, stop, next, [] { return false; }) && !stop.stop_requested(); next += interval) {
+  for (auto next = begin + patience;
+       !stopped_.wait_until(lock, stop, next, [] { return false; }) && !stop.stop_requested();
+       next += interval) {
     if (what_.empty()) continue;
     std::string text = name_ + ": " + what_;
     for (char& c : text)
       if (c < ' ' || c > '~') c = '?';
     text.resize(std::min(text.size(), width - 16));
     if (!std::isnan(part_)) text += fmt::format(" {:.0f} %", 100 * part_);
-    put(text + fmt::format(", {} s", std::chrono::duration_cast<std::chrono::seconds>(steady_clock::now() - begin).count()));
+    put(text +
+        fmt::format(
+            ", {} s",
+            std::chrono::duration_cast<std::chrono::seconds>(steady_clock::now() - begin).count()));
     shown = true;
   }
   if (shown) put("");

@@ -21,7 +21,9 @@ constexpr std::string_view version = "1.0.0";
 constexpr int trouble = 2;  // the exit status
 
 /// The numbers of a scene: what its file may say, whether or not a tool needs it.
-constexpr std::array scene_keys = {"mass", "radius", "shape-factor", "gravity", "coefficient", "exponent", "exact", "v0", "x0", "memory", "damping"};
+constexpr std::array scene_keys = {"mass",        "radius",   "shape-factor", "gravity",
+                                   "coefficient", "exponent", "exact",        "v0",
+                                   "x0",          "memory",   "damping"};
 
 double to_number(const std::string& option, const std::string& text, const Range& range) {
   double value;
@@ -30,16 +32,21 @@ double to_number(const std::string& option, const std::string& text, const Range
   return value;
 }
 
-/// One line of printable ASCII on standard error, at most 512 bytes. Needs no memory: that may be what has run out.
+/// One line of printable ASCII on standard error, at most 512 bytes. Needs no memory: that may be
+/// what has run out.
 void write_line(std::string_view name, std::string_view text) {
   std::array<char, 512> line;
   char* const end = fmt::format_to_n(line.data(), line.size() - 1, "{}: {}", name, text).out;
-  std::replace_if(line.data(), end, [](char c) { return c < ' ' || c > '~'; }, '?');
+  std::replace_if(
+      line.data(), end, [](char c) { return c < ' ' || c > '~'; }, '?');
   *end = '\n';
-  [[maybe_unused]] const auto count = ::write(STDERR_FILENO, line.data(), static_cast<std::size_t>(end + 1 - line.data()));  // where could one say that it failed?
+  [[maybe_unused]] const auto count = ::write(
+      STDERR_FILENO, line.data(),
+      static_cast<std::size_t>(end + 1 - line.data()));  // where could one say that it failed?
 }
 
-/// What is thrown where nothing catches: before main(), by a static object, or while a message is being made.
+/// What is thrown where nothing catches: before main(), by a static object, or while a message is
+/// being made.
 [[noreturn]] void last_words() {
   const char* what = "unknown trouble";
   try {
@@ -48,8 +55,7 @@ void write_line(std::string_view name, std::string_view text) {
     what = "out of memory";
   } catch (const std::exception& error) {
     what = error.what();
-  } catch (...) {
-  }
+  } catch (...) {}
   write_line(program_invocation_short_name, what);
   ::_exit(trouble);
 }
@@ -64,23 +70,31 @@ std::string long_name(const std::string& names) {
 
 }  // namespace
 
-Tool::Tool(std::string name, const std::string& purpose) : name_(std::move(name)), app_(purpose, name_) {
+Tool::Tool(std::string name, const std::string& purpose)
+    : name_(std::move(name)), app_(purpose, name_) {
   app_.set_help_flag("-h,--help", "print this and exit")->disable_flag_override();
-  app_.set_version_flag("--version", [this] { return fmt::format("{} (rolling) {}", name_, version); }, "print the version and exit")->disable_flag_override();
+  app_.set_version_flag(
+          "--version", [this] { return fmt::format("{} (rolling) {}", name_, version); },
+          "print the version and exit")
+      ->disable_flag_override();
   flag("-q,--quiet", quiet_, "neither counts of left-out records nor progress on standard error");
 }
 
-void Tool::add(const std::string& names, const std::string& type, const std::string& help, const std::function<void(const std::string&)>& set) {
+void Tool::add(const std::string& names, const std::string& type, const std::string& help,
+               const std::function<void(const std::string&)>& set) {
   setters_[long_name(names)] = set;
   app_.add_option_function<std::string>(names, set, help)->type_name(type);
 }
 
-void Tool::add_flag(const std::string& names, const std::string& help, const std::function<void(bool)>& set) {
+void Tool::add_flag(const std::string& names, const std::string& help,
+                    const std::function<void(bool)>& set) {
   setters_[long_name(names)] = [set, names](const std::string& text) {
-    if (text != "true" && text != "false") fail("{}: '{}' is neither true nor false", names, shown(text));
+    if (text != "true" && text != "false")
+      fail("{}: '{}' is neither true nor false", names, shown(text));
     set(text == "true");
   };
-  app_.add_flag_function(names, [set](std::int64_t) { set(true); }, help)
+  app_.add_flag_function(
+          names, [set](std::int64_t) { set(true); }, help)
       ->multi_option_policy(CLI::MultiOptionPolicy::Throw)
       ->disable_flag_override();
 }
@@ -89,29 +103,38 @@ void Tool::flag(const std::string& names, bool& value, const std::string& help) 
   add_flag(names, help, [&value](bool on) { value = on; });
 }
 
-void Tool::number(const std::string& names, double& value, const Range& range, const std::string& help) {
-  add(names, "NUMBER", help, [&value, range, names](const std::string& text) { value = to_number(names, text, range); });
+void Tool::number(const std::string& names, double& value, const Range& range,
+                  const std::string& help) {
+  add(names, "NUMBER", help,
+      [&value, range, names](const std::string& text) { value = to_number(names, text, range); });
 }
 
-void Tool::count(const std::string& names, std::size_t& value, const Range& range, const std::string& help) {
-  add(names, "N", help, [&value, range, names](const std::string& text) { value = static_cast<std::size_t>(to_number(names, text, range)); });
-}
-
-void Tool::numbers(const std::string& names, std::vector<double>& values, const Range& range, const std::string& help) {
-  add(names, "NUMBER,...", help, [&values, range, names](const std::string& text) {
-    values.clear();
-    for (const std::string& part : split_names(text, ',')) values.push_back(to_number(names, part, range));
+void Tool::count(const std::string& names, std::size_t& value, const Range& range,
+                 const std::string& help) {
+  add(names, "N", help, [&value, range, names](const std::string& text) {
+    value = static_cast<std::size_t>(to_number(names, text, range));
   });
 }
 
-void Tool::text(const std::string& names, std::string& value, const std::string& type, const std::string& help) {
+void Tool::numbers(const std::string& names, std::vector<double>& values, const Range& range,
+                   const std::string& help) {
+  add(names, "NUMBER,...", help, [&values, range, names](const std::string& text) {
+    values.clear();
+    for (const std::string& part : split_names(text, ','))
+      values.push_back(to_number(names, part, range));
+  });
+}
+
+void Tool::text(const std::string& names, std::string& value, const std::string& type,
+                const std::string& help) {
   add(names, type, help, [&value, names](const std::string& text) {
     if (text.empty()) fail("{}: '' is no value", names);
     value = text;
   });
 }
 
-void Tool::list(const std::string& names, std::vector<std::string>& values, const std::string& type, const std::string& help) {
+void Tool::list(const std::string& names, std::vector<std::string>& values, const std::string& type,
+                const std::string& help) {
   app_.add_option(names, values, help)->allow_extra_args(false)->type_name(type);
 }
 
@@ -119,8 +142,10 @@ void Tool::body(Body& body, const std::string& which) {
   body = {not_given, not_given, not_given, 9.81};
   if (which.find('m') != std::string::npos) number("-m,--mass", body.m, positive, "mass m [kg]");
   if (which.find('R') != std::string::npos) number("-R,--radius", body.R, positive, "radius R [m]");
-  if (which.find('K') != std::string::npos) number("-K,--shape-factor", body.K, not_negative, "shape factor K of J = K m R^2");
-  if (which.find('g') != std::string::npos) number("-g,--gravity", body.g, positive, "gravity g [m/s^2] (9.81)");
+  if (which.find('K') != std::string::npos)
+    number("-K,--shape-factor", body.K, not_negative, "shape factor K of J = K m R^2");
+  if (which.find('g') != std::string::npos)
+    number("-g,--gravity", body.g, positive, "gravity g [m/s^2] (9.81)");
 }
 
 void Tool::law(PowerLaw& law) {
@@ -136,21 +161,28 @@ void Tool::geometry(Geometry& geometry) {
 }
 
 void Tool::scene() {
-  text("--scene", scene_file_, "FILE", "TOML file with the long names of a scene's options; the command line wins");
+  text("--scene", scene_file_, "FILE",
+       "TOML file with the long names of a scene's options; the command line wins");
 }
 
 void Tool::input() {
   app_.add_option("FILE", input_.files, "input files, read in order; - or none is standard input");
-  list("--use", input_.use, "NAME=COLUMN", "the column (a name or a number from 1) that serves as t, x, v, a or D");
-  add("--run", "N", "read this run only: the number in its header, else its place", [this](const std::string& text) {
+  list("--use", input_.use, "NAME=COLUMN",
+       "the column (a name or a number from 1) that serves as t, x, v, a or D");
+  add("--run", "N", "read this run only: the number in its header, else its place",
+      [this](const std::string& text) {
     input_.run = static_cast<int>(to_number("--run", text, whole));
   });
   flag("--strict", input_.strict, "a missing reading is an error");
 }
 
 void Tool::output() {
-  add("--digits", "N", "round computed numbers to this many significant digits", [this](const std::string& text) {
-    out.digits = static_cast<int>(to_number("--digits", text, {"a whole number from 1 to 17", [](double x) { return x >= 1 && x <= 17 && x == std::floor(x); }}));
+  add("--digits", "N", "round computed numbers to this many significant digits",
+      [this](const std::string& text) {
+    out.digits = static_cast<int>(
+        to_number("--digits", text, {"a whole number from 1 to 17", [](double x) {
+                                       return x >= 1 && x <= 17 && x == std::floor(x);
+                                     }}));
   });
   flag("-u,--unbuffered", out.unbuffered, "let each record go out at once");
 }
@@ -166,7 +198,8 @@ void Tool::read_scene() {
   for (const CLI::ConfigItem& item : items) {
     const std::string key = item.fullname();
     if (std::find(scene_keys.begin(), scene_keys.end(), key) == scene_keys.end())
-      fail("{}: '{}' is not a number of a scene (mass, radius, shape-factor, ...)", scene_file_, shown(key));
+      fail("{}: '{}' is not a number of a scene (mass, radius, shape-factor, ...)", scene_file_,
+           shown(key));
     if (item.inputs.size() != 1 || std::find(seen.begin(), seen.end(), key) != seen.end())
       fail("{}: {} needs one value", scene_file_, key);
     seen.push_back(key);
@@ -181,8 +214,11 @@ void Tool::read_scene() {
 }
 
 Reader& Tool::read(std::vector<std::string> order) {
-  const bool standard_input = input_.files.empty() || std::find(input_.files.begin(), input_.files.end(), "-") != input_.files.end();
-  if (standard_input && ::isatty(STDIN_FILENO)) say("reading columns from the terminal; end with Ctrl-D");
+  const bool standard_input =
+      input_.files.empty() ||
+      std::find(input_.files.begin(), input_.files.end(), "-") != input_.files.end();
+  if (standard_input && ::isatty(STDIN_FILENO))
+    say("reading columns from the terminal; end with Ctrl-D");
   return open(input_, std::move(order));
 }
 
@@ -191,7 +227,9 @@ Reader& Tool::read_file(const std::string& file, std::vector<std::string> order)
 }
 
 Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
-  options.on_block = [this](const std::string& name, double part) { progress.at(name == "-" ? "standard input" : name, part); };
+  options.on_block = [this](const std::string& name, double part) {
+    progress.at(name == "-" ? "standard input" : name, part);
+  };
   return *readers_.emplace_back(std::make_unique<Reader>(std::move(options), std::move(order)));
 }
 
@@ -225,7 +263,8 @@ std::string Tool::help() const {
     item(options, names, option->get_description());
   }
   const bool reads = operands.size() > 1;
-  return fmt::format("Usage: {} [OPTION...]{}\n", name_, reads ? " [FILE...]" : "") + app_.get_description() + '\n' + (reads ? operands : "") + options;
+  return fmt::format("Usage: {} [OPTION...]{}\n", name_, reads ? " [FILE...]" : "") +
+         app_.get_description() + '\n' + (reads ? operands : "") + options;
 }
 
 void Tool::need(double value, const std::string& option) const {
@@ -251,30 +290,38 @@ void Tool::say(const std::string& text) {
 }
 
 void Tool::count_left_out(std::size_t count, const std::string& why) {
-  if (count > 0 && !quiet_) say(fmt::format("{} record{} left out: {}", count, count == 1 ? "" : "s", why));
+  if (count > 0 && !quiet_)
+    say(fmt::format("{} record{} left out: {}", count, count == 1 ? "" : "s", why));
 }
 
 int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   if (argc > 0) name_ = argv[0];  // as it is installed: see PROGRAM_PREFIX in the Makefile
   name_.erase(0, name_.rfind('/') + 1);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is one that cannot be written: told by flush()
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a file that may not grow is one that cannot be written: told by flush()
   try {
     app_.parse(argc, argv);
     read_scene();
     if (!quiet_) progress.start(name_);
-    if (::isatty(STDOUT_FILENO)) out.before_write = [this] { progress.stop(); };  // rows are progress enough
+    if (::isatty(STDOUT_FILENO))
+      out.before_write = [this] { progress.stop(); };  // rows are progress enough
     const int status = work();
     out.flush();
     progress.stop();
     std::size_t left_out = 0;
     bool coarse_time = false;
-    for (const auto& reader : readers_) left_out += reader->left_out(), coarse_time |= reader->coarse_time();
-    if (coarse_time && !quiet_) say("the times are so large that the time between records keeps fewer than four digits; subtract the first");
+    for (const auto& reader : readers_)
+      left_out += reader->left_out(), coarse_time |= reader->coarse_time();
+    if (coarse_time && !quiet_)
+      say("the times are so large that the time between records keeps fewer than four digits; "
+          "subtract the first");
     count_left_out(left_out, "a reading is missing");
     return status;
   } catch (const CLI::CallForHelp&) {
     const std::string text = help();
-    if (text != help()) throw std::bad_alloc();  // CLI11 writes it into streams, which are silent when memory runs out
+    if (text != help())
+      throw std::bad_alloc();  // CLI11 writes it into streams, which are silent when memory runs
+                               // out
     return print(text);
   } catch (const CLI::CallForVersion& call) {
     return print(std::string(call.what()) + '\n');
@@ -287,7 +334,8 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   } catch (const Error& error) {
     out.drop_line();  // what came before the bad record may stand; the line in the making may not
     print("");
-    const bool located = dynamic_cast<const InputError*>(&error) || readers_.empty() || readers_.back()->where().empty();
+    const bool located = dynamic_cast<const InputError*>(&error) || readers_.empty() ||
+                         readers_.back()->where().empty();
     say(located ? error.what() : readers_.back()->where() + ": " + error.what());
   } catch (const std::bad_alloc&) {
     say("out of memory");

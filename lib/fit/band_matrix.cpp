@@ -20,7 +20,8 @@ void BandMatrix::append(std::size_t first, std::span<const double> values) {
   start_.push_back(values_.size());
 }
 
-void BandMatrix::append(std::size_t i, double x, const BandMatrix& X, double y, const BandMatrix& Y) {
+void BandMatrix::append(std::size_t i, double x, const BandMatrix& X, double y,
+                        const BandMatrix& Y) {
   const auto a = X.row(i), b = Y.row(i);
   const std::size_t from = std::min(X.first(i), Y.first(i));
   std::vector<double> sum(std::max(X.first(i) + a.size(), Y.first(i) + b.size()) - from, 0);
@@ -31,7 +32,8 @@ void BandMatrix::append(std::size_t i, double x, const BandMatrix& X, double y, 
 
 double BandMatrix::times(std::size_t i, std::span<const double> x) const {
   const auto r = row(i);
-  return std::inner_product(r.begin(), r.end(), x.begin() + static_cast<std::ptrdiff_t>(first_[i]), 0.0);
+  return std::inner_product(r.begin(), r.end(), x.begin() + static_cast<std::ptrdiff_t>(first_[i]),
+                            0.0);
 }
 
 BandMatrix BandMatrix::operator*(const BandMatrix& B) const {
@@ -48,7 +50,8 @@ BandMatrix BandMatrix::operator*(const BandMatrix& B) const {
     sum.assign(to > from ? to - from : 0, 0);
     for (std::size_t k = 0; k < r.size(); ++k) {
       const auto b = B.row(first_[i] + k);
-      for (std::size_t j = 0; j < b.size(); ++j) sum[B.first(first_[i] + k) - from + j] += r[k] * b[j];
+      for (std::size_t j = 0; j < b.size(); ++j)
+        sum[B.first(first_[i] + k) - from + j] += r[k] * b[j];
     }
     product.append(sum.empty() ? 0 : from, sum);
   }

@@ -10,13 +10,17 @@ namespace rolling {
 class BandMatrix {
  public:
   static BandMatrix identity(std::size_t n);
-  void append(std::size_t first, std::span<const double> values);  ///< zeros at either end are not kept
+  void append(std::size_t first,
+              std::span<const double> values);  ///< zeros at either end are not kept
   /// Appends x row i of X + y row i of Y.
   void append(std::size_t i, double x, const BandMatrix& X, double y, const BandMatrix& Y);
   std::size_t rows() const { return first_.size(); }
   std::size_t first(std::size_t i) const { return first_[i]; }
-  std::span<const double> row(std::size_t i) const { return {values_.data() + start_[i], start_[i + 1] - start_[i]}; }
-  double times(std::size_t i, std::span<const double> x) const;  ///< element i of the product with x
+  std::span<const double> row(std::size_t i) const {
+    return {values_.data() + start_[i], start_[i + 1] - start_[i]};
+  }
+  double times(std::size_t i,
+               std::span<const double> x) const;  ///< element i of the product with x
   /// This matrix times B.
   BandMatrix operator*(const BandMatrix& B) const;
   BandMatrix without(std::size_t before, std::size_t after) const;  ///< the first and the last rows

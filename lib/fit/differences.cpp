@@ -22,9 +22,10 @@ Making making_by(const Maker& maker, const std::vector<FitRun>& all) {
   return making;
 }
 
-/// The filter, and the white noise added to what it makes, under which the residuals of speeds are most likely (the fit is linear
-/// around theta); none if white noise alone is nearly as likely.
-Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows, const std::vector<LinearFilter>& filters, const Parameters& q,
+/// The filter, and the white noise added to what it makes, under which the residuals of speeds are
+/// most likely (the fit is linear around theta); none if white noise alone is nearly as likely.
+Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
+                  const std::vector<LinearFilter>& filters, const Parameters& q,
                   const std::vector<double>& theta) {
   Maker best;
   double most = 0;
@@ -36,7 +37,9 @@ Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
       std::vector<double> f, J;
     };
     std::vector<Linear> of(rolls.of.size());
-    system.evaluate(theta, [&](std::size_t r, std::span<double> f, std::span<double> J) { of[r] = {{f.begin(), f.end()}, {J.begin(), J.end()}}; });
+    system.evaluate(theta, [&](std::size_t r, std::span<double> f, std::span<double> J) {
+      of[r] = {{f.begin(), f.end()}, {J.begin(), J.end()}};
+    });
     KnownNoise& noise = rolls.noise;
     system.evaluate = [&](const std::vector<double>&, const TakeRows& take) {
       for (std::size_t r = 0; r < of.size(); ++r) {
@@ -53,7 +56,8 @@ Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
     double low = -12, high = 4;     // golden section
     const double white = likelihood(high) + decisive;
     constexpr double golden = 0.6180339887498949;
-    double left = high - golden * (high - low), right = low + golden * (high - low), at_left = likelihood(left), at_right = likelihood(right);
+    double left = high - golden * (high - low), right = low + golden * (high - low),
+           at_left = likelihood(left), at_right = likelihood(right);
     while (high - low > 0.1) {
       if (at_left > at_right) {
         high = std::exchange(right, left);
@@ -73,9 +77,11 @@ Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
   return best;
 }
 
-/// What programs do at the ends of a run and at a lost record differs; elsewhere they are known. Leaves out the records of which an
-/// end or a gap is within reach; false if a run is too short to tell.
-bool leave_out_irregular(const std::vector<FitRun>& all, std::vector<Rows>& rows, std::size_t reach) {
+/// What programs do at the ends of a run and at a lost record differs; elsewhere they are known.
+/// Leaves out the records of which an end or a gap is within reach; false if a run is too short to
+/// tell.
+bool leave_out_irregular(const std::vector<FitRun>& all, std::vector<Rows>& rows,
+                         std::size_t reach) {
   for (std::size_t r = 0; r < all.size(); ++r) {
     const auto& t = all[r].t;
     std::vector<double> spans;  // of the windows
@@ -84,33 +90,48 @@ bool leave_out_irregular(const std::vector<FitRun>& all, std::vector<Rows>& rows
     auto sorted = spans;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());
-    const double most = *middle * (1 + 0.25 / static_cast<double>(reach));  // half a record more than is usual
-    std::erase_if(rows[r], [&](std::size_t i) { return i < reach || i + reach >= t.size() || spans[i - reach] > most; });
+    const double most =
+        *middle * (1 + 0.25 / static_cast<double>(reach));  // half a record more than is usual
+    std::erase_if(rows[r], [&](std::size_t i) {
+      return i < reach || i + reach >= t.size() || spans[i - reach] > most;
+    });
   }
   return true;
 }
 
-/// How many records at the beginning of a run are asked what made its speeds: the factor e^3 of likelihood shows in a hundred.
+/// How many records at the beginning of a run are asked what made its speeds: the factor e^3 of
+/// likelihood shows in a hundred.
 constexpr std::size_t telling = 2000;
 
 }  // namespace
 
-std::optional<RouteFit> fit_differences(const std::vector<FitRun>& all, const std::vector<Rows>& rows, Parameters& q, const std::vector<double>& theta) {
+std::optional<RouteFit> fit_differences(const std::vector<FitRun>& all,
+                                        const std::vector<Rows>& rows, Parameters& q,
+                                        const std::vector<double>& theta) {
   std::size_t reach = 0;
   for (const auto& filter : q.options.possible_filters) reach = std::max(reach, filter.reach);
   std::vector<FitRun> heads;
   std::vector<Rows> head_rows;
   for (std::size_t r = 0; r < all.size(); ++r) {
     const std::size_t n = std::min(all[r].t.size(), telling);
-    const auto head = [n](const std::vector<double>& x) { return std::vector(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n)); };
-    heads.push_back({.t = head(all[r].t), .x = {}, .v = head(all[r].v), .D = {}, .body = all[r].body, .filters = {}});
+    const auto head = [n](const std::vector<double>& x) {
+      return std::vector(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n));
+    };
+    heads.push_back({.t = head(all[r].t),
+                     .x = {},
+                     .v = head(all[r].v),
+                     .D = {},
+                     .body = all[r].body,
+                     .filters = {}});
     head_rows.emplace_back(rows[r].begin(), std::lower_bound(rows[r].begin(), rows[r].end(), n));
   }
   try {
     if (!leave_out_irregular(heads, head_rows, reach)) return {};
     const Maker maker = most_likely(heads, head_rows, q.options.possible_filters, q, theta);
     std::vector<Rows> regular;
-    if (!maker.filter || maker.filter->from == "v" || !leave_out_irregular(all, regular = rows, reach)) return {};
+    if (!maker.filter || maker.filter->from == "v" ||
+        !leave_out_irregular(all, regular = rows, reach))
+      return {};
     RouteFit fitted = fit_rolls(all, regular, q, making_by(maker, all), theta);
     fitted.judged = true;
     if (assess(system_of(fitted.rolls, q, fitted.noise), fitted)) return fitted;

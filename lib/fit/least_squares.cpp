@@ -11,39 +11,48 @@
 
 namespace rolling {
 
-std::size_t System::residuals() const { return std::accumulate(runs.begin(), runs.end(), std::size_t{0}); }
+std::size_t System::residuals() const {
+  return std::accumulate(runs.begin(), runs.end(), std::size_t{0});
+}
 
 namespace {
 
 constexpr double undetermined = 1e-10;  // sine between a column of J and those before it
 constexpr double round_off = 1e-15;     // a smaller step, relatively, and
-constexpr double unseen = 1e-10;        // one that moves the residuals by no more than this share of them, are taken without another evaluation
+constexpr double unseen = 1e-10;  // one that moves the residuals by no more than this share of
+                                  // them, are taken without another evaluation
 
-/// Folds m rows of [J f], column by column, into the triangle R of J's q columns and one for f, row by row, by Householder
-/// reflections: R becomes that of [R; J f]. Columns that are 0 cost nothing.
+/// Folds m rows of [J f], column by column, into the triangle R of J's q columns and one for f, row
+/// by row, by Householder reflections: R becomes that of [R; J f]. Columns that are 0 cost nothing.
 void fold(double* R, std::size_t q, double* J, double* f, std::size_t m) {
   for (std::size_t j = 0; j < q; ++j) {
     const double* const x = J + j * m;
     const double below = dot(x, x, m);
     if (below == 0) continue;
     double* const row = R + j * (q + 1);
-    const double length = -std::copysign(std::sqrt(row[j] * row[j] + below), row[j]), head = row[j] - length;
+    const double length = -std::copysign(std::sqrt(row[j] * row[j] + below), row[j]),
+                 head = row[j] - length;
     row[j] = length;
     for (std::size_t k = j + 1; k <= q; ++k) {
       double* const y = k < q ? J + k * m : f;
       const double w = (head * row[k] + dot(x, y, m)) / (length * head);
       row[k] += w * head;
-      if (w != 0) for (std::size_t i = 0; i < m; ++i) y[i] += w * x[i];
+      if (w != 0)
+        for (std::size_t i = 0; i < m; ++i) y[i] += w * x[i];
     }
   }
 }
 
-/// The triangles of [J f] = Q R, one for the columns of each run: what is left of them beside the own parameters is folded together
-/// (block elimination), so that the work grows with the runs as their records do.
+/// The triangles of [J f] = Q R, one for the columns of each run: what is left of them beside the
+/// own parameters is folded together (block elimination), so that the work grows with the runs as
+/// their records do.
 class Triangles {
  public:
-  explicit Triangles(const System& system) : system_(&system), R_(system.runs.size() * triangle()) {}
-  void add(std::size_t run, std::span<double> f, std::span<double> J) { fold(of(run), q(), J.data(), f.data(), f.size()); }
+  explicit Triangles(const System& system)
+      : system_(&system), R_(system.runs.size() * triangle()) {}
+  void add(std::size_t run, std::span<double> f, std::span<double> J) {
+    fold(of(run), q(), J.data(), f.data(), f.size());
+  }
 
   /// After the last row: the shared part, from this one of other rows, in all of the triangles.
   void join(std::vector<double> common) {
@@ -58,7 +67,8 @@ class Triangles {
       fold(common.data(), shared, J.data(), f.data(), shared);
     }
     for (std::size_t r = 0; r < system_->runs.size(); ++r)
-      for (std::size_t i = 0; i < shared; ++i) std::copy_n(&common[i * (shared + 1)], shared + 1, of(r) + (own + i) * (q() + 1) + own);
+      for (std::size_t i = 0; i < shared; ++i)
+        std::copy_n(&common[i * (shared + 1)], shared + 1, of(r) + (own + i) * (q() + 1) + own);
   }
   void join() { join(std::vector<double>(system_->shared * (system_->shared + 1))); }
 
@@ -67,10 +77,14 @@ class Triangles {
     const std::size_t own = system_->own, shared = system_->shared;
     Triangles all = *this;
     std::vector<double> common;
-    for (std::size_t i = 0; i < shared; ++i) common.insert(common.end(), of(0) + (own + i) * (q() + 1) + own, of(0) + (own + i + 1) * (q() + 1));
-    const auto diagonal = [&](std::size_t run, std::size_t first, std::size_t count, std::size_t columns, double* R) {
+    for (std::size_t i = 0; i < shared; ++i)
+      common.insert(common.end(), of(0) + (own + i) * (q() + 1) + own,
+                    of(0) + (own + i + 1) * (q() + 1));
+    const auto diagonal =
+        [&](std::size_t run, std::size_t first, std::size_t count, std::size_t columns, double* R) {
       std::vector<double> J(count * columns), f(count);
-      for (std::size_t i = 0; i < count; ++i) J[i * count + i] = std::sqrt(mu) * D[system_->place(run, first + i)];
+      for (std::size_t i = 0; i < count; ++i)
+        J[i * count + i] = std::sqrt(mu) * D[system_->place(run, first + i)];
       fold(R, columns, J.data(), f.data(), count);
     };
     diagonal(0, own, shared, shared, common.data());
@@ -111,7 +125,8 @@ class Triangles {
   std::vector<double> lengths() const {
     std::vector<double> all(system_->parameters());
     rows([&](std::size_t r, std::size_t j, const double* row) {
-      for (std::size_t k = j; k < q(); ++k) all[system_->place(r, k)] = std::hypot(all[system_->place(r, k)], row[k]);
+      for (std::size_t k = j; k < q(); ++k)
+        all[system_->place(r, k)] = std::hypot(all[system_->place(r, k)], row[k]);
     });
     return all;
   }
@@ -139,8 +154,8 @@ class Triangles {
 
 double square(const std::vector<double>& f) { return dot(f.data(), f.data(), f.size()); }
 
-/// What an evaluation leaves, and the Gauss-Newton step from there: from the QR of J, not from the normal equations, whose condition is
-/// the square of J's.
+/// What an evaluation leaves, and the Gauss-Newton step from there: from the QR of J, not from the
+/// normal equations, whose condition is the square of J's.
 struct Point {
   explicit Point(const System& system) : R(system) { reserve_large(f, system.residuals()); }
 
@@ -148,9 +163,9 @@ struct Point {
   Triangles R;
   double rss = 0;
   std::vector<double> step, lengths;  // of the columns of J
-  double size = 0;       // largest relative change of a parameter
-  double reduction = 0;  // of the sum of squares, that the step promises
-  double angle = 1;      // smallest sine between a column of J and the columns before it
+  double size = 0;                    // largest relative change of a parameter
+  double reduction = 0;               // of the sum of squares, that the step promises
+  double angle = 1;  // smallest sine between a column of J and the columns before it
 };
 
 /// Whether theta is allowed.
@@ -178,7 +193,8 @@ bool evaluate_at(const System& system, Point& at, std::vector<double> theta) {
     at.angle = std::min(at.angle, length > 0 ? std::abs(row[j]) / length : 0);
   });
   at.size = 0;
-  for (std::size_t j = 0; j < at.theta.size(); ++j) at.size = std::max(at.size, std::abs(at.step[j]) / std::max(1.0, std::abs(at.theta[j])));
+  for (std::size_t j = 0; j < at.theta.size(); ++j)
+    at.size = std::max(at.size, std::abs(at.step[j]) / std::max(1.0, std::abs(at.theta[j])));
   return std::isfinite(at.rss) && std::isfinite(square(at.lengths));
 }
 
@@ -187,13 +203,15 @@ std::vector<double> moved(std::vector<double> theta, const std::vector<double>& 
   return theta;
 }
 
-/// Levenberg-Marquardt, scaled after More (1978, Lecture Notes in Mathematics 630, 105) and damped after Nielsen (1999, IMM-REP-1999-05), to
-/// where it makes no further progress; whether that is a minimum is not its question.
+/// Levenberg-Marquardt, scaled after More (1978, Lecture Notes in Mathematics 630, 105) and damped
+/// after Nielsen (1999, IMM-REP-1999-05), to where it makes no further progress; whether that is a
+/// minimum is not its question.
 std::vector<double> descend(const System& system, Point at) {
   Point next(system);
   double mu = 1e-3, growth = 2;
   std::vector<double> D = at.lengths;
-  for (double& d : D) if (d == 0) d = 1;
+  for (double& d : D)
+    if (d == 0) d = 1;
   for (int accepted = 0, refused = 0; accepted < 300 && refused <= 15;) {
     const Triangles damped = at.R.damped(D, mu);
     const auto step = damped.solve();
@@ -222,16 +240,21 @@ std::vector<double> descend(const System& system, Point at) {
   return at.theta;
 }
 
-/// Gauss-Newton steps, down to round-off, as long as each takes off the sum of squares at least this share of what it promises.
+/// Gauss-Newton steps, down to round-off, as long as each takes off the sum of squares at least
+/// this share of what it promises.
 Point polish(const System& system, std::vector<double> theta, double share) {
   Point best(system), next(system);
-  if (!evaluate_at(system, best, std::move(theta))) fail("the fit cannot start: the law has no finite values at the starting point");
+  if (!evaluate_at(system, best, std::move(theta)))
+    fail("the fit cannot start: the law has no finite values at the starting point");
   for (int i = 0; i < 100 && best.angle > undetermined; ++i) {
-    if (best.size < round_off || (best.size < unseen / 100 && best.reduction < unseen * unseen * best.rss)) {
+    if (best.size < round_off ||
+        (best.size < unseen / 100 && best.reduction < unseen * unseen * best.rss)) {
       best.theta = moved(best.theta, best.step);
       break;
     }
-    if (!evaluate_at(system, next, moved(best.theta, best.step)) || !(next.rss <= best.rss * (1 + 1e-10) - share * best.reduction)) break;
+    if (!evaluate_at(system, next, moved(best.theta, best.step)) ||
+        !(next.rss <= best.rss * (1 + 1e-10) - share * best.reduction))
+      break;
     if (best.size < 1e-9 && !(next.size < best.size)) break;  // round-off
     std::swap(best, next);
   }
@@ -241,20 +264,26 @@ Point polish(const System& system, std::vector<double> theta, double share) {
 }  // namespace
 
 Minimum minimise(const System& system, const std::vector<double>& start) {
-  // Where the residuals are linear, or all but so between the start and the minimum, Gauss-Newton steps do all.
+  // Where the residuals are linear, or all but so between the start and the minimum, Gauss-Newton
+  // steps do all.
   Point best = polish(system, start, 0.9);
-  // Bates & Watts (1981), Technometrics 23, 179: converged when the residuals' part in the tangent plane is small
-  // against the part orthogonal to it. An exact fit has nothing orthogonal; there the step itself must vanish.
+  // Bates & Watts (1981), Technometrics 23, 179: converged when the residuals' part in the tangent
+  // plane is small against the part orthogonal to it. An exact fit has nothing orthogonal; there
+  // the step itself must vanish.
   const std::size_t n = system.residuals(), p = system.parameters();
   const double freedom = n > p ? static_cast<double>(n - p) : 0;
-  const auto offset = [&] { return std::sqrt(best.reduction / static_cast<double>(p) * freedom / std::max(best.rss - best.reduction, 0.0)); };
+  const auto offset = [&] {
+    return std::sqrt(best.reduction / static_cast<double>(p) * freedom /
+                     std::max(best.rss - best.reduction, 0.0));
+  };
   const auto determined = [&] { return best.angle > undetermined; };
   const auto converged = [&] { return determined() && (best.size < 1e-7 || offset() < 1e-3); };
   for (int round = 0; !converged() && (round == 0 || determined()); ++round) {
     const double before = best.rss;
     best = polish(system, descend(system, best), 0);
-    // The minimum of a trajectory fit may lie on a kink, where the stop meets a record: hardly a step goes down, but the slope of
-    // either side remains. It is worth a fraction of a standard deviation, never more.
+    // The minimum of a trajectory fit may lie on a kink, where the stop meets a record: hardly a
+    // step goes down, but the slope of either side remains. It is worth a fraction of a standard
+    // deviation, never more.
     if (best.rss > before * (1 - std::max(1e-8, 1e-3 / freedom)) && offset() < 1) break;
     if (round == 20) fail("the fit does not converge");
   }
@@ -286,7 +315,8 @@ Influence bisquare(double u) {
   return rest > 0 ? Influence{rest * rest, rest * (5 * rest - 4)} : Influence{0, 0};
 }
 
-/// The median absolute residual over that of a standard normal; the p smallest, which the fit has made small, are not counted.
+/// The median absolute residual over that of a standard normal; the p smallest, which the fit has
+/// made small, are not counted.
 double median_scale(std::vector<double> f, std::size_t p) {
   for (double& x : f) x = std::abs(x);
   const std::size_t first = std::min(p, f.size() - 1);
@@ -300,7 +330,8 @@ double median_scale(std::vector<double> f, std::size_t p) {
 Minimum minimise_robust(const System& system, const std::vector<double>& start) {
   Point at(system);
   const auto evaluate = [&](const std::vector<double>& theta) {
-    if (!evaluate_at(system, at, theta)) fail("the fit cannot start: the law has no finite values at the starting point");
+    if (!evaluate_at(system, at, theta))
+      fail("the fit cannot start: the law has no finite values at the starting point");
   };
   evaluate(start);
   const std::size_t p = system.parameters();
@@ -313,7 +344,8 @@ Minimum minimise_robust(const System& system, const std::vector<double>& start) 
       if (!(scale > 0)) return minimise(system, at.theta);
       std::vector<double> roots;
       for (double r : at.f) roots.push_back(std::sqrt(influence(r / scale).weight));
-      const System weighted{system.runs, system.own, system.shared, [&](const std::vector<double>& theta, const TakeRows& take) {
+      const System weighted{system.runs, system.own, system.shared,
+                            [&](const std::vector<double>& theta, const TakeRows& take) {
         auto root = roots.begin();
         system.evaluate(theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
           for (std::size_t i = 0; i < f.size(); ++i, ++root) {
@@ -322,10 +354,12 @@ Minimum minimise_robust(const System& system, const std::vector<double>& start) 
           }
           take(run, f, J);
         });
-      }};
+                            }};
       const auto next = minimise(weighted, at.theta).theta;
       change = 0;
-      for (std::size_t j = 0; j < p; ++j) change = std::max(change, std::abs(next[j] - at.theta[j]) / std::max(1.0, std::abs(next[j])));
+      for (std::size_t j = 0; j < p; ++j)
+        change =
+            std::max(change, std::abs(next[j] - at.theta[j]) / std::max(1.0, std::abs(next[j])));
       evaluate(next);
       if (influence == huber && change < 1e-3) break;  // only a place to start from
     }
@@ -338,7 +372,8 @@ Minimum minimise_robust(const System& system, const std::vector<double>& start) 
     squares += slope * slope / n;
   }
   if (!(mean > 0)) fail("too many outliers: no robust fit");
-  const double correction = 1 + static_cast<double>(p) / n * (squares - mean * mean) / (mean * mean);
+  const double correction =
+      1 + static_cast<double>(p) / n * (squares - mean * mean) / (mean * mean);
   for (double& r : at.f) r *= bisquare(r / scale).weight * correction / mean;
   const double rss = square(at.f);
   return {std::move(at.theta), std::move(at.f), at.R.without_f(), rss};
@@ -347,13 +382,16 @@ Minimum minimise_robust(const System& system, const std::vector<double>& start) 
 double restricted_likelihood(const System& system, const std::vector<double>& theta) {
   Point at(system);
   evaluate_at(system, at, theta);
-  const double freedom = static_cast<double>(system.residuals()) - static_cast<double>(system.parameters());
+  const double freedom =
+      static_cast<double>(system.residuals()) - static_cast<double>(system.parameters());
   return -0.5 * freedom * std::log(at.rss - at.reduction) - at.R.log_determinant();
 }
 
 std::vector<double> residuals_at(const System& system, const std::vector<double>& theta) {
   std::vector<double> all;
-  system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double>) { all.insert(all.end(), f.begin(), f.end()); });
+  system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double>) {
+    all.insert(all.end(), f.begin(), f.end());
+  });
   return all;
 }
 
@@ -392,7 +430,8 @@ std::vector<double> Spread::solve_transposed(std::vector<double> g, std::size_t 
   return g;
 }
 
-double Spread::operator()(const std::vector<double>& g, const std::vector<double>& h, std::size_t run) const {
+double Spread::operator()(const std::vector<double>& g, const std::vector<double>& h,
+                          std::size_t run) const {
   const auto left = solve_transposed(g, run), right = solve_transposed(h, run);
   double sum = 0;
   for (std::size_t i = 0; i < q_; ++i)

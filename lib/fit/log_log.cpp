@@ -1,9 +1,10 @@
-// The straight line of ln D on ln v: linear, but a different estimator from least squares on D (each record is weighted by D^2).
+// The straight line of ln D on ln v: linear, but a different estimator from least squares on D
+// (each record is weighted by D^2).
 #include "base/error.h"
 #include "base/large_pages.h"
 #include "fit/dot.h"
 #include "fit/routes.h"
-#include "rolling/power_law.h"
+#include "contact/power_law.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,8 @@ namespace rolling {
 
 namespace {
 
-/// Mean and standard deviation of ln(1 + e) for normal e of standard deviation s, of those with 1 + e > 0, which have a logarithm.
+/// Mean and standard deviation of ln(1 + e) for normal e of standard deviation s, of those with 1 +
+/// e > 0, which have a logarithm.
 struct Logarithm {
   double mean, sd;
 };
@@ -31,8 +33,10 @@ Logarithm of_noise(double s) {
   return {sum / weight, std::sqrt(squares / weight - sum / weight * (sum / weight))};
 }
 
-/// The line in closed form, which log_u of mean 0 keeps simple. The second round takes away what rounding left in the first; the third is for f.
-Minimum straight_line(const ShiftRecords& records, const std::vector<double>& log_D, const FitOptions& options) {
+/// The line in closed form, which log_u of mean 0 keeps simple. The second round takes away what
+/// rounding left in the first; the third is for f.
+Minimum straight_line(const ShiftRecords& records, const std::vector<double>& log_D,
+                      const FitOptions& options) {
   const auto& log_u = records.log_u;
   const std::size_t n = log_u.size();
   const double at = options.a ? records.log_v_ref : 0;  // where the line is held, or else its mean
@@ -68,11 +72,13 @@ Minimum straight_line(const ShiftRecords& records, const std::vector<double>& lo
 
 RouteFit fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) {
   ShiftRecords records(all, options, true);
-  if (records.D.empty() && records.left_out) fail("no record has v > 0 and D > 0: there is no logarithm to fit");
+  if (records.D.empty() && records.left_out)
+    fail("no record has v > 0 and D > 0: there is no logarithm to fit");
   KnownNoise noise;
   std::vector<double> expected;  // of the logarithm of the noise
   PowerLaw start{1, 0};
-  if (records.filters_known()) {  // the noise of ln D is that of D over D: its size, and D itself, are what least squares on D finds
+  if (records.filters_known()) {  // the noise of ln D is that of D over D: its size, and D itself,
+                                  // are what least squares on D finds
     const RouteFit law = fit_shift(all, options);
     start = {law.a.value, law.b.value};
     const double sigma = std::sqrt(law.noise.variance(law.minimum.f, law.Q, law.shared));
@@ -82,11 +88,13 @@ RouteFit fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) 
       for (double d : around.D) scale.push_back(d > 0 ? 1 / d : 1e100);
       return records.noise(law.b.value, around, scale, excess);
     };
-    // A D that is not well above its noise has no logarithm worth the name, and leaving out D <= 0 would favour the large ones.
+    // A D that is not well above its noise has no logarithm worth the name, and leaving out D <= 0
+    // would favour the large ones.
     std::vector<bool> drowned;
     for (double size : noise_of({}).sizes()) drowned.push_back(sigma * size > 0.4);
     records.leave_out(drowned);
-    if (records.D.empty()) fail("no record has a D of 2.5 times its noise: there is no logarithm to fit");
+    if (records.D.empty())
+      fail("no record has a D of 2.5 times its noise: there is no logarithm to fit");
     std::vector<double> excess;  // what the curved logarithm adds to the noise
     for (double size : noise_of({}).sizes()) {
       const double s = sigma * size;
@@ -99,19 +107,30 @@ RouteFit fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) 
   const auto& log_u = records.log_u;
   const std::size_t n = log_u.size(), p = !options.a + !options.b;
   require_records(n, p);
-  if (!options.b && std::all_of(log_u.begin(), log_u.end(), [&](double x) { return x == log_u[0]; })) fail("all speeds are equal: b cannot be determined");
+  if (!options.b &&
+      std::all_of(log_u.begin(), log_u.end(), [&](double x) { return x == log_u[0]; }))
+    fail("all speeds are equal: b cannot be determined");
 
-  // Parameters: ln D at the mean of ln v (so the sums are centred and the columns orthogonal), and b.
+  // Parameters: ln D at the mean of ln v (so the sums are centred and the columns orthogonal), and
+  // b.
   const double L = records.log_v_ref;
   std::vector<double>& log_D = records.D;
   for (double& x : log_D) x = std::log(x);
-  const auto exponent = [&](const std::vector<double>& theta) { return options.b ? *options.b : theta[p - 1]; };
-  const auto height = [&](const std::vector<double>& theta) { return options.a ? std::log(*options.a) + exponent(theta) * L : theta[0]; };
+  const auto exponent = [&](const std::vector<double>& theta) {
+    return options.b ? *options.b : theta[p - 1];
+  };
+  const auto height = [&](const std::vector<double>& theta) {
+    return options.a ? std::log(*options.a) + exponent(theta) * L : theta[0];
+  };
   // The line below: gcov counts there nothing but what clears up after an exception.
-  const System system{records.runs, 0, p, [&](const std::vector<double>& theta, const TakeRows& take) {  // GCOVR_EXCL_LINE
+  const System system{
+      records.runs, 0, p,
+      [&](const std::vector<double>& theta, const TakeRows& take) {  // GCOVR_EXCL_LINE
     const double b = exponent(theta), h = height(theta), a = std::exp(h - b * L);
     const auto s = expected.empty() ? ShiftRecords::Smoothed{} : records.smoothed(a, b);
-    hand_over_rows(records.runs, p, !noise.empty(), noise, take, [&](std::size_t, std::size_t first, std::vector<double>& f, std::vector<double>& J) {
+    hand_over_rows(
+        records.runs, p, !noise.empty(), noise, take,
+        [&](std::size_t, std::size_t first, std::vector<double>& f, std::vector<double>& J) {
       for (std::size_t k = 0; k < f.size(); ++k) {
         const std::size_t i = first + k;
         f[k] = h + b * log_u[i] - log_D[i];
@@ -120,18 +139,22 @@ RouteFit fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) 
         if (s.D.empty() || !(s.D[i] > 0)) continue;
         // what smoothing does to the law, and the logarithm to the noise
         f[k] += std::log(s.D[i] / s.law[i]) + expected[i];
-        const double by_a = s.D_a[i] / s.D[i] - s.law_a[i] / s.law[i], by_b = s.D_b[i] / s.D[i] - s.law_b[i] / s.law[i];
+        const double by_a = s.D_a[i] / s.D[i] - s.law_a[i] / s.law[i],
+                     by_b = s.D_b[i] / s.D[i] - s.law_b[i] / s.law[i];
         if (!options.a) J[k] += by_a * a;
         if (!options.b) J[J.size() - f.size() + k] += by_b - (options.a ? 0 : by_a * a * L);
       }
-    });
-  }};
+        });
+      }};
   std::vector<double> theta;
   if (!options.a) theta.push_back(std::log(start.a) + start.b * L);
   if (!options.b) theta.push_back(start.b);
-  Minimum minimum = records.filters_known() || options.robust ? solve(system, theta, options, records.filters_known()) : straight_line(records, log_D, options);
+  Minimum minimum = records.filters_known() || options.robust
+                        ? solve(system, theta, options, records.filters_known())
+                        : straight_line(records, log_D, options);
   const double b = exponent(minimum.theta), a = std::exp(height(minimum.theta) - b * L);
-  return std::move(records).hand_over(system, std::move(minimum), noise, options.a.value_or(a), a, b);
+  return std::move(records).hand_over(system, std::move(minimum), noise, options.a.value_or(a), a,
+                                      b);
 }
 
 }  // namespace rolling

@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "base/large_pages.h"
 #include "fit/routes.h"
-#include "rolling/trajectory.h"
+#include "motion/trajectory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,17 +12,23 @@
 
 namespace rolling {
 
-ShiftRecords::ShiftRecords(const std::vector<FitRun>& all, const FitOptions& options, bool positive_D) : all_(all), options_(options) {
+ShiftRecords::ShiftRecords(const std::vector<FitRun>& all, const FitOptions& options,
+                           bool positive_D)
+    : all_(all), options_(options) {
   std::size_t most = 0;
-  for (const auto& run : all) response_.push_back(noise_response(run.filters, run.t)), most += run.v.size();
-  if (!std::all_of(response_.begin(), response_.end(), [](const NoiseResponse& r) { return r.of.contains("D"); })) response_.clear();
+  for (const auto& run : all)
+    response_.push_back(noise_response(run.filters, run.t)), most += run.v.size();
+  if (!std::all_of(response_.begin(), response_.end(),
+                   [](const NoiseResponse& r) { return r.of.contains("D"); }))
+    response_.clear();
   reserve_large(log_u, most);
   reserve_large(D, most);
   for (const auto& run : all) {
     const std::size_t before = D.size();
     Rows rows;
     for (std::size_t i = 0; i < run.v.size(); ++i) {
-      const bool usable = std::isfinite(run.v[i]) && std::isfinite(run.D[i]) && run.v[i] > 0 && run.v[i] >= options.min_speed && !(positive_D && run.D[i] <= 0);
+      const bool usable = std::isfinite(run.v[i]) && std::isfinite(run.D[i]) && run.v[i] > 0 &&
+                          run.v[i] >= options.min_speed && !(positive_D && run.D[i] <= 0);
       if (!usable) {
         ++left_out;
         continue;
@@ -38,7 +44,8 @@ ShiftRecords::ShiftRecords(const std::vector<FitRun>& all, const FitOptions& opt
 }
 
 void ShiftRecords::refer() {
-  log_v_ref = std::accumulate(log_u.begin(), log_u.end(), 0.0) / static_cast<double>(std::max<std::size_t>(log_u.size(), 1));
+  log_v_ref = std::accumulate(log_u.begin(), log_u.end(), 0.0) /
+              static_cast<double>(std::max<std::size_t>(log_u.size(), 1));
   for (double& x : log_u) x -= log_v_ref;
 }
 
@@ -48,7 +55,8 @@ void ShiftRecords::leave_out(const std::vector<bool>& lost) {
   std::size_t at = 0;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     std::erase_if(rows_[r], [&](std::size_t) {
-      if (!lost[at]) v_.push_back(old_v[at]), D.push_back(old_D[at]), log_u.push_back(std::log(old_v[at]));
+      if (!lost[at])
+        v_.push_back(old_v[at]), D.push_back(old_D[at]), log_u.push_back(std::log(old_v[at]));
       return lost[at++];
     });
     runs[r] = rows_[r].size();
@@ -57,13 +65,21 @@ void ShiftRecords::leave_out(const std::vector<bool>& lost) {
   refer();
 }
 
-RouteFit ShiftRecords::hand_over(const System& system, Minimum minimum, KnownNoise& noise, double a, double a_slope, double b) && {
+RouteFit ShiftRecords::hand_over(const System& system, Minimum minimum, KnownNoise& noise, double a,
+                                 double a_slope, double b) && {
   const std::size_t p = system.shared;
   std::vector<double> by_a(p, 0), by_b(p, 0);
   if (!options_.a) by_a[0] = a_slope;
   if (!options_.a && !options_.b) by_a[1] = -a * log_v_ref;
   if (!options_.b) by_b[p - 1] = 1;
-  RouteFit result{.minimum = std::move(minimum), .runs = runs, .noise = noise, .left_out = left_out, .a = {a, by_a}, .b = {b, by_b}, .v0 = {}, .x0 = {}};
+  RouteFit result{.minimum = std::move(minimum),
+                  .runs = runs,
+                  .noise = noise,
+                  .left_out = left_out,
+                  .a = {a, by_a},
+                  .b = {b, by_b},
+                  .v0 = {},
+                  .x0 = {}};
   assess(system, result);
   noise = {};
   if (!result.noise.empty()) result.plain = residuals_at(system, result.minimum.theta);
@@ -72,11 +88,13 @@ RouteFit ShiftRecords::hand_over(const System& system, Minimum minimum, KnownNoi
   return result;
 }
 
-// Full weight by the covariance would rest on directions that look all but free of noise (the zeros of a moving mean, the
-// frequency zero of a difference), where the residuals are not noise but what smoothing did to the law.
+// Full weight by the covariance would rest on directions that look all but free of noise (the zeros
+// of a moving mean, the frequency zero of a difference), where the residuals are not noise but what
+// smoothing did to the law.
 constexpr double floor_share = 1;
 
-KnownNoise ShiftRecords::noise(double b, const Smoothed& smooth, const std::vector<double>& scale, std::vector<double> own) const {
+KnownNoise ShiftRecords::noise(double b, const Smoothed& smooth, const std::vector<double>& scale,
+                               std::vector<double> own) const {
   KnownNoise result;
   std::size_t at = 0;
   for (std::size_t r = 0; r < response_.size(); ++r) {
@@ -97,22 +115,24 @@ KnownNoise ShiftRecords::noise(double b, const Smoothed& smooth, const std::vect
 
 namespace {
 
-/// The roll under the law that has the mean of the filtered speeds: its raw column, as the filters know it, and how that hangs on
-/// a and b when v0 follows.
+/// The roll under the law that has the mean of the filtered speeds: its raw column, as the filters
+/// know it, and how that hangs on a and b when v0 follows.
 struct ClosestRoll {
   std::vector<double> raw, by_a, by_b;
 };
-ClosestRoll closest_roll(const NoiseResponse& response, const FitRun& run, const Rows& rows, PowerLaw law) {
+ClosestRoll closest_roll(const NoiseResponse& response, const FitRun& run, const Rows& rows,
+                         PowerLaw law) {
   const bool position = response.source == "x";
   const std::size_t n = response.t.size();
   std::vector<double> t, slowing, by_v0(n);
   for (double x : response.t) t.push_back(x - response.t[0]);
   for (double x : t) slowing.push_back(position ? -x * x / 2 : -x);
-  // D of unit deceleration is (1 + K) R / g: the filters tell which body this is. At a lost record a window is lopsided and
-  // tells another; half of the records do not see one.
+  // D of unit deceleration is (1 + K) R / g: the filters tell which body this is. At a lost record
+  // a window is lopsided and tells another; half of the records do not see one.
   std::vector<double> arms;
   for (std::size_t k : rows) arms.push_back(response.of.at("D").times(k, slowing));
-  std::nth_element(arms.begin(), arms.begin() + static_cast<std::ptrdiff_t>(arms.size() / 2), arms.end());
+  std::nth_element(arms.begin(), arms.begin() + static_cast<std::ptrdiff_t>(arms.size() / 2),
+                   arms.end());
   const double c = 1 / arms[arms.size() / 2];
   const Body body{.m = 1, .R = 1, .K = 0, .g = c};
   const BandMatrix& of_v = response.of.at("v");
@@ -154,20 +174,25 @@ ShiftRecords::Smoothed ShiftRecords::smoothed(double a, double b) const {
         roll = closest_roll(response_[r], all_[r], rows_[r], {a, b});
       } catch (const Error&) {  // no such roll: the law is fitted as it stands
       }
-    // Within a record of the stop v^b is steeper than differences can tell: below that speed the law counts as if at it, with a
-    // smooth passage, u^4 = rolled^4 + slowest^4.
-    const double slowest = rows_[r].empty() ? 0 : *std::max_element(all_[r].v.begin(), all_[r].v.end()) / static_cast<double>(all_[r].v.size());
+    // Within a record of the stop v^b is steeper than differences can tell: below that speed the
+    // law counts as if at it, with a smooth passage, u^4 = rolled^4 + slowest^4.
+    const double slowest = rows_[r].empty()
+                               ? 0
+                               : *std::max_element(all_[r].v.begin(), all_[r].v.end()) /
+                                     static_cast<double>(all_[r].v.size());
     for (std::size_t i : rows_[r]) {
       if (roll.raw.empty()) {
         const double u = v_[result.v.size()];
         result.v.push_back(u);
         result.law.push_back(a * std::pow(u, b));
         result.D.push_back(result.law.back());
-        for (auto* slopes : {&result.law_a, &result.law_b, &result.D_a, &result.D_b}) slopes->push_back(0);
+        for (auto* slopes : {&result.law_a, &result.law_b, &result.D_a, &result.D_b})
+          slopes->push_back(0);
         continue;
       }
       const BandMatrix &of_v = of.at("v"), &of_D = of.at("D");
-      const double rolled = std::max(of_v.times(i, roll.raw), 0.0), u = std::pow(std::pow(rolled, 4) + std::pow(slowest, 4), 0.25);
+      const double rolled = std::max(of_v.times(i, roll.raw), 0.0),
+                   u = std::pow(std::pow(rolled, 4) + std::pow(slowest, 4), 0.25);
       const double law = a * std::pow(u, b), slope = b / u * std::pow(rolled / u, 3);
       result.v.push_back(u);
       result.law.push_back(law);
@@ -183,24 +208,28 @@ ShiftRecords::Smoothed ShiftRecords::smoothed(double a, double b) const {
 
 namespace {
 
-std::vector<double> weighted(std::vector<double> all, const std::vector<std::size_t>& runs, const KnownNoise& noise) {
+std::vector<double> weighted(std::vector<double> all, const std::vector<std::size_t>& runs,
+                             const KnownNoise& noise) {
   std::size_t first = 0;
-  for (std::size_t r = 0; !noise.empty() && r < runs.size(); first += runs[r++]) noise.weight(r, std::span(all).subspan(first, runs[r]), {});
+  for (std::size_t r = 0; !noise.empty() && r < runs.size(); first += runs[r++])
+    noise.weight(r, std::span(all).subspan(first, runs[r]), {});
   return all;
 }
 
-/// The height that fits best for the exponent b (or the one that is held) to the weighted D, and the weighted sum of squares that is
-/// left; u = v / v_ref.
+/// The height that fits best for the exponent b (or the one that is held) to the weighted D, and
+/// the weighted sum of squares that is left; u = v / v_ref.
 struct Height {
   double value, rss;
 };
-Height best_height(const std::vector<double>& log_u, const std::vector<double>& D, double b, const std::vector<std::size_t>& runs, const KnownNoise& noise,
+Height best_height(const std::vector<double>& log_u, const std::vector<double>& D, double b,
+                   const std::vector<std::size_t>& runs, const KnownNoise& noise,
                    std::optional<double> held) {
   std::vector<double> m;
   m.reserve(log_u.size());
   for (double x : log_u) m.push_back(std::exp(b * x));
   m = weighted(std::move(m), runs, noise);
-  const double height = held.value_or(std::inner_product(m.begin(), m.end(), D.begin(), 0.0) / std::inner_product(m.begin(), m.end(), m.begin(), 0.0));
+  const double height = held.value_or(std::inner_product(m.begin(), m.end(), D.begin(), 0.0) /
+                                      std::inner_product(m.begin(), m.end(), m.begin(), 0.0));
   double rss = 0;
   for (std::size_t i = 0; i < D.size(); ++i) rss += (height * m[i] - D[i]) * (height * m[i] - D[i]);
   return {height, rss};
@@ -209,11 +238,13 @@ Height best_height(const std::vector<double>& log_u, const std::vector<double>& 
 /// At most so many values, evenly spread.
 std::vector<double> some(const std::vector<double>& x, std::size_t most) {
   std::vector<double> few;
-  for (std::size_t i = 0, step = (x.size() + most - 1) / most; i < x.size(); i += step) few.push_back(x[i]);
+  for (std::size_t i = 0, step = (x.size() + most - 1) / most; i < x.size(); i += step)
+    few.push_back(x[i]);
   return few;
 }
 
-/// Whether the minimum has moved by less than a thousandth of its standard deviations, as minimise() knows it, or by rounding alone.
+/// Whether the minimum has moved by less than a thousandth of its standard deviations, as
+/// minimise() knows it, or by rounding alone.
 bool all_but_equal(const Minimum& from, const Minimum& to) {
   const std::size_t n = to.f.size(), p = to.theta.size();
   double largest = 0, squares = 0;
@@ -221,7 +252,8 @@ bool all_but_equal(const Minimum& from, const Minimum& to) {
     double along = 0;
     for (std::size_t j = i; j < p; ++j) along += to.R[i * p + j] * (to.theta[j] - from.theta[j]);
     squares += along * along;
-    largest = std::max(largest, std::abs(to.theta[i] - from.theta[i]) / std::max(1.0, std::abs(to.theta[i])));
+    largest = std::max(
+        largest, std::abs(to.theta[i] - from.theta[i]) / std::max(1.0, std::abs(to.theta[i])));
   }
   return largest < 1e-8 || squares * static_cast<double>(n - p) < 1e-6 * to.rss;
 }
@@ -234,46 +266,75 @@ RouteFit fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   const double L = records.log_v_ref;
   const std::size_t n = D.size(), p = !options.a + !options.b;
   require_records(n, p);
-  if (!options.b && std::all_of(log_u.begin(), log_u.end(), [&](double x) { return x == log_u[0]; })) fail("all speeds are equal: b cannot be determined");
+  if (!options.b &&
+      std::all_of(log_u.begin(), log_u.end(), [&](double x) { return x == log_u[0]; }))
+    fail("all speeds are equal: b cannot be determined");
 
-  // Parameters: the height D(v_ref) in units of the largest |D|, and b; ln a and b themselves are nearly collinear.
+  // Parameters: the height D(v_ref) in units of the largest |D|, and b; ln a and b themselves are
+  // nearly collinear.
   double unit = 0;
   for (double d : D) unit = std::max(unit, std::abs(d));
   if (unit == 0) fail("all shifts are 0: b cannot be determined");
-  const auto exponent = [&](const std::vector<double>& theta) { return options.b ? *options.b : theta[p - 1]; };
-  const auto height = [&](const std::vector<double>& theta) { return options.a ? *options.a * std::exp(exponent(theta) * L) : theta[0] * unit; };
+  const auto exponent = [&](const std::vector<double>& theta) {
+    return options.b ? *options.b : theta[p - 1];
+  };
+  const auto height = [&](const std::vector<double>& theta) {
+    return options.a ? *options.a * std::exp(exponent(theta) * L) : theta[0] * unit;
+  };
   KnownNoise noise;
   bool smoothed = false;  // whether what smoothing does to the law is part of the model
-  // (The runs are copied so because g++ 14 warns of a memmove beyond the one run that is there if they are copied whole.)
-  const auto system_of = [&](const std::vector<std::size_t>& runs, const std::vector<double>& log_of, const std::vector<double>& D_of) {
-    return System{{runs.begin(), runs.end()}, 0, p, [&](const std::vector<double>& theta, const TakeRows& take) {
+  // (The runs are copied so because g++ 14 warns of a memmove beyond the one run that is there if
+  // they are copied whole.)
+  const auto system_of = [&](const std::vector<std::size_t>& runs,
+                             const std::vector<double>& log_of, const std::vector<double>& D_of) {
+    return System{{runs.begin(), runs.end()},
+                  0,
+                  p,
+                  [&](const std::vector<double>& theta, const TakeRows& take) {
       const double b = exponent(theta), h = height(theta), a = h * std::exp(-b * L);
       const auto s = smoothed ? records.smoothed(a, b) : ShiftRecords::Smoothed{};
-      hand_over_rows(runs, p, !noise.empty(), noise, take, [&](std::size_t, std::size_t first, std::vector<double>& f, std::vector<double>& J) {
+      hand_over_rows(
+          runs, p, !noise.empty(), noise, take,
+          [&](std::size_t, std::size_t first, std::vector<double>& f, std::vector<double>& J) {
         for (std::size_t k = 0; k < f.size(); ++k) {
           const std::size_t i = first + k;
           const double power = std::exp(b * log_of[i]);
           f[k] = h * power - D_of[i];
           if (!options.a) J[k] = unit * power;
-          if (!options.b) J[J.size() - f.size() + k] = h * power * (log_of[i] + (options.a ? L : 0));  // at fixed a, the height moves with b
+          if (!options.b)
+            J[J.size() - f.size() + k] =
+                h * power *
+                (log_of[i] + (options.a ? L : 0));  // at fixed a, the height moves with b
           if (!smoothed) continue;
           f[k] += s.D[i] - s.law[i];
           const double by_a = s.D_a[i] - s.law_a[i], by_b = s.D_b[i] - s.law_b[i];
           if (!options.a) J[k] += by_a * unit * std::exp(-b * L);
           if (!options.b) J[J.size() - f.size() + k] += by_b - (options.a ? 0 : by_a * a * L);
         }
-      });
-    }};
+          });
+                  }};
   };
 
-  // A start: the exponent of a coarse grid that fits best (for each, the height is linear), unless the user knows one. Known noise
-  // counts from the start, as far as it comes by D: one wild record near the stop would send an unweighted fit to a wrong minimum.
-  if (records.filters_known()) noise = records.noise(0, {.v = std::vector<double>(n, 1), .D = D, .law = D, .D_a = {}, .D_b = {}, .law_a = {}, .law_b = {}}, std::vector<double>(n, 1));
+  // A start: the exponent of a coarse grid that fits best (for each, the height is linear), unless
+  // the user knows one. Known noise counts from the start, as far as it comes by D: one wild record
+  // near the stop would send an unweighted fit to a wrong minimum.
+  if (records.filters_known())
+    noise = records.noise(0,
+                          {.v = std::vector<double>(n, 1),
+                           .D = D,
+                           .law = D,
+                           .D_a = {},
+                           .D_b = {},
+                           .law_a = {},
+                           .law_b = {}},
+                          std::vector<double>(n, 1));
   const std::size_t most = noise.empty() && !options.robust ? 4096 : n;
-  const std::vector<double> some_log_u = some(log_u, most), some_D = some(D, most), weighted_D = weighted(some_D, records.runs, noise);
+  const std::vector<double> some_log_u = some(log_u, most), some_D = some(D, most),
+                            weighted_D = weighted(some_D, records.runs, noise);
   const auto best_at = [&](double b) {
     const auto held = options.a ? options.a : options.start_a;
-    return best_height(some_log_u, weighted_D, b, records.runs, noise, held ? std::optional(*held * std::exp(b * L)) : std::nullopt);
+    return best_height(some_log_u, weighted_D, b, records.runs, noise,
+                       held ? std::optional(*held * std::exp(b * L)) : std::nullopt);
   };
   double b = options.b ? *options.b : options.start_b.value_or(0);
   if (!options.b && !options.start_b) {
@@ -285,7 +346,9 @@ RouteFit fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   if (!options.a) theta.push_back(best_at(b).value / unit);
   if (!options.b) theta.push_back(b);
   const std::vector<std::size_t> few{some_D.size()};
-  if (some_D.size() < n) theta = approach(system_of(few, some_log_u, some_D), std::move(theta));  // most of the way on few of many records
+  if (some_D.size() < n)
+    theta = approach(system_of(few, some_log_u, some_D),
+                     std::move(theta));  // most of the way on few of many records
 
   const System system = system_of(records.runs, log_u, D);
   Minimum minimum = solve(system, theta, options, records.filters_known());
@@ -293,7 +356,8 @@ RouteFit fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   for (int round = 0; smoothed; ++round) {  // the noise that v brings in hangs on a and b
     if (round == 20) fail("the fit does not converge: are all of these records of the free roll?");
     b = exponent(minimum.theta);
-    noise = records.noise(b, records.smoothed(height(minimum.theta) * std::exp(-b * L), b), std::vector<double>(n, 1));
+    noise = records.noise(b, records.smoothed(height(minimum.theta) * std::exp(-b * L), b),
+                          std::vector<double>(n, 1));
     Minimum next = minimise(system, minimum.theta);
     std::swap(minimum, next);
     if (all_but_equal(next, minimum)) break;
@@ -301,7 +365,8 @@ RouteFit fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
 
   b = exponent(minimum.theta);
   const double a = options.a.value_or(height(minimum.theta) * std::exp(-b * L));
-  return std::move(records).hand_over(system, std::move(minimum), noise, a, unit * std::exp(-b * L), b);
+  return std::move(records).hand_over(system, std::move(minimum), noise, a, unit * std::exp(-b * L),
+                                      b);
 }
 
 }  // namespace rolling

@@ -15,7 +15,8 @@ std::vector<Reach> reaches(const BandMatrix& E) {
   std::vector<Reach> of;
   for (std::size_t i = 0; i < E.rows(); ++i) {
     of.resize(std::max(of.size(), E.first(i) + E.row(i).size()), {E.rows(), 0});
-    for (std::size_t j = E.first(i); j < E.first(i) + E.row(i).size(); ++j) of[j] = {std::min(of[j].from, i), i + 1};
+    for (std::size_t j = E.first(i); j < E.first(i) + E.row(i).size(); ++j)
+      of[j] = {std::min(of[j].from, i), i + 1};
   }
   return of;
 }
@@ -23,7 +24,8 @@ std::vector<Reach> reaches(const BandMatrix& E) {
 /// Element (i, j) of E E^T.
 double product(const BandMatrix& E, std::size_t i, std::size_t j) {
   const auto x = E.row(i), y = E.row(j);
-  const std::size_t from = std::max(E.first(i), E.first(j)), to = std::min(E.first(i) + x.size(), E.first(j) + y.size());
+  const std::size_t from = std::max(E.first(i), E.first(j)),
+                    to = std::min(E.first(i) + x.size(), E.first(j) + y.size());
   double sum = 0;
   for (std::size_t k = from; k < to; ++k) sum += x[k - E.first(i)] * y[k - E.first(j)];
   return sum;
@@ -41,14 +43,16 @@ void Whitener::set_floor(const BandMatrix& E, double floor) {
   R_.assign(n_ * band_, 0);
   double largest = 0;
   for (std::size_t i = 0; i < n_; ++i) largest = std::max(largest, product(E, i, i));
-  // Cholesky is several times faster, but sees the square of E's condition, which this floor keeps below 1e8 or so.
+  // Cholesky is several times faster, but sees the square of E's condition, which this floor keeps
+  // below 1e8 or so.
   if (floor * floor > 1e-8 * largest) factor(E, floor);
   else triangulate(E, floor);
 }
 
 void Whitener::factor(const BandMatrix& E, double floor) {
   for (std::size_t i = 0; i < n_; ++i)
-    for (std::size_t j = i; j < std::min(i + band_, n_); ++j) R_[i * band_ + j - i] = product(E, i, j) + (i == j ? floor * floor : 0);
+    for (std::size_t j = i; j < std::min(i + band_, n_); ++j)
+      R_[i * band_ + j - i] = product(E, i, j) + (i == j ? floor * floor : 0);
   for (std::size_t k = 0; k < n_; ++k) {
     double* const R = &R_[k * band_];
     const double inverse = 1 / std::sqrt(R[0]);
@@ -59,13 +63,14 @@ void Whitener::factor(const BandMatrix& E, double floor) {
 }
 
 void Whitener::triangulate(const BandMatrix& E, double floor) {
-  // The rows of E^T (one for each source record) and of floor * I, sorted by the first column that they touch:
-  // in that order Givens rotations never fill beyond the band.
+  // The rows of E^T (one for each source record) and of floor * I, sorted by the first column that
+  // they touch: in that order Givens rotations never fill beyond the band.
   const std::vector<Reach> of = reaches(E);
   std::vector<std::size_t> order;
   for (std::size_t j = 0; j < of.size(); ++j)
     if (of[j].from < of[j].to) order.push_back(j);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return of[i].from < of[j].from; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return of[i].from < of[j].from; });
   std::vector<double> row(n_ + band_, 0);  // the row that is being rotated in, by column
   const auto rotate_in = [&](std::size_t first, std::size_t end) {
     for (std::size_t k = first; k < end; ++k) {
@@ -76,7 +81,8 @@ void Whitener::triangulate(const BandMatrix& E, double floor) {
         std::fill_n(&row[k], band_, 0.0);
         return;
       }
-      const double inverse = 1 / std::sqrt(R[0] * R[0] + row[k] * row[k]), c = R[0] * inverse, s = row[k] * inverse;
+      const double inverse = 1 / std::sqrt(R[0] * R[0] + row[k] * row[k]), c = R[0] * inverse,
+                   s = row[k] * inverse;
       for (std::size_t j = 0; j < band_; ++j) {
         const double r = R[j], x = row[k + j];
         R[j] = c * r + s * x;
@@ -99,11 +105,12 @@ void Whitener::triangulate(const BandMatrix& E, double floor) {
       rotate_in(k, k + 1);
     }
   }
-  // A pivot of rounding size: this residual is a sum of those before it and has no noise of its own. The rest of its row
-  // belongs to the rows below.
+  // A pivot of rounding size: this residual is a sum of those before it and has no noise of its
+  // own. The rest of its row belongs to the rows below.
   for (std::size_t k = 0; k < n_; ++k) {
     double squares = 0;  // of its column
-    for (std::size_t i = k >= band_ ? k - band_ + 1 : 0; i <= k; ++i) squares += R_[i * band_ + k - i] * R_[i * band_ + k - i];
+    for (std::size_t i = k >= band_ ? k - band_ + 1 : 0; i <= k; ++i)
+      squares += R_[i * band_ + k - i] * R_[i * band_ + k - i];
     double* const R = &R_[k * band_];
     if (std::abs(R[0]) > 1e-12 * std::sqrt(squares)) continue;
     std::copy_n(R, band_, &row[k]);
@@ -118,7 +125,8 @@ void Whitener::apply(std::span<double> X) const {
   for (std::size_t k = 0; k < n_; ++k) {
     const double* const R = &R_[k * band_];
     const std::size_t end = std::min(band_, n_ - k);
-    for (std::size_t at = k; at < X.size(); at += n_) {  // of all columns at once: the steps of one wait for each other
+    for (std::size_t at = k; at < X.size();
+         at += n_) {  // of all columns at once: the steps of one wait for each other
       double* const x = &X[at];
       const double z = x[0] = R[0] == 0 ? 0 : x[0] / R[0];
       for (std::size_t j = 1; j < end; ++j) x[j] -= R[j] * z;

@@ -43,17 +43,28 @@ namespace {
 
 const gsl_odeiv2_step_type* gsl_type(Stepper stepper) {
   switch (stepper) {
-    case Stepper::rk2: return gsl_odeiv2_step_rk2;
-    case Stepper::rk4: return gsl_odeiv2_step_rk4;
-    case Stepper::rkf45: return gsl_odeiv2_step_rkf45;
-    case Stepper::rkck: return gsl_odeiv2_step_rkck;
-    case Stepper::rk8pd: return gsl_odeiv2_step_rk8pd;
-    case Stepper::msadams: return gsl_odeiv2_step_msadams;
-    case Stepper::rk1imp: return gsl_odeiv2_step_rk1imp;
-    case Stepper::rk2imp: return gsl_odeiv2_step_rk2imp;
-    case Stepper::rk4imp: return gsl_odeiv2_step_rk4imp;
-    case Stepper::bsimp: return gsl_odeiv2_step_bsimp;
-    case Stepper::msbdf: break;
+    case Stepper::rk2:
+      return gsl_odeiv2_step_rk2;
+    case Stepper::rk4:
+      return gsl_odeiv2_step_rk4;
+    case Stepper::rkf45:
+      return gsl_odeiv2_step_rkf45;
+    case Stepper::rkck:
+      return gsl_odeiv2_step_rkck;
+    case Stepper::rk8pd:
+      return gsl_odeiv2_step_rk8pd;
+    case Stepper::msadams:
+      return gsl_odeiv2_step_msadams;
+    case Stepper::rk1imp:
+      return gsl_odeiv2_step_rk1imp;
+    case Stepper::rk2imp:
+      return gsl_odeiv2_step_rk2imp;
+    case Stepper::rk4imp:
+      return gsl_odeiv2_step_rk4imp;
+    case Stepper::bsimp:
+      return gsl_odeiv2_step_bsimp;
+    case Stepper::msbdf:
+      break;
   }
   return gsl_odeiv2_step_msbdf;
 }
@@ -61,29 +72,44 @@ const gsl_odeiv2_step_type* gsl_type(Stepper stepper) {
 }  // namespace
 
 Integrator::Integrator(OdeSystem system, const OdeOptions& options, double t, std::vector<double> y)
-    : problem_(std::make_shared<Problem>()), driver_(nullptr, gsl_odeiv2_driver_free), max_steps_(options.max_steps), t_(t), y_(std::move(y)) {
-  if (y_.size() != system.dimension) fail("a state of {} numbers for a system of {}", y_.size(), system.dimension);
-  if (!(options.rtol >= 0 && options.atol >= 0 && options.rtol + options.atol > 0 && std::isfinite(options.rtol + options.atol)))
+    : problem_(std::make_shared<Problem>()), driver_(nullptr, gsl_odeiv2_driver_free),
+      max_steps_(options.max_steps), t_(t), y_(std::move(y)) {
+  if (y_.size() != system.dimension)
+    fail("a state of {} numbers for a system of {}", y_.size(), system.dimension);
+  if (!(options.rtol >= 0 && options.atol >= 0 && options.rtol + options.atol > 0 &&
+        std::isfinite(options.rtol + options.atol)))
     fail("the tolerances rtol = {} and atol = {} must be positive", options.rtol, options.atol);
-  if (options.stepper >= Stepper::rk1imp && !system.jacobian) fail("an implicit stepper needs the Jacobian");
+  if (options.stepper >= Stepper::rk1imp && !system.jacobian)
+    fail("an implicit stepper needs the Jacobian");
   problem_->system = std::move(system);
-  problem_->gsl = {Problem::derivative, problem_->system.jacobian ? Problem::jacobian : nullptr, y_.size(), problem_.get()};
+  problem_->gsl = {Problem::derivative, problem_->system.jacobian ? Problem::jacobian : nullptr,
+                   y_.size(), problem_.get()};
   silence_gsl();
-  driver_ = own(gsl_odeiv2_driver_alloc_y_new(&problem_->gsl, gsl_type(options.stepper), h_, options.atol, options.rtol), gsl_odeiv2_driver_free);
+  driver_ = own(gsl_odeiv2_driver_alloc_y_new(&problem_->gsl, gsl_type(options.stepper), h_,
+                                              options.atol, options.rtol),
+                gsl_odeiv2_driver_free);
 }
 
 unsigned long Integrator::evaluations() const { return problem_->evaluations; }
 
 void Integrator::step(double t) {
-  if (steps_left_ == 0) fail("the integration has used up its {} steps at t = {:.6g} s (a stiff problem needs an implicit method)", max_steps_, t_);
+  if (steps_left_ == 0)
+    fail(
+        "the integration has used up its {} steps at t = {:.6g} s (a stiff problem needs an "
+        "implicit method)",
+        max_steps_, t_);
   --steps_left_;
   const double before = t_;
-  const int status = gsl_odeiv2_evolve_apply(driver_->e, driver_->c, driver_->s, &problem_->gsl, &t_, t, &h_, y_.data());
+  const int status = gsl_odeiv2_evolve_apply(driver_->e, driver_->c, driver_->s, &problem_->gsl,
+                                             &t_, t, &h_, y_.data());
   if (problem_->thrown) std::rethrow_exception(std::exchange(problem_->thrown, nullptr));
-  if (status != GSL_SUCCESS) fail("the integration fails at t = {:.6g} s: {}", t_, gsl_strerror(status));
+  if (status != GSL_SUCCESS)
+    fail("the integration fails at t = {:.6g} s: {}", t_, gsl_strerror(status));
   // GSL takes an error estimate of NaN for a good step.
-  if (!std::all_of(y_.begin(), y_.end(), [](double y) { return std::isfinite(y); })) fail("the integration leaves the finite numbers at t = {:.6g} s", before);
-  if (t_ == before) fail("the integration cannot go on at t = {:.6g} s: its step is below the rounding of t", t_);
+  if (!std::all_of(y_.begin(), y_.end(), [](double y) { return std::isfinite(y); }))
+    fail("the integration leaves the finite numbers at t = {:.6g} s", before);
+  if (t_ == before)
+    fail("the integration cannot go on at t = {:.6g} s: its step is below the rounding of t", t_);
 }
 
 void Integrator::run(double t) {
@@ -113,9 +139,10 @@ bool Integrator::advance(double t, const Event& event) {
   return false;
 }
 
-/// The sign change within the step just done, by the Illinois form of regula falsi; every try integrates from before the step,
-/// so its state is as good as any other.
-void Integrator::locate(double t_before, const std::vector<double>& y_before, double value_before, const Event& event) {
+/// The sign change within the step just done, by the Illinois form of regula falsi; every try
+/// integrates from before the step, so its state is as good as any other.
+void Integrator::locate(double t_before, const std::vector<double>& y_before, double value_before,
+                        const Event& event) {
   double lo = t_before, f_lo = value_before, hi = t_, f_hi = event(y_);
   const double rounding = 2 * std::numeric_limits<double>::epsilon() * std::abs(hi), h = h_;
   for (int i = 0, side = 0; i < 100 && hi - lo > rounding; ++i) {

@@ -1,4 +1,5 @@
-// Ordinary differential equations y' = f(t, y) by the adaptive steppers of GSL: forward in time, to given times or to an event.
+// Ordinary differential equations y' = f(t, y) by the adaptive steppers of GSL: forward in time, to
+// given times or to an event.
 #pragma once
 
 #include <gsl/gsl_odeiv2.h>
@@ -40,19 +41,22 @@ class Integrator {
   const std::vector<double>& state() const { return y_; }
   unsigned long evaluations() const;  ///< calls of the derivative so far
 
-  /// Integrates to t exactly; a time that is past does nothing. Throws Error when GSL fails, when the state is no longer finite and
-  /// when the steps run out.
+  /// Integrates to t exactly; a time that is past does nothing. Throws Error when GSL fails, when
+  /// the state is no longer finite and when the steps run out.
   void advance(double t);
-  /// The same, but stops at the first sign change of the event (located to rounding) and then returns true. t may be infinite.
+  /// The same, but stops at the first sign change of the event (located to rounding) and then
+  /// returns true. t may be infinite.
   bool advance(double t, const Event&);
-  /// Goes on from another state at the same time: where the system has a kink, start again on its other side.
+  /// Goes on from another state at the same time: where the system has a kink, start again on its
+  /// other side.
   void restart(std::vector<double> y);
 
  private:
   struct Problem;  // what GSL points to
   void step(double t);
   void run(double t);
-  void locate(double t_before, const std::vector<double>& y_before, double value_before, const Event&);
+  void locate(double t_before, const std::vector<double>& y_before, double value_before,
+              const Event&);
 
   std::shared_ptr<Problem> problem_;
   std::unique_ptr<gsl_odeiv2_driver, void (*)(gsl_odeiv2_driver*)> driver_;

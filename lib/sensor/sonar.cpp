@@ -17,23 +17,28 @@ namespace {
 
 void check(const SonarOptions& o) {
   const auto positive = [](const char* name, double value) {
-    if (!(value > 0 && std::isfinite(value))) fail("the sensor's {} = {} must be a positive number", name, value);
+    if (!(value > 0 && std::isfinite(value)))
+      fail("the sensor's {} = {} must be a positive number", name, value);
   };
   const auto not_negative = [](const char* name, double value) {
-    if (!(value >= 0 && std::isfinite(value))) fail("the sensor's {} = {} must be a number that is not negative", name, value);
+    if (!(value >= 0 && std::isfinite(value)))
+      fail("the sensor's {} = {} must be a number that is not negative", name, value);
   };
   positive("rate", o.rate);
   not_negative("resolution", o.resolution);
   not_negative("noise", o.noise);
-  if (!(o.lost >= 0 && o.lost <= 1)) fail("the sensor's lost = {} must be a fraction between 0 and 1", o.lost);
+  if (!(o.lost >= 0 && o.lost <= 1))
+    fail("the sensor's lost = {} must be a fraction between 0 and 1", o.lost);
   not_negative("rest_before", o.rest_before);
   positive("push", o.push);
   not_negative("rest_after", o.rest_after);
   if (!std::isfinite(o.start)) fail("the sensor's start = {} must be finite", o.start);
-  if (!(o.until >= 0)) fail("the sensor's until = {} must be a number that is not negative", o.until);
+  if (!(o.until >= 0))
+    fail("the sensor's until = {} must be a number that is not negative", o.until);
 }
 
-/// x to the nearest multiple of the resolution; divided by 1000 rather than multiplied by 0.001, which is not 1/1000.
+/// x to the nearest multiple of the resolution; divided by 1000 rather than multiplied by 0.001,
+/// which is not 1/1000.
 double rounded(double x, double resolution) {
   if (resolution == 0) return x;
   const double per_metre = std::round(1 / resolution);
@@ -56,7 +61,8 @@ std::vector<SonarSample> sonar_record(Motion& motion, const SonarOptions& o) {
     if (t <= o.rest_before) return o.start;
     if (t < release) {  // v = v0 sin^2(pi u / (2 push)), u the time since the hand took hold
       const double u = t - o.rest_before;
-      return o.start + v0 / 2 * (u - o.push / std::numbers::pi * std::sin(std::numbers::pi * u / o.push));
+      return o.start +
+             v0 / 2 * (u - o.push / std::numbers::pi * std::sin(std::numbers::pi * u / o.push));
     }
     motion.seek(t - release);
     return o.start + v0 / 2 * o.push + (motion.position() - x0);
@@ -74,8 +80,11 @@ std::vector<SonarSample> sonar_record(Motion& motion, const SonarOptions& o) {
     if (gsl_rng_uniform(random.get()) >= o.lost) record[i].x = rounded(x, o.resolution);
   }
   for (std::size_t i = 2; i + 2 < record.size(); ++i) {
-    const auto &b2 = record[i - 2].x, &b1 = record[i - 1].x, &f1 = record[i + 1].x, &f2 = record[i + 2].x;
-    if (b2 && b1 && f1 && f2) record[i].v = rounded((*f1 + *f2 - *b1 - *b2) * o.rate / 6, o.resolution / 10) + 0.0;  // no -0
+    const auto &b2 = record[i - 2].x, &b1 = record[i - 1].x, &f1 = record[i + 1].x,
+               &f2 = record[i + 2].x;
+    if (b2 && b1 && f1 && f2)
+      record[i].v =
+          rounded((*f1 + *f2 - *b1 - *b2) * o.rate / 6, o.resolution / 10) + 0.0;  // no -0
   }
   return record;
 }

@@ -1,7 +1,7 @@
 // What a motion sensor at the end of the track records of a roll: raw data with a known answer.
 #pragma once
 
-#include "rolling/motion.h"
+#include "motion/motion.h"
 
 #include <limits>
 #include <optional>
@@ -16,24 +16,26 @@ struct SonarOptions {
   double noise = 0.0003;      ///< standard deviation of a position before rounding [m]
   double lost = 0.01;         ///< fraction of echoes that do not come back
   unsigned long seed = 1;
-  double rest_before = 1;     ///< at rest before the push [s]
-  double push = 0.5;          ///< how long the hand pushes [s]
-  double rest_after = 1;      ///< record after the stop [s]
-  double start = 0.3;         ///< distance from the sensor before the push [m]
-  double until = std::numeric_limits<double>::infinity();  ///< free roll at most this long [s]; then the record ends
+  double rest_before = 1;  ///< at rest before the push [s]
+  double push = 0.5;       ///< how long the hand pushes [s]
+  double rest_after = 1;   ///< record after the stop [s]
+  double start = 0.3;      ///< distance from the sensor before the push [m]
+  double until = std::numeric_limits<double>::infinity();  ///< free roll at most this long [s];
+                                                           ///< then the record ends
 };
 
 /// One record; x or v is missing where the echo was lost.
 struct SonarSample {
   double t;                 ///< since the start of the record [s]
   std::optional<double> x;  ///< distance [m]
-  std::optional<double> v;  ///< (x[i+1] + x[i+2] - x[i-1] - x[i-2]) / (6 dt) of the recorded positions,
-                            ///< with one decimal more than they have [m/s]
+  std::optional<double> v;  ///< (x[i+1] + x[i+2] - x[i-1] - x[i-2]) / (6 dt) of the recorded
+                            ///< positions, with one decimal more than they have [m/s]
 };
 
-/// Rest, the hand's push from 0 to the motion's speed at its t = 0 (v0 sin^2), free roll, rest. Before the rounding white
-/// gaussian noise is added. The same seed gives the same record everywhere; `lost` does not change the noise of the others.
-/// Throws Error for an option out of its range, and for a motion that never stops if `until` is infinite.
+/// Rest, the hand's push from 0 to the motion's speed at its t = 0 (v0 sin^2), free roll, rest.
+/// Before the rounding white gaussian noise is added. The same seed gives the same record
+/// everywhere; `lost` does not change the noise of the others. Throws Error for an option out of
+/// its range, and for a motion that never stops if `until` is infinite.
 std::vector<SonarSample> sonar_record(Motion&, const SonarOptions&);
 
 }  // namespace rolling

@@ -7,8 +7,9 @@
 
 namespace rolling {
 
-// Newton's form of the parabola through three samples: slopes s1, s2 over steps h1, h2, bend c = (s2 - s1) / (h1 + h2).
-// Derivatives: s1 - c h1 at the first, s1 + c h1 = s2 - c h2 in the middle, s2 + c h2 at the last.
+// Newton's form of the parabola through three samples: slopes s1, s2 over steps h1, h2, bend c =
+// (s2 - s1) / (h1 + h2). Derivatives: s1 - c h1 at the first, s1 + c h1 = s2 - c h2 in the middle,
+// s2 + c h2 at the last.
 std::span<const double> CentralDerivative::push(double t, double y) {
   const double step = t - t_, slope = (y - y_) / step;
   ++count_;
@@ -29,12 +30,14 @@ std::span<const double> CentralDerivative::finish() {
   return {known_.data(), count_ == 2 ? std::size_t{2} : std::size_t{1}};
 }
 
-// To the last bit as Vernier's programs write it: each weight times the rise comes before the division.
+// To the last bit as Vernier's programs write it: each weight times the rise comes before the
+// division.
 double VernierDerivative::value(const Windows& window) {
   if (window.size() == 1) fail("a run of one record has no derivative");
   const std::size_t i = window.at(), last = window.end() - 1;
   const auto slope = [&](std::size_t k, double weight) {
-    const Sample &a = window.sample(std::max(i, window.begin() + k) - k), &b = window.sample(std::min(i + k, last));
+    const Sample &a = window.sample(std::max(i, window.begin() + k) - k),
+                 &b = window.sample(std::min(i + k, last));
     return weight * (b.y - a.y) / (b.t - a.t);
   };
   return (slope(1, 3) + slope(2, 2) + slope(3, 1)) / 6;
@@ -50,7 +53,9 @@ double PascoDerivative::value(const Windows& window) {
     const Sample two = rise(window.sample(i - 2), window.sample(i + 2));
     return (one.y + two.y) / (one.t + two.t);
   }
-  const auto inwards = [&](std::size_t k) -> const Sample& { return window.sample(before == 0 ? i + k : i - k); };
+  const auto inwards = [&](std::size_t k) -> const Sample& {
+    return window.sample(before == 0 ? i + k : i - k);
+  };
   const Sample one = rise(inwards(0), inwards(1));
   if (window.size() == 2) return one.y / one.t;
   const Sample two = rise(inwards(1), inwards(2));
@@ -58,7 +63,8 @@ double PascoDerivative::value(const Windows& window) {
 }
 
 std::string describe(const DerivativeOptions& options) {
-  const auto named = std::find_if(derivative_methods.begin(), derivative_methods.end(), [&](const auto& m) { return m.second == options.method; });
+  const auto named = std::find_if(derivative_methods.begin(), derivative_methods.end(),
+                                  [&](const auto& m) { return m.second == options.method; });
   if (options.method != DerivativeMethod::savgol) return named->first;
   return fmt::format("{} width {} order {}", named->first, options.width, options.order);
 }
@@ -66,11 +72,16 @@ std::string describe(const DerivativeOptions& options) {
 std::unique_ptr<Signal> make_derivative(const DerivativeOptions& options) {
   switch (options.method) {
     case DerivativeMethod::savgol:
-      return std::make_unique<SavitzkyGolay>(Width{options.width, 0}, options.order, SavitzkyGolay::What::slope);
-    case DerivativeMethod::spline: return std::make_unique<SplineDerivative>();
-    case DerivativeMethod::vernier: return std::make_unique<VernierDerivative>();
-    case DerivativeMethod::pasco: return std::make_unique<PascoDerivative>();
-    default: return std::make_unique<CentralDerivative>();
+      return std::make_unique<SavitzkyGolay>(Width{options.width, 0}, options.order,
+                                             SavitzkyGolay::What::slope);
+    case DerivativeMethod::spline:
+      return std::make_unique<SplineDerivative>();
+    case DerivativeMethod::vernier:
+      return std::make_unique<VernierDerivative>();
+    case DerivativeMethod::pasco:
+      return std::make_unique<PascoDerivative>();
+    default:
+      return std::make_unique<CentralDerivative>();
   }
 }
 

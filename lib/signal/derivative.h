@@ -1,4 +1,5 @@
-// The time derivative of a column, one sample in at a time. All of these throw Error for a run of one sample.
+// The time derivative of a column, one sample in at a time. All of these throw Error for a run of
+// one sample.
 #pragma once
 
 #include <array>
@@ -11,8 +12,9 @@
 
 namespace rolling {
 
-/// Of the parabola through three neighbouring samples at any spacing: at the middle one inside (the central difference),
-/// at the outer one at the ends. Second order in the spacing, exact on a parabola. A run of two samples has their slope.
+/// Of the parabola through three neighbouring samples at any spacing: at the middle one inside (the
+/// central difference), at the outer one at the ends. Second order in the spacing, exact on a
+/// parabola. A run of two samples has their slope.
 class CentralDerivative : public Signal {
  public:
   std::span<const double> push(double t, double y) override;
@@ -20,23 +22,24 @@ class CentralDerivative : public Signal {
 
  private:
   std::size_t count_ = 0;
-  double t_ = 0, y_ = 0;          // the last sample
-  double step_ = 0, slope_ = 0;   // from the one before it
-  double bend_ = 0;               // half of the parabola's second derivative
+  double t_ = 0, y_ = 0;         // the last sample
+  double step_ = 0, slope_ = 0;  // from the one before it
+  double bend_ = 0;              // half of the parabola's second derivative
   std::array<double, 2> known_{};
 };
 
-/// As Vernier's programs do it: the slopes over one, two and three samples to either side, weighted 3, 2, 1; a sample beyond
-/// the end of the run is the one at the end.
+/// As Vernier's programs do it: the slopes over one, two and three samples to either side, weighted
+/// 3, 2, 1; a sample beyond the end of the run is the one at the end.
 class VernierDerivative : public WindowedSignal<VernierDerivative> {
  public:
   VernierDerivative() : WindowedSignal({7, 0}, Windows::Ends::cut) {}
   double value(const Windows&);
 };
 
-/// As PASCO's programs do it: (y[i+1] + y[i+2] - y[i-1] - y[i-2]) / (6 dt), the times in place of the y below the line. The
-/// second sample and the last but one have the slope between their neighbours, as there; the first and the last, which have
-/// none there, that of the parabola through three samples.
+/// As PASCO's programs do it: (y[i+1] + y[i+2] - y[i-1] - y[i-2]) / (6 dt), the times in place of
+/// the y below the line. The second sample and the last but one have the slope between their
+/// neighbours, as there; the first and the last, which have none there, that of the parabola
+/// through three samples.
 class PascoDerivative : public WindowedSignal<PascoDerivative> {
  public:
   PascoDerivative() : WindowedSignal({5, 0}, Windows::Ends::cut) {}
@@ -46,8 +49,9 @@ class PascoDerivative : public WindowedSignal<PascoDerivative> {
 enum class DerivativeMethod { central, savgol, spline, vernier, pasco };
 
 inline const std::map<std::string, DerivativeMethod> derivative_methods = {
-    {"central", DerivativeMethod::central}, {"savgol", DerivativeMethod::savgol}, {"spline", DerivativeMethod::spline},
-    {"vernier", DerivativeMethod::vernier}, {"pasco", DerivativeMethod::pasco},
+    {"central", DerivativeMethod::central}, {"savgol", DerivativeMethod::savgol},
+    {"spline", DerivativeMethod::spline},   {"vernier", DerivativeMethod::vernier},
+    {"pasco", DerivativeMethod::pasco},
 };
 
 struct DerivativeOptions {

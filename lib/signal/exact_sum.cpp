@@ -6,7 +6,9 @@
 
 namespace rolling {
 
-void ExactSum::add_zero(double zero, int sign) { negative_zeros_ += static_cast<std::size_t>(std::signbit(zero) ? sign : 0); }
+void ExactSum::add_zero(double zero, int sign) {
+  negative_zeros_ += static_cast<std::size_t>(std::signbit(zero) ? sign : 0);
+}
 
 /// add_term() of what the pair cannot take whole.
 void ExactSum::add_beyond(double y, double high, DoubleDouble low) {
@@ -19,7 +21,8 @@ void ExactSum::to_limbs(double y) {
   if (y == 0) return;
   const auto bits = std::bit_cast<std::uint64_t>(y);
   const auto exponent = static_cast<unsigned>(bits >> 52 & 0x7ff);
-  const auto mantissa = static_cast<std::int64_t>((bits & 0xfffffffffffffULL) | (exponent ? 1ULL << 52 : 0));
+  const auto mantissa =
+      static_cast<std::int64_t>((bits & 0xfffffffffffffULL) | (exponent ? 1ULL << 52 : 0));
   const unsigned position = exponent ? exponent - 1 : 0;  // |y| = mantissa * 2^(position - 1074)
   const std::size_t at = position / 32;
   const int128 term = static_cast<int128>(mantissa) << position % 32;
@@ -37,7 +40,8 @@ double ExactSum::over(std::size_t n) {
   }
   pair_ = two_sum(pair_.hi, pair_.lo);
   if (pair_.hi == 0) return negative_zeros_ == n ? -0.0 : 0;
-  // The quotient need not be the nearest one: the rest makes up for that, and is so small that 1/n may be rounded.
+  // The quotient need not be the nearest one: the rest makes up for that, and is so small that 1/n
+  // may be rounded.
   const double count = static_cast<double>(n), inverse = 1 / count, quotient = pair_.hi * inverse;
   return quotient + (std::fma(-quotient, count, pair_.hi) + pair_.lo) * inverse;
 }
@@ -59,17 +63,20 @@ double ExactSum::limbs_over(std::size_t n) {
     low_ = limbs, high_ = 0;
     return negative_zeros_ == n ? -0.0 : 0;
   }
-  // As many leading digits as make 2^73 <= |sum| < 2^105: the rest is below 2^-73 of it, and both halves are exact doubles.
+  // As many leading digits as make 2^73 <= |sum| < 2^105: the rest is below 2^-73 of it, and both
+  // halves are exact doubles.
   std::size_t at = high_;
   int scale = 32 * static_cast<int>(high_) - 1074;
   for (; sum >> 73 == sum >> 127; scale -= 32) sum = sum << 32 | (at > low_ ? digit[--at] : 0);
   const auto leading = static_cast<std::int64_t>((sum + (1LL << 51)) >> 52);
   const double high = static_cast<double>(leading) * 0x1p52;
-  const auto low = static_cast<double>(static_cast<std::int64_t>(sum - (static_cast<int128>(leading) << 52)));
+  const auto low =
+      static_cast<double>(static_cast<std::int64_t>(sum - (static_cast<int128>(leading) << 52)));
   // The rest is below 2^-20 of the quotient: that 1/n is rounded does not matter to it.
   const double count = static_cast<double>(n), quotient = high / count, inverse = 1 / count;
   const double rest = (std::fma(-quotient, count, high) + low) * inverse;
-  return (quotient + rest) * power_of_two(scale / 2) * power_of_two(scale - scale / 2);  // scale is -1170 to 1000: rounds once at most
+  return (quotient + rest) * power_of_two(scale / 2) *
+         power_of_two(scale - scale / 2);  // scale is -1170 to 1000: rounds once at most
 }
 
 }  // namespace rolling

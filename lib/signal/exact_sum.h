@@ -1,5 +1,6 @@
-// A sum of doubles without rounding, from which terms can be taken away again: after any history of additions and
-// subtractions it is what the terms still in it add up to. So a moving sum cannot drift, and an outlier leaves no trace.
+// A sum of doubles without rounding, from which terms can be taken away again: after any history of
+// additions and subtractions it is what the terms still in it add up to. So a moving sum cannot
+// drift, and an outlier leaves no trace.
 #pragma once
 
 #include <array>
@@ -22,7 +23,8 @@ class ExactSum {
     add(y);
     subtract(old);
   }
-  /// Sum / n, within 1 ulp of the exact quotient; -0 if all of n terms are -0. At most 2^30 terms; n > 0.
+  /// Sum / n, within 1 ulp of the exact quotient; -0 if all of n terms are -0. At most 2^30 terms;
+  /// n > 0.
   double over(std::size_t n);
 
  private:
@@ -38,9 +40,10 @@ class ExactSum {
   void to_limbs(double y);
   double limbs_over(std::size_t n);
 
-  // The sum is that of pair_, which holds readings of one instrument exactly, and of the limbs for what it cannot hold: a
-  // fixed-point number of 2^-1074, in overlapping limbs 32 bits apart. A term goes whole into the one where it begins, which
-  // has room for 2^43 of them; no carries while adding (after Kulisch's long accumulator).
+  // The sum is that of pair_, which holds readings of one instrument exactly, and of the limbs for
+  // what it cannot hold: a fixed-point number of 2^-1074, in overlapping limbs 32 bits apart. A
+  // term goes whole into the one where it begins, which has room for 2^43 of them; no carries while
+  // adding (after Kulisch's long accumulator).
   DoubleDouble pair_;
   static constexpr std::size_t limbs = 64;
   std::array<int128, limbs> limb_{};

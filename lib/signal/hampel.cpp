@@ -34,7 +34,8 @@ std::span<const Judged> Hampel::judge() {
   judged_.clear();
   while (windows_.next()) {
     work_.clear();
-    for (std::size_t i = windows_.begin(); i < windows_.end(); ++i) work_.push_back(windows_.sample(i).y);
+    for (std::size_t i = windows_.begin(); i < windows_.end(); ++i)
+      work_.push_back(windows_.sample(i).y);
     const double centre = median(work_);
     for (double& y : work_) y = std::abs(y - centre);
     const double scale = std::max(1.4826 * median(work_), step_);

@@ -5,14 +5,19 @@
 
 namespace rolling {
 
-struct Judged { double t, y; bool kept; };
+struct Judged {
+  double t, y;
+  bool kept;
+};
 
 class Hampel {
  public:
-  /// A reading further from the median than `threshold` scaled MADs (1.4826 times the median distance from the median, s of
-  /// normal noise) is an outlier; never by less than `threshold` of the smallest steps that the run has had so far, so that
-  /// the last digit of rounded readings makes none. Windows are cut off at the ends of a run. O(w) a sample.
-  Hampel(Width width, double threshold) : windows_(width, Windows::Ends::cut), threshold_(threshold) {}
+  /// A reading further from the median than `threshold` scaled MADs (1.4826 times the median
+  /// distance from the median, s of normal noise) is an outlier; never by less than `threshold` of
+  /// the smallest steps that the run has had so far, so that the last digit of rounded readings
+  /// makes none. Windows are cut off at the ends of a run. O(w) a sample.
+  Hampel(Width width, double threshold)
+      : windows_(width, Windows::Ends::cut), threshold_(threshold) {}
 
   /// As of Signal: the samples that are now judged, in order.
   std::span<const Judged> push(double t, double y);

@@ -1,5 +1,6 @@
-// The mean over a centred window, one sample in at a time. At the ends the window shrinks symmetrically, so a straight
-// line comes out as itself. Each mean is within 1 ulp of the exact mean of its window, whatever came before it.
+// The mean over a centred window, one sample in at a time. At the ends the window shrinks
+// symmetrically, so a straight line comes out as itself. Each mean is within 1 ulp of the exact
+// mean of its window, whatever came before it.
 #pragma once
 
 #include "signal/exact_sum.h"
@@ -13,8 +14,12 @@ class MovingMean : public WindowedSignal<MovingMean> {
   explicit MovingMean(Width width) : WindowedSignal(width, Windows::Ends::shrink) {}
 
   double value(const Windows& window) {
-    if (begin_ + 1 == window.begin() && end_ + 1 == window.end()) sum_.exchange(window.sample(end_++).y, window.sample(begin_++).y);
-    else window.slide(begin_, end_, [this](const Sample& s) { sum_.add(s.y); }, [this](const Sample& s) { sum_.subtract(s.y); });
+    if (begin_ + 1 == window.begin() && end_ + 1 == window.end())
+      sum_.exchange(window.sample(end_++).y, window.sample(begin_++).y);
+    else
+      window.slide(
+          begin_, end_, [this](const Sample& s) { sum_.add(s.y); },
+          [this](const Sample& s) { sum_.subtract(s.y); });
     return sum_.over(window.size());
   }
 

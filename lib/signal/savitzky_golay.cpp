@@ -8,15 +8,18 @@
 
 namespace rolling {
 
-LocalPolynomial::Point LocalPolynomial::operator()(std::span<const Sample> samples, const Sample& here, std::size_t order) {
+LocalPolynomial::Point LocalPolynomial::operator()(std::span<const Sample> samples,
+                                                   const Sample& here, std::size_t order) {
   const std::size_t n = samples.size();
-  const double reach = std::max(here.t - samples.front().t, samples.back().t - here.t), scale = reach > 0 ? reach : 1;
+  const double reach = std::max(here.t - samples.front().t, samples.back().t - here.t),
+               scale = reach > 0 ? reach : 1;
   u_.resize(n), rest_.resize(n), p_.assign(n, 1), before_.assign(n, 0);
   for (std::size_t j = 0; j < n; ++j) {
     u_[j] = (samples[j].t - here.t) / scale;
     rest_[j] = samples[j].y - here.y;
   }
-  // p(k+1) = (u - alpha) p(k) - beta p(k-1), and the same at u = 0, the sample itself, with the slopes there.
+  // p(k+1) = (u - alpha) p(k) - beta p(k-1), and the same at u = 0, the sample itself, with the
+  // slopes there.
   Point result{here.y, 0};
   double at = 1, slope = 0, at_before = 0, slope_before = 0, norm_before = 1;
   for (std::size_t k = 0; k <= std::min(order, n - 1); ++k) {

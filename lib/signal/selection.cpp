@@ -9,7 +9,8 @@ Selection::Selection(const SelectionOptions& options) : options_(options) {
 }
 
 void Selection::take(std::span<const Judged> samples) {
-  outliers_ += static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), [](const Judged& s) { return !s.kept; }));
+  outliers_ += static_cast<std::size_t>(
+      std::count_if(samples.begin(), samples.end(), [](const Judged& s) { return !s.kept; }));
   decided_.insert(decided_.end(), samples.begin(), samples.end());
 }
 

@@ -1,4 +1,5 @@
-// Which samples of a run are worth looking at: those between two times, without outliers, of the free roll.
+// Which samples of a run are worth looking at: those between two times, without outliers, of the
+// free roll.
 #pragma once
 
 #include <cmath>
@@ -11,13 +12,16 @@
 namespace rolling {
 
 struct SelectionOptions {
-  double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();  ///< [s]
-  double outliers = 0;     ///< leaves out what is further off than this many scaled MADs; 0: nothing
-  Width width{};           ///< of the window for that
-  bool coast = false;      ///< the free roll only: needs the whole run
+  double from = -std::numeric_limits<double>::infinity(),
+         to = std::numeric_limits<double>::infinity();  ///< [s]
+  double outliers = 0;  ///< leaves out what is further off than this many scaled MADs; 0: nothing
+  Width width{};        ///< of the window for that
+  bool coast = false;   ///< the free roll only: needs the whole run
   bool positions = false;  ///< for that: the column is a position, not a speed
 
-  bool all() const { return !coast && outliers == 0 && std::isinf(from) && std::isinf(to); }  ///< nothing is left out
+  bool all() const {
+    return !coast && outliers == 0 && std::isinf(from) && std::isinf(to);
+  }  ///< nothing is left out
 };
 
 class Selection {

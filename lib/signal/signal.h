@@ -11,7 +11,8 @@ namespace rolling {
 class Signal {
  public:
   virtual ~Signal() = default;
-  /// Takes the next sample of the run (times increase); returns the numbers that are now known, in order. Valid until the next call.
+  /// Takes the next sample of the run (times increase); returns the numbers that are now known, in
+  /// order. Valid until the next call.
   virtual std::span<const double> push(double t, double y) = 0;
   /// The run has ended: the numbers still owed.
   virtual std::span<const double> finish() = 0;

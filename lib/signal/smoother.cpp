@@ -11,24 +11,32 @@
 namespace rolling {
 
 std::string describe(const SmootherOptions& options) {
-  const auto named = std::find_if(smoothing_methods.begin(), smoothing_methods.end(), [&](const auto& m) { return m.second == options.method; });
+  const auto named = std::find_if(smoothing_methods.begin(), smoothing_methods.end(),
+                                  [&](const auto& m) { return m.second == options.method; });
   const Width& width = options.width;
-  return named->first + (width.seconds > 0 ? fmt::format(" seconds {}", width.seconds) : fmt::format(" width {}", width.samples)) +
+  return named->first +
+         (width.seconds > 0 ? fmt::format(" seconds {}", width.seconds)
+                            : fmt::format(" width {}", width.samples)) +
          (options.method == SmoothingMethod::savgol ? fmt::format(" order {}", options.order) : "");
 }
 
 std::unique_ptr<Signal> make_smoother(const SmootherOptions& options) {
   switch (options.method) {
-    case SmoothingMethod::median: return std::make_unique<MovingMedian>(options.width);
-    case SmoothingMethod::savgol: return std::make_unique<SavitzkyGolay>(options.width, options.order, SavitzkyGolay::What::value);
-    default: return std::make_unique<MovingMean>(options.width);
+    case SmoothingMethod::median:
+      return std::make_unique<MovingMedian>(options.width);
+    case SmoothingMethod::savgol:
+      return std::make_unique<SavitzkyGolay>(options.width, options.order,
+                                             SavitzkyGolay::What::value);
+    default:
+      return std::make_unique<MovingMean>(options.width);
   }
 }
 
 std::size_t best_width(std::span<const Sample> run, const SmootherOptions& options) {
   constexpr std::size_t apart = 2;
   const std::size_t order = options.method == SmoothingMethod::savgol ? options.order : 1;
-  const std::size_t least = apart + 1 + order / 2;  // of half a window: 2 (least - apart) > order samples are left
+  const std::size_t least =
+      apart + 1 + order / 2;  // of half a window: 2 (least - apart) > order samples are left
   const std::size_t n = run.size(), most = std::max(least, n / 4);
   LocalPolynomial polynomial;
   std::vector<Sample> others;
@@ -41,7 +49,8 @@ std::size_t best_width(std::span<const Sample> run, const SmootherOptions& optio
       others.clear();
       for (std::size_t j = i - k; j <= i + k; ++j)
         if (j + apart < i || j > i + apart) others.push_back(run[j]);
-      const double distance = run[i].y - polynomial(others, {run[i].t, others.front().y}, order).value;
+      const double distance =
+          run[i].y - polynomial(others, {run[i].t, others.front().y}, order).value;
       sum += distance * distance;
     }
     if (sum < least_sum) least_sum = sum, best = half;
@@ -57,7 +66,9 @@ std::span<const double> AutoSmoother::push(double t, double y) {
 std::span<const double> AutoSmoother::finish() {
   options_.width = {best_width(run_, options_), 0};
   const auto smoother = make_smoother(options_);
-  const auto take = [this](std::span<const double> values) { smooth_.insert(smooth_.end(), values.begin(), values.end()); };
+  const auto take = [this](std::span<const double> values) {
+    smooth_.insert(smooth_.end(), values.begin(), values.end());
+  };
   for (const Sample& s : run_) take(smoother->push(s.t, s.y));
   take(smoother->finish());
   return smooth_;

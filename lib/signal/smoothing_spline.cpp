@@ -8,8 +8,9 @@
 
 namespace rolling {
 
-// Notation of Green and Silverman (1994), Nonparametric Regression and Generalized Linear Models, section 2.3: with the
-// second derivatives g at the inner knots, (R + alpha Q^T Q) g = Q^T y and the spline's values are y - alpha Q g.
+// Notation of Green and Silverman (1994), Nonparametric Regression and Generalized Linear Models,
+// section 2.3: with the second derivatives g at the inner knots, (R + alpha Q^T Q) g = Q^T y and
+// the spline's values are y - alpha Q g.
 
 std::span<const double> SplineDerivative::push(double t, double y) {
   t_.push_back(t);
@@ -17,9 +18,10 @@ std::span<const double> SplineDerivative::push(double t, double y) {
   return {};
 }
 
-/// Solves for the second derivatives; returns the score of the modified generalised cross-validation, RSS / (n - 1.4 tr A)^2
-/// where y -> A y smooths, infinite where its root would not be positive. RSS is alpha^2 |Q g|^2 and n - tr A is
-/// alpha tr(B^-1 Q^T Q): in that form nothing cancels, however small or large the parameter.
+/// Solves for the second derivatives; returns the score of the modified generalised
+/// cross-validation, RSS / (n - 1.4 tr A)^2 where y -> A y smooths, infinite where its root would
+/// not be positive. RSS is alpha^2 |Q g|^2 and n - tr A is alpha tr(B^-1 Q^T Q): in that form
+/// nothing cancels, however small or large the parameter.
 double SplineDerivative::solve(double alpha) {
   const std::size_t m = qy_.size();
   for (std::size_t j = 0; j < m; ++j) {
@@ -39,10 +41,12 @@ double SplineDerivative::solve(double alpha) {
     L1_[j] /= D_[j];
     L2_[j] /= D_[j];
   }
-  // Backwards: the solution, and the three bands of B^-1 that the trace takes (s01 is its element j, j+1).
+  // Backwards: the solution, and the three bands of B^-1 that the trace takes (s01 is its element
+  // j, j+1).
   double trace = 0, s11 = 0, s12 = 0, s22 = 0;
   for (std::size_t j = m; j-- > 0;) {
-    bend_[j] = bend_[j] / D_[j] - (j + 1 < m ? L1_[j] * bend_[j + 1] : 0) - (j + 2 < m ? L2_[j] * bend_[j + 2] : 0);
+    bend_[j] = bend_[j] / D_[j] - (j + 1 < m ? L1_[j] * bend_[j + 1] : 0) -
+               (j + 2 < m ? L2_[j] * bend_[j + 2] : 0);
     const double s01 = -L1_[j] * s11 - L2_[j] * s12, s02 = -L1_[j] * s12 - L2_[j] * s22;
     const double s00 = 1 / D_[j] - L1_[j] * s01 - L2_[j] * s02;
     trace += q0_[j] * s00 + (j + 1 < m ? 2 * q1_[j] * s01 : 0) + (j + 2 < m ? 2 * q2_[j] * s02 : 0);
@@ -68,7 +72,8 @@ std::span<const double> SplineDerivative::finish() {
   const double unit = (t_.back() - t_.front()) / static_cast<double>(n - 1);
   for (std::size_t i = 0; i + 1 < n; ++i) h_.push_back((t_[i + 1] - t_[i]) / unit);
   const std::size_t m = n - 2;
-  qy_.resize(m), q0_.resize(m), q1_.resize(m), q2_.resize(m), D_.resize(m), L1_.resize(m), L2_.resize(m), bend_.resize(m);
+  qy_.resize(m), q0_.resize(m), q1_.resize(m), q2_.resize(m), D_.resize(m), L1_.resize(m),
+      L2_.resize(m), bend_.resize(m);
   const auto inverse = [this](std::size_t i) { return i < h_.size() ? 1 / h_[i] : 0; };
   for (std::size_t j = 0; j < m; ++j) {
     const double a = inverse(j), b = inverse(j + 1), c = inverse(j + 2);
@@ -78,7 +83,8 @@ std::span<const double> SplineDerivative::finish() {
     q2_[j] = b * c;
   }
 
-  // From what changes nothing between neighbours to what is a straight line over a thousand of them.
+  // From what changes nothing between neighbours to what is a straight line over a thousand of
+  // them.
   double alpha = 0;
   if (m > 1) {  // three samples do not tell noise from a bend: the spline goes through them
     constexpr double lowest = -6, highest = 12, coarse = 0.5;
@@ -105,8 +111,11 @@ std::span<const double> SplineDerivative::finish() {
   };
   slopes_.reserve(n);
   for (std::size_t i = 0; i + 1 < n; ++i)
-    slopes_.push_back(((value(i + 1) - value(i)) / h_[i] - h_[i] * (2 * bend(i) + bend(i + 1)) / 6) / unit);
-  slopes_.push_back(((value(n - 1) - value(n - 2)) / h_[n - 2] + h_[n - 2] * (bend(n - 2) + 2 * bend(n - 1)) / 6) / unit);
+    slopes_.push_back(
+        ((value(i + 1) - value(i)) / h_[i] - h_[i] * (2 * bend(i) + bend(i + 1)) / 6) / unit);
+  slopes_.push_back(((value(n - 1) - value(n - 2)) / h_[n - 2] +
+                     h_[n - 2] * (bend(n - 2) + 2 * bend(n - 1)) / 6) /
+                    unit);
   return slopes_;
 }
 

@@ -9,7 +9,9 @@
 namespace rolling {
 
 Windows::Windows(Width width, Ends ends)
-    : width_(width), ends_(ends), half_(width_.seconds > 0 ? std::numeric_limits<std::size_t>::max() : width_.samples / 2), ring_(16), mask_(ring_.size() - 1) {
+    : width_(width), ends_(ends),
+      half_(width_.seconds > 0 ? std::numeric_limits<std::size_t>::max() : width_.samples / 2),
+      ring_(16), mask_(ring_.size() - 1) {
   if (width_.seconds == 0 && width_.samples % 2 == 0)
     fail("the width of a centred window is an odd number of samples, not {}", width_.samples);
 }

@@ -1,4 +1,5 @@
-// The window about each sample of a run in turn, as soon as the samples are there; in the memory of one window.
+// The window about each sample of a run in turn, as soon as the samples are there; in the memory of
+// one window.
 #pragma once
 
 #include <cstddef>
@@ -6,15 +7,21 @@
 
 namespace rolling {
 
-struct Sample { double t, y; };
+struct Sample {
+  double t, y;
+};
 
 /// An odd number of samples; or, if seconds > 0, a duration of which half lies on either side [s].
-struct Width { std::size_t samples = 11; double seconds = 0; };
+struct Width {
+  std::size_t samples = 11;
+  double seconds = 0;
+};
 
 class Windows {
  public:
-  /// What a window does at the end of a run: `shrink` on both sides alike; be `cut` off there; or `stay` as wide as it is,
-  /// the first or the last whole one, so that the sample is not in its middle.
+  /// What a window does at the end of a run: `shrink` on both sides alike; be `cut` off there; or
+  /// `stay` as wide as it is, the first or the last whole one, so that the sample is not in its
+  /// middle.
   enum class Ends { shrink, cut, stay };
   /// Throws Error for an even width.
   Windows(Width, Ends);
@@ -34,7 +41,8 @@ class Windows {
     return true;
   }
 
-  /// The samples of the window are those from begin() to before end(), counted from the start of the run; at() is among them.
+  /// The samples of the window are those from begin() to before end(), counted from the start of
+  /// the run; at() is among them.
   std::size_t begin() const { return begin_; }
   std::size_t end() const { return end_; }
   std::size_t size() const { return end_ - begin_; }
@@ -59,13 +67,15 @@ class Windows {
   Width width_;
   Ends ends_;
   bool finished_ = false;
-  std::size_t half_;                        // of the width in samples; in seconds it is none, and every sample counts as near an end
-  std::vector<Sample> ring_;                // sample i at i modulo its size, a power of two; those from first_ on are there
-  std::size_t mask_;                        // its size - 1
+  std::size_t half_;  // of the width in samples; in seconds it is none, and every sample counts as
+                      // near an end
+  std::vector<Sample>
+      ring_;  // sample i at i modulo its size, a power of two; those from first_ on are there
+  std::size_t mask_;  // its size - 1
   std::size_t first_ = 0, count_ = 0, next_ = 0;
-  std::size_t begin_ = 0, end_ = 0;         // the present window
-  std::size_t left_ = 0, right_ = 0;        // the samples within reach in time
-  double start_ = 0;                        // time of the first sample
+  std::size_t begin_ = 0, end_ = 0;   // the present window
+  std::size_t left_ = 0, right_ = 0;  // the samples within reach in time
+  double start_ = 0;                  // time of the first sample
 };
 
 }  // namespace rolling

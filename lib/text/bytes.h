@@ -14,7 +14,9 @@ class Bytes {
   std::size_t size() const { return static_cast<std::size_t>(end_ - data_.get()); }
   bool empty() const { return end_ == data_.get(); }
 
-  void append(std::string_view text) { end_ = std::copy(text.begin(), text.end(), room(text.size())); }
+  void append(std::string_view text) {
+    end_ = std::copy(text.begin(), text.end(), room(text.size()));
+  }
   void append(char c) { *room(1) = c, ++end_; }
   /// Where up to `count` more bytes may be written; then they end at end().
   char* room(std::size_t count) {

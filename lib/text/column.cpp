@@ -11,35 +11,66 @@
 namespace rolling {
 namespace {
 
-struct Unit { std::string_view name; Conversion to_si; };
-struct Quantity { std::string_view name, long_name, other_name; std::vector<Unit> units; };  // the SI unit first
+struct Unit {
+  std::string_view name;
+  Conversion to_si;
+};
+struct Quantity {
+  std::string_view name, long_name, other_name;
+  std::vector<Unit> units;
+};  // the SI unit first
 
-const std::vector<Unit> lengths = {{"m", {}},           {"mm", {1, 1e3}}, {"cm", {1, 1e2}}, {"dm", {1, 10}},
-                                   {"um", {1, 1e6}},    {"km", {1e3, 1}}, {"in", {254, 1e4}}, {"ft", {3048, 1e4}}};
+const std::vector<Unit> lengths = {{"m", {}},          {"mm", {1, 1e3}},   {"cm", {1, 1e2}},
+                                   {"dm", {1, 10}},    {"um", {1, 1e6}},   {"km", {1e3, 1}},
+                                   {"in", {254, 1e4}}, {"ft", {3048, 1e4}}};
 const std::array<Quantity, 5> quantities = {{
-    {"t", "time", "time", {{"s", {}}, {"sec", {}}, {"ms", {1, 1e3}}, {"us", {1, 1e6}}, {"min", {60, 1}}, {"h", {3600, 1}}}},
+    {"t",
+     "time",
+     "time",
+     {{"s", {}},
+      {"sec", {}},
+      {"ms", {1, 1e3}},
+      {"us", {1, 1e6}},
+      {"min", {60, 1}},
+      {"h", {3600, 1}}}},
     {"x", "position", "position", lengths},
-    {"v", "velocity", "speed",
-     {{"m/s", {}}, {"mm/s", {1, 1e3}}, {"cm/s", {1, 1e2}}, {"km/h", {5, 18}}, {"mph", {1397, 3125}}, {"ft/s", {3048, 1e4}}}},
-    {"a", "acceleration", "acceleration", {{"m/s^2", {}}, {"m/s/s", {}}, {"mm/s^2", {1, 1e3}}, {"cm/s^2", {1, 1e2}}}},
+    {"v",
+     "velocity",
+     "speed",
+     {{"m/s", {}},
+      {"mm/s", {1, 1e3}},
+      {"cm/s", {1, 1e2}},
+      {"km/h", {5, 18}},
+      {"mph", {1397, 3125}},
+      {"ft/s", {3048, 1e4}}}},
+    {"a",
+     "acceleration",
+     "acceleration",
+     {{"m/s^2", {}}, {"m/s/s", {}}, {"mm/s^2", {1, 1e3}}, {"cm/s^2", {1, 1e2}}}},
     {"D", "shift", "shift", lengths},
 }};
 
 std::string replace_all(std::string text, std::string_view from, std::string_view to) {
-  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
   return text;
 }
 
 /// One spelling of a unit: UTF-8 and Latin-1 powers as ^2, both micro signs as u.
 std::string plain_unit(std::string unit) {
-  for (const auto& [from, to] : {std::pair{"\xC2\xB2", "^2"}, {"\xB2", "^2"}, {"\xC2\xB5", "u"}, {"\xCE\xBC", "u"}, {"\xB5", "u"}})
+  for (const auto& [from, to] : {std::pair{"\xC2\xB2", "^2"},
+                                 {"\xB2", "^2"},
+                                 {"\xC2\xB5", "u"},
+                                 {"\xCE\xBC", "u"},
+                                 {"\xB5", "u"}})
     unit = replace_all(std::move(unit), from, to);
   return replace_all(std::move(unit), "s2", "s^2");
 }
 
 std::string lower(std::string_view text) {
   std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return out;
 }
 
@@ -49,9 +80,12 @@ const Quantity* known(std::string_view name) {
   return nullptr;
 }
 
-/// Takes `Run #2` or `Run 2` off the end of a name, `Latest:` or `Data Set 1:` off its front; returns the number, else the word.
+/// Takes `Run #2` or `Run 2` off the end of a name, `Latest:` or `Data Set 1:` off its front;
+/// returns the number, else the word.
 std::string take_run(std::string_view& name) {
-  const auto number_at_end = [](std::string_view text) { return text.substr(text.find_last_not_of("0123456789") + 1); };
+  const auto number_at_end = [](std::string_view text) {
+    return text.substr(text.find_last_not_of("0123456789") + 1);
+  };
   std::string_view prefix;
   if (const auto colon = name.find(':'); colon != std::string_view::npos) {
     prefix = trim(name.substr(0, colon));
@@ -60,7 +94,8 @@ std::string take_run(std::string_view& name) {
   const std::string_view number = number_at_end(name);
   const auto at = name.rfind("Run");
   if (!number.empty() && at != std::string_view::npos && at > 0 && name[at - 1] == ' ') {
-    const std::string_view between = trim(name.substr(at + 3, name.size() - number.size() - (at + 3)));
+    const std::string_view between =
+        trim(name.substr(at + 3, name.size() - number.size() - (at + 3)));
     if (between.empty() || between == "#") {
       name = trim(name.substr(0, at));
       return std::string(number);
@@ -78,7 +113,9 @@ Column read_column(std::string_view text) {
   std::string_view name = trim(line);
   column.run = take_run(name);
   const char close = name.empty() ? '\0' : name.back();
-  const auto open = close == ')' ? name.rfind('(') : close == ']' ? name.rfind('[') : std::string_view::npos;
+  const auto open = close == ')'   ? name.rfind('(')
+                    : close == ']' ? name.rfind('[')
+                                   : std::string_view::npos;
   if (open != std::string_view::npos && open > 0) {
     column.unit = plain_unit(std::string(trim(name.substr(open + 1, name.size() - open - 2))));
     name = trim(name.substr(0, open));
@@ -87,7 +124,8 @@ Column read_column(std::string_view text) {
   for (const Quantity& q : quantities)
     if (small == q.long_name || small == q.other_name) name = q.name;
   column.name = name;
-  std::replace_if(column.name.begin(), column.name.end(), [](char c) { return c == ' ' || c == '\t'; }, '_');
+  std::replace_if(
+      column.name.begin(), column.name.end(), [](char c) { return c == ' ' || c == '\t'; }, '_');
   return column;
 }
 
@@ -105,8 +143,10 @@ Conversion conversion_to_si(std::string_view quantity, const Column& column) {
   if (!q || column.unit.empty()) return {};
   for (const Unit& unit : q->units)
     if (unit.name == column.unit) return unit.to_si;
-  fail("column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}, ...); convert it first", shown(to_text(column)),
-       quantity, shown(column.unit), q->units.front().name);
+  fail(
+      "column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}, ...); convert "
+      "it first",
+      shown(to_text(column)), quantity, shown(column.unit), q->units.front().name);
 }
 
 std::vector<std::string> split_names(std::string_view line, char separator) {
@@ -122,7 +162,8 @@ std::vector<std::string> split_names(std::string_view line, char separator) {
   for (std::size_t at = 0; (at = line.find_first_not_of(" \t", at)) != std::string_view::npos;) {
     const auto end = std::min(line.find_first_of(" \t", at), line.size());
     const std::string_view word = line.substr(at, end - at);
-    if (!names.empty() && (word.front() == '(' || word.front() == '[')) names.back().append(" ").append(word);
+    if (!names.empty() && (word.front() == '(' || word.front() == '['))
+      names.back().append(" ").append(word);
     else names.emplace_back(word);
     at = end;
   }

@@ -16,7 +16,9 @@ constexpr std::string_view minus = "\xE2\x88\x92";  // U+2212
 struct Marks {
   std::size_t first_minus, comma, point;
 };
-Marks marks_in(std::string_view field) { return {field.find(minus[0]), field.find(','), field.find('.')}; }
+Marks marks_in(std::string_view field) {
+  return {field.find(minus[0]), field.find(','), field.find('.')};
+}
 
 /// Appends `1,5` as `1.5`, U+2212 as `-`; returns what it has appended.
 std::string_view append_plain(std::string& to, std::string_view field, Marks marks) {
@@ -24,7 +26,8 @@ std::string_view append_plain(std::string& to, std::string_view field, Marks mar
   to += field;
   if (marks.comma != npos && marks.point == npos) to[from + marks.comma] = '.';
   if (marks.first_minus != npos)
-    for (auto at = to.find(minus, from); at != npos; at = to.find(minus, at)) to.erase(at + 1, minus.size() - 1)[at] = '-';
+    for (auto at = to.find(minus, from); at != npos; at = to.find(minus, at))
+      to.erase(at + 1, minus.size() - 1)[at] = '-';
   return std::string_view(to).substr(from);
 }
 
@@ -34,7 +37,8 @@ constexpr auto plain = [] {
   return is;
 }();
 
-/// Up to the first character that may separate fields, quote one, or stand in a number of another form.
+/// Up to the first character that may separate fields, quote one, or stand in a number of another
+/// form.
 const char* skip_plain(const char* at, const char* end) {
   while (at != end && plain[static_cast<unsigned char>(*at)]) ++at;
   return at;
@@ -48,9 +52,11 @@ const char* read_plain(const char* at, const char* end, Field& field) {
 }  // namespace
 
 bool Dialect::choose(std::string_view line) {
-  bool tab = false, semicolon = false, comma = false, quoted = false, field_begins = true, closed = false;
+  bool tab = false, semicolon = false, comma = false, quoted = false, field_begins = true,
+       closed = false;
   for (const char c : line) {
-    if (c == '"' && (quoted || field_begins || closed)) {  // a quote behind one that seemed to close was one of two
+    if (c == '"' && (quoted || field_begins ||
+                     closed)) {  // a quote behind one that seemed to close was one of two
       closed = quoted;
       quoted = !quoted;
       field_begins = false;
@@ -69,10 +75,12 @@ bool Dialect::choose(std::string_view line) {
   fields_.clear();
   auto fields = split(line);
   const auto numeric = [](const Field& field) { return is_number(field.text); };
-  if (tab && std::any_of(fields.begin(), fields.end(), [](const Field& field) { return field.text.find(' ') != npos; })) {
+  if (tab && std::any_of(fields.begin(), fields.end(),
+                         [](const Field& field) { return field.text.find(' ') != npos; })) {
     separator_ = '\0';  // a line of numbers in which tabs and blanks both separate is one of blanks
     fields = split(line);
-    if (!std::all_of(fields.begin(), fields.end(), numeric)) separator_ = '\t', fields = split(line);
+    if (!std::all_of(fields.begin(), fields.end(), numeric))
+      separator_ = '\t', fields = split(line);
   }
   // A quoted decimal comma among commas makes a record too, which is then refused with the way out.
   return std::any_of(fields.begin(), fields.end(), [](const Field& field) {
@@ -86,12 +94,14 @@ void Dialect::want(std::size_t field) {
   fields_[field].wanted = true;
 }
 
-// A number is read, or passed over, where it stands, which shows where its field ends: no other search, no second pass.
+// A number is read, or passed over, where it stands, which shows where its field ends: no other
+// search, no second pass.
 
 std::span<const Field> Dialect::split(std::string_view line) {
   count_ = 0;
   made_.clear();
-  if (made_.capacity() < 2 * line.size()) made_.reserve(2 * line.size());  // a text without its quotes, and then in plain form
+  if (made_.capacity() < 2 * line.size())
+    made_.reserve(2 * line.size());  // a text without its quotes, and then in plain form
   as_it_stands_ = separator_ == '\t';
   const char *at = line.data(), *const end = at + line.size();
   if (separator_ == '\0') {
@@ -169,7 +179,8 @@ const char* Dialect::take_text(const char* at, const char* end, Field& field) {
   return at;
 }
 
-/// The field whose quote opens at `at`, which goes to its end. What stands behind the closing quote belongs to it too.
+/// The field whose quote opens at `at`, which goes to its end. What stands behind the closing quote
+/// belongs to it too.
 std::string_view Dialect::take_quoted(const char*& at, const char* end) {
   const char *const first = ++at, *const close = std::find(first, end, '"');
   if (close != end && (close + 1 == end || close[1] == separator_)) {
@@ -185,10 +196,12 @@ std::string_view Dialect::take_quoted(const char*& at, const char* end) {
   return std::string_view(made_).substr(from);
 }
 
-/// A number with a decimal comma or U+2212 takes its plain form, and is read; false for any other text, which stays as it is.
+/// A number with a decimal comma or U+2212 takes its plain form, and is read; false for any other
+/// text, which stays as it is.
 bool Dialect::rewrite(Field& field) {
   const Marks marks = marks_in(field.text);
-  const bool other_minus = marks.first_minus != npos, comma = marks.comma != npos, point = marks.point != npos;
+  const bool other_minus = marks.first_minus != npos, comma = marks.comma != npos,
+             point = marks.point != npos;
   if (!other_minus && (decimal_mark_ == '.' || (!comma && !point))) return false;
   const bool is_plain = !other_minus && !comma;
   const std::string_view text = is_plain ? field.text : append_plain(made_, field.text, marks);
@@ -198,7 +211,8 @@ bool Dialect::rewrite(Field& field) {
     const char mark = comma ? ',' : '.';
     if (decimal_mark_ == '\0') decimal_mark_ = mark;
     if (decimal_mark_ != mark)
-      fail("field {}: '{}' has another decimal mark than the numbers before it", count_, shown(field.text));
+      fail("field {}: '{}' has another decimal mark than the numbers before it", count_,
+           shown(field.text));
   }
   if (field.wanted) field.number = number;
   as_it_stands_ &= is_plain;

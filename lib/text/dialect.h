@@ -12,22 +12,26 @@ namespace rolling {
 /// A field without its quotes and the blanks around it.
 struct Field {
   std::string_view text{};
-  double number = std::numeric_limits<double>::quiet_NaN();  ///< if it is wanted; NaN if the text is none
+  double number =
+      std::numeric_limits<double>::quiet_NaN();  ///< if it is wanted; NaN if the text is none
   bool wanted = false;
 };
 
 class Dialect {
  public:
-  /// Takes the form from a line: the first of tab ; , that it has outside quotes, else blanks. True if it holds a number.
+  /// Takes the form from a line: the first of tab ; , that it has outside quotes, else blanks. True
+  /// if it holds a number.
   bool choose(std::string_view line);
   /// The number of this field is wanted, from 0, until the next choice.
   void want(std::size_t field);
 
-  /// The fields of a line, valid until the next call or the line's end. In files delimited by ; or tab, where they leave no
-  /// doubt, a decimal comma becomes a point and U+2212 a minus. Throws Error where two decimal marks meet.
+  /// The fields of a line, valid until the next call or the line's end. In files delimited by ; or
+  /// tab, where they leave no doubt, a decimal comma becomes a point and U+2212 a minus. Throws
+  /// Error where two decimal marks meet.
   std::span<const Field> split(std::string_view line);
-  /// The same for the line that begins `text`, whose end is not known yet, if its fields leave no doubt where each ends: numbers,
-  /// or plain text, quoted or not, between separators, up to a line feed within `text`. Returns the end of the last one; null if there is doubt.
+  /// The same for the line that begins `text`, whose end is not known yet, if its fields leave no
+  /// doubt where each ends: numbers, or plain text, quoted or not, between separators, up to a line
+  /// feed within `text`. Returns the end of the last one; null if there is doubt.
   const char* split_plain(std::string_view text, std::span<const Field>& fields);
 
   /// The last line was its fields with a tab between them.
@@ -35,7 +39,9 @@ class Dialect {
   char separator() const { return separator_; }  ///< '\0' for blanks
 
  private:
-  bool foreign() const { return foreign_numbers_ && decimal_mark_ != '.'; }  ///< the next number may still be of another form
+  bool foreign() const {
+    return foreign_numbers_ && decimal_mark_ != '.';
+  }  ///< the next number may still be of another form
   Field& next_field() {
     if (count_ == fields_.size()) fields_.emplace_back();
     return fields_[count_++];

@@ -31,7 +31,8 @@ void Filter::tell(std::string history) {
 
 void Filter::append(Column column) {
   const auto taken = [this](const std::string& name) {
-    return std::any_of(columns_.begin(), columns_.end(), [&](const Column& c) { return c.name == name; });
+    return std::any_of(columns_.begin(), columns_.end(),
+                       [&](const Column& c) { return c.name == name; });
   };
   for (Column& old : columns_)
     if (old.name == column.name) {
@@ -55,7 +56,8 @@ bool Filter::next_run() {
   if (!header_written_ && !history_.empty()) write_header();
   write_rows();
   break_due_ = any_row_;
-  gone_ = -std::count_if(rows_.begin() + static_cast<std::ptrdiff_t>(front_), rows_.end(), [](const Row& row) { return row.kind != Kind::comment; });
+  gone_ = -std::count_if(rows_.begin() + static_cast<std::ptrdiff_t>(front_), rows_.end(),
+                         [](const Row& row) { return row.kind != Kind::comment; });
   if (in_.next_run()) return true;
   if (!any_row_ && any_dropped_) fail("no records are left");
   if (!any_row_) fail("no records: a needed reading is missing in every one");
@@ -81,7 +83,9 @@ void Filter::comment(std::string_view text) {
 
 void Filter::drop(std::size_t i) {
   auto row = rows_.begin() + static_cast<std::ptrdiff_t>(front_);
-  for (auto records = gone_; row->kind == Kind::comment || records++ < static_cast<std::ptrdiff_t>(i);) ++row;
+  for (auto records = gone_;
+       row->kind == Kind::comment || records++ < static_cast<std::ptrdiff_t>(i);)
+    ++row;
   row->kind = Kind::dropped;
   any_dropped_ = true;
   write_rows();

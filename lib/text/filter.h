@@ -1,6 +1,7 @@
-// Rows on their way through a filter: each waits, as the text it came as, for the numbers that the filter owes it. So a
-// filter may answer late (a window that looks ahead) and every byte that it does not compute still goes out as it came in.
-// Answered rows wait for company: the digits of one number wait for each other, those of several numbers do not.
+// Rows on their way through a filter: each waits, as the text it came as, for the numbers that the
+// filter owes it. So a filter may answer late (a window that looks ahead) and every byte that it
+// does not compute still goes out as it came in. Answered rows wait for company: the digits of one
+// number wait for each other, those of several numbers do not.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +17,11 @@ namespace rolling {
 
 class Filter {
  public:
-  /// `history` is the `##` line, without the marks, that says what this filter did. Without it nothing goes out before
-  /// it has been told.
+  /// `history` is the `##` line, without the marks, that says what this filter did. Without it
+  /// nothing goes out before it has been told.
   Filter(Reader& in, Output& out, std::string history = {});
-  /// Writes the rows that have all their numbers, when an Error ends the work before the last run has.
+  /// Writes the rows that have all their numbers, when an Error ends the work before the last run
+  /// has.
   ~Filter();
   Filter(const Filter&) = delete;
   Filter& operator=(const Filter&) = delete;
@@ -27,14 +29,16 @@ class Filter {
 
   /// The numbers replace the column in this slot of the reader.
   void replace(std::size_t slot) { cut_ = in_.column_of(slot); }
-  /// The numbers are a new last column; several columns take them in turn. A column of that name becomes `name_in`.
+  /// The numbers are a new last column; several columns take them in turn. A column of that name
+  /// becomes `name_in`.
   void append(Column);
 
   /// Goes to the next run or record, as Reader does; the record waits for its numbers.
   bool next_run();
   bool next();
   double operator[](std::size_t slot) const { return in_[slot]; }
-  /// The next number for the oldest row that has not all of them. Throws Error when it is not finite.
+  /// The next number for the oldest row that has not all of them. Throws Error when it is not
+  /// finite.
   void put(double value) {
     require_finite(value);
     numbers_.push_back(value);
@@ -72,9 +76,10 @@ class Filter {
   std::size_t enough_;           // numbers to write rows for
   std::size_t front_ = 0;
   std::size_t front_begin_ = 0;  // where the text of the front row begins
-  std::ptrdiff_t gone_ = 0;      // records of this run that are no longer among them, less those of earlier runs that are
+  std::ptrdiff_t gone_ =
+      0;  // records of this run that are no longer among them, less those of earlier runs that are
   bool header_written_ = false, break_due_ = false, any_row_ = false, any_dropped_ = false;
-  bool writing_ = false;         // true for good when a write has failed
+  bool writing_ = false;  // true for good when a write has failed
 };
 
 }  // namespace rolling

@@ -14,25 +14,31 @@
 namespace rolling {
 namespace {
 constexpr std::size_t block = 1 << 18;
-constexpr std::size_t longest_line = 1 << 20;  // a record of motion data has tens of bytes; a megabyte is another kind of file
+constexpr std::size_t longest_line =
+    1 << 20;  // a record of motion data has tens of bytes; a megabyte is another kind of file
 
 /// Rows that go into the file they come from would be read again.
 bool is_standard_output(int fd) {
   struct stat in, out;
-  return fd != STDOUT_FILENO && ::fstat(fd, &in) == 0 && ::fstat(STDOUT_FILENO, &out) == 0 && S_ISREG(in.st_mode) && in.st_dev == out.st_dev && in.st_ino == out.st_ino;
+  return fd != STDOUT_FILENO && ::fstat(fd, &in) == 0 && ::fstat(STDOUT_FILENO, &out) == 0 &&
+         S_ISREG(in.st_mode) && in.st_dev == out.st_dev && in.st_ino == out.st_ino;
 }
 
 }  // namespace
 
 Input::Input(std::string name, BlockHook on_block)
-    : name_(std::move(name)), on_block_(std::move(on_block)), fd_(name_ == "-" ? STDIN_FILENO : ::open(name_.c_str(), O_RDONLY | O_CLOEXEC)), buffer_(block), at_(buffer_.data()), end_(at_) {
+    : name_(std::move(name)), on_block_(std::move(on_block)),
+      fd_(name_ == "-" ? STDIN_FILENO : ::open(name_.c_str(), O_RDONLY | O_CLOEXEC)),
+      buffer_(block), at_(buffer_.data()), end_(at_) {
   if (fd_ < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
   if (is_standard_output(fd_)) fail<InputError>("{}: this input is the output too", name_);
 #ifdef F_SETPIPE_SZ
-  ::fcntl(fd_, F_SETPIPE_SZ, 1 << 20);  // the tools of a chain wait less for each other; where it is refused, or no pipe, no matter
+  ::fcntl(fd_, F_SETPIPE_SZ, 1 << 20);  // the tools of a chain wait less for each other; where it
+                                        // is refused, or no pipe, no matter
 #endif
   struct stat status;
-  if (::fstat(fd_, &status) == 0 && S_ISREG(status.st_mode)) size_ = static_cast<double>(status.st_size);
+  if (::fstat(fd_, &status) == 0 && S_ISREG(status.st_mode))
+    size_ = static_cast<double>(status.st_size);
 }
 
 Input::~Input() {
@@ -43,7 +49,9 @@ bool Input::fill() {
   const auto kept = static_cast<std::size_t>(end_ - at_);
   std::memmove(buffer_.data(), at_, kept);
   if (kept == buffer_.size()) {
-    if (kept >= longest_line) fail<InputError>("{}:{}: a line of more than {} bytes", name_, line_number_ + 1, longest_line);
+    if (kept >= longest_line)
+      fail<InputError>("{}:{}: a line of more than {} bytes", name_, line_number_ + 1,
+                       longest_line);
     buffer_.resize(2 * kept);
   }
   at_ = buffer_.data();
@@ -60,12 +68,14 @@ bool Input::fill() {
   return count > 0;
 }
 
-/// The end of the line that begins at at_, of which the line feed has not been read yet; null if there is no line.
+/// The end of the line that begins at at_, of which the line feed has not been read yet; null if
+/// there is no line.
 const char* Input::end_of_line() {
   for (std::size_t searched = 0; !at_end_;) {
     searched = static_cast<std::size_t>(end_ - at_);
     at_end_ = !fill();
-    const void* const feed = std::memchr(at_ + searched, '\n', static_cast<std::size_t>(end_ - at_) - searched);
+    const void* const feed =
+        std::memchr(at_ + searched, '\n', static_cast<std::size_t>(end_ - at_) - searched);
     if (feed) return static_cast<const char*>(feed);
   }
   return at_ == end_ ? nullptr : end_;
@@ -73,12 +83,16 @@ const char* Input::end_of_line() {
 
 std::size_t Input::lines_ahead() const {
   const std::string_view some = ahead().substr(0, 4096);
-  const double left = std::max(size_ - read_, 0.0) + static_cast<double>(end_ - at_), feeds = static_cast<double>(std::count(some.begin(), some.end(), '\n'));
-  return some.empty() ? 0 : static_cast<std::size_t>(1.125 * left * (feeds / static_cast<double>(some.size())));
+  const double left = std::max(size_ - read_, 0.0) + static_cast<double>(end_ - at_),
+               feeds = static_cast<double>(std::count(some.begin(), some.end(), '\n'));
+  return some.empty()
+             ? 0
+             : static_cast<std::size_t>(1.125 * left * (feeds / static_cast<double>(some.size())));
 }
 
 bool Input::next(std::string_view& line) {
-  const char* feed = static_cast<const char*>(std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_)));
+  const char* feed =
+      static_cast<const char*>(std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_)));
   if (!feed && !(feed = end_of_line())) return false;
   line = {at_, feed};
   at_ = feed == end_ ? feed : feed + 1;

@@ -8,7 +8,8 @@
 
 namespace rolling {
 
-/// Told after each block of a file whose size is known: its name, and which part of it has been read.
+/// Told after each block of a file whose size is known: its name, and which part of it has been
+/// read.
 using BlockHook = std::function<void(const std::string& name, double part)>;
 
 class Input {
@@ -19,7 +20,8 @@ class Input {
   Input(const Input&) = delete;
   Input& operator=(const Input&) = delete;
 
-  /// The next line without its end (LF or CR LF), valid until the next call; false at the end of the file.
+  /// The next line without its end (LF or CR LF), valid until the next call; false at the end of
+  /// the file.
   bool next(std::string_view& line);
   /// What has been read and not taken: lines, and perhaps a part of one.
   std::string_view ahead() const { return {at_, end_}; }
@@ -29,7 +31,8 @@ class Input {
     ++line_number_;
   }
 
-  /// About as many lines as are left, and an eighth more: by those that come next, and the size of a file (else of what has been read).
+  /// About as many lines as are left, and an eighth more: by those that come next, and the size of
+  /// a file (else of what has been read).
   std::size_t lines_ahead() const;
 
   const std::string& name() const { return name_; }  ///< as the user gave it

@@ -7,7 +7,8 @@ namespace {
 
 constexpr std::size_t longest = 1 << 20;  // as Input has it
 
-/// The text ends within a quoted field, if it begins in one or not. Which character separates fields may not be known yet.
+/// The text ends within a quoted field, if it begins in one or not. Which character separates
+/// fields may not be known yet.
 bool ends_in_quotes(std::string_view text, bool quoted) {
   bool opens = true;
   for (auto c = text.begin(); c != text.end(); ++c)
@@ -27,7 +28,8 @@ void Lines::join_quoted() {
   if (first_mark(text_) == comment_mark || !ends_in_quotes(text_, false)) return;
   joined_ = text_;
   do {
-    if (joined_.size() > longest || !input_.next(text_)) fail<InputError>("{}:{}: a quote that does not end", name(), number_);
+    if (joined_.size() > longest || !input_.next(text_))
+      fail<InputError>("{}:{}: a quote that does not end", name(), number_);
     (joined_ += '\n') += text_;
   } while (ends_in_quotes(text_, true));
   text_ = joined_;

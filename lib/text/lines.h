@@ -1,4 +1,5 @@
-// Lines as records, names and comments are: those of a file, but that a quoted field may hold line ends.
+// Lines as records, names and comments are: those of a file, but that a quoted field may hold line
+// ends.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +24,8 @@ inline char first_mark(std::string_view line) {
 class Lines {
  public:
   /// As Input.
-  explicit Lines(std::string name, BlockHook on_block = {}) : input_(std::move(name), std::move(on_block)) {}
+  explicit Lines(std::string name, BlockHook on_block = {})
+      : input_(std::move(name), std::move(on_block)) {}
 
   /// Goes to the next line; false at the end. Throws InputError for a quote that does not end.
   bool next() {
@@ -38,9 +40,11 @@ class Lines {
   std::size_t number() const { return number_; }  ///< of its beginning, from 1
   const std::string& name() const { return input_.name(); }
 
-  /// What of the file is there behind the present line: lines, and perhaps a part of one. Nothing of lines that are kept.
+  /// What of the file is there behind the present line: lines, and perhaps a part of one. Nothing
+  /// of lines that are kept.
   std::string_view ahead() const { return input_.ahead(); }
-  /// Goes to the line that begins ahead(), which is not quoted, of `size` bytes and `end` ones that end it.
+  /// Goes to the line that begins ahead(), which is not quoted, of `size` bytes and `end` ones that
+  /// end it.
   void take(std::size_t size, std::size_t end) {
     text_ = ahead().substr(0, size);
     input_.skip(size + end);
@@ -62,7 +66,10 @@ class Lines {
   std::string_view text_;
   std::size_t number_ = 0;
   std::string joined_;
-  struct Kept { std::size_t number; std::string text; };
+  struct Kept {
+    std::size_t number;
+    std::string text;
+  };
   std::vector<Kept> kept_;
   std::size_t kept_at_ = 0;
 };

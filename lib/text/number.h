@@ -6,11 +6,13 @@
 
 namespace rolling {
 
-/// Reads the whole of `field` as [+-]? (digits [. digits?] | . digits) ([eE] [+-]? digits)?, whatever the locale.
-/// False for anything else (inf, nan, hex, blanks) and for what a double cannot hold (1e400, 1e-400).
+/// Reads the whole of `field` as [+-]? (digits [. digits?] | . digits) ([eE] [+-]? digits)?,
+/// whatever the locale. False for anything else (inf, nan, hex, blanks) and for what a double
+/// cannot hold (1e400, 1e-400).
 bool parse_number(std::string_view field, double& value);
 
-/// The same at the beginning of [at, end): returns where the number ends; `at`, and the value as it was, where there is none.
+/// The same at the beginning of [at, end): returns where the number ends; `at`, and the value as it
+/// was, where there is none.
 const char* read_number(const char* at, const char* end, double& value);
 
 inline bool is_number(std::string_view field) {
@@ -21,8 +23,8 @@ inline bool is_number(std::string_view field) {
 /// A missing reading: nothing at all, or NaN in any case.
 bool is_missing(std::string_view field);
 
-/// Writes the shortest text that reads back to the same double, or `digits` significant digits when digits > 0; returns its
-/// end, which is at most longest_number behind `to`.
+/// Writes the shortest text that reads back to the same double, or `digits` significant digits when
+/// digits > 0; returns its end, which is at most longest_number behind `to`.
 char* write_number(char* to, double value, int digits = 0);
 inline constexpr std::size_t longest_number = 32;
 

@@ -26,7 +26,7 @@ inline void require_finite(double value) {
 
 class Output {
  public:
-  int digits = 0;           ///< significant digits of computed numbers; 0: the shortest text that reads back
+  int digits = 0;  ///< significant digits of computed numbers; 0: the shortest text that reads back
   bool unbuffered = false;  ///< every line goes out at once
   std::function<void()> before_write;
 

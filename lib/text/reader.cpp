@@ -14,20 +14,24 @@ constexpr std::size_t npos = static_cast<std::size_t>(-1);
 
 }  // namespace
 
-Reader::Reader(ReaderOptions options, std::vector<std::string> order) : options_(std::move(options)), order_(std::move(order)) {
+Reader::Reader(ReaderOptions options, std::vector<std::string> order)
+    : options_(std::move(options)), order_(std::move(order)) {
   if (options_.files.empty()) options_.files = {"-"};
   for (const std::string& use : options_.use) {
     const auto equals = use.find('=');
-    if (equals == 0 || equals == npos || equals + 1 == use.size()) fail("--use: '{}' is not NAME=COLUMN", shown(use));
+    if (equals == 0 || equals == npos || equals + 1 == use.size())
+      fail("--use: '{}' is not NAME=COLUMN", shown(use));
     const std::string quantity = read_column(use.substr(0, equals)).name;
     if (si_unit(quantity).empty()) fail("--use: '{}' is not about t, x, v, a or D", shown(use));
-    if (!use_.emplace(quantity, use.substr(equals + 1)).second) fail("--use: '{}' comes after another for {}", shown(use), quantity);
+    if (!use_.emplace(quantity, use.substr(equals + 1)).second)
+      fail("--use: '{}' comes after another for {}", shown(use), quantity);
   }
   open_next();
   history_changed_ = false;
 }
 
-// --------------------------------------------------------------------------------------------------------------- columns
+// ----------------------------------------------------------------------------------------
+// columns
 
 void Reader::open_next() {
   begun_ = false;
@@ -36,8 +40,10 @@ void Reader::open_next() {
   history_changed_ = !history_.empty();
   history_.clear();
   // A column that --use names by its number is one of the line: then the line is one record.
-  const bool by_number = std::any_of(use_.begin(), use_.end(), [](const auto& use) { return is_number(use.second); });
-  header_ = read_header(*lines_, dialect_, order_, options_.run ? fmt::format("{}", *options_.run) : "", by_number);
+  const bool by_number =
+      std::any_of(use_.begin(), use_.end(), [](const auto& use) { return is_number(use.second); });
+  header_ = read_header(*lines_, dialect_, order_,
+                        options_.run ? fmt::format("{}", *options_.run) : "", by_number);
   if (header_.layout.runs.size() > 1) lines_->keep();
   side_ = 0;
   if (first_file) {
@@ -59,18 +65,25 @@ std::optional<std::size_t> Reader::find(std::string_view name) const {
   const auto use = use_.find(read_column(name).name);
   if (use == use_.end()) return find_column(name, columns_);
   const auto at = find_column(use->second, columns_as_read_);
-  if (!at) fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", lines_->name(), use->first, shown(use->second), shown(use->second), column_list());
+  if (!at)
+    fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", lines_->name(),
+                     use->first, shown(use->second), shown(use->second), column_list());
   return at;
 }
 
-std::optional<std::size_t> Reader::find_column(std::string_view name, const std::vector<Column>& columns) const {
+std::optional<std::size_t> Reader::find_column(std::string_view name,
+                                               const std::vector<Column>& columns) const {
   if (double number; name.find_first_not_of("0123456789") == npos && parse_number(name, number))
-    return number >= 1 && number <= static_cast<double>(columns.size()) ? std::optional(static_cast<std::size_t>(number) - 1) : std::nullopt;
+    return number >= 1 && number <= static_cast<double>(columns.size())
+               ? std::optional(static_cast<std::size_t>(number) - 1)
+               : std::nullopt;
   const std::string plain = read_column(name).name;
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < columns.size(); ++i)
     if (columns[i].name == plain) {
-      if (found) fail<InputError>("{}: columns {} and {} are both {}; say --use {}=N", lines_->name(), *found + 1, i + 1, plain, plain);
+      if (found)
+        fail<InputError>("{}: columns {} and {} are both {}; say --use {}=N", lines_->name(),
+                         *found + 1, i + 1, plain, plain);
       found = i;
     }
   return found;
@@ -89,8 +102,9 @@ std::string Reader::column_list() const {
 std::size_t Reader::require(std::string_view name) const {
   const auto column = find(name);
   if (!column)
-    fail<InputError>("{}: there is no column '{}' among {}{}", lines_->name(), shown(name), column_list(),
-                     si_unit(read_column(name).name).empty() ? "" : fmt::format("; say --use {}=COLUMN", name));
+    fail<InputError>(
+        "{}: there is no column '{}' among {}{}", lines_->name(), shown(name), column_list(),
+        si_unit(read_column(name).name).empty() ? "" : fmt::format("; say --use {}=COLUMN", name));
   return *column;
 }
 
@@ -116,7 +130,8 @@ std::size_t Reader::need(std::string_view name) {
   const std::string quantity = by_number ? columns_[column].name : read_column(name).name;
   for (const Needed& other : needed_)
     if (other.column == column && other.name != quantity)
-      fail<InputError>("{}: column {} cannot serve as both {} and {}", lines_->name(), column + 1, other.name, quantity);
+      fail<InputError>("{}: column {} cannot serve as both {} and {}", lines_->name(), column + 1,
+                       other.name, quantity);
   const Conversion to_si = conversion_to_si(quantity, columns_as_read_[column]);
   for (std::size_t i = 0; i < columns_.size(); ++i)
     if (i != column && columns_[i].name == quantity) {
@@ -134,11 +149,14 @@ std::size_t Reader::want(std::string_view name) {
   return slot;
 }
 
-std::size_t Reader::need_as_is(std::string_view name) { return add(require(name), std::string(name), {}); }
+std::size_t Reader::need_as_is(std::string_view name) {
+  return add(require(name), std::string(name), {});
+}
 
 std::size_t Reader::need_time() { return time_slot_ = need("t"); }
 
-// --------------------------------------------------------------------------------------------------------------- records
+// ----------------------------------------------------------------------------------------
+// records
 
 void Reader::comment(std::string_view line) {
   const std::string_view text = trim(line);
@@ -186,12 +204,14 @@ Reader::Event Reader::advance() {
 bool Reader::names_again() {
   if (header_.names_line.empty()) return false;
   if (lines_->text() == header_.names_line) return true;
-  const auto names = names_in(lines_->text(), dialect_), first = names_in(header_.names_line, dialect_);
+  const auto names = names_in(lines_->text(), dialect_),
+             first = names_in(header_.names_line, dialect_);
   if (names.size() != first.size() || is_number(names.front())) return false;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const Column column = read_column(names[i]), known = read_column(first[i]);
     if (column.name != known.name || column.unit != known.unit) return false;
-    if (!header_.layout.side_by_side && !column.run.empty()) header_.layout.runs.front().label = column.run;
+    if (!header_.layout.side_by_side && !column.run.empty())
+      header_.layout.runs.front().label = column.run;
   }
   return true;
 }
@@ -220,8 +240,11 @@ bool Reader::next_run() {
     ++run_;
     first_of_run_ = true;
     const std::string& label = header_.layout.runs[side_].label;
-    const bool by_label = is_number(label), picked = header_.layout.side_by_side;  // the layout has seen to it
-    if (!options_.run || picked || (by_label ? label == fmt::format("{}", *options_.run) : run_ == *options_.run)) return run_found_ = true;
+    const bool by_label = is_number(label),
+               picked = header_.layout.side_by_side;  // the layout has seen to it
+    if (!options_.run || picked ||
+        (by_label ? label == fmt::format("{}", *options_.run) : run_ == *options_.run))
+      return run_found_ = true;
     line_waits_ = false;
     skipping_ = true;
     Event event;
@@ -232,7 +255,8 @@ bool Reader::next_run() {
   }
 }
 
-/// What most lines are, a record like the one before it in this run, is found and split in one pass; all else is advance()'s.
+/// What most lines are, a record like the one before it in this run, is found and split in one
+/// pass; all else is advance()'s.
 inline bool Reader::take_plain_line() {
   if (run_begins_ || header_.layout.side_by_side) return false;
   const std::string_view ahead = lines_->ahead();
@@ -264,16 +288,21 @@ std::span<const Field> Reader::split_line() {
   }
 }
 
-/// The fields of the line that make this run's record, and the needed numbers in them; false if one is missing.
+/// The fields of the line that make this run's record, and the needed numbers in them; false if one
+/// is missing.
 bool Reader::take_record() {
   if (fields_.size() != header_.layout.width) {
-    if (fields_.size() == header_.layout.width + 1 && fields_.back().text.empty() && header_.named) fields_ = fields_.first(header_.layout.width);  // a delimiter that ends the line
-    else if (!header_.layout.side_by_side || fields_.size() > header_.layout.width)  // beside it longer runs may have ended
-      fail<InputError>("{}: {} field{} where the first record has {}", where(), fields_.size(), fields_.size() == 1 ? "" : "s", header_.layout.width);
+    if (fields_.size() == header_.layout.width + 1 && fields_.back().text.empty() && header_.named)
+      fields_ = fields_.first(header_.layout.width);  // a delimiter that ends the line
+    else if (!header_.layout.side_by_side ||
+             fields_.size() > header_.layout.width)  // beside it longer runs may have ended
+      fail<InputError>("{}: {} field{} where the first record has {}", where(), fields_.size(),
+                       fields_.size() == 1 ? "" : "s", header_.layout.width);
   }
   if (header_.layout.side_by_side) {
     own_fields_.clear();
-    for (const std::size_t i : header_.layout.runs[side_].fields) own_fields_.push_back(i < fields_.size() ? fields_[i] : Field());
+    for (const std::size_t i : header_.layout.runs[side_].fields)
+      own_fields_.push_back(i < fields_.size() ? fields_[i] : Field());
     fields_ = own_fields_;
   }
 
@@ -284,19 +313,23 @@ bool Reader::take_record() {
     if (std::isnan(value)) {
       if (!is_missing(field.text)) reject(needed.column, "is not a number" + way_out(field.text));
       if (options_.strict && !needed.may_miss)
-        fail<InputError>("{}: field {} ({}): a reading is missing", where(), header_.layout.runs[side_].fields[needed.column] + 1, shown(needed.name));
+        fail<InputError>("{}: field {} ({}): a reading is missing", where(),
+                         header_.layout.runs[side_].fields[needed.column] + 1, shown(needed.name));
       if (!needed.may_miss) return false;
     } else if (converts_) {
       value = needed.to_si(value);
-      if (!std::isfinite(value)) reject(needed.column, "is beyond the range of a double in SI units");
+      if (!std::isfinite(value))
+        reject(needed.column, "is beyond the range of a double in SI units");
     }
     *to++ = value;
   }
   if (time_slot_ != npos) {
     const double t = values_[time_slot_];
     if (!first_of_run_) {
-      if (!(t > last_time_)) reject(needed_[time_slot_].column, fmt::format("does not come after {}", last_time_));
-      coarse_time_ |= t - last_time_ < 0x1p-39 * std::abs(t);  // two roundings of 2^-53 t are 2^-13 of it
+      if (!(t > last_time_))
+        reject(needed_[time_slot_].column, fmt::format("does not come after {}", last_time_));
+      coarse_time_ |=
+          t - last_time_ < 0x1p-39 * std::abs(t);  // two roundings of 2^-53 t are 2^-13 of it
     }
     last_time_ = t;
   }
@@ -310,30 +343,43 @@ std::string_view Reader::made_text(std::size_t cut, std::size_t& first, std::siz
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     if (i) text_.append('\t');
     const auto from = text_.size();
-    const auto converted = !converts_ ? needed_.end() : std::find_if(needed_.begin(), needed_.end(), [i](const Needed& n) { return n.column == i && n.to_si.changes(); });
+    const auto converted = !converts_
+                               ? needed_.end()
+                               : std::find_if(needed_.begin(), needed_.end(), [i](const Needed& n) {
+                                   return n.column == i && n.to_si.changes();
+                                 });
     if (converted == needed_.end()) text_.append(fields_[i].text);
-    else text_.end(write_number(text_.room(longest_number), values_[static_cast<std::size_t>(converted - needed_.begin())]));
+    else
+      text_.end(write_number(text_.room(longest_number),
+                             values_[static_cast<std::size_t>(converted - needed_.begin())]));
     if (i == cut) first = from, last = text_.size();
   }
   return {text_.data(), text_.size()};
 }
 
 void Reader::reject(std::size_t column, std::string_view why) const {
-  fail<InputError>("{}: field {} ({}): '{}' {}", where(), header_.layout.runs[side_].fields[column] + 1, shown(columns_[column].name), shown(fields_[column].text), why);
+  fail<InputError>("{}: field {} ({}): '{}' {}", where(),
+                   header_.layout.runs[side_].fields[column] + 1, shown(columns_[column].name),
+                   shown(fields_[column].text), why);
 }
 
-/// After a field that is no number, what to do about what it often is: a decimal comma, a minus sign of print, a heading.
+/// After a field that is no number, what to do about what it often is: a decimal comma, a minus
+/// sign of print, a heading.
 std::string Reader::way_out(std::string_view field) const {
   const bool in_field = std::count(field.begin(), field.end(), ',') == 1 && field.find('.') == npos;
-  const bool beside = dialect_.separator() == ',' && field.find(' ') != npos && is_number(field.substr(0, field.find(' ')));
+  const bool beside = dialect_.separator() == ',' && field.find(' ') != npos &&
+                      is_number(field.substr(0, field.find(' ')));
   if (in_field || beside) return "; if a comma here is a decimal one, make it a point first";
   if (field.starts_with("\xE2\x88\x92")) return "; make its minus sign (U+2212) a hyphen first";
   const bool word = !field.empty() && std::string_view("+-.0123456789").find(field.front()) == npos;
-  return word && !header_.named && lines_->number() == first_record_ ? "; if this line is no record, begin it with #" : "";
+  return word && !header_.named && lines_->number() == first_record_
+             ? "; if this line is no record, begin it with #"
+             : "";
 }
 
 std::string Reader::where() const {
-  return begun_ && !at_end_ ? fmt::format("{}:{}", lines_->name(), lines_->number()) : std::string();
+  return begun_ && !at_end_ ? fmt::format("{}:{}", lines_->name(), lines_->number())
+                            : std::string();
 }
 
 }  // namespace rolling

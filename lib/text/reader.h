@@ -1,5 +1,5 @@
-// Records from files of columns: rolling-columns(5). The reader knows what the header says, which columns are needed, and
-// where each record stands; what the numbers mean is not its business.
+// Records from files of columns: rolling-columns(5). The reader knows what the header says, which
+// columns are needed, and where each record stands; what the numbers mean is not its business.
 #pragma once
 
 #include <functional>
@@ -35,17 +35,19 @@ class Reader {
 
   // The header.
   const std::vector<Column>& columns() const { return columns_; }
-  /// Index of the column that serves as `name` (a name, a 1-based number, or what --use says), if there is one.
+  /// Index of the column that serves as `name` (a name, a 1-based number, or what --use says), if
+  /// there is one.
   std::optional<std::size_t> find(std::string_view name) const;
   /// The comments before the records and the history in them.
   const std::vector<std::string>& comments() const { return comments_; }
 
-  /// Declares a column needed: its numbers are parsed, converted to SI, and never missing. Returns its slot for operator[].
-  /// Throws Error when there is none.
+  /// Declares a column needed: its numbers are parsed, converted to SI, and never missing. Returns
+  /// its slot for operator[]. Throws Error when there is none.
   std::size_t need(std::string_view name);
   /// The same for a column whose readings may be missing: they are NaN.
   std::size_t want(std::string_view name);
-  /// The same as need() for a column that is no known quantity here, whatever its name and unit (the a of a law): nothing is converted.
+  /// The same as need() for a column that is no known quantity here, whatever its name and unit
+  /// (the a of a law): nothing is converted.
   std::size_t need_as_is(std::string_view name);
   /// Needs t, increasing strictly within a run.
   std::size_t need_time();
@@ -57,13 +59,16 @@ class Reader {
   bool next_run();
   /// Goes to the next record of this run; false at its end.
   bool next();
-  /// About as many records as this file still has, and an eighth more; of a pipe, as have been read.
+  /// About as many records as this file still has, and an eighth more; of a pipe, as have been
+  /// read.
   std::size_t records_ahead() const { return lines_->lines_ahead(); }
   /// The number in a needed column [SI].
   double operator[](std::size_t slot) const { return values_[slot]; }
-  /// The record as it goes out, tab-separated, valid until the next one; if `cut` is a column, its text is [first, last) of that.
+  /// The record as it goes out, tab-separated, valid until the next one; if `cut` is a column, its
+  /// text is [first, last) of that.
   std::string_view text(std::size_t cut, std::size_t& first, std::size_t& last) {
-    if (!dialect_.as_it_stands() || converts_ || header_.layout.side_by_side) return made_text(cut, first, last);
+    if (!dialect_.as_it_stands() || converts_ || header_.layout.side_by_side)
+      return made_text(cut, first, last);
     const std::string_view line = lines_->text();
     if (cut < fields_.size()) {
       first = static_cast<std::size_t>(fields_[cut].text.data() - line.data());
@@ -79,14 +84,23 @@ class Reader {
   /// True once after the history has changed since the last call.
   bool history_changed() { return std::exchange(history_changed_, false); }
 
-  /// `file:line` of the present record; empty before the first one of a file, and when all input has been read.
+  /// `file:line` of the present record; empty before the first one of a file, and when all input
+  /// has been read.
   std::string where() const;
-  std::size_t left_out() const { return left_out_; }  ///< records left out because a needed cell was missing
-  /// Some times are so large that a double keeps fewer than four digits of the time between two records.
+  std::size_t left_out() const {
+    return left_out_;
+  }  ///< records left out because a needed cell was missing
+  /// Some times are so large that a double keeps fewer than four digits of the time between two
+  /// records.
   bool coarse_time() const { return coarse_time_; }
 
  private:
-  struct Needed { std::size_t column; std::string name; Conversion to_si; bool may_miss = false; };
+  struct Needed {
+    std::size_t column;
+    std::string name;
+    Conversion to_si;
+    bool may_miss = false;
+  };
   enum class Event { record, run_break, end };
 
   void open_next();
@@ -138,7 +152,8 @@ class Reader {
   // Runs.
   std::size_t side_ = 0;
   int run_ = 0;
-  bool run_found_ = false, run_begins_ = false, first_of_run_ = true, file_ended_ = false, skipping_ = false, begun_ = false, at_end_ = false;
+  bool run_found_ = false, run_begins_ = false, first_of_run_ = true, file_ended_ = false,
+       skipping_ = false, begun_ = false, at_end_ = false;
   std::size_t left_out_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// GSL's steppers in the ordinary way: gsl_odeiv2_driver from sample to sample, no event. The law is a v^b by pow(v, b) as it is printed, or
-// odd in v, as one writes it after the first NaN.
+// GSL's steppers in the ordinary way: gsl_odeiv2_driver from sample to sample, no event. The law is
+// a v^b by pow(v, b) as it is printed, or odd in v, as one writes it after the first NaN.
 #pragma once
 
 #include <gsl/gsl_errno.h>
@@ -11,8 +11,8 @@
 
 #include "base/error.h"
 #include "base/gsl.h"
-#include "rolling/motion.h"
-#include "rolling/roll.h"
+#include "motion/motion.h"
+#include "motion/roll.h"
 
 namespace rolling {
 
@@ -20,7 +20,8 @@ class BareGsl final : public Motion {
  public:
   static constexpr unsigned long most_evaluations = 1'000'000;
 
-  BareGsl(const Roll& roll, const gsl_odeiv2_step_type* type, double rtol, bool odd) : roll_(roll), odd_(odd), system_{derivative, jacobian, dimension(), this} {
+  BareGsl(const Roll& roll, const gsl_odeiv2_step_type* type, double rtol, bool odd)
+      : roll_(roll), odd_(odd), system_{derivative, jacobian, dimension(), this} {
     silence_gsl();
     y_[0] = roll.v0, y_[1] = roll.law(roll.v0);
     driver_ = gsl_odeiv2_driver_alloc_y_new(&system_, type, 1e-6, 1e-3 * rtol, rtol);
@@ -29,7 +30,9 @@ class BareGsl final : public Motion {
   BareGsl& operator=(const BareGsl&) = delete;
   ~BareGsl() override { gsl_odeiv2_driver_free(driver_); }
 
-  double stop_time() const override { return std::numeric_limits<double>::quiet_NaN(); }  // it has none
+  double stop_time() const override {
+    return std::numeric_limits<double>::quiet_NaN();
+  }  // it has none
   void seek(double t) override {
     if (t <= t_) return;
     const int status = gsl_odeiv2_driver_apply(driver_, &t_, t, y_);
@@ -46,7 +49,8 @@ class BareGsl final : public Motion {
   std::size_t dimension() const { return roll_.bulge.length > 0 ? 2 : 1; }
 
   double pull(double D) const {
-    const double d = D / roll_.body.R, A = roll_.geometry == Geometry::exact ? std::sqrt(1 - d * d) : 1;
+    const double d = D / roll_.body.R,
+                 A = roll_.geometry == Geometry::exact ? std::sqrt(1 - d * d) : 1;
     return -roll_.body.g * d / (roll_.body.K + A);
   }
   double law(double v) const {
@@ -67,7 +71,8 @@ class BareGsl final : public Motion {
     return GSL_SUCCESS;
   }
 
-  static int jacobian(double t, const double* y, double* dfdy, double* dfdt, void* self) {  // by differences
+  static int jacobian(double t, const double* y, double* dfdy, double* dfdt,
+                      void* self) {  // by differences
     auto& me = *static_cast<BareGsl*>(self);
     const std::size_t n = me.dimension();
     double f0[2], f1[2], shifted[2] = {y[0], n > 1 ? y[1] : 0};

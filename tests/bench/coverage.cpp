@@ -1,4 +1,5 @@
-// Prints the table of tests/bench/coverage.h: coverage [RUNS [WORD]], only the cases whose name has WORD. `make coverage`.
+// Prints the table of tests/bench/coverage.h: coverage [RUNS [WORD]], only the cases whose name has
+// WORD. `make coverage`.
 #include "bench/coverage.h"
 
 #include <unistd.h>
@@ -24,8 +25,10 @@ int main(int argc, char** argv) {
   for (const auto& what : coverage::cases())
     for (const auto& scene : {coverage::CR, coverage::CF})
       if (argc < 3 || std::strstr(what.name, argv[2])) jobs.emplace_back(new Job{what, scene, {}});
-  std::printf("# %d runs each; biases and sd of b; 95 %% intervals; far: beyond 6 standard errors\n", runs);
-  std::printf("%-27s %-8s %-5s %7s %7s %8s %9s %7s %7s %4s %8s %6s\n", "# case", "route", "scene", "bias_a", "bias_b", "sd_b", "sd/bound", "cover_a", "cover_b", "far", "refused", "ms");
+  std::printf(
+      "# %d runs each; biases and sd of b; 95 %% intervals; far: beyond 6 standard errors\n", runs);
+  std::printf("%-27s %-8s %-5s %7s %7s %8s %9s %7s %7s %4s %8s %6s\n", "# case", "route", "scene",
+              "bias_a", "bias_b", "sd_b", "sd/bound", "cover_a", "cover_b", "far", "refused", "ms");
   std::atomic<std::size_t> next = 0;
   std::size_t finished = 0;
   const auto work = [&] {
@@ -39,15 +42,18 @@ int main(int argc, char** argv) {
   rolling::Progress progress;
   if (!::isatty(STDOUT_FILENO)) progress.start("coverage");  // else its rows show it
   std::vector<std::thread> threads;
-  for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i) threads.emplace_back(work);
+  for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
+    threads.emplace_back(work);
   for (const auto& job : jobs) {
     progress.at("cases", static_cast<double>(finished++) / static_cast<double>(jobs.size()));
     job->done.wait(false);
     const auto& r = job->row;
     char bound[16] = "-";
     if (job->what.bound) std::snprintf(bound, sizeof bound, "%.3f", r.over_bound);
-    std::printf("%-27s %-8s %-5s %+7.2f %+7.2f %8.5f %9s %7.3f %7.3f %4d %8d %6.2f\n", job->what.name, route_names[static_cast<int>(job->what.route)],
-                job->scene.name, r.bias_a, r.bias_b, r.sd_b, bound, r.cover_a, r.cover_b, r.far, r.refused, 1e3 * r.seconds);
+    std::printf("%-27s %-8s %-5s %+7.2f %+7.2f %8.5f %9s %7.3f %7.3f %4d %8d %6.2f\n",
+                job->what.name, route_names[static_cast<int>(job->what.route)], job->scene.name,
+                r.bias_a, r.bias_b, r.sd_b, bound, r.cover_a, r.cover_b, r.far, r.refused,
+                1e3 * r.seconds);
     std::fflush(stdout);
   }
   for (auto& thread : threads) thread.join();

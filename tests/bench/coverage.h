@@ -1,11 +1,12 @@
-// Do the errors of fitpower hold? Simulated runs with a known law, fitted again and again: by case and route the bias, the
-// spread and how often the nominal 95 % intervals hold the truth. `make coverage` prints the table; a test takes a short form.
+// Do the errors of fitpower hold? Simulated runs with a known law, fitted again and again: by case
+// and route the bias, the spread and how often the nominal 95 % intervals hold the truth. `make
+// coverage` prints the table; a test takes a short form.
 #pragma once
 
 #include "base/error.h"
 #include "cli/history.h"
 #include "fit/fit.h"
-#include "rolling/trajectory.h"
+#include "motion/trajectory.h"
 #include "unit/fit/simulated.h"
 
 #include <chrono>
@@ -22,37 +23,48 @@ using Column = std::vector<double>;
 struct Case {
   const char* name;
   Route route;
-  enum Raw { x, v } raw = x;                    ///< the column that carries white noise
-  std::vector<std::string> history = {};        ///< the filters, as the `##` lines tell them
-  Column (*unknown)(const Column& x) = nullptr;  ///< or v from x by a sensor's software, of which no line tells
-  double resolution = 0;                        ///< positions are rounded to this [m]
-  double outliers = 0;                          ///< share of readings that are false echoes
-  bool bound = false;                           ///< white noise on the fitted column: the Cramer-Rao bound holds
+  enum Raw { x, v } raw = x;              ///< the column that carries white noise
+  std::vector<std::string> history = {};  ///< the filters, as the `##` lines tell them
+  Column (*unknown)(const Column& x) =
+      nullptr;            ///< or v from x by a sensor's software, of which no line tells
+  double resolution = 0;  ///< positions are rounded to this [m]
+  double outliers = 0;    ///< share of readings that are false echoes
+  bool bound = false;     ///< white noise on the fitted column: the Cramer-Rao bound holds
 };
 
-constexpr double dt = 0.04, noise_x = 3e-4, noise_v = noise_x / dt / 1.41421356;  // a sonar at 25 Hz
+constexpr double dt = 0.04, noise_x = 3e-4,
+                 noise_v = noise_x / dt / 1.41421356;  // a sonar at 25 Hz
 
-inline double clamped(const Column& x, std::ptrdiff_t i) { return x[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, std::ssize(x) - 1))]; }
+inline double clamped(const Column& x, std::ptrdiff_t i) {
+  return x[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, std::ssize(x) - 1))];
+}
 
 /// Speeds as PASCO Capstone exports them; at the ends, what is there of them.
 inline Column capstone(const Column& x) {
   Column v;
   for (std::ptrdiff_t i = 0; i < std::ssize(x); ++i) {
     const std::ptrdiff_t k = std::min({std::ptrdiff_t{2}, i, std::ssize(x) - 1 - i});
-    v.push_back(k == 2 ? (clamped(x, i + 1) + clamped(x, i + 2) - clamped(x, i - 1) - clamped(x, i - 2)) / (6 * dt)
-                       : k == 1 ? (clamped(x, i + 1) - clamped(x, i - 1)) / (2 * dt) : i == 0 ? (clamped(x, 1) - clamped(x, 0)) / dt : (clamped(x, i) - clamped(x, i - 1)) / dt);
+    v.push_back(
+        k == 2 ? (clamped(x, i + 1) + clamped(x, i + 2) - clamped(x, i - 1) - clamped(x, i - 2)) /
+                     (6 * dt)
+        : k == 1 ? (clamped(x, i + 1) - clamped(x, i - 1)) / (2 * dt)
+        : i == 0 ? (clamped(x, 1) - clamped(x, 0)) / dt
+                 : (clamped(x, i) - clamped(x, i - 1)) / dt);
   }
   return v;
 }
 
-/// Speeds as Vernier Logger Pro exports them: slopes over 1, 2, 3 records to either side with weights 3, 2, 1.
+/// Speeds as Vernier Logger Pro exports them: slopes over 1, 2, 3 records to either side with
+/// weights 3, 2, 1.
 inline Column logger_pro(const Column& x) {
   Column v;
   const std::ptrdiff_t n = std::ssize(x);
   for (std::ptrdiff_t i = 0; i < n; ++i) {
     double sum = 0;
     for (std::ptrdiff_t k = 1; k <= 3; ++k)
-      sum += static_cast<double>(4 - k) * (clamped(x, i + k) - clamped(x, i - k)) / (static_cast<double>(std::min(i + k, n - 1) - std::max<std::ptrdiff_t>(i - k, 0)) * dt);
+      sum +=
+          static_cast<double>(4 - k) * (clamped(x, i + k) - clamped(x, i - k)) /
+          (static_cast<double>(std::min(i + k, n - 1) - std::max<std::ptrdiff_t>(i - k, 0)) * dt);
     v.push_back(sum / 6);
   }
   return v;
@@ -77,18 +89,20 @@ struct Row {
   double bias_a = 0, bias_b = 0;    ///< in standard deviations of one run
   double sd_b = 0, over_bound = 0;  ///< of b; over the Cramer-Rao bound, 0 where it does not apply
   double cover_a = 0, cover_b = 0;  ///< share of runs whose 95 % interval holds the truth
-  int far = 0;                      ///< runs further than 6 of their own standard errors from the truth
+  int far = 0;  ///< runs further than 6 of their own standard errors from the truth
   int refused = 0;
-  double seconds = 0;               ///< per fit
+  double seconds = 0;  ///< per fit
 };
 
 /// Least standard error of b that any unbiased fit of the run can have.
 inline double bound_of_b(const rolling::Trajectory& roll, std::size_t n, bool position) {
-  double A[4][4] = {};  // b last: its pivot, after elimination of the others, is the inverse of its variance
+  double A[4][4] =
+      {};  // b last: its pivot, after elimination of the others, is the inverse of its variance
   const std::size_t p = position ? 4 : 3;
   for (std::size_t i = 0; i < n; ++i) {
     const auto s = roll.at(dt * static_cast<double>(i));
-    const std::vector<double> g = position ? Column{1, s.x_v0, s.x_a, s.x_b} : Column{s.v_v0, s.v_a, s.v_b};
+    const std::vector<double> g =
+        position ? Column{1, s.x_v0, s.x_a, s.x_b} : Column{s.v_v0, s.v_a, s.v_b};
     for (std::size_t j = 0; j < p; ++j)
       for (std::size_t k = 0; k < p; ++k) A[j][k] += g[j] * g[k];
   }
@@ -99,7 +113,8 @@ inline double bound_of_b(const rolling::Trajectory& roll, std::size_t n, bool po
 }
 
 inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
-  const rolling::Trajectory truth(cylinder, rolling::Geometry::approximate, {scene.a, scene.b}, 0.5);
+  const rolling::Trajectory truth(cylinder, rolling::Geometry::approximate, {scene.a, scene.b},
+                                  0.5);
   const bool trajectory = c.route == Route::velocity || c.route == Route::position;
   const auto n = static_cast<std::size_t>(truth.stop_time() / dt) + 1;
   rolling::FitRun run{};
@@ -129,7 +144,8 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
     run.x = run.v = run.D = raw;
     if (c.unknown) run.v = c.unknown(raw);
     std::map<std::string, Column> columns{{c.raw == Case::x ? "x" : "v", raw}};
-    for (const auto& filter : run.filters) columns[filter.to] = filter.apply(run.t, columns[filter.from]);
+    for (const auto& filter : run.filters)
+      columns[filter.to] = filter.apply(run.t, columns[filter.from]);
     if (!run.filters.empty()) run.v = columns["v"];
     if (!trajectory) run.D = columns["D"];
     const auto begin = std::chrono::steady_clock::now();
@@ -144,7 +160,8 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
     } catch (const rolling::Error&) {
       ++row.refused;
     }
-    row.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / runs;
+    row.seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / runs;
   }
   const auto fits = static_cast<double>(bs.size());
   const auto moments = [&](const std::vector<double>& errors, double& bias) {
@@ -167,22 +184,34 @@ inline std::vector<Case> cases() {
       {.name = "white x", .route = Route::position, .bound = true},
       {.name = "white v", .route = Route::velocity, .raw = Case::v, .bound = true},
       {.name = "v from x, known", .route = Route::velocity, .history = {"differentiate x central"}},
-      {.name = "v from x, smooth 11, known", .route = Route::velocity, .history = {"differentiate x central", "smooth v mean width 11"}},
+      {.name = "v from x, smooth 11, known",
+       .route = Route::velocity,
+       .history = {"differentiate x central", "smooth v mean width 11"}},
       {.name = "v by Capstone", .route = Route::velocity, .unknown = capstone},
       {.name = "v by Logger Pro", .route = Route::velocity, .unknown = logger_pro},
       {.name = "x to 1 mm", .route = Route::position, .resolution = 1e-3},
-      {.name = "v from x to 1 mm, known", .route = Route::velocity, .history = {"differentiate x central"}, .resolution = 1e-3},
-      {.name = "D from x to 1 mm, W 11", .route = Route::shift, .history = to_shift(Case::x, 11), .resolution = 1e-3},
+      {.name = "v from x to 1 mm, known",
+       .route = Route::velocity,
+       .history = {"differentiate x central"},
+       .resolution = 1e-3},
+      {.name = "D from x to 1 mm, W 11",
+       .route = Route::shift,
+       .history = to_shift(Case::x, 11),
+       .resolution = 1e-3},
       {.name = "x, 1 % outliers", .route = Route::position, .outliers = 0.01},
       {.name = "v, 1 % outliers", .route = Route::velocity, .raw = Case::v, .outliers = 0.01},
   };
-  static const char* const names[][4] = {{"D from v, W 5", "D from v, W 9", "D from v, W 15", "D from v, W 31"},
-                                         {"D from x, W 5", "D from x, W 9", "D from x, W 15", "D from x, W 31"}};
+  static const char* const names[][4] = {
+      {"D from v, W 5", "D from v, W 9", "D from v, W 15", "D from v, W 31"},
+      {"D from x, W 5", "D from x, W 9", "D from x, W 15", "D from x, W 31"}};
   constexpr int widths[] = {5, 9, 15, 31};
   for (Route route : {Route::shift, Route::loglog})
     for (Case::Raw raw : {Case::v, Case::x})
       for (int i = 0; i < 4; ++i)
-        all.push_back({.name = names[raw == Case::x][i], .route = route, .raw = raw, .history = to_shift(raw, widths[i])});
+        all.push_back({.name = names[raw == Case::x][i],
+                       .route = route,
+                       .raw = raw,
+                       .history = to_shift(raw, widths[i])});
   return all;
 }
 

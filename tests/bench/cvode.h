@@ -1,4 +1,5 @@
-// CVODE in the ordinary way: from sample to sample, the stop by its root finding. Where libsundials-dev (6 or later) is installed.
+// CVODE in the ordinary way: from sample to sample, the stop by its root finding. Where
+// libsundials-dev (6 or later) is installed.
 #pragma once
 
 #if __has_include(<cvode/cvode.h>)
@@ -14,14 +15,15 @@
 
 #include "base/error.h"
 #include "base/gsl.h"
-#include "rolling/motion.h"
-#include "rolling/roll.h"
-#include "rolling/trial.h"
+#include "motion/motion.h"
+#include "motion/roll.h"
+#include "contact/trial.h"
 
 namespace rolling {
 
-/// y = v, or (v, z) with memory; CVODE's difference quotients for the Jacobian and its dense solver. The absolute tolerance is 1e-3 rtol v0,
-/// and the stop is where v falls to it; below, the law goes on as a constant. (With memory there is no stop: it rings on.)
+/// y = v, or (v, z) with memory; CVODE's difference quotients for the Jacobian and its dense
+/// solver. The absolute tolerance is 1e-3 rtol v0, and the stop is where v falls to it; below, the
+/// law goes on as a constant. (With memory there is no stop: it rings on.)
 class Cvode final : public Motion {
  public:
   static constexpr unsigned long most_evaluations = 1'000'000;
@@ -31,8 +33,11 @@ class Cvode final : public Motion {
     const sunindextype n = roll.bulge.length > 0 ? 2 : 1;
     y_ = own(N_VNew_Serial(n, context_.get()), N_VDestroy);
     matrix_ = own(SUNDenseMatrix(n, n, context_.get()), SUNMatDestroy);
-    solver_ = own(SUNLinSol_Dense(y_.get(), matrix_.get(), context_.get()), +[](SUNLinearSolver solver) { SUNLinSolFree(solver); });
-    cvode_ = own(CVodeCreate(method, context_.get()), +[](void* memory) { CVodeFree(&memory); });
+    solver_ = own(
+        SUNLinSol_Dense(y_.get(), matrix_.get(), context_.get()),
+        +[](SUNLinearSolver solver) { SUNLinSolFree(solver); });
+    cvode_ = own(
+        CVodeCreate(method, context_.get()), +[](void* memory) { CVodeFree(&memory); });
     NV_Ith_S(y_.get(), 0) = roll.v0;
     if (n > 1) NV_Ith_S(y_.get(), 1) = roll.law(roll.v0);
     check(CVodeInit(cvode_.get(), derivative, 0, y_.get()));
@@ -47,7 +52,9 @@ class Cvode final : public Motion {
   Cvode& operator=(const Cvode&) = delete;
 
   /// Of the stop that seek() has met; NaN before it.
-  double stop_time() const override { return stopped_ ? t_ : std::numeric_limits<double>::quiet_NaN(); }
+  double stop_time() const override {
+    return stopped_ ? t_ : std::numeric_limits<double>::quiet_NaN();
+  }
   void seek(double t) override {
     if (stopped_ || t <= t_) return;
     const int status = CVode(cvode_.get(), t, y_.get(), &t_, CV_NORMAL);
@@ -97,7 +104,8 @@ class Cvode final : public Motion {
 
   Roll roll_;
   double floor_;
-  Owned<SUNContext> context_ = own(new_context(), +[](SUNContext context) { SUNContext_Free(&context); });
+  Owned<SUNContext> context_ = own(
+      new_context(), +[](SUNContext context) { SUNContext_Free(&context); });
   Owned<N_Vector> y_{nullptr, nullptr};
   Owned<SUNMatrix> matrix_{nullptr, nullptr};
   Owned<SUNLinearSolver> solver_{nullptr, nullptr};

@@ -1,11 +1,13 @@
-// How far smoothed speeds and their derivatives are from the truth, method by method and window by window: the four scenes of
-// the paper, seen by a sonar, many seeds each. Plain columns on standard output; tests/bench/signal.sh runs it and draws the figure.
+// How far smoothed speeds and their derivatives are from the truth, method by method and window by
+// window: the four scenes of the paper, seen by a sonar, many seeds each. Plain columns on standard
+// output; tests/bench/signal.sh runs it and draws the figure.
 //
 //   signal [SEEDS]          the table; 200 seeds
 //   signal records SEEDS    the records: scene, seed, t, x, and the true v and a
 //
-// From positions at 25 Hz (0.3 mm of noise, rounded to 1 mm) v comes by central differences, as smooth(1) gets it. Then either
-// v is smoothed and differentiated by central differences, or differentiated by a method that smooths as it goes.
+// From positions at 25 Hz (0.3 mm of noise, rounded to 1 mm) v comes by central differences, as
+// smooth(1) gets it. Then either v is smoothed and differentiated by central differences, or
+// differentiated by a method that smooths as it goes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +17,7 @@
 #include <functional>
 #include <vector>
 
-#include "rolling/closed_form.h"
+#include "motion/closed_form.h"
 #include "sensor/sonar.h"
 #include "signal/derivative.h"
 #include "signal/smoother.h"
@@ -24,25 +26,40 @@ using namespace rolling;
 
 namespace {
 
-struct Scene { const char* name; double K; PowerLaw law; };
-const Scene scenes[] = {{"CF", 0.5, {5.75e-4, 2.44e-2}}, {"CR", 0.5, {1.87e-3, 0.215}}, {"SF", 0.83, {5.75e-4, 2.44e-2}}, {"SR", 0.83, {1.78e-3, 0.255}}};
+struct Scene {
+  const char* name;
+  double K;
+  PowerLaw law;
+};
+const Scene scenes[] = {{"CF", 0.5, {5.75e-4, 2.44e-2}},
+                        {"CR", 0.5, {1.87e-3, 0.215}},
+                        {"SF", 0.83, {5.75e-4, 2.44e-2}},
+                        {"SR", 0.83, {1.78e-3, 0.255}}};
 
 using Series = std::vector<double>;
 
 Series through(Signal& signal, const Series& t, const Series& y) {
   Series out;
-  const auto take = [&](std::span<const double> values) { out.insert(out.end(), values.begin(), values.end()); };
+  const auto take = [&](std::span<const double> values) {
+    out.insert(out.end(), values.begin(), values.end());
+  };
   for (std::size_t i = 0; i < t.size(); ++i) take(signal.push(t[i], y[i]));
   take(signal.finish());
   return out;
 }
 
-Series derivative(const DerivativeOptions& options, const Series& t, const Series& y) { return through(*make_derivative(options), t, y); }
-Series smoothed(const SmootherOptions& options, const Series& t, const Series& y) { return through(*make_smoother(options), t, y); }
+Series derivative(const DerivativeOptions& options, const Series& t, const Series& y) {
+  return through(*make_derivative(options), t, y);
+}
+Series smoothed(const SmootherOptions& options, const Series& t, const Series& y) {
+  return through(*make_smoother(options), t, y);
+}
 
-/// The free roll of one record: from two records after the release, where the central difference has left the push behind, to
-/// a tenth of the greatest speed.
-struct Roll { Series t, x, v, a; };  // v and a: the truth
+/// The free roll of one record: from two records after the release, where the central difference
+/// has left the push behind, to a tenth of the greatest speed.
+struct Roll {
+  Series t, x, v, a;
+};  // v and a: the truth
 
 Roll roll(const Scene& scene, unsigned long seed) {
   ClosedForm motion({1.375, 0.04, scene.K}, scene.law, 0.5, 0);
@@ -56,7 +73,8 @@ Roll roll(const Scene& scene, unsigned long seed) {
     if (t < 1.5 / options.rate) continue;
     motion.seek(t);
     if (motion.velocity() < 0.05) break;
-    out.t.push_back(s.t), out.x.push_back(*s.x), out.v.push_back(motion.velocity()), out.a.push_back(motion.acceleration());
+    out.t.push_back(s.t), out.x.push_back(*s.x), out.v.push_back(motion.velocity()),
+        out.a.push_back(motion.acceleration());
   }
   return out;
 }
@@ -67,36 +85,46 @@ struct Method {
   std::function<void(const Roll&, const Series& v, Series& smooth, Series& a)> apply;
 };
 
-constexpr std::size_t next(std::size_t width) { return width + (width < 15 ? 2 : width < 31 ? 4 : 10); }
+constexpr std::size_t next(std::size_t width) {
+  return width + (width < 15 ? 2 : width < 31 ? 4 : 10);
+}
 
 std::vector<Method> methods() {
   std::vector<Method> all;
   const DerivativeOptions central{};
   for (const auto& [name, method] : smoothing_methods)
-    for (std::size_t width = method == SmoothingMethod::savgol ? 5 : 1; width <= 61; width = next(width)) {
+    for (std::size_t width = method == SmoothingMethod::savgol ? 5 : 1; width <= 61;
+         width = next(width)) {
       if (method == SmoothingMethod::median && width == 1) continue;
       const SmootherOptions options{method, {width, 0}};
-      all.push_back({name + "+central", static_cast<double>(width), [=](const Roll& r, const Series& v, Series& s, Series& a) {
-                       s = smoothed(options, r.t, v), a = derivative(central, r.t, s);
+      all.push_back({name + "+central", static_cast<double>(width),
+                     [=](const Roll& r, const Series& v, Series& s, Series& a) {
+        s = smoothed(options, r.t, v), a = derivative(central, r.t, s);
                      }});
     }
   for (std::size_t order = 1; order <= 2; ++order)
     for (std::size_t width = 5; width <= 61; width = next(width))
-      all.push_back({fmt::format("savgol{}", order), static_cast<double>(width), [=](const Roll& r, const Series& v, Series& s, Series& a) {
-                       s = smoothed({SmoothingMethod::savgol, {width, 0}, order}, r.t, v), a = derivative({DerivativeMethod::savgol, width, order}, r.t, v);
+      all.push_back({fmt::format("savgol{}", order), static_cast<double>(width),
+                     [=](const Roll& r, const Series& v, Series& s, Series& a) {
+        s = smoothed({SmoothingMethod::savgol, {width, 0}, order}, r.t, v),
+        a = derivative({DerivativeMethod::savgol, width, order}, r.t, v);
                      }});
   for (const auto& [name, method] : derivative_methods)
     if (method != DerivativeMethod::savgol && method != DerivativeMethod::central)
-      all.push_back({name, NAN, [m = method](const Roll& r, const Series& v, Series& s, Series& a) { s = v, a = derivative({m}, r.t, v); }});
-  all.push_back({"spline_of_x+central", NAN, [=](const Roll& r, const Series&, Series& s, Series& a) {
-                   s = derivative({DerivativeMethod::spline}, r.t, r.x), a = derivative(central, r.t, s);
+      all.push_back({name, NAN, [m = method](const Roll& r, const Series& v, Series& s, Series& a) {
+                       s = v, a = derivative({m}, r.t, v);
+                     }});
+  all.push_back({"spline_of_x+central", NAN,
+                 [=](const Roll& r, const Series&, Series& s, Series& a) {
+    s = derivative({DerivativeMethod::spline}, r.t, r.x), a = derivative(central, r.t, s);
                  }});
   for (const auto method : {SmoothingMethod::mean, SmoothingMethod::savgol})
-    all.push_back({method == SmoothingMethod::mean ? "mean_auto+central" : "savgol2_auto", NAN, [=](const Roll& r, const Series& v, Series& s, Series& a) {
-                     AutoSmoother smoother({method});
-                     s = through(smoother, r.t, v);
-                     if (method == SmoothingMethod::mean) a = derivative(central, r.t, s);
-                     else a = derivative({DerivativeMethod::savgol, smoother.options().width.samples, 2}, r.t, v);
+    all.push_back({method == SmoothingMethod::mean ? "mean_auto+central" : "savgol2_auto", NAN,
+                   [=](const Roll& r, const Series& v, Series& s, Series& a) {
+      AutoSmoother smoother({method});
+      s = through(smoother, r.t, v);
+      if (method == SmoothingMethod::mean) a = derivative(central, r.t, s);
+      else a = derivative({DerivativeMethod::savgol, smoother.options().width.samples, 2}, r.t, v);
                    }});
   return all;
 }
@@ -109,15 +137,22 @@ int main(int argc, char** argv) {
     for (const Scene& scene : scenes)
       for (unsigned long seed = 1; seed <= count; ++seed) {
         const Roll r = roll(scene, seed);
-        for (std::size_t i = 0; i < r.t.size(); ++i) fmt::print("{}\t{}\t{}\t{}\t{}\t{}\n", scene.name, seed, r.t[i], r.x[i], r.v[i], r.a[i]);
+        for (std::size_t i = 0; i < r.t.size(); ++i)
+          fmt::print("{}\t{}\t{}\t{}\t{}\t{}\n", scene.name, seed, r.t[i], r.x[i], r.v[i], r.a[i]);
       }
     return 0;
   }
   const unsigned long seeds = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 200;
-  fmt::print("# {} seeds each; errors are root mean squares over records and seeds, of D relative to its truth; ends: the first\n"
-             "# and last five records; bias and scatter: of a inside, over records of the mean over seeds and about it;\n"
-             "# seconds: median over the seeds\n"
-             "# scene\tmethod\twidth\terror_v[m/s]\terror_a[m/s^2]\tbias_a[m/s^2]\tscatter_a[m/s^2]\tends_a[m/s^2]\terror_D\tseconds_per_row\n", seeds);
+  fmt::print(
+      "# {} seeds each; errors are root mean squares over records and seeds, of D relative to its "
+      "truth; ends: the first\n"
+      "# and last five records; bias and scatter: of a inside, over records of the mean over seeds "
+      "and about it;\n"
+      "# seconds: median over the seeds\n"
+      "# "
+      "scene\tmethod\twidth\terror_v[m/s]\terror_a[m/s^2]\tbias_a[m/s^2]\tscatter_a[m/"
+      "s^2]\tends_a[m/s^2]\terror_D\tseconds_per_row\n",
+      seeds);
   constexpr std::size_t ends = 5;
   for (const Scene& scene : scenes)
     for (const Method& method : methods()) {
@@ -130,7 +165,9 @@ int main(int argc, char** argv) {
         const auto begin = std::chrono::steady_clock::now();
         method.apply(r, v, smooth, a);
         n = r.t.size();
-        seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / static_cast<double>(n));
+        seconds.push_back(
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() /
+            static_cast<double>(n));
         sum.resize(n), squares.resize(n);
         for (std::size_t i = 0; i < n; ++i) {
           const double error = a[i] - r.a[i];
@@ -150,8 +187,10 @@ int main(int argc, char** argv) {
         const double mean = sum[i] / count;
         bias += mean * mean / inner, scatter += (squares[i] / count - mean * mean) / inner;
       }
-      fmt::print("{}\t{}\t{}\t{:.3e}\t{:.3e}\t{:.3e}\t{:.3e}\t{:.3e}\t{:.4f}\t{:.2e}\n", scene.name, method.name, std::isnan(method.width) ? "NaN" : fmt::format("{}", method.width),
-                 std::sqrt(v_errors / count / inner), std::sqrt(inside / count / inner), std::sqrt(bias), std::sqrt(scatter),
-                 std::sqrt(outside / count / (2 * ends)), std::sqrt(relative / count / inner), *middle);
+      fmt::print("{}\t{}\t{}\t{:.3e}\t{:.3e}\t{:.3e}\t{:.3e}\t{:.3e}\t{:.4f}\t{:.2e}\n", scene.name,
+                 method.name, std::isnan(method.width) ? "NaN" : fmt::format("{}", method.width),
+                 std::sqrt(v_errors / count / inner), std::sqrt(inside / count / inner),
+                 std::sqrt(bias), std::sqrt(scatter), std::sqrt(outside / count / (2 * ends)),
+                 std::sqrt(relative / count / inner), *middle);
     }
 }

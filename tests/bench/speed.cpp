@@ -1,14 +1,16 @@
 // The bare loops that the tools are measured against, and the watch that measures.
 //
-//   speed filter [COLUMNS] <FILE    parse two numbers of each row, pass its bytes through, append COLUMNS (1) new numbers
-//   speed fit <FILE                 parse two numbers of each row, add up what a straight line through their logarithms takes
-//   speed print ROWS                rows of two numbers
-//   speed compare ROUNDS cpu|elapsed COMMAND OTHER
-//                                   two shell commands in turn: median seconds of each; median, least and greatest ratio OTHER/COMMAND
+//   speed filter [COLUMNS] <FILE    parse two numbers of each row, pass its bytes through, append
+//   COLUMNS (1) new numbers speed fit <FILE                 parse two numbers of each row, add up
+//   what a straight line through their logarithms takes speed print ROWS                rows of two
+//   numbers speed compare ROUNDS cpu|elapsed COMMAND OTHER
+//                                   two shell commands in turn: median seconds of each; median,
+//                                   least and greatest ratio OTHER/COMMAND
 //   speed peak COMMAND              the largest resident memory of any of its processes [KiB]
 //
-// The loops are what no tool of this kind can do without, and nothing else: no other form of file, no header, no message. The
-// new numbers have as many digits as doubles have, as those that the tools compute.
+// The loops are what no tool of this kind can do without, and nothing else: no other form of file,
+// no header, no message. The new numbers have as many digits as doubles have, as those that the
+// tools compute.
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
@@ -32,7 +34,9 @@ namespace {
 class Writer {
  public:
   ~Writer() { flush(); }
-  void bytes(const char* from, std::size_t count) { to_ = static_cast<char*>(std::memcpy(to_, from, count)) + count; }
+  void bytes(const char* from, std::size_t count) {
+    to_ = static_cast<char*>(std::memcpy(to_, from, count)) + count;
+  }
   void byte(char c) { *to_++ = c; }
   void number(double x) { to_ = fmt::format_to(to_, FMT_COMPILE("{}"), x); }
   void end_line() {
@@ -60,11 +64,14 @@ void rows(Row row) {
   std::size_t kept = 0;
   for (ssize_t count; (count = ::read(STDIN_FILENO, in.data() + kept, in.size() - kept)) > 0;) {
     const char *line = in.data(), *const end = line + kept + count;
-    for (const char* feed; (feed = static_cast<const char*>(std::memchr(line, '\n', static_cast<std::size_t>(end - line)))); line = feed + 1) {
+    for (const char* feed; (feed = static_cast<const char*>(
+                                std::memchr(line, '\n', static_cast<std::size_t>(end - line))));
+         line = feed + 1) {
       if (*line == '#') continue;
       double x, y;
       const char* const gap = std::from_chars(line, feed, x).ptr;
-      if (gap == line || gap == feed || std::from_chars(gap + 1, feed, y).ec != std::errc()) std::_Exit(2);
+      if (gap == line || gap == feed || std::from_chars(gap + 1, feed, y).ec != std::errc())
+        std::_Exit(2);
       row(line, feed, x, y);
     }
     kept = static_cast<std::size_t>(end - line);
@@ -104,7 +111,10 @@ void print(double n) {
   }
 }
 
-struct Used { double elapsed, cpu; long peak; };
+struct Used {
+  double elapsed, cpu;
+  long peak;
+};
 
 Used run(const char* command) {
   const auto begin = std::chrono::steady_clock::now();
@@ -121,8 +131,11 @@ Used run(const char* command) {
     fmt::print(stderr, "speed: this failed: {}\n", command);
     std::_Exit(2);
   }
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
-  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), seconds(used.ru_utime) + seconds(used.ru_stime), used.ru_maxrss};
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+          seconds(used.ru_utime) + seconds(used.ru_stime), used.ru_maxrss};
 }
 
 double median(std::vector<double> values) {
@@ -137,7 +150,8 @@ void compare(int rounds, double Used::*what, const char* command, const char* ot
     two.push_back(run(other).*what);
     ratio.push_back(two.back() / one.back());
   }
-  fmt::print("{:.4f} {:.4f} {:.3f} {:.3f} {:.3f}\n", median(one), median(two), median(ratio), *std::min_element(ratio.begin(), ratio.end()),
+  fmt::print("{:.4f} {:.4f} {:.3f} {:.3f} {:.3f}\n", median(one), median(two), median(ratio),
+             *std::min_element(ratio.begin(), ratio.end()),
              *std::max_element(ratio.begin(), ratio.end()));
 }
 
@@ -148,7 +162,9 @@ int main(int argc, char** argv) {
   if (what == "filter") filter(argc > 2 ? std::atoi(argv[2]) : 1);
   else if (what == "fit") fit();
   else if (what == "print" && argc == 3) print(std::strtod(argv[2], nullptr));
-  else if (what == "compare" && argc == 6) compare(std::atoi(argv[2]), std::string_view(argv[3]) == "cpu" ? &Used::cpu : &Used::elapsed, argv[4], argv[5]);
+  else if (what == "compare" && argc == 6)
+    compare(std::atoi(argv[2]), std::string_view(argv[3]) == "cpu" ? &Used::cpu : &Used::elapsed,
+            argv[4], argv[5]);
   else if (what == "peak" && argc == 3) fmt::print("{}\n", run(argv[2]).peak);
   else return 2;
 }

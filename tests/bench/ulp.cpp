@@ -1,5 +1,5 @@
-// ulp SAMPLES - the largest errors of the closed form against 80 digits and, for a tenth of the samples, of the exact geometry against 60;
-// and their times beside the ways without them.
+// ulp SAMPLES - the largest errors of the closed form against 80 digits and, for a tenth of the
+// samples, of the exact geometry against 60; and their times beside the ways without them.
 #include <fmt/format.h>
 #include <gsl/gsl_odeiv2.h>
 
@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "base/gsl.h"
-#include "rolling/closed_form.h"
-#include "rolling/exact_form.h"
-#include "unit/rolling/closed_form_reference.h"
-#include "unit/rolling/exact_form_reference.h"
-#include "unit/rolling/random_scene.h"
+#include "motion/closed_form.h"
+#include "motion/exact_form.h"
+#include "unit/motion/closed_form_reference.h"
+#include "unit/motion/exact_form_reference.h"
+#include "unit/motion/random_scene.h"
 
 using namespace rolling;
 
@@ -31,7 +31,8 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// One after the other in each round, so that what else the machine does hits all of them; a first round is not counted.
+/// One after the other in each round, so that what else the machine does hits all of them; a first
+/// round is not counted.
 using Jobs = std::vector<std::pair<std::string, std::function<double()>>>;
 void print_times(const Jobs& jobs) {
   std::vector<std::vector<double>> ns(jobs.size());
@@ -40,18 +41,25 @@ void print_times(const Jobs& jobs) {
     for (std::size_t i = 0; i < jobs.size(); ++i) {
       const std::clock_t begin = std::clock();
       sink = jobs[i].second();
-      if (round > 0) ns[i].push_back(static_cast<double>(std::clock() - begin) * (1e9 / CLOCKS_PER_SEC) / calls);
+      if (round > 0)
+        ns[i].push_back(static_cast<double>(std::clock() - begin) * (1e9 / CLOCKS_PER_SEC) / calls);
     }
   (void)sink;
   const auto ratio = [&](std::size_t i, std::size_t to) {
     std::vector<double> ratios;
-    for (int round = 0; round < rounds; ++round) ratios.push_back(ns[i][static_cast<std::size_t>(round)] / ns[to][static_cast<std::size_t>(round)]);
+    for (int round = 0; round < rounds; ++round)
+      ratios.push_back(ns[i][static_cast<std::size_t>(round)] /
+                       ns[to][static_cast<std::size_t>(round)]);
     return median(ratios);
   };
   const std::size_t step = jobs.size() - 1, pow = step - 1;
-  fmt::print("# ns of the processor a sample: median, least; parts of a step of GSL's rkf45 with pow, and of pow: medians of {} rounds\n", rounds);
+  fmt::print(
+      "# ns of the processor a sample: median, least; parts of a step of GSL's rkf45 with pow, and "
+      "of pow: medians of {} rounds\n",
+      rounds);
   for (std::size_t i = 0; i < jobs.size(); ++i)
-    fmt::print("{}\t{:.1f}\t{:.1f}\t{:.3f}\t{:.2f}\n", jobs[i].first, median(ns[i]), *std::min_element(ns[i].begin(), ns[i].end()), ratio(i, step), ratio(i, pow));
+    fmt::print("{}\t{:.1f}\t{:.1f}\t{:.3f}\t{:.2f}\n", jobs[i].first, median(ns[i]),
+               *std::min_element(ns[i].begin(), ns[i].end()), ratio(i, step), ratio(i, pow));
 }
 
 }  // namespace
@@ -74,16 +82,20 @@ int main(int argc, char** argv) {
       ++n;
     }
   }
-  fmt::print("# largest error in ulp over {} samples of random scenes\nv\t{:.3f}\nx\t{:.3f}\na\t{:.3f}\n", samples, v, x, a);
+  fmt::print(
+      "# largest error in ulp over {} samples of random scenes\nv\t{:.3f}\nx\t{:.3f}\na\t{:.3f}\n",
+      samples, v, x, a);
 
   v = x = 0;
   for (int n = 0, scenes = 0; n < samples / 10; ++scenes) {
-    const RandomScene scene = scenes % 20 == 0 ? deep_scene(random, scenes / 20) : random_scene(random);
+    const RandomScene scene =
+        scenes % 20 == 0 ? deep_scene(random, scenes / 20) : random_scene(random);
     const ExactFormReference reference(scene.body, scene.law, scene.v0);
     ExactForm motion(scene.body, scene.law, scene.v0, 0);
     const double T = motion.stop_time();
     for (int i = 0; i < 4; ++i) {
-      const double t = i < 3 && std::isfinite(T) ? T * (1 - std::pow(1e-3, i + 1)) : random_time(random, scene, T, i);
+      const double t = i < 3 && std::isfinite(T) ? T * (1 - std::pow(1e-3, i + 1))
+                                                 : random_time(random, scene, T, i);
       motion.seek(t);
       if (motion.velocity() < 1e-300) continue;  // denormal
       const auto error = reference.errors(t, motion.velocity(), motion.position());
@@ -91,8 +103,10 @@ int main(int argc, char** argv) {
       ++n;
     }
   }
-  fmt::print("# exact geometry: largest relative error over {} samples, one scene of twenty with D(v0) near R, three of four at T(1 - 1e-3, 1e-6, 1e-9)\nv\t{:.2g}\nx\t{:.2g}\n",
-             samples / 10, v, x);
+  fmt::print(
+      "# exact geometry: largest relative error over {} samples, one scene of twenty with D(v0) "
+      "near R, three of four at T(1 - 1e-3, 1e-6, 1e-9)\nv\t{:.2g}\nx\t{:.2g}\n",
+      samples / 10, v, x);
 
   ClosedForm closed({1.375, 0.04, 0.5}, {1.87e-3, 0.215}, 0.5, 0);
   ExactForm exact({1.375, 0.04, 0.5}, {1.87e-3, 0.215}, 0.5, 0);
@@ -117,13 +131,16 @@ int main(int argc, char** argv) {
   const auto stepper = own(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rkf45, 1), gsl_odeiv2_step_free);
   const auto step = [&] {
     double y = 0.5, error = 0;
-    for (int i = 0; i < calls; ++i) gsl_odeiv2_step_apply(stepper.get(), 0, 1e-5, &y, &error, nullptr, nullptr, &system);
+    for (int i = 0; i < calls; ++i)
+      gsl_odeiv2_step_apply(stepper.get(), 0, 1e-5, &y, &error, nullptr, nullptr, &system);
     return y;
   };
-  print_times({{"v", along(closed, [](auto& m) { return m.velocity(); })},
-               {"v,x", along(closed, [](auto& m) { return m.velocity() + m.position(); })},
-               {"v,x,a", along(closed, [](auto& m) { return m.velocity() + m.position() + m.acceleration(); })},
-               {"exact v", along(exact, [](auto& m) { return m.velocity(); })},
-               {"pow", power},
-               {"rkf45", step}});
+  print_times(
+      {{"v", along(closed, [](auto& m) { return m.velocity(); })},
+       {"v,x", along(closed, [](auto& m) { return m.velocity() + m.position(); })},
+       {"v,x,a",
+        along(closed, [](auto& m) { return m.velocity() + m.position() + m.acceleration(); })},
+       {"exact v", along(exact, [](auto& m) { return m.velocity(); })},
+       {"pow", power},
+       {"rkf45", step}});
 }

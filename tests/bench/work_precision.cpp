@@ -1,4 +1,5 @@
-// work_precision FOLDER - error against run time of every method on every problem, side by side in one run: FOLDER/PROBLEM.txt each.
+// work_precision FOLDER - error against run time of every method on every problem, side by side in
+// one run: FOLDER/PROBLEM.txt each.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,7 +10,7 @@
 
 #include "bench/bare_gsl.h"
 #include "bench/cvode.h"
-#include "rolling/measure.h"
+#include "motion/measure.h"
 
 using namespace rolling;
 
@@ -20,15 +21,26 @@ constexpr int repeats = 5;
 
 Roll scene(double a, double b, double K) {
   Roll roll{};
-  roll.body = {1.375, 0.04, K}, roll.geometry = Geometry::approximate, roll.law = {a, b}, roll.v0 = 0.5;
+  roll.body = {1.375, 0.04, K}, roll.geometry = Geometry::approximate, roll.law = {a, b},
+  roll.v0 = 0.5;
   return roll;
 }
 
 std::vector<std::pair<std::string, Roll>> problems() {
-  std::vector<std::pair<std::string, Roll>> all = {
-      {"CR", scene(1.87e-3, 0.215, 0.5)}, {"CF", scene(5.75e-4, 0.0244, 0.5)}, {"SR", scene(1.78e-3, 0.255, 0.83)}, {"SF", scene(5.75e-4, 0.0244, 0.83)}};
-  for (const auto& [name, b] : std::vector<std::pair<std::string, double>>{{"b=-0.5", -0.5}, {"b=0", 0}, {"b=1e-8", 1e-8}, {"b=0.5", 0.5}, {"b=0.9", 0.9},
-                                                                          {"b=1-1e-12", 1 - 1e-12}, {"b=1", 1}, {"b=1+1e-12", 1 + 1e-12}, {"b=1.5", 1.5}, {"b=2", 2}})
+  std::vector<std::pair<std::string, Roll>> all = {{"CR", scene(1.87e-3, 0.215, 0.5)},
+                                                   {"CF", scene(5.75e-4, 0.0244, 0.5)},
+                                                   {"SR", scene(1.78e-3, 0.255, 0.83)},
+                                                   {"SF", scene(5.75e-4, 0.0244, 0.83)}};
+  for (const auto& [name, b] : std::vector<std::pair<std::string, double>>{{"b=-0.5", -0.5},
+                                                                           {"b=0", 0},
+                                                                           {"b=1e-8", 1e-8},
+                                                                           {"b=0.5", 0.5},
+                                                                           {"b=0.9", 0.9},
+                                                                           {"b=1-1e-12", 1 - 1e-12},
+                                                                           {"b=1", 1},
+                                                                           {"b=1+1e-12", 1 + 1e-12},
+                                                                           {"b=1.5", 1.5},
+                                                                           {"b=2", 2}})
     all.emplace_back(name, scene(1.87e-3, b, 0.5));
   for (const auto& [name, a] : {std::pair("exact-CR", 1.87e-3), std::pair("exact-deep", 0.04)}) {
     all.emplace_back(name, scene(a, 0.215, 0.5));
@@ -40,29 +52,39 @@ std::vector<std::pair<std::string, Roll>> problems() {
   }
   for (const int n : {5, 50}) {
     std::vector<double> v, D;
-    for (int i = 1; i <= n; ++i) v.push_back(0.5 * i / n), D.push_back(1.87e-3 * std::pow(v.back(), 0.215) * (1 + 0.05 * std::sin(7.0 * i)));
+    for (int i = 1; i <= n; ++i)
+      v.push_back(0.5 * i / n),
+          D.push_back(1.87e-3 * std::pow(v.back(), 0.215) * (1 + 0.05 * std::sin(7.0 * i)));
     all.emplace_back(fmt::format("table-{}", n), scene(1, 1, 0.5));
     all.back().second.table.emplace(v, D);
   }
   return all;
 }
 
-void row(std::FILE* file, const std::string& who, const std::string& method, double rtol, const Measured& m) {
+void row(std::FILE* file, const std::string& who, const std::string& method, double rtol,
+         const Measured& m) {
   fmt::print(file, "{}\t{}\t{:g}\t", who, method, rtol);
   if (m.failure.empty())
-    fmt::print(file, "{:.3g}\t{:.3g}\t{}\t{:.4g}\t{:.2g}\tdone\n", m.v_error, m.stop_error, m.evaluations, 1e9 * m.seconds, 1e9 * m.scatter);
-  else
-    fmt::print(file, "nan\tnan\t{}\tnan\tnan\tfailed: {}\n", m.evaluations, m.failure);
+    fmt::print(file, "{:.3g}\t{:.3g}\t{}\t{:.4g}\t{:.2g}\tdone\n", m.v_error, m.stop_error,
+               m.evaluations, 1e9 * m.seconds, 1e9 * m.scatter);
+  else fmt::print(file, "nan\tnan\t{}\tnan\tnan\tfailed: {}\n", m.evaluations, m.failure);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
-  const std::vector<std::pair<std::string, Stepper>> ours = {
-      {"rkf45", Stepper::rkf45}, {"rk8pd", Stepper::rk8pd}, {"rk4imp", Stepper::rk4imp}, {"bsimp", Stepper::bsimp}, {"msbdf", Stepper::msbdf}};
+  const std::vector<std::pair<std::string, Stepper>> ours = {{"rkf45", Stepper::rkf45},
+                                                             {"rk8pd", Stepper::rk8pd},
+                                                             {"rk4imp", Stepper::rk4imp},
+                                                             {"bsimp", Stepper::bsimp},
+                                                             {"msbdf", Stepper::msbdf}};
   const std::vector<std::pair<std::string, const gsl_odeiv2_step_type*>> bare = {
-      {"rkf45", gsl_odeiv2_step_rkf45}, {"rk8pd", gsl_odeiv2_step_rk8pd}, {"rk4imp", gsl_odeiv2_step_rk4imp}, {"bsimp", gsl_odeiv2_step_bsimp}, {"msbdf", gsl_odeiv2_step_msbdf}};
+      {"rkf45", gsl_odeiv2_step_rkf45},
+      {"rk8pd", gsl_odeiv2_step_rk8pd},
+      {"rk4imp", gsl_odeiv2_step_rk4imp},
+      {"bsimp", gsl_odeiv2_step_bsimp},
+      {"msbdf", gsl_odeiv2_step_msbdf}};
   const std::vector<double> tolerances = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
   for (const auto& [name, roll] : problems()) {
     const std::string path = fmt::format("{}/{}.txt", argv[1], name);
@@ -72,15 +94,20 @@ int main(int argc, char** argv) {
       return 2;
     }
     const Reference right = reference(roll, samples, 10);
-    fmt::print(file, "# by\tmethod\trtol\tmax_error\tstop_error\tevaluations\tns_sample\tscatter\toutcome\n");
+    fmt::print(
+        file,
+        "# by\tmethod\trtol\tmax_error\tstop_error\tevaluations\tns_sample\tscatter\toutcome\n");
     const Method best = best_method(roll);
-    const auto rolled = [&, &scene = roll](const Method& method, double rtol) { return measure([&] { return start(scene, method, rtol); }, right, scene.v0, repeats); };
+    const auto rolled = [&, &scene = roll](const Method& method, double rtol) {
+      return measure([&] { return start(scene, method, rtol); }, right, scene.v0, repeats);
+    };
     if (best.kind != Method::solver) {
       row(file, "rolling", best.kind == Method::closed ? "closed" : "exact", 0, rolled(best, 0));
       fmt::print(file, "\n\n");
     }
     for (const auto& [method, stepper] : ours) {
-      for (const double rtol : tolerances) row(file, "rolling", method, rtol, rolled({Method::solver, stepper}, rtol));
+      for (const double rtol : tolerances)
+        row(file, "rolling", method, rtol, rolled({Method::solver, stepper}, rtol));
       fmt::print(file, "\n\n");
     }
     for (const bool odd : {false, true}) {
@@ -88,14 +115,19 @@ int main(int argc, char** argv) {
       for (const auto& [method, type] : bare) {
         for (const double rtol : tolerances)
           row(file, odd ? "GSL-odd" : "GSL", method, rtol,
-              measure([&, &scene = roll, type = type] { return std::make_unique<BareGsl>(scene, type, rtol, odd); }, right, roll.v0, repeats));
+              measure([&, &scene = roll,
+                       type = type] { return std::make_unique<BareGsl>(scene, type, rtol, odd); },
+                      right, roll.v0, repeats));
         fmt::print(file, "\n\n");
       }
     }
 #ifdef HAVE_CVODE
     for (const auto& [method, kind] : {std::pair("adams", CV_ADAMS), std::pair("bdf", CV_BDF)}) {
       for (const double rtol : tolerances)
-        row(file, "CVODE", method, rtol, measure([&, &scene = roll, kind = kind] { return std::make_unique<Cvode>(scene, kind, rtol); }, right, roll.v0, repeats));
+        row(file, "CVODE", method, rtol,
+            measure([&, &scene = roll,
+                     kind = kind] { return std::make_unique<Cvode>(scene, kind, rtol); },
+                    right, roll.v0, repeats));
       fmt::print(file, "\n\n");
     }
 #endif

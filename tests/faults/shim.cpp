@@ -1,9 +1,11 @@
 // Preloaded into a tool (LD_PRELOAD), what a system may do to it at any time:
 //   FAULT_READ=1     one byte a read, and every second call interrupted
 //   FAULT_WRITE=1    a few bytes a write, and every second call interrupted
-//   FAULT_MALLOC=once | on   runs the tool again and again: with its first allocation failing, its second, ... (`on`: that one
-//                    and all after it; with /N, only every N-th run), and checks that each is refused in one line on standard
-//                    error with 2, whole rows only, all of them rows of the run without a fault.
+//   FAULT_MALLOC=once | on   runs the tool again and again: with its first allocation failing, its
+//   second, ... (`on`: that one
+//                    and all after it; with /N, only every N-th run), and checks that each is
+//                    refused in one line on standard error with 2, whole rows only, all of them
+//                    rows of the run without a fault.
 // No C++ library here: the shim must not allocate, nor be initialised after anything that does.
 #include <cerrno>
 #include <cstdio>
@@ -67,11 +69,16 @@ bool child(long n) {
 const char* what_is_wrong(const char* tool) {
   const long prefix = static_cast<long>(strlen(tool));
   if (WIFSIGNALED(run.status)) return "was killed by a signal";
-  if (run.status == whole.status && run.out_size == whole.out_size && run.err_size == 0) return nullptr;  // it did without
+  if (run.status == whole.status && run.out_size == whole.out_size && run.err_size == 0)
+    return nullptr;  // it did without
   if (WEXITSTATUS(run.status) != 2) return "does not exit with 2";
-  if (run.err_size < prefix + 3 || memcmp(run.err, tool, static_cast<size_t>(prefix)) != 0) return "does not say why";
-  if (memchr(run.err, '\n', static_cast<size_t>(run.err_size)) != run.err + run.err_size - 1) return "does not say why in one line";
-  if (run.out_size > whole.out_size || memcmp(run.out, whole.out, static_cast<size_t>(run.out_size)) != 0) return "prints other rows";
+  if (run.err_size < prefix + 3 || memcmp(run.err, tool, static_cast<size_t>(prefix)) != 0)
+    return "does not say why";
+  if (memchr(run.err, '\n', static_cast<size_t>(run.err_size)) != run.err + run.err_size - 1)
+    return "does not say why in one line";
+  if (run.out_size > whole.out_size ||
+      memcmp(run.out, whole.out, static_cast<size_t>(run.out_size)) != 0)
+    return "prints other rows";
   if (run.out_size > 0 && run.out[run.out_size - 1] != '\n') return "prints half a row";
   return nullptr;
 }
@@ -81,7 +88,8 @@ __attribute__((constructor)) void every_allocation() {
   if (!mode) return;
   fail_on = mode[0] == 'o' && mode[1] == 'n' && mode[2] != 'c';
   const long step = strchr(mode, '/') ? atol(strchr(mode, '/') + 1) : 1;
-  fired = static_cast<bool*>(mmap(nullptr, sizeof(bool), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+  fired = static_cast<bool*>(
+      mmap(nullptr, sizeof(bool), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
   if (child(0)) return;
   whole = run;
   int wrong = whole.status != 0 || whole.out_size <= 0;
@@ -92,10 +100,13 @@ __attribute__((constructor)) void every_allocation() {
     ++tried;
     refused += run.status != whole.status;
     if (const char* what = what_is_wrong(program_invocation_short_name)) {
-      if (wrong++ < 5) dprintf(STDOUT_FILENO, "%s %s where allocation %ld fails: %.*s\n", program_invocation_short_name, what, n, static_cast<int>(run.err_size), run.err);
+      if (wrong++ < 5)
+        dprintf(STDOUT_FILENO, "%s %s where allocation %ld fails: %.*s\n",
+                program_invocation_short_name, what, n, static_cast<int>(run.err_size), run.err);
     }
   }
-  dprintf(STDOUT_FILENO, "%s: %ld allocations failed, %ld runs refused\n", program_invocation_short_name, tried, refused);
+  dprintf(STDOUT_FILENO, "%s: %ld allocations failed, %ld runs refused\n",
+          program_invocation_short_name, tried, refused);
   _exit(wrong || tried == 0);
 }
 
@@ -114,7 +125,9 @@ void end_faults() { fail_at = 0; }  // before gcov writes: see tests/gcov_exit.c
 void* malloc(size_t size) { return refuse() ? nullptr : __libc_malloc(size); }
 void* calloc(size_t count, size_t size) { return refuse() ? nullptr : __libc_calloc(count, size); }
 void* realloc(void* old, size_t size) { return refuse() ? nullptr : __libc_realloc(old, size); }
-void* aligned_alloc(size_t alignment, size_t size) { return refuse() ? nullptr : __libc_memalign(alignment, size); }
+void* aligned_alloc(size_t alignment, size_t size) {
+  return refuse() ? nullptr : __libc_memalign(alignment, size);
+}
 
 ssize_t read(int file, void* to, size_t count) {
   static unsigned calls;
@@ -127,5 +140,4 @@ ssize_t write(int file, const void* from, size_t count) {
   if (interrupted("FAULT_WRITE", calls)) return -1;
   return syscall(SYS_write, file, from, getenv("FAULT_WRITE") && count > 7 ? 1 + calls % 7 : count);
 }
-
 }

@@ -1,4 +1,5 @@
-// parse_number against the grammar of rolling-columns(5), written out, and strtod; write_number against parse_number.
+// parse_number against the grammar of rolling-columns(5), written out, and strtod; write_number
+// against parse_number.
 #include "text/number.h"
 
 #include <cmath>
@@ -50,8 +51,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool read = rolling::parse_number(text, value);
   if (is_of_the_grammar(text)) {
     const double right = std::strtod(text.c_str(), nullptr);
-    const bool zero = text.find_first_of("123456789") >= text.find_first_of("eE");  // else it is too small for a double
-    require(read == (std::isfinite(right) && (right != 0 || zero)), "a number is not read, or one beyond the range is", text);
+    const bool zero = text.find_first_of("123456789") >=
+                      text.find_first_of("eE");  // else it is too small for a double
+    require(read == (std::isfinite(right) && (right != 0 || zero)),
+            "a number is not read, or one beyond the range is", text);
     if (read) require(bits(value) == bits(right), "another number than strtod reads", text);
   } else {
     require(!read, "what is no number is read", text);
@@ -59,7 +62,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (read) {
     const std::string again = written(value, 0);
     double same = 0;
-    require(rolling::parse_number(again, same) && bits(same) == bits(value), "does not read back", again);
+    require(rolling::parse_number(again, same) && bits(same) == bits(value), "does not read back",
+            again);
   }
   if (size == sizeof(double)) {
     std::memcpy(&value, data, size);
@@ -67,9 +71,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (int digits = 0; digits <= 17; ++digits) {
       const std::string out = written(value, digits);
       double back = 0;
-      const bool overflows = digits > 0 && digits < 17 && std::isinf(std::strtod(out.c_str(), nullptr));  // 1.6e308 in one digit
-      require(overflows || rolling::parse_number(out, back) || std::abs(value) < 2.3e-308, "what is written is no number", out);
-      if (digits == 0 || digits == 17) require(bits(back) == bits(value), "does not read back", out);
+      const bool overflows = digits > 0 && digits < 17 &&
+                             std::isinf(std::strtod(out.c_str(), nullptr));  // 1.6e308 in one digit
+      require(overflows || rolling::parse_number(out, back) || std::abs(value) < 2.3e-308,
+              "what is written is no number", out);
+      if (digits == 0 || digits == 17)
+        require(bits(back) == bits(value), "does not read back", out);
     }
   }
   const std::string shown = rolling::shown(text);

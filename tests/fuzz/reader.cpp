@@ -1,4 +1,5 @@
-// The reader on any bytes: every record has as many fields as there are columns, finite numbers, rising times.
+// The reader on any bytes: every record has as many fields as there are columns, finite numbers,
+// rising times.
 #include "text/reader.h"
 
 #include <cmath>
@@ -18,7 +19,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (choice & 8) options.use = {"v=2"};
   try {
     Reader in(options, {"t", "v"});
-    const auto t = in.need_time(), v = choice & 16 ? in.want("v") : in.need(choice & 32 ? "2" : "v");
+    const auto t = in.need_time(),
+               v = choice & 16 ? in.want("v") : in.need(choice & 32 ? "2" : "v");
     double last = 0;
     while (in.next_run()) {
       bool first = true;

@@ -25,8 +25,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   check_contract(ran, "scene");
   if (ran.status != 0) return 0;
-  const auto holds = [](double value, const Range& range) { return std::isnan(value) || (std::isfinite(value) && range.holds(value)); };
-  require(holds(body.m, positive) && holds(body.R, positive) && holds(body.K, not_negative) && holds(body.g, positive), "a body that is none");
-  require(holds(law.a, positive) && holds(law.b, any_number) && holds(v0, not_negative), "a law that is none");
+  const auto holds = [](double value, const Range& range) {
+    return std::isnan(value) || (std::isfinite(value) && range.holds(value));
+  };
+  require(holds(body.m, positive) && holds(body.R, positive) && holds(body.K, not_negative) &&
+              holds(body.g, positive),
+          "a body that is none");
+  require(holds(law.a, positive) && holds(law.b, any_number) && holds(v0, not_negative),
+          "a law that is none");
   return 0;
 }

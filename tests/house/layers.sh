@@ -7,10 +7,11 @@ declare -A may=(
   [text]='base'
   [signal]='base'
   [ode]='base'
-  [rolling]='base ode signal'
-  [fit]='base rolling'
-  [sensor]='base rolling'
-  [cli]='base text rolling signal fit'  # signal and fit: what a `##` line says becomes a filter of the fit
+  [contact]='base'
+  [motion]='base ode contact'
+  [fit]='base contact motion'
+  [sensor]='base motion'
+  [cli]='base text contact signal fit'  # signal and fit: what a `##` line says becomes a filter of the fit
 )
 wrong=0 files=0
 complain() { echo "$*" && wrong=1; }
@@ -34,7 +35,7 @@ for room in lib/*/; do
       *) grep -qE '# *include <(iostream|fstream|cstdio|stdio\.h|unistd\.h|fcntl\.h)>' "$file" && complain "$file: only lib/text and lib/cli see files" ;;
     esac
     case $room in
-      base | ode | fit | sensor | rolling) ;;
+      base | ode | fit | sensor | contact | motion) ;;
       *) grep -qE '# *include (<gsl/|"base/gsl\.h")' "$file" && complain "$file: $room does without GSL" ;;
     esac
   done

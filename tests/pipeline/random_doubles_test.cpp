@@ -23,12 +23,14 @@ std::vector<double> any_doubles(std::size_t n) {
     std::uint64_t bits = random();
     if (values.size() % 10 == 0) bits &= 0x800fffffffffffffULL;
     if (values.size() % 100 == 0) bits = 1ULL << 63;
-    if (const auto value = std::bit_cast<double>(bits); std::isfinite(value)) values.push_back(value);
+    if (const auto value = std::bit_cast<double>(bits); std::isfinite(value))
+      values.push_back(value);
   }
   return values;
 }
 
-/// How many of `n` such numbers come out of every filter in the third column, r, with the bits that they had.
+/// How many of `n` such numbers come out of every filter in the third column, r, with the bits that
+/// they had.
 void check_filters(std::size_t n) {
   const std::vector<double> values = any_doubles(n);
   std::string text = "# t[s]\tv[m/s]\tr\ta\tD\n";
@@ -38,8 +40,9 @@ void check_filters(std::size_t n) {
     text += std::to_string(i) + "\t0.5\t" + std::string(number, end) + "\t-0.1\t1e-3\n";
   }
   const TemporaryFile file(text);
-  for (const char* filter : {"smooth -w 1 -c r", "smooth -w 1 -c r -M median", "smooth -c v", "differentiate -c v", "shift-from-accel -K 0.5 -R 0.04",
-                                    "energy-ledger -m 1 -K 0.5 -R 0.04"}) {
+  for (const char* filter :
+       {"smooth -w 1 -c r", "smooth -w 1 -c r -M median", "smooth -c v", "differentiate -c v",
+        "shift-from-accel -K 0.5 -R 0.04", "energy-ledger -m 1 -K 0.5 -R 0.04"}) {
     const std::string command = std::string(filter) + " " + file.name();
     std::FILE* pipe = ::popen(command.c_str(), "r");
     REQUIRE(pipe);
@@ -50,7 +53,8 @@ void check_filters(std::size_t n) {
       const auto from = row.find('\t', row.find('\t') + 1) + 1;
       double value = 0;
       std::from_chars(line + from, line + row.size(), value);
-      equal += rows < n && std::bit_cast<std::uint64_t>(value) == std::bit_cast<std::uint64_t>(values[rows]);
+      equal += rows < n &&
+               std::bit_cast<std::uint64_t>(value) == std::bit_cast<std::uint64_t>(values[rows]);
       ++rows;
     }
     CAPTURE(filter);
@@ -63,4 +67,6 @@ void check_filters(std::size_t n) {
 }  // namespace
 
 TEST_CASE("every double passes every filter bit for bit", "[pipeline]") { check_filters(50'000); }
-TEST_CASE("a million doubles pass every filter bit for bit", "[.long]") { check_filters(1'000'000); }
+TEST_CASE("a million doubles pass every filter bit for bit", "[.long]") {
+  check_filters(1'000'000);
+}

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "unit/catch.h"
-#include "unit/rolling/closed_form_reference.h"
+#include "unit/motion/closed_form_reference.h"
 
 using namespace rolling;
 
@@ -19,7 +19,8 @@ double worst(int samples, Sample&& sample) {
   std::mt19937_64 random(1);
   double worst = 0;
   for (int i = 0; i < samples; ++i) {
-    const auto [value, exact, scale] = sample([&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); });
+    const auto [value, exact, scale] = sample(
+        [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); });
     worst = std::max(worst, static_cast<double>(abs(value - exact) / scale));
   }
   return worst;

@@ -30,10 +30,12 @@ TEST_CASE("history: a window of seconds reaches as far as it has samples", "[cli
   CHECK(chain[0].apply(times, Series{0, 3, 0, 0, 6, 1}) == Series{0, 1, 1, 2, 7. / 3, 1});
 }
 
-TEST_CASE("history: a differentiate line is the central derivative, from column to column", "[cli]") {
+TEST_CASE("history: a differentiate line is the central derivative, from column to column",
+          "[cli]") {
   const Series squares = {0, 1, 4, 9, 16, 25};
   for (const auto& [from, to] : {std::pair{"x", "v"}, {"v", "a"}, {"w", "dw"}}) {
-    const FilterChain chain = filters_of({std::string("differentiate ") + from + " central"}, times);
+    const FilterChain chain =
+        filters_of({std::string("differentiate ") + from + " central"}, times);
     REQUIRE(chain.size() == 1);
     CHECK(chain[0].from == from);
     CHECK(chain[0].to == to);
@@ -43,7 +45,8 @@ TEST_CASE("history: a differentiate line is the central derivative, from column 
 }
 
 TEST_CASE("history: a shift-from-accel line scales a to D, exact or not", "[cli]") {
-  for (const char* line : {"shift-from-accel K 0.5 R 0.04 g 6", "shift-from-accel exact K 0.5 R 0.04 g 6"}) {
+  for (const char* line :
+       {"shift-from-accel K 0.5 R 0.04 g 6", "shift-from-accel exact K 0.5 R 0.04 g 6"}) {
     const FilterChain chain = filters_of({line}, times);
     REQUIRE(chain.size() == 1);
     CHECK(chain[0].from == "a");
@@ -53,9 +56,12 @@ TEST_CASE("history: a shift-from-accel line scales a to D, exact or not", "[cli]
   }
 }
 
-TEST_CASE("history: the filters of a chain stand in its order, lines of others say nothing", "[cli]") {
-  const FilterChain chain = filters_of({"simulate a 1 b 0", "smooth v mean width 11", "by hand", "", "differentiate v central",
-                                        "shift-from-accel K 0.5 R 0.04 g 9.81", "energy-ledger D"}, times);
+TEST_CASE("history: the filters of a chain stand in its order, lines of others say nothing",
+          "[cli]") {
+  const FilterChain chain = filters_of(
+      {"simulate a 1 b 0", "smooth v mean width 11", "by hand", "", "differentiate v central",
+       "shift-from-accel K 0.5 R 0.04 g 9.81", "energy-ledger D"},
+      times);
   REQUIRE(chain.size() == 3);
   CHECK(chain[0].to == "v");
   CHECK(chain[1].to == "a");
@@ -64,14 +70,20 @@ TEST_CASE("history: the filters of a chain stand in its order, lines of others s
 }
 
 TEST_CASE("history: records that a line cuts away are missing to the next filter", "[cli]") {
-  const FilterChain chain = filters_of({"smooth t from 1", "differentiate x central", "smooth t to 5", "smooth v mean width 3", "smooth v coast", "smooth v mean width 1"}, times);
+  const FilterChain chain =
+      filters_of({"smooth t from 1", "differentiate x central", "smooth t to 5",
+                  "smooth v mean width 3", "smooth v coast", "smooth v mean width 1"},
+                 times);
   REQUIRE(chain.size() == 3);
   CHECK((chain[0].cut_begin && !chain[0].cut_end));
   CHECK((!chain[1].cut_begin && chain[1].cut_end));
   CHECK((chain[2].cut_begin && chain[2].cut_end));
 }
 
-TEST_CASE("history: what sensors may have done to speeds: differences of x, exact on a line, and means of v", "[cli]") {
+TEST_CASE(
+    "history: what sensors may have done to speeds: differences of x, exact on a line, and means "
+    "of v",
+    "[cli]") {
   std::size_t differences = 0;
   for (const LinearFilter& filter : filters_of_sensors()) {
     CHECK(filter.to == "v");
@@ -89,11 +101,15 @@ TEST_CASE("history: of a filter that is not linear, or not known, nothing can be
 }
 
 TEST_CASE("history: a line that was tampered with is refused", "[cli]") {
-  for (const char* line : {"smooth v mean width x", "smooth v mean width -3", "smooth v mean width 0", "smooth v mean width 4", "smooth v mean width 1e30",
-                           "smooth v mean seconds -1", "shift-from-accel K 0.5 R 0.04", "shift-from-accel K x R 0.04 g 9.81"}) {
+  for (const char* line :
+       {"smooth v mean width x", "smooth v mean width -3", "smooth v mean width 0",
+        "smooth v mean width 4", "smooth v mean width 1e30", "smooth v mean seconds -1",
+        "shift-from-accel K 0.5 R 0.04", "shift-from-accel K x R 0.04 g 9.81"}) {
     INFO(line);
-    CHECK_THROWS_AS([&] {
+    CHECK_THROWS_AS(
+        [&] {
       for (const LinearFilter& filter : filters_of({line}, times)) filter.apply(times, times);
-    }(), Error);
+        }(),
+        Error);
   }
 }

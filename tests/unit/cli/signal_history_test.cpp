@@ -28,7 +28,9 @@ TEST_CASE("history: each linear method comes back as the same filter", "[cli]") 
     for (const Width width : {Width{7, 0}, Width{0, 0.3}}) {
       INFO(name);
       const SmootherOptions options{method, width, 3};
-      const auto chain = filters_of({"smooth v coast", "smooth t from 1.5", "smooth t to 2", "smooth v " + describe(options)}, t);
+      const auto chain = filters_of(
+          {"smooth v coast", "smooth t from 1.5", "smooth t to 2", "smooth v " + describe(options)},
+          t);
       if (method == SmoothingMethod::median) {  // not linear
         CHECK(chain.empty());
         continue;

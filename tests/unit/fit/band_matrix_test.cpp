@@ -11,5 +11,6 @@ TEST_CASE("band matrix: a sum of rows, of which one or both may be all 0", "[fit
   for (const auto* row : {&values, &none, &values, &none}) X.append(1, *row);
   for (const auto* row : {&values, &values, &none, &none}) Y.append(0, *row);
   for (std::size_t i = 0; i < 4; ++i) sum.append(i, 5, X, 7, Y);
-  CHECK(dense(sum, 4) == std::vector<double>{0, 14, 31, 15, 0, 14, 21, 0, 0, 0, 10, 15, 0, 0, 0, 0});
+  CHECK(dense(sum, 4) ==
+        std::vector<double>{0, 14, 31, 15, 0, 14, 21, 0, 0, 0, 10, 15, 0, 0, 0, 0});
 }

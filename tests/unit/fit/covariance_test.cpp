@@ -6,10 +6,14 @@
 
 using namespace rolling;
 
-TEST_CASE("covariance: a probed chain does to a column what the filters do, shrinking and one-sided ends included", "[fit]") {
+TEST_CASE(
+    "covariance: a probed chain does to a column what the filters do, shrinking and one-sided ends "
+    "included",
+    "[fit]") {
   for (std::size_t n : {3u, 4u, 9u, 40u}) {
     const auto t = simulated::times(n);
-    const FilterChain chain{simulated::differentiate("x", "v"), simulated::smooth_v(7), simulated::differentiate("v", "a")};
+    const FilterChain chain{simulated::differentiate("x", "v"), simulated::smooth_v(7),
+                            simulated::differentiate("v", "a")};
     const auto response = noise_response(chain, t);
     CHECK(response.source == "x");
     std::vector<double> x;
@@ -23,7 +27,9 @@ TEST_CASE("covariance: a probed chain does to a column what the filters do, shri
 }
 
 TEST_CASE("covariance: noise from two raw columns is refused", "[fit]") {
-  CHECK_THROWS_AS(noise_response({simulated::smooth_v(3), simulated::differentiate("x", "w")}, simulated::times(9)), Error);
+  CHECK_THROWS_AS(noise_response({simulated::smooth_v(3), simulated::differentiate("x", "w")},
+                                 simulated::times(9)),
+                  Error);
 }
 
 TEST_CASE("covariance: Ljung-Box tells white residuals from correlated ones", "[fit]") {
@@ -39,29 +45,38 @@ TEST_CASE("covariance: Ljung-Box tells white residuals from correlated ones", "[
 
 TEST_CASE("covariance: Newey-West by hand", "[fit]") {
   // r = -1/4 and AR = (4 r + 1)/(4 - 1 - 2) = 0: nothing to whiten. rho = -1/4, alpha = 64/225,
-  // width = ceil(1.1447 cbrt(4 alpha)) = 2; products one apart sum to -1, two apart to 0: 4 + 2 (2/3) (-1).
+  // width = ceil(1.1447 cbrt(4 alpha)) = 2; products one apart sum to -1, two apart to 0: 4 + 2
+  // (2/3) (-1).
   const std::size_t four[] = {4}, five[] = {5};
   const std::vector<double> u{1, 1, -1, 1};
   CHECK(std::abs(newey_west(u, 1, u, four)[0] - 8.0 / 3) < 1e-12);
-  // r = 0, AR = 1/2: whitened sqrt(3)/2, 1/2, -3/2, -1/2, 3/2 with squares 23/4, products sqrt(3)/4 - 3/4, width 1.
+  // r = 0, AR = 1/2: whitened sqrt(3)/2, 1/2, -3/2, -1/2, 3/2 with squares 23/4, products sqrt(3)/4
+  // - 3/4, width 1.
   const std::vector<double> w{1, 1, -1, -1, 1};
-  CHECK(std::abs(newey_west(w, 1, w, five)[0] - 4 * (23.0 / 4 + std::sqrt(3) / 4 - 3.0 / 4)) < 1e-12);
+  CHECK(std::abs(newey_west(w, 1, w, five)[0] - 4 * (23.0 / 4 + std::sqrt(3) / 4 - 3.0 / 4)) <
+        1e-12);
 }
 
-TEST_CASE("covariance: of records that were cut after a filter, the first and the last are interior ones", "[fit]") {
+TEST_CASE(
+    "covariance: of records that were cut after a filter, the first and the last are interior ones",
+    "[fit]") {
   const auto t = simulated::times(40);
   simulated::Noise noise(2);
   std::vector<double> x;
   for (std::size_t i = 0; i < t.size(); ++i) x.push_back(noise(1));
-  FilterChain chain{simulated::smooth_v(5), simulated::differentiate("v", "a"), simulated::smooth_v(3)};
+  FilterChain chain{simulated::smooth_v(5), simulated::differentiate("v", "a"),
+                    simulated::smooth_v(3)};
   chain[2].from = chain[2].to = "a";
   chain[0].from = "v";
   chain[1].cut_begin = chain[2].cut_begin = chain[2].cut_end = true;
   // What the chain does with records 10 to 29, the second cut after a first one at 8.
   const auto v = chain[0].apply(t, x);
-  const auto from8 = [](const std::vector<double>& y) { return std::vector<double>(y.begin() + 8, y.end()); };
+  const auto from8 = [](const std::vector<double>& y) {
+    return std::vector<double>(y.begin() + 8, y.end());
+  };
   const auto a = chain[1].apply(from8(t), from8(v));
-  const std::vector<double> a_cut(a.begin() + 2, a.begin() + 22), t_cut(t.begin() + 10, t.begin() + 30);
+  const std::vector<double> a_cut(a.begin() + 2, a.begin() + 22),
+      t_cut(t.begin() + 10, t.begin() + 30);
   const auto smooth = chain[2].apply(t_cut, a_cut);
 
   const auto response = noise_response(chain, t_cut);
@@ -69,6 +84,8 @@ TEST_CASE("covariance: of records that were cut after a filter, the first and th
   for (std::size_t i = 0; i < 26; ++i) CHECK(std::abs(response.t[i] - t[i + 7]) < 1e-12);
   const std::vector<double> raw(x.begin() + 7, x.begin() + 33);
   REQUIRE(response.of.at("a").rows() == 20);
-  for (std::size_t i = 0; i < 20; ++i) CHECK(std::abs(response.of.at("a").times(i, raw) - smooth[i]) < 1e-12);
-  for (std::size_t i = 0; i < 20; ++i) CHECK(std::abs(response.of.at("v").times(i, raw) - v[i + 10]) < 1e-12);
+  for (std::size_t i = 0; i < 20; ++i)
+    CHECK(std::abs(response.of.at("a").times(i, raw) - smooth[i]) < 1e-12);
+  for (std::size_t i = 0; i < 20; ++i)
+    CHECK(std::abs(response.of.at("v").times(i, raw) - v[i + 10]) < 1e-12);
 }

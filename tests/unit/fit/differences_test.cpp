@@ -9,7 +9,10 @@ namespace {
 const Body cylinder{1.375, 0.04, 0.5};
 }
 
-TEST_CASE("differences: those that nothing tells of are found by the residuals, means of speeds are not taken for them", "[fit]") {
+TEST_CASE(
+    "differences: those that nothing tells of are found by the residuals, means of speeds are not "
+    "taken for them",
+    "[fit]") {
   const auto truth = simulated::roll(cylinder, 5.75e-4, 0.1, 0.5);
   const LinearFilter difference = simulated::differentiate("x", "v");
   LinearFilter mean = simulated::smooth_v(3);
@@ -31,7 +34,8 @@ TEST_CASE("differences: those that nothing tells of are found by the residuals, 
     const auto r = fit(Route::velocity, {run}, options);
     found[0] += r.errors == Errors::differences;
     covered += std::abs(r.b - 0.1) < 1.96 * r.sigma_b;
-    if (r.errors == Errors::differences) CHECK(r.left_out == 2);  // the ends, where nobody knows what was done
+    if (r.errors == Errors::differences)
+      CHECK(r.left_out == 2);  // the ends, where nobody knows what was done
     run.v = v;
     found[1] += fit(Route::velocity, {run}, options).errors == Errors::differences;
     run.v = mean.apply(run.t, v);
@@ -47,7 +51,10 @@ TEST_CASE("differences: those that nothing tells of are found by the residuals, 
   CHECK(found[3] == 0);  // too few records
 }
 
-TEST_CASE("differences: those that the first records of a long run tell of are reckoned with in all of it", "[fit]") {
+TEST_CASE(
+    "differences: those that the first records of a long run tell of are reckoned with in all of "
+    "it",
+    "[fit]") {
   const auto truth = simulated::roll(cylinder, 5.75e-4, 0.1, 0.5);
   FitOptions options;
   options.possible_filters = {simulated::differentiate("x", "v")};
@@ -55,7 +62,8 @@ TEST_CASE("differences: those that the first records of a long run tell of are r
   FitRun run{};
   run.body = cylinder;
   std::vector<double> x;
-  for (int i = 0; i < 5000; ++i) run.t.push_back(1e-3 * i), x.push_back(truth.x(run.t.back()) + noise(3e-6));
+  for (int i = 0; i < 5000; ++i)
+    run.t.push_back(1e-3 * i), x.push_back(truth.x(run.t.back()) + noise(3e-6));
   run.v = options.possible_filters[0].apply(run.t, x);
   const auto r = fit(Route::velocity, {run}, options);
   CHECK(r.errors == Errors::differences);

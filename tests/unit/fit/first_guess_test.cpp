@@ -12,7 +12,8 @@ namespace {
 const Body cylinder{1.375, 0.04, 0.5};
 }
 
-TEST_CASE("first guess: near the law of exact runs, whatever the exponent, from the data alone", "[fit]") {
+TEST_CASE("first guess: near the law of exact runs, whatever the exponent, from the data alone",
+          "[fit]") {
   for (const bool position : {false, true})
     for (const double b : {-0.3, 0.1, 0.4, 0.8, 1.2, 1.7}) {
       const auto truth = simulated::roll(cylinder, 1e-3, b, 0.4);
@@ -29,8 +30,11 @@ TEST_CASE("first guess: near the law of exact runs, whatever the exponent, from 
       Parameters q{options, position, 1};
       Rolls rolls = make_rolls({run}, {all}, position, {}, options);
       const auto theta = first_guess(rolls.of, q);
-      const double at = 0.3, D = q.a(theta) * std::pow(at, q.b(theta)), true_D = 1e-3 * std::pow(at, b);
-      INFO((position ? "x, b " : "v, b ") << b << ": guessed b " << q.b(theta) << ", v0 " << q.v0(theta, 0) << ", D(0.3) " << D / true_D << " of the true one");
+      const double at = 0.3, D = q.a(theta) * std::pow(at, q.b(theta)),
+                   true_D = 1e-3 * std::pow(at, b);
+      INFO((position ? "x, b " : "v, b ")
+           << b << ": guessed b " << q.b(theta) << ", v0 " << q.v0(theta, 0) << ", D(0.3) "
+           << D / true_D << " of the true one");
       CHECK(std::abs(q.b(theta) - b) < 0.1);
       CHECK(std::abs(q.v0(theta, 0) / 0.4 - 1) < 0.02);
       CHECK(std::abs(D / true_D - 1) < 0.05);
@@ -54,13 +58,15 @@ TEST_CASE("first guess: of a long run all records count, where means of them com
     FitOptions options;
     options.x0 = 0;
     const auto r = fit(route, {run}, options);
-    // No neighbour is better: the sum of squares has its minimum there, by differences of the closed formula that is typed in simulated.h.
+    // No neighbour is better: the sum of squares has its minimum there, by differences of the
+    // closed formula that is typed in simulated.h.
     const auto residual = [&](std::size_t i, double da, double db, double dv0) {
       const auto roll = simulated::roll(cylinder, r.a + da, r.b + db, r.v0[0] + dv0);
       return route == Route::velocity ? roll.v(run.t[i]) - run.v[i] : roll.x(run.t[i]) - run.x[i];
     };
     for (int j = 0; j < 3; ++j) {
-      const double step = 1e-5, da = j == 0 ? step * a : 0, db = j == 1 ? step : 0, dv0 = j == 2 ? step * v0 : 0;
+      const double step = 1e-5, da = j == 0 ? step * a : 0, db = j == 1 ? step : 0,
+                   dv0 = j == 2 ? step * v0 : 0;
       double slope = 0, squares = 0;
       for (std::size_t i = 0; i < n; ++i) {
         const double change = residual(i, da, db, dv0) - residual(i, -da, -db, -dv0);
@@ -72,7 +78,10 @@ TEST_CASE("first guess: of a long run all records count, where means of them com
   }
 }
 
-TEST_CASE("first guess: a long record whose means have no minimum is refused for what the whole of it lacks", "[fit]") {
+TEST_CASE(
+    "first guess: a long record whose means have no minimum is refused for what the whole of it "
+    "lacks",
+    "[fit]") {
   const auto refused = [](double (*v)(int)) {
     FitRun run{};
     run.body = cylinder;
@@ -84,6 +93,8 @@ TEST_CASE("first guess: a long record whose means have no minimum is refused for
     }
     return std::string("not at all");
   };
-  CHECK(refused([](int) { return 1.0; }) == "the data do not determine the parameters: they cannot be told apart");
-  CHECK(refused([](int i) { return i < 2 ? 1.0 : 0.0; }) == "the fit cannot start: the law has no finite values at the starting point");
+  CHECK(refused([](int) { return 1.0; }) ==
+        "the data do not determine the parameters: they cannot be told apart");
+  CHECK(refused([](int i) { return i < 2 ? 1.0 : 0.0; }) ==
+        "the fit cannot start: the law has no finite values at the starting point");
 }

@@ -28,15 +28,18 @@ TEST_CASE("fit: correlated residuals are noticed, and the errors grow", "[fit]")
 
 TEST_CASE("fit: fewer than 30 records have classical errors, whatever their residuals", "[fit]") {
   FitRun run{};
-  for (int i = 1; i < 30; ++i) run.v.push_back(i), run.D.push_back(i + (i < 10 || i > 20 ? 0.5 : -0.5));
+  for (int i = 1; i < 30; ++i)
+    run.v.push_back(i), run.D.push_back(i + (i < 10 || i > 20 ? 0.5 : -0.5));
   CHECK(fit(Route::shift, {run}, {}).errors == Errors::classical);
   run.v.push_back(30);
   run.D.push_back(30.5);
   CHECK(fit(Route::shift, {run}, {}).errors == Errors::autocorrelation);
 }
 
-// Speeds whose raw noise is not white: an AR(1) with 0.8. What the filters say is then too small, and is not believed.
-TEST_CASE("fit: known filters of a noise that is not white have the errors of the autocorrelation", "[fit]") {
+// Speeds whose raw noise is not white: an AR(1) with 0.8. What the filters say is then too small,
+// and is not believed.
+TEST_CASE("fit: known filters of a noise that is not white have the errors of the autocorrelation",
+          "[fit]") {
   const Body body{1.375, 0.04, 0.5};
   const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.5);
   simulated::Noise noise(8);

@@ -6,15 +6,26 @@ using namespace rolling;
 
 namespace {
 
-// NIST StRD DanWood (Daniel & Wood 1980): y = b1 x^b2. The values with 25 digits: reference-data/nist/README.md.
-FitRun danwood() { return {.t = {}, .x = {}, .v = {1.309, 1.471, 1.490, 1.565, 1.611, 1.680}, .D = {2.138, 3.421, 3.597, 4.340, 4.882, 5.660}, .body = {}, .filters = {}}; }
+// NIST StRD DanWood (Daniel & Wood 1980): y = b1 x^b2. The values with 25 digits:
+// reference-data/nist/README.md.
+FitRun danwood() {
+  return {.t = {},
+          .x = {},
+          .v = {1.309, 1.471, 1.490, 1.565, 1.611, 1.680},
+          .D = {2.138, 3.421, 3.597, 4.340, 4.882, 5.660},
+          .body = {},
+          .filters = {}};
+}
 
-double digits(double x, double certified) { return x == certified ? 17 : -std::log10(std::abs(x / certified - 1)); }
+double digits(double x, double certified) {
+  return x == certified ? 17 : -std::log10(std::abs(x / certified - 1));
+}
 
 }  // namespace
 
 TEST_CASE("shift: DanWood to 12 digits, from NIST's starts and from none", "[fit]") {
-  const std::vector<std::pair<std::optional<double>, std::optional<double>>> starts{{{}, {}}, {1, 5}, {0.7, 4}};
+  const std::vector<std::pair<std::optional<double>, std::optional<double>>> starts{
+      {{}, {}}, {1, 5}, {0.7, 4}};
   for (const auto& [a, b] : starts) {
     FitOptions options;
     options.start_a = a;
@@ -31,7 +42,8 @@ TEST_CASE("shift: DanWood to 12 digits, from NIST's starts and from none", "[fit
   }
 }
 
-TEST_CASE("shift: against c v, a is divided by c^b and b stays; D in other units scales a", "[fit]") {
+TEST_CASE("shift: against c v, a is divided by c^b and b stays; D in other units scales a",
+          "[fit]") {
   const auto one = fit(Route::shift, {danwood()}, {});
   FitRun scaled = danwood();
   for (double& v : scaled.v) v *= 1000;
@@ -44,7 +56,8 @@ TEST_CASE("shift: against c v, a is divided by c^b and b stays; D in other units
 
 TEST_CASE("shift: exact data give the law back, with errors of rounding size", "[fit]") {
   FitRun run{};
-  for (double v : {0.1, 0.2, 0.3, 0.5, 0.8}) run.v.push_back(v), run.D.push_back(1.87e-3 * std::pow(v, 0.215));
+  for (double v : {0.1, 0.2, 0.3, 0.5, 0.8})
+    run.v.push_back(v), run.D.push_back(1.87e-3 * std::pow(v, 0.215));
   const auto r = fit(Route::shift, {run}, {});
   CHECK(std::abs(r.a / 1.87e-3 - 1) < 1e-13);
   CHECK(std::abs(r.b - 0.215) < 1e-13);
@@ -52,7 +65,10 @@ TEST_CASE("shift: exact data give the law back, with errors of rounding size", "
   CHECK(r.sigma_b < 1e-13);
 }
 
-TEST_CASE("shift: one of a and b held; records at v <= 0 and below --min-speed are counted, D <= 0 is not left out", "[fit]") {
+TEST_CASE(
+    "shift: one of a and b held; records at v <= 0 and below --min-speed are counted, D <= 0 is "
+    "not left out",
+    "[fit]") {
   FitRun run{};
   for (double v : {-0.1, 0.0, 0.01, 0.2, 0.4, 0.8}) run.v.push_back(v), run.D.push_back(2 * v * v);
   run.D[4] = -0.1;
@@ -88,7 +104,8 @@ TEST_CASE("shift: a held, the gradient by b vanishes", "[fit]") {
   CHECK(std::abs(gradient) < 1e-12);
 }
 
-TEST_CASE("shift: two points have a law but no errors; what cannot be determined is refused", "[fit]") {
+TEST_CASE("shift: two points have a law but no errors; what cannot be determined is refused",
+          "[fit]") {
   FitRun run{};
   run.v = {1, 4};
   run.D = {3, 6};
@@ -109,8 +126,9 @@ TEST_CASE("shift: two points have a law but no errors; what cannot be determined
   CHECK_THROWS_AS(fit(Route::loglog, {run}, {}), Error);
 }
 
-// D = -e / 100 for noise e on v: what is left of D - a v^b is (-1/100 - a b v^(b-1)) e, so the records weigh by its inverse (to which
-// the floor adds the middle one of these numbers), and the fit solves these normal equations.
+// D = -e / 100 for noise e on v: what is left of D - a v^b is (-1/100 - a b v^(b-1)) e, so the
+// records weigh by its inverse (to which the floor adds the middle one of these numbers), and the
+// fit solves these normal equations.
 TEST_CASE("shift: the noise of v counts with the slope of the law", "[fit]") {
   simulated::Noise noise(1);
   FitRun run{};
@@ -126,7 +144,8 @@ TEST_CASE("shift: the noise of v counts with the slope of the law", "[fit]") {
                     for (double& d : D) d *= -0.01;
                     return D;
                   }}};
-  run.t = std::vector<double>(15, 0);  // no time passes: no roll from which smoothing could be judged
+  run.t =
+      std::vector<double>(15, 0);  // no time passes: no roll from which smoothing could be judged
   const auto r = fit(Route::shift, {run}, {});
   std::vector<double> sizes;
   for (double v : run.v) sizes.push_back(0.01 + r.a * r.b * std::pow(v, r.b - 1));
@@ -134,7 +153,8 @@ TEST_CASE("shift: the noise of v counts with the slope of the law", "[fit]") {
   std::sort(sorted.begin(), sorted.end());
   double by_a = 0, by_b = 0, all_a = 0, all_b = 0;
   for (std::size_t i = 0; i < 15; ++i) {
-    const double law = r.a * std::pow(run.v[i], r.b), g = (law - run.D[i]) * law / (sizes[i] * sizes[i] + sorted[7] * sorted[7]);
+    const double law = r.a * std::pow(run.v[i], r.b),
+                 g = (law - run.D[i]) * law / (sizes[i] * sizes[i] + sorted[7] * sorted[7]);
     by_a += g;
     by_b += g * std::log(run.v[i]);
     all_a += std::abs(g);
@@ -145,9 +165,12 @@ TEST_CASE("shift: the noise of v counts with the slope of the law", "[fit]") {
   CHECK(std::abs(r.b - plain.b) > 1e-4);
 }
 
-// The first and last means have narrow windows: a plain fit rests on them and has an sd of b near 0.05. A law that is smoothed over
-// half of the roll is biased as well.
-TEST_CASE("shift: smoothed and differentiated speeds, the filters known: nothing biased, intervals that hold", "[fit]") {
+// The first and last means have narrow windows: a plain fit rests on them and has an sd of b near
+// 0.05. A law that is smoothed over half of the roll is biased as well.
+TEST_CASE(
+    "shift: smoothed and differentiated speeds, the filters known: nothing biased, intervals that "
+    "hold",
+    "[fit]") {
   const Body body{1.375, 0.04, 0.5};
   for (const auto& [width, b] : {std::pair(5u, 0.215), std::pair(31u, 0.215), std::pair(9u, 1.5)}) {
     const auto truth = simulated::roll(body, b > 1 ? 8e-3 : 1.87e-3, b, 0.5);
@@ -157,8 +180,10 @@ TEST_CASE("shift: smoothed and differentiated speeds, the filters known: nothing
     constexpr int runs = 200;
     for (int k = 0; k < runs; ++k) {
       FitRun run{};
-      for (int i = 0; i <= 58; ++i) run.t.push_back(0.04 * i), run.v.push_back(truth.v(0.04 * i) + noise(0.0053));
-      run.filters = {simulated::smooth_v(width), simulated::differentiate("v", "a"), simulated::shift(body)};
+      for (int i = 0; i <= 58; ++i)
+        run.t.push_back(0.04 * i), run.v.push_back(truth.v(0.04 * i) + noise(0.0053));
+      run.filters = {simulated::smooth_v(width), simulated::differentiate("v", "a"),
+                     simulated::shift(body)};
       run.v = run.filters[0].apply(run.t, run.v);
       run.D = run.filters[2].apply(run.t, run.filters[1].apply(run.t, run.v));
       const auto r = fit(Route::shift, {run}, {});
@@ -177,11 +202,14 @@ TEST_CASE("shift: another unit of length gives the same law, the filters known",
   const auto fitted = [](double unit) {
     Body body{1.375, 0.04 * unit, 0.5};
     body.g *= unit;
-    const auto truth = simulated::roll(body, 1.87e-3 * std::pow(unit, 1 - 0.215), 0.215, 0.5 * unit);
+    const auto truth =
+        simulated::roll(body, 1.87e-3 * std::pow(unit, 1 - 0.215), 0.215, 0.5 * unit);
     simulated::Noise noise(2026);
     FitRun run{};
-    for (int i = 0; i <= 58; ++i) run.t.push_back(0.04 * i), run.v.push_back(truth.v(0.04 * i) + unit * noise(0.0053));
-    run.filters = {simulated::smooth_v(9), simulated::differentiate("v", "a"), simulated::shift(body)};
+    for (int i = 0; i <= 58; ++i)
+      run.t.push_back(0.04 * i), run.v.push_back(truth.v(0.04 * i) + unit * noise(0.0053));
+    run.filters = {simulated::smooth_v(9), simulated::differentiate("v", "a"),
+                   simulated::shift(body)};
     run.v = run.filters[0].apply(run.t, run.v);
     run.D = run.filters[2].apply(run.t, run.filters[1].apply(run.t, run.v));
     return fit(Route::shift, {run}, {});
@@ -192,7 +220,10 @@ TEST_CASE("shift: another unit of length gives the same law, the filters known",
   CHECK(std::abs(megametres.a / std::pow(1e-6, 1 - metres.b) / metres.a - 1) < 1e-8);
 }
 
-TEST_CASE("shift: of many records all count, where few are enough to come near; of these few some may be worth nothing", "[fit]") {
+TEST_CASE(
+    "shift: of many records all count, where few are enough to come near; of these few some may be "
+    "worth nothing",
+    "[fit]") {
   simulated::Noise noise(12);
   FitRun run{};
   for (int i = 0; i < 20000; ++i) {
@@ -201,9 +232,11 @@ TEST_CASE("shift: of many records all count, where few are enough to come near; 
   }
   const auto check = [&] {
     const auto r = fit(Route::shift, {run}, {});
-    double by_a = 0, by_b = 0, squares = 0, squares_b = 0;  // the residuals are orthogonal to the derivatives
+    double by_a = 0, by_b = 0, squares = 0,
+           squares_b = 0;  // the residuals are orthogonal to the derivatives
     for (std::size_t i = 0; i < run.v.size(); ++i) {
-      const double power = std::pow(run.v[i], r.b), f = r.a * power - run.D[i], log = std::log(run.v[i]);
+      const double power = std::pow(run.v[i], r.b), f = r.a * power - run.D[i],
+                   log = std::log(run.v[i]);
       by_a += f * power;
       by_b += f * power * log;
       squares += power * power;
@@ -214,6 +247,7 @@ TEST_CASE("shift: of many records all count, where few are enough to come near; 
     CHECK(std::abs(by_b) < 1e-10 * size * std::sqrt(squares_b));
   };
   check();
-  for (std::size_t i = 0; i < run.v.size(); i += 5) run.v[i] = 0.3;  // every fifth of them is looked at first
+  for (std::size_t i = 0; i < run.v.size(); i += 5)
+    run.v[i] = 0.3;  // every fifth of them is looked at first
   check();
 }

@@ -1,4 +1,5 @@
-// Simulated runs for the tests of fit/, from closed formulas that are typed here and not taken from lib/rolling.
+// Simulated runs for the tests of fit/, from closed formulas that are typed here and not taken from
+// lib/rolling.
 #pragma once
 
 #include "fit/fit.h"
@@ -12,11 +13,17 @@ namespace simulated {
 /// v(t) and x(t) of Eq. 13 for b other than 1 and 2.
 struct Roll {
   double c, a, b, v0;
-  double v(double t) const { return std::pow(std::max(0.0, std::pow(v0, 1 - b) - (1 - b) * a * c * t), 1 / (1 - b)); }
-  double x(double t) const { return (std::pow(v0, 2 - b) - std::pow(v(t), 2 - b)) / (a * c * (2 - b)); }
+  double v(double t) const {
+    return std::pow(std::max(0.0, std::pow(v0, 1 - b) - (1 - b) * a * c * t), 1 / (1 - b));
+  }
+  double x(double t) const {
+    return (std::pow(v0, 2 - b) - std::pow(v(t), 2 - b)) / (a * c * (2 - b));
+  }
 };
 
-inline Roll roll(const rolling::Body& body, double a, double b, double v0) { return {body.g / ((1 + body.K) * body.R), a, b, v0}; }
+inline Roll roll(const rolling::Body& body, double a, double b, double v0) {
+  return {body.g / ((1 + body.K) * body.R), a, b, v0};
+}
 
 inline std::vector<double> times(std::size_t n) {  // a tenth of a second apart
   std::vector<double> t;
@@ -47,10 +54,12 @@ inline std::vector<double> slope(std::span<const double> t, std::span<const doub
 }
 
 inline rolling::LinearFilter smooth_v(std::size_t width) {
-  return {"v", "v", width / 2, [width](std::span<const double>, std::span<const double> y) { return mean(y, width); }};
+  return {"v", "v", width / 2,
+          [width](std::span<const double>, std::span<const double> y) { return mean(y, width); }};
 }
 inline rolling::LinearFilter differentiate(const char* from, const char* to) {
-  return {from, to, 1, [](std::span<const double> t, std::span<const double> y) { return slope(t, y); }};
+  return {from, to, 1,
+          [](std::span<const double> t, std::span<const double> y) { return slope(t, y); }};
 }
 inline rolling::LinearFilter shift(const rolling::Body& body) {
   const double k = -(1 + body.K) * body.R / body.g;

@@ -9,8 +9,10 @@ namespace {
 const Body cylinder{1.375, 0.04, 0.5}, shell{1.375, 0.04, 0.83}, unit{1, 1, 0, 1};
 
 // NIST StRD Misra1a, b, c, d: the same 14 points (volume over pressure).
-const std::vector<double> misra_t{77.6, 114.9, 141.1, 190.8, 239.9, 289.0, 332.8, 378.4, 434.8, 477.3, 536.8, 593.1, 689.1, 760.0};
-const std::vector<double> misra_x{10.07, 14.73, 17.94, 23.93, 29.61, 35.18, 40.02, 44.82, 50.76, 55.05, 61.01, 66.40, 75.47, 81.78};
+const std::vector<double> misra_t{77.6,  114.9, 141.1, 190.8, 239.9, 289.0, 332.8,
+                                  378.4, 434.8, 477.3, 536.8, 593.1, 689.1, 760.0};
+const std::vector<double> misra_x{10.07, 14.73, 17.94, 23.93, 29.61, 35.18, 40.02,
+                                  44.82, 50.76, 55.05, 61.01, 66.40, 75.47, 81.78};
 
 FitRun noiseless(const Body& body, double a, double b, double v0, double until, Route route) {
   FitRun run{};
@@ -26,18 +28,22 @@ FitRun noiseless(const Body& body, double a, double b, double v0, double until, 
 
 }  // namespace
 
-// y = b1 (1 - (1 + k b2 t)^(-1/k)), certified b1 and b2 (25 digits in reference-data/nist/README.md), is x(t) from x0 = 0 at t = 0 with
-// v0 = b1 b2, b = (1 + 2 k)/(1 + k) and a = k b2 v0^(1 - b)/(b - 1); k = 0, 1/2, 1, 2 (k = 0 is the exponential, a = b2).
+// y = b1 (1 - (1 + k b2 t)^(-1/k)), certified b1 and b2 (25 digits in
+// reference-data/nist/README.md), is x(t) from x0 = 0 at t = 0 with v0 = b1 b2, b = (1 + 2 k)/(1 +
+// k) and a = k b2 v0^(1 - b)/(b - 1); k = 0, 1/2, 1, 2 (k = 0 is the exponential, a = b2).
 TEST_CASE("position: NIST's Misra1 sets are rolls under b = 1, 4/3, 3/2, 5/3", "[fit]") {
   struct Case {
     double b, v0, a, sigma_a;
   };
-  const double e[] = {238.9421291788617083294835 * 0.0005501564318059135596673623, 337.997461633687304493419 * 0.0003903909128657003472887675,
-                      437.3697075398933893208388 * 0.0003022732444900432885183014, 636.4272580930022666032473 * 0.0002081362725632872150069176};
-  const Case cases[] = {{1, e[0], 0.0005501564318059135596673623, 7.266868843619039290954e-6},
-                        {4.0 / 3, e[1], 3 * 0.0003903909128657003472887675 / 2 / std::cbrt(e[1]), 0},
-                        {1.5, e[2], 2 * 0.0003022732444900432885183014 / std::sqrt(e[2]), 0},
-                        {5.0 / 3, e[3], 1.5 * 2 * 0.0002081362725632872150069176 / std::pow(std::cbrt(e[3]), 2), 0}};
+  const double e[] = {238.9421291788617083294835 * 0.0005501564318059135596673623,
+                      337.997461633687304493419 * 0.0003903909128657003472887675,
+                      437.3697075398933893208388 * 0.0003022732444900432885183014,
+                      636.4272580930022666032473 * 0.0002081362725632872150069176};
+  const Case cases[] = {
+      {1, e[0], 0.0005501564318059135596673623, 7.266868843619039290954e-6},
+      {4.0 / 3, e[1], 3 * 0.0003903909128657003472887675 / 2 / std::cbrt(e[1]), 0},
+      {1.5, e[2], 2 * 0.0003022732444900432885183014 / std::sqrt(e[2]), 0},
+      {5.0 / 3, e[3], 1.5 * 2 * 0.0002081362725632872150069176 / std::pow(std::cbrt(e[3]), 2), 0}};
   for (const auto& c : cases) {
     FitRun run{};
     run.t = misra_t;
@@ -55,7 +61,10 @@ TEST_CASE("position: NIST's Misra1 sets are rolls under b = 1, 4/3, 3/2, 5/3", "
   }
 }
 
-TEST_CASE("trajectory: exact runs give a, b, v0, x0 back, the rest after the stop included, towards the sensor too", "[fit]") {
+TEST_CASE(
+    "trajectory: exact runs give a, b, v0, x0 back, the rest after the stop included, towards the "
+    "sensor too",
+    "[fit]") {
   for (Route route : {Route::velocity, Route::position})
     for (double b : {0.0244, 0.215, 0.9, 1.3, 2.2})
       for (double until : {1.5, 12.0})
@@ -74,7 +83,8 @@ TEST_CASE("trajectory: exact runs give a, b, v0, x0 back, the rest after the sto
 
 TEST_CASE("trajectory: one law for two bodies and two starts; held parameters stay", "[fit]") {
   for (Route route : {Route::velocity, Route::position}) {
-    const std::vector<FitRun> runs{noiseless(cylinder, 5.75e-4, 0.1, 0.5, 4, route), noiseless(shell, 5.75e-4, 0.1, 0.8, 3, route)};
+    const std::vector<FitRun> runs{noiseless(cylinder, 5.75e-4, 0.1, 0.5, 4, route),
+                                   noiseless(shell, 5.75e-4, 0.1, 0.8, 3, route)};
     const auto r = fit(route, runs, {});
     CHECK(std::abs(r.a / 5.75e-4 - 1) < 1e-9);
     CHECK(std::abs(r.b - 0.1) < 1e-9);
@@ -92,7 +102,10 @@ TEST_CASE("trajectory: one law for two bodies and two starts; held parameters st
   }
 }
 
-TEST_CASE("trajectory: slow records leave by --min-speed, so that a backward roll does not pull at the law", "[fit]") {
+TEST_CASE(
+    "trajectory: slow records leave by --min-speed, so that a backward roll does not pull at the "
+    "law",
+    "[fit]") {
   for (Route route : {Route::velocity, Route::position}) {
     FitRun run = noiseless(cylinder, 1.87e-3, 0.215, 0.5, 4, route);
     for (std::size_t i = 0; i < run.t.size(); ++i) {
@@ -132,7 +145,8 @@ TEST_CASE("velocity: differences of x with their filter known are as good as x",
   const auto truth = simulated::roll(cylinder, 1.87e-3, 0.215, 0.5);
   simulated::Noise noise(7);
   FitRun by_x{}, by_v{};
-  for (int i = 0; i < 59; ++i) by_x.t.push_back(0.04 * i), by_x.x.push_back(truth.x(0.04 * i) + noise(3e-4));
+  for (int i = 0; i < 59; ++i)
+    by_x.t.push_back(0.04 * i), by_x.x.push_back(truth.x(0.04 * i) + noise(3e-4));
   by_x.body = by_v.body = cylinder;
   by_v.t = by_x.t;
   by_v.filters = {simulated::differentiate("x", "v")};
@@ -144,11 +158,15 @@ TEST_CASE("velocity: differences of x with their filter known are as good as x",
   CHECK(std::abs(v.sigma_b / x.sigma_b - 1) < 0.02);
 }
 
-TEST_CASE("velocity: differences and means that reach beyond a cut are known there too; v0 is that of the first record left", "[fit]") {
+TEST_CASE(
+    "velocity: differences and means that reach beyond a cut are known there too; v0 is that of "
+    "the first record left",
+    "[fit]") {
   const auto truth = simulated::roll(cylinder, 1.87e-3, 0.215, 0.5);
   std::vector<double> t, x;
   for (int i = 0; i < 75; ++i) t.push_back(0.04 * i), x.push_back(truth.x(0.04 * i));
-  FilterChain chain{simulated::differentiate("x", "v"), simulated::smooth_v(7), simulated::smooth_v(1)};
+  FilterChain chain{simulated::differentiate("x", "v"), simulated::smooth_v(7),
+                    simulated::smooth_v(1)};
   const auto v = chain[1].apply(t, chain[0].apply(t, x));
   chain[2].cut_begin = chain[2].cut_end = true;
   FitRun run{};
@@ -160,7 +178,8 @@ TEST_CASE("velocity: differences and means that reach beyond a cut are known the
   CHECK(std::abs(r.a / 1.87e-3 - 1) < 1e-9);
   CHECK(std::abs(r.b - 0.215) < 1e-9);
   CHECK(std::abs(r.v0.at(0) - truth.v(0.4)) < 1e-9);
-  run.filters[2].cut_begin = run.filters[2].cut_end = false;  // as if the ends were shrunken windows
+  run.filters[2].cut_begin = run.filters[2].cut_end =
+      false;  // as if the ends were shrunken windows
   CHECK(std::abs(fit(Route::velocity, {run}, {}).b - 0.215) > 1e-5);
   run.filters = chain;
   FitOptions options;
@@ -190,7 +209,8 @@ TEST_CASE("trajectory: white noise, intervals that hold and no bias", "[fit]") {
       sum += r.b - truth.b;
       squares += (r.b - truth.b) * (r.b - truth.b);
     }
-    CHECK(covered_a >= 178);  // of 200 at 95 %: fewer, or 199 and more, by chance in less than 0.1 % each (binomial)
+    CHECK(covered_a >= 178);  // of 200 at 95 %: fewer, or 199 and more, by chance in less than 0.1
+                              // % each (binomial)
     CHECK(covered_b >= 178);
     CHECK(covered_b <= 198);
     CHECK(std::abs(sum / runs) < 3.3 * std::sqrt(squares) / runs);

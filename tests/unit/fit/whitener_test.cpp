@@ -7,11 +7,13 @@
 
 using namespace rolling;
 
-TEST_CASE("whitener: whitening turns E into an orthogonal matrix, and drops what has no noise", "[fit]") {
+TEST_CASE("whitener: whitening turns E into an orthogonal matrix, and drops what has no noise",
+          "[fit]") {
   constexpr std::size_t n = 25;
   const auto t = simulated::times(n);
   for (bool difference : {false, true}) {
-    const BandMatrix E = difference ? probe(simulated::differentiate("x", "v"), t) : probe(simulated::smooth_v(5), t);
+    const BandMatrix E = difference ? probe(simulated::differentiate("x", "v"), t)
+                                    : probe(simulated::smooth_v(5), t);
     const Whitener whitener(E, 0);
     auto A = dense(E, n);
     for (std::size_t j = 0; j < n; ++j) {  // W E
@@ -28,7 +30,8 @@ TEST_CASE("whitener: whitening turns E into an orthogonal matrix, and drops what
         if (i == k) trace += sum;
         else CHECK(std::abs(sum) < 1e-9);
       }
-    CHECK(std::abs(trace - (difference ? n - 1 : n)) < 1e-9);  // the differences know nothing of a constant
+    CHECK(std::abs(trace - (difference ? n - 1 : n)) <
+          1e-9);  // the differences know nothing of a constant
   }
 }
 
@@ -56,10 +59,14 @@ TEST_CASE("whitener: the floor is white noise of its own", "[fit]") {
   for (std::size_t i = 0; i < 6; ++i) CHECK(std::abs(z[i] - y[i]) < 1e-12);
 }
 
-TEST_CASE("whitener: floors of every size leave white noise of size one, and say by how much a volume shrinks", "[fit]") {
+TEST_CASE(
+    "whitener: floors of every size leave white noise of size one, and say by how much a volume "
+    "shrinks",
+    "[fit]") {
   constexpr std::size_t n = 40;
   const auto t = simulated::times(n);
-  const BandMatrix E = probe(simulated::differentiate("v", "a"), t) * probe(simulated::smooth_v(7), t);
+  const BandMatrix E =
+      probe(simulated::differentiate("v", "a"), t) * probe(simulated::smooth_v(7), t);
   const auto dense_E = dense(E, n);
   for (double floor : {1e-5, 1e-4, 1e-3, 1e-2, 1.0, 1e3}) {
     const Whitener whitener(E, floor);
@@ -69,7 +76,8 @@ TEST_CASE("whitener: floors of every size leave white noise of size one, and say
     std::vector<std::vector<double>> columns;  // of R^-T [E, floor I]
     for (std::size_t j = 0; j < 2 * n; ++j) {
       std::vector<double> x(n, 0);
-      for (std::size_t i = 0; i < n; ++i) x[i] = j < n ? dense_E[i * n + j] : i == j - n ? floor : 0;
+      for (std::size_t i = 0; i < n; ++i)
+        x[i] = j < n ? dense_E[i * n + j] : i == j - n ? floor : 0;
       whitener.apply(x);
       columns.push_back(std::move(x));
     }
@@ -84,13 +92,15 @@ TEST_CASE("whitener: floors of every size leave white noise of size one, and say
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t k = 0; k < n; ++k) {
         C[i * n + k] = i == k ? static_cast<long double>(floor) * floor : 0;
-        for (std::size_t j = 0; j < n; ++j) C[i * n + k] += static_cast<long double>(dense_E[i * n + j]) * dense_E[k * n + j];
+        for (std::size_t j = 0; j < n; ++j)
+          C[i * n + k] += static_cast<long double>(dense_E[i * n + j]) * dense_E[k * n + j];
       }
     long double log_size = 0;
     for (std::size_t k = 0; k < n; ++k) {
       log_size += std::log(C[k * n + k]) / 2;
       for (std::size_t i = k + 1; i < n; ++i)
-        for (std::size_t j = n; j-- > k;) C[i * n + j] -= C[i * n + k] / C[k * n + k] * C[k * n + j];  // column k last
+        for (std::size_t j = n; j-- > k;)
+          C[i * n + j] -= C[i * n + k] / C[k * n + k] * C[k * n + j];  // column k last
     }
     CHECK(std::abs(whitener.log_size() - static_cast<double>(log_size)) < 1e-8);
   }

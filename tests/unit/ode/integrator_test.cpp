@@ -17,13 +17,13 @@ namespace {
 /// x'' = -x
 const OdeSystem pendulum{2,
                          [](double, const double* y, double* dydt) {
-                           dydt[0] = y[1];
-                           dydt[1] = -y[0];
+  dydt[0] = y[1];
+  dydt[1] = -y[0];
                          },
                          [](double, const double*, double* dfdy, double* dfdt) {
-                           dfdy[0] = 0, dfdy[1] = 1, dfdy[2] = -1, dfdy[3] = 0;
-                           dfdt[0] = dfdt[1] = 0;
-                         }};
+  dfdy[0] = 0, dfdy[1] = 1, dfdy[2] = -1, dfdy[3] = 0;
+  dfdt[0] = dfdt[1] = 0;
+}};
 
 OdeOptions with(Stepper stepper, double rtol) {
   OdeOptions options;
@@ -33,8 +33,9 @@ OdeOptions with(Stepper stepper, double rtol) {
   return options;
 }
 
-const auto all_steppers = {Stepper::rk2,    Stepper::rk4,    Stepper::rkf45,  Stepper::rkck,  Stepper::rk8pd, Stepper::msadams,
-                           Stepper::rk1imp, Stepper::rk2imp, Stepper::rk4imp, Stepper::bsimp, Stepper::msbdf};
+const auto all_steppers = {Stepper::rk2,    Stepper::rk4,     Stepper::rkf45,  Stepper::rkck,
+                           Stepper::rk8pd,  Stepper::msadams, Stepper::rk1imp, Stepper::rk2imp,
+                           Stepper::rk4imp, Stepper::bsimp,   Stepper::msbdf};
 
 }  // namespace
 
@@ -58,7 +59,8 @@ TEST_CASE("Integrator: every stepper comes closer as the tolerance falls", "[ode
   CHECK(std::abs(first_order.state()[0] - std::cos(1)) < 1e-3);
 }
 
-TEST_CASE("Integrator: the given times are met one after the other, the past does nothing", "[ode]") {
+TEST_CASE("Integrator: the given times are met one after the other, the past does nothing",
+          "[ode]") {
   Integrator ode(pendulum, with(Stepper::rk8pd, 1e-12), 0, {1, 0});
   for (int i = 1; i <= 100; ++i) {
     ode.advance(0.1 * i);
@@ -92,18 +94,22 @@ TEST_CASE("Integrator: events are located to rounding, by every stepper", "[ode]
 TEST_CASE("Integrator: an event that is far from a line", "[ode]") {
   for (const double bend : {40, -40}) {
     Integrator ode(pendulum, with(Stepper::rk8pd, 1e-9), 0, {-1, 0});  // x = -cos t
-    REQUIRE(ode.advance(3, [&](const std::vector<double>& y) { return std::exp(bend * y[0]) - 1; }));
+    REQUIRE(
+        ode.advance(3, [&](const std::vector<double>& y) { return std::exp(bend * y[0]) - 1; }));
     CHECK(std::abs(ode.state()[0]) < 1e-14);
     CHECK(ode.evaluations() < 2000);
   }
 }
 
 TEST_CASE("Integrator: a stiff system needs few evaluations of an implicit stepper", "[ode]") {
-  const OdeSystem stiff{1, [](double t, const double* y, double* dydt) { dydt[0] = -1e6 * (y[0] - std::cos(t)) - std::sin(t); },
+  const OdeSystem stiff{1,
+                        [](double t, const double* y, double* dydt) {
+    dydt[0] = -1e6 * (y[0] - std::cos(t)) - std::sin(t);
+                        },
                         [](double t, const double*, double* dfdy, double* dfdt) {
-                          dfdy[0] = -1e6;
-                          dfdt[0] = -1e6 * std::sin(t) - std::cos(t);
-                        }};
+    dfdy[0] = -1e6;
+    dfdt[0] = -1e6 * std::sin(t) - std::cos(t);
+  }};
   for (const Stepper stepper : {Stepper::bsimp, Stepper::msbdf, Stepper::rk4imp}) {
     Integrator ode(stiff, with(stepper, 1e-8), 0, {1});
     ode.advance(1);
@@ -113,17 +119,23 @@ TEST_CASE("Integrator: a stiff system needs few evaluations of an implicit stepp
 }
 
 TEST_CASE("Integrator: trouble becomes an Error", "[ode]") {
-  const auto system = [](auto f) { return OdeSystem{1, [f](double t, const double* y, double* dydt) { dydt[0] = f(t, y[0]); }}; };
+  const auto system = [](auto f) {
+    return OdeSystem{1, [f](double t, const double* y, double* dydt) { dydt[0] = f(t, y[0]); }};
+  };
   // y' = y^2 is infinite at t = 1
   Integrator infinite(system([](double, double y) { return y * y; }), {}, 0, {1});
   CHECK_THROWS_AS(infinite.advance(2), Error);
-  Integrator no_number(system([](double t, double) { return t > 0.5 ? std::nan("") : 1.0; }), {}, 0, {1});
+  Integrator no_number(system([](double t, double) { return t > 0.5 ? std::nan("") : 1.0; }), {}, 0,
+                       {1});
   CHECK_THROWS_AS(no_number.advance(2), Error);
   OdeOptions few;
   few.max_steps = 50;
   Integrator long_way(system([](double t, double) { return std::sin(1000 * t); }), few, 0, {1});
   CHECK_THROWS_AS(long_way.advance(10), Error);
-  Integrator refuses(system([](double t, double) { return t > 0.5 ? throw std::domain_error("beyond 0.5") : 1.0; }), {}, 0, {1});
+  Integrator refuses(system([](double t, double) {
+                       return t > 0.5 ? throw std::domain_error("beyond 0.5") : 1.0;
+                     }),
+                     {}, 0, {1});
   CHECK_THROWS_AS(refuses.advance(2), std::domain_error);
 }
 
@@ -132,6 +144,7 @@ TEST_CASE("Integrator: wrong arguments are refused", "[ode]") {
   for (const double rtol : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
     CHECK_THROWS_AS(Integrator(pendulum, with(Stepper::rkf45, rtol), 0, {1, 0}), Error);
   CHECK_THROWS_AS(Integrator(pendulum, with(Stepper::rkf45, 0), 0, {1, 0}), Error);
-  CHECK_THROWS_AS(Integrator({2, pendulum.derivative}, with(Stepper::msbdf, 1e-6), 0, {1, 0}), Error);
+  CHECK_THROWS_AS(Integrator({2, pendulum.derivative}, with(Stepper::msbdf, 1e-6), 0, {1, 0}),
+                  Error);
   CHECK_NOTHROW(Integrator({2, pendulum.derivative}, with(Stepper::msadams, 1e-6), 0, {1, 0}));
 }

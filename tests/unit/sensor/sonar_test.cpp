@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "rolling/closed_form.h"
+#include "motion/closed_form.h"
 #include "unit/catch.h"
 
 using namespace rolling;
@@ -27,7 +27,9 @@ SonarOptions perfect() {
   return options;
 }
 
-bool same(const SonarSample& x, const SonarSample& y) { return x.t == y.t && x.x == y.x && x.v == y.v; }
+bool same(const SonarSample& x, const SonarSample& y) {
+  return x.t == y.t && x.x == y.x && x.v == y.v;
+}
 
 }  // namespace
 
@@ -46,7 +48,8 @@ TEST_CASE("sonar: without noise it sees rest, push, free roll, rest", "[sensor]"
     if (s.t < 1.5) continue;
     motion.seek(s.t - 1.5);
     REQUIRE(std::abs(*s.x - (0.3 + 0.125 + motion.position() - 7)) < 1e-14);
-    if (s.v && s.t > 1.51 && s.t < 1.5 + stop - 0.1) REQUIRE(std::abs(*s.v - motion.velocity()) < 1e-5);
+    if (s.v && s.t > 1.51 && s.t < 1.5 + stop - 0.1)
+      REQUIRE(std::abs(*s.v - motion.velocity()) < 1e-5);
   }
   // The push: v = v0 sin^2, without a jump of speed at its end.
   for (std::size_t i = 1002; i < 1500; ++i) {
@@ -94,16 +97,20 @@ TEST_CASE("sonar: positions are multiples of the resolution, written without a t
   }
 }
 
-TEST_CASE("sonar: the velocity is PASCO's, and missing with any of its four positions", "[sensor]") {
+TEST_CASE("sonar: the velocity is PASCO's, and missing with any of its four positions",
+          "[sensor]") {
   SonarOptions options;
   options.lost = 0.1;
   const auto s = record(options);
   int missing = 0;
   for (std::size_t i = 0; i < s.size(); ++i) {
-    const bool known = i >= 2 && i + 2 < s.size() && s[i - 2].x && s[i - 1].x && s[i + 1].x && s[i + 2].x;
+    const bool known =
+        i >= 2 && i + 2 < s.size() && s[i - 2].x && s[i - 1].x && s[i + 1].x && s[i + 2].x;
     CHECK(s[i].v.has_value() == known);
     missing += !s[i].x;
-    if (known) CHECK(std::abs(*s[i].v - (*s[i + 1].x + *s[i + 2].x - *s[i - 1].x - *s[i - 2].x) / (6 * 0.04)) < 5.001e-5);  // rounded to 0.1 mm/s
+    if (known)
+      CHECK(std::abs(*s[i].v - (*s[i + 1].x + *s[i + 2].x - *s[i - 1].x - *s[i - 2].x) /
+                                   (6 * 0.04)) < 5.001e-5);  // rounded to 0.1 mm/s
   }
   CHECK(missing > 0);
 }
@@ -136,7 +143,8 @@ TEST_CASE("sonar: until, never stopping, at rest all the time, refusals", "[sens
   SonarOptions options;
   options.until = 1;
   CHECK(std::abs(record(options).back().t - 2.5) < 0.04);
-  ClosedForm never({1.375, 0.04, 0.5}, {1.87e-3, 1.5}, 0.5, 0), still({1.375, 0.04, 0.5}, {1.87e-3, 0.2}, 0, 0);
+  ClosedForm never({1.375, 0.04, 0.5}, {1.87e-3, 1.5}, 0.5, 0),
+      still({1.375, 0.04, 0.5}, {1.87e-3, 0.2}, 0, 0);
   CHECK_THROWS_AS(sonar_record(never, {}), Error);
   CHECK(std::abs(sonar_record(never, options).back().t - 2.5) < 0.04);
   for (const auto& s : sonar_record(still, perfect())) CHECK(s.x == 0.3);

@@ -22,16 +22,20 @@ std::vector<double> differentiated(const std::vector<double>& t, const std::vect
   return out;
 }
 
-/// Times from 0 to 1 in steps that differ by up to a factor of 3, in a pattern that stays as n grows.
+/// Times from 0 to 1 in steps that differ by up to a factor of 3, in a pattern that stays as n
+/// grows.
 std::vector<double> uneven_times(int n) {
   std::vector<double> t;
   for (int i = 0; i <= n; ++i) t.push_back((i + (i % 2 ? 0.5 : 0) * (i < n)) / n);
   return t;
 }
 
-struct Errors { double inside, ends; };
+struct Errors {
+  double inside, ends;
+};
 
-Errors worst_errors(const std::vector<double>& t, const std::function<double(double)>& f, const std::function<double(double)>& slope) {
+Errors worst_errors(const std::vector<double>& t, const std::function<double(double)>& f,
+                    const std::function<double(double)>& slope) {
   std::vector<double> y;
   for (const double time : t) y.push_back(f(time));
   const auto d = differentiated(t, y);
@@ -51,7 +55,8 @@ TEST_CASE("derivative: exact on a parabola, even times and uneven, ends and all"
   const std::vector<double> even = {0, 0.25, 0.5, 0.75, 1}, uneven = {-2, -1.5, 0.5, 1, 5, 5.25};
   for (const auto& t : {even, uneven}) {
     std::vector<double> y, slope;
-    for (const double time : t) y.push_back(3 - 2 * time + 4 * time * time), slope.push_back(-2 + 8 * time);
+    for (const double time : t)
+      y.push_back(3 - 2 * time + 4 * time * time), slope.push_back(-2 + 8 * time);
     const auto d = differentiated(t, y);
     REQUIRE(d.size() == t.size());
     for (std::size_t i = 0; i < t.size(); ++i) CHECK(std::abs(d[i] - slope[i]) < 1e-13);
@@ -65,7 +70,9 @@ TEST_CASE("derivative: exact on 100 random parabolas, uneven times", "[signal]")
     const double a = any(random), b = any(random), c = any(random);
     std::vector<double> t = {any(random)};
     for (int i = 0; i < 20; ++i) t.push_back(t.back() + 0.05 + std::abs(any(random)));
-    const Errors worst = worst_errors(t, [&](double x) { return a + b * x + c * x * x; }, [&](double x) { return b + 2 * c * x; });
+    const Errors worst = worst_errors(
+        t, [&](double x) { return a + b * x + c * x * x; },
+        [&](double x) { return b + 2 * c * x; });
     CHECK(std::max(worst.inside, worst.ends) < 1e-11);
   }
 }
@@ -87,7 +94,8 @@ TEST_CASE("derivative: second order on any spacing, at the ends too", "[signal]"
       return t;
     };
     Errors last = worst_errors(times(16), f, slope);
-    // The parabola's error is f''' h1 h2 / 6 inside and f''' h1 (h1 + h2) / 6 at an end, f''' <= 125, h <= 1.5 / 16.
+    // The parabola's error is f''' h1 h2 / 6 inside and f''' h1 (h1 + h2) / 6 at an end, f''' <=
+    // 125, h <= 1.5 / 16.
     CHECK(last.inside <= 125 * std::pow(1.5 / 16, 2) / 6);
     CHECK(last.ends <= 125 * 2 * std::pow(1.5 / 16, 2) / 6);
     for (int n = 32; n <= 4096; n *= 2) {
@@ -124,7 +132,8 @@ TEST_CASE("derivative: a shift of the time axis by a power of two changes no bit
 
 namespace {
 
-std::vector<double> by(DerivativeMethod method, const std::vector<double>& t, const std::vector<double>& y) {
+std::vector<double> by(DerivativeMethod method, const std::vector<double>& t,
+                       const std::vector<double>& y) {
   const auto signal = make_derivative({method});
   return through(*signal, t, y);
 }
@@ -132,9 +141,11 @@ std::vector<double> by(DerivativeMethod method, const std::vector<double>& t, co
 }  // namespace
 
 TEST_CASE("derivative: vernier by hand, to the last bit", "[signal]") {
-  // 3, 2, 1 on the slopes over one, two and three samples to either side; beyond an end the sample at the end.
+  // 3, 2, 1 on the slopes over one, two and three samples to either side; beyond an end the sample
+  // at the end.
   const std::vector<double> t = {0, 1, 2, 3, 4, 5, 6, 7}, y = {0, 0, 0, 12, 0, 0, 0, 0};
-  CHECK(by(DerivativeMethod::vernier, t, y) == std::vector<double>{4. / 6, 8. / 6, 3, 0, -3, -1, -0.5, 0});
+  CHECK(by(DerivativeMethod::vernier, t, y) ==
+        std::vector<double>{4. / 6, 8. / 6, 3, 0, -3, -1, -0.5, 0});
   // As its definition reads, on uneven times and runs shorter than the window.
   for (std::size_t n = 2; n <= 12; ++n) {
     const auto times = uneven_times(static_cast<int>(n) - 1), values = noise(n, 3);
@@ -153,25 +164,33 @@ TEST_CASE("derivative: vernier by hand, to the last bit", "[signal]") {
 
 TEST_CASE("derivative: pasco by hand", "[signal]") {
   const std::vector<double> t = {0, 1, 2, 3, 4, 5, 6}, y = {0, 1, 4, 9, 10, 0, 0};
-  // inside (y[i+1] + y[i+2] - y[i-1] - y[i-2]) / 6; the second and the last but one central; the outer ones as a parabola
-  CHECK(by(DerivativeMethod::pasco, t, y) == std::vector<double>{0, 2, 18. / 6, 5. / 6, -13. / 6, -5, 5});
+  // inside (y[i+1] + y[i+2] - y[i-1] - y[i-2]) / 6; the second and the last but one central; the
+  // outer ones as a parabola
+  CHECK(by(DerivativeMethod::pasco, t, y) ==
+        std::vector<double>{0, 2, 18. / 6, 5. / 6, -13. / 6, -5, 5});
   CHECK(by(DerivativeMethod::pasco, {0, 2}, {1, 2}) == std::vector<double>{0.5, 0.5});
   CHECK(by(DerivativeMethod::pasco, {0, 1, 3}, {0, 1, 9}) == std::vector<double>{0, 3, 6});
-  CHECK(by(DerivativeMethod::pasco, {0, 1, 2, 4}, {0, 1, 4, 16}) == std::vector<double>{0, 2, 5, 8});
+  CHECK(by(DerivativeMethod::pasco, {0, 1, 2, 4}, {0, 1, 4, 16}) ==
+        std::vector<double>{0, 2, 5, 8});
 }
 
-TEST_CASE("derivative: every method has a number for each sample, the slope of a line, and turns with time", "[signal]") {
+TEST_CASE(
+    "derivative: every method has a number for each sample, the slope of a line, and turns with "
+    "time",
+    "[signal]") {
   for (const auto& [name, method] : derivative_methods)
     for (const int n : {2, 3, 4, 5, 6, 7, 8, 30}) {
       const auto t = uneven_times(n - 1), y = noise(t.size(), 6);
       std::vector<double> line;
       for (const double time : t) line.push_back(7 - 3 * time);
       INFO(name << " of " << n);
-      const auto slopes = by(method, t, line), ahead = by(method, t, y), back = backwards(by(method, backwards(t, -1), backwards(y)), -1);
+      const auto slopes = by(method, t, line), ahead = by(method, t, y),
+                 back = backwards(by(method, backwards(t, -1), backwards(y)), -1);
       REQUIRE(slopes.size() == t.size());
       for (std::size_t i = 0; i < t.size(); ++i) {
         CHECK(std::abs(slopes[i] + 3) < 1e-11);
-        CHECK(std::abs(ahead[i] - back[i]) < (method == DerivativeMethod::spline ? 1e-3 : 1e-10) * (1 + std::abs(ahead[i])));
+        CHECK(std::abs(ahead[i] - back[i]) <
+              (method == DerivativeMethod::spline ? 1e-3 : 1e-10) * (1 + std::abs(ahead[i])));
       }
     }
   for (const auto& [name, method] : derivative_methods) {
@@ -181,9 +200,11 @@ TEST_CASE("derivative: every method has a number for each sample, the slope of a
   }
 }
 
-TEST_CASE("derivative: vernier and pasco are exact on a parabola inside, on even times", "[signal]") {
+TEST_CASE("derivative: vernier and pasco are exact on a parabola inside, on even times",
+          "[signal]") {
   std::vector<double> t, y;
-  for (int i = 0; i < 20; ++i) t.push_back(0.25 * i), y.push_back(3 - 2 * t.back() + 4 * t.back() * t.back());
+  for (int i = 0; i < 20; ++i)
+    t.push_back(0.25 * i), y.push_back(3 - 2 * t.back() + 4 * t.back() * t.back());
   for (const auto method : {DerivativeMethod::vernier, DerivativeMethod::pasco}) {
     const auto d = by(method, t, y);
     for (std::size_t i = 3; i + 3 < t.size(); ++i) CHECK(std::abs(d[i] - (-2 + 8 * t[i])) < 1e-12);

@@ -1,5 +1,6 @@
-// Exact arithmetic on doubles, to judge sums and means by: a number as doubles that do not overlap, after J. R. Shewchuk,
-// Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates (1997). Not the method of lib/signal.
+// Exact arithmetic on doubles, to judge sums and means by: a number as doubles that do not overlap,
+// after J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
+// Predicates (1997). Not the method of lib/signal.
 #pragma once
 
 #include <cmath>
@@ -40,7 +41,8 @@ class Expansion {
   std::vector<double> parts_;  // the smallest first
 };
 
-/// Is `mean` within one ulp of the exact mean of `values`? `scale` is a power of two that keeps them all within range.
+/// Is `mean` within one ulp of the exact mean of `values`? `scale` is a power of two that keeps
+/// them all within range.
 inline bool within_one_ulp(std::span<const double> values, double mean, double scale = 1) {
   const double up = std::nextafter(mean, std::numeric_limits<double>::infinity());
   const double down = std::nextafter(mean, -std::numeric_limits<double>::infinity());

@@ -18,7 +18,8 @@ double mean_of(const std::vector<double>& values) {
   return sum.over(values.size());
 }
 
-constexpr double largest = std::numeric_limits<double>::max(), tiny = std::numeric_limits<double>::denorm_min();
+constexpr double largest = std::numeric_limits<double>::max(),
+                 tiny = std::numeric_limits<double>::denorm_min();
 
 }  // namespace
 
@@ -47,11 +48,13 @@ TEST_CASE("exact_sum: an even count of one number is that number", "[signal]") {
   std::uniform_real_distribution<double> mantissa(-2, 2);
   for (int exponent = -1074; exponent < 1023; exponent += 13) {
     const double y = std::ldexp(mantissa(random), exponent);
-    for (const std::size_t n : {1u, 2u, 3u, 7u, 11u, 101u}) CHECK(mean_of(std::vector<double>(n, y)) == y);
+    for (const std::size_t n : {1u, 2u, 3u, 7u, 11u, 101u})
+      CHECK(mean_of(std::vector<double>(n, y)) == y);
   }
 }
 
-TEST_CASE("exact_sum: a hair below a power of two rounds to it, wherever the limbs part", "[signal]") {
+TEST_CASE("exact_sum: a hair below a power of two rounds to it, wherever the limbs part",
+          "[signal]") {
   for (int power = -900; power < 1000; ++power) {
     const double whole = std::ldexp(1, power);
     for (const int below : {60, 84, 97, 110, 160}) {
@@ -74,7 +77,9 @@ TEST_CASE("exact_sum: within one ulp of the exact mean, for numbers of all sizes
     const int spread = static_cast<int>(random() % 300);
     std::vector<double> values;
     for (std::size_t i = 0; i < n; ++i)
-      values.push_back(std::ldexp(mantissa(random), -150 + (spread ? static_cast<int>(random() % static_cast<unsigned>(spread)) : 0)));
+      values.push_back(std::ldexp(
+          mantissa(random),
+          -150 + (spread ? static_cast<int>(random() % static_cast<unsigned>(spread)) : 0)));
     if (trial % 4 == 0) values.push_back(-values.front());  // cancellation
     if (!within_one_ulp(values, mean_of(values))) ++failures;
   }
@@ -103,7 +108,8 @@ TEST_CASE("exact_sum: subtracting restores the sum to the last bit", "[signal]")
   CHECK(sum.over(3) == -1);
 }
 
-TEST_CASE("exact_sum: terms that are exchanged leave nothing behind, near one another or not", "[signal]") {
+TEST_CASE("exact_sum: terms that are exchanged leave nothing behind, near one another or not",
+          "[signal]") {
   std::mt19937_64 random(17);
   std::uniform_real_distribution<double> mantissa(-1, 1);
   std::vector<double> window(7, 1.0);
@@ -113,7 +119,12 @@ TEST_CASE("exact_sum: terms that are exchanged leave nothing behind, near one an
   for (std::size_t i = 0; i < 20000; ++i) {
     const int kind = static_cast<int>(random() % 8);
     const double old = window[i % 7];
-    const double y = kind == 0 ? 0.0 : kind == 1 ? -0.0 : kind == 2 ? 0x1p900 : kind == 3 ? std::ldexp(mantissa(random), static_cast<int>(random() % 600) - 300) : old + mantissa(random) / 8;
+    const double y = kind == 0   ? 0.0
+                     : kind == 1 ? -0.0
+                     : kind == 2 ? 0x1p900
+                     : kind == 3
+                         ? std::ldexp(mantissa(random), static_cast<int>(random() % 600) - 300)
+                         : old + mantissa(random) / 8;
     sum.exchange(y, old);
     window[i % 7] = y;
     if (!within_one_ulp(window, sum.over(7))) ++failures;

@@ -10,11 +10,17 @@ using namespace rolling;
 
 namespace {
 
-/// Rest for 1 s, a push of 0.5 s up to 0.5 m/s, a roll that slows by 0.1 m/s^2 and stops at 6.5 s, rest until 8 s.
-double speed(double t) { return t < 1 || t > 6.5 ? 0 : t < 1.5 ? 0.5 * std::pow(std::sin(3.14159265358979 * (t - 1)), 2) : 0.1 * (6.5 - t); }
+/// Rest for 1 s, a push of 0.5 s up to 0.5 m/s, a roll that slows by 0.1 m/s^2 and stops at 6.5 s,
+/// rest until 8 s.
+double speed(double t) {
+  return t < 1 || t > 6.5 ? 0
+         : t < 1.5        ? 0.5 * std::pow(std::sin(3.14159265358979 * (t - 1)), 2)
+                          : 0.1 * (6.5 - t);
+}
 constexpr double release = 1.5, stop = 6.5;
 
-std::vector<Sample> record(double rate, double size, unsigned seed, bool positions, double sign = 1) {
+std::vector<Sample> record(double rate, double size, unsigned seed, bool positions,
+                           double sign = 1) {
   std::vector<Sample> run;
   double x = 0.3;
   const auto n = static_cast<std::size_t>(8 * rate);
@@ -30,15 +36,19 @@ std::vector<Sample> record(double rate, double size, unsigned seed, bool positio
 
 }  // namespace
 
-TEST_CASE("free_roll: from after the push up to the stop, speeds and positions, many seeds", "[signal]") {
+TEST_CASE("free_roll: from after the push up to the stop, speeds and positions, many seeds",
+          "[signal]") {
   for (const double sign : {1.0, -1.0})
     for (const double rate : {25.0, 100.0})
       for (unsigned seed = 1; seed <= 100; ++seed) {
-        const auto v = record(rate, 0.004, seed, false, sign), x = record(rate, 0.0004, seed, true, sign);
+        const auto v = record(rate, 0.004, seed, false, sign),
+                   x = record(rate, 0.0004, seed, true, sign);
         for (const auto* run : {&v, &x}) {
           const auto [begin, end] = free_roll(*run, run == &x);
-          INFO((run == &x ? "x " : "v ") << rate << " Hz, seed " << seed << ": " << (*run)[begin].t << " to " << (*run)[end - 1].t);
-          CHECK((*run)[begin].t >= release + 1.9 / rate);  // a derivative over two samples knows nothing of the push
+          INFO((run == &x ? "x " : "v ") << rate << " Hz, seed " << seed << ": " << (*run)[begin].t
+                                         << " to " << (*run)[end - 1].t);
+          CHECK((*run)[begin].t >=
+                release + 1.9 / rate);  // a derivative over two samples knows nothing of the push
           CHECK((*run)[begin].t < release + 1);
           CHECK((*run)[end - 1].t <= stop + 2 / rate);
           CHECK((*run)[end - 1].t > stop - 0.8);
@@ -46,7 +56,10 @@ TEST_CASE("free_roll: from after the push up to the stop, speeds and positions, 
       }
 }
 
-TEST_CASE("free_roll: a record that begins with the roll keeps its beginning, one that ends in it its end", "[signal]") {
+TEST_CASE(
+    "free_roll: a record that begins with the roll keeps its beginning, one that ends in it its "
+    "end",
+    "[signal]") {
   const auto run = record(25, 0, 1, false);
   const std::span<const Sample> whole(run);
   const auto begins = free_roll(whole.subspan(40), false);
@@ -63,8 +76,10 @@ TEST_CASE("free_roll: without noise the roll ends where the speed is 0", "[signa
   CHECK(begin > 38);
 }
 
-TEST_CASE("free_roll: the noise is that of the moving body, however still a long rest is", "[signal]") {
-  // Means of 5 records at 25 Hz have the noise 0.02/sqrt(5): the speed is twice that 0.18 s before the stop.
+TEST_CASE("free_roll: the noise is that of the moving body, however still a long rest is",
+          "[signal]") {
+  // Means of 5 records at 25 Hz have the noise 0.02/sqrt(5): the speed is twice that 0.18 s before
+  // the stop.
   double end = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const Series e = noise(600, seed);

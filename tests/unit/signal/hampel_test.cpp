@@ -37,7 +37,8 @@ using Indices = std::vector<std::size_t>;
 
 TEST_CASE("hampel: spikes on a noisy slope are found, first and last record too", "[signal]") {
   Series y = noise(100, 3);
-  for (std::size_t i = 0; i < y.size(); ++i) y[i] = 0.001 * y[i] + 0.5 - 0.002 * static_cast<double>(i);
+  for (std::size_t i = 0; i < y.size(); ++i)
+    y[i] = 0.001 * y[i] + 0.5 - 0.002 * static_cast<double>(i);
   const Indices spikes = {0, 17, 50, 51, 99};
   for (const std::size_t i : spikes) y[i] += 0.1;
   CHECK(outliers(y, {11, 0}, 6) == spikes);

@@ -30,14 +30,20 @@ Series smoothed(const Series& t, const Series& y, Width window) {
   return out;
 }
 
-Series smoothed(const Series& y, std::size_t width) { return smoothed(even_times(y.size()), y, {width, 0}); }
+Series smoothed(const Series& y, std::size_t width) {
+  return smoothed(even_times(y.size()), y, {width, 0});
+}
 
 /// Half the width of the window of samples about i, by definition.
-std::size_t half_width(std::size_t i, std::size_t n, std::size_t width) { return std::min({width / 2, i, n - 1 - i}); }
+std::size_t half_width(std::size_t i, std::size_t n, std::size_t width) {
+  return std::min({width / 2, i, n - 1 - i});
+}
 
 std::size_t half_width(std::size_t i, const Series& t, double seconds) {
   std::size_t k = 0;
-  const auto near = [&](std::size_t j) { return std::abs(t[j] - t[i]) <= seconds / 2 * (1 + 1e-9); };
+  const auto near = [&](std::size_t j) {
+    return std::abs(t[j] - t[i]) <= seconds / 2 * (1 + 1e-9);
+  };
   while (k < i && i + k + 1 < t.size() && near(i - k - 1) && near(i + k + 1)) ++k;
   return k;
 }
@@ -60,7 +66,8 @@ TEST_CASE("moving_mean: by hand", "[signal]") {
 TEST_CASE("moving_mean: a straight line comes out as itself, to its ends", "[signal]") {
   Series line;
   for (int i = 0; i < 200; ++i) line.push_back(3 - 0.25 * i);  // exact in binary
-  for (const std::size_t width : {1u, 3u, 11u, 51u, 199u, 201u, 999u}) CHECK(smoothed(line, width) == line);
+  for (const std::size_t width : {1u, 3u, 11u, 51u, 199u, 201u, 999u})
+    CHECK(smoothed(line, width) == line);
   CHECK(smoothed(even_times(200), line, {0, 0.4}) == line);
 }
 
@@ -69,7 +76,8 @@ TEST_CASE("moving_mean: a constant that is not a binary fraction comes out as it
   for (const std::size_t width : {3u, 11u, 101u}) CHECK(smoothed(constant, width) == constant);
 }
 
-TEST_CASE("moving_mean: each mean is within 1 ulp of its window's, next to an outlier and after it", "[signal]") {
+TEST_CASE("moving_mean: each mean is within 1 ulp of its window's, next to an outlier and after it",
+          "[signal]") {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> speed(-0.5, 0.5);
   Series y;
@@ -96,7 +104,8 @@ TEST_CASE("moving_mean: each mean is within 1 ulp of its window's, next to an ou
 TEST_CASE("moving_mean: the greatest and the least doubles", "[signal]") {
   CHECK(smoothed({1e308, 1e308, 1e308}, 3) == Series{1e308, 1e308, 1e308});
   const double tiny = std::numeric_limits<double>::denorm_min();
-  CHECK(smoothed({tiny, 4 * tiny, tiny, 0, -tiny}, 3) == Series{tiny, 2 * tiny, 2 * tiny, 0, -tiny});
+  CHECK(smoothed({tiny, 4 * tiny, tiny, 0, -tiny}, 3) ==
+        Series{tiny, 2 * tiny, 2 * tiny, 0, -tiny});
   std::mt19937_64 random(2);
   Series y;
   for (int i = 0; i < 100; ++i) y.push_back(tiny * static_cast<double>(random() % 1000));
@@ -112,7 +121,8 @@ TEST_CASE("moving_mean: it commutes with reversing time", "[signal]") {
   std::uniform_real_distribution<double> speed(-0.5, 0.5), step(0.01, 0.09);
   Series t, y;
   for (int i = 0; i < 300; ++i) {
-    t.push_back((t.empty() ? 0 : t.back()) + std::round(1024 * step(random)) / 1024);  // exact, so that -t is as far apart
+    t.push_back((t.empty() ? 0 : t.back()) +
+                std::round(1024 * step(random)) / 1024);  // exact, so that -t is as far apart
     y.push_back(speed(random));
   }
   Series back;
@@ -121,7 +131,8 @@ TEST_CASE("moving_mean: it commutes with reversing time", "[signal]") {
     CHECK(smoothed(back, reversed(y), window) == reversed(smoothed(t, y, window)));
 }
 
-TEST_CASE("moving_mean: a window of seconds takes as many samples as lie within it on both sides", "[signal]") {
+TEST_CASE("moving_mean: a window of seconds takes as many samples as lie within it on both sides",
+          "[signal]") {
   std::mt19937_64 random(6);
   std::uniform_real_distribution<double> speed(-0.5, 0.5), step(0.001, 0.2);
   Series t, y;
@@ -145,7 +156,8 @@ TEST_CASE("moving_mean: a window of seconds takes as many samples as lie within 
 TEST_CASE("moving_mean: rounding of the times does not decide a window of seconds", "[signal]") {
   Series y;
   for (int i = 0; i < 100; ++i) y.push_back(i % 7);
-  CHECK(smoothed(even_times(100), y, {0, 0.08}) == smoothed(y, 3));  // 0.04 i: some steps are a hair more than 0.04
+  CHECK(smoothed(even_times(100), y, {0, 0.08}) ==
+        smoothed(y, 3));  // 0.04 i: some steps are a hair more than 0.04
   CHECK(smoothed(even_times(100), y, {0, 0.4}) == smoothed(y, 11));
 }
 
@@ -160,9 +172,10 @@ TEST_CASE("moving_mean: a mean is known as soon as its window is", "[signal]") {
   MovingMean seconds({0, 2});
   CHECK(seconds.push(0, 1).size() == 1);
   CHECK(seconds.push(1, 1).empty());
-  CHECK(seconds.push(1.5, 1).size() == 1);  // one on each side of 1 s: more to come on the right could not be matched on the left
+  CHECK(seconds.push(1.5, 1).size() ==
+        1);  // one on each side of 1 s: more to come on the right could not be matched on the left
   CHECK(seconds.push(2, 1).size() == 1);
-  CHECK(seconds.push(9, 1).size() == 2);    // nothing within a second of it
+  CHECK(seconds.push(9, 1).size() == 2);  // nothing within a second of it
   CHECK(seconds.finish().empty());
 }
 
@@ -173,8 +186,9 @@ TEST_CASE("moving_mean: an even width is refused", "[signal]") {
 
 namespace {
 
-/// The largest distance, in ulps, of a mean over 11 of `rows` samples from the exact mean of its window. The samples come in
-/// stretches, each harder on a running sum than the last: speeds, an outlier of -9e33, 1e308 three times, denormal numbers, 0.1.
+/// The largest distance, in ulps, of a mean over 11 of `rows` samples from the exact mean of its
+/// window. The samples come in stretches, each harder on a running sum than the last: speeds, an
+/// outlier of -9e33, 1e308 three times, denormal numbers, 0.1.
 double largest_error_in_ulps(std::size_t rows) {
   constexpr std::size_t half = 5, width = 2 * half + 1, stretch = 1000;
   std::mt19937_64 random(11);
@@ -182,11 +196,16 @@ double largest_error_in_ulps(std::size_t rows) {
   const auto sample = [&](std::size_t i) {
     const std::size_t at = i % stretch;
     switch (i / stretch % 5) {
-      case 0: return speed(random);
-      case 1: return at == 500 ? -9e33 : speed(random);
-      case 2: return at >= 500 && at < 503 ? 1e308 : speed(random);
-      case 3: return std::ldexp(static_cast<double>(random() % 100000), -1074);
-      default: return 0.1;
+      case 0:
+        return speed(random);
+      case 1:
+        return at == 500 ? -9e33 : speed(random);
+      case 2:
+        return at >= 500 && at < 503 ? 1e308 : speed(random);
+      case 3:
+        return std::ldexp(static_cast<double>(random() % 100000), -1074);
+      default:
+        return 0.1;
     }
   };
   MovingMean mean({width, 0});
@@ -201,7 +220,9 @@ double largest_error_in_ulps(std::size_t rows) {
     Expansion off;
     for (const double v : y) off.add(scale * v);
     off.add_product(-static_cast<double>(width), scale * value);
-    const double ulp = scale * (std::nextafter(std::abs(value), std::numeric_limits<double>::infinity()) - std::abs(value));
+    const double ulp =
+        scale * (std::nextafter(std::abs(value), std::numeric_limits<double>::infinity()) -
+                 std::abs(value));
     largest = std::max(largest, std::abs(off.nearly()) / (static_cast<double>(width) * ulp));
   };
   for (std::size_t i = 0; i < rows; ++i) {

@@ -8,8 +8,12 @@ using namespace rolling;
 
 namespace {
 
-Series medians(const Series& t, const Series& y, Width width) { return through(MovingMedian(width), t, y); }
-Series medians(const Series& y, std::size_t width) { return medians(even_times(y.size()), y, {width, 0}); }
+Series medians(const Series& t, const Series& y, Width width) {
+  return through(MovingMedian(width), t, y);
+}
+Series medians(const Series& y, std::size_t width) {
+  return medians(even_times(y.size()), y, {width, 0});
+}
 
 }  // namespace
 
@@ -28,7 +32,8 @@ TEST_CASE("moving_median: as sorting each window has it", "[signal]") {
     const auto out = medians(y, width);
     REQUIRE(out.size() == y.size());
     for (std::size_t i = 0; i < y.size(); ++i) {
-      const auto k = static_cast<std::ptrdiff_t>(std::min({width / 2, i, y.size() - 1 - i})), at = static_cast<std::ptrdiff_t>(i);
+      const auto k = static_cast<std::ptrdiff_t>(std::min({width / 2, i, y.size() - 1 - i})),
+                 at = static_cast<std::ptrdiff_t>(i);
       Series window(y.begin() + at - k, y.begin() + at + k + 1);
       std::sort(window.begin(), window.end());
       REQUIRE(out[i] == window[static_cast<std::size_t>(k)]);
@@ -36,14 +41,16 @@ TEST_CASE("moving_median: as sorting each window has it", "[signal]") {
   }
 }
 
-TEST_CASE("moving_median: what only rises comes out as itself, to its ends, on uneven times too", "[signal]") {
+TEST_CASE("moving_median: what only rises comes out as itself, to its ends, on uneven times too",
+          "[signal]") {
   Series t = uneven_times(60), y;
   for (const double time : t) y.push_back(time * time * time);
   CHECK(medians(t, y, {9, 0}) == y);
   CHECK(medians(t, y, {0, 0.7}) == y);
 }
 
-TEST_CASE("moving_median: half of a window of outliers changes nothing, and time may run backwards", "[signal]") {
+TEST_CASE("moving_median: half of a window of outliers changes nothing, and time may run backwards",
+          "[signal]") {
   Series y(60, 3);
   for (const std::size_t i : {20u, 21u, 22u, 23u, 24u}) y[i] = 1e300;
   CHECK(medians(y, 11) == Series(60, 3));
@@ -52,4 +59,6 @@ TEST_CASE("moving_median: half of a window of outliers changes nothing, and time
   CHECK(backwards(medians(backwards(t, -1), backwards(z), {0, 0.3})) == medians(t, z, {0, 0.3}));
 }
 
-TEST_CASE("moving_median: an even width is refused", "[signal]") { CHECK_THROWS_AS(MovingMedian({10, 0}), Error); }
+TEST_CASE("moving_median: an even width is refused", "[signal]") {
+  CHECK_THROWS_AS(MovingMedian({10, 0}), Error);
+}

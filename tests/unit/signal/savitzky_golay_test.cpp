@@ -12,11 +12,13 @@ namespace {
 
 constexpr auto value = SavitzkyGolay::What::value, slope = SavitzkyGolay::What::slope;
 
-Series filtered(const Series& t, const Series& y, std::size_t width, std::size_t order, SavitzkyGolay::What what) {
+Series filtered(const Series& t, const Series& y, std::size_t width, std::size_t order,
+                SavitzkyGolay::What what) {
   return through(SavitzkyGolay({width, 0}, order, what), t, y);
 }
 
-/// The weights of the middle of a run on even times with step 1: what the filter makes of an impulse, seen backwards.
+/// The weights of the middle of a run on even times with step 1: what the filter makes of an
+/// impulse, seen backwards.
 Series weights(std::size_t width, std::size_t order, SavitzkyGolay::What what) {
   Series y(3 * width, 0);
   y[3 * width / 2] = 1;
@@ -35,7 +37,8 @@ void check_close(const Series& a, const Series& b, double tolerance) {
 }
 
 /// By another way: normal equations of monomials about the sample, by elimination in long double.
-double by_elimination(const Series& t, const Series& y, std::size_t i, std::size_t begin, std::size_t end, std::size_t order, bool derivative) {
+double by_elimination(const Series& t, const Series& y, std::size_t i, std::size_t begin,
+                      std::size_t end, std::size_t order, bool derivative) {
   const std::size_t p = order + 1;
   std::vector<std::vector<long double>> A(p, std::vector<long double>(p + 1, 0));
   for (std::size_t j = begin; j < end; ++j) {
@@ -56,7 +59,8 @@ double by_elimination(const Series& t, const Series& y, std::size_t i, std::size
 
 }  // namespace
 
-// Savitzky and Golay (1964), Anal. Chem. 36, 1627, tables I, II, III and IV, as corrected by Steinier et al. (1972), 44, 1906.
+// Savitzky and Golay (1964), Anal. Chem. 36, 1627, tables I, II, III and IV, as corrected by
+// Steinier et al. (1972), 44, 1906.
 TEST_CASE("savitzky_golay: the weights of the tables on even times", "[signal]") {
   const auto over = [](Series w, double norm) {
     for (double& x : w) x /= norm;
@@ -65,7 +69,8 @@ TEST_CASE("savitzky_golay: the weights of the tables on even times", "[signal]")
   check_close(weights(5, 2, value), over({-3, 12, 17, 12, -3}, 35), 1e-15);
   check_close(weights(5, 3, value), over({-3, 12, 17, 12, -3}, 35), 1e-15);
   check_close(weights(7, 2, value), over({-2, 3, 6, 7, 6, 3, -2}, 21), 1e-15);
-  check_close(weights(11, 2, value), over({-36, 9, 44, 69, 84, 89, 84, 69, 44, 9, -36}, 429), 1e-15);
+  check_close(weights(11, 2, value), over({-36, 9, 44, 69, 84, 89, 84, 69, 44, 9, -36}, 429),
+              1e-15);
   check_close(weights(7, 4, value), over({5, -30, 75, 131, 75, -30, 5}, 231), 1e-15);
   check_close(weights(5, 2, slope), over({-2, -1, 0, 1, 2}, 10), 1e-15);
   check_close(weights(7, 2, slope), over({-3, -2, -1, 0, 1, 2, 3}, 28), 1e-15);
@@ -73,7 +78,8 @@ TEST_CASE("savitzky_golay: the weights of the tables on even times", "[signal]")
   check_close(weights(7, 4, slope), over({22, -67, -58, 0, 58, 67, -22}, 252), 1e-15);
 }
 
-TEST_CASE("savitzky_golay: exact on polynomials of its order, uneven times, ends and all", "[signal]") {
+TEST_CASE("savitzky_golay: exact on polynomials of its order, uneven times, ends and all",
+          "[signal]") {
   for (std::size_t order = 0; order <= 8; ++order)
     for (const double start : {0.0, 1e4}) {
       Series t = uneven_times(40), y, dy;
@@ -81,11 +87,13 @@ TEST_CASE("savitzky_golay: exact on polynomials of its order, uneven times, ends
       for (const double time : t) {
         const double u = time - start - 1;
         double f = 0, d = 0;
-        for (std::size_t k = order + 1; k-- > 0;) d = d * u + f, f = f * u + (k % 2 ? -1 : 1) / (1 + static_cast<double>(k));
+        for (std::size_t k = order + 1; k-- > 0;)
+          d = d * u + f, f = f * u + (k % 2 ? -1 : 1) / (1 + static_cast<double>(k));
         y.push_back(f), dy.push_back(d);
       }
       INFO("order " << order << " from " << start);
-      const double rounding = start > 0 ? 1e-9 : 1e-13;  // the times themselves are rounded to 1e-12 s there
+      const double rounding =
+          start > 0 ? 1e-9 : 1e-13;  // the times themselves are rounded to 1e-12 s there
       check_close(filtered(t, y, 11, order, value), y, rounding);
       if (order > 0) check_close(filtered(t, y, 11, order, slope), dy, 100 * rounding);
     }
@@ -105,7 +113,9 @@ TEST_CASE("savitzky_golay: least squares, as elimination in long double has it",
   }
 }
 
-TEST_CASE("savitzky_golay: a slope of order 2 is of second order, of order 4 of fourth, at the ends too", "[signal]") {
+TEST_CASE(
+    "savitzky_golay: a slope of order 2 is of second order, of order 4 of fourth, at the ends too",
+    "[signal]") {
   for (const std::size_t order : {2u, 4u}) {
     double last = 0;
     for (const std::size_t n : {65u, 129u, 257u}) {
@@ -117,7 +127,8 @@ TEST_CASE("savitzky_golay: a slope of order 2 is of second order, of order 4 of 
       }
       const auto d = filtered(t, y, 7, order, slope);
       double worst = 0;
-      for (std::size_t i = 0; i < n; ++i) worst = std::max(worst, std::abs(d[i] - 2 * std::cos(2 * t[i])));
+      for (std::size_t i = 0; i < n; ++i)
+        worst = std::max(worst, std::abs(d[i] - 2 * std::cos(2 * t[i])));
       if (last > 0) {
         INFO("order " << order << " n " << n << " ratio " << last / worst);
         CHECK(std::abs(std::log2(last / worst) - static_cast<double>(order)) < 0.3);
@@ -127,7 +138,8 @@ TEST_CASE("savitzky_golay: a slope of order 2 is of second order, of order 4 of 
   }
 }
 
-TEST_CASE("savitzky_golay: time reversed, values are the same and slopes change their sign", "[signal]") {
+TEST_CASE("savitzky_golay: time reversed, values are the same and slopes change their sign",
+          "[signal]") {
   const Series t = uneven_times(50), y = noise(50, 9);
   for (const Width width : {Width{9, 0}, Width{0, 0.5}}) {
     for (const auto what : {value, slope}) {
@@ -140,7 +152,8 @@ TEST_CASE("savitzky_golay: time reversed, values are the same and slopes change 
 
 TEST_CASE("savitzky_golay: windows of seconds are those of samples on even times", "[signal]") {
   const Series t = even_times(100), y = noise(100, 1);
-  check_close(through(SavitzkyGolay({0, 0.4}, 2, value), t, y), filtered(t, y, 11, 2, value), 1e-12);
+  check_close(through(SavitzkyGolay({0, 0.4}, 2, value), t, y), filtered(t, y, 11, 2, value),
+              1e-12);
 }
 
 TEST_CASE("savitzky_golay: few samples", "[signal]") {
@@ -149,7 +162,8 @@ TEST_CASE("savitzky_golay: few samples", "[signal]") {
   CHECK_THROWS_AS(filtered({1}, {7}, 5, 2, slope), Error);
   check_close(filtered({1, 3}, {7, 8}, 5, 2, slope), {0.5, 0.5}, 1e-15);
   check_close(filtered({0, 1, 3}, {0, 1, 9}, 5, 2, slope), {0, 2, 6}, 1e-14);
-  check_close(filtered({0, 1, 3}, {5, -1, 9}, 5, 2, value), {5, -1, 9}, 1e-14);  // one less than there are: through all
+  check_close(filtered({0, 1, 3}, {5, -1, 9}, 5, 2, value), {5, -1, 9},
+              1e-14);  // one less than there are: through all
   CHECK_THROWS_AS(SavitzkyGolay({10, 0}, 2, value), Error);
   CHECK_THROWS_AS(SavitzkyGolay({5, 0}, 5, value), Error);
 }

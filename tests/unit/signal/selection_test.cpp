@@ -5,7 +5,8 @@
 
 using namespace rolling;
 
-TEST_CASE("selection: times, then outliers, then the roll; nothing reaches into what is left out", "[signal]") {
+TEST_CASE("selection: times, then outliers, then the roll; nothing reaches into what is left out",
+          "[signal]") {
   std::vector<Sample> run;  // rest, a push to 0.5 m/s at 1.5 s, a roll that stops at 6.5 s, rest
   const Series e = noise(200, 3);
   for (std::size_t i = 0; i < 200; ++i) {
@@ -16,7 +17,8 @@ TEST_CASE("selection: times, then outliers, then the roll; nothing reaches into 
   SelectionOptions options;
   options.outliers = 5, options.coast = true, options.from = 0.5, options.to = 4.3;
   Selection selection(options);
-  for (const Sample& s : run) CHECK(selection.push(s.t, s.y).empty());  // it waits for the whole run
+  for (const Sample& s : run)
+    CHECK(selection.push(s.t, s.y).empty());  // it waits for the whole run
   const auto all = selection.finish();
   REQUIRE(all.size() == run.size());
   CHECK(selection.outliers() == 2);
@@ -41,6 +43,7 @@ TEST_CASE("selection: without the roll it waits for no more than a window", "[si
   Selection both(options);
   std::vector<std::size_t> counts;
   for (int i = 0; i < 10; ++i) counts.push_back(both.push(i, 0).size());
-  CHECK(counts == std::vector<std::size_t>{1, 1, 0, 0, 1, 1, 1, 1, 3, 1});  // the window ends with the selection
+  CHECK(counts == std::vector<std::size_t>{1, 1, 0, 0, 1, 1, 1, 1, 3,
+                                           1});  // the window ends with the selection
   CHECK(both.finish().empty());
 }

@@ -11,10 +11,12 @@ using namespace rolling;
 
 namespace {
 
-std::size_t width_for(double curvature, double size, unsigned seed, SmoothingMethod method = SmoothingMethod::mean) {
+std::size_t width_for(double curvature, double size, unsigned seed,
+                      SmoothingMethod method = SmoothingMethod::mean) {
   const Series t = even_times(300), e = noise(300, seed);
   std::vector<Sample> run;
-  for (std::size_t i = 0; i < t.size(); ++i) run.push_back({t[i], std::sin(curvature * t[i]) + size * e[i]});
+  for (std::size_t i = 0; i < t.size(); ++i)
+    run.push_back({t[i], std::sin(curvature * t[i]) + size * e[i]});
   return best_width(run, {method});
 }
 
@@ -24,13 +26,15 @@ double error_of(std::size_t width, double curvature, double size, unsigned seed)
   for (std::size_t i = 0; i < t.size(); ++i) y.push_back(std::sin(curvature * t[i]) + size * e[i]);
   const auto s = through(*make_smoother({SmoothingMethod::mean, {width, 0}}), t, y);
   double sum = 0;
-  for (std::size_t i = 3; i + 3 < t.size(); ++i) sum += std::pow(s[i] - std::sin(curvature * t[i]), 2);
+  for (std::size_t i = 3; i + 3 < t.size(); ++i)
+    sum += std::pow(s[i] - std::sin(curvature * t[i]), 2);
   return std::sqrt(sum / 294);
 }
 
 }  // namespace
 
-TEST_CASE("smoother: the best width grows with the noise and falls with the curvature", "[signal]") {
+TEST_CASE("smoother: the best width grows with the noise and falls with the curvature",
+          "[signal]") {
   CHECK(width_for(3, 0.2, 1) > width_for(3, 0.01, 1));
   CHECK(width_for(1, 0.05, 2) > width_for(5, 0.05, 2));
   CHECK(width_for(3, 0.05, 3, SmoothingMethod::savgol) > width_for(3, 0.05, 3));
@@ -42,47 +46,58 @@ TEST_CASE("smoother: the best width has nearly the least error that any width ha
   for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u})
     for (const double curvature : {1.0, 3.0}) {
       double least = INFINITY;
-      for (std::size_t width = 7; width < 150; width += 2) least = std::min(least, error_of(width, curvature, 0.1, seed));
+      for (std::size_t width = 7; width < 150; width += 2)
+        least = std::min(least, error_of(width, curvature, 0.1, seed));
       CHECK(error_of(width_for(curvature, 0.1, seed), curvature, 0.1, seed) < 1.3 * least);
     }
 }
 
-TEST_CASE("smoother: the best width is that of all the lines through the others, where there are few", "[signal]") {
+TEST_CASE(
+    "smoother: the best width is that of all the lines through the others, where there are few",
+    "[signal]") {
   const Series t = uneven_times(35);  // half widths from 3 to 8
-  for (const double curvature : {2.0, 0.0}) for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u}) {
-    const Series e = noise(35, seed);
-    std::vector<Sample> run;
-    for (std::size_t i = 0; i < t.size(); ++i) run.push_back({t[i], std::sin(curvature * t[i]) + 0.1 * e[i]});
-    std::size_t best = 0;
-    long double least = INFINITY;
-    for (std::size_t half = 3; half <= 8; ++half) {
-      long double sum = 0;
-      for (std::size_t i = 3; i + 3 < run.size(); ++i) {
-        const std::size_t k = std::min({half, i, run.size() - 1 - i});
-        long double n = 0, s = 0, ss = 0, y = 0, sy = 0;  // of the regression of y on s, the time from record i
-        for (std::size_t j = i - k; j <= i + k; ++j) {
-          if (std::max(i, j) - std::min(i, j) <= 2) continue;
-          const long double from = static_cast<long double>(run[j].t) - run[i].t;
-          ++n, s += from, ss += from * from, y += run[j].y, sy += from * run[j].y;
+  for (const double curvature : {2.0, 0.0})
+    for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u}) {
+      const Series e = noise(35, seed);
+      std::vector<Sample> run;
+      for (std::size_t i = 0; i < t.size(); ++i)
+        run.push_back({t[i], std::sin(curvature * t[i]) + 0.1 * e[i]});
+      std::size_t best = 0;
+      long double least = INFINITY;
+      for (std::size_t half = 3; half <= 8; ++half) {
+        long double sum = 0;
+        for (std::size_t i = 3; i + 3 < run.size(); ++i) {
+          const std::size_t k = std::min({half, i, run.size() - 1 - i});
+          long double n = 0, s = 0, ss = 0, y = 0,
+                      sy = 0;  // of the regression of y on s, the time from record i
+          for (std::size_t j = i - k; j <= i + k; ++j) {
+            if (std::max(i, j) - std::min(i, j) <= 2) continue;
+            const long double from = static_cast<long double>(run[j].t) - run[i].t;
+            ++n, s += from, ss += from * from, y += run[j].y, sy += from * run[j].y;
+          }
+          const long double off = run[i].y - (ss * y - s * sy) / (n * ss - s * s);
+          sum += off * off;
         }
-        const long double off = run[i].y - (ss * y - s * sy) / (n * ss - s * s);
-        sum += off * off;
+        if (sum < least) least = sum, best = 2 * half + 1;
       }
-      if (sum < least) least = sum, best = 2 * half + 1;
+      CHECK(best_width(run, {}) == best);
     }
-    CHECK(best_width(run, {}) == best);
-  }
 }
 
-TEST_CASE("smoother: the best width is not misled by the noise of central differences", "[signal]") {
-  // Their noise is bound at a distance of two; leaving out the one record alone would take it for a signal.
+TEST_CASE("smoother: the best width is not misled by the noise of central differences",
+          "[signal]") {
+  // Their noise is bound at a distance of two; leaving out the one record alone would take it for a
+  // signal.
   const Series t = even_times(300), e = noise(302, 5);
   std::vector<Sample> run;
-  for (std::size_t i = 0; i < t.size(); ++i) run.push_back({t[i], 0.5 - 0.1 * t[i] + 0.01 * (e[i + 2] - e[i])});
+  for (std::size_t i = 0; i < t.size(); ++i)
+    run.push_back({t[i], 0.5 - 0.1 * t[i] + 0.01 * (e[i + 2] - e[i])});
   CHECK(best_width(run, {}) > 31);
 }
 
-TEST_CASE("smoother: automatic is the same as the width it finds, and short runs have the narrowest", "[signal]") {
+TEST_CASE(
+    "smoother: automatic is the same as the width it finds, and short runs have the narrowest",
+    "[signal]") {
   const Series t = uneven_times(120), y = noise(120, 2);
   for (const auto& [name, method] : smoothing_methods) {
     AutoSmoother automatic({method});

@@ -35,8 +35,8 @@ Matrix solve(Matrix A, Matrix B) {
   return B;
 }
 
-/// The same spline by dense matrices: S = (I + alpha Q R^-1 Q^T)^-1, its modified GCV score from S itself, its slopes from the
-/// cardinal functions of the natural spline through S y.
+/// The same spline by dense matrices: S = (I + alpha Q R^-1 Q^T)^-1, its modified GCV score from S
+/// itself, its slopes from the cardinal functions of the natural spline through S y.
 struct Dense {
   Series t, y;
   std::size_t n = t.size();
@@ -82,7 +82,8 @@ struct Dense {
     long double least = INFINITY;
     const double unit = (t.back() - t.front()) / static_cast<double>(n - 1);
     for (double e = -6; e <= 12; e += 0.02)
-      if (const long double score = fit(std::pow(10.0L, e) * unit * unit * unit, f); score < least) least = score, best = f;
+      if (const long double score = fit(std::pow(10.0L, e) * unit * unit * unit, f); score < least)
+        least = score, best = f;
     // The natural spline through the values: slopes s from continuous second derivatives.
     Matrix A(n, std::vector<long double>(n, 0)), b(n, std::vector<long double>(1, 0));
     const auto h = [&](std::size_t i) { return static_cast<long double>(t[i + 1]) - t[i]; };
@@ -101,7 +102,8 @@ struct Dense {
 
 }  // namespace
 
-TEST_CASE("smoothing_spline: as dense matrices in long double have it, parameter and all", "[signal]") {
+TEST_CASE("smoothing_spline: as dense matrices in long double have it, parameter and all",
+          "[signal]") {
   for (const unsigned seed : {1u, 2u, 3u}) {
     const Series t = uneven_times(24, 0.1), e = noise(24, seed);
     Series y;
@@ -121,14 +123,18 @@ TEST_CASE("smoothing_spline: a straight line has its slope, on uneven times", "[
   for (const double s : slopes(t, y)) CHECK(std::abs(s + 2) < 1e-10);
 }
 
-TEST_CASE("smoothing_spline: without noise it follows the curve; second order, first at the ends, where it does not bend", "[signal]") {
+TEST_CASE(
+    "smoothing_spline: without noise it follows the curve; second order, first at the ends, where "
+    "it does not bend",
+    "[signal]") {
   double inside = 0, ends = 0;
   for (const std::size_t n : {100u, 200u}) {
     Series t = even_times(n, 4.0 / static_cast<double>(n)), y;
     for (const double time : t) y.push_back(std::sin(time + 1));
     const auto s = slopes(t, y);
     double now = 0;
-    for (std::size_t i = n / 4; i < 3 * n / 4; ++i) now = std::max(now, std::abs(s[i] - std::cos(t[i] + 1)));
+    for (std::size_t i = n / 4; i < 3 * n / 4; ++i)
+      now = std::max(now, std::abs(s[i] - std::cos(t[i] + 1)));
     const double end = std::abs(s[0] - std::cos(1.0));
     if (inside > 0) CHECK(now < inside / 3.5);
     if (ends > 0) CHECK(std::abs(ends / end - 2) < 0.3);
@@ -140,7 +146,8 @@ TEST_CASE("smoothing_spline: white noise: far better than differences", "[signal
   for (const unsigned seed : {1u, 2u, 3u, 4u, 5u}) {
     const Series t = even_times(200), e = noise(200, seed);
     Series y;
-    for (std::size_t i = 0; i < t.size(); ++i) y.push_back(0.5 * t[i] - 0.03 * t[i] * t[i] + 0.001 * e[i]);
+    for (std::size_t i = 0; i < t.size(); ++i)
+      y.push_back(0.5 * t[i] - 0.03 * t[i] * t[i] + 0.001 * e[i]);
     const auto s = slopes(t, y);
     double sum = 0;
     for (std::size_t i = 0; i < t.size(); ++i) sum += std::pow(s[i] - 0.5 + 0.06 * t[i], 2) / 200;
@@ -148,7 +155,10 @@ TEST_CASE("smoothing_spline: white noise: far better than differences", "[signal
   }
 }
 
-TEST_CASE("smoothing_spline: in no record next to no smoothing, not where the noise of neighbours is bound either", "[signal]") {
+TEST_CASE(
+    "smoothing_spline: in no record next to no smoothing, not where the noise of neighbours is "
+    "bound either",
+    "[signal]") {
   const std::size_t n = 100;
   const Series t = even_times(n);
   for (unsigned seed = 1; seed <= 200; ++seed) {
@@ -162,21 +172,26 @@ TEST_CASE("smoothing_spline: in no record next to no smoothing, not where the no
     for (const Series& y : {white, bound}) {
       const auto s = slopes(t, y), raw = through(CentralDerivative(), t, y);
       double sum = 0, rough = 0;
-      for (std::size_t i = 5; i + 5 < n; ++i) sum += std::pow(s[i] - 0.5 + 0.06 * t[i], 2), rough += std::pow(raw[i] - 0.5 + 0.06 * t[i], 2);
+      for (std::size_t i = 5; i + 5 < n; ++i)
+        sum += std::pow(s[i] - 0.5 + 0.06 * t[i], 2),
+            rough += std::pow(raw[i] - 0.5 + 0.06 * t[i], 2);
       INFO(seed << (y == bound ? " bound: " : " white: ") << std::sqrt(sum / rough));
       CHECK(sum < 0.25 * rough);
     }
   }
 }
 
-TEST_CASE("smoothing_spline: time reversed, slopes change their sign; the scale of time divides them", "[signal]") {
+TEST_CASE(
+    "smoothing_spline: time reversed, slopes change their sign; the scale of time divides them",
+    "[signal]") {
   const Series t = uneven_times(60), y = noise(60, 5);
   const auto s = slopes(t, y), back = backwards(slopes(backwards(t, -1), backwards(y)), -1);
   Series slow = t;
   for (double& time : slow) time *= 1024;
   const auto slower = slopes(slow, y);
   for (std::size_t i = 0; i < t.size(); ++i) {
-    CHECK(std::abs(s[i] - back[i]) < 1e-3 * (1 + std::abs(s[i])));  // the search for the parameter rounds otherwise
+    CHECK(std::abs(s[i] - back[i]) <
+          1e-3 * (1 + std::abs(s[i])));  // the search for the parameter rounds otherwise
     CHECK(std::abs(s[i] - 1024 * slower[i]) < 1e-9 * (1 + std::abs(s[i])));
   }
 }
@@ -192,6 +207,7 @@ TEST_CASE("smoothing_spline: few samples, and many", "[signal]") {
   for (std::size_t i = 0; i < n; ++i) y.push_back(std::sin(t[i] / 100) + 0.01 * e[i]);
   double worst = 0;
   const auto s = slopes(t, y);
-  for (std::size_t i = 0; i < n; ++i) worst = std::max(worst, std::abs(s[i] - std::cos(t[i] / 100) / 100));
+  for (std::size_t i = 0; i < n; ++i)
+    worst = std::max(worst, std::abs(s[i] - std::cos(t[i] / 100) / 100));
   CHECK(worst < 0.01);
 }

@@ -16,7 +16,9 @@ inline Series through(rolling::Signal& signal, const Series& t, const Series& y)
   for (const double value : signal.finish()) out.push_back(value);
   return out;
 }
-inline Series through(rolling::Signal&& signal, const Series& t, const Series& y) { return through(signal, t, y); }
+inline Series through(rolling::Signal&& signal, const Series& t, const Series& y) {
+  return through(signal, t, y);
+}
 
 inline Series even_times(std::size_t n, double step = 0.04) {
   Series t;

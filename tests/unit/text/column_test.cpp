@@ -9,7 +9,10 @@
 using namespace rolling;
 
 TEST_CASE("column: a name says its quantity and its unit", "[text]") {
-  struct Case { const char* text; Column column; };
+  struct Case {
+    const char* text;
+    Column column;
+  };
   const Case cases[] = {
       {"v[m/s]", {"v", "m/s", ""}},
       {"v", {"v", "", ""}},
@@ -59,7 +62,8 @@ TEST_CASE("column: a name says its quantity and its unit", "[text]") {
 }
 
 TEST_CASE("column: what goes out is read back as the same", "[text]") {
-  for (const char* text : {"Velocity (m/s)", "Acceleration (m/s\xC2\xB2)", "Angular Velocity (rad/s)", "w", "Time (ms)"}) {
+  for (const char* text : {"Velocity (m/s)", "Acceleration (m/s\xC2\xB2)",
+                           "Angular Velocity (rad/s)", "w", "Time (ms)"}) {
     const Column column = read_column(text);
     CHECK(read_column(to_text(column)) == column);
   }
@@ -68,14 +72,21 @@ TEST_CASE("column: what goes out is read back as the same", "[text]") {
 }
 
 TEST_CASE("column: each unit against its exact size", "[text]") {
-  struct Case { const char *quantity, *unit; double value, si; };
+  struct Case {
+    const char *quantity, *unit;
+    double value, si;
+  };
   const Case cases[] = {
-      {"t", "s", 0.3, 0.3},       {"t", "sec", 0.3, 0.3},     {"t", "ms", 40, 0.04},       {"t", "us", 5, 5e-6},       {"t", "min", 1.5, 90},
-      {"t", "h", 0.5, 1800},      {"x", "m", 0.7, 0.7},       {"x", "mm", 1, 0.001},       {"x", "cm", 7, 0.07},       {"x", "dm", 3, 0.3},
-      {"x", "um", 3, 3e-6},       {"x", "km", 0.25, 250},     {"x", "in", 1, 0.0254},      {"x", "ft", 1, 0.3048},     {"v", "m/s", 0.1, 0.1},
-      {"v", "mm/s", 1, 0.001},    {"v", "cm/s", 7, 0.07},     {"v", "km/h", 72, 20},       {"v", "km/h", 3.6, 1},      {"v", "mph", 1, 0.44704},
-      {"v", "ft/s", 1, 0.3048},   {"a", "m/s^2", 9.81, 9.81}, {"a", "m/s/s", 9.81, 9.81},  {"a", "mm/s^2", 1, 0.001},  {"a", "cm/s^2", 981, 9.81},
-      {"D", "m", 1e-3, 1e-3},     {"D", "mm", 1.5, 0.0015},   {"D", "um", 1500, 0.0015},
+      {"t", "s", 0.3, 0.3},       {"t", "sec", 0.3, 0.3},     {"t", "ms", 40, 0.04},
+      {"t", "us", 5, 5e-6},       {"t", "min", 1.5, 90},      {"t", "h", 0.5, 1800},
+      {"x", "m", 0.7, 0.7},       {"x", "mm", 1, 0.001},      {"x", "cm", 7, 0.07},
+      {"x", "dm", 3, 0.3},        {"x", "um", 3, 3e-6},       {"x", "km", 0.25, 250},
+      {"x", "in", 1, 0.0254},     {"x", "ft", 1, 0.3048},     {"v", "m/s", 0.1, 0.1},
+      {"v", "mm/s", 1, 0.001},    {"v", "cm/s", 7, 0.07},     {"v", "km/h", 72, 20},
+      {"v", "km/h", 3.6, 1},      {"v", "mph", 1, 0.44704},   {"v", "ft/s", 1, 0.3048},
+      {"a", "m/s^2", 9.81, 9.81}, {"a", "m/s/s", 9.81, 9.81}, {"a", "mm/s^2", 1, 0.001},
+      {"a", "cm/s^2", 981, 9.81}, {"D", "m", 1e-3, 1e-3},     {"D", "mm", 1.5, 0.0015},
+      {"D", "um", 1500, 0.0015},
   };
   for (const Case& c : cases) {
     INFO(c.quantity << " in " << c.unit);
@@ -83,8 +94,10 @@ TEST_CASE("column: each unit against its exact size", "[text]") {
   }
 }
 
-TEST_CASE("column: a whole number of a decimal unit is the double that one would have typed in SI", "[text]") {
-  const Conversion mm = conversion_to_si("x", Column{"x", "mm", ""}), us = conversion_to_si("t", Column{"t", "us", ""});
+TEST_CASE("column: a whole number of a decimal unit is the double that one would have typed in SI",
+          "[text]") {
+  const Conversion mm = conversion_to_si("x", Column{"x", "mm", ""}),
+                   us = conversion_to_si("t", Column{"t", "us", ""});
   int different = 0;
   for (int n = 0; n < 20000; ++n) {
     double typed;
@@ -97,9 +110,11 @@ TEST_CASE("column: a whole number of a decimal unit is the double that one would
 }
 
 TEST_CASE("column: SI changes nothing, so that its text can pass", "[text]") {
-  for (const char* unit : {"", "s", "sec"}) CHECK_FALSE(conversion_to_si("t", Column{"t", unit, ""}).changes());
+  for (const char* unit : {"", "s", "sec"})
+    CHECK_FALSE(conversion_to_si("t", Column{"t", unit, ""}).changes());
   CHECK(conversion_to_si("t", Column{"t", "ms", ""}).changes());
-  CHECK_FALSE(conversion_to_si("w", Column{"w", "rpm", ""}).changes());  // not a known quantity: no claim about its unit
+  CHECK_FALSE(conversion_to_si("w", Column{"w", "rpm", ""})
+                  .changes());  // not a known quantity: no claim about its unit
 }
 
 TEST_CASE("column: a unit that the quantity cannot have is refused", "[text]") {
@@ -107,8 +122,11 @@ TEST_CASE("column: a unit that the quantity cannot have is refused", "[text]") {
     INFO(unit);
     CHECK_THROWS_AS(conversion_to_si("v", Column{"v", unit, ""}), Error);
   }
-  CHECK(refusal([] { conversion_to_si("t", Column{"t", "fortnight", ""}); }) ==
-        "column 't[fortnight]' cannot serve as t: its unit 'fortnight' is not one of those known (s, ...); convert it first");
+  CHECK(refusal([] {
+          conversion_to_si("t", Column{"t", "fortnight", ""});
+        }) ==
+        "column 't[fortnight]' cannot serve as t: its unit 'fortnight' is not one of those known "
+        "(s, ...); convert it first");
 }
 
 TEST_CASE("column: the SI unit of each quantity", "[text]") {

@@ -41,7 +41,10 @@ TEST_CASE("dialect: the form is the first of tab ; , outside quotes, else blanks
 TEST_CASE("dialect: decimal commas and U+2212 are read where they leave no doubt", "[text]") {
   Dialect semicolon;
   REQUIRE(semicolon.choose("0,5;1"));
-  CHECK(fields(semicolon, "\xE2\x88\x92" "1,5E\xE2\x88\x92" "2;x,y") == "<-1.5E-2><x,y>");
+  CHECK(fields(semicolon,
+               "\xE2\x88\x92"
+               "1,5E\xE2\x88\x92"
+               "2;x,y") == "<-1.5E-2><x,y>");
   CHECK_THROWS_AS(semicolon.split("1.5;2"), Error);
   Dialect tab;
   REQUIRE(tab.choose("0\t1"));
@@ -49,51 +52,73 @@ TEST_CASE("dialect: decimal commas and U+2212 are read where they leave no doubt
   CHECK(fields(tab, "1\t2,5") == "<1><2,5>");  // and so no number
   Dialect comma, blanks;
   REQUIRE(comma.choose("0,1"));
-  CHECK(fields(comma, "1,\xE2\x88\x92" "2") == "<1><\xE2\x88\x92" "2>");
+  CHECK(fields(comma,
+               "1,\xE2\x88\x92"
+               "2") ==
+        "<1><\xE2\x88\x92"
+        "2>");
   REQUIRE(blanks.choose("0 1"));
-  CHECK(fields(blanks, "1 \xE2\x88\x92" "2") == "<1><\xE2\x88\x92" "2>");
+  CHECK(fields(blanks,
+               "1 \xE2\x88\x92"
+               "2") ==
+        "<1><\xE2\x88\x92"
+        "2>");
 }
 
 TEST_CASE("dialect: a quote opens where a field begins; elsewhere it is a character", "[text]") {
   CHECK(chosen("5\" pipe,7") == "<5\" pipe><7>");
   CHECK(chosen("a, \"b,c\" ,7") == "<a><b,c><7>");
   CHECK(chosen("\"a\"\"\",\"\",7") == "<a\"><><7>");
-  CHECK(chosen("\"a\" b,\"c\"d\"e,7") == "no number: <a b><cde,7>");  // what stands behind the closing quote, up to another that opens
+  CHECK(
+      chosen("\"a\" b,\"c\"d\"e,7") ==
+      "no number: <a b><cde,7>");  // what stands behind the closing quote, up to another that opens
   CHECK(chosen("7,\"open") == "<7><open>");
 }
 
-TEST_CASE("dialect: a wanted number is that of its field, wherever and however it stands", "[text]") {
+TEST_CASE("dialect: a wanted number is that of its field, wherever and however it stands",
+          "[text]") {
   const auto numbers = [](std::string_view first, std::string_view line) {
     Dialect dialect;
     REQUIRE(dialect.choose(first));
     dialect.want(0);
     dialect.want(2);
     std::string all;
-    for (const Field& field : dialect.split(line)) all += std::isnan(field.number) ? "- " : fmt::format("{} ", field.number);
+    for (const Field& field : dialect.split(line))
+      all += std::isnan(field.number) ? "- " : fmt::format("{} ", field.number);
     return all;
   };
-  for (const std::string line : {"1.5\t7\t-2e3", "1.5 \t\"7\"\t \"-2e3\"", "+1.50\t\t-2000."}) CHECK(numbers("0\t0\t0", line) == "1.5 - -2000 ");
-  for (const std::string line : {"1,5;7;-2e3", "\"1,5\" ;7;\xE2\x88\x92" "2000"}) CHECK(numbers("0,5;0;0", line) == "1.5 - -2000 ");
+  for (const std::string line : {"1.5\t7\t-2e3", "1.5 \t\"7\"\t \"-2e3\"", "+1.50\t\t-2000."})
+    CHECK(numbers("0\t0\t0", line) == "1.5 - -2000 ");
+  for (const std::string line : {"1,5;7;-2e3",
+                                 "\"1,5\" ;7;\xE2\x88\x92"
+                                 "2000"})
+    CHECK(numbers("0,5;0;0", line) == "1.5 - -2000 ");
   CHECK(numbers("0 0 0", "  1.5 7\t-2e3  ") == "1.5 - -2000 ");
   CHECK(numbers("0,0,0", "1.5 , 7 ,-2e3") == "1.5 - -2000 ");
-  for (const std::string line : {"1.5x,7,-2e3e", "nan,7,", ",7,inf", "1 5,7,--2", "\"\",7,1e400"}) CHECK(numbers("0,0,0", line) == "- - - ");
-  for (const std::string line : {"1.5x 7 -2e3e", "nan 7 x", "1,5 7 1e400"}) CHECK(numbers("0 0 0", line) == "- - - ");
+  for (const std::string line : {"1.5x,7,-2e3e", "nan,7,", ",7,inf", "1 5,7,--2", "\"\",7,1e400"})
+    CHECK(numbers("0,0,0", line) == "- - - ");
+  for (const std::string line : {"1.5x 7 -2e3e", "nan 7 x", "1,5 7 1e400"})
+    CHECK(numbers("0 0 0", line) == "- - - ");
   CHECK(numbers("0,0,0", "1,2") == "1 - ");
   CHECK(numbers("0,0,0", "1,2,3,4") == "1 - 3 - ");
 }
 
-TEST_CASE("dialect: the texts of a long line that do not stand in it all last until the next", "[text]") {
+TEST_CASE("dialect: the texts of a long line that do not stand in it all last until the next",
+          "[text]") {
   Dialect dialect;
   std::string line = "1,5", expected = "<1.5>";
   CHECK(dialect.choose("0,5;x"));
   for (int i = 0; i < 1000; ++i) {
-    line += ";\"1\"2,5;\"a \"\"b\"\"\";\xE2\x88\x92" + std::to_string(i) + ",25;\"" + std::string(static_cast<std::size_t>(i % 40), '7') + ",\"8";
-    expected += "<12.5><a \"b\"><-" + std::to_string(i) + ".25><" + std::string(static_cast<std::size_t>(i % 40), '7') + ".8>";
+    line += ";\"1\"2,5;\"a \"\"b\"\"\";\xE2\x88\x92" + std::to_string(i) + ",25;\"" +
+            std::string(static_cast<std::size_t>(i % 40), '7') + ",\"8";
+    expected += "<12.5><a \"b\"><-" + std::to_string(i) + ".25><" +
+                std::string(static_cast<std::size_t>(i % 40), '7') + ".8>";
   }
   CHECK(fields(dialect, line) == expected);
 }
 
-TEST_CASE("dialect: a line is as it stands where nothing but tabs is between its fields", "[text]") {
+TEST_CASE("dialect: a line is as it stands where nothing but tabs is between its fields",
+          "[text]") {
   Dialect dialect;
   REQUIRE(dialect.choose("0.5\t1\tx"));
   dialect.want(0);
@@ -103,12 +128,16 @@ TEST_CASE("dialect: a line is as it stands where nothing but tabs is between its
   };
   CHECK(stands("0.5\t1\tx y"));
   CHECK(stands("NaN\t\t"));
-  for (const char* line : {"0.5 \t1\tx", " 0.5\t1\tx", "0.5\t1 \tx", "0.5\t1\t x", "0.5\t\"1\"\tx", "0.5\t1\t\xE2\x88\x92" "1"}) CHECK_FALSE(stands(line));
+  for (const char* line : {"0.5 \t1\tx", " 0.5\t1\tx", "0.5\t1 \tx", "0.5\t1\t x", "0.5\t\"1\"\tx",
+                           "0.5\t1\t\xE2\x88\x92"
+                           "1"})
+    CHECK_FALSE(stands(line));
 }
 
 namespace {
 
-/// What split_plain() makes of the line that begins `text`: its fields, as numbers where these are wanted; "?" if there is doubt.
+/// What split_plain() makes of the line that begins `text`: its fields, as numbers where these are
+/// wanted; "?" if there is doubt.
 std::string plain_fields(Dialect& dialect, std::string_view text, std::size_t size) {
   std::span<const Field> found;
   const char* const end = dialect.split_plain(text, found);
@@ -132,7 +161,8 @@ TEST_CASE("dialect: a line of numbers and plain text is split before its end is 
     dialect.want(1);
     for (const char* end : {"\n", "\r\n"}) {
       const std::string plain = line("-1.5", "2e3", "a.b");
-      CHECK(plain_fields(dialect, plain + end + "3", plain.size()) == "<-1.5|-1.5><2e3|2000><a.b|nan>");
+      CHECK(plain_fields(dialect, plain + end + "3", plain.size()) ==
+            "<-1.5|-1.5><2e3|2000><a.b|nan>");
     }
     const std::string quoted = line("\"1\"", "2", "\"x\"");
     CHECK(plain_fields(dialect, quoted + "\n", quoted.size()) == "<1|1><2|2><x|nan>");
@@ -140,18 +170,26 @@ TEST_CASE("dialect: a line of numbers and plain text is split before its end is 
     const std::string plain = line("1", "2", "x");
     CHECK(plain_fields(dialect, line("1", "2", "") + "\n", 0) == "?");
     CHECK(plain_fields(dialect, line("", "2", "x") + "\n", 0) == "?");
-    for (const char* odd : {"", "\r", "\r\r\n", " \n", "\"\n", "#\n"}) CHECK(plain_fields(dialect, plain + odd, 0) == "?");
-    for (const char* odd : {"NaN", "1 ", " 1", "\"1", "\"\"", "\"1 \"", "\"1\"1", "\"1\" ", "1\"", "#1", "1x", "0x1", "1e", "1e400", "\xE2\x88\x92" "1"})
+    for (const char* odd : {"", "\r", "\r\r\n", " \n", "\"\n", "#\n"})
+      CHECK(plain_fields(dialect, plain + odd, 0) == "?");
+    for (const char* odd : {"NaN", "1 ", " 1", "\"1", "\"\"", "\"1 \"", "\"1\"1", "\"1\" ", "1\"",
+                            "#1", "1x", "0x1", "1e", "1e400",
+                            "\xE2\x88\x92"
+                            "1"})
       for (const std::string& text : {line(odd, "2", "x"), line("1", odd, "x")}) {
         INFO(text);
         CHECK(plain_fields(dialect, text + "\n", 0) == "?");
       }
     CHECK(plain_fields(dialect, "\n", 0) == "?");
-    CHECK(plain_fields(dialect, "1\n", 1) == "<1|1>");  // how many fields there must be is not its business
+    CHECK(plain_fields(dialect, "1\n", 1) ==
+          "<1|1>");  // how many fields there must be is not its business
   }
 }
 
-TEST_CASE("dialect: columns of blanks, and numbers whose decimal mark is not known yet, are not split before their end is known", "[text]") {
+TEST_CASE(
+    "dialect: columns of blanks, and numbers whose decimal mark is not known yet, are not split "
+    "before their end is known",
+    "[text]") {
   for (const char* line : {"1 2", "1;2", "1\t2"}) {
     Dialect dialect;
     REQUIRE(dialect.choose(line));
@@ -162,12 +200,15 @@ TEST_CASE("dialect: columns of blanks, and numbers whose decimal mark is not kno
 
 TEST_CASE("dialect: what is split before its end is known is split alike after it", "[text]") {
   std::uint32_t state = 1;
-  const auto draw = [&](std::size_t count) { return (state = state * 1664525 + 1013904223) / 65536 % count; };
+  const auto draw = [&](std::size_t count) {
+    return (state = state * 1664525 + 1013904223) / 65536 % count;
+  };
   const std::string_view alphabet = "0123456789019..-+eE\t\t\t;, \"#x";
   int taken = 0;
   for (int i = 0; i < 100000; ++i) {
     std::string line;
-    for (std::size_t size = 1 + draw(12); line.size() < size;) line += alphabet[draw(alphabet.size())];
+    for (std::size_t size = 1 + draw(12); line.size() < size;)
+      line += alphabet[draw(alphabet.size())];
     const auto dialect_of = [&] {
       Dialect dialect;
       dialect.choose("0.5\t1.5");
@@ -180,7 +221,8 @@ TEST_CASE("dialect: what is split before its end is known is split alike after i
     if (plain == "?") continue;
     ++taken;
     std::string all;
-    for (const Field& field : other.split(line)) all += fmt::format("<{}|{}>", field.text, field.number);
+    for (const Field& field : other.split(line))
+      all += fmt::format("<{}|{}>", field.text, field.number);
     CHECK(plain == all);
     CHECK(one.as_it_stands() == other.as_it_stands());
   }

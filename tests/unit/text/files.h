@@ -51,7 +51,8 @@ class TemporaryFile {
 class Redirect {
  public:
   Redirect(int standard, const std::string& file) : standard_(standard), saved_(::dup(standard)) {
-    const int fd = ::open(file.c_str(), (standard == STDIN_FILENO ? O_RDONLY : O_WRONLY) | O_CLOEXEC);
+    const int fd =
+        ::open(file.c_str(), (standard == STDIN_FILENO ? O_RDONLY : O_WRONLY) | O_CLOEXEC);
     REQUIRE(fd >= 0);
     REQUIRE(::dup2(fd, standard_) == standard_);
     ::close(fd);
@@ -92,7 +93,8 @@ std::string refusal(const Work& work) {
 /// `text` with each temporary file's name as FILE.
 inline std::string anonymous(std::string text) {
   const std::string name = temporary_name();
-  for (auto at = text.find(name); at != std::string::npos; at = text.find(name)) text.replace(at, name.size() + 6, "FILE");
+  for (auto at = text.find(name); at != std::string::npos; at = text.find(name))
+    text.replace(at, name.size() + 6, "FILE");
   return text;
 }
 

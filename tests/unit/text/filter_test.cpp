@@ -9,11 +9,14 @@ using namespace rolling;
 
 namespace {
 
-/// What a filter prints that replaces v by -v, or appends `columns` of v, 2 v, ..., each record `late` records late.
-std::string filtered(const std::vector<std::string>& texts, const std::vector<Column>& append, std::size_t late = 0) {
+/// What a filter prints that replaces v by -v, or appends `columns` of v, 2 v, ..., each record
+/// `late` records late.
+std::string filtered(const std::vector<std::string>& texts, const std::vector<Column>& append,
+                     std::size_t late = 0) {
   std::vector<std::unique_ptr<TemporaryFile>> files;
   ReaderOptions options;
-  for (const std::string& text : texts) options.files.push_back(files.emplace_back(std::make_unique<TemporaryFile>(text))->name());
+  for (const std::string& text : texts)
+    options.files.push_back(files.emplace_back(std::make_unique<TemporaryFile>(text))->name());
   return printed([&] {
     Reader in(options, {"t", "v"});
     Output out;
@@ -24,7 +27,8 @@ std::string filtered(const std::vector<std::string>& texts, const std::vector<Co
     while (filter.next_run()) {
       std::vector<double> waiting;
       const auto put = [&] {
-        for (std::size_t i = 0; i < append.size(); ++i) filter.put(static_cast<double>(i + 1) * waiting.front());
+        for (std::size_t i = 0; i < append.size(); ++i)
+          filter.put(static_cast<double>(i + 1) * waiting.front());
         if (append.empty()) filter.put(-waiting.front());
         waiting.erase(waiting.begin());
       };
@@ -43,15 +47,18 @@ const std::vector<Column> one = {{"y", "m", ""}}, two = {{"y", "m", ""}, {"z", "
 }  // namespace
 
 TEST_CASE("filter: a replaced column, whatever stands around it", "[text]") {
-  CHECK(filtered({"# t v note\n0 1.0 a\n01 2 b\n"}, {}) == "## test it\n# t\tv[m/s]\tnote\n0\t-1\ta\n01\t-2\tb\n");
+  CHECK(filtered({"# t v note\n0 1.0 a\n01 2 b\n"}, {}) ==
+        "## test it\n# t\tv[m/s]\tnote\n0\t-1\ta\n01\t-2\tb\n");
 }
 
 TEST_CASE("filter: appended columns take their numbers in turn", "[text]") {
-  CHECK(filtered({"# t v\n0 1.0\n1 2.0\n"}, two) == "## test it\n# t\tv[m/s]\ty[m]\tz\n0\t1.0\t1\t2\n1\t2.0\t2\t4\n");
+  CHECK(filtered({"# t v\n0 1.0\n1 2.0\n"}, two) ==
+        "## test it\n# t\tv[m/s]\ty[m]\tz\n0\t1.0\t1\t2\n1\t2.0\t2\t4\n");
 }
 
 TEST_CASE("filter: however late the numbers come, the rows come out the same", "[text]") {
-  const std::string text = "# by hand\n# t v\n0 1\n# among\n1 2\n2 3\n\n# between\n0 4\n1 5\n# last\n";
+  const std::string text =
+      "# by hand\n# t v\n0 1\n# among\n1 2\n2 3\n\n# between\n0 4\n1 5\n# last\n";
   for (const auto& columns : {std::vector<Column>{}, one, two})
     for (std::size_t late = 1; late < 5; ++late) {
       INFO(late << " late, " << columns.size() << " appended");
@@ -62,20 +69,30 @@ TEST_CASE("filter: however late the numbers come, the rows come out the same", "
 TEST_CASE("filter: comments keep their place, also after the last record", "[text]") {
   for (std::size_t late = 0; late < 4; ++late) {
     INFO(late << " late");
-    CHECK(filtered({"# by hand\n# t v\n0 1\n# among\n1 2\n# end of run\n\n# between\n0 4\n# last\n"}, one, late) ==
-          "# by hand\n## test it\n# t\tv[m/s]\ty[m]\n0\t1\t1\n# among\n1\t2\t2\n# end of run\n\n# between\n0\t4\t4\n# last\n");
+    CHECK(
+        filtered({"# by hand\n# t v\n0 1\n# among\n1 2\n# end of run\n\n# between\n0 4\n# last\n"},
+                 one, late) ==
+        "# by hand\n## test it\n# t\tv[m/s]\ty[m]\n0\t1\t1\n# among\n1\t2\t2\n# end of run\n\n# "
+        "between\n0\t4\t4\n# last\n");
   }
 }
 
-TEST_CASE("filter: one blank line between runs, none before the first and after the last", "[text]") {
-  CHECK(filtered({"\n\n0 1\n\n\n\n0 2\n\n\n"}, one) == "## test it\n# t[s]\tv[m/s]\ty[m]\n0\t1\t1\n\n0\t2\t2\n");
-  CHECK(filtered({"0 1\n", "0 2\n"}, one) == "## test it\n# t[s]\tv[m/s]\ty[m]\n0\t1\t1\n\n0\t2\t2\n");
-  CHECK(filtered({"# t v\n0 NaN\n\n0 2\n\n0 NaN\n\n0 3\n"}, one) == "## test it\n# t\tv[m/s]\ty[m]\n0\t2\t2\n\n0\t3\t3\n");
+TEST_CASE("filter: one blank line between runs, none before the first and after the last",
+          "[text]") {
+  CHECK(filtered({"\n\n0 1\n\n\n\n0 2\n\n\n"}, one) ==
+        "## test it\n# t[s]\tv[m/s]\ty[m]\n0\t1\t1\n\n0\t2\t2\n");
+  CHECK(filtered({"0 1\n", "0 2\n"}, one) ==
+        "## test it\n# t[s]\tv[m/s]\ty[m]\n0\t1\t1\n\n0\t2\t2\n");
+  CHECK(filtered({"# t v\n0 NaN\n\n0 2\n\n0 NaN\n\n0 3\n"}, one) ==
+        "## test it\n# t\tv[m/s]\ty[m]\n0\t2\t2\n\n0\t3\t3\n");
 }
 
-TEST_CASE("filter: the name of a computed column is its own, the old one becomes NAME_in", "[text]") {
-  CHECK(filtered({"# t[s] v[m/s] y[km]\n0 1 2\n"}, one) == "## test it\n# t[s]\tv[m/s]\ty_in[km]\ty[m]\n0\t1\t2\t1\n");
-  CHECK(filtered({"# y_in v y\n0 1 2\n"}, one) == "## test it\n# y_in\tv[m/s]\ty_in_in\ty[m]\n0\t1\t2\t1\n");
+TEST_CASE("filter: the name of a computed column is its own, the old one becomes NAME_in",
+          "[text]") {
+  CHECK(filtered({"# t[s] v[m/s] y[km]\n0 1 2\n"}, one) ==
+        "## test it\n# t[s]\tv[m/s]\ty_in[km]\ty[m]\n0\t1\t2\t1\n");
+  CHECK(filtered({"# y_in v y\n0 1 2\n"}, one) ==
+        "## test it\n# y_in\tv[m/s]\ty_in_in\ty[m]\n0\t1\t2\t1\n");
 }
 
 TEST_CASE("filter: where the history changes, it says again what it does", "[text]") {
@@ -87,66 +104,67 @@ TEST_CASE("filter: a result that is not finite is refused, and its row is not be
   const TemporaryFile file("0 1\n1 2\n");
   std::string message;
   CHECK(printed([&] {
-    Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
-    Output out;
-    in.need("v");
-    message = refusal([&] {
-      Filter filter(in, out, "test it");
-      filter.append({"y", "", ""});
-      filter.next_run();
-      filter.next();
-      filter.put(1);
-      filter.next();
-      filter.put(std::numeric_limits<double>::infinity());
-    });
-    out.drop_line();
-    out.flush();
-  }) == "## test it\n# t[s]\tv[m/s]\ty\n0\t1\t1\n");
+          Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
+          Output out;
+          in.need("v");
+          message = refusal([&] {
+            Filter filter(in, out, "test it");
+            filter.append({"y", "", ""});
+            filter.next_run();
+            filter.next();
+            filter.put(1);
+            filter.next();
+            filter.put(std::numeric_limits<double>::infinity());
+          });
+          out.drop_line();
+          out.flush();
+        }) == "## test it\n# t[s]\tv[m/s]\ty\n0\t1\t1\n");
   CHECK(message == "the result is not a finite number");
 }
 
 TEST_CASE("filter: rows that could not be written are not written later", "[text]") {
   const TemporaryFile file("0 1\n1 2\n");
   CHECK(printed([&] {
-    Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
-    Output out;
-    out.unbuffered = true;
-    in.need("v");
-    std::string message;
-    {
-      Filter filter(in, out, "test it");
-      filter.append({"y", "", ""});
-      filter.next_run();
-      filter.next();
-      {
-        const Redirect full(STDOUT_FILENO, "/dev/full");
-        message = refusal([&] { filter.put(1); });
-      }
-    }
-    CHECK(message == "standard output: No space left on device");
-    out.flush();
-  }) == "## test it\n# t[s]\tv[m/s]\ty\n");
+          Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
+          Output out;
+          out.unbuffered = true;
+          in.need("v");
+          std::string message;
+          {
+            Filter filter(in, out, "test it");
+            filter.append({"y", "", ""});
+            filter.next_run();
+            filter.next();
+            {
+              const Redirect full(STDOUT_FILENO, "/dev/full");
+              message = refusal([&] { filter.put(1); });
+            }
+          }
+          CHECK(message == "standard output: No space left on device");
+          out.flush();
+        }) == "## test it\n# t[s]\tv[m/s]\ty\n");
 }
 
 TEST_CASE("filter: rows left out before the first run with a history", "[text]") {
   const TemporaryFile file("0 1\n1 2\n# between\n\n0 3\n1 4\n2 5\n");
   CHECK(printed([&] {
-    Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
-    Output out;
-    const auto v = in.need("v");
-    Filter filter(in, out);
-    filter.replace(v);
-    filter.next_run();
-    for (std::size_t i = 0; filter.next(); ++i) filter.drop(i);
-    filter.next_run();
-    while (filter.next());
-    filter.drop(1);
-    filter.put(30);
-    filter.put(50);
-    filter.tell("test it");
-    filter.next_run();
-    out.flush();
-  }) == "## test it\n# t[s]\tv[m/s]\n# between\n0\t30\n2\t50\n");
+          Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
+          Output out;
+          const auto v = in.need("v");
+          Filter filter(in, out);
+          filter.replace(v);
+          filter.next_run();
+          for (std::size_t i = 0; filter.next(); ++i) filter.drop(i);
+          filter.next_run();
+          while (filter.next())
+            ;
+          filter.drop(1);
+          filter.put(30);
+          filter.put(50);
+          filter.tell("test it");
+          filter.next_run();
+          out.flush();
+        }) == "## test it\n# t[s]\tv[m/s]\n# between\n0\t30\n2\t50\n");
 }
 
 TEST_CASE("filter: no record with all its readings is an error", "[text]") {

@@ -34,7 +34,11 @@ TEST_CASE("input: lines end with LF, CR LF, or the file", "[text]") {
 }
 
 TEST_CASE("input: a byte order mark is taken off the first line only", "[text]") {
-  CHECK(lines("\xEF\xBB\xBF" "a\n\xEF\xBB\xBF" "b\n") == "<a><\xEF\xBB\xBF" "b>");
+  CHECK(lines("\xEF\xBB\xBF"
+              "a\n\xEF\xBB\xBF"
+              "b\n") ==
+        "<a><\xEF\xBB\xBF"
+        "b>");
 }
 
 TEST_CASE("input: lines across the blocks of reading are whole", "[text]") {
@@ -45,7 +49,8 @@ TEST_CASE("input: lines across the blocks of reading are whole", "[text]") {
     expected += '<' + line + '>';
   }
   CHECK((lines(text) == expected));
-  for (const std::size_t length : {(1u << 18) - 1, 1u << 18, (1u << 18) + 1, (1u << 19) - 1, 1u << 19})  // a line's end where a block ends
+  for (const std::size_t length : {(1u << 18) - 1, 1u << 18, (1u << 18) + 1, (1u << 19) - 1,
+                                   1u << 19})  // a line's end where a block ends
     CHECK((lines(std::string(length, 'x') + "\nz\n") == '<' + std::string(length, 'x') + "><z>"));
   CHECK((lines(std::string(900000, 'y') + "\nz\n") == '<' + std::string(900000, 'y') + "><z>"));
 }
@@ -53,18 +58,19 @@ TEST_CASE("input: lines across the blocks of reading are whole", "[text]") {
 TEST_CASE("input: a line of more than a megabyte is refused, and says where", "[text]") {
   const TemporaryFile file("a\n" + std::string((1 << 20) + 10, 'x') + "\n");
   CHECK(anonymous(refusal([&] {
-    Input input(file.name());
-    for (std::string_view line; input.next(line);) continue;
-  })) == "FILE:2: a line of more than 1048576 bytes");
+          Input input(file.name());
+          for (std::string_view line; input.next(line);) continue;
+        })) == "FILE:2: a line of more than 1048576 bytes");
 }
 
 TEST_CASE("input: what cannot be read is refused with the system's reason", "[text]") {
-  CHECK(refusal([] { Input input("/no/such/file"); }) == "/no/such/file: No such file or directory");
+  CHECK(refusal([] { Input input("/no/such/file"); }) ==
+        "/no/such/file: No such file or directory");
   CHECK(refusal([] {
-    Input input("/tmp");
-    std::string_view line;
-    input.next(line);
-  }) == "/tmp: Is a directory");
+          Input input("/tmp");
+          std::string_view line;
+          input.next(line);
+        }) == "/tmp: Is a directory");
 }
 
 TEST_CASE("input: - is standard input", "[text]") {
@@ -78,9 +84,13 @@ TEST_CASE("input: - is standard input", "[text]") {
   CHECK_FALSE(input.next(line));
 }
 
-TEST_CASE("input: how many lines are left is all but known of a file, an eighth more for lines that get shorter", "[text]") {
+TEST_CASE(
+    "input: how many lines are left is all but known of a file, an eighth more for lines that get "
+    "shorter",
+    "[text]") {
   std::string text;
-  for (int i = 0; i < 100000; ++i) text += "0.123\t4.5" + std::string(static_cast<std::size_t>(i % 3), '6') + '\n';
+  for (int i = 0; i < 100000; ++i)
+    text += "0.123\t4.5" + std::string(static_cast<std::size_t>(i % 3), '6') + '\n';
   const TemporaryFile file(text), none("");
   Input input(file.name());
   CHECK(input.lines_ahead() == 0);  // nothing has been read yet
@@ -88,7 +98,8 @@ TEST_CASE("input: how many lines are left is all but known of a file, an eighth 
   for (std::size_t left = 100000; left-- > 0;) {
     REQUIRE(input.next(line));
     if (left % 10000 != 0) continue;
-    const double share = static_cast<double>(input.lines_ahead()) / std::max(1.0, static_cast<double>(left));
+    const double share =
+        static_cast<double>(input.lines_ahead()) / std::max(1.0, static_cast<double>(left));
     CHECK((left == 0 ? share == 0 : share > 1.1 && share < 1.15));
   }
   Input empty(none.name());

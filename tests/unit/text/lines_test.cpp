@@ -10,7 +10,12 @@ namespace {
 /// The lines from the next one on, each as <number text>.
 std::string rest(Lines& lines) {
   std::string all;
-  while (lines.next()) all.append("<").append(std::to_string(lines.number())).append(" ").append(lines.text()).append(">");
+  while (lines.next())
+    all.append("<")
+        .append(std::to_string(lines.number()))
+        .append(" ")
+        .append(lines.text())
+        .append(">");
   return all;
 }
 
@@ -22,7 +27,8 @@ std::string lines(std::string_view text) {
 
 }  // namespace
 
-TEST_CASE("lines: a quoted field takes its line ends with it, and has the number of its first line", "[text]") {
+TEST_CASE("lines: a quoted field takes its line ends with it, and has the number of its first line",
+          "[text]") {
   CHECK(lines("a\nb\n") == "<1 a><2 b>");
   CHECK(lines("1,\"a\nb\",2\n3\n") == "<1 1,\"a\nb\",2><3 3>");
   CHECK(lines("\"a\n\nb\nc\"\n3") == "<1 \"a\n\nb\nc\"><5 3>");

@@ -24,7 +24,9 @@ std::string written(double value, int digits = 0) {
   return {text, write_number(text, value, digits)};
 }
 
-bool same_bits(double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); }
+bool same_bits(double x, double y) {
+  return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+}
 
 std::size_t significant_digits(std::string_view text) {
   std::string digits;
@@ -38,11 +40,31 @@ std::size_t significant_digits(std::string_view text) {
 
 TEST_CASE("number: every form of the grammar is read", "[text]") {
   const std::pair<const char*, double> forms[] = {
-      {"0", 0},        {"7", 7},          {"007", 7},       {"+7", 7},        {"-7", -7},        {"7.", 7},         {"+7.", 7},
-      {".5", .5},      {"+.5", .5},       {"-.5", -.5},     {"0.5", .5},      {"1e3", 1000},     {"1E3", 1000},     {"1e+3", 1000},
-      {"1e-3", 1e-3},  {"1.e3", 1000},    {".5e1", 5},      {"+1.25E-2", 0.0125}, {"1e03", 1000}, {"0e999", 0},     {"123456789012345678901234567890", 123456789012345678901234567890.},
-      {"0.1", 0.1},    {"1.7976931348623157e308", std::numeric_limits<double>::max()},
-      {"2.2250738585072014e-308", std::numeric_limits<double>::min()}, {"4.9e-324", std::numeric_limits<double>::denorm_min()}};
+      {"0", 0},
+      {"7", 7},
+      {"007", 7},
+      {"+7", 7},
+      {"-7", -7},
+      {"7.", 7},
+      {"+7.", 7},
+      {".5", .5},
+      {"+.5", .5},
+      {"-.5", -.5},
+      {"0.5", .5},
+      {"1e3", 1000},
+      {"1E3", 1000},
+      {"1e+3", 1000},
+      {"1e-3", 1e-3},
+      {"1.e3", 1000},
+      {".5e1", 5},
+      {"+1.25E-2", 0.0125},
+      {"1e03", 1000},
+      {"0e999", 0},
+      {"123456789012345678901234567890", 123456789012345678901234567890.},
+      {"0.1", 0.1},
+      {"1.7976931348623157e308", std::numeric_limits<double>::max()},
+      {"2.2250738585072014e-308", std::numeric_limits<double>::min()},
+      {"4.9e-324", std::numeric_limits<double>::denorm_min()}};
   for (const auto& [text, expected] : forms) {
     double value = -99;
     INFO(text);
@@ -52,10 +74,57 @@ TEST_CASE("number: every form of the grammar is read", "[text]") {
 }
 
 TEST_CASE("number: whatever is not wholly a number is refused", "[text]") {
-  for (const char* text : {"",      " ",     "+",     "-",      ".",      "+.",    "-.",   "e5",    ".e5",   "1e",    "1e+",   "1e-",  "1e5.",
-                           "1e5e5", "--1",   "++1",   "+-1",    "-+1",    "1,5",   "1 5",  " 1",    "1 ",    "1\t",   "0x10",  "0x1p3", "1p3",
-                           "0.5abc", "1.2.3", "1..2",  "inf",    "-inf",   "+inf",  "INF",  "Infinity", "nan", "NaN",  "-nan",  "1_000", "1'000",
-                           "1d5",   "1f",    "0b1",   "\xC2\xB2", "1\xE2\x88\x92", "\xE2\x88\x92" "1", "1e400", "-1e400", "1e-400", "1.8e308", "one"}) {
+  for (const char* text : {"",
+                           " ",
+                           "+",
+                           "-",
+                           ".",
+                           "+.",
+                           "-.",
+                           "e5",
+                           ".e5",
+                           "1e",
+                           "1e+",
+                           "1e-",
+                           "1e5.",
+                           "1e5e5",
+                           "--1",
+                           "++1",
+                           "+-1",
+                           "-+1",
+                           "1,5",
+                           "1 5",
+                           " 1",
+                           "1 ",
+                           "1\t",
+                           "0x10",
+                           "0x1p3",
+                           "1p3",
+                           "0.5abc",
+                           "1.2.3",
+                           "1..2",
+                           "inf",
+                           "-inf",
+                           "+inf",
+                           "INF",
+                           "Infinity",
+                           "nan",
+                           "NaN",
+                           "-nan",
+                           "1_000",
+                           "1'000",
+                           "1d5",
+                           "1f",
+                           "0b1",
+                           "\xC2\xB2",
+                           "1\xE2\x88\x92",
+                           "\xE2\x88\x92"
+                           "1",
+                           "1e400",
+                           "-1e400",
+                           "1e-400",
+                           "1.8e308",
+                           "one"}) {
     double value;
     INFO(text);
     CHECK_FALSE(parse_number(text, value));
@@ -82,25 +151,36 @@ TEST_CASE("number: a field of 100000 digits is rounded right", "[text]") {
   // Half an ulp above 1, and a bit more: up, not to even.
   CHECK(parse_number("1.00000000000000011102230246251565404236316680908203125", value));
   CHECK(value == 1);
-  CHECK(parse_number("1.00000000000000011102230246251565404236316680908203125" + std::string(1000, '0') + "1", value));
+  CHECK(parse_number(
+      "1.00000000000000011102230246251565404236316680908203125" + std::string(1000, '0') + "1",
+      value));
   CHECK(value == 1 + std::numeric_limits<double>::epsilon());
 }
 
-TEST_CASE("number: 100000 random doubles are written in the fewest digits and read back to the same bits", "[text]") {
+TEST_CASE(
+    "number: 100000 random doubles are written in the fewest digits and read back to the same bits",
+    "[text]") {
   std::mt19937_64 random(20240229);
   int failures = 0, longer = 0, denormals = 0;
   for (int i = 0; i < 100000; ++i) {
     std::uint64_t bits = random();
-    if (i % 10 == 0) bits &= 0x800fffffffffffffULL >> (random() % 52) | 0x8000000000000000ULL;  // denormals, and -0
-    const double value = i % 3 == 0 ? std::ldexp(std::floor(std::ldexp(1, 40) * std::sin(i)), -30) : std::bit_cast<double>(bits);
+    if (i % 10 == 0)
+      bits &=
+          0x800fffffffffffffULL >> (random() % 52) | 0x8000000000000000ULL;  // denormals, and -0
+    const double value = i % 3 == 0 ? std::ldexp(std::floor(std::ldexp(1, 40) * std::sin(i)), -30)
+                                    : std::bit_cast<double>(bits);
     if (!std::isfinite(value)) continue;
     denormals += value != 0 && std::abs(value) < std::numeric_limits<double>::min();
     const std::string text = written(value);
     double again;
     if (!parse_number(text, again) || !same_bits(value, again)) ++failures;
     char shortest[64];
-    const auto end = std::to_chars(shortest, shortest + sizeof shortest, value, std::chars_format::scientific).ptr;
-    if (significant_digits(text) > significant_digits({shortest, static_cast<std::size_t>(end - shortest)})) ++longer;
+    const auto end =
+        std::to_chars(shortest, shortest + sizeof shortest, value, std::chars_format::scientific)
+            .ptr;
+    if (significant_digits(text) >
+        significant_digits({shortest, static_cast<std::size_t>(end - shortest)}))
+      ++longer;
   }
   CHECK(failures == 0);
   CHECK(longer == 0);
@@ -117,16 +197,27 @@ TEST_CASE("number: the text of a double, by hand", "[text]") {
   CHECK(written(-1.7976931348623157e308) == "-1.7976931348623157e+308");
 }
 
-TEST_CASE("number: a double has the text that fmt gives it, for 300000 of all sizes and lengths", "[text]") {
+TEST_CASE("number: a double has the text that fmt gives it, for 300000 of all sizes and lengths",
+          "[text]") {
   std::mt19937_64 random(20250406);
-  std::vector<double> values = {0, -0.0, std::numeric_limits<double>::max(), std::numeric_limits<double>::min(), std::numeric_limits<double>::denorm_min(), 0x1p53, 0x1p53 + 2};
+  std::vector<double> values = {0,
+                                -0.0,
+                                std::numeric_limits<double>::max(),
+                                std::numeric_limits<double>::min(),
+                                std::numeric_limits<double>::denorm_min(),
+                                0x1p53,
+                                0x1p53 + 2};
   for (int e = -330; e <= 308; ++e) {  // every power of ten, and its neighbours
     const double power = std::strtod(("1e" + std::to_string(e)).c_str(), nullptr);
-    for (const double value : {power, std::nextafter(power, 1), std::nextafter(power, std::numeric_limits<double>::infinity())}) values.push_back(value);
+    for (const double value : {power, std::nextafter(power, 1),
+                               std::nextafter(power, std::numeric_limits<double>::infinity())})
+      values.push_back(value);
   }
   for (int i = 0; i < 100000; ++i) {
-    const double any = std::bit_cast<double>(random()), whole = static_cast<double>(random() % 1'000'000'000'000'000'000 >> random() % 60);
-    for (const double value : {any, whole * std::pow(10, -static_cast<int>(random() % 25)), whole}) values.push_back(random() % 2 ? value : -value);
+    const double any = std::bit_cast<double>(random()),
+                 whole = static_cast<double>(random() % 1'000'000'000'000'000'000 >> random() % 60);
+    for (const double value : {any, whole * std::pow(10, -static_cast<int>(random() % 25)), whole})
+      values.push_back(random() % 2 ? value : -value);
   }
   int compared = 0, other = 0;
   for (const double value : values)
@@ -149,7 +240,8 @@ TEST_CASE("number: digits are read wherever they end, in fields of every length"
     const std::string line = text + behind.substr(0, random() % 10);
     double value = 0;
     const char* const end = read_number(line.data(), line.data() + line.size(), value);
-    other += end != line.data() + text.size() || !same_bits(value, std::strtod(text.c_str(), nullptr));
+    other +=
+        end != line.data() + text.size() || !same_bits(value, std::strtod(text.c_str(), nullptr));
   }
   CHECK(other == 0);
 }
@@ -176,7 +268,8 @@ TEST_CASE("number: the locale has no say", "[text]") {
 
 TEST_CASE("number: a missing reading is nothing, or NaN in any case", "[text]") {
   for (const char* text : {"", "nan", "NaN", "NAN", "nAn"}) CHECK(is_missing(text));
-  for (const char* text : {" ", "-", "na", "NA", "nann", "-nan", "+nan", "nan(1)", "n", "0", "null", "\x0e\x01n", "NaN "}) {
+  for (const char* text : {" ", "-", "na", "NA", "nann", "-nan", "+nan", "nan(1)", "n", "0", "null",
+                           "\x0e\x01n", "NaN "}) {
     INFO(text);
     CHECK_FALSE(is_missing(text));
   }
@@ -192,16 +285,23 @@ TEST_CASE("number: a message shows printable ASCII, cut at 40 characters", "[tex
 TEST_CASE("number: blanks and tabs are trimmed, nothing else", "[text]") {
   CHECK(trim(" \t a b\t ") == "a b");
   CHECK(trim(" \t ").empty());
-  CHECK(trim("\xA0" "1") == "\xA0" "1");
+  CHECK(trim("\xA0"
+             "1") ==
+        "\xA0"
+        "1");
 }
 
-TEST_CASE("number: short decimals are rounded as strtod rounds them, on both sides of what is exact", "[text]") {
+TEST_CASE(
+    "number: short decimals are rounded as strtod rounds them, on both sides of what is exact",
+    "[text]") {
   std::mt19937_64 random(7);
   int wrong = 0;
   for (int i = 0; i < 200000; ++i) {
-    std::string text = std::to_string(i % 3 == 0 ? (1ULL << 53) - 5 + random() % 10 : random() >> random() % 64);
+    std::string text =
+        std::to_string(i % 3 == 0 ? (1ULL << 53) - 5 + random() % 10 : random() >> random() % 64);
     const auto point = random() % (text.size() + 3);
-    text = point < text.size() ? text.substr(0, point) + '.' + text.substr(point) : "0." + std::string(point - text.size(), '0') + text;
+    text = point < text.size() ? text.substr(0, point) + '.' + text.substr(point)
+                               : "0." + std::string(point - text.size(), '0') + text;
     if (random() % 2) text = '-' + text;
     double value = 0;
     wrong += !parse_number(text, value) || !same_bits(value, std::strtod(text.c_str(), nullptr));
@@ -209,11 +309,15 @@ TEST_CASE("number: short decimals are rounded as strtod rounds them, on both sid
   CHECK(wrong == 0);
 }
 
-TEST_CASE("number: decimals in the middle between two doubles, and next to it, are rounded as strtod rounds them", "[text]") {
+TEST_CASE(
+    "number: decimals in the middle between two doubles, and next to it, are rounded as strtod "
+    "rounds them",
+    "[text]") {
   std::mt19937_64 random(8);
   int wrong = 0;
   for (int i = 0; i < 200000; ++i) {
-    const int power = static_cast<int>(random() % 10);  // of the last bit of a double; the middle is half of it
+    const int power =
+        static_cast<int>(random() % 10);  // of the last bit of a double; the middle is half of it
     const std::uint64_t middle = ((1ULL << 52 | random() >> 12) << 1 | 1) << power >> 1;
     std::string text = std::to_string(power == 0 ? middle : middle + random() % 3 - 1);
     if (power == 0) text += ".5" + std::string(random() % 2, "01"[random() % 2]);

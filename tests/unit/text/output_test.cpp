@@ -10,50 +10,52 @@ using namespace rolling;
 
 TEST_CASE("output: names and rows are tab-separated, numbers shortest", "[text]") {
   CHECK(printed([] {
-    Output out;
-    out.names({{"t", "s", ""}, {"closure", "", ""}});
-    out.row(std::array{0.1, 1. / 3, -0.0});
-    out.flush();
-  }) == "# t[s]\tclosure\n0.1\t0.3333333333333333\t-0\n");
+          Output out;
+          out.names({{"t", "s", ""}, {"closure", "", ""}});
+          out.row(std::array{0.1, 1. / 3, -0.0});
+          out.flush();
+        }) == "# t[s]\tclosure\n0.1\t0.3333333333333333\t-0\n");
 }
 
 TEST_CASE("output: digits hold for every computed number", "[text]") {
   CHECK(printed([] {
-    Output out;
-    out.digits = 3;
-    out.row(std::array{0.1, 2. / 3});
-    out.flush();
-  }) == "0.1\t0.667\n");
+          Output out;
+          out.digits = 3;
+          out.row(std::array{0.1, 2. / 3});
+          out.flush();
+        }) == "0.1\t0.667\n");
 }
 
 TEST_CASE("output: nan and inf are refused, not printed", "[text]") {
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+        -std::numeric_limits<double>::infinity()}) {
     Output out;
     CHECK(refusal([&] { out.row(std::array{1.0, bad}); }) == "the result is not a finite number");
     CHECK(printed([&] {
-      out.drop_line();
-      out.flush();
-    }).empty());
+            out.drop_line();
+            out.flush();
+          }).empty());
   }
 }
 
 TEST_CASE("output: a dropped line leaves the whole lines before it", "[text]") {
   CHECK(printed([] {
-    Output out;
-    out.row(std::array{1.0});
-    out.text("half a");
-    out.drop_line();
-    out.flush();
-  }) == "1\n");
+          Output out;
+          out.row(std::array{1.0});
+          out.text("half a");
+          out.drop_line();
+          out.flush();
+        }) == "1\n");
 }
 
 TEST_CASE("output: unbuffered, a line goes out at once; else with its block", "[text]") {
   for (const bool unbuffered : {false, true})
     CHECK(printed([&] {
-      Output out;
-      out.unbuffered = unbuffered;
-      out.row(std::array{1.0});
-    }) == (unbuffered ? "1\n" : ""));
+            Output out;
+            out.unbuffered = unbuffered;
+            out.row(std::array{1.0});
+          }) == (unbuffered ? "1\n" : ""));
   const std::string text = printed([] {
     Output out;
     for (int i = 0; i < 40000; ++i) out.row(std::array{1.0});

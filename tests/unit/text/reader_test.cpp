@@ -13,9 +13,10 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-/// All that a reader gives of t and v (or `wanted`) in files of these texts: records as "t v", " | " between them, " || "
-/// between runs; or the message that refuses them.
-std::string records(const Texts& texts, ReaderOptions options = {}, const std::vector<std::string>& wanted = {"t", "v"}) {
+/// All that a reader gives of t and v (or `wanted`) in files of these texts: records as "t v", " |
+/// " between them, " || " between runs; or the message that refuses them.
+std::string records(const Texts& texts, ReaderOptions options = {},
+                    const std::vector<std::string>& wanted = {"t", "v"}) {
   std::vector<std::unique_ptr<TemporaryFile>> files;
   for (const std::string& text : texts) {
     files.push_back(std::make_unique<TemporaryFile>(text));
@@ -25,12 +26,14 @@ std::string records(const Texts& texts, ReaderOptions options = {}, const std::v
   const std::string message = refusal([&] {
     Reader in(options, {"t", "v"});
     std::vector<std::size_t> slots;
-    for (const std::string& name : wanted) slots.push_back(name == "t" ? in.need_time() : in.need(name));
+    for (const std::string& name : wanted)
+      slots.push_back(name == "t" ? in.need_time() : in.need(name));
     for (bool first_run = true; in.next_run(); first_run = false) {
       if (!first_run) all += " || ";
       for (bool first = true; in.next(); first = false) {
         if (!first) all += " | ";
-        for (std::size_t i = 0; i < slots.size(); ++i) all += fmt::format("{}{}", i ? " " : "", in[slots[i]]);
+        for (std::size_t i = 0; i < slots.size(); ++i)
+          all += fmt::format("{}{}", i ? " " : "", in[slots[i]]);
       }
     }
   });
@@ -38,7 +41,8 @@ std::string records(const Texts& texts, ReaderOptions options = {}, const std::v
 }
 
 /// The records as they would pass through, lines in < >.
-std::string copies(const std::string& text, ReaderOptions options = {}, const std::vector<std::string>& wanted = {"t", "v"}) {
+std::string copies(const std::string& text, ReaderOptions options = {},
+                   const std::vector<std::string>& wanted = {"t", "v"}) {
   const TemporaryFile file(text);
   options.files = {file.name()};
   std::string all;
@@ -93,7 +97,8 @@ TEST_CASE("reader: names in the last # line before the data", "[text]") {
   CHECK(records({"# Velocity (m/s) Time (s)\n5 0\n"}) == "0 5");
   CHECK(records({"# made by me\n# on a Monday\n# v t\n5 0\n"}) == "0 5");
   CHECK(records({"# v t\n## smooth v mean width 3\n5 0\n"}) == "0 5");
-  CHECK(records({"# v t\n# three words here\n5 0\n"}) == "5 0");  // not as many names as columns: no names
+  CHECK(records({"# v t\n# three words here\n5 0\n"}) ==
+        "5 0");  // not as many names as columns: no names
   CHECK(records({"#\n#\n5 0\n"}) == "5 0");
 }
 
@@ -118,8 +123,10 @@ TEST_CASE("reader: names of columns that no tool knows, and of none", "[text]") 
 }
 
 TEST_CASE("reader: byte order mark, CR LF, quotes", "[text]") {
-  CHECK(records({"\xEF\xBB\xBF" "v,t\r\n5,0\r\n\r\n6,0\r\n"}) == "0 5 || 0 6");
-  CHECK(records({"\xEF\xBB\xBF" "5,0\r\n"}) == "5 0");
+  CHECK(records({"\xEF\xBB\xBF"
+                 "v,t\r\n5,0\r\n\r\n6,0\r\n"}) == "0 5 || 0 6");
+  CHECK(records({"\xEF\xBB\xBF"
+                 "5,0\r\n"}) == "5 0");
   CHECK(records({"\"t\",\"v\"\n\"0\",\"5\"\n\"1\",6\n"}) == "0 5 | 1 6");
   CHECK(copies("t,v,note\n0,5,\"a, \"\"b\"\"\"\n") == "<0\t5\ta, \"b\">");
 }
@@ -136,7 +143,8 @@ TEST_CASE("reader: a first record that has decimal commas only is a record, not 
   CHECK(records({"t\tv\n0,0\t1,5\n1\t2\n"}) == "0 1.5 | 1 2");
 }
 
-TEST_CASE("reader: a first record whose readings are all missing is a record, not names", "[text]") {
+TEST_CASE("reader: a first record whose readings are all missing is a record, not names",
+          "[text]") {
   CHECK(records({"# t v\nNaN NaN\n0 1\n"}) == "0 1");
   CHECK(records({"t,v\nNaN,nan\n0,1\n"}) == "0 1");
   CHECK(records({"NaN NaN\n0 1\n"}) == "0 1");
@@ -153,9 +161,14 @@ TEST_CASE("reader: a line of tabs is a blank line, in a file delimited by tabs t
 }
 
 TEST_CASE("reader: two decimal marks in one file are refused", "[text]") {
-  CHECK(records({"t;v\n0,5;1\n1.5;2\n"}) == "FILE:3: field 1: '1.5' has another decimal mark than the numbers before it");
-  CHECK(records({"t;v\n0.5;1\n1,5;2\n"}) == "FILE:3: field 1 (t): '1,5' is not a number; if a comma here is a decimal one, make it a point first");
-  CHECK(records({"0.5 1\n1,5 2\n"}) == "FILE:2: field 1 (t): '1,5' is not a number; if a comma here is a decimal one, make it a point first");
+  CHECK(records({"t;v\n0,5;1\n1.5;2\n"}) ==
+        "FILE:3: field 1: '1.5' has another decimal mark than the numbers before it");
+  CHECK(records({"t;v\n0.5;1\n1,5;2\n"}) ==
+        "FILE:3: field 1 (t): '1,5' is not a number; if a comma here is a decimal one, make it a "
+        "point first");
+  CHECK(records({"0.5 1\n1,5 2\n"}) ==
+        "FILE:2: field 1 (t): '1,5' is not a number; if a comma here is a decimal one, make it a "
+        "point first");
   CHECK(records({"t;v\n0;1,234,567\n"}) == "FILE:2: field 2 (v): '1,234,567' is not a number");
   CHECK(records({"t;v\n0;1,234.5\n"}) == "FILE:2: field 2 (v): '1,234.5' is not a number");
 }
@@ -171,16 +184,19 @@ TEST_CASE("reader: blank lines end a run, however many", "[text]") {
 TEST_CASE("reader: files in order, a run break between them", "[text]") {
   CHECK(records({"0 1\n1 2\n", "0 3\n"}) == "0 1 | 1 2 || 0 3");
   CHECK(records({"0 1", "0 3"}) == "0 1 || 0 3");
-  CHECK(records({"# t v\n0 1\n", "t,v\n0,3\n"}) == "0 1 || 0 3");  // the form is each file's own, the columns are not
+  CHECK(records({"# t v\n0 1\n", "t,v\n0,3\n"}) ==
+        "0 1 || 0 3");  // the form is each file's own, the columns are not
   CHECK(records({"0 1\n\n", "\n0 3\n"}) == "0 1 || 0 3");
   CHECK(records({"# t v\n0 1\n", "# v t\n0 3\n"}) == "FILE: its columns are not those of FILE");
   CHECK(records({"# t v\n0 1\n", "0 3\n"}) == "FILE: its columns are not those of FILE");
-  CHECK(records({"# t[s] v[m/s]\n0 1\n", "# t[ms] v[m/s]\n0 3\n"}) == "FILE: its columns are not those of FILE");
+  CHECK(records({"# t[s] v[m/s]\n0 1\n", "# t[ms] v[m/s]\n0 3\n"}) ==
+        "FILE: its columns are not those of FILE");
   CHECK(records({"0 1\n", "0 3 4\n"}) == "FILE: its columns are not those of FILE");
   CHECK(records({"0 1\n", ""}) == "FILE: no records");
 }
 
-TEST_CASE("reader: a second file that is not there is refused, and where() is still safe", "[text]") {
+TEST_CASE("reader: a second file that is not there is refused, and where() is still safe",
+          "[text]") {
   const TemporaryFile file("0 1\n");
   Reader in({{file.name(), "/no/such/file"}, {}, {}, false}, {"t", "v"});
   in.need_time();
@@ -193,14 +209,19 @@ TEST_CASE("reader: a second file that is not there is refused, and where() is st
 
 TEST_CASE("reader: --use says which column serves, by name or number", "[text]") {
   CHECK(records({"0 1 2\n1 3 4\n"}, use({"v=3"})) == "0 2 | 1 4");
-  CHECK(records({"# time_of_day speed_of_light\n0 1\n"}, use({"t=time_of_day", "v=speed_of_light"})) == "0 1");
+  CHECK(records({"# time_of_day speed_of_light\n0 1\n"},
+                use({"t=time_of_day", "v=speed_of_light"})) == "0 1");
   CHECK(records({"# t v\n0 1\n"}, use({"t=v", "v=t"})) == "1 0");
   CHECK(records({"# t w[rpm]\n0 1\n"}, use({"v=w"})) ==
-        "column 'w[rpm]' cannot serve as v: its unit 'rpm' is not one of those known (m/s, ...); convert it first");
+        "column 'w[rpm]' cannot serve as v: its unit 'rpm' is not one of those known (m/s, ...); "
+        "convert it first");
   CHECK(records({"# t w[km/h]\n0 72\n"}, use({"v=w"})) == "0 20");
-  CHECK(records({"# t w\n0 1\n"}, use({"v=4"})) == "FILE: --use v=4: there is no column '4' among t[s], w");
-  CHECK(records({"# t w\n0 1\n"}, use({"v=0"})) == "FILE: --use v=0: there is no column '0' among t[s], w");
-  CHECK(records({"# t w\n0 1\n"}, use({"v=1.5"})) == "FILE: --use v=1.5: there is no column '1.5' among t[s], w");
+  CHECK(records({"# t w\n0 1\n"}, use({"v=4"})) ==
+        "FILE: --use v=4: there is no column '4' among t[s], w");
+  CHECK(records({"# t w\n0 1\n"}, use({"v=0"})) ==
+        "FILE: --use v=0: there is no column '0' among t[s], w");
+  CHECK(records({"# t w\n0 1\n"}, use({"v=1.5"})) ==
+        "FILE: --use v=1.5: there is no column '1.5' among t[s], w");
   CHECK(records({"0 1\n"}, use({"v"})) == "--use: 'v' is not NAME=COLUMN");
   CHECK(records({"0 1\n"}, use({"=2"})) == "--use: '=2' is not NAME=COLUMN");
   CHECK(records({"0 1\n"}, use({"v="})) == "--use: 'v=' is not NAME=COLUMN");
@@ -221,9 +242,13 @@ TEST_CASE("reader: of two columns of one name, --use says which", "[text]") {
 }
 
 TEST_CASE("reader: there is no such column", "[text]") {
-  CHECK(records({"# t[s] w[rad/s]\n0 1\n"}) == "FILE: there is no column 'v' among t[s], w[rad/s]; say --use v=COLUMN");
-  CHECK(records({"0\n"}) == "FILE: there is no column 'v' among 1 without names; say --use v=COLUMN");
-  CHECK(records({"# T V\n0 1\n"}) == "FILE: there is no column 't' among T, V; say --use t=COLUMN");  // case matters in short names
+  CHECK(records({"# t[s] w[rad/s]\n0 1\n"}) ==
+        "FILE: there is no column 'v' among t[s], w[rad/s]; say --use v=COLUMN");
+  CHECK(records({"0\n"}) ==
+        "FILE: there is no column 'v' among 1 without names; say --use v=COLUMN");
+  CHECK(records({"# T V\n0 1\n"}) ==
+        "FILE: there is no column 't' among T, V; say --use t=COLUMN");  // case matters in short
+                                                                         // names
 }
 
 TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]") {
@@ -234,15 +259,19 @@ TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]
   CHECK(records({"Time (s) Run #7,Velocity (m/s) Run #7\n0,1\n"}, run(7)) == "0 1");
   CHECK(records({"0 1\n\n0 2\n"}, run(3)) == "there is no run 3 (runs: 2)");
   CHECK(records({"t Run 2,v Run 2,t Run 4,v Run 4\n0,1,0,5\n"}, run(4)) == "0 5");
-  CHECK(records({"t Run 2,v Run 2,t Run 4,v Run 4\n0,1,0,5\n"}, run(3)) == "FILE: there is no run 3 among the 2 side by side: 2, 4");
+  CHECK(records({"t Run 2,v Run 2,t Run 4,v Run 4\n0,1,0,5\n"}, run(3)) ==
+        "FILE: there is no run 3 among the 2 side by side: 2, 4");
 }
 
 TEST_CASE("reader: units are converted, and go out converted", "[text]") {
   CHECK(records({"# t[ms] v[km/h]\n0 72\n40 36\n"}) == "0 20 | 0.04 10");
-  CHECK(copies("# t[ms] v[km/h] x[mm]\n40 36 007\n") == "<0.04\t10\t007>");  // x is not needed: as it came
+  CHECK(copies("# t[ms] v[km/h] x[mm]\n40 36 007\n") ==
+        "<0.04\t10\t007>");  // x is not needed: as it came
   CHECK(records({"# t[parsec] v\n0 1\n"}) ==
-        "column 't[parsec]' cannot serve as t: its unit 'parsec' is not one of those known (s, ...); convert it first");
-  CHECK(records({"# t[h] v\n1e308 1\n"}) == "FILE:2: field 1 (t): '1e308' is beyond the range of a double in SI units");
+        "column 't[parsec]' cannot serve as t: its unit 'parsec' is not one of those known (s, "
+        "...); convert it first");
+  CHECK(records({"# t[h] v\n1e308 1\n"}) ==
+        "FILE:2: field 1 (t): '1e308' is beyond the range of a double in SI units");
 }
 
 TEST_CASE("reader: a missing reading leaves its record out, and is counted", "[text]") {
@@ -266,8 +295,11 @@ TEST_CASE("reader: what is neither number nor missing is refused, and says where
   CHECK(records({"0 1\n\n# c\n1 inf\n"}) == "FILE:4: field 2 (v): 'inf' is not a number");
   CHECK(records({"0 1\n1 1e400\n"}) == "FILE:2: field 2 (v): '1e400' is not a number");
   CHECK(records({"0 1\n1 0x1\n"}) == "FILE:2: field 2 (v): '0x1' is not a number");
-  CHECK(records({"0 1\n1 " + std::string(50, '9') + "x\n"}) == "FILE:2: field 2 (v): '" + std::string(40, '9') + "...' is not a number");
-  CHECK(records({"0 1\n1 \xE2\x88\x92" "1\n"}) == "FILE:2: field 2 (v): '???1' is not a number; make its minus sign (U+2212) a hyphen first");
+  CHECK(records({"0 1\n1 " + std::string(50, '9') + "x\n"}) ==
+        "FILE:2: field 2 (v): '" + std::string(40, '9') + "...' is not a number");
+  CHECK(records({"0 1\n1 \xE2\x88\x92"
+                 "1\n"}) ==
+        "FILE:2: field 2 (v): '???1' is not a number; make its minus sign (U+2212) a hyphen first");
 }
 
 TEST_CASE("reader: time increases within a run, and starts anew in the next", "[text]") {
@@ -289,9 +321,11 @@ TEST_CASE("reader: an empty file, a header alone, words alone", "[text]") {
 }
 
 TEST_CASE("reader: comments pass, those before the records apart from those among them", "[text]") {
-  const TemporaryFile file("# by hand\n## smooth x mean width 3\n# t v\n0 1\n# among\n1 2\n\n# between\n0 3\n# after\n");
+  const TemporaryFile file(
+      "# by hand\n## smooth x mean width 3\n# t v\n0 1\n# among\n1 2\n\n# between\n0 3\n# after\n");
   Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
-  CHECK(in.comments() == Texts{"# by hand", "## smooth x mean width 3"});  // the names line is not among them
+  CHECK(in.comments() ==
+        Texts{"# by hand", "## smooth x mean width 3"});  // the names line is not among them
   CHECK(in.history() == Texts{"smooth x mean width 3"});
   std::string among;
   in.on_comment = [&](std::string_view text) { among.append(text).append(";"); };
@@ -307,7 +341,9 @@ TEST_CASE("reader: a preamble becomes comments", "[text]") {
 }
 
 TEST_CASE("reader: the history is that of the present run", "[text]") {
-  const TemporaryFile first("## smooth v mean width 3\n## differentiate v central\n# t v\n0 1\n\n0 2\n"), second("# t v\n0 3\n");
+  const TemporaryFile first(
+      "## smooth v mean width 3\n## differentiate v central\n# t v\n0 1\n\n0 2\n"),
+      second("# t v\n0 3\n");
   Reader in({{first.name(), second.name()}, {}, {}, false}, {});
   CHECK(in.history().size() == 2);
   CHECK_FALSE(in.history_changed());
@@ -322,7 +358,9 @@ TEST_CASE("reader: the history is that of the present run", "[text]") {
 }
 
 TEST_CASE("reader: new ## lines among the records replace the old ones", "[text]") {
-  const TemporaryFile file("## smooth v mean width 3\n# t v\n0 1\n\n## smooth v mean width 5\n## differentiate v central\n0 2\n");
+  const TemporaryFile file(
+      "## smooth v mean width 3\n# t v\n0 1\n\n## smooth v mean width 5\n## differentiate v "
+      "central\n0 2\n");
   Reader in({{file.name()}, {}, {}, false}, {});
   REQUIRE(in.next_run());
   while (in.next()) continue;
@@ -347,7 +385,8 @@ TEST_CASE("reader: a record says where a column's text stands", "[text]") {
   CHECK(in.where() == file.name() + ":1");
 }
 
-TEST_CASE("reader: where() is empty before the first record is taken and after the last", "[text]") {
+TEST_CASE("reader: where() is empty before the first record is taken and after the last",
+          "[text]") {
   const TemporaryFile file("# t v\n0 1\n");
   Reader in({{file.name()}, {}, {}, false}, {});
   CHECK(in.where().empty());
@@ -367,27 +406,37 @@ TEST_CASE("reader: a needed column that displaces another of its name", "[text]"
   CHECK(all == "t[s] v_in[m/s] v[m/s] ");
 }
 
-TEST_CASE("reader: runs side by side come out one under another, the padding of the shorter uncounted", "[text]") {
-  const std::string wide = "Time (s) Run #2,Velocity (m/s) Run #2,Time (s) Run #4,Velocity (m/s) Run #4\n0,1,0,5\n1,2,1,\n2,3,,\n";
+TEST_CASE(
+    "reader: runs side by side come out one under another, the padding of the shorter uncounted",
+    "[text]") {
+  const std::string wide =
+      "Time (s) Run #2,Velocity (m/s) Run #2,Time (s) Run #4,Velocity (m/s) Run "
+      "#4\n0,1,0,5\n1,2,1,\n2,3,,\n";
   CHECK(records({wide}) == "0 1 | 1 2 | 2 3 || 0 5");
   CHECK(records({wide}, run(4)) == "0 5");
   CHECK(records({wide}, run(2)) == "0 1 | 1 2 | 2 3");
-  CHECK(records({wide, "Time (s),Velocity (m/s)\n0,7\n", wide}) == "0 1 | 1 2 | 2 3 || 0 5 || 0 7 || 0 1 | 1 2 | 2 3 || 0 5");
+  CHECK(records({wide, "Time (s),Velocity (m/s)\n0,7\n", wide}) ==
+        "0 1 | 1 2 | 2 3 || 0 5 || 0 7 || 0 1 | 1 2 | 2 3 || 0 5");
   CHECK(records({wide}, strict) == "FILE:3: field 4 (v): a reading is missing");
   CHECK(records({wide}, use({"t=3", "v=4"})) == "0 5");
   CHECK(records({"Time (s),v Run 1,v Run 2\n0,1,5\n1,2,\n"}) == "0 1 | 1 2 || 0 5");
   CHECK(records({"t v t v\n0 1 0 5\n1 2 1 6\n"}) == "0 1 | 1 2 || 0 5 | 1 6");
-  CHECK(records({"t;v;t;v\n0;1;0;5\n1;2\n"}) == "0 1 | 1 2 || 0 5");  // a line that ends where the longer runs do
-  CHECK(records({"t Run 1,v Run 1,t Run 2,v Run 2\n0,1,0,x\n"}) == "FILE:2: field 4 (v): 'x' is not a number");
-  CHECK(copies("Time (s) Run #2,v Run #2,Time (s) Run #4,v Run #4\n0.0,1,0.00,5\n") == "<0.0\t1><0.00\t5>");
+  CHECK(records({"t;v;t;v\n0;1;0;5\n1;2\n"}) ==
+        "0 1 | 1 2 || 0 5");  // a line that ends where the longer runs do
+  CHECK(records({"t Run 1,v Run 1,t Run 2,v Run 2\n0,1,0,x\n"}) ==
+        "FILE:2: field 4 (v): 'x' is not a number");
+  CHECK(copies("Time (s) Run #2,v Run #2,Time (s) Run #4,v Run #4\n0.0,1,0.00,5\n") ==
+        "<0.0\t1><0.00\t5>");
 }
 
 TEST_CASE("reader: stacked runs under repeated names keep their numbers", "[text]") {
-  const std::string stacked = "Time (s) Run #3,v Run #3\n0,1\n\nTime (s) Run #5,v Run #5\n0,2\n1,3\n";
+  const std::string stacked =
+      "Time (s) Run #3,v Run #3\n0,1\n\nTime (s) Run #5,v Run #5\n0,2\n1,3\n";
   CHECK(records({stacked}) == "0 1 || 0 2 | 1 3");
   CHECK(records({stacked}, run(5)) == "0 2 | 1 3");
   CHECK(records({stacked}, run(1)) == "there is no run 1 (runs: 2)");
-  CHECK(records({"v Run #3,t\n1,0\n\nv Run #5,t\n2,0\n"}, run(5), {"v"}) == "2");  // not every name has it
+  CHECK(records({"v Run #3,t\n1,0\n\nv Run #5,t\n2,0\n"}, run(5), {"v"}) ==
+        "2");  // not every name has it
   CHECK(records({"t,v\n0,1\n\nt,w\n0,2\n"}) == "FILE:4: field 1 (t): 't' is not a number");
 }
 
@@ -395,12 +444,15 @@ TEST_CASE("reader: a delimiter that ends the line is no cell", "[text]") {
   CHECK(records({"t,v,\n0,1,\n1,2,\n"}) == "0 1 | 1 2");
   CHECK(records({"t,v,\n0,1\n1,2,\n"}) == "0 1 | 1 2");
   CHECK(records({"t,v\n0,1,\n1,2\n"}) == "0 1 | 1 2");
-  CHECK(records({"t,v\n0,1,7\n"}) == "FILE:2: 3 fields under a line of 2 names; if some of its commas are decimal ones, make them points first");
+  CHECK(records({"t,v\n0,1,7\n"}) ==
+        "FILE:2: 3 fields under a line of 2 names; if some of its commas are decimal ones, make "
+        "them points first");
 }
 
 TEST_CASE("reader: a quoted field may hold separators and line ends", "[text]") {
   CHECK(records({"\"t\",\"v, of\nthe cart\"\n0,1\n"}, {}, {"t", "v,_of_the_cart"}) == "0 1");
-  CHECK(records({"note,t,v\n\"one\ntwo, three\",0,1\nfour,1,x\n"}) == "FILE:4: field 3 (v): 'x' is not a number");
+  CHECK(records({"note,t,v\n\"one\ntwo, three\",0,1\nfour,1,x\n"}) ==
+        "FILE:4: field 3 (v): 'x' is not a number");
   CHECK(records({"t,v,note\n0,1,\"open\n1,2,x\n"}) == "FILE:2: a quote that does not end");
 }
 

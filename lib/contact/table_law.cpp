@@ -1,0 +1,72 @@
+#include "contact/table_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+
+namespace rolling {
+
+TableLaw::TableLaw(std::vector<double> v, std::vector<double> D) {
+  if (v.empty() || v.size() != D.size())
+    fail("a table of a law needs a point at least, and a D to each v");
+  std::vector<std::size_t> order(v.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return v[i] < v[j]; });
+  for (const std::size_t i : order) {
+    if (!(v[i] >= 0 && std::isfinite(v[i])))
+      fail("v = {} in the table of a law must be a number that is not negative", v[i]);
+    if (!(D[i] > 0 && std::isfinite(D[i])))
+      fail("D = {} at v = {} in the table of a law must be a positive number", D[i], v[i]);
+    if (!v_.empty() && v[i] == v_.back()) fail("v = {} stands twice in the table of a law", v[i]);
+    v_.push_back(v[i]);
+    D_.push_back(D[i]);
+  }
+  const std::size_t n = v_.size();
+  if (n == 1) return;
+  std::vector<double> h(n - 1), s(n - 1), slope(n);
+  for (std::size_t i = 0; i + 1 < n; ++i)
+    h[i] = v_[i + 1] - v_[i], s[i] = (D_[i + 1] - D_[i]) / h[i];
+  slope.front() = s.front(), slope.back() = s.back();
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const double parabola = (s[i - 1] * h[i] + s[i] * h[i - 1]) / (h[i - 1] + h[i]);
+    const double least = std::min({std::abs(s[i - 1]), std::abs(s[i]), std::abs(parabola) / 2});
+    slope[i] = s[i - 1] * s[i] > 0 ? 2 * std::copysign(least, s[i]) : 0;
+  }
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    c1_.push_back(slope[i]);
+    c2_.push_back((3 * s[i] - 2 * slope[i] - slope[i + 1]) / h[i]);
+    c3_.push_back((slope[i] + slope[i + 1] - 2 * s[i]) / (h[i] * h[i]));
+  }
+}
+
+TableLaw::Place TableLaw::place(double v) const {
+  const auto above = std::upper_bound(v_.begin() + 1, v_.end() - 1, v);
+  const auto i = static_cast<std::size_t>(above - v_.begin()) - 1;
+  return {i, v - v_[i]};
+}
+
+double TableLaw::operator()(double v) const {
+  if (v <= v_.front() || v_.size() == 1) return D_.front();
+  if (v > highest()) return D_.back() + c1_.back() * (v - highest());
+  const auto [i, s] = place(v);
+  const auto [least, most] = std::minmax(D_[i], D_[i + 1]);
+  return std::clamp(D_[i] + s * (c1_[i] + s * (c2_[i] + s * c3_[i])), least,
+                    most);  // rounding may lead beyond them
+}
+
+double TableLaw::slope(double v) const {
+  if (v < v_.front() || v_.size() == 1) return 0;
+  if (v > highest()) return c1_.back();
+  const auto [i, s] = place(v);
+  return c1_[i] + s * (2 * c2_[i] + 3 * s * c3_[i]);
+}
+
+double TableLaw::largest_shift(double v) const {
+  double largest = std::max(D_.front(), (*this)(v));
+  for (std::size_t i = 0; i < v_.size() && v_[i] <= v; ++i) largest = std::max(largest, D_[i]);
+  return largest;
+}
+
+}  // namespace rolling

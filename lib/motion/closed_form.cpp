@@ -1,0 +1,87 @@
+#include "motion/closed_form.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "contact/contact.h"
+#include "motion/trajectory.h"
+
+namespace rolling {
+
+namespace {
+
+constexpr double unseen = 1e-20;  // rate t below it: v is v0
+constexpr double beyond = 1e280;  // rate t above it is taken as this
+constexpr double gone = -1e4;     // L below it: v is 0
+
+}  // namespace
+
+ClosedForm::ClosedForm(const Body& body, PowerLaw law, double v0, double x0)
+    : body_(body), b_(law.b), v0_(v0), x0_(x0), exponent_(law.b) {
+  check_roll(body, law, v0);
+  if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
+  if (v0 == 0) return;
+  const DoubleDouble s = two_sum(1, -law.b), s1 = two_sum(2, -law.b);
+  const Scaled arm = Scaled(two_sum(body.K, 1)) * Scaled(body.R) / Scaled(body.g), speed(v0);
+  const Scaled shift = Scaled(law.a) * power(v0, law.b), deceleration = shift / arm,
+               rate = deceleration / speed, length = speed / rate;
+  speed_ = speed, shift_ = shift, deceleration_ = deceleration, length_ = length;
+  if (s1.hi != 0) distance_ = length / Scaled(s1);
+  minus_rate_ = -rate.m, slope_ = -(s * rate.m), s1_ = s1;
+  unit1_ = std::ldexp(1, rate.exponent / 2),
+  unit2_ = std::ldexp(1, rate.exponent - rate.exponent / 2);
+  if (s.hi != 0) inverse_s_ = DoubleDouble(1) / s;
+  if (s.hi <= 0) {
+    stop_time_ = std::numeric_limits<double>::infinity();
+  } else {
+    const Scaled stop = Scaled(1.0) / (Scaled(s) * rate);
+    const double up = stop.m.lo > 0 ? std::nextafter(stop.m.hi, 1) : stop.m.hi;
+    stop_time_ = std::max(std::ldexp(up, stop.exponent), std::numeric_limits<double>::denorm_min());
+  }
+  seek(0);
+}
+
+void ClosedForm::seek(double t) {
+  t_ = t;
+  rolls_ = t < stop_time_;
+  if (!rolls_) return;
+  const double q = std::min(t * unit1_ * unit2_, beyond);  // rate t = -minus_rate_ q
+  log_ = 0;
+  if (q < unseen) return;
+  const DoubleDouble minus_sq = slope_ * q;
+  if (std::abs(minus_sq.hi) < 0x1p-7) {
+    log_ = minus_rate_ * (log1p_ratio(minus_sq) * q);
+  } else {
+    const DoubleDouble w = minus_sq + 1;
+    rolls_ = w.hi > 0;
+    if (rolls_) log_ = inverse_s_ * quick_log(w);
+  }
+  if (log_.hi < gone) log_ = gone;
+}
+
+double ClosedForm::velocity() { return rolls_ ? times_exp(speed_, log_) : 0; }
+
+double ClosedForm::position() {
+  if (!rolls_) return x0_ + (v0_ == 0 ? 0 : distance_ * DoubleDouble(1));
+  if (log_.hi == 0) return x0_ + v0_ * t_;
+  const DoubleDouble y = s1_ * log_;
+  return x0_ + (std::abs(y.hi) < 1. / 32 ? length_ * (-log_ * expm1_ratio(y))
+                                         : distance_ * one_minus_exp(y));
+}
+
+double ClosedForm::shift() {
+  if (!rolls_) return 0;
+  const double D = times_exp(shift_, exponent_ * log_);
+  if (b_ < 0) check_shift(body_, D);  // else it falls from D(v0), which is checked
+  return D;
+}
+
+double ClosedForm::acceleration() {
+  if (!rolls_) return 0;
+  if (b_ < 0) shift();
+  return -times_exp(deceleration_, exponent_ * log_);
+}
+
+}  // namespace rolling

@@ -1,0 +1,117 @@
+#include "motion/integrated_roll.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "contact/contact.h"
+#include "contact/trial.h"
+
+namespace rolling {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr unsigned long most_steps = 1'000'000;
+constexpr double least_part = 1e-8;  // of v0; much below it the steps are a rounding of t
+
+}  // namespace
+
+IntegratedRoll::IntegratedRoll(const Body& body, Geometry geometry, AnyLaw law, double v0,
+                               double x0, Stepper stepper, double rtol)
+    : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0), x0_(x0),
+      floor_(law_.stops ? least_part * v0 : 0), options_{stepper, rtol,
+                                                         v0 > 0 ? rtol * least_part * v0 : 1,
+                                                         most_steps},
+      ode_(start()) {
+  if (v0 == 0) tail_ = {0, 0, 0, 0};
+}
+
+Integrator IntegratedRoll::start() const {
+  if (!(v0_ >= 0 && std::isfinite(v0_)))
+    fail("the initial velocity v0 = {} must be a number that is not negative", v0_);
+  if (!std::isfinite(x0_)) fail("the initial position x0 = {} must be finite", x0_);
+  if (v0_ > 0) check_shift(body_, law_.shift(v0_));
+  // Below its floor D goes on as a constant: nothing holds a solver at v = 0, and v falls through
+  // the floor.
+  const auto shift = [law = law_.shift, floor = floor_](double v) {
+    return floor > 0 || v > 0 ? law(std::max(v, floor)) : 0;
+  };
+  const auto derivative =
+      [body = body_, geometry = geometry_, shift](double, const double* y, double* dydt) {
+    dydt[0] = y[1];
+    dydt[1] = trial_acceleration(body, geometry, shift(y[1]));
+  };
+  const auto jacobian = [body = body_, geometry = geometry_, shift, slope = law_.slope,
+                         floor = floor_](double, const double* y, double* dfdy, double* dfdt) {
+    dfdy[0] = 0, dfdy[1] = 1, dfdy[2] = 0;
+    dfdy[3] =
+        y[1] <= floor ? 0 : trial_acceleration_slope(body, geometry, shift(y[1])) * slope(y[1]);
+    dfdt[0] = dfdt[1] = 0;
+  };
+  return {{2, derivative, jacobian}, options_, 0, {x0_, v0_}};
+}
+
+Integrator::Event IntegratedRoll::floor_event() const {
+  const double limit = geometry_ == Geometry::exact ? body_.R : infinity;
+  return [floor = floor_, limit, shift = law_.shift](const std::vector<double>& y) {
+    return limit < infinity && y[1] > 0 ? std::min(y[1] - floor, limit - shift(y[1]))
+                                        : y[1] - floor;
+  };
+}
+
+IntegratedRoll::Tail IntegratedRoll::tail(const Integrator& ode) const {
+  const double v = ode.state()[1], D = law_.shift(v);
+  if (geometry_ == Geometry::exact && D >= body_.R * (1 - 1e-9))
+    fail("at t = {:.6g} s the shift has grown to the radius {:.6g} m", ode.time(), body_.R);
+  const double a = trial_acceleration(body_, geometry_, D),
+               q = v * trial_acceleration_slope(body_, geometry_, D) * law_.slope(v) / a;
+  return {ode.time(), v / ((1 - q) * -a), v, q};
+}
+
+double IntegratedRoll::stop_time() const {
+  if (v0_ > 0 && !law_.stops) return infinity;
+  if (!tail_) {
+    Integrator ode = start();
+    ode.advance(infinity, floor_event());
+    tail_ = tail(ode);
+  }
+  return tail_->begin + tail_->duration;
+}
+
+void IntegratedRoll::seek(double t) {
+  t_ = t;
+  // Where the steps end changes the time of the stop by its error: the one that was told counts.
+  if (ode_.advance(tail_ ? std::min(t, tail_->begin) : t, floor_event()) && !tail_)
+    tail_ = tail(ode_);
+}
+
+double IntegratedRoll::left() const {
+  return std::max(0.0, 1 - (t_ - tail_->begin) / tail_->duration);
+}
+
+double IntegratedRoll::velocity() {
+  if (!tail_ || t_ < tail_->begin) return ode_.state()[1];
+  return t_ < stop_time() ? tail_->v * std::pow(left(), 1 / (1 - tail_->q)) : 0;
+}
+
+double IntegratedRoll::position() {
+  const double x = ode_.state()[0];
+  if (!tail_ || t_ <= tail_->begin) return x;
+  const double q = tail_->q;
+  return x +
+         tail_->v * tail_->duration * (1 - q) / (2 - q) * (1 - std::pow(left(), (2 - q) / (1 - q)));
+}
+
+double IntegratedRoll::shift() {
+  const double v = velocity(), D = v == 0 ? 0 : law_.shift(v);
+  check_shift(body_, D);
+  return D;
+}
+
+double IntegratedRoll::acceleration() { return acceleration_from_shift(body_, geometry_, shift()); }
+
+}  // namespace rolling

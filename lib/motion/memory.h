@@ -1,0 +1,65 @@
+// The roll over a bulge that remembers: the shift follows D(v) over a rolled length, so the body
+// rolls backwards before it rests.
+#pragma once
+
+#include "ode/integrator.h"
+#include "contact/body.h"
+#include "motion/motion.h"
+#include "contact/power_law.h"
+
+#include <optional>
+
+namespace rolling {
+
+/// The bulge: z' = (v D(|v|) - |v| z) / length, and the shift is z + damping z' (a Dahl/LuGre
+/// bristle).
+struct Bulge {
+  double length;       ///< rolled length over which the shift follows the law [m], > 0
+  double damping = 0;  ///< sigma_1 [s], >= 0
+};
+
+/// The shift follows v within the time length/v0, the body slows down within v0/(c D(v0)). Where
+/// these differ by more than 3e4 the system is stiff: rk4imp, else rk8pd.
+Stepper memory_stepper(const Body&, PowerLaw, Bulge, double v0);
+
+/// x' = v, v' = -g D / ((K + A) R) (Eq. 12), z as in Bulge; z = D(v0) at t = 0.
+///
+/// Rest: with c = g / ((K + A) R),  E = c z^2 / 2 + a |v|^(2+b) / ((2+b) length)  never grows
+/// (while damping |v| < 4 length), so it bounds every later speed. The ringing dies out only like a
+/// power of time; rest is declared at the first zero of v after which E keeps |v| below v0 / 1000.
+/// From there on v and D are exactly 0. For b >= 2 the shift fades too fast to stop the body:
+/// stop_time() is infinite.
+class MemoryRoll final : public Motion {
+ public:
+  /// Refuses what check_roll refuses, b < 0 (no shift at rest to return to), length <= 0, damping <
+  /// 0.
+  MemoryRoll(const Body&, Geometry, PowerLaw, Bulge, double v0, double x0, const OdeOptions&);
+  /// The same by the solver that memory_stepper() names.
+  MemoryRoll(const Body&, Geometry, PowerLaw, Bulge, double v0, double x0);
+
+  /// The first call integrates to the rest, apart from where seek() stands.
+  double stop_time() const override;
+  void seek(double t) override;
+  double position() override;
+  double velocity() override;
+  double acceleration() override;
+  double shift() override;
+  unsigned long evaluations() const override { return ode_.evaluations(); }
+
+ private:
+  Integrator start() const;
+  /// Integrates to t or to the rest, whichever is first, and returns true at rest.
+  bool advance(Integrator&, double t) const;
+
+  Body body_;
+  Geometry geometry_;
+  PowerLaw law_;
+  Bulge bulge_;
+  double v0_, x0_;
+  OdeOptions options_;
+  Integrator ode_;
+  bool at_rest_ = false;
+  mutable std::optional<double> stop_time_;
+};
+
+}  // namespace rolling

@@ -1,0 +1,40 @@
+// A scene, and the methods that roll it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "ode/integrator.h"
+#include "contact/body.h"
+#include "motion/memory.h"
+#include "motion/motion.h"
+#include "contact/power_law.h"
+#include "contact/table_law.h"
+
+namespace rolling {
+
+struct Roll {
+  Body body;
+  Geometry geometry;
+  PowerLaw law;  ///< unless there is a table
+  std::optional<TableLaw> table;
+  Bulge bulge{0};  ///< of length 0: no memory
+  double v0, x0;
+};
+
+/// closed: ClosedForm. exact: an integral over speed, ExactForm or TableRoll. Else the stepper of a
+/// solver.
+struct Method {
+  enum { closed, exact, solver } kind;
+  Stepper stepper = Stepper::rk8pd;
+};
+
+/// The cheapest method that is exact for the scene: closed for A = 1, exact for exact geometry and
+/// tables; with memory, that has neither, the solver that suits its stiffness.
+Method best_method(const Roll&);
+
+/// Throws Error when the method does not fit the scene. rtol: of the solvers.
+std::unique_ptr<Motion> start(const Roll&, Method, double rtol);
+
+}  // namespace rolling

@@ -1,0 +1,85 @@
+#include "motion/table_roll.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "contact/contact.h"
+#include "motion/gauss_legendre.h"
+#include "motion/trajectory.h"
+
+namespace rolling {
+
+namespace {
+
+constexpr int panels_in_a_piece = 4;
+
+}  // namespace
+
+TableRoll::TableRoll(const Body& body, Geometry geometry, TableLaw law, double v0, double x0)
+    : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0), x0_(x0), v_(v0) {
+  if (v0 > law_.highest())
+    fail("the initial velocity v0 = {} is above the table of the law, which ends at {}", v0,
+         law_.highest());
+  check_roll(body, {law_.largest_shift(v0), 0}, v0);
+  if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
+  std::vector<double> ends{0};  // of the pieces
+  for (const double v : law_.speeds())
+    if (v > 0 && v < v0) ends.push_back(v);
+  panels_ = {{v0, 0, 0}};
+  const auto add = [&](double v) {
+    const Panel& last = panels_.back();
+    const auto [time, distance] = integrals(last.v, v);
+    panels_.push_back({v, last.time + time, last.distance + distance});
+  };
+  for (auto end = ends.rbegin(); v0 > 0 && end != ends.rend(); ++end) {
+    const double from = panels_.back().v;
+    for (int i = 1; i < panels_in_a_piece; ++i) add(from + (*end - from) * i / panels_in_a_piece);
+    add(*end);
+  }
+}
+
+double TableRoll::inverse_acceleration(double v) const {
+  const double D = law_(v);
+  return (body_.K + arm_factor(body_, geometry_, D)) * body_.R / (body_.g * D);
+}
+
+TableRoll::Integrals TableRoll::integrals(double from, double to) const {
+  const double half = (from - to) / 2, middle = (from + to) / 2;
+  Integrals sum{0, 0};
+  for (const GaussNode& node : gauss_legendre)
+    for (const double x : {node.x, -node.x}) {
+      const double u = middle + half * x, dt = node.weight * half * inverse_acceleration(u);
+      sum.time += dt;
+      sum.distance += dt * u;
+    }
+  return sum;
+}
+
+void TableRoll::seek(double t) {
+  if (t >= stop_time()) {
+    v_ = 0;
+    panel_ = panels_.size() - 1;
+    return;
+  }
+  const auto after = std::upper_bound(panels_.begin(), panels_.end(), t,
+                                      [](double time, const Panel& p) { return time < p.time; });
+  panel_ = static_cast<std::size_t>(after - panels_.begin()) - 1;
+  const Panel &begin = panels_[panel_], &end = panels_[panel_ + 1];
+  // Newton's method; the time is nearly a line in v within a panel.
+  v_ = begin.v + (end.v - begin.v) * (t - begin.time) / (end.time - begin.time);
+  for (int i = 0; i < 20; ++i) {
+    const double step = (integrals(begin.v, v_).time - (t - begin.time)) / inverse_acceleration(v_);
+    v_ = std::clamp(v_ + step, end.v, begin.v);
+    if (std::abs(step) <= 1e-9 * v_) break;  // convergence is quadratic
+  }
+}
+
+double TableRoll::position() {
+  return x0_ + panels_[panel_].distance + integrals(panels_[panel_].v, v_).distance;
+}
+
+double TableRoll::acceleration() { return acceleration_from_shift(body_, geometry_, shift()); }
+
+}  // namespace rolling

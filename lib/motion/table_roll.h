@@ -1,0 +1,47 @@
+// The roll under a law that is a table: time and distance as integrals over speed (Eq. 12), in
+// either geometry.
+#pragma once
+
+#include "contact/body.h"
+#include "motion/motion.h"
+#include "contact/table_law.h"
+
+#include <vector>
+
+namespace rolling {
+
+/// t = int_v^v0 (K + A(u)) R / (g D(u)) du by Gauss-Legendre panels within the pieces of the table,
+/// inverted by Newton's method; the stop is the whole integral. Relative error about 1e-14 for the
+/// interpolated law. Below the lowest point of the table D is constant, so the body stops.
+class TableRoll final : public Motion {
+ public:
+  /// Refuses v0 above the table, D > R at a speed up to v0, and what check_roll refuses.
+  TableRoll(const Body&, Geometry, TableLaw, double v0, double x0);
+
+  double stop_time() const override { return panels_.back().time; }
+  void seek(double t) override;
+  double position() override;
+  double velocity() override { return v_; }
+  double acceleration() override;
+  double shift() override { return v_ == 0 ? 0 : law_(v_); }
+
+ private:
+  struct Panel {
+    double v, time, distance;  // where it begins; it ends where the next one begins
+  };
+  struct Integrals {
+    double time, distance;
+  };
+  double inverse_acceleration(double v) const;
+  Integrals integrals(double from, double to) const;
+
+  Body body_;
+  Geometry geometry_;
+  TableLaw law_;
+  double v0_, x0_;
+  std::vector<Panel> panels_;  // from v0 down to 0
+  std::size_t panel_ = 0;
+  double v_;
+};
+
+}  // namespace rolling

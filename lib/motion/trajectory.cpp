@@ -1,0 +1,144 @@
+#include "motion/trajectory.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/double_double.h"
+#include "base/error.h"
+#include "contact/contact.h"
+#include "motion/power_integral.h"
+
+namespace rolling {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+SpeedIntegrals integrals_of(const Body& body, Geometry geometry, PowerLaw law, double v0) {
+  check_roll(body, law, v0);
+  if (geometry == Geometry::approximate || v0 == 0) return {law.b, body.K, 0};
+  const DoubleDouble depth = (Scaled(law.a) * power(v0, law.b) / Scaled(body.R)).value();
+  const double arm_square = std::max(0.0, (-(depth * depth) + 1).hi);
+  if (body.K == 0 && arm_square == 0)
+    fail("K = 0 and D(v0) = R: the force of the mat would have no bound");
+  return {law.b, body.K, std::min(depth.hi, 1.0), arm_square};
+}
+
+}  // namespace
+
+Trajectory::Trajectory(const Body& body, Geometry geometry, PowerLaw law, double v0)
+    : body_(body), geometry_(geometry), law_(law), v0_(v0), log_v0_(std::log(v0)),
+      integrals_(integrals_of(body, geometry, law, v0)) {
+  if (v0 == 0) return;
+  const double D = law(v0);  // v0^b may have left the range of double, or v0^(1-b)
+  unit_ = (D >= std::numeric_limits<double>::min() ? v0 / D : std::pow(v0, 1 - law.b) / law.a) *
+          ((body.K + 1) * body.R / body.g);
+  stop_time_ = unit_ * integrals_.stop();
+  last_time_ = unit_ * integrals_.end();
+  if (std::isinf(stop_time_)) return;
+  const auto g = integrals_.gradient(infinity);
+  const double length = v0 * unit_, x = length * g.distance;
+  stopped_ = {0,
+              x,
+              0,
+              0,
+              0,
+              -length * g.g0 / law.a,
+              -length * (log_v0_ * g.g0 - g.g1),
+              unit_ * integrals_.f(0)};
+}
+
+void check_roll(const Body& body, PowerLaw law, double v0) {
+  const auto positive = [](const char* name, double value) {
+    if (!(value > 0 && std::isfinite(value)))
+      fail("{} = {} must be a positive number", name, value);
+  };
+  const auto not_negative = [](const char* name, double value) {
+    if (!(value >= 0 && std::isfinite(value)))
+      fail("{} = {} must be a number that is not negative", name, value);
+  };
+  positive("the radius R", body.R);
+  not_negative("the shape factor K", body.K);
+  positive("gravity g", body.g);
+  positive("the coefficient a", law.a);
+  if (!std::isfinite(law.b)) fail("the exponent b = {} must be finite", law.b);
+  not_negative("the initial velocity v0", v0);
+  check_shift(body, law(v0));
+}
+
+double Trajectory::log_ratio(double t, double rest) const {
+  if (rest <= 0) return infinity;
+  if (t > last_time_)
+    fail(
+        "at t = {:.6g} s the shift has grown beyond the radius {:.6g} m (since t = {:.6g} s): b < "
+        "0 has no meaning there",
+        t, body_.R, last_time_);
+  return integrals_.lambda(t / unit_, rest / unit_);
+}
+
+double Trajectory::velocity(double lambda) const { return v0_ * std::exp(-lambda); }
+
+double Trajectory::position(double t, double lambda) const {
+  if (lambda == infinity) return stopped_.x;
+  return lambda < 1e-17 ? v0_ * t
+                        : v0_ * (unit_ * integrals_.distance(lambda));  // unit_ may be infinite
+}
+
+double Trajectory::shift(double v) const {
+  const double D = law_(v);
+  check_shift(body_, D);
+  return D;
+}
+
+double Trajectory::acceleration(double v) const {
+  return acceleration_from_shift(body_, geometry_, law_(v));
+}
+
+// With T(v; a, b, v0) = t the integral over speed, at fixed t:  dv/dp = -(dT/dp) / (dT/dv) =
+// -(dT/dp) dv/dt,  and
+//   dT/da = -int h ... / a,   dT/db = -int ln(u) h ...,   dT/dv0 = -1 / (dv/dt at v0);
+//   dx/dp = dX/dp - v dT/dp,  which is the same integral with a factor u - v.
+Trajectory::Point Trajectory::at(double t, bool way) const {
+  if (t == 0) return {v0_, 0, 0, 0, v0_ > 0 ? 1.0 : 0.0, 0, 0, 0};
+  const double lambda = log_ratio(t), a = law_.a, log_v0 = log_v0_;
+  if (lambda == infinity) return stopped_;
+  if (lambda < 1e-100) {  // unit_ may be infinite, lambda^2 be 0: a speed that hardly changes
+    const double A = arm_factor(body_, geometry_, law_(v0_)), K = body_.K;
+    const double dv_da = -body_.g / body_.R * std::pow(v0_, law_.b) * t * (K + 1 / A) /
+                         ((K + A) * (K + A)),
+                 dv_db = a * log_v0 * dv_da;
+    return {v0_, v0_ * t, dv_da, dv_db, 1, dv_da * t / 2, dv_db * t / 2, t};
+  }
+  const auto g = integrals_.gradient(lambda, way);
+  const double rate = std::exp(-law_.b * lambda) / integrals_.f(lambda);  // -(dv/dt) unit_ / v0
+  Point point{velocity(lambda),
+              0,
+              -v0_ * rate * g.h0 / a,
+              -v0_ * rate * (log_v0 * g.h0 - g.h1),
+              rate * integrals_.f(0),
+              0,
+              0,
+              0};
+  if (!way) return point;
+  const double length = v0_ * unit_;
+  point.x = v0_ * (unit_ * g.distance);
+  point.x_a = -length * g.g0 / a;
+  point.x_b = -length * (log_v0 * g.g0 - g.g1);
+  point.x_v0 = -std::expm1(-lambda) * unit_ * integrals_.f(0);
+  return point;
+}
+
+// With w = (v/v0)^s = 1 - s t/unit all of the above are powers: h0 is t/unit, and the rate e^(-b
+// lambda) = (v/v0)/w.
+Trajectory::Point Trajectory::speed_at(double t) const {
+  const double s = 1 - law_.b, rest = stop_time_ - t, time = t / unit_;
+  if (geometry_ == Geometry::exact || s == 0 || !(time > 1e-100 && rest > 0)) return at(t, false);
+  const double w = rest < t ? s * (rest / unit_) : 1 - s * time;
+  const double lambda = -(rest < t ? std::log(w) : std::log1p(-s * time)) / s,
+               ratio = std::exp(-lambda), rate = ratio / w;
+  const double h1 = power_moment(s, lambda, time, w);
+  return {v0_ * ratio, 0, -v0_ * rate * time / law_.a, -v0_ * rate * (log_v0_ * time - h1), rate, 0,
+          0,           0};
+}
+
+}  // namespace rolling

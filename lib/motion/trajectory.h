@@ -1,0 +1,78 @@
+// The free roll under D(v) = a v^b, in either geometry, as a function of time and of its
+// parameters. One way through the code for ExactForm and the trajectory fits.
+#pragma once
+
+#include "contact/body.h"
+#include "contact/power_law.h"
+#include "motion/speed_integrals.h"
+
+#include <limits>
+
+namespace rolling {
+
+/// Throws Error unless R > 0, g > 0, K >= 0, a > 0, v0 >= 0, all of them and b finite, and D(v0) <=
+/// R.
+void check_roll(const Body&, PowerLaw, double v0);
+
+/// The law is autonomous, so time and distance are integrals over speed (Eq. 12):
+///   t = int_v^v0 (K + A(u)) R / (g a u^b) du,   x = int_v^v0 (K + A(u)) R / (g a u^b) u du.
+/// They are taken in lambda = ln(v0 / v), which is found from t: in closed form for A = 1 (Eq. 13),
+/// by Newton else.
+///
+/// Exact geometry with b < 0: D grows as the body slows down and reaches R at a speed v_R > 0,
+/// where the law loses its meaning. The roll exists up to that moment; later times throw Error, and
+/// stop_time() is infinite. Where v_R is so small that the time below it does not show in a double
+/// (b near 0), the body stops like any other.
+class Trajectory {
+ public:
+  /// Refuses what check_roll refuses. v0 = 0 is rest for ever.
+  Trajectory(const Body&, Geometry, PowerLaw, double v0);
+
+  /// State at time t, x counted from 0 at t = 0, and the exact partial derivatives at fixed t by a,
+  /// b and v0.
+  struct Point {
+    double v, x;
+    double v_a, v_b, v_v0;
+    double x_a, x_b, x_v0;
+  };
+
+  /// When v becomes 0 [s]; infinity if the body never stops.
+  double stop_time() const { return stop_time_; }
+
+  /// t >= 0 [s]. From the stop on: v = 0 with zero derivatives, x the stopping distance with its
+  /// derivatives.
+  Point at(double t) const { return at(t, true); }
+  /// The same without x and its derivatives, which are left 0, in half the time; for A = 1 in
+  /// closed form, in a quarter of it.
+  Point speed_at(double t) const;
+
+  /// ln(v0 / v) at time t >= 0; infinity from the stop on.
+  double log_ratio(double t) const { return log_ratio(t, stop_time_ - t); }
+  /// The same for one who knows stop_time() - t without cancellation.
+  double log_ratio(double t, double rest) const;
+  /// v [m/s], from log_ratio(t).
+  double velocity(double lambda) const;
+  /// x [m] at time t, from log_ratio(t).
+  double position(double t, double lambda) const;
+  /// D [m] and dv/dt [m/s^2] at speed v. Throw Error where |D| > R (A = 1 and b < 0, just before
+  /// the stop).
+  double shift(double v) const;
+  double acceleration(double v) const;
+
+  const SpeedIntegrals& integrals() const { return integrals_; }
+
+ private:
+  Point at(double t, bool way) const;
+
+  Body body_;
+  Geometry geometry_;
+  PowerLaw law_;
+  double v0_, log_v0_;
+  double unit_ = 0;  // v0^(1-b) / (a c) [s]: v0 divided by the deceleration at v0 for A = 1
+  SpeedIntegrals integrals_;
+  double stop_time_ = 0;
+  double last_time_ = std::numeric_limits<double>::infinity();  // beyond it the law has no meaning
+  Point stopped_{};
+};
+
+}  // namespace rolling

@@ -1,0 +1,146 @@
+#include "motion/integrated_roll.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "base/error.h"
+#include "motion/roll.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+
+namespace {
+
+const Body cylinder{1.375, 0.04, 0.5};
+
+Roll scene(double a, double b, Geometry geometry = Geometry::approximate, double v0 = 0.5) {
+  Roll roll{};
+  roll.body = cylinder, roll.geometry = geometry, roll.law = {a, b}, roll.v0 = v0;
+  return roll;
+}
+
+/// Largest |v - exact| / v0 on the way to 1.2 times the stop, or to 5 s; requires v >= 0 and 0
+/// after the stop.
+double error(const Roll& roll, Stepper stepper, double rtol) {
+  const auto exact = start(roll, best_method(roll), 0),
+             motion = start(roll, {Method::solver, stepper}, rtol);
+  const double end = std::isinf(exact->stop_time()) ? 5 : 1.2 * exact->stop_time();
+  double worst = 0;
+  for (int i = 0; i <= 200; ++i) {
+    exact->seek(end * i / 200);
+    motion->seek(end * i / 200);
+    const double v = motion->velocity();
+    REQUIRE(v >= 0);
+    REQUIRE(std::isfinite(motion->position() + motion->acceleration() + motion->shift()));
+    worst = std::max(worst, std::abs(v - exact->velocity()) / roll.v0);
+  }
+  CHECK((std::isinf(exact->stop_time()) || motion->velocity() == 0));
+  CHECK(motion->evaluations() > 10);
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "IntegratedRoll: the explicit steppers find the law, the stop included, in both geometries",
+    "[rolling]") {
+  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+    for (const double b : {0.0, 1e-8, 0.0244, 0.215, 0.5, 0.9, 1.0, 1.5, 2.0}) {
+      const Roll roll = scene(2e-3, b, geometry);
+      for (const Stepper stepper : {Stepper::rkf45, Stepper::rkck, Stepper::rk8pd}) {
+        INFO("b " << b << " stepper " << static_cast<int>(stepper) << " exact "
+                  << (geometry == Geometry::exact));
+        const double coarse = error(roll, stepper, 1e-6), fine = error(roll, stepper, 1e-10);
+        CHECK(coarse < 1e-4);
+        CHECK(fine < 1e-8);
+      }
+      for (const Stepper stepper : {Stepper::rk4imp, Stepper::msbdf, Stepper::bsimp}) {
+        INFO("b " << b << " stepper " << static_cast<int>(stepper));
+        CHECK(error(roll, stepper, 1e-8) < 1e-5);
+      }
+    }
+}
+
+TEST_CASE("IntegratedRoll: the stop, also where v has long been below the tolerance (b near 1)",
+          "[rolling]") {
+  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+    for (const double b : {0.0, 1e-8, 0.215, 0.5, 0.9, 0.99})
+      for (const Stepper stepper :
+           {Stepper::rkf45, Stepper::rk8pd, Stepper::rk4imp, Stepper::bsimp, Stepper::msbdf}) {
+        const Roll roll = scene(2e-3, b, geometry);
+        const auto exact = start(roll, best_method(roll), 0),
+                   motion = start(roll, {Method::solver, stepper}, 1e-10);
+        const double stop = motion->stop_time();
+        INFO("b " << b << " stepper " << static_cast<int>(stepper) << " error "
+                  << stop / exact->stop_time() - 1);
+        CHECK(std::abs(stop / exact->stop_time() - 1) < 1e-7);
+        for (const double part : {1 - 1e-6, 1.0}) {
+          motion->seek(stop * part);
+          exact->seek(stop * part);
+          CHECK(std::abs(motion->position() - exact->position()) < 1e-8);
+          CHECK(std::abs(motion->velocity() - exact->velocity()) < 1e-7);
+        }
+        CHECK(motion->velocity() == 0);
+      }
+}
+
+TEST_CASE("IntegratedRoll: stop_time() does not move seek(), and is met", "[rolling]") {
+  const auto exact = start(scene(1.87e-3, 0.215), {Method::closed}, 0);
+  const auto motion = start(scene(1.87e-3, 0.215), {Method::solver, Stepper::rk8pd}, 1e-10);
+  const double stop = motion->stop_time();
+  CHECK(std::abs(stop / exact->stop_time() - 1) < 1e-8);
+  motion->seek(std::nextafter(stop, 0));
+  CHECK(motion->velocity() < 1e-6);
+  motion->seek(stop);
+  CHECK((motion->velocity() == 0 && motion->shift() == 0 && motion->acceleration() == 0));
+  exact->seek(10);
+  CHECK(std::abs(motion->position() - exact->position()) < 1e-10);
+  CHECK(std::isinf(start(scene(1.87e-3, 1), {Method::solver, Stepper::rkf45}, 1e-8)->stop_time()));
+}
+
+TEST_CASE("IntegratedRoll: close to the stop, speed and way left follow the law to its end",
+          "[rolling]") {
+  for (const double b : {0.5, 0.9}) {
+    const Roll roll = scene(2e-3, b);
+    const auto motion = start(roll, {Method::solver}, 1e-6);
+    const double stop = motion->stop_time(),
+                 c = roll.law.a * cylinder.g / ((1 + cylinder.K) * cylinder.R);  // dv/dt = -c v^b
+    motion->seek(stop);
+    const double end = motion->position();
+    CHECK(motion->velocity() == 0);
+    for (const double left : {1.0, 0.5, 0.1}) {
+      const double v = 4e-9 * left, t = stop - std::pow(v, 1 - b) / (c * (1 - b));
+      motion->seek(t);
+      INFO("b " << b << " v " << v);
+      const double way = std::pow(v, 2 - b) / (c * (2 - b));
+      CHECK(std::abs(motion->velocity() - v) < 1e-4 * v);
+      CHECK(std::abs(end - motion->position() - way) < 1e-2 * way + 2e-16);
+    }
+  }
+}
+
+TEST_CASE("IntegratedRoll: rest, and what is refused", "[rolling]") {
+  const auto rest =
+      start(scene(1e-3, 0.2, Geometry::approximate, 0), {Method::solver, Stepper::rkf45}, 1e-8);
+  CHECK(rest->stop_time() == 0);
+  rest->seek(3);
+  CHECK((rest->velocity() == 0 && rest->position() == 0));
+  // b < 0 in exact geometry: D reaches R before the stop, at the time that ExactForm tells
+  const auto grows =
+      start(scene(2e-3, -0.5, Geometry::exact), {Method::solver, Stepper::rk8pd}, 1e-10);
+  std::string message;
+  try {
+    grows->seek(1);
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  CHECK(message == "at t = 0.717118 s the shift has grown to the radius 0.04 m");
+  CHECK_THROWS_AS(start(scene(0.05, 0), {Method::solver, Stepper::rkf45}, 1e-8), Error);
+  CHECK_THROWS_AS(
+      start(scene(1e-3, 0.2, Geometry::approximate, -1), {Method::solver, Stepper::rkf45}, 1e-8),
+      Error);
+  CHECK_THROWS_AS(start(scene(1e-3, 0.2, Geometry::approximate, std::nan("")),
+                        {Method::solver, Stepper::rkf45}, 1e-8),
+                  Error);
+}

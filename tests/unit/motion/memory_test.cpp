@@ -1,0 +1,206 @@
+#include "motion/memory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "base/error.h"
+#include "motion/closed_form.h"
+#include "motion/exact_form.h"
+#include "contact/ledger.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+
+namespace {
+
+const Body cylinder{1.375, 0.04, 0.5};
+const PowerLaw rubber{1.87e-3, 0.215};
+
+MemoryRoll roll(Bulge bulge, Geometry geometry = Geometry::approximate) {
+  return {cylinder, geometry, rubber, bulge, 0.5, 0};
+}
+
+struct Backwards {
+  double begin, end, lowest, distance;
+};
+
+/// The first roll backwards, looked for between t and t + 1 s in steps of 20 us.
+Backwards backwards(Motion& motion, double t) {
+  Backwards b{0, 0, 0, 0};
+  double x_begin = 0;
+  for (const double last = t + 1; t < last; t += 2e-5) {
+    motion.seek(t);
+    const double v = motion.velocity();
+    if (b.begin == 0 && v < 0) b.begin = t, x_begin = motion.position();
+    if (b.begin > 0) b.lowest = std::min(b.lowest, v);
+    if (b.begin > 0 && v >= 0) {
+      b.end = t, b.distance = x_begin - motion.position();
+      break;
+    }
+  }
+  return b;
+}
+
+}  // namespace
+
+TEST_CASE("MemoryRoll: the roll backwards of model.md", "[rolling]") {
+  MemoryRoll millimetre = roll({1e-3});
+  const Backwards b = backwards(millimetre, 2.3);
+  CHECK(std::abs(b.begin - 2.3722) < 5e-5 + 2e-5);
+  CHECK(std::abs(b.lowest + 8.98e-3) < 5e-6);
+  CHECK(std::abs(b.end - b.begin - 0.315) < 5e-4);
+  CHECK(std::abs(b.distance - 1.76e-3) < 5e-6);
+  MemoryRoll tenth = roll({1e-4});
+  const Backwards c = backwards(tenth, 2.3);
+  CHECK(std::abs(c.lowest + 2.47e-3) < 5e-6);
+  CHECK(std::abs(c.end - c.begin - 0.114) < 5e-4);
+  CHECK(std::abs(c.distance - 0.176e-3) < 5e-7);
+}
+
+TEST_CASE("MemoryRoll: tends to the law without memory as the length goes to 0", "[rolling]") {
+  const auto difference = [](Geometry geometry, Motion& law, double length) {
+    MemoryRoll motion(cylinder, geometry, {0.01, 0.215}, {length}, 0.5, 0);
+    motion.seek(0.3);
+    law.seek(0.3);
+    return motion.velocity() - law.velocity();
+  };
+  ClosedForm closed(cylinder, {0.01, 0.215}, 0.5, 0);
+  ExactForm exact(cylinder, {0.01, 0.215}, 0.5, 0);
+  for (const auto& [geometry, law] :
+       {std::pair<Geometry, Motion*>{Geometry::approximate, &closed}, {Geometry::exact, &exact}}) {
+    const double coarse = difference(geometry, *law, 4e-4), fine = difference(geometry, *law, 1e-4);
+    CHECK(std::abs(fine) < 2e-4);
+    CHECK(std::abs(coarse / fine - 4) < 0.15);  // first order in the length
+  }
+}
+
+TEST_CASE("MemoryRoll: every stepper that is fit for it finds the same rest", "[rolling]") {
+  for (const double length : {1e-2, 1e-3, 1e-4, 1e-5})
+    for (const Bulge bulge : {Bulge{length}, Bulge{length, length / 2}}) {
+      const double stop = roll(bulge).stop_time();
+      for (const Stepper stepper : {Stepper::rkf45, Stepper::bsimp, Stepper::rk4imp}) {
+        OdeOptions options;
+        options.stepper = stepper;
+        INFO("length " << length << " damping " << bulge.damping << " stepper "
+                       << static_cast<int>(stepper));
+        MemoryRoll motion(cylinder, Geometry::approximate, rubber, bulge, 0.5, 0, options);
+        CHECK(std::abs(motion.stop_time() / stop - 1) < 1e-6);
+      }
+    }
+}
+
+TEST_CASE("MemoryRoll: stiff lengths take an implicit solver, with few evaluations and damping too",
+          "[rolling]") {
+  CHECK(memory_stepper(cylinder, rubber, {1e-3}, 0.5) == Stepper::rk8pd);
+  for (const double damping : {0.0, 1e-3, 0.02}) {
+    MemoryRoll motion = roll({1e-7, damping});
+    CHECK(memory_stepper(cylinder, rubber, {1e-7, damping}, 0.5) == Stepper::rk4imp);
+    ClosedForm law(cylinder, {1.87e-3, 0.215}, 0.5, 0);
+    motion.seek(2);
+    law.seek(2);
+    if (damping == 0) CHECK(std::abs(motion.velocity() - law.velocity()) < 1e-7);
+    motion.seek(10);
+    CHECK(motion.velocity() == 0);
+    CHECK(std::abs(motion.stop_time() - law.stop_time()) < 0.06);
+    CHECK(motion.evaluations() < 300000);  // rk8pd: 1e7
+  }
+}
+
+TEST_CASE("MemoryRoll: rest is rest, and comes sooner with damping", "[rolling]") {
+  for (const Geometry geometry : {Geometry::approximate, Geometry::exact}) {
+    MemoryRoll motion = roll({1e-3}, geometry);
+    const double stop = motion.stop_time();
+    CHECK(stop > 2.5);
+    // No later speed beyond v0/1000 if the integration went on: a law that is at rest later, at a
+    // lower speed, shows it.
+    MemoryRoll longer(cylinder, geometry, rubber, {1e-3}, 0.5, 0);
+    double fastest = 0;
+    for (int i = 0; i < 200; ++i) {
+      longer.seek(stop * (0.9 + i * 1e-3));
+      if (stop * (0.9 + i * 1e-3) < stop) fastest = std::max(fastest, std::abs(longer.velocity()));
+    }
+    CHECK(fastest > 0);
+    CHECK(fastest < 1e-3);
+    motion.seek(std::nextafter(stop, 0));
+    CHECK(std::abs(motion.velocity()) < 1e-9);  // it is a zero of v
+    const double x = motion.position();
+    for (const double t : {stop, stop + 1, 1e6}) {
+      motion.seek(t);
+      CHECK((motion.velocity() == 0 && motion.shift() == 0 && motion.acceleration() == 0));
+      CHECK(std::abs(motion.position() - x) < 1e-12);
+    }
+    CHECK(roll({1e-3, 0.02}, geometry).stop_time() < 0.7 * stop);
+  }
+}
+
+TEST_CASE("MemoryRoll: shift and acceleration are those of the moving bulge", "[rolling]") {
+  for (const Geometry geometry : {Geometry::approximate, Geometry::exact}) {
+    MemoryRoll motion(cylinder, geometry, {0.02, 0.215}, {5e-3, 5e-3}, 0.5, 0);
+    for (const double t : {0.01, 0.1, 0.2, 0.35, 0.5}) {
+      const double h = 1e-4;
+      motion.seek(t - h);
+      const double before = motion.velocity();
+      motion.seek(t);
+      const double a = motion.acceleration(), D = motion.shift();
+      motion.seek(t + h);
+      CHECK(std::abs((motion.velocity() - before) / (2 * h) - a) < 1e-5 * (1 + std::abs(a)));
+      const double A = geometry == Geometry::exact ? std::sqrt(1 - D * D / 0.0016) : 1;
+      CHECK(std::abs(a + 9.81 * D / ((0.5 + A) * 0.04)) < 1e-12);
+    }
+  }
+}
+
+TEST_CASE("MemoryRoll: seeking does not depend on the stops on the way, nor on stop_time()",
+          "[rolling]") {
+  MemoryRoll direct = roll({1e-3}), steps = roll({1e-3}), asked = roll({1e-3});
+  asked.stop_time();
+  direct.seek(3);
+  asked.seek(3);
+  for (int i = 1; i <= 300; ++i) steps.seek(0.01 * i);
+  CHECK(direct.velocity() == asked.velocity());
+  CHECK(std::abs(direct.velocity() - steps.velocity()) < 1e-10);
+  CHECK(std::abs(direct.position() - steps.position()) < 1e-10);
+}
+
+TEST_CASE(
+    "MemoryRoll: the outflow is the energy of the start (Eq. 23), the gift of the roll backwards "
+    "included",
+    "[rolling]") {
+  for (const Geometry geometry : {Geometry::approximate, Geometry::exact}) {
+    MemoryRoll motion(cylinder, geometry, {0.02, 0.215}, {1e-3}, 0.5, 0);
+    const double energy = 0.5 * 1.5 * cylinder.m * 0.25, dt = 1e-5;
+    double sum = 0, back = 0;
+    for (int i = 0; i * dt < 1.5; ++i) {
+      motion.seek((i + 0.5) * dt);
+      const double P = ledger(cylinder, geometry, motion.velocity(), motion.shift()).P_diss * dt;
+      sum += P;
+      back = std::min(back, P);
+    }
+    const double left = 0.5 * 1.5 * cylinder.m * motion.velocity() * motion.velocity();
+    CHECK(std::abs((sum + left) / energy - 1) < 1e-7);
+    CHECK(back < 0);
+  }
+}
+
+TEST_CASE("MemoryRoll: at rest from the start, never at rest, and refusals", "[rolling]") {
+  MemoryRoll rest(cylinder, Geometry::approximate, rubber, {1e-3}, 0, 0.3);
+  CHECK(rest.stop_time() == 0);
+  rest.seek(5);
+  CHECK((rest.velocity() == 0 && rest.position() == 0.3 && rest.shift() == 0));
+  MemoryRoll never(cylinder, Geometry::approximate, {1.87e-3, 2}, {1e-3}, 0.5, 0);
+  CHECK(std::isinf(never.stop_time()));
+  never.seek(10);
+  CHECK(never.velocity() > 0);
+  MemoryRoll swings(cylinder, Geometry::approximate, {1.87e-3, 2}, {5}, 0.5,
+                    0);  // so long a bulge that v has zeros all the same
+  swings.seek(1e8);
+  CHECK((swings.velocity() != 0 && std::isinf(swings.stop_time())));
+  CHECK_THROWS_AS(roll({0}), Error);
+  CHECK_THROWS_AS(roll({std::nan("")}), Error);
+  CHECK_THROWS_AS(roll({1e-3, -1}), Error);
+  CHECK_THROWS_AS(MemoryRoll(cylinder, Geometry::approximate, {1.87e-3, -0.1}, {1e-3}, 0.5, 0),
+                  Error);
+  CHECK_THROWS_AS(MemoryRoll(cylinder, Geometry::exact, {0.05, 0}, {1e-3}, 0.5, 0), Error);
+  CHECK_THROWS_AS(MemoryRoll(cylinder, Geometry::exact, rubber, {1e-3}, -0.5, 0), Error);
+}

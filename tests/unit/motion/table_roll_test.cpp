@@ -1,0 +1,90 @@
+#include "motion/table_roll.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "motion/closed_form.h"
+#include "motion/exact_form.h"
+#include "motion/roll.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+
+namespace {
+
+const Body cylinder{1.375, 0.04, 0.5};
+
+}  // namespace
+
+TEST_CASE("TableRoll: a constant shift is the closed form, and the exact one", "[rolling]") {
+  for (const double a : {1e-3, 0.03}) {
+    const TableLaw law({0.1, 0.3, 2}, {a, a, a});
+    TableRoll approximate(cylinder, Geometry::approximate, law, 0.5, 0.2),
+        exact(cylinder, Geometry::exact, law, 0.5, 0.2);
+    ClosedForm closed(cylinder, {a, 0}, 0.5, 0.2);
+    ExactForm series(cylinder, {a, 0}, 0.5, 0.2);
+    for (const auto& [table, reference] :
+         {std::pair<Motion*, Motion*>{&approximate, &closed}, {&exact, &series}}) {
+      CHECK(std::abs(table->stop_time() / reference->stop_time() - 1) < 1e-14);
+      for (const double part : {0.0, 1e-6, 0.1, 0.5, 0.77, 0.999, 1.1}) {
+        table->seek(part * reference->stop_time());
+        reference->seek(part * reference->stop_time());
+        CHECK(std::abs(table->velocity() - reference->velocity()) < 1e-14);
+        CHECK(std::abs(table->position() - reference->position()) < 1e-14);
+        CHECK(std::abs(table->acceleration() - reference->acceleration()) < 1e-12);
+      }
+    }
+  }
+}
+
+TEST_CASE("TableRoll: D proportional to v + c has a logarithm for its time", "[rolling]") {
+  // D = p + q v exactly: v' = -k (p + q v), so v + p/q decays exponentially.
+  const double p = 2e-3, q = 4e-3, k = 9.81 / 0.06;
+  const TableLaw law({0, 0.2, 0.5, 1}, {p, p + 0.2 * q, p + 0.5 * q, p + q});
+  TableRoll motion(cylinder, Geometry::approximate, law, 0.8, 0);
+  const double stop = std::log1p(0.8 * q / p) / (k * q);
+  CHECK(std::abs(motion.stop_time() / stop - 1) < 1e-14);
+  for (int i = 1; i < 100; ++i) {
+    const double t = stop * i / 100;
+    motion.seek(t);
+    CHECK(std::abs(motion.velocity() - ((0.8 + p / q) * std::exp(-k * q * t) - p / q)) < 1e-14);
+    CHECK(std::abs(motion.position() -
+                   (-(0.8 + p / q) * std::expm1(-k * q * t) / (k * q) - p / q * t)) < 1e-14);
+  }
+}
+
+TEST_CASE("TableRoll: agrees with the solvers on points without a law, in both geometries",
+          "[rolling]") {
+  for (const Geometry geometry : {Geometry::approximate, Geometry::exact}) {
+    Roll roll{};
+    roll.body = cylinder, roll.geometry = geometry, roll.v0 = 0.9;
+    roll.table.emplace(std::vector{0.05, 0.1, 0.3, 0.35, 0.6, 1.0},
+                       std::vector{1e-3, 4e-3, 4e-3, 9e-3, 8e-3, 3e-2});
+    const auto table = start(roll, best_method(roll), 0),
+               solver = start(roll, {Method::solver, Stepper::rk8pd}, 1e-11);
+    CHECK(std::abs(table->stop_time() / solver->stop_time() - 1) < 1e-9);
+    for (int i = 0; i <= 110; ++i) {
+      const double t = table->stop_time() * i / 100;
+      table->seek(t);
+      solver->seek(t);
+      CHECK(std::abs(table->velocity() - solver->velocity()) < 1e-9);
+      CHECK(std::abs(table->position() - solver->position()) < 1e-9);
+      CHECK(std::abs(table->shift() - solver->shift()) <
+            1e-9 + (table->velocity() < 1e-6 ? 1e-2 : 0));
+    }
+    CHECK((table->velocity() == 0 && table->shift() == 0 && table->acceleration() == 0));
+  }
+}
+
+TEST_CASE("TableRoll: rest, and refusals", "[rolling]") {
+  const TableLaw law({0.1, 1}, {1e-3, 0.05});
+  TableRoll rest(cylinder, Geometry::approximate, law, 0, 0.3);
+  CHECK(rest.stop_time() == 0);
+  rest.seek(1);
+  CHECK((rest.velocity() == 0 && rest.position() == 0.3 && rest.shift() == 0));
+  CHECK_THROWS_AS(TableRoll(cylinder, Geometry::approximate, law, 1.1, 0), Error);
+  CHECK_THROWS_AS(TableRoll(cylinder, Geometry::approximate, law, 1, 0), Error);  // D > R
+  CHECK_NOTHROW(TableRoll(cylinder, Geometry::exact, law, 0.5, 0));
+  CHECK_THROWS_AS(TableRoll(cylinder, Geometry::exact, law, -0.5, 0), Error);
+  CHECK_THROWS_AS(TableRoll(cylinder, Geometry::exact, law, 0.5, std::nan("")), Error);
+}
