@@ -1,5 +1,6 @@
 #include "cli/tool.h"
 
+#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +13,8 @@
 #include <fstream>
 #include <new>
 
+#include "text/head.h"
+#include "text/input.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -190,6 +193,7 @@ void Tool::output() {
 /// Sets what the command line has left open from the scene file.
 void Tool::read_scene() {
   if (scene_file_.empty()) return;
+  refuse_output(scene_file_);
   std::ifstream file(scene_file_);
   if (!file) fail("{}: {}", scene_file_, std::strerror(errno));
   const std::vector<CLI::ConfigItem> items = CLI::ConfigTOML().from_config(file);
@@ -294,11 +298,43 @@ void Tool::count_left_out(std::size_t count, const std::string& why) {
     say(fmt::format("{} record{} left out: {}", count, count == 1 ? "" : "s", why));
 }
 
+namespace {
+
+/// What a signal handler may use: the line that ends the output.
+std::array<char, 128> last_line;
+std::size_t last_line_size = 0;
+const Output* printed = nullptr;
+
+/// Ends the output as an error does, as far as there is room for a line at once, and then the tool.
+/// Output::flush() lets no signal come before whole lines have gone out.
+void end_by_signal(int signal) {
+  pollfd ready{STDOUT_FILENO, POLLOUT, 0};
+  if (printed->has_printed() && ::poll(&ready, 1, 0) == 1 && (ready.revents & POLLOUT) != 0) {
+    [[maybe_unused]] const auto count = ::write(STDOUT_FILENO, last_line.data(), last_line_size);
+  }
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+}  // namespace
+
+/// A tool that is ended by a signal ends its output with the line of an error. Signals that are
+/// ignored stay so.
+void Tool::handle_signals() {
+  const std::string line = error_line(name_) + '\n';
+  if (line.size() > last_line.size()) return;
+  last_line_size = line.copy(last_line.data(), last_line.size());
+  printed = &out;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (std::signal(signal, end_by_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
+
 int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   if (argc > 0) name_ = argv[0];  // as it is installed: see PROGRAM_PREFIX in the Makefile
   name_.erase(0, name_.rfind('/') + 1);
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file that may not grow is one that cannot be written: told by flush()
+  handle_signals();
   try {
     app_.parse(argc, argv);
     read_scene();
@@ -306,6 +342,7 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
     if (::isatty(STDOUT_FILENO))
       out.before_write = [this] { progress.stop(); };  // rows are progress enough
     const int status = work();
+    if (status == trouble) out.end_with(error_line(name_));
     out.flush();
     progress.stop();
     std::size_t left_out = 0;
@@ -332,8 +369,6 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   } catch (const OutputError& error) {
     say(error.what());
   } catch (const Error& error) {
-    out.drop_line();  // what came before the bad record may stand; the line in the making may not
-    print("");
     const bool located = dynamic_cast<const InputError*>(&error) || readers_.empty() ||
                          readers_.back()->where().empty();
     say(located ? error.what() : readers_.back()->where() + ": " + error.what());
@@ -342,6 +377,8 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   } catch (const std::exception& error) {
     say(error.what());
   }
+  // What came before a bad record may stand, but the end of a pipe has to know.
+  out.end_with(error_line(name_));
   return trouble;
 }
 

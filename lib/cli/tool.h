@@ -105,6 +105,7 @@ class Tool {
                 const std::function<void(bool)>& set);
   Reader& open(ReaderOptions, std::vector<std::string> order);
   void read_scene();
+  void handle_signals();
   std::string help() const;
   int print(const std::string& text);
 
