@@ -13,7 +13,7 @@ const char* closing_quote(const char* at, const char* end) {
   }
 }
 
-Unquoted outside_quotes(std::string_view text, bool field_begins) {
+Unquoted outside_quotes(std::string_view text, std::string_view between, bool field_begins) {
   Unquoted outside;
   const char *at = text.data(), *const end = at + text.size();
   for (; at != end; ++at) {
@@ -25,14 +25,14 @@ Unquoted outside_quotes(std::string_view text, bool field_begins) {
       continue;
     }
     outside.text += *at;
-    field_begins = is_separator(*at) || (field_begins && is_blank(*at));
+    field_begins =
+        separators.find(*at) != std::string_view::npos || (field_begins && is_blank(*at));
   }
   return outside;
 }
 
 bool needs_quotes(std::string_view field) {
-  return !field.empty() && (field.front() == quote || field.front() == '#' ||
-                            field.find_first_of("\t\n\r") != std::string_view::npos);
+  return field.starts_with('#') || field.find_first_of("\"\t\n\r") != std::string_view::npos;
 }
 
 void append_field(Bytes& line, std::string_view field) {

@@ -19,16 +19,16 @@ inline constexpr char quote = '"';
 /// in a row stand for one inside the field.
 const char* closing_quote(const char* at, const char* end);
 
-/// What of `text` stands outside quoted fields. A quote opens where a field begins, whichever
-/// character separates the fields; `field_begins` says whether one does at the beginning.
+/// What of `text` stands outside quoted fields. A quote opens where a field begins: behind one of
+/// these separators, and at the beginning if `field_begins`.
 struct Unquoted {
   std::string text;
   bool ends_within = false;  ///< a quoted field is still open at the end
 };
-Unquoted outside_quotes(std::string_view text, bool field_begins = true);
+Unquoted outside_quotes(std::string_view text, std::string_view between, bool field_begins = true);
 
-/// A field cannot stand bare in a tab-separated line: it holds a tab or a line end, or begins with
-/// a quote or a comment's mark.
+/// A field cannot stand bare in a tab-separated line, whatever precedes it: it holds a tab, a line
+/// end or a quote, or begins with a comment's mark.
 bool needs_quotes(std::string_view field);
 
 /// Appends a field to a tab-separated line, quoted where it has to be.

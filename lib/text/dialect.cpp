@@ -68,7 +68,7 @@ Dialect Dialect::of_output() {
 }
 
 bool Dialect::choose(std::string_view line) {
-  const std::string outside = outside_quotes(line).text;
+  const std::string outside = outside_quotes(line, separators).text;
   const auto first = std::find_if(separators.begin(), separators.end(),
                                   [&](char separator) { return outside.find(separator) != npos; });
   separator_ = first == separators.end() ? '\0' : *first;
@@ -119,6 +119,7 @@ std::span<const Field> Dialect::split(std::string_view line) {
   may_need_quotes_ = false;
   const char *at = line.data(), *const end = at + line.size();
   if (separator_ == '\0') {
+    may_need_quotes_ = line.find(quote) != npos || line.find('#') != npos;
     split_blanks(at, end);
     return {fields_.data(), count_};
   }
@@ -168,7 +169,6 @@ void Dialect::split_blanks(const char* at, const char* end) {
     if (at == end) return;
     Field& field = next_field();
     const char* const first = at;
-    may_need_quotes_ |= *first == quote || *first == '#';
     if (field.wanted) at = read_number(at, end, field.number);
     if (at != end && !is_blank(*at)) {
       field.number = Field().number;
@@ -190,7 +190,7 @@ const char* Dialect::take_text(const char* at, const char* end, Field& field) {
     field.text = trim({first, at});
     as_it_stands_ &= field.text.size() == static_cast<std::size_t>(at - first);
   }
-  may_need_quotes_ |= needs_quotes(field.text);
+  if (needs_quotes(field.text)) may_need_quotes_ = true, as_it_stands_ = false;
   if (foreign_numbers_ && rewrite(field)) return at;
   if (field.wanted && !parse_number(field.text, field.number)) field.number = Field().number;
   return at;

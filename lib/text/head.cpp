@@ -196,6 +196,7 @@ Head HeadReader::read(const std::vector<std::string>& order, bool one_run) {
     return std::move(head_);
   }
   lines_.put_back();
+  lines_.separate_by(dialect_.separator());
   head_.line = lines_.number();
   const auto fields = dialect_.split(lines_.text());
   const std::size_t width = fields.size();

@@ -34,7 +34,7 @@ LineKind kind_of(std::string_view line) {
 
 void Lines::join_quoted() {
   if (text_.find(quote) == std::string_view::npos || kind_of(text_) != LineKind::record ||
-      !outside_quotes(text_).ends_within)
+      !outside_quotes(text_, separators_).ends_within)
     return;
   joined_ = text_;
   for (bool open = true; open;) {
@@ -42,7 +42,7 @@ void Lines::join_quoted() {
       fail<InputError>("{}:{}: a quote that does not end", name(), number_);
     (joined_ += '\n') += text_;
     const char *const end = text_.data() + text_.size(), *close = closing_quote(text_.data(), end);
-    open = close == end || outside_quotes({close + 1, end}, false).ends_within;
+    open = close == end || outside_quotes({close + 1, end}, separators_, false).ends_within;
   }
   text_ = joined_;
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "text/delimiters.h"
 #include "text/input.h"
 
 namespace rolling {
@@ -28,8 +29,13 @@ class Lines {
     if (std::exchange(again_, false)) return true;
     if (!input_.next(text_)) return false;
     number_ = input_.line_number();
-    if (input_.quotes()) join_quoted();
+    if (input_.quotes() && !separators_.empty()) join_quoted();
     return true;
+  }
+  /// From here on only this character separates fields; 0 stands for blanks, where there are no
+  /// quoted fields. Without it any separator may.
+  void separate_by(char separator) {
+    separators_ = separator ? std::string(1, separator) : std::string();
   }
   /// next() comes to the present line once more.
   void put_back() { again_ = true; }
@@ -59,7 +65,7 @@ class Lines {
   std::string_view text_;
   std::size_t number_ = 0;
   bool again_ = false;
-  std::string joined_;
+  std::string joined_, separators_{separators};
 };
 
 }  // namespace rolling

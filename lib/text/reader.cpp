@@ -94,6 +94,7 @@ std::size_t Reader::require(std::string_view name) const {
 /// A column as its name says, or as --use does in place of it.
 Column Reader::column_as_read(std::size_t column, const std::string& quantity) const {
   Column read = layout().columns[column];
+  if (!head_.named) read.unit.clear();  // that of the tool's order is no claim
   const auto use = use_.find(quantity);
   if (use == use_.end() || use->second.unit.empty()) return read;
   if (head_.named && !read.unit.empty() && read.unit != use->second.unit)
@@ -124,8 +125,9 @@ void Reader::resolve(Needed& needed) {
     fail<InputError>("{}: column {} is in {}, and in {} in the runs before", head_here(),
                      shown(quantity), read.unit.empty() ? "no unit" : shown(read.unit),
                      needed.unit.empty() ? "no unit" : shown(needed.unit));
+  const Column meant = column_as_read(*found, quantity);
   try {
-    needed.to_si = conversion_to_si(quantity, column_as_read(*found, quantity));
+    needed.to_si = conversion_to_si(quantity, meant);
   } catch (const Error& error) {
     fail<InputError>("{}: {}", head_here(), error.what());
   }
@@ -135,8 +137,8 @@ void Reader::resolve(Needed& needed) {
 void Reader::resolve() {
   converts_ = false;
   dialect_->want_none();
-  for (Needed& needed : needed_) {
-    resolve(needed);
+  for (Needed& needed : needed_) resolve(needed);
+  for (const Needed& needed : needed_) {
     converts_ |= needed.to_si.changes();
     if (needed.column == no_column) continue;
     dialect_->want(needed.column);
