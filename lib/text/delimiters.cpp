@@ -25,8 +25,7 @@ Unquoted outside_quotes(std::string_view text, std::string_view between, bool fi
       continue;
     }
     outside.text += *at;
-    field_begins =
-        separators.find(*at) != std::string_view::npos || (field_begins && is_blank(*at));
+    field_begins = between.find(*at) != std::string_view::npos || (field_begins && is_blank(*at));
   }
   return outside;
 }

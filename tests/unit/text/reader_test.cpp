@@ -247,7 +247,7 @@ TEST_CASE("reader: a --use that says nothing, or two things, is refused", "[text
   CHECK(records({"0 1 2\n"}, use({"w=3"})) == "--use: 'w=3' is not about t, x, v, a or D");
   CHECK(records({"0 1 2\n"}, use({"V=3"})) == "--use: 'V=3' is not about t, x, v, a or D");
   CHECK(records({"0 1 2\n"}, use({"v=2", "v=3"})) == "--use: 'v=3' comes after another for v");
-  CHECK(records({"0 1\n"}, use({"v=1"})) == "FILE: column 1 cannot serve as both t and v");
+  CHECK(records({"0 1\n"}, use({"v=1"})) == "FILE: column 1 cannot serve as both v and t");
   CHECK(records({"0 1 2\n"}, use({"Velocity=3"})) == "0 2");  // the long name is the same quantity
 }
 
