@@ -8,13 +8,14 @@
 
 int main(int argc, char** argv) {
   using namespace rolling;
+  using enum BodyOption;
   Tool tool("energy-ledger", "Append the energies and the flows of energy of a rolling body.");
   Body body;
   Geometry geometry;
   PowerLaw law;
   bool summary = false;
   double tolerance = not_given;
-  tool.body(body);
+  tool.body(body, {mass, radius, shape_factor, gravity});
   tool.law(law);
   tool.geometry(geometry);
   tool.flag("--summary", summary,
@@ -25,13 +26,13 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    tool.need(body, "mRK");
+    tool.need({"mass", "radius", "shape-factor"});
     Reader& in = tool.read({"t", "v", "D"});
     const auto t = in.need_time(), v = in.need("v");
     // A law on the command line is meant; the law of a scene stands in for a D that is not there.
     const bool use_law = tool.on_command_line("coefficient") || tool.on_command_line("exponent") ||
                          (!std::isnan(law.a) && !in.find("D"));
-    if (use_law) tool.need(law);
+    if (use_law) tool.need({"coefficient", "exponent"});
     const std::size_t D = use_law ? 0 : in.need("D");
     const auto push = [&](Balance& balance) -> const Ledger& {
       return balance.push(in[t], in[v], use_law ? law(in[v]) : in[D]);

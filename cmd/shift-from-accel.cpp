@@ -6,18 +6,19 @@
 
 int main(int argc, char** argv) {
   using namespace rolling;
+  using enum BodyOption;
   Tool tool("shift-from-accel",
             "Append the forward shift D of the contact force, from the acceleration.");
   Body body;
   Geometry geometry;
-  tool.body(body, "KRg");
+  tool.body(body, {radius, shape_factor, gravity});
   tool.geometry(geometry);
   tool.scene();
   tool.input();
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    tool.need(body, "KR");
+    tool.need({"radius", "shape-factor"});
     Reader& in = tool.read({"t", "v", "a"});
     const auto a = in.need("a");
     Filter filter(in, tool.out,
