@@ -1,5 +1,4 @@
 // energy-ledger - append where the energy goes (Eqs. 1 to 23); see energy-ledger(1)
-#include <array>
 #include <cmath>
 
 #include "cli/law_file.h"
@@ -102,11 +101,12 @@ class Accounts {
     if (!(balance.imbalance() <= tolerance_))
       beyond += fmt::format("{}imbalance {:.4g} at t = {:.6g} s", beyond.empty() ? "" : ", ",
                             balance.imbalance(), balance.time_of_imbalance());
-    if (!beyond.empty()) failures_.push_back(fmt::format("{}: beyond {}", beyond, tolerance_));
+    if (!beyond.empty())
+      tool_.check_failed(fmt::format("the check does not hold: {}: beyond {}", beyond, tolerance_));
   }
 
-  /// Says what there is to say; returns the exit status.
-  int finish() {
+  /// Says what there is to say of all runs.
+  void finish() const {
     if (beyond_ > 0)
       tool_.warn(fmt::format("{} shift{} beyond the radius {} m", beyond_,
                              beyond_ == 1 ? " is" : "s are", body_.R));
@@ -114,8 +114,6 @@ class Accounts {
       tool_.warn(
           "D was made of the derivative of the same v: the balance holds for any v and tests "
           "nothing; take a law with --law, or with -a and -b");
-    for (const std::string& failure : failures_) tool_.say("the check does not hold: " + failure);
-    return failures_.empty() ? 0 : 1;
   }
 
  private:
@@ -127,7 +125,6 @@ class Accounts {
   double tolerance_;
   std::size_t t_, v_, D_, beyond_ = 0;
   bool tests_nothing_ = false;
-  std::vector<std::string> failures_;
 };
 
 /// A row for each run.
@@ -151,6 +148,7 @@ void write_summary(Output& out, Reader& in, Accounts& accounts, bool inclined) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  using enum BodyOption;
   Tool tool("energy-ledger", "Append the energies and the flows of energy of a rolling body.");
   Body body;
   Geometry geometry;
@@ -158,9 +156,7 @@ int main(int argc, char** argv) {
   bool summary = false;
   double tolerance = not_given, temperature = not_given;
   std::string law_file, columns = "E_trans,E_rot,I_E1,I_E2,P_T1,P_R1,P_R2,P_T2,P_diss,E_diss";
-  tool.body(body);
-  tool.number("--slope", body.slope, any_number,
-              "slope of the mat: it rises by so many metres a metre along growing x (0)");
+  tool.body(body, {mass, radius, shape_factor, gravity, slope});
   tool.law(law.power);
   tool.text("--law", law_file, "FILE",
             "file (- is standard input) with a row of fitpower or a table of v D: the law, instead "
@@ -181,20 +177,21 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     const auto row = chosen(columns, quantities);
     for (const auto& quantity : row)
-      if (quantity.column.name == "Pi_S") tool.need(temperature, "--temperature");
+      if (quantity.column.name == "Pi_S") tool.need({"temperature"});
     if (!law_file.empty()) law.table = read_law(tool, law_file, law.power);
-    tool.need(body, "mRK");
+    tool.need({"mass", "radius", "shape-factor"});
     Reader& in = tool.read({"t", "v", "D"});
     // A law on the command line is meant; the law of a scene stands in for a D that is not there.
     const bool use_law = !law_file.empty() || tool.on_command_line("coefficient") ||
                          tool.on_command_line("exponent") ||
                          (!std::isnan(law.power.a) && !in.find("D"));
-    if (use_law && !law.table) tool.need(law.power);
+    if (use_law && !law.table) tool.need({"coefficient", "exponent"});
     Accounts accounts(tool, in, body, geometry, use_law ? &law : nullptr,
                       std::isnan(tolerance) ? HUGE_VAL : tolerance);
     if (summary) {
       write_summary(tool.out, in, accounts, body.slope != 0);
-      return accounts.finish();
+      accounts.finish();
+      return 0;
     }
     Filter filter(in, tool.out,
                   fmt::format("energy-ledger {}{}", use_law ? law.words() : "D",
@@ -208,6 +205,7 @@ int main(int argc, char** argv) {
       }
       accounts.close(balance, !std::isnan(tolerance));
     }
-    return accounts.finish();
+    accounts.finish();
+    return 0;
   });
 }

@@ -84,6 +84,7 @@ void report(Tool& tool, const Roll& roll, double rtol, double end) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  using enum BodyOption;
   Tool tool("simulate", "Roll a body on a mat under a law D(v).");
   Roll roll{};
   Body& body = roll.body;
@@ -96,7 +97,7 @@ int main(int argc, char** argv) {
   std::size_t seed = 1;
   std::string times_file, law_file, columns = "t,x,v,a,D";
   bool sensor = false, with_report = false;
-  tool.body(body, "RKg");
+  tool.body(body, {radius, shape_factor, gravity});
   tool.law(law);
   tool.geometry(roll.geometry);
   tool.number("--v0", v0, not_negative, "speed at t = 0 [m/s]");
@@ -133,9 +134,9 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     if (!law_file.empty()) roll.table = read_law(tool, law_file, law, &v0);
-    tool.need(body, "RK");
-    if (!roll.table) tool.need(law);
-    tool.need(v0, "--v0");
+    std::vector<std::string> needed = {"radius", "shape-factor", "v0"};
+    if (!roll.table) needed.insert(needed.end(), {"coefficient", "exponent"});
+    tool.need(needed);
     if (bulge.length == 0 && bulge.damping > 0) fail("--damping goes with --memory");
     if (!tool.on_command_line("method")) method = best_method(roll);
     if (method.kind != Method::solver && !with_report && tool.on_command_line("rtol"))

@@ -12,6 +12,14 @@ struct Body {
   double slope = 0;  ///< of the mat: tan theta, metres that it rises a metre along growing x
 };
 
+/// The standard uncertainties of what is given about a body; 0 where none is given.
+struct BodyUncertainty {
+  double R = 0;      ///< [m]
+  double K = 0;      ///< of the shape factor
+  double g = 0;      ///< [m/s^2]
+  double slope = 0;  ///< of tan(theta)
+};
+
 /// The arm of F_H is A R: the paper takes A = 1 in its simulations (Eq. 11 to 13); exact is A =
 /// sqrt(1 - D^2/R^2) (Eq. 8).
 enum class Geometry { approximate, exact };

@@ -155,15 +155,16 @@ for value in '' abc 1e400 1e-400 0x10 inf nan true '[1,2]' '1,5' '1 2' 1_000 '"1
   for key in 'radius = ' '[scene]\nradius = ' 'radius = 1\nradius = ' 'Radius = ' 'radius = 1\nnothing = '; do
     printf '%b%s\nshape-factor = 0.5\n' "$key" "$value" >"$scratch/scene"
     attempt shift-from-accel --scene "$scratch/scene" "$scratch/good"
-    refused "shift-from-accel scene $key$value" "$scratch/scene: "
+    refused "shift-from-accel scene $key$value" "$scratch/scene:"
   done
 done
+printf 'radius = 1\n%70000s\n' '' >"$scratch/long"
+printf 'radius = 1\n\001\n' >"$scratch/junk"
 for tool in shift-from-accel fitpower simulate energy-ledger; do
-  head -c 3000 /dev/urandom >"$scratch/scene"
-  for file in . /nowhere "$scratch/scene"; do
+  for file in . /nowhere "$scratch/long" "$scratch/junk"; do
     # shellcheck disable=SC2086
     attempt ${command[$tool]} "$scratch/good" --scene $file
-    refused "$tool scene $file" "$file: "
+    refused "$tool scene $file" "$file:"
   done
 done
 finish
