@@ -23,7 +23,7 @@ constexpr int trouble = 2;  // the exit status
 /// The numbers of a scene: what its file may say, whether or not a tool needs it.
 constexpr std::array scene_keys = {"mass",        "radius",   "shape-factor", "gravity",
                                    "coefficient", "exponent", "exact",        "v0",
-                                   "x0",          "memory",   "damping"};
+                                   "x0",          "memory",   "damping",      "slope"};
 
 double to_number(const std::string& option, const std::string& text, const Range& range) {
   double value;

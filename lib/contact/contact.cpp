@@ -7,6 +7,12 @@
 
 namespace rolling {
 
+Incline incline(const Body& c) {
+  if (c.slope == 0) return {1, 0};
+  const double hypotenuse = std::hypot(1, c.slope);
+  return {1 / hypotenuse, c.slope / hypotenuse};
+}
+
 void check_shift(const Body& c, double D) {
   if (!(std::abs(D) <= c.R)) fail("the shift D = {:.6g} m is beyond the radius {:.6g} m", D, c.R);
 }
@@ -30,7 +36,9 @@ double torque_of_normal_force(const Body& c, double D) { return -D * c.m * c.g; 
 
 double acceleration_from_shift(const Body& c, Geometry geometry, double D) {
   check_shift(c, D);
-  return 0 - c.g * D / ((c.K + arm_factor(c, geometry, D)) * c.R);
+  const auto [cos, sin] = incline(c);
+  const double A = arm_factor(c, geometry, D);
+  return 0 - c.g * (D * cos + A * c.R * sin) / ((c.K + A) * c.R);
 }
 
 double shift_from_acceleration(const Body& c, Geometry geometry, double a) {

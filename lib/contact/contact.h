@@ -6,6 +6,12 @@
 
 namespace rolling {
 
+/// The parts of gravity across the mat (cos theta) and along it (sin theta), tan theta = slope.
+struct Incline {
+  double cos, sin;
+};
+Incline incline(const Body&);
+
 /// Throws Error when |D| > R: no point of the body is there.
 void check_shift(const Body&, double D);
 
@@ -21,8 +27,8 @@ double torque_of_horizontal_force(const Body&, Geometry, double D);
 /// tau_N = -D m g [N m] (Eq. 7).
 double torque_of_normal_force(const Body&, double D);
 
-/// Acceleration [m/s^2] that a shift D [m] causes: -g D / ((K + A) R) (Eq. 12). Throws Error when
-/// |D| > R.
+/// Acceleration [m/s^2] that a shift D [m] causes: -g (D cos + A R sin) / ((K + A) R), Eq. 12 for
+/// a level mat. Throws Error when |D| > R.
 double acceleration_from_shift(const Body&, Geometry, double D);
 
 /// Shift D [m] from an observed acceleration [m/s^2]: (1 + K) R s with s = -a/g (Eq. 11), or the
