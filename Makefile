@@ -2,7 +2,7 @@
 MAKEFLAGS += --jobs=$(shell nproc)
 
 CXX      ?= g++
-CXXFLAGS ?= -O2 -g
+CXXFLAGS ?= -O2 -g1
 override CXXFLAGS += -std=c++20 -Wall -Wextra -Wpedantic -Wshadow -Wconversion
 override CPPFLAGS += -Ilib
 override LDFLAGS  += -Wl,--as-needed
