@@ -1,4 +1,7 @@
 // smooth - smooth a column and select its records; see smooth(1)
+#include <fmt/ranges.h>
+
+#include <cmath>
 #include <utility>
 
 #include "cli/tool.h"
