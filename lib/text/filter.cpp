@@ -22,7 +22,7 @@ std::string remarks_of(const std::string& comments) {
 }  // namespace
 Filter::Filter(Reader& in, Output& out, std::string history)
     : in_(in), out_(out), enough_(rows_at_once()) {
-  if (!history.empty()) history_ = "## " + std::move(history);
+  if (!history.empty()) history_ = "## " + std::move(history) + '\n';
 }
 
 Filter::~Filter() {
@@ -33,7 +33,7 @@ Filter::~Filter() {
 }
 
 void Filter::tell(std::string history) {
-  history_ = "## " + std::move(history);
+  history_ = history.empty() ? "" : "## " + std::move(history) + '\n';
   write_rows();
 }
 
@@ -116,14 +116,14 @@ void Filter::write_head() {
   if (!std::exchange(head_.due, false)) return;
   if (any_row_) out_.end_line();
   out_.text(head_.comments);
-  out_.text(history_), out_.end_line();
+  out_.text(*history_);
   out_.text(head_.names), out_.end_line();
   head_ = {};
 }
 
 /// Up to the first that has not all its numbers.
 void Filter::write_rows() {
-  if (history_.empty()) return;
+  if (!history_) return;
   writing_ = true;
   const auto each = static_cast<std::ptrdiff_t>(std::max<std::size_t>(appended_.size(), 1));
   auto number = numbers_.cbegin();

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,7 +27,7 @@ class Filter {
   ~Filter();
   Filter(const Filter&) = delete;
   Filter& operator=(const Filter&) = delete;
-  void tell(std::string history);
+  void tell(std::string history);  ///< nothing, if the filter changes no number
 
   /// The numbers replace the column in this slot of the reader.
   void replace(std::size_t slot) { replaced_ = slot; }
@@ -70,7 +71,7 @@ class Filter {
 
   Reader& in_;
   Output& out_;
-  std::string history_;  // empty until it has been told
+  std::optional<std::string> history_;  // lines; none until it has been told
   std::vector<Column> appended_;
   std::size_t replaced_ = Reader::no_column;  // a slot
   std::size_t cut_ = Reader::no_column;       // its column in this run
