@@ -324,9 +324,10 @@ void end_by_signal(int signal) {
 /// A tool that is ended by a signal ends its output with the line of an error. Signals that are
 /// ignored stay so.
 void Tool::handle_signals() {
-  const std::string line = error_line(name_) + '\n';
-  if (line.size() > last_line.size()) return;
-  last_line_size = line.copy(last_line.data(), last_line.size());
+  error_line_ = error_line(name_);
+  if (error_line_.size() >= last_line.size()) return;
+  last_line_size = error_line_.copy(last_line.data(), last_line.size());
+  last_line[last_line_size++] = '\n';
   printed = &out;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     if (std::signal(signal, end_by_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
@@ -338,7 +339,7 @@ void Tool::check_failed(const std::string& text) {
 
 /// What is said once the work is done and its output is out; returns the exit status.
 int Tool::finish(int status) {
-  if (status == trouble) out.end_with(error_line(name_));
+  if (status == trouble) out.end_with(error_line_);
   out.flush();
   progress.stop();
   std::size_t left_out = 0;
@@ -362,8 +363,8 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   name_.erase(0, name_.rfind('/') + 1);
   // A file that may not grow is one that cannot be written, which flush() tells.
   std::signal(SIGXFSZ, SIG_IGN);
-  handle_signals();
   try {
+    handle_signals();
     switch (command_line_.parse(argc, argv)) {
       case CommandLine::Asked::help: {
         const std::string text = command_line_.help(name_);
@@ -393,7 +394,7 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
     say(error.what());
   }
   // What came before a bad record may stand, but the end of a pipe has to know.
-  out.end_with(error_line(name_));
+  out.end_with(error_line_);
   return trouble;
 }
 

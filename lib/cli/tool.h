@@ -129,7 +129,7 @@ class Tool {
   int finish(int status);
   int print(const std::string& text);
 
-  std::string name_;
+  std::string name_, error_line_;
   CommandLine command_line_;
   std::map<std::string, Option> options_;  // by long name
   ReaderOptions input_;

@@ -69,6 +69,7 @@ for tool in $tools; do
     wait $writer $reader 2>/dev/null
     tried=$((tried + 1))
     [ -z "$(tail -c 1 "$scratch/out")" ] || complain "$tool: SIG$signal leaves half a row: $(tail -n 1 "$scratch/out")"
+    sed '$d' "$scratch/out" | grep -q 'ended with an error' && complain "$tool: SIG$signal, and the error is not the last line"
   done
 done
 finish
