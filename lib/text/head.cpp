@@ -62,10 +62,8 @@ void HeadReader::check_bytes() const {
 }
 
 void HeadReader::take_history() {
+  refuse_error_line(lines_);
   const std::string_view line = trim(lines_.text()), text = trim(line.substr(2));
-  if (text.ends_with(ended_with_an_error) && text.find(' ') == text.find(':') + 1)
-    fail<InputError>("{}:{}: {} ended with an error: the records are not complete", lines_.name(),
-                     lines_.number(), shown(text.substr(0, text.find(':'))));
   if (text.starts_with("run ")) {
     head_.run = trim(text.substr(4));
     return;
@@ -266,6 +264,13 @@ Head read_head(Lines& lines, Dialect& dialect, const Head* before,
   } catch (const Error& error) {
     fail<InputError>("{}:{}: {}", lines.name(), lines.number(), error.what());
   }
+}
+
+void refuse_error_line(const Lines& lines) {
+  const std::string_view text = trim(trim(lines.text()).substr(2));
+  if (text.ends_with(ended_with_an_error) && text.find(' ') == text.find(':') + 1)
+    fail<InputError>("{}:{}: {} ended with an error: the records are not complete", lines.name(),
+                     lines.number(), shown(text.substr(0, text.find(':'))));
 }
 
 std::string error_line(std::string_view tool) {

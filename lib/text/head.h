@@ -46,4 +46,7 @@ CommentedNames names_in_comment(std::string_view comment, std::size_t width,
 /// The line that a tool leaves behind what it has printed when it ends with an error.
 std::string error_line(std::string_view tool);
 
+/// Throws InputError if the present line, which begins with ##, is one of these.
+void refuse_error_line(const Lines&);
+
 }  // namespace rolling

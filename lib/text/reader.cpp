@@ -334,7 +334,10 @@ bool Reader::next_line() {
       continue;
     }
     // What a tool says in a `##` line, it says of the run below.
-    if (kind == LineKind::history) lines_->put_back();
+    if (kind == LineKind::history) {
+      refuse_error_line(*lines_);
+      lines_->put_back();
+    }
     state_ = State::between;
     return false;
   }

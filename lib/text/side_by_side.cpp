@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "text/delimiters.h"
+#include "text/head.h"
 
 namespace rolling {
 
@@ -25,6 +26,7 @@ std::vector<Side> take_apart(Lines& lines, Dialect& dialect, const Layout& layou
     const LineKind kind = kind_of(lines.text());
     if (kind == LineKind::blank) break;
     if (kind == LineKind::history) {
+      refuse_error_line(lines);
       lines.put_back();
       break;
     }

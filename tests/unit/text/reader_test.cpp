@@ -128,7 +128,7 @@ TEST_CASE("reader: byte order mark, CR LF, quotes", "[text]") {
   CHECK(records({"\xEF\xBB\xBF"
                  "5,0\r\n"}) == "5 0");
   CHECK(records({"\"t\",\"v\"\n\"0\",\"5\"\n\"1\",6\n"}) == "0 5 | 1 6");
-  CHECK(copies("t,v,note\n0,5,\"a, \"\"b\"\"\"\n") == "<0\t5\ta, \"b\">");
+  CHECK(copies("t,v,note\n0,5,\"a, \"\"b\"\"\"\n") == "<0\t5\t\"a, \"\"b\"\"\">");
   CHECK(copies("t,v,u\n0,0,\"\"\"\"\n") == "<0\t0\t\"\"\"\">");  // quoted where it has to be
   CHECK(copies("u,t,v\n\"#1\",0,5\n\"a\tb\",1,5\n\"a\nb\",2,5\n") ==
         "<\"#1\"\t0\t5><\"a\tb\"\t1\t5><\"a\nb\"\t2\t5>");
