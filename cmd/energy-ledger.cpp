@@ -180,7 +180,7 @@ int main(int argc, char** argv) {
     const auto row = chosen(columns, quantities);
     for (const auto& quantity : row)
       if (quantity.column.name == "Pi_S") tool.need({"temperature"});
-    if (!law_file.empty()) law.table = read_law(tool, law_file, law.power);
+    if (!law_file.empty()) law.table = read_law(tool, law_file, law.power, body.slope);
     tool.need({"mass", "radius", "shape-factor"});
     Reader& in = tool.read({"t", "v", "D"});
     // A law on the command line is meant; the law of a scene stands in for a D that is not there.
