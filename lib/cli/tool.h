@@ -86,6 +86,10 @@ class Tool {
 
   /// One line of printable ASCII on standard error, at most 512 bytes.
   void say(const std::string& text);
+  /// The same, unless -q: something that the user should know, and that is no error.
+  void warn(const std::string& text) {
+    if (!quiet_) say(text);
+  }
 
   /// Says how many records were left out and why, unless -q.
   void count_left_out(std::size_t count, const std::string& why);

@@ -9,7 +9,7 @@ struct Body {
   double R;          ///< radius [m]
   double K;          ///< shape factor: 1/2 solid cylinder, 1 thin shell
   double g = 9.81;   ///< gravity [m/s^2]
-  double slope = 0;  ///< tan(theta): the mat rises by so many metres a metre along growing x
+  double slope = 0;  ///< of the mat: tan theta, metres that it rises a metre along growing x
 };
 
 /// The standard uncertainties of what is given about a body; 0 where none is given.
