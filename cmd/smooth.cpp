@@ -1,4 +1,6 @@
 // smooth - smooth a column and select its records; see smooth(1)
+#include <fmt/ranges.h>
+
 #include <utility>
 
 #include "cli/tool.h"
