@@ -275,6 +275,10 @@ Reader& Tool::read_file(const std::string& file, std::vector<std::string> order)
 }
 
 Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
+  const auto& files = options.files;
+  if ((files.empty() || std::find(files.begin(), files.end(), "-") != files.end()) &&
+      std::exchange(standard_input_taken_, true))
+    fail("standard input is asked for twice: name a file for one of the two");
   options.on_block = [this](const std::string& name, double part) {
     progress.at(name == "-" ? "standard input" : name, part);
   };
