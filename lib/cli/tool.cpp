@@ -269,7 +269,9 @@ Reader& Tool::read(std::vector<std::string> order) {
 }
 
 Reader& Tool::read_file(const std::string& file, std::vector<std::string> order) {
-  return open({{file}, {}, {}, input_.strict}, std::move(order));
+  ReaderOptions options{{file}, {}, {}, input_.strict};
+  options.has_use = false;  // --use is about the operands
+  return open(std::move(options), std::move(order));
 }
 
 Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
