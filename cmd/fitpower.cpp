@@ -3,10 +3,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "base/large_pages.h"
 #include "cli/history.h"
 #include "cli/tool.h"
 #include "fit/fit.h"
+#include "fit/laws.h"
 
 using namespace rolling;
 
@@ -68,10 +68,12 @@ std::vector<FitRun> read_runs(Reader& in, Route route, const Body& body, bool al
     FitRun& run = runs.emplace_back();
     run.body = body;
     const std::size_t room = runs.size() == 1 ? in.records_ahead() : 0;  // most files are one run
-    for (const auto& [slot, column] : needed) reserve_large(run.*column, room);
+    for (const auto& [slot, column] : needed) (run.*column).reserve(room);
     while (in.next())
       for (const auto& [slot, column] : needed) (run.*column).push_back(in[slot]);
-    run.filters = filters_of(in.history(), run.t);
+    History history = history_of(in.history(), run.t);
+    run.filters = std::move(history.filters);
+    run.shift_of = history.shift_of;
   }
   return runs;
 }
@@ -83,6 +85,7 @@ void report(Tool& tool, Route asked, const std::vector<FitRun>& runs, const FitO
                                             {Errors::classical, "classical"},
                                             {Errors::filters, "of the filters"},
                                             {Errors::differences, "of differences of positions"},
+                                            {Errors::uneven, "of noise of uneven size"},
                                             {Errors::autocorrelation, "of the autocorrelation"}};
   for (const auto& [name, route] : routes) try {
       for (const FitRun& run : runs)
@@ -108,12 +111,16 @@ void report(Tool& tool, Route asked, const std::vector<FitRun>& runs, const FitO
   if (options.robust) return;
   const auto scores = compare_laws(asked, runs, options);
   double least = scores.front().aicc;
-  for (const LawScore& s : scores) least = std::min(least, s.aicc);
+  double other = std::numeric_limits<double>::infinity();  // of a law that is no a v^b
+  for (const LawScore& s : scores) {
+    least = std::min(least, s.aicc);
+    if (!s.is_power) other = std::min(other, s.aicc);
+  }
   if (std::isinf(scores.front().aicc))
     return tool.say("too few independent records to compare a v^b with other laws");
   std::string line = "AICc above the least:";
   for (const LawScore& s : scores) line += fmt::format(" {} {:.1f};", s.law, s.aicc - least);
-  tool.say(line + (scores.front().aicc - least <= 2 ? " D = a v^b is adequate"
+  tool.say(line + (scores.front().aicc - other <= 2 ? " D = a v^b is adequate"
                                                     : " D = a v^b is not adequate"));
 }
 

@@ -76,7 +76,13 @@ std::vector<LinearFilter> filters_of_sensors() {
 }
 
 FilterChain filters_of(const std::vector<std::string>& history, std::span<const double> t) {
-  FilterChain chain;
+  return history_of(history, t).filters;
+}
+
+History history_of(const std::vector<std::string>& history, std::span<const double> t) {
+  if (t.empty()) return {};  // filters act on times
+  History result;
+  FilterChain& chain = result.filters;
   bool cut_begin = false, cut_end = false;
   const auto append = [&](LinearFilter filter) {
     filter.cut_begin = std::exchange(cut_begin, false);
@@ -119,19 +125,14 @@ FilterChain filters_of(const std::vector<std::string>& history, std::span<const 
       }
       append(derivative(column, column == "x" ? "v" : column == "v" ? "a" : "d" + column, options));
     } else if (tool == "shift-from-accel") {
-      // The exact root of Eq. 9 bends away from Eq. 11 by (D/R)^2, which does not matter to an
-      // error bar.
       const Body body{0, number_after(words, "R"), number_after(words, "K"),
                       number_after(words, "g")};
-      const double scale = -(1 + body.K) * body.R / body.g;
-      append({"a", "D", 0, [scale](auto, auto y) {
-                std::vector<double> D(y.begin(), y.end());
-                for (double& value : D) value *= scale;
-                return D;
-              }});
+      result.shift_of =
+          ShiftOf{body, words[1] == "exact" ? Geometry::exact : Geometry::approximate};
+      append({"a", "D", 0, [](auto, auto y) { return std::vector<double>(y.begin(), y.end()); }});
     }
   }
-  return chain;
+  return result;
 }
 
 }  // namespace rolling

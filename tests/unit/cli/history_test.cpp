@@ -44,15 +44,21 @@ TEST_CASE("history: a differentiate line is the central derivative, from column 
   }
 }
 
-TEST_CASE("history: a shift-from-accel line scales a to D, exact or not", "[cli]") {
-  for (const char* line :
-       {"shift-from-accel K 0.5 R 0.04 g 6", "shift-from-accel exact K 0.5 R 0.04 g 6"}) {
-    const FilterChain chain = filters_of({line}, times);
-    REQUIRE(chain.size() == 1);
-    CHECK(chain[0].from == "a");
-    CHECK(chain[0].to == "D");
-    CHECK(chain[0].reach == 0);
-    CHECK(std::abs(chain[0].apply(times, Series{-1})[0] - 0.01) < 1e-17);
+TEST_CASE("history: a shift-from-accel line tells the body and the geometry; D stands for a",
+          "[cli]") {
+  for (const bool exact : {false, true}) {
+    const History history = history_of(
+        {std::string("shift-from-accel ") + (exact ? "exact " : "") + "K 0.5 R 0.04 g 6"}, times);
+    REQUIRE(history.filters.size() == 1);
+    CHECK(history.filters[0].from == "a");
+    CHECK(history.filters[0].to == "D");
+    CHECK(history.filters[0].reach == 0);
+    CHECK(history.filters[0].apply(times, Series{-1}) == Series{-1});
+    REQUIRE(history.shift_of);
+    CHECK(history.shift_of->body.K == 0.5);
+    CHECK(history.shift_of->body.R == 0.04);
+    CHECK(history.shift_of->body.g == 6);
+    CHECK((history.shift_of->geometry == Geometry::exact) == exact);
   }
 }
 

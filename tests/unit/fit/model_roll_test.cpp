@@ -52,12 +52,15 @@ TEST_CASE("position: NIST's Misra1 sets are rolls under b = 1, 4/3, 3/2, 5/3", "
     FitOptions options;
     options.b = c.b;
     options.x0 = 0;
-    options.origin = 0;
+    // x0 holds at the first record: one more at t = 0, which the model meets whatever its law.
+    run.t.insert(run.t.begin(), 0);
+    run.x.insert(run.x.begin(), 0);
     const auto r = fit(Route::position, {run}, options);
     CHECK(std::abs(r.a / c.a - 1) < 1e-11);
     CHECK(std::abs(r.v0.at(0) / c.v0 - 1) < 1e-11);
     CHECK(r.errors == Errors::classical);
-    if (c.b == 1) CHECK(std::abs(r.sigma_a / c.sigma_a - 1) < 1e-9);
+    // One record more changes n - p from 12 to 13.
+    if (c.b == 1) CHECK(std::abs(r.sigma_a / c.sigma_a * std::sqrt(13.0 / 12) - 1) < 1e-9);
   }
 }
 
@@ -77,7 +80,6 @@ TEST_CASE(
           CHECK(std::abs(r.a / 1.87e-3 - 1) < 1e-9);
           CHECK(std::abs(r.b - b) < 1e-9);
           CHECK(std::abs(r.v0.at(0) - way * 0.5) < 1e-9);
-          if (route == Route::position) CHECK(std::abs(r.x0.at(0) - way * 0.3) < 1e-9);
         }
 }
 
@@ -155,7 +157,7 @@ TEST_CASE("velocity: differences of x with their filter known are as good as x",
   CHECK(v.errors == Errors::filters);
   CHECK(std::abs(v.a / x.a - 1) < 1e-6);  // all that the differences lose is x0, which was free
   CHECK(std::abs(v.b - x.b) < 1e-6);
-  CHECK(std::abs(v.sigma_b / x.sigma_b - 1) < 0.02);
+  CHECK(std::abs(v.sigma_b / x.sigma_b - 1) < 1e-6);
 }
 
 TEST_CASE(
