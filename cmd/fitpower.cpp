@@ -44,7 +44,8 @@ void set_parameters(const std::string& option, const std::vector<std::string>& s
   }
 }
 
-std::vector<FitRun> read_runs(Reader& in, Route route, const Body& body, bool all_columns) {
+std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, const Body& body,
+                              bool all_columns) {
   struct Needed {
     std::size_t slot;
     std::vector<double> FitRun::*column;
@@ -59,10 +60,12 @@ std::vector<FitRun> read_runs(Reader& in, Route route, const Body& body, bool al
   const bool times_wanted =
       (all_columns || !in.history().empty()) && in.find("t");  // the filters act on these times
   if (names.front() == "t" || times_wanted) needed.push_back({in.need_time(), &FitRun::t});
-  if (all_columns)  // what other routes would fit
-    for (const char* name : {"x", "v", "D"})
-      if (in.find(name) && std::find(names.begin(), names.end(), name) == names.end())
-        needed.push_back({in.want(name), column_of(name)});
+  // What other routes would fit; and x, with which speeds that claim to be differences are
+  // compared.
+  for (const char* name : {"x", "v", "D"})
+    if ((all_columns || (*name == 'x' && route == Route::velocity && !in.history().empty())) &&
+        in.find(name) && std::find(names.begin(), names.end(), name) == names.end())
+      needed.push_back({in.want(name), column_of(name)});
   std::vector<FitRun> runs;
   while (in.next_run()) {
     FitRun& run = runs.emplace_back();
@@ -72,10 +75,26 @@ std::vector<FitRun> read_runs(Reader& in, Route route, const Body& body, bool al
     while (in.next())
       for (const auto& [slot, column] : needed) (run.*column).push_back(in[slot]);
     History history = history_of(in.history(), run.t);
+    run.shift_of = history.shift_of;
+    history = compared(std::move(history), run);
     run.filters = std::move(history.filters);
     run.shift_of = history.shift_of;
+    if (!history.doubt.empty())
+      tool.warn(fmt::format("run {}: {}: the fit goes on as if no filter were known", runs.size(),
+                            history.doubt));
   }
   return runs;
+}
+
+/// What the user should know of errors that are not those of white noise.
+void warn_of_noise(Tool& tool, const FitResult& r) {
+  if (r.errors == Errors::autocorrelation)
+    tool.warn(fmt::format(
+        "the noise is correlated from record to record (Ljung-Box p {:.2g}), or the law is not the "
+        "right one: the errors allow for the correlation; see --report",
+        r.whiteness));
+  if (r.errors == Errors::uneven)
+    tool.warn("the noise is not of one size along the run: the errors allow for that");
 }
 
 /// For these runs, what each route finds at which cost, and which law describes them on the route
@@ -96,6 +115,10 @@ void report(Tool& tool, Route asked, const std::vector<FitRun>& runs, const FitO
                                : run.D)
                   .empty())
             fail("there is no column {}", column);
+      if (columns_of(*route).front() == "t" && std::isnan(runs.front().body.R))
+        fail("--radius is not given");
+      if (columns_of(*route).front() == "t" && std::isnan(runs.front().body.K))
+        fail("--shape-factor is not given");
       const auto begin = std::chrono::steady_clock::now();
       const FitResult r = fit(*route, runs, options);
       const std::chrono::duration<double, std::milli> time =
@@ -167,13 +190,16 @@ int main(int argc, char** argv) {
     options.possible_filters = filters_of_sensors();
     const bool trajectory = route == Route::velocity || route == Route::position;
     if (trajectory) tool.need({"radius", "shape-factor"});
+    for (const auto& [name, held] : {std::pair("v0", options.v0), std::pair("x0", options.x0)})
+      if (held && !(name[0] == 'v' ? trajectory : route == Route::position))
+        fail("--fix: this route has no {}", name);
 
-    std::vector<FitRun> runs = read_runs(in, route, body, with_report);
+    std::vector<FitRun> runs = read_runs(tool, in, route, body, with_report);
     if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
       fail("--shape-factor gives {} values, but runs are {}", shape_factors.size(), runs.size());
     for (std::size_t i = 0; i < runs.size(); ++i)
       runs[i].body.K =
-          shape_factors.empty() ? 0 : shape_factors[shape_factors.size() > 1 ? i : 0].value;
+          shape_factors.empty() ? not_given : shape_factors[shape_factors.size() > 1 ? i : 0].value;
 
     std::vector<std::vector<FitRun>> fits;
     if (each)
@@ -206,6 +232,7 @@ int main(int argc, char** argv) {
       tool.out.end_line();
       left_out += r.left_out;
     }
+    for (const FitResult& r : results) warn_of_noise(tool, r);
     if (with_report)
       for (const auto& joint : fits) report(tool, route, joint, options);
     tool.count_left_out(left_out, "this route cannot use them");

@@ -181,7 +181,7 @@ struct Sources {
   double variance;  // of e
 };
 
-Sources sources_of(const Estimate& fit) {
+Sources sources_of(const Fitted& fit) {
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
                     q = fit.system.columns();
   std::vector<double> Q = orthonormal(fit.system, fit.minimum);
@@ -198,9 +198,9 @@ Sources sources_of(const Estimate& fit) {
 
 }  // namespace
 
-double noise_variance(const Estimate& fit) { return sources_of(fit).variance; }
+double noise_variance(const Fitted& fit) { return sources_of(fit).variance; }
 
-Uncertainty uncertainty_of(const Estimate& fit) {
+Uncertainty uncertainty_of(const Fitted& fit) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), decisive = 0.01;
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
                     q = fit.system.columns(), shared = fit.system.shared;

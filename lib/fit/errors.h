@@ -1,7 +1,7 @@
 // The errors of the parameters. Whoever asks about an error bar looks here.
 #pragma once
 
-#include "fit/estimate.h"
+#include "fit/fitted.h"
 
 namespace rolling {
 
@@ -30,10 +30,10 @@ struct Uncertainty {
 /// noise of 30 or more records is not white at 1 % (Ljung-Box), they are those of its
 /// autocorrelation (Newey-West); where it is of uneven size at 1 %, HC3. For known filters the
 /// noise that is tested is that of the raw column.
-Uncertainty uncertainty_of(const Estimate&);
+Uncertainty uncertainty_of(const Fitted&);
 
 /// The variance of the noise of the raw column, where the filters are known.
-double noise_variance(const Estimate&);
+double noise_variance(const Fitted&);
 
 /// Q = J R^-1 (a row for each residual), in whose columns the covariance R^-1 M R^-T of the
 /// parameters has its middle M.

@@ -67,7 +67,7 @@ bool leave_out_slow(const RollModel& model, const std::vector<double>& theta,
 }
 
 /// The numbers that are reported of a fitted roll.
-void report(Estimate& fit, const std::vector<double>& theta) {
+void report(Fitted& fit, const std::vector<double>& theta) {
   const Parameters& q = fit.rolls->parameters();
   const PowerLaw law = q.law(theta);
   const auto quantity = [&](double value, const Parameters::Derivatives& by) {
@@ -87,7 +87,7 @@ void report(Estimate& fit, const std::vector<double>& theta) {
 }
 
 /// What the residuals tell of the noise; and their sum of squares as they stand.
-void explain(Estimate& fit, const std::vector<double>& theta) {
+void explain(Fitted& fit, const std::vector<double>& theta) {
   const auto& runs = fit.rolls->runs();
   system_of(fit.rolls, std::make_shared<const Noise>())
       .evaluate(theta, [&](std::size_t r, std::span<double> f, std::span<double>) {
@@ -103,10 +103,10 @@ void explain(Estimate& fit, const std::vector<double>& theta) {
 
 }  // namespace
 
-Estimate fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows,
-                   const Making& making, const FitOptions& options,
-                   std::optional<double> white_share) {
-  Estimate fit{};
+Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows,
+                 const Making& making, const FitOptions& options,
+                 std::optional<double> white_share) {
+  Fitted fit{};
   fit.noise_inferred = white_share.has_value();
   std::optional<FirstGuess> guess;
   for (int round = 0; round < 4; ++round) {  // without the slow records, once they are known
@@ -157,10 +157,10 @@ std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
   return rows;
 }
 
-Estimate fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOptions& options) {
+Fitted fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOptions& options) {
   const Making making = making_of(route, all);
   const auto rows = usable(route, all);
-  Estimate fit = fit_rolls(route, all, rows, making, options);
+  Fitted fit = fit_rolls(route, all, rows, making, options);
   if (route == Route::velocity && !making.known() && !options.robust &&
       !options.possible_filters.empty() && fit.minimum.f.size() >= 30)
     if (auto differences = fit_differences(all, rows, options, fit)) return *std::move(differences);
@@ -169,7 +169,7 @@ Estimate fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOp
 
 }  // namespace
 
-Estimate fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+Fitted fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   if (options.a && !(*options.a > 0))
     fail("a = {} cannot be held: it must be positive", *options.a);
   if (route == Route::loglog) return fit_log_log(runs, options);
@@ -178,7 +178,7 @@ Estimate fit_route(Route route, const std::vector<FitRun>& runs, const FitOption
 }
 
 FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
-  const Estimate found = fit_route(route, runs, options);
+  const Fitted found = fit_route(route, runs, options);
   const Uncertainty errors = uncertainty_of(found);
   const std::size_t n = found.minimum.f.size(), p = found.minimum.theta.size();
   const auto sigma = [&](const Quantity& x, std::size_t run = 0) {

@@ -14,7 +14,10 @@ namespace rolling {
 struct ShiftOf {
   Body body;
   Geometry geometry = Geometry::approximate;
+  BodyUncertainty given = {};  ///< the standard uncertainties of K, R, g and the slope
 };
+/// The acceleration of which a shift was made. With A = 1 it is linear and holds for any D.
+double acceleration_of(const ShiftOf&, double D);
 
 /// One run as a route sees it. loglog and shift read v and D (and t, where filters are known);
 /// velocity reads t and v; position t and x. Columns that a route does not read are empty.
@@ -51,7 +54,7 @@ struct FitResult {
   std::size_t n;  ///< records that were fitted
   std::size_t left_out;  ///< records that the route could not use
   double whiteness;      ///< significance of the autocorrelation of the noise (Ljung and Box); NaN
-                     ///< where it is not tested
+                         ///< where it is not tested
   std::vector<double> v0, sigma_v0;  ///< trajectory routes, one a run
   Errors errors;
 };

@@ -89,7 +89,7 @@ double polynomial(std::span<const double> c, double u) {
 /// has been fitted.
 class Polynomial {
  public:
-  Polynomial(Route route, Estimate power, const FitOptions& options)
+  Polynomial(Route route, Fitted power, const FitOptions& options)
       : route_(route), power_(std::move(power)), options_(options) {
     for (double v : power_.v) v_ref_ = std::max(v_ref_, v);
     for (const auto& q : power_.v0) v_ref_ = std::max(v_ref_, std::abs(q.value));
@@ -181,7 +181,7 @@ class Polynomial {
   }
 
   Route route_;
-  Estimate power_;
+  Fitted power_;
   FitOptions options_;
   double v_ref_ = 0, D_ref_ = 1, x_ref_ = 1;
 };
@@ -201,7 +201,7 @@ double independent_records(const std::vector<Minimum>& minima,
 std::vector<LawScore> compare_laws(Route route, const std::vector<FitRun>& runs,
                                    const FitOptions& options) {
   if (options.robust) fail("laws are compared by squares only");
-  const Estimate power = fit_route(route, runs, options);
+  const Fitted power = fit_route(route, runs, options);
   const Polynomial polynomials(route, power, options);
   std::vector<Minimum> minima{power.minimum};
   for (std::size_t terms = 1; terms <= 3; ++terms) try {

@@ -14,13 +14,6 @@ const char* column_of(Route route) {
   return route == Route::position ? "x" : route == Route::velocity ? "v" : "D";
 }
 
-/// The acceleration of which a shift was made. For A = 1 Eq. 12 is linear and holds for any D.
-double acceleration_of(const ShiftOf& by, double D) {
-  const Body& body = by.body;
-  if (by.geometry == Geometry::exact) return acceleration_from_shift(body, by.geometry, D);
-  return -body.g * D / ((body.K + 1) * body.R);
-}
-
 /// The rows of H for the fitted records, and for shifts one for the mean of their speeds: D alone
 /// hardly depends on v0.
 Noise::Matrix filters_of_rows(const Response& response, Route route, const Rows& rows) {
@@ -51,11 +44,22 @@ double way_of(Route route, const FitRun& run, const Rows& rows, const FitOptions
 
 }  // namespace
 
+double acceleration_of(const ShiftOf& by, double D) {
+  const Body& body = by.body;
+  if (by.geometry == Geometry::exact) return acceleration_from_shift(body, by.geometry, D);
+  const auto [cos, sin] = incline(body);
+  return -body.g * (D * cos + body.R * sin) / ((body.K + 1) * body.R);
+}
+
 Making making_of(Route route, const std::vector<FitRun>& all) {
   Making making;
   for (const FitRun& run : all) {
     if (run.filters.empty()) return {};
-    making.responses.push_back(response_of(run.filters, run.t));
+    try {
+      making.responses.push_back(response_of(run.filters, run.t));
+    } catch (const Error&) {  // a chain that does not go with the run
+      return {};
+    }
     const Response& r = making.responses.back();
     const bool roll = r.source == "x" || (r.source == "v" && route != Route::position);
     if (!roll || !r.of.contains(column_of(route)) ||
@@ -101,6 +105,7 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
       seen.y.push_back(mean);
       seen.with_mean_speed = true;
     }
+    seen.body.slope *= seen.way;
     seen.raw_is_position =
         making.known() ? making.responses[r].source == "x" : route == Route::position;
     if (making.known()) {

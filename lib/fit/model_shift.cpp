@@ -75,7 +75,7 @@ struct Height {
     if (!b) J[J.size() - n + k] = by_b + (a ? log_v_ref * by_log_height : 0);
   }
   /// a and b at the minimum; a_slope is the derivative of a by the height.
-  void report(Estimate& fit, double a_fitted, double a_slope) const {
+  void report(Fitted& fit, double a_fitted, double a_slope) const {
     const double a_value = a.value_or(a_fitted);
     fit.a = {a_value, std::vector<double>(count(), 0)};
     fit.b = {exponent(fit.minimum.theta), std::vector<double>(count(), 0)};
@@ -162,7 +162,7 @@ std::vector<double> power_start(const ShiftRecords& few, const FitOptions& optio
 
 }  // namespace
 
-Estimate fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
+Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   const ShiftRecords records = shift_records(all, options, false);
   const Height height{options.a, options.b, records.log_v_ref};
   double unit = 0;
@@ -179,7 +179,7 @@ Estimate fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   Minimum minimum = solve(system, theta, options, false);
   const double b = height.exponent(minimum.theta), scale = std::exp(-b * records.log_v_ref),
                a = options.a ? *options.a : minimum.theta[0] * unit * scale;
-  Estimate result{.system = system, .minimum = std::move(minimum)};
+  Fitted result{.system = system, .minimum = std::move(minimum)};
   result.rss = result.minimum.rss;
   result.records = n;
   result.left_out = records.left_out;
@@ -225,12 +225,12 @@ double spread_of_logarithm(double s) {
 
 /// The noise of ln D - b ln v where the filters are known: that of D and v over D and v themselves,
 /// which are those of the roll that fits best, seen through the filters.
-void carry_noise(Estimate& line, const ShiftRecords& records, const std::vector<FitRun>& all,
+void carry_noise(Fitted& line, const ShiftRecords& records, const std::vector<FitRun>& all,
                  const FitOptions& options) {
   const Making making = making_of(Route::shift, all);
   if (!making.known()) return;
   const double b = line.b.value;
-  Estimate roll;
+  Fitted roll;
   try {
     roll = fit_rolls(Route::shift, all, records.rows, making, options);
   } catch (const Error&) {  // there is no such roll
@@ -269,13 +269,13 @@ void carry_noise(Estimate& line, const ShiftRecords& records, const std::vector<
 
 }  // namespace
 
-Estimate fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) {
+Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) {
   const ShiftRecords records = shift_records(all, options, true);
   const Height height{options.a, options.b, records.log_v_ref};
   const System system = line_system(records, height);
-  Estimate line{.system = system,
-                .minimum = solve(system, std::vector<double>(height.count(), 0), options,
-                                 options.robust && making_of(Route::shift, all).known())};
+  Fitted line{.system = system,
+              .minimum = solve(system, std::vector<double>(height.count(), 0), options,
+                               options.robust && making_of(Route::shift, all).known())};
   const double b = height.exponent(line.minimum.theta),
                a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * records.log_v_ref);
   line.rss = line.minimum.rss;

@@ -2,16 +2,16 @@
 // logarithms.
 #pragma once
 
-#include "fit/estimate.h"
+#include "fit/fitted.h"
 
 namespace rolling {
 
 /// Least squares on D, of which no filter is known.
-Estimate fit_shift(const std::vector<FitRun>&, const FitOptions&);
+Fitted fit_shift(const std::vector<FitRun>&, const FitOptions&);
 
 /// The line of ln D on ln v through all records with v > 0 and D > 0, each with the same weight, as
 /// it is drawn through a plot. With known filters its errors are those of the noise of the raw
 /// column, carried through the filters and the logarithms.
-Estimate fit_log_log(const std::vector<FitRun>&, const FitOptions&);
+Fitted fit_log_log(const std::vector<FitRun>&, const FitOptions&);
 
 }  // namespace rolling

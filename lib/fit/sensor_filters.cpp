@@ -62,7 +62,7 @@ class Likelihood {
 /// The filter and the share under which the residuals are most likely; no filter if white noise
 /// alone is nearly as likely.
 Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
-                  const FitOptions& options, const Estimate& plain) {
+                  const FitOptions& options, const Fitted& plain) {
   // A gain that white noise shows once in a hundred records.
   constexpr double decisive = 3;
   constexpr double least_share = -12, white = 4;  // ln of the share
@@ -110,9 +110,8 @@ constexpr std::size_t searched = 2000;
 
 }  // namespace
 
-std::optional<Estimate> fit_differences(const std::vector<FitRun>& all,
-                                        const std::vector<Rows>& rows, const FitOptions& options,
-                                        const Estimate& plain) {
+std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
+                                      const FitOptions& options, const Fitted& plain) {
   std::size_t reach = 0;
   for (const auto& filter : options.possible_filters) reach = std::max(reach, filter.reach);
   std::vector<FitRun> heads;
@@ -134,8 +133,8 @@ std::optional<Estimate> fit_differences(const std::vector<FitRun>& all,
     std::vector<Rows> regular = rows;
     if (!maker.filter || maker.filter->from == "v" || !leave_out_irregular(all, regular, reach))
       return {};
-    Estimate fit = fit_rolls(Route::velocity, all, std::move(regular),
-                             making_by(*maker.filter, all), options, maker.white_share);
+    Fitted fit = fit_rolls(Route::velocity, all, std::move(regular), making_by(*maker.filter, all),
+                           options, maker.white_share);
     if (uncertainty_of(fit).kind == Errors::differences) return fit;
   } catch (const Error&) {  // too few records, or no minimum
   }

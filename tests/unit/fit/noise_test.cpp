@@ -44,7 +44,7 @@ TEST_CASE("noise: its variance and the covariance of the parameters, whatever th
       std::vector<double> e, data;
       for (std::size_t i = 0; i < n; ++i) e.push_back(random(2));
       for (std::size_t i = 0; i < n; ++i) data.push_back(3 + 0.5 * t[i] + E.times(i, e));
-      Estimate fit{.system = line(data, noise), .minimum = {}};
+      Fitted fit{.system = line(data, noise), .minimum = {}};
       fit.minimum = minimise(fit.system, {0, 0});
       fit.noise = noise;
       variances += noise_variance(fit) / runs;

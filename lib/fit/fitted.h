@@ -13,7 +13,7 @@ struct Quantity {
   std::vector<double> gradient;
 };
 
-struct Estimate {
+struct Fitted {
   System system;  ///< weighted
   Minimum minimum;
   std::shared_ptr<const Noise> noise = std::make_shared<const Noise>();
@@ -42,12 +42,12 @@ Minimum solve(const System&, const std::vector<double>& start, const FitOptions&
 /// Throws Error when n records are too few for p parameters.
 void require_records(std::size_t n, std::size_t p);
 
-Estimate fit_route(Route, const std::vector<FitRun>&, const FitOptions&);
+Fitted fit_route(Route, const std::vector<FitRun>&, const FitOptions&);
 
 /// A fit of a roll: position, velocity, and shift with known filters (`making`). With `white_share`
 /// the filters are inferred, and so much of their noise is white.
-Estimate fit_rolls(Route, const std::vector<FitRun>&, std::vector<Rows>, const Making&,
-                   const FitOptions&, std::optional<double> white_share = {});
+Fitted fit_rolls(Route, const std::vector<FitRun>&, std::vector<Rows>, const Making&,
+                 const FitOptions&, std::optional<double> white_share = {});
 
 /// The floor of white noise in the weights, as a share of the noise of the median record (see
 /// Noise). The model goes through the same filters as the data, so that the residuals are noise in
