@@ -81,6 +81,15 @@ void report(Tool& tool, const Roll& roll, double rtol, double end) {
                                        : "errors are against the first");
 }
 
+std::string why_endless(const Roll& roll, const Motion& motion) {
+  const double last = motion.last_speed();
+  if (std::isinf(last)) return "the body gains speed on this slope for ever";
+  if (last > 0)
+    return fmt::format("the body never stops on this slope: its speed tends to {:.4g} m/s", last);
+  return roll.law.b < 0 ? "the shift grows to the radius before the body stops"
+                        : "the body never stops";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -99,6 +108,8 @@ int main(int argc, char** argv) {
   bool sensor = false, with_report = false;
   tool.body(body, {radius, shape_factor, gravity});
   tool.law(law);
+  tool.number("--slope", body.slope, any_number,
+              "the mat rises by so many metres a metre along x (0)");
   tool.geometry(roll.geometry);
   tool.number("--v0", v0, not_negative, "speed at t = 0 [m/s]");
   tool.number("--x0", roll.x0, any_number, "position at t = 0 [m] (0)");
@@ -154,7 +165,8 @@ int main(int argc, char** argv) {
     const auto write_header = [&] {
       tool.out.text("## simulate " +
                     (roll.table ? "table" : fmt::format("a {} b {}", law.a, law.b)) +
-                    fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, v0));
+                    fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, v0) +
+                    (body.slope == 0 ? "" : fmt::format(" slope {}", body.slope)));
       tool.out.end_line();
       tool.out.names(columns_of(row));
     };
@@ -182,9 +194,7 @@ int main(int argc, char** argv) {
     const auto motion = start(roll, method, rtol);
     const bool to_the_stop = std::isnan(until);
     const double end = to_the_stop ? motion->stop_time() : until;
-    if (!std::isfinite(end))
-      fail("the {}: say --until when to end",
-           law.b < 0 ? "shift grows to the radius before the body stops" : "body never stops");
+    if (!std::isfinite(end)) fail("{}: say --until when to end", why_endless(roll, *motion));
     const double steps = std::floor(
         end / dt +
         (to_the_stop ? -1e-9 : 1e-9));  // rounding of end / dt makes no row and loses none
