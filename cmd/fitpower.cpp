@@ -7,6 +7,7 @@
 #include "cli/tool.h"
 #include "fit/fit.h"
 #include "fit/laws.h"
+#include "text/estimate.h"
 
 using namespace rolling;
 
@@ -88,6 +89,7 @@ std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, const Body& b
 
 /// What the user should know of errors that are not those of white noise.
 void warn_of_noise(Tool& tool, const FitResult& r) {
+  if (r.sigma_a < 1e-9 * r.a) return;  // what is left is rounding
   if (r.errors == Errors::autocorrelation)
     tool.warn(fmt::format(
         "the noise is correlated from record to record (Ljung-Box p {:.2g}), or the law is not the "
@@ -155,6 +157,7 @@ int main(int argc, char** argv) {
   std::optional<Route> given_route;
   std::vector<Estimate> shape_factors;
   std::vector<std::string> fixed, start;
+  std::string given_slope = "0";
   Body body;
   FitOptions options;
   bool each = false, with_report = false;
@@ -164,6 +167,8 @@ int main(int argc, char** argv) {
   tool.numbers("-K,--shape-factor", shape_factors, not_negative,
                "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
   tool.body(body, {radius, gravity});
+  tool.text("--slope", given_slope, "S|fit",
+            "the mat rises by S metres a metre along growing x; fit: find it, of all runs");
   tool.geometry(options.geometry);
   tool.flag("--each", each, "fit each run by itself, a row for each");
   tool.list("--fix", fixed, "NAME=VALUE", "hold a, b, v0 or x0 fixed");
@@ -188,6 +193,10 @@ int main(int argc, char** argv) {
                         : in.find("v") ? Route::velocity
                                        : Route::position;
     options.possible_filters = filters_of_sensors();
+    options.fit_slope = given_slope == "fit";
+    if (Estimate given; parse_estimate(given_slope, given)) body.slope = given.value;
+    else if (!options.fit_slope)
+      fail("--slope: '{}' is no number, and not `fit`", shown(given_slope));
     const bool trajectory = route == Route::velocity || route == Route::position;
     if (trajectory) tool.need({"radius", "shape-factor"});
     for (const auto& [name, held] : {std::pair("v0", options.v0), std::pair("x0", options.x0)})
@@ -210,6 +219,7 @@ int main(int argc, char** argv) {
                                  {"corr"},   {"rms"},          {"n"}};
     const bool with_v0 = trajectory && fits.front().size() == 1;
     if (with_v0) names.insert(names.end(), {{"v0", "m/s"}, {"sigma_v0", "m/s"}});
+    if (options.fit_slope) names.insert(names.end(), {{"slope"}, {"sigma_slope"}});
     std::vector<FitResult> results;
     for (const auto& joint : fits) {
       tool.progress.at("fitting", fits.size() == 1 ? not_given
@@ -229,6 +239,8 @@ int main(int argc, char** argv) {
       tool.out.text(std::to_string(r.n));  // a count is never rounded to --digits
       if (with_v0)
         for (const double value : {r.v0.front(), r.sigma_v0.front()}) cell(value);
+      if (options.fit_slope)
+        for (const double value : {r.slope, r.sigma_slope}) cell(value);
       tool.out.end_line();
       left_out += r.left_out;
     }

@@ -75,7 +75,9 @@ struct Trial {
 Trial try_shape(const Thinned& of, const FitOptions& options, PowerLaw law) {
   const ObservedRun& thin = of.run;
   const bool position = thin.raw_is_position;
-  const Trajectory trajectory(thin.body, thin.geometry, law, of.v0);
+  Body level = thin.body;
+  level.slope = 0;
+  const Trajectory trajectory(level, thin.geometry, law, of.v0);
   double mm = 0, my = 0, m_mean = 0, y_mean = 0;
   std::vector<double> m, y;
   for (std::size_t i = 0; i < thin.t.size(); ++i) {

@@ -60,7 +60,7 @@ bool leave_out_slow(const RollModel& model, const std::vector<double>& theta,
   for (std::size_t r = 0; r < all.size(); ++r) {
     const Trajectory fitted = model.trajectory(theta, r);
     slow += std::erase_if(rows[r], [&](std::size_t i) {
-      return fitted.velocity(fitted.log_ratio(all[r].t[i] - model.runs()[r].origin)) < limit;
+      return fitted.speed_at(all[r].t[i] - model.runs()[r].origin).v < limit;
     });
   }
   return slow > 0;
@@ -77,11 +77,12 @@ void report(Fitted& fit, const std::vector<double>& theta) {
   };
   fit.a = quantity(law.a, {1, 0});
   fit.b = quantity(law.b, {0, 1});
+  if (q.fits_slope()) fit.slope = quantity(q.slope(theta, 0), {0, 0, 0, 0, 1});
   const auto& runs = fit.rolls->runs();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const double way = runs[r].way;
     const auto s = fit.rolls->trajectory(theta, r).speed_at(runs[r].start);
-    fit.v0.push_back(quantity(way * s.v, {way * s.v_a, way * s.v_b, way * s.v_v0}));
+    fit.v0.push_back(quantity(way * s.v, {way * s.v_a, way * s.v_b, way * s.v_v0, 0, s.v_S}));
     fit.records += runs[r].records();
   }
 }
@@ -118,7 +119,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       const auto plain = without_filters(route, runs, all, rows);
       require_records(n + plain.size() * (route == Route::shift),
                       plain.size() * (!options.v0 + (route == Route::position && !options.x0)) +
-                          !options.a + !options.b);
+                          !options.a + !options.b + options.fit_slope);
       guess = first_guess(plain, options);
     }
     fit.noise = noise_of(runs, white_share.value_or(floor_share));
@@ -172,8 +173,12 @@ Fitted fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOpti
 Fitted fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   if (options.a && !(*options.a > 0))
     fail("a = {} cannot be held: it must be positive", *options.a);
+  const bool roll = route == Route::velocity || route == Route::position ||
+                    (route == Route::shift && making_of(route, runs).known());
+  if (options.fit_slope && !roll)
+    fail("the slope shows in a roll alone: on this route `##` lines must tell how D was made");
   if (route == Route::loglog) return fit_log_log(runs, options);
-  if (route == Route::shift && !making_of(route, runs).known()) return fit_shift(runs, options);
+  if (!roll) return fit_shift(runs, options);
   return fit_trajectory(route, runs, options);
 }
 
@@ -212,6 +217,16 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
   if (result.errors != Errors::none)
     for (double x : {result.sigma_a, result.sigma_b, result.corr, result.rms})
       if (!std::isfinite(x)) fail("the fit gives no finite errors of a and b");
+  if (found.slope) {
+    result.slope = found.slope->value;
+    result.sigma_slope = sigma(*found.slope);
+    if (!(result.sigma_a < result.a / 3))
+      fail(
+          "these runs do not tell a slope of the mat from its law (a comes out as {:.3g} +- "
+          "{:.2g}): "
+          "add runs in the other direction",
+          result.a, result.sigma_a);
+  }
   if (result.sigma_b > 3)
     fail("the data do not determine b: it comes out as {:.3g} +- {:.2g}", result.b, result.sigma_b);
   return result;

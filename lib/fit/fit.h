@@ -35,7 +35,8 @@ struct FitOptions {
   Geometry geometry = Geometry::approximate;
   std::optional<double> a, b, v0, x0;      ///< held fixed
   std::optional<double> start_a, start_b;  ///< where to start; found from the data otherwise
-  double min_speed = 0;                    ///< records slower than this are left out [m/s]
+  bool fit_slope = false;  ///< the slope of the mat is one more parameter of all runs
+  double min_speed = 0;    ///< records slower than this are left out [m/s]
   /// Filters that the program of a sensor may have applied to the speeds of 30 or more records of
   /// which no filter is known (velocity route): differences of x, and means of v to compare with.
   std::vector<LinearFilter> possible_filters;
@@ -55,13 +56,14 @@ struct FitResult {
   std::size_t left_out;  ///< records that the route could not use
   double whiteness;      ///< significance of the autocorrelation of the noise (Ljung and Box); NaN
                          ///< where it is not tested
-  std::vector<double> v0, sigma_v0;  ///< trajectory routes, one a run
+  std::vector<double> v0, sigma_v0;   ///< trajectory routes, one a run
+  double slope = 0, sigma_slope = 0;  ///< where it was fitted
   Errors errors;
 };
 
 /// One joint fit over all runs: one a and b, own v0 and x0 for each run. Throws Error with one
 /// clear line for what cannot be determined: fewer than two points, all v equal, no positive D
-/// (loglog), no convergence, a standard error of b above 3.
+/// (loglog), no convergence, a standard error of b above 3, a slope that cannot be told from a.
 FitResult fit(Route, const std::vector<FitRun>&, const FitOptions&);
 
 }  // namespace rolling

@@ -29,6 +29,7 @@ struct Fitted {
   double rss = 0;  ///< sum of the squares of model - data in the unit of the fitted column
   std::size_t records = 0, left_out = 0;
   Quantity a = {}, b = {};
+  std::optional<Quantity> slope = {};           ///< where it is a parameter
   std::vector<Quantity> v0 = {};                ///< one a run, if the model is a roll
   std::shared_ptr<const RollModel> rolls = {};  ///< the model, if it is a roll
   std::vector<double> v = {};  ///< speeds of the fitted records, if it is a law D(v)

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "contact/contact.h"
 #include "fit/errors.h"
 
 namespace rolling {
@@ -160,12 +161,16 @@ class Polynomial {
   std::vector<double> of_roll(const std::vector<double>& c, std::size_t terms) const {
     std::vector<double> f;
     const auto law = std::span(c).last(terms);
-    std::size_t next = 0;
+    std::size_t next = 0, r = 0;
     for (const auto& run : power_.rolls->runs()) {
       const double v0 = options_.v0 ? std::abs(*options_.v0) : c[next++] * v_ref_,
                    x0 = free_x0() ? c[next++] * x_ref_ : options_.x0.value_or(0);
-      const double unit = run.body.g / ((run.body.K + 1) * run.body.R) * D_ref_;
-      const CoastDown coast(unit * law[0], terms > 1 ? unit * law[1] / v_ref_ / 2 : 0,
+      Body body = run.body;
+      body.slope = power_.rolls->slope(power_.minimum.theta, r++);  // that of the power law
+      const auto [cos, sin] = incline(body);
+      const double unit = body.g * cos / ((body.K + 1) * body.R) * D_ref_;
+      const CoastDown coast(unit * law[0] + body.g * sin / (body.K + 1),
+                            terms > 1 ? unit * law[1] / v_ref_ / 2 : 0,
                             terms > 2 ? unit * law[2] / (v_ref_ * v_ref_) : 0, v0);
       std::vector<double> raw;
       double last = 0, x = 0;

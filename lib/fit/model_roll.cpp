@@ -105,7 +105,12 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
       seen.y.push_back(mean);
       seen.with_mean_speed = true;
     }
-    seen.body.slope *= seen.way;
+    // With A = 1 on a level mat only g/((K + 1) R) matters (Eq. 12), and D may be larger than R:
+    // the radius is taken so large that it never is.
+    if (seen.geometry == Geometry::approximate && seen.body.slope == 0 && !options.fit_slope) {
+      seen.body.R *= 1e6;
+      seen.body.g *= 1e6;
+    }
     seen.raw_is_position =
         making.known() ? making.responses[r].source == "x" : route == Route::position;
     if (making.known()) {
@@ -129,7 +134,15 @@ std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>& runs, doub
 }
 
 Trajectory RollModel::trajectory(const std::vector<double>& theta, std::size_t run) const {
-  return {runs_[run].body, runs_[run].geometry, parameters_.law(theta), parameters_.v0(theta, run)};
+  Body body = runs_[run].body;
+  body.slope = slope(theta, run);
+  return {body, runs_[run].geometry, parameters_.law(theta), parameters_.v0(theta, run),
+          parameters_.fits_slope() ? Trajectory::Derivatives::of_law_and_slope
+                                   : Trajectory::Derivatives::of_law};
+}
+
+double RollModel::slope(const std::vector<double>& theta, std::size_t run) const {
+  return runs_[run].way * parameters_.slope(theta, runs_[run].body.slope);
 }
 
 void RollModel::evaluate(const std::vector<double>& theta, const Noise& noise,
@@ -152,8 +165,9 @@ void RollModel::evaluate(const std::vector<double>& theta, const Noise& noise,
         const auto s = run.raw_is_position ? roll.at(t) : roll.speed_at(t);
         raw[i] = run.raw_is_position ? x0 + way * s.x : way * s.v;
         if (run.raw_is_position)
-          parameters_.chain(&slopes[i], m, a, {way * s.x_a, way * s.x_b, way * s.x_v0, 1});
-        else parameters_.chain(&slopes[i], m, a, {way * s.v_a, way * s.v_b, way * s.v_v0});
+          parameters_.chain(&slopes[i], m, a, {way * s.x_a, way * s.x_b, way * s.x_v0, 1, s.x_S});
+        else
+          parameters_.chain(&slopes[i], m, a, {way * s.v_a, way * s.v_b, way * s.v_v0, 0, s.v_S});
       }
       if (!run.H) {
         for (std::size_t i = 0; i < m; ++i) raw[i] -= run.y[first + i];

@@ -23,7 +23,7 @@ using Rows = std::vector<std::size_t>;
 
 /// One run, as the model of a roll sees it.
 struct ObservedRun {
-  Body body;
+  Body body;  ///< as far as the roll depends on it
   Geometry geometry = Geometry::approximate;
   double way = 1;     ///< -1: the body rolls towards falling x, v < 0
   double origin = 0;  ///< the time at which v0 and x0 hold; the times below count from it
@@ -62,6 +62,8 @@ class RollModel {
   const std::vector<ObservedRun>& runs() const { return runs_; }
   const Parameters& parameters() const { return parameters_; }
   Trajectory trajectory(const std::vector<double>& theta, std::size_t run) const;
+  /// The slope that a run sees along its way.
+  double slope(const std::vector<double>& theta, std::size_t run) const;
   /// Hands over model - data of each run, weighted where the noise says so.
   void evaluate(const std::vector<double>& theta, const Noise&, const TakeRows&) const;
 

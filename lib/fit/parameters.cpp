@@ -11,6 +11,7 @@ std::vector<double> Parameters::theta(PowerLaw law, const std::vector<double>& v
   }
   if (!a_) all.push_back(std::log(law.a) + law.b * log_v_ref_);
   if (!b_) all.push_back(law.b);
+  if (slope_) all.push_back(0);
   return all;
 }
 
