@@ -4,7 +4,8 @@
 # some tests compare with, is no longer than a double, and limits of time or memory may be exceeded. Some twenty minutes.
 set -u
 cd "$(dirname "$0")/.." || exit 2
-command -v valgrind >/dev/null || { echo 'skipped: no valgrind'; exit 77; }
+command -v valgrind >/dev/null ||
+  { echo 'skipped: no valgrind; make setup sanitize installs it'; exit 77; }
 copy=$PWD/build/valgrind
 rm -rf "$copy"
 mkdir -p "$copy/bin" "$copy/build/replay" "$copy/log"

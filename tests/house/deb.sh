@@ -4,7 +4,8 @@ set -u
 export LC_ALL=C
 unset CDPATH
 cd "$(dirname "$0")/../.." || exit 2
-command -v dpkg-shlibdeps >/dev/null || { echo "skipped: no dpkg-shlibdeps" && exit 77; }
+command -v dpkg-shlibdeps >/dev/null ||
+  { echo "skipped: no dpkg-shlibdeps; make setup deb installs it" && exit 77; }
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 unset MAKEFLAGS MAKELEVEL DESTDIR PREFIX PROGRAM_PREFIX

@@ -2,7 +2,7 @@
 # A tool that calls no GSL does not depend on it.
 set -u
 cd "$(dirname "$0")/../.." || exit 2
-command -v ldd >/dev/null || { echo "skipped: no ldd" && exit 77; }
+command -v ldd >/dev/null || { echo "skipped: no ldd (package libc-bin)" && exit 77; }
 wrong=0
 for tool in smooth differentiate shift-from-accel energy-ledger; do
   libraries=$(ldd "bin/$tool") || { echo "bin/$tool: ldd does not read it" && exit 1; }

@@ -10,7 +10,8 @@ export LC_ALL=C
 unset CDPATH
 overstrike=$(printf '\b')
 cd "$(dirname "$0")/../.." || exit 2
-command -v mandoc >/dev/null || { echo "skipped: mandoc is not installed"; exit 77; }
+command -v mandoc >/dev/null ||
+  { echo "skipped: no mandoc; make setup check installs it"; exit 77; }
 
 top=$PWD
 bin=${1:-$top}/bin pages=(man/*.[1-9])

@@ -4,7 +4,8 @@
 # have the forces and velocities of the equations, to scale; the sum in energy stays; the report has them all in it; and make builds
 # for a figure no more than it needs.
 set -eu
-command -v gnuplot >/dev/null || { echo "skipped: gnuplot is not installed"; exit 77; }
+command -v gnuplot >/dev/null ||
+  { echo "skipped: no gnuplot; make setup check installs it"; exit 77; }
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 wrong=0

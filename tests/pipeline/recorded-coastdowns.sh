@@ -3,7 +3,8 @@
 # checks: another route, a figure of the record's owners, or the reckoning of the way.
 set -eu
 data=${REAL_DATA:-}
-[ -r "$data/kart-coastdown-1hz/Michelin60A.csv" ] || { echo "skipped: REAL_DATA is not set, or has no kart-coastdown-1hz"; exit 77; }
+[ -r "$data/kart-coastdown-1hz/Michelin60A.csv" ] ||
+  { echo "skipped: REAL_DATA names no folder with kart-coastdown-1hz; see tests/recordings.md"; exit 77; }
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 wrong=0

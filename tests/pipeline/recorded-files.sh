@@ -3,7 +3,8 @@
 # can be checked in each.
 set -u
 data=${REAL_DATA:-}
-[ -d "$data/cart-vernier" ] || { echo "skipped: REAL_DATA names no recorded files"; exit 77; }
+[ -d "$data/cart-vernier" ] ||
+  { echo "skipped: REAL_DATA names no folder of recordings; see tests/recordings.md"; exit 77; }
 failed=0
 
 # expect FIGURES COMMAND...: the records of each run that the command prints

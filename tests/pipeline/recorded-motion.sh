@@ -3,7 +3,8 @@
 # physics, a second sensor, a figure of the record's owners. What is measured is printed; each line must stay within its bounds.
 set -u
 data=${REAL_DATA:-}
-[ -d "$data/cart-push-smartphone" ] || { echo "skipped: REAL_DATA names no recorded files"; exit 77; }
+[ -d "$data/cart-push-smartphone" ] ||
+  { echo "skipped: REAL_DATA names no folder of recordings; see tests/recordings.md"; exit 77; }
 scratch=$(mktemp)
 trap 'rm -f "$scratch"' EXIT
 wrong=0
