@@ -57,7 +57,8 @@ for tool in $tools; do
     cmp -s "$scratch/both" "$scratch/good" || complain "$tool $redirect wrote into its input"
   done
 
-  # A signal in mid-stream: what has gone out is whole rows. The reader is slow, so that it comes in the middle of a write.
+  # A signal in mid-stream: what has gone out is whole rows. The reader is slow, so that it comes in
+  # the middle of a write.
   [ "$tool" = fitpower ] || for signal in TERM INT HUP; do
     { sleep 0.1; cat >"$scratch/out"; } <"$scratch/fifo" &
     reader=$!

@@ -1,6 +1,6 @@
 #!/bin/bash
-# The same rows whatever the surroundings: how the input arrives, the locale, the environment, the folder, the limits. And
-# refusals where there is no input to be had.
+# The same rows whatever the surroundings: how the input arrives, the locale, the environment, the
+# folder, the limits. And refusals where there is no input to be had.
 . "$(dirname "$0")/tools"
 good 400 >"$scratch/good"
 top=$PWD

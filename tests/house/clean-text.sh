@@ -1,5 +1,6 @@
 #!/bin/bash
-# Nothing is half there: a case has its cmd and an expectation, a file of lib/ that computes has its unit test, a test is run.
+# Nothing is half there: a case has its cmd and an expectation, a file of lib/ that computes has its
+# unit test, a test is run.
 set -u
 cd "$(dirname "$0")/../.." || exit 2
 wrong=0
@@ -16,7 +17,8 @@ for source in cmd/*.cpp; do
   [ -d "tests/tools/$tool" ] || complain "tests/tools/$tool: no cases"
 done
 
-# Without a unit test of their own: GSL's handler and messages, and what only a command as a whole can show.
+# Without a unit test of their own: GSL's handler and messages, and what only a command as a whole
+# can show.
 for source in lib/*/*.cpp; do
   name=${source#lib/}
   case $name in

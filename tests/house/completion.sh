@@ -1,5 +1,6 @@
 #!/bin/bash
-# The completions offer what --help lists: in bash (the function, called as bash calls it, and typed at a terminal) and in zsh.
+# The completions offer what --help lists: in bash (the function, called as bash calls it, and typed
+# at a terminal) and in zsh.
 set -u
 cd "$(dirname "$0")/../.." || exit 2
 scratch=$(mktemp -d) || exit 2
@@ -35,7 +36,8 @@ expect "$(offered fitpower --route '')" 'loglog position shift velocity' 'fitpow
 expect "$(offered simulate --sensor '')" pasco 'simulate --sensor'
 grep -q rk8pd <<<"$(offered simulate --method r)" || complain "simulate --method r: $(offered simulate --method r)"
 
-# Keys at a terminal, tabs among them, and then what the command line has become: the tools are stand-ins that tell it.
+# Keys at a terminal, tabs among them, and then what the command line has become: the tools are
+# stand-ins that tell it.
 touch "$scratch/run of CR.csv" "$scratch/SF.toml"
 await() { for _ in {1..100}; do [ ! -e "$1" ] || return; sleep 0.1; done; }
 typed() {  # SHELL KEYS: what the stand-in saw

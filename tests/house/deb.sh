@@ -1,5 +1,6 @@
 #!/bin/bash
-# `make deb` makes a package that holds what `make install` installs, whose tools run, and which lintian finds no error in.
+# `make deb` makes a package that holds what `make install` installs, whose tools run, and which
+# lintian finds no error in.
 set -u
 export LC_ALL=C
 unset CDPATH

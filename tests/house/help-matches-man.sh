@@ -1,5 +1,6 @@
 #!/bin/bash
-# The long options that --help prints are those of the page, both ways; and each short one is on the page too.
+# The long options that --help prints are those of the page, both ways; and each short one is on the
+# page too.
 set -u
 cd "$(dirname "$0")/../.." || exit 2
 wrong=0 tools=0
@@ -9,7 +10,8 @@ for source in cmd/*.cpp; do
   page=man/$tool.1
   [ -r "$page" ] || { echo "$tool has no page $page" && wrong=1 && continue; }
   help=$("bin/$tool" --help) || { echo "$tool --help fails" && wrong=1 && continue; }
-  # "  -w,--width N   text": the names before the first blank; the page has `.It Fl w , Fl Fl width Ar N`.
+  # "  -w,--width N   text": the names before the first blank; the page has `.It Fl w , Fl Fl width
+  # Ar N`.
   in_help=$(sed -nE 's/^  (-[^ ]+).*/\1/p' <<<"$help" | tr , '\n' | sort -u)
   in_page=$(grep -E '^\.It Fl ' "$page" | grep -oE 'Fl (Fl )?[^ ,]+' | sed -E 's/^Fl Fl /--/; s/^Fl /-/' | sort -u)
   [ "$(wc -l <<<"$in_help")" -ge 3 ] || { echo "$tool --help shows no options that could be read" && wrong=1; }

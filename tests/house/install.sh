@@ -1,7 +1,7 @@
 #!/bin/bash
 # `make install` with plain and with prefixed names: the tools run, the pages are found and are
-# right, their examples run under the installed names; `make uninstall` removes all of it and nothing
-# else. Both whatever the environment is and whatever signs the folder has in its name.
+# right, their examples run under the installed names; `make uninstall` removes all of it and
+# nothing else. Both whatever the environment is and whatever signs the folder has in its name.
 set -u
 export LC_ALL=C
 unset CDPATH

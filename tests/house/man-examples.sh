@@ -21,7 +21,8 @@ trap 'rm -rf "$scratch"' EXIT
 export PATH="$bin:$PATH"
 failed=0 count=0
 
-# run PAGE COMMAND SHOWN: runs in a fresh copy, as from the top of the checkout; SHOWN is empty if the page shows no output.
+# run PAGE COMMAND SHOWN: runs in a fresh copy, as from the top of the checkout; SHOWN is empty if
+# the page shows no output.
 run() {
   local page=$1 command=$2 shown=$3 status wanted=0
   [[ $command =~ \#\ exits\ ([0-9]+)$ ]] && wanted=${BASH_REMATCH[1]}

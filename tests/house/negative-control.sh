@@ -1,5 +1,6 @@
 #!/bin/bash
-# A test that must fail does fail: each of these cases is wrong in one way, and run.sh has to notice every one.
+# A test that must fail does fail: each of these cases is wrong in one way, and run.sh has to notice
+# every one.
 set -u
 top=$(cd "$(dirname "$0")/../.." && pwd) || exit 2
 scratch=$(mktemp -d) || exit 2

@@ -15,7 +15,7 @@ parser() { python3 -c 'import xml.dom.minidom' 2>/dev/null; }  # whether there i
 
 # draw NAME [INSTANT]: the picture, and its texts, a line each.
 draw() {
-  "samples/figures/$1.sh" svg "${@:2}" >"$scratch/$1.svg" 2>"$scratch/said" || complain "$1: exit $?"
+  "samples/figures/$1.sh" "${@:2}" >"$scratch/$1.svg" 2>"$scratch/said" || complain "$1: exit $?"
   [ ! -s "$scratch/said" ] || { complain "$1 says:"; cat "$scratch/said"; }
   tr -d '\n\t' <"$scratch/$1.svg" | sed 's|<title>[^<]*</title>||g; s|</text>|\n|g' |
     sed 's/<[^>]*>//g; s/^ *//; s/ *$//; s/−/-/g' >"$scratch/$1.text"
@@ -27,19 +27,23 @@ has() {  # NAME TEXT...
 
 for script in samples/figures/*.sh; do
   name=$(basename "$script" .sh)
-  [ "$name" != common ] || continue
+  case $name in draw | live) continue ;; esac
   draw "$name"
   grep -q '^</svg>' "$scratch/$name.svg" || complain "$name: no end"
   if parser; then
     python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' "$scratch/$name.svg" || complain "$name: not well-formed"
   fi
 done
-samples/figures/fig2.sh pngcairo | head -c 8 | cmp -s - <(printf '\211PNG\r\n\032\n') || complain "fig2: no PNG"
+samples/figures/fig2.sh -t pngcairo | head -c 8 | cmp -s - <(printf '\211PNG\r\n\032\n') || complain "fig2: no PNG"
 has fig1 'velocity v / (m/s)' 'time t / s' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt' 'C, fitted trajectory' \
   'before smoothing'
-has fig1-stop 'velocity v / (mm/s)' 'distance from rest / mm' 'fitted law with a memory of 0.5 mm'
-has fig4 'velocity v / (m/s)' 'shift D / mm' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt'
-has energy 'energy / J' 'time t / s' translational rotational dissipated sum
+has fig1-stop 'velocity v / (mm/s)' 'distance from rest / mm' \
+  'with a memory of 0.5 mm (given, not fitted)'
+has fig4 'velocity v / (m/s)' 'shift D / mm' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt' \
+  'Bands: 95 % confidence of the law, not of the points.' \
+  'Points: the free roll, less five records at each end.'
+has energy 'energy / J' 'time t / s' translational rotational dissipated sum \
+  'points: measured velocities' 'lines: fitted trajectory'
 
 # Figs. 2 and 3 by the equations, from a, b, K, R, m of the scene and v = 0.5 m/s: the numbers that they say, and where the tips of
 # their arrows are, by the lower left corner of each panel in pixels and in millimetres, and its scale.
@@ -95,16 +99,20 @@ for instant in 0.5 1.5; do
       for (i = 1; i <= NF; i++) is[name[i]] = $i
       is["trans"] = -1.375 * is["v"] * is["a"]; is["rot"] = is["trans"] / 2; next }
     FILENAME ~ /text$/ {
-      if (before ~ /^(P[TR][12]|IE2)$/) { key = before; sub(/E/, "_E", key); sub(/^P/, "P_", key); compare(before, $1, is[key]) }
-      if (before == "Pdiss = IE1 + IE2") compare("P_diss", $2, is["P_diss"])
-      if (/^IE1 = /) compare("I_E1", $3 / 1e3, is["I_E1"])
-      if (before ~ / J$/ && / W$/ && !stored++) { compare("what E_trans gives", $1, is["trans"]) }
+      if (before ~ /^(P[TR][12]|IE2)$/) { key = before; sub(/E/, "_E", key); sub(/^P/, "P_", key)
+        compare(before, $1 / 1e3, is[key]) }
+      if (before == "Pdiss = IE1 + IE2") compare("P_diss", $2 / 1e3, is["P_diss"])
+      if (/^IE1 = /) compare("I_E1", 100 * $3, int(1e5 * is["I_E1"] + 0.5))  # mW, two decimals
+      if (before ~ / J$/ && /^[0-9.]+$/ && !stored++) {
+        compare("what E_trans gives", $1 / 1e3, is["trans"])
+      }
+      if (/^ΠS = /) compare("Pi_S", $4 / 1e3, is["P_diss"] / 293)
       before = $0; next }
     { split($1, first, ","); split($7, last, ","); width[FNR] = sqrt((first[1] - last[1])^2 + (first[2] - last[2])^2) }
     END {
       split("P_T1 P_R2 I_E2 trans rot P_diss", drawn, " ")
       for (i = 1; i <= 5; i++) compare("the width of " drawn[i], width[i] / width[6], is[drawn[i]] / is["P_diss"])
-      if (checks != 13) { print "fig5: " checks " of 13 numbers found"; bad = 1 }
+      if (checks != 14) { print "fig5: " checks " of 14 numbers found"; bad = 1 }
       exit bad }' "$scratch/row" "$scratch/fig5.text" "$scratch/shafts" || wrong=1
 done
 
@@ -141,6 +149,24 @@ for run in CR:0.5 SR:0.83 CF:0.5 SF:0.83; do
           print run " at " v ": drawn", low[v], law[v], high[v], "for", below, want, above; bad = 1 } }
       exit bad || checks != 2 }' "$scratch/law" "$scratch/band" "$scratch/line" || complain "fig4: $run"
 done
+
+# Records of somebody's own: a picture of speeds alone, in another unit and under a name that is no
+# code, has the law of the route by D through the speeds as they are.
+sed 's/Time (s),.*/Time (s),Velocity (km\/h)/; 2,$s/,.*,\(.*\)/,\1/' samples/CR.csv |
+  awk -F, -v OFS=, 'NR > 1 && $2 != "" { $2 *= 3.6 } { print }' >"$scratch/my_'run'; set label.1.csv"
+(cd "$scratch" && "$OLDPWD/samples/figures/fig4.sh" -K 0.5 -R 0.04 "my_'run'; set label.1.csv") \
+  >"$scratch/own.svg" || complain "fig4 of an own record: exit $?"
+smooth -q --coast -c v -w 11 "$scratch/my_'run'; set label.1.csv" | differentiate -c v |
+  shift-from-accel -q -K 0.5 -R 0.04 | fitpower -q | tail -n 1 >"$scratch/law"
+sed -n 's/.*>\(my_.*\)<.text>.*/\1/p' "$scratch/own.svg" | grep -qxF "my_&#39;run&#39;; set label.1" ||
+  grep -qF "my_'run'; set label.1" "$scratch/own.svg" || complain "own record: its name is not there"
+part own 3 | grep -oE '[0-9.]+,[0-9.]+' | tr ',' ' ' | awk -v frame="$(axes own)" '
+  BEGIN { split(frame, f, " ") }
+  FNR == NR { a = $1; b = $3; next }
+  { if (!n++) { x0 = $1; y0 = $2 } x1 = $1; y1 = $2 }
+  END {  # from 4 % to the whole of the axis the law grows by 25^b
+    grows = (f[4] - y1) / (f[4] - y0); wide = (x1 - f[1]) / (x0 - f[1])
+    exit !(n > 50 && (grows / wide^b - 1)^2 < 1e-4) }' "$scratch/law" - || complain "own record: its law"
 
 # The stop: in the upper panel, from -22 to 110 mm/s, the law alone ends at 0, and with memory the lowest velocity is simulate's.
 smooth -q --coast -c x -w 1 samples/CR.csv | fitpower -q --route position -K 0.5 -R 0.04 >"$scratch/fit"
