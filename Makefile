@@ -83,7 +83,7 @@ samples: bin/simulate
 # Figures of the paper: each is drawn by the script of its name in samples/figures, which runs the
 # tools that it names.
 figure  := $(patsubst samples/figures/%.sh,%,\
-             $(filter-out %/draw.sh %/live.sh,$(wildcard samples/figures/*.sh)))
+             $(filter-out %/draw.sh,$(wildcard samples/figures/*.sh)))
 figures: $(figure:%=figures/%.svg) $(figure:%=figures/%.png)
 empty   :=
 space   := $(empty) $(empty)
