@@ -1,8 +1,9 @@
 #!/bin/bash
 # One page with Table 1, the energy check and the figures, all in it, on standard output:
 #   samples/report.sh FIGURES [WORK-PRECISION] >report.html
-# FIGURES is a folder with the SVGs of samples/figures; WORK-PRECISION one with those of `make work-precision`, where that was run.
-# The tools are on PATH. `make report` does it all.
+# FIGURES is a folder with the SVGs of samples/figures, and with the manual pages in man/, if they are
+# to be linked; WORK-PRECISION is one with the SVGs of `make work-precision`, where that was run. The
+# tools are on PATH. `make report` does it all.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
@@ -14,16 +15,17 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 ./table1.sh >"$scratch/table1" || echo "report: table1.sh finds a value too far off, or an open balance; see the page" >&2
 
-# figure FILE TITLE COMMAND: the picture in the page, with the names in it made its own, and the caption from standard input.
+# figure FILE TITLE COMMAND: the picture in the page, and the caption from standard input. The names in
+# the picture get its own name in front, for a name may stand only once in a page.
 figure() {
   local name
   name=$(basename "$1" .svg)
-  printf '<figure id="%s">\n' "$name"
-  echo '<div class="wide">'
+  printf '<figure id="%s">\n<a class="back" href="#_">back to the page</a>\n' "$name"
+  printf '<a href="#%s" title="the figure alone">\n' "$name"
   sed -e '/^<?xml/d; /^<desc>/d; s/<title>[^<]*<\/title>//; s/^ width="[0-9]*" height="[0-9]*"$//' \
     -e "s/ id=\([\"']\)/ id=\1$name-/g; s/href='#/href='#$name-/g; s/url(#/url(#$name-/g" \
     -e "s/^<svg *$/<svg role=\"img\" aria-label=\"$2\"/" "$1"
-  printf '</div>\n<figcaption><b>%s.</b> %s <code>%s</code></figcaption>\n</figure>\n' "$2" "$(cat)" "$3"
+  printf '</a>\n<figcaption><b>%s.</b> %s <code>%s</code></figcaption>\n</figure>\n' "$2" "$(cat)" "$3"
 }
 drawn() { figure "$figures/$1.svg" "$2" "make figures/$1.svg"; }
 
@@ -51,30 +53,49 @@ cat <<'HTML'
 <meta name="viewport" content="width=device-width, initial-scale=1"/>
 <title>A cylinder and a shell roll to rest on a soft mat</title>
 <style>
-body { max-width: 46rem; margin: 0 auto; padding: 1rem; font: 1.05rem/1.5 system-ui, sans-serif; color: #1a1a1a; background: #fff; }
+body { max-width: 46rem; margin: 0 auto; padding: 1rem; font: 1.05rem/1.5 system-ui, sans-serif;
+  color: #1a1a1a; background: #fff; }
 h1, h2 { line-height: 1.2; }
 h2 { margin-top: 2.5rem; border-top: 1px solid #bbb; padding-top: 1rem; }
+a { color: #005a9c; }
 figure { margin: 2rem 0; }
-figure svg { display: block; width: 100%; height: auto; }
+figure svg { display: block; width: 100%; height: auto; background: #fff; border-radius: 4px; }
+.formula { margin: 1rem 0; padding-left: 1.2rem; }
 .formula span { margin-left: 1.5em; }
 .together { white-space: nowrap; }
 figcaption { margin-top: .5rem; font-size: .95rem; color: #333; }
-code { font-size: .85em; background: #f3f1ec; padding: .1em .3em; }
+code { font-size: .85em; background: #f3f1ec; padding: .1em .3em; overflow-wrap: anywhere; }
 figcaption code { display: inline-block; color: #555; }
 .wide { overflow-x: auto; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: 1rem 0; font-size: .95rem; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: 1rem 0;
+  font-size: .95rem; }
 tr { border-bottom: 1px solid #ddd; }
 th, td { padding: .25rem .8rem .25rem 0; text-align: left; vertical-align: top; }
 th { white-space: nowrap; }
-.formula { margin: 1rem 0; padding-left: 1.2rem; }
-/* On a phone a figure is wider than the screen, and moves under the finger: its letters stay legible. */
-@media (max-width: 36rem) { body { font-size: 1rem; padding: .7rem; } th, td { padding-right: .5rem; font-size: .85rem; }
-  .wide svg { width: 28rem; } }
+/* On a phone a figure is as wide as the screen; a tap opens it alone, to be enlarged. */
+figure > a { display: block; }
+figure:target { position: fixed; inset: 0; margin: 0; padding: .5rem; overflow: auto;
+  background: #fff; z-index: 1; }
+figure:target svg { width: auto; min-width: 44rem; }
+.back { display: none; }
+figure:target .back { display: inline-block; padding: .5rem 0; }
+@media (max-width: 36rem) { body { font-size: 1rem; padding: .7rem; }
+  th, td { padding-right: .5rem; font-size: .85rem; } }
+@media (prefers-color-scheme: dark) {
+  body, figure:target { color: #e6e3dd; background: #16181b; }
+  figcaption, figcaption code { color: #c9c5bc; }
+  a { color: #7cb8ef; }
+  code { background: #23262b; }
+  h2, tr { border-color: #44484f; }
+  figure svg { background: #f4f1ea; } }
 @media print {
-  body { max-width: none; font-size: 10.5pt; padding: 0; }
-  figure, table { break-inside: avoid; }
-  figure svg { max-height: 11.5cm; }
-  h2, h3 { break-after: avoid; } }
+  body { max-width: none; font-size: 10.5pt; padding: 0; color: #000; background: #fff; }
+  figure, table, .section { break-inside: avoid; }
+  figure { margin: 1rem 0; }
+  figure svg { width: auto; max-width: 100%; height: auto; max-height: 9.5cm; margin: 0 auto; }
+  h2, h3 { break-after: avoid; }
+  h2 { margin-top: 1.2rem; }
+  p { orphans: 3; widows: 3; } }
 </style>
 </head>
 <body>
@@ -91,7 +112,7 @@ rounding and the lost echoes of such a sensor. So the answer is known, and one c
 HTML
 drawn fig1 "Fig. 1: velocity against time" <<'HTML'
 The hand pushes, lets go, and the body rolls freely. Grey: differences of the sonar’s positions; coloured: the mean over eleven of
-them; black: the motion that the law <i>D = a v<sup>b</sup></i> foretells, fitted to the positions. <i>To discuss:</i> on felt the
+them; black: the motion that the law <i>D = a v<sup>b</sup></i> predicts, fitted to the positions. <i>To discuss:</i> on felt the
 lines are nearly straight, on rubber they are not; what does that say about the force? Why does the shell roll further than the
 cylinder of equal mass and radius?
 HTML
@@ -132,28 +153,30 @@ velocity, and the lines of the two bodies lie on each other; on rubber it grows 
 independent: each sample is in eleven means, and the fit takes that into account.
 HTML
 cat <<'HTML'
-<h3>Table 1: <i>D</i> = <i>a v<sup>b</sup></i></h3>
+<div class="section"><h3>Table 1: <i>D</i> = <i>a v<sup>b</sup></i></h3>
 <p>By two routes: through the points of Fig. 4, and by the motion of Fig. 1 fitted to the positions, which is more precise.
 <i>a</i> is the shift at 1 m/s. The columns “off” tell by how many standard errors a value differs from the paper’s, from which
 the records were made. <code>make table1</code></p>
 HTML
 table "Table 1" "$scratch/table1"
-echo "<h3>What the paper expects</h3>"
+echo '</div><div class="section"><h3>What the paper expects</h3>'
 table "What the paper" "$scratch/table1"
+echo '</div>'
 cat <<'HTML'
 <h2>Where the energy goes</h2>
 HTML
 drawn energy "Energy against time" <<'HTML'
-The cylinder on rubber. What is stored is reckoned from the measured velocities alone (points), what is dissipated from the fitted
+The cylinder on rubber. What is stored is computed from the measured velocities alone (points), what is dissipated from the fitted
 shift, that is from the forces; lines are the same for the fitted motion. Their sum stays level only if the shift is right. The
 rotation of the cylinder has half the energy of its translation, at any speed: that is its <i>K</i>.
 HTML
 cat <<'HTML'
-<h3>The check</h3>
+<div class="section"><h3>The check</h3>
 <p>The measured loss of each run beside what the shift of Table 1 dissipates; the closure is their relative difference (Eq. 23).
 Over many such records it scatters by some 1.5 %.</p>
 HTML
 table "Energy" "$scratch/table1"
+echo '</div>'
 drawn fig5 "Fig. 5: the process diagram" <<'HTML'
 Horizontal momentum flows from the body to the mat and falls from the speed <i>v</i> of the axis to that of P. The power it
 releases, <i>P</i><sub>T1</sub>, pumps angular momentum into the body, <i>P</i><sub>R1</sub>. Angular momentum leaves again, falls
@@ -198,7 +221,8 @@ cat <<HTML
 <p><code>make report</code> ran $(simulate --version | sed 's/^simulate (\(.*\)) \(.*\)/\1 \2/'): six small tools,
 <code>smooth</code>, <code>differentiate</code>, <code>shift-from-accel</code>, <code>fitpower</code>, <code>simulate</code> and
 <code>energy-ledger</code>, which read and write plain columns and are joined by pipes. The pipeline of each figure is the script
-of its name in <code>samples/figures</code>.</p>
+of its name in <code>samples/figures</code>.$([ ! -e "$figures/man/index.html" ] ||
+  echo 'What each tool does, with all options, says its <a href="man/index.html">manual page</a>.')</p>
 </body>
 </html>
 HTML

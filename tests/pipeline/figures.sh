@@ -210,7 +210,7 @@ wrong = [f"{n} times id {i}" for i, n in names.items() if n > 1]
 for e in elements:
     for attribute in ("src", "href", "xlink:href", "data"):
         to = e.getAttribute(attribute)
-        if to and not (to.startswith("#") and to[1:] in names):
+        if to and to != "#_" and not (to.startswith("#") and to[1:] in names):
             wrong.append(f"{e.tagName} refers to {to}")
 wrong += [f"no svg in {f}" for f in ("fig1", "fig1-stop", "fig2", "fig3", "fig4", "fig5", "energy")
           if not any(e.getElementsByTagName("svg") for e in elements if e.getAttribute("id") == f and e.tagName == "figure")]
