@@ -1,4 +1,6 @@
 // smooth - smooth a column and select its records; see smooth(1)
+#include <utility>
+
 #include "cli/tool.h"
 #include "signal/selection.h"
 #include "signal/smoother.h"
@@ -17,14 +19,17 @@ std::size_t odd_number(const std::string& text) {
 
 /// The `##` lines.
 std::string history(const std::string& column, const SelectionOptions& selected,
-                    const SmootherOptions& smoothed) {
-  std::string text;
-  if (std::isfinite(selected.from)) text += fmt::format("smooth t from {}\n## ", selected.from);
-  if (std::isfinite(selected.to)) text += fmt::format("smooth t to {}\n## ", selected.to);
+                    const SignalOptions& smoothed) {
+  std::vector<std::string> lines;
+  if (std::isfinite(selected.from)) lines.push_back(fmt::format("smooth t from {}", selected.from));
+  if (std::isfinite(selected.to)) lines.push_back(fmt::format("smooth t to {}", selected.to));
   if (selected.outliers > 0)
-    text += fmt::format("smooth {} outliers {}\n## ", column, selected.outliers);
-  if (selected.coast) text += fmt::format("smooth {} coast\n## ", column);
-  return text + fmt::format("smooth {} {}", column, describe(smoothed));
+    lines.push_back(fmt::format("smooth {} outliers {}", column, selected.outliers));
+  if (selected.coast) lines.push_back(fmt::format("smooth {} coast", column));
+  const Width& width = smoothed.width;
+  if (width.seconds > 0 || width.samples > 1)  // a window of one record is no filter
+    lines.push_back(fmt::format("smooth {} {}", column, describe(smoothed)));
+  return fmt::format("{}", fmt::join(lines, "\n## "));
 }
 
 }  // namespace
@@ -35,11 +40,11 @@ int main(int argc, char** argv) {
             "records.");
   std::string column, width = "11";
   SelectionOptions select;
-  SmootherOptions options;
+  auto methods = by_name(smoothing_methods);
+  SignalOptions options{methods["mean"]};
   tool.text("-c,--column", column, "COLUMN",
             "the column to smooth (v, else the first that is not t)");
-  tool.choice("-M,--method", options.method, smoothing_methods,
-              "what takes the place of a reading (mean)");
+  tool.choice("-M,--method", options.method, methods, "what takes the place of a reading (mean)");
   tool.text("-w,--width", width, "N",
             "width of the window, an odd number of samples (11), or auto");
   tool.number("--seconds", options.width.seconds, positive,
@@ -58,10 +63,10 @@ int main(int argc, char** argv) {
       fail("--width and --seconds are two widths: give one");
     bool choose = width == "auto";
     if (width != "auto") options.width.samples = odd_number(width);
-    if (options.method != SmoothingMethod::savgol && tool.on_command_line("order"))
+    if (!options.method->has_order && tool.on_command_line("order"))
       fail("--order goes with --method savgol");
     select.width = options.width;
-    make_smoother(options);  // refuses what does not go together, before anything is read
+    make_signal(options);  // refuses what does not go together, before anything is read
     Reader& in = tool.read({"t", "v"});
     const auto t = in.need_time();
     if (column.empty())
@@ -72,18 +77,20 @@ int main(int argc, char** argv) {
     if (select.coast && name != "x" && name != "v")
       fail("--coast needs the column x or v, not {}", shown(name));
 
-    const bool streams =
-        !choose && !select.coast;  // else nothing goes out before the first run has been read
-    Filter filter(in, tool.out, streams ? history(name, select, options) : "");
+    Filter filter(in, tool.out);
     filter.replace(y);
     const bool all = select.all();
-    bool told = streams;
+    bool told = false;
+    const auto tell = [&] {
+      if (!std::exchange(told, true)) filter.tell(history(name, select, options));
+    };
     std::size_t outliers = 0;
     while (filter.next_run()) {
+      if (!choose && !select.coast) tell();  // else the first run may still be refused
       Selection selection(select);
       std::unique_ptr<Signal> smoother;
       if (choose) smoother = std::make_unique<AutoSmoother>(options);
-      else smoother = make_smoother(options);
+      else smoother = make_signal(options);
       std::size_t record = 0, kept = 0;
       const auto take = [&](std::span<const Judged> samples) {
         for (const Judged& s : samples) {
@@ -97,10 +104,6 @@ int main(int argc, char** argv) {
         else take(selection.push(filter[t], filter[y]));
       }
       const auto last = selection.finish();
-      const auto tell = [&] {
-        if (!told) filter.tell(history(name, select, options));
-        told = true;
-      };
       if (!choose) tell();
       take(last);
       const auto rest = smoother->finish();

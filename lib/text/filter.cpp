@@ -24,7 +24,7 @@ Filter::~Filter() {
 }
 
 void Filter::tell(std::string history) {
-  history_ = "## " + std::move(history);
+  history_ = history.empty() ? "" : "## " + std::move(history);
   write_header();
   write_rows();
 }
@@ -47,7 +47,7 @@ void Filter::append(Column column) {
 
 void Filter::write_header() {
   for (const std::string& text : in_.comments()) out_.text(text), out_.end_line();
-  out_.text(history_), out_.end_line();
+  if (!history_.empty()) out_.text(history_), out_.end_line();
   out_.names(columns_);
   header_written_ = true;
 }
@@ -66,7 +66,7 @@ bool Filter::next_run() {
 
 bool Filter::next() {
   if (!in_.next()) return false;
-  if (in_.history_changed() && header_written_) comment(history_);
+  if (in_.history_changed() && header_written_ && !history_.empty()) comment(history_);
   Row& row = rows_.emplace_back();
   const std::string_view text = in_.text(cut_, row.first, row.last);
   row.size = text.size();

@@ -25,7 +25,7 @@ class Filter {
   ~Filter();
   Filter(const Filter&) = delete;
   Filter& operator=(const Filter&) = delete;
-  void tell(std::string history);
+  void tell(std::string history);  ///< nothing, if the filter changes no number
 
   /// The numbers replace the column in this slot of the reader.
   void replace(std::size_t slot) { cut_ = in_.column_of(slot); }
