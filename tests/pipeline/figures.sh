@@ -1,8 +1,9 @@
 #!/bin/bash
-# The figures say what the tools say: each script draws, in silence, a well-formed picture; the arrows of Fig. 5 are as wide as the
-# powers of energy-ledger and labelled with them; the bands of Fig. 4 lie about their laws by 1.96 standard errors; Figs. 2 and 3
-# have the forces and velocities of the equations, to scale; the sum in energy stays; the report has them all in it; and make builds
-# for a figure no more than it needs.
+# The figures say what the tools say: each script draws, in silence, a well-formed picture; the
+# arrows of Fig. 5 are as wide as the powers of energy-ledger and labelled with them; the bands of
+# Fig. 4 lie about their laws by 1.96 standard errors; Figs. 2 and 3 have the forces and velocities
+# of the equations, to scale; the sum in energy stays; the report has them all in it; and make
+# builds for a figure no more than it needs.
 set -eu
 command -v gnuplot >/dev/null ||
   { echo "skipped: no gnuplot; make setup check installs it"; exit 77; }
@@ -45,8 +46,9 @@ has fig4 'velocity v / (m/s)' 'shift D / mm' 'C on rubber' 'S on rubber' 'C on f
 has energy 'energy / J' 'time t / s' translational rotational dissipated sum \
   'points: measured velocities' 'lines: fitted trajectory'
 
-# Figs. 2 and 3 by the equations, from a, b, K, R, m of the scene and v = 0.5 m/s: the numbers that they say, and where the tips of
-# their arrows are, by the lower left corner of each panel in pixels and in millimetres, and its scale.
+# Figs. 2 and 3 by the equations, from a, b, K, R, m of the scene and v = 0.5 m/s: the numbers that
+# they say, and where the tips of their arrows are, by the lower left corner of each panel in pixels
+# and in millimetres, and its scale.
 awk 'function say(text, x) { printf "%s\n", sprintf(text, x) }
   function tip(figure, height, left, bottom, x0, y0, scale, x, y) {
     printf "%d tip %.3f %.3f\n", figure, left + (x - x0) * scale, height - bottom - (y - y0) * scale }
@@ -84,7 +86,8 @@ while read -r figure text; do
 done <"$scratch/geometry"
 [ "$(wc -l <"$scratch/geometry")" = 18 ] || complain "the geometry has $(wc -l <"$scratch/geometry") lines"
 
-# Fig. 5 at its own instant and at another: label after label, and the widths of the shafts in the order in which they are drawn.
+# Fig. 5 at its own instant and at another: label after label, and the widths of the shafts in the
+# order in which they are drawn.
 for instant in 0.5 1.5; do
   draw fig5 "$instant"
   echo "$instant" | simulate --scene samples/CR.toml --exact --at - | energy-ledger --scene samples/CR.toml --exact >"$scratch/row"
@@ -168,7 +171,8 @@ part own 3 | grep -oE '[0-9.]+,[0-9.]+' | tr ',' ' ' | awk -v frame="$(axes own)
     grows = (f[4] - y1) / (f[4] - y0); wide = (x1 - f[1]) / (x0 - f[1])
     exit !(n > 50 && (grows / wide^b - 1)^2 < 1e-4) }' "$scratch/law" - || complain "own record: its law"
 
-# The stop: in the upper panel, from -22 to 110 mm/s, the law alone ends at 0, and with memory the lowest velocity is simulate's.
+# The stop: in the upper panel, from -22 to 110 mm/s, the law alone ends at 0, and with memory the
+# lowest velocity is simulate's.
 smooth -q --coast -c x -w 1 samples/CR.csv | fitpower -q --route position -K 0.5 -R 0.04 >"$scratch/fit"
 back=$(simulate --law "$scratch/fit" -K 0.5 -R 0.04 --until 4 --dt 0.005 --columns v --memory 5e-4 --damping 0.02 |
   awk '!/^#/ && $1 < least { least = $1 } END { print least }')
@@ -185,7 +189,8 @@ awk -v law="$(lowest 3a)" -v memory="$(lowest 2a)" -v back="$back" -v top="$top"
     if (!(back < -2e-3 && v(law)^2 < pixel^2 && (v(memory) - back)^2 < pixel^2)) {
       print "fig1-stop: lowest", v(law), v(memory), "instead of 0 and", back; exit 1 } }' || wrong=1
 
-# energy: the line of the sum is level within a pixel in 500, its points within 3 %; what is dissipated ends there.
+# energy: the line of the sum is level within a pixel in 500, its points within 3 %; what is
+# dissipated ends there.
 heights() { part energy "$2" | grep -oE "$3[0-9.]+,[0-9.]+" | sed "s/.*,/$1 /"; }
 read -r _ _ _ bottom _ < <(axes energy)
 { heights line 4 '[ML]'; heights point 8 'translate.'; heights dissipated 3 '[ML]'; } | awk -v bottom="$bottom" '
@@ -197,7 +202,8 @@ read -r _ _ _ bottom _ < <(axes energy)
       print "energy: sum", sum, high["line"], "points", low["point"], high["point"], "dissipated", last["dissipated"]; bad = 1 }
     exit bad }' || wrong=1
 
-# The report: one well-formed page that loads nothing, each name in it once, the figures, and every number of table1.sh.
+# The report: one well-formed page that loads nothing, each name in it once, the figures, and every
+# number of table1.sh.
 samples/report.sh "$scratch" >"$scratch/report.html" 2>"$scratch/said" || complain "report: exit $?"
 [ ! -s "$scratch/said" ] || { complain "report says:"; cat "$scratch/said"; }
 if parser; then

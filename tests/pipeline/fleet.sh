@@ -1,6 +1,7 @@
 #!/bin/bash
-# samples/fleet on a few records: every one gets a row, whoever runs the jobs; the errors are as large as the distances from the truth;
-# and the joint law and the scatter of the laws are those that made the records.
+# samples/fleet on a few records: every one gets a row, whoever runs the jobs; the errors are as
+# large as the distances from the truth; and the joint law and the scatter of the laws are those
+# that made the records.
 set -eu
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -16,12 +17,14 @@ if command -v parallel >/dev/null; then
 fi
 awk -f samples/fleet/pulls.awk "$scratch/run/truth.txt" "$scratch/table"
 
-# Laws that scatter by 0.1 in ln a, 0.02 in b: 24 of them tell that within a factor of 2 (chi square), and the mean within 4 of its errors.
+# Laws that scatter by 0.1 in ln a, 0.02 in b: 24 of them tell that within a factor of 2 (chi
+# square), and the mean within 4 of its errors.
 awk -f samples/fleet/joint.awk "$scratch/table" | awk '!/^#/ {
   off_a = ($1 - 1.87e-3) / $2; off_b = ($3 - 0.215) / $4
   if (off_a^2 > 16 || off_b^2 > 16 || $6 < 0.05 || $6 > 0.2 || $7 < 0.01 || $7 > 0.04) { print "joint:", $0; exit 1 } }'
 
-# One law for all: there is nothing that scatters, and the joint fit of the rows is that of fitpower on all records at once.
+# One law for all: there is nothing that scatters, and the joint fit of the rows is that of fitpower
+# on all records at once.
 samples/fleet/make.sh "$scratch/class" 12 0
 for record in "$scratch"/class/*.csv; do samples/fleet/fit.sh "$record"; done >"$scratch/table"
 smooth -q --coast -c x -w 1 "$scratch"/class/*.csv | fitpower -q --route position -K 0.5 -R 0.04 >"$scratch/joint"
