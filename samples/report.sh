@@ -13,7 +13,8 @@ measured=''
 cd "$(dirname "$0")"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-./table1.sh >"$scratch/table1" || echo "report: table1.sh finds a value too far off, or an open balance; see the page" >&2
+./table1.sh >"$scratch/table1" ||
+  echo "report: table1.sh finds a value too far off, or an open balance; see the page" >&2
 
 # figure FILE TITLE COMMAND: the picture in the page, and the caption from standard input. The names
 # in the picture get its own name in front, for a name may stand only once in a page.
@@ -34,7 +35,8 @@ drawn() { figure "$figures/$1.svg" "$2" "make figures/$1.svg"; }
 table() {
   awk -v title="$1" '
     function cell(text, tag) {
-      gsub(/\+-/, "±", text); sub(/^-/, "−", text); sub(/ - /, " − ", text); gsub(/1e-3/, "10<sup>−3</sup>", text)
+      gsub(/\+-/, "±", text); sub(/^-/, "−", text); sub(/ - /, " − ", text)
+      gsub(/1e-3/, "10<sup>−3</sup>", text)
       return "<" tag ">" text "</" tag ">" }
     index($0, title) == 1 { inside = 1; print "<div class=\"wide\"><table>"; next }
     !inside || (/^$/ && !rows) { next }
@@ -43,7 +45,9 @@ table() {
       if (!/^  /) line = "<th colspan=\"5\">" $0 "</th>"
       else for (i = 1; i <= n; i++) line = line cell(part[i], part[1] ~ /^(route|run|method)$/ ? "th" : "td")
       print "<tr>" line "</tr>"; rows++ }
-    END { print "</table></div>" }' "$2" | sed 's/D_\([A-Za-z]*\)/D<sub>\1<\/sub>/g'
+    END { print "</table></div>" }' "$2" |
+    sed -e 's/D_\([A-Za-z]*\)/D<sub>\1<\/sub>/g' \
+      -e 's/\([0-9]\)e+*\(-*\)0*\([1-9][0-9]*\)/\1·10<sup>\2\3<\/sup>/g; s/<sup>-/<sup>−/g'
 }
 
 cat <<'HTML'
@@ -52,6 +56,7 @@ cat <<'HTML'
 <head>
 <meta charset="utf-8"/>
 <meta name="viewport" content="width=device-width, initial-scale=1"/>
+<title>A cylinder and a shell roll to rest on a soft mat</title>
 <style>
 body { max-width: 46rem; margin: 0 auto; padding: 1rem; font: 1.05rem/1.5 system-ui, sans-serif;
   color: #1a1a1a; background: #fff; }
@@ -97,7 +102,6 @@ figure:target .back { display: inline-block; padding: .5rem 0; }
   h2 { margin-top: 1.2rem; }
   p { orphans: 3; widows: 3; } }
 </style>
-<title>A cylinder and a shell roll to rest on a soft mat</title>
 </head>
 <body>
 <h1>A cylinder and a shell roll to rest on a soft mat</h1>
@@ -139,7 +143,7 @@ inertia <i>K m R</i>²,</p>
 τ<sub>N</sub> = −<i>D F</i><sub>N</sub> <span>(7)</span></p>
 HTML
 drawn fig2 "Fig. 2: the forces, to scale" <<'HTML'
-All lengths are in proportion, and so are all forces. The shift is so small beside the radius that
+All lengths are in proportion, and so are all forces but the one whose arrow has a break. The shift is so small beside the radius that
 it takes the enlarged panel to see it; the horizontal force, too, is small beside the weight. The
 torque of <i>F</i><sub>H</sub> undoes a part of that of <i>F</i><sub>N</sub>; what is left slows the
 rotation. (The outline of the mat in front of P is only sketched.) <i>To discuss:</i> where would P
