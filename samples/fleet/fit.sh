@@ -24,7 +24,8 @@ case $column in
 esac
 PATH=$(cd "$(dirname "$0")/../.." && pwd)/bin:$PATH  # the tools of this source, or those on the PATH
 
-row=$(smooth -q --coast -c $column -w 1 -- "$1" | fitpower -q --route $route -K "$K" -R "$R")
+row=$(smooth -q --coast -c $column -w 1 -- "$1" |
+  fitpower -q --digits 6 --route $route -K "$K" -R "$R")
 record=${1##*/} row=$row awk 'BEGIN {
   name = ENVIRON["record"]
   sub(/\.[^.]*$/, "", name)

@@ -23,7 +23,7 @@ links=0
 while IFS=: read -r file link; do
   target=${link#href=\"}
   target=${target%\"}
-  case $target in https://manpages.debian.org/*) continue ;; esac
+  case $target in https://*) continue ;; esac
   links=$((links + 1))
   page=${target%%#*} place=
   [[ $target != *#* ]] || place=${target#*#}

@@ -230,11 +230,17 @@ samples/table1.sh | grep '^  ' | grep -oE '[-+]?[0-9]+[.][0-9]+' | sort -u >"$sc
 missing=$(comm -23 "$scratch/in-table" "$scratch/in-page")
 [ -z "$missing" ] || complain "report: not in the page:" $missing
 
-# The README shows Fig. 4 as this gnuplot, if it is the same one, draws it today.
-if grep -q "GNUPLOT $(gnuplot --version | sed -E 's/^gnuplot ([0-9.]+) .*/\1/') " samples/fig4.svg; then
-  diff <(grep -v '<desc>' samples/fig4.svg) <(grep -v '<desc>' "$scratch/fig4.svg") >/dev/null ||
-    complain "samples/fig4.svg is not what samples/figures/fig4.sh draws: make figures/fig4.svg && cp figures/fig4.svg samples"
-fi
+# The README shows Fig. 4 and the picture of its first example as this gnuplot, if it is the same one,
+# draws them today.
+grep -qF 'cut -d , -f 1,3 samples/CR.csv >run.csv' README.md || complain 'README: no run.csv'
+cut -d , -f 1,3 samples/CR.csv >"$scratch/run.csv"
+samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/run.csv" >"$scratch/run.svg"
+for picture in fig4 run; do
+  drawn_by=$(grep -o 'GNUPLOT [0-9.]*' "samples/$picture.svg")
+  [ "$drawn_by" = "GNUPLOT $(gnuplot --version | cut -d ' ' -f 2)" ] || continue
+  diff <(grep -v '<desc>' "samples/$picture.svg") <(grep -v '<desc>' "$scratch/$picture.svg") >/dev/null ||
+    complain "samples/$picture.svg is not what samples/figures/fig4.sh draws: see $0"
+done
 
 # What make would do: Fig. 5 needs two tools.
 needs() { make -nB "$1" 2>/dev/null | grep -oE -e '-o bin/[a-z-]+' | sort | tr -d '\n'; }

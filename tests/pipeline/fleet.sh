@@ -28,6 +28,6 @@ awk -f samples/fleet/joint.awk "$scratch/table" | awk '!/^#/ {
 samples/fleet/make.sh "$scratch/class" 12 0
 for record in "$scratch"/class/*.csv; do samples/fleet/fit.sh "$record"; done >"$scratch/table"
 smooth -q --coast -c x -w 1 "$scratch"/class/*.csv | fitpower -q --route position -K 0.5 -R 0.04 >"$scratch/joint"
-paste <(awk -f samples/fleet/joint.awk "$scratch/table" | tail -n 1) <(tail -n 1 "$scratch/joint") | awk '{
+paste <(awk -f samples/fleet/joint.awk "$scratch/table" | tail -n 1 | cut -f 1-8) <(tail -n 1 "$scratch/joint") | awk '{
   far_a = ($1 - $9) / $10; far_b = ($3 - $11) / $12; wide = $4 / $12
   if ($6 > 0.02 || far_a^2 > 0.25 || far_b^2 > 0.25 || wide < 0.8 || wide > 1.25) { print "joint of the rows, and of the records:", $0; exit 1 } }'
