@@ -227,6 +227,7 @@ work-precision: build/bench/ulp build/bench/work_precision
 work-precision-signal: build/bench/signal
 	@mkdir -p build/work-precision
 	tests/bench/signal.sh build/work-precision
+	@echo 'results: build/work-precision/signal.tsv and, with gnuplot, signal*.svg and signal*.png'
 
 # How fast the tools are beside peers and bare loops: some minutes.
 bench: all build/bench/speed
