@@ -43,7 +43,8 @@ table() {
     /^$/ { exit }
     { n = split(substr($0, 3), part, /  +/); line = ""
       if (!/^  /) line = "<th colspan=\"5\">" $0 "</th>"
-      else for (i = 1; i <= n; i++) line = line cell(part[i], part[1] ~ /^(route|run|method)$/ ? "th" : "td")
+      else for (i = 1; i <= n; i++)
+        line = line cell(part[i], part[1] ~ /^(route|run|method)$/ ? "th" : "td")
       print "<tr>" line "</tr>"; rows++ }
     END { print "</table></div>" }' "$2" |
     sed -e 's/D_\([A-Za-z]*\)/D<sub>\1<\/sub>/g' \
@@ -94,12 +95,15 @@ figure:target .back { display: inline-block; padding: .5rem 0; }
   h2, tr { border-color: #44484f; }
   figure svg { background: #f4f1ea; } }
 @media print {
-  body { max-width: none; font-size: 10.5pt; padding: 0; color: #000; background: #fff; }
+  body { max-width: none; font-size: 9.5pt; padding: 0; color: #000; background: #fff; }
+  table, figcaption { font-size: 8.5pt; }
+  table { margin: .5rem 0; }
+  th, td { padding-top: .1rem; padding-bottom: .1rem; }
   figure, table, .section { break-inside: avoid; }
-  figure { margin: 1rem 0; }
-  figure svg { width: auto; max-width: 100%; height: auto; max-height: 9.5cm; margin: 0 auto; }
+  figure { margin: .7rem 0; }
+  figure svg { width: auto; max-width: 100%; height: auto; max-height: 8cm; margin: 0 auto; }
   h2, h3 { break-after: avoid; }
-  h2 { margin-top: 1.2rem; }
+  h2 { margin-top: .8rem; padding-top: .6rem; }
   p { orphans: 3; widows: 3; } }
 </style>
 </head>
@@ -138,7 +142,8 @@ cat <<'HTML'
 up; only because <i>F</i><sub>N</sub> acts ahead of the axis do both slow down together. With the
 arm factor <span class="together"><i>A</i> = √(1 − <i>D</i>²/<i>R</i>²)</span> and the moment of
 inertia <i>K m R</i>²,</p>
-<p class="formula"><i>F</i><sub>H</sub> = −<i>D F</i><sub>N</sub> / ((<i>K</i> + <i>A</i>) <i>R</i>) <span>(9)</span><br/>
+<p class="formula"><i>F</i><sub>H</sub> = −<i>D F</i><sub>N</sub> / ((<i>K</i> + <i>A</i>)
+<i>R</i>) <span>(9)</span><br/>
 τ<sub>H</sub> = −<i>A R F</i><sub>H</sub> <span>(6)</span><br/>
 τ<sub>N</sub> = −<i>D F</i><sub>N</sub> <span>(7)</span></p>
 HTML
@@ -232,18 +237,23 @@ methods on many problems, as figures: <code>make work-precision</code>, some min
 HTML
   # The lines "simulate: METHOD RTOL ..." as table1.sh sets its rows.
   { echo methods; simulate --scene CR.toml --report 2>&1 >/dev/null; } |
-    awk 'NR == 1 { print } NF == 8 { sub(/^simulate: */, ""); gsub(/ +/, "  "); sub(/\|dv\|/, "|Δv|"); print "  " $0 }' \
-      >"$scratch/methods"
+    awk 'NR == 1 { print }
+      NF == 8 {
+        for (i = 7; i <= 8; i++) if ($i ~ /^[0-9]/) $i = sprintf("%.*f", $i < 10, $i)
+        sub(/^simulate: */, ""); gsub(/ +/, "  "); sub(/\|dv\|/, "|Δv|"); sub(/scatter/, "scatter [ns]")
+        print "  " $0
+      }' >"$scratch/methods"
   table methods "$scratch/methods"
 fi
 cat <<HTML
 <h2>How this page was made</h2>
-<p><code>make report</code> ran $(simulate --version | sed 's/^simulate (\(.*\)) \(.*\)/\1 \2/'): six small tools,
+<p><code>make report</code> ran $(simulate --version |
+  sed 's/^simulate (\(.*\)) \(.*\)/\1 \2/'): six small tools,
 <code>smooth</code>, <code>differentiate</code>, <code>shift-from-accel</code>,
 <code>fitpower</code>, <code>simulate</code> and <code>energy-ledger</code>, which read and write
 plain columns and are joined by pipes. The pipeline of each figure is the script
 of its name in <code>samples/figures</code>.$([ ! -e "$figures/man/index.html" ] ||
-  echo 'What each tool does, with all options, says its <a href="man/index.html">manual
+  echo ' What each tool does, with all options, says its <a href="man/index.html">manual
 page</a>.')</p>
 </body>
 </html>
