@@ -2,6 +2,8 @@
 # Nothing is half there: a case has its cmd and an expectation, a file of lib/ that computes has its
 # unit test, a test is run.
 set -u
+export LC_ALL=C
+unset CDPATH
 cd "$(dirname "$0")/../.." || exit 2
 wrong=0
 complain() { echo "$*" && wrong=1; }

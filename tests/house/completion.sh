@@ -2,6 +2,8 @@
 # The completions offer what --help lists: in bash (the function, called as bash calls it, and typed
 # at a terminal) and in zsh.
 set -u
+export LC_ALL=C
+unset CDPATH
 cd "$(dirname "$0")/../.." || exit 2
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT

@@ -2,6 +2,8 @@
 # The long options that --help prints are those of the page, both ways; and each short one is on the
 # page too.
 set -u
+export LC_ALL=C
+unset CDPATH
 cd "$(dirname "$0")/../.." || exit 2
 wrong=0 tools=0
 for source in cmd/*.cpp; do

@@ -1,6 +1,8 @@
 #!/bin/bash
 # Who may include whom: read from the #include "room/..." lines.
 set -u
+export LC_ALL=C
+unset CDPATH
 cd "$(dirname "$0")/../.." || exit 2
 declare -A may=(
   [base]=''

@@ -1,6 +1,8 @@
 #!/bin/bash
 # A tool that calls no GSL does not depend on it.
 set -u
+export LC_ALL=C
+unset CDPATH
 cd "$(dirname "$0")/../.." || exit 2
 command -v ldd >/dev/null || { echo "skipped: no ldd (package libc-bin)" && exit 77; }
 wrong=0

@@ -2,6 +2,8 @@
 # What takes more than two seconds says at a terminal how far it is, and wipes that; not what is
 # quick, nor with -q, nor into a file.
 set -u
+export LC_ALL=C
+unset CDPATH
 script -qec 'test -t 2' /dev/null </dev/null >/dev/null 2>&1 ||
   { echo "skipped: no terminal could be made (script of package bsdutils)" && exit 77; }
 scratch=$(mktemp -d) || exit 2

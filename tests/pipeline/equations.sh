@@ -3,6 +3,8 @@
 # the command that its table names. Prints the table of the equations with the largest relative
 # difference of their two sides over the run; 1e-12 and more is a failure.
 set -u
+export LC_ALL=C
+unset CDPATH
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 wrong=0

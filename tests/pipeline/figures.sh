@@ -5,6 +5,8 @@
 # of the equations, to scale; the sum in energy stays; the report has them all in it; and make
 # builds for a figure no more than it needs.
 set -eu
+export LC_ALL=C
+unset CDPATH
 command -v gnuplot >/dev/null ||
   { echo "skipped: no gnuplot; make setup check installs it"; exit 77; }
 scratch=$(mktemp -d)

@@ -3,6 +3,8 @@
 # large as the distances from the truth; and the joint law and the scatter of the laws are those
 # that made the records.
 set -eu
+export LC_ALL=C
+unset CDPATH
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 fail() { echo "$*"; exit 1; }

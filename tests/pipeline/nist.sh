@@ -1,6 +1,8 @@
 #!/bin/bash
 # NIST's certified data sets (StRD) through the tools: the mean of NumAcc1 to 4, Lew and Lottery by the window that holds them all, DanWood's power law and Bennett5's trajectory.
 set -eu
+export LC_ALL=C
+unset CDPATH
 data=${NIST_DATA:-}
 [ -r "$data/NumAcc4.dat" ] ||
   { echo "skipped: NIST_DATA names no folder with the data files of NIST; see tests/recordings.md"; exit 77; }

@@ -2,6 +2,8 @@
 # PASCO's own velocities and accelerations come out of differentiate -M pasco within the rounding of the file: positions to
 # 0.01 m and velocities to 0.01 m/s at 50 Hz, so 4 * 0.005 / (6 * 0.02) and the last digit of the result.
 set -eu
+export LC_ALL=C
+unset CDPATH
 file="${REAL_DATA:-}/falling-coffee-filters/data_for_coffee.csv"
 [ -r "$file" ] ||
   { echo "skipped: REAL_DATA names no folder with falling-coffee-filters; see tests/recordings.md"; exit 77; }

@@ -2,6 +2,8 @@
 # Four coast-downs that others recorded: which law is adequate, with what errors. What is checked does not come from the fit that it
 # checks: another route, a figure of the record's owners, or the reckoning of the way.
 set -eu
+export LC_ALL=C
+unset CDPATH
 data=${REAL_DATA:-}
 [ -r "$data/kart-coastdown-1hz/Michelin60A.csv" ] ||
   { echo "skipped: REAL_DATA names no folder with kart-coastdown-1hz; see tests/recordings.md"; exit 77; }

@@ -2,6 +2,8 @@
 # Files that motion programs and other people wrote, read as they are or after one line of sed or awk: records, runs, and what
 # can be checked in each.
 set -u
+export LC_ALL=C
+unset CDPATH
 data=${REAL_DATA:-}
 [ -d "$data/cart-vernier" ] ||
   { echo "skipped: REAL_DATA names no folder of recordings; see tests/recordings.md"; exit 77; }

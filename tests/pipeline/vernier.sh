@@ -1,6 +1,8 @@
 #!/bin/bash
 # Vernier's own velocities and accelerations come out of differentiate -M vernier to the last bit.
 set -eu
+export LC_ALL=C
+unset CDPATH
 file="${REAL_DATA:-}/cart-vernier/Project oefenbestand 1.csv"
 [ -r "$file" ] ||
   { echo "skipped: REAL_DATA names no folder with cart-vernier; see tests/recordings.md"; exit 77; }
