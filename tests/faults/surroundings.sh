@@ -97,6 +97,8 @@ live 0 smooth -u -w 1
 live 1 smooth -u -w 3
 live 2 smooth -u -w 5
 live 1 smooth -u -w 3 -M median
+live 5 smooth -u -w 1 --outliers 9  # whose window has at least 11 records
+live 4 differentiate -u -M savgol -w 5  # its first rows wait for a whole window
 live 2 differentiate -u  # the first row is of second order too: it takes three
 live 0 shift-from-accel -u -K 0.5 -R 0.04 --use a=3
 live 0 energy-ledger -u -m 1 -K 0.5 -R 0.04 --use D=4
