@@ -1,4 +1,4 @@
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2034
 # What the scripts of the figures share; each sources it first. They take
 #
 #   -t svg | pngcairo   the terminal of gnuplot (svg); the picture goes to standard output
