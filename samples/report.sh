@@ -148,7 +148,8 @@ inertia <i>K m R</i>²,</p>
 τ<sub>N</sub> = −<i>D F</i><sub>N</sub> <span>(7)</span></p>
 HTML
 drawn fig2 "Fig. 2: the forces, to scale" <<'HTML'
-All lengths are in proportion, and so are all forces but the one whose arrow has a break. The shift is so small beside the radius that
+All lengths are in proportion, and so are all forces but the one whose arrow has a break. The shift
+is so small beside the radius that
 it takes the enlarged panel to see it; the horizontal force, too, is small beside the weight. The
 torque of <i>F</i><sub>H</sub> undoes a part of that of <i>F</i><sub>N</sub>; what is left slows the
 rotation. (The outline of the mat in front of P is only sketched.) <i>To discuss:</i> where would P
@@ -240,7 +241,8 @@ HTML
     awk 'NR == 1 { print }
       NF == 8 {
         for (i = 7; i <= 8; i++) if ($i ~ /^[0-9]/) $i = sprintf("%.*f", $i < 10, $i)
-        sub(/^simulate: */, ""); gsub(/ +/, "  "); sub(/\|dv\|/, "|Δv|"); sub(/scatter/, "scatter [ns]")
+        sub(/^simulate: */, ""); gsub(/ +/, "  "); sub(/\|dv\|/, "|Δv|")
+        sub(/scatter/, "scatter [ns]")
         print "  " $0
       }' >"$scratch/methods"
   table methods "$scratch/methods"

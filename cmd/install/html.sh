@@ -1,6 +1,7 @@
 #!/bin/bash
-# html.sh FOLDER: the manual pages as one site of HTML in FOLDER, made by mandoc: NAME.SECTION.html for
-# each page and index.html. A page of another project (awk, sed, ...) is linked at manpages.debian.org.
+# html.sh FOLDER: the manual pages as one site of HTML in FOLDER, made by mandoc: NAME.SECTION.html
+# for each page and index.html. A page of another project (awk, sed, ...) is linked at
+# manpages.debian.org.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH

@@ -7,7 +7,8 @@ unset CDPATH
 to=$(cd -- "$1" && pwd)
 cd "$(dirname "$0")/.."
 
-# PASCO Capstone: byte order mark, quoted names, runs side by side, the shorter filled up with blanks.
+# PASCO Capstone: byte order mark, quoted names, runs side by side, the shorter filled up with
+# blanks.
 {
   printf '\xEF\xBB\xBF'
   awk -F, 'FNR == 1 { file++; next } { line[file, FNR] = $0 } FNR > rows { rows = FNR }

@@ -22,7 +22,8 @@ case $column in
   v) route=velocity ;;
   *) echo "fit.sh: -c $column: x or v" >&2; exit 2 ;;
 esac
-PATH=$(cd "$(dirname "$0")/../.." && pwd)/bin:$PATH  # the tools of this source, or those on the PATH
+# The tools of this source, or those on the PATH.
+PATH=$(cd "$(dirname "$0")/../.." && pwd)/bin:$PATH
 
 row=$(smooth -q --coast -c $column -w 1 -- "$1" |
   fitpower -q --digits 6 --route $route -K "$K" -R "$R")

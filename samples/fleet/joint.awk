@@ -48,5 +48,6 @@ END {
   sx = sqrt(Wyy / d); sy = sqrt(Wxx / d)
   print "# a[m]\tsigma_a[m]\tb\tsigma_b\tcorr\tscatter_ln_a\tscatter_b\tn\tchi2\tdof\tP"
   printf "%.6g\t%.2g\t%.5g\t%.2g\t%.4f\t%.3g\t%.3g\t%d\t%.4g\t%d\t%.2g\n",
-    exp(lna), exp(lna) * sx, b, sy, -Wxy / d / (sx * sy), sqrt(Txx), sqrt(Tyy), n, chi2, 2 * n - 2, P
+    exp(lna), exp(lna) * sx, b, sy, -Wxy / d / (sx * sy), sqrt(Txx), sqrt(Tyy), n,
+    chi2, 2 * n - 2, P
 }

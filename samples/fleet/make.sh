@@ -8,7 +8,8 @@ set -euo pipefail
 export LC_ALL=C
 unset CDPATH
 folder=$1 records=${2:-1000} spread=${3:-0.1}
-PATH=$(cd "$(dirname "$0")/../.." && pwd)/bin:$PATH  # the tools of this source, or those on the PATH
+# The tools of this source, or those on the PATH.
+PATH=$(cd "$(dirname "$0")/../.." && pwd)/bin:$PATH
 mkdir -p -- "$folder"
 awk -v records="$records" -v spread="$spread" '
   # Park and Miller 1988, Comm. ACM 31, 1192: exact in doubles

@@ -1,9 +1,10 @@
 #!/bin/bash
 # live.sh [-K K] [-R R] [-w WIDTH] [-c x|v] [-T TERMINAL] SOURCE: draws D against v while the body
-# rolls, again with every record. SOURCE is the device of a sensor (a serial port), a file that grows,
-# or - for standard input, with lines of time and velocity (-c v, the default) or of time and position
-# (-c x). TERMINAL is one of gnuplot's: without -T qt or x11 on a graphic screen, else dumb, which
-# draws with letters. The picture is (WIDTH - 1)/2 + 1 records behind the sensor, one more with -c x.
+# rolls, again with every record. SOURCE is the device of a sensor (a serial port), a file that
+# grows, or - for standard input, with lines of time and velocity (-c v, the default) or of time and
+# position (-c x). TERMINAL is one of gnuplot's: without -T qt or x11 on a graphic screen, else
+# dumb, which draws with letters. The picture is (WIDTH - 1)/2 + 1 records behind the sensor, one
+# more with -c x.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH

@@ -7,7 +7,8 @@ top=$PWD
 localedef -i de_DE -f UTF-8 "$scratch/de_DE.UTF-8" 2>/dev/null || :  # where the sources of locales are installed
 
 same() {  # NAME: the last attempt gave $scratch/whole
-  [ "$status" = 0 ] && cmp -s "$scratch/out" "$scratch/whole" || complain "$1: exit $status, $(head -c 200 "$scratch/err")"
+  [ "$status" = 0 ] && cmp -s "$scratch/out" "$scratch/whole" ||
+    complain "$1: exit $status, $(head -c 200 "$scratch/err")"
 }
 for tool in $tools; do
   run=${command[$tool]}

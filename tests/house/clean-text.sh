@@ -10,7 +10,8 @@ complain() { echo "$*" && wrong=1; }
 
 for folder in tests/tools/*/*/; do
   [ -s "${folder}cmd" ] || complain "$folder has no cmd"
-  [ -e "${folder}expected" ] || [ -e "${folder}status" ] || complain "$folder has neither expected nor status"
+  [ -e "${folder}expected" ] || [ -e "${folder}status" ] ||
+    complain "$folder has neither expected nor status"
   tool=$(basename "$(dirname "$folder")")
   grep -q -e "$tool" "${folder}cmd" || complain "${folder}cmd does not run $tool"
 done

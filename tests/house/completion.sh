@@ -36,7 +36,8 @@ expect "$(offered smooth --width '')" '' 'smooth --width'
 expect "$(offered smooth samp)" '' 'smooth samp'  # left to readline
 expect "$(offered fitpower --route '')" 'loglog position shift velocity' 'fitpower --route'
 expect "$(offered simulate --sensor '')" pasco 'simulate --sensor'
-grep -q rk8pd <<<"$(offered simulate --method r)" || complain "simulate --method r: $(offered simulate --method r)"
+grep -q rk8pd <<<"$(offered simulate --method r)" ||
+  complain "simulate --method r: $(offered simulate --method r)"
 
 # Keys at a terminal, tabs among them, and then what the command line has become: the tools are
 # stand-ins that tell it.

@@ -16,7 +16,8 @@ for source in cmd/*.cpp; do
   # Ar N`.
   in_help=$(sed -nE 's/^  (-[^ ]+).*/\1/p' <<<"$help" | tr , '\n' | sort -u)
   in_page=$(grep -E '^\.It Fl ' "$page" | grep -oE 'Fl (Fl )?[^ ,]+' | sed -E 's/^Fl Fl /--/; s/^Fl /-/' | sort -u)
-  [ "$(wc -l <<<"$in_help")" -ge 3 ] || { echo "$tool --help shows no options that could be read" && wrong=1; }
+  [ "$(wc -l <<<"$in_help")" -ge 3 ] ||
+    { echo "$tool --help shows no options that could be read" && wrong=1; }
   only_help=$(comm -23 <(echo "$in_help") <(echo "$in_page") | xargs)
   only_page=$(comm -13 <(echo "$in_help") <(echo "$in_page") | xargs)
   [ -z "$only_help" ] || { echo "$page lacks $only_help" && wrong=1; }

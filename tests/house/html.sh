@@ -5,7 +5,8 @@ set -u
 export LC_ALL=C
 unset CDPATH
 cd "$(dirname "$0")/../.." || exit 2
-command -v mandoc >/dev/null || { echo "skipped: no mandoc; make setup check installs it"; exit 77; }
+command -v mandoc >/dev/null ||
+  { echo "skipped: no mandoc; make setup check installs it"; exit 77; }
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 wrong=0

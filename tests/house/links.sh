@@ -12,5 +12,6 @@ for tool in smooth differentiate shift-from-accel energy-ledger; do
   if grep -i gsl <<<"$libraries"; then echo "bin/$tool depends on GSL" && wrong=1; fi
 done
 # The look itself works: fitpower, which fits with GSL, shows it.
-ldd bin/fitpower | grep -q libgsl || { echo "bin/fitpower does not depend on GSL: is it linked in, and into the others too?" && wrong=1; }
+ldd bin/fitpower | grep -q libgsl ||
+  { echo "bin/fitpower does not depend on GSL: is it linked in, and into the others too?" && wrong=1; }
 exit $wrong

@@ -1,6 +1,6 @@
 #!/bin/bash
-# `make setup GOAL...` installs what these goals need and is missing, nothing else, before anything is
-# built. Without root it uses sudo; without both, and without apt-get, it names what is missing.
+# `make setup GOAL...` installs what these goals need and is missing, nothing else, before anything
+# is built. Without root it uses sudo; without both, and without apt-get, it names what is missing.
 set -u
 export LC_ALL=C
 unset CDPATH MAKEFLAGS MAKELEVEL

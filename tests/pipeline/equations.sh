@@ -126,7 +126,8 @@ while read -r tool column; do
     grep -qx "$column" || { echo "rolling-motion(7): $tool does not print $column" && wrong=1; }
 done < <(sed -n '/^\.Ss Symbols/,/^\.El/p' man/rolling-motion.7 |
   sed -nE 's/^\.It .* Ta ([a-z-]+ [A-Za-z0-9_]+)$/\1/p')
-[ "$symbols" -ge 30 ] || { echo "only $symbols symbols in the table of rolling-motion(7)" && wrong=1; }
+[ "$symbols" -ge 30 ] ||
+  { echo "only $symbols symbols in the table of rolling-motion(7)" && wrong=1; }
 
 # And the commands of its table of equations.
 commands=0

@@ -25,7 +25,8 @@ draw() {
 }
 has() {  # NAME TEXT...
   local name=$1 text
-  for text in "${@:2}"; do grep -qxF -e "$text" "$scratch/$name.text" || complain "$name: no '$text'"; done
+  for text in "${@:2}"; do grep -qxF -e "$text" "$scratch/$name.text" ||
+    complain "$name: no '$text'"; done
 }
 
 for script in samples/figures/*.sh; do
@@ -34,10 +35,12 @@ for script in samples/figures/*.sh; do
   draw "$name"
   grep -q '^</svg>' "$scratch/$name.svg" || complain "$name: no end"
   if parser; then
-    python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' "$scratch/$name.svg" || complain "$name: not well-formed"
+    python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' "$scratch/$name.svg" ||
+      complain "$name: not well-formed"
   fi
 done
-samples/figures/fig2.sh -t pngcairo | head -c 8 | cmp -s - <(printf '\211PNG\r\n\032\n') || complain "fig2: no PNG"
+samples/figures/fig2.sh -t pngcairo | head -c 8 | cmp -s - <(printf '\211PNG\r\n\032\n') ||
+  complain "fig2: no PNG"
 has fig1 'velocity v / (m/s)' 'time t / s' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt' 'C, fitted trajectory' \
   'before smoothing'
 has fig1-stop 'velocity v / (mm/s)' 'distance from rest / mm' \
@@ -86,7 +89,8 @@ while read -r figure text; do
     *) has "fig$figure" "$text" ;;
   esac
 done <"$scratch/geometry"
-[ "$(wc -l <"$scratch/geometry")" = 18 ] || complain "the geometry has $(wc -l <"$scratch/geometry") lines"
+[ "$(wc -l <"$scratch/geometry")" = 18 ] ||
+  complain "the geometry has $(wc -l <"$scratch/geometry") lines"
 
 # Fig. 5 at its own instant and at another: label after label, and the widths of the shafts in the
 # order in which they are drawn.
@@ -164,7 +168,8 @@ sed 's/Time (s),.*/Time (s),Velocity (km\/h)/; 2,$s/,.*,\(.*\)/,\1/' samples/CR.
 smooth -q --coast -c v -w 11 "$scratch/my_'run'; set label.1.csv" | differentiate -c v |
   shift-from-accel -q -K 0.5 -R 0.04 | fitpower -q | tail -n 1 >"$scratch/law"
 sed -n 's/.*>\(my_.*\)<.text>.*/\1/p' "$scratch/own.svg" | grep -qxF "my_&#39;run&#39;; set label.1" ||
-  grep -qF "my_'run'; set label.1" "$scratch/own.svg" || complain "own record: its name is not there"
+  grep -qF "my_'run'; set label.1" "$scratch/own.svg" ||
+    complain "own record: its name is not there"
 part own 3 | grep -oE '[0-9.]+,[0-9.]+' | tr ',' ' ' | awk -v frame="$(axes own)" '
   BEGIN { split(frame, f, " ") }
   FNR == NR { a = $1; b = $3; next }
@@ -246,7 +251,8 @@ done
 
 # What make would do: Fig. 5 needs two tools.
 needs() { make -nB "$1" 2>/dev/null | grep -oE -e '-o bin/[a-z-]+' | sort | tr -d '\n'; }
-[ "$(needs figures/fig5.svg)" = '-o bin/energy-ledger-o bin/simulate' ] || complain "fig5.svg needs $(needs figures/fig5.svg)"
+[ "$(needs figures/fig5.svg)" = '-o bin/energy-ledger-o bin/simulate' ] ||
+  complain "fig5.svg needs $(needs figures/fig5.svg)"
 [ "$(needs figures/fig4.png)" = '-o bin/differentiate-o bin/fitpower-o bin/shift-from-accel-o bin/smooth' ] ||
   complain "fig4.png needs $(needs figures/fig4.png)"
 exit $wrong

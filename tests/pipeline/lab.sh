@@ -6,7 +6,8 @@ set -u
 export LC_ALL=C
 unset CDPATH MAKEFLAGS MAKELEVEL
 cd "$(dirname "$0")/../.." || exit 2
-command -v gnuplot >/dev/null || { echo "skipped: no gnuplot; make setup check installs it"; exit 77; }
+command -v gnuplot >/dev/null ||
+  { echo "skipped: no gnuplot; make setup check installs it"; exit 77; }
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 wrong=0
@@ -19,7 +20,8 @@ cd "$scratch/samples/lab" || exit 2
 # Five rolls of one cylinder on one mat, as the README of this folder makes them.
 ../fleet/make.sh records 5 0
 make >said 2>&1 || complain "make: $(cat said)"
-[ "$(tail -n 1 said)" = '# the records have one law, as far as they tell' ] || complain "make says $(cat said)"
+[ "$(tail -n 1 said)" = '# the records have one law, as far as they tell' ] ||
+  complain "make says $(cat said)"
 [ "$(cut -f 1 results/table.txt | xargs)" = '# record 0001 0002 0003 0004 0005' ] ||
   complain "the table: $(cat results/table.txt)"
 grep -q '^</svg>' results/fig4.svg || complain 'no figure'
