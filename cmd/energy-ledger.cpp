@@ -81,6 +81,8 @@ class Accounts {
       : tool_(tool), in_(in), body_(body), geometry_(geometry), law_(law), tolerance_(tolerance),
         t_(in.need_time()), v_(in.need("v")), D_(law ? v_ : in.need("D")) {}
 
+  Balance open() const { return Balance(body_); }
+
   /// The present record, entered into the balance of its run.
   Ledger enter(Balance& balance) {
     const double v = in_[v_], D = law_ ? (*law_)(v) : in_[D_];
@@ -134,7 +136,7 @@ void write_summary(Output& out, Reader& in, Accounts& accounts, bool inclined) {
   if (inclined) columns.push_back({"W_g", "J"});
   out.names(columns);
   while (in.next_run()) {
-    Balance balance;
+    Balance balance = accounts.open();
     while (in.next()) accounts.enter(balance);
     for (const double cell : {balance.start(), balance.end(), balance.dissipated(),
                               balance.closure(), balance.imbalance()})
@@ -178,7 +180,7 @@ int main(int argc, char** argv) {
     const auto row = chosen(columns, quantities);
     for (const auto& quantity : row)
       if (quantity.column.name == "Pi_S") tool.need({"temperature"});
-    if (!law_file.empty()) law.table = read_law(tool, law_file, law.power);
+    if (!law_file.empty()) law.table = read_law(tool, law_file, law.power, body.slope);
     tool.need({"mass", "radius", "shape-factor"});
     Reader& in = tool.read({"t", "v", "D"});
     // A law on the command line is meant; the law of a scene stands in for a D that is not there.
@@ -198,7 +200,7 @@ int main(int argc, char** argv) {
                               body.slope == 0 ? "" : fmt::format(" slope {}", body.slope)));
     for (const auto& quantity : row) filter.append(quantity.column);
     while (filter.next_run()) {
-      Balance balance;
+      Balance balance = accounts.open();
       while (filter.next()) {
         const Ledger now = accounts.enter(balance);
         for (const auto& quantity : row) filter.put(quantity.of({now, balance, temperature}));
