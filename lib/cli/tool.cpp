@@ -273,10 +273,16 @@ Reader& Tool::read(std::vector<std::string> order) {
 }
 
 Reader& Tool::read_file(const std::string& file, std::vector<std::string> order) {
-  return open({{file}, {}, {}, input_.strict}, std::move(order));
+  ReaderOptions options{{file}, {}, {}, input_.strict};
+  options.has_use = false;  // --use is about the operands
+  return open(std::move(options), std::move(order));
 }
 
 Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
+  const auto& files = options.files;
+  if ((files.empty() || std::find(files.begin(), files.end(), "-") != files.end()) &&
+      std::exchange(standard_input_taken_, true))
+    fail("standard input is asked for twice: name a file for one of the two");
   options.on_block = [this](const std::string& name, double part) {
     progress.at(name == "-" ? "standard input" : name, part);
   };

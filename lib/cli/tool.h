@@ -135,6 +135,7 @@ class Tool {
   ReaderOptions input_;
   std::string scene_file_;
   bool quiet_ = false;
+  bool standard_input_taken_ = false;  // by a Reader: there is no more of it for another
   std::string failed_check_;
   std::size_t failed_checks_ = 0;
   std::vector<std::unique_ptr<Reader>> readers_;
