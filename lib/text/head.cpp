@@ -30,7 +30,7 @@ class HeadReader {
   bool is_record(std::string_view line);
   bool is_missing_record(std::string_view line);
   std::vector<std::string> take_names(std::size_t width);
-  std::vector<std::string> take_commented_names(std::size_t width);
+  std::vector<std::string> take_commented_names(std::size_t width, bool blank_end);
   void refuse_other_names(std::size_t width) const;
   std::vector<Column> known_columns() const;
 
@@ -127,12 +127,14 @@ bool HeadReader::find_record() {
 }
 
 /// The last comment that has as many names as there are columns; one that leaves no doubt goes
-/// before the others, and where names hold already no other is taken.
-std::vector<std::string> HeadReader::take_commented_names(std::size_t width) {
+/// before the others, and where names hold already no other is taken. With `blank_end` a nameless
+/// column stands behind these.
+std::vector<std::string> HeadReader::take_commented_names(std::size_t width, bool blank_end) {
   std::size_t found = npos;
   const std::vector<Column> known = known_columns();
   for (std::size_t i = head_.comments.size(); i-- > 0;) {
-    const auto [names, certain] = names_in_comment(head_.comments[i], width, known);
+    const auto [names, tabs, is_known] = names_in_comment(head_.comments[i], width, known);
+    const bool certain = is_known || (tabs && !blank_end);
     if (names.empty() || (!certain && (before_ || found != npos))) continue;
     found = i;
     if (certain) break;
@@ -169,9 +171,8 @@ void HeadReader::refuse_other_names(std::size_t width) const {
 std::vector<std::string> HeadReader::take_names(std::size_t width) {
   const bool blank_end = dialect_.split(lines_.text()).back().text.empty();
   if (preamble_.empty()) {
-    auto names = take_commented_names(width);
-    if (names.empty() && blank_end && !before_ &&
-        !(names = take_commented_names(width - 1)).empty())
+    auto names = take_commented_names(width, false);
+    if (names.empty() && blank_end && !(names = take_commented_names(width - 1, true)).empty())
       names.emplace_back();
     if (names.empty()) refuse_other_names(width);
     return names;
@@ -250,8 +251,8 @@ CommentedNames names_in_comment(std::string_view comment, std::size_t width,
     for (const std::string_view some : {text, trim(text)}) {  // a tab at an end may separate or not
       auto names = split_names(some, separator);
       if (names.size() != width) continue;
-      const bool tabs = separator == '\t' && width > 1;
-      return {names, tabs || std::any_of(names.begin(), names.end(), in_force)};
+      const bool is_known = std::any_of(names.begin(), names.end(), in_force);
+      return {names, separator == '\t' && width > 1, is_known};
     }
   return {};
 }

@@ -38,7 +38,8 @@ std::vector<std::string> names_in(std::string_view line, Dialect&);
 /// The names in a comment, with a name for each of `width` columns.
 struct CommentedNames {
   std::vector<std::string> names;  ///< empty if the comment has more or fewer
-  bool certain = false;            ///< tabs separate them, or one is t, x, v, a, D or in `known`
+  bool tabs = false;               ///< these separate them
+  bool known = false;              ///< one is t, x, v, a, D or in `known`
 };
 CommentedNames names_in_comment(std::string_view comment, std::size_t width,
                                 const std::vector<Column>& known);
