@@ -30,7 +30,8 @@ class HeadReader {
   bool is_record(std::string_view line);
   bool is_missing_record(std::string_view line);
   std::vector<std::string> take_names(std::size_t width);
-  std::vector<std::string> take_commented_names(std::size_t width, bool blank_end);
+  enum class Proof { known, known_or_tabs, none };
+  std::vector<std::string> take_commented_names(std::size_t width, Proof);
   void refuse_other_names(std::size_t width) const;
   std::vector<Column> known_columns() const;
 
@@ -126,18 +127,15 @@ bool HeadReader::find_record() {
   return false;
 }
 
-/// The last comment that has as many names as there are columns; one that leaves no doubt goes
-/// before the others, and where names hold already no other is taken. With `blank_end` a nameless
-/// column stands behind these.
-std::vector<std::string> HeadReader::take_commented_names(std::size_t width, bool blank_end) {
+/// The last comment that has as many names as there are columns, and as much proof that they are
+/// names.
+std::vector<std::string> HeadReader::take_commented_names(std::size_t width, Proof proof) {
   std::size_t found = npos;
   const std::vector<Column> known = known_columns();
-  for (std::size_t i = head_.comments.size(); i-- > 0;) {
+  for (std::size_t i = head_.comments.size(); found == npos && i-- > 0;) {
     const auto [names, tabs, is_known] = names_in_comment(head_.comments[i], width, known);
-    const bool certain = is_known || (tabs && !blank_end);
-    if (names.empty() || (!certain && (before_ || found != npos))) continue;
-    found = i;
-    if (certain) break;
+    const bool proven = is_known || (tabs && proof != Proof::known) || proof == Proof::none;
+    if (!names.empty() && proven) found = i;
   }
   if (found == npos) return {};
   auto names = names_in_comment(head_.comments[found], width, known).names;
@@ -171,9 +169,11 @@ void HeadReader::refuse_other_names(std::size_t width) const {
 std::vector<std::string> HeadReader::take_names(std::size_t width) {
   const bool blank_end = dialect_.split(lines_.text()).back().text.empty();
   if (preamble_.empty()) {
-    auto names = take_commented_names(width, false);
-    if (names.empty() && blank_end && !(names = take_commented_names(width - 1, true)).empty())
+    auto names = take_commented_names(width, Proof::known_or_tabs);
+    if (names.empty() && blank_end &&  // a nameless column stands behind the others
+        !(names = take_commented_names(width - 1, Proof::known)).empty())
       names.emplace_back();
+    if (names.empty() && !before_) names = take_commented_names(width, Proof::none);
     if (names.empty()) refuse_other_names(width);
     return names;
   }
