@@ -1,6 +1,7 @@
-#include "fit/least_squares.h"
+#include "fit/minimise.h"
 
 #include "base/error.h"
+#include "fit/errors.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
 

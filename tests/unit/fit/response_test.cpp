@@ -1,4 +1,4 @@
-#include "fit/covariance.h"
+#include "fit/response.h"
 
 #include "base/error.h"
 #include "unit/fit/simulated.h"
@@ -7,14 +7,14 @@
 using namespace rolling;
 
 TEST_CASE(
-    "covariance: a probed chain does to a column what the filters do, shrinking and one-sided ends "
+    "response: a probed chain does to a column what the filters do, shrinking and one-sided ends "
     "included",
     "[fit]") {
   for (std::size_t n : {3u, 4u, 9u, 40u}) {
     const auto t = simulated::times(n);
     const FilterChain chain{simulated::differentiate("x", "v"), simulated::smooth_v(7),
                             simulated::differentiate("v", "a")};
-    const auto response = noise_response(chain, t);
+    const auto response = response_of(chain, t);
     CHECK(response.source == "x");
     std::vector<double> x;
     for (std::size_t i = 0; i < n; ++i) x.push_back(std::sin(3.7 * static_cast<double>(i * i)));
@@ -26,39 +26,14 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("covariance: noise from two raw columns is refused", "[fit]") {
-  CHECK_THROWS_AS(noise_response({simulated::smooth_v(3), simulated::differentiate("x", "w")},
-                                 simulated::times(9)),
+TEST_CASE("response: noise from two raw columns is refused", "[fit]") {
+  CHECK_THROWS_AS(response_of({simulated::smooth_v(3), simulated::differentiate("x", "w")},
+                              simulated::times(9)),
                   Error);
 }
 
-TEST_CASE("covariance: Ljung-Box tells white residuals from correlated ones", "[fit]") {
-  simulated::Noise noise(3);
-  std::vector<double> white, smooth;
-  for (int i = 0; i < 200; ++i) white.push_back(noise(1));
-  smooth = simulated::mean(white, 5);
-  const std::size_t one[] = {200}, two[] = {100, 100};
-  CHECK(ljung_box(white, 1, one) > 0.01);
-  CHECK(ljung_box(white, 1, two) > 0.01);
-  CHECK(ljung_box(smooth, 1, one) < 1e-6);
-}
-
-TEST_CASE("covariance: Newey-West by hand", "[fit]") {
-  // r = -1/4 and AR = (4 r + 1)/(4 - 1 - 2) = 0: nothing to whiten. rho = -1/4, alpha = 64/225,
-  // width = ceil(1.1447 cbrt(4 alpha)) = 2; products one apart sum to -1, two apart to 0: 4 + 2
-  // (2/3) (-1).
-  const std::size_t four[] = {4}, five[] = {5};
-  const std::vector<double> u{1, 1, -1, 1};
-  CHECK(std::abs(newey_west(u, 1, u, four)[0] - 8.0 / 3) < 1e-12);
-  // r = 0, AR = 1/2: whitened sqrt(3)/2, 1/2, -3/2, -1/2, 3/2 with squares 23/4, products sqrt(3)/4
-  // - 3/4, width 1.
-  const std::vector<double> w{1, 1, -1, -1, 1};
-  CHECK(std::abs(newey_west(w, 1, w, five)[0] - 4 * (23.0 / 4 + std::sqrt(3) / 4 - 3.0 / 4)) <
-        1e-12);
-}
-
 TEST_CASE(
-    "covariance: of records that were cut after a filter, the first and the last are interior ones",
+    "response: of records that were cut after a filter, the first and the last are interior ones",
     "[fit]") {
   const auto t = simulated::times(40);
   simulated::Noise noise(2);
@@ -79,7 +54,7 @@ TEST_CASE(
       t_cut(t.begin() + 10, t.begin() + 30);
   const auto smooth = chain[2].apply(t_cut, a_cut);
 
-  const auto response = noise_response(chain, t_cut);
+  const auto response = response_of(chain, t_cut);
   REQUIRE(response.t.size() == 26);  // both filters before the last cut reach 2 + 1 records further
   for (std::size_t i = 0; i < 26; ++i) CHECK(std::abs(response.t[i] - t[i + 7]) < 1e-12);
   const std::vector<double> raw(x.begin() + 7, x.begin() + 33);

@@ -1,5 +1,3 @@
-#include "fit/trajectory.h"
-
 #include "unit/fit/simulated.h"
 #include "unit/catch.h"
 

@@ -1,163 +1,27 @@
-#include "fit/least_squares.h"
+#include "fit/minimise.h"
 
 #include "base/error.h"
-#include "base/large_pages.h"
 #include "fit/dot.h"
+#include "fit/triangles.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 namespace rolling {
-
-std::size_t System::residuals() const {
-  return std::accumulate(runs.begin(), runs.end(), std::size_t{0});
-}
-
 namespace {
 
 constexpr double undetermined = 1e-10;  // sine between a column of J and those before it
-constexpr double round_off = 1e-15;     // a smaller step, relatively, and
-constexpr double unseen = 1e-10;  // one that moves the residuals by no more than this share of
-                                  // them, are taken without another evaluation
-
-/// Folds m rows of [J f], column by column, into the triangle R of J's q columns and one for f, row
-/// by row, by Householder reflections: R becomes that of [R; J f]. Columns that are 0 cost nothing.
-void fold(double* R, std::size_t q, double* J, double* f, std::size_t m) {
-  for (std::size_t j = 0; j < q; ++j) {
-    const double* const x = J + j * m;
-    const double below = dot(x, x, m);
-    if (below == 0) continue;
-    double* const row = R + j * (q + 1);
-    const double length = -std::copysign(std::sqrt(row[j] * row[j] + below), row[j]),
-                 head = row[j] - length;
-    row[j] = length;
-    for (std::size_t k = j + 1; k <= q; ++k) {
-      double* const y = k < q ? J + k * m : f;
-      const double w = (head * row[k] + dot(x, y, m)) / (length * head);
-      row[k] += w * head;
-      if (w != 0)
-        for (std::size_t i = 0; i < m; ++i) y[i] += w * x[i];
-    }
-  }
-}
-
-/// The triangles of [J f] = Q R, one for the columns of each run: what is left of them beside the
-/// own parameters is folded together (block elimination), so that the work grows with the runs as
-/// their records do.
-class Triangles {
- public:
-  explicit Triangles(const System& system)
-      : system_(&system), R_(system.runs.size() * triangle()) {}
-  void add(std::size_t run, std::span<double> f, std::span<double> J) {
-    fold(of(run), q(), J.data(), f.data(), f.size());
-  }
-
-  /// After the last row: the shared part, from this one of other rows, in all of the triangles.
-  void join(std::vector<double> common) {
-    const std::size_t own = system_->own, shared = system_->shared;
-    std::vector<double> J(shared * shared), f(shared);
-    for (std::size_t r = 0; r < system_->runs.size(); ++r) {
-      for (std::size_t i = 0; i < shared; ++i) {
-        const double* const row = of(r) + (own + i) * (q() + 1) + own;
-        for (std::size_t j = 0; j < shared; ++j) J[j * shared + i] = row[j];
-        f[i] = row[shared];
-      }
-      fold(common.data(), shared, J.data(), f.data(), shared);
-    }
-    for (std::size_t r = 0; r < system_->runs.size(); ++r)
-      for (std::size_t i = 0; i < shared; ++i)
-        std::copy_n(&common[i * (shared + 1)], shared + 1, of(r) + (own + i) * (q() + 1) + own);
-  }
-  void join() { join(std::vector<double>(system_->shared * (system_->shared + 1))); }
-
-  /// Those of J with sqrt(mu) D below it, D diagonal, and of f with 0.
-  Triangles damped(const std::vector<double>& D, double mu) const {
-    const std::size_t own = system_->own, shared = system_->shared;
-    Triangles all = *this;
-    std::vector<double> common;
-    for (std::size_t i = 0; i < shared; ++i)
-      common.insert(common.end(), of(0) + (own + i) * (q() + 1) + own,
-                    of(0) + (own + i + 1) * (q() + 1));
-    const auto diagonal =
-        [&](std::size_t run, std::size_t first, std::size_t count, std::size_t columns, double* R) {
-      std::vector<double> J(count * columns), f(count);
-      for (std::size_t i = 0; i < count; ++i)
-        J[i * count + i] = std::sqrt(mu) * D[system_->place(run, first + i)];
-      fold(R, columns, J.data(), f.data(), count);
-    };
-    diagonal(0, own, shared, shared, common.data());
-    for (std::size_t r = 0; r < system_->runs.size(); ++r) {
-      std::fill(all.of(r) + own * (q() + 1), all.of(r) + triangle(), 0.0);
-      diagonal(r, 0, own, q(), all.of(r));
-    }
-    all.join(std::move(common));
-    return all;
-  }
-
-  /// Calls row(run, j, its elements) for each row of the one triangle of all parameters, once.
-  template <typename Row>
-  void rows(Row&& row) const {
-    for (std::size_t r = 0; r < system_->runs.size(); ++r)
-      for (std::size_t j = 0; j < (r ? system_->own : q()); ++j) row(r, j, of(r) + j * (q() + 1));
-  }
-
-  /// The theta that makes |R theta + Q^T f| smallest.
-  std::vector<double> solve() const {
-    std::vector<double> theta(system_->parameters());
-    for (std::size_t r = 0; r < system_->runs.size(); ++r)
-      for (std::size_t j = q(); j-- > 0;) {
-        const double* const row = of(r) + j * (q() + 1);
-        double sum = -row[q()];
-        for (std::size_t k = j + 1; k < q(); ++k) sum -= row[k] * theta[system_->place(r, k)];
-        theta[system_->place(r, j)] = sum / row[j];
-      }
-    return theta;
-  }
-  /// By how much the sum of squares is smaller there than at 0.
-  double reduction() const {
-    double sum = 0;
-    rows([&](std::size_t, std::size_t, const double* row) { sum += row[q()] * row[q()]; });
-    return sum;
-  }
-  /// Of the columns of J.
-  std::vector<double> lengths() const {
-    std::vector<double> all(system_->parameters());
-    rows([&](std::size_t r, std::size_t j, const double* row) {
-      for (std::size_t k = j; k < q(); ++k)
-        all[system_->place(r, k)] = std::hypot(all[system_->place(r, k)], row[k]);
-    });
-    return all;
-  }
-  double log_determinant() const {
-    double sum = 0;
-    rows([&](std::size_t, std::size_t j, const double* row) { sum += std::log(std::abs(row[j])); });
-    return sum;
-  }
-  std::vector<double> without_f() const {
-    std::vector<double> all;
-    for (std::size_t i = 0; i < R_.size(); ++i)
-      if (i % (q() + 1) != q()) all.push_back(R_[i]);
-    return all;
-  }
-
- private:
-  std::size_t q() const { return system_->columns(); }
-  std::size_t triangle() const { return q() * (q() + 1); }
-  double* of(std::size_t run) { return R_.data() + run * triangle(); }
-  const double* of(std::size_t run) const { return R_.data() + run * triangle(); }
-
-  const System* system_;
-  std::vector<double> R_;
-};
+constexpr double round_off = 1e-15;     // relative size of a step that is rounding alone
+constexpr double unseen = 1e-10;        // share of the residuals that is too small to matter
 
 double square(const std::vector<double>& f) { return dot(f.data(), f.data(), f.size()); }
 
-/// What an evaluation leaves, and the Gauss-Newton step from there: from the QR of J, not from the
-/// normal equations, whose condition is the square of J's.
+/// An evaluation, and the Gauss-Newton step from there: from the QR of J, not from the normal
+/// equations, whose condition number is the square of J's.
 struct Point {
-  explicit Point(const System& system) : R(system) { reserve_large(f, system.residuals()); }
+  explicit Point(const System& system) : R(system) { f.reserve(system.residuals()); }
 
   std::vector<double> theta, f;
   Triangles R;
@@ -165,7 +29,7 @@ struct Point {
   std::vector<double> step, lengths;  // of the columns of J
   double size = 0;                    // largest relative change of a parameter
   double reduction = 0;               // of the sum of squares, that the step promises
-  double angle = 1;  // smallest sine between a column of J and the columns before it
+  double angle = 1;                   // smallest sine between a column of J and those before it
 };
 
 /// Whether theta is allowed.
@@ -187,11 +51,7 @@ bool evaluate_at(const System& system, Point& at, std::vector<double> theta) {
   at.lengths = at.R.lengths();
   at.step = at.R.solve();
   at.reduction = at.R.reduction();
-  at.angle = 1;
-  at.R.rows([&](std::size_t r, std::size_t j, const double* row) {
-    const double length = at.lengths[system.place(r, j)];
-    at.angle = std::min(at.angle, length > 0 ? std::abs(row[j]) / length : 0);
-  });
+  at.angle = at.R.smallest_sine();
   at.size = 0;
   for (std::size_t j = 0; j < at.theta.size(); ++j)
     at.size = std::max(at.size, std::abs(at.step[j]) / std::max(1.0, std::abs(at.theta[j])));
@@ -204,8 +64,8 @@ std::vector<double> moved(std::vector<double> theta, const std::vector<double>& 
 }
 
 /// Levenberg-Marquardt, scaled after More (1978, Lecture Notes in Mathematics 630, 105) and damped
-/// after Nielsen (1999, IMM-REP-1999-05), to where it makes no further progress; whether that is a
-/// minimum is not its question.
+/// after Nielsen (1999, IMM-REP-1999-05), to where it makes no further progress. The caller tests
+/// whether that is a minimum.
 std::vector<double> descend(const System& system, Point at) {
   Point next(system);
   double mu = 1e-3, growth = 2;
@@ -240,13 +100,14 @@ std::vector<double> descend(const System& system, Point at) {
   return at.theta;
 }
 
-/// Gauss-Newton steps, down to round-off, as long as each takes off the sum of squares at least
-/// this share of what it promises.
+/// Gauss-Newton steps, down to round-off, as long as each reduces the sum of squares by at least
+/// this share of the reduction that the linear model predicts.
 Point polish(const System& system, std::vector<double> theta, double share) {
   Point best(system), next(system);
   if (!evaluate_at(system, best, std::move(theta)))
     fail("the fit cannot start: the law has no finite values at the starting point");
   for (int i = 0; i < 100 && best.angle > undetermined; ++i) {
+    // A step this small is taken without evaluating the residuals again.
     if (best.size < round_off ||
         (best.size < unseen / 100 && best.reduction < unseen * unseen * best.rss)) {
       best.theta = moved(best.theta, best.step);
@@ -285,7 +146,9 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
     // step goes down, but the slope of either side remains. It is worth a fraction of a standard
     // deviation, never more.
     if (best.rss > before * (1 - std::max(1e-8, 1e-3 / freedom)) && offset() < 1) break;
-    if (round == 20) fail("the fit does not converge");
+    if (round == 20)
+      fail(
+          "the fit does not converge: are all of these records of the free roll (smooth --coast)?");
   }
   if (!determined()) fail("the data do not determine the parameters: they cannot be told apart");
   return {std::move(best.theta), std::move(best.f), best.R.without_f(), best.rss};
@@ -385,58 +248,6 @@ double restricted_likelihood(const System& system, const std::vector<double>& th
   const double freedom =
       static_cast<double>(system.residuals()) - static_cast<double>(system.parameters());
   return -0.5 * freedom * std::log(at.rss - at.reduction) - at.R.log_determinant();
-}
-
-std::vector<double> residuals_at(const System& system, const std::vector<double>& theta) {
-  std::vector<double> all;
-  system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double>) {
-    all.insert(all.end(), f.begin(), f.end());
-  });
-  return all;
-}
-
-std::vector<double> orthonormal(const System& system, const Minimum& m) {
-  const std::size_t q = system.columns();
-  std::vector<double> Q;
-  Q.reserve(m.f.size() * q);
-  system.evaluate(m.theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
-    const double* const R = &m.R[run * q * q];
-    for (std::size_t i = 0; i < f.size(); ++i)
-      for (std::size_t j = 0; j < q; ++j) {
-        double x = J[j * f.size() + i];
-        for (std::size_t k = 0; k < j; ++k) x -= Q[Q.size() - j + k] * R[k * q + j];
-        Q.push_back(x / R[j * q + j]);
-      }
-  });
-  return Q;
-}
-
-void add_shared(std::vector<double>& M, std::size_t columns, std::size_t shared) {
-  const std::size_t square = columns * columns;
-  for (std::size_t i = columns - shared; i < columns; ++i)
-    for (std::size_t j = columns - shared; j < columns; ++j) {
-      double sum = 0;
-      for (std::size_t at = i * columns + j; at < M.size(); at += square) sum += M[at];
-      for (std::size_t at = i * columns + j; at < M.size(); at += square) M[at] = sum;
-    }
-}
-
-std::vector<double> Spread::solve_transposed(std::vector<double> g, std::size_t run) const {
-  const double* const R = &R_[run * q_ * q_];
-  for (std::size_t j = 0; j < q_; ++j) {
-    for (std::size_t k = 0; k < j; ++k) g[j] -= R[k * q_ + j] * g[k];
-    g[j] /= R[j * q_ + j];
-  }
-  return g;
-}
-
-double Spread::operator()(const std::vector<double>& g, const std::vector<double>& h,
-                          std::size_t run) const {
-  const auto left = solve_transposed(g, run), right = solve_transposed(h, run);
-  double sum = 0;
-  for (std::size_t i = 0; i < q_; ++i)
-    for (std::size_t j = 0; j < q_; ++j) sum += left[i] * M_[(run * q_ + i) * q_ + j] * right[j];
-  return sum;
 }
 
 }  // namespace rolling

@@ -1,3 +1,5 @@
+#include "fit/laws.h"
+
 #include "base/error.h"
 #include "unit/fit/simulated.h"
 #include "unit/catch.h"
@@ -43,9 +45,8 @@ FitRun roll(Law law, Route route, double size) {
 
 }  // namespace
 
-TEST_CASE(
-    "coast_down: on every route the law that made the record is not beaten, and lesser laws are",
-    "[fit]") {
+TEST_CASE("laws: on every route the law that made the record is not beaten, and lesser laws are",
+          "[fit]") {
   for (Route route : {Route::loglog, Route::shift, Route::velocity, Route::position})
     for (Law law : {power, constant, linear, quadratic}) {
       const auto scores = compare_laws(route, {roll(law, route, 1e-3)}, {});
@@ -62,8 +63,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("coast_down: a law that the records cannot determine is not among those that win",
-          "[fit]") {
+TEST_CASE("laws: a law that the records cannot determine is not among those that win", "[fit]") {
   FitRun run{};
   run.body = unit;
   simulated::Noise noise(3);
@@ -75,7 +75,7 @@ TEST_CASE("coast_down: a law that the records cannot determine is not among thos
   CHECK(scores[quadratic].aicc == std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("coast_down: what is held stays held, and a robust comparison is refused", "[fit]") {
+TEST_CASE("laws: what is held stays held, and a robust comparison is refused", "[fit]") {
   FitRun run = roll(linear, Route::velocity, 1e-3);
   FitOptions options;
   options.v0 = 0.7;  // a wrong one: no law can mend it
