@@ -1,4 +1,7 @@
 // smooth - smooth a column and select its records; see smooth(1)
+#include <fmt/ranges.h>
+
+#include <cmath>
 #include <utility>
 
 #include "cli/tool.h"
@@ -70,7 +73,7 @@ int main(int argc, char** argv) {
     Reader& in = tool.read({"t", "v"});
     const auto t = in.need_time();
     if (column.empty())
-      column = in.find("v") || in.columns().size() == 1 ? "v" : in.column_of(t) == 0 ? "2" : "1";
+      column = in.find("v") || in.columns().size() == 1 ? 'v' : in.column_of(t) == 0 ? '2' : '1';
     const auto y = in.need(column);
     const std::string name = in.columns()[in.column_of(y)].name;
     select.positions = name == "x";

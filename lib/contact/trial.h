@@ -1,27 +1,29 @@
-// What a solver may try on its way is not yet a state of the body.
+// The acceleration that a solver tries on its way: what it tries is not yet a state of the body.
 #pragma once
-
-#include "contact/body.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "contact/contact.h"
+
 namespace rolling {
 
-/// dv/dt [m/s^2] as acceleration_from_shift() has it (Eq. 12), and continued beyond |D| = R, where
-/// A = 0: a step that went too far is rejected for its error, not refused.
+/// dv/dt [m/s^2] as acceleration_from_shift() has it (Eq. 12), continued beyond |D| = R with A = 0:
+/// a step that went too far is rejected for its error, not refused.
 inline double trial_acceleration(const Body& c, Geometry geometry, double D) {
+  const auto [cos, sin] = incline(c);
   const double d = D / c.R,
                A = geometry == Geometry::exact ? std::sqrt(std::max(0.0, 1 - d * d)) : 1;
-  return -c.g * d / (c.K + A);
+  return -c.g * (d * cos + A * sin) / (c.K + A);
 }
 
 /// Its derivative by D [1/s^2].
 inline double trial_acceleration_slope(const Body& c, Geometry geometry, double D) {
-  if (geometry == Geometry::approximate) return -c.g / ((c.K + 1) * c.R);
-  const double d = D / c.R, A = std::sqrt(std::max(
-                                1e-30, 1 - d * d));  // -d/dd of d / (K + A), with dA/dd = -d/A
-  return -c.g / c.R * ((c.K + A) + d * d / A) / ((c.K + A) * (c.K + A));
+  const auto [cos, sin] = incline(c);
+  if (geometry == Geometry::approximate) return -c.g * cos / ((c.K + 1) * c.R);
+  // of (d cos + A sin) / (K + A) by d, with dA/dd = -d/A
+  const double d = D / c.R, A = std::sqrt(std::max(1e-30, 1 - d * d));
+  return -c.g / c.R * (cos * (c.K + A) + d / A * (d * cos - c.K * sin)) / ((c.K + A) * (c.K + A));
 }
 
 }  // namespace rolling

@@ -23,10 +23,8 @@ constexpr double least_part = 1e-8;  // of v0; much below it the steps are a rou
 IntegratedRoll::IntegratedRoll(const Body& body, Geometry geometry, AnyLaw law, double v0,
                                double x0, Stepper stepper, double rtol)
     : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0), x0_(x0),
-      floor_(law_.stops ? least_part * v0 : 0), options_{stepper, rtol,
-                                                         v0 > 0 ? rtol * least_part * v0 : 1,
-                                                         most_steps},
-      ode_(start()) {
+      floor_(law_.stops ? std::max(least_part * v0, law_.rest) : 0),
+      options_{stepper, rtol, v0 > 0 ? rtol * least_part * v0 : 1, most_steps}, ode_(start()) {
   if (v0 == 0) tail_ = {0, 0, 0, 0};
 }
 
@@ -67,6 +65,7 @@ IntegratedRoll::Tail IntegratedRoll::tail(const Integrator& ode) const {
   const double v = ode.state()[1], D = law_.shift(v);
   if (geometry_ == Geometry::exact && D >= body_.R * (1 - 1e-9))
     fail("at t = {:.6g} s the shift has grown to the radius {:.6g} m", ode.time(), body_.R);
+  if (law_.rest >= v) return {ode.time(), 0, v, 0};
   const double a = trial_acceleration(body_, geometry_, D),
                q = v * trial_acceleration_slope(body_, geometry_, D) * law_.slope(v) / a;
   return {ode.time(), v / ((1 - q) * -a), v, q};
@@ -87,6 +86,9 @@ void IntegratedRoll::seek(double t) {
   // Where the steps end changes the time of the stop by its error: the one that was told counts.
   if (ode_.advance(tail_ ? std::min(t, tail_->begin) : t, floor_event()) && !tail_)
     tail_ = tail(ode_);
+  if (ode_.state()[1] > law_.highest * (1 + 1e-9))
+    fail("at t = {:.6g} s the speed {:.6g} m/s is above the table of the law, which ends at {}",
+         ode_.time(), ode_.state()[1], law_.highest);
 }
 
 double IntegratedRoll::left() const {
@@ -112,6 +114,8 @@ double IntegratedRoll::shift() {
   return D;
 }
 
-double IntegratedRoll::acceleration() { return acceleration_from_shift(body_, geometry_, shift()); }
+double IntegratedRoll::acceleration() {
+  return velocity() == 0 ? 0 : acceleration_from_shift(body_, geometry_, shift());
+}
 
 }  // namespace rolling

@@ -7,18 +7,21 @@
 #include "motion/motion.h"
 
 #include <functional>
+#include <limits>
 #include <optional>
 
 namespace rolling {
 
-/// D(v) [m] for v >= 0 and, for the implicit steppers, dD/dv; whether the body comes to rest in
-/// finite time.
+/// D(v) [m] for v >= 0 and, for the implicit steppers, dD/dv.
 struct AnyLaw {
   std::function<double(double)> shift, slope;
-  bool stops = true;
+  bool stops = true;  ///< whether the body comes to rest in finite time
+  double rest = 0;    ///< speed that counts as rest [m/s]
+  double highest = std::numeric_limits<double>::infinity();  ///< speed where the law ends [m/s]
 };
 
-/// y = (x, v), v' = -g D(v) / ((K + A) R) (Eq. 12). The tolerance is rtol of x and v in each step.
+/// y = (x, v), v' = -g D(v) / ((K + A) R) (Eq. 12), with the slope's part. The tolerance is rtol of
+/// x and v in each step.
 ///
 /// About v = 0 the right-hand side has no bounded derivative, and solvers chatter. So the solver
 /// goes to v = 1e-8 v0, located as an event. The rest is taken as a power, dv/dt ~ -v^q with the q
@@ -27,7 +30,7 @@ struct AnyLaw {
 class IntegratedRoll final : public Motion {
  public:
   /// Refuses R, g, v0 and K as check_roll does. Errors of the solver come out of seek() and
-  /// stop_time(): steps that run out (1e6 between two calls), D beyond R.
+  /// stop_time(): steps that run out (1e6 between two calls), D beyond R, v beyond the law.
   IntegratedRoll(const Body&, Geometry, AnyLaw, double v0, double x0, Stepper, double rtol);
 
   /// The first call integrates to the stop, apart from where seek() stands.

@@ -26,7 +26,7 @@ OdeOptions options(Stepper stepper) {
 }  // namespace
 
 Stepper memory_stepper(const Body& body, PowerLaw law, Bulge bulge, double v0) {
-  const double slowing = v0 / -trial_acceleration(body, Geometry::approximate, law(v0)),
+  const double slowing = v0 / std::abs(trial_acceleration(body, Geometry::approximate, law(v0))),
                following = bulge.length / v0;
   return slowing > stiff * following ? Stepper::rk4imp : Stepper::rk8pd;
 }
@@ -87,14 +87,14 @@ bool MemoryRoll::advance(Integrator& ode, double t) const {
     const double fastest = std::pow((2 + law_.b) * bulge_.length * c * z * z / (2 * law_.a),
                                     1 / (2 + law_.b));  // E at v = 0
     ode.restart(y);
-    if (law_.b < 2 && fastest <= rest_fraction * v0_) return true;
+    if (law_.b < 2 && body_.slope == 0 && fastest <= rest_fraction * v0_) return true;
   }
   return false;
 }
 
 double MemoryRoll::stop_time() const {
   if (v0_ == 0) return 0;
-  if (law_.b >= 2) return std::numeric_limits<double>::infinity();
+  if (law_.b >= 2 || body_.slope != 0) return std::numeric_limits<double>::infinity();
   if (!stop_time_) {
     Integrator ode = start();
     advance(ode, std::numeric_limits<double>::infinity());
@@ -115,7 +115,9 @@ double MemoryRoll::position() { return ode_.state()[0]; }
 
 double MemoryRoll::velocity() { return at_rest_ ? 0 : ode_.state()[1]; }
 
-double MemoryRoll::acceleration() { return acceleration_from_shift(body_, geometry_, shift()); }
+double MemoryRoll::acceleration() {
+  return at_rest_ ? 0 : acceleration_from_shift(body_, geometry_, shift());
+}
 
 double MemoryRoll::shift() {
   const double v = velocity(), z = ode_.state()[2];

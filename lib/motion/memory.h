@@ -28,7 +28,8 @@ Stepper memory_stepper(const Body&, PowerLaw, Bulge, double v0);
 /// (while damping |v| < 4 length), so it bounds every later speed. The ringing dies out only like a
 /// power of time; rest is declared at the first zero of v after which E keeps |v| below v0 / 1000.
 /// From there on v and D are exactly 0. For b >= 2 the shift fades too fast to stop the body:
-/// stop_time() is infinite.
+/// stop_time() is infinite. So it is on a slope: at rest the bulge would relax, and the body creeps
+/// down.
 class MemoryRoll final : public Motion {
  public:
   /// Refuses what check_roll refuses, b < 0 (no shift at rest to return to), length <= 0, damping <

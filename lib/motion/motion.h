@@ -9,6 +9,8 @@ class Motion {
   virtual ~Motion() = default;
   /// When v is 0 and stays 0 [s]; infinity if the body never stops.
   virtual double stop_time() const = 0;
+  /// What v tends to where the body never stops [m/s]; infinity where it speeds up for ever.
+  virtual double last_speed() const { return 0; }
   /// Goes to time t [s] >= 0; calls go forward in time.
   virtual void seek(double t) = 0;
   virtual double position() = 0;      ///< x [m]

@@ -6,6 +6,7 @@
 #include "motion/closed_form.h"
 #include "motion/exact_form.h"
 #include "motion/integrated_roll.h"
+#include "motion/slope_roll.h"
 #include "motion/table_roll.h"
 #include "motion/trajectory.h"
 
@@ -15,9 +16,15 @@ namespace {
 
 AnyLaw any_law(const Roll& roll) {
   if (roll.table)
-    return {*roll.table, [table = *roll.table](double v) { return table.slope(v); }, true};
-  check_roll(roll.body, roll.law, roll.v0);
-  return {roll.law, [law = roll.law](double v) { return law.b * law(v) / v; }, roll.law.b < 1};
+    return {*roll.table, [table = *roll.table](double v) { return table.slope(v); },
+            always_slows(roll.body, roll.geometry, *roll.table, roll.v0), 0, roll.table->highest()};
+  const auto slope = [law = roll.law](double v) { return law.b * law(v) / v; };
+  if (roll.body.slope == 0) {
+    check_roll(roll.body, roll.law, roll.v0);
+    return {roll.law, slope, roll.law.b < 1};
+  }
+  const Trajectory trajectory(roll.body, roll.geometry, roll.law, roll.v0);
+  return {roll.law, slope, std::isfinite(trajectory.stop_time()), trajectory.rest_speed()};
 }
 
 }  // namespace
@@ -25,7 +32,11 @@ AnyLaw any_law(const Roll& roll) {
 Method best_method(const Roll& roll) {
   if (roll.bulge.length > 0)
     return {Method::solver, memory_stepper(roll.body, roll.law, roll.bulge, roll.v0)};
-  return {roll.table || roll.geometry == Geometry::exact ? Method::exact : Method::closed};
+  if (roll.table)
+    return {always_slows(roll.body, roll.geometry, *roll.table, roll.v0) ? Method::exact
+                                                                         : Method::solver};
+  return {roll.geometry == Geometry::exact || roll.body.slope != 0 ? Method::exact
+                                                                   : Method::closed};
 }
 
 std::unique_ptr<Motion> start(const Roll& roll, Method method, double rtol) {
@@ -46,12 +57,17 @@ std::unique_ptr<Motion> start(const Roll& roll, Method method, double rtol) {
     if (table) fail("the method closed goes with a law a v^b: a table has no closed form");
     if (geometry == Geometry::exact)
       fail("the method closed goes with A = 1: the exact geometry has no closed form");
+    if (body.slope != 0)
+      fail("the method closed goes with a level mat: on a slope there is no closed form");
     return std::make_unique<ClosedForm>(body, law, v0, x0);
   }
   if (method.kind == Method::exact) {
     if (table) return std::make_unique<TableRoll>(body, geometry, *table, v0, x0);
+    if (body.slope != 0) return std::make_unique<SlopeRoll>(body, geometry, law, v0, x0);
     if (geometry == Geometry::approximate)
-      fail("the method exact goes with the exact geometry or a table: for A = 1 there is closed");
+      fail(
+          "the method exact goes with the exact geometry, a table or a slope: for A = 1 there is "
+          "closed");
     return std::make_unique<ExactForm>(body, law, v0, x0);
   }
   if (table && v0 > table->highest())

@@ -23,15 +23,16 @@ struct Roll {
   double v0, x0;
 };
 
-/// closed: ClosedForm. exact: an integral over speed, ExactForm or TableRoll. Else the stepper of a
-/// solver.
+/// closed: ClosedForm. exact: an integral over speed, ExactForm, SlopeRoll or TableRoll. Else the
+/// stepper of a solver.
 struct Method {
   enum { closed, exact, solver } kind;
   Stepper stepper = Stepper::rk8pd;
 };
 
-/// The cheapest method that is exact for the scene: closed for A = 1, exact for exact geometry and
-/// tables; with memory, that has neither, the solver that suits its stiffness.
+/// The cheapest method that is exact for the scene: closed for A = 1, exact for the exact geometry,
+/// tables and slopes; with memory, that has neither, the solver that suits its stiffness; rk8pd for
+/// a table that does not slow the body everywhere on its slope.
 Method best_method(const Roll&);
 
 /// Throws Error when the method does not fit the scene. rtol: of the solvers.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "motion/gauss_legendre.h"
+#include "motion/increasing_root.h"
 #include "motion/power_integral.h"
 
 namespace rolling {
@@ -21,22 +22,6 @@ constexpr double far = 64;  // what lies beyond y = 64 or s y = 64 does not show
 double power_integral_inverse(double s, double time, double rest) {
   if (s > 0 && rest < time) return -std::log(s * rest) / s;
   return s == 0 ? time : -std::log1p(-s * time) / s;
-}
-
-/// Root of an increasing function between lo and hi: Newton's method from x, bisection where that
-/// leaves the bracket. `function` returns value and slope.
-template <typename Function>
-double increasing_root(double lo, double hi, double x, Function&& function) {
-  for (int i = 0; i < 200; ++i) {
-    const auto [value, slope] = function(x);
-    (value < 0 ? lo : hi) = x;
-    double next = x - value / slope;
-    if (!(next >= lo && next <= hi)) next = lo + (hi - lo) / 2;
-    const double step = std::abs(next - x);
-    x = next;
-    if (step <= 1e-8 * x) break;  // convergence is quadratic
-  }
-  return x;
 }
 
 }  // namespace

@@ -14,8 +14,19 @@ namespace rolling {
 namespace {
 
 constexpr int panels_in_a_piece = 4;
+constexpr int most_halvings = 30;
 
 }  // namespace
+
+bool always_slows(const Body& body, Geometry geometry, const TableLaw& law, double v0) {
+  if (body.slope >= 0) return true;
+  const auto slows = [&](double v) {  // D is monotone between two points
+    return acceleration_from_shift(body, geometry, law(v)) < 0;
+  };
+  return slows(0) && slows(v0) &&
+         std::all_of(law.speeds().begin(), law.speeds().end(),
+                     [&](double v) { return v > v0 || slows(v); });
+}
 
 TableRoll::TableRoll(const Body& body, Geometry geometry, TableLaw law, double v0, double x0)
     : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0), x0_(x0), v_(v0) {
@@ -24,25 +35,41 @@ TableRoll::TableRoll(const Body& body, Geometry geometry, TableLaw law, double v
          law_.highest());
   check_roll(body, {law_.largest_shift(v0), 0}, v0);
   if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
+  if (!always_slows(body, geometry, law_, v0))
+    fail(
+        "on this slope the law of the table does not slow the body at every speed: the method is a "
+        "solver");
   std::vector<double> ends{0};  // of the pieces
   for (const double v : law_.speeds())
     if (v > 0 && v < v0) ends.push_back(v);
   panels_ = {{v0, 0, 0}};
-  const auto add = [&](double v) {
-    const Panel& last = panels_.back();
-    const auto [time, distance] = integrals(last.v, v);
-    panels_.push_back({v, last.time + time, last.distance + distance});
-  };
   for (auto end = ends.rbegin(); v0 > 0 && end != ends.rend(); ++end) {
     const double from = panels_.back().v;
-    for (int i = 1; i < panels_in_a_piece; ++i) add(from + (*end - from) * i / panels_in_a_piece);
-    add(*end);
+    for (int i = 1; i < panels_in_a_piece; ++i)
+      add_panels(from + (*end - from) * i / panels_in_a_piece, 0);
+    add_panels(*end, 0);
   }
 }
 
+/// Panels from the last one down to the speed `to`. On a falling slope the integrand has poles near
+/// the speeds that the mat hardly slows: panels are halved until the halves agree with the whole.
+void TableRoll::add_panels(double to, int halvings) {
+  const Panel last = panels_.back();
+  const Integrals whole = integrals(last.v, to);
+  if (body_.slope < 0 && halvings < most_halvings) {
+    const double middle = to + (last.v - to) / 2;
+    const double halves = integrals(last.v, middle).time + integrals(middle, to).time;
+    if (std::abs(halves - whole.time) > 1e-14 * (last.time + halves)) {
+      add_panels(middle, halvings + 1);
+      add_panels(to, halvings + 1);
+      return;
+    }
+  }
+  panels_.push_back({to, last.time + whole.time, last.distance + whole.distance});
+}
+
 double TableRoll::inverse_acceleration(double v) const {
-  const double D = law_(v);
-  return (body_.K + arm_factor(body_, geometry_, D)) * body_.R / (body_.g * D);
+  return -1 / acceleration_from_shift(body_, geometry_, law_(v));
 }
 
 TableRoll::Integrals TableRoll::integrals(double from, double to) const {
@@ -80,6 +107,8 @@ double TableRoll::position() {
   return x0_ + panels_[panel_].distance + integrals(panels_[panel_].v, v_).distance;
 }
 
-double TableRoll::acceleration() { return acceleration_from_shift(body_, geometry_, shift()); }
+double TableRoll::acceleration() {
+  return v_ == 0 ? 0 : acceleration_from_shift(body_, geometry_, shift());
+}
 
 }  // namespace rolling

@@ -10,12 +10,17 @@
 
 namespace rolling {
 
-/// t = int_v^v0 (K + A(u)) R / (g D(u)) du by Gauss-Legendre panels within the pieces of the table,
-/// inverted by Newton's method; the stop is the whole integral. Relative error about 1e-14 for the
-/// interpolated law. Below the lowest point of the table D is constant, so the body stops.
+/// Whether the mat slows the body at every speed up to v0: on a falling slope D may be too small.
+bool always_slows(const Body&, Geometry, const TableLaw&, double v0);
+
+/// t = int_v^v0 (K + A(u)) R / (g D(u)) du, with the slope's part, by Gauss-Legendre panels within
+/// the pieces of the table, inverted by Newton's method; the stop is the whole integral. Relative
+/// error about 1e-14 for the interpolated law. Below the lowest point of the table D is constant,
+/// so the body stops.
 class TableRoll final : public Motion {
  public:
-  /// Refuses v0 above the table, D > R at a speed up to v0, and what check_roll refuses.
+  /// Refuses v0 above the table, D > R at a speed up to v0, what check_roll refuses, and a slope on
+  /// which the body does not always slow down.
   TableRoll(const Body&, Geometry, TableLaw, double v0, double x0);
 
   double stop_time() const override { return panels_.back().time; }
@@ -34,6 +39,7 @@ class TableRoll final : public Motion {
   };
   double inverse_acceleration(double v) const;
   Integrals integrals(double from, double to) const;
+  void add_panels(double to, int halvings);
 
   Body body_;
   Geometry geometry_;

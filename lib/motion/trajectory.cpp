@@ -14,22 +14,45 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-SpeedIntegrals integrals_of(const Body& body, Geometry geometry, PowerLaw law, double v0) {
-  check_roll(body, law, v0);
-  if (geometry == Geometry::approximate || v0 == 0) return {law.b, body.K, 0};
+/// D(v0)/R and 1 - (D(v0)/R)^2, without cancellation.
+struct Depth {
+  double ratio, arm_square;
+};
+
+Depth depth_of(const Body& body, PowerLaw law, double v0) {
   const DoubleDouble depth = (Scaled(law.a) * power(v0, law.b) / Scaled(body.R)).value();
   const double arm_square = std::max(0.0, (-(depth * depth) + 1).hi);
   if (body.K == 0 && arm_square == 0)
     fail("K = 0 and D(v0) = R: the force of the mat would have no bound");
-  return {law.b, body.K, std::min(depth.hi, 1.0), arm_square};
+  return {std::min(depth.hi, 1.0), arm_square};
+}
+
+SpeedIntegrals integrals_of(const Body& body, Geometry geometry, PowerLaw law, double v0) {
+  check_roll(body, law, v0);
+  if (geometry == Geometry::approximate || body.slope != 0 || v0 == 0) return {law.b, body.K, 0};
+  const Depth depth = depth_of(body, law, v0);
+  return {law.b, body.K, depth.ratio, depth.arm_square};
 }
 
 }  // namespace
 
-Trajectory::Trajectory(const Body& body, Geometry geometry, PowerLaw law, double v0)
+Trajectory::Trajectory(const Body& body, Geometry geometry, PowerLaw law, double v0,
+                       Derivatives derivatives)
     : body_(body), geometry_(geometry), law_(law), v0_(v0), log_v0_(std::log(v0)),
       integrals_(integrals_of(body, geometry, law, v0)) {
   if (v0 == 0) return;
+  if (body.slope != 0 || derivatives == Derivatives::of_law_and_slope) {
+    const Depth depth =
+        geometry == Geometry::exact ? depth_of(body, law, v0) : Depth{law(v0) / body.R, 1};
+    incline_.emplace(geometry, law.b, body.K, depth.ratio, depth.arm_square, body.slope);
+    unit_ = v0 * std::hypot(1, body.slope) / body.g;
+    stop_time_ = unit_ * incline_->stop();
+    last_time_ = unit_ * incline_->end();
+    if (std::isinf(stop_time_)) return;
+    stopped_ = point_of(incline_->last(), true);
+    stopped_.v = stopped_.v_a = stopped_.v_b = stopped_.v_v0 = stopped_.v_S = 0;
+    return;
+  }
   const double D = law(v0);  // v0^b may have left the range of double, or v0^(1-b)
   unit_ = (D >= std::numeric_limits<double>::min() ? v0 / D : std::pow(v0, 1 - law.b) / law.a) *
           ((body.K + 1) * body.R / body.g);
@@ -61,18 +84,23 @@ void check_roll(const Body& body, PowerLaw law, double v0) {
   not_negative("the shape factor K", body.K);
   positive("gravity g", body.g);
   positive("the coefficient a", law.a);
+  if (!std::isfinite(body.slope)) fail("the slope {} must be finite", body.slope);
   if (!std::isfinite(law.b)) fail("the exponent b = {} must be finite", law.b);
   not_negative("the initial velocity v0", v0);
   check_shift(body, law(v0));
 }
 
-double Trajectory::log_ratio(double t, double rest) const {
-  if (rest <= 0) return infinity;
+void Trajectory::check_time(double t) const {
   if (t > last_time_)
     fail(
         "at t = {:.6g} s the shift has grown beyond the radius {:.6g} m (since t = {:.6g} s): b < "
         "0 has no meaning there",
         t, body_.R, last_time_);
+}
+
+double Trajectory::log_ratio(double t, double rest) const {
+  if (rest <= 0) return infinity;
+  check_time(t);
   return integrals_.lambda(t / unit_, rest / unit_);
 }
 
@@ -100,6 +128,7 @@ double Trajectory::acceleration(double v) const {
 //   dx/dp = dX/dp - v dT/dp,  which is the same integral with a factor u - v.
 Trajectory::Point Trajectory::at(double t, bool way) const {
   if (t == 0) return {v0_, 0, 0, 0, v0_ > 0 ? 1.0 : 0.0, 0, 0, 0};
+  if (incline_) return on_slope(t, way);
   const double lambda = log_ratio(t), a = law_.a, log_v0 = log_v0_;
   if (lambda == infinity) return stopped_;
   if (lambda < 1e-100) {  // unit_ may be infinite, lambda^2 be 0: a speed that hardly changes
@@ -128,9 +157,44 @@ Trajectory::Point Trajectory::at(double t, bool way) const {
   return point;
 }
 
+Trajectory::Point Trajectory::on_slope(double t, bool way) const {
+  const double rest = stop_time_ - t;
+  if (rest <= 0) return stopped_;
+  check_time(t);
+  return point_of(incline_->place(t / unit_, rest / unit_), way);
+}
+
+// With q = g cos(theta) net/(K + A), the deceleration, the time is T = int du/q, and as above, at
+// fixed t,  dv/dp = q dT/dp,  dx/dp = dX/dp - v dT/dp.  The slope acts through A S in net and
+// through cos(theta), whose logarithm has the derivative -S cos(theta)^2 by S.
+Trajectory::Point Trajectory::point_of(SlopeIntegrals::Place place, bool way) const {
+  const auto g = incline_->gradient(place, way);
+  const double a = law_.a, E = incline_->speed(place), S = body_.slope,
+               sign = incline_->slows() ? 1 : -1, fall = sign * S / (1 + S * S),
+               length = v0_ * unit_, start = incline_->start_rate();
+  Point point{v0_ * E,
+              0,
+              -v0_ * g.rate * g.h0 / a,
+              -v0_ * g.rate * (log_v0_ * g.h0 - sign * g.h1),
+              g.rate / start,
+              0,
+              0,
+              0,
+              -v0_ * g.rate * (g.k0 - fall * g.time)};
+  if (!way) return point;
+  const double beyond = place.beyond * unit_;
+  point.x = v0_ * (unit_ * g.distance) + point.v * beyond;
+  point.x_a = -length * g.g0 / a + point.v_a * beyond;
+  point.x_b = -length * (log_v0_ * g.g0 - sign * g.g1) + point.v_b * beyond;
+  point.x_v0 = g.change * unit_ / start + point.v_v0 * beyond;
+  point.x_S = -length * (g.j - fall * g.w) + point.v_S * beyond;
+  return point;
+}
+
 // With w = (v/v0)^s = 1 - s t/unit all of the above are powers: h0 is t/unit, and the rate e^(-b
 // lambda) = (v/v0)/w.
 Trajectory::Point Trajectory::speed_at(double t) const {
+  if (incline_) return at(t, false);
   const double s = 1 - law_.b, rest = stop_time_ - t, time = t / unit_;
   if (geometry_ == Geometry::exact || s == 0 || !(time > 1e-100 && rest > 0)) return at(t, false);
   const double w = rest < t ? s * (rest / unit_) : 1 - s * time;

@@ -2,16 +2,18 @@
 // parameters. One way through the code for ExactForm and the trajectory fits.
 #pragma once
 
+#include <limits>
+#include <optional>
+
 #include "contact/body.h"
 #include "contact/power_law.h"
+#include "motion/slope_integrals.h"
 #include "motion/speed_integrals.h"
-
-#include <limits>
 
 namespace rolling {
 
-/// Throws Error unless R > 0, g > 0, K >= 0, a > 0, v0 >= 0, all of them and b finite, and D(v0) <=
-/// R.
+/// Throws Error unless R > 0, g > 0, K >= 0, a > 0, v0 >= 0, all of them, b and the slope finite,
+/// and D(v0) <= R.
 void check_roll(const Body&, PowerLaw, double v0);
 
 /// The law is autonomous, so time and distance are integrals over speed (Eq. 12):
@@ -23,21 +25,37 @@ void check_roll(const Body&, PowerLaw, double v0);
 /// where the law loses its meaning. The roll exists up to that moment; later times throw Error, and
 /// stop_time() is infinite. Where v_R is so small that the time below it does not show in a double
 /// (b near 0), the body stops like any other.
+///
+/// A mat that is not level (Body::slope) adds the slope's part of gravity; the same integrals are
+/// then taken by SlopeIntegrals. x and v >= 0 count along the motion, so the slope of the Body is
+/// the one that this roll sees: whoever describes a roll towards falling x by v0 > 0 turns the sign
+/// of the slope. A body that has come to rest is taken to stay there: the law has no friction of
+/// rest.
 class Trajectory {
  public:
+  /// By which parameters at() and speed_at() differentiate.
+  enum class Derivatives { of_law, of_law_and_slope };
+
   /// Refuses what check_roll refuses. v0 = 0 is rest for ever.
-  Trajectory(const Body&, Geometry, PowerLaw, double v0);
+  Trajectory(const Body&, Geometry, PowerLaw, double v0, Derivatives = Derivatives::of_law);
 
   /// State at time t, x counted from 0 at t = 0, and the exact partial derivatives at fixed t by a,
-  /// b and v0.
+  /// b, v0 and the slope S. v_S and x_S are 0 unless they are asked for or the mat is not level.
   struct Point {
     double v, x;
     double v_a, v_b, v_v0;
     double x_a, x_b, x_v0;
+    double v_S = 0, x_S = 0;
   };
 
-  /// When v becomes 0 [s]; infinity if the body never stops.
+  /// When v becomes 0 [s]; infinity if the body never stops. On a falling mat the speed may tend to
+  /// last_speed(); one below 1e-6 v0 counts as rest, from the moment when v is twice as large.
   double stop_time() const { return stop_time_; }
+  /// The speed of a body that never stops after a long time [m/s]: 0 for b >= 1 on a level mat, the
+  /// speed at which the law balances a falling mat, or infinity.
+  double last_speed() const { return incline_ ? v0_ * incline_->last_speed() : 0; }
+  /// The speed that counts as rest [m/s]: 0, or that of the moment just named.
+  double rest_speed() const { return incline_ ? v0_ * incline_->rest_speed() : 0; }
 
   /// t >= 0 [s]. From the stop on: v = 0 with zero derivatives, x the stopping distance with its
   /// derivatives.
@@ -46,6 +64,7 @@ class Trajectory {
   /// closed form, in a quarter of it.
   Point speed_at(double t) const;
 
+  // For level mats alone:
   /// ln(v0 / v) at time t >= 0; infinity from the stop on.
   double log_ratio(double t) const { return log_ratio(t, stop_time_ - t); }
   /// The same for one who knows stop_time() - t without cancellation.
@@ -54,22 +73,27 @@ class Trajectory {
   double velocity(double lambda) const;
   /// x [m] at time t, from log_ratio(t).
   double position(double t, double lambda) const;
+  const SpeedIntegrals& integrals() const { return integrals_; }
+
   /// D [m] and dv/dt [m/s^2] at speed v. Throw Error where |D| > R (A = 1 and b < 0, just before
   /// the stop).
   double shift(double v) const;
   double acceleration(double v) const;
 
-  const SpeedIntegrals& integrals() const { return integrals_; }
-
  private:
   Point at(double t, bool way) const;
+  Point on_slope(double t, bool way) const;
+  void check_time(double t) const;  // throws Error beyond last_time_
+  Point point_of(SlopeIntegrals::Place, bool way) const;
 
   Body body_;
   Geometry geometry_;
   PowerLaw law_;
   double v0_, log_v0_;
-  double unit_ = 0;  // v0^(1-b) / (a c) [s]: v0 divided by the deceleration at v0 for A = 1
+  double unit_ = 0;  // v0^(1-b) / (a c) [s]: v0 divided by the deceleration at v0 for A = 1; with
+                     // incline_, v0 / (g cos theta)
   SpeedIntegrals integrals_;
+  std::optional<SlopeIntegrals> incline_;  // where the mat is not level, or its slope a parameter
   double stop_time_ = 0;
   double last_time_ = std::numeric_limits<double>::infinity();  // beyond it the law has no meaning
   Point stopped_{};

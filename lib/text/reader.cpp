@@ -102,9 +102,11 @@ std::string Reader::column_list() const {
 std::size_t Reader::require(std::string_view name) const {
   const auto column = find(name);
   if (!column)
-    fail<InputError>(
-        "{}: there is no column '{}' among {}{}", lines_->name(), shown(name), column_list(),
-        si_unit(read_column(name).name).empty() ? "" : fmt::format("; say --use {}=COLUMN", name));
+    fail<InputError>("{}: there is no column '{}' among {}{}", lines_->name(), shown(name),
+                     column_list(),
+                     options_.has_use && !si_unit(read_column(name).name).empty()
+                         ? fmt::format("; say --use {}=COLUMN", name)
+                         : "");
   return *column;
 }
 

@@ -26,6 +26,7 @@ struct ReaderOptions {
   std::optional<int> run;          ///< only this one
   bool strict = false;             ///< a missing reading is an error
   BlockHook on_block = {};         ///< told how far a file has been read
+  bool has_use = true;             ///< a refusal may propose --use for this file
 };
 
 class Reader {

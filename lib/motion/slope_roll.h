@@ -1,0 +1,28 @@
+// The roll under D(v) = a v^b on a mat that is not level, in either geometry.
+#pragma once
+
+#include "motion/motion.h"
+#include "motion/trajectory.h"
+
+namespace rolling {
+
+/// Time and distance as integrals over speed, by Trajectory. Relative error about 1e-14.
+class SlopeRoll final : public Motion {
+ public:
+  /// Refuses what check_roll refuses.
+  SlopeRoll(const Body&, Geometry, PowerLaw, double v0, double x0);
+
+  double stop_time() const override { return trajectory_.stop_time(); }
+  double last_speed() const override { return trajectory_.last_speed(); }
+  void seek(double t) override;
+  double position() override { return x0_ + trajectory_.at(t_).x; }
+  double velocity() override { return v_; }
+  double acceleration() override;
+  double shift() override { return trajectory_.shift(v_); }
+
+ private:
+  Trajectory trajectory_;
+  double x0_, t_ = 0, v_;
+};
+
+}  // namespace rolling

@@ -1,0 +1,243 @@
+// Rolls on a mat that is not level: against quadrature in mpmath, against the level mat, and at the
+// ends of the range.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "base/error.h"
+#include "motion/roll.h"
+#include "motion/trajectory.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+
+namespace {
+
+struct SlopeReference {
+  int exact;
+  double K, a, b, v0, S, t, v, x, v_a, v_b, v_v0, v_S, x_a, x_b, x_v0, x_S;
+};
+
+const SlopeReference references[] = {
+#include "unit/motion/slope_reference.inc"
+};
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr auto paper = Geometry::approximate, exact = Geometry::exact;
+constexpr auto with_slope = Trajectory::Derivatives::of_law_and_slope;
+
+double deceleration(const SlopeReference& r, double v) {
+  const double d = r.a * std::pow(v, r.b) / 0.04, A = r.exact ? std::sqrt(1 - d * d) : 1;
+  return 9.81 * (d + A * r.S) / std::sqrt(1 + r.S * r.S) / (r.K + A);
+}
+
+}  // namespace
+
+TEST_CASE("Slope: speed, distance and derivatives against quadrature with 34 digits", "[rolling]") {
+  for (const SlopeReference& r : references) {
+    const Trajectory roll({1, 0.04, r.K, 9.81, r.S}, r.exact ? exact : paper, {r.a, r.b}, r.v0);
+    const auto s = roll.at(r.t), speed = roll.speed_at(r.t);
+    INFO("exact " << r.exact << " K " << r.K << " a " << r.a << " b " << r.b << " v0 " << r.v0
+                  << " S " << r.S << " t " << r.t << " v " << r.v);
+    // What an error eps of t makes of v, and of the derivatives, which go with dv/dt; where D and
+    // the slope nearly balance, a rounding of D is more than one of the difference.
+    const double slowing = std::abs(deceleration(r, r.v)), start = std::abs(deceleration(r, r.v0));
+    const double balance = 9.81 * std::abs(r.S) / r.K;
+    const double tolerance =
+        40 * eps * (1 + r.t * slowing / r.v) * (1 + balance / std::min(slowing, start));
+    const auto close = [&](double value, double expected, double scale) {
+      CHECK(std::abs(value - expected) <= tolerance * scale);
+    };
+    const double log_u = std::abs(std::log(r.v0)) + std::abs(std::log(r.v));
+    close(s.v, r.v, r.v);
+    close(s.x, r.x, r.x);
+    close(s.v_a, r.v_a, std::abs(r.v_a));
+    close(s.v_b, r.v_b, std::abs(r.a * r.v_a) * log_u);
+    close(s.v_v0, r.v_v0, std::abs(r.v_v0));
+    close(s.v_S, r.v_S, std::abs(r.v_S) + std::abs(r.S) * slowing * r.t);
+    close(s.x_a, r.x_a, std::abs(r.x_a));
+    close(s.x_b, r.x_b, std::abs(r.a * r.x_a) * log_u);
+    close(s.x_v0, r.x_v0, std::abs(r.x_v0));
+    close(s.x_S, r.x_S, std::abs(r.x_S) + std::abs(r.S) * slowing * r.t * r.t);
+    CHECK((speed.v == s.v && speed.v_a == s.v_a && speed.v_b == s.v_b && speed.v_v0 == s.v_v0 &&
+           speed.v_S == s.v_S));
+  }
+}
+
+TEST_CASE("Slope: the checked stops and ways of the paper's scenes", "[rolling]") {
+  struct Checked {
+    double a, b, S, paper, exact, way;
+  };
+  // By quadrature in mpmath, 30 digits.
+  const Checked checked[] = {
+      {5.75e-4, 0.0244, 1e-3, 5.16933841680935289, 5.16904378124872321, 1.27747830755234561},
+      {5.75e-4, 0.0244, -1e-3, 5.97829059603864876, 5.97786705095466527, 1.47463011267869249},
+      {1.87e-3, 0.215, 1e-3, 2.33847791270875178, 2.3376934921966471, 0.517107571078690025},
+      {1.87e-3, 0.215, 5e-3, 2.07062983759309742, 2.07003800529656266, 0.466070471605214366},
+  };
+  for (const Checked& c : checked) {
+    const Body body{1, 0.04, 0.5, 9.81, c.S};
+    const Trajectory roll(body, paper, {c.a, c.b}, 0.5);
+    CHECK(std::abs(roll.stop_time() / c.paper - 1) < 1e-14);
+    CHECK(std::abs(roll.at(10).x / c.way - 1) < 1e-14);
+    CHECK(std::abs(Trajectory(body, exact, {c.a, c.b}, 0.5).stop_time() / c.exact - 1) < 1e-14);
+  }
+}
+
+TEST_CASE("Slope: a slope that vanishes leads to the level mat", "[rolling]") {
+  for (const Geometry geometry : {paper, exact})
+    for (const double b : {-0.3, 0.0, 0.215, 0.6})
+      for (const double depth : {0.04, 0.6, 1.0})
+        for (const double S : {0.0, 1e-300, -1e-300, 1e-27, -1e-27}) {
+          if (geometry == exact && b < 0 && depth == 1) continue;  // ends at once
+          const PowerLaw law{0.04 * depth * std::pow(0.5, -b) * (1 - 1e-12), b};
+          const Trajectory level({1, 0.04, 0.5}, geometry, law, 0.5),
+              roll({1, 0.04, 0.5, 9.81, S}, geometry, law, 0.5, with_slope);
+          INFO("exact " << (geometry == exact) << " b " << b << " depth " << depth << " S " << S);
+          const double stop = level.stop_time(), end = std::isinf(stop) ? 0.01 / depth : stop;
+          if (!std::isinf(stop)) CHECK(std::abs(roll.stop_time() / stop - 1) < 1e-14);
+          for (const double part : {1e-6, 0.1, 0.9, 1.1}) {
+            if (part > 1 && std::isinf(stop)) continue;
+            const auto s = roll.at(part * end), l = level.at(part * end);
+            const double log_u = 1 + std::abs(std::log(s.v > 0 ? s.v : 1));
+            CHECK(std::abs(s.v - l.v) <= 1e-12 * l.v);
+            CHECK(std::abs(s.x - l.x) <= 1e-12 * l.x);
+            CHECK(std::abs(s.v_a - l.v_a) <= 1e-12 * std::abs(l.v_a));
+            CHECK(std::abs(s.v_b - l.v_b) <= 1e-12 * law.a * std::abs(l.v_a) * log_u);
+            CHECK(std::abs(s.v_v0 - l.v_v0) <= 1e-12 * l.v_v0);
+            CHECK(std::abs(s.x_a - l.x_a) <= 1e-12 * std::abs(l.x_a));
+            CHECK(std::abs(s.x_b - l.x_b) <= 1e-12 * law.a * std::abs(l.x_a) * log_u);
+            CHECK(std::abs(s.x_v0 - l.x_v0) <= 1e-12 * l.x_v0);
+            // By the slope: against a difference of the second order.
+            const double h = 1e-6;
+            const auto at = [&](double slope) {
+              return Trajectory({1, 0.04, 0.5, 9.81, slope}, geometry, law, 0.5).at(part * end);
+            };
+            if (part < 1) {
+              const auto up = at(h), down = at(-h);
+              CHECK(std::abs(s.v_S - (up.v - down.v) / (2 * h)) <= 2e-6 * std::abs(s.v_S) + 1e-8);
+              CHECK(std::abs(s.x_S - (up.x - down.x) / (2 * h)) <= 2e-6 * std::abs(s.x_S) + 1e-10);
+            }
+          }
+        }
+}
+
+TEST_CASE("Slope: random rolls are finite and monotone, uphill, downhill and for ever",
+          "[rolling]") {
+  std::mt19937_64 random(8);
+  const auto between = [&](double lo, double hi) {
+    return std::uniform_real_distribution(lo, hi)(random);
+  };
+  for (int i = 0; i < 3000; ++i) {
+    const double b = i % 7 == 0    ? 1 + between(-1e-15, 1e-15)
+                     : i % 11 == 0 ? 0
+                     : i % 13 == 0 ? std::copysign(std::pow(10, between(-20, 3)), between(-1, 1))
+                                   : between(-0.5, 3);
+    const double v0 = i % 13 == 0 ? 1 : std::pow(10, between(-6, 3)), K = between(0, 1);
+    const double depth = i % 3 ? std::pow(10, between(-9, 0)) : 1;
+    const double S = i % 5 == 0 ? -depth * (1 + between(-1e-15, 1e-15))
+                                : std::copysign(std::pow(10, between(-12, 0.5)), between(-1, 1));
+    const Geometry geometry = i % 2 ? exact : paper;
+    const Body body{1, 0.04, K, 9.81, S};
+    const PowerLaw law{0.04 * depth * std::pow(v0, -b) * (1 - 1e-12), b};
+    INFO("i " << i << " b " << b << " K " << K << " depth " << depth << " S " << S << " exact "
+              << (geometry == exact) << " v0 " << v0);
+    const Trajectory roll(body, geometry, law, v0);
+    const double unit = v0 * 0.04 / (9.81 * law(v0));
+    double v = v0, x = -1;
+    int way = 0;
+    for (double t = 1e-12 * unit; t < 1e6 * unit; t *= 3) {
+      Trajectory::Point s{};
+      try {
+        s = roll.at(t);
+      } catch (const Error&) {
+        REQUIRE((std::isinf(roll.last_speed()) || (geometry == exact && b < 0)));
+        break;
+      }
+      const double change = s.v - v;
+      if (way == 0 && std::abs(change) > 1e-14 * v) way = change > 0 ? 1 : -1;
+      if (s.v > 0) REQUIRE(way * change >= -1e-13 * v);
+      REQUIRE((s.v >= 0 && s.x >= x * (1 - 8 * eps)));
+      if (S >= 0) REQUIRE(s.v <= v0);
+      for (const double d : {s.v_a, s.v_b, s.v_v0, s.v_S, s.x_a, s.x_b, s.x_v0, s.x_S})
+        REQUIRE(std::isfinite(d));
+      v = s.v, x = s.x;
+    }
+    if (std::isfinite(roll.last_speed()) && roll.last_speed() > 0)
+      CHECK(std::abs(roll.at(1e200 * unit).v / roll.last_speed() - 1) < 1e-12);
+  }
+}
+
+TEST_CASE("Slope: what never stops, what counts as rest, and rest itself", "[rolling]") {
+  const auto roll = [](double S, double a, double b, double v0, Geometry geometry = paper) {
+    return Trajectory({1, 0.04, 0.5, 9.81, S}, geometry, {a, b}, v0);
+  };
+  const double balance = std::pow(0.04 * 0.005 / 1.87e-3, 1 / 0.215);
+  const auto slow = roll(-5e-3, 1.87e-3, 0.215, 0.5);
+  CHECK((std::isinf(slow.stop_time()) && std::abs(slow.last_speed() / balance - 1) < 1e-13));
+  CHECK(std::abs(slow.at(100).v / balance - 1) < 1e-13);
+  CHECK(std::abs(roll(-5e-3, 1.87e-3, 0.215, 1e-6).at(100).v / balance - 1) < 1e-13);
+  CHECK(std::isinf(roll(-0.1, 1e-3, 0, 0.5).last_speed()));
+  CHECK(roll(-0.025, 1e-3, 0, 0.5).at(7).v == 0.5);
+  CHECK(std::isinf(roll(-0.025, 1e-3, 0, 0.5).stop_time()));
+  CHECK(std::isfinite(roll(1e-3, 1e-3, 1.5, 0.5).stop_time()));  // uphill even b >= 1 stops
+  const auto rest = roll(-1e-3, 1.87e-3, 0.215, 0.5);
+  const double negligible = std::pow(0.04 * 0.001 / 1.87e-3, 1 / 0.215);
+  CHECK(std::abs(rest.rest_speed() / (2 * negligible) - 1) < 1e-13);
+  CHECK(std::abs(rest.at(rest.stop_time() * (1 - 1e-12)).v / (2 * negligible) - 1) < 1e-4);
+  CHECK(rest.at(rest.stop_time()).v == 0);
+  CHECK(roll(-0.5, 1e-3, 0.2, 0).at(3).v == 0);
+  CHECK_THROWS_AS(roll(infinity, 1e-3, 0.2, 0.5), Error);
+  CHECK_THROWS_AS(roll(std::nan(""), 1e-3, 0.2, 0.5), Error);
+}
+
+TEST_CASE("Slope: solvers, tables and the integral over speed agree", "[rolling]") {
+  for (const Geometry geometry : {paper, exact})
+    for (const double S : {1e-3, -1e-3, 0.02, -5e-3, -0.1}) {
+      Roll roll{};
+      roll.body = {1, 0.04, 0.5, 9.81, S}, roll.geometry = geometry;
+      roll.law = {1.87e-3, 0.215}, roll.v0 = 0.5, roll.x0 = 0.1;
+      INFO("S " << S << " exact " << (geometry == exact));
+      const auto best = start(roll, best_method(roll), 0),
+                 solver = start(roll, {Method::solver, Stepper::rk8pd}, 1e-12);
+      CHECK(best_method(roll).kind == Method::exact);
+      CHECK_THROWS_AS(start(roll, {Method::closed}, 0), Error);
+      const double stop = best->stop_time(), end = std::isfinite(stop) ? stop : 5;
+      if (std::isfinite(stop)) CHECK(std::abs(solver->stop_time() / stop - 1) < 1e-7);
+      else CHECK(std::isinf(solver->stop_time()));
+      for (const double part : {0.1, 0.5, 0.9, 1.2}) {
+        best->seek(part * end);
+        solver->seek(part * end);
+        CHECK(std::abs(solver->velocity() - best->velocity()) < 1e-9);
+        CHECK(std::abs(solver->position() - best->position()) < 1e-9);
+        CHECK(std::abs(solver->acceleration() - best->acceleration()) < 1e-6);
+        const double h = 1e-5;
+        if (part < 1) {
+          const double v = best->velocity(), a = best->acceleration();
+          const auto later = start(roll, best_method(roll), 0);
+          later->seek(part * end + h);
+          CHECK(std::abs((later->velocity() - v) / h - a) < 1e-3 * std::abs(a) + 1e-9);
+        }
+      }
+      // A table of one point is a law of b = 0.
+      roll.table.emplace(std::vector{1.0}, std::vector{1.5e-3});
+      Roll constant = roll;
+      constant.table.reset(), constant.law = {1.5e-3, 0};
+      const auto table = start(roll, best_method(roll), 1e-12),
+                 power = start(constant, best_method(constant), 0);
+      if (S > -0.03) {
+        CHECK(std::abs(table->stop_time() / power->stop_time() - 1) < 1e-13);
+        table->seek(0.3), power->seek(0.3);
+        CHECK(std::abs(table->velocity() / power->velocity() - 1) < 1e-12);
+      } else {
+        CHECK(best_method(roll).kind == Method::solver);
+        CHECK_THROWS_AS(start(roll, {Method::exact}, 0), Error);
+        table->seek(0.3), power->seek(0.3);
+        CHECK(std::abs(table->velocity() / power->velocity() - 1) < 1e-9);
+        CHECK_THROWS_AS(table->seek(30), Error);  // above the table
+      }
+    }
+}
