@@ -83,7 +83,7 @@ samples: bin/simulate
 # Figures of the paper: each is drawn by the script of its name in samples/figures, which runs the
 # tools that it names.
 figure  := $(patsubst samples/figures/%.sh,%,\
-             $(filter-out %/draw.sh %/live.sh,$(wildcard samples/figures/*.sh)))
+             $(filter-out %/draw.sh,$(wildcard samples/figures/*.sh)))
 figures: $(figure:%=figures/%.svg) $(figure:%=figures/%.png)
 empty   :=
 space   := $(empty) $(empty)
@@ -227,6 +227,7 @@ work-precision: build/bench/ulp build/bench/work_precision
 work-precision-signal: build/bench/signal
 	@mkdir -p build/work-precision
 	tests/bench/signal.sh build/work-precision
+	@echo 'results: build/work-precision/signal.tsv and, with gnuplot, signal*.svg and signal*.png'
 
 # How fast the tools are beside peers and bare loops: some minutes.
 bench: all build/bench/speed

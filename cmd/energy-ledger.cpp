@@ -5,6 +5,7 @@
 #include "cli/quantities.h"
 #include "cli/tool.h"
 #include "contact/balance.h"
+#include "signal/smoother.h"
 #include "text/filter.h"
 
 using namespace rolling;
@@ -64,11 +65,14 @@ struct Law {
 /// True if the `##` lines say that D was made of the derivative of v, the v that the file has: then
 /// the balance compares v with itself.
 bool differenced_from_v(const std::vector<std::string>& history) {
+  constexpr std::string_view smoothed = "smooth v ";
   bool a_of_v = false, D_of_v = false;
   for (const std::string& line : history) {
-    if (line.starts_with("differentiate v")) a_of_v = true;
-    if (line.starts_with("smooth v")) a_of_v = D_of_v = false;  // that v is gone
-    if (line.starts_with("shift-from-accel")) D_of_v = a_of_v;
+    if (line.starts_with("differentiate v ")) a_of_v = true;
+    if (line.starts_with("shift-from-accel ")) D_of_v = a_of_v;
+    if (line.starts_with(smoothed) &&
+        signal_options(smoothing_methods, line.substr(smoothed.size())))
+      a_of_v = D_of_v = false;  // that v is gone
   }
   return D_of_v;
 }
@@ -77,11 +81,15 @@ bool differenced_from_v(const std::vector<std::string>& history) {
 class Accounts {
  public:
   Accounts(Tool& tool, Reader& in, const Body& body, Geometry geometry, const Law* law,
-           double tolerance)
-      : tool_(tool), in_(in), body_(body), geometry_(geometry), law_(law), tolerance_(tolerance),
-        t_(in.need_time()), v_(in.need("v")), D_(law ? v_ : in.need("D")) {}
+           bool checked, double tolerance)
+      : tool_(tool), in_(in), body_(body), geometry_(geometry), law_(law), checked_(checked),
+        tolerance_(tolerance), t_(in.need_time()), v_(in.need("v")), D_(law ? v_ : in.need("D")) {}
 
-  Balance open() const { return Balance(body_); }
+  /// The account of a run, before its first record.
+  Balance open() {
+    tests_nothing_ |= checked_ && !law_ && differenced_from_v(in_.history());
+    return Balance(body_);
+  }
 
   /// The present record, entered into the balance of its run.
   Ledger enter(Balance& balance) {
@@ -92,11 +100,9 @@ class Accounts {
     return now;
   }
 
-  /// Checks the balance of a run that has been read; where nothing is to be checked, a run may have
-  /// none.
-  void close(const Balance& balance, bool checked) {
-    if (!checked) return;
-    tests_nothing_ |= !law_ && differenced_from_v(in_.history());
+  /// Checks the balance of a run that has been read.
+  void close(const Balance& balance) {
+    if (std::isnan(tolerance_)) return;
     std::string beyond;
     if (!(std::abs(balance.closure()) <= tolerance_))
       beyond = fmt::format("closure {:.4g}", balance.closure());
@@ -123,8 +129,9 @@ class Accounts {
   Reader& in_;
   const Body& body_;
   Geometry geometry_;
-  const Law* law_;  // none: there is a column D
-  double tolerance_;
+  const Law* law_;    // none: there is a column D
+  bool checked_;      // --summary or --check
+  double tolerance_;  // NaN without --check
   std::size_t t_, v_, D_, beyond_ = 0;
   bool tests_nothing_ = false;
 };
@@ -143,7 +150,7 @@ void write_summary(Output& out, Reader& in, Accounts& accounts, bool inclined) {
       out.cell(cell);
     if (inclined) out.cell(balance.lifted());
     out.end_line();
-    accounts.close(balance, true);
+    accounts.close(balance);
   }
 }
 
@@ -189,7 +196,7 @@ int main(int argc, char** argv) {
                          (!std::isnan(law.power.a) && !in.find("D"));
     if (use_law && !law.table) tool.need({"coefficient", "exponent"});
     Accounts accounts(tool, in, body, geometry, use_law ? &law : nullptr,
-                      std::isnan(tolerance) ? HUGE_VAL : tolerance);
+                      summary || !std::isnan(tolerance), tolerance);
     if (summary) {
       write_summary(tool.out, in, accounts, body.slope != 0);
       accounts.finish();
@@ -205,7 +212,7 @@ int main(int argc, char** argv) {
         const Ledger now = accounts.enter(balance);
         for (const auto& quantity : row) filter.put(quantity.of({now, balance, temperature}));
       }
-      accounts.close(balance, !std::isnan(tolerance));
+      accounts.close(balance);
     }
     accounts.finish();
     return 0;

@@ -1,5 +1,6 @@
 #!/bin/bash
-# Every option of --help with every value that is none, twice, and without a value; then values that mean nothing.
+# Every option of --help with every value that is none, twice, and without a value; then values that
+# mean nothing.
 . "$(dirname "$0")/tools"
 good 9 >"$scratch/good"
 
