@@ -125,10 +125,11 @@ class Tool {
               const std::string& help, const Set& set);
   Reader& open(ReaderOptions, std::vector<std::string> order);
   void take_scene();
+  void handle_signals();
   int finish(int status);
   int print(const std::string& text);
 
-  std::string name_;
+  std::string name_, error_line_;
   CommandLine command_line_;
   std::map<std::string, Option> options_;  // by long name
   ReaderOptions input_;

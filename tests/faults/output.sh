@@ -73,6 +73,8 @@ for tool in $tools; do
     tried=$((tried + 1))
     [ -z "$(tail -c 1 "$scratch/out")" ] ||
       complain "$tool: SIG$signal leaves half a row: $(tail -n 1 "$scratch/out")"
+    sed '$d' "$scratch/out" | grep -q 'ended with an error' &&
+      complain "$tool: SIG$signal, and the error is not the last line"
   done
 done
 finish
