@@ -170,7 +170,8 @@ std::vector<std::string> HeadReader::take_names(std::size_t width) {
   const bool blank_end = dialect_.split(lines_.text()).back().text.empty();
   if (preamble_.empty()) {
     auto names = take_commented_names(width);
-    if (names.empty() && blank_end && !(names = take_commented_names(width - 1)).empty())
+    if (names.empty() && blank_end && !before_ &&
+        !(names = take_commented_names(width - 1)).empty())
       names.emplace_back();
     if (names.empty()) refuse_other_names(width);
     return names;
