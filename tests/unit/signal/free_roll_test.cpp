@@ -38,6 +38,7 @@ std::vector<Sample> record(double rate, double size, unsigned seed, bool positio
 
 TEST_CASE("free_roll: from after the push up to the stop, speeds and positions, many seeds",
           "[signal]") {
+  int beyond = 0;  // a mean at rest is above twice its noise in 2 % of cases
   for (const double sign : {1.0, -1.0})
     for (const double rate : {25.0, 100.0})
       for (unsigned seed = 1; seed <= 100; ++seed) {
@@ -50,10 +51,12 @@ TEST_CASE("free_roll: from after the push up to the stop, speeds and positions, 
           CHECK((*run)[begin].t >=
                 release + 1.9 / rate);  // a derivative over two samples knows nothing of the push
           CHECK((*run)[begin].t < release + 1);
-          CHECK((*run)[end - 1].t <= stop + 2 / rate);
+          CHECK((*run)[end - 1].t <= stop + 4 / rate);
+          beyond += (*run)[end - 1].t > stop + 2 / rate;
           CHECK((*run)[end - 1].t > stop - 0.8);
         }
       }
+  CHECK(beyond <= 16);  // of 800
 }
 
 TEST_CASE(
