@@ -1,5 +1,25 @@
-# rolling: build, test, reproduce. `make setup` installs what is missing on Debian; `make table1` and `make check` do the rest.
+# rolling: build, test, reproduce. `make setup` installs what is missing on Debian;
+# `make table1` and `make check` do the rest.
+ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += --jobs=$(shell nproc)
+endif
+SHELL := /bin/bash
+.SHELLFLAGS := -o pipefail -c
+export LC_ALL := C
+unexport CDPATH
+.DELETE_ON_ERROR:
+
+# `make setup GOAL...` installs what these goals need, and only what is missing: no root when
+# nothing is. A second make then sees what was installed.
+ifneq ($(filter setup,$(MAKECMDGOALS)),)
+goals := $(filter-out setup,$(MAKECMDGOALS))
+.PHONY: setup $(goals)
+setup:
+	@cmd/install/setup.sh $(if $(goals),$(goals),check)
+$(firstword $(goals)): setup
+	@$(MAKE) --no-print-directory $(goals)
+$(wordlist 2,$(words $(goals)),$(goals)): $(firstword $(goals)) ;
+else
 
 CXX      ?= g++
 CXXFLAGS ?= -O2 -g
@@ -14,7 +34,8 @@ test   := $(wildcard tests/unit/*/*.cpp tests/pipeline/*.cpp)
 target := number reader scene $(tool)
 object  = $(patsubst %.cpp,build/%.o,$1)
 
-.PHONY: all setup table1 samples figures report check install uninstall deb coverage work-precision work-precision-signal bench lint fuzz sanitize coverage-lines mutate check-long clean always
+.PHONY: all table1 samples figures report html check install uninstall deb coverage work-precision \
+        work-precision-signal bench lint fuzz sanitize coverage-lines mutate check-long clean always
 .SECONDARY:
 all: $(tool:%=bin/%)
 
@@ -25,54 +46,56 @@ bin/%: build/cmd/%.o build/lib.a
 build/lib.a: $(call object,$(source))
 	rm -f $@ && $(AR) rcs $@ $^
 
-build/%.o: %.cpp | $(filter setup,$(MAKECMDGOALS))
+build/%.o: %.cpp
 	@mkdir -p $(@D)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -MMD -MP -c -o $@ $<
 
 # Catch2 brings its own main: version 3 as a library, version 2 as a header.
 build/unit: CPPFLAGS += -Itests
 build/unit: $(call object,$(test)) build/catch_main.o build/lib.a
-	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) $$(test -e /usr/include/catch2/catch.hpp || echo -lCatch2)
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) \
+	  $$(test -e /usr/include/catch2/catch.hpp || echo -lCatch2)
 
-build/catch_main.o: | $(filter setup,$(MAKECMDGOALS))
+build/catch_main.o:
 	@mkdir -p $(@D)
-	if test -e /usr/include/catch2/catch.hpp; then echo '#define CATCH_CONFIG_MAIN'; echo '#include <catch2/catch.hpp>'; \
-	else echo '#include <catch2/catch_session.hpp>'; echo 'int main(int argc, char** argv) { return Catch::Session().run(argc, argv); }'; fi \
-	  | $(CXX) $(CXXFLAGS) -x c++ -c -o $@ -
+	if test -e /usr/include/catch2/catch.hpp; then \
+	  echo '#define CATCH_CONFIG_MAIN'; echo '#include <catch2/catch.hpp>'; \
+	else \
+	  echo '#include <catch2/catch_session.hpp>'; \
+	  echo 'int main(int argc, char** argv) { return Catch::Session().run(argc, argv); }'; \
+	fi | $(CXX) $(CXXFLAGS) -x c++ -c -o $@ -
 
--include $(patsubst %.o,%.d,$(call object,$(source) $(test) $(wildcard cmd/*.cpp tests/bench/*.cpp tests/fuzz/*.cpp)))
-
-# From a fresh machine: only what is missing, and no root when nothing is. `make setup table1` leaves out what only tests need.
-goals    := $(filter-out setup,$(MAKECMDGOALS))
-testing  := $(if $(goals),$(filter-out all table1 samples figures figures/% report install uninstall deb,$(goals)),everything)
-packages := g++ libgsl-dev libfmt-dev libcli11-dev $(if $(testing),catch2 libboost-dev mandoc) \
-            $(if $(filter figures figures/% report,$(goals)),gnuplot-nox) $(if $(filter deb,$(goals)),dpkg-dev)
-setup:
-	@missing=$$(for p in $(packages); do dpkg-query -W -f '$${Status}\n' $$p 2>/dev/null | grep -q '^install ok installed' || echo $$p; done); \
-	test -z "$$missing" || { echo installing $$missing; as_root=$$(test "$$(id -u)" = 0 || echo sudo); \
-	  $$as_root apt-get update -q && $$as_root env DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends $$missing; }
+-include $(patsubst %.o,%.d,$(call object,$(source) $(test) \
+           $(wildcard cmd/*.cpp tests/bench/*.cpp tests/fuzz/*.cpp)))
 
 table1: all
-	@PATH="$(CURDIR)/bin:$$PATH" samples/table1.sh
+	@PATH="$$PWD/bin:$$PATH" samples/table1.sh
 
-# The raw records: made, with their answer known; see samples/README.md.
+# The raw records: simulated, so that the answer is known; see samples/README.md.
+sensor := --memory 5e-4 --damping 0.02 --sensor pasco
 samples: bin/simulate
-	bin/simulate --scene samples/CF.toml --memory 5e-4 --damping 0.02 --sensor pasco --seed 1 >samples/CF.csv
-	bin/simulate --scene samples/CR.toml --memory 5e-4 --damping 0.02 --sensor pasco --seed 2 >samples/CR.csv
-	bin/simulate --scene samples/SF.toml --memory 5e-4 --damping 0.02 --sensor pasco --seed 3 >samples/SF.csv
-	bin/simulate --scene samples/SR.toml --memory 5e-4 --damping 0.02 --sensor pasco --seed 4 >samples/SR.csv
+	bin/simulate --scene samples/CF.toml $(sensor) --seed 1 >samples/CF.csv
+	bin/simulate --scene samples/CR.toml $(sensor) --seed 2 >samples/CR.csv
+	bin/simulate --scene samples/SF.toml $(sensor) --seed 3 >samples/SF.csv
+	bin/simulate --scene samples/SR.toml $(sensor) --seed 4 >samples/SR.csv
 	samples/exports/make.sh samples/exports
 
-# Figures of the paper, each from the script of its name in samples/figures and the tools that it runs.
-figure := $(patsubst samples/figures/%.sh,%,$(filter-out %/common.sh,$(wildcard samples/figures/*.sh)))
+# Figures of the paper: each is drawn by the script of its name in samples/figures, which runs the
+# tools that it names.
+figure  := $(patsubst samples/figures/%.sh,%,\
+             $(filter-out %/draw.sh %/live.sh,$(wildcard samples/figures/*.sh)))
 figures: $(figure:%=figures/%.svg) $(figure:%=figures/%.png)
-tools_in = $(addprefix bin/,$(shell grep -v '^\#' $1 | grep -owE '$(subst $(space),|,$(tool))' | sort -u))
 empty   :=
 space   := $(empty) $(empty)
-drawn_from := samples/figures/common.sh $(wildcard samples/figures/*.gp samples/*.csv samples/*.toml)
+tools_in = $(addprefix bin/,$(shell \
+             grep -v '^\#' $1 | grep -owE '$(subst $(space),|,$(tool))' | sort -u))
+drawn_from := samples/figures/draw.sh \
+              $(wildcard samples/figures/*.gp samples/*.csv samples/*.toml)
 define draw
+	@command -v gnuplot >/dev/null || \
+	  { echo 'gnuplot is not installed; make setup figures installs it' >&2; exit 1; }
 	@mkdir -p $(@D)
-	PATH="$(CURDIR)/bin:$$PATH" $< $1 >$@.new && mv $@.new $@
+	PATH="$$PWD/bin:$$PATH" $< -t $1 >$@
 endef
 .SECONDEXPANSION:
 figures/%.svg: samples/figures/%.sh $$(call tools_in,samples/figures/$$*.sh) $(drawn_from)
@@ -80,21 +103,31 @@ figures/%.svg: samples/figures/%.sh $$(call tools_in,samples/figures/$$*.sh) $(d
 figures/%.png: samples/figures/%.sh $$(call tools_in,samples/figures/$$*.sh) $(drawn_from)
 	$(call draw,pngcairo)
 
-# One page with the table, the energy check and the figures in it, those of work-precision too where they have been made.
+# One page with the table, the energy check and the figures in it; those of work-precision too
+# where they have been made. It links to the manual pages where mandoc can make them.
 report: figures/report.html
-figures/report.html: samples/report.sh samples/table1.sh $(figure:%=figures/%.svg) $(wildcard build/work-precision/*.svg) | all
-	PATH="$(CURDIR)/bin:$$PATH" $< figures $(if $(wildcard build/work-precision/CR.svg),build/work-precision) >$@.new && mv $@.new $@
+figures/report.html: samples/report.sh samples/table1.sh $(figure:%=figures/%.svg) \
+                     $(wildcard build/work-precision/*.svg) \
+                     $(if $(shell command -v mandoc),figures/man/index.html) | all
+	PATH="$$PWD/bin:$$PATH" $< figures \
+	  $(if $(wildcard build/work-precision/CR.svg),build/work-precision) >$@
+
+# The manual pages as one site of HTML.
+html: figures/man/index.html
+figures/man/index.html: cmd/install/html.sh $(wildcard man/*)
+	$< $(@D)
 
 check: all build/unit build/shim.so $(target:%=build/replay/%)
-	@PATH="$(CURDIR)/bin:$$PATH" tests/run.sh build/unit
+	@PATH="$$PWD/bin:$$PATH" tests/run.sh build/unit
 
-# What tests/faults preloads into the tools; nothing of it may depend on the C++ library or on a sanitizer.
+# tests/faults preloads it into the tools: it may not depend on the C++ library or on a sanitizer.
 build/shim.so: tests/faults/shim.cpp
 	@mkdir -p $(@D)
 	$(CXX) -O1 -Wall -Wextra -shared -fPIC -o $@ $<
 
-# Fuzz targets: the readers, and each tool with its main() under another name. build/replay runs them on the files of
-# tests/fuzz/corpus; `make fuzz` looks for more, SECONDS for each, in a copy built by clang for its fuzzer.
+# Fuzz targets: the readers, and each tool with its main() under another name. build/replay runs
+# them on the files of tests/fuzz/corpus; `make fuzz` looks for more, SECONDS for each, in a copy
+# that clang builds for its fuzzer.
 build/tests/fuzz/%.o: CPPFLAGS += -Itests/fuzz
 $(tool:%=build/fuzz/%.o): build/fuzz/%.o: build/cmd/%.o tests/fuzz/tool.cpp tests/fuzz/streams.h
 	@mkdir -p $(@D)
@@ -112,59 +145,36 @@ build/fuzzer/%: build/fuzz/%.o build/lib.a
 	$(CXX) $(CXXFLAGS) -fsanitize=fuzzer $(LDFLAGS) -o $@ $^ $(LDLIBS)
 
 # A copy of the sources for a build of another kind; what has not changed there is not built again.
-copy = mkdir -p $1 && rm -rf $(addprefix $1/,cmd lib man samples tests) && tar -cf - Makefile README.md cmd lib man samples tests | tar -xf - -C $1
+copy = mkdir -p $1 && rm -rf $(addprefix $1/,cmd lib man samples tests) && \
+       tar -cf - Makefile README.md cmd lib man samples tests | tar -xf - -C $1
 SECONDS ?= 60
-sanitized := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all
+sanitized := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined \
+             -fno-sanitize-recover=all
 fuzz:
 	@$(call copy,build/fuzzing)
-	$(MAKE) -C build/fuzzing CXX=clang++-14 CXXFLAGS="$(sanitized) -fsanitize=fuzzer-no-link" $(target:%=build/fuzzer/%)
+	$(MAKE) -C build/fuzzing CXX=clang++-14 CXXFLAGS="$(sanitized) -fsanitize=fuzzer-no-link" \
+	  $(target:%=build/fuzzer/%)
 	tests/fuzz/fuzz.sh build/fuzzing/build/fuzzer $(SECONDS) $(target)
 
-# The whole suite under AddressSanitizer and UndefinedBehaviorSanitizer; then most of it under valgrind.
+# The whole suite under AddressSanitizer and UndefinedBehaviorSanitizer, then most of it under
+# valgrind.
 sanitize: all build/unit $(target:%=build/replay/%)
 	@$(call copy,build/sanitized)
 	$(MAKE) -C build/sanitized check CXXFLAGS="$(sanitized)"
 	tests/valgrind.sh
 
-# The names smooth and simulate are common: PROGRAM_PREFIX=roll- installs roll-smooth, roll-simulate, ... and their pages so.
-PREFIX    ?= /usr/local
-root      := $(DESTDIR)$(PREFIX)
-share     := $(root)/share
-documents := $(wildcard samples/README.md samples/*.csv samples/*.toml samples/exports/*.csv samples/exports/*.txt)
-installed := $(tool:%=$(root)/bin/$(PROGRAM_PREFIX)%) \
-             $(tool:%=$(share)/man/man1/$(PROGRAM_PREFIX)%.1) $(share)/man/man5/rolling-columns.5 $(share)/man/man7/rolling-motion.7 \
-             $(tool:%=$(share)/bash-completion/completions/$(PROGRAM_PREFIX)%) $(tool:%=$(share)/zsh/site-functions/_$(PROGRAM_PREFIX)%) \
-             $(documents:%=$(share)/doc/rolling/%)
-
-install: $(installed)
+# The names smooth and simulate are common: PROGRAM_PREFIX=roll- installs roll-smooth,
+# roll-simulate, ... and their pages so. The script reads PREFIX, PROGRAM_PREFIX and DESTDIR from
+# its environment, where no blank and no sign of the shell has a meaning.
+export PREFIX PROGRAM_PREFIX DESTDIR
+install: all
+	@cmd/install/install.sh install
 uninstall:
-	rm -f $(installed)
-	for d in rolling/samples/exports rolling/samples rolling; do rmdir $(share)/doc/$$d 2>/dev/null || true; done  # if empty
-
-# What is newer there may be another's: all is installed anew.
-$(root)/bin/$(PROGRAM_PREFIX)%: bin/% always
-	install -D -m 755 $< $@
-install_page = install -D -m 644 $< $@ && cmd/install/rename-page.sh "$(PROGRAM_PREFIX)" $@ $(tool)
-$(share)/man/man1/$(PROGRAM_PREFIX)%.1: man/%.1 always
-	$(install_page)
-$(share)/man/man5/%: man/% always
-	$(install_page)
-$(share)/man/man7/%: man/% always
-	$(install_page)
-install_completion = install -D -m 644 /dev/null $@ && help=$$($< --help) && \
-                     printf '%s\n' "$$help" | awk -v shell=$1 -v name=$(PROGRAM_PREFIX)$* -f cmd/install/completion.awk >$@
-$(share)/bash-completion/completions/$(PROGRAM_PREFIX)%: bin/% always
-	$(call install_completion,bash)
-$(share)/zsh/site-functions/_$(PROGRAM_PREFIX)%: bin/% always
-	$(call install_completion,zsh)
-$(share)/doc/rolling/%: % always
-	install -D -m 644 $< $@
+	@cmd/install/install.sh uninstall
 
 # build/rolling_VERSION_ARCHITECTURE.deb
 deb: all
-	rm -rf build/deb
-	$(MAKE) install DESTDIR=build/deb/debian/rolling PREFIX=/usr
-	cmd/install/deb.sh build/deb "$(PROGRAM_PREFIX)"
+	cmd/install/deb.sh
 
 # Lines and branches of lib/ that the tests reach; less than every line is an error.
 covered := -O0 -g --coverage -fprofile-update=atomic
@@ -173,8 +183,9 @@ coverage-lines:
 	find build/covered -name '*.gcda' -delete
 	$(MAKE) -C build/covered build/tests/gcov_exit.o CXXFLAGS="$(covered)"
 	$(MAKE) -C build/covered check CXXFLAGS="$(covered)" LDFLAGS=build/tests/gcov_exit.o
-	gcovr --root build/covered --filter build/covered/lib/ --exclude-throw-branches --exclude-unreachable-branches \
-	  --print-summary -o build/covered/lines.txt --fail-under-line 100 build/covered/build || { cat build/covered/lines.txt; exit 1; }
+	gcovr --root build/covered --filter build/covered/lib/ --exclude-throw-branches \
+	  --exclude-unreachable-branches --print-summary -o build/covered/lines.txt --fail-under-line 100 \
+	  build/covered/build || { cat build/covered/lines.txt; exit 1; }
 
 # Mutants of lib/ and cmd/ that no test notices; half an hour and more.
 MUTANTS ?= 150
@@ -183,17 +194,18 @@ mutate: check
 
 # The long form of the tests of numbers and memory.
 check-long: check
-	PATH="$(CURDIR)/bin:$$PATH" build/unit '[.long]'
+	PATH="$$PWD/bin:$$PATH" build/unit '[.long]'
 	LONG=1 tests/faults/memory.sh
 
-# How often the errors of fitpower hold, by case and route: 1000 simulated runs each, some ten minutes.
+# How often the errors of fitpower hold, by case and route: 1000 simulated runs each; ten minutes.
 build/tests/bench/coverage.o: CPPFLAGS += -Itests
 build/coverage: build/tests/bench/coverage.o build/lib.a
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) -pthread
 coverage: build/coverage
 	@build/coverage
 
-# Error against run time of all methods: some minutes; figures where gnuplot is installed. See tests/bench/README.md.
+# Error against run time of all methods: some minutes; figures where gnuplot is installed. See
+# tests/bench/README.md.
 build/bench/%: CPPFLAGS += -Itests
 build/bench/%: build/tests/bench/%.o build/lib.a
 	@mkdir -p $(@D)
@@ -201,7 +213,8 @@ build/bench/%: build/tests/bench/%.o build/lib.a
 
 # CVODE beside them where libsundials-dev is installed: see tests/bench/cvode.h.
 ifneq ($(wildcard /usr/include/cvode/cvode.h),)
-build/bench/work_precision: LDLIBS += -lsundials_cvode -lsundials_nvecserial -lsundials_sunmatrixdense -lsundials_sunlinsoldense
+build/bench/work_precision: LDLIBS += -lsundials_cvode -lsundials_nvecserial \
+                                      -lsundials_sunmatrixdense -lsundials_sunlinsoldense
 endif
 
 work-precision: build/bench/ulp build/bench/work_precision
@@ -217,18 +230,22 @@ work-precision-signal: build/bench/signal
 
 # How fast the tools are beside peers and bare loops: some minutes.
 bench: all build/bench/speed
-	@PATH="$(CURDIR)/bin:$$PATH" tests/bench/speed.sh
-	@PATH="$(CURDIR)/bin:$$PATH" tests/bench/profile.sh
+	@PATH="$$PWD/bin:$$PATH" tests/bench/speed.sh
+	@PATH="$$PWD/bin:$$PATH" tests/bench/profile.sh
 
-# Static analysis; what it checks is in .clang-tidy.
+# Static analysis; .clang-tidy says what is checked.
 lint:
 	clang-format-14 --dry-run --Werror $$(find lib cmd tests -name '*.cpp' -o -name '*.h')
 	mandoc -Tlint -Wwarning man/*
-	shellcheck -x -P SCRIPTDIR --severity=warning cmd/install/*.sh samples/*.sh samples/*/*.sh tests/*.sh tests/*/*.sh
-	cppcheck --quiet --std=c++20 --language=c++ --enable=warning,performance,portability --inline-suppr --error-exitcode=1 -Ilib \
-	  --suppress=internalAstError --suppress=derefInvalidIteratorRedundantCheck --suppress=containerOutOfBounds lib cmd
-	printf '%s\n' $(source) $(wildcard cmd/*.cpp) | \
-	  xargs -P $(shell nproc) -n 4 sh -c 'clang-tidy-14 --quiet --warnings-as-errors="*" "$$@" -- -x c++ -std=c++20 -Ilib' sh
+	shellcheck -x -P SCRIPTDIR --severity=warning cmd/install/*.sh samples/*.sh samples/*/*.sh \
+	  tests/*.sh tests/*/*.sh
+	cppcheck --quiet --std=c++20 --language=c++ --enable=warning,performance,portability \
+	  --inline-suppr --error-exitcode=1 -Ilib --suppress=internalAstError \
+	  --suppress=derefInvalidIteratorRedundantCheck --suppress=containerOutOfBounds lib cmd
+	printf '%s\n' $(source) $(wildcard cmd/*.cpp) | xargs -P $(shell nproc) -n 4 sh -c \
+	  'clang-tidy-14 --quiet --warnings-as-errors="*" "$$@" -- -x c++ -std=c++20 -Ilib' sh
 
 clean:
 	rm -rf bin build figures
+
+endif

@@ -18,21 +18,21 @@ int main(int argc, char** argv) {
   using namespace rolling;
   Tool tool("differentiate", "Append the time derivative of a column.");
   std::string column;
-  DerivativeOptions options;
+  auto methods = by_name(derivative_methods);
+  SignalOptions options{methods["central"], {23, 0}};
   tool.text("-c,--column", column, "COLUMN", "the column to differentiate (v, else x)");
-  tool.choice("-M,--method", options.method, derivative_methods,
-              "how the slope is found (central)");
-  tool.count("-w,--width", options.width, odd,
+  tool.choice("-M,--method", options.method, methods, "how the slope is found (central)");
+  tool.count("-w,--width", options.width.samples, odd,
              "width of savgol's window, an odd number of samples (23)");
   tool.count("--order", options.order, whole, "order of savgol's polynomial (2)");
   tool.input();
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    if (options.method != DerivativeMethod::savgol &&
+    if (!options.method->has_width() &&
         (tool.on_command_line("width") || tool.on_command_line("order")))
       fail("--width and --order go with --method savgol");
-    make_derivative(options);  // refuses what does not go together, before anything is read
+    make_signal(options);  // refuses what does not go together, before anything is read
     Reader& in = tool.read({"t", "v"});
     const auto t = in.need_time();
     const auto y = in.need(!column.empty() ? column : in.find("v") || !in.find("x") ? "v" : "x");
@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
     Filter filter(in, tool.out, fmt::format("differentiate {} {}", from.name, describe(options)));
     filter.append(derivative_of(from));
     while (filter.next_run()) {
-      const auto derivative = make_derivative(options);
+      const auto derivative = make_signal(options);
       while (filter.next()) filter.put(derivative->push(filter[t], filter[y]));
       filter.put(derivative->finish());
     }

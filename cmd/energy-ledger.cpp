@@ -1,76 +1,211 @@
-// energy-ledger - append where the energy goes (Eqs. 14 to 23); see energy-ledger(1)
-#include <array>
+// energy-ledger - append where the energy goes (Eqs. 1 to 23); see energy-ledger(1)
 #include <cmath>
 
+#include "cli/law_file.h"
+#include "cli/quantities.h"
 #include "cli/tool.h"
 #include "contact/balance.h"
 #include "text/filter.h"
 
+using namespace rolling;
+
+namespace {
+
+/// What a quantity is computed from.
+struct Moment {
+  const Ledger& now;
+  const Balance& balance;
+  double temperature;
+};
+
+const std::vector<Quantity<double (*)(const Moment&)>> quantities = {
+    {{"omega", "rad/s"}, [](const Moment& m) { return m.now.omega(); }},
+    {{"p", "N s"}, [](const Moment& m) { return m.now.p(); }},
+    {{"L", "N m s"}, [](const Moment& m) { return m.now.L(); }},
+    {{"A", ""}, [](const Moment& m) { return m.now.A(); }},
+    {{"D", "m"}, [](const Moment& m) { return m.now.D(); }},
+    {{"F_N", "N"}, [](const Moment& m) { return m.now.F_N(); }},
+    {{"F_H", "N"}, [](const Moment& m) { return m.now.F_H(); }},
+    {{"tau_N", "N m"}, [](const Moment& m) { return m.now.tau_N(); }},
+    {{"tau_H", "N m"}, [](const Moment& m) { return m.now.tau_H(); }},
+    {{"vP_H", "m/s"}, [](const Moment& m) { return m.now.vP_H(); }},
+    {{"vP_V", "m/s"}, [](const Moment& m) { return m.now.vP_V(); }},
+    {{"E_trans", "J"}, [](const Moment& m) { return m.now.E_trans(); }},
+    {{"E_rot", "J"}, [](const Moment& m) { return m.now.E_rot(); }},
+    {{"I_E1", "W"}, [](const Moment& m) { return m.now.I_E1(); }},
+    {{"I_E2", "W"}, [](const Moment& m) { return m.now.I_E2(); }},
+    {{"P_T1", "W"}, [](const Moment& m) { return m.now.P_T1(); }},
+    {{"P_R1", "W"}, [](const Moment& m) { return m.now.P_R1(); }},
+    {{"P_R2", "W"}, [](const Moment& m) { return m.now.P_R2(); }},
+    {{"P_T2", "W"}, [](const Moment& m) { return m.now.P_T2(); }},
+    {{"P_T3", "W"}, [](const Moment& m) { return m.now.P_T3(); }},
+    {{"P_T4", "W"}, [](const Moment& m) { return m.now.P_T4(); }},
+    {{"P_diss", "W"}, [](const Moment& m) { return m.now.P_diss(); }},
+    {{"E_diss", "J"}, [](const Moment& m) { return m.balance.dissipated(); }},
+    {{"W_g", "J"}, [](const Moment& m) { return m.balance.lifted(); }},
+    {{"Pi_S", "W/K"}, [](const Moment& m) { return m.now.P_diss() / m.temperature; }},
+};
+
+/// The law D(v) that stands for the column D, odd in v: the mat does not know left from right.
+struct Law {
+  PowerLaw power;
+  std::optional<TableLaw> table;
+
+  double operator()(double v) const {
+    if (!table || v == 0) return power(v);
+    if (std::abs(v) > table->highest())
+      fail("v = {:.6g} m/s is beyond the table of the law, which ends at {:.6g} m/s", v,
+           table->highest());
+    return std::copysign((*table)(std::abs(v)), v);
+  }
+  std::string words() const { return table ? "table" : fmt::format("a {} b {}", power.a, power.b); }
+};
+
+/// True if the `##` lines say that D was made of the derivative of v, the v that the file has: then
+/// the balance compares v with itself.
+bool differenced_from_v(const std::vector<std::string>& history) {
+  bool a_of_v = false, D_of_v = false;
+  for (const std::string& line : history) {
+    if (line.starts_with("differentiate v")) a_of_v = true;
+    if (line.starts_with("smooth v")) a_of_v = D_of_v = false;  // that v is gone
+    if (line.starts_with("shift-from-accel")) D_of_v = a_of_v;
+  }
+  return D_of_v;
+}
+
+/// The accounts of the runs, one after the other, and what there is to say at their end.
+class Accounts {
+ public:
+  Accounts(Tool& tool, Reader& in, const Body& body, Geometry geometry, const Law* law,
+           double tolerance)
+      : tool_(tool), in_(in), body_(body), geometry_(geometry), law_(law), tolerance_(tolerance),
+        t_(in.need_time()), v_(in.need("v")), D_(law ? v_ : in.need("D")) {}
+
+  /// The present record, entered into the balance of its run.
+  Ledger enter(Balance& balance) {
+    const double v = in_[v_], D = law_ ? (*law_)(v) : in_[D_];
+    const Ledger now(body_, geometry_, v, D);
+    balance.push(in_[t_], now);
+    beyond_ += std::abs(D) > body_.R;
+    return now;
+  }
+
+  /// Checks the balance of a run that has been read; where nothing is to be checked, a run may have
+  /// none.
+  void close(const Balance& balance, bool checked) {
+    if (!checked) return;
+    tests_nothing_ |= !law_ && differenced_from_v(in_.history());
+    std::string beyond;
+    if (!(std::abs(balance.closure()) <= tolerance_))
+      beyond = fmt::format("closure {:.4g}", balance.closure());
+    if (!(balance.imbalance() <= tolerance_))
+      beyond += fmt::format("{}imbalance {:.4g} at t = {:.6g} s", beyond.empty() ? "" : ", ",
+                            balance.imbalance(), balance.time_of_imbalance());
+    if (!beyond.empty())
+      tool_.check_failed(fmt::format("the check does not hold: {}: beyond {}", beyond, tolerance_));
+  }
+
+  /// Says what there is to say of all runs.
+  void finish() const {
+    if (beyond_ > 0)
+      tool_.warn(fmt::format("{} shift{} beyond the radius {} m", beyond_,
+                             beyond_ == 1 ? " is" : "s are", body_.R));
+    if (tests_nothing_)
+      tool_.warn(
+          "D was made of the derivative of the same v: the balance holds for any v and tests "
+          "nothing; take a law with --law, or with -a and -b");
+  }
+
+ private:
+  Tool& tool_;
+  Reader& in_;
+  const Body& body_;
+  Geometry geometry_;
+  const Law* law_;  // none: there is a column D
+  double tolerance_;
+  std::size_t t_, v_, D_, beyond_ = 0;
+  bool tests_nothing_ = false;
+};
+
+/// A row for each run.
+void write_summary(Output& out, Reader& in, Accounts& accounts, bool inclined) {
+  std::vector<Column> columns = {
+      {"E_start", "J"}, {"E_end", "J"}, {"E_diss", "J"}, {"closure", ""}, {"imbalance", ""}};
+  if (inclined) columns.push_back({"W_g", "J"});
+  out.names(columns);
+  while (in.next_run()) {
+    Balance balance;
+    while (in.next()) accounts.enter(balance);
+    for (const double cell : {balance.start(), balance.end(), balance.dissipated(),
+                              balance.closure(), balance.imbalance()})
+      out.cell(cell);
+    if (inclined) out.cell(balance.lifted());
+    out.end_line();
+    accounts.close(balance, true);
+  }
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  using namespace rolling;
+  using enum BodyOption;
   Tool tool("energy-ledger", "Append the energies and the flows of energy of a rolling body.");
   Body body;
   Geometry geometry;
-  PowerLaw law;
+  Law law;
   bool summary = false;
-  double tolerance = not_given;
-  tool.body(body);
-  tool.law(law);
+  double tolerance = not_given, temperature = not_given;
+  std::string law_file, columns = "E_trans,E_rot,I_E1,I_E2,P_T1,P_R1,P_R2,P_T2,P_diss,E_diss";
+  tool.body(body, {mass, radius, shape_factor, gravity, slope});
+  tool.law(law.power);
+  tool.text("--law", law_file, "FILE",
+            "file (- is standard input) with a row of fitpower or a table of v D: the law, instead "
+            "of the column D");
   tool.geometry(geometry);
+  tool.text("--columns", columns, "NAME,...",
+            "what to append: any quantities of the paper (energies and flows of energy)");
+  tool.number("--temperature", temperature, positive, "of the mat [K], for Pi_S");
   tool.flag("--summary", summary,
-            "print only a row for each run: energy at the start, at the end, dissipated, closure");
-  tool.number("--check", tolerance, not_negative, "exit with 1 when |closure| is above this");
+            "print only a row for each run: energies at the start, at the end, dissipated; closure "
+            "and imbalance");
+  tool.number("--check", tolerance, not_negative,
+              "exit with 1 when |closure| or the imbalance is above this");
   tool.scene();
   tool.input();
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    tool.need(body, "mRK");
+    const auto row = chosen(columns, quantities);
+    for (const auto& quantity : row)
+      if (quantity.column.name == "Pi_S") tool.need({"temperature"});
+    if (!law_file.empty()) law.table = read_law(tool, law_file, law.power);
+    tool.need({"mass", "radius", "shape-factor"});
     Reader& in = tool.read({"t", "v", "D"});
-    const auto t = in.need_time(), v = in.need("v");
     // A law on the command line is meant; the law of a scene stands in for a D that is not there.
-    const bool use_law = tool.on_command_line("coefficient") || tool.on_command_line("exponent") ||
-                         (!std::isnan(law.a) && !in.find("D"));
-    if (use_law) tool.need(law);
-    const std::size_t D = use_law ? 0 : in.need("D");
-    const auto push = [&](Balance& balance) -> const Ledger& {
-      return balance.push(in[t], in[v], use_law ? law(in[v]) : in[D]);
-    };
-
-    int status = 0;
-    const auto check = [&](const Balance& balance) {
-      if (std::isnan(tolerance) || std::abs(balance.closure()) <= tolerance) return;
-      tool.say(fmt::format("the check does not hold: closure {:.4g} is beyond {}",
-                           balance.closure(), tolerance));
-      status = 1;
-    };
+    const bool use_law = !law_file.empty() || tool.on_command_line("coefficient") ||
+                         tool.on_command_line("exponent") ||
+                         (!std::isnan(law.power.a) && !in.find("D"));
+    if (use_law && !law.table) tool.need({"coefficient", "exponent"});
+    Accounts accounts(tool, in, body, geometry, use_law ? &law : nullptr,
+                      std::isnan(tolerance) ? HUGE_VAL : tolerance);
     if (summary) {
-      tool.out.names({{"E_start", "J"}, {"E_end", "J"}, {"E_diss", "J"}, {"closure", ""}});
-      while (in.next_run()) {
-        Balance balance(body, geometry);
-        while (in.next()) push(balance);
-        tool.out.row(
-            std::array{balance.start(), balance.end(), balance.dissipated(), balance.closure()});
-        check(balance);
-      }
-    } else {
-      Filter filter(
-          in, tool.out,
-          use_law ? fmt::format("energy-ledger a {} b {}", law.a, law.b) : "energy-ledger D");
-      for (const char* energy : {"E_trans", "E_rot"}) filter.append({energy, "J"});
-      for (const char* flow : {"I_E1", "I_E2", "P_T1", "P_R1", "P_R2", "P_T2", "P_diss"})
-        filter.append({flow, "W"});
-      filter.append({"E_diss", "J"});
-      while (filter.next_run()) {
-        Balance balance(body, geometry);
-        while (filter.next()) {
-          const Ledger& l = push(balance);
-          filter.put(std::array{l.E_trans, l.E_rot, l.I_E1, l.I_E2, l.P_T1, l.P_R1, l.P_R2, l.P_T2,
-                                l.P_diss, balance.dissipated()});
-        }
-        check(balance);
-      }
+      write_summary(tool.out, in, accounts, body.slope != 0);
+      accounts.finish();
+      return 0;
     }
-    return status;
+    Filter filter(in, tool.out,
+                  fmt::format("energy-ledger {}{}", use_law ? law.words() : "D",
+                              body.slope == 0 ? "" : fmt::format(" slope {}", body.slope)));
+    for (const auto& quantity : row) filter.append(quantity.column);
+    while (filter.next_run()) {
+      Balance balance;
+      while (filter.next()) {
+        const Ledger now = accounts.enter(balance);
+        for (const auto& quantity : row) filter.put(quantity.of({now, balance, temperature}));
+      }
+      accounts.close(balance, !std::isnan(tolerance));
+    }
+    accounts.finish();
+    return 0;
   });
 }

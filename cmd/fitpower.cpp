@@ -120,9 +120,10 @@ void report(Tool& tool, Route asked, const std::vector<FitRun>& runs, const FitO
 }  // namespace
 
 int main(int argc, char** argv) {
+  using enum BodyOption;
   Tool tool("fitpower", "Fit the power law D = a v^b to columns.");
   std::optional<Route> given_route;
-  std::vector<double> shape_factors;
+  std::vector<Estimate> shape_factors;
   std::vector<std::string> fixed, start;
   Body body;
   FitOptions options;
@@ -132,7 +133,7 @@ int main(int argc, char** argv) {
               "velocity if v, else position)");
   tool.numbers("-K,--shape-factor", shape_factors, not_negative,
                "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
-  tool.body(body, "Rg");
+  tool.body(body, {radius, gravity});
   tool.geometry(options.geometry);
   tool.flag("--each", each, "fit each run by itself, a row for each");
   tool.list("--fix", fixed, "NAME=VALUE", "hold a, b, v0 or x0 fixed");
@@ -158,16 +159,14 @@ int main(int argc, char** argv) {
                                        : Route::position;
     options.possible_filters = filters_of_sensors();
     const bool trajectory = route == Route::velocity || route == Route::position;
-    if (trajectory) {
-      tool.need(body, "R");
-      if (shape_factors.empty()) fail("--shape-factor is not given, nor is it in a scene");
-    }
+    if (trajectory) tool.need({"radius", "shape-factor"});
 
     std::vector<FitRun> runs = read_runs(in, route, body, with_report);
     if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
       fail("--shape-factor gives {} values, but runs are {}", shape_factors.size(), runs.size());
     for (std::size_t i = 0; i < runs.size(); ++i)
-      runs[i].body.K = shape_factors.empty() ? 0 : shape_factors[shape_factors.size() > 1 ? i : 0];
+      runs[i].body.K =
+          shape_factors.empty() ? 0 : shape_factors[shape_factors.size() > 1 ? i : 0].value;
 
     std::vector<std::vector<FitRun>> fits;
     if (each)

@@ -1,6 +1,8 @@
 // simulate - roll a body under a law D(v); see simulate(1)
 #include <cmath>
 
+#include "cli/law_file.h"
+#include "cli/quantities.h"
 #include "cli/tool.h"
 #include "motion/measure.h"
 #include "motion/roll.h"
@@ -26,30 +28,13 @@ const std::map<std::string, Method> methods = {
     {"msbdf", {Method::solver, Stepper::msbdf}},
 };
 
-struct Quantity {
-  Column column;
-  double (*of)(double t, Motion&);
-};
-
-const std::vector<Quantity> quantities = {
+const std::vector<Quantity<double (*)(double t, Motion&)>> quantities = {
     {{"t", "s"}, [](double t, Motion&) { return t; }},
     {{"x", "m"}, [](double, Motion& motion) { return motion.position(); }},
     {{"v", "m/s"}, [](double, Motion& motion) { return motion.velocity(); }},
     {{"a", "m/s^2"}, [](double, Motion& motion) { return motion.acceleration(); }},
     {{"D", "m"}, [](double, Motion& motion) { return motion.shift(); }},
 };
-
-std::vector<Quantity> chosen(const std::string& list) {
-  std::vector<Quantity> chosen;
-  for (const std::string& name : split_names(list, ',')) {
-    const auto same = [&](const Quantity& q) { return q.column.name == name; };
-    const auto found = std::find_if(quantities.begin(), quantities.end(), same);
-    if (found == quantities.end() || std::any_of(chosen.begin(), chosen.end(), same))
-      fail("--columns: '{}' is not a list of t, x, v, a, D", shown(list));
-    chosen.push_back(*found);
-  }
-  return chosen;
-}
 
 /// The times 0, dt, 2 dt, ...; where 1/dt is a whole number (25 Hz), each the double nearest to
 /// k/rate.
@@ -71,30 +56,6 @@ void write_record(Output& out, const std::vector<SonarSample>& record) {
     if (sample.v) out.number(*sample.v);
     out.end_line();
   }
-}
-
-/// A table of v D, or a row of fitpower: that has the columns a and b. The command line wins over
-/// the row.
-void read_law(Tool& tool, const std::string& file, Roll& roll) {
-  Reader& in = tool.read_file(file, {"v", "D"});
-  if (in.find("a") && in.find("b")) {
-    const auto a = in.need_as_is("a"), b = in.need_as_is("b");
-    const bool has_v0 = in.find("v0").has_value();
-    const auto v0 = has_v0 ? in.need_as_is("v0") : a;
-    if (!in.next_run() || !in.next()) fail("{}: no row of fitpower", shown(file));
-    if (!tool.on_command_line("coefficient")) roll.law.a = in[a];
-    if (!tool.on_command_line("exponent")) roll.law.b = in[b];
-    if (has_v0 && !tool.on_command_line("v0")) roll.v0 = in[v0];
-    if (in.next() || in.next_run()) fail("more than one row: a law is one row of fitpower");
-    return;
-  }
-  if (tool.on_command_line("coefficient") || tool.on_command_line("exponent"))
-    fail("-a and -b do not go with a table of v D");
-  const auto v = in.need("v"), D = in.need("D");
-  std::vector<double> speeds, shifts;
-  while (in.next_run())
-    while (in.next()) speeds.push_back(in[v]), shifts.push_back(in[D]);
-  roll.table.emplace(speeds, shifts);
 }
 
 /// On standard error: what the methods cost on this scene, and how far they are off.
@@ -132,6 +93,7 @@ std::string why_endless(const Roll& roll, const Motion& motion) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  using enum BodyOption;
   Tool tool("simulate", "Roll a body on a mat under a law D(v).");
   Roll roll{};
   Body& body = roll.body;
@@ -144,7 +106,7 @@ int main(int argc, char** argv) {
   std::size_t seed = 1;
   std::string times_file, law_file, columns = "t,x,v,a,D";
   bool sensor = false, with_report = false;
-  tool.body(body, "RKg");
+  tool.body(body, {radius, shape_factor, gravity});
   tool.law(law);
   tool.number("--slope", body.slope, any_number,
               "the mat rises by so many metres a metre along x (0)");
@@ -182,10 +144,10 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    if (!law_file.empty()) read_law(tool, law_file, roll);
-    tool.need(body, "RK");
-    if (!roll.table) tool.need(law);
-    tool.need(v0, "--v0");
+    if (!law_file.empty()) roll.table = read_law(tool, law_file, law, &v0);
+    std::vector<std::string> needed = {"radius", "shape-factor", "v0"};
+    if (!roll.table) needed.insert(needed.end(), {"coefficient", "exponent"});
+    tool.need(needed);
     if (bulge.length == 0 && bulge.damping > 0) fail("--damping goes with --memory");
     if (!tool.on_command_line("method")) method = best_method(roll);
     if (method.kind != Method::solver && !with_report && tool.on_command_line("rtol"))
@@ -199,21 +161,19 @@ int main(int argc, char** argv) {
       return 0;
     }
 
-    const std::vector<Quantity> row = chosen(columns);
+    const auto row = chosen(columns, quantities);
     const auto write_header = [&] {
-      std::vector<Column> names;
-      for (const Quantity& quantity : row) names.push_back(quantity.column);
       tool.out.text("## simulate " +
                     (roll.table ? "table" : fmt::format("a {} b {}", law.a, law.b)) +
                     fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, v0) +
                     (body.slope == 0 ? "" : fmt::format(" slope {}", body.slope)));
       tool.out.end_line();
-      tool.out.names(names);
+      tool.out.names(columns_of(row));
     };
     const bool only_t = row.size() == 1 && row[0].column.name == "t";
     const auto write = [&](double t, Motion& motion) {
       if (!only_t) motion.seek(t);
-      for (const Quantity& quantity : row) tool.out.cell(quantity.of(t, motion));
+      for (const auto& quantity : row) tool.out.cell(quantity.of(t, motion));
       tool.out.end_line();
     };
 

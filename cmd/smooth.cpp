@@ -17,7 +17,7 @@ std::size_t odd_number(const std::string& text) {
 
 /// The `##` lines.
 std::string history(const std::string& column, const SelectionOptions& selected,
-                    const SmootherOptions& smoothed) {
+                    const SignalOptions& smoothed) {
   std::string text;
   if (std::isfinite(selected.from)) text += fmt::format("smooth t from {}\n## ", selected.from);
   if (std::isfinite(selected.to)) text += fmt::format("smooth t to {}\n## ", selected.to);
@@ -35,11 +35,11 @@ int main(int argc, char** argv) {
             "records.");
   std::string column, width = "11";
   SelectionOptions select;
-  SmootherOptions options;
+  auto methods = by_name(smoothing_methods);
+  SignalOptions options{methods["mean"]};
   tool.text("-c,--column", column, "COLUMN",
             "the column to smooth (v, else the first that is not t)");
-  tool.choice("-M,--method", options.method, smoothing_methods,
-              "what takes the place of a reading (mean)");
+  tool.choice("-M,--method", options.method, methods, "what takes the place of a reading (mean)");
   tool.text("-w,--width", width, "N",
             "width of the window, an odd number of samples (11), or auto");
   tool.number("--seconds", options.width.seconds, positive,
@@ -58,10 +58,10 @@ int main(int argc, char** argv) {
       fail("--width and --seconds are two widths: give one");
     bool choose = width == "auto";
     if (width != "auto") options.width.samples = odd_number(width);
-    if (options.method != SmoothingMethod::savgol && tool.on_command_line("order"))
+    if (!options.method->has_order && tool.on_command_line("order"))
       fail("--order goes with --method savgol");
     select.width = options.width;
-    make_smoother(options);  // refuses what does not go together, before anything is read
+    make_signal(options);  // refuses what does not go together, before anything is read
     Reader& in = tool.read({"t", "v"});
     const auto t = in.need_time();
     if (column.empty())
@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
       Selection selection(select);
       std::unique_ptr<Signal> smoother;
       if (choose) smoother = std::make_unique<AutoSmoother>(options);
-      else smoother = make_smoother(options);
+      else smoother = make_signal(options);
       std::size_t record = 0, kept = 0;
       const auto take = [&](std::span<const Judged> samples) {
         for (const Judged& s : samples) {

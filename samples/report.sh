@@ -4,6 +4,8 @@
 # FIGURES is a folder with the SVGs of samples/figures; WORK-PRECISION one with those of `make work-precision`, where that was run.
 # The tools are on PATH. `make report` does it all.
 set -euo pipefail
+export LC_ALL=C
+unset CDPATH
 figures=$(cd "$1" && pwd)
 measured=''
 [ $# -lt 2 ] || measured=$(cd "$2" && pwd)

@@ -12,11 +12,13 @@
 #   status    exit status; 0 without that file. Other than 0, and no `expected`: standard output must be empty
 # A script runs at the top of the checkout: 0 is passed, 77 is skipped (its last line says why), anything else is failed.
 set -u
+export LC_ALL=C
+unset CDPATH
 root=$(cd "$(dirname "$0")/.." && pwd) || exit 2
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 trap 'exit 130' INT TERM
-export PATH="$root/bin:$PATH" LC_ALL=C TMPDIR="$scratch"
+export PATH="$root/bin:$PATH" TMPDIR="$scratch"
 
 # Each of these takes the path of a test and a folder of its own, says what is wrong, and leaves its counts (passed, failed,
 # skipped) in that folder.

@@ -1,5 +1,7 @@
-# The completion of a tool, from its --help:  TOOL --help | awk -v shell=bash -v name=TOOL -f completion.awk
-# shell is bash or zsh. An option's type tells its values: {one,of,these}, a FILE, or what only the user knows.
+# The completion of a tool, made from its --help:
+#   TOOL --help | awk -v shell=bash -v name=TOOL -f completion.awk
+# shell is bash or zsh. The type of an option says which values it has: {one,of,these}, a FILE, or
+# what only the user knows.
 
 /^Usage: / { operands = /FILE/ }
 /^  -/ {  # "  -w,--width N                width of the window"
@@ -63,7 +65,9 @@ function zsh(    i, part, words, value) {
     words = help[i]
     gsub(/[\]\[:\\]/, "\\\\&", words)
     gsub(/'/, "'\\''", words)
-    value = values(i) != "" ? ":value:(" values(i) ")" : type[i] == "FILE" ? ":file:_files" : type[i] != "" ? ":" tolower(type[i]) ": " : ""
+    if (values(i) != "") value = ":value:(" values(i) ")"
+    else if (type[i] == "FILE") value = ":file:_files"
+    else value = type[i] != "" ? ":" tolower(type[i]) ": " : ""
     words = "'[" words "]" value "'" (i < count ? " \\" : "")
     if (split(names[i], part, ",") == 2) {
       value = "{" part[1] (type[i] == "" ? "" : "+") "," part[2] (type[i] == "" ? "" : "=") "}"

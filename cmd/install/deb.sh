@@ -1,15 +1,31 @@
 #!/bin/bash
-# deb.sh FOLDER PREFIX: a Debian package in build/ of what `make install` has put below FOLDER/debian/rolling/usr, the tools named with
-# PREFIX.
-# DEBFULLNAME and DEBEMAIL name its maintainer, else git's author does; SOURCE_DATE_EPOCH dates it, else the last commit.
+# deb.sh: makes build/rolling_VERSION_ARCHITECTURE.deb of what install.sh installs below /usr.
+# PROGRAM_PREFIX goes before the names of the tools. DEBFULLNAME and DEBEMAIL name the maintainer,
+# else the author of git's last commit does, else the user. SOURCE_DATE_EPOCH dates the package,
+# else the last commit does, else the newest file of the source.
 set -euo pipefail
 export LC_ALL=C
-folder=$1 tree=$1/debian/rolling prefix=${2-}
+unset CDPATH
+cd "$(dirname "$0")/../.."
+for program in dpkg-shlibdeps dpkg-deb; do
+  command -v $program >/dev/null ||
+    { echo "deb: $program is not installed; make setup deb installs it" >&2; exit 1; }
+done
+
+prefix=${PROGRAM_PREFIX-}
+folder=build/deb
+tree=$folder/debian/rolling
 version=$(bin/smooth --version | awk '{ print $NF }')
 architecture=$(dpkg --print-architecture)
-maintainer="${DEBFULLNAME:-$(git log -1 --format=%an)} <${DEBEMAIL:-$(git log -1 --format=%ae)}>"
-moment=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}
+# git refuses where there is no repository, and in one that belongs to another user.
+of_commit() { git log -1 --format="$1" 2>/dev/null; }
+of_source() { find Makefile cmd lib man samples -type f -printf '%T@\n' | sort -n | tail -n 1; }
+maintainer=${DEBFULLNAME:-$(of_commit %an || id -un)}
+maintainer+=" <${DEBEMAIL:-$(of_commit %ae || echo "$(id -un)@$(uname -n)")}>"
+moment=${SOURCE_DATE_EPOCH:-$(of_commit %ct || of_source | cut -d . -f 1)}
 umask 022
+rm -rf $folder
+DESTDIR=$tree PREFIX=/usr cmd/install/install.sh install
 
 strip --strip-unneeded --remove-section=.comment --remove-section=.note "$tree"/usr/bin/*
 gzip -9n "$tree"/usr/share/man/man?/*
@@ -25,8 +41,9 @@ Upstream-Name: rolling
 Files: *
 Copyright: $(date -u -d "@$moment" +%Y) the authors of rolling
 License: GPL-3.0+
- This program is free software: you can redistribute it and/or modify it under the terms of the GNU General Public License as
- published by the Free Software Foundation, either version 3 of the License, or (at your option) any later version.
+ This program is free software: you can redistribute it and/or modify it under the terms of the
+ GNU General Public License as published by the Free Software Foundation, either version 3 of the
+ License, or (at your option) any later version.
  .
  On Debian systems its text is in /usr/share/common-licenses/GPL-3.
 END
@@ -39,7 +56,8 @@ rolling ($version) unstable; urgency=medium
 END
 
 mkdir "$tree/DEBIAN"
-printf 'Source: rolling\n\nPackage: rolling\nArchitecture: any\n' >"$folder/debian/control"  # which dpkg-shlibdeps wants to see
+# dpkg-shlibdeps wants to see this one.
+printf 'Source: rolling\n\nPackage: rolling\nArchitecture: any\n' >"$folder/debian/control"
 depends=$(cd "$folder" && dpkg-shlibdeps -O debian/rolling/usr/bin/*)
 cat >"$tree/DEBIAN/control" <<END
 Package: rolling
@@ -52,7 +70,8 @@ Section: science
 Priority: optional
 Description: from motion-sensor data to the physics of a rolling body
  Six small tools that read plain columns and write plain columns: ${prefix}smooth,
- ${prefix}differentiate, ${prefix}shift-from-accel, ${prefix}fitpower, ${prefix}simulate, ${prefix}energy-ledger.
+ ${prefix}differentiate, ${prefix}shift-from-accel, ${prefix}fitpower,
+ ${prefix}simulate, ${prefix}energy-ledger.
  They find the law D = a v^b by which a soft mat slows a rolling cylinder, with
  standard errors, and account for the energy that is lost.
 END

@@ -1,7 +1,10 @@
 #!/bin/sh
-# rename-page.sh PREFIX PAGE TOOL...: gives the tools their prefix where the page names them, in macros and in the commands of
-# examples. `##` lines keep the plain names, as a renamed tool writes them.
+# rename-page.sh PREFIX PAGE TOOL...: gives the tools their prefix where the page names them, in
+# macros and in the commands of examples. `##` lines keep the plain names, as a renamed tool writes
+# them. PREFIX has only letters, digits and . _ + -
 set -eu
+export LC_ALL=C
+unset CDPATH
 prefix=$1 page=$2
 shift 2
 [ -n "$prefix" ] || exit 0

@@ -1,5 +1,7 @@
 #include "cli/history.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -24,46 +26,32 @@ std::vector<double> apply(const std::unique_ptr<Signal>& signal, std::span<const
   return out;
 }
 
-/// How many samples lie within `seconds` of one, at most.
-std::size_t samples_within(double seconds, std::span<const double> t) {
-  std::size_t most = 0;
-  for (std::size_t i = 0, j = 0; i < t.size(); ++i) {
-    while (t[i] - t[j] > seconds) ++j;
-    most = std::max(most, i - j + 1);
-  }
-  return most;
-}
-
 double number_after(const std::vector<std::string>& words, std::string_view key) {
   for (std::size_t i = 0; i + 1 < words.size(); ++i)
     if (double value; words[i] == key && parse_number(words[i + 1], value)) return value;
   fail("a `##` line does not say its {}", key);
 }
 
-std::size_t count_after(const std::vector<std::string>& words, std::string_view key) {
-  const double value = number_after(words, key);
-  if (!(value >= 1 && value < 1e9)) fail("a `##` line has a {} of {}", key, value);
-  return static_cast<std::size_t>(value);
+LinearFilter linear(const std::string& from, const std::string& to, const SignalOptions& options,
+                    std::span<const double> t) {
+  return {from, to, reach(options, t),
+          [options](auto time, auto y) { return apply(make_signal(options), time, y); }};
 }
 
-LinearFilter derivative(const std::string& from, const std::string& to,
-                        const DerivativeOptions& options) {
-  const auto method = options.method;
-  const std::size_t reach = method == DerivativeMethod::savgol    ? options.width / 2
-                            : method == DerivativeMethod::vernier ? 3
-                            : method == DerivativeMethod::pasco   ? 2
-                                                                  : 1;
-  return {from, to, reach,
-          [options](auto time, auto y) { return apply(make_derivative(options), time, y); }};
+std::string derivative_of(const std::string& column) {
+  return column == "x" ? "v" : column == "v" ? "a" : "d" + column;
 }
 
 }  // namespace
 
 std::vector<LinearFilter> filters_of_sensors() {
   std::vector<LinearFilter> filters;
-  for (auto method :
-       {DerivativeMethod::central, DerivativeMethod::vernier, DerivativeMethod::pasco})
-    filters.push_back(derivative("x", "v", {method}));
+  for (const char* method : {"central", "vernier", "pasco"}) {
+    const SignalOptions options = signal_options(derivative_methods, method).value();
+    filters.push_back({"x", "v", options.method->reach, [options](auto time, auto y) {
+                         return apply(make_signal(options), time, y);
+                       }});
+  }
   for (std::size_t width : {2U, 3U, 5U})
     filters.push_back({"v", "v", width / 2, [width](auto, auto y) {
                          std::vector<double> means(y.size());
@@ -87,37 +75,20 @@ FilterChain filters_of(const std::vector<std::string>& history, std::span<const 
     const auto words = split_names(line, '\0');
     if (words.size() < 3) continue;
     const std::string &tool = words[0], &column = words[1], &method = words[2];
+    const std::string said = fmt::format("{}", fmt::join(words.begin() + 2, words.end(), " "));
     if (tool == "smooth") {
       if (method == "coast" || method == "from" || method == "to") {
         cut_begin = cut_begin || method != "to";
         cut_end = cut_end || method != "from";
         continue;
       }
-      const auto known = smoothing_methods.find(method);
-      if (known == smoothing_methods.end() || known->second == SmoothingMethod::median ||
-          words.size() != (method == "savgol" ? 7U : 5U))
-        return {};
-      SmootherOptions options{known->second};
-      if (words[3] == "seconds") options.width.seconds = number_after(words, "seconds");
-      else options.width.samples = count_after(words, "width");
-      if (method == "savgol") options.order = count_after(words, "order");
-      const double seconds = options.width.seconds;
-      if (!(seconds >= 0)) fail("a `##` line has a window of {} seconds", seconds);
-      const std::size_t reach =
-          seconds > 0 ? samples_within(seconds, t) : options.width.samples / 2;
-      append({column, column, reach,
-              [options](auto time, auto y) { return apply(make_smoother(options), time, y); }});
+      const auto options = signal_options(smoothing_methods, said);
+      if (!options || !options->method->linear) return {};
+      append(linear(column, column, *options, t));
     } else if (tool == "differentiate") {
-      const auto known = derivative_methods.find(method);
-      if (known == derivative_methods.end() || known->second == DerivativeMethod::spline ||
-          words.size() != (method == "savgol" ? 7U : 3U))
-        return {};
-      DerivativeOptions options{known->second};
-      if (method == "savgol") {
-        options.width = count_after(words, "width");
-        options.order = count_after(words, "order");
-      }
-      append(derivative(column, column == "x" ? "v" : column == "v" ? "a" : "d" + column, options));
+      const auto options = signal_options(derivative_methods, said);
+      if (!options || !options->method->linear) return {};
+      append(linear(column, derivative_of(column), *options, t));
     } else if (tool == "shift-from-accel") {
       // The exact root of Eq. 9 bends away from Eq. 11 by (D/R)^2, which does not matter to an
       // error bar.

@@ -9,9 +9,11 @@
 #include <csignal>
 #include <cstring>
 #include <exception>
-#include <fstream>
 #include <new>
+#include <utility>
 
+#include "cli/scene.h"
+#include "text/estimate.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -20,16 +22,37 @@ namespace {
 constexpr std::string_view version = "1.0.0";
 constexpr int trouble = 2;  // the exit status
 
+<<<<<<< HEAD
 /// The numbers of a scene: what its file may say, whether or not a tool needs it.
 constexpr std::array scene_keys = {"mass",        "radius",   "shape-factor", "gravity",
                                    "coefficient", "exponent", "exact",        "v0",
                                    "x0",          "memory",   "damping",      "slope"};
+=======
+void require(const Range& range, double value, std::string_view text) {
+  if (!range.holds(value)) fail("'{}' must be {}", shown(text), range.text);
+}
+>>>>>>> main
 
-double to_number(const std::string& option, const std::string& text, const Range& range) {
+double to_number(const std::string& text, const Range& range) {
   double value;
-  if (!parse_number(text, value)) fail("{}: '{}' is not a number", option, shown(text));
-  if (!range.holds(value)) fail("{}: '{}' must be {}", option, shown(text), range.text);
+  if (!parse_number(text, value)) fail("'{}' is not a number", shown(text));
+  require(range, value, text);
   return value;
+}
+
+Estimate to_estimate(const std::string& text, const Range& range) {
+  Estimate estimate;
+  if (!parse_estimate(text, estimate)) fail("'{}' is not a number", shown(text));
+  require(range, estimate.value, text);
+  return estimate;
+}
+
+/// "a, b and c"
+std::string enumeration(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
+  return text;
 }
 
 /// One line of printable ASCII on standard error, at most 512 bytes. Needs no memory: that may be
@@ -71,32 +94,30 @@ std::string long_name(const std::string& names) {
 }  // namespace
 
 Tool::Tool(std::string name, const std::string& purpose)
-    : name_(std::move(name)), app_(purpose, name_) {
-  app_.set_help_flag("-h,--help", "print this and exit")->disable_flag_override();
-  app_.set_version_flag(
-          "--version", [this] { return fmt::format("{} (rolling) {}", name_, version); },
-          "print the version and exit")
-      ->disable_flag_override();
+    : name_(std::move(name)), command_line_(name_, purpose) {
   flag("-q,--quiet", quiet_, "neither counts of left-out records nor progress on standard error");
 }
 
-void Tool::add(const std::string& names, const std::string& type, const std::string& help,
-               const std::function<void(const std::string&)>& set) {
-  setters_[long_name(names)] = set;
-  app_.add_option_function<std::string>(names, set, help)->type_name(type);
+void Tool::add(const std::string& names, const std::string& type, const std::string& help, Set set,
+               std::function<bool()> missing) {
+  command_line_.option(names, type, help, [names, set](const std::string& text) {
+    try {
+      set(text);
+    } catch (const Error& error) {
+      fail("{}: {}", names, error.what());
+    }
+  });
+  options_[long_name(names)] = {std::move(set), std::move(missing)};
 }
 
 void Tool::add_flag(const std::string& names, const std::string& help,
                     const std::function<void(bool)>& set) {
-  setters_[long_name(names)] = [set, names](const std::string& text) {
-    if (text != "true" && text != "false")
-      fail("{}: '{}' is neither true nor false", names, shown(text));
+  command_line_.flag(names, help, [set] { set(true); });
+  const auto set_from_text = [set](const std::string& text) {
+    if (text != "true" && text != "false") fail("'{}' is neither true nor false", shown(text));
     set(text == "true");
   };
-  app_.add_flag_function(
-          names, [set](std::int64_t) { set(true); }, help)
-      ->multi_option_policy(CLI::MultiOptionPolicy::Throw)
-      ->disable_flag_override();
+  options_[long_name(names)] = {set_from_text, {}};
 }
 
 void Tool::flag(const std::string& names, bool& value, const std::string& help) {
@@ -105,47 +126,93 @@ void Tool::flag(const std::string& names, bool& value, const std::string& help) 
 
 void Tool::number(const std::string& names, double& value, const Range& range,
                   const std::string& help) {
-  add(names, "NUMBER", help,
-      [&value, range, names](const std::string& text) { value = to_number(names, text, range); });
+  add(
+      names, "NUMBER", help,
+      [&value, range](const std::string& text) { value = to_number(text, range); },
+      [&value] { return std::isnan(value); });
 }
 
 void Tool::count(const std::string& names, std::size_t& value, const Range& range,
                  const std::string& help) {
-  add(names, "N", help, [&value, range, names](const std::string& text) {
-    value = static_cast<std::size_t>(to_number(names, text, range));
+  add(names, "N", help, [&value, range](const std::string& text) {
+    value = static_cast<std::size_t>(to_number(text, range));
   });
 }
 
-void Tool::numbers(const std::string& names, std::vector<double>& values, const Range& range,
+void Tool::estimate(const std::string& names, double& value, double* sigma, const Range& range,
+                    const std::string& help) {
+  add(
+      names, "NUMBER", help,
+      [&value, sigma, range](const std::string& text) {
+    const Estimate estimate = to_estimate(text, range);
+    value = estimate.value;
+    if (sigma) *sigma = estimate.sigma;
+      },
+      [&value] { return std::isnan(value); });
+}
+
+void Tool::numbers(const std::string& names, std::vector<Estimate>& values, const Range& range,
                    const std::string& help) {
-  add(names, "NUMBER,...", help, [&values, range, names](const std::string& text) {
+  add(
+      names, "NUMBER,...", help,
+      [&values, range](const std::string& text) {
     values.clear();
     for (const std::string& part : split_names(text, ','))
-      values.push_back(to_number(names, part, range));
-  });
+      values.push_back(to_estimate(part, range));
+      },
+      [&values] { return values.empty(); });
 }
 
 void Tool::text(const std::string& names, std::string& value, const std::string& type,
                 const std::string& help) {
-  add(names, type, help, [&value, names](const std::string& text) {
-    if (text.empty()) fail("{}: '' is no value", names);
+  add(names, type, help, [&value](const std::string& text) {
+    if (text.empty()) fail("'' is no value");
     value = text;
   });
 }
 
 void Tool::list(const std::string& names, std::vector<std::string>& values, const std::string& type,
                 const std::string& help) {
-  app_.add_option(names, values, help)->allow_extra_args(false)->type_name(type);
+  command_line_.list(names, type, help, values);
 }
 
-void Tool::body(Body& body, const std::string& which) {
-  body = {not_given, not_given, not_given, 9.81};
-  if (which.find('m') != std::string::npos) number("-m,--mass", body.m, positive, "mass m [kg]");
-  if (which.find('R') != std::string::npos) number("-R,--radius", body.R, positive, "radius R [m]");
-  if (which.find('K') != std::string::npos)
-    number("-K,--shape-factor", body.K, not_negative, "shape factor K of J = K m R^2");
-  if (which.find('g') != std::string::npos)
-    number("-g,--gravity", body.g, positive, "gravity g [m/s^2] (9.81)");
+void Tool::one_of(const std::string& names, const std::vector<std::string>& choices,
+                  const std::string& help, const Set& set) {
+  std::string all, type;
+  for (const std::string& choice : choices) {
+    all += (all.empty() ? "" : ", ") + choice;
+    type += (type.empty() ? "" : ",") + choice;
+  }
+  add(names, '{' + type + '}', help, [choices, all, set](const std::string& text) {
+    if (std::find(choices.begin(), choices.end(), text) == choices.end())
+      fail("'{}' is not one of {}", shown(text), all);
+    set(text);
+  });
+}
+
+void Tool::body(Body& body, std::initializer_list<BodyOption> options,
+                BodyUncertainty* uncertainty) {
+  body = {not_given, not_given, not_given};
+  BodyUncertainty* const u = uncertainty;
+  for (const BodyOption option : options) switch (option) {
+      case BodyOption::mass:
+        number("-m,--mass", body.m, positive, "mass m [kg]");
+        break;
+      case BodyOption::radius:
+        estimate("-R,--radius", body.R, u ? &u->R : nullptr, positive, "radius R [m]");
+        break;
+      case BodyOption::shape_factor:
+        estimate("-K,--shape-factor", body.K, u ? &u->K : nullptr, not_negative,
+                 "shape factor K of J = K m R^2");
+        break;
+      case BodyOption::gravity:
+        estimate("-g,--gravity", body.g, u ? &u->g : nullptr, positive, "gravity g [m/s^2] (9.81)");
+        break;
+      case BodyOption::slope:
+        estimate("--slope", body.slope, u ? &u->slope : nullptr, any_number,
+                 "metres that the mat rises a metre along growing x (0)");
+        break;
+    }
 }
 
 void Tool::law(PowerLaw& law) {
@@ -166,49 +233,35 @@ void Tool::scene() {
 }
 
 void Tool::input() {
-  app_.add_option("FILE", input_.files, "input files, read in order; - or none is standard input");
+  command_line_.operands("input files, read in order; - or none is standard input", input_.files);
   list("--use", input_.use, "NAME=COLUMN",
        "the column (a name or a number from 1) that serves as t, x, v, a or D");
   add("--run", "N", "read this run only: the number in its header, else its place",
-      [this](const std::string& text) {
-    input_.run = static_cast<int>(to_number("--run", text, whole));
-  });
+      [this](const std::string& text) { input_.run = static_cast<int>(to_number(text, whole)); });
   flag("--strict", input_.strict, "a missing reading is an error");
 }
 
 void Tool::output() {
   add("--digits", "N", "round computed numbers to this many significant digits",
       [this](const std::string& text) {
-    out.digits = static_cast<int>(
-        to_number("--digits", text, {"a whole number from 1 to 17", [](double x) {
-                                       return x >= 1 && x <= 17 && x == std::floor(x);
-                                     }}));
+    out.digits = static_cast<int>(to_number(text, {"a whole number from 1 to 17", [](double x) {
+                                                     return x >= 1 && x <= 17 && x == std::floor(x);
+                                                   }}));
   });
   flag("-u,--unbuffered", out.unbuffered, "let each record go out at once");
 }
 
-/// Sets what the command line has left open from the scene file.
-void Tool::read_scene() {
+/// Sets what the command line has left open from the scene file. Keys that this tool has no option
+/// for say nothing to it.
+void Tool::take_scene() {
   if (scene_file_.empty()) return;
-  std::ifstream file(scene_file_);
-  if (!file) fail("{}: {}", scene_file_, std::strerror(errno));
-  const std::vector<CLI::ConfigItem> items = CLI::ConfigTOML().from_config(file);
-  if (file.bad()) fail("{}: {}", scene_file_, std::strerror(errno));
-  std::vector<std::string> seen;
-  for (const CLI::ConfigItem& item : items) {
-    const std::string key = item.fullname();
-    if (std::find(scene_keys.begin(), scene_keys.end(), key) == scene_keys.end())
-      fail("{}: '{}' is not a number of a scene (mass, radius, shape-factor, ...)", scene_file_,
-           shown(key));
-    if (item.inputs.size() != 1 || std::find(seen.begin(), seen.end(), key) != seen.end())
-      fail("{}: {} needs one value", scene_file_, key);
-    seen.push_back(key);
-    const auto setter = setters_.find(key);
-    if (setter == setters_.end() || on_command_line(key)) continue;
+  for (const SceneValue& scene : read_scene(scene_file_)) {
+    const auto option = options_.find(scene.key);
+    if (option == options_.end() || on_command_line(scene.key)) continue;
     try {
-      setter->second(item.inputs.front());
+      option->second.set(scene.value);
     } catch (const Error& error) {
-      fail("{}: {}", scene_file_, error.what());
+      fail("{}:{}: {}: {}", scene_file_, scene.line, scene.key, error.what());
     }
   }
 }
@@ -233,55 +286,12 @@ Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
   return *readers_.emplace_back(std::make_unique<Reader>(std::move(options), std::move(order)));
 }
 
-/// What --help prints, from the options as CLI11 holds them; cmd/install/completion.awk reads it.
-std::string Tool::help() const {
-  constexpr std::size_t width = 79, indent = 30;
-  std::string text, operands = "\n", options = "\nOptions:\n";
-  const auto item = [](std::string& to, const std::string& names, std::string_view words) {
-    std::string line = "  " + names;
-    if (line.size() + 2 > indent) to += line + '\n', line.clear();
-    line.resize(indent, ' ');
-    while (line.size() + words.size() > width) {
-      const std::size_t blank = words.rfind(' ', width - line.size());
-      (to += line) += words.substr(0, blank);
-      to += '\n';
-      line.assign(indent, ' ');
-      words.remove_prefix(blank + 1);
-    }
-    ((to += line) += words) += '\n';
-  };
-  for (const CLI::Option* option : app_.get_options()) {
-    if (!option->nonpositional()) {
-      item(operands, option->get_name() + "...", option->get_description());
-      continue;
-    }
-    std::string names;
-    for (const std::string& name : option->get_snames()) names += '-' + name + ',';
-    names += "--" + option->get_lnames().front();
-    if (option->get_type_size() > 0) names += ' ' + option->get_type_name();
-    if (option->get_type_size() > 0 && option->get_items_expected_max() > 1) names += " ...";
-    item(options, names, option->get_description());
-  }
-  const bool reads = operands.size() > 1;
-  return fmt::format("Usage: {} [OPTION...]{}\n", name_, reads ? " [FILE...]" : "") +
-         app_.get_description() + '\n' + (reads ? operands : "") + options;
-}
-
-void Tool::need(double value, const std::string& option) const {
-  if (std::isnan(value)) fail("{} is not given, nor is it in a scene", option);
-}
-
-void Tool::need(const Body& body, const std::string& which) const {
-  for (const char c : which) {  // g has a default
-    if (c == 'm') need(body.m, "--mass");
-    if (c == 'R') need(body.R, "--radius");
-    if (c == 'K') need(body.K, "--shape-factor");
-  }
-}
-
-void Tool::need(const PowerLaw& law) const {
-  need(law.a, "--coefficient");
-  need(law.b, "--exponent");
+void Tool::need(const std::vector<std::string>& options) const {
+  std::vector<std::string> missing;
+  for (const std::string& option : options)
+    if (options_.at(option).missing()) missing.push_back("--" + option);
+  if (missing.size() == 1) fail("{} is not given, nor is it in a scene", missing.front());
+  if (missing.size() > 1) fail("{} are not given, nor are they in a scene", enumeration(missing));
 }
 
 void Tool::say(const std::string& text) {
@@ -294,41 +304,53 @@ void Tool::count_left_out(std::size_t count, const std::string& why) {
     say(fmt::format("{} record{} left out: {}", count, count == 1 ? "" : "s", why));
 }
 
+void Tool::check_failed(const std::string& text) {
+  if (failed_checks_++ == 0) failed_check_ = text;
+}
+
+/// What is said once the work is done and its output is out; returns the exit status.
+int Tool::finish(int status) {
+  out.flush();
+  progress.stop();
+  std::size_t left_out = 0;
+  bool coarse_time = false;
+  for (const auto& reader : readers_) {
+    left_out += reader->left_out();
+    coarse_time |= reader->coarse_time();
+  }
+  if (coarse_time && !quiet_)
+    say("the times are so large that the time between records keeps fewer than four digits; "
+        "subtract the first");
+  count_left_out(left_out, "a reading is missing");
+  if (failed_checks_ == 0) return status;
+  say(failed_checks_ == 1 ? failed_check_
+                          : fmt::format("{} (and {} more)", failed_check_, failed_checks_ - 1));
+  return 1;
+}
+
 int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   if (argc > 0) name_ = argv[0];  // as it is installed: see PROGRAM_PREFIX in the Makefile
   name_.erase(0, name_.rfind('/') + 1);
-  std::signal(SIGXFSZ,
-              SIG_IGN);  // a file that may not grow is one that cannot be written: told by flush()
+  // A file that may not grow is one that cannot be written, which flush() tells.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
-    app_.parse(argc, argv);
-    read_scene();
+    switch (command_line_.parse(argc, argv)) {
+      case CommandLine::Asked::help: {
+        const std::string text = command_line_.help(name_);
+        // CLI11 writes into streams, which are silent when memory runs out.
+        if (text != command_line_.help(name_)) throw std::bad_alloc();
+        return print(text);
+      }
+      case CommandLine::Asked::version:
+        return print(fmt::format("{} (rolling) {}\n", name_, version));
+      case CommandLine::Asked::work:
+        break;
+    }
+    take_scene();
     if (!quiet_) progress.start(name_);
     if (::isatty(STDOUT_FILENO))
       out.before_write = [this] { progress.stop(); };  // rows are progress enough
-    const int status = work();
-    out.flush();
-    progress.stop();
-    std::size_t left_out = 0;
-    bool coarse_time = false;
-    for (const auto& reader : readers_)
-      left_out += reader->left_out(), coarse_time |= reader->coarse_time();
-    if (coarse_time && !quiet_)
-      say("the times are so large that the time between records keeps fewer than four digits; "
-          "subtract the first");
-    count_left_out(left_out, "a reading is missing");
-    return status;
-  } catch (const CLI::CallForHelp&) {
-    const std::string text = help();
-    if (text != help())
-      throw std::bad_alloc();  // CLI11 writes it into streams, which are silent when memory runs
-                               // out
-    return print(text);
-  } catch (const CLI::CallForVersion& call) {
-    return print(std::string(call.what()) + '\n');
-  } catch (const CLI::ParseError& error) {
-    std::string text;
-    for (const std::string& word : split_names(error.what(), '\0')) text += shown(word) + ' ';
-    say(text + "(see --help)");
+    return finish(work());
   } catch (const OutputError& error) {
     say(error.what());
   } catch (const Error& error) {

@@ -1,22 +1,19 @@
-// What every command shares: options, the scene file, input and output, messages, exit status. The
-// only room that knows CLI11.
+// What every command shares: options, the scene file, input and output, messages, exit status.
 #pragma once
-
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-#include <fmt/ranges.h>
 
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
+#include "base/estimate.h"
+#include "cli/command_line.h"
 #include "cli/progress.h"
 #include "contact/body.h"
 #include "contact/power_law.h"
@@ -44,6 +41,9 @@ inline constexpr Range odd{"an odd whole number", [](double x) {
 
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
+/// The options that describe a body; see Tool::body().
+enum class BodyOption { mass, radius, shape_factor, gravity, slope };
+
 class Tool {
  public:
   Tool(std::string name, const std::string& purpose);
@@ -53,8 +53,9 @@ class Tool {
   void flag(const std::string& names, bool& value, const std::string& help);
   void number(const std::string& names, double& value, const Range&, const std::string& help);
   void count(const std::string& names, std::size_t& value, const Range&, const std::string& help);
-  void numbers(const std::string& names, std::vector<double>& values, const Range&,
-               const std::string& help);  ///< 0.5,0.83
+  /// One or several with commas between them, each perhaps with an uncertainty: 0.5+-0.005,0.83
+  void numbers(const std::string& names, std::vector<Estimate>& values, const Range&,
+               const std::string& help);
   void text(const std::string& names, std::string& value, const std::string& type,
             const std::string& help);
   void list(const std::string& names, std::vector<std::string>& values, const std::string& type,
@@ -64,12 +65,15 @@ class Tool {
               const std::string& help);
 
   // Options that tools share.
-  void body(Body&, const std::string& which = "mRKg");  ///< -m -R -K -g, those named
-  void law(PowerLaw&);                                  ///< -a -b
-  void geometry(Geometry&);                             ///< --exact
-  void scene();   ///< --scene, for the options above and --v0 --x0
-  void input();   ///< operands, --use --run --strict
-  void output();  ///< --digits -u
+  /// Those of -m -R -K -g --slope that are named. Body holds not_given, 9.81 for g, and 0 for the
+  /// slope until they are read. R, K, g and the slope may carry an uncertainty (0.5+-0.005): it
+  /// goes to `uncertainty`, and nowhere without one.
+  void body(Body&, std::initializer_list<BodyOption>, BodyUncertainty* uncertainty = nullptr);
+  void law(PowerLaw&);       ///< -a -b
+  void geometry(Geometry&);  ///< --exact
+  void scene();              ///< --scene, for the options above and others that scene.cpp names
+  void input();              ///< operands, --use --run --strict
+  void output();             ///< --digits -u
 
   /// Parses the command line, runs `work`, flushes; returns the exit status: what work returns, or
   /// 2 after one line on standard error.
@@ -82,38 +86,56 @@ class Tool {
 
   /// One line of printable ASCII on standard error, at most 512 bytes.
   void say(const std::string& text);
+  /// The same, unless -q: something that the user should know, and that is no error.
+  void warn(const std::string& text) {
+    if (!quiet_) say(text);
+  }
 
   /// Says how many records were left out and why, unless -q.
   void count_left_out(std::size_t count, const std::string& why);
 
-  /// Throw Error when a value was neither on the command line nor in the scene.
-  void need(double value, const std::string& option) const;
-  void need(const Body&, const std::string& which) const;
-  void need(const PowerLaw&) const;
-  /// An option, by its long name, that was given on the command line itself.
-  bool on_command_line(const std::string& option) const {
-    return app_.get_option("--" + option)->count() > 0;
-  }
+  /// A check that was asked for does not hold: run() says the first such line, and how many
+  /// followed, and returns 1, once work has returned. Where work is refused, the refusal is the
+  /// only line.
+  void check_failed(const std::string& text);
+
+  /// Throws one Error for all of these options (long names of number(), numbers(), body() and
+  /// law()) that still have no value: neither the command line nor the scene gives one.
+  void need(const std::vector<std::string>& options) const;
+  /// Whether an option, by its long name, was given on the command line itself.
+  bool on_command_line(std::string_view option) const { return command_line_.given(option); }
 
   Output out;
   Progress progress;  ///< of work that takes its time; Readers tell it themselves
 
  private:
-  void add(const std::string& names, const std::string& type, const std::string& help,
-           const std::function<void(const std::string&)>& set);
+  using Set = CommandLine::Set;
+  struct Option {
+    Set set;                        // from text; its errors do not name the option
+    std::function<bool()> missing;  // empty where need() has nothing to say
+  };
+
+  void add(const std::string& names, const std::string& type, const std::string& help, Set,
+           std::function<bool()> missing = {});
   void add_flag(const std::string& names, const std::string& help,
                 const std::function<void(bool)>& set);
+  void estimate(const std::string& names, double& value, double* sigma, const Range&,
+                const std::string& help);
+  void one_of(const std::string& names, const std::vector<std::string>& choices,
+              const std::string& help, const Set& set);
   Reader& open(ReaderOptions, std::vector<std::string> order);
-  void read_scene();
-  std::string help() const;
+  void take_scene();
+  int finish(int status);
   int print(const std::string& text);
 
   std::string name_;
-  CLI::App app_;
+  CommandLine command_line_;
+  std::map<std::string, Option> options_;  // by long name
   ReaderOptions input_;
   std::string scene_file_;
   bool quiet_ = false;
-  std::map<std::string, std::function<void(const std::string&)>> setters_;  // by long name
+  std::string failed_check_;
+  std::size_t failed_checks_ = 0;
   std::vector<std::unique_ptr<Reader>> readers_;
 };
 
@@ -122,13 +144,8 @@ void Tool::choice(const std::string& names, T& value, const std::map<std::string
                   const std::string& help) {
   std::vector<std::string> all;
   for (const auto& choice : choices) all.push_back(choice.first);
-  add(names, fmt::format("{{{}}}", fmt::join(all, ",")), help,
-      [&value, choices, names, all](const std::string& text) {
-    const auto found = choices.find(text);
-    if (found == choices.end())
-      fail("{}: '{}' is not one of {}", names, shown(text), fmt::join(all, ", "));
-    value = found->second;
-  });
+  one_of(names, all, help,
+         [&value, choices](const std::string& text) { value = choices.at(text); });
 }
 
 }  // namespace rolling

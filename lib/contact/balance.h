@@ -1,35 +1,39 @@
-// The energy balance of a run: what was stored at its two ends against what was dissipated between
-// them (Eq. 23).
+// The energy balance of a run: the loss of what was stored against what the shift dissipated
+// (Eq. 23), at every moment and at the end.
 #pragma once
 
-#include "contact/ledger.h"
 #include "contact/integral.h"
+#include "contact/ledger.h"
 
 namespace rolling {
 
 class Balance {
  public:
-  Balance(const Body& body, Geometry geometry) : body_(body), geometry_(geometry) {}
+  /// Takes the next record of the run: its time [s] and its quantities.
+  void push(double t, const Ledger&);
 
-  /// Takes the next record: time [s], velocity [m/s], shift [m]. Throws Error when |D| > R.
-  const Ledger& push(double t, double v, double D);
+  double start() const { return start_; }  ///< E_trans + E_rot at the first record [J]
+  double end() const { return end_; }      ///< and at the last [J]
+  /// I_E1 + I_E2 integrated over time so far [J].
+  double dissipated() const { return dissipated_; }
+  /// The work against gravity so far [J]: m g sin theta v integrated over time; 0 on a level mat.
+  double lifted() const { return lifted_; }
 
-  double start() const { return start_; }  ///< stored energy at the first record [J]
-  double end() const { return end_; }      ///< stored energy at the last record [J]
-  double dissipated() const {
-    return dissipated_;
-  }  ///< integral of I_E1 + I_E2 over time so far [J]
-  /// dissipated / (start - end) - 1: 0 where shift and velocity tell one story. Throws Error when
-  /// start equals end.
+  /// dissipated / (start - end - lifted) - 1: 0 where shift and velocity agree over the whole run.
+  /// Throws Error when the denominator, the energy that is missing, is 0.
   double closure() const;
+  /// The largest |start - E(t) - lifted(t) - dissipated(t)| of the run, as a share of the energy
+  /// that is missing at its end: 0 where shift and velocity agree at every moment. Throws alike.
+  double imbalance() const;
+  double time_of_imbalance() const { return worst_time_; }  ///< where that is [s]
 
  private:
-  Body body_;
-  Geometry geometry_;
-  Ledger now_{};
-  Integral outflow_;
+  double missing() const;
+
+  Integral outflow_, lift_;
   bool begun_ = false;
-  double start_ = 0, end_ = 0, dissipated_ = 0;
+  double start_ = 0, end_ = 0, dissipated_ = 0, lifted_ = 0;
+  double worst_ = 0, worst_time_ = 0;  // the largest imbalance [J], and where it is
 };
 
 }  // namespace rolling

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 
@@ -21,16 +22,6 @@ double arm_factor(const Body& c, Geometry geometry, double D) {
   return geometry == Geometry::approximate ? 1 : std::sqrt((1 - D / c.R) * (1 + D / c.R));
 }
 
-double horizontal_force(const Body& c, Geometry geometry, double D) {
-  return -D * c.m * c.g / ((c.K + arm_factor(c, geometry, D)) * c.R);
-}
-
-double torque_of_horizontal_force(const Body& c, Geometry geometry, double D) {
-  return -arm_factor(c, geometry, D) * c.R * horizontal_force(c, geometry, D);
-}
-
-double torque_of_normal_force(const Body& c, double D) { return -D * c.m * c.g; }
-
 // Both functions below subtract from 0 where a sign would do: no shift then gives +0, and nobody
 // reads "-0" in a table.
 
@@ -42,23 +33,24 @@ double acceleration_from_shift(const Body& c, Geometry geometry, double D) {
 }
 
 double shift_from_acceleration(const Body& c, Geometry geometry, double a) {
+  const auto [cos, sin] = incline(c);
   const double K = c.K, s = 0 - a / c.g;
-  if (geometry == Geometry::approximate) {
-    const double D = (1 + K) * c.R * s;
-    check_shift(c, D);
-    return D;
-  }
-  // Eq. 9 is D/R = s (K + A). At |D| = R, where A = 0, |s| = 1/K. Beyond that the root would need A
-  // < 0, and comes back below R: |D| > R cannot be what tells it.
-  if (!(K * std::abs(s) <= 1))
+  if (geometry == Geometry::approximate) return ((1 + K) * c.R * s - c.R * sin) / cos;
+  // Eq. 12 is s (K + A) = cos D/R + sin A with s = -a/g. At |D| = R, where A = 0, it says
+  // K |s| = cos. Beyond that the root would need A < 0, and comes back below R: |D| > R cannot be
+  // what tells it. The margin lets the acceleration of D = R itself pass, which is rounded.
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  if (!(K * std::abs(s) <= (1 + 4 * eps) * cos))
     fail(
         "no shift D within the radius {:.6g} m gives the acceleration {:.6g} m/s^2: the largest is "
         "{:.6g} m/s^2",
-        c.R, a, c.g / K);
-  const double r = 1 / s, q = (1 - K) * (1 + K);
-  const double d = std::abs(s) <= 1 ? s * (K + std::sqrt(1 + s * s * q)) / (1 + s * s)
-                                    : (K * r + std::copysign(std::sqrt(r * r + q), s)) /
-                                          (r * r + 1);  // s^2 may overflow
+        c.R, a, c.g * cos / K);
+  if (K * std::abs(s) >= cos) return std::copysign(c.R, s);
+  // With D/R = sin alpha, A = cos alpha and (cos, s - sin) = h (cos beta, sin beta) the equation
+  // reads K s = h sin(alpha - beta). So alpha is the sum of two angles, written out in their sines
+  // and cosines; with h as a divisor s^2 does not overflow.
+  const double h = std::hypot(cos, s - sin), k = K * s / h;
+  const double d = k * (cos / h) + (s - sin) / h * std::sqrt((1 - k) * (1 + k));
   return c.R * std::clamp(d, -1.0, 1.0);
 }
 

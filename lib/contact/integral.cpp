@@ -1,16 +1,22 @@
 #include "contact/integral.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rolling {
 
 double Integral::push(double t, double y) {
-  if (begun_) {
-    const double part = 0.5 * (t - t_) * (y + y_), sum = sum_ + part;
+  if (samples_ > 0) {
+    const double h = t - t_, slope = (y - y_) / h;
+    double part = 0.5 * h * (y + y_);
+    if (samples_ > 1 && h <= 2 * last_step_ && y != 0 && y_ != 0)
+      part -= (slope - last_slope_) / (h + last_step_) * h * h * h / 6;
+    const double sum = sum_ + part;
     error_ += std::abs(sum_) >= std::abs(part) ? (sum_ - sum) + part : (part - sum) + sum_;
     sum_ = sum;
+    last_step_ = h, last_slope_ = slope;
   }
-  begun_ = true;
+  samples_ = std::min(samples_ + 1, 2);
   t_ = t, y_ = y;
   return sum_ + error_;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "signal/savitzky_golay.h"
 #include "signal/smoothing_spline.h"
 
 namespace rolling {
@@ -62,27 +63,29 @@ double PascoDerivative::value(const Windows& window) {
   return one.y / one.t - (two.y / two.t - one.y / one.t) / (one.t + two.t) * one.t;
 }
 
-std::string describe(const DerivativeOptions& options) {
-  const auto named = std::find_if(derivative_methods.begin(), derivative_methods.end(),
-                                  [&](const auto& m) { return m.second == options.method; });
-  if (options.method != DerivativeMethod::savgol) return named->first;
-  return fmt::format("{} width {} order {}", named->first, options.width, options.order);
+namespace {
+
+template <typename Derivative>
+std::unique_ptr<Signal> make(const SignalOptions&) {
+  return std::make_unique<Derivative>();
 }
 
-std::unique_ptr<Signal> make_derivative(const DerivativeOptions& options) {
-  switch (options.method) {
-    case DerivativeMethod::savgol:
-      return std::make_unique<SavitzkyGolay>(Width{options.width, 0}, options.order,
-                                             SavitzkyGolay::What::slope);
-    case DerivativeMethod::spline:
-      return std::make_unique<SplineDerivative>();
-    case DerivativeMethod::vernier:
-      return std::make_unique<VernierDerivative>();
-    case DerivativeMethod::pasco:
-      return std::make_unique<PascoDerivative>();
-    default:
-      return std::make_unique<CentralDerivative>();
-  }
+std::unique_ptr<Signal> make_savgol(const SignalOptions& options) {
+  return std::make_unique<SavitzkyGolay>(options.width, options.order, SavitzkyGolay::What::slope);
 }
+
+// The spline is not linear: its parameter comes from the readings.
+constexpr SignalMethod methods[] = {
+    // name, linear, reach, has an order, make
+    {"central", true, 1, false, make<CentralDerivative>},
+    {"savgol", true, half_width, true, make_savgol},
+    {"spline", false, whole_run, false, make<SplineDerivative>},
+    {"vernier", true, 3, false, make<VernierDerivative>},
+    {"pasco", true, 2, false, make<PascoDerivative>},
+};
+
+}  // namespace
+
+const std::span<const SignalMethod> derivative_methods = methods;
 
 }  // namespace rolling

@@ -3,12 +3,9 @@
 #pragma once
 
 #include <array>
-#include <map>
-#include <memory>
-#include <string>
+#include <span>
 
-#include "signal/savitzky_golay.h"
-#include "signal/signal.h"
+#include "signal/method.h"
 
 namespace rolling {
 
@@ -46,23 +43,7 @@ class PascoDerivative : public WindowedSignal<PascoDerivative> {
   double value(const Windows&);
 };
 
-enum class DerivativeMethod { central, savgol, spline, vernier, pasco };
-
-inline const std::map<std::string, DerivativeMethod> derivative_methods = {
-    {"central", DerivativeMethod::central}, {"savgol", DerivativeMethod::savgol},
-    {"spline", DerivativeMethod::spline},   {"vernier", DerivativeMethod::vernier},
-    {"pasco", DerivativeMethod::pasco},
-};
-
-struct DerivativeOptions {
-  DerivativeMethod method = DerivativeMethod::central;
-  std::size_t width = 23, order = 2;  ///< of savgol
-};
-
-/// As a `##` line says it: `central`, `savgol width 11 order 2`.
-std::string describe(const DerivativeOptions&);
-
-/// Throws Error for a width and an order that do not go together.
-std::unique_ptr<Signal> make_derivative(const DerivativeOptions&);
+/// central, savgol (the only one that has a width), spline, vernier and pasco.
+extern const std::span<const SignalMethod> derivative_methods;
 
 }  // namespace rolling

@@ -10,31 +10,31 @@
 
 namespace rolling {
 
-std::string describe(const SmootherOptions& options) {
-  const auto named = std::find_if(smoothing_methods.begin(), smoothing_methods.end(),
-                                  [&](const auto& m) { return m.second == options.method; });
-  const Width& width = options.width;
-  return named->first +
-         (width.seconds > 0 ? fmt::format(" seconds {}", width.seconds)
-                            : fmt::format(" width {}", width.samples)) +
-         (options.method == SmoothingMethod::savgol ? fmt::format(" order {}", options.order) : "");
+namespace {
+
+template <typename Smoother>
+std::unique_ptr<Signal> make(const SignalOptions& options) {
+  return std::make_unique<Smoother>(options.width);
 }
 
-std::unique_ptr<Signal> make_smoother(const SmootherOptions& options) {
-  switch (options.method) {
-    case SmoothingMethod::median:
-      return std::make_unique<MovingMedian>(options.width);
-    case SmoothingMethod::savgol:
-      return std::make_unique<SavitzkyGolay>(options.width, options.order,
-                                             SavitzkyGolay::What::value);
-    default:
-      return std::make_unique<MovingMean>(options.width);
-  }
+std::unique_ptr<Signal> make_savgol(const SignalOptions& options) {
+  return std::make_unique<SavitzkyGolay>(options.width, options.order, SavitzkyGolay::What::value);
 }
 
-std::size_t best_width(std::span<const Sample> run, const SmootherOptions& options) {
+constexpr SignalMethod methods[] = {
+    // name, linear, reach, has an order, make
+    {"mean", true, half_width, false, make<MovingMean>},
+    {"median", false, half_width, false, make<MovingMedian>},
+    {"savgol", true, half_width, true, make_savgol},
+};
+
+}  // namespace
+
+const std::span<const SignalMethod> smoothing_methods = methods;
+
+std::size_t best_width(std::span<const Sample> run, const SignalOptions& options) {
   constexpr std::size_t apart = 2;
-  const std::size_t order = options.method == SmoothingMethod::savgol ? options.order : 1;
+  const std::size_t order = options.method->has_order ? options.order : 1;
   const std::size_t least =
       apart + 1 + order / 2;  // of half a window: 2 (least - apart) > order samples are left
   const std::size_t n = run.size(), most = std::max(least, n / 4);
@@ -65,7 +65,7 @@ std::span<const double> AutoSmoother::push(double t, double y) {
 
 std::span<const double> AutoSmoother::finish() {
   options_.width = {best_width(run_, options_), 0};
-  const auto smoother = make_smoother(options_);
+  const auto smoother = make_signal(options_);
   const auto take = [this](std::span<const double> values) {
     smooth_.insert(smooth_.end(), values.begin(), values.end());
   };

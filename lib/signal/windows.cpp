@@ -16,6 +16,16 @@ Windows::Windows(Width width, Ends ends)
     fail("the width of a centred window is an odd number of samples, not {}", width_.samples);
 }
 
+std::size_t samples_within(Width width, std::span<const double> t) {
+  if (width.seconds == 0) return width.samples / 2;
+  std::size_t most = 0;
+  for (std::size_t i = 0, j = 0; i < t.size(); ++i) {
+    while (t[i] - t[j] > width.seconds / 2) ++j;
+    most = std::max(most, i - j);
+  }
+  return most + 1;  // what is late by a share of a step
+}
+
 void Windows::make_room() {
   first_ = std::max(first_, width_.seconds > 0 ? left_ : begin_);  // neither falls
   if (count_ - first_ < ring_.size()) return;
@@ -49,14 +59,16 @@ bool Windows::by_count(std::size_t i) {
 }
 
 bool Windows::by_time(std::size_t i) {
-  const double half = width_.seconds / 2 * (1 + 1e-9);  // rounding of the times does not decide
-  const double newest = sample(count_ - 1).t;
+  constexpr double late = 1.0 / 16;  // of a step; see Width
+  const double half = width_.seconds / 2, newest = sample(count_ - 1).t;
   double middle = sample(i).t;
-  if (ends_ == Ends::stay) middle = std::max(middle, start_ + width_.seconds / 2);
+  if (ends_ == Ends::stay) middle = std::max(middle, start_ + half);
   double from = middle - half, to = middle + half;
-  if (finished_ && ends_ == Ends::stay && to > newest) from = newest - 2 * half;
-  while (sample(left_).t < from) ++left_;
-  while (right_ < count_ && sample(right_).t <= to) ++right_;
+  if (finished_ && ends_ == Ends::stay && to > newest) from = newest - width_.seconds;
+  const auto step = [this](std::size_t j) { return sample(j + 1).t - sample(j).t; };
+  while (left_ < i && sample(left_).t + late * step(left_) < from) ++left_;
+  right_ = std::max(right_, i + 1);
+  while (right_ < count_ && sample(right_).t - late * step(right_ - 1) <= to) ++right_;
   const bool complete = right_ < count_ || finished_;
   begin_ = left_;
   end_ = right_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace rolling {
@@ -12,10 +13,19 @@ struct Sample {
 };
 
 /// An odd number of samples; or, if seconds > 0, a duration of which half lies on either side [s].
+///
+/// A sample lies within a duration if it is late for it by no more than a sixteenth of the step
+/// between it and its neighbour inside. Times are rounded, so whether a sample lies exactly on the
+/// edge cannot be asked; a share of the step is the same at every offset of the times (at 25 Hz and
+/// times since 1970, a step is 170 000 times their rounding).
 struct Width {
   std::size_t samples = 11;
   double seconds = 0;
 };
+
+/// A window about a sample of a run with these times reaches at most this many samples to either
+/// side; one at an end of the run that stays wide, at most twice as many.
+std::size_t samples_within(Width, std::span<const double> t);
 
 class Windows {
  public:

@@ -1,6 +1,8 @@
 #!/bin/bash
 # The sample records in the forms in which other programs export them: samples/exports/make.sh FOLDER (`make samples`)
 set -euo pipefail
+export LC_ALL=C
+unset CDPATH
 to=$(cd "$1" && pwd)
 cd "$(dirname "$0")/.."
 

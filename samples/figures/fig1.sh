@@ -1,23 +1,23 @@
 #!/bin/bash
 # Fig. 1, v(t) of the four experiments: differences of the sensor's positions, the same smoothed, and the trajectory that fits the
 # positions, both of the free roll. `make figures/fig1.svg`, or samples/figures/fig1.sh svg >fig1.svg
-. "$(dirname "$0")/common.sh"
+. "$(dirname "$0")/draw.sh"
 run() {  # NAME K
-  differentiate -q -c x "$1.csv" >"$scratch/$1.raw"
-  smooth -q --coast -c x -w 1 "$1.csv" >"$scratch/$1.roll"
-  differentiate -c x "$scratch/$1.roll" | smooth -w 11 | whole_windows >"$scratch/$1.v"
+  differentiate -q -c x "$1.csv" >"$1.raw"
+  smooth -q --coast -c x -w 1 "$1.csv" >"$1.roll"
+  differentiate -c x "$1.roll" | smooth -w 11 | whole_windows >"$1.v"
   # The fit's time begins with the roll.
   local start
-  start=$(awk '!/^#/ { print $1; exit }' "$scratch/$1.roll")
-  fitpower -q --route position -K "$2" -R 0.04 "$scratch/$1.roll" | simulate --law - -K "$2" -R 0.04 --columns t,v |
-    awk -v start="$start" '!/^#/ { print $1 + start "\t" $2 }' >"$scratch/$1.line"
+  start=$(awk '!/^#/ { print $1; exit }' "$1.roll")
+  fitpower -q --route position -K "$2" -R 0.04 "$1.roll" | simulate --law - -K "$2" -R 0.04 --columns t,v |
+    awk -v start="$start" '!/^#/ { print $1 + start "\t" $2 }' >"$1.line"
 }
 run CR 0.5; run SR 0.83; run CF 0.5; run SF 0.83
 draw 720 760 <<'PLOT'
 set multiplot layout 2,1 margins 0.12,0.98,0.09,0.98 spacing 0.08
 set xrange [0.8:9.2]; set yrange [-0.05:0.55]; set xzeroaxis lt -1 lw 0.5
 set ylabel 'velocity v / (m/s)'; set xlabel 'time t / s'
-of(i, kind) = scratch . word(runs, i) . kind
+of(i, kind) = word(runs, i) . kind
 do for [mat = 0:1] {
   plot for [i = 2*mat+1:2*mat+2] of(i, '.raw') using 1:4 with points pt 7 ps 0.3 lc rgb grey notitle, \
        for [i = 2*mat+1:2*mat+2] of(i, '.v') using 1:4 every 2 with points ls i ps 0.6 notitle, \

@@ -1,13 +1,13 @@
 #!/bin/bash
 # Fig. 2, the forces on the cylinder on rubber at 0.5 m/s, drawn to scale: the shift D is small beside the radius, and F_H beside
 # F_N, so that a second panel shows the neighbourhood of P forty times larger. `make figures/fig2.svg`
-. "$(dirname "$0")/common.sh"
+. "$(dirname "$0")/draw.sh"
 now=$(echo 0 | simulate --scene CR.toml --exact --at - | energy-ledger --scene CR.toml --exact | assignments)
 draw 840 470 "W = 840.0; H = 470.0; $(scene CR.toml) $now" <<'PLOT'
 # The forces by the simulated acceleration and by the ledger's P_R2 = (v/R) D F_N; 2 mm a newton.
 F_H = m*a; F_N = P_R2*R/(v*D); h = 2*F_H; n = 2*F_N
 set multiplot
-left = 0; bottom = 0; width = 400; height = 470; x0 = -58; y0 = -36; scale = 3.45; load 'figures/panel.gp'
+left = 0; bottom = 0; width = 400; height = 470; x0 = -58; y0 = -36; scale = 3.45; load 'panel.gp'
 unset border
 set object 2 circle at 0, r size 1 fc rgb black
 set object 3 rectangle front from -0.9, -1.1 to 2.7, 2.3 fc rgb black fs empty lw 1
@@ -23,7 +23,7 @@ set label 'τ_N = −D F_N = '.number(-1e3*D*F_N).' mN m' at 0, -16 center front
 set label 'τ_H = −A R F_H = +'.number(-1e3*A*R*F_H).' mN m' at 0, -24 center front
 plot '+' using 1:(-8):(mat($1)) with filledcurves lc rgb pale notitle, \
      [t=0:2*pi] '+' using (r*sin(t)):(r - r*cos(t)) with lines lc rgb black lw 2 notitle
-left = 415; bottom = 15; width = 420; height = 440; x0 = -0.7; y0 = -1.1; scale = 125; load 'figures/panel.gp'
+left = 415; bottom = 15; width = 420; height = 440; x0 = -0.7; y0 = -1.1; scale = 125; load 'panel.gp'
 set border 15
 set arrow from d, p to d, y1 as 4 lc rgb vermilion
 set arrow from d, p to d+h, p as 1 lc rgb vermilion

@@ -1,12 +1,12 @@
 #!/bin/bash
 # Fig. 4, D(v) of the four experiments, the power laws fitted to them, and the 95 % band of each law. `make figures/fig4.svg`
-. "$(dirname "$0")/common.sh"
+. "$(dirname "$0")/draw.sh"
 laws=''
 shifts() {  # NAME K
   smooth -q --coast -c x -w 1 "$1.csv" | differentiate -c x | smooth -w 11 |
-    differentiate | shift-from-accel -K "$2" -R 0.04 >"$scratch/$1"
-  whole_windows <"$scratch/$1" >"$scratch/$1.D"  # for the picture: fitpower knows by the ## lines how noisy the ends are
-  laws+=$(fitpower -q "$scratch/$1" | assignments | sed "s/\([a-z_]*\) =/$1_\1 =/g")
+    differentiate | shift-from-accel -K "$2" -R 0.04 >"$1"
+  whole_windows <"$1" >"$1.D"  # for the picture: fitpower knows by the ## lines how noisy the ends are
+  laws+=$(fitpower -q "$1" | assignments | sed "s/\([a-z_]*\) =/$1_\1 =/g")
 }
 shifts CR 0.5; shifts SR 0.83; shifts CF 0.5; shifts SF 0.83
 draw 720 560 "$laws" <<'PLOT'
@@ -20,7 +20,7 @@ D(run, v) = 1e3*of(run, 'a')*v**of(run, 'b')
 sigma(run, v) = (s = of(run, 'sigma_a')/of(run, 'a'), l = of(run, 'sigma_b')*log(v), sqrt(s**2 + l**2 + 2*of(run, 'corr')*s*l))
 edge(run, v, sign) = v > 0.02 ? D(run, v)*exp(sign*1.96*sigma(run, v)) : NaN
 plot for [i=1:4] '+' using 1:(edge(word(runs,i),$1,-1)):(edge(word(runs,i),$1,1)) with filledcurves ls i notitle, \
-     for [i=1:4] scratch.word(runs,i).'.D' using 4:(1e3*column(6)) with points ls i notitle, \
+     for [i=1:4] word(runs,i).'.D' using 4:(1e3*column(6)) with points ls i notitle, \
      for [i=1:4] [v=0.02:0.5] '+' using 1:(D(word(runs,i),$1)) with lines ls i notitle, \
      for [i=1:4] keyentry with linespoints ls i ps 0.9 title label[i]
 PLOT

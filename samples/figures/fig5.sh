@@ -1,8 +1,9 @@
 #!/bin/bash
 # Fig. 5, the process diagram of the cylinder on rubber at one instant: momentum and angular momentum fall and are pumped, and every
-# arrow of energy is as wide as energy-ledger computes its power. `make figures/fig5.svg`; $2 is another instant [s].
-. "$(dirname "$0")/common.sh"
-instant=${2:-0.5}
+# arrow of energy is as wide as energy-ledger computes its power. `make figures/fig5.svg`; an
+# operand is another instant [s]: samples/figures/fig5.sh 1.5 >fig5.svg
+. "$(dirname "$0")/draw.sh"
+instant=${1:-0.5}
 now=$(echo "$instant" | simulate --scene CR.toml --exact --at - | energy-ledger --scene CR.toml --exact | assignments)
 draw 900 600 "W = 900.0; H = 600.0; $(scene CR.toml) $now" <<'PLOT'
 # All in pixels. A stage is a box in which a carrier falls or is pumped; what is stored flows in from above.

@@ -1,6 +1,8 @@
-# awk -f joint.awk table.txt: the fits of all records as one. The laws of the mats scatter: (ln a, b) of a record is the mean law, plus
-# the scatter T, plus the error C of its fit. T is the covariance of the rows less the mean C (0 if that is negative); the mean law
-# is the generalised least squares of the rows with T + C, as it is of all records at once if nothing scatters (T = 0).
+# awk -f joint.awk table.txt: the fits of all records as one. The laws of the mats scatter: (ln a, b)
+# of a record is the mean law, plus the scatter T, plus the error C of its fit. T is the covariance of
+# the rows less the mean C (0 if that is negative). The mean law is the generalised least squares of
+# the rows with T + C; if nothing scatters (T = 0) it is that of all records at once.
+BEGIN { FS = "\t" }
 /^#/ { next }
 {
   ++n
@@ -12,7 +14,9 @@
 END {
   if (n < 2) { print "fewer than two rows" >"/dev/stderr"; exit 2 }
   mx /= n; my /= n
-  for (i = 1; i <= n; ++i) { Txx += (x[i] - mx) ^ 2; Txy += (x[i] - mx) * (y[i] - my); Tyy += (y[i] - my) ^ 2 }
+  for (i = 1; i <= n; ++i) {
+    Txx += (x[i] - mx) ^ 2; Txy += (x[i] - mx) * (y[i] - my); Tyy += (y[i] - my) ^ 2
+  }
   Txx = Txx / (n - 1) - cxx / n; Txy = Txy / (n - 1) - cxy / n; Tyy = Tyy / (n - 1) - cyy / n
   if (Txx <= 0 || Tyy <= 0) Txx = Txy = Tyy = 0
   if (Txy ^ 2 > Txx * Tyy) Txy = (Txy > 0 ? 1 : -1) * sqrt(Txx * Tyy)
@@ -25,5 +29,6 @@ END {
   lna = (Wyy * rx - Wxy * ry) / d; b = (Wxx * ry - Wxy * rx) / d
   sx = sqrt(Wyy / d); sy = sqrt(Wxx / d)
   print "# a[m]\tsigma_a[m]\tb\tsigma_b\tcorr\tscatter_ln_a\tscatter_b\tn"
-  printf "%.6g\t%.2g\t%.5g\t%.2g\t%.4f\t%.3g\t%.3g\t%d\n", exp(lna), exp(lna) * sx, b, sy, -Wxy / d / (sx * sy), sqrt(Txx), sqrt(Tyy), n
+  printf "%.6g\t%.2g\t%.5g\t%.2g\t%.4f\t%.3g\t%.3g\t%d\n", exp(lna), exp(lna) * sx, b, sy,
+    -Wxy / d / (sx * sy), sqrt(Txx), sqrt(Tyy), n
 }

@@ -1,10 +1,13 @@
 #!/bin/bash
-# make.sh FOLDER [RECORDS [SPREAD]]: records of a motion sensor, FOLDER/0001.csv on, each of a cylinder on a mat of its own, and
-# FOLDER/truth.txt, the laws D = a v^b that made them: with the spread s (0.1), ln a is normal about ln 1.87e-3 with s, b about
-# 0.215 with s/5; v0 is uniform from 0.4 to 0.6 m/s. Every record comes from its number alone: the same everywhere.
+# make.sh FOLDER [RECORDS [SPREAD]]: records of a motion sensor, FOLDER/0001.csv on, each of a
+# cylinder on a mat of its own, and FOLDER/truth.txt, the laws D = a v^b that made them. With the
+# spread s (0.1), ln a is normal about ln 1.87e-3 with standard deviation s, b about 0.215 with s/5;
+# v0 is uniform from 0.4 to 0.6 m/s. A record depends on its number alone: it is the same everywhere.
 set -euo pipefail
+export LC_ALL=C
+unset CDPATH
 folder=$1 records=${2:-1000} spread=${3:-0.1}
-mkdir -p "$folder"
+mkdir -p -- "$folder"
 awk -v records="$records" -v spread="$spread" '
   # Park and Miller 1988, Comm. ACM 31, 1192: exact in doubles
   function uniform() { state = 16807 * state % 2147483647; return state / 2147483647 }
@@ -19,5 +22,6 @@ awk -v records="$records" -v spread="$spread" '
     }
   }' >"$folder/truth.txt"
 grep -v '^#' "$folder/truth.txt" | while read -r record a b v0; do
-  simulate -K 0.5 -R 0.04 -a "$a" -b "$b" --v0 "$v0" --sensor pasco --seed "$((10#$record))" >"$folder/$record.csv"
+  simulate -K 0.5 -R 0.04 -a "$a" -b "$b" --v0 "$v0" --sensor pasco --seed "$((10#$record))" \
+    >"$folder/$record.csv"
 done

@@ -48,11 +48,10 @@ Series through(Signal& signal, const Series& t, const Series& y) {
   return out;
 }
 
-Series derivative(const DerivativeOptions& options, const Series& t, const Series& y) {
-  return through(*make_derivative(options), t, y);
-}
-Series smoothed(const SmootherOptions& options, const Series& t, const Series& y) {
-  return through(*make_smoother(options), t, y);
+const auto smoothing = by_name(smoothing_methods), differentiation = by_name(derivative_methods);
+
+Series apply(const SignalOptions& options, const Series& t, const Series& y) {
+  return through(*make_signal(options), t, y);
 }
 
 /// The free roll of one record: from two records after the release, where the central difference
@@ -91,40 +90,39 @@ constexpr std::size_t next(std::size_t width) {
 
 std::vector<Method> methods() {
   std::vector<Method> all;
-  const DerivativeOptions central{};
-  for (const auto& [name, method] : smoothing_methods)
-    for (std::size_t width = method == SmoothingMethod::savgol ? 5 : 1; width <= 61;
-         width = next(width)) {
-      if (method == SmoothingMethod::median && width == 1) continue;
-      const SmootherOptions options{method, {width, 0}};
+  const SignalOptions central{differentiation.at("central")};
+  for (const auto& [name, method] : smoothing)
+    for (std::size_t width = method->has_order ? 5 : 1; width <= 61; width = next(width)) {
+      if (name == "median" && width == 1) continue;
+      const SignalOptions options{method, {width, 0}};
       all.push_back({name + "+central", static_cast<double>(width),
                      [=](const Roll& r, const Series& v, Series& s, Series& a) {
-        s = smoothed(options, r.t, v), a = derivative(central, r.t, s);
+        s = apply(options, r.t, v), a = apply(central, r.t, s);
                      }});
     }
   for (std::size_t order = 1; order <= 2; ++order)
     for (std::size_t width = 5; width <= 61; width = next(width))
       all.push_back({fmt::format("savgol{}", order), static_cast<double>(width),
                      [=](const Roll& r, const Series& v, Series& s, Series& a) {
-        s = smoothed({SmoothingMethod::savgol, {width, 0}, order}, r.t, v),
-        a = derivative({DerivativeMethod::savgol, width, order}, r.t, v);
+        s = apply({smoothing.at("savgol"), {width, 0}, order}, r.t, v),
+        a = apply({differentiation.at("savgol"), {width, 0}, order}, r.t, v);
                      }});
-  for (const auto& [name, method] : derivative_methods)
-    if (method != DerivativeMethod::savgol && method != DerivativeMethod::central)
+  for (const auto& [name, method] : differentiation)
+    if (name != "savgol" && name != "central")
       all.push_back({name, NAN, [m = method](const Roll& r, const Series& v, Series& s, Series& a) {
-                       s = v, a = derivative({m}, r.t, v);
+                       s = v, a = apply({m}, r.t, v);
                      }});
   all.push_back({"spline_of_x+central", NAN,
                  [=](const Roll& r, const Series&, Series& s, Series& a) {
-    s = derivative({DerivativeMethod::spline}, r.t, r.x), a = derivative(central, r.t, s);
+    s = apply({differentiation.at("spline")}, r.t, r.x), a = apply(central, r.t, s);
                  }});
-  for (const auto method : {SmoothingMethod::mean, SmoothingMethod::savgol})
-    all.push_back({method == SmoothingMethod::mean ? "mean_auto+central" : "savgol2_auto", NAN,
+  for (const auto method : {smoothing.at("mean"), smoothing.at("savgol")})
+    all.push_back({method->has_order ? "savgol2_auto" : "mean_auto+central", NAN,
                    [=](const Roll& r, const Series& v, Series& s, Series& a) {
       AutoSmoother smoother({method});
       s = through(smoother, r.t, v);
-      if (method == SmoothingMethod::mean) a = derivative(central, r.t, s);
-      else a = derivative({DerivativeMethod::savgol, smoother.options().width.samples, 2}, r.t, v);
+      if (!method->has_order) a = apply(central, r.t, s);
+      else a = apply({differentiation.at("savgol"), smoother.options().width}, r.t, v);
                    }});
   return all;
 }

@@ -123,8 +123,8 @@ simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --until -1|'-1' must be 0 or more
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 -1|'-1' must be 0 or more
 simulate -K 0.5 -R 0.04 -a 0 -b 0.2 --v0 1|'0' must be greater than 0
 simulate -K 0.5 -R 0.04 -a -1 -b 0.2 --v0 1|'-1' must be greater than 0
-simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --columns t,t|is not a list of t, x, v, a, D
-simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --columns t,|is not a list of t, x, v, a, D
+simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --columns t,t|t stands there twice
+simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --columns t,|is none of t, x, v, a, D
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --rtol 1|from 1e-14 to 0.1
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --rtol 0|from 1e-14 to 0.1
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --method none|'none' is not one of
@@ -155,15 +155,16 @@ for value in '' abc 1e400 1e-400 0x10 inf nan true '[1,2]' '1,5' '1 2' 1_000 '"1
   for key in 'radius = ' '[scene]\nradius = ' 'radius = 1\nradius = ' 'Radius = ' 'radius = 1\nnothing = '; do
     printf '%b%s\nshape-factor = 0.5\n' "$key" "$value" >"$scratch/scene"
     attempt shift-from-accel --scene "$scratch/scene" "$scratch/good"
-    refused "shift-from-accel scene $key$value" "$scratch/scene: "
+    refused "shift-from-accel scene $key$value" "$scratch/scene:"
   done
 done
+printf 'radius = 1\n%70000s\n' '' >"$scratch/long"
+printf 'radius = 1\n\001\n' >"$scratch/junk"
 for tool in shift-from-accel fitpower simulate energy-ledger; do
-  head -c 3000 /dev/urandom >"$scratch/scene"
-  for file in . /nowhere "$scratch/scene"; do
+  for file in . /nowhere "$scratch/long" "$scratch/junk"; do
     # shellcheck disable=SC2086
     attempt ${command[$tool]} "$scratch/good" --scene $file
-    refused "$tool scene $file" "$file: "
+    refused "$tool scene $file" "$file:"
   done
 done
 finish

@@ -14,7 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   double v0 = 0;
   const Ran ran = with_streams("", [&] {
     Tool tool("scene", "");
-    tool.body(body);
+    using enum BodyOption;
+    tool.body(body, {mass, radius, shape_factor, gravity, slope});
     tool.law(law);
     tool.geometry(geometry);
     tool.number("--v0", v0, not_negative, "");

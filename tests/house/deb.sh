@@ -1,16 +1,20 @@
 #!/bin/bash
 # `make deb` makes a package that holds what `make install` installs, whose tools run, and which lintian finds no error in.
 set -u
+export LC_ALL=C
+unset CDPATH
 cd "$(dirname "$0")/../.." || exit 2
 command -v dpkg-shlibdeps >/dev/null || { echo "skipped: no dpkg-shlibdeps" && exit 77; }
-git rev-parse HEAD >/dev/null 2>&1 || { echo "skipped: no git checkout, which names the maintainer" && exit 77; }
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 unset MAKEFLAGS MAKELEVEL DESTDIR PREFIX PROGRAM_PREFIX
 wrong=0
 complain() { echo "$*" && wrong=1; }
 
-make deb >"$scratch/made" 2>&1 || { cat "$scratch/made" && exit 1; }
+# As outside of git: PATH has a git that refuses, as git does in a folder of another user.
+mkdir "$scratch/path" && printf '#!/bin/sh\nexit 128\n' >"$scratch/path/git" && chmod +x "$scratch/path/git"
+PATH="$scratch/path:$PATH" make deb >"$scratch/made" 2>&1 || { cat "$scratch/made" && exit 1; }
+[ -z "$(git log -1 --format=%an 2>/dev/null)" ] || make deb >"$scratch/made" 2>&1 || { cat "$scratch/made" && exit 1; }
 version=$(bin/smooth --version | cut -d ' ' -f 3)
 package=build/rolling_${version}_$(dpkg --print-architecture).deb
 [ "$(dpkg-deb --field "$package" Version)" = "$version" ] || complain "its version is not $version"

@@ -1,7 +1,10 @@
 #!/bin/bash
-# `make install` under a prefix of names and without: the tools run, the pages are found and are right, their examples run under the
-# installed names; `make uninstall` removes all of it and nothing else.
+# `make install` with plain and with prefixed names: the tools run, the pages are found and are
+# right, their examples run under the installed names; `make uninstall` removes all of it and nothing
+# else. Both whatever the environment is and whatever signs the folder has in its name.
 set -u
+export LC_ALL=C
+unset CDPATH
 cd "$(dirname "$0")/../.." || exit 2
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
@@ -10,12 +13,22 @@ wrong=0
 complain() { echo "${prefix:-no prefix}: $*" && wrong=1; }
 upper() { tr '[:lower:]' '[:upper:]' <<<"$1"; }
 
+# The second name has what a shell and make could take for code: it would make a file `hit`.
+hostile="a b'c\"d&e;touch hit#\`touch hit\`(f)\\g*"
 for prefix in '' roll-; do
-  stage=$scratch/stage$prefix root=$scratch/stage$prefix/opt
-  put() { make "$1" DESTDIR="$stage" PREFIX=/opt PROGRAM_PREFIX="$prefix" >"$scratch/made" 2>&1 || { cat "$scratch/made" && complain "make $1 fails"; }; }
-  # What others have there stays.
+  stage=$scratch/stage$prefix
+  opt=/opt
+  [ -z "$prefix" ] || opt=/$hostile
+  root=$stage$opt
+  put() {
+    env CDPATH=.:/ LANG=de_DE.UTF-8 LC_ALL=de_DE.UTF-8 LOCPATH="$scratch" TMPDIR="$scratch" \
+      make "$1" DESTDIR="$stage" PREFIX="$opt" PROGRAM_PREFIX="$prefix" >"$scratch/made" 2>&1 ||
+      { cat "$scratch/made" && complain "make $1 fails"; }
+  }
+  # What others have there stays; also in a folder whose name is the first word of this one.
   others="bin/smoother share/man/man1/other share/doc/rolling/mine"
   for file in $others; do install -D /dev/null "$root/$file"; done
+  install -D /dev/null "$stage/a/mine"
   put install
 
   for source in cmd/*.cpp; do
@@ -36,7 +49,10 @@ for prefix in '' roll-; do
     done < <(grep -ohE 'Xr [^ ]+ [1-8]' "$page" "$root"/share/man/man[57]/* | cut -d ' ' -f 2,3 | sort -u)
   done
   [ "$(find "$root/bin" -name "${prefix}*" ! -name smoother -type f -perm 755 | wc -l)" = "$(find cmd -name '*.cpp' | wc -l)" ] || complain "other programs than those of cmd/: $(ls "$root/bin")"
-  [ -z "$(find "$root/share" -type f ! -name mine ! -name other ! -perm 644)" ] || complain "modes: $(find "$root/share" -type f ! -perm 644)"
+  [ -z "$(find "$root/share" -type f ! -name mine ! -name other ! -name '*.sh' ! -perm 644)" ] ||
+    complain "modes: $(find "$root/share" -type f ! -perm 644)"
+  # They are stripped: no more than a megabyte each.
+  [ -z "$(find "$root/bin" -size +1500k)" ] || complain "large programs: $(ls -s "$root/bin")"
   # The words of the history stay: fitpower reads them.
   "$root/bin/${prefix}smooth" -q samples/CR.csv | grep -q '^## smooth v mean width 11$' || complain "${prefix}smooth does not write ## smooth"
   if command -v mandoc >/dev/null; then
@@ -50,6 +66,15 @@ for prefix in '' roll-; do
   rm "$root/share/doc/rolling/mine"
   put uninstall
   [ ! -e "$root/share/doc/rolling" ] || complain "uninstall leaves share/doc/rolling"
+  [ -e "$stage/a/mine" ] || complain "uninstall deletes a stranger's folder"
+  [ ! -e hit ] && [ ! -e "$scratch/hit" ] || { rm -f hit; complain "a name was run as code"; }
 done
+# A name of a program that could be more than a name is refused, before anything is written.
+for prefix in 'r&d-' 'a/b' '-x' 'a b' '$(touch hit)' "'"; do
+  if PROGRAM_PREFIX=$prefix PREFIX=/opt DESTDIR=$scratch/none cmd/install/install.sh install \
+    2>"$scratch/said"; then complain "is accepted"; fi
+  grep -q 'PROGRAM_PREFIX is' "$scratch/said" || complain "is refused by: $(cat "$scratch/said")"
+done
+if [ -e "$scratch/none" ] || [ -e hit ]; then complain "is refused too late"; fi
 grep -q "version $(bin/smooth --version | cut -d " " -f 3)\." README.md || { echo "README.md names another version" && wrong=1; }
 exit $wrong

@@ -1,9 +1,13 @@
 #!/bin/bash
-# Every example of the manual pages runs, and prints what the page shows (blanks aside). An example that ends in `# exits N`
-# must exit with N.
+# Every example of the manual pages runs, and prints what the page shows (blanks aside). An example
+# that ends in `# exits N` must exit with N.
 #
 #   tests/house/man-examples.sh [PREFIX]     those of the source, or what is installed there
+#
+# The examples run in the locale EXAMPLES_LOCALE (C).
 set -u
+export LC_ALL=C
+unset CDPATH
 overstrike=$(printf '\b')
 cd "$(dirname "$0")/../.." || exit 2
 command -v mandoc >/dev/null || { echo "skipped: mandoc is not installed"; exit 77; }
@@ -13,7 +17,7 @@ bin=${1:-$top}/bin pages=(man/*.[1-9])
 [[ $# -eq 0 ]] || pages=("$1"/share/man/man?/*.?)
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
-export PATH="$bin:$PATH" LC_ALL=C
+export PATH="$bin:$PATH"
 failed=0 count=0
 
 # run PAGE COMMAND SHOWN: runs in a fresh copy, as from the top of the checkout; SHOWN is empty if the page shows no output.
@@ -22,7 +26,8 @@ run() {
   [[ $command =~ \#\ exits\ ([0-9]+)$ ]] && wanted=${BASH_REMATCH[1]}
   count=$((count + 1))
   rm -rf "$scratch/top" && mkdir "$scratch/top" && cp -R "$top/samples" "$scratch/top/" || exit 2
-  (cd "$scratch/top" && bash -o pipefail -c "$command") </dev/null >"$scratch/out" 2>"$scratch/err"
+  (cd "$scratch/top" && LC_ALL=${EXAMPLES_LOCALE:-C} bash -o pipefail -c "$command") \
+    </dev/null >"$scratch/out" 2>"$scratch/err"
   status=$?
   if [[ $status -ne $wanted ]]; then
     printf '%s: exit status %d, not %d:\n  $ %s\n' "$page" "$status" "$wanted" "$command"

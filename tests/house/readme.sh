@@ -1,7 +1,11 @@
 #!/bin/bash
-# Every example of README.md runs and prints what stands there. `tests/house/readme.sh refresh` rewrites what stands there:
-# read the diff.
+# Every example of README.md runs and prints what stands there, in the locale EXAMPLES_LOCALE (C).
+# `tests/house/readme.sh refresh` writes there what they print today: read the diff.
 set -u
+export LC_ALL=C
+unset CDPATH
+cd "$(dirname "$0")/../.." || exit 2
+export PATH="$PWD/bin:$PATH"
 readme=$PWD/README.md
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -17,7 +21,8 @@ absent() { [[ $command == *gnuplot* ]] && ! command -v gnuplot >/dev/null; }  # 
 run() {  # the command collected so far, if any
   [ -n "$command" ] || return 0
   if absent; then command=''; return; fi
-  bash -o pipefail -c "$command" >>"$scratch/new" 2>&1 || { echo "exit $? from: $command"; exit 1; }
+  LC_ALL=${EXAMPLES_LOCALE:-C} bash -o pipefail -c "$command" >>"$scratch/new" 2>&1 ||
+    { echo "exit $? from: $command"; tail -n 3 "$scratch/new"; exit 1; }
   command=''
   examples=$((examples + 1))
 }

@@ -11,32 +11,32 @@ using namespace rolling;
 
 TEST_CASE("history: each linear method comes back as the same filter", "[cli]") {
   const Series t = uneven_times(60), y = noise(60, 1);
-  for (const auto& [name, method] : derivative_methods) {
-    INFO(name);
-    const DerivativeOptions options{method, 7, 3};
+  for (const SignalMethod& method : derivative_methods) {
+    INFO(method.name);
+    const SignalOptions options{&method, {7, 0}, 3};
     const auto chain = filters_of({"differentiate x " + describe(options)}, t);
-    if (method == DerivativeMethod::spline) {  // its parameter depends on the data
+    if (!method.linear) {  // its parameter depends on the data
       CHECK(chain.empty());
       continue;
     }
     REQUIRE(chain.size() == 1);
     CHECK(chain[0].to == "v");
-    CHECK(chain[0].reach == (name == "central" ? 1 : name == "pasco" ? 2 : 3));
-    CHECK(chain[0].apply(t, y) == through(*make_derivative(options), t, y));
+    CHECK(chain[0].reach == reach(options, t));
+    CHECK(chain[0].apply(t, y) == through(*make_signal(options), t, y));
   }
-  for (const auto& [name, method] : smoothing_methods)
+  for (const SignalMethod& method : smoothing_methods)
     for (const Width width : {Width{7, 0}, Width{0, 0.3}}) {
-      INFO(name);
-      const SmootherOptions options{method, width, 3};
+      INFO(method.name);
+      const SignalOptions options{&method, width, 3};
       const auto chain = filters_of(
           {"smooth v coast", "smooth t from 1.5", "smooth t to 2", "smooth v " + describe(options)},
           t);
-      if (method == SmoothingMethod::median) {  // not linear
+      if (!method.linear) {  // not linear
         CHECK(chain.empty());
         continue;
       }
       REQUIRE(chain.size() == 1);
-      CHECK(chain[0].apply(t, y) == through(*make_smoother(options), t, y));
+      CHECK(chain[0].apply(t, y) == through(*make_signal(options), t, y));
     }
   CHECK(filters_of({"smooth v outliers 4", "smooth v mean width 11"}, t).empty());
 }

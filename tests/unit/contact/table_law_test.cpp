@@ -9,7 +9,7 @@
 
 using namespace rolling;
 
-TEST_CASE("TableLaw: through its points, monotone between them, never beyond them", "[rolling]") {
+TEST_CASE("TableLaw: through its points, monotone between them, never beyond them", "[contact]") {
   std::mt19937_64 random(2);
   const auto between = [&](double lo, double hi) {
     return std::uniform_real_distribution(lo, hi)(random);
@@ -40,7 +40,7 @@ TEST_CASE("TableLaw: through its points, monotone between them, never beyond the
 TEST_CASE(
     "TableLaw: a line is a line, the order of the points does not matter, below the lowest it is "
     "constant",
-    "[rolling]") {
+    "[contact]") {
   const TableLaw law({0.7, 0.1, 0.4}, {4e-3, 1e-3, 2.5e-3});
   for (const double v : {0.1, 0.2, 0.33, 0.4, 0.55, 0.7})
     CHECK(std::abs(law(v) - (5e-4 + 5e-3 * v)) < 1e-17);
@@ -51,7 +51,7 @@ TEST_CASE(
   CHECK((one(0) == 1e-3 && one(0.2) == 1e-3 && one.slope(0.1) == 0));
 }
 
-TEST_CASE("TableLaw: close to the smooth law of its points", "[rolling]") {
+TEST_CASE("TableLaw: close to the smooth law of its points", "[contact]") {
   const auto error = [](int n) {
     std::vector<double> v, D;
     for (int i = 0; i <= n; ++i)
@@ -67,7 +67,7 @@ TEST_CASE("TableLaw: close to the smooth law of its points", "[rolling]") {
   CHECK(error(40) / error(80) > 3.5);  // second order at least
 }
 
-TEST_CASE("TableLaw: refusals", "[rolling]") {
+TEST_CASE("TableLaw: refusals", "[contact]") {
   CHECK_THROWS_AS(TableLaw({}, {}), Error);
   CHECK_THROWS_AS(TableLaw({0.1, 0.2}, {1e-3}), Error);
   CHECK_THROWS_AS(TableLaw({0.1, 0.1}, {1e-3, 1e-3}), Error);

@@ -173,7 +173,7 @@ TEST_CASE(
     double sum = 0, back = 0;
     for (int i = 0; i * dt < 1.5; ++i) {
       motion.seek((i + 0.5) * dt);
-      const double P = ledger(cylinder, geometry, motion.velocity(), motion.shift()).P_diss * dt;
+      const double P = Ledger(cylinder, geometry, motion.velocity(), motion.shift()).P_diss() * dt;
       sum += P;
       back = std::min(back, P);
     }

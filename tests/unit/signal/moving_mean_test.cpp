@@ -42,7 +42,8 @@ std::size_t half_width(std::size_t i, std::size_t n, std::size_t width) {
 std::size_t half_width(std::size_t i, const Series& t, double seconds) {
   std::size_t k = 0;
   const auto near = [&](std::size_t j) {
-    return std::abs(t[j] - t[i]) <= seconds / 2 * (1 + 1e-9);
+    const double step = std::abs(t[j] - t[j < i ? j + 1 : j - 1]);
+    return std::abs(t[j] - t[i]) - step / 16 <= seconds / 2;
   };
   while (k < i && i + k + 1 < t.size() && near(i - k - 1) && near(i + k + 1)) ++k;
   return k;

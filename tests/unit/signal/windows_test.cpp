@@ -65,6 +65,36 @@ TEST_CASE("windows: by seconds, on uneven times", "[signal]") {
         std::vector<Window>{{0, 0, 4}, {1, 0, 4}, {2, 1, 4}, {3, 1, 4}, {4, 4, 5}});
 }
 
+TEST_CASE("windows: by seconds, at every offset of the times", "[signal]") {
+  // Even times, the edge of the window on a sample: the same windows as by count, although the
+  // times are rounded (a double near 1.7e9 to 1.2e-7).
+  for (const double rate : {10., 25., 30., 250., 1000., 20000.})
+    for (const double offset : {0., -1.5, 1e5, 1e7, 1.7e9, -1.7e9})
+      for (const std::size_t k : {1u, 2u, 5u, 13u})
+        for (const auto ends : {shrink, cut, stay}) {
+          INFO(rate << " Hz from " << offset << " s, " << k << " samples to either side");
+          Series t;
+          for (int i = 0; i < 60; ++i) t.push_back(offset + i / rate);
+          const double seconds = 2 * static_cast<double>(k) / rate;
+          CHECK(windows(t, {0, seconds}, ends) == windows(t, {2 * k + 1, 0}, ends));
+        }
+  // And on uneven times.
+  const Series t = uneven_times(300);
+  for (const double offset : {-1.5, 1e5, 1e7, 1.7e9})
+    for (const auto ends : {shrink, cut, stay}) {
+      Series later;
+      for (const double time : t) later.push_back(offset + time);
+      CHECK(windows(later, {0, 0.37}, ends) == windows(t, {0, 0.37}, ends));
+    }
+}
+
+TEST_CASE("windows: a sample that is late by a sixteenth of its step is within", "[signal]") {
+  const Series t = {0, 1, 2, 3, 4.0625, 5.125, 6.25};
+  CHECK(windows(t, {0, 2}, cut) ==
+        std::vector<Window>{
+            {0, 0, 2}, {1, 0, 3}, {2, 1, 4}, {3, 2, 5}, {4, 3, 6}, {5, 4, 6}, {6, 6, 7}});
+}
+
 TEST_CASE("windows: known as soon as they are complete", "[signal]") {
   const auto known = [](Width width, Windows::Ends ends) {
     std::vector<std::size_t> counts;

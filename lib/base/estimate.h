@@ -1,0 +1,12 @@
+// A number with its uncertainty.
+#pragma once
+
+namespace rolling {
+
+/// An estimate and its standard uncertainty (the standard deviation of the estimate), in one unit.
+struct Estimate {
+  double value = 0;
+  double sigma = 0;  ///< 0: none was given
+};
+
+}  // namespace rolling

@@ -1,0 +1,157 @@
+#include "cli/command_line.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <list>
+#include <new>
+#include <sstream>
+
+#include "base/error.h"
+#include "text/number.h"
+
+namespace rolling {
+namespace {
+
+constexpr std::size_t page_width = 79, help_column = 30;
+
+/// CLI11 takes `[a,g]` for a list of two values. A word that begins with a bracket wears this mark
+/// while CLI11 has it, and so does a word that begins with the mark.
+constexpr char mark = '\x01';
+
+std::string marked(const char* word) {
+  return *word == '[' || *word == mark ? mark + std::string(word) : word;
+}
+
+std::string unmarked(const std::string& word) {
+  return !word.empty() && word.front() == mark ? word.substr(1) : word;
+}
+
+/// Appends the line of an option or operand, with its explanation from help_column on, wrapped.
+void append_item(std::string& page, const std::string& names, std::string_view words) {
+  std::string line = "  " + names;
+  if (line.size() + 2 > help_column) {
+    page += line + '\n';
+    line.clear();
+  }
+  line.resize(help_column, ' ');
+  while (line.size() + words.size() > page_width) {
+    const std::size_t blank = words.rfind(' ', page_width - line.size());
+    (page += line) += words.substr(0, blank);
+    page += '\n';
+    line.assign(help_column, ' ');
+    words.remove_prefix(blank + 1);
+  }
+  ((page += line) += words) += '\n';
+}
+
+/// `-w,--width N`, with ` ...` behind where the option may be repeated.
+std::string synopsis(const CLI::Option& option) {
+  std::string text;
+  for (const std::string& name : option.get_snames()) text += '-' + name + ',';
+  text += "--" + option.get_lnames().front();
+  if (option.get_type_size() == 0) return text;
+  text += ' ' + option.get_type_name();
+  if (option.get_items_expected_max() > 1) text += " ...";
+  return text;
+}
+
+/// CLI11's message on one line, its words cut to a length that can be shown.
+std::string one_line(const char* message) {
+  std::istringstream words(message);
+  std::string text;
+  for (std::string word; words >> word;) text += shown(word) + ' ';
+  return text;
+}
+
+}  // namespace
+
+struct CommandLine::Parser {
+  CLI::App app;
+  /// Where the repeated words go once CLI11 is done: it changes what it hands out itself.
+  std::list<std::pair<const CLI::Option*, std::vector<std::string>*>> lists;
+};
+
+CommandLine::CommandLine(const std::string& name, const std::string& purpose)
+    : parser_(new Parser{CLI::App(purpose, name), {}}) {
+  CLI::App& app = parser_->app;
+  app.set_help_flag("-h,--help", "print this and exit")->disable_flag_override();
+  app.set_version_flag("--version", "", "print the version and exit")->disable_flag_override();
+}
+
+CommandLine::~CommandLine() = default;
+
+void CommandLine::option(const std::string& names, const std::string& type, const std::string& help,
+                         Set set) {
+  parser_->app
+      .add_option_function<std::string>(
+          names, [set = std::move(set)](const std::string& text) { set(unmarked(text)); }, help)
+      ->type_name(type);
+}
+
+void CommandLine::flag(const std::string& names, const std::string& help,
+                       std::function<void()> set) {
+  parser_->app
+      .add_flag_function(
+          names, [set = std::move(set)](std::int64_t) { set(); }, help)
+      ->multi_option_policy(CLI::MultiOptionPolicy::Throw)
+      ->disable_flag_override();
+}
+
+void CommandLine::list(const std::string& names, const std::string& type, const std::string& help,
+                       std::vector<std::string>& values) {
+  const CLI::Option* option =
+      parser_->app.add_option(names, values, help)->allow_extra_args(false)->type_name(type);
+  parser_->lists.emplace_back(option, &values);
+}
+
+void CommandLine::operands(const std::string& help, std::vector<std::string>& values) {
+  parser_->lists.emplace_back(parser_->app.add_option("FILE", values, help), &values);
+}
+
+CommandLine::Asked CommandLine::parse(int argc, const char* const* argv) {
+  std::vector<std::string> words;  // from the last to the first, as CLI11 takes them
+  for (int i = argc - 1; i > 0; --i) words.push_back(marked(argv[i]));
+  try {
+    parser_->app.parse(std::move(words));
+  } catch (const CLI::CallForHelp&) {
+    return Asked::help;
+  } catch (const CLI::CallForVersion&) {
+    return Asked::version;
+  } catch (const CLI::ParseError& error) {
+    fail("{}(see --help)", one_line(error.what()));
+  }
+  for (const auto& [option, values] : parser_->lists) {
+    values->clear();
+    for (const std::string& word : option->results()) values->push_back(unmarked(word));
+  }
+  return Asked::work;
+}
+
+bool CommandLine::given(std::string_view option) const {
+  return parser_->app.get_option("--" + std::string(option))->count() > 0;
+}
+
+std::string CommandLine::help(const std::string& name) const {
+  const CLI::App& app = parser_->app;
+  std::string operands = "\n", options = "\nOptions:\n";
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->nonpositional()) append_item(options, synopsis(*option), option->get_description());
+    else append_item(operands, option->get_name() + "...", option->get_description());
+  }
+  const bool reads = operands.size() > 1;
+  return "Usage: " + name + " [OPTION...]" + (reads ? " [FILE...]" : "") + "\n" +
+         app.get_description() + '\n' + (reads ? operands : "") + options;
+}
+
+std::optional<std::pair<std::string, std::string>> read_assignment(const std::string& line) {
+  std::istringstream stream(line);
+  const std::vector<CLI::ConfigItem> items = CLI::ConfigTOML().from_config(stream);
+  if (stream.bad()) throw std::bad_alloc();  // a stream is silent when memory runs out
+  if (items.size() != 1 || items.front().inputs.size() != 1 || !items.front().parents.empty())
+    return {};
+  return std::pair(items.front().name, items.front().inputs.front());
+}
+
+}  // namespace rolling

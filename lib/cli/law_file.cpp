@@ -1,0 +1,52 @@
+#include "cli/law_file.h"
+
+#include <vector>
+
+#include "base/error.h"
+#include "text/column.h"
+
+namespace rolling {
+namespace {
+
+/// A column of a row of fitpower. Its name means something else in a file of records (a is an
+/// acceleration there), so it is read as it is, and converted as the quantity that it is here.
+class RowColumn {
+ public:
+  RowColumn(Reader& in, const std::string& name, std::string_view quantity)
+      : in_(in), to_si_(conversion_to_si(quantity, in.columns()[*in.find(name)])),
+        slot_(in.need_as_is(name)) {}
+  double value() const { return to_si_(in_[slot_]); }
+
+ private:
+  Reader& in_;
+  Conversion to_si_;
+  std::size_t slot_;
+};
+
+}  // namespace
+
+std::optional<TableLaw> read_law(Tool& tool, const std::string& file, PowerLaw& law, double* v0) {
+  Reader& in = tool.read_file(file, {"v", "D"});
+  if (in.find("a") && in.find("b")) {
+    const RowColumn a(in, "a", "D");
+    const auto b = in.need_as_is("b");
+    std::optional<RowColumn> speed;
+    if (v0 && in.find("v0")) speed.emplace(in, "v0", "v");
+    if (!in.next_run() || !in.next()) fail("{}: no row of fitpower", shown(file));
+    if (!tool.on_command_line("coefficient")) law.a = a.value();
+    if (!(law.a > 0)) fail("a = {} must be greater than 0", law.a);
+    if (!tool.on_command_line("exponent")) law.b = in[b];
+    if (speed && !tool.on_command_line("v0")) *v0 = speed->value();
+    if (in.next() || in.next_run()) fail("more than one row: a law is one row of fitpower");
+    return {};
+  }
+  if (tool.on_command_line("coefficient") || tool.on_command_line("exponent"))
+    fail("-a and -b do not go with a table of v D");
+  const auto v = in.need("v"), D = in.need("D");
+  std::vector<double> speeds, shifts;
+  while (in.next_run())
+    while (in.next()) speeds.push_back(in[v]), shifts.push_back(in[D]);
+  return TableLaw(std::move(speeds), std::move(shifts));
+}
+
+}  // namespace rolling

@@ -1,0 +1,120 @@
+#include "cli/scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+#include <utility>
+
+#include "base/error.h"
+#include "cli/command_line.h"
+#include "text/number.h"
+
+namespace rolling {
+namespace {
+
+constexpr std::size_t largest_file = 1 << 16;
+
+/// What a scene may say, whether or not a tool needs it.
+constexpr std::array<std::string_view, 12> keys = {
+    "mass",     "radius", "shape-factor", "gravity", "slope",  "coefficient",
+    "exponent", "exact",  "v0",           "x0",      "memory", "damping"};
+
+std::string content(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fail<InputError>("{}: {}", file, std::strerror(errno));
+  std::string text(largest_file + 1, '\0');
+  errno = 0;
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad()) fail<InputError>("{}: {}", file, std::strerror(errno));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > largest_file)
+    fail<InputError>("{}: a scene file is at most {} bytes", file, largest_file);
+  return text;
+}
+
+bool in_key(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+         c == '_';
+}
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < ' ' && c != '\t'; }
+
+/// Whether only a comment stands here, or nothing.
+bool is_comment(std::string_view text) {
+  text = trim(text);
+  return text.empty() ||
+         (text.front() == '#' && std::none_of(text.begin(), text.end(), is_control));
+}
+
+/// The end of the value at the beginning of `text`; 0 if there is none.
+std::size_t end_of_value(std::string_view text) {
+  if (text.empty()) return 0;
+  const char quote = text.front();
+  if (quote == '"' || quote == '\'') {
+    const auto end = text.find(quote, 1);
+    if (end == std::string_view::npos) return 0;
+    const std::string_view inside = text.substr(1, end - 1);
+    const auto is_special = [](char c) {
+      return c == '"' || c == '\'' || c == '\\' || c == '#' || is_control(c);
+    };
+    return std::any_of(inside.begin(), inside.end(), is_special) ? 0 : end + 1;
+  }
+  const auto end = std::min(text.find_first_of(" \t#"), text.size());
+  const std::string_view word = text.substr(0, end);
+  return is_number(word) || word == "true" || word == "false" ? end : 0;
+}
+
+/// Throws Error unless the line is `key = value`, a comment behind it perhaps. Whatever passes
+/// means the same to TOML and to every release of CLI11.
+void require_assignment(std::string_view line) {
+  const auto key_end = std::find_if_not(line.begin(), line.end(), in_key);
+  const std::string_view key(line.begin(), key_end);
+  std::string_view value = trim(line.substr(key.size()));
+  if (key.empty() || !value.starts_with('='))
+    fail("'{}' is neither `key = value` nor a comment", shown(line));
+  value = trim(value.substr(1));
+  const auto end = end_of_value(value);
+  if (end == 0 || !is_comment(value.substr(end)))
+    fail("{}: '{}' is neither a number, true, false nor a string in quotes", shown(key),
+         shown(value));
+}
+
+SceneValue read_line(const std::string& line) {
+  require_assignment(line);
+  const auto assignment = read_assignment(line);
+  if (!assignment) fail("'{}' is not `key = value`", shown(line));
+  const auto& [key, value] = *assignment;
+  if (std::find(keys.begin(), keys.end(), key) == keys.end())
+    fail("a scene has no '{}' (but mass, radius, shape-factor, ...)", shown(key));
+  return {key, value, 0};
+}
+
+}  // namespace
+
+std::vector<SceneValue> read_scene(const std::string& file) {
+  const std::string text = content(file);
+  std::vector<SceneValue> scene;
+  std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // a byte order mark
+  for (std::size_t number = 1; at < text.size(); ++number) {
+    const auto end = std::min(text.find('\n', at), text.size());
+    std::string_view line = std::string_view(text).substr(at, end - at);
+    at = end + 1;
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (is_comment(line)) continue;
+    try {
+      SceneValue value = read_line(std::string(trim(line)));
+      for (const SceneValue& earlier : scene)
+        if (earlier.key == value.key) fail("{} stands in line {} too", value.key, earlier.line);
+      value.line = number;
+      scene.push_back(std::move(value));
+    } catch (const Error& error) {
+      fail<InputError>("{}:{}: {}", file, number, error.what());
+    }
+  }
+  return scene;
+}
+
+}  // namespace rolling

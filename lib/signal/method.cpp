@@ -1,0 +1,79 @@
+#include "signal/method.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace rolling {
+namespace {
+
+/// Takes the text up to the next blank off the front.
+std::string_view next_word(std::string_view& words) {
+  const std::string_view word = words.substr(0, words.find(' '));
+  words.remove_prefix(std::min(word.size() + 1, words.size()));
+  return word;
+}
+
+template <typename Number>
+bool read(std::string_view word, Number& number) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  return error == std::errc() && end == word.data() + word.size() &&
+         std::isfinite(static_cast<double>(number));
+}
+
+}  // namespace
+
+std::unique_ptr<Signal> make_signal(const SignalOptions& options) {
+  return options.method->make(options);
+}
+
+std::string describe(const SignalOptions& options) {
+  const SignalMethod& method = *options.method;
+  std::string words(method.name);
+  if (method.has_width())
+    words += options.width.seconds > 0 ? fmt::format(" seconds {}", options.width.seconds)
+                                       : fmt::format(" width {}", options.width.samples);
+  if (method.has_order) words += fmt::format(" order {}", options.order);
+  return words;
+}
+
+std::optional<SignalOptions> signal_options(std::span<const SignalMethod> methods,
+                                            std::string_view words) {
+  std::string_view rest = words;
+  const std::string_view name = next_word(rest);
+  const auto method = std::find_if(methods.begin(), methods.end(),
+                                   [&](const SignalMethod& m) { return m.name == name; });
+  if (method == methods.end()) return {};
+  SignalOptions options{&*method};
+  while (!rest.empty()) {
+    const std::string_view key = next_word(rest), value = next_word(rest);
+    if (!(key == "width"     ? read(value, options.width.samples)
+          : key == "seconds" ? read(value, options.width.seconds)
+          : key == "order"   ? read(value, options.order)
+                             : false))
+      return {};
+  }
+  if (describe(options) != words) return {};  // a number too many or too few, or one that is cut
+  try {
+    make_signal(options);
+  } catch (const Error&) {
+    return {};
+  }
+  return options;
+}
+
+Reach reach(const SignalOptions& options, std::span<const double> t) {
+  const std::size_t samples =
+      options.method->has_width() ? samples_within(options.width, t) : options.method->reach;
+  return std::min(samples, t.size());
+}
+
+std::map<std::string, const SignalMethod*> by_name(std::span<const SignalMethod> methods) {
+  std::map<std::string, const SignalMethod*> names;
+  for (const SignalMethod& method : methods) names.emplace(method.name, &method);
+  return names;
+}
+
+}  // namespace rolling

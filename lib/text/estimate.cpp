@@ -1,0 +1,40 @@
+#include "text/estimate.h"
+
+#include <cmath>
+
+#include "text/number.h"
+
+namespace rolling {
+namespace {
+
+std::string shortest(double value) {
+  char digits[longest_number];
+  return {digits, write_number(digits, value)};
+}
+
+}  // namespace
+
+bool parse_estimate(std::string_view text, Estimate& estimate) {
+  const auto sign = text.find("+-");
+  const auto value_text = text.substr(0, sign);
+  Estimate read;
+  if (sign == std::string_view::npos) {
+    if (!parse_number(text, read.value)) return false;
+  } else {
+    // trim() takes the blanks on both sides, of which the outer ones are an error.
+    const auto sigma_text = text.substr(sign + 2);
+    if (trim(text) != text || !parse_number(trim(value_text), read.value) ||
+        !parse_number(trim(sigma_text), read.sigma) || std::signbit(read.sigma))
+      return false;
+  }
+  estimate = read;
+  return true;
+}
+
+std::string to_text(const Estimate& estimate) {
+  std::string text = shortest(estimate.value);
+  if (estimate.sigma > 0) text += "+-" + shortest(estimate.sigma);
+  return text;
+}
+
+}  // namespace rolling

@@ -1,0 +1,75 @@
+# shellcheck shell=bash
+# What the scripts of the figures share; each sources it first. They take
+#
+#   -t svg | pngcairo   the terminal of gnuplot (svg); the picture goes to standard output
+#   -K K[,K...] -R R    shape factor and radius, where a figure draws records of your own
+#
+# and leave their operands in "$@". The tools are on the PATH. A script works in a folder of its own
+# with copies of the samples, so that no name of a file or folder gets into the code of gnuplot.
+set -euo pipefail
+export LC_ALL=C
+unset CDPATH
+terminal=svg K=0.5 R=0.04
+while getopts t:K:R: option; do
+  case $option in
+    t) terminal=$OPTARG ;;
+    K) K=$OPTARG ;;
+    R) R=$OPTARG ;;
+    *) sed -n '2,3s/^# //p' "$0" >&2; exit 2 ;;
+  esac
+done
+shift $((OPTIND - 1))
+case $terminal in svg | pngcairo) ;; *) echo "$0: -t $terminal: svg or pngcairo" >&2; exit 2 ;; esac
+command -v gnuplot >/dev/null ||
+  { echo "$0: gnuplot is not installed; make setup figures installs it" >&2; exit 2; }
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+figures=$(dirname "${BASH_SOURCE[0]}")
+cp "$figures"/*.gp "$figures"/../*.csv "$figures"/../*.toml "$scratch"
+called_from=$PWD
+cd "$scratch"
+
+# draw WIDTH HEIGHT [ASSIGNMENTS]: gnuplot on the commands of standard input, after style.gp. A PNG
+# has 240 dots an inch where the SVG has 96. The symbols of the two terminals are made alike: those
+# of svg are thin, those of pngcairo small.
+draw() {
+  local size=$1,$2
+  [ "$terminal" = svg ] ||
+    size="$(($1 * 5 / 2)),$(($2 * 5 / 2)) fontscale 2.5 linewidth 2.5 pointscale 1.4"
+  LC_ALL=C.UTF-8 gnuplot -d \
+    -e "set terminal $terminal size $size font 'sans-serif,14' background 'white'" \
+    -e "${3:-}" style.gp /dev/stdin |
+    if [ "$terminal" = svg ]; then
+      sed "/id='gpPt/s/stroke-width='0[.0-9]*'/stroke-width='0.4'/"
+    else
+      cat
+    fi
+}
+
+# The one row of columns on standard input as assignments that gnuplot, awk and bc read:
+# v = 0.5; D = 0.0016; ...
+assignments() {
+  awk -F'\t' '
+    /^# / {
+      sub(/^# /, "")
+      for (i = 1; i <= NF; i++) { name[i] = $i; sub(/\[.*/, "", name[i]) }
+      next
+    }
+    !/^#/ { for (i = 1; i <= NF; i++) printf "%s = %s; ", name[i], $i }'
+}
+
+# scene FILE: its mass, radius and shape factor, likewise.
+scene() {
+  sed -n 's/^mass *=/m =/p; s/^radius *=/R =/p; s/^shape-factor *=/K =/p' "$1" | tr '\n' ';'
+}
+
+# The rows of smooth -w 11 whose windows are whole: the first and last five means of each run are
+# over fewer records and noisier.
+whole_windows() {
+  awk '
+    function run_ends(  i) { for (i = 6; i <= n - 5; i++) print row[i]; n = 0 }
+    /^#/ { if (n) run_ends(); print; next }
+    /^$/ { run_ends(); print; next }
+    { row[++n] = $0 }
+    END { run_ends() }'
+}

@@ -1,0 +1,113 @@
+#!/bin/bash
+# The shape factor K = J / (m R^2) of a body, measured (the paper's note 23). The body turns about a
+# fixed axis; a sensor records its angle while a weight on a thread drives it (FALL), and while it
+# spins down freely without the weight (SPIN), which tells the friction of the bearing.
+#
+#   samples/shape-factor.sh FALL SPIN         prints K, for -K: 0.4991+-0.0018
+#   samples/shape-factor.sh make FOLDER SEED  makes such records, with a known answer
+#   samples/shape-factor.sh                   makes records of cylinder and shell, and uses their K
+#
+# A record has the columns time in seconds and angle in radians, separated by a comma, below a line
+# with their names; FALL begins after the weight is released and ends before it lands.
+set -euo pipefail
+export LC_ALL=C
+unset CDPATH
+here=$(cd "$(dirname "$0")" && pwd)
+
+# What was measured with a balance and a caliper, each with its standard uncertainty; g is known.
+measured='m = 1.375;  u_m = 0.001    # mass of the body [kg]
+          R = 0.0400; u_R = 0.00005  # its radius [m]
+          r = 0.0100; u_r = 0.00002  # radius at which the thread is wound [m]
+          w = 0.0500; u_w = 0.00005  # mass of the weight [kg]
+          g = 9.81'
+
+# The angular acceleration in a record from rest or to rest: `a sigma_a`, in rad/s^2 / 1000.
+# A constant deceleration is the motion of Eq. 12 with b = 0: v' = -g a / ((K + 1) R), so that
+# fitpower finds it, with its error; K = 0, R = 1 m and g = 1000 m/s^2 make it 1000 a. The angle
+# stands for a position: the arc of a circle of 1 m. A film of the fall run backwards slows down.
+acceleration() {  # FILE forwards|backwards
+  awk -F, -v way="$2" '
+    FNR > 1 && NF >= 2 { t[++n] = $1; angle[n] = $2 }
+    END {
+      print "# t[s]\tx[m]"
+      for (i = 1; i <= n; i++)
+        if (way == "forwards") printf "%.17g\t%.17g\n", t[i], angle[i]
+        else printf "%.17g\t%.17g\n", t[n] - t[n + 1 - i], angle[n] - angle[n + 1 - i]
+    }' "$1" | fitpower -q --route position --fix b=0 -K 0 -R 1 -g 1000 | grep -v '^#' | cut -f 1,2
+}
+
+# The weight pulls with w (g - r alpha) at the radius r, against the friction J beta of the bearing:
+#   J = w (g - r alpha) r / (alpha + beta)
+# The uncertainties add in squares, each by the change of K that it makes.
+shape_factor() {  # FALL SPIN
+  { acceleration "$1" backwards; acceleration "$2" forwards; } | awk '
+    function K(m, R, r, w, alpha, beta) { return w * (g - r * alpha) * r / (alpha + beta) / (m * R^2) }
+    function add(change) { sum += change^2 }
+    NR == 1 { alpha = 1000 * $1; u_alpha = 1000 * $2 }
+    NR == 2 { beta = 1000 * $1; u_beta = 1000 * $2 }
+    END {
+      '"$measured"'
+      k = K(m, R, r, w, alpha, beta)
+      add(K(m + u_m, R, r, w, alpha, beta) - k)
+      add(K(m, R + u_R, r, w, alpha, beta) - k)
+      add(K(m, R, r + u_r, w, alpha, beta) - k)
+      add(K(m, R, r, w + u_w, alpha, beta) - k)
+      add(K(m, R, r, w, alpha + u_alpha, beta) - k)
+      add(K(m, R, r, w, alpha, beta + u_beta) - k)
+      printf "%.4f+-%.4f\n", k, sqrt(sum)
+    }'
+}
+
+# Records with a known answer: K = 0.50 and 0.83, a friction of 0.3 mN m, 25 records a second of a
+# wheel with 4000 marks that shakes by 1 mrad. The true mass, radii and weight are off the measured
+# ones, each by a draw from its uncertainty, as they are for whoever measures.
+make_records() {  # FOLDER SEED
+  local body K
+  for body in cylinder:0.50 shell:0.83; do
+    K=${body#*:}
+    awk -v K="$K" -v seed="$2" -v file="$1/${body%:*}" '
+      # The generator of Park and Miller, and normal numbers by Box and Muller.
+      function uniform() { seed = seed * 16807 % 2147483647; return seed / 2147483647 }
+      function normal() { return sqrt(-2 * log(uniform())) * cos(6.283185307179586 * uniform()) }
+      function round(x) { return x < 0 ? -int(0.5 - x) : int(x + 0.5) }
+      function record(name, start, speed, acceleration, end,   i, t, mark) {
+        mark = 6.283185307179586 / 4000
+        name = file name
+        print "Time (s),Angle (rad)" >name
+        for (i = 0; i / 25 <= end; i++) {
+          t = i / 25
+          printf "%.2f,%.5f\n", t, \
+            mark * round((start + speed * t + acceleration * t^2 / 2 + 0.001 * normal()) / mark) >name
+        }
+        close(name)
+      }
+      BEGIN {
+        '"$measured"'
+        seed = seed * 1000 + int(100 * K); for (i = 0; i < 10; i++) uniform()
+        m += u_m * normal(); R += u_R * normal(); r += u_r * normal(); w += u_w * normal()
+        J = K * m * R^2; friction = 3e-4
+        alpha = (w * g * r - friction) / (J + w * r^2)
+        record("-fall.csv", 0.4, 0.3, alpha, 6)
+        record("-spin.csv", 1.1, 10, -friction / J, 15)
+      }'
+  done
+}
+
+case $#:${1-} in
+  3:make) make_records "$2" "$3" ;;
+  2:*) shape_factor "$1" "$2" ;;
+  0:)
+    scratch=$(mktemp -d)
+    trap 'rm -rf "$scratch"' EXIT
+    make_records "$scratch" 1
+    echo "Shape factors from made records, and the law of the rubber mat with them"
+    for body in "cylinder 0.50 CR" "shell 0.83 SR"; do
+      read -r name true sample <<<"$body"
+      K=$(shape_factor "$scratch/$name-fall.csv" "$scratch/$name-spin.csv")
+      printf '%s: K = %s (made with %s)\n' "$name" "$K" "$true"
+      smooth -q --coast -c x -w 1 "$here/$sample.csv" |
+        fitpower -q --route position -K "$K" -R 0.04 --digits 4
+    done
+    ;;
+  *) echo "usage: shape-factor.sh [FALL SPIN | make FOLDER SEED]" >&2 && exit 2 ;;
+esac
