@@ -23,7 +23,7 @@ else
 
 CXX      ?= g++
 CXXFLAGS ?= -O2 -g
-override CXXFLAGS += -std=c++20 -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+override CXXFLAGS += -ffp-contract=off -std=c++20 -Wall -Wextra -Wpedantic -Wshadow -Wconversion
 override CPPFLAGS += -Ilib
 override LDFLAGS  += -Wl,--as-needed
 LDLIBS   := -lgsl -lgslcblas -lfmt -lm

@@ -22,16 +22,9 @@ namespace {
 constexpr std::string_view version = "1.0.0";
 constexpr int trouble = 2;  // the exit status
 
-<<<<<<< HEAD
-/// The numbers of a scene: what its file may say, whether or not a tool needs it.
-constexpr std::array scene_keys = {"mass",        "radius",   "shape-factor", "gravity",
-                                   "coefficient", "exponent", "exact",        "v0",
-                                   "x0",          "memory",   "damping",      "slope"};
-=======
 void require(const Range& range, double value, std::string_view text) {
   if (!range.holds(value)) fail("'{}' must be {}", shown(text), range.text);
 }
->>>>>>> main
 
 double to_number(const std::string& text, const Range& range) {
   double value;
