@@ -22,7 +22,8 @@ $(wordlist 2,$(words $(goals)),$(goals)): $(firstword $(goals)) ;
 else
 
 CXX      ?= g++
-CXXFLAGS ?= -O2 -g
+CXXFLAGS ?= -O2 -g1
+# No flag of the user's, behind which it stands, may fuse a multiplication and an addition.
 override CXXFLAGS += -ffp-contract=off -std=c++20 -Wall -Wextra -Wpedantic -Wshadow -Wconversion
 override CPPFLAGS += -Ilib
 override LDFLAGS  += -Wl,--as-needed
@@ -83,7 +84,7 @@ samples: bin/simulate
 # Figures of the paper: each is drawn by the script of its name in samples/figures, which runs the
 # tools that it names.
 figure  := $(patsubst samples/figures/%.sh,%,\
-             $(filter-out %/draw.sh %/live.sh,$(wildcard samples/figures/*.sh)))
+             $(filter-out %/draw.sh,$(wildcard samples/figures/*.sh)))
 figures: $(figure:%=figures/%.svg) $(figure:%=figures/%.png)
 empty   :=
 space   := $(empty) $(empty)
@@ -241,6 +242,7 @@ work-precision: build/bench/ulp build/bench/work_precision
 work-precision-signal: build/bench/signal
 	@mkdir -p build/work-precision
 	tests/bench/signal.sh build/work-precision
+	@echo 'results: build/work-precision/signal.tsv and, with gnuplot, signal*.svg and signal*.png'
 
 # How fast the tools are beside peers and bare loops: some minutes.
 bench: all build/bench/speed

@@ -3,10 +3,11 @@
 #include <chrono>
 #include <cmath>
 
-#include "base/large_pages.h"
 #include "cli/history.h"
 #include "cli/tool.h"
 #include "fit/fit.h"
+#include "fit/laws.h"
+#include "text/estimate.h"
 
 using namespace rolling;
 
@@ -44,7 +45,12 @@ void set_parameters(const std::string& option, const std::vector<std::string>& s
   }
 }
 
-std::vector<FitRun> read_runs(Reader& in, Route route, const Body& body, bool all_columns) {
+struct Runs {
+  std::vector<FitRun> runs;
+  std::vector<std::string> names;
+};
+
+Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, bool all_columns) {
   struct Needed {
     std::size_t slot;
     std::vector<double> FitRun::*column;
@@ -56,24 +62,50 @@ std::vector<FitRun> read_runs(Reader& in, Route route, const Body& body, bool al
   const auto names = columns_of(route);
   for (const std::string& name : names)
     if (name != "t") needed.push_back({in.need(name), column_of(name)});
-  const bool times_wanted =
-      (all_columns || !in.history().empty()) && in.find("t");  // the filters act on these times
-  if (names.front() == "t" || times_wanted) needed.push_back({in.need_time(), &FitRun::t});
-  if (all_columns)  // what other routes would fit
-    for (const char* name : {"x", "v", "D"})
-      if (in.find(name) && std::find(names.begin(), names.end(), name) == names.end())
-        needed.push_back({in.want(name), column_of(name)});
-  std::vector<FitRun> runs;
+  bool timed = names.front() == "t" || (all_columns && in.find("t"));
+  if (timed) needed.push_back({in.need_time(), &FitRun::t});
+  // What other routes would fit; and x, with which speeds that claim to be differences are
+  // compared.
+  for (const char* name : {"x", "v", "D"})
+    if ((all_columns || (*name == 'x' && route == Route::velocity && !in.history().empty())) &&
+        in.find(name) && std::find(names.begin(), names.end(), name) == names.end())
+      needed.push_back({in.want(name), column_of(name)});
+  Runs all;
+  auto& runs = all.runs;
   while (in.next_run()) {
     FitRun& run = runs.emplace_back();
+    all.names.push_back(in.run_name());
     run.body = body;
+    if (!timed && !in.history().empty() && in.find("t")) {  // the filters act on these times
+      needed.push_back({in.need_time(), &FitRun::t});
+      timed = true;
+    }
     const std::size_t room = runs.size() == 1 ? in.records_ahead() : 0;  // most files are one run
-    for (const auto& [slot, column] : needed) reserve_large(run.*column, room);
+    for (const auto& [slot, column] : needed) (run.*column).reserve(room);
     while (in.next())
       for (const auto& [slot, column] : needed) (run.*column).push_back(in[slot]);
-    run.filters = filters_of(in.history(), run.t);
+    History history = history_of(in.history(), run.t);
+    run.shift_of = history.shift_of;
+    history = compared(std::move(history), run);
+    run.filters = std::move(history.filters);
+    run.shift_of = history.shift_of;
+    if (!history.doubt.empty())
+      tool.warn(fmt::format("run {}: {}: the fit goes on as if no filter were known", runs.size(),
+                            history.doubt));
   }
-  return runs;
+  return all;
+}
+
+/// What the user should know of errors that are not those of white noise.
+void warn_of_noise(Tool& tool, const FitResult& r) {
+  if (r.sigma_a < 1e-9 * r.a) return;  // what is left is rounding
+  if (r.errors == Errors::autocorrelation)
+    tool.warn(fmt::format(
+        "the noise is correlated from record to record (Ljung-Box p {:.2g}), or the law is not the "
+        "right one: the errors allow for the correlation; see --report",
+        r.whiteness));
+  if (r.errors == Errors::uneven)
+    tool.warn("the noise is not of one size along the run: the errors allow for that");
 }
 
 /// For these runs, what each route finds at which cost, and which law describes them on the route
@@ -83,6 +115,7 @@ void report(Tool& tool, Route asked, const std::vector<FitRun>& runs, const FitO
                                             {Errors::classical, "classical"},
                                             {Errors::filters, "of the filters"},
                                             {Errors::differences, "of differences of positions"},
+                                            {Errors::uneven, "of noise of uneven size"},
                                             {Errors::autocorrelation, "of the autocorrelation"}};
   for (const auto& [name, route] : routes) try {
       for (const FitRun& run : runs)
@@ -93,6 +126,10 @@ void report(Tool& tool, Route asked, const std::vector<FitRun>& runs, const FitO
                                : run.D)
                   .empty())
             fail("there is no column {}", column);
+      if (columns_of(*route).front() == "t" && std::isnan(runs.front().body.R))
+        fail("--radius is not given");
+      if (columns_of(*route).front() == "t" && std::isnan(runs.front().body.K))
+        fail("--shape-factor is not given");
       const auto begin = std::chrono::steady_clock::now();
       const FitResult r = fit(*route, runs, options);
       const std::chrono::duration<double, std::milli> time =
@@ -108,12 +145,16 @@ void report(Tool& tool, Route asked, const std::vector<FitRun>& runs, const FitO
   if (options.robust) return;
   const auto scores = compare_laws(asked, runs, options);
   double least = scores.front().aicc;
-  for (const LawScore& s : scores) least = std::min(least, s.aicc);
+  double other = std::numeric_limits<double>::infinity();  // of a law that is no a v^b
+  for (const LawScore& s : scores) {
+    least = std::min(least, s.aicc);
+    if (!s.is_power) other = std::min(other, s.aicc);
+  }
   if (std::isinf(scores.front().aicc))
     return tool.say("too few independent records to compare a v^b with other laws");
   std::string line = "AICc above the least:";
   for (const LawScore& s : scores) line += fmt::format(" {} {:.1f};", s.law, s.aicc - least);
-  tool.say(line + (scores.front().aicc - least <= 2 ? " D = a v^b is adequate"
+  tool.say(line + (scores.front().aicc - other <= 2 ? " D = a v^b is adequate"
                                                     : " D = a v^b is not adequate"));
 }
 
@@ -125,6 +166,7 @@ int main(int argc, char** argv) {
   std::optional<Route> given_route;
   std::vector<Estimate> shape_factors;
   std::vector<std::string> fixed, start;
+  std::string given_slope = "0";
   Body body;
   FitOptions options;
   bool each = false, with_report = false;
@@ -134,6 +176,8 @@ int main(int argc, char** argv) {
   tool.numbers("-K,--shape-factor", shape_factors, not_negative,
                "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
   tool.body(body, {radius, gravity});
+  tool.text("--slope", given_slope, "S|fit",
+            "the mat rises by S metres a metre along growing x; fit: find it, of all runs");
   tool.geometry(options.geometry);
   tool.flag("--each", each, "fit each run by itself, a row for each");
   tool.list("--fix", fixed, "NAME=VALUE", "hold a, b, v0 or x0 fixed");
@@ -158,15 +202,22 @@ int main(int argc, char** argv) {
                         : in.find("v") ? Route::velocity
                                        : Route::position;
     options.possible_filters = filters_of_sensors();
+    options.fit_slope = given_slope == "fit";
+    if (Estimate given; parse_estimate(given_slope, given)) body.slope = given.value;
+    else if (!options.fit_slope)
+      fail("--slope: '{}' is no number, and not `fit`", shown(given_slope));
     const bool trajectory = route == Route::velocity || route == Route::position;
     if (trajectory) tool.need({"radius", "shape-factor"});
+    for (const auto& [name, held] : {std::pair("v0", options.v0), std::pair("x0", options.x0)})
+      if (held && !(name[0] == 'v' ? trajectory : route == Route::position))
+        fail("--fix: this route has no {}", name);
 
-    std::vector<FitRun> runs = read_runs(in, route, body, with_report);
+    auto [runs, run_names] = read_runs(tool, in, route, body, with_report);
     if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
       fail("--shape-factor gives {} values, but runs are {}", shape_factors.size(), runs.size());
     for (std::size_t i = 0; i < runs.size(); ++i)
       runs[i].body.K =
-          shape_factors.empty() ? 0 : shape_factors[shape_factors.size() > 1 ? i : 0].value;
+          shape_factors.empty() ? not_given : shape_factors[shape_factors.size() > 1 ? i : 0].value;
 
     std::vector<std::vector<FitRun>> fits;
     if (each)
@@ -177,17 +228,34 @@ int main(int argc, char** argv) {
                                  {"corr"},   {"rms"},          {"n"}};
     const bool with_v0 = trajectory && fits.front().size() == 1;
     if (with_v0) names.insert(names.end(), {{"v0", "m/s"}, {"sigma_v0", "m/s"}});
-    std::vector<FitResult> results;
+    if (options.fit_slope) names.insert(names.end(), {{"slope"}, {"sigma_slope"}});
+    if (each) names.push_back({"run"});
+    std::vector<std::optional<FitResult>> results;
     for (const auto& joint : fits) {
       tool.progress.at("fitting", fits.size() == 1 ? not_given
                                                    : static_cast<double>(results.size()) /
                                                          static_cast<double>(fits.size()));
-      results.push_back(fit(route, joint, options));
+      try {
+        results.emplace_back(fit(route, joint, options));
+      } catch (const Error& error) {  // one run that cannot be fitted loses no other
+        if (!each) throw;
+        tool.say(fmt::format("run {}: {}", run_names[results.size()], error.what()));
+        results.emplace_back();
+      }
     }
+    const auto fitted = [](const auto& result) { return result.has_value(); };
+    if (std::none_of(results.begin(), results.end(), fitted)) return 2;
 
     tool.out.names(names);
     std::size_t left_out = 0;
-    for (const FitResult& r : results) {
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      if (!results[i]) {
+        for (std::size_t blank = 1; blank < names.size(); ++blank) tool.out.blank();
+        tool.out.cell(run_names[i]);
+        tool.out.end_line();
+        continue;
+      }
+      const FitResult& r = *results[i];
       const auto cell = [&](double value) {
         r.errors == Errors::none&& std::isnan(value) ? tool.out.blank() : tool.out.cell(value);
       };
@@ -196,12 +264,18 @@ int main(int argc, char** argv) {
       tool.out.text(std::to_string(r.n));  // a count is never rounded to --digits
       if (with_v0)
         for (const double value : {r.v0.front(), r.sigma_v0.front()}) cell(value);
+      if (options.fit_slope)
+        for (const double value : {r.slope, r.sigma_slope}) cell(value);
+      if (each) tool.out.cell(run_names[i]);
       tool.out.end_line();
       left_out += r.left_out;
     }
+    for (const auto& r : results)
+      if (r) warn_of_noise(tool, *r);
     if (with_report)
-      for (const auto& joint : fits) report(tool, route, joint, options);
+      for (std::size_t i = 0; i < fits.size(); ++i)
+        if (results[i]) report(tool, route, fits[i], options);
     tool.count_left_out(left_out, "this route cannot use them");
-    return 0;
+    return std::all_of(results.begin(), results.end(), fitted) ? 0 : 2;
   });
 }

@@ -142,7 +142,7 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    if (!law_file.empty()) roll.table = read_law(tool, law_file, law, &v0);
+    if (!law_file.empty()) roll.table = read_law(tool, law_file, law, body.slope, &v0);
     std::vector<std::string> needed = {"radius", "shape-factor", "v0"};
     if (!roll.table) needed.insert(needed.end(), {"coefficient", "exponent"});
     tool.need(needed);

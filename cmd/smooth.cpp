@@ -1,4 +1,9 @@
 // smooth - smooth a column and select its records; see smooth(1)
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <utility>
+
 #include "cli/tool.h"
 #include "signal/selection.h"
 #include "signal/smoother.h"
@@ -18,13 +23,16 @@ std::size_t odd_number(const std::string& text) {
 /// The `##` lines.
 std::string history(const std::string& column, const SelectionOptions& selected,
                     const SignalOptions& smoothed) {
-  std::string text;
-  if (std::isfinite(selected.from)) text += fmt::format("smooth t from {}\n## ", selected.from);
-  if (std::isfinite(selected.to)) text += fmt::format("smooth t to {}\n## ", selected.to);
+  std::vector<std::string> lines;
+  if (std::isfinite(selected.from)) lines.push_back(fmt::format("smooth t from {}", selected.from));
+  if (std::isfinite(selected.to)) lines.push_back(fmt::format("smooth t to {}", selected.to));
   if (selected.outliers > 0)
-    text += fmt::format("smooth {} outliers {}\n## ", column, selected.outliers);
-  if (selected.coast) text += fmt::format("smooth {} coast\n## ", column);
-  return text + fmt::format("smooth {} {}", column, describe(smoothed));
+    lines.push_back(fmt::format("smooth {} outliers {}", column, selected.outliers));
+  if (selected.coast) lines.push_back(fmt::format("smooth {} coast", column));
+  const Width& width = smoothed.width;
+  if (width.seconds > 0 || width.samples > 1)  // a window of one record is no filter
+    lines.push_back(fmt::format("smooth {} {}", column, describe(smoothed)));
+  return fmt::format("{}", fmt::join(lines, "\n## "));
 }
 
 }  // namespace
@@ -47,7 +55,7 @@ int main(int argc, char** argv) {
   tool.count("--order", options.order, whole, "order of savgol's polynomial (2)");
   tool.number("--outliers", select.outliers, positive,
               "leave out readings further than this many scaled MADs from their window's median");
-  tool.flag("--coast", select.coast, "keep the free roll only: after the push, up to the stop");
+  tool.flag("--coast", select.coast, "keep the free roll only: after the last push or hold");
   tool.number("--from", select.from, any_number, "leave out the records before this time [s]");
   tool.number("--to", select.to, any_number, "leave out the records after this time [s]");
   tool.input();
@@ -65,21 +73,23 @@ int main(int argc, char** argv) {
     Reader& in = tool.read({"t", "v"});
     const auto t = in.need_time();
     if (column.empty())
-      column = in.find("v") || in.columns().size() == 1 ? "v" : in.column_of(t) == 0 ? "2" : "1";
+      column = in.find("v") || in.columns().size() == 1 ? 'v' : in.column_of(t) == 0 ? '2' : '1';
     const auto y = in.need(column);
     const std::string name = in.columns()[in.column_of(y)].name;
     select.positions = name == "x";
     if (select.coast && name != "x" && name != "v")
       fail("--coast needs the column x or v, not {}", shown(name));
 
-    const bool streams =
-        !choose && !select.coast;  // else nothing goes out before the first run has been read
-    Filter filter(in, tool.out, streams ? history(name, select, options) : "");
+    Filter filter(in, tool.out);
     filter.replace(y);
     const bool all = select.all();
-    bool told = streams;
+    bool told = false;
+    const auto tell = [&] {
+      if (!std::exchange(told, true)) filter.tell(history(name, select, options));
+    };
     std::size_t outliers = 0;
     while (filter.next_run()) {
+      if (!choose && !select.coast) tell();  // else the first run may still be refused
       Selection selection(select);
       std::unique_ptr<Signal> smoother;
       if (choose) smoother = std::make_unique<AutoSmoother>(options);
@@ -97,10 +107,6 @@ int main(int argc, char** argv) {
         else take(selection.push(filter[t], filter[y]));
       }
       const auto last = selection.finish();
-      const auto tell = [&] {
-        if (!told) filter.tell(history(name, select, options));
-        told = true;
-      };
       if (!choose) tell();
       take(last);
       const auto rest = smoother->finish();

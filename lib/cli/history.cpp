@@ -3,14 +3,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
 #include "base/error.h"
-#include "contact/contact.h"
 #include "signal/derivative.h"
 #include "signal/smoother.h"
 #include "text/column.h"
+#include "text/estimate.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -26,10 +27,37 @@ std::vector<double> apply(const std::unique_ptr<Signal>& signal, std::span<const
   return out;
 }
 
-double number_after(const std::vector<std::string>& words, std::string_view key) {
-  for (std::size_t i = 0; i + 1 < words.size(); ++i)
-    if (double value; words[i] == key && parse_number(words[i + 1], value)) return value;
-  fail("a `##` line does not say its {}", key);
+/// A filter that leaves its column as it is.
+LinearFilter identity(const std::string& from, const std::string& to) {
+  return {from, to, 0, [](auto, auto y) { return std::vector<double>(y.begin(), y.end()); }};
+}
+
+/// `[exact] K 0.5 R 0.04 g 9.81 [slope 0.001]`, perhaps with uncertainties.
+std::optional<ShiftOf> shift_line(std::span<const std::string> words) {
+  ShiftOf of{.body = {}, .geometry = Geometry::approximate, .given = {}};
+  if (!words.empty() && words[0] == "exact") {
+    of.geometry = Geometry::exact;
+    words = words.subspan(1);
+  }
+  struct Number {
+    const char* name;
+    double Body::*value;
+    double BodyUncertainty::*sigma;
+  };
+  constexpr Number numbers[] = {{"K", &Body::K, &BodyUncertainty::K},
+                                {"R", &Body::R, &BodyUncertainty::R},
+                                {"g", &Body::g, &BodyUncertainty::g},
+                                {"slope", &Body::slope, &BodyUncertainty::slope}};
+  if (words.size() != 6 && words.size() != 8) return {};
+  for (std::size_t i = 0; i < words.size(); i += 2) {
+    const Number& number = numbers[i / 2];
+    Estimate estimate;
+    if (words[i] != number.name || !parse_estimate(words[i + 1], estimate)) return {};
+    of.body.*number.value = estimate.value;
+    of.given.*number.sigma = estimate.sigma;
+  }
+  if (!(of.body.K >= 0 && of.body.R > 0 && of.body.g > 0)) return {};
+  return of;
 }
 
 LinearFilter linear(const std::string& from, const std::string& to, const SignalOptions& options,
@@ -63,46 +91,138 @@ std::vector<LinearFilter> filters_of_sensors() {
   return filters;
 }
 
-FilterChain filters_of(const std::vector<std::string>& history, std::span<const double> t) {
-  FilterChain chain;
-  bool cut_begin = false, cut_end = false;
-  const auto append = [&](LinearFilter filter) {
-    filter.cut_begin = std::exchange(cut_begin, false);
-    filter.cut_end = std::exchange(cut_end, false);
-    chain.push_back(std::move(filter));
-  };
-  for (const std::string& line : history) {
+namespace {
+
+/// The chain as it grows, line by line.
+class Chain {
+ public:
+  explicit Chain(std::span<const double> t) : t_(t) {}
+  History take() && { return std::move(history_); }
+
+  /// False if nothing more can be known.
+  bool add(const std::string& line) {
     const auto words = split_names(line, '\0');
-    if (words.size() < 3) continue;
-    const std::string &tool = words[0], &column = words[1], &method = words[2];
-    const std::string said = fmt::format("{}", fmt::join(words.begin() + 2, words.end(), " "));
-    if (tool == "smooth") {
-      if (method == "coast" || method == "from" || method == "to") {
-        cut_begin = cut_begin || method != "to";
-        cut_end = cut_end || method != "from";
-        continue;
-      }
-      const auto options = signal_options(smoothing_methods, said);
-      if (!options || !options->method->linear) return {};
-      append(linear(column, column, *options, t));
-    } else if (tool == "differentiate") {
-      const auto options = signal_options(derivative_methods, said);
-      if (!options || !options->method->linear) return {};
-      append(linear(column, derivative_of(column), *options, t));
-    } else if (tool == "shift-from-accel") {
-      // The exact root of Eq. 9 bends away from Eq. 11 by (D/R)^2, which does not matter to an
-      // error bar.
-      const Body body{0, number_after(words, "R"), number_after(words, "K"),
-                      number_after(words, "g")};
-      const double scale = -(1 + body.K) * body.R / body.g;
-      append({"a", "D", 0, [scale](auto, auto y) {
-                std::vector<double> D(y.begin(), y.end());
-                for (double& value : D) value *= scale;
-                return D;
-              }});
+    if (words.size() < 2) return true;
+    const std::span<const std::string> rest = std::span(words).subspan(1);
+    if (words[0] == "smooth") return smooth(line, rest);
+    if (words[0] == "differentiate") return filter(line, derivative_methods, rest, true);
+    if (words[0] == "shift-from-accel") {
+      history_.shift_of = shift_line(rest);
+      if (!history_.shift_of) return doubt(line);
+      append(identity("a", "D"));
     }
+    return true;
   }
-  return chain;
+
+ private:
+  bool doubt(const std::string& line) {
+    history_ = {{}, {}, fmt::format("`## {}` is not what its tool writes", shown(line))};
+    return false;
+  }
+  bool unknown() {
+    history_ = {};
+    return false;
+  }
+  void append(LinearFilter filter) {
+    filter.cut_begin = std::exchange(cut_begin_, false);
+    filter.cut_end = std::exchange(cut_end_, false);
+    history_.filters.push_back(std::move(filter));
+  }
+  bool smooth(const std::string& line, std::span<const std::string> words) {
+    if (words.size() < 2) return doubt(line);
+    const std::string& method = words[1];
+    double number;
+    if (method == "coast" || method == "from" || method == "to") {
+      if (words.size() != (method == "coast" ? 2U : 3U) ||
+          (words.size() == 3 && !parse_number(words[2], number)))
+        return doubt(line);
+      cut_begin_ = cut_begin_ || method != "to";
+      cut_end_ = cut_end_ || method != "from";
+      return true;
+    }
+    if (method == "outliers")  // which records it left out hangs on the readings: not linear
+      return words.size() == 3 && parse_number(words[2], number) ? unknown() : doubt(line);
+    return filter(line, smoothing_methods, words, false);
+  }
+  bool filter(const std::string& line, std::span<const SignalMethod> methods,
+              std::span<const std::string> words, bool derivative) {
+    if (words.size() < 2) return doubt(line);
+    const auto options =
+        signal_options(methods, fmt::format("{}", fmt::join(words.begin() + 1, words.end(), " ")));
+    if (!options) return doubt(line);
+    if (!options->method->linear) return unknown();
+    const std::string& column = words[0];
+    append(linear(column, derivative ? derivative_of(column) : column, *options, t_));
+    reach_ += history_.filters.back().reach;
+    // The matrices of such wide filters would not fit into memory.
+    constexpr std::size_t most = 50'000'000;
+    return reach_ * t_.size() <= most && history_.filters.size() <= 100 ? true : unknown();
+  }
+
+  std::span<const double> t_;
+  History history_;
+  bool cut_begin_ = false, cut_end_ = false;
+  std::size_t reach_ = 0;
+};
+
+}  // namespace
+
+History history_of(const std::vector<std::string>& lines, std::span<const double> t) {
+  if (t.empty()) return {};  // filters act on times
+  Chain chain(t);
+  for (const std::string& line : lines)
+    if (!chain.add(line)) break;
+  return std::move(chain).take();
+}
+
+namespace {
+
+double median(std::vector<double> x) {
+  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
+  std::nth_element(x.begin(), middle, x.end());
+  return *middle;
+}
+
+/// The column of a run that stands for one of its chain; D for the acceleration it was made of.
+std::vector<double> standing_for(const FitRun& run, const std::string& column) {
+  if (column == "x") return run.x;
+  if (column == "v") return run.v;
+  if ((column != "D" && column != "a") || !run.shift_of) return {};
+  std::vector<double> a = run.D;
+  for (double& value : a) value = acceleration_of(*run.shift_of, value);
+  return a;
+}
+
+}  // namespace
+
+History compared(History history, const FitRun& run) {
+  // The last filter that is no mere name for a column; no later one has changed what it left.
+  auto last = history.filters.rbegin();
+  while (last != history.filters.rend() && last->reach == 0) ++last;
+  if (last == history.filters.rend() || last->from == last->to) return history;
+  const auto from = standing_for(run, last->from), to = standing_for(run, last->to);
+  const std::size_t n = run.t.size(), reach = last->reach;
+  if (from.size() != n || to.size() != n || n < 2 * reach + 3) return history;
+  const auto made = last->apply(run.t, from);
+  std::vector<double> off, size;
+  for (std::size_t i = 0; i < n; ++i) {
+    off.push_back(std::abs(made[i] - to[i]));
+    size.push_back(std::abs(to[i]));
+    if (!std::isfinite(off.back())) return history;  // readings are missing
+  }
+  // Columns that were rounded by --digits 3 differ by a hundredth; others hardly at all.
+  const double typical = median(off), large = median(size);
+  const double most = std::max(20 * typical, 1e-6 * large);
+  bool inside = !(typical <= 0.05 * large);
+  for (std::size_t i = reach; i + reach < n; ++i) inside = inside || off[i] > most;
+  if (inside) return {{}, {}, "the columns are not what the `##` lines say"};
+  LinearFilter cut = identity(history.filters.back().to, history.filters.back().to);
+  for (std::size_t i = 0; i < reach; ++i) {
+    cut.cut_begin = cut.cut_begin || off[i] > most;
+    cut.cut_end = cut.cut_end || off[n - 1 - i] > most;
+  }
+  if (cut.cut_begin || cut.cut_end) history.filters.push_back(std::move(cut));
+  return history;
 }
 
 }  // namespace rolling

@@ -2,18 +2,32 @@
 // themselves.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "fit/filter.h"
+#include "fit/fit.h"
 
 namespace rolling {
 
+/// What the `##` lines of a run say.
+struct History {
+  FilterChain filters;  ///< empty if nothing is known
+  std::optional<ShiftOf> shift_of = {};
+  std::string doubt = {};  ///< why the lines are not believed; else empty
+};
+
 /// The filters that the `##` lines of a run name (smooth, differentiate, shift-from-accel), for
-/// records at times t [s]. Lines of others say nothing. Empty if a line names a filter that is not
-/// linear or not known here: then nothing can be said.
-FilterChain filters_of(const std::vector<std::string>& history, std::span<const double> t);
+/// records at times t [s]. Lines of others say nothing. Nothing is known if there are no times, or
+/// if a line names a filter that is not linear; and a line in the name of one of these tools that
+/// is not, word by word, what the tool writes is not believed.
+History history_of(const std::vector<std::string>& lines, std::span<const double> t);
+
+/// Compares what the last filter claims with the columns of the run where it was made from one to
+/// the other. If only records at an end differ, the run was cut there after the filter; if others
+/// do, the lines are not believed.
+History compared(History, const FitRun&);
 
 /// What may be done to speeds before they are exported: the central difference of positions, and
 /// what Vernier's and PASCO's programs do; and means of 2, 3 or 5 speeds, which look like some of

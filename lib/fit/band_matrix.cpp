@@ -18,6 +18,7 @@ void BandMatrix::append(std::size_t first, std::span<const double> values) {
   first_.push_back(first);
   values_.insert(values_.end(), values.begin(), values.end());
   start_.push_back(values_.size());
+  if (!values.empty()) columns_ = std::max(columns_, first + values.size());
 }
 
 void BandMatrix::append(std::size_t i, double x, const BandMatrix& X, double y,
@@ -34,6 +35,15 @@ double BandMatrix::times(std::size_t i, std::span<const double> x) const {
   const auto r = row(i);
   return std::inner_product(r.begin(), r.end(), x.begin() + static_cast<std::ptrdiff_t>(first_[i]),
                             0.0);
+}
+
+std::vector<double> BandMatrix::transposed_times(std::span<const double> x) const {
+  std::vector<double> product(columns_);
+  for (std::size_t i = 0; i < rows(); ++i) {
+    const auto r = row(i);
+    for (std::size_t k = 0; k < r.size(); ++k) product[first_[i] + k] += r[k] * x[i];
+  }
+  return product;
 }
 
 BandMatrix BandMatrix::operator*(const BandMatrix& B) const {

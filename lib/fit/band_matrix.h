@@ -10,24 +10,30 @@ namespace rolling {
 class BandMatrix {
  public:
   static BandMatrix identity(std::size_t n);
-  void append(std::size_t first,
-              std::span<const double> values);  ///< zeros at either end are not kept
-  /// Appends x row i of X + y row i of Y.
+  /// Appends a row; zeros at either end of it are not stored.
+  void append(std::size_t first, std::span<const double> values);
+  /// Appends row i of X times x plus row i of Y times y.
   void append(std::size_t i, double x, const BandMatrix& X, double y, const BandMatrix& Y);
   std::size_t rows() const { return first_.size(); }
+  /// One more than the last column that a row reaches.
+  std::size_t columns() const { return columns_; }
   std::size_t first(std::size_t i) const { return first_[i]; }
   std::span<const double> row(std::size_t i) const {
     return {values_.data() + start_[i], start_[i + 1] - start_[i]};
   }
-  double times(std::size_t i,
-               std::span<const double> x) const;  ///< element i of the product with x
+  /// Element i of the product with x.
+  double times(std::size_t i, std::span<const double> x) const;
+  /// The product of the transposed matrix with x.
+  std::vector<double> transposed_times(std::span<const double> x) const;
   /// This matrix times B.
   BandMatrix operator*(const BandMatrix& B) const;
-  BandMatrix without(std::size_t before, std::size_t after) const;  ///< the first and the last rows
+  /// Without the first `before` and the last `after` rows.
+  BandMatrix without(std::size_t before, std::size_t after) const;
 
  private:
   std::vector<std::size_t> first_, start_{0};
   std::vector<double> values_;
+  std::size_t columns_ = 0;
 };
 
 }  // namespace rolling

@@ -1,5 +1,4 @@
-// Where the search of the trajectory routes begins.
-#include "fit/trajectory.h"
+#include "fit/first_guess.h"
 
 #include "base/error.h"
 
@@ -7,49 +6,48 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace rolling {
 namespace {
 
-/// The run as means of the records from each edge to the next.
-FittedRun means(const FittedRun& roll, bool position, const std::vector<std::size_t>& edges) {
-  FittedRun thin{.body = roll.body,
-                 .way = roll.way,
-                 .origin = roll.origin,
-                 .start = roll.start,
-                 .t = {},
-                 .y = {},
-                 .raw_t = {},
-                 .filters = {},
-                 .raw_is_position = position,
-                 .v0 = roll.v0,
-                 .x0 = roll.x0};
+/// The means of the records from each edge to the next.
+ObservedRun means(const ObservedRun& run, const std::vector<std::size_t>& edges) {
+  ObservedRun thin = run;
+  thin.t.clear();
+  thin.y.clear();
   for (auto edge = edges.begin(); edge + 1 != edges.end(); ++edge) {
     const auto mean = [&](const std::vector<double>& x) {
       return std::accumulate(x.begin() + static_cast<std::ptrdiff_t>(edge[0]),
                              x.begin() + static_cast<std::ptrdiff_t>(edge[1]), 0.0) /
              static_cast<double>(edge[1] - edge[0]);
     };
-    thin.t.push_back(mean(roll.t));
-    thin.y.push_back(mean(roll.y));
+    thin.t.push_back(mean(run.t));
+    thin.y.push_back(mean(run.y));
   }
   return thin;
 }
 
-/// The run thinned to at most 64 means, without a long rest at its end; and a coarse v0 and x0 from
-/// the way covered: v0 times the time of half the way is 0.5 to 0.7 of the way, whatever the law.
-FittedRun thinned(FittedRun& roll, bool position, const FitOptions& options) {
-  const std::size_t n = roll.t.size();
-  roll.x0 = options.x0.value_or(position ? roll.y[0] : 0);
+/// A run thinned to at most 64 means, without a long rest at its end, and a coarse v0 of it.
+struct Thinned {
+  ObservedRun run;
+  double v0;
+};
+
+/// v0 times the time of half the way is 0.59 of the whole way for a body that slows down evenly
+/// (b = 0) and rolls to its stop, and 0.69 for an exponential (b = 1). For larger b the way has no
+/// such measure; v0 is only the unit in which try_shape() finds the best one.
+Thinned thinned(const ObservedRun& run, const FitOptions& options) {
+  const std::size_t n = run.t.size();
+  const bool position = run.raw_is_position;
+  const double x0 = options.x0.value_or(position ? run.y[0] : 0);
   double most = 0;
-  const auto reached = [&](double goal) {  // the first record with that way; n if none has it, and
-                                           // then `most` is the longest way
+  // The first record that has come so far; n if none has, and then `most` is the longest way.
+  const auto reached = [&](double goal) {
     double way = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      if (position) way = roll.way * (roll.y[i] - roll.x0);
-      else if (i) way += roll.way * (roll.y[i] + roll.y[i - 1]) / 2 * (roll.t[i] - roll.t[i - 1]);
+      if (position) way = run.way * (run.y[i] - x0);
+      else if (i) way += run.way * (run.y[i] + run.y[i - 1]) / 2 * (run.t[i] - run.t[i - 1]);
       if (way >= goal) return i;
       most = std::max(most, way);
     }
@@ -58,16 +56,15 @@ FittedRun thinned(FittedRun& roll, bool position, const FitOptions& options) {
   reached(std::numeric_limits<double>::infinity());
   const std::size_t half = reached(0.5 * most), end = reached(0.95 * most);
   const double half_time =
-      roll.t[std::max<std::size_t>(half, n > 1)] - (position && options.x0 ? 0 : roll.t[0]);
-  roll.v0 = options.v0 ? std::abs(*options.v0) : 0.6 * most / half_time;
-  if (!(roll.v0 > 0) || !std::isfinite(roll.v0))
-    fail("the body does not move: a and b cannot be determined");
+      run.t[std::max<std::size_t>(half, n > 1)] - (position && options.x0 ? 0 : run.t[0]);
+  const double v0 = options.v0 ? std::abs(*options.v0) : 0.6 * most / half_time;
+  if (!(v0 > 0) || !std::isfinite(v0)) fail("the body does not move: a and b cannot be determined");
   const std::size_t used = std::min(n, end + std::max<std::size_t>(end / 3, 8)),
                     block = (used + 63) / 64;
   std::vector<std::size_t> edges;
   for (std::size_t i = 0; i < used; i += block) edges.push_back(i);
   edges.push_back(used);
-  return means(roll, position, edges);
+  return {means(run, edges), v0};
 }
 
 /// How well the thinned run follows the shape of (a, b) when v0 (as a factor) and x0 are taken as
@@ -75,8 +72,12 @@ FittedRun thinned(FittedRun& roll, bool position, const FitOptions& options) {
 struct Trial {
   double rss, factor, x0;
 };
-Trial try_shape(const FittedRun& thin, const FitOptions& options, bool position, PowerLaw law) {
-  const Trajectory trajectory(thin.body, options.geometry, law, thin.v0);
+Trial try_shape(const Thinned& of, const FitOptions& options, PowerLaw law) {
+  const ObservedRun& thin = of.run;
+  const bool position = thin.raw_is_position;
+  Body level = thin.body;
+  level.slope = 0;
+  const Trajectory trajectory(level, thin.geometry, law, of.v0);
   double mm = 0, my = 0, m_mean = 0, y_mean = 0;
   std::vector<double> m, y;
   for (std::size_t i = 0; i < thin.t.size(); ++i) {
@@ -101,106 +102,107 @@ Trial try_shape(const FittedRun& thin, const FitOptions& options, bool position,
   return trial;
 }
 
-/// Starting points from the data alone, best first: over a grid of b and of the time scale
-/// v/|dv/dt| at the start.
-std::vector<std::vector<double>> starts(const std::vector<FittedRun>& thin, const Parameters& q) {
-  const FitOptions& options = q.options;
+struct Candidate {
+  double rss;
+  PowerLaw law;
+  std::vector<double> v0, x0;
+};
+
+Candidate try_law(const std::vector<Thinned>& thin, const FitOptions& options, PowerLaw law) {
+  Candidate here{0, law, {}, {}};
+  for (const Thinned& run : thin) {
+    const Trial trial = try_shape(run, options, law);
+    if (!(trial.factor > 0)) fail("rolls the wrong way");
+    here.rss += trial.rss;
+    here.v0.push_back(trial.factor * run.v0);
+    here.x0.push_back(trial.x0);
+  }
+  return here;
+}
+
+/// Starting points from the data alone, best first: over a grid of b and of the first run's
+/// duration in units of its time scale v/|dv/dt| at the start.
+std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions& options) {
   std::vector<double> exponents{-0.5, 0, 0.25, 0.5, 1, 1.5, 2, 3};
   if (options.b || options.start_b) exponents = {options.b ? *options.b : *options.start_b};
-  struct Candidate {
-    double rss;
-    std::vector<double> theta;
-  };
+  const Body& body = thin.front().run.body;
+  const double duration = thin.front().run.t.back(), v0 = thin.front().v0;
   std::vector<Candidate> best;
   for (double b : exponents) {
     std::vector<double> as;
     if (options.a || options.start_a) as = {options.a ? *options.a : *options.start_a};
     else
-      for (double x = 0.01; x < 1000;
-           x *= 1.3) {  // x: the first run's duration in units of its time scale
-        const auto& [first, K] = std::tie(thin.front(), thin.front().body.K);
-        as.push_back(x / first.t.back() * std::pow(first.v0, 1 - b) * (K + 1) * first.body.R /
-                     first.body.g);
+      for (double x = 0.01; x < 1000; x *= 1.3)
+        as.push_back(x / duration * std::pow(v0, 1 - b) * (body.K + 1) * body.R / body.g);
+    Candidate nearest{std::numeric_limits<double>::infinity(), {}, {}, {}};
+    for (double a : as) try {
+        Candidate here = try_law(thin, options, {a, b});
+        if (here.rss < nearest.rss) nearest = std::move(here);
+      } catch (const Error&) {  // no such roll: no start
       }
-    Candidate candidate{std::numeric_limits<double>::infinity(), {}};
-    for (double a : as) {
-      Candidate here{0, std::vector<double>(q.count())};
-      if (!options.a) here.theta[q.a_at()] = std::log(a) + b * q.log_v_ref;
-      if (!options.b) here.theta.back() = b;
-      try {
-        for (std::size_t r = 0; r < thin.size(); ++r) {
-          const Trial trial = try_shape(thin[r], options, q.position, {a, b});
-          if (!(trial.factor > 0)) fail("rolls the wrong way");
-          here.rss += trial.rss;
-          if (!options.v0) here.theta[q.v0_at(r)] = trial.factor * thin[r].v0 / q.v_ref;
-          if (q.free_x0()) here.theta[q.x0_at(r)] = trial.x0 / q.x_ref;
-        }
-      } catch (const Error&) {  // D > R somewhere on the way: no start
-        continue;
-      }
-      if (here.rss < candidate.rss) candidate = std::move(here);
-    }
-    if (std::isfinite(candidate.rss)) best.push_back(std::move(candidate));
+    if (std::isfinite(nearest.rss)) best.push_back(std::move(nearest));
   }
   if (best.empty()) fail("no law a v^b comes near the data: a and b cannot be determined");
   std::sort(best.begin(), best.end(),
             [](const Candidate& x, const Candidate& y) { return x.rss < y.rss; });
-  std::vector<std::vector<double>> result;
-  for (auto& candidate : best) result.push_back(std::move(candidate.theta));
-  return result;
+  return best;
+}
+
+System unweighted(std::vector<ObservedRun> runs, const Parameters& q) {
+  return system_of(std::make_shared<const RollModel>(std::move(runs), q),
+                   std::make_shared<const Noise>());
 }
 
 /// Means of so many stretches of a long run follow its roll closely: at their minimum its own is
 /// all but reached.
 constexpr std::size_t longest = 4096;
 
-/// The best of the minima of the thinned runs that are reached from the three best starts; the best
-/// start if none is.
-std::vector<double> start(const std::vector<FittedRun>& thin, const Parameters& q) {
-  auto candidates = starts(thin, q);
-  if (candidates.size() > 3) candidates.resize(3);
-  std::vector<double> best = candidates.front();
-  if (candidates.size() == 1) return best;
-  const KnownNoise none;
-  const System system = system_of(thin, q, none);
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& candidate : candidates) try {
-      Minimum minimum = minimise(system, candidate);
-      if (minimum.rss < least) least = minimum.rss, best = std::move(minimum.theta);
-    } catch (const Error&) {  // the full data may do better
-    }
-  return best;
-}
-
 /// The minimum for as many means of neighbouring records as `longest` allows, most of the way to
 /// that for all; `theta` if there is none.
-std::vector<double> fit_means(const std::vector<FittedRun>& rolls, const Parameters& q,
+std::vector<double> fit_means(const std::vector<ObservedRun>& runs, const Parameters& q,
                               std::vector<double> theta) {
-  std::vector<FittedRun> few;
-  for (const FittedRun& roll : rolls) {
-    const std::size_t records = roll.t.size(), most = std::min(records, longest);
-    std::vector<std::size_t>
-        edges;  // of all but the same number of records: the means count the same
+  std::vector<ObservedRun> few;
+  for (const ObservedRun& run : runs) {
+    const std::size_t records = run.t.size(), most = std::min(records, longest);
+    std::vector<std::size_t> edges;  // of all but equal numbers of records: the means count alike
     for (std::size_t k = 0; k <= most; ++k) edges.push_back(k * records / most);
-    few.push_back(means(roll, q.position, edges));
+    few.push_back(means(run, edges));
   }
-  const KnownNoise none;
-  return approach(system_of(few, q, none), std::move(theta));
+  return approach(unweighted(std::move(few), q), std::move(theta));
 }
 
 }  // namespace
 
-std::vector<double> first_guess(std::vector<FittedRun>& rolls, Parameters& q) {
-  std::vector<FittedRun> thin;
+FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& options) {
+  std::vector<Thinned> thin;
+  std::vector<ObservedRun> thin_runs;
   std::size_t n = 0;
-  for (auto& roll : rolls) thin.push_back(thinned(roll, q.position, q.options)), n += roll.t.size();
-  q.v_ref = thin.front().v0 / 2;
-  q.log_v_ref = std::log(q.v_ref);
-  if (q.position)
-    q.x_ref = thin.front().v0 * std::max(thin.front().t.back(), std::numeric_limits<double>::min());
-  std::vector<double> theta = start(thin, q);
-  return n > longest * rolls.size() && !q.options.robust ? fit_means(rolls, q, std::move(theta))
-                                                         : theta;
+  for (const ObservedRun& run : runs) {
+    thin.push_back(thinned(run, options));
+    thin_runs.push_back(thin.back().run);
+    n += run.t.size();
+  }
+  const bool position = runs.front().raw_is_position;
+  const double v0 = thin.front().v0, duration = thin.front().run.t.back(),
+               x_ref = position ? v0 * std::max(duration, std::numeric_limits<double>::min()) : 1;
+  const Parameters q(options, position, runs.size(), v0 / 2, x_ref);
+
+  // The best of the minima of the thinned runs that are reached from the three best starts.
+  auto candidates = starts(thin, options);
+  if (candidates.size() > 3) candidates.resize(3);
+  const auto theta_of = [&](const Candidate& c) { return q.theta(c.law, c.v0, c.x0); };
+  std::vector<double> theta = theta_of(candidates.front());
+  double least = std::numeric_limits<double>::infinity();
+  if (candidates.size() > 1) {
+    const System system = unweighted(std::move(thin_runs), q);
+    for (const Candidate& candidate : candidates) try {
+        Minimum minimum = minimise(system, theta_of(candidate));
+        if (minimum.rss < least) least = minimum.rss, theta = std::move(minimum.theta);
+      } catch (const Error&) {  // all of the data may do better
+      }
+  }
+  if (n > longest * runs.size() && !options.robust) theta = fit_means(runs, q, std::move(theta));
+  return {q, std::move(theta)};
 }
 
 }  // namespace rolling

@@ -1,109 +1,17 @@
 #include "fit/fit.h"
 
-#include "base/error.h"
-#include "fit/routes.h"
-
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "base/error.h"
+#include "fit/errors.h"
+#include "fit/first_guess.h"
+#include "fit/model_shift.h"
+#include "fit/sensor_filters.h"
+
 namespace rolling {
-namespace {
-
-double sum_of_squares(const std::vector<double>& f) {
-  return std::inner_product(f.begin(), f.end(), f.begin(), 0.0);
-}
-
-bool taken_as_white(const RouteFit& r) { return r.minimum.f.size() < 30 || !(r.whiteness <= 0.01); }
-
-FitResult conclude(const RouteFit& r) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::size_t n = r.minimum.f.size(), p = r.minimum.theta.size(), q = r.a.gradient.size();
-  FitResult result{.a = r.a.value,
-                   .sigma_a = nan,
-                   .b = r.b.value,
-                   .sigma_b = nan,
-                   .corr = 0,
-                   .rms = nan,
-                   .n = n,
-                   .left_out = r.left_out,
-                   .whiteness = nan,
-                   .v0 = {},
-                   .sigma_v0 = {},
-                   .x0 = {},
-                   .sigma_x0 = {},
-                   .errors = Errors::none};
-  std::vector<double> middle(r.minimum.R.size(), nan);
-  if (n > p) {
-    result.rms = std::sqrt((r.plain.empty() ? r.minimum.rss : sum_of_squares(r.plain)) /
-                           static_cast<double>(n - p));
-    result.whiteness = r.whiteness;
-    const bool white = taken_as_white(r);
-    if (white && !r.noise.empty() && !r.judged) {
-      middle = r.noise.middle(r.minimum.f, r.Q, r.shared);
-      result.errors = Errors::filters;
-    } else if (white) {
-      for (std::size_t i = 0; i < middle.size(); ++i)
-        middle[i] = i % (q * q) % (q + 1) ? 0 : r.minimum.rss / static_cast<double>(n - p);
-      result.errors = r.judged ? Errors::differences : Errors::classical;
-    } else {
-      std::vector<double> scores = r.Q;
-      for (std::size_t i = 0; i < scores.size(); ++i) scores[i] *= r.minimum.f[i / q];
-      middle = newey_west(scores, p, r.minimum.f, r.runs);
-      add_shared(middle, q, r.shared);
-      for (double& x : middle) x *= static_cast<double>(n) / static_cast<double>(n - p);
-      result.errors = Errors::autocorrelation;
-    }
-  }
-  const Spread covariance(r.minimum.R, middle, q);
-  const auto fixed = [](const Quantity& x) { return sum_of_squares(x.gradient) == 0; };
-  const auto sigma = [&](const Quantity& x, std::size_t run = 0) {
-    return fixed(x) ? 0 : std::sqrt(covariance(x.gradient, x.gradient, run));
-  };
-  result.sigma_a = sigma(r.a);
-  result.sigma_b = sigma(r.b);
-  if (!fixed(r.a) && !fixed(r.b) && result.sigma_a != 0 && result.sigma_b != 0)
-    result.corr = covariance(r.a.gradient, r.b.gradient) / (result.sigma_a * result.sigma_b);
-  for (const auto& v0 : r.v0)
-    result.v0.push_back(v0.value), result.sigma_v0.push_back(sigma(v0, result.sigma_v0.size()));
-  for (const auto& x0 : r.x0)
-    result.x0.push_back(x0.value), result.sigma_x0.push_back(sigma(x0, result.sigma_x0.size()));
-  for (double x : {result.a, result.b})
-    if (!std::isfinite(x)) fail("the fit gives no finite a and b");
-  if (result.errors != Errors::none)
-    for (double x : {result.sigma_a, result.sigma_b, result.corr, result.rms})
-      if (!std::isfinite(x)) fail("the fit gives no finite errors of a and b");
-  if (result.sigma_b > 3)
-    fail("the data do not determine b: it comes out as {:.3g} +- {:.2g}", result.b, result.sigma_b);
-  return result;
-}
-
-}  // namespace
-
-bool assess(const System& system, RouteFit& r) {
-  // Of the weighted residuals, where weighting makes them white. The weights of loglog and shift
-  // are not the inverse of their covariance.
-  const bool weighted_white = r.noise.empty() || !r.rolls.empty();
-  r.whiteness = weighted_white ? ljung_box(r.minimum.f, r.minimum.theta.size(), r.runs)
-                               : std::numeric_limits<double>::quiet_NaN();
-  const bool white = taken_as_white(r);
-  r.shared = system.shared;
-  if (r.minimum.f.size() > r.minimum.theta.size() && (!white || (!r.noise.empty() && !r.judged)))
-    r.Q = orthonormal(system, r.minimum);
-  return white;
-}
-
-RouteFit fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
-  if (options.a && !(*options.a > 0))
-    fail("a = {} cannot be held: it must be positive", *options.a);
-  if (route == Route::loglog) return fit_log_log(runs, options);
-  if (route == Route::shift) return fit_shift(runs, options);
-  return fit_trajectory(route, runs, options);
-}
-
-FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
-  return conclude(fit_route(route, runs, options));
-}
 
 void require_records(std::size_t n, std::size_t p) {
   if (n == 0) fail("no record can be fitted");
@@ -119,6 +27,210 @@ Minimum solve(const System& system, const std::vector<double>& start, const FitO
         "robust fits judge single records, but filters have spread each outlier over many: fit the "
         "raw column");
   return minimise_robust(system, start);
+}
+
+namespace {
+
+/// The runs as positions or speeds that stand for themselves, for a first guess: a shift is
+/// guessed from its speeds.
+std::vector<ObservedRun> without_filters(Route route, std::vector<ObservedRun> runs,
+                                         const std::vector<FitRun>& all,
+                                         const std::vector<Rows>& rows) {
+  const bool position = route == Route::position;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    ObservedRun& run = runs[r];
+    run.H.reset();
+    run.with_mean_speed = false;
+    run.raw_is_position = position;
+    run.t.clear();
+    run.y.clear();
+    for (std::size_t i : rows[r]) {
+      run.t.push_back(all[r].t[i] - run.origin);
+      run.y.push_back(position ? all[r].x[i] : all[r].v[i]);
+    }
+  }
+  return runs;
+}
+
+/// Takes the records that are slower than the limit from the rows; whether there were any. Only
+/// the fitted roll knows the speeds: noisy ones would choose by their noise.
+bool leave_out_slow(const RollModel& model, const std::vector<double>& theta,
+                    const std::vector<FitRun>& all, std::vector<Rows>& rows, double limit) {
+  std::size_t slow = 0;
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    const Trajectory fitted = model.trajectory(theta, r);
+    slow += std::erase_if(rows[r], [&](std::size_t i) {
+      return fitted.speed_at(all[r].t[i] - model.runs()[r].origin).v < limit;
+    });
+  }
+  return slow > 0;
+}
+
+/// The numbers that are reported of a fitted roll.
+void report(Fitted& fit, const std::vector<double>& theta) {
+  const Parameters& q = fit.rolls->parameters();
+  const PowerLaw law = q.law(theta);
+  const auto quantity = [&](double value, const Parameters::Derivatives& by) {
+    Quantity here{value, std::vector<double>(q.columns())};
+    q.chain(here.gradient.data(), 1, law.a, by);
+    return here;
+  };
+  fit.a = quantity(law.a, {1, 0});
+  fit.b = quantity(law.b, {0, 1});
+  if (q.fits_slope()) fit.slope = quantity(q.slope(theta, 0), {0, 0, 0, 0, 1});
+  const auto& runs = fit.rolls->runs();
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const double way = runs[r].way;
+    const auto s = fit.rolls->trajectory(theta, r).speed_at(runs[r].start);
+    fit.v0.push_back(quantity(way * s.v, {way * s.v_a, way * s.v_b, way * s.v_v0, 0, s.v_S}));
+    fit.records += runs[r].records();
+  }
+}
+
+/// What the residuals tell of the noise; and their sum of squares as they stand.
+void explain(Fitted& fit, const std::vector<double>& theta) {
+  const auto& runs = fit.rolls->runs();
+  system_of(fit.rolls, std::make_shared<const Noise>())
+      .evaluate(theta, [&](std::size_t r, std::span<double> f, std::span<double>) {
+        const double rss =
+            std::inner_product(f.begin(), f.end() - runs[r].with_mean_speed, f.begin(), 0.0);
+        fit.rss += rss * runs[r].unit * runs[r].unit;
+      });
+  if (!fit.noise->known() || fit.noise_inferred) return;
+  fit.sources = fit.noise->explain(fit.minimum.f);
+  fit.source_runs = fit.noise->sources();
+  fit.innovations = fit.noise->innovations(fit.minimum.f, fit.innovation_runs);
+}
+
+}  // namespace
+
+Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows,
+                 const Making& making, const FitOptions& options,
+                 std::optional<double> white_share) {
+  Fitted fit{};
+  fit.noise_inferred = white_share.has_value();
+  std::optional<FirstGuess> guess;
+  for (int round = 0; round < 4; ++round) {  // without the slow records, once they are known
+    auto runs = observe(route, all, rows, making, options);
+    const std::size_t n =
+        std::accumulate(rows.begin(), rows.end(), std::size_t{0},
+                        [](std::size_t sum, const Rows& of_run) { return sum + of_run.size(); });
+    if (!guess) {
+      const auto plain = without_filters(route, runs, all, rows);
+      require_records(n + plain.size() * (route == Route::shift),
+                      plain.size() * (!options.v0 + (route == Route::position && !options.x0)) +
+                          !options.a + !options.b + options.fit_slope);
+      guess = first_guess(plain, options);
+    }
+    fit.noise = noise_of(runs, white_share.value_or(floor_share));
+    fit.rolls = std::make_shared<const RollModel>(std::move(runs), guess->parameters);
+    fit.system = system_of(fit.rolls, fit.noise);
+    fit.minimum = solve(fit.system, guess->theta, options, making.known());
+    guess->theta = fit.minimum.theta;
+    if (options.min_speed <= 0 ||
+        !leave_out_slow(*fit.rolls, guess->theta, all, rows, options.min_speed))
+      break;
+  }
+  report(fit, guess->theta);
+  explain(fit, guess->theta);
+  for (const FitRun& run : all) fit.left_out += run.t.size();
+  fit.left_out -= fit.records;
+  return fit;
+}
+
+namespace {
+
+/// The records that a route can fit to a roll. Those of a shift must have a speed along the way.
+std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
+  std::vector<Rows> rows;
+  for (const FitRun& run : all) {
+    const auto& y = route == Route::position ? run.x : run.v;
+    double sum = 0;
+    for (double v : y)
+      if (std::isfinite(v)) sum += v;
+    const double way = sum < 0 ? -1 : 1;
+    Rows& of_run = rows.emplace_back();
+    for (std::size_t i = 0; i < y.size(); ++i)
+      if (std::isfinite(y[i]) &&
+          (route != Route::shift || (way * y[i] > 0 && std::isfinite(run.D[i]))))
+        of_run.push_back(i);
+  }
+  return rows;
+}
+
+Fitted fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOptions& options) {
+  const Making making = making_of(route, all);
+  const auto rows = usable(route, all);
+  Fitted fit = fit_rolls(route, all, rows, making, options);
+  if (route == Route::velocity && !making.known() && !options.robust &&
+      !options.possible_filters.empty() && fit.minimum.f.size() >= 30)
+    if (auto differences = fit_differences(all, rows, options, fit)) return *std::move(differences);
+  return fit;
+}
+
+}  // namespace
+
+Fitted fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+  if (options.a && !(*options.a > 0))
+    fail("a = {} cannot be held: it must be positive", *options.a);
+  const bool roll = route == Route::velocity || route == Route::position ||
+                    (route == Route::shift && making_of(route, runs).known());
+  if (options.fit_slope && !roll)
+    fail("the slope shows in a roll alone: on this route `##` lines must tell how D was made");
+  if (route == Route::loglog) return fit_log_log(runs, options);
+  if (!roll) return fit_shift(runs, options);
+  return fit_trajectory(route, runs, options);
+}
+
+FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+  const Fitted found = fit_route(route, runs, options);
+  const Uncertainty errors = uncertainty_of(found);
+  const std::size_t n = found.minimum.f.size(), p = found.minimum.theta.size();
+  const auto sigma = [&](const Quantity& x, std::size_t run = 0) {
+    const bool fixed =
+        std::all_of(x.gradient.begin(), x.gradient.end(), [](double slope) { return slope == 0; });
+    return fixed ? 0 : std::sqrt(errors.covariance(x.gradient, x.gradient, run));
+  };
+  FitResult result{.a = found.a.value,
+                   .sigma_a = sigma(found.a),
+                   .b = found.b.value,
+                   .sigma_b = sigma(found.b),
+                   .corr = 0,
+                   .rms = std::numeric_limits<double>::quiet_NaN(),
+                   .n = found.records,
+                   .left_out = found.left_out,
+                   .whiteness = errors.whiteness,
+                   .v0 = {},
+                   .sigma_v0 = {},
+                   .errors = errors.kind};
+  if (n > p) result.rms = std::sqrt(found.rss / static_cast<double>(n - p));
+  if (result.sigma_a != 0 && result.sigma_b != 0)
+    result.corr =
+        errors.covariance(found.a.gradient, found.b.gradient) / (result.sigma_a * result.sigma_b);
+  if (route == Route::velocity || route == Route::position)
+    for (const auto& v0 : found.v0) {
+      result.sigma_v0.push_back(sigma(v0, result.v0.size()));
+      result.v0.push_back(v0.value);
+    }
+  for (double x : {result.a, result.b})
+    if (!std::isfinite(x)) fail("the fit gives no finite a and b");
+  if (result.errors != Errors::none)
+    for (double x : {result.sigma_a, result.sigma_b, result.corr, result.rms})
+      if (!std::isfinite(x)) fail("the fit gives no finite errors of a and b");
+  if (found.slope) {
+    result.slope = found.slope->value;
+    result.sigma_slope = sigma(*found.slope);
+    // Far from a linear problem the errors themselves mean little.
+    if (!(result.sigma_a < result.a / 10) || !(result.sigma_b < 0.1))
+      fail(
+          "a slope of the mat and its law slow the body down alike, and these runs do not tell "
+          "them "
+          "apart (a comes out as {:.3g} +- {:.2g}): add runs in the other direction",
+          result.a, result.sigma_a);
+  }
+  if (result.sigma_b > 3)
+    fail("the data do not determine b: it comes out as {:.3g} +- {:.2g}", result.b, result.sigma_b);
+  return result;
 }
 
 }  // namespace rolling

@@ -2,20 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace rolling {
+
 namespace {
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return std::midpoint(*std::max_element(values.begin(), middle), *middle);
+Width at_least_11(Width width) {
+  constexpr std::size_t least = 11;
+  width.least = least;
+  if (width.seconds == 0) width.samples = std::max(width.samples, least);
+  return width;
 }
 
 }  // namespace
+
+Hampel::Hampel(Width width, double threshold)
+    : windows_(at_least_11(width), Windows::Ends::cut), threshold_(threshold) {}
 
 std::span<const Judged> Hampel::push(double t, double y) {
   const double step = std::abs(y - last_);
@@ -33,12 +36,11 @@ std::span<const Judged> Hampel::finish() {
 std::span<const Judged> Hampel::judge() {
   judged_.clear();
   while (windows_.next()) {
-    work_.clear();
-    for (std::size_t i = windows_.begin(); i < windows_.end(); ++i)
-      work_.push_back(windows_.sample(i).y);
-    const double centre = median(work_);
-    for (double& y : work_) y = std::abs(y - centre);
-    const double scale = std::max(1.4826 * median(work_), step_);
+    windows_.slide(
+        begin_, end_, [this](const Sample& s) { sorted_.insert(s.y); },
+        [this](const Sample& s) { sorted_.erase(s.y); });
+    const double centre = sorted_.median();
+    const double scale = std::max(1.4826 * sorted_.median_distance(centre), step_);
     const Sample& s = windows_.sample(windows_.at());
     judged_.push_back({s.t, s.y, std::abs(s.y - centre) <= threshold_ * scale});
   }

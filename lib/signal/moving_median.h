@@ -1,9 +1,9 @@
 // The median over a centred window, which at the ends of a run shrinks symmetrically: a straight
-// line, indeed anything that only rises or only falls, comes out as itself. The window is kept
-// sorted: O(w) moves a sample, in one block of memory.
+// line, indeed anything that only rises or only falls, comes out as itself. O(sqrt w) a sample.
 #pragma once
 
 #include "signal/signal.h"
+#include "signal/sorted_window.h"
 
 namespace rolling {
 
@@ -15,7 +15,7 @@ class MovingMedian : public WindowedSignal<MovingMedian> {
   double value(const Windows&);
 
  private:
-  std::vector<double> sorted_;
+  SortedWindow sorted_;
   std::size_t begin_ = 0, end_ = 0;  // the samples in sorted_
 };
 

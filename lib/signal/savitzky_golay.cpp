@@ -48,6 +48,7 @@ LocalPolynomial::Point LocalPolynomial::operator()(std::span<const Sample> sampl
 
 SavitzkyGolay::SavitzkyGolay(Width width, std::size_t order, What what)
     : WindowedSignal(width, Windows::Ends::stay), order_(order), what_(what) {
+  if (order > most_order) fail("a polynomial of order {}: at most {}", order, most_order);
   if (width.seconds == 0 && order >= width.samples)
     fail("a polynomial of order {} needs a window of more than {} samples", order, width.samples);
 }

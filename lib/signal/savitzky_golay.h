@@ -26,8 +26,11 @@ class LocalPolynomial {
 class SavitzkyGolay : public WindowedSignal<SavitzkyGolay> {
  public:
   enum class What { value, slope };
-  /// Throws Error for an even width, and for an order that a window of so many samples does not
-  /// determine.
+  /// The greatest order: beyond it the recurrence of the orthogonal polynomials loses digits where
+  /// the order is near the number of samples (none that matters up to 10; half of them at 30).
+  static constexpr std::size_t most_order = 10;
+  /// Throws Error for an even width, and for an order above that, or that a window of so many
+  /// samples does not determine.
   SavitzkyGolay(Width, std::size_t order, What);
   /// Throws Error for the slope in a window of one sample.
   double value(const Windows&);

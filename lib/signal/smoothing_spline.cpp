@@ -70,6 +70,11 @@ std::span<const double> SplineDerivative::finish() {
   if (n == 0) return {};
   if (n == 1) fail("a run of one record has no derivative");
   const double unit = (t_.back() - t_.front()) / static_cast<double>(n - 1);
+  // A power of two brings the readings near 1, so that no square leaves the range of doubles.
+  double largest = 0;
+  for (const double y : y_) largest = std::max(largest, std::abs(y));
+  const int scale = largest > 0 ? std::ilogb(largest) : 0;
+  for (double& y : y_) y = std::ldexp(y, -scale);
   for (std::size_t i = 0; i + 1 < n; ++i) h_.push_back((t_[i + 1] - t_[i]) / unit);
   const std::size_t m = n - 2;
   qy_.resize(m), q0_.resize(m), q1_.resize(m), q2_.resize(m), D_.resize(m), L1_.resize(m),
@@ -116,6 +121,7 @@ std::span<const double> SplineDerivative::finish() {
   slopes_.push_back(((value(n - 1) - value(n - 2)) / h_[n - 2] +
                      h_[n - 2] * (bend(n - 2) + 2 * bend(n - 1)) / 6) /
                     unit);
+  for (double& slope : slopes_) slope = std::ldexp(slope, scale);
   return slopes_;
 }
 

@@ -27,7 +27,7 @@ std::size_t samples_within(Width width, std::span<const double> t) {
 }
 
 void Windows::make_room() {
-  first_ = std::max(first_, width_.seconds > 0 ? left_ : begin_);  // neither falls
+  first_ = std::max(first_, width_.seconds > 0 ? std::min(left_, begin_) : begin_);
   if (count_ - first_ < ring_.size()) return;
   std::vector<Sample> larger(2 * ring_.size());
   for (std::size_t i = first_; i < count_; ++i) larger[i & (larger.size() - 1)] = sample(i);
@@ -72,7 +72,12 @@ bool Windows::by_time(std::size_t i) {
   const bool complete = right_ < count_ || finished_;
   begin_ = left_;
   end_ = right_;
-  if (ends_ != Ends::shrink) return complete;
+  if (ends_ == Ends::stay) return complete;
+  if (ends_ == Ends::cut) {
+    begin_ = std::min(begin_, i - std::min(i, width_.least / 2));
+    end_ = std::min(std::max(end_, i + width_.least / 2 + 1), count_);
+    return complete && (i + width_.least / 2 < count_ || finished_);
+  }
   const std::size_t k = std::min(i - left_, right_ - 1 - i);
   begin_ = i - k;
   end_ = i + k + 1;

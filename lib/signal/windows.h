@@ -21,6 +21,7 @@ struct Sample {
 struct Width {
   std::size_t samples = 11;
   double seconds = 0;
+  std::size_t least = 1;  ///< samples, odd, that a window of seconds has all the same if it is cut
 };
 
 /// A window about a sample of a run with these times reaches at most this many samples to either

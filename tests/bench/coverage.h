@@ -29,6 +29,9 @@ struct Case {
       nullptr;            ///< or v from x by a sensor's software, of which no line tells
   double resolution = 0;  ///< positions are rounded to this [m]
   double outliers = 0;    ///< share of readings that are false echoes
+  double lost = 0;        ///< share of records that are missing
+  double growth = 0;      ///< the noise grows along the run by so many times its size
+  double AR = 0;          ///< correlation of the noise from one reading to the next
   bool bound = false;     ///< white noise on the fitted column: the Cramer-Rao bound holds
 };
 
@@ -70,12 +73,17 @@ inline Column logger_pro(const Column& x) {
   return v;
 }
 
-inline std::vector<std::string> to_shift(Case::Raw raw, int width) {
+inline std::vector<std::string> to_shift(Case::Raw raw, const std::string& smooth,
+                                         const std::string& differentiate = "central") {
   std::vector<std::string> lines;
   if (raw == Case::x) lines.push_back("differentiate x central");
-  lines.push_back("smooth v mean width " + std::to_string(width));
-  lines.insert(lines.end(), {"differentiate v central", "shift-from-accel K 0.5 R 0.04 g 9.81"});
+  if (!smooth.empty()) lines.push_back("smooth v " + smooth);
+  lines.insert(lines.end(),
+               {"differentiate v " + differentiate, "shift-from-accel K 0.5 R 0.04 g 9.81"});
   return lines;
+}
+inline std::vector<std::string> to_shift(Case::Raw raw, int width) {
+  return to_shift(raw, "mean width " + std::to_string(width));
 }
 
 struct Scene {
@@ -88,8 +96,11 @@ inline const rolling::Body cylinder{1.375, 0.04, 0.5};
 struct Row {
   double bias_a = 0, bias_b = 0;    ///< in standard deviations of one run
   double sd_b = 0, over_bound = 0;  ///< of b; over the Cramer-Rao bound, 0 where it does not apply
+  double percent_a = 0;             ///< bias of a in per cent of a
   double cover_a = 0, cover_b = 0;  ///< share of runs whose 95 % interval holds the truth
-  int far = 0;  ///< runs further than 6 of their own standard errors from the truth
+  double sigma_a = 0, sigma_b = 0;  ///< root of the mean square of the standard errors, over the sd
+  double told = 0;  ///< share of runs whose errors are not those of white noise through the filters
+  int far = 0;      ///< runs further than 6 of their own standard errors from the truth
   int refused = 0;
   double seconds = 0;  ///< per fit
 };
@@ -112,42 +123,67 @@ inline double bound_of_b(const rolling::Trajectory& roll, std::size_t n, bool po
   return (position ? noise_x : noise_v) / std::sqrt(A[p - 1][p - 1]);
 }
 
+/// A run of readings with noise, and what the filters make of them.
+class Simulation {
+ public:
+  Simulation(const Case& c, const rolling::Trajectory& truth, unsigned seed)
+      : c_(c), truth_(truth), n_(static_cast<std::size_t>(truth.stop_time() / dt) + 1),
+        noise_(seed), random_(seed + 1) {}
+  std::size_t records() const { return n_; }
+
+  rolling::FitRun next() {
+    rolling::FitRun run{};
+    run.body = cylinder;
+    Column raw;
+    double error = 0;
+    for (std::size_t i = 0; i < n_; ++i) {
+      const double t = dt * static_cast<double>(i), share = t / truth_.stop_time();
+      const auto s = truth_.at(t);
+      const double size = (c_.raw == Case::x ? noise_x : noise_v) * (1 + c_.growth * share);
+      error = c_.AR * error + noise_(i == 0 ? 1 : std::sqrt(1 - c_.AR * c_.AR));
+      double y = (c_.raw == Case::x ? s.x : s.v) + size * error;
+      if (c_.resolution > 0) y = c_.resolution * std::round(y / c_.resolution);
+      if (uniform() < c_.outliers) y += uniform() - 0.5;
+      if (i > 0 && uniform() < c_.lost) continue;
+      run.t.push_back(t);
+      raw.push_back(y);
+    }
+    run.x = run.v = run.D = raw;
+    if (c_.unknown) run.v = c_.unknown(raw);
+    if (c_.history.empty()) return run;
+    rolling::History history = rolling::history_of(c_.history, run.t);
+    run.filters = std::move(history.filters);
+    run.shift_of = history.shift_of;
+    std::map<std::string, Column> columns{{c_.raw == Case::x ? "x" : "v", raw}};
+    for (const auto& filter : run.filters)
+      columns[filter.to] = filter.apply(run.t, columns[filter.from]);
+    run.v = columns["v"];
+    run.D = columns["D"];
+    for (double& D : run.D) D *= -(1 + cylinder.K) * cylinder.R / cylinder.g;
+    return run;
+  }
+
+ private:
+  double uniform() { return static_cast<double>(random_()) / 4294967296.0; }
+
+  const Case& c_;
+  const rolling::Trajectory& truth_;
+  std::size_t n_;
+  simulated::Noise noise_;
+  std::mt19937 random_;
+};
+
 inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
   const rolling::Trajectory truth(cylinder, rolling::Geometry::approximate, {scene.a, scene.b},
                                   0.5);
-  const bool trajectory = c.route == Route::velocity || c.route == Route::position;
-  const auto n = static_cast<std::size_t>(truth.stop_time() / dt) + 1;
-  rolling::FitRun run{};
-  run.body = cylinder;
-  Column clean;
-  for (std::size_t i = 0; i < n; ++i) {
-    run.t.push_back(dt * static_cast<double>(i));
-    const auto s = truth.at(run.t.back());
-    clean.push_back(c.raw == Case::x ? s.x : s.v);
-  }
-  run.filters = rolling::filters_of(c.history, run.t);
   rolling::FitOptions options;
   options.robust = c.outliers > 0;
   options.possible_filters = rolling::filters_of_sensors();
-  simulated::Noise noise(seed);
-  std::mt19937 echo(seed + 1);
-  const auto uniform = [&] { return static_cast<double>(echo()) / 4294967296.0; };
+  Simulation simulation(c, truth, seed);
   Row row;
   std::vector<double> as, bs;
   for (int k = 0; k < runs; ++k) {
-    Column raw = clean;
-    for (double& y : raw) {
-      y += noise(c.raw == Case::x ? noise_x : noise_v);
-      if (c.resolution > 0) y = c.resolution * std::round(y / c.resolution);
-      if (uniform() < c.outliers) y += uniform() - 0.5;
-    }
-    run.x = run.v = run.D = raw;
-    if (c.unknown) run.v = c.unknown(raw);
-    std::map<std::string, Column> columns{{c.raw == Case::x ? "x" : "v", raw}};
-    for (const auto& filter : run.filters)
-      columns[filter.to] = filter.apply(run.t, columns[filter.from]);
-    if (!run.filters.empty()) run.v = columns["v"];
-    if (!trajectory) run.D = columns["D"];
+    const rolling::FitRun run = simulation.next();
     const auto begin = std::chrono::steady_clock::now();
     try {
       const auto r = rolling::fit(c.route, {run}, options);
@@ -155,6 +191,10 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
       row.cover_a += std::abs(a) < 1.96;
       row.cover_b += std::abs(b) < 1.96;
       row.far += std::abs(b) > 6 || std::abs(a) > 6;
+      row.told +=
+          r.errors == rolling::Errors::autocorrelation || r.errors == rolling::Errors::uneven;
+      row.sigma_a += r.sigma_a * r.sigma_a;
+      row.sigma_b += r.sigma_b * r.sigma_b;
       as.push_back(r.a - scene.a);
       bs.push_back(r.b - scene.b);
     } catch (const rolling::Error&) {
@@ -171,11 +211,16 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
     bias = sum / fits / sd;
     return sd;
   };
-  moments(as, row.bias_a);
+  const double sd_a = moments(as, row.bias_a);
+  row.percent_a = 100 * row.bias_a * sd_a / scene.a;
   row.sd_b = moments(bs, row.bias_b);
-  if (c.bound) row.over_bound = row.sd_b / bound_of_b(truth, n, c.route == Route::position);
+  if (c.bound)
+    row.over_bound = row.sd_b / bound_of_b(truth, simulation.records(), c.route == Route::position);
+  row.sigma_a = std::sqrt(row.sigma_a / fits) / sd_a;
+  row.sigma_b = std::sqrt(row.sigma_b / fits) / row.sd_b;
   row.cover_a /= runs;
   row.cover_b /= runs;
+  row.told /= runs;
   return row;
 }
 
@@ -201,6 +246,28 @@ inline std::vector<Case> cases() {
       {.name = "x, 1 % outliers", .route = Route::position, .outliers = 0.01},
       {.name = "v, 1 % outliers", .route = Route::velocity, .raw = Case::v, .outliers = 0.01},
   };
+  const auto shift = [&](const char* name, std::vector<std::string> history, double lost = 0,
+                         double AR = 0, double growth = 0) {
+    all.push_back({.name = name,
+                   .route = Route::shift,
+                   .history = std::move(history),
+                   .lost = lost,
+                   .growth = growth,
+                   .AR = AR});
+  };
+  shift("D from x, mean 11", to_shift(Case::x, 11));
+  shift("D from x, 5 % lost", to_shift(Case::x, 11), 0.05);
+  shift("D from x, 10 % lost", to_shift(Case::x, 11), 0.1);
+  shift("D from x, 20 % lost", to_shift(Case::x, 11), 0.2);
+  shift("D from x, savgol 31", to_shift(Case::x, "", "savgol width 31 order 2"));
+  shift("D from x, savgol 31, 10 % lost", to_shift(Case::x, "", "savgol width 31 order 2"), 0.1);
+  shift("D from x, AR(1) 0.8", to_shift(Case::x, 11), 0, 0.8);
+  shift("D from x, noise grows", to_shift(Case::x, 11), 0, 0, 10);
+  all.push_back({.name = "x, AR(1) 0.8", .route = Route::position, .AR = 0.8});
+  all.push_back({.name = "x, AR(1) 0.95", .route = Route::position, .AR = 0.95});
+  all.push_back({.name = "x, noise grows", .route = Route::position, .growth = 10});
+  all.push_back({.name = "x, 10 % lost", .route = Route::position, .lost = 0.1});
+  all.push_back({.name = "v, AR(1) 0.8", .route = Route::velocity, .raw = Case::v, .AR = 0.8});
   static const char* const names[][4] = {
       {"D from v, W 5", "D from v, W 9", "D from v, W 15", "D from v, W 31"},
       {"D from x, W 5", "D from x, W 9", "D from x, W 15", "D from x, W 31"}};

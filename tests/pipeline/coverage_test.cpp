@@ -13,37 +13,72 @@ coverage::Case find(const std::string& name, rolling::Route route) {
 
 }  // namespace
 
-// Of 200 intervals of 95 %, fewer than 178 or all 200 hold by chance in 0.02 % and 0.004 %
-// (binomial).
-TEST_CASE("coverage: 95 % intervals of a and b hold the truth, no run is far off, on every route",
-          "[fit]") {
+// Of 400 intervals of 95 %, fewer than 363 or more than 395 hold by chance in 0.02 % each
+// (binomial), and the spread of 400 estimates scatters by 3.5 %: errors that are 15 % too large or
+// too small do not pass.
+TEST_CASE(
+    "coverage: standard errors are the spread of the estimates, 95 % intervals hold the truth",
+    "[fit]") {
   using rolling::Route;
   const std::pair<const char*, Route> cases[] = {
-      {"white x", Route::position},         {"white v", Route::velocity},
-      {"v from x, known", Route::velocity}, {"v by Capstone", Route::velocity},
-      {"x to 1 mm", Route::position},       {"x, 1 % outliers", Route::position},
-      {"D from x, W 15", Route::shift},     {"D from x, W 9", Route::loglog}};
+      {"white x", Route::position},          {"white v", Route::velocity},
+      {"v from x, known", Route::velocity},  {"x to 1 mm", Route::position},
+      {"x, 1 % outliers", Route::position},  {"D from x, W 15", Route::shift},
+      {"D from x, 10 % lost", Route::shift}, {"D from x, savgol 31", Route::shift}};
   for (const auto& [name, route] : cases) {
-    const auto row = coverage::measure(find(name, route), coverage::CR, 200, 42);
-    CAPTURE(name, row.bias_a, row.bias_b, row.sd_b, row.cover_a, row.cover_b, row.refused);
-    CHECK(row.cover_a >= 0.89);
-    CHECK(row.cover_b >= 0.89);
-    CHECK(row.cover_b < 1);
+    const auto row = coverage::measure(find(name, route), coverage::CR, 400, 42);
+    CAPTURE(name, row.bias_a, row.bias_b, row.sd_b, row.cover_a, row.cover_b, row.refused,
+            row.sigma_a, row.sigma_b);
+    for (const double cover : {row.cover_a, row.cover_b}) {
+      CHECK(cover >= 363. / 400);
+      CHECK(cover <= 395. / 400);
+    }
+    for (const double ratio : {row.sigma_a, row.sigma_b}) {
+      CHECK(ratio > 0.9);
+      CHECK(ratio < 1.12);
+    }
     CHECK(row.far == 0);
-    CHECK(std::abs(row.bias_b) <
-          0.33);  // in sd of one run: 0.1, and 3.3 times the chance 1/sqrt(200)
-    if (row.over_bound > 0)
-      CHECK(row.over_bound < 1.17);  // 1.0, and 3.3 times the scatter 1/sqrt(400) of a spread
+    CHECK(row.refused == 0);
+    CHECK(std::abs(row.bias_b) < 3.3 / 20);  // in sd of one run: 3.3 times the chance 1/sqrt(400)
+    if (row.over_bound > 0) CHECK(std::abs(row.over_bound - 1) < 3.3 / std::sqrt(800));
   }
 }
 
-// Without what the logarithm adds to the noise of a small D, 0.73 of 1000 intervals of this case
-// hold; with it 0.98.
-TEST_CASE("coverage: the errors of loglog hold what the bent logarithm adds to the noise",
-          "[fit]") {
+TEST_CASE("coverage: differences that only the residuals show", "[fit]") {
   const auto row =
-      coverage::measure(find("D from x, W 5", rolling::Route::loglog), coverage::CF, 200, 42);
-  CAPTURE(row.cover_a, row.cover_b);
-  CHECK(row.cover_a >= 0.89);
-  CHECK(row.cover_b >= 0.89);
+      coverage::measure(find("v by Capstone", rolling::Route::velocity), coverage::CR, 200, 42);
+  CAPTURE(row.cover_a, row.cover_b, row.sigma_b, row.sd_b);
+  for (const double cover : {row.cover_a, row.cover_b}) {
+    CHECK(cover >= 0.89);
+    CHECK(cover < 1);
+  }
+}
+
+// Fig. 4's columns hold what the raw record held: the way by D is as precise as the trajectory.
+TEST_CASE("coverage: the way by D is as precise as the positions", "[fit]") {
+  using rolling::Route;
+  for (const auto& scene : {coverage::CR, coverage::CF}) {
+    const auto x = coverage::measure(find("white x", Route::position), scene, 200, 7),
+               D = coverage::measure(find("D from x, mean 11", Route::shift), scene, 200, 7);
+    CAPTURE(scene.name, x.sd_b, D.sd_b, D.percent_a);
+    CHECK(D.sd_b < 1.1 * x.sd_b);
+    CHECK(std::abs(D.percent_a) < 0.2);
+  }
+}
+
+TEST_CASE("coverage: where the noise is not what the filters say, the errors hold all the same",
+          "[fit]") {
+  using rolling::Route;
+  const std::pair<const char*, Route> cases[] = {{"D from x, AR(1) 0.8", Route::shift},
+                                                 {"x, noise grows", Route::position},
+                                                 {"D from x, noise grows", Route::shift}};
+  for (const auto& [name, route] : cases) {
+    const auto row = coverage::measure(find(name, route), coverage::CF, 200, 42);
+    CAPTURE(name, row.cover_a, row.cover_b, row.told);
+    CHECK(row.told > 0.95);
+    for (const double cover : {row.cover_a, row.cover_b}) {
+      CHECK(cover >= 0.88);
+      CHECK(cover < 1);
+    }
+  }
 }

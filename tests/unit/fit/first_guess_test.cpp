@@ -1,4 +1,4 @@
-#include "fit/trajectory.h"
+#include "fit/first_guess.h"
 
 #include <numeric>
 
@@ -26,16 +26,14 @@ TEST_CASE("first guess: near the law of exact runs, whatever the exponent, from 
       }
       Rows all(150);
       std::iota(all.begin(), all.end(), 0);
-      const FitOptions options;
-      Parameters q{options, position, 1};
-      Rolls rolls = make_rolls({run}, {all}, position, {}, options);
-      const auto theta = first_guess(rolls.of, q);
-      const double at = 0.3, D = q.a(theta) * std::pow(at, q.b(theta)),
-                   true_D = 1e-3 * std::pow(at, b);
+      const Route route = position ? Route::position : Route::velocity;
+      const auto [q, theta] = first_guess(observe(route, {run}, {all}, {}, {}), {});
+      const PowerLaw law = q.law(theta);
+      const double at = 0.3, D = law(at), true_D = 1e-3 * std::pow(at, b);
       INFO((position ? "x, b " : "v, b ")
-           << b << ": guessed b " << q.b(theta) << ", v0 " << q.v0(theta, 0) << ", D(0.3) "
-           << D / true_D << " of the true one");
-      CHECK(std::abs(q.b(theta) - b) < 0.1);
+           << b << ": guessed b " << law.b << ", v0 " << q.v0(theta, 0) << ", D(0.3) " << D / true_D
+           << " of the true one");
+      CHECK(std::abs(law.b - b) < 0.1);
       CHECK(std::abs(q.v0(theta, 0) / 0.4 - 1) < 0.02);
       CHECK(std::abs(D / true_D - 1) < 0.05);
       if (position) CHECK(std::abs(q.x0(theta, 0) - 0.3) < 0.01);

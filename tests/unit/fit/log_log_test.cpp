@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "fit/covariance.h"
+#include "fit/errors.h"
 #include "unit/fit/simulated.h"
 #include "unit/catch.h"
 
@@ -91,29 +91,31 @@ TEST_CASE(
   CHECK(std::abs(r.sigma_b / std::sqrt((middle[0] + middle[1]) * n / (n - 2) / xx) - 1) < 1e-10);
 }
 
-TEST_CASE(
-    "loglog: noise of a third of D does not bend the law, for what it does to the mean logarithm "
-    "is known",
-    "[fit]") {
+TEST_CASE("loglog: with known filters the line is the same and its errors are those of the noise",
+          "[fit]") {
   const Body body{1, 0.04, 0.5};
   const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.5);
-  std::vector<FitRun> runs;
-  for (unsigned seed = 1; seed <= 5; ++seed) {
-    simulated::Noise noise(seed);
-    FitRun& run = runs.emplace_back();
-    run.body = body;
-    for (int i = 0; i < 1500; ++i) {
-      run.t.push_back(0.001 * i);
-      run.v.push_back(truth.v(run.t.back()) + noise(9e-4));
-    }
-    run.filters = {simulated::smooth_v(11), simulated::differentiate("v", "a"),
-                   simulated::shift(body)};
-    run.v = simulated::mean(run.v, 11);
-    run.D = run.filters[2].apply(run.t, simulated::slope(run.t, run.v));
+  simulated::Noise noise(4);
+  int covered = 0;
+  double squares = 0, variances = 0, sum = 0;
+  constexpr int runs = 200;
+  for (int k = 0; k < runs; ++k) {
+    std::vector<double> t, v;
+    for (int i = 0; i < 45; ++i)
+      t.push_back(0.04 * i), v.push_back(truth.v(0.04 * i) + noise(5e-4));
+    const FitRun known = simulated::shifts(body, t, v, 11);
+    FitRun unknown = known;
+    unknown.filters.clear();
+    const auto r = fit(Route::loglog, {known}, {}), plain = fit(Route::loglog, {unknown}, {});
+    CHECK(r.b == plain.b);
+    covered += std::abs(r.b - 0.215) < 1.96 * r.sigma_b;
+    squares += (r.b - 0.215) * (r.b - 0.215);
+    sum += r.b - 0.215;
+    variances += r.sigma_b * r.sigma_b;
   }
-  const auto r = fit(Route::loglog, runs, {});
-  const double at = 0.3, size = r.a * std::pow(at, r.b) / (1.87e-3 * std::pow(at, 0.215));
-  INFO("a " << r.a << " +- " << r.sigma_a << ", b " << r.b << " +- " << r.sigma_b << ", D(" << at
-            << ") " << size << " times the true one, left out " << r.left_out);
-  CHECK(std::abs(size - 1) < 0.01);
+  const double spread = squares - sum * sum / runs;
+  CAPTURE(covered, variances / spread, sum / runs, std::sqrt(squares / runs));
+  CHECK(covered >= 178);  // fewer of 95 % by chance in 0.02 %
+  CHECK(covered < runs);
+  CHECK(std::abs(variances / spread - 1) < 0.32);
 }

@@ -61,13 +61,31 @@ inline rolling::LinearFilter differentiate(const char* from, const char* to) {
   return {from, to, 1,
           [](std::span<const double> t, std::span<const double> y) { return slope(t, y); }};
 }
-inline rolling::LinearFilter shift(const rolling::Body& body) {
-  const double k = -(1 + body.K) * body.R / body.g;
-  return {"a", "D", 0, [k](std::span<const double>, std::span<const double> y) {
-            std::vector<double> D(y.begin(), y.end());
-            for (double& d : D) d *= k;
-            return D;
+/// The last filter of a chain to D, which stands for the acceleration.
+inline rolling::LinearFilter shift() {
+  return {"a", "D", 0, [](std::span<const double>, std::span<const double> y) {
+            return std::vector<double>(y.begin(), y.end());
           }};
+}
+/// v and D of a run of raw readings, smoothed over `width` speeds and differentiated, by Eq. 11
+/// with A = 1; the filters are known.
+inline rolling::FitRun shifts(const rolling::Body& body, std::vector<double> t,
+                              std::vector<double> raw, std::size_t width,
+                              const char* source = "v") {
+  rolling::FitRun run{};
+  run.shift_of = rolling::ShiftOf{body};
+  if (source[0] == 'x') {
+    run.filters.push_back(differentiate("x", "v"));
+    raw = slope(t, raw);
+  }
+  run.filters.push_back(smooth_v(width));
+  run.filters.push_back(differentiate("v", "a"));
+  run.filters.push_back(shift());
+  run.v = mean(raw, width);
+  run.D = slope(t, run.v);
+  for (double& D : run.D) D *= -(1 + body.K) * body.R / body.g;
+  run.t = std::move(t);
+  return run;
 }
 
 /// White noise of a fixed seed, the same on every machine: sums of twelve uniform numbers.

@@ -1,39 +1,12 @@
 #include "fit/whitener.h"
 
-#include "fit/covariance.h"
+#include "base/error.h"
+#include "fit/response.h"
 #include "unit/fit/simulated.h"
 #include "unit/fit/dense.h"
 #include "unit/catch.h"
 
 using namespace rolling;
-
-TEST_CASE("whitener: whitening turns E into an orthogonal matrix, and drops what has no noise",
-          "[fit]") {
-  constexpr std::size_t n = 25;
-  const auto t = simulated::times(n);
-  for (bool difference : {false, true}) {
-    const BandMatrix E = difference ? probe(simulated::differentiate("x", "v"), t)
-                                    : probe(simulated::smooth_v(5), t);
-    const Whitener whitener(E, 0);
-    auto A = dense(E, n);
-    for (std::size_t j = 0; j < n; ++j) {  // W E
-      std::vector<double> column;
-      for (std::size_t i = 0; i < n; ++i) column.push_back(A[i * n + j]);
-      whitener.apply(column);
-      for (std::size_t i = 0; i < n; ++i) A[i * n + j] = column[i];
-    }
-    double trace = 0;
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t k = 0; k < n; ++k) {
-        double sum = 0;
-        for (std::size_t j = 0; j < n; ++j) sum += A[i * n + j] * A[k * n + j];
-        if (i == k) trace += sum;
-        else CHECK(std::abs(sum) < 1e-9);
-      }
-    CHECK(std::abs(trace - (difference ? n - 1 : n)) <
-          1e-9);  // the differences know nothing of a constant
-  }
-}
 
 TEST_CASE("whitener: the floor is white noise of its own", "[fit]") {
   const BandMatrix E = probe(simulated::smooth_v(3), simulated::times(6));
@@ -61,7 +34,7 @@ TEST_CASE("whitener: the floor is white noise of its own", "[fit]") {
 
 TEST_CASE(
     "whitener: floors of every size leave white noise of size one, and say by how much a volume "
-    "shrinks",
+    "shrinks and what is left of E",
     "[fit]") {
   constexpr std::size_t n = 40;
   const auto t = simulated::times(n);
@@ -70,9 +43,6 @@ TEST_CASE(
   const auto dense_E = dense(E, n);
   for (double floor : {1e-5, 1e-4, 1e-3, 1e-2, 1.0, 1e3}) {
     const Whitener whitener(E, floor);
-    Whitener other(E, 1e-2);
-    other.set_floor(E, floor);
-    CHECK(other.log_size() == whitener.log_size());
     std::vector<std::vector<double>> columns;  // of R^-T [E, floor I]
     for (std::size_t j = 0; j < 2 * n; ++j) {
       std::vector<double> x(n, 0);
@@ -87,6 +57,10 @@ TEST_CASE(
         for (const auto& x : columns) sum += x[i] * x[k];
         CHECK(std::abs(sum - (i == k)) < 1e-8);
       }
+    double of_E = 0;  // tr W E E^T W^T
+    for (std::size_t j = 0; j < n; ++j)
+      for (double x : columns[j]) of_E += x * x;
+    CHECK(std::abs(whitener.trace() - of_E) < 1e-8);
     // Elimination of the dense C, in long double: its pivots are the squares of R's.
     std::vector<long double> C(n * n, 0);
     for (std::size_t i = 0; i < n; ++i)
@@ -104,4 +78,54 @@ TEST_CASE(
     }
     CHECK(std::abs(whitener.log_size() - static_cast<double>(log_size)) < 1e-8);
   }
+}
+
+// The last row is the mean of the speeds, which reaches over the whole run.
+TEST_CASE("whitener: a last row that borders the band is whitened like the others", "[fit]") {
+  constexpr std::size_t n = 30;
+  const auto t = simulated::times(n);
+  const BandMatrix smooth = probe(simulated::smooth_v(5), t),
+                   a = probe(simulated::differentiate("v", "a"), t) * smooth;
+  BandMatrix E;
+  for (std::size_t i = 0; i < n; ++i) E.append(a.first(i), a.row(i));
+  E.append(0, std::vector<double>(n, 1.0 / n));
+  const double floor = 0.3;
+  const Whitener whitener(E, floor, true);
+  const auto dense_E = dense(E, n);
+  std::vector<std::vector<double>> columns;  // of R^-T [E, floor I], no floor in the last row
+  double of_E = 0;
+  for (std::size_t j = 0; j < 2 * n; ++j) {
+    std::vector<double> x(n + 1, 0);
+    for (std::size_t i = 0; i <= n; ++i) x[i] = j < n ? dense_E[i * n + j] : i == j - n ? floor : 0;
+    whitener.apply(x);
+    for (double z : x) of_E += j < n ? z * z : 0;
+    columns.push_back(std::move(x));
+  }
+  for (std::size_t i = 0; i <= n; ++i)
+    for (std::size_t k = 0; k <= n; ++k) {
+      double sum = 0;
+      for (const auto& x : columns) sum += x[i] * x[k];
+      CHECK(std::abs(sum - (i == k)) < 1e-9);
+    }
+  CHECK(std::abs(whitener.trace() - of_E) < 1e-9);
+  // R^-1 is the transposed of R^-T: (R^-1 x) y = x (R^-T y).
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i <= n; ++i) {
+    x.push_back(std::sin(3.0 * static_cast<double>(i)));
+    y.push_back(std::cos(5.0 * static_cast<double>(i)));
+  }
+  auto Rx = x, Ry = y;
+  whitener.apply_transposed(Rx);
+  whitener.apply(Ry);
+  double left = 0, right = 0;
+  for (std::size_t i = 0; i <= n; ++i) left += Rx[i] * y[i], right += x[i] * Ry[i];
+  CHECK(std::abs(left - right) < 1e-10);
+}
+
+TEST_CASE("whitener: a column that the filters leave without noise is refused", "[fit]") {
+  BandMatrix E;
+  E.append(0, std::vector<double>{0, 0});
+  E.append(0, std::vector<double>{0, 0});
+  CHECK_THROWS_AS(Whitener(E, 0), Error);
+  CHECK_THROWS_AS(Whitener(E, 0, true), Error);
 }

@@ -1,6 +1,8 @@
 #include "signal/hampel.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "unit/catch.h"
 #include "unit/signal/through.h"
@@ -64,6 +66,44 @@ TEST_CASE("hampel: the last digit of rounded readings at rest makes no outlier",
   CHECK(outliers(y).empty());
   y[40] = 0.35;
   CHECK(outliers(y) == Indices{40});
+}
+
+TEST_CASE("hampel: as sorting each window has it, wide ones and ties too", "[signal]") {
+  // By definition: the window's median and median distance from it, by sorting.
+  const auto middle = [](Series values) {
+    std::sort(values.begin(), values.end());
+    const std::size_t n = values.size();
+    return n % 2 ? values[n / 2] : std::midpoint(values[n / 2 - 1], values[n / 2]);
+  };
+  for (const std::size_t half : {5u, 20u, 400u, 1500u}) {
+    const std::size_t n = 3 * half + 7;
+    Series y = noise(n, static_cast<unsigned>(half));
+    for (double& value : y) value = std::round(value * 40) / 40;  // ties
+    Indices expected;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Series window(y.begin() + static_cast<std::ptrdiff_t>(i - std::min(i, half)),
+                          y.begin() + static_cast<std::ptrdiff_t>(std::min(i + half + 1, n)));
+      const double centre = middle(window);
+      Series distances;
+      for (const double value : window) distances.push_back(std::abs(value - centre));
+      const double scale = 1.4826 * middle(distances);
+      if (std::abs(y[i] - centre) > 2.5 * scale) expected.push_back(i);
+    }
+    CHECK(outliers(y, {2 * half + 1, 0}, 2.5) == expected);
+    CHECK((half == 5 || !expected.empty()));
+  }
+}
+
+TEST_CASE("hampel: no window has less than 11 samples", "[signal]") {
+  Series y = noise(2000, 5);
+  y[700] = 30;
+  const Indices by_11 = outliers(y, {11, 0}, 4);
+  CHECK(by_11.size() < 30);
+  CHECK(std::count(by_11.begin(), by_11.end(), 700) == 1);
+  for (const Width width : {Width{1, 0}, {3, 0}, {5, 0}, {0, 1e-6}, {0, 0.1}})
+    CHECK(outliers(y, width, 4) == by_11);
+  for (std::size_t n = 1; n < 14; ++n)
+    CHECK(outliers(noise(n, 3), {0, 0.04}, 4) == outliers(noise(n, 3), {11, 0}, 4));
 }
 
 TEST_CASE("hampel: straight lines and constants have none", "[signal]") {

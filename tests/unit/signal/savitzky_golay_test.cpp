@@ -57,6 +57,50 @@ double by_elimination(const Series& t, const Series& y, std::size_t i, std::size
   return static_cast<double>(derivative ? A[1][p] / A[1][1] / 0.2L : A[0][p] / A[0][0]);
 }
 
+/// By a third way, for high orders: an orthonormal basis by Gram and Schmidt, each polynomial made
+/// orthogonal to all before it, twice, in long double. `size` is the length of the weights.
+struct Projection {
+  long double value = 0, slope = 0, value_size = 0, slope_size = 0;
+};
+Projection projection(const Series& t, const Series& y, std::size_t at, std::size_t order) {
+  using Long = std::vector<long double>;
+  const std::size_t n = t.size();
+  const long double scale = static_cast<long double>(t.back()) - t.front();
+  const auto dot = [n](const Long& a, const Long& b) {
+    long double sum = 0;
+    for (std::size_t j = 0; j < n; ++j) sum += a[j] * b[j];
+    return sum;
+  };
+  std::vector<Long> basis;
+  Long slopes;  // of each at the sample
+  Projection result;
+  for (std::size_t k = 0; k <= order; ++k) {
+    Long p(n, 1);
+    long double steep = 0;
+    if (k > 0) {
+      for (std::size_t j = 0; j < n; ++j)
+        p[j] = (static_cast<long double>(t[j]) - t[at]) / scale * basis[k - 1][j];
+      steep = basis[k - 1][at] / scale;
+    }
+    for (int round = 0; round < 2; ++round)
+      for (std::size_t m = 0; m < k; ++m) {
+        const long double c = dot(p, basis[m]);
+        for (std::size_t j = 0; j < n; ++j) p[j] -= c * basis[m][j];
+        steep -= c * slopes[m];
+      }
+    const long double size = std::sqrt(dot(p, p));
+    for (long double& x : p) x /= size;
+    slopes.push_back(steep / size);
+    const long double c = dot(p, Long(y.begin(), y.end()));
+    result.value += c * p[at], result.slope += c * slopes[k];
+    result.value_size += p[at] * p[at], result.slope_size += slopes[k] * slopes[k];
+    basis.push_back(std::move(p));
+  }
+  result.value_size = std::sqrt(result.value_size);
+  result.slope_size = std::sqrt(result.slope_size);
+  return result;
+}
+
 }  // namespace
 
 // Savitzky and Golay (1964), Anal. Chem. 36, 1627, tables I, II, III and IV, as corrected by
@@ -111,6 +155,30 @@ TEST_CASE("savitzky_golay: least squares, as elimination in long double has it",
     check_close(filtered(t, y, 9, order, value), values, 1e-11);
     check_close(filtered(t, y, 9, order, slope), slopes, 1e-9);
   }
+}
+
+TEST_CASE("savitzky_golay: no order that is taken loses digits", "[signal]") {
+  for (std::size_t order = 0; order <= SavitzkyGolay::most_order; ++order)
+    for (const std::size_t width :
+         {order / 2 * 2 + 1, order / 2 * 2 + 3, std::size_t{31}, std::size_t{201}})
+      for (const bool even : {true, false}) {
+        if (width <= order) continue;
+        INFO("order " << order << " width " << width << (even ? " even" : " uneven"));
+        const Series t = even ? even_times(width) : uneven_times(width), y = noise(width, 7);
+        const auto values = filtered(t, y, width, order, value);
+        const auto slopes = width > 1 ? filtered(t, y, width, order, slope) : Series{0};
+        for (const std::size_t at : {std::size_t{0}, width / 3, width / 2, width - 1}) {
+          const Projection exact =
+              width > 1 ? projection(t, y, at, order) : Projection{y[0], 0, 1, 1};
+          CHECK(std::abs(static_cast<double>(values[at] - exact.value)) <
+                2e-13 * static_cast<double>(exact.value_size));
+          CHECK(std::abs(static_cast<double>(slopes[at] - exact.slope)) <=
+                2e-13 * static_cast<double>(exact.slope_size));
+        }
+      }
+  for (const std::size_t order : {11u, 50u, 74u})
+    CHECK_THROWS_AS(SavitzkyGolay({order + 1 + order % 2, 0}, order, value), Error);
+  CHECK_THROWS_AS(SavitzkyGolay({0, 100}, 11, slope), Error);
 }
 
 TEST_CASE(

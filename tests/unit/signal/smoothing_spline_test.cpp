@@ -211,3 +211,20 @@ TEST_CASE("smoothing_spline: few samples, and many", "[signal]") {
     worst = std::max(worst, std::abs(s[i] - std::cos(t[i] / 100) / 100));
   CHECK(worst < 0.01);
 }
+
+TEST_CASE("spline: the size of the readings changes nothing but the size of the slopes",
+          "[signal]") {
+  const Series t = uneven_times(120), e = noise(120, 3);
+  Series y;
+  for (std::size_t i = 0; i < t.size(); ++i) y.push_back(std::sin(t[i]) + 0.05 * e[i]);
+  const Series expected = slopes(t, y);
+  for (const int power : {-900, -664, -100, 1, 100, 664, 1000}) {  // 664: 1e200
+    Series scaled;
+    for (const double value : y) scaled.push_back(std::ldexp(value, power));
+    Series found = slopes(t, scaled);
+    for (double& value : found) value = std::ldexp(value, -power);
+    INFO("2^" << power);
+    CHECK(found == expected);
+  }
+  CHECK(slopes(t, Series(t.size(), 0)) == Series(t.size(), 0));
+}

@@ -1,0 +1,248 @@
+#include "fit/errors.h"
+
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "fit/dot.h"
+
+namespace rolling {
+
+std::vector<double> Spread::solve_transposed(std::vector<double> g, std::size_t run) const {
+  const double* const R = &R_[run * q_ * q_];
+  for (std::size_t j = 0; j < q_; ++j) {
+    for (std::size_t k = 0; k < j; ++k) g[j] -= R[k * q_ + j] * g[k];
+    g[j] /= R[j * q_ + j];
+  }
+  return g;
+}
+
+double Spread::operator()(const std::vector<double>& g, const std::vector<double>& h,
+                          std::size_t run) const {
+  const auto left = solve_transposed(g, run), right = solve_transposed(h, run);
+  double sum = 0;
+  for (std::size_t i = 0; i < q_; ++i)
+    for (std::size_t j = 0; j < q_; ++j) sum += left[i] * M_[(run * q_ + i) * q_ + j] * right[j];
+  return sum;
+}
+
+std::vector<double> orthonormal(const System& system, const Minimum& m) {
+  const std::size_t q = system.columns();
+  std::vector<double> Q;
+  Q.reserve(m.f.size() * q);
+  system.evaluate(m.theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
+    const double* const R = &m.R[run * q * q];
+    for (std::size_t i = 0; i < f.size(); ++i)
+      for (std::size_t j = 0; j < q; ++j) {
+        double x = J[j * f.size() + i];
+        for (std::size_t k = 0; k < j; ++k) x -= Q[Q.size() - j + k] * R[k * q + j];
+        Q.push_back(x / R[j * q + j]);
+      }
+  });
+  return Q;
+}
+
+void add_shared(std::vector<double>& M, std::size_t columns, std::size_t shared) {
+  const std::size_t square = columns * columns;
+  for (std::size_t i = columns - shared; i < columns; ++i)
+    for (std::size_t j = columns - shared; j < columns; ++j) {
+      double sum = 0;
+      for (std::size_t at = i * columns + j; at < M.size(); at += square) sum += M[at];
+      for (std::size_t at = i * columns + j; at < M.size(); at += square) M[at] = sum;
+    }
+}
+
+double lagged(std::span<const double> r, std::span<const std::size_t> runs, std::size_t lag) {
+  double sum = 0;
+  std::size_t start = 0;
+  for (std::size_t n : runs) {
+    if (n > lag) sum += dot(&r[start], &r[start + lag], n - lag);
+    start += n;
+  }
+  return sum;
+}
+
+double ljung_box(std::span<const double> r, std::size_t p, std::span<const std::size_t> runs) {
+  const double n = static_cast<double>(r.size()), all = lagged(r, runs, 0);
+  if (!(all > 0)) return 1;
+  const std::size_t lags = std::clamp<std::size_t>(r.size() / 10, 1, 10);
+  double Q = 0, least = 1;
+  for (std::size_t k = 1; k <= lags; ++k) {
+    const double rho = lagged(r, runs, k) / all + static_cast<double>(p) / n;
+    Q += n * (n + 2) * rho * rho / (n - static_cast<double>(k));
+    if (k == 1 || k == lags) least = std::min(least, gsl_cdf_chisq_Q(Q, static_cast<double>(k)));
+  }
+  return least;
+}
+
+double breusch_pagan(std::span<const double> residuals, std::span<const std::size_t> runs) {
+  // n R^2 of the regression of the squares on the first two Legendre polynomials of the place u in
+  // the run (orthogonal but for 1/n^2) is chi-square with two degrees of freedom.
+  const double n = static_cast<double>(residuals.size());
+  const double mean = lagged(residuals, runs, 0) / n;
+  double P1 = 0, P2 = 0, along1 = 0, along2 = 0, all = 0;
+  std::size_t start = 0;
+  for (std::size_t m : runs) {
+    for (std::size_t i = 0; i < m; ++i) {
+      const double u = (2 * static_cast<double>(i) + 1) / static_cast<double>(m) - 1,
+                   p2 = (3 * u * u - 1) / 2,
+                   square = residuals[start + i] * residuals[start + i] - mean;
+      P1 += u * u;
+      P2 += p2 * p2;
+      along1 += u * square;
+      along2 += p2 * square;
+      all += square * square;
+    }
+    start += m;
+  }
+  if (!(all > 0) || !(P1 > 0) || !(P2 > 0)) return 1;
+  return gsl_cdf_chisq_Q(n * (along1 * along1 / P1 + along2 * along2 / P2) / all, 2);
+}
+
+namespace {
+
+/// x[i] - rho x[i - 1] for rows of p numbers, the first of each run by its own size.
+std::vector<double> prewhitened(std::span<const double> x, std::size_t p,
+                                std::span<const std::size_t> runs, double rho) {
+  std::vector<double> e(x.begin(), x.end());
+  std::size_t start = 0;
+  for (std::size_t m : runs) {
+    for (std::size_t i = start * p; i < (start + m) * p; ++i)
+      e[i] = i < (start + 1) * p ? std::sqrt(1 - rho * rho) * x[i] : x[i] - rho * x[i - p];
+    start += m;
+  }
+  return e;
+}
+
+double correlation_of_neighbours(std::span<const double> r, std::span<const std::size_t> runs) {
+  return std::clamp(lagged(r, runs, 1) / lagged(r, runs, 0), -0.97, 0.97);
+}
+
+}  // namespace
+
+std::vector<double> newey_west(std::span<const double> scores, std::size_t p,
+                               std::span<const double> residuals,
+                               std::span<const std::size_t> runs) {
+  const double n = static_cast<double>(residuals.size()), fitted = static_cast<double>(p);
+  const std::size_t q = scores.size() / residuals.size();
+  // A fit of p smooth terms takes (p (1 + AR) + 2 AR)/n off the correlation that its residuals show
+  // (Kendall 1954, Biometrika 41, 403, for p = 1).
+  const double AR = std::clamp(
+      (n * correlation_of_neighbours(residuals, runs) + fitted) / std::max(n - fitted - 2, 1.0),
+      -0.97, 0.97);
+  const auto u = prewhitened(scores, q, runs, AR);
+  const double rho = correlation_of_neighbours(prewhitened(residuals, 1, runs, AR), runs);
+  const double alpha = 4 * rho * rho / ((1 - rho * rho) * (1 - rho * rho));
+  const auto width = static_cast<std::size_t>(std::ceil(1.1447 * std::cbrt(alpha * n)));
+  std::vector<double> all;
+  std::size_t start = 0;
+  for (std::size_t m : runs) {
+    std::vector<double> S(q * q, 0);
+    for (std::size_t lag = 0; lag <= std::min(width, m / 2) && lag < m; ++lag) {
+      const double w =
+          (lag ? 1.0 : 0.5) * (1 - static_cast<double>(lag) / static_cast<double>(width + 1));
+      for (std::size_t i = start + lag; i < start + m; ++i)
+        for (std::size_t j = 0; j < q; ++j)
+          for (std::size_t k = 0; k < q; ++k)
+            S[j * q + k] +=
+                w * (u[i * q + j] * u[(i - lag) * q + k] + u[i * q + k] * u[(i - lag) * q + j]);
+    }
+    for (double x : S) all.push_back(x / ((1 - AR) * (1 - AR)));
+    start += m;
+  }
+  return all;
+}
+
+namespace {
+
+/// Sum of u u^T over the rows of q numbers of each run, row by row, run by run.
+std::vector<double> squares_of(std::span<const double> u, std::size_t q,
+                               std::span<const std::size_t> runs) {
+  std::vector<double> all;
+  const double* row = u.data();
+  for (std::size_t m : runs) {
+    std::vector<double> S(q * q, 0);
+    for (std::size_t i = 0; i < m; ++i, row += q)
+      for (std::size_t j = 0; j < q; ++j)
+        for (std::size_t k = 0; k < q; ++k) S[j * q + k] += row[j] * row[k];
+    all.insert(all.end(), S.begin(), S.end());
+  }
+  return all;
+}
+
+/// theta - truth = -R^-1 sum B(s) e(s) over the sources s of noise e.
+struct Sources {
+  std::vector<double> e;  // their estimated noise
+  std::vector<double> B;  // a row of q numbers for each
+  std::vector<std::size_t> runs;
+  double variance;  // of e
+};
+
+Sources sources_of(const Fitted& fit) {
+  const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
+                    q = fit.system.columns();
+  std::vector<double> Q = orthonormal(fit.system, fit.minimum);
+  if (!fit.noise->known() || fit.noise_inferred)
+    return {fit.minimum.f, std::move(Q), fit.system.runs,
+            fit.minimum.rss / static_cast<double>(n - p)};
+  Sources known{fit.sources, fit.noise->through(Q, q), fit.source_runs, 0};
+  // f f^T is on average the variance times A A^T, of which the fit has taken the part along Q:
+  // tr((I - Q Q^T) A A^T) = tr A A^T - |A^T Q|^2.
+  known.variance = fit.noise_variance.value_or(
+      fit.minimum.rss / (fit.noise->trace() - dot(known.B.data(), known.B.data(), known.B.size())));
+  return known;
+}
+
+}  // namespace
+
+double noise_variance(const Fitted& fit) { return sources_of(fit).variance; }
+
+Uncertainty uncertainty_of(const Fitted& fit) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), decisive = 0.01;
+  const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
+                    q = fit.system.columns(), shared = fit.system.shared;
+  if (n <= p)
+    return {Errors::none, nan, {fit.minimum.R, std::vector<double>(fit.minimum.R.size(), nan), q}};
+  const Sources from = sources_of(fit);
+  const bool many = n >= 30, known = fit.noise->known() && !fit.noise_inferred;
+  const auto& tested = known ? fit.innovations : fit.minimum.f;
+  const auto& tested_runs = known ? fit.innovation_runs : fit.system.runs;
+  const double whiteness = ljung_box(tested, p, tested_runs);
+  Errors kind = known                ? Errors::filters
+                : fit.noise_inferred ? Errors::differences
+                                     : Errors::classical;
+  std::vector<double> M;
+  if (many && whiteness <= decisive) kind = Errors::autocorrelation;
+  else if (many && breusch_pagan(tested, tested_runs) <= decisive) kind = Errors::uneven;
+  if (kind == Errors::autocorrelation || kind == Errors::uneven) {
+    std::vector<double> scores = from.B;
+    for (std::size_t i = 0; i < scores.size(); ++i) scores[i] *= from.e[i / q];
+    if (kind == Errors::autocorrelation) M = newey_west(scores, p, from.e, from.runs);
+    else {
+      // HC3: a residual is smaller than its noise by 1 - h, h its leverage (MacKinnon and White
+      // 1985, J. Econometrics 29, 305).
+      if (!known)
+        for (std::size_t i = 0; i < from.e.size(); ++i) {
+          const double* const row = &from.B[i * q];
+          const double h = std::min(dot(row, row, q), 0.99);
+          for (std::size_t j = 0; j < q; ++j) scores[i * q + j] /= 1 - h;
+        }
+      M = squares_of(scores, q, from.runs);
+    }
+    // The noise that the residuals show is smaller than it is by what the fit has taken.
+    const double shown =
+        dot(from.e.data(), from.e.data(), from.e.size()) / static_cast<double>(from.e.size());
+    if (kind == Errors::autocorrelation || known)
+      for (double& x : M) x *= from.variance / shown;
+  } else {
+    M = squares_of(from.B, q, from.runs);
+    for (double& x : M) x *= from.variance;
+  }
+  add_shared(M, q, shared);
+  return {kind, whiteness, {fit.minimum.R, std::move(M), q}};
+}
+
+}  // namespace rolling

@@ -1,0 +1,253 @@
+#include "fit/minimise.h"
+
+#include "base/error.h"
+#include "fit/dot.h"
+#include "fit/triangles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace rolling {
+namespace {
+
+constexpr double undetermined = 1e-10;  // sine between a column of J and those before it
+constexpr double round_off = 1e-15;     // relative size of a step that is rounding alone
+constexpr double unseen = 1e-10;        // share of the residuals that is too small to matter
+
+double square(const std::vector<double>& f) { return dot(f.data(), f.data(), f.size()); }
+
+/// An evaluation, and the Gauss-Newton step from there: from the QR of J, not from the normal
+/// equations, whose condition number is the square of J's.
+struct Point {
+  explicit Point(const System& system) : R(system) { f.reserve(system.residuals()); }
+
+  std::vector<double> theta, f;
+  Triangles R;
+  double rss = 0;
+  std::vector<double> step, lengths;  // of the columns of J
+  double size = 0;                    // largest relative change of a parameter
+  double reduction = 0;               // of the sum of squares, that the step promises
+  double angle = 1;                   // smallest sine between a column of J and those before it
+};
+
+/// Whether theta is allowed.
+bool evaluate_at(const System& system, Point& at, std::vector<double> theta) {
+  at.theta = std::move(theta);
+  at.f.clear();
+  at.R = Triangles(system);
+  at.rss = 0;
+  try {
+    system.evaluate(at.theta, [&at](std::size_t run, std::span<double> f, std::span<double> J) {
+      at.f.insert(at.f.end(), f.begin(), f.end());
+      at.rss += dot(f.data(), f.data(), f.size());
+      at.R.add(run, f, J);
+    });
+  } catch (const Error&) {
+    return false;
+  }
+  at.R.join();
+  at.lengths = at.R.lengths();
+  at.step = at.R.solve();
+  at.reduction = at.R.reduction();
+  at.angle = at.R.smallest_sine();
+  at.size = 0;
+  for (std::size_t j = 0; j < at.theta.size(); ++j)
+    at.size = std::max(at.size, std::abs(at.step[j]) / std::max(1.0, std::abs(at.theta[j])));
+  return std::isfinite(at.rss) && std::isfinite(square(at.lengths));
+}
+
+std::vector<double> moved(std::vector<double> theta, const std::vector<double>& step) {
+  std::transform(theta.begin(), theta.end(), step.begin(), theta.begin(), std::plus());
+  return theta;
+}
+
+/// Levenberg-Marquardt, scaled after More (1978, Lecture Notes in Mathematics 630, 105) and damped
+/// after Nielsen (1999, IMM-REP-1999-05), to where it makes no further progress. The caller tests
+/// whether that is a minimum.
+std::vector<double> descend(const System& system, Point at) {
+  Point next(system);
+  double mu = 1e-3, growth = 2;
+  std::vector<double> D = at.lengths;
+  for (double& d : D)
+    if (d == 0) d = 1;
+  for (int accepted = 0, refused = 0; accepted < 300 && refused <= 15;) {
+    const Triangles damped = at.R.damped(D, mu);
+    const auto step = damped.solve();
+    double scaled = 0;
+    for (std::size_t j = 0; j < D.size(); ++j) scaled += D[j] * step[j] * D[j] * step[j];
+    const bool allowed = evaluate_at(system, next, moved(at.theta, step));
+    if (!allowed || !(next.rss < at.rss)) {
+      mu *= growth;
+      growth *= 2;
+      ++refused;
+      continue;
+    }
+    const double gain = (at.rss - next.rss) / (damped.reduction() + mu * scaled);
+    mu *= std::max(1.0 / 3, 1 - std::pow(2 * gain - 1, 3));
+    growth = 2;
+    refused = 0;
+    ++accepted;
+    std::swap(at, next);
+    bool still = true;
+    for (std::size_t j = 0; j < D.size(); ++j) {
+      D[j] = std::max(D[j], at.lengths[j]);
+      still = still && std::abs(step[j]) < 1e-9 * (std::abs(at.theta[j]) + 1e-9);
+    }
+    if (still) break;
+  }
+  return at.theta;
+}
+
+/// Gauss-Newton steps, down to round-off, as long as each reduces the sum of squares by at least
+/// this share of the reduction that the linear model predicts.
+Point polish(const System& system, std::vector<double> theta, double share) {
+  Point best(system), next(system);
+  if (!evaluate_at(system, best, std::move(theta)))
+    fail("the fit cannot start: the law has no finite values at the starting point");
+  for (int i = 0; i < 100 && best.angle > undetermined; ++i) {
+    // A step this small is taken without evaluating the residuals again.
+    if (best.size < round_off ||
+        (best.size < unseen / 100 && best.reduction < unseen * unseen * best.rss)) {
+      best.theta = moved(best.theta, best.step);
+      break;
+    }
+    if (!evaluate_at(system, next, moved(best.theta, best.step)) ||
+        !(next.rss <= best.rss * (1 + 1e-10) - share * best.reduction))
+      break;
+    if (best.size < 1e-9 && !(next.size < best.size)) break;  // round-off
+    std::swap(best, next);
+  }
+  return best;
+}
+
+}  // namespace
+
+Minimum minimise(const System& system, const std::vector<double>& start) {
+  // Where the residuals are linear, or all but so between the start and the minimum, Gauss-Newton
+  // steps do all.
+  Point best = polish(system, start, 0.9);
+  // Bates & Watts (1981), Technometrics 23, 179: converged when the residuals' part in the tangent
+  // plane is small against the part orthogonal to it. An exact fit has nothing orthogonal; there
+  // the step itself must vanish.
+  const std::size_t n = system.residuals(), p = system.parameters();
+  const double freedom = n > p ? static_cast<double>(n - p) : 0;
+  const auto offset = [&] {
+    return std::sqrt(best.reduction / static_cast<double>(p) * freedom /
+                     std::max(best.rss - best.reduction, 0.0));
+  };
+  const auto determined = [&] { return best.angle > undetermined; };
+  const auto converged = [&] { return determined() && (best.size < 1e-7 || offset() < 1e-3); };
+  for (int round = 0; !converged() && (round == 0 || determined()); ++round) {
+    const double before = best.rss;
+    best = polish(system, descend(system, best), 0);
+    // The minimum of a trajectory fit may lie on a kink, where the stop meets a record: hardly a
+    // step goes down, but the slope of either side remains. It is worth a fraction of a standard
+    // deviation, never more.
+    if (best.rss > before * (1 - std::max(1e-8, 1e-3 / freedom)) && offset() < 1) break;
+    if (round == 20)
+      fail(
+          "the fit does not converge: are all of these records of the free roll (smooth --coast)?");
+  }
+  if (!determined()) fail("the data do not determine the parameters: they cannot be told apart");
+  return {std::move(best.theta), std::move(best.f), best.R.without_f(), best.rss};
+}
+
+std::vector<double> approach(const System& system, std::vector<double> start) {
+  try {
+    return minimise(system, start).theta;
+  } catch (const Error&) {
+    return start;
+  }
+}
+
+namespace {
+
+/// psi(u)/u and psi'(u) of a loss.
+struct Influence {
+  double weight, slope;
+};
+Influence huber(double u) {
+  constexpr double c = 1.345;
+  return std::abs(u) <= c ? Influence{1, 1} : Influence{c / std::abs(u), 0};
+}
+Influence bisquare(double u) {
+  constexpr double c = 4.685;
+  const double rest = 1 - u * u / (c * c);
+  return rest > 0 ? Influence{rest * rest, rest * (5 * rest - 4)} : Influence{0, 0};
+}
+
+/// The median absolute residual over that of a standard normal; the p smallest, which the fit has
+/// made small, are not counted.
+double median_scale(std::vector<double> f, std::size_t p) {
+  for (double& x : f) x = std::abs(x);
+  const std::size_t first = std::min(p, f.size() - 1);
+  const auto middle = f.begin() + static_cast<std::ptrdiff_t>(first + (f.size() - first) / 2);
+  std::nth_element(f.begin(), middle, f.end());
+  return *middle / 0.6745;
+}
+
+}  // namespace
+
+Minimum minimise_robust(const System& system, const std::vector<double>& start) {
+  Point at(system);
+  const auto evaluate = [&](const std::vector<double>& theta) {
+    if (!evaluate_at(system, at, theta))
+      fail("the fit cannot start: the law has no finite values at the starting point");
+  };
+  evaluate(start);
+  const std::size_t p = system.parameters();
+  double scale = 0;
+  for (const auto influence : {huber, bisquare}) {
+    double change = 1;
+    for (int round = 0; change > 1e-9; ++round) {
+      if (round == 100) fail("the robust fit does not converge");
+      if (influence == huber) scale = median_scale(at.f, p);  // bisquare keeps the last one
+      if (!(scale > 0)) return minimise(system, at.theta);
+      std::vector<double> roots;
+      for (double r : at.f) roots.push_back(std::sqrt(influence(r / scale).weight));
+      const System weighted{system.runs, system.own, system.shared,
+                            [&](const std::vector<double>& theta, const TakeRows& take) {
+        auto root = roots.begin();
+        system.evaluate(theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
+          for (std::size_t i = 0; i < f.size(); ++i, ++root) {
+            f[i] *= *root;
+            for (std::size_t k = i; k < J.size(); k += f.size()) J[k] *= *root;
+          }
+          take(run, f, J);
+        });
+                            }};
+      const auto next = minimise(weighted, at.theta).theta;
+      change = 0;
+      for (std::size_t j = 0; j < p; ++j)
+        change =
+            std::max(change, std::abs(next[j] - at.theta[j]) / std::max(1.0, std::abs(next[j])));
+      evaluate(next);
+      if (influence == huber && change < 1e-3) break;  // only a place to start from
+    }
+  }
+  const double n = static_cast<double>(system.residuals());
+  double mean = 0, squares = 0;
+  for (double r : at.f) {
+    const double slope = bisquare(r / scale).slope;
+    mean += slope / n;
+    squares += slope * slope / n;
+  }
+  if (!(mean > 0)) fail("too many outliers: no robust fit");
+  const double correction =
+      1 + static_cast<double>(p) / n * (squares - mean * mean) / (mean * mean);
+  for (double& r : at.f) r *= bisquare(r / scale).weight * correction / mean;
+  const double rss = square(at.f);
+  return {std::move(at.theta), std::move(at.f), at.R.without_f(), rss};
+}
+
+double restricted_likelihood(const System& system, const std::vector<double>& theta) {
+  Point at(system);
+  evaluate_at(system, at, theta);
+  const double freedom =
+      static_cast<double>(system.residuals()) - static_cast<double>(system.parameters());
+  return -0.5 * freedom * std::log(at.rss - at.reduction) - at.R.log_determinant();
+}
+
+}  // namespace rolling

@@ -1,0 +1,78 @@
+// The model of every route but a plain D = a v^b: a roll, seen through the filters of the data.
+//
+//   y = H r(t; a, b, v0, x0) + H e
+//
+// r is the raw column (positions or speeds of the roll), H what the filters did to it, e white
+// noise of one unknown size. Positions, speeds and accelerations (for shifts) differ in H alone.
+// The covariance H H^T of the noise does not depend on the parameters, and what smoothing does to
+// the data it does to the model.
+#pragma once
+
+#include "fit/minimise.h"
+#include "fit/noise.h"
+#include "fit/parameters.h"
+#include "fit/response.h"
+#include "motion/trajectory.h"
+
+#include <memory>
+
+namespace rolling {
+
+/// The records of one run that a route can use.
+using Rows = std::vector<std::size_t>;
+
+/// One run, as the model of a roll sees it.
+struct ObservedRun {
+  Body body;  ///< as far as the roll depends on it
+  Geometry geometry = Geometry::approximate;
+  double way = 1;     ///< -1: the body rolls towards falling x, v < 0
+  double origin = 0;  ///< the time at which v0 and x0 hold; the times below count from it
+  double start = 0;   ///< the time for which v0 is reported, from the origin
+  bool raw_is_position = false;
+  std::vector<double> t;  ///< where the model is needed: all records of the raw column
+  Noise::Matrix H;        ///< y = H raw; none: y is the raw column itself
+  std::vector<double> y;  ///< a number for each fitted record; for shifts their acceleration,
+                          ///< and at the end the mean speed
+  bool with_mean_speed = false;
+  double unit = 1;  ///< the unit of the fitted column is so many units of y
+
+  std::size_t records() const { return y.size() - with_mean_speed; }
+};
+
+/// How the columns of each run came from the raw one; none if that is not known.
+struct Making {
+  std::vector<Response> responses;
+  bool known() const { return !responses.empty(); }
+};
+/// Known if the chains of all runs lead from positions or speeds to the column that the route fits.
+Making making_of(Route, const std::vector<FitRun>&);
+
+/// The runs as the model sees them, of the rows alone. Throws Error for a run without any.
+std::vector<ObservedRun> observe(Route, const std::vector<FitRun>&, const std::vector<Rows>&,
+                                 const Making&, const FitOptions&);
+
+/// The noise of these runs, with the weights of Noise; nothing is known of it without H.
+std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>&, double share);
+
+class RollModel {
+ public:
+  RollModel(std::vector<ObservedRun> runs, Parameters parameters)
+      : runs_(std::move(runs)), parameters_(std::move(parameters)) {}
+
+  const std::vector<ObservedRun>& runs() const { return runs_; }
+  const Parameters& parameters() const { return parameters_; }
+  Trajectory trajectory(const std::vector<double>& theta, std::size_t run) const;
+  /// The slope that a run sees along its way.
+  double slope(const std::vector<double>& theta, std::size_t run) const;
+  /// Hands over model - data of each run, weighted where the noise says so.
+  void evaluate(const std::vector<double>& theta, const Noise&, const TakeRows&) const;
+
+ private:
+  std::vector<ObservedRun> runs_;
+  Parameters parameters_;
+};
+
+/// The model and the weights as one problem of least squares.
+System system_of(std::shared_ptr<const RollModel>, std::shared_ptr<const Noise>);
+
+}  // namespace rolling

@@ -1,0 +1,290 @@
+#include "fit/model_shift.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "base/error.h"
+#include "fit/errors.h"
+
+namespace rolling {
+namespace {
+
+/// The records that loglog and shift use, all runs one after another. A body that rolls towards
+/// falling x has v < 0 and D < 0: both count along its way.
+struct ShiftRecords {
+  std::vector<double> D;
+  std::vector<double> log_u;      // ln v - log_v_ref
+  std::vector<std::size_t> runs;  // number of records of each
+  std::vector<Rows> rows;
+  std::size_t left_out = 0;
+  double log_v_ref = 0;  // ln of the geometric mean of v: there ln D and b are uncorrelated
+};
+
+ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& options,
+                           bool logarithms) {
+  ShiftRecords records;
+  for (const auto& run : all) {
+    double sum = 0;
+    for (double v : run.v)
+      if (std::isfinite(v)) sum += v;
+    const double way = sum < 0 ? -1 : 1;
+    Rows rows;
+    for (std::size_t i = 0; i < run.v.size(); ++i) {
+      const double v = way * run.v[i], D = way * run.D[i];
+      if (!(std::isfinite(v) && std::isfinite(D) && v > 0 && v >= options.min_speed) ||
+          (logarithms && D <= 0)) {
+        ++records.left_out;
+        continue;
+      }
+      records.log_u.push_back(std::log(v));
+      records.D.push_back(D);
+      rows.push_back(i);
+    }
+    records.runs.push_back(rows.size());
+    records.rows.push_back(std::move(rows));
+  }
+  const std::size_t n = records.D.size();
+  if (n == 0 && logarithms && records.left_out > 0)
+    fail("no record has v > 0 and D > 0: there is no logarithm to fit");
+  require_records(n, !options.a + !options.b);
+  auto& log_u = records.log_u;
+  if (!options.b &&
+      std::all_of(log_u.begin(), log_u.end(), [&](double x) { return x == log_u[0]; }))
+    fail("all speeds are equal: b cannot be determined");
+  records.log_v_ref = std::accumulate(log_u.begin(), log_u.end(), 0.0) / static_cast<double>(n);
+  for (double& x : log_u) x -= records.log_v_ref;
+  return records;
+}
+
+/// The law in parameters that are nearly uncorrelated: a height, which is a power law's D(v_ref) in
+/// some unit or a line's ln D(v_ref), and b. What is held fixed has no place in theta.
+struct Height {
+  std::optional<double> a, b;  // held
+  double log_v_ref;
+
+  std::size_t count() const { return !a + !b; }
+  double exponent(const std::vector<double>& theta) const { return b ? *b : theta.back(); }
+  /// Puts the derivatives of a residual, by its height and at fixed height by b; `by_log_height`
+  /// times log_v_ref is added where the height moves with b, for a is held.
+  void put(std::span<double> J, std::size_t k, std::size_t n, double by_height, double by_b,
+           double by_log_height) const {
+    if (!a) J[k] = by_height;
+    if (!b) J[J.size() - n + k] = by_b + (a ? log_v_ref * by_log_height : 0);
+  }
+  /// a and b at the minimum; a_slope is the derivative of a by the height.
+  void report(Fitted& fit, double a_fitted, double a_slope) const {
+    const double a_value = a.value_or(a_fitted);
+    fit.a = {a_value, std::vector<double>(count(), 0)};
+    fit.b = {exponent(fit.minimum.theta), std::vector<double>(count(), 0)};
+    if (!a) fit.a.gradient[0] = a_slope;
+    if (!a && !b) fit.a.gradient[1] = -a_value * log_v_ref;
+    if (!b) fit.b.gradient.back() = 1;
+  }
+};
+
+/// Hands over what fill(record, f, place in J) makes of the records, few at a time, which stay in
+/// the cache.
+template <typename Fill>
+void hand_over(const std::vector<std::size_t>& runs, std::size_t columns, const TakeRows& take,
+               Fill&& fill) {
+  std::vector<double> f, J;
+  std::size_t first = 0;
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    for (const std::size_t end = first + runs[r]; first < end; first += f.size()) {
+      f.resize(std::min<std::size_t>(end - first, 256));
+      J.resize(f.size() * columns);
+      for (std::size_t k = 0; k < f.size(); ++k) f[k] = fill(first + k, std::span(J), k, f.size());
+      take(r, f, J);
+    }
+}
+
+System power_system(ShiftRecords records, Height height, double unit) {
+  const std::size_t p = height.count();
+  std::vector<std::size_t> runs = records.runs;
+  return {std::move(runs), 0, p,
+          [records = std::make_shared<const ShiftRecords>(std::move(records)), height, unit, p](
+              const std::vector<double>& theta, const TakeRows& take) {
+    const double b = height.exponent(theta),
+                 h = height.a ? *height.a * std::exp(b * height.log_v_ref) : theta[0] * unit;
+    hand_over(records->runs, p, take,
+              [&](std::size_t i, std::span<double> J, std::size_t k, std::size_t n) {
+      const double power = std::exp(b * records->log_u[i]);
+      height.put(J, k, n, unit * power, h * power * records->log_u[i], h * power);
+      return h * power - records->D[i];
+    });
+          }};
+}
+
+/// Every so many-th record, so that at most `most` are left.
+ShiftRecords thinned(const ShiftRecords& records, std::size_t most) {
+  ShiftRecords few;
+  few.log_v_ref = records.log_v_ref;
+  const std::size_t n = records.D.size();
+  for (std::size_t i = 0, step = (n + most - 1) / most; i < n; i += step) {
+    few.D.push_back(records.D[i]);
+    few.log_u.push_back(records.log_u[i]);
+  }
+  few.runs = {few.D.size()};
+  return few;
+}
+
+/// The exponent of a coarse grid that fits best (for each, the height is linear), unless the user
+/// knows one.
+std::vector<double> power_start(const ShiftRecords& few, const FitOptions& options, double unit) {
+  const auto held = options.a ? options.a : options.start_a;
+  std::vector<double> exponents;
+  if (options.b || options.start_b) exponents = {options.b ? *options.b : *options.start_b};
+  else
+    for (double b = -4; b <= 8; b += 0.25) exponents.push_back(b);
+  double least = std::numeric_limits<double>::infinity(), best_b = exponents.front(), best_h = 0;
+  for (double b : exponents) {
+    double mm = 0, mD = 0, rss = 0;
+    for (std::size_t i = 0; i < few.D.size(); ++i) {
+      const double m = std::exp(b * few.log_u[i]);
+      mm += m * m;
+      mD += m * few.D[i];
+    }
+    const double h = held ? *held * std::exp(b * few.log_v_ref) : mD / mm;
+    for (std::size_t i = 0; i < few.D.size(); ++i) {
+      const double f = h * std::exp(b * few.log_u[i]) - few.D[i];
+      rss += f * f;
+    }
+    if (rss < least || exponents.size() == 1) least = rss, best_b = b, best_h = h;
+  }
+  std::vector<double> theta;
+  if (!options.a) theta.push_back(best_h / unit);
+  if (!options.b) theta.push_back(best_b);
+  return theta;
+}
+
+}  // namespace
+
+Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
+  const ShiftRecords records = shift_records(all, options, false);
+  const Height height{options.a, options.b, records.log_v_ref};
+  double unit = 0;
+  for (double D : records.D) unit = std::max(unit, std::abs(D));
+  if (unit == 0) fail("all shifts are 0: b cannot be determined");
+  // Of many records a few thousand lead most of the way.
+  constexpr std::size_t most = 4096;
+  const std::size_t n = records.D.size();
+  const ShiftRecords few = thinned(records, options.robust ? n : most);
+  std::vector<double> theta = power_start(few, options, unit);
+  if (few.D.size() < n) theta = approach(power_system(few, height, unit), std::move(theta));
+
+  const System system = power_system(records, height, unit);
+  Minimum minimum = solve(system, theta, options, false);
+  const double b = height.exponent(minimum.theta), scale = std::exp(-b * records.log_v_ref),
+               a = options.a ? *options.a : minimum.theta[0] * unit * scale;
+  Fitted result{.system = system, .minimum = std::move(minimum)};
+  result.rss = result.minimum.rss;
+  result.records = n;
+  result.left_out = records.left_out;
+  height.report(result, a, unit * scale);
+  for (double x : records.log_u) result.v.push_back(std::exp(x + records.log_v_ref));
+  return result;
+}
+
+namespace {
+
+System line_system(ShiftRecords records, Height height) {
+  for (double& D : records.D) D = std::log(D);
+  const std::size_t p = height.count();
+  std::vector<std::size_t> runs = records.runs;
+  return {std::move(runs), 0, p,
+          [records = std::make_shared<const ShiftRecords>(std::move(records)), height, p](
+              const std::vector<double>& theta, const TakeRows& take) {
+    const double b = height.exponent(theta),
+                 h = height.a ? std::log(*height.a) + b * height.log_v_ref : theta[0];
+    hand_over(records->runs, p, take,
+              [&](std::size_t i, std::span<double> J, std::size_t k, std::size_t n) {
+      height.put(J, k, n, 1, records->log_u[i], 1);
+      return h + b * records->log_u[i] - records->D[i];
+    });
+          }};
+}
+
+/// The standard deviation of ln(1 + e) for normal e of standard deviation s, of those with 1 + e >
+/// 0, which have a logarithm: s itself for a small s; for a large one it grows like a logarithm.
+double spread_of_logarithm(double s) {
+  constexpr int steps = 400;
+  double weight = 0, sum = 0, squares = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double z = 6 * ((i + 0.5) * 2 / steps - 1), w = std::exp(-z * z / 2);
+    if (1 + s * z <= 0) continue;
+    const double log = std::log1p(s * z);
+    weight += w;
+    sum += w * log;
+    squares += w * log * log;
+  }
+  return std::sqrt(squares / weight - sum / weight * (sum / weight));
+}
+
+/// The noise of ln D - b ln v where the filters are known: that of D and v over D and v themselves,
+/// which are those of the roll that fits best, seen through the filters.
+void carry_noise(Fitted& line, const ShiftRecords& records, const std::vector<FitRun>& all,
+                 const FitOptions& options) {
+  const Making making = making_of(Route::shift, all);
+  if (!making.known()) return;
+  const double b = line.b.value;
+  Fitted roll;
+  try {
+    roll = fit_rolls(Route::shift, all, records.rows, making, options);
+  } catch (const Error&) {  // there is no such roll
+    return;
+  }
+  std::vector<Noise::Matrix> matrices;
+  const double variance = noise_variance(roll);
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    const ObservedRun& run = roll.rolls->runs()[r];
+    const Trajectory trajectory = roll.rolls->trajectory(roll.minimum.theta, r);
+    std::vector<double> raw;
+    for (double t : run.t) {
+      const auto s = run.raw_is_position ? trajectory.at(t) : trajectory.speed_at(t);
+      raw.push_back(run.raw_is_position ? s.x : s.v);
+    }
+    const auto& of = making.responses[r].of;
+    BandMatrix E;
+    for (std::size_t i : records.rows[r]) {
+      const double a_i = -of.at("D").times(i, raw), v_i = of.at("v").times(i, raw);
+      const double by_D = a_i > 0 ? 1 / a_i : 1e100, by_v = v_i > 0 ? b / v_i : 0;
+      BandMatrix one;
+      one.append(i, by_D, of.at("D"), by_v, of.at("v"));
+      const double s = std::sqrt(variance) * row_norms(one)[0],
+                   shrink = s > 0 && std::isfinite(s) ? spread_of_logarithm(s) / s : 0;
+      E.append(i, by_D * shrink, of.at("D"), by_v * shrink, of.at("v"));
+    }
+    matrices.push_back(std::make_shared<const BandMatrix>(std::move(E)));
+  }
+  line.noise = std::make_shared<const Noise>(std::move(matrices), std::nullopt);
+  line.noise_variance = variance;
+  line.sources = std::move(roll.sources);
+  line.source_runs = std::move(roll.source_runs);
+  line.innovations = std::move(roll.innovations);
+  line.innovation_runs = std::move(roll.innovation_runs);
+}
+
+}  // namespace
+
+Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) {
+  const ShiftRecords records = shift_records(all, options, true);
+  const Height height{options.a, options.b, records.log_v_ref};
+  const System system = line_system(records, height);
+  Fitted line{.system = system,
+              .minimum = solve(system, std::vector<double>(height.count(), 0), options,
+                               options.robust && making_of(Route::shift, all).known())};
+  const double b = height.exponent(line.minimum.theta),
+               a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * records.log_v_ref);
+  line.rss = line.minimum.rss;
+  line.records = records.D.size();
+  line.left_out = records.left_out;
+  height.report(line, a, a);
+  for (double x : records.log_u) line.v.push_back(std::exp(x + records.log_v_ref));
+  if (!options.robust) carry_noise(line, records, all, options);
+  return line;
+}
+
+}  // namespace rolling

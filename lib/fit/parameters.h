@@ -1,0 +1,74 @@
+// The parameters of a fit: theta, of numbers of order one, and the law and the starts that it
+// stands for.
+#pragma once
+
+#include "contact/power_law.h"
+#include "fit/fit.h"
+
+#include <cmath>
+#include <utility>
+
+namespace rolling {
+
+/// theta holds of every run v0 in units of v_ref and x0 in units of x_ref; then, shared by all
+/// runs, ln of the height D(v_ref) (ln a itself is nearly collinear with b), b, and the slope of
+/// the mat in millimetres a metre. What is held fixed has no place in theta. v0 is the speed along
+/// the way, never negative.
+class Parameters {
+ public:
+  /// Only positions have an x0.
+  Parameters(const FitOptions& options, bool position, std::size_t runs, double v_ref, double x_ref)
+      : a_(options.a), b_(options.b), v0_(options.v0), x0_(options.x0), slope_(options.fit_slope),
+        position_(position), runs_(runs), v_ref_(v_ref), log_v_ref_(std::log(v_ref)),
+        x_ref_(x_ref) {}
+
+  std::size_t shared() const { return !a_ + !b_ + slope_; }
+  std::size_t own() const { return !v0_ + free_x0(); }
+  std::size_t columns() const { return own() + shared(); }
+  std::size_t count() const { return runs_ * own() + shared(); }
+
+  PowerLaw law(const std::vector<double>& theta) const {
+    const double b = b_ ? *b_ : theta[count() - 1 - slope_];
+    return {a_ ? *a_ : std::exp(theta[count() - shared()] - b * log_v_ref_), b};
+  }
+  double v0(const std::vector<double>& theta, std::size_t run) const {
+    return v0_ ? std::abs(*v0_) : theta[run * own()] * v_ref_;
+  }
+  double x0(const std::vector<double>& theta, std::size_t run) const {
+    return !position_ ? 0 : x0_ ? *x0_ : theta[run * own() + !v0_] * x_ref_;
+  }
+  /// The slope of the mat along growing x, or `given` where it is no parameter.
+  double slope(const std::vector<double>& theta, double given) const {
+    return slope_ ? theta.back() * slope_unit : given;
+  }
+  bool fits_slope() const { return slope_; }
+  /// The theta of a level mat, a law and a v0 and x0 for each run.
+  std::vector<double> theta(PowerLaw, const std::vector<double>& v0,
+                            const std::vector<double>& x0) const;
+
+  /// Partial derivatives of a number by a, b, by v0 and x0 of its run, and by the slope.
+  struct Derivatives {
+    double a, b, v0 = 0, x0 = 0, slope = 0;
+  };
+  /// The derivatives by the own parameters of a run and the shared ones, written `stride` apart.
+  void chain(double* to, std::size_t stride, double a, const Derivatives& by) const noexcept {
+    const auto put = [&](double value) { *std::exchange(to, to + stride) = value; };
+    if (!v0_) put(by.v0 * v_ref_);
+    if (free_x0()) put(by.x0 * x_ref_);
+    if (!a_) put(a * by.a);
+    if (!b_) put(by.b - (a_ ? 0 : log_v_ref_ * a * by.a));
+    if (slope_) put(by.slope * slope_unit);
+  }
+
+ private:
+  static constexpr double slope_unit = 1e-3;
+
+  bool free_x0() const { return position_ && !x0_; }
+
+  std::optional<double> a_, b_, v0_, x0_;
+  bool slope_, position_;
+  std::size_t runs_;
+  double v_ref_, log_v_ref_, x_ref_;
+};
+
+}  // namespace rolling

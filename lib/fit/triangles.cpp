@@ -1,0 +1,134 @@
+#include "fit/triangles.h"
+
+#include "fit/dot.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rolling {
+namespace {
+
+/// Folds m rows of [J f], column by column, into the triangle R of J's q columns and one for f, row
+/// by row, by Householder reflections: R becomes that of [R; J f]. Columns that are 0 cost nothing.
+void fold(double* R, std::size_t q, double* J, double* f, std::size_t m) {
+  for (std::size_t j = 0; j < q; ++j) {
+    const double* const x = J + j * m;
+    const double below = dot(x, x, m);
+    if (below == 0) continue;
+    double* const row = R + j * (q + 1);
+    const double length = -std::copysign(std::sqrt(row[j] * row[j] + below), row[j]),
+                 head = row[j] - length;
+    row[j] = length;
+    for (std::size_t k = j + 1; k <= q; ++k) {
+      double* const y = k < q ? J + k * m : f;
+      const double w = (head * row[k] + dot(x, y, m)) / (length * head);
+      row[k] += w * head;
+      if (w != 0)
+        for (std::size_t i = 0; i < m; ++i) y[i] += w * x[i];
+    }
+  }
+}
+
+}  // namespace
+
+Triangles::Triangles(const System& system)
+    : runs_(system.runs.size()), own_(system.own), shared_(system.shared), R_(runs_ * triangle()) {}
+
+void Triangles::add(std::size_t run, std::span<double> f, std::span<double> J) {
+  fold(of(run), q(), J.data(), f.data(), f.size());
+}
+
+void Triangles::join(std::vector<double> common) {
+  std::vector<double> J(shared_ * shared_), f(shared_);
+  for (std::size_t r = 0; r < runs_; ++r) {
+    for (std::size_t i = 0; i < shared_; ++i) {
+      const double* const row = of(r) + (own_ + i) * (q() + 1) + own_;
+      for (std::size_t j = 0; j < shared_; ++j) J[j * shared_ + i] = row[j];
+      f[i] = row[shared_];
+    }
+    fold(common.data(), shared_, J.data(), f.data(), shared_);
+  }
+  for (std::size_t r = 0; r < runs_; ++r)
+    for (std::size_t i = 0; i < shared_; ++i)
+      std::copy_n(&common[i * (shared_ + 1)], shared_ + 1, of(r) + (own_ + i) * (q() + 1) + own_);
+}
+
+Triangles Triangles::damped(const std::vector<double>& D, double mu) const {
+  Triangles all = *this;
+  std::vector<double> common;
+  for (std::size_t i = 0; i < shared_; ++i)
+    common.insert(common.end(), of(0) + (own_ + i) * (q() + 1) + own_,
+                  of(0) + (own_ + i + 1) * (q() + 1));
+  const auto diagonal =
+      [&](std::size_t run, std::size_t first, std::size_t count, std::size_t columns, double* R) {
+    std::vector<double> J(count * columns), f(count);
+    for (std::size_t i = 0; i < count; ++i)
+      J[i * count + i] = std::sqrt(mu) * D[place(run, first + i)];
+    fold(R, columns, J.data(), f.data(), count);
+  };
+  diagonal(0, own_, shared_, shared_, common.data());
+  for (std::size_t r = 0; r < runs_; ++r) {
+    std::fill(all.of(r) + own_ * (q() + 1), all.of(r) + triangle(), 0.0);
+    diagonal(r, 0, own_, q(), all.of(r));
+  }
+  all.join(std::move(common));
+  return all;
+}
+
+/// Calls row(run, j, its elements) for each row of the one triangle of all parameters, once.
+template <typename Row>
+void Triangles::rows(Row&& row) const {
+  for (std::size_t r = 0; r < runs_; ++r)
+    for (std::size_t j = 0; j < (r ? own_ : q()); ++j) row(r, j, of(r) + j * (q() + 1));
+}
+
+std::vector<double> Triangles::solve() const {
+  std::vector<double> theta(runs_ * own_ + shared_);
+  for (std::size_t r = 0; r < runs_; ++r)
+    for (std::size_t j = q(); j-- > 0;) {
+      const double* const row = of(r) + j * (q() + 1);
+      double sum = -row[q()];
+      for (std::size_t k = j + 1; k < q(); ++k) sum -= row[k] * theta[place(r, k)];
+      theta[place(r, j)] = sum / row[j];
+    }
+  return theta;
+}
+
+double Triangles::reduction() const {
+  double sum = 0;
+  rows([&](std::size_t, std::size_t, const double* row) { sum += row[q()] * row[q()]; });
+  return sum;
+}
+
+std::vector<double> Triangles::lengths() const {
+  std::vector<double> all(runs_ * own_ + shared_);
+  rows([&](std::size_t r, std::size_t j, const double* row) {
+    for (std::size_t k = j; k < q(); ++k) all[place(r, k)] = std::hypot(all[place(r, k)], row[k]);
+  });
+  return all;
+}
+
+double Triangles::smallest_sine() const {
+  const std::vector<double> all = lengths();
+  double smallest = 1;
+  rows([&](std::size_t r, std::size_t j, const double* row) {
+    const double length = all[place(r, j)];
+    smallest = std::min(smallest, length > 0 ? std::abs(row[j]) / length : 0);
+  });
+  return smallest;
+}
+
+double Triangles::log_determinant() const {
+  double sum = 0;
+  rows([&](std::size_t, std::size_t j, const double* row) { sum += std::log(std::abs(row[j])); });
+  return sum;
+}
+
+std::vector<double> Triangles::without_f() const {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < R_.size(); ++i)
+    if (i % (q() + 1) != q()) all.push_back(R_[i]);
+  return all;
+}
+
+}  // namespace rolling

@@ -1,0 +1,44 @@
+#include "signal/repeats.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace rolling {
+namespace {
+
+/// The last decimal place that is written: the greatest power of ten that divides all readings.
+double last_place(std::span<const double> readings, double rounding) {
+  double place = 1;
+  for (const double y : readings)
+    while (place > rounding && std::abs(y - std::round(y / place) * place) > rounding) place /= 10;
+  return place;
+}
+
+}  // namespace
+
+double records_held(std::span<const double> readings) {
+  double largest = 0;
+  for (const double y : readings) largest = std::max(largest, std::abs(y));
+  const double rounding = 1e-9 * largest;  // of a program that computed the readings
+  std::vector<double> jumps;               // the steps that are not 0
+  std::size_t steps = 0;
+  for (std::size_t i = 1; i < readings.size(); ++i) {
+    if (readings[i] == 0 && readings[i - 1] == 0) continue;
+    const double step = std::abs(readings[i] - readings[i - 1]);
+    if (step > rounding) jumps.push_back(step);
+    ++steps;
+  }
+  if (jumps.empty() || 4 * jumps.size() >= 3 * steps) return 1;
+  const double unit = *std::min_element(jumps.begin(), jumps.end()),
+               place = last_place(readings, rounding) + rounding;
+  const auto rounded = std::count_if(jumps.begin(), jumps.end(), [&](double jump) {
+    const double units = std::round(jump / unit);
+    return units <= 2 && std::abs(jump - units * unit) <= std::max(0.02 * jump, units * place);
+  });
+  if (2 * rounded >= std::ssize(jumps)) return 1;
+  return static_cast<double>(steps + 1) / static_cast<double>(jumps.size() + 1);
+}
+
+}  // namespace rolling

@@ -1,0 +1,69 @@
+#include "fit/errors.h"
+
+#include "unit/fit/simulated.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+
+TEST_CASE("errors: Ljung-Box tells white residuals from correlated ones", "[fit]") {
+  simulated::Noise noise(3);
+  std::vector<double> white, smooth;
+  for (int i = 0; i < 200; ++i) white.push_back(noise(1));
+  smooth = simulated::mean(white, 5);
+  const std::size_t one[] = {200}, two[] = {100, 100};
+  CHECK(ljung_box(white, 1, one) > 0.01);
+  CHECK(ljung_box(white, 1, two) > 0.01);
+  CHECK(ljung_box(smooth, 1, one) < 1e-6);
+}
+
+TEST_CASE("errors: Newey-West by hand", "[fit]") {
+  // r = -1/4 and AR = (4 r + 1)/(4 - 1 - 2) = 0: nothing to whiten. rho = -1/4, alpha = 64/225,
+  // width = ceil(1.1447 cbrt(4 alpha)) = 2; products one apart sum to -1, two apart to 0: 4 + 2
+  // (2/3) (-1).
+  const std::size_t four[] = {4}, five[] = {5};
+  const std::vector<double> u{1, 1, -1, 1};
+  CHECK(std::abs(newey_west(u, 1, u, four)[0] - 8.0 / 3) < 1e-12);
+  // r = 0, AR = 1/2: whitened sqrt(3)/2, 1/2, -3/2, -1/2, 3/2 with squares 23/4, products sqrt(3)/4
+  // - 3/4, width 1.
+  const std::vector<double> w{1, 1, -1, -1, 1};
+  CHECK(std::abs(newey_west(w, 1, w, five)[0] - 4 * (23.0 / 4 + std::sqrt(3) / 4 - 3.0 / 4)) <
+        1e-12);
+}
+
+TEST_CASE("errors: Breusch-Pagan notices noise that grows, and 1 % of even noise", "[fit]") {
+  simulated::Noise noise(3);
+  int even = 0, growing = 0;
+  for (int k = 0; k < 1000; ++k) {
+    std::vector<double> e, g;
+    for (int i = 0; i < 100; ++i) {
+      e.push_back(noise(1));
+      g.push_back(noise(1 + 0.06 * i));
+    }
+    const std::size_t runs[] = {60, 40}, one[] = {100};
+    even += breusch_pagan(e, runs) <= 0.01;
+    growing += breusch_pagan(g, one) <= 0.01;
+  }
+  CHECK(even <= 22);  // more of 1000 at 1 % by chance in 0.04 %
+  CHECK(growing >= 950);
+}
+
+// sum of squares of the records of each group over its square: HC3 of means is known by hand.
+TEST_CASE("errors: HC3 of a mean of uneven noise is the sum of squares over (n - 1)^2", "[fit]") {
+  simulated::Noise noise(9);
+  FitRun run{};
+  double sum = 0;
+  constexpr int n = 60;
+  for (int i = 0; i < n; ++i) {
+    run.v.push_back(1);
+    run.D.push_back(5 + noise(0.02 + 0.02 * i));
+    sum += run.D.back();
+  }
+  FitOptions options;
+  options.b = 0;
+  const auto r = fit(Route::shift, {run}, options);
+  REQUIRE(r.errors == Errors::uneven);
+  double squares = 0;
+  for (double D : run.D) squares += (D - sum / n) * (D - sum / n);
+  CHECK(std::abs(r.a / (sum / n) - 1) < 1e-13);
+  CHECK(std::abs(r.sigma_a / (std::sqrt(squares) / (n - 1)) - 1) < 1e-10);
+}

@@ -1,0 +1,242 @@
+#include "fit/minimise.h"
+
+#include "base/error.h"
+#include "fit/errors.h"
+#include "unit/catch.h"
+#include "unit/fit/simulated.h"
+
+#include <array>
+#include <cmath>
+#include <tuple>
+
+using namespace rolling;
+
+namespace {
+
+/// One run of n residuals of p parameters; J is filled column by column.
+System one_run(
+    std::size_t n, std::size_t p,
+    std::function<void(const std::vector<double>&, std::vector<double>&, std::vector<double>&)>
+        fill) {
+  return {{n}, 0, p, [=](const std::vector<double>& x, const TakeRows& take) {
+            std::vector<double> f(n), J(n * p);
+            fill(x, f, J);
+            take(0, f, J);
+          }};
+}
+
+}  // namespace
+
+TEST_CASE("minimise: Rosenbrock's valley, from the usual start", "[fit]") {
+  const System valley = one_run(
+      2, 2, [](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+        f = {10 * (x[1] - x[0] * x[0]), 1 - x[0]};
+        J = {-20 * x[0], -1, 10, 0};
+      });
+  const auto m = minimise(valley, {-1.2, 1});
+  CHECK(std::abs(m.theta[0] - 1) < 1e-14);
+  CHECK(std::abs(m.theta[1] - 1) < 1e-14);
+}
+
+TEST_CASE("minimise: as many records as parameters: the root, to round-off of its size", "[fit]") {
+  for (const double square : {3., 3e18, 5e18, 7e18}) {
+    const System root = one_run(
+        1, 1, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+          f = {x[0] * x[0] - square};
+          J = {2 * x[0]};
+        });
+    CHECK(std::abs(minimise(root, {1.5 * std::sqrt(square)}).theta[0] / std::sqrt(square) - 1) <
+          4e-16);
+  }
+}
+
+TEST_CASE("minimise: a kink at the minimum is a minimum", "[fit]") {
+  // (1 + |x|/4)^2 + (1 - x/6)^2 has the slopes -1/2 - 1/3 and 1/2 - 1/3 on the two sides of x = 0:
+  // no step goes down from there
+  const System kink = one_run(
+      2, 1, [](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+        f = {1 + std::abs(x[0]) / 4, 1 - x[0] / 6};
+        J = {x[0] > 0 ? 0.25 : -0.25, -1.0 / 6};
+      });
+  CHECK(std::abs(minimise(kink, {0.7}).theta[0]) < 1e-6);
+}
+
+TEST_CASE("minimise: refuses what does not converge and what cannot be told apart", "[fit]") {
+  const System runaway = one_run(
+      3, 1, [](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+        f = {std::exp(-x[0]), std::exp(-x[0]), 2 * std::exp(-x[0])};
+        J = {-f[0], -f[1], -f[2]};
+      });
+  CHECK_THROWS_AS(minimise(runaway, {0}), Error);
+  const System twins = one_run(
+      3, 2, [](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+        f = {x[0] + x[1] - 1, x[0] + x[1] - 2, x[0] + x[1] - 3};
+        J = {1, 1, 1, 1, 1, 1};
+      });
+  CHECK_THROWS_AS(minimise(twins, {0, 0}), Error);
+}
+
+TEST_CASE("spread: covariance of functions of the parameters", "[fit]") {
+  // R = [2 1; 0 4], M = I: R^-1 R^-T = [17 -2; -2 4] / 64
+  const Spread spread({2, 1, 0, 4}, {1, 0, 0, 1}, 2);
+  CHECK(std::abs(spread({1, 0}, {1, 0}) - 17.0 / 64) < 1e-15);
+  CHECK(std::abs(spread({1, 0}, {0, 1}) + 2.0 / 64) < 1e-15);
+  CHECK(std::abs(spread({0, 1}, {0, 1}) - 4.0 / 64) < 1e-15);
+}
+
+TEST_CASE("minimise_robust: a mean that outliers do not move, by hand", "[fit]") {
+  // Of -2 -1 0 1 2 and 100: the last counts nothing. Bisquare is even, so the mean of the five is
+  // their centre, 0.
+  const std::vector<double> y{-2, -1, 0, 1, 2, 100};
+  const System mean = one_run(
+      6, 1, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+        for (std::size_t i = 0; i < 6; ++i) f[i] = x[0] - y[i], J[i] = 1;
+      });
+  const auto m = minimise_robust(mean, {10});
+  CHECK(std::abs(m.theta[0]) < 1e-8);
+  CHECK(m.f[5] == 0);
+  CHECK(std::abs(m.f[0] + m.f[4]) < 1e-7);
+  CHECK(m.f[0] > m.f[1]);
+  CHECK(std::abs(m.R[0] * m.R[0] - 6) < 1e-12);  // J is not weighted
+}
+
+TEST_CASE(
+    "minimise_robust: the pseudo-residuals are orthogonal to J, where the records are not "
+    "symmetric",
+    "[fit]") {
+  // The estimating equation, sum_i psi(r_i/s) J_i = 0: it names neither the scale nor the weights
+  const std::vector<double> t{0, 1, 2, 3, 4, 5, 6, 7}, y{0, 1.2, 1.9, 3.8, 4.1, 4.2, 6.9, 50};
+  const System line = one_run(
+      8, 2, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+        for (std::size_t i = 0; i < 8; ++i)
+          f[i] = x[0] + x[1] * t[i] - y[i], J[i] = 1, J[8 + i] = t[i];
+      });
+  const auto m = minimise_robust(line, {0, 0});
+  const auto weight = [&](std::size_t i) {
+    return m.f[i] / (m.theta[0] + m.theta[1] * t[i] - y[i]);
+  };
+  double f = 0, tf = 0;
+  for (std::size_t i = 0; i < 8; ++i) f += m.f[i], tf += t[i] * m.f[i];
+  CHECK(std::abs(f) < 1e-8);
+  CHECK(std::abs(tf) < 1e-8);
+  CHECK(weight(7) == 0);
+  CHECK(weight(5) < weight(1));
+}
+
+TEST_CASE("minimise_robust: without outliers a line with its classical errors, nearly", "[fit]") {
+  simulated::Noise noise(17);
+  constexpr std::size_t n = 4000;
+  std::vector<double> t, y;
+  for (std::size_t i = 0; i < n; ++i)
+    t.push_back(static_cast<double>(i) / n), y.push_back(1 + 2 * t.back() + noise(0.1));
+  const System line = one_run(
+      n, 2, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+        for (std::size_t i = 0; i < n; ++i)
+          f[i] = x[0] + x[1] * t[i] - y[i], J[i] = 1, J[n + i] = t[i];
+      });
+  const auto plain = minimise(line, {0, 0}), robust = minimise_robust(line, {0, 0});
+  CHECK(std::abs(robust.theta[1] - 2) < 0.02);
+  CHECK(std::abs(robust.rss / plain.rss - 1 / 0.95) <
+        0.02);  // the efficiency that 4.685 is made for
+}
+
+TEST_CASE(
+    "minimise: a line through many records has the sums of the closed form, and R^T R = J^T J",
+    "[fit]") {
+  simulated::Noise noise(3);
+  constexpr std::size_t n = 1000;  // several blocks, the last one short
+  std::vector<double> t, y;
+  for (std::size_t i = 0; i < n; ++i)
+    t.push_back(static_cast<double>(i) - 499.5), y.push_back(3 - 0.01 * t.back() + noise(0.1));
+  const System line = one_run(
+      n, 2, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+        for (std::size_t i = 0; i < n; ++i)
+          f[i] = x[0] + x[1] * t[i] - y[i], J[i] = 1, J[n + i] = t[i];
+      });
+  const auto m = minimise(line, {0, 0});
+  long double mean = 0, ty = 0;
+  for (std::size_t i = 0; i < n; ++i) mean += y[i], ty += static_cast<long double>(t[i]) * y[i];
+  constexpr double tt = n * (n * n - 1.0) / 12;
+  CHECK(std::abs(m.theta[0] - static_cast<double>(mean / n)) < 1e-14);
+  CHECK(std::abs(m.theta[1] - static_cast<double>(ty / tt)) < 1e-16);
+  CHECK(std::abs(m.R[0] * m.R[0] / n - 1) < 1e-13);
+  CHECK(std::abs(m.R[1]) < 1e-9);  // the times are centred
+  CHECK(std::abs(m.R[3] * m.R[3] / tt - 1) < 1e-13);
+}
+
+TEST_CASE(
+    "minimise: runs with parameters of their own have the minimum and the errors of one dense "
+    "problem",
+    "[fit]") {
+  // f = x exp(-k t) + y - data: x and y of each of three runs, and one k; dense: one run with all
+  // seven.
+  simulated::Noise noise(11);
+  constexpr std::size_t runs = 3, each = 20, n = runs * each;
+  std::vector<double> data;
+  for (std::size_t i = 0; i < n; ++i)
+    data.push_back((1 + static_cast<double>(i / each)) *
+                       std::exp(-1.5 * static_cast<double>(i % each) / each) +
+                   noise(0.05));
+  const auto row = [&](const std::vector<double>& x, std::size_t i) {
+    const double t = static_cast<double>(i % each) / each,
+                 decay = std::exp(-x[6] * t), *const own = &x[2 * (i / each)];
+    return std::array{own[0] * decay + own[1] - data[i], decay, 1.0, -t * own[0] * decay};
+  };
+  const System dense = one_run(
+      n, 7, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+        for (std::size_t i = 0; i < n; ++i) {
+          const auto [value, by_x, by_y, by_k] = row(x, i);
+          f[i] = value;
+          J[2 * (i / each) * n + i] = by_x;
+          J[(2 * (i / each) + 1) * n + i] = by_y;
+          J[6 * n + i] = by_k;
+        }
+      });
+  const System blocks{
+      {each, each, each}, 2, 1, [&](const std::vector<double>& x, const TakeRows& take) {
+        for (std::size_t r = 0; r < runs; ++r) {
+          std::vector<double> f(each), J(3 * each);
+          for (std::size_t i = 0; i < each; ++i)
+            std::tie(f[i], J[i], J[each + i], J[2 * each + i]) =
+                std::tuple_cat(row(x, r * each + i));
+          take(r, f, J);
+        }
+      }};
+  const std::vector<double> start{1, 0, 1, 0, 1, 0, 0.2};  // far enough for Levenberg and Marquardt
+  const auto one = minimise(dense, start), many = minimise(blocks, start);
+  for (std::size_t j = 0; j < 7; ++j) CHECK(std::abs(many.theta[j] / one.theta[j] - 1) < 1e-10);
+  CHECK(std::abs(many.rss / one.rss - 1) < 1e-12);
+
+  std::vector<double> identity(49, 0);
+  for (std::size_t j = 0; j < 7; ++j) identity[8 * j] = 1;
+  std::vector<double> blockwise;
+  for (std::size_t r = 0; r < runs; ++r)
+    blockwise.insert(blockwise.end(), {1, 0, 0, 0, 1, 0, 0, 0, 1});
+  const Spread all(one.R, identity, 7), by_run(many.R, blockwise, 3);
+  for (std::size_t r = 0; r < runs; ++r)
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t k = 0; k < 3; ++k) {
+        std::vector<double> g(7, 0), h(7, 0), g_run(3, 0), h_run(3, 0);
+        g[blocks.place(r, j)] = h[blocks.place(r, k)] = g_run[j] = h_run[k] = 1;
+        CHECK(std::abs(by_run(g_run, h_run, r) / all(g, h) - 1) < 1e-8);
+      }
+
+  // Q^T Q = I, and its own columns are 0 in the other runs.
+  const auto Q = orthonormal(blocks, many);
+  std::vector<double> QQ;
+  for (std::size_t r = 0; r < runs; ++r)
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t k = 0; k < 3; ++k) {
+        double sum = 0;
+        for (std::size_t i = r * each; i < (r + 1) * each; ++i) sum += Q[3 * i + j] * Q[3 * i + k];
+        QQ.push_back(sum);
+      }
+  add_shared(QQ, 3, 1);
+  for (std::size_t i = 0; i < QQ.size(); ++i) CHECK(std::abs(QQ[i] - blockwise[i]) < 1e-10);
+
+  const double freedom = n - 7;
+  double log_det = 0;
+  for (std::size_t j = 0; j < 7; ++j) log_det += std::log(std::abs(one.R[8 * j]));
+  CHECK(std::abs(restricted_likelihood(blocks, many.theta) -
+                 (-freedom / 2 * std::log(one.rss) - log_det)) < 1e-9);
+}

@@ -1,0 +1,85 @@
+#include "fit/noise.h"
+
+#include "fit/minimise.h"
+#include "fit/errors.h"
+#include "fit/response.h"
+#include "unit/fit/simulated.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+
+namespace {
+
+constexpr std::size_t n = 40;
+const std::vector<double> t = simulated::times(n);
+const BandMatrix E =
+    probe(simulated::differentiate("v", "a"), t) * probe(simulated::smooth_v(5), t);
+
+/// A straight line through data whose noise is E times white noise, with a floor in the weights.
+System line(const std::vector<double>& data, std::shared_ptr<const Noise> noise) {
+  return {{n}, 0, 2, [=](const std::vector<double>& c, const TakeRows& take) {
+            std::vector<double> f(n), J(2 * n);
+            for (std::size_t i = 0; i < n; ++i) {
+              f[i] = c[0] + c[1] * t[i] - data[i];
+              J[i] = 1;
+              J[n + i] = t[i];
+            }
+            noise->weight(0, f, J);
+            take(0, f, J);
+          }};
+}
+
+}  // namespace
+
+// The expectation of the sum of squares is exact, whatever the weights; and the covariance of the
+// line is R^-1 B^T B R^-T.
+TEST_CASE("noise: its variance and the covariance of the parameters, whatever the floor", "[fit]") {
+  for (const double share : {1e-3, 0.1, 1.0, 30.0}) {
+    const auto noise = std::make_shared<const Noise>(
+        std::vector<Noise::Matrix>{std::make_shared<const BandMatrix>(E)}, share);
+    simulated::Noise random(7);
+    double variances = 0, squares = 0, covariance = 0;
+    constexpr int runs = 2000;
+    for (int k = 0; k < runs; ++k) {
+      std::vector<double> e, data;
+      for (std::size_t i = 0; i < n; ++i) e.push_back(random(2));
+      for (std::size_t i = 0; i < n; ++i) data.push_back(3 + 0.5 * t[i] + E.times(i, e));
+      Fitted fit{.system = line(data, noise), .minimum = {}};
+      fit.minimum = minimise(fit.system, {0, 0});
+      fit.noise = noise;
+      variances += noise_variance(fit) / runs;
+      squares += (fit.minimum.theta[1] - 0.5) * (fit.minimum.theta[1] - 0.5) / runs;
+      if (k > 0) continue;
+      const auto B = noise->through(orthonormal(fit.system, fit.minimum), 2);
+      const auto& R = fit.minimum.R;  // of which the slope needs the last element alone
+      for (std::size_t s = 0; s < noise->sources()[0]; ++s)
+        covariance += 4 * B[2 * s + 1] * B[2 * s + 1] / (R[3] * R[3]);
+    }
+    CAPTURE(share);
+    CHECK(std::abs(variances / 4 - 1) < 3.3 * std::sqrt(2.0 / 10 / runs));
+    CHECK(std::abs(squares / covariance - 1) < 3.3 * std::sqrt(2.0 / runs));
+  }
+}
+
+TEST_CASE("noise: the least sources that explain residuals give them back", "[fit]") {
+  const Noise noise({std::make_shared<const BandMatrix>(E)}, 1e-4);
+  simulated::Noise random(3);
+  std::vector<double> e, f;
+  for (std::size_t i = 0; i < n; ++i) e.push_back(random(1));
+  for (std::size_t i = 0; i < n; ++i) f.push_back(E.times(i, e));
+  auto weighted = f;
+  noise.weight(0, weighted, {});
+  const auto least = noise.explain(weighted);
+  double size = 0, true_size = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    CHECK(std::abs(E.times(i, least) - f[i]) < 1e-5);
+    size += least[i] * least[i];
+    true_size += e[i] * e[i];
+  }
+  CHECK(size <= true_size);
+  std::vector<std::size_t> runs;
+  const auto innovations = noise.innovations(weighted, runs);
+  REQUIRE(runs.size() == 1);
+  CHECK(innovations.size() == runs[0]);
+  CHECK(runs[0] < n);  // differences know nothing of a constant
+}

@@ -1,0 +1,70 @@
+#include "unit/fit/simulated.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+
+namespace {
+const Body cylinder{1.375, 0.04, 0.5};
+}
+
+TEST_CASE(
+    "differences: those that nothing tells of are found by the residuals, means of speeds are not "
+    "taken for them",
+    "[fit]") {
+  const auto truth = simulated::roll(cylinder, 5.75e-4, 0.1, 0.5);
+  const LinearFilter difference = simulated::differentiate("x", "v");
+  LinearFilter mean = simulated::smooth_v(3);
+  FitOptions options;
+  options.possible_filters = {difference, mean};
+  simulated::Noise noise(12);
+  std::size_t found[4] = {}, covered = 0;
+  constexpr std::size_t runs = 50;
+  for (std::size_t k = 0; k < runs; ++k) {
+    FitRun run{};
+    run.body = cylinder;
+    std::vector<double> x, v;
+    for (int i = 0; i < 120; ++i) {
+      run.t.push_back(0.04 * i);
+      x.push_back(truth.x(run.t.back()) + noise(3e-4));
+      v.push_back(truth.v(run.t.back()) + noise(5e-3));
+    }
+    run.v = difference.apply(run.t, x);
+    const auto r = fit(Route::velocity, {run}, options);
+    found[0] += r.errors == Errors::differences;
+    covered += std::abs(r.b - 0.1) < 1.96 * r.sigma_b;
+    if (r.errors == Errors::differences)
+      CHECK(r.left_out == 2);  // the ends, where nobody knows what was done
+    run.v = v;
+    found[1] += fit(Route::velocity, {run}, options).errors == Errors::differences;
+    run.v = mean.apply(run.t, v);
+    found[2] += fit(Route::velocity, {run}, options).errors == Errors::differences;
+    run.t.resize(29);
+    run.v = difference.apply(run.t, std::vector<double>(x.begin(), x.begin() + 29));
+    found[3] += fit(Route::velocity, {run}, options).errors == Errors::differences;
+  }
+  CHECK(found[0] >= 45);
+  CHECK(covered >= 42);  // fewer of 95 % by chance in 0.2 %
+  CHECK(found[1] <= 4);
+  CHECK(found[2] == 0);
+  CHECK(found[3] == 0);  // too few records
+}
+
+TEST_CASE(
+    "differences: those that the first records of a long run tell of are reckoned with in all of "
+    "it",
+    "[fit]") {
+  const auto truth = simulated::roll(cylinder, 5.75e-4, 0.1, 0.5);
+  FitOptions options;
+  options.possible_filters = {simulated::differentiate("x", "v")};
+  simulated::Noise noise(5);
+  FitRun run{};
+  run.body = cylinder;
+  std::vector<double> x;
+  for (int i = 0; i < 5000; ++i)
+    run.t.push_back(1e-3 * i), x.push_back(truth.x(run.t.back()) + noise(3e-6));
+  run.v = options.possible_filters[0].apply(run.t, x);
+  const auto r = fit(Route::velocity, {run}, options);
+  CHECK(r.errors == Errors::differences);
+  CHECK(r.n == 4998);
+  CHECK(std::abs(r.b - 0.1) < 4 * r.sigma_b);
+}
