@@ -29,7 +29,8 @@ class HeadReader {
   bool is_record(std::string_view line);
   bool is_missing_record(std::string_view line);
   std::vector<std::string> take_names(std::size_t width);
-  std::vector<std::string> take_commented_names(std::size_t width);
+  enum class Proof { known, known_or_tabs, none };
+  std::vector<std::string> take_commented_names(std::size_t width, Proof);
   void refuse_other_names(std::size_t width) const;
   std::vector<Column> known_columns() const;
 
@@ -125,16 +126,15 @@ bool HeadReader::find_record() {
   return false;
 }
 
-/// The names of the last comment with as many names as there are columns. A comment that is certain
-/// (see CommentedNames) takes precedence; after the first head of a file only such a comment counts.
-std::vector<std::string> HeadReader::take_commented_names(std::size_t width) {
+/// The names of the last comment that has as many names as there are columns, and as much proof that
+/// they are names.
+std::vector<std::string> HeadReader::take_commented_names(std::size_t width, Proof proof) {
   std::size_t found = npos;
   const std::vector<Column> known = known_columns();
-  for (std::size_t i = head_.comments.size(); i-- > 0;) {
-    const auto [names, certain] = names_in_comment(head_.comments[i], width, known);
-    if (names.empty() || (!certain && (before_ || found != npos))) continue;
-    found = i;
-    if (certain) break;
+  for (std::size_t i = head_.comments.size(); found == npos && i-- > 0;) {
+    const auto [names, tabs, is_known] = names_in_comment(head_.comments[i], width, known);
+    const bool proven = is_known || (tabs && proof != Proof::known) || proof == Proof::none;
+    if (!names.empty() && proven) found = i;
   }
   if (found == npos) return {};
   auto names = names_in_comment(head_.comments[found], width, known).names;
@@ -168,10 +168,11 @@ void HeadReader::refuse_other_names(std::size_t width) const {
 std::vector<std::string> HeadReader::take_names(std::size_t width) {
   const bool blank_end = dialect_.split(lines_.text()).back().text.empty();
   if (preamble_.empty()) {
-    auto names = take_commented_names(width);
-    if (names.empty() && blank_end && !before_ &&
-        !(names = take_commented_names(width - 1)).empty())
+    auto names = take_commented_names(width, Proof::known_or_tabs);
+    if (names.empty() && blank_end &&  // a nameless column stands behind the others
+        !(names = take_commented_names(width - 1, Proof::known)).empty())
       names.emplace_back();
+    if (names.empty() && !before_) names = take_commented_names(width, Proof::none);
     if (names.empty()) refuse_other_names(width);
     return names;
   }
@@ -249,8 +250,8 @@ CommentedNames names_in_comment(std::string_view comment, std::size_t width,
     for (const std::string_view words : {text, trim(text)}) {  // a tab at an end may be a separator
       auto names = split_names(words, separator);
       if (names.size() != width) continue;
-      const bool tabs = separator == '\t' && width > 1;
-      return {names, tabs || std::any_of(names.begin(), names.end(), in_force)};
+      const bool is_known = std::any_of(names.begin(), names.end(), in_force);
+      return {names, separator == '\t' && width > 1, is_known};
     }
   return {};
 }

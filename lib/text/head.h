@@ -40,7 +40,8 @@ std::vector<std::string> names_in(std::string_view line, Dialect&);
 /// The names of `width` columns in a comment.
 struct CommentedNames {
   std::vector<std::string> names;  ///< empty if the comment has another number of words
-  bool certain = false;  ///< tabs separate them, or one of them is t, x, v, a, D or in `known`
+  bool tabs = false;               ///< tabs separate them
+  bool known = false;              ///< one of them is t, x, v, a, D or in `known`
 };
 CommentedNames names_in_comment(std::string_view comment, std::size_t width,
                                 const std::vector<Column>& known);
