@@ -23,9 +23,9 @@ constexpr std::array<T, count> powers_of_ten() {
 }
 constexpr auto power_of_ten = powers_of_ten<double, 23>();  // all that are exact
 
-/// digits / 10^decimals, correctly rounded; false where that cannot be told. The quotient's rest is
-/// exact, so that the sum of both is known to 2^-52 of its last bit: only what lies that close to
-/// the middle of two doubles is in doubt.
+/// digits / 10^decimals, correctly rounded; false if this method cannot decide the rounding. The
+/// remainder of the quotient is exact, so the sum of both has an error of 2^-52 of its last bit:
+/// only a value that is so close to the middle of two doubles is undecided.
 bool divide(std::uint64_t digits, std::size_t decimals, double& value) {
   const double power = power_of_ten[decimals], most = static_cast<double>(digits),
                quotient = most / power;
@@ -37,12 +37,12 @@ bool divide(std::uint64_t digits, std::size_t decimals, double& value) {
   return value == quotient + rest * (1 - 0x1p-40);
 }
 
-/// What the two exact ways below do not settle: an exponent, more than 19 digits, the middle of two
-/// doubles.
+/// For the numbers that the two exact methods below cannot read: with an exponent, with more than
+/// 19 digits, or close to the middle of two doubles.
 [[gnu::noinline]] const char* read_any_number(const char* const begin, const char* const end,
                                               double& value) {
   const auto [behind, status] =
-      std::from_chars(*begin == '+' ? begin + 1 : begin, end, value);  // which knows no plus
+      std::from_chars(*begin == '+' ? begin + 1 : begin, end, value);  // it does not accept a plus
   return status == std::errc() ? behind : begin;
 }
 
@@ -64,9 +64,9 @@ const char* read_number(const char* const begin, const char* const end, double& 
     ++at;
     count += decimals = take_digits();
   }
-  if (count == 0) return begin;  // inf, nan, +-1 as well
+  if (count == 0) return begin;  // inf, nan and +-1 too
   if (at != end && (*at | 32) == 'e') return read_any_number(begin, end, value);
-  if (count > 19)  // than which no more are sure to be in `digits`, but for zeros in front
+  if (count > 19)  // `digits` holds 19 digits at least; leading zeros do not count
     for (const char* zero = begin + sign; zero != at && (*zero == '0' || *zero == '.'); ++zero)
       count -= *zero == '0';
   if (count > 19 || decimals >= power_of_ten.size()) return read_any_number(begin, end, value);
