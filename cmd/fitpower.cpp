@@ -85,6 +85,8 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, bool all_c
     while (in.next())
       for (const auto& [slot, column] : needed) (run.*column).push_back(in[slot]);
     History history = history_of(in.history(), run.t);
+    if (in.renames() && !history.filters.empty())
+      history = {{}, {}, "--use takes other columns than its `##` lines speak of"};
     run.shift_of = history.shift_of;
     history = compared(std::move(history), run);
     run.filters = std::move(history.filters);

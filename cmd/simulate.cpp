@@ -178,9 +178,11 @@ int main(int argc, char** argv) {
     if (!times_file.empty()) {
       Reader& in = tool.read_file(times_file, {"t"});
       const auto t = in.need_time();
-      write_header();
       for (bool first = true; in.next_run(); first = false) {
         if (!first) tool.out.end_line();
+        for (const std::string& comment : in.comments())
+          if (comment.starts_with("## run ")) tool.out.text(comment), tool.out.end_line();
+        write_header();
         const auto motion = start(roll, method, rtol);
         while (in.next()) {
           if (in[t] < 0) fail("t = {} is before the roll, which begins at 0", in[t]);
