@@ -216,7 +216,7 @@ TEST_CASE("filter: rows left out behind one that waits", "[text]") {
   std::string text;
   for (int i = 0; i < 100; ++i) text += std::to_string(i) + " 1\n";
   const TemporaryFile file("# a\n9 9\n\n" + text);
-  const std::string out = printed([&] {
+  const std::string written = printed([&] {
     Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
     Output out;
     const auto v = in.need("v");
@@ -235,6 +235,6 @@ TEST_CASE("filter: rows left out behind one that waits", "[text]") {
     filter.next_run();
     out.flush();
   });
-  CHECK(out.find("\n9\t7\n") != std::string::npos);
-  CHECK(out.substr(out.rfind("v[m/s]")) == "v[m/s]\n3\t8\n98\t9\n");
+  CHECK(written.find("\n9\t7\n") != std::string::npos);
+  CHECK(written.substr(written.rfind("v[m/s]")) == "v[m/s]\n3\t8\n98\t9\n");
 }
