@@ -45,17 +45,17 @@ struct Clock {
 };
 
 /// Comma-separated with a names line and blank cells, as such programs export it.
-void write_record(Output& out, const std::vector<SonarSample>& record) {
+void write_record(Output& out, Motion& motion, const SonarOptions& sonar) {
   out.text("Time (s),Position (m),Velocity (m/s)");
   out.end_line();
-  for (const SonarSample& sample : record) {
+  sonar_record(motion, sonar, [&](const SonarSample& sample) {
     out.number(sample.t);
     out.text(',');
     if (sample.x) out.number(*sample.x);
     out.text(',');
     if (sample.v) out.number(*sample.v);
     out.end_line();
-  }
+  });
 }
 
 /// On standard error: what the methods cost on this scene, and how far they are off.
@@ -155,7 +155,7 @@ int main(int argc, char** argv) {
     if (sensor) {
       sonar.seed = seed;
       if (!std::isnan(until)) sonar.until = until;
-      write_record(tool.out, sonar_record(*start(roll, method, rtol), sonar));
+      write_record(tool.out, *start(roll, method, rtol), sonar);
       return 0;
     }
 

@@ -1,15 +1,16 @@
-// What a motion sensor at the end of the track records of a roll: raw data with a known answer.
+// Simulates the record of a motion sensor (sonar) at the end of the track, with noise, rounding and
+// lost echoes: raw data for which the right result is known.
 #pragma once
 
 #include "motion/motion.h"
 
+#include <functional>
 #include <limits>
 #include <optional>
-#include <vector>
 
 namespace rolling {
 
-/// Defaults: a PASCO-type sonar with a careful hand.
+/// The defaults describe a sonar of PASCO and a smooth push by hand.
 struct SonarOptions {
   double rate = 25;           ///< records a second
   double resolution = 0.001;  ///< positions are rounded to this [m]; 0: not at all
@@ -20,8 +21,8 @@ struct SonarOptions {
   double push = 0.5;       ///< how long the hand pushes [s]
   double rest_after = 1;   ///< record after the stop [s]
   double start = 0.3;      ///< distance from the sensor before the push [m]
-  double until = std::numeric_limits<double>::infinity();  ///< free roll at most this long [s];
-                                                           ///< then the record ends
+  /// The record ends so long after the push [s]; infinite: rest_after after the stop.
+  double until = std::numeric_limits<double>::infinity();
 };
 
 /// One record; x or v is missing where the echo was lost.
@@ -35,7 +36,9 @@ struct SonarSample {
 /// Rest, the hand's push from 0 to the motion's speed at its t = 0 (v0 sin^2), free roll, rest.
 /// Before the rounding white gaussian noise is added. The same seed gives the same record
 /// everywhere; `lost` does not change the noise of the others. Throws Error for an option out of
-/// its range, and for a motion that never stops if `until` is infinite.
-std::vector<SonarSample> sonar_record(Motion&, const SonarOptions&);
+/// its range, for a motion that never stops if `until` is infinite, and for more than 1e9 samples.
+/// `write` gets one sample after the other: five are kept at a time.
+void sonar_record(Motion&, const SonarOptions&,
+                  const std::function<void(const SonarSample&)>& write);
 
 }  // namespace rolling

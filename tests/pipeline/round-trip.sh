@@ -12,9 +12,9 @@ FILES=${FILES:-60} runs=20 wrong=0
 
 chains=('differentiate' 'differentiate | shift-from-accel -K 0.5 -R 0.04 -g 1e20' 'differentiate | differentiate -c a')
 extra=('a[m/s^2]' 'a[m/s^2]|D[m]' 'a[m/s^2]|da[m/s^2/s]')
-for c in "${!chains[@]}"; do
-  history[c]=$(printf '0 1\n1 2\n' | eval "${chains[c]}" | sed -n 's/^## //p' | paste -s -d '|')
-done
+history=('differentiate v central'
+  'differentiate v central|shift-from-accel K 0.5 R 0.04 g 1e+20'
+  'differentiate v central|differentiate a central')
 for seed in $(seq "$FILES"); do
   c=$((seed % ${#chains[@]}))
   awk -v seed="$seed" -v runs=$runs -v file="$scratch/in" -v expected="$scratch/expected" \

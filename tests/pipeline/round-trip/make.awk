@@ -5,7 +5,7 @@ function random(n) { return int(n * rand()) }
 function one_of(list,   parts) { return parts[1 + random(split(list, parts, "|"))] }
 function shown(text) { gsub(/\\/, "\\\\", text); gsub(/\t/, "\\t", text); gsub(/\n/, "\\n", text); return text }
 function remark(   n, text) {
-  for (n = 1 + random(5); n; n--) text = text " " one_of("made|on|Tuesday|#|\"q|5\"|a,b|c;d|--|caf\303\251")
+  for (n = 1 + random(5); n; n--) text = text " " one_of("made|on|Tuesday|#|\"q|5\"|q,b|c;d|--|caf\303\251")
   return text one_of("|\te")
 }
 function word(   n, text) {
