@@ -91,7 +91,6 @@ int main(int argc, char** argv) {
 
     Filter filter(in, tool.out);
     filter.replace(y);
-    const bool all = select.all();
     bool told = false;
     const auto tell = [&] {
       if (!std::exchange(told, true)) filter.set_history(history(name, select, options));
@@ -112,7 +111,7 @@ int main(int argc, char** argv) {
         }
       };
       while (filter.next()) {
-        if (all) filter.put(smoother->push(filter[t], filter[y])), ++kept;
+        if (select.all()) filter.put(smoother->push(filter[t], filter[y])), ++kept;
         else take(selection.push(filter[t], filter[y]));
       }
       const auto last = selection.finish();
