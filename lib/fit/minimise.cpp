@@ -146,7 +146,9 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
     // step goes down, but the slope of either side remains. It is worth a fraction of a standard
     // deviation, never more.
     if (best.rss > before * (1 - std::max(1e-8, 1e-3 / freedom)) && offset() < 1) break;
-    if (round == 20) fail("the fit does not converge");
+    if (round == 20)
+      fail(
+          "the fit does not converge: are all of these records of the free roll (smooth --coast)?");
   }
   if (!determined()) fail("the data do not determine the parameters: they cannot be told apart");
   return {std::move(best.theta), std::move(best.f), best.R.without_f(), best.rss};

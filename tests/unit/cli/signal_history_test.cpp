@@ -28,9 +28,10 @@ TEST_CASE("history: each linear method comes back as the same filter", "[cli]") 
     for (const Width width : {Width{7, 0}, Width{0, 0.3}}) {
       INFO(method.name);
       const SignalOptions options{&method, width, 3};
-      const auto chain = history_of(
-          {"smooth v coast", "smooth t from 1.5", "smooth t to 2", "smooth v " + describe(options)},
-          t);
+      const auto chain = history_of({"smooth v coast", "smooth t from 1.5", "smooth t to 2",
+                                     "smooth v " + describe(options)},
+                                    t)
+                             .filters;
       if (!method.linear) {  // not linear
         CHECK(chain.empty());
         continue;

@@ -126,6 +126,76 @@ TEST_CASE(
   }
 }
 
+namespace {
+
+/// The state after t of a roll under b = 0 on a slope, where the deceleration is constant: with
+/// A = 1, v' = -g (a cos(theta) + R sin(theta)) / ((K + 1) R), counted along the way.
+struct Even {
+  double deceleration, v0;
+  double x(double t) const { return v0 * t - deceleration * t * t / 2; }
+};
+Even even(const Body& body, double a, double slope, double v0) {
+  const double cos = 1 / std::sqrt(1 + slope * slope), sin = slope * cos;
+  return {body.g * (a * cos + body.R * sin) / ((body.K + 1) * body.R), v0};
+}
+
+}  // namespace
+
+TEST_CASE("trajectory: two directions tell the slope from the law, one does not", "[fit]") {
+  const double S = 0.002, a = 1.2e-3;
+  simulated::Noise noise(6);
+  int covered_a = 0, covered_S = 0;
+  for (int k = 0; k < 100; ++k) {
+    std::vector<FitRun> runs(2);
+    for (int r = 0; r < 2; ++r) {
+      const double way = r ? -1 : 1;
+      const Even roll = even(cylinder, a, way * S, 0.5);
+      runs[r].body = cylinder;
+      for (double t = 0; t < 0.9 * 0.5 / roll.deceleration; t += 0.04) {
+        runs[r].t.push_back(t);
+        runs[r].x.push_back(way * roll.x(t) + noise(3e-4));
+      }
+    }
+    FitOptions options;
+    options.fit_slope = true;
+    const auto r = fit(Route::position, runs, options);
+    covered_a += std::abs(r.a - a) < 1.96 * r.sigma_a;
+    covered_S += std::abs(r.slope - S) < 1.96 * r.sigma_slope;
+    CHECK(r.sigma_slope < 4e-5);
+    if (k > 0) continue;
+    CHECK_THROWS_AS(fit(Route::position, {runs[0]}, options), Error);
+    // A slope that is known does as well as none.
+    options.fit_slope = false;
+    for (FitRun& run : runs) run.body.slope = S;
+    const auto told = fit(Route::position, runs, options);
+    CHECK(std::abs(told.a - a) < 4 * told.sigma_a);
+    // Nothing of a slope shows in a plain D(v).
+    FitRun plain{};
+    plain.v = {0.1, 0.2, 0.3, 0.4};
+    plain.D = {1, 2, 3, 4};
+    options.fit_slope = true;
+    CHECK_THROWS_AS(fit(Route::shift, {plain}, options), Error);
+  }
+  CHECK(covered_a >= 87);  // fewer of 100 at 95 % by chance in 0.05 %
+  CHECK(covered_S >= 87);
+  CHECK(covered_a + covered_S < 200);
+}
+
+TEST_CASE("trajectory: with A = 1 only g/((K + 1) R) matters, for D beyond the radius too",
+          "[fit]") {
+  std::vector<FitResult> results;
+  for (const double K : {0.25, 1.0}) {
+    FitRun run{};
+    run.body = {1, 0.02, K};
+    run.body.g = 10 * (K + 1);
+    const auto truth = simulated::roll(run.body, 0.03, 0.3, 2);  // D = 0.037 m > R
+    for (int i = 0; i < 60; ++i) run.t.push_back(0.002 * i), run.x.push_back(truth.x(0.002 * i));
+    results.push_back(fit(Route::position, {run}, {}));
+    CHECK(std::abs(results.back().a / 0.03 - 1) < 1e-9);
+  }
+  CHECK(std::abs(results[0].b - results[1].b) < 1e-12);
+}
+
 TEST_CASE("trajectory: no roll, no law", "[fit]") {
   FitRun run{};
   run.body = cylinder;
