@@ -42,8 +42,8 @@ const std::vector<double>& column(const FitRun& run, std::string_view name) {
   return name == "t" ? run.t : name == "x" ? run.x : name == "v" ? run.v : run.D;
 }
 
-void report_route(Tool& tool, const std::string& name, Route route,
-                  const std::vector<FitRun>& runs, const FitOptions& options) {
+void report_route(Tool& tool, const std::string& name, Route route, const std::vector<FitRun>& runs,
+                  const FitOptions& options) {
   for (const FitRun& run : runs)
     for (const std::string& needed : columns_of(route))
       if (column(run, needed).empty()) fail("there is no column {}", needed);
@@ -80,7 +80,7 @@ std::string described(const LawFit& fit, double least) {
 
 }  // namespace
 
-void warn_of(Tool& tool, const FitResult& r, std::size_t first) {
+void warn_of(Tool& tool, const FitResult& r, std::span<const std::string> names) {
   if (exact(r)) return;
   if (r.errors == Errors::autocorrelation)
     tool.warn(fmt::format(
@@ -94,7 +94,7 @@ void warn_of(Tool& tool, const FitResult& r, std::size_t first) {
         "run {}: the speed changes once a turn (significance {:.1g}), as if the centre of mass lay "
         "{:.2g} +- {:.1g} mm off the axis, most ahead of it at {:.0f} degrees: a and b are further "
         "off than their errors say; balance the body",
-        first + found->run + 1, found->significance, 1e3 * found->e, 1e3 * found->sigma,
+        names[found->run], found->significance, 1e3 * found->e, 1e3 * found->sigma,
         std::fmod(found->phase * 180 / std::numbers::pi + 360, 360)));
 }
 
@@ -119,11 +119,11 @@ void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& optio
 }
 
 void check(Tool& tool, const FitResult& r, const std::optional<LawComparison>& laws,
-           std::size_t first) {
+           std::span<const std::string> names) {
   constexpr double better = 10;       // AICc: the other law has no support any more (Burnham and
                                       // Anderson 2002, section 2.6)
   constexpr double decisive = 0.005;  // as many false alarms
-  const std::string run = first ? fmt::format("run {}: ", first + 1) : "";
+  const std::string run = names.size() == 1 ? fmt::format("run {}: ", names[0]) : "";
   if (laws && laws->against_power() >= better)
     tool.check_failed(fmt::format("{}D = {} is better than a v^b by {:.1f} in AICc; see --report",
                                   run, laws->best_other().law->formula, laws->against_power()));
