@@ -29,6 +29,19 @@ double Spread::operator()(const std::vector<double>& g, const std::vector<double
   return sum;
 }
 
+std::vector<double> Spread::shared_middle(std::size_t s) const {
+  std::vector<double> M;
+  for (std::size_t i = q_ - s; i < q_; ++i)
+    M.insert(M.end(), &M_[i * q_ + q_ - s], &M_[i * q_] + q_);
+  return M;
+}
+
+void Spread::set_shared_middle(const std::vector<double>& M, std::size_t s) {
+  for (std::size_t run = 0; run < M_.size(); run += q_ * q_)
+    for (std::size_t i = 0; i < s; ++i)
+      std::copy_n(&M[i * s], s, &M_[run + (q_ - s + i) * q_ + q_ - s]);
+}
+
 std::vector<double> orthonormal(const System& system, const Minimum& m) {
   const std::size_t q = system.columns();
   std::vector<double> Q;

@@ -14,6 +14,10 @@ class Spread {
   double operator()(const std::vector<double>& g, const std::vector<double>& h,
                     std::size_t run = 0) const;
 
+  /// M of the shared parameters, of which there are so many.
+  std::vector<double> shared_middle(std::size_t shared) const;
+  void set_shared_middle(const std::vector<double>&, std::size_t shared);
+
  private:
   std::vector<double> solve_transposed(std::vector<double> g, std::size_t run) const;
   std::vector<double> R_, M_;
