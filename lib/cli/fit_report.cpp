@@ -46,8 +46,11 @@ const std::vector<double>& column(const FitRun& run, std::string_view name) {
 std::string budget(const FitResult& r) {
   std::string a, b;
   for (const ErrorShare& share : r.shares) {
-    a += fmt::format("{} {} {:.2g}", a.empty() ? "" : ",", share.of, share.a);
-    b += fmt::format("{} {} {:.2g}", b.empty() ? "" : ",", share.of, share.b);
+    // What is left of rounding is nothing.
+    const auto part = [](double x, double all) { return x < 1e-9 * all ? 0 : x; };
+    const char* const comma = a.empty() ? "" : ",";
+    a += fmt::format("{} {} {:.2g}", comma, share.of, part(share.a, r.sigma_a));
+    b += fmt::format("{} {} {:.2g}", comma, share.of, part(share.b, r.sigma_b));
   }
   return fmt::format(
       "sigma_a {:.2g} is the root of the sum of squares of:{}; sigma_b {:.2g}, of:{}", r.sigma_a, a,

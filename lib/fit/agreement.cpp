@@ -89,6 +89,7 @@ Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, bool 
   Agreement result{};
   result.runs = laws.size();
   const Pair mean = W.inverse() * sum;
+  result.mean = {std::exp(mean.a), mean.b};
   double most = -1, likelihood = 0;
   for (const OwnLaw& one : laws) {
     const Symmetric weight = one.covariance.inverse();
@@ -108,47 +109,31 @@ Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, bool 
 
 using Matrix = std::vector<double>;  // square, row by row
 
-/// Eigenvalues and, one after another, eigenvectors of a symmetric matrix.
-struct Eigen {
-  std::vector<double> values;
-  std::vector<std::vector<double>> vectors;
-};
-/// Of A x = lambda B x with x^T B x = 1; B positive definite.
-Eigen eigen(Matrix A, Matrix B) {
-  silence_gsl();
-  const std::size_t n = static_cast<std::size_t>(std::lround(std::sqrt(A.size())));
-  auto left = gsl_matrix_view_array(A.data(), n, n), right = gsl_matrix_view_array(B.data(), n, n);
-  const Matrix metric = B;
-  auto values = own(gsl_vector_alloc(n), gsl_vector_free);
-  auto vectors = own(gsl_matrix_alloc(n, n), gsl_matrix_free);
-  auto work = own(gsl_eigen_gensymmv_alloc(n), gsl_eigen_gensymmv_free);
-  check_gsl(
-      gsl_eigen_gensymmv(&left.matrix, &right.matrix, values.get(), vectors.get(), work.get()),
-      "the runs cannot be compared");
-  Eigen result;
-  for (std::size_t k = 0; k < n; ++k) {
-    std::vector<double> x;
-    for (std::size_t i = 0; i < n; ++i) x.push_back(gsl_matrix_get(vectors.get(), i, k));
-    double length = 0;
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < n; ++j) length += x[i] * metric[i * n + j] * x[j];
-    for (double& element : x) element /= std::sqrt(length);
-    result.values.push_back(gsl_vector_get(values.get(), k));
-    result.vectors.push_back(std::move(x));
-  }
-  return result;
-}
-
-std::vector<double> times(const Matrix& A, const std::vector<double>& x) {
-  std::vector<double> y(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i)
-    y[i] = std::inner_product(x.begin(), x.end(), &A[i * x.size()], 0.0);
-  return y;
-}
-
 void add_square(Matrix& A, const std::vector<double>& x, double factor) {
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t j = 0; j < x.size(); ++j) A[i * x.size() + j] += factor * x[i] * x[j];
+}
+
+/// (1 - H)^-1/2 z for a symmetric H; nothing of z in directions in which H is 1.
+std::vector<double> freed(Matrix H, const std::vector<double>& z) {
+  silence_gsl();
+  const std::size_t n = z.size();
+  auto view = gsl_matrix_view_array(H.data(), n, n);
+  auto values = own(gsl_vector_alloc(n), gsl_vector_free);
+  auto vectors = own(gsl_matrix_alloc(n, n), gsl_matrix_free);
+  auto work = own(gsl_eigen_symmv_alloc(n), gsl_eigen_symmv_free);
+  check_gsl(gsl_eigen_symmv(&view.matrix, values.get(), vectors.get(), work.get()),
+            "the runs cannot be compared");
+  std::vector<double> result(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double rest = 1 - gsl_vector_get(values.get(), k);
+    if (rest < 1e-6) continue;
+    double part = 0;
+    for (std::size_t i = 0; i < n; ++i) part += gsl_matrix_get(vectors.get(), i, k) * z[i];
+    for (std::size_t i = 0; i < n; ++i)
+      result[i] += gsl_matrix_get(vectors.get(), i, k) * part / std::sqrt(rest);
+  }
+  return result;
 }
 
 /// The middle of the sandwich of the shared parameters by the scatter of the runs: the sum of
@@ -156,8 +141,7 @@ void add_square(Matrix& A, const std::vector<double>& x, double factor) {
 Matrix scatter(const Fitted& joint) {
   const std::size_t q = joint.system.columns(), s = joint.system.shared;
   const auto Q = orthonormal(joint.system, joint.minimum);
-  Matrix one(s * s), all(s * s);
-  for (std::size_t i = 0; i < s; ++i) one[i * s + i] = 1;
+  Matrix all(s * s);
   std::size_t row = 0;
   for (const std::size_t n : joint.system.runs) {
     Matrix H(s * s);
@@ -167,27 +151,9 @@ Matrix scatter(const Fitted& joint) {
       add_square(H, of_row, 1);
       for (std::size_t i = 0; i < s; ++i) z[i] += of_row[i] * joint.minimum.f[row];
     }
-    const Eigen leverage = eigen(H, one);
-    std::vector<double> freed(s);
-    for (std::size_t k = 0; k < s; ++k) {
-      const auto& x = leverage.vectors[k];
-      const double rest = 1 - leverage.values[k];
-      if (rest < 1e-6) continue;  // no other run says anything of this direction
-      const double part = std::inner_product(x.begin(), x.end(), z.begin(), 0.0) / std::sqrt(rest);
-      for (std::size_t i = 0; i < s; ++i) freed[i] += part * x[i];
-    }
-    add_square(all, freed, 1);
+    add_square(all, freed(std::move(H), z), 1);
   }
   return all;
-}
-
-/// The least matrix that is at least A and at least B in every direction; A is positive definite.
-Matrix larger(const Matrix& A, const Matrix& B) {
-  const Eigen both = eigen(B, A);
-  Matrix result(A.size());
-  for (std::size_t k = 0; k < both.values.size(); ++k)
-    add_square(result, times(A, both.vectors[k]), std::max(1.0, both.values[k]));
-  return result;
 }
 
 /// The joint fit with the noise that the runs show around their own laws: around the common one the
@@ -244,17 +210,18 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
   Agreement result = compare(laws, parameters, options.fit_slope);
   if (result.agree()) return result;
   errors = uncertainty_of(with_own_noise(joint, own));
-  Matrix noise = errors.covariance.shared_middle(s);
   const double freedom =
       static_cast<double>(laws.size()) - 1 - static_cast<double>(options.fit_slope);
+  Matrix middle;
   if (freedom >= 1) {
     const double t = gsl_cdf_tdist_Pinv(0.975, freedom) / 1.96;
-    Matrix of_runs = scatter(joint);
-    for (double& x : of_runs) x *= t * t;
-    noise = larger(noise, of_runs);
-  } else
-    for (double& x : noise) x *= std::max(1.0, result.chi2 / static_cast<double>(result.dof));
-  errors.covariance.set_shared_middle(noise, s);
+    middle = scatter(joint);
+    for (double& x : middle) x *= t * t;
+  } else {
+    middle = errors.covariance.shared_middle(s);
+    for (double& x : middle) x *= result.chi2 / static_cast<double>(result.dof);
+  }
+  errors.covariance.widen(middle, s);
   return result;
 }
 

@@ -9,7 +9,7 @@ namespace rolling {
 /// all runs), and compared with the mean of all, weighted by the inverse covariances of its own
 /// errors. None where fewer than two runs determine a law by themselves. `errors` are those of the
 /// joint fit; where the runs disagree they become those of the noise around the runs' own laws,
-/// raised in each direction of the shared parameters in which the runs scatter by more:
+/// or those that the scatter of the runs brings to a number, where these are larger:
 ///
 /// The scatter is that of what each run does to the joint fit, freed of its own weight there (Bell
 /// and McCaffrey 2002, Survey Methodology 28, 169). For runs of equal weight and one parameter the

@@ -23,10 +23,16 @@ std::vector<double> Spread::solve_transposed(std::vector<double> g, std::size_t 
 double Spread::operator()(const std::vector<double>& g, const std::vector<double>& h,
                           std::size_t run) const {
   const auto left = solve_transposed(g, run), right = solve_transposed(h, run);
-  double sum = 0;
-  for (std::size_t i = 0; i < q_; ++i)
-    for (std::size_t j = 0; j < q_; ++j) sum += left[i] * M_[(run * q_ + i) * q_ + j] * right[j];
-  return sum;
+  const auto through = [&](const std::vector<double>& M, const auto& x, const auto& y) {
+    double sum = 0;
+    for (std::size_t i = 0; i < q_; ++i)
+      for (std::size_t j = 0; j < q_; ++j) sum += x[i] * M[(run * q_ + i) * q_ + j] * y[j];
+    return sum;
+  };
+  const auto wider = [&](const std::vector<double>& x) {
+    return through(wider_, x, x) > through(M_, x, x);
+  };
+  return through(!wider_.empty() && wider(left) && wider(right) ? wider_ : M_, left, right);
 }
 
 std::vector<double> Spread::shared_middle(std::size_t s) const {
@@ -36,10 +42,11 @@ std::vector<double> Spread::shared_middle(std::size_t s) const {
   return M;
 }
 
-void Spread::set_shared_middle(const std::vector<double>& M, std::size_t s) {
+void Spread::widen(const std::vector<double>& M, std::size_t s) {
+  wider_ = M_;
   for (std::size_t run = 0; run < M_.size(); run += q_ * q_)
     for (std::size_t i = 0; i < s; ++i)
-      std::copy_n(&M[i * s], s, &M_[run + (q_ - s + i) * q_ + q_ - s]);
+      std::copy_n(&M[i * s], s, &wider_[run + (q_ - s + i) * q_ + q_ - s]);
 }
 
 std::vector<double> orthonormal(const System& system, const Minimum& m) {

@@ -16,11 +16,14 @@ class Spread {
 
   /// M of the shared parameters, of which there are so many.
   std::vector<double> shared_middle(std::size_t shared) const;
-  void set_shared_middle(const std::vector<double>&, std::size_t shared);
+  /// From now on the variance of a function is that by this M of the shared parameters where it is
+  /// larger, and the covariance of two where both are.
+  void widen(const std::vector<double>& shared_middle, std::size_t shared);
 
  private:
   std::vector<double> solve_transposed(std::vector<double> g, std::size_t run) const;
   std::vector<double> R_, M_;
+  std::vector<double> wider_;  // like M_; empty if there is none
   std::size_t q_;
 };
 

@@ -282,10 +282,14 @@ void require_determined(const FitResult& result, bool with_slope) {
 }  // namespace
 
 FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
-  const Fitted found = fit_route(route, runs, options);
+  Fitted found = fit_route(route, runs, options);
   Uncertainty errors = uncertainty_of(found);
   require_determined(result_of(found, errors, {}), options.fit_slope);
   const auto agreement = agreement_of(route, runs, options, found, errors);
+  if (agreement && !agreement->agree()) {
+    found.a.value = options.a.value_or(agreement->mean.a);
+    found.b.value = options.b.value_or(agreement->mean.b);
+  }
   FitResult result = result_of(found, errors, moved_by_given(route, runs, options, found));
   if (route != Route::velocity && route != Route::position) result.v0 = result.sigma_v0 = {};
   result.agreement = agreement;
