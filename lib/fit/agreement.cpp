@@ -1,14 +1,11 @@
 #include "fit/agreement.h"
 
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_eigen.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/error.h"
-#include "base/gsl.h"
 
 namespace rolling {
 namespace {
@@ -33,12 +30,23 @@ Pair operator-(Pair x, Pair y) { return {x.a - y.a, x.b - y.b}; }
 Symmetric operator+(Symmetric X, Symmetric Y) { return {X.aa + Y.aa, X.ab + Y.ab, X.bb + Y.bb}; }
 Symmetric operator-(Symmetric X, Symmetric Y) { return {X.aa - Y.aa, X.ab - Y.ab, X.bb - Y.bb}; }
 
+/// ln D at a speed, and its error.
+Estimate log_D_of(Pair law, const Symmetric& C, double log_v) {
+  return {law.a + log_v * law.b,
+          std::sqrt(std::max(0.0, C.aa + log_v * (2 * C.ab + log_v * C.bb)))};
+}
+/// ln of the speed at which D is known best: there its error does not depend on that of b.
+double best_known(const Symmetric& C) { return C.bb > 0 ? -C.ab / C.bb : 0; }
+
 /// What one run says of the law by itself.
 struct OwnLaw {
   std::size_t run;
   Pair law;
   Symmetric covariance;
   double freedom;  // of its noise
+
+  Estimate log_D(double log_v) const { return log_D_of(law, covariance, log_v); }
+  Estimate b() const { return {law.b, std::sqrt(covariance.bb)}; }
 };
 
 std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own) {
@@ -66,18 +74,48 @@ void stand_out(Agreement& result, const OwnLaw& one, Pair others, Symmetric C, d
   const Pair d = one.law - others;
   C = C + one.covariance;
   const double distance = C.inverse().square(d);
-  if (!(distance > most)) return;
+  if (!(distance > most * (1 + 1e-9))) return;  // two runs are as far from each other
   most = distance;
-  // D is known best at the speed where its error does not depend on that of b.
-  const double log_v = C.bb > 0 ? -C.ab / C.bb : 0;
+  const double log_v = best_known(C);
   result.run = one.run;
   result.speed = std::exp(log_v);
-  result.log_D = {d.a + log_v * d.b,
-                  std::sqrt(std::max(0.0, C.aa + log_v * (2 * C.ab + log_v * C.bb)))};
+  result.log_D = log_D_of(d, C, log_v);
   result.b = {d.b, std::sqrt(C.bb)};
 }
 
-Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, bool slope) {
+/// The mean of numbers with standard errors (all 0 for one that is held), weighted by their inverse
+/// squares, and the root of chi^2 over `freedom`.
+struct Average {
+  Estimate mean;
+  double scale;
+};
+Average average(const std::vector<Estimate>& numbers, double freedom) {
+  double weights = 0, sum = 0, chi2 = 0;
+  for (const Estimate& x : numbers) weights += 1 / (x.sigma * x.sigma);
+  if (std::isinf(weights)) return {numbers.front(), 1};
+  for (const Estimate& x : numbers) sum += x.value / (x.sigma * x.sigma);
+  const Estimate mean{sum / weights, 1 / std::sqrt(weights)};
+  for (const Estimate& x : numbers) chi2 += std::pow((x.value - mean.value) / x.sigma, 2);
+  return {mean, std::sqrt(chi2 / freedom)};
+}
+
+/// Of ln D at a speed.
+Average average_of_D(const std::vector<OwnLaw>& laws, double log_v, double freedom) {
+  std::vector<Estimate> all;
+  for (const OwnLaw& one : laws) all.push_back(one.log_D(log_v));
+  return average(all, freedom);
+}
+
+/// What the few runs say of their scatter is itself uncertain: for these degrees of freedom.
+double student(double freedom) { return gsl_cdf_tdist_Pinv(0.975, freedom) / 1.96; }
+
+struct Comparison {
+  Agreement result;
+  double freedom = 0;  // of the scatter of a number from run to run
+  double scale = 1;    // of the error of the D that is known best, or of all together
+};
+
+Comparison compare(const std::vector<OwnLaw>& laws, std::size_t parameters, bool slope) {
   Symmetric W{};
   Pair sum{};
   for (const OwnLaw& one : laws) {
@@ -89,7 +127,6 @@ Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, bool 
   Agreement result{};
   result.runs = laws.size();
   const Pair mean = W.inverse() * sum;
-  result.mean = {std::exp(mean.a), mean.b};
   double most = -1, likelihood = 0;
   for (const OwnLaw& one : laws) {
     const Symmetric weight = one.covariance.inverse();
@@ -102,58 +139,13 @@ Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, bool 
   }
   result.dof = parameters * (laws.size() - 1);
   if (slope) --result.dof;
-  if (result.dof > 0)
-    result.significance = gsl_cdf_chisq_Q(likelihood, static_cast<double>(result.dof));
-  return result;
-}
-
-using Matrix = std::vector<double>;  // square, row by row
-
-void add_square(Matrix& A, const std::vector<double>& x, double factor) {
-  for (std::size_t i = 0; i < x.size(); ++i)
-    for (std::size_t j = 0; j < x.size(); ++j) A[i * x.size() + j] += factor * x[i] * x[j];
-}
-
-/// (1 - H)^-1/2 z for a symmetric H; nothing of z in directions in which H is 1.
-std::vector<double> freed(Matrix H, const std::vector<double>& z) {
-  silence_gsl();
-  const std::size_t n = z.size();
-  auto view = gsl_matrix_view_array(H.data(), n, n);
-  auto values = own(gsl_vector_alloc(n), gsl_vector_free);
-  auto vectors = own(gsl_matrix_alloc(n, n), gsl_matrix_free);
-  auto work = own(gsl_eigen_symmv_alloc(n), gsl_eigen_symmv_free);
-  check_gsl(gsl_eigen_symmv(&view.matrix, values.get(), vectors.get(), work.get()),
-            "the runs cannot be compared");
-  std::vector<double> result(n);
-  for (std::size_t k = 0; k < n; ++k) {
-    const double rest = 1 - gsl_vector_get(values.get(), k);
-    if (rest < 1e-6) continue;
-    double part = 0;
-    for (std::size_t i = 0; i < n; ++i) part += gsl_matrix_get(vectors.get(), i, k) * z[i];
-    for (std::size_t i = 0; i < n; ++i)
-      result[i] += gsl_matrix_get(vectors.get(), i, k) * part / std::sqrt(rest);
-  }
-  return result;
-}
-
-/// The middle of the sandwich of the shared parameters by the scatter of the runs: the sum of
-/// z z^T, z = (1 - H)^-1/2 Q^T f and H = Q^T Q of each run.
-Matrix scatter(const Fitted& joint) {
-  const std::size_t q = joint.system.columns(), s = joint.system.shared;
-  const auto Q = orthonormal(joint.system, joint.minimum);
-  Matrix all(s * s);
-  std::size_t row = 0;
-  for (const std::size_t n : joint.system.runs) {
-    Matrix H(s * s);
-    std::vector<double> z(s);
-    for (const std::size_t end = row + n; row < end; ++row) {
-      const std::vector<double> of_row(&Q[row * q + q - s], &Q[row * q] + q);
-      add_square(H, of_row, 1);
-      for (std::size_t i = 0; i < s; ++i) z[i] += of_row[i] * joint.minimum.f[row];
-    }
-    add_square(all, freed(std::move(H), z), 1);
-  }
-  return all;
+  if (result.dof == 0) return {result};
+  result.significance = gsl_cdf_chisq_Q(likelihood, static_cast<double>(result.dof));
+  const double freedom = static_cast<double>(laws.size()) - 1 - slope;
+  const double together = std::sqrt(result.chi2 / static_cast<double>(result.dof));
+  if (freedom < 1) return {result, freedom, std::max(1.0, together)};
+  const Average D = average_of_D(laws, best_known(W.inverse()), freedom);
+  return {result, freedom, std::max(1.0, student(freedom) * D.scale)};
 }
 
 /// The joint fit with the noise that the runs show around their own laws: around the common one the
@@ -191,12 +183,49 @@ Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitte
   return fit;
 }
 
+/// By how much the mean of ln a moves with the slope that the runs were held at: R S acts like a
+/// shift along the way. Nothing, if as many runs roll up as down.
+double by_slope(const std::vector<OwnLaw>& laws, const Fitted& joint) {
+  double sum = 0;
+  if (!joint.slope) return 0;
+  for (const OwnLaw& one : laws) {
+    const ObservedRun& run = joint.rolls->runs()[one.run];
+    const double log_D = one.log_D(best_known(one.covariance)).value;
+    sum += run.way * run.body.R / std::exp(log_D) / static_cast<double>(laws.size());
+  }
+  return sum;
+}
+
+/// a and b as the means of those of the runs.
+void take_means(const std::vector<OwnLaw>& laws, double freedom, NoiseErrors& errors,
+                Fitted& joint) {
+  const double t = student(freedom);
+  std::vector<Estimate> bs;
+  for (const OwnLaw& one : laws) bs.push_back(one.b());
+  const Average a = average_of_D(laws, 0, freedom), b = average(bs, freedom);
+  double together = 0, scatter = 0;  // of the products of the deviations of both
+  for (const OwnLaw& one : laws) {
+    const double weight =
+        std::pow(a.mean.sigma * b.mean.sigma, 2) / (one.covariance.aa * one.covariance.bb);
+    together += weight * one.covariance.ab;
+    scatter += std::sqrt(weight) * (one.law.a - a.mean.value) * (one.law.b - b.mean.value);
+  }
+  if (a.mean.sigma > 0) joint.a.value = std::exp(a.mean.value);
+  if (b.mean.sigma > 0) joint.b.value = b.mean.value;
+  errors.a = joint.a.value * std::hypot(a.mean.sigma * std::max(1.0, t * a.scale),
+                                        by_slope(laws, joint) * errors.slope);
+  errors.b = b.mean.sigma * std::max(1.0, t * b.scale);
+  if (errors.a == 0 || errors.b == 0) return;
+  errors.together =
+      joint.a.value * (t * std::min(a.scale, b.scale) > 1 ? t * t * scatter / freedom : together);
+}
+
 }  // namespace
 
 std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& runs,
-                                      const FitOptions& options, const Fitted& joint,
-                                      Uncertainty& errors) {
-  const std::size_t s = joint.system.shared, parameters = !options.a + !options.b;
+                                      const FitOptions& options, NoiseErrors& errors,
+                                      Fitted& joint) {
+  const std::size_t parameters = !options.a + !options.b;
   if (runs.size() < 2 || errors.kind == Errors::none) return {};
   std::vector<std::optional<Fitted>> own;
   for (std::size_t r = 0; r < runs.size(); ++r) try {
@@ -207,22 +236,13 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
     }
   const auto laws = own_laws(own);
   if (laws.size() < 2) return {};
-  Agreement result = compare(laws, parameters, options.fit_slope);
-  if (result.agree()) return result;
-  errors = uncertainty_of(with_own_noise(joint, own));
-  const double freedom =
-      static_cast<double>(laws.size()) - 1 - static_cast<double>(options.fit_slope);
-  Matrix middle;
-  if (freedom >= 1) {
-    const double t = gsl_cdf_tdist_Pinv(0.975, freedom) / 1.96;
-    middle = scatter(joint);
-    for (double& x : middle) x *= t * t;
-  } else {
-    middle = errors.covariance.shared_middle(s);
-    for (double& x : middle) x *= result.chi2 / static_cast<double>(result.dof);
-  }
-  errors.covariance.widen(middle, s);
-  return result;
+  const Comparison found = compare(laws, parameters, options.fit_slope);
+  if (found.result.agree()) return found.result;
+  const Fitted around_own = with_own_noise(joint, own);
+  errors = noise_errors(around_own, uncertainty_of(around_own));
+  errors.multiply(found.scale);
+  if (found.freedom >= 1) take_means(laws, found.freedom, errors, joint);
+  return found.result;
 }
 
 }  // namespace rolling

@@ -23,30 +23,10 @@ std::vector<double> Spread::solve_transposed(std::vector<double> g, std::size_t 
 double Spread::operator()(const std::vector<double>& g, const std::vector<double>& h,
                           std::size_t run) const {
   const auto left = solve_transposed(g, run), right = solve_transposed(h, run);
-  const auto through = [&](const std::vector<double>& M, const auto& x, const auto& y) {
-    double sum = 0;
-    for (std::size_t i = 0; i < q_; ++i)
-      for (std::size_t j = 0; j < q_; ++j) sum += x[i] * M[(run * q_ + i) * q_ + j] * y[j];
-    return sum;
-  };
-  const auto wider = [&](const std::vector<double>& x) {
-    return through(wider_, x, x) > through(M_, x, x);
-  };
-  return through(!wider_.empty() && wider(left) && wider(right) ? wider_ : M_, left, right);
-}
-
-std::vector<double> Spread::shared_middle(std::size_t s) const {
-  std::vector<double> M;
-  for (std::size_t i = q_ - s; i < q_; ++i)
-    M.insert(M.end(), &M_[i * q_ + q_ - s], &M_[i * q_] + q_);
-  return M;
-}
-
-void Spread::widen(const std::vector<double>& M, std::size_t s) {
-  wider_ = M_;
-  for (std::size_t run = 0; run < M_.size(); run += q_ * q_)
-    for (std::size_t i = 0; i < s; ++i)
-      std::copy_n(&M[i * s], s, &wider_[run + (q_ - s + i) * q_ + q_ - s]);
+  double sum = 0;
+  for (std::size_t i = 0; i < q_; ++i)
+    for (std::size_t j = 0; j < q_; ++j) sum += left[i] * M_[(run * q_ + i) * q_ + j] * right[j];
+  return sum;
 }
 
 std::vector<double> orthonormal(const System& system, const Minimum& m) {
@@ -263,6 +243,26 @@ Uncertainty uncertainty_of(const Fitted& fit) {
   }
   add_shared(M, q, shared);
   return {kind, whiteness, {fit.minimum.R, std::move(M), q}};
+}
+
+NoiseErrors noise_errors(const Fitted& fit, const Uncertainty& by) {
+  const auto sigma = [&](const Quantity& x, std::size_t run = 0) {
+    const bool fixed =
+        std::all_of(x.gradient.begin(), x.gradient.end(), [](double slope) { return slope == 0; });
+    return fixed ? 0 : std::sqrt(by.covariance(x.gradient, x.gradient, run));
+  };
+  NoiseErrors errors{by.kind, by.whiteness, sigma(fit.a), sigma(fit.b), 0};
+  if (errors.a != 0 && errors.b != 0)
+    errors.together = by.covariance(fit.a.gradient, fit.b.gradient);
+  if (fit.slope) errors.slope = sigma(*fit.slope);
+  for (std::size_t r = 0; r < fit.v0.size(); ++r) errors.v0.push_back(sigma(fit.v0[r], r));
+  return errors;
+}
+
+void NoiseErrors::multiply(double factor) {
+  for (double* error : {&a, &b, &slope}) *error *= factor;
+  together *= factor * factor;
+  for (double& error : v0) error *= factor;
 }
 
 }  // namespace rolling

@@ -14,16 +14,9 @@ class Spread {
   double operator()(const std::vector<double>& g, const std::vector<double>& h,
                     std::size_t run = 0) const;
 
-  /// M of the shared parameters, of which there are so many.
-  std::vector<double> shared_middle(std::size_t shared) const;
-  /// From now on the variance of a function is that by this M of the shared parameters where it is
-  /// larger, and the covariance of two where both are.
-  void widen(const std::vector<double>& shared_middle, std::size_t shared);
-
  private:
   std::vector<double> solve_transposed(std::vector<double> g, std::size_t run) const;
   std::vector<double> R_, M_;
-  std::vector<double> wider_;  // like M_; empty if there is none
   std::size_t q_;
 };
 
@@ -38,6 +31,18 @@ struct Uncertainty {
 /// autocorrelation (Newey-West); where it is of uneven size at 1 %, HC3. For known filters the
 /// noise that is tested is that of the raw column.
 Uncertainty uncertainty_of(const Fitted&);
+
+/// What the noise brings to the errors of the numbers that are reported.
+struct NoiseErrors {
+  Errors kind;
+  double whiteness;
+  double a, b, together;  ///< standard errors, and the covariance of a and b
+  double slope = 0;
+  std::vector<double> v0 = {};  ///< of each run
+
+  void multiply(double factor);
+};
+NoiseErrors noise_errors(const Fitted&, const Uncertainty&);
 
 /// The variance of the noise of the raw column, where the filters are known.
 double noise_variance(const Fitted&);

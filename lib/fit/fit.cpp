@@ -216,47 +216,36 @@ double total(double noise, const std::vector<Moved>& moved, auto&& part) {
 }
 
 /// The values with their errors, by noise and by the given numbers.
-FitResult result_of(const Fitted& found, const Uncertainty& errors,
+FitResult result_of(const Fitted& found, const NoiseErrors& noise,
                     const std::vector<Moved>& moved) {
   const std::size_t n = found.minimum.f.size(), p = found.minimum.theta.size();
-  const auto sigma = [&](const Quantity& x, std::size_t run = 0) {
-    const bool fixed =
-        std::all_of(x.gradient.begin(), x.gradient.end(), [](double slope) { return slope == 0; });
-    return fixed ? 0 : std::sqrt(errors.covariance(x.gradient, x.gradient, run));
-  };
   FitResult result{.a = found.a.value,
-                   .sigma_a = sigma(found.a),
+                   .sigma_a = total(noise.a, moved, [](const Moved& by) { return by.a; }),
                    .b = found.b.value,
-                   .sigma_b = sigma(found.b),
+                   .sigma_b = total(noise.b, moved, [](const Moved& by) { return by.b; }),
                    .corr = 0,
                    .rms = std::numeric_limits<double>::quiet_NaN(),
                    .n = found.records,
                    .left_out = found.left_out,
-                   .whiteness = errors.whiteness,
+                   .whiteness = noise.whiteness,
                    .v0 = {},
                    .sigma_v0 = {},
-                   .errors = errors.kind};
+                   .errors = noise.kind};
   if (n > p) result.rms = std::sqrt(found.rss / static_cast<double>(n - p));
-  double together = 0;
-  if (result.sigma_a != 0 && result.sigma_b != 0)
-    together = errors.covariance(found.a.gradient, found.b.gradient);
-  result.shares.push_back({"noise", result.sigma_a, result.sigma_b});
+  double together = noise.together;
+  result.shares.push_back({"noise", noise.a, noise.b});
   for (const Moved& by : moved) {
     result.shares.push_back({by.by, std::abs(by.a), std::abs(by.b)});
     together += by.a * by.b;
   }
-  result.sigma_a = total(result.sigma_a, moved, [](const Moved& by) { return by.a; });
-  result.sigma_b = total(result.sigma_b, moved, [](const Moved& by) { return by.b; });
   if (together != 0) result.corr = together / (result.sigma_a * result.sigma_b);
   for (std::size_t r = 0; r < found.v0.size(); ++r) {
     result.v0.push_back(found.v0[r].value);
-    result.sigma_v0.push_back(
-        total(sigma(found.v0[r], r), moved, [r](const Moved& by) { return by.v0[r]; }));
+    result.sigma_v0.push_back(total(noise.v0[r], moved, [r](const Moved& by) { return by.v0[r]; }));
   }
   if (found.slope) {
     result.slope = found.slope->value;
-    result.sigma_slope =
-        total(sigma(*found.slope), moved, [](const Moved& by) { return by.slope; });
+    result.sigma_slope = total(noise.slope, moved, [](const Moved& by) { return by.slope; });
   }
   return result;
 }
@@ -283,14 +272,11 @@ void require_determined(const FitResult& result, bool with_slope) {
 
 FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   Fitted found = fit_route(route, runs, options);
-  Uncertainty errors = uncertainty_of(found);
-  require_determined(result_of(found, errors, {}), options.fit_slope);
-  const auto agreement = agreement_of(route, runs, options, found, errors);
-  if (agreement && !agreement->agree()) {
-    found.a.value = options.a.value_or(agreement->mean.a);
-    found.b.value = options.b.value_or(agreement->mean.b);
-  }
-  FitResult result = result_of(found, errors, moved_by_given(route, runs, options, found));
+  NoiseErrors noise = noise_errors(found, uncertainty_of(found));
+  const auto moved = moved_by_given(route, runs, options, found);
+  const auto agreement = agreement_of(route, runs, options, noise, found);
+  require_determined(result_of(found, noise, {}), options.fit_slope);
+  FitResult result = result_of(found, noise, moved);
   if (route != Route::velocity && route != Route::position) result.v0 = result.sigma_v0 = {};
   result.agreement = agreement;
   result.eccentricity = eccentricity_of(route, runs, found);

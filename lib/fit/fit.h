@@ -3,7 +3,6 @@
 
 #include "base/estimate.h"
 #include "contact/body.h"
-#include "contact/power_law.h"
 #include "fit/filter.h"
 
 #include <optional>
@@ -66,7 +65,6 @@ struct Agreement {
   std::size_t dof = 0;
   double significance = 1;  ///< the chance of runs that differ as much, from noise alone
   std::size_t runs = 0;     ///< that determine a law
-  PowerLaw mean = {};       ///< of these laws, weighted
   std::size_t run = 0;      ///< that is furthest from the others, counted from 0
   double speed = 1;         ///< at which its D is known best [m/s]
   Estimate log_D = {};      ///< ln of its D there less that of the others, with standard error
@@ -98,10 +96,9 @@ struct FitResult {
   std::vector<ErrorShare> shares = {};            ///< of the errors, the noise first
 };
 
-/// One joint fit over all runs: one a and b, own v0 and x0 for each run. Where the runs disagree, a
-/// and b are the mean of their own, for one law for all bends between them: by 2 % of scatter in a,
-/// b is off by as much as its error in ten runs. Throws Error with one
-/// clear line for what cannot be determined: fewer than two points, all v equal, no positive D
+/// One joint fit over all runs: one a and b, own v0 and x0 for each run. Where the
+/// runs disagree, a and b are the means of their own (agreement.h). Throws Error with
+/// one clear line for what cannot be determined: fewer than two points, all v equal, no positive D
 /// (loglog), no convergence, a standard error of b above 3, a slope that cannot be told from a.
 FitResult fit(Route, const std::vector<FitRun>&, const FitOptions&);
 
