@@ -39,19 +39,19 @@ TEST_CASE("agreement: the scatter of means, by hand", "[fit]") {
   options.b = 0;
   const auto r = fit(Route::shift, runs, options);
   const double variance = 0.0258 / 6 / 7;  // of each mean
-  const double squares = 0.01 + 0.04 + 0.25 + 0.16;
   REQUIRE(r.agreement);
-  // The errors of ln a are those of a over each a.
-  CHECK(std::abs(r.agreement->chi2 / (squares / variance) - 1) < 0.05);
   CHECK(r.agreement->dof == 3);
   CHECK_FALSE(r.agreement->agree());
   CHECK(r.agreement->run == 2);
   CHECK(r.agreement->log_D.value < 0);
-  double weights = 0, logarithms = 0;
-  for (double mean : means) weights += mean * mean, logarithms += mean * mean * std::log(mean);
-  CHECK(std::abs(r.a - std::exp(logarithms / weights)) < 1e-9);
+  // The errors of ln a are those of a over each a: the mean of the logarithms, by the squares of a.
+  double weights = 0, sum = 0, chi2 = 0;
+  for (double mean : means) weights += mean * mean, sum += mean * mean * std::log(mean);
+  for (double mean : means) chi2 += std::pow(mean * (std::log(mean) - sum / weights), 2);
+  CHECK(std::abs(r.a - std::exp(sum / weights)) < 1e-9);
+  CHECK(std::abs(r.agreement->chi2 / (chi2 / variance) - 1) < 1e-9);
   constexpr double t = 3.182446;  // Student, 0.975, 3 degrees of freedom
-  CHECK(std::abs(r.sigma_a / (t / 1.96 * std::sqrt(squares / (4 * 3))) - 1) < 1e-6);
+  CHECK(std::abs(r.sigma_a / (t / 1.96 * r.a * std::sqrt(chi2 / 3 / weights)) - 1) < 1e-6);
   CHECK(r.sigma_b == 0);
 
   // Runs that agree have the errors of one fit.
