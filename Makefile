@@ -23,7 +23,8 @@ else
 
 CXX      ?= g++
 CXXFLAGS ?= -O2 -g1
-override CXXFLAGS += -std=c++20 -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+# No flag of the user's, behind which it stands, may fuse a multiplication and an addition.
+override CXXFLAGS += -ffp-contract=off -std=c++20 -Wall -Wextra -Wpedantic -Wshadow -Wconversion
 override CPPFLAGS += -Ilib
 override LDFLAGS  += -Wl,--as-needed
 LDLIBS   := -lgsl -lgslcblas -lfmt -lm
@@ -83,7 +84,7 @@ samples: bin/simulate
 # Figures of the paper: each is drawn by the script of its name in samples/figures, which runs the
 # tools that it names.
 figure  := $(patsubst samples/figures/%.sh,%,\
-             $(filter-out %/draw.sh %/live.sh,$(wildcard samples/figures/*.sh)))
+             $(filter-out %/draw.sh,$(wildcard samples/figures/*.sh)))
 figures: $(figure:%=figures/%.svg) $(figure:%=figures/%.png)
 empty   :=
 space   := $(empty) $(empty)
@@ -117,7 +118,21 @@ html: figures/man/index.html
 figures/man/index.html: cmd/install/html.sh $(wildcard man/*)
 	$< $(@D)
 
-check: all build/unit build/shim.so $(target:%=build/replay/%)
+# The exact arithmetic built as it is, and with flags in front of the project's that would fuse multiplications and additions:
+# tests/pipeline/fused.sh compares what the two print.
+exact_source := lib/base/double_double.cpp lib/contact/contact.cpp tests/fused/fused.cpp \
+                $(addprefix lib/motion/,$(addsuffix .cpp,closed_form exact_form power_integral slope_integrals slope_roll speed_integrals trajectory))
+has_fma := $(shell grep -qw avx2 /proc/cpuinfo 2>/dev/null && grep -qw fma /proc/cpuinfo && uname -m | grep -x x86_64)
+build/fused/obj/%.o: %.cpp
+	@mkdir -p $(@D)
+	$(CXX) $(CPPFLAGS) -O3 -march=x86-64-v3 -ffp-contract=fast $(filter-out -O%,$(CXXFLAGS)) -c -o $@ $<
+build/fused/fused: $(exact_source:%.cpp=build/fused/obj/%.o)
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+build/fused/plain: $(exact_source:%.cpp=build/%.o)
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+
+check: all build/unit build/shim.so $(target:%=build/replay/%) $(if $(has_fma),build/fused/plain build/fused/fused)
 	@PATH="$$PWD/bin:$$PATH" tests/run.sh build/unit
 
 # tests/faults preloads it into the tools: it may not depend on the C++ library or on a sanitizer.
@@ -227,6 +242,7 @@ work-precision: build/bench/ulp build/bench/work_precision
 work-precision-signal: build/bench/signal
 	@mkdir -p build/work-precision
 	tests/bench/signal.sh build/work-precision
+	@echo 'results: build/work-precision/signal.tsv and, with gnuplot, signal*.svg and signal*.png'
 
 # How fast the tools are beside peers and bare loops: some minutes.
 bench: all build/bench/speed

@@ -5,6 +5,7 @@
 #include "cli/quantities.h"
 #include "cli/tool.h"
 #include "contact/balance.h"
+#include "signal/smoother.h"
 #include "text/filter.h"
 
 using namespace rolling;
@@ -64,11 +65,14 @@ struct Law {
 /// True if the `##` lines say that D was made of the derivative of v, the v that the file has: then
 /// the balance compares v with itself.
 bool differenced_from_v(const std::vector<std::string>& history) {
+  constexpr std::string_view smoothed = "smooth v ";
   bool a_of_v = false, D_of_v = false;
   for (const std::string& line : history) {
-    if (line.starts_with("differentiate v")) a_of_v = true;
-    if (line.starts_with("smooth v")) a_of_v = D_of_v = false;  // that v is gone
-    if (line.starts_with("shift-from-accel")) D_of_v = a_of_v;
+    if (line.starts_with("differentiate v ")) a_of_v = true;
+    if (line.starts_with("shift-from-accel ")) D_of_v = a_of_v;
+    if (line.starts_with(smoothed) &&
+        signal_options(smoothing_methods, line.substr(smoothed.size())))
+      a_of_v = D_of_v = false;  // that v is gone
   }
   return D_of_v;
 }
@@ -77,9 +81,15 @@ bool differenced_from_v(const std::vector<std::string>& history) {
 class Accounts {
  public:
   Accounts(Tool& tool, Reader& in, const Body& body, Geometry geometry, const Law* law,
-           double tolerance)
-      : tool_(tool), in_(in), body_(body), geometry_(geometry), law_(law), tolerance_(tolerance),
-        t_(in.need_time()), v_(in.need("v")), D_(law ? v_ : in.need("D")) {}
+           bool checked, double tolerance)
+      : tool_(tool), in_(in), body_(body), geometry_(geometry), law_(law), checked_(checked),
+        tolerance_(tolerance), t_(in.need_time()), v_(in.need("v")), D_(law ? v_ : in.need("D")) {}
+
+  /// The account of a run, before its first record.
+  Balance open() {
+    tests_nothing_ |= checked_ && !law_ && differenced_from_v(in_.history());
+    return Balance(body_);
+  }
 
   /// The present record, entered into the balance of its run.
   Ledger enter(Balance& balance) {
@@ -90,11 +100,9 @@ class Accounts {
     return now;
   }
 
-  /// Checks the balance of a run that has been read; where nothing is to be checked, a run may have
-  /// none.
-  void close(const Balance& balance, bool checked) {
-    if (!checked) return;
-    tests_nothing_ |= !law_ && differenced_from_v(in_.history());
+  /// Checks the balance of a run that has been read.
+  void close(const Balance& balance) {
+    if (std::isnan(tolerance_)) return;
     std::string beyond;
     if (!(std::abs(balance.closure()) <= tolerance_))
       beyond = fmt::format("closure {:.4g}", balance.closure());
@@ -121,8 +129,9 @@ class Accounts {
   Reader& in_;
   const Body& body_;
   Geometry geometry_;
-  const Law* law_;  // none: there is a column D
-  double tolerance_;
+  const Law* law_;    // none: there is a column D
+  bool checked_;      // --summary or --check
+  double tolerance_;  // NaN without --check
   std::size_t t_, v_, D_, beyond_ = 0;
   bool tests_nothing_ = false;
 };
@@ -134,14 +143,14 @@ void write_summary(Output& out, Reader& in, Accounts& accounts, bool inclined) {
   if (inclined) columns.push_back({"W_g", "J"});
   out.names(columns);
   while (in.next_run()) {
-    Balance balance;
+    Balance balance = accounts.open();
     while (in.next()) accounts.enter(balance);
     for (const double cell : {balance.start(), balance.end(), balance.dissipated(),
                               balance.closure(), balance.imbalance()})
       out.cell(cell);
     if (inclined) out.cell(balance.lifted());
     out.end_line();
-    accounts.close(balance, true);
+    accounts.close(balance);
   }
 }
 
@@ -178,7 +187,7 @@ int main(int argc, char** argv) {
     const auto row = chosen(columns, quantities);
     for (const auto& quantity : row)
       if (quantity.column.name == "Pi_S") tool.need({"temperature"});
-    if (!law_file.empty()) law.table = read_law(tool, law_file, law.power);
+    if (!law_file.empty()) law.table = read_law(tool, law_file, law.power, body.slope);
     tool.need({"mass", "radius", "shape-factor"});
     Reader& in = tool.read({"t", "v", "D"});
     // A law on the command line is meant; the law of a scene stands in for a D that is not there.
@@ -187,7 +196,7 @@ int main(int argc, char** argv) {
                          (!std::isnan(law.power.a) && !in.find("D"));
     if (use_law && !law.table) tool.need({"coefficient", "exponent"});
     Accounts accounts(tool, in, body, geometry, use_law ? &law : nullptr,
-                      std::isnan(tolerance) ? HUGE_VAL : tolerance);
+                      summary || !std::isnan(tolerance), tolerance);
     if (summary) {
       write_summary(tool.out, in, accounts, body.slope != 0);
       accounts.finish();
@@ -198,12 +207,12 @@ int main(int argc, char** argv) {
                               body.slope == 0 ? "" : fmt::format(" slope {}", body.slope)));
     for (const auto& quantity : row) filter.append(quantity.column);
     while (filter.next_run()) {
-      Balance balance;
+      Balance balance = accounts.open();
       while (filter.next()) {
         const Ledger now = accounts.enter(balance);
         for (const auto& quantity : row) filter.put(quantity.of({now, balance, temperature}));
       }
-      accounts.close(balance, !std::isnan(tolerance));
+      accounts.close(balance);
     }
     accounts.finish();
     return 0;

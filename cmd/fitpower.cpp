@@ -26,8 +26,12 @@ void set_parameters(const std::string& option, const std::vector<std::string>& s
   }
 }
 
-std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, const Body& body,
-                              bool all_columns) {
+struct Runs {
+  std::vector<FitRun> runs;
+  std::vector<std::string> names;
+};
+
+Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, bool all_columns) {
   struct Needed {
     std::size_t slot;
     std::vector<double> FitRun::*column;
@@ -39,19 +43,24 @@ std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, const Body& b
   const auto names = columns_of(route);
   for (const std::string& name : names)
     if (name != "t") needed.push_back({in.need(name), column_of(name)});
-  const bool times_wanted =
-      (all_columns || !in.history().empty()) && in.find("t");  // the filters act on these times
-  if (names.front() == "t" || times_wanted) needed.push_back({in.need_time(), &FitRun::t});
+  bool timed = names.front() == "t" || (all_columns && in.find("t"));
+  if (timed) needed.push_back({in.need_time(), &FitRun::t});
   // What other routes would fit; and x, with which speeds that claim to be differences are
   // compared.
   for (const char* name : {"x", "v", "D"})
     if ((all_columns || (*name == 'x' && route == Route::velocity && !in.history().empty())) &&
         in.find(name) && std::find(names.begin(), names.end(), name) == names.end())
       needed.push_back({in.want(name), column_of(name)});
-  std::vector<FitRun> runs;
+  Runs all;
+  auto& runs = all.runs;
   while (in.next_run()) {
     FitRun& run = runs.emplace_back();
+    all.names.push_back(in.run_name());
     run.body = body;
+    if (!timed && !in.history().empty() && in.find("t")) {  // the filters act on these times
+      needed.push_back({in.need_time(), &FitRun::t});
+      timed = true;
+    }
     const std::size_t room = runs.size() == 1 ? in.records_ahead() : 0;  // most files are one run
     for (const auto& [slot, column] : needed) (run.*column).reserve(room);
     while (in.next())
@@ -65,7 +74,7 @@ std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, const Body& b
       tool.warn(fmt::format("run {}: {}: the fit goes on as if no filter were known", runs.size(),
                             history.doubt));
   }
-  return runs;
+  return all;
 }
 
 }  // namespace
@@ -127,7 +136,7 @@ int main(int argc, char** argv) {
       if (held && !(name[0] == 'v' ? trajectory : route == Route::position))
         fail("--fix: this route has no {}", name);
 
-    std::vector<FitRun> runs = read_runs(tool, in, route, body, with_report);
+    auto [runs, run_names] = read_runs(tool, in, route, body, with_report);
     if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
       fail("--shape-factor gives {} values, but runs are {}", shape_factors.size(), runs.size());
     for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -148,17 +157,33 @@ int main(int argc, char** argv) {
     const bool with_v0 = trajectory && fits.front().size() == 1;
     if (with_v0) names.insert(names.end(), {{"v0", "m/s"}, {"sigma_v0", "m/s"}});
     if (options.fit_slope) names.insert(names.end(), {{"slope"}, {"sigma_slope"}});
-    std::vector<FitResult> results;
+    if (each) names.push_back({"run"});
+    std::vector<std::optional<FitResult>> results;
     for (const auto& joint : fits) {
       tool.progress.at("fitting", fits.size() == 1 ? not_given
                                                    : static_cast<double>(results.size()) /
                                                          static_cast<double>(fits.size()));
-      results.push_back(fit(route, joint, options));
+      try {
+        results.emplace_back(fit(route, joint, options));
+      } catch (const Error& error) {  // one run that cannot be fitted loses no other
+        if (!each) throw;
+        tool.say(fmt::format("run {}: {}", run_names[results.size()], error.what()));
+        results.emplace_back();
+      }
     }
+    const auto fitted = [](const auto& result) { return result.has_value(); };
+    if (std::none_of(results.begin(), results.end(), fitted)) return 2;
 
     tool.out.names(names);
     std::size_t left_out = 0;
-    for (const FitResult& r : results) {
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      if (!results[i]) {
+        for (std::size_t blank = 1; blank < names.size(); ++blank) tool.out.blank();
+        tool.out.cell(run_names[i]);
+        tool.out.end_line();
+        continue;
+      }
+      const FitResult& r = *results[i];
       const auto cell = [&](double value) {
         r.errors == Errors::none&& std::isnan(value) ? tool.out.blank() : tool.out.cell(value);
       };
@@ -169,17 +194,19 @@ int main(int argc, char** argv) {
         for (const double value : {r.v0.front(), r.sigma_v0.front()}) cell(value);
       if (options.fit_slope)
         for (const double value : {r.slope, r.sigma_slope}) cell(value);
+      if (each) tool.out.cell(run_names[i]);
       tool.out.end_line();
       left_out += r.left_out;
     }
     for (std::size_t i = 0; i < fits.size(); ++i) {
-      warn_of(tool, results[i], each ? i : 0);
+      if (!results[i]) continue;
+      warn_of(tool, *results[i], each ? i : 0);
       if (!with_report && !with_check) continue;
       const auto laws = compare_if_possible(route, fits[i], options);
       if (with_report) report(tool, fits[i], options, laws);
-      if (with_check) check(tool, results[i], laws, each ? i : 0);
+      if (with_check) check(tool, *results[i], laws, each ? i : 0);
     }
     tool.count_left_out(left_out, "this route cannot use them");
-    return 0;
+    return std::all_of(results.begin(), results.end(), fitted) ? 0 : 2;
   });
 }

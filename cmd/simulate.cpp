@@ -45,17 +45,17 @@ struct Clock {
 };
 
 /// Comma-separated with a names line and blank cells, as such programs export it.
-void write_record(Output& out, const std::vector<SonarSample>& record) {
+void write_record(Output& out, Motion& motion, const SonarOptions& sonar) {
   out.text("Time (s),Position (m),Velocity (m/s)");
   out.end_line();
-  for (const SonarSample& sample : record) {
+  sonar_record(motion, sonar, [&](const SonarSample& sample) {
     out.number(sample.t);
     out.text(',');
     if (sample.x) out.number(*sample.x);
     out.text(',');
     if (sample.v) out.number(*sample.v);
     out.end_line();
-  }
+  });
 }
 
 /// On standard error: what the methods cost on this scene, and how far they are off.
@@ -106,10 +106,8 @@ int main(int argc, char** argv) {
   std::size_t seed = 1;
   std::string times_file, law_file, columns = "t,x,v,a,D";
   bool sensor = false, with_report = false;
-  tool.body(body, {radius, shape_factor, gravity});
+  tool.body(body, {radius, shape_factor, gravity, slope});
   tool.law(law);
-  tool.number("--slope", body.slope, any_number,
-              "the mat rises by so many metres a metre along x (0)");
   tool.geometry(roll.geometry);
   tool.number("--v0", v0, not_negative, "speed at t = 0 [m/s]");
   tool.number("--x0", roll.x0, any_number, "position at t = 0 [m] (0)");
@@ -144,7 +142,7 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    if (!law_file.empty()) roll.table = read_law(tool, law_file, law, &v0);
+    if (!law_file.empty()) roll.table = read_law(tool, law_file, law, body.slope, &v0);
     std::vector<std::string> needed = {"radius", "shape-factor", "v0"};
     if (!roll.table) needed.insert(needed.end(), {"coefficient", "exponent"});
     tool.need(needed);
@@ -157,7 +155,7 @@ int main(int argc, char** argv) {
     if (sensor) {
       sonar.seed = seed;
       if (!std::isnan(until)) sonar.until = until;
-      write_record(tool.out, sonar_record(*start(roll, method, rtol), sonar));
+      write_record(tool.out, *start(roll, method, rtol), sonar);
       return 0;
     }
 

@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
   tool.count("--order", options.order, whole, "order of savgol's polynomial (2)");
   tool.number("--outliers", select.outliers, positive,
               "leave out readings further than this many scaled MADs from their window's median");
-  tool.flag("--coast", select.coast, "keep the free roll only: after the push, up to the stop");
+  tool.flag("--coast", select.coast, "keep the free roll only: after the last push or hold");
   tool.number("--from", select.from, any_number, "leave out the records before this time [s]");
   tool.number("--to", select.to, any_number, "leave out the records after this time [s]");
   tool.input();

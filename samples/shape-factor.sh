@@ -83,7 +83,8 @@ make_records() {  # FOLDER SEED
       }
       BEGIN {
         '"$measured"'
-        seed = seed * 1000 + int(100 * K); for (i = 0; i < 10; i++) uniform()
+        burn = 20 + seed * 37 % 101; seed = seed * 1000 + int(100 * K)
+        for (i = 0; i < burn; i++) uniform()
         m += u_m * normal(); R += u_R * normal(); r += u_r * normal(); w += u_w * normal()
         J = K * m * R^2; friction = 3e-4
         alpha = (w * g * r - friction) / (J + w * r^2)

@@ -8,7 +8,9 @@ cd "$(dirname "$0")"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 failed=0
-tolerance=0.05  # of a closure: over many seeds it scatters about 0 by 1.5 % (the speeds at both ends, the error of the fit)
+# Of closure and imbalance. Over 160 seeds the closure scatters by 1.2 % (the speeds at both ends, the
+# error of the fit), and the largest imbalance, of a noisy speed anywhere, is 3.5 %.
+tolerance=0.05
 
 roll() { smooth -q --coast -c x -w 1 "$1.csv"; }               # the free roll in a raw record, its positions as they are
 velocity() { roll "$1" | differentiate -q -c x | smooth -w 11; }  # v from the positions, smoothed
@@ -74,17 +76,62 @@ awk '
     exit failed > 0
   }' "$scratch"/{S,C,F,CF,SF}.fit || failed=1
 
-# The mat takes what the law of the trajectory says at the measured speeds; the body loses what its measured speeds say.
-# Their ends are left away: the mean there has a shrunken window.
+# The mat takes what the law of the trajectory says at the measured speeds; the body loses what its
+# measured speeds say. The ends of the speeds are left away: the mean there has a shrunken window.
+speeds() {
+  velocity "$1" |
+    awk '/^#/ { print; next } { line[++n] = $0 } END { for (i = 6; i <= n - 5; i++) print line[i] }'
+}
+# The row of the balance of a run under a law: E_start E_end E_diss closure imbalance.
+balance() {  # NAME K OPTION...
+  local name=$1 K=$2
+  shift 2
+  speeds "$name" | energy-ledger -m 1.375 -K "$K" -R 0.04 --summary "$@" | grep -v '^#'
+}
 echo
-echo "Energy: measured loss against what the fitted shift dissipates (closure within $tolerance)"
-printf '  %-4s %-22s %-20s %-16s %s\n' run "E at the start [J]" "lost [J]" "dissipated [J]" closure
+echo "Energy: measured loss against what the fitted shift dissipates (within $tolerance at every moment)"
+printf '  %-4s %-20s %-12s %-16s %-10s %s\n' run "E at the start [J]" "lost [J]" "dissipated [J]" closure imbalance
 for run in "CF F 0.5" "CR C 0.5" "SF F 0.83" "SR S 0.83"; do
   read -r name fit K <<<"$run"
   read -r a _ b _ < <(grep -v '^#' "$scratch/$fit.fit")
-  velocity "$name" | awk '/^#/ { print; next } { line[++n] = $0 } END { for (i = 6; i <= n - 5; i++) print line[i] }' |
-    { energy-ledger -m 1.375 -K "$K" -R 0.04 -a "$a" -b "$b" --summary --check "$tolerance" || echo open; } |
-    awk -v name="$name" '/open/ { open = 1 } /^[0-9]/ { start = $1; end = $2; diss = $3; closure = $4 }
-      END { printf "  %-4s %-22.5f %-20.5f %-16.5f %+.4f%s\n", name, start, start - end, diss, closure, open ? "  OPEN" : ""; exit open }' || failed=1
+  { balance "$name" "$K" -a "$a" -b "$b" --check "$tolerance" || echo open; } |
+    awk -v name="$name" '/open/ { open = 1 } /^[0-9]/ { start = $1; end = $2; diss = $3; closure = $4; imbalance = $5 }
+      END { printf "  %-4s %-20.5f %-12.5f %-16.5f %-+10.4f %.4f%s\n", name, start, start - end, diss, closure, imbalance, open ? "  OPEN" : ""; exit open }' || failed=1
 done
+
+# The first expectation in joules, and the only check that feels K: it cancels where fit and ledger
+# are of one body. A K_S that is 3 % too large lifts one closure by 1.4 % and lowers the other. The
+# error is that of the fit: of sigma_a, sigma_b and corr.
+echo
+echo "The same with the law of the other body on that mat, and with the paper's law for that body"
+printf '  %-4s %-8s %-12s %-16s %-20s %s\n' run "law of" "lost [J]" "dissipated [J]" closure "closure, paper's law"
+for run in "CF SF 0.5 5.75e-4 2.44e-2" "SF CF 0.83 5.75e-4 2.44e-2" "CR S 0.5 1.78e-3 2.55e-1" "SR C 0.83 1.87e-3 2.15e-1"; do
+  read -r name fit K paper_a paper_b <<<"$run"
+  read -r a sigma_a b sigma_b corr _ < <(grep -v '^#' "$scratch/$fit.fit")
+  {
+    echo "$sigma_a $sigma_b $corr"
+    balance "$name" "$K" -a "$a" -b "$b"
+    balance "$name" "$K" -a "$(awk -v a="$a" -v s="$sigma_a" 'BEGIN { printf "%.17g", a + s }')" -b "$b"
+    balance "$name" "$K" -a "$a" -b "$(awk -v b="$b" -v s="$sigma_b" 'BEGIN { printf "%.17g", b + s }')"
+    balance "$name" "$K" -a "$paper_a" -b "$paper_b"
+  } | awk -v name="$name" -v fit="$fit" -v tolerance="$tolerance" '
+    NR == 1 { corr = $3; next }
+    { closure[NR - 1] = $4 }
+    NR == 2 { lost = $1 - $2; diss = $3 }
+    END {
+      by_a = closure[2] - closure[1]; by_b = closure[3] - closure[1]
+      error = sqrt(by_a^2 + by_b^2 + 2 * corr * by_a * by_b)
+      off = closure[1] - closure[4]; far = off^2 > (tolerance + 4 * error)^2
+      printf "  %-4s %-8s %-12.5f %-16.5f %-+7.4f +- %-9.4f %+.4f%s\n", name, fit, lost, diss, closure[1], error, closure[4], far ? "  TOO FAR" : ""
+      exit far
+    }' || failed=1
+done
+echo
+cat <<'TEXT'
+On felt the law of one body closes the ledger of the other: one law, and both K are right within some
+3 %, for the speeds at the ends make closures scatter by 1.2 %. On rubber the cylinder's law takes a
+tenth too much from the shell, and the shell's law as much too little from the cylinder, as the paper's
+own values do; to make one law of them, K of the shell would have to be off by 0.2. "Nearly the same
+for both bodies" means, on rubber, within a tenth of the energy.
+TEXT
 exit $failed

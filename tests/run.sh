@@ -1,16 +1,22 @@
 #!/bin/bash
-# Runs the tests and counts them; the last line is `N passed, N failed`, with `, N skipped` if any were.
+# Runs the tests and counts them. It prints a line as each group of tests ends, then what was
+# skipped and how to have it; the last line is `N passed, N failed`, with `, N skipped` if any were.
 #
 #   tests/run.sh [UNIT-PROGRAM] [FOLDER | SCRIPT]...
 #
-# UNIT-PROGRAM is a Catch2 program (2.13 or 3): each of its test cases counts. A FOLDER is searched for cases, a SCRIPT.sh is
-# one test. Without folders and scripts: all cases of tests/tools, all scripts of tests/pipeline, tests/faults and tests/house.
+# UNIT-PROGRAM is a Catch2 program (2.13 or 3): each of its test cases counts. A FOLDER is searched
+# for cases, a SCRIPT.sh is one test. Without folders and scripts: all cases of tests/tools, all
+# scripts of tests/pipeline, tests/faults and tests/house.
 #
-# A case is a folder with a shell line in `cmd`, which runs there with bin/ on the PATH and nothing on standard input.
-#   expected  standard output, byte for byte; or, if there is a file `approx` with a tolerance, as tests/approx.awk compares
+# A case is a folder with a shell line in `cmd`, which runs there with bin/ on the PATH and nothing
+# on standard input.
+#   expected  standard output, byte for byte; or, if there is a file `approx` with a tolerance, as
+#             tests/approx.awk compares
 #   stderr    standard error, byte for byte; empty without that file
-#   status    exit status; 0 without that file. Other than 0, and no `expected`: standard output must be empty
-# A script runs at the top of the checkout: 0 is passed, 77 is skipped (its last line says why), anything else is failed.
+#   status    exit status; 0 without that file. Other than 0, and no `expected`: standard output
+#             must be empty
+# A script runs at the top of the checkout: status 0 is passed, 77 is skipped (its last line says
+# why, and how to have it), anything else is failed.
 set -u
 export LC_ALL=C
 unset CDPATH
@@ -20,14 +26,15 @@ trap 'rm -rf "$scratch"' EXIT
 trap 'exit 130' INT TERM
 export PATH="$root/bin:$PATH" TMPDIR="$scratch"
 
-# Each of these takes the path of a test and a folder of its own, says what is wrong, and leaves its counts (passed, failed,
-# skipped) in that folder.
+# Each of these takes the path of a test and a folder of its own, says what is wrong, and leaves its
+# counts (passed, failed, skipped) in that folder.
 
 run_unit() {
   local status summary passed failed skipped
   "$1" >"$2/out" 2>&1
   status=$?
-  # All tests passed (9 assertions in 3 test cases)  |  test cases: 4 | 2 passed | 1 failed | 1 skipped
+  # All tests passed (9 assertions in 3 test cases)
+  # test cases: 4 | 2 passed | 1 failed | 1 skipped
   summary=$(grep -E '^(All tests passed \(|test cases: )' "$2/out" | tail -n 1)
   count() { grep -oE "[0-9]+ $1" <<<"$summary" | head -n 1 | grep -oE '[0-9]+' || echo 0; }
   case $summary in
@@ -55,8 +62,10 @@ run_case() {
   {
     [ -z "$wrong" ] || echo "$wrong"
     [ "$status" = "$wanted" ] || echo "exit $status instead of $wanted"
-    if [ -f "$1/approx" ]; then awk -v tolerance="$(cat "$1/approx")" -f "$root/tests/approx.awk" "$expected" "$2/out"
-    else diff -u --label expected "$expected" --label 'standard output' "$2/out"
+    if [ -f "$1/approx" ]; then
+      awk -v tolerance="$(cat "$1/approx")" -f "$root/tests/approx.awk" "$expected" "$2/out"
+    else
+      diff -u --label expected "$expected" --label 'standard output' "$2/out"
     fi
     diff -u --label expected "$errors" --label 'standard error' "$2/err"
   } >"$2/wrong" 2>&1
@@ -88,41 +97,106 @@ run_script() {
 
 absolute() { echo "$(cd "$(dirname "$1")" && pwd)/$(basename "$1")"; }
 
-kinds=() paths=()
-plan() { kinds+=("$1") paths+=("$2"); }
+# A group is what one line of progress tells of: the unit tests, the cases of a tool, a folder of
+# scripts.
+kinds=() paths=() groups=()
+plan() {  # KIND PATH GROUP
+  kinds+=("$1") paths+=("$2") groups+=("$3")
+}
 plan_cases() {
-  local cmd
-  while IFS= read -r cmd; do plan case "${cmd%/cmd}"; done < <(find "$1" -name cmd -type f | sort)
+  local cmd group
+  while IFS= read -r cmd; do
+    group=${cmd%/*/cmd}
+    plan case "${cmd%/cmd}" "${group#"$root"/}"
+  done < <(find "$1" -name cmd -type f | sort)
+}
+plan_script() {
+  local group=${1%/*}
+  plan script "$1" "${group#"$root"/}"
 }
 more=false
 for argument; do
-  if [ -d "$argument" ]; then plan_cases "$(absolute "$argument")" && more=true
-  elif [ ! -x "$argument" ]; then echo "run.sh: $argument: no folder, and no program that can run" && exit 2
-  elif [[ $argument == *.sh ]]; then plan script "$(absolute "$argument")" && more=true
-  else plan unit "$(absolute "$argument")"
+  if [ -d "$argument" ]; then
+    plan_cases "$(absolute "$argument")"
+    more=true
+  elif [ ! -x "$argument" ]; then
+    echo "run.sh: $argument: no folder, and no program that can run"
+    exit 2
+  elif [[ $argument == *.sh ]]; then
+    plan_script "$(absolute "$argument")"
+    more=true
+  else
+    plan unit "$(absolute "$argument")" tests/unit
   fi
 done
 if ! $more; then
   for script in "$root"/tests/pipeline/*.sh "$root"/tests/faults/*.sh "$root"/tests/house/*.sh; do
-    [ ! -e "$script" ] || plan script "$script"
+    [ ! -e "$script" ] || plan_script "$script"
   done
   plan_cases "$root/tests/tools"
 fi
 
-# As many at a time as there are processors; what they say comes out in order.
+total_passed=0 total_failed=0 total_skipped=0
+open=()  # the groups that have not been told
+for group in "${groups[@]}"; do
+  [[ " ${open[*]-} " == *" $group "* ]] || open+=("$group")
+done
+
+# Tells of each group whose tests have all ended; with `all`, of every group.
+tell() {
+  local group i passed failed skipped ended=() still=() sum bad
+  for group in "${open[@]}"; do
+    ended=()
+    for i in "${!paths[@]}"; do
+      [ "${groups[i]}" = "$group" ] || continue
+      if [ -s "$scratch/$i/counts" ] || [ "${1-}" = all ]; then
+        ended+=("$i")
+      else
+        still+=("$group")
+        continue 2
+      fi
+    done
+    sum=0 bad=0
+    for i in "${ended[@]}"; do
+      grep -v '^SKIP ' "$scratch/$i/says"
+      grep '^SKIP ' "$scratch/$i/says" >>"$scratch/skips"
+      passed=0 failed=1 skipped=0
+      if [ -s "$scratch/$i/counts" ]; then
+        read -r passed failed skipped <"$scratch/$i/counts"
+      else
+        echo "FAIL ${paths[i]}: no result"
+      fi
+      total_passed=$((total_passed + passed)) total_failed=$((total_failed + failed))
+      total_skipped=$((total_skipped + skipped))
+      sum=$((sum + passed + failed)) bad=$((bad + failed))
+    done
+    [ $bad = 0 ] && bad='' || bad=", $bad of them failed"
+    echo "$group: $sum tests$bad, after $SECONDS s"
+  done
+  open=("${still[@]}")
+}
+
+# As many at a time as there are processors.
 slots=$(nproc 2>/dev/null || echo 2)
+: >"$scratch/skips"
+running=0
 for i in "${!paths[@]}"; do
   mkdir "$scratch/$i"
-  [ "$i" -lt "$slots" ] || wait -n
+  if [ "$running" -ge "$slots" ]; then
+    wait -n
+    running=$((running - 1))
+    tell
+  fi
   "run_${kinds[i]}" "${paths[i]}" "$scratch/$i" >"$scratch/$i/says" 2>&1 &
+  running=$((running + 1))
 done
-wait
-total_passed=0 total_failed=0 total_skipped=0
-for i in "${!paths[@]}"; do
-  cat "$scratch/$i/says"
-  read -r passed failed skipped <"$scratch/$i/counts" || { echo "FAIL ${paths[i]}: no result" && passed=0 failed=1 skipped=0; }
-  total_passed=$((total_passed + passed)) total_failed=$((total_failed + failed)) total_skipped=$((total_skipped + skipped))
+while [ "$running" -gt 0 ]; do
+  wait -n
+  running=$((running - 1))
+  tell
 done
+tell all
+cat "$scratch/skips"
 [ "$((total_passed + total_failed))" -gt 0 ] || echo "nothing was tested"
 summary="$total_passed passed, $total_failed failed"
 [ "$total_skipped" -eq 0 ] || summary="$summary, $total_skipped skipped"

@@ -3,8 +3,11 @@
 # copy whose bin/ holds, for each tool, a script that runs it so. Only what valgrind finds counts: under it a long double, which
 # some tests compare with, is no longer than a double, and limits of time or memory may be exceeded. Some twenty minutes.
 set -u
+export LC_ALL=C
+unset CDPATH
 cd "$(dirname "$0")/.." || exit 2
-command -v valgrind >/dev/null || { echo 'skipped: no valgrind'; exit 77; }
+command -v valgrind >/dev/null ||
+  { echo 'skipped: no valgrind; make setup sanitize installs it'; exit 77; }
 copy=$PWD/build/valgrind
 rm -rf "$copy"
 mkdir -p "$copy/bin" "$copy/build/replay" "$copy/log"

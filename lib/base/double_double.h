@@ -7,7 +7,15 @@
 #pragma once
 
 #include <bit>
+#include <cfloat>
 #include <cstdint>
+
+#ifdef __FAST_MATH__
+#error "rolling rests on exact sums and products of doubles: build it without -ffast-math"
+#endif
+#if FLT_EVAL_METHOD != 0
+#error "rolling rests on sums and products rounded to double: on x87 add -msse2 -mfpmath=sse"
+#endif
 
 namespace rolling {
 

@@ -25,17 +25,21 @@ class RowColumn {
 
 }  // namespace
 
-std::optional<TableLaw> read_law(Tool& tool, const std::string& file, PowerLaw& law, double* v0) {
+std::optional<TableLaw> read_law(Tool& tool, const std::string& file, PowerLaw& law, double& slope,
+                                 double* v0) {
   Reader& in = tool.read_file(file, {"v", "D"});
   if (in.find("a") && in.find("b")) {
     const RowColumn a(in, "a", "D");
     const auto b = in.need_as_is("b");
+    std::optional<std::size_t> slope_slot;
+    if (in.find("slope")) slope_slot = in.need_as_is("slope");
     std::optional<RowColumn> speed;
     if (v0 && in.find("v0")) speed.emplace(in, "v0", "v");
     if (!in.next_run() || !in.next()) fail("{}: no row of fitpower", shown(file));
     if (!tool.on_command_line("coefficient")) law.a = a.value();
     if (!(law.a > 0)) fail("a = {} must be greater than 0", law.a);
     if (!tool.on_command_line("exponent")) law.b = in[b];
+    if (slope_slot && !tool.on_command_line("slope")) slope = in[*slope_slot];
     if (speed && !tool.on_command_line("v0")) *v0 = speed->value();
     if (in.next() || in.next_run()) fail("more than one row: a law is one row of fitpower");
     return {};

@@ -10,11 +10,11 @@
 
 namespace rolling {
 
-/// Reads a row of fitpower (columns a and b, and v0 if it has that), or a table of v and D; `-` is
-/// standard input. A row sets `law`, and v0 [m/s] if that is asked for, where the command line has
-/// not: it wins. A table is returned; -a and -b do not go with it. Columns with units are converted
-/// to SI. Throws Error for a file that is neither, and for more than one row.
-std::optional<TableLaw> read_law(Tool&, const std::string& file, PowerLaw& law,
+/// Reads a row of fitpower, or a table of v and D; `-` is standard input. A row sets the law by its
+/// columns a and b, and where it has them the slope of the mat, and v0 [m/s] if that is asked for;
+/// the command line wins over it. A table is returned; -a and -b do not go with it. Columns with
+/// units are converted to SI. Throws Error for a file that is neither, and for more than one row.
+std::optional<TableLaw> read_law(Tool&, const std::string& file, PowerLaw& law, double& slope,
                                  double* v0 = nullptr);
 
 }  // namespace rolling

@@ -1,5 +1,6 @@
 #include "cli/tool.h"
 
+#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,6 +15,8 @@
 
 #include "cli/scene.h"
 #include "text/estimate.h"
+#include "text/head.h"
+#include "text/input.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -248,6 +251,7 @@ void Tool::output() {
 /// for say nothing to it.
 void Tool::take_scene() {
   if (scene_file_.empty()) return;
+  refuse_output(scene_file_);
   for (const SceneValue& scene : read_scene(scene_file_)) {
     const auto option = options_.find(scene.key);
     if (option == options_.end() || on_command_line(scene.key)) continue;
@@ -269,10 +273,16 @@ Reader& Tool::read(std::vector<std::string> order) {
 }
 
 Reader& Tool::read_file(const std::string& file, std::vector<std::string> order) {
-  return open({{file}, {}, {}, input_.strict}, std::move(order));
+  ReaderOptions options{{file}, {}, {}, input_.strict};
+  options.has_use = false;  // --use is about the operands
+  return open(std::move(options), std::move(order));
 }
 
 Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
+  const auto& files = options.files;
+  if ((files.empty() || std::find(files.begin(), files.end(), "-") != files.end()) &&
+      std::exchange(standard_input_taken_, true))
+    fail("standard input is asked for twice: name a file for one of the two");
   options.on_block = [this](const std::string& name, double part) {
     progress.at(name == "-" ? "standard input" : name, part);
   };
@@ -297,12 +307,45 @@ void Tool::count_left_out(std::size_t count, const std::string& why) {
     say(fmt::format("{} record{} left out: {}", count, count == 1 ? "" : "s", why));
 }
 
+namespace {
+
+/// What a signal handler may use: the line that ends the output.
+std::array<char, 128> last_line;
+std::size_t last_line_size = 0;
+const Output* printed = nullptr;
+
+/// Ends the output as an error does, as far as there is room for a line at once, and then the tool.
+/// Output::flush() lets no signal come before whole lines have gone out.
+void end_by_signal(int signal) {
+  pollfd ready{STDOUT_FILENO, POLLOUT, 0};
+  if (printed->has_printed() && ::poll(&ready, 1, 0) == 1 && (ready.revents & POLLOUT) != 0) {
+    [[maybe_unused]] const auto count = ::write(STDOUT_FILENO, last_line.data(), last_line_size);
+  }
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+}  // namespace
+
+/// A tool that is ended by a signal ends its output with the line of an error. Signals that are
+/// ignored stay so.
+void Tool::handle_signals() {
+  error_line_ = error_line(name_);
+  if (error_line_.size() >= last_line.size()) return;
+  last_line_size = error_line_.copy(last_line.data(), last_line.size());
+  last_line[last_line_size++] = '\n';
+  printed = &out;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (std::signal(signal, end_by_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
+
 void Tool::check_failed(const std::string& text) {
   if (failed_checks_++ == 0) failed_check_ = text;
 }
 
 /// What is said once the work is done and its output is out; returns the exit status.
 int Tool::finish(int status) {
+  if (status == trouble) out.end_with(error_line_);
   out.flush();
   progress.stop();
   std::size_t left_out = 0;
@@ -327,6 +370,7 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   // A file that may not grow is one that cannot be written, which flush() tells.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
+    handle_signals();
     switch (command_line_.parse(argc, argv)) {
       case CommandLine::Asked::help: {
         const std::string text = command_line_.help(name_);
@@ -347,8 +391,6 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   } catch (const OutputError& error) {
     say(error.what());
   } catch (const Error& error) {
-    out.drop_line();  // what came before the bad record may stand; the line in the making may not
-    print("");
     const bool located = dynamic_cast<const InputError*>(&error) || readers_.empty() ||
                          readers_.back()->where().empty();
     say(located ? error.what() : readers_.back()->where() + ": " + error.what());
@@ -357,6 +399,8 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   } catch (const std::exception& error) {
     say(error.what());
   }
+  // What came before a bad record may stand, but the end of a pipe has to know.
+  out.end_with(error_line_);
   return trouble;
 }
 

@@ -125,15 +125,17 @@ class Tool {
               const std::string& help, const Set& set);
   Reader& open(ReaderOptions, std::vector<std::string> order);
   void take_scene();
+  void handle_signals();
   int finish(int status);
   int print(const std::string& text);
 
-  std::string name_;
+  std::string name_, error_line_;
   CommandLine command_line_;
   std::map<std::string, Option> options_;  // by long name
   ReaderOptions input_;
   std::string scene_file_;
   bool quiet_ = false;
+  bool standard_input_taken_ = false;  // by a Reader: there is no more of it for another
   std::string failed_check_;
   std::size_t failed_checks_ = 0;
   std::vector<std::unique_ptr<Reader>> readers_;

@@ -11,7 +11,7 @@ void Balance::push(double t, const Ledger& now) {
   if (!begun_) start_ = end_, worst_time_ = t;
   begun_ = true;
   dissipated_ = outflow_.push(t, now.P_diss());
-  lifted_ = lift_.push(t, now.P_g());
+  if (inclined_) lifted_ = lift_.push(t, now.P_g());
   const double off = std::abs(start_ - end_ - lifted_ - dissipated_);
   if (off > worst_) worst_ = off, worst_time_ = t;
 }

@@ -9,6 +9,8 @@ namespace rolling {
 
 class Balance {
  public:
+  explicit Balance(const Body& body) : inclined_(body.slope != 0) {}
+
   /// Takes the next record of the run: its time [s] and its quantities.
   void push(double t, const Ledger&);
 
@@ -31,7 +33,7 @@ class Balance {
   double missing() const;
 
   Integral outflow_, lift_;
-  bool begun_ = false;
+  bool inclined_, begun_ = false;
   double start_ = 0, end_ = 0, dissipated_ = 0, lifted_ = 0;
   double worst_ = 0, worst_time_ = 0;  // the largest imbalance [J], and where it is
 };

@@ -8,12 +8,6 @@
 
 namespace rolling {
 
-Incline incline(const Body& c) {
-  if (c.slope == 0) return {1, 0};
-  const double hypotenuse = std::hypot(1, c.slope);
-  return {1 / hypotenuse, c.slope / hypotenuse};
-}
-
 void check_shift(const Body& c, double D) {
   if (!(std::abs(D) <= c.R)) fail("the shift D = {:.6g} m is beyond the radius {:.6g} m", D, c.R);
 }
@@ -45,12 +39,11 @@ double shift_from_acceleration(const Body& c, Geometry geometry, double a) {
         "no shift D within the radius {:.6g} m gives the acceleration {:.6g} m/s^2: the largest is "
         "{:.6g} m/s^2",
         c.R, a, c.g * cos / K);
-  if (K * std::abs(s) >= cos) return std::copysign(c.R, s);
-  // With D/R = sin alpha, A = cos alpha and (cos, s - sin) = h (cos beta, sin beta) the equation
-  // reads K s = h sin(alpha - beta). So alpha is the sum of two angles, written out in their sines
-  // and cosines; with h as a divisor s^2 does not overflow.
-  const double h = std::hypot(cos, s - sin), k = K * s / h;
-  const double d = k * (cos / h) + (s - sin) / h * std::sqrt((1 - k) * (1 + k));
+  // Only a body with next to no K can be so fast to slow down that s^2 overflows.
+  if (K * std::abs(s) >= cos || std::abs(s) > 1e100) return std::copysign(c.R, s);
+  // Squared, K s - cos D/R = A (sin - s) is quadratic in D/R, and A >= 0 chooses its root.
+  const double q = s - sin, h2 = cos * cos + q * q;
+  const double d = (K * s * cos + q * std::sqrt(cos * cos + (q - K * s) * (q + K * s))) / h2;
   return c.R * std::clamp(d, -1.0, 1.0);
 }
 

@@ -3,6 +3,8 @@
 // when it spins the body up in forward rolling.
 #pragma once
 
+#include <cmath>
+
 #include "contact/body.h"
 
 namespace rolling {
@@ -11,7 +13,11 @@ namespace rolling {
 struct Incline {
   double cos, sin;
 };
-Incline incline(const Body&);
+inline Incline incline(const Body& c) {
+  if (c.slope == 0) return {1, 0};
+  const double hypotenuse = std::hypot(1, c.slope);
+  return {1 / hypotenuse, c.slope / hypotenuse};
+}
 
 /// Throws Error when |D| > R: no point of the body is there.
 void check_shift(const Body&, double D);

@@ -7,14 +7,14 @@ namespace rolling {
 
 double Integral::push(double t, double y) {
   if (samples_ > 0) {
-    const double h = t - t_, slope = (y - y_) / h;
+    const double h = t - t_, k = last_step_, rise = y - y_;
     double part = 0.5 * h * (y + y_);
-    if (samples_ > 1 && h <= 2 * last_step_ && y != 0 && y_ != 0)
-      part -= (slope - last_slope_) / (h + last_step_) * h * h * h / 6;
+    if (samples_ > 1 && h <= 2 * k && y != 0 && y_ != 0)
+      part -= h * h / (6 * (h + k) * k) * (rise * k - last_rise_ * h);
     const double sum = sum_ + part;
     error_ += std::abs(sum_) >= std::abs(part) ? (sum_ - sum) + part : (part - sum) + sum_;
     sum_ = sum;
-    last_step_ = h, last_slope_ = slope;
+    last_step_ = h, last_rise_ = rise;
   }
   samples_ = std::min(samples_ + 1, 2);
   t_ = t, y_ = y;

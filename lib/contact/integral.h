@@ -18,7 +18,7 @@ class Integral {
  private:
   int samples_ = 0;  // so far, up to 2
   double t_ = 0, y_ = 0;
-  double last_step_ = 0, last_slope_ = 0;  // length of the step before, and its (y - y_) / length
+  double last_step_ = 0, last_rise_ = 0;  // of t and of y over the step before
   double sum_ = 0, error_ = 0;
 };
 

@@ -19,6 +19,9 @@ struct Law {
   std::vector<Coefficient> coefficients;
   /// D at v, and its derivatives by the coefficients.
   double (*shift)(const double* c, double v, double* by_c);
+  /// The coefficients that the formula names, in the same units, of those that `shift` takes, and
+  /// their derivatives row by row; none where they are the same.
+  void (*written)(const double* c, double* as_written, double* by_c);
   /// Where a search may begin, for a D that is of order one at speeds up to 1.
   std::vector<std::vector<double>> starts;
   bool is_power = false;  ///< a v^b itself, or a special case of it
@@ -49,7 +52,7 @@ struct LawInUnits {
     for (std::size_t j = 0; j < size(); ++j) by_c[j] *= D_unit;
     return D_unit * D;
   }
-  /// Coefficient j in SI units, and its derivatives by c.
+  /// Coefficient j of the formula in SI units, and its derivatives by c.
   double in_SI(const double* c, std::size_t j, std::span<double> by_c) const;
 };
 

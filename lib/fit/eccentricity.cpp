@@ -152,7 +152,7 @@ class Periodogram {
 }  // namespace
 
 std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRun>& runs,
-                                            const Fitted& fit) {
+                                            const Fitted& fit, double whiteness) {
   constexpr double decisive = 0.01;
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
                     q = fit.system.columns();
@@ -173,7 +173,8 @@ std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRu
         (found && found->significance < once_a_turn.significance))
       continue;
     const double near = std::min(spectrum.at(0.7).significance, spectrum.at(1.4).significance);
-    if (once_a_turn.significance < near) found = once_a_turn;
+    if (once_a_turn.significance < (whiteness <= decisive ? near * near : near))
+      found = once_a_turn;
   }
   return found;
 }

@@ -12,9 +12,11 @@ namespace rolling {
 /// follow. For sine and cosine of the records of a body of steady speed it is theirs. The noise is
 /// taken as white before the filters.
 ///
-/// None if no run shows it at 1 % (after Bonferroni), or another period near by explains more: then
-/// it is something else that the law does not follow. Runs of less than one turn, or with less than
+/// None if no run shows it at 1 % (after Bonferroni), or another period near by explains as much:
+/// then it is something else that the law does not follow. Where the noise is not white at 1 %
+/// (`whiteness` as in FitResult), it has to explain twice as much as those. Runs of less than one turn, or with less than
 /// two records a turn, are not looked at.
-std::optional<Eccentricity> eccentricity_of(Route, const std::vector<FitRun>&, const Fitted&);
+std::optional<Eccentricity> eccentricity_of(Route, const std::vector<FitRun>&, const Fitted&,
+                                            double whiteness);
 
 }  // namespace rolling

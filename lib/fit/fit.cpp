@@ -92,6 +92,9 @@ void report(Fitted& fit, const std::vector<double>& theta) {
 
 /// What the residuals tell of the noise; and their sum of squares as they stand.
 void explain(Fitted& fit, const std::vector<double>& theta) {
+  fit.rss = fit.minimum.rss;
+  if (!fit.noise->known()) return;
+  fit.rss = 0;
   const auto& runs = fit.rolls->runs();
   system_of(fit.rolls, std::make_shared<const Noise>())
       .evaluate(theta, [&](std::size_t r, std::span<double> f, std::span<double>) {
@@ -99,7 +102,7 @@ void explain(Fitted& fit, const std::vector<double>& theta) {
             std::inner_product(f.begin(), f.end() - runs[r].with_mean_speed, f.begin(), 0.0);
         fit.rss += rss * runs[r].unit * runs[r].unit;
       });
-  if (!fit.noise->known() || fit.noise_inferred) return;
+  if (fit.noise_inferred) return;
   fit.sources = fit.noise->explain(fit.minimum.f);
   fit.source_runs = fit.noise->sources();
   fit.innovations = fit.noise->innovations(fit.minimum.f, fit.innovation_runs);
@@ -143,11 +146,11 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
         std::accumulate(rows.begin(), rows.end(), std::size_t{0},
                         [](std::size_t sum, const Rows& of_run) { return sum + of_run.size(); });
     if (!guess) {
-      const auto plain = without_filters(route, runs, all, rows);
-      require_records(n + plain.size() * (route == Route::shift),
-                      plain.size() * (!options.v0 + (route == Route::position && !options.x0)) +
+      require_records(n + runs.size() * (route == Route::shift),
+                      runs.size() * (!options.v0 + (route == Route::position && !options.x0)) +
                           !options.a + !options.b + options.fit_slope);
-      guess = first_guess(plain, options);
+      guess = making.known() ? first_guess(without_filters(route, runs, all, rows), options)
+                             : first_guess(runs, options);
     }
     find_minimum(fit, std::move(runs), *guess, options);
     guess->theta = fit.minimum.theta;
@@ -164,19 +167,15 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
 
 namespace {
 
-/// The records that a route can fit to a roll. Those of a shift must have a speed along the way.
+/// The records that a route can fit to a roll: all that are there. Those of a shift need no v > 0:
+/// to choose by noisy speeds would choose by their noise.
 std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
   std::vector<Rows> rows;
   for (const FitRun& run : all) {
     const auto& y = route == Route::position ? run.x : run.v;
-    double sum = 0;
-    for (double v : y)
-      if (std::isfinite(v)) sum += v;
-    const double way = sum < 0 ? -1 : 1;
     Rows& of_run = rows.emplace_back();
     for (std::size_t i = 0; i < y.size(); ++i)
-      if (std::isfinite(y[i]) &&
-          (route != Route::shift || (way * y[i] > 0 && std::isfinite(run.D[i]))))
+      if (std::isfinite(y[i]) && (route != Route::shift || std::isfinite(run.D[i])))
         of_run.push_back(i);
   }
   return rows;
@@ -273,13 +272,14 @@ void require_determined(const FitResult& result, bool with_slope) {
 FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   Fitted found = fit_route(route, runs, options);
   NoiseErrors noise = noise_errors(found, uncertainty_of(found));
+  const auto eccentricity = eccentricity_of(route, runs, found, noise.whiteness);
   const auto moved = moved_by_given(route, runs, options, found);
   const auto agreement = agreement_of(route, runs, options, noise, found);
   require_determined(result_of(found, noise, {}), options.fit_slope);
   FitResult result = result_of(found, noise, moved);
   if (route != Route::velocity && route != Route::position) result.v0 = result.sigma_v0 = {};
   result.agreement = agreement;
-  result.eccentricity = eccentricity_of(route, runs, found);
+  result.eccentricity = eccentricity;
   return result;
 }
 

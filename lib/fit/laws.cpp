@@ -71,10 +71,8 @@ class Records {
     for (std::size_t i = 0; i < n; ++i) {
       double by_c[Law::most];
       const double v = power_.v[first + i], old = law_(v), now = D(theta.data(), v, by_c);
-      const bool logarithm = route_ == Route::loglog;
-      if (logarithm && !(now > 0)) fail("no logarithm");
-      f[i] = (logarithm ? std::log(now / old) : now - old) + power_.minimum.f[first + i];
-      for (std::size_t j = 0; j < D.size(); ++j) J[j * n + i] = by_c[j] / (logarithm ? now : 1);
+      f[i] = now - old + power_.minimum.f[first + i];
+      for (std::size_t j = 0; j < D.size(); ++j) J[j * n + i] = by_c[j];
     }
     take(r, f, J);
   }
@@ -166,11 +164,10 @@ Candidate fit_law(const Records& records, const Law& law, const std::vector<Cand
     }
   }
   std::sort(starts.begin(), starts.end());
-  constexpr std::size_t most = 3;
   Candidate best{&law, {{}, {}, {}, infinity}, {}};
-  for (std::size_t i = 0; i < std::min(most, starts.size()); ++i) try {
-      Minimum m = minimise(system, starts[i].second);
-      if (m.rss < best.minimum.rss) best.minimum = std::move(m);
+  for (auto start = starts.begin(); start != starts.end() && best.minimum.theta.empty(); ++start)
+    try {
+      best.minimum = minimise(system, start->second);
     } catch (const Error&) {  // no minimum from here
     }
   if (best.minimum.theta.empty()) return best;
@@ -247,6 +244,8 @@ bool LawComparison::possible() const { return std::isfinite(fits.front().aicc); 
 LawComparison compare_laws(Route route, const std::vector<FitRun>& runs,
                            const FitOptions& options) {
   if (options.robust) fail("laws are compared by squares only");
+  // The mean logarithm of a noisy D is not that of its mean: other laws would fit the difference.
+  if (route == Route::loglog) route = Route::shift;
   const Records records(route, fit_route(route, runs, options), options);
   const Fitted& power = records.power();
   std::vector<Candidate> all{{&laws().front(), power.minimum, {1, power.b.value}}};

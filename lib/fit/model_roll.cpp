@@ -31,15 +31,16 @@ Noise::Matrix filters_of_rows(const Response& response, Route route, const Rows&
   return std::make_shared<const BandMatrix>(std::move(H));
 }
 
-/// +1 or -1: which way the body rolls.
+/// +1 or -1: which way the body rolls; by all records, of which some may be false echoes.
 double way_of(Route route, const FitRun& run, const Rows& rows, const FitOptions& options) {
-  double sum = 0;
-  if (options.v0) sum = *options.v0;
-  else if (route == Route::position)
-    sum = run.x[rows.back()] - options.x0.value_or(run.x[rows.front()]);
-  else
-    for (std::size_t i : rows) sum += run.v[i];
-  return sum < 0 ? -1 : 1;
+  if (options.v0) return *options.v0 < 0 ? -1 : 1;
+  double sum = 0, before = 0;  // of v; or of x in the later half less those in the earlier one
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (route != Route::position) sum += run.v[rows[k]];
+    else if (options.x0) sum += run.x[rows[k]] - *options.x0;
+    else if (2 * k + 1 < rows.size()) before += run.x[rows[k]];
+    else if (2 * k + 1 > rows.size()) sum += run.x[rows[k]];
+  return sum < before ? -1 : 1;
 }
 
 }  // namespace

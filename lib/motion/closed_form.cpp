@@ -13,7 +13,7 @@ namespace rolling {
 namespace {
 
 constexpr double unseen = 1e-20;  // rate t below it: v is v0
-constexpr double beyond = 1e280;  // rate t above it is taken as this
+constexpr double beyond = 1e270;  // rate t above it: its product in double-double has no room
 constexpr double gone = -1e4;     // L below it: v is 0
 
 }  // namespace
@@ -47,8 +47,12 @@ void ClosedForm::seek(double t) {
   t_ = t;
   rolls_ = t < stop_time_;
   if (!rolls_) return;
-  const double q = std::min(t * unit1_ * unit2_, beyond);  // rate t = -minus_rate_ q
+  const double q = t * unit1_ * unit2_;  // rate t = -minus_rate_ q
   log_ = 0;
+  if (q > beyond) {
+    log_ = slope_.value.hi > 0 ? far_log(t) : DoubleDouble(gone);
+    return;
+  }
   if (q < unseen) return;
   const DoubleDouble minus_sq = slope_ * q;
   if (std::abs(minus_sq.hi) < 0x1p-7) {
@@ -59,6 +63,17 @@ void ClosedForm::seek(double t) {
     if (rolls_) log_ = inverse_s_ * quick_log(w);
   }
   if (log_.hi < gone) log_ = gone;
+}
+
+/// L where w is -s rate t to the last bit (b > 1), whose logarithm is that of its mantissa and of
+/// its exponent.
+DoubleDouble ClosedForm::far_log(double t) const {
+  int exponent = 0;
+  const DoubleDouble product = slope_ * std::frexp(t, &exponent);
+  const DoubleDouble log_w = quick_log(quick_two_sum(product.hi, product.lo)) +
+                             quick_log(2.0) * (exponent + std::log2(unit1_) + std::log2(unit2_));
+  const DoubleDouble L = inverse_s_ * log_w;
+  return L.hi < gone ? DoubleDouble(gone) : L;
 }
 
 double ClosedForm::velocity() { return rolls_ ? times_exp(speed_, log_) : 0; }
@@ -81,7 +96,7 @@ double ClosedForm::shift() {
 double ClosedForm::acceleration() {
   if (!rolls_) return 0;
   if (b_ < 0) shift();
-  return -times_exp(deceleration_, exponent_ * log_);
+  return 0 - times_exp(deceleration_, exponent_ * log_);
 }
 
 }  // namespace rolling

@@ -30,6 +30,8 @@ class ClosedForm final : public Motion {
   double shift() override;
 
  private:
+  DoubleDouble far_log(double t) const;
+
   Body body_;
   double b_, v0_, x0_, stop_time_ = 0;
   SplitFactor slope_;                                   // -s rate, divided by two powers of two ...

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr unsigned long most_steps = 1'000'000;
+constexpr double gain = 1e-9;        // of v, that rounding may make
 constexpr double least_part = 1e-8;  // of v0; much below it the steps are a rounding of t
 
 }  // namespace
@@ -24,7 +25,8 @@ IntegratedRoll::IntegratedRoll(const Body& body, Geometry geometry, AnyLaw law, 
                                double x0, Stepper stepper, double rtol)
     : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0), x0_(x0),
       floor_(law_.stops ? std::max(least_part * v0, law_.rest) : 0),
-      options_{stepper, rtol, v0 > 0 ? rtol * least_part * v0 : 1, most_steps}, ode_(start()) {
+      options_{stepper, rtol, v0 > 0 ? rtol * least_part * v0 : 1, most_steps}, ode_(start()),
+      fastest_(body.slope < 0 ? infinity : v0) {
   if (v0 == 0) tail_ = {0, 0, 0, 0};
 }
 
@@ -55,7 +57,13 @@ Integrator IntegratedRoll::start() const {
 
 Integrator::Event IntegratedRoll::floor_event() const {
   const double limit = geometry_ == Geometry::exact ? body_.R : infinity;
-  return [floor = floor_, limit, shift = law_.shift](const std::vector<double>& y) {
+  return [floor = floor_, limit, fastest = fastest_,
+          shift = law_.shift](const std::vector<double>& y) {
+    if (y[1] > fastest * (1 + gain))
+      fail(
+          "the solver has made the body faster, which this mat cannot do: v = {:.6g} m/s after "
+          "{:.6g} m/s (a smaller --rtol, or another method)",
+          y[1], fastest);
     return limit < infinity && y[1] > 0 ? std::min(y[1] - floor, limit - shift(y[1]))
                                         : y[1] - floor;
   };
@@ -86,6 +94,7 @@ void IntegratedRoll::seek(double t) {
   // Where the steps end changes the time of the stop by its error: the one that was told counts.
   if (ode_.advance(tail_ ? std::min(t, tail_->begin) : t, floor_event()) && !tail_)
     tail_ = tail(ode_);
+  if (body_.slope >= 0) fastest_ = std::min(fastest_, ode_.state()[1]);
   if (ode_.state()[1] > law_.highest * (1 + 1e-9))
     fail("at t = {:.6g} s the speed {:.6g} m/s is above the table of the law, which ends at {}",
          ode_.time(), ode_.state()[1], law_.highest);
@@ -96,7 +105,7 @@ double IntegratedRoll::left() const {
 }
 
 double IntegratedRoll::velocity() {
-  if (!tail_ || t_ < tail_->begin) return ode_.state()[1];
+  if (!tail_ || t_ < tail_->begin) return std::min(ode_.state()[1], fastest_);
   return t_ < stop_time() ? tail_->v * std::pow(left(), 1 / (1 - tail_->q)) : 0;
 }
 

@@ -30,7 +30,8 @@ struct AnyLaw {
 class IntegratedRoll final : public Motion {
  public:
   /// Refuses R, g, v0 and K as check_roll does. Errors of the solver come out of seek() and
-  /// stop_time(): steps that run out (1e6 between two calls), D beyond R, v beyond the law.
+  /// stop_time(): steps that run out (1e6 between two calls), D beyond R, v beyond the law, v that
+  /// grows where the mat slows the body (the error of a step).
   IntegratedRoll(const Body&, Geometry, AnyLaw, double v0, double x0, Stepper, double rtol);
 
   /// The first call integrates to the stop, apart from where seek() stands.
@@ -59,7 +60,7 @@ class IntegratedRoll final : public Motion {
   double floor_;  // 0: the body never stops
   OdeOptions options_;
   Integrator ode_;
-  double t_ = 0;
+  double t_ = 0, fastest_;  // v may not be above it
   mutable std::optional<Tail> tail_;
 };
 

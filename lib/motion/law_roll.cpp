@@ -22,7 +22,8 @@ constexpr double widest = 0.25, narrowest = 1e-9;
 /// A panel ends where the deceleration has fallen by so much: a zero of it is then far away.
 constexpr double least_fall = 0.7;
 /// The rest of the time does not show any more.
-constexpr double negligible = 1e-13, slowest = 1e-250;
+constexpr double negligible = 1e-11, slowest = 1e-250;
+constexpr int most_panels = 3000;
 
 }  // namespace
 
@@ -78,18 +79,17 @@ double LawRoll::time(double u, double width) const {
 }
 
 LawRoll::Panel LawRoll::panel_from(double u, double q, const Sums& before) const {
-  Panel p{u, q, 0, 0, 0, before};
+  Panel p{u, q, 0, 0, before, before};
   if (u / q <= negligible * before.time || u < slowest) {
     p.u = 0;  // the stop
     return p;
   }
   for (double width = widest; width > narrowest; width /= 2) {
     const double q_end = rate(u * std::exp(-width)).q;
-    Sums sums;
-    if (q_end > least_fall * q && add(sums, u, width)) {
+    p.after = before;
+    if (q_end > least_fall * q && add(p.after, u, width)) {
       p.width = width;
       p.q_end = q_end;
-      p.duration = sums.time;
       break;
     }
   }
@@ -108,10 +108,10 @@ LawRoll::Point LawRoll::point(const Sums& sum, double v, double q) const {
 // At fixed t, with T the integral for the time: dv/dc = q dT/dc = -q G, and dx/dc = dX/dc - v dT/dc
 // = v G - U. A longer v0 is an earlier beginning: dv/dv0 = q(v)/q(v0).
 LawRoll::Point LawRoll::at(double t) {
-  while (panel_.width > 0 && t >= panel_.before.time + panel_.duration) {
-    Sums sums = panel_.before;
-    add(sums, panel_.u, panel_.width);
-    panel_ = panel_from(panel_.u * std::exp(-panel_.width), panel_.q_end, sums);
+  while (panel_.width > 0 && t >= panel_.after.time) {
+    if (++panels_ > most_panels) fail("the law is too steep to be rolled");
+    const Sums after = panel_.after;
+    panel_ = panel_from(panel_.u * std::exp(-panel_.width), panel_.q_end, after);
   }
   const double since = t - panel_.before.time;
   if (panel_.u == 0) return point(panel_.before, 0, 0);

@@ -18,7 +18,7 @@ namespace rolling {
 class LawRoll {
  public:
   /// c are the coefficients of the law, in its units; they are copied. Throws Error where the body
-  /// does not slow down at v0, for v0 <= 0, and where |D| > R.
+  /// does not slow down at v0, for v0 <= 0, and in the exact geometry where |D| > R.
   LawRoll(const Body&, Geometry, const LawInUnits&, const double* c, double v0);
 
   static constexpr std::size_t most = Law::most + 1;
@@ -29,7 +29,8 @@ class LawRoll {
     Derivatives v_c, x_c;
   };
   /// The state at t >= 0, which may not fall from call to call, x from 0 at t = 0; and the partial
-  /// derivatives at fixed t. From the stop on v = 0, with zero derivatives.
+  /// derivatives at fixed t. From the stop on v = 0, with zero derivatives. Throws Error for a law
+  /// that changes by many orders of magnitude over the speeds.
   Point at(double t);
 
  private:
@@ -44,8 +45,8 @@ class LawRoll {
   struct Panel {
     double u, q;       // at its beginning; it ends at u e^-width
     double width = 0;  // 0: what follows is a stop or a steady speed
-    double q_end = 0, duration = 0;
-    Sums before = {};
+    double q_end = 0;
+    Sums before = {}, after = {};
   };
   Rate rate(double u) const;
   bool add(Sums&, double u, double width) const;  // false where q is not positive
@@ -59,6 +60,7 @@ class LawRoll {
   std::array<double, Law::most> c_{};
   double v0_, q0_;
   Panel panel_{};
+  int panels_ = 0;
 };
 
 }  // namespace rolling

@@ -14,7 +14,8 @@ namespace rolling {
 
 namespace {
 
-constexpr double rest_fraction = 1e-3;
+constexpr double rest_fraction = 1e-3;  // of v0
+constexpr unsigned long most_evaluations = 5'000'000;
 constexpr double stiff = 3e4;  // measured: from here on an implicit solver is faster
 
 OdeOptions options(Stepper stepper) {
@@ -77,7 +78,7 @@ Integrator MemoryRoll::start() const {
   return {{3, derivative, jacobian}, options_, 0, {x0_, v0_, law_(v0_)}};
 }
 
-bool MemoryRoll::advance(Integrator& ode, double t) const {
+bool MemoryRoll::advance(Integrator& ode, bool& backwards, double t) const {
   // The system has a kink at v = 0: each zero is located, and the integration starts again from v =
   // 0 exactly.
   while (ode.advance(t, [](const std::vector<double>& y) { return y[1]; })) {
@@ -87,7 +88,11 @@ bool MemoryRoll::advance(Integrator& ode, double t) const {
     const double fastest = std::pow((2 + law_.b) * bulge_.length * c * z * z / (2 * law_.a),
                                     1 / (2 + law_.b));  // E at v = 0
     ode.restart(y);
-    if (law_.b < 2 && body_.slope == 0 && fastest <= rest_fraction * v0_) return true;
+    if (law_.b < 2 && body_.slope == 0 && backwards && fastest <= rest_fraction * v0_) return true;
+    backwards = true;
+    if (ode.evaluations() > most_evaluations)
+      fail("the bulge still rings at t = {:.6g} s, after {} evaluations of its equation",
+           ode.time(), ode.evaluations());
   }
   return false;
 }
@@ -97,7 +102,8 @@ double MemoryRoll::stop_time() const {
   if (law_.b >= 2 || body_.slope != 0) return std::numeric_limits<double>::infinity();
   if (!stop_time_) {
     Integrator ode = start();
-    advance(ode, std::numeric_limits<double>::infinity());
+    bool backwards = false;
+    advance(ode, backwards, std::numeric_limits<double>::infinity());
     stop_time_ = ode.time();
   }
   return *stop_time_;
@@ -107,7 +113,7 @@ void MemoryRoll::seek(double t) {
   if (at_rest_) return;
   // Where the steps end changes the time of rest by a rounding or so: the one that was told counts.
   const double stop = stop_time_.value_or(std::numeric_limits<double>::infinity());
-  at_rest_ = advance(ode_, std::min(t, stop)) || t >= stop;
+  at_rest_ = advance(ode_, backwards_, std::min(t, stop)) || t >= stop;
   if (at_rest_ && !stop_time_) stop_time_ = ode_.time();
 }
 

@@ -26,8 +26,9 @@ Stepper memory_stepper(const Body&, PowerLaw, Bulge, double v0);
 ///
 /// Rest: with c = g / ((K + A) R),  E = c z^2 / 2 + a |v|^(2+b) / ((2+b) length)  never grows
 /// (while damping |v| < 4 length), so it bounds every later speed. The ringing dies out only like a
-/// power of time; rest is declared at the first zero of v after which E keeps |v| below v0 / 1000.
-/// From there on v and D are exactly 0. For b >= 2 the shift fades too fast to stop the body:
+/// power of time; rest is declared at the first zero of v after the roll backwards after which E
+/// keeps |v| below v0 / 1000. From there on v and D are exactly 0. So the roll backwards is there
+/// for every length. For b >= 2 the shift fades too fast to stop the body:
 /// stop_time() is infinite. So it is on a slope: at rest the bulge would relax, and the body creeps
 /// down.
 class MemoryRoll final : public Motion {
@@ -49,8 +50,9 @@ class MemoryRoll final : public Motion {
 
  private:
   Integrator start() const;
-  /// Integrates to t or to the rest, whichever is first, and returns true at rest.
-  bool advance(Integrator&, double t) const;
+  /// Integrates to t or to the rest, whichever is first, and returns true at rest. `backwards`: v
+  /// has had its first zero.
+  bool advance(Integrator&, bool& backwards, double t) const;
 
   Body body_;
   Geometry geometry_;
@@ -59,7 +61,7 @@ class MemoryRoll final : public Motion {
   double v0_, x0_;
   OdeOptions options_;
   Integrator ode_;
-  bool at_rest_ = false;
+  bool backwards_ = false, at_rest_ = false;
   mutable std::optional<double> stop_time_;
 };
 

@@ -41,6 +41,7 @@ SpeedIntegrals::SpeedIntegrals(double b, double K, double depth, double arm_squa
                  to = std::log(depth) / b;
     if (from > 0) add_series(0, from < none ? from : infinity);
     if (from < none) add_panels(from, std::min(to, none));
+    if (pieces_.empty()) add_piece(true, 0, 0);  // D(v0) = R: the roll ends where it begins
     if (to < none) end_ = sums(pieces_.back(), pieces_.back().width).time;
   }
   if (s_ > 0 && end_ == infinity) {

@@ -85,7 +85,7 @@ void check_roll(const Body& body, PowerLaw law, double v0) {
   positive("gravity g", body.g);
   positive("the coefficient a", law.a);
   if (!std::isfinite(body.slope)) fail("the slope {} must be finite", body.slope);
-  if (!std::isfinite(law.b)) fail("the exponent b = {} must be finite", law.b);
+  if (!(std::abs(law.b) <= 1000)) fail("the exponent b = {} is beyond -1000 to 1000", law.b);
   not_negative("the initial velocity v0", v0);
   check_shift(body, law(v0));
 }
@@ -100,6 +100,7 @@ void Trajectory::check_time(double t) const {
 
 double Trajectory::log_ratio(double t, double rest) const {
   if (rest <= 0) return infinity;
+  if (t == 0) return 0;
   check_time(t);
   return integrals_.lambda(t / unit_, rest / unit_);
 }

@@ -12,8 +12,8 @@
 
 namespace rolling {
 
-/// Throws Error unless R > 0, g > 0, K >= 0, a > 0, v0 >= 0, all of them, b and the slope finite,
-/// and D(v0) <= R.
+/// Throws Error unless R > 0, g > 0, K >= 0, a > 0, v0 >= 0, all of them and the slope finite,
+/// |b| <= 1000, and D(v0) <= R.
 void check_roll(const Body&, PowerLaw, double v0);
 
 /// The law is autonomous, so time and distance are integrals over speed (Eq. 12):

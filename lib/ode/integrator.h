@@ -27,7 +27,7 @@ struct OdeOptions {
   Stepper stepper = Stepper::rk8pd;
   double rtol = 1e-10;                   ///< error of a step relative to y ...
   double atol = 1e-13;                   ///< ... plus this, in the units of y
-  unsigned long max_steps = 10'000'000;  ///< of one advance(); then it is refused
+  unsigned long max_steps = 300'000;  ///< of one advance(); then it is refused
 };
 
 class Integrator {

@@ -3,7 +3,7 @@
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -48,14 +48,16 @@ double rounded(double x, double resolution) {
 
 }  // namespace
 
-std::vector<SonarSample> sonar_record(Motion& motion, const SonarOptions& o) {
+void sonar_record(Motion& motion, const SonarOptions& o,
+                  const std::function<void(const SonarSample&)>& write) {
   check(o);
   motion.seek(0);
   const double v0 = motion.velocity(), x0 = motion.position();
-  const double stop = motion.stop_time(), free = std::min(stop, o.until);
-  if (std::isinf(free)) fail("the body never stops: the sensor needs to know until when to record");
+  const double roll = std::isinf(o.until) ? motion.stop_time() + o.rest_after : o.until;
+  if (std::isinf(roll)) fail("the body never stops: the sensor needs to know until when to record");
   const double release = o.rest_before + o.push;
-  const double end = release + free + (stop <= o.until ? o.rest_after : 0);
+  const double records = std::floor((release + roll) * o.rate * (1 + 1e-12)) + 1;
+  if (records > 1e9) fail("the sensor would make {:.3g} records; the most is 1e9", records);
 
   const auto position = [&](double t) {
     if (t <= o.rest_before) return o.start;
@@ -71,22 +73,26 @@ std::vector<SonarSample> sonar_record(Motion& motion, const SonarOptions& o) {
   silence_gsl();
   const auto random = own(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
   gsl_rng_set(random.get(), o.seed);
-  const double records = std::floor(end * o.rate * (1 + 1e-12)) + 1;
-  if (records > 1e9) fail("the sensor would make {:.3g} records", records);
-  std::vector<SonarSample> record(static_cast<std::size_t>(records));
-  for (std::size_t i = 0; i < record.size(); ++i) {
-    record[i].t = static_cast<double>(i) / o.rate;
-    const double x = position(record[i].t) + gsl_ran_gaussian_ziggurat(random.get(), o.noise);
-    if (gsl_rng_uniform(random.get()) >= o.lost) record[i].x = rounded(x, o.resolution);
+  // Records i - 4 to i, each at its number modulo 5; the middle one has its four neighbours.
+  std::array<SonarSample, 5> last;
+  const auto nth = [&](std::size_t i) -> SonarSample& { return last[i % last.size()]; };
+  const auto n = static_cast<std::size_t>(records);
+  for (std::size_t i = 0; i < n + 2; ++i) {
+    if (i < n) {
+      SonarSample& now = nth(i);
+      now = {static_cast<double>(i) / o.rate, {}, {}};
+      const double x = position(now.t) + gsl_ran_gaussian_ziggurat(random.get(), o.noise);
+      if (gsl_rng_uniform(random.get()) >= o.lost) now.x = rounded(x, o.resolution);
+    }
+    if (i < 2) continue;
+    if (i >= 4 && i < n) {
+      const auto &b2 = nth(i - 4).x, &b1 = nth(i - 3).x, &f1 = nth(i - 1).x, &f2 = nth(i).x;
+      if (b2 && b1 && f1 && f2)
+        nth(i - 2).v =
+            rounded((*f1 + *f2 - *b1 - *b2) * o.rate / 6, o.resolution / 10) + 0.0;  // no -0
+    }
+    if (i - 2 < n) write(nth(i - 2));
   }
-  for (std::size_t i = 2; i + 2 < record.size(); ++i) {
-    const auto &b2 = record[i - 2].x, &b1 = record[i - 1].x, &f1 = record[i + 1].x,
-               &f2 = record[i + 2].x;
-    if (b2 && b1 && f1 && f2)
-      record[i].v =
-          rounded((*f1 + *f2 - *b1 - *b2) * o.rate / 6, o.resolution / 10) + 0.0;  // no -0
-  }
-  return record;
 }
 
 }  // namespace rolling

@@ -3,9 +3,9 @@
 
 #include "motion/motion.h"
 
+#include <functional>
 #include <limits>
 #include <optional>
-#include <vector>
 
 namespace rolling {
 
@@ -20,8 +20,8 @@ struct SonarOptions {
   double push = 0.5;       ///< how long the hand pushes [s]
   double rest_after = 1;   ///< record after the stop [s]
   double start = 0.3;      ///< distance from the sensor before the push [m]
-  double until = std::numeric_limits<double>::infinity();  ///< free roll at most this long [s];
-                                                           ///< then the record ends
+  /// The record ends so long after the push [s]; infinite: rest_after after the stop.
+  double until = std::numeric_limits<double>::infinity();
 };
 
 /// One record; x or v is missing where the echo was lost.
@@ -35,7 +35,9 @@ struct SonarSample {
 /// Rest, the hand's push from 0 to the motion's speed at its t = 0 (v0 sin^2), free roll, rest.
 /// Before the rounding white gaussian noise is added. The same seed gives the same record
 /// everywhere; `lost` does not change the noise of the others. Throws Error for an option out of
-/// its range, and for a motion that never stops if `until` is infinite.
-std::vector<SonarSample> sonar_record(Motion&, const SonarOptions&);
+/// its range, for a motion that never stops if `until` is infinite, and for more than 1e9 samples.
+/// `write` gets one sample after the other: five are kept at a time.
+void sonar_record(Motion&, const SonarOptions&,
+                  const std::function<void(const SonarSample&)>& write);
 
 }  // namespace rolling

@@ -56,9 +56,11 @@ std::string replace_all(std::string text, std::string_view from, std::string_vie
   return text;
 }
 
-/// One spelling of a unit: UTF-8 and Latin-1 powers as ^2, both micro signs as u.
+/// One spelling of a unit: UTF-8 and Latin-1 powers as ^2 and ^-1, both micro signs as u.
 std::string plain_unit(std::string unit) {
-  for (const auto& [from, to] : {std::pair{"\xC2\xB2", "^2"},
+  for (const auto& [from, to] : {std::pair{"\xE2\x81\xBB\xC2\xB9", "^-1"},
+                                 {"\xE2\x81\xBB\xC2\xB2", "^-2"},
+                                 {"\xC2\xB2", "^2"},
                                  {"\xB2", "^2"},
                                  {"\xC2\xB5", "u"},
                                  {"\xCE\xBC", "u"},
@@ -72,6 +74,20 @@ std::string lower(std::string_view text) {
   std::transform(out.begin(), out.end(), out.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return out;
+}
+
+/// A unit as it stands in the lists above: products of powers as a quotient (`m s^-1`, `m*s-1` as
+/// m/s), kph and the like as km/h, and km/h and mph in any case.
+std::string listed_unit(std::string unit) {
+  for (const std::string_view times : {"\xC2\xB7", "\xE2\x8B\x85", "*", " "})
+    unit = replace_all(std::move(unit), times, ".");
+  for (const auto& [from, to] :
+       {std::pair{".s^-2", "/s^2"}, {".s-2", "/s^2"}, {".s^-1", "/s"}, {".s-1", "/s"}})
+    if (unit.ends_with(from)) unit.replace(unit.size() - std::string_view(from).size(), 5, to);
+  const std::string small = lower(unit);
+  if (small == "km/h" || small == "kph" || small == "kmh" || small == "km/hr" || small == "km.h^-1")
+    return "km/h";
+  return small == "mph" ? small : unit;
 }
 
 const Quantity* known(std::string_view name) {
@@ -133,6 +149,13 @@ std::string to_text(const Column& column) {
   return column.unit.empty() ? column.name : fmt::format("{}[{}]", column.name, column.unit);
 }
 
+std::string free_name(const std::vector<Column>& columns, std::string name) {
+  const auto taken = [&](const Column& column) { return column.name == name; };
+  do name += "_in";
+  while (std::any_of(columns.begin(), columns.end(), taken));
+  return name;
+}
+
 std::string_view si_unit(std::string_view quantity) {
   const Quantity* q = known(quantity);
   return q ? q->units.front().name : std::string_view();
@@ -141,12 +164,15 @@ std::string_view si_unit(std::string_view quantity) {
 Conversion conversion_to_si(std::string_view quantity, const Column& column) {
   const Quantity* q = known(quantity);
   if (!q || column.unit.empty()) return {};
-  for (const Unit& unit : q->units)
-    if (unit.name == column.unit) return unit.to_si;
+  std::string all;
+  for (const Unit& unit : q->units) {
+    if (unit.name == listed_unit(column.unit)) return unit.to_si;
+    (all += all.empty() ? "" : ", ") += unit.name;
+  }
   fail(
-      "column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}, ...); convert "
-      "it first",
-      shown(to_text(column)), quantity, shown(column.unit), q->units.front().name);
+      "column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); convert it "
+      "first",
+      shown(to_text(column)), quantity, shown(column.unit), all);
 }
 
 std::vector<std::string> split_names(std::string_view line, char separator) {
@@ -159,10 +185,17 @@ std::vector<std::string> split_names(std::string_view line, char separator) {
     }
     return names;
   }
+  const auto open_bracket = [](std::string_view name) {
+    const auto open = name.find_last_of("([");
+    return open != std::string_view::npos &&
+           name.find_first_of(")]", open) == std::string_view::npos;
+  };
   for (std::size_t at = 0; (at = line.find_first_not_of(" \t", at)) != std::string_view::npos;) {
     const auto end = std::min(line.find_first_of(" \t", at), line.size());
     const std::string_view word = line.substr(at, end - at);
-    if (!names.empty() && (word.front() == '(' || word.front() == '['))
+    if (!names.empty() &&
+        (word.front() == '(' || word.front() == '[' ||
+         (open_bracket(names.back()) && line.find_first_of(")]", at) != std::string_view::npos)))
       names.back().append(" ").append(word);
     else names.emplace_back(word);
     at = end;

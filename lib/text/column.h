@@ -32,15 +32,19 @@ Column read_column(std::string_view text);
 /// The style in which names go out: `v[m/s]`.
 std::string to_text(const Column&);
 
+/// The name that a column takes when another one gets its name: `name_in`, or with more of them if
+/// that is taken too.
+std::string free_name(const std::vector<Column>&, std::string name);
+
 /// The SI unit of a known quantity (t, x, v, a, D); empty for any other name.
 std::string_view si_unit(std::string_view quantity);
 
-/// How a column that serves as `quantity` becomes SI. Throws Error for a unit that the quantity
-/// cannot have; no unit is SI.
+/// How a column that serves as `quantity` becomes SI. Units are read as programs write them: `MPH`,
+/// `Km/h`, `m s^-1`. Throws Error for a unit that the quantity cannot have; no unit is SI.
 Conversion conversion_to_si(std::string_view quantity, const Column&);
 
-/// The names of a line, one a field: `separator` 0 stands for blanks, where a unit in brackets
-/// belongs to the name before it.
+/// The names of a line, one a field: `separator` 0 stands for blanks, where a unit in brackets,
+/// which may hold blanks, belongs to the name before it.
 std::vector<std::string> split_names(std::string_view line, char separator);
 
 }  // namespace rolling

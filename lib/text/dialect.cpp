@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "text/delimiters.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -31,9 +32,18 @@ std::string_view append_plain(std::string& to, std::string_view field, Marks mar
   return std::string_view(to).substr(from);
 }
 
+/// `1,002`, where a comma may group thousands: one to three digits, of which the first is not 0,
+/// and three behind it.
+bool may_be_thousands(std::string_view field) {
+  if (!field.empty() && (field.front() == '-' || field.front() == '+')) field.remove_prefix(1);
+  const auto comma = field.find(',');
+  return comma >= 1 && comma <= 3 && field.size() == comma + 4 && field.front() != '0' &&
+         field.find_first_not_of("0123456789,") == npos;
+}
+
 constexpr auto plain = [] {
   std::array<bool, 256> is{};
-  for (std::size_t c = '-'; c <= 'z'; ++c) is[c] = c != ';';
+  for (std::size_t c = '-'; c <= 'z'; ++c) is[c] = !is_separator(static_cast<char>(c));
   return is;
 }();
 
@@ -51,37 +61,36 @@ const char* read_plain(const char* at, const char* end, Field& field) {
 
 }  // namespace
 
+Dialect Dialect::of_output() {
+  Dialect dialect;
+  dialect.separator_ = '\t';
+  return dialect;
+}
+
 bool Dialect::choose(std::string_view line) {
-  bool tab = false, semicolon = false, comma = false, quoted = false, field_begins = true,
-       closed = false;
-  for (const char c : line) {
-    if (c == '"' && (quoted || field_begins ||
-                     closed)) {  // a quote behind one that seemed to close was one of two
-      closed = quoted;
-      quoted = !quoted;
-      field_begins = false;
-      continue;
-    }
-    closed = false;
-    if (quoted) continue;
-    tab |= c == '\t';
-    semicolon |= c == ';';
-    comma |= c == ',';
-    field_begins = c == '\t' || c == ';' || c == ',' || (c == ' ' && field_begins);
-  }
-  separator_ = tab ? '\t' : semicolon ? ';' : comma ? ',' : '\0';
-  foreign_numbers_ = tab || semicolon;
+  const std::string outside = outside_quotes(line, separators).text;
+  const auto first = std::find_if(separators.begin(), separators.end(),
+                                  [&](char separator) { return outside.find(separator) != npos; });
+  separator_ = first == separators.end() ? '\0' : *first;
+  foreign_numbers_ = separator_ == '\t' || separator_ == ';';
   decimal_mark_ = '\0';
   fields_.clear();
-  auto fields = split(line);
-  const auto numeric = [](const Field& field) { return is_number(field.text); };
-  if (tab && std::any_of(fields.begin(), fields.end(),
-                         [](const Field& field) { return field.text.find(' ') != npos; })) {
+  if (separator_ == '\t') {
+    const auto fields = split(line);
+    const bool has_blanks = std::any_of(fields.begin(), fields.end(), [](const Field& field) {
+      return field.text.find(' ') != npos;
+    });
     separator_ = '\0';  // a line of numbers in which tabs and blanks both separate is one of blanks
-    fields = split(line);
-    if (!std::all_of(fields.begin(), fields.end(), numeric))
-      separator_ = '\t', fields = split(line);
+    const auto words = has_blanks ? split(line) : std::span<const Field>();
+    if (words.empty() || !std::all_of(words.begin(), words.end(),
+                                      [](const Field& word) { return is_number(word.text); }))
+      separator_ = '\t';
   }
+  return holds_number(line);
+}
+
+bool Dialect::holds_number(std::string_view line) {
+  const auto fields = split(line);
   // A quoted decimal comma among commas makes a record too, which is then refused with the way out.
   return std::any_of(fields.begin(), fields.end(), [](const Field& field) {
     std::string text;
@@ -94,6 +103,10 @@ void Dialect::want(std::size_t field) {
   fields_[field].wanted = true;
 }
 
+void Dialect::want_none() {
+  for (Field& field : fields_) field = Field();
+}
+
 // A number is read, or passed over, where it stands, which shows where its field ends: no other
 // search, no second pass.
 
@@ -103,8 +116,10 @@ std::span<const Field> Dialect::split(std::string_view line) {
   if (made_.capacity() < 2 * line.size())
     made_.reserve(2 * line.size());  // a text without its quotes, and then in plain form
   as_it_stands_ = separator_ == '\t';
+  may_need_quotes_ = false;
   const char *at = line.data(), *const end = at + line.size();
   if (separator_ == '\0') {
+    may_need_quotes_ = line.find(quote) != npos || line.find('#') != npos;
     split_blanks(at, end);
     return {fields_.data(), count_};
   }
@@ -125,15 +140,16 @@ const char* Dialect::split_plain(std::string_view text, std::span<const Field>& 
   if (separator_ == '\0' || foreign()) return nullptr;
   const char *at = text.data(), *const end = at + text.size();
   as_it_stands_ = separator_ == '\t';
+  may_need_quotes_ = false;
   for (Field* field = fields_.data(); field != fields_.data() + fields_.size(); ++field, ++at) {
     const char* first = at;
     at = read_plain(at, end, *field);
     if (at == first) {  // perhaps a quoted one, which costs the others nothing
-      if (at == end || *at != '"') return nullptr;
+      if (at == end || *at != quote) return nullptr;
       first = ++at;
       at = read_plain(at, end, *field);
       field->text = {first, at};
-      if (at == first || at == end || *at++ != '"') return nullptr;
+      if (at == first || at == end || *at++ != quote) return nullptr;
       as_it_stands_ = false;
     } else {
       field->text = {first, at};
@@ -166,7 +182,7 @@ void Dialect::split_blanks(const char* at, const char* end) {
 const char* Dialect::take_text(const char* at, const char* end, Field& field) {
   const char* const first = at;
   while (at != end && is_blank(*at) && *at != separator_) ++at;
-  if (at != end && *at == '"') {
+  if (at != end && *at == quote) {
     field.text = trim(take_quoted(at, end));
     as_it_stands_ = false;
   } else {
@@ -174,24 +190,25 @@ const char* Dialect::take_text(const char* at, const char* end, Field& field) {
     field.text = trim({first, at});
     as_it_stands_ &= field.text.size() == static_cast<std::size_t>(at - first);
   }
+  if (needs_quotes(field.text)) may_need_quotes_ = true, as_it_stands_ = false;
   if (foreign_numbers_ && rewrite(field)) return at;
   if (field.wanted && !parse_number(field.text, field.number)) field.number = Field().number;
   return at;
 }
 
-/// The field whose quote opens at `at`, which goes to its end. What stands behind the closing quote
-/// belongs to it too.
+/// The text of the field whose quote opens at `at`, which goes behind the field.
 std::string_view Dialect::take_quoted(const char*& at, const char* end) {
-  const char *const first = ++at, *const close = std::find(first, end, '"');
-  if (close != end && (close + 1 == end || close[1] == separator_)) {
-    at = close + 1;
-    return {first, close};
-  }
+  const char *const first = ++at, *const close = closing_quote(first, end);
+  if (close == end) fail("field {}: a quote that does not end", count_);
+  at = close + 1;
+  while (at != end && is_blank(*at) && *at != separator_) ++at;
+  if (at != end && *at != separator_)
+    fail("field {}: text behind the quote that closes '{}'", count_, shown({first, close}));
+  if (std::find(first, close, quote) == close) return {first, close};
   const auto from = made_.size();
-  for (bool quoted = true; at != end && (quoted || *at != separator_); ++at) {
-    if (*at != '"') made_ += *at;
-    else if (quoted && at + 1 != end && at[1] == '"') made_ += *at++;
-    else quoted = !quoted;
+  for (const char* c = first; c != close; ++c) {
+    made_ += *c;
+    c += *c == quote;  // two stand for one
   }
   return std::string_view(made_).substr(from);
 }
@@ -203,6 +220,14 @@ bool Dialect::rewrite(Field& field) {
   const bool other_minus = marks.first_minus != npos, comma = marks.comma != npos,
              point = marks.point != npos;
   if (!other_minus && (decimal_mark_ == '.' || (!comma && !point))) return false;
+  if (separator_ == '\t' && decimal_mark_ == '\0' && may_be_thousands(field.text)) {
+    if (field.wanted)
+      fail(
+          "field {}: '{}' has two readings: make its comma a point if it is a decimal one, else "
+          "take it out",
+          count_, shown(field.text));
+    return false;
+  }
   const bool is_plain = !other_minus && !comma;
   const std::string_view text = is_plain ? field.text : append_plain(made_, field.text, marks);
   double number;

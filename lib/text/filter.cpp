@@ -7,13 +7,22 @@
 
 namespace rolling {
 namespace {
-constexpr std::size_t npos = static_cast<std::size_t>(-1);
+
+/// The lines of `comments` that are no history.
+std::string remarks_of(const std::string& comments) {
+  std::string remarks;
+  for (std::size_t at = 0; at < comments.size();) {
+    const auto end = comments.find('\n', at) + 1;
+    if (comments.compare(at, 2, "##") != 0) remarks.append(comments, at, end - at);
+    at = end;
+  }
+  return remarks;
 }
 
+}  // namespace
 Filter::Filter(Reader& in, Output& out, std::string history)
-    : in_(in), out_(out), columns_(in.columns()), enough_(rows_at_once()) {
-  if (!history.empty()) history_ = "## " + std::move(history);
-  in_.on_comment = [this](std::string_view text) { comment(text); };
+    : in_(in), out_(out), enough_(rows_at_once()) {
+  if (!history.empty()) history_ = "## " + std::move(history) + '\n';
 }
 
 Filter::~Filter() {
@@ -24,103 +33,126 @@ Filter::~Filter() {
 }
 
 void Filter::tell(std::string history) {
-  history_ = history.empty() ? "" : "## " + std::move(history);
-  write_header();
+  history_ = history.empty() ? "" : "## " + std::move(history) + '\n';
   write_rows();
 }
 
 void Filter::append(Column column) {
-  const auto taken = [this](const std::string& name) {
-    return std::any_of(columns_.begin(), columns_.end(),
-                       [&](const Column& c) { return c.name == name; });
-  };
-  for (Column& old : columns_)
-    if (old.name == column.name) {
-      std::string name = old.name;
-      do name += "_in";
-      while (taken(name));
-      old.name = name;
-    }
-  columns_.push_back(std::move(column));
-  enough_ = rows_at_once() * ++appended_;
+  appended_.push_back(std::move(column));
+  enough_ = rows_at_once() * appended_.size();
 }
 
-void Filter::write_header() {
-  for (const std::string& text : in_.comments()) out_.text(text), out_.end_line();
-  if (!history_.empty()) out_.text(history_), out_.end_line();
-  out_.names(columns_);
-  header_written_ = true;
+/// Those of the present run as they go out.
+std::vector<Column> Filter::columns() const {
+  std::vector<Column> all = in_.columns();
+  for (const Column& column : appended_) {
+    for (Column& old : all)
+      if (old.name == column.name) old.name = free_name(all, old.name);
+    all.push_back(column);
+  }
+  return all;
+}
+
+/// The head of the present run waits like a row.
+void Filter::take_head() {
+  Row& row = rows_.emplace_back(Row{Kind::head});
+  std::string text;
+  for (const std::string& comment : in_.comments()) (text += comment) += '\n';
+  row.first = row.last = text.size();
+  text += names_line(columns());
+  row.size = text.size();
+  held_.append(text);
+  if (replaced_ != Reader::no_column) cut_ = in_.column_of(replaced_);
+}
+
+void Filter::take_remarks(const std::vector<std::string>& remarks) {
+  for (const std::string& remark : remarks) {
+    held_.append(remark);
+    rows_.push_back({Kind::remark, remark.size()});
+  }
+  if (!remarks.empty()) write_rows();
 }
 
 bool Filter::next_run() {
-  if (!header_written_ && !history_.empty()) write_header();
   write_rows();
-  break_due_ = any_row_;
-  gone_ = -std::count_if(rows_.begin() + static_cast<std::ptrdiff_t>(front_), rows_.end(),
-                         [](const Row& row) { return row.kind != Kind::comment; });
-  if (in_.next_run()) return true;
+  gone_ = -std::count_if(
+      rows_.begin() + static_cast<std::ptrdiff_t>(front_), rows_.end(),
+      [](const Row& row) { return row.kind == Kind::record || row.kind == Kind::dropped; });
+  if (in_.next_run()) {
+    take_head();
+    return true;
+  }
   if (!any_row_ && any_dropped_) fail("no records are left");
   if (!any_row_) fail("no records: a needed reading is missing in every one");
+  take_remarks(in_.comments());
+  out_.text(remarks_of(head_.comments));
   return false;
 }
 
 bool Filter::next() {
-  if (!in_.next()) return false;
-  if (in_.history_changed() && header_written_ && !history_.empty()) comment(history_);
-  Row& row = rows_.emplace_back();
-  const std::string_view text = in_.text(cut_, row.first, row.last);
-  row.size = text.size();
-  if (cut_ == npos) row.first = row.last = row.size;
-  held_.append(text);
+  const bool more = in_.next();
+  if (!in_.remarks().empty()) take_remarks(in_.remarks());
+  if (!more) return false;
+  const Reader::Text text = in_.text(cut_);
+  const std::size_t size = text.line.size();
+  if (cut_ == Reader::no_column) rows_.push_back({Kind::record, size, size, size});
+  else rows_.push_back({Kind::record, size, text.first, text.last});
+  held_.append(text.line);
   return true;
-}
-
-void Filter::comment(std::string_view text) {
-  held_.append(text);
-  rows_.push_back({Kind::comment, text.size()});
-  write_rows();
 }
 
 void Filter::drop(std::size_t i) {
   auto row = rows_.begin() + static_cast<std::ptrdiff_t>(front_);
-  for (auto records = gone_;
-       row->kind == Kind::comment || records++ < static_cast<std::ptrdiff_t>(i);)
+  for (auto records = gone_; row->kind == Kind::remark || row->kind == Kind::head ||
+                             records++ < static_cast<std::ptrdiff_t>(i);)
     ++row;
   row->kind = Kind::dropped;
   any_dropped_ = true;
   write_rows();
 }
 
-void Filter::write_break() {
-  if (std::exchange(break_due_, false)) out_.end_line();
+/// Before the first row of a run. What a run without rows had to say goes before the next one.
+void Filter::write_head() {
+  if (!std::exchange(head_.due, false)) return;
+  if (any_row_) out_.end_line();
+  out_.text(head_.comments);
+  out_.text(*history_);
+  out_.text(head_.names), out_.end_line();
+  head_ = {};
 }
 
 /// Up to the first that has not all its numbers.
 void Filter::write_rows() {
-  if (!header_written_) return;
+  if (!history_) return;
   writing_ = true;
-  const auto each = static_cast<std::ptrdiff_t>(std::max<std::size_t>(appended_, 1));
+  const auto each = static_cast<std::ptrdiff_t>(std::max<std::size_t>(appended_.size(), 1));
   auto number = numbers_.cbegin();
   for (; front_ < rows_.size(); front_begin_ += rows_[front_++].size) {
     const Row& row = rows_[front_];
-    const char* const text = held_.data() + front_begin_;
-    if (row.kind == Kind::dropped) {
-      ++gone_;
-      continue;
-    }
-    if (row.kind == Kind::record && numbers_.cend() - number < each) break;
-    write_break();
-    out_.text({text, row.first});
+    const std::string_view text(held_.data() + front_begin_, row.size);
     if (row.kind == Kind::record) {
+      if (numbers_.cend() - number < each) break;
+      write_head();
+      out_.text(text.substr(0, row.first));
       for (const auto end = number + each; number != end; ++number) {
-        if (appended_ > 0) out_.text('\t');
+        if (!appended_.empty()) out_.text('\t');
         out_.number(*number);
       }
+      if (row.last < row.size) out_.text(text.substr(row.last));
+      out_.end_line();
       any_row_ = true;
       ++gone_;
+    } else if (row.kind == Kind::dropped) {
+      ++gone_;
+    } else if (row.kind == Kind::head) {
+      head_.due = true;
+      head_.comments = remarks_of(head_.comments).append(text.substr(0, row.first));
+      head_.names = text.substr(row.first);
+    } else if (head_.due) {
+      head_.comments.append(text) += '\n';
+    } else {
+      out_.text(text), out_.end_line();
     }
-    if (row.last < row.size) out_.text({text + row.last, row.size - row.last});
-    out_.end_line();
   }
   numbers_.erase(numbers_.cbegin(), number);
   if (front_ == rows_.size() || (front_ >= 1024 && 2 * front_ > rows_.size())) forget_rows();

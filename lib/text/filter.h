@@ -1,10 +1,12 @@
 // Rows on their way through a filter: each waits, as the text it came as, for the numbers that the
 // filter owes it. So a filter may answer late (a window that looks ahead) and every byte that it
 // does not compute still goes out as it came in. Answered rows wait for company: the digits of one
-// number wait for each other, those of several numbers do not.
+// number wait for each other, those of several numbers do not. Each run goes out with its own head:
+// its name, its comments and history, what this filter did, the names.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,7 +30,7 @@ class Filter {
   void tell(std::string history);  ///< nothing, if the filter changes no number
 
   /// The numbers replace the column in this slot of the reader.
-  void replace(std::size_t slot) { cut_ = in_.column_of(slot); }
+  void replace(std::size_t slot) { replaced_ = slot; }
   /// The numbers are a new last column; several columns take them in turn. A column of that name
   /// becomes `name_in`.
   void append(Column);
@@ -51,34 +53,41 @@ class Filter {
   void drop(std::size_t i);
 
  private:
-  enum class Kind { record, comment, dropped };
+  enum class Kind { record, remark, head, dropped };
   struct Row {
     Kind kind = Kind::record;
-    std::size_t size = 0;             // of its text
-    std::size_t first = 0, last = 0;  // of a record: its numbers go between
+    std::size_t size = 0;  // of its text
+    std::size_t first = 0,
+                last = 0;  // of a record, its numbers go between; of a head, this filter's history
   };
 
   std::size_t rows_at_once() const { return out_.unbuffered ? 1 : 32; }
-  void write_header();
-  void comment(std::string_view text);
+  std::vector<Column> columns() const;
+  void take_head();
+  void take_remarks(const std::vector<std::string>&);
   void write_rows();
-  void write_break();
+  void write_head();
   void forget_rows();
 
   Reader& in_;
   Output& out_;
-  std::string history_;
-  std::vector<Column> columns_;
-  std::size_t appended_ = 0, cut_ = static_cast<std::size_t>(-1);
-  std::vector<Row> rows_;        // those that wait, from front_ on
-  Bytes held_;                   // their texts, one after the other
-  std::vector<double> numbers_;  // for them, in order
-  std::size_t enough_;           // numbers to write rows for
+  std::optional<std::string> history_;  // lines; none until it has been told
+  std::vector<Column> appended_;
+  std::size_t replaced_ = Reader::no_column;  // a slot
+  std::size_t cut_ = Reader::no_column;       // its column in this run
+  std::vector<Row> rows_;                     // those that wait, from front_ on
+  Bytes held_;                                // their texts, one after the other
+  std::vector<double> numbers_;               // for them, in order
+  std::size_t enough_;                        // numbers to write rows for
   std::size_t front_ = 0;
   std::size_t front_begin_ = 0;  // where the text of the front row begins
   std::ptrdiff_t gone_ =
       0;  // records of this run that are no longer among them, less those of earlier runs that are
-  bool header_written_ = false, break_due_ = false, any_row_ = false, any_dropped_ = false;
+  struct Head {  // of a run none of whose rows has been written
+    bool due = false;
+    std::string comments, names;
+  } head_;
+  bool any_row_ = false, any_dropped_ = false;
   bool writing_ = false;  // true for good when a write has failed
 };
 

@@ -1,6 +1,7 @@
 #include "text/input.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,24 +15,38 @@
 namespace rolling {
 namespace {
 constexpr std::size_t block = 1 << 18;
-constexpr std::size_t longest_line =
-    1 << 20;  // a record of motion data has tens of bytes; a megabyte is another kind of file
 
-/// Rows that go into the file they come from would be read again.
-bool is_standard_output(int fd) {
-  struct stat in, out;
-  return fd != STDOUT_FILENO && ::fstat(fd, &in) == 0 && ::fstat(STDOUT_FILENO, &out) == 0 &&
-         S_ISREG(in.st_mode) && in.st_dev == out.st_dev && in.st_ino == out.st_ino;
+/// As read(2), which waits for a descriptor that another process has made non-blocking.
+ssize_t read_some(int fd, char* to, std::size_t size) {
+  for (;;) {
+    const ssize_t count = ::read(fd, to, size);
+    if (count >= 0 || (errno != EINTR && errno != EAGAIN)) return count;
+    pollfd ready{fd, POLLIN, 0};
+    if (errno == EAGAIN) ::poll(&ready, 1, -1);
+  }
 }
 
 }  // namespace
 
+void refuse_output(const std::string& name) {
+  struct stat in, out;
+  if ((name == "-" ? ::fstat(STDIN_FILENO, &in) : ::stat(name.c_str(), &in)) == 0 &&
+      ::fstat(STDOUT_FILENO, &out) == 0 && S_ISREG(in.st_mode) && in.st_dev == out.st_dev &&
+      in.st_ino == out.st_ino)
+    fail<InputError>("{}: this input is the output too", name);
+}
+
+namespace {
+int open_for_reading(const std::string& name) {
+  refuse_output(name);  // before a closed standard output gives its number to the file
+  return name == "-" ? STDIN_FILENO : ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
+}
+}  // namespace
+
 Input::Input(std::string name, BlockHook on_block)
-    : name_(std::move(name)), on_block_(std::move(on_block)),
-      fd_(name_ == "-" ? STDIN_FILENO : ::open(name_.c_str(), O_RDONLY | O_CLOEXEC)),
+    : name_(std::move(name)), on_block_(std::move(on_block)), fd_(open_for_reading(name_)),
       buffer_(block), at_(buffer_.data()), end_(at_) {
   if (fd_ < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
-  if (is_standard_output(fd_)) fail<InputError>("{}: this input is the output too", name_);
 #ifdef F_SETPIPE_SZ
   ::fcntl(fd_, F_SETPIPE_SZ, 1 << 20);  // the tools of a chain wait less for each other; where it
                                         // is refused, or no pipe, no matter
@@ -57,9 +72,7 @@ bool Input::fill() {
   at_ = buffer_.data();
   char* const to = buffer_.data() + kept;
   end_ = to;
-  ssize_t count;
-  do count = ::read(fd_, to, buffer_.size() - kept);
-  while (count < 0 && errno == EINTR);
+  const ssize_t count = read_some(fd_, to, buffer_.size() - kept);
   if (count < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
   quotes_ = quotes_ || std::memchr(to, '"', static_cast<std::size_t>(count));
   end_ += count;
@@ -88,6 +101,19 @@ std::size_t Input::lines_ahead() const {
   return some.empty()
              ? 0
              : static_cast<std::size_t>(1.125 * left * (feeds / static_cast<double>(some.size())));
+}
+
+bool Input::another_run() const {
+  if (size_ == 0) return false;
+  const std::string_view ahead = this->ahead();
+  bool blank = false;
+  for (std::size_t at = 0; at < ahead.size();) {
+    const auto mark = std::min(ahead.find_first_not_of(" \t\r", at), ahead.size() - 1);
+    if (ahead[mark] != '\n' && blank) return true;
+    blank = blank || ahead[mark] == '\n';
+    at = std::min(ahead.find('\n', mark), ahead.size() - 1) + 1;
+  }
+  return false;
 }
 
 bool Input::next(std::string_view& line) {

@@ -8,6 +8,14 @@
 
 namespace rolling {
 
+/// A record of motion data has tens of bytes; a line of more than a megabyte is of another kind of
+/// file.
+inline constexpr std::size_t longest_line = 1 << 20;
+
+/// Throws InputError where standard output goes into this regular file: what is written there would
+/// be read, or would stand behind what has been read.
+void refuse_output(const std::string& name);
+
 /// Told after each block of a file whose size is known: its name, and which part of it has been
 /// read.
 using BlockHook = std::function<void(const std::string& name, double part)>;
@@ -34,6 +42,10 @@ class Input {
   /// About as many lines as are left, and an eighth more: by those that come next, and the size of
   /// a file (else of what has been read).
   std::size_t lines_ahead() const;
+
+  /// A regular file of which a blank line, and more below it, is in what has been read and not
+  /// taken.
+  bool another_run() const;
 
   const std::string& name() const { return name_; }  ///< as the user gave it
   std::size_t line_number() const { return line_number_; }

@@ -1,53 +1,50 @@
 #include "text/lines.h"
 
+#include <algorithm>
+#include <array>
+
 #include "base/error.h"
+#include "text/delimiters.h"
+#include "text/number.h"
 
 namespace rolling {
 namespace {
 
-constexpr std::size_t longest = 1 << 20;  // as Input has it
+/// What spreadsheets write in place of a number that they do not have.
+constexpr std::array<std::string_view, 8> error_values = {
+    "#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!", "#SPILL!"};
 
-/// The text ends within a quoted field, if it begins in one or not. Which character separates
-/// fields may not be known yet.
-bool ends_in_quotes(std::string_view text, bool quoted) {
-  bool opens = true;
-  for (auto c = text.begin(); c != text.end(); ++c)
-    if (!quoted) {
-      quoted = *c == '"' && opens;
-      opens = *c == ',' || *c == ';' || *c == '\t';
-    } else if (*c == '"') {
-      if (c + 1 != text.end() && c[1] == '"') ++c;  // stands for one
-      else quoted = opens = false;
-    }
-  return quoted;
+bool begins_with_error_value(std::string_view line) {
+  return std::any_of(error_values.begin(), error_values.end(), [line](std::string_view value) {
+    return line.starts_with(value) && (line.size() == value.size() || line[value.size()] == ' ' ||
+                                       is_separator(line[value.size()]));
+  });
 }
 
 }  // namespace
 
+LineKind kind_of(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return LineKind::blank;
+  if (line[first] != '#') return LineKind::record;
+  line.remove_prefix(first);
+  if (line.starts_with("##")) return LineKind::history;
+  return begins_with_error_value(line) ? LineKind::record : LineKind::comment;
+}
+
 void Lines::join_quoted() {
-  if (first_mark(text_) == comment_mark || !ends_in_quotes(text_, false)) return;
+  if (text_.find(quote) == std::string_view::npos || kind_of(text_) != LineKind::record ||
+      !outside_quotes(text_, separators_).ends_within)
+    return;
   joined_ = text_;
-  do {
-    if (joined_.size() > longest || !input_.next(text_))
+  for (bool open = true; open;) {
+    if (joined_.size() > longest_line || !input_.next(text_))
       fail<InputError>("{}:{}: a quote that does not end", name(), number_);
     (joined_ += '\n') += text_;
-  } while (ends_in_quotes(text_, true));
+    const char *const end = text_.data() + text_.size(), *close = closing_quote(text_.data(), end);
+    open = close == end || outside_quotes({close + 1, end}, separators_, false).ends_within;
+  }
   text_ = joined_;
-}
-
-void Lines::keep() {
-  std::vector<Kept> all;
-  do all.push_back({number_, std::string(text_)});
-  while (next());
-  kept_ = std::move(all);
-  next();
-}
-
-bool Lines::next_kept() {
-  if (kept_at_ == kept_.size()) return false;
-  number_ = kept_[kept_at_].number;
-  text_ = kept_[kept_at_++].text;
-  return true;
 }
 
 }  // namespace rolling

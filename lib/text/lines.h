@@ -5,21 +5,18 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <vector>
+#include <utility>
 
+#include "text/delimiters.h"
 #include "text/input.h"
-#include "text/number.h"
 
 namespace rolling {
 
-inline constexpr char comment_mark = '#', no_mark = '\n';
+enum class LineKind { blank, comment, history, record };
 
-/// The first character that is not a blank; no_mark, which no line begins with, if there is none.
-inline char first_mark(std::string_view line) {
-  for (const char c : line)
-    if (!is_blank(c)) return c;
-  return no_mark;
-}
+/// A blank line holds nothing but blanks and tabs; a comment begins with #, a line of history with
+/// ##. What begins with an error value of a spreadsheet (#N/A) is a record.
+LineKind kind_of(std::string_view line);
 
 class Lines {
  public:
@@ -29,20 +26,27 @@ class Lines {
 
   /// Goes to the next line; false at the end. Throws InputError for a quote that does not end.
   bool next() {
-    if (!kept_.empty()) return next_kept();
+    if (std::exchange(again_, false)) return true;
     if (!input_.next(text_)) return false;
     number_ = input_.line_number();
-    if (input_.quotes()) join_quoted();
+    if (input_.quotes() && !separators_.empty()) join_quoted();
     return true;
   }
+  /// From here on only this character separates fields; 0 stands for blanks, where there are no
+  /// quoted fields. Without it any separator may.
+  void separate_by(char separator) {
+    separators_ = separator ? std::string(1, separator) : std::string();
+  }
+  /// next() comes to the present line once more.
+  void put_back() { again_ = true; }
   /// The present line, valid until the next one.
   std::string_view text() const { return text_; }
   std::size_t number() const { return number_; }  ///< of its beginning, from 1
   const std::string& name() const { return input_.name(); }
 
   /// What of the file is there behind the present line: lines, and perhaps a part of one. Nothing
-  /// of lines that are kept.
-  std::string_view ahead() const { return input_.ahead(); }
+  /// after put_back().
+  std::string_view ahead() const { return again_ ? std::string_view() : input_.ahead(); }
   /// Goes to the line that begins ahead(), which is not quoted, of `size` bytes and `end` ones that
   /// end it.
   void take(std::size_t size, std::size_t end) {
@@ -52,26 +56,16 @@ class Lines {
   }
 
   std::size_t lines_ahead() const { return input_.lines_ahead(); }
-
-  /// Keeps the lines from the present one on, so that they can be read again; stays at it.
-  void keep();
-  /// Goes back before the first line that is kept.
-  void again() { kept_at_ = 0; }
+  bool another_run() const { return input_.another_run(); }
 
  private:
   void join_quoted();
-  bool next_kept();
 
   Input input_;
   std::string_view text_;
   std::size_t number_ = 0;
-  std::string joined_;
-  struct Kept {
-    std::size_t number;
-    std::string text;
-  };
-  std::vector<Kept> kept_;
-  std::size_t kept_at_ = 0;
+  bool again_ = false;
+  std::string joined_, separators_{separators};
 };
 
 }  // namespace rolling

@@ -1,5 +1,6 @@
 #include "text/output.h"
 
+#include <poll.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -29,9 +30,14 @@ class SignalsWait {
 
 }  // namespace
 
+std::string names_line(const std::vector<Column>& columns) {
+  std::string line;
+  for (const Column& column : columns) (line += line.empty() ? "# " : "\t") += to_text(column);
+  return line;
+}
+
 void Output::names(const std::vector<Column>& columns) {
-  const char* before = "# ";
-  for (const Column& column : columns) text(before), text(to_text(column)), before = "\t";
+  text(names_line(columns));
   end_line();
 }
 
@@ -46,16 +52,35 @@ void Output::flush() {
   for (std::string_view left(buffer_.data(), buffer_.size()); !left.empty();) {
     const ssize_t count = ::write(STDOUT_FILENO, left.data(), left.size());
     if (count < 0 && errno == EINTR) continue;
+    if (count < 0 && errno == EAGAIN) {  // another process has made it non-blocking
+      pollfd ready{STDOUT_FILENO, POLLOUT, 0};
+      ::poll(&ready, 1, -1);
+      continue;
+    }
     if (count < 0) {
       const int reason = errno;
       whole_ = 0;
       drop_line();
       fail<OutputError>("standard output: {}", std::strerror(reason));
     }
+    written_ = true;
+    torn_ = left[static_cast<std::size_t>(count) - 1] != '\n';
     left.remove_prefix(static_cast<std::size_t>(count));
   }
   whole_ = 0;
   drop_line();
+}
+
+void Output::end_with(std::string_view line) noexcept {
+  drop_line();
+  if (!written_ && buffer_.empty()) return;
+  try {
+    if (torn_) text('\n');
+    text(line);
+    end_line();
+    flush();
+  } catch (...) {  // what stands in the way of the output has been told
+  }
 }
 
 }  // namespace rolling

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "text/bytes.h"
 #include "text/column.h"
+#include "text/delimiters.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -19,6 +20,9 @@ class OutputError : public Error {
  public:
   using Error::Error;
 };
+
+/// The names as they go out: `# t[s]<TAB>v[m/s]`.
+std::string names_line(const std::vector<Column>&);
 
 inline void require_finite(double value) {
   if (!std::isfinite(value)) fail("the result is not a finite number");
@@ -44,6 +48,10 @@ class Output {
     number(value);
   }
   void blank() { separate(); }  ///< the next cell, missing
+  void cell(std::string_view text) {
+    separate();
+    append_field(buffer_, text);
+  }
   void end_line() {
     text('\n');
     whole_ = buffer_.size();
@@ -54,6 +62,10 @@ class Output {
   void row(std::span<const double> values);  ///< cells and the line's end
   /// Writes what is there. Throws OutputError when the system does not take it.
   void flush();
+  /// Ends what has been printed with this line, as far as the system still takes it; nothing where
+  /// nothing has been printed. Forgets a line in the making. Never throws.
+  void end_with(std::string_view line) noexcept;
+  bool has_printed() const { return written_; }  ///< whether anything has gone out
   /// Forgets a line in the making.
   void drop_line() {
     buffer_.cut(whole_);
@@ -69,6 +81,8 @@ class Output {
   Bytes buffer_;
   std::size_t cells_ = 0;  // of the line in the making
   std::size_t whole_ = 0;  // bytes of whole lines
+  bool written_ = false;   // something has gone out
+  bool torn_ = false;      // and not up to the end of a line
 };
 
 }  // namespace rolling

@@ -5,12 +5,15 @@
 #include <limits>
 #include <utility>
 
+#include "text/delimiters.h"
 #include "text/number.h"
 
 namespace rolling {
 namespace {
 
-constexpr std::size_t npos = static_cast<std::size_t>(-1);
+bool is_column_number(std::string_view name) {
+  return name.find_first_not_of("0123456789") == std::string_view::npos;
+}
 
 }  // namespace
 
@@ -19,61 +22,39 @@ Reader::Reader(ReaderOptions options, std::vector<std::string> order)
   if (options_.files.empty()) options_.files = {"-"};
   for (const std::string& use : options_.use) {
     const auto equals = use.find('=');
-    if (equals == 0 || equals == npos || equals + 1 == use.size())
+    if (equals == 0 || equals == std::string::npos || equals + 1 == use.size())
       fail("--use: '{}' is not NAME=COLUMN", shown(use));
     const std::string quantity = read_column(use.substr(0, equals)).name;
     if (si_unit(quantity).empty()) fail("--use: '{}' is not about t, x, v, a or D", shown(use));
-    if (!use_.emplace(quantity, use.substr(equals + 1)).second)
+    const Column column = read_column(use.substr(equals + 1));
+    if (!use_.emplace(quantity, Use{column.name, column.unit}).second)
       fail("--use: '{}' comes after another for {}", shown(use), quantity);
   }
-  open_next();
-  history_changed_ = false;
+  // Behind a column that is taken from elsewhere nobody knows which ones the others are.
+  for (std::size_t i = 0; i < order_.size(); ++i)
+    if (const auto use = use_.find(order_[i]);
+        use != use_.end() && use->second.column != fmt::format("{}", i + 1))
+      order_.resize(i);
+  find_run();
 }
 
 // ----------------------------------------------------------------------------------------
 // columns
 
-void Reader::open_next() {
-  begun_ = false;
-  const bool first_file = next_file_ == 0, named = header_.named;
-  lines_ = std::make_unique<Lines>(options_.files[next_file_++], options_.on_block);
-  history_changed_ = !history_.empty();
-  history_.clear();
-  // A column that --use names by its number is one of the line: then the line is one record.
-  const bool by_number =
-      std::any_of(use_.begin(), use_.end(), [](const auto& use) { return is_number(use.second); });
-  header_ = read_header(*lines_, dialect_, order_,
-                        options_.run ? fmt::format("{}", *options_.run) : "", by_number);
-  if (header_.layout.runs.size() > 1) lines_->keep();
-  side_ = 0;
-  if (first_file) {
-    columns_ = columns_as_read_ = header_.layout.columns;
-    if (!header_.named)
-      for (Column& column : columns_) column.unit = si_unit(column.name);
-  } else if (header_.layout.columns != columns_as_read_ || named != header_.named) {
-    fail<InputError>("{}: its columns are not those of {}", lines_->name(), options_.files.front());
-  }
-  want_numbers();
-  in_header_ = first_file;
-  for (const std::string& text : header_.comments) comment(text);
-  in_header_ = false;
-  line_waits_ = true;
-  first_record_ = lines_->number();
-}
-
 std::optional<std::size_t> Reader::find(std::string_view name) const {
   const auto use = use_.find(read_column(name).name);
-  if (use == use_.end()) return find_column(name, columns_);
-  const auto at = find_column(use->second, columns_as_read_);
+  if (use == use_.end()) return find_column(name);
+  const std::string& column = use->second.column;
+  const auto at = find_column(column);
   if (!at)
-    fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", lines_->name(),
-                     use->first, shown(use->second), shown(use->second), column_list());
+    fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", head_here(), use->first,
+                     shown(column), shown(column), column_list());
   return at;
 }
 
-std::optional<std::size_t> Reader::find_column(std::string_view name,
-                                               const std::vector<Column>& columns) const {
-  if (double number; name.find_first_not_of("0123456789") == npos && parse_number(name, number))
+std::optional<std::size_t> Reader::find_column(std::string_view name) const {
+  const std::vector<Column>& columns = layout().columns;
+  if (double number; is_column_number(name) && parse_number(name, number))
     return number >= 1 && number <= static_cast<double>(columns.size())
                ? std::optional(static_cast<std::size_t>(number) - 1)
                : std::nullopt;
@@ -82,7 +63,7 @@ std::optional<std::size_t> Reader::find_column(std::string_view name,
   for (std::size_t i = 0; i < columns.size(); ++i)
     if (columns[i].name == plain) {
       if (found)
-        fail<InputError>("{}: columns {} and {} are both {}; say --use {}=N", lines_->name(),
+        fail<InputError>("{}: columns {} and {} are both {}; say --use {}=N", head_here(),
                          *found + 1, i + 1, plain, plain);
       found = i;
     }
@@ -90,232 +71,378 @@ std::optional<std::size_t> Reader::find_column(std::string_view name,
 }
 
 std::string Reader::column_list() const {
+  const std::vector<Column>& columns = layout().columns;
+  if (!head_.named) return fmt::format("{} without names", columns.size());
   std::string list;
-  for (const Column& column : columns_) {
+  for (const Column& column : columns) {
     if (!list.empty()) list += ", ";
     list += shown(to_text(column));
     if (list.size() > 200) return list + ", ...";
   }
-  return header_.named ? list : fmt::format("{} without names", columns_.size());
+  return list;
 }
 
 std::size_t Reader::require(std::string_view name) const {
   const auto column = find(name);
   if (!column)
-    fail<InputError>(
-        "{}: there is no column '{}' among {}{}", lines_->name(), shown(name), column_list(),
-        si_unit(read_column(name).name).empty() ? "" : fmt::format("; say --use {}=COLUMN", name));
+    fail<InputError>("{}: there is no column '{}' among {}{}", head_here(), shown(name),
+                     column_list(),
+                     options_.has_use && !si_unit(read_column(name).name).empty()
+                         ? fmt::format("; say --use {}=COLUMN", name)
+                         : "");
   return *column;
 }
 
-std::size_t Reader::add(std::size_t column, const std::string& name, Conversion to_si) {
+/// A column as its name says, or as --use does in place of it.
+Column Reader::column_as_read(std::size_t column, const std::string& quantity) const {
+  Column read = layout().columns[column];
+  if (!head_.named) read.unit.clear();  // that of the tool's order is no claim
+  const auto use = use_.find(quantity);
+  if (use == use_.end() || use->second.unit.empty()) return read;
+  if (head_.named && !read.unit.empty() && read.unit != use->second.unit)
+    fail<InputError>("{}: --use {} says {}, but the column's name {}", head_here(), quantity,
+                     shown(use->second.unit), shown(to_text(read)));
+  read.unit = use->second.unit;
+  return read;
+}
+
+/// Finds a needed column in the present run.
+void Reader::resolve(Needed& needed) {
+  const auto found = needed.kind == Kind::wanted ? find(needed.name) : require(needed.name);
+  needed.column = found.value_or(no_column);
+  needed.to_si = {};
+  if (!found) return;
+  const bool first = needed.quantity.empty();
+  const Column read = column_as_read(*found, needed.quantity);
+  // A column asked for by its number is what its name says; one asked for by name serves as that.
+  const std::string quantity = is_column_number(needed.name) ? read.name
+                               : needed.kind == Kind::as_is  ? needed.name
+                                                             : read_column(needed.name).name;
+  if (first) needed.quantity = quantity, needed.unit = read.unit;
+  if (quantity != needed.quantity)
+    fail<InputError>("{}: column {} is {}, and {} in the runs before", head_here(), *found + 1,
+                     shown(quantity), shown(needed.quantity));
+  if (needed.kind == Kind::as_is) return;
+  if (si_unit(quantity).empty() && read.unit != needed.unit)
+    fail<InputError>("{}: column {} is in {}, and in {} in the runs before", head_here(),
+                     shown(quantity), read.unit.empty() ? "no unit" : shown(read.unit),
+                     needed.unit.empty() ? "no unit" : shown(needed.unit));
+  const Column meant = column_as_read(*found, quantity);
+  try {
+    needed.to_si = conversion_to_si(quantity, meant);
+  } catch (const Error& error) {
+    fail<InputError>("{}: {}", head_here(), error.what());
+  }
+}
+
+/// Finds all needed columns in the present run.
+void Reader::resolve() {
+  converts_ = false;
+  dialect_->want_none();
+  for (Needed& needed : needed_) resolve(needed);
+  for (const Needed& needed : needed_) {
+    converts_ |= needed.to_si.changes();
+    if (needed.column == no_column) continue;
+    dialect_->want(needed.column);
+    for (const Needed& other : needed_)
+      if (&other != &needed && other.column == needed.column && other.quantity != needed.quantity)
+        fail<InputError>("{}: column {} cannot serve as both {} and {}", head_here(),
+                         needed.column + 1, other.quantity, needed.quantity);
+  }
+  name_columns();
+}
+
+/// A column that serves as a quantity has its name, and its unit; another one of that name gives
+/// way.
+void Reader::name_columns() {
+  columns_ = layout().columns;
+  for (const Needed& needed : needed_) {
+    if (needed.column == no_column || needed.kind == Kind::as_is) continue;
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      if (i != needed.column && layout().columns[i].name == needed.quantity) {
+        if (head_.named) columns_[i].name = free_name(columns_, needed.quantity);
+        else columns_[i] = {fmt::format("c{}", i + 1)};
+      }
+  }
+  for (const Needed& needed : needed_) {
+    if (needed.column == no_column || needed.kind == Kind::as_is) continue;
+    Column& column = columns_[needed.column];
+    column.name = needed.quantity;
+    if (const auto unit = si_unit(needed.quantity); !unit.empty()) column.unit = unit;
+  }
+}
+
+std::size_t Reader::add(std::string_view name, Kind kind) {
+  Needed asked{std::string(name), {}, kind};
+  resolve(asked);
   for (std::size_t slot = 0; slot < needed_.size(); ++slot)
-    if (needed_[slot].column == column) return slot;
-  needed_.push_back({column, name, to_si});
-  converts_ |= to_si.changes();
+    if (Needed& known = needed_[slot]; known.column == asked.column &&
+                                       known.quantity == asked.quantity &&
+                                       known.column != no_column) {
+      if (known.kind == Kind::wanted) known.kind = kind;
+      return slot;
+    }
+  needed_.push_back(std::move(asked));
   values_.push_back(0);
-  want_numbers();
+  resolve();
   return needed_.size() - 1;
 }
 
-void Reader::want_numbers() {
-  for (const Layout::Run& run : header_.layout.runs)
-    for (const Needed& needed : needed_) dialect_.want(run.fields[needed.column]);
+// ----------------------------------------------------------------------------------------
+// runs
+
+/// The run on this side of the present block is one that the user wants.
+bool Reader::asked_for(std::size_t side) const {
+  if (!options_.run) return true;
+  const std::string& label = head_.layout.runs[side].label;
+  return is_number(label) ? label == fmt::format("{}", *options_.run)
+                          : run_ + static_cast<int>(side - side_) + 1 == *options_.run;
 }
 
-std::size_t Reader::need(std::string_view name) {
-  const std::size_t column = require(name);
-  // A column asked for by its number is what its name says; one asked for by name serves as that.
-  const bool by_number = name.find_first_not_of("0123456789") == npos;
-  const std::string quantity = by_number ? columns_[column].name : read_column(name).name;
-  for (const Needed& other : needed_)
-    if (other.column == column && other.name != quantity)
-      fail<InputError>("{}: column {} cannot serve as both {} and {}", lines_->name(), column + 1,
-                       other.name, quantity);
-  const Conversion to_si = conversion_to_si(quantity, columns_as_read_[column]);
-  for (std::size_t i = 0; i < columns_.size(); ++i)
-    if (i != column && columns_[i].name == quantity) {
-      if (header_.named) columns_[i].name += "_in";
-      else columns_[i] = {fmt::format("c{}", i + 1)};
+bool Reader::next_run() {
+  if (state_ == State::in_run)
+    while (next_line()) continue;
+  if (state_ != State::found && !find_run()) return false;
+  state_ = State::in_run;
+  return true;
+}
+
+/// Goes to the next run that is wanted, and reads its head.
+bool Reader::find_run() {
+  remarks_.clear();
+  comments_.clear();
+  while (state_ != State::ended && next_head()) {
+    const bool wanted = asked_for(side_);
+    ++run_;
+    ++run_in_file_;
+    if (wanted) {
+      begin_run();
+      return true;
     }
-  columns_[column].name = quantity;
-  if (const auto unit = si_unit(quantity); !unit.empty()) columns_[column].unit = unit;
-  return add(column, quantity, to_si);
+    while (next_line()) continue;
+  }
+  state_ = State::ended;
+  line_number_ = 0;
+  if (options_.run && !run_found_) fail("there is no run {} (runs: {})", *options_.run, run_);
+  return false;
 }
 
-std::size_t Reader::want(std::string_view name) {
-  const std::size_t known = needed_.size(), slot = need(name);
-  if (slot == known) needed_[slot].may_miss = true;  // not one that is needed already
-  return slot;
+/// Goes to the head in front of the next run, be it wanted or not. The comments behind the last run
+/// of a file, which belong to none, go before the next one.
+bool Reader::next_head() {
+  if (file_open_ && side_ + 1 < head_.layout.runs.size()) {
+    ++side_;
+    return true;
+  }
+  // A column that --use names by its number is one of the line: then the line is one record.
+  const bool by_number = std::any_of(use_.begin(), use_.end(),
+                                     [](const auto& use) { return is_number(use.second.column); });
+  while (file_open_ || next_file()) {
+    const bool first = run_in_file_ == 0;
+    Head head = read_head(*lines_, file_dialect_, first ? nullptr : &head_, order_, by_number);
+    if (!head.layout.runs.empty()) {
+      take_head(std::move(head));
+      return true;
+    }
+    for (std::string& comment : head.comments)
+      if (!comment.starts_with("##")) comments_.push_back(std::move(comment));
+    file_open_ = false;
+  }
+  return false;
 }
 
-std::size_t Reader::need_as_is(std::string_view name) {
-  return add(require(name), std::string(name), {});
+bool Reader::next_file() {
+  if (next_file_ == options_.files.size()) return false;
+  line_number_ = 0;
+  run_in_file_ = 0;
+  lines_ = std::make_unique<Lines>(options_.files[next_file_++], options_.on_block);
+  return file_open_ = true;
 }
 
-std::size_t Reader::need_time() { return time_slot_ = need("t"); }
+void Reader::take_head(Head head) {
+  if (run_in_file_ == 0) {
+    const bool other_width = !head.named && !head_.named && head_.layout.width != head.layout.width;
+    if (next_file_ > 1 && !head.named && (head_.named || other_width))
+      fail<InputError>("{}: its columns are not those of {}: give it a line of names",
+                       lines_->name(), options_.files.front());
+    first_record_ = lines_->number();
+  }
+  head_ = std::move(head);
+  side_ = 0;
+  sides_.clear();
+  if (!head_.layout.side_by_side()) return;
+  std::vector<bool> wanted;
+  for (std::size_t side = 0; side < head_.layout.runs.size(); ++side)
+    wanted.push_back(asked_for(side));
+  sides_ = take_apart(*lines_, file_dialect_, head_.layout, wanted);
+}
+
+/// A run is named where there are several, or it was named when it came in.
+bool Reader::run_is_named() const {
+  if (!head_.run.empty()) return true;
+  return !options_.run && (options_.files.size() > 1 || head_.layout.side_by_side() ||
+                           run_in_file_ > 1 || lines_->another_run());
+}
+
+std::string Reader::run_name() const {
+  if (!head_.run.empty()) return head_.run;
+  const std::string& file = options_.files[next_file_ - 1];
+  std::string name = file == "-" ? "" : file.substr(file.rfind('/') + 1);
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < ' ') c = '?';
+  name = trim(name);
+  const std::string& label = layout().label;
+  const bool several = head_.layout.side_by_side() || run_in_file_ > 1 || lines_->another_run();
+  if (!label.empty()) name += ' ' + label;
+  else if (name.empty()) name = fmt::format("{}", run_);
+  else if (several) name += fmt::format(" {}", run_in_file_);
+  return std::string(trim(name));
+}
+
+/// Takes what the head says of the present run.
+void Reader::begin_run() {
+  state_ = State::found;
+  run_found_ = true;
+  last_time_ = std::numeric_limits<double>::quiet_NaN();
+  side_line_ = 0;
+  if (sides_.empty()) {
+    dialect_ = &file_dialect_;
+  } else {
+    side_dialect_ = Dialect::of_output();
+    dialect_ = &side_dialect_;
+  }
+  if (run_is_named()) comments_.push_back("## run " + run_name());
+  for (const std::string& comment : head_.comments)
+    if (side_ == 0 || comment.starts_with("##")) comments_.push_back(comment);
+  resolve();
+}
 
 // ----------------------------------------------------------------------------------------
 // records
 
-void Reader::comment(std::string_view line) {
-  const std::string_view text = trim(line);
-  if (text.starts_with("##")) {
-    if (history_ended_) history_.clear();
-    history_ended_ = false;
-    history_changed_ = true;
-    history_.emplace_back(trim(text.substr(2)));
+/// Goes to the next line of this run that is a record; false at its end.
+bool Reader::next_line() {
+  if (!sides_.empty()) return next_side_line();
+  while (lines_->next()) {
+    line_ = lines_->text();
+    const LineKind kind = kind_of(line_);
+    if (kind == LineKind::record) {
+      line_number_ = lines_->number();
+      return true;
+    }
+    if (kind == LineKind::comment) {
+      refuse_names(line_.substr(line_.find('#')));
+      remarks_.emplace_back(line_.substr(line_.find('#')));
+      continue;
+    }
+    // What a tool says in a `##` line, it says of the run below.
+    if (kind == LineKind::history) {
+      refuse_error_line(*lines_);
+      lines_->put_back();
+    }
+    state_ = State::between;
+    return false;
   }
-  if (in_header_) comments_.emplace_back(text);
-  else if (on_comment) on_comment(text);
+  state_ = State::between;
+  if (next_file_ == options_.files.size()) line_number_ = 0;
+  return false;
 }
 
-Reader::Event Reader::advance() {
-  for (;;) {
-    if (!lines_->next()) {
-      if (side_ + 1 < header_.layout.runs.size()) {
-        ++side_;
-        lines_->again();
-        return Event::run_break;
-      }
-      if (std::exchange(file_ended_, false)) {
-        open_next();  // up to its first record
-        return Event::record;
-      }
-      file_ended_ = next_file_ < options_.files.size();
-      return file_ended_ ? Event::run_break : Event::end;
-    }
-    const char mark = first_mark(lines_->text());
-    if (mark == no_mark) {
-      run_begins_ = true;
-      return Event::run_break;
-    }
-    if (mark == comment_mark) {
-      if (!skipping_ && side_ == 0) comment(lines_->text());
-    } else if (std::exchange(run_begins_, false) && names_again()) {
-      continue;  // each run under its own names line
-    } else if (!header_.layout.side_by_side || has_own_reading()) {
-      return Event::record;
-    }
+bool Reader::next_side_line() {
+  while (side_line_ < sides_[side_].size()) {
+    const Side::Line line = sides_[side_][side_line_++];
+    line_ = line.text;
+    line_number_ = line.number;
+    if (line.kind == LineKind::record) return true;
+    remarks_.emplace_back(line_);
   }
+  state_ = State::between;
+  return false;
 }
 
-/// The line names the columns once more; only the label of the run may differ.
-bool Reader::names_again() {
-  if (header_.names_line.empty()) return false;
-  if (lines_->text() == header_.names_line) return true;
-  const auto names = names_in(lines_->text(), dialect_),
-             first = names_in(header_.names_line, dialect_);
-  if (names.size() != first.size() || is_number(names.front())) return false;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const Column column = read_column(names[i]), known = read_column(first[i]);
-    if (column.name != known.name || column.unit != known.unit) return false;
-    if (!header_.layout.side_by_side && !column.run.empty())
-      header_.layout.runs.front().label = column.run;
-  }
-  return true;
-}
-
-/// A run beside longer ones ends in blanks; columns that the runs share do not count.
-bool Reader::has_own_reading() {
-  const auto fields = split_line();
-  const auto& own = header_.layout.runs[side_].fields;
-  return std::any_of(own.begin(), own.end(), [&](std::size_t i) {
-    return !header_.layout.shared[i] && i < fields.size() && !fields[i].text.empty();
-  });
-}
-
-bool Reader::next_run() {
-  for (;;) {
-    if (!line_waits_) {
-      const Event event = advance();
-      if (event == Event::run_break) continue;
-      if (event == Event::end) {
-        at_end_ = true;
-        if (options_.run && !run_found_) fail("there is no run {} (runs: {})", *options_.run, run_);
-        return false;
-      }
-      line_waits_ = true;
-    }
-    ++run_;
-    first_of_run_ = true;
-    const std::string& label = header_.layout.runs[side_].label;
-    const bool by_label = is_number(label),
-               picked = header_.layout.side_by_side;  // the layout has seen to it
-    if (!options_.run || picked ||
-        (by_label ? label == fmt::format("{}", *options_.run) : run_ == *options_.run))
-      return run_found_ = true;
-    line_waits_ = false;
-    skipping_ = true;
-    Event event;
-    do event = advance();
-    while (event == Event::record);
-    skipping_ = false;
-    at_end_ = event == Event::end;
-  }
+/// A comment among the records that names all of the needed columns may mean other units.
+void Reader::refuse_names(std::string_view comment) const {
+  if (state_ != State::in_run || needed_.empty()) return;
+  const auto names = names_in_comment(comment, layout().columns.size(), layout().columns).names;
+  const auto has = [&](const Needed& needed) {
+    return needed.column != no_column &&
+           std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+             return read_column(name).name == layout().columns[needed.column].name;
+           });
+  };
+  if (std::all_of(needed_.begin(), needed_.end(), has))
+    fail<InputError>(
+        "{}:{}: names among the records; where another run begins, put a blank line before it",
+        lines_->name(), lines_->number());
 }
 
 /// What most lines are, a record like the one before it in this run, is found and split in one
-/// pass; all else is advance()'s.
+/// pass; all else is next_line()'s.
 inline bool Reader::take_plain_line() {
-  if (run_begins_ || header_.layout.side_by_side) return false;
+  if (!sides_.empty()) return false;
   const std::string_view ahead = lines_->ahead();
-  const char* const end = dialect_.split_plain(ahead, fields_);
-  if (end) lines_->take(static_cast<std::size_t>(end - ahead.data()), *end == '\r' ? 2 : 1);
-  return end;
+  const char* const end = file_dialect_.split_plain(ahead, fields_);
+  if (!end) return false;
+  lines_->take(static_cast<std::size_t>(end - ahead.data()), *end == '\r' ? 2 : 1);
+  line_ = lines_->text();
+  line_number_ = lines_->number();
+  return true;
 }
 
 bool Reader::next() {
+  remarks_.clear();
+  if (state_ != State::in_run) return false;
   for (;;) {
-    if (line_waits_ || !take_plain_line()) {
-      const Event event = std::exchange(line_waits_, false) ? Event::record : advance();
-      at_end_ = event == Event::end;
-      if (event != Event::record) return false;
-      begun_ = true;
-      fields_ = split_line();
+    if (!take_plain_line()) {
+      if (!next_line()) return false;
+      split_line();
     }
-    history_ended_ = true;
     if (take_record()) return true;
     ++left_out_;
   }
 }
 
-std::span<const Field> Reader::split_line() {
+void Reader::split_line() {
   try {
-    return dialect_.split(lines_->text());
+    fields_ = dialect_->split(line_);
   } catch (const Error& error) {
-    fail<InputError>("{}: {}", where(), error.what());
+    fail<InputError>("{}: {}", here(), error.what());
   }
 }
 
-/// The fields of the line that make this run's record, and the needed numbers in them; false if one
-/// is missing.
-bool Reader::take_record() {
-  if (fields_.size() != header_.layout.width) {
-    if (fields_.size() == header_.layout.width + 1 && fields_.back().text.empty() && header_.named)
-      fields_ = fields_.first(header_.layout.width);  // a delimiter that ends the line
-    else if (!header_.layout.side_by_side ||
-             fields_.size() > header_.layout.width)  // beside it longer runs may have ended
-      fail<InputError>("{}: {} field{} where the first record has {}", where(), fields_.size(),
-                       fields_.size() == 1 ? "" : "s", header_.layout.width);
+/// Other fields than the first record has: a separator that ends only some of the lines is none.
+void Reader::change_fields() {
+  const std::size_t width = layout().columns.size();
+  if (fields_.size() == width + 1 && fields_.back().text.empty() && head_.named) {
+    fields_ = fields_.first(width);
+  } else if (fields_.size() + 1 == width && head_.blank_end) {
+    changed_fields_.assign(fields_.begin(), fields_.end());
+    changed_fields_.emplace_back();
+    fields_ = changed_fields_;
+  } else {
+    fail<InputError>("{}: {} field{} where the first record has {}", here(), fields_.size(),
+                     fields_.size() == 1 ? "" : "s", width);
   }
-  if (header_.layout.side_by_side) {
-    own_fields_.clear();
-    for (const std::size_t i : header_.layout.runs[side_].fields)
-      own_fields_.push_back(i < fields_.size() ? fields_[i] : Field());
-    fields_ = own_fields_;
-  }
+  fields_changed_ = true;
+}
 
+/// The needed numbers of the record; false if one is missing.
+bool Reader::take_record() {
+  fields_changed_ = false;
+  if (fields_.size() != columns_.size()) change_fields();
   double* to = values_.data();
   for (const Needed& needed : needed_) {
-    const Field& field = fields_[needed.column];
-    double value = field.number;
+    double value = std::numeric_limits<double>::quiet_NaN();
+    if (needed.column != no_column) value = fields_[needed.column].number;
     if (std::isnan(value)) {
-      if (!is_missing(field.text)) reject(needed.column, "is not a number" + way_out(field.text));
-      if (options_.strict && !needed.may_miss)
-        fail<InputError>("{}: field {} ({}): a reading is missing", where(),
-                         header_.layout.runs[side_].fields[needed.column] + 1, shown(needed.name));
-      if (!needed.may_miss) return false;
+      if (needed.column != no_column && !is_missing(fields_[needed.column].text))
+        reject(needed.column, "is not a number" + way_out(fields_[needed.column].text));
+      if (needed.kind != Kind::wanted) {
+        if (options_.strict)
+          fail<InputError>("{}: field {} ({}): a reading is missing", here(),
+                           layout().fields[needed.column] + 1, shown(needed.quantity));
+        return false;
+      }
     } else if (converts_) {
       value = needed.to_si(value);
       if (!std::isfinite(value))
@@ -323,22 +450,21 @@ bool Reader::take_record() {
     }
     *to++ = value;
   }
-  if (time_slot_ != npos) {
-    const double t = values_[time_slot_];
-    if (!first_of_run_) {
-      if (!(t > last_time_))
-        reject(needed_[time_slot_].column, fmt::format("does not come after {}", last_time_));
-      coarse_time_ |=
-          t - last_time_ < 0x1p-39 * std::abs(t);  // two roundings of 2^-53 t are 2^-13 of it
-    }
-    last_time_ = t;
-  }
-  first_of_run_ = false;
+  if (time_slot_ != no_column) check_time();
   return true;
 }
 
+inline void Reader::check_time() {
+  const double t = values_[time_slot_];
+  if (t <= last_time_)
+    reject(needed_[time_slot_].column, fmt::format("does not come after {}", last_time_));
+  coarse_time_ |= t - last_time_ < 0x1p-39 * std::abs(t);  // two roundings of 2^-53 t: 2^-13 of it
+  last_time_ = t;
+}
+
 /// text() of a record that does not go out as it came.
-std::string_view Reader::made_text(std::size_t cut, std::size_t& first, std::size_t& last) {
+Reader::Text Reader::made_text(std::size_t column) {
+  Text text;
   text_.cut(0);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     if (i) text_.append('\t');
@@ -348,38 +474,46 @@ std::string_view Reader::made_text(std::size_t cut, std::size_t& first, std::siz
                                : std::find_if(needed_.begin(), needed_.end(), [i](const Needed& n) {
                                    return n.column == i && n.to_si.changes();
                                  });
-    if (converted == needed_.end()) text_.append(fields_[i].text);
-    else
+    if (converted != needed_.end() && !std::isnan(fields_[i].number))
       text_.end(write_number(text_.room(longest_number),
                              values_[static_cast<std::size_t>(converted - needed_.begin())]));
-    if (i == cut) first = from, last = text_.size();
+    else if (dialect_->may_need_quotes()) append_field(text_, fields_[i].text);
+    else text_.append(fields_[i].text);
+    if (i == column) text.first = from, text.last = text_.size();
   }
-  return {text_.data(), text_.size()};
+  text.line = {text_.data(), text_.size()};
+  return text;
 }
 
 void Reader::reject(std::size_t column, std::string_view why) const {
-  fail<InputError>("{}: field {} ({}): '{}' {}", where(),
-                   header_.layout.runs[side_].fields[column] + 1, shown(columns_[column].name),
-                   shown(fields_[column].text), why);
+  fail<InputError>("{}: field {} ({}): '{}' {}", here(), layout().fields[column] + 1,
+                   shown(columns_[column].name), shown(fields_[column].text), why);
 }
 
 /// After a field that is no number, what to do about what it often is: a decimal comma, a minus
 /// sign of print, a heading.
 std::string Reader::way_out(std::string_view field) const {
-  const bool in_field = std::count(field.begin(), field.end(), ',') == 1 && field.find('.') == npos;
-  const bool beside = dialect_.separator() == ',' && field.find(' ') != npos &&
+  const bool in_field =
+      std::count(field.begin(), field.end(), ',') == 1 && field.find('.') == std::string_view::npos;
+  const bool beside = file_dialect_.separator() == ',' &&
+                      field.find(' ') != std::string_view::npos &&
                       is_number(field.substr(0, field.find(' ')));
   if (in_field || beside) return "; if a comma here is a decimal one, make it a point first";
   if (field.starts_with("\xE2\x88\x92")) return "; make its minus sign (U+2212) a hyphen first";
-  const bool word = !field.empty() && std::string_view("+-.0123456789").find(field.front()) == npos;
-  return word && !header_.named && lines_->number() == first_record_
+  const bool word = !field.empty() &&
+                    std::string_view("+-.0123456789").find(field.front()) == std::string_view::npos;
+  return word && !head_.named && line_number_ == first_record_
              ? "; if this line is no record, begin it with #"
              : "";
 }
 
-std::string Reader::where() const {
-  return begun_ && !at_end_ ? fmt::format("{}:{}", lines_->name(), lines_->number())
-                            : std::string();
+std::string Reader::here() const { return fmt::format("{}:{}", lines_->name(), line_number_); }
+
+/// Where the names of the present run are: the file, and behind its first run the line.
+std::string Reader::head_here() const {
+  return run_in_file_ > 1 ? fmt::format("{}:{}", lines_->name(), head_.line) : lines_->name();
 }
+
+std::string Reader::where() const { return line_number_ > 0 ? here() : std::string(); }
 
 }  // namespace rolling

@@ -1,11 +1,12 @@
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2034
 # What the scripts of the figures share; each sources it first. They take
 #
 #   -t svg | pngcairo   the terminal of gnuplot (svg); the picture goes to standard output
 #   -K K[,K...] -R R    shape factor and radius, where a figure draws records of your own
 #
-# and leave their operands in "$@". The tools are on the PATH. A script works in a folder of its own
-# with copies of the samples, so that no name of a file or folder gets into the code of gnuplot.
+# and leave their operands in "$@". The tools are those of this source, or on the PATH. A script
+# works in a folder of its own with copies of the samples, so that no name of a file or folder gets
+# into the code of gnuplot.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
@@ -24,7 +25,8 @@ command -v gnuplot >/dev/null ||
   { echo "$0: gnuplot is not installed; make setup figures installs it" >&2; exit 2; }
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-figures=$(dirname "${BASH_SOURCE[0]}")
+figures=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+PATH=${figures%/*/*}/bin:$PATH
 cp "$figures"/*.gp "$figures"/../*.csv "$figures"/../*.toml "$scratch"
 called_from=$PWD
 cd "$scratch"
@@ -35,7 +37,7 @@ cd "$scratch"
 draw() {
   local size=$1,$2
   [ "$terminal" = svg ] ||
-    size="$(($1 * 5 / 2)),$(($2 * 5 / 2)) fontscale 2.5 linewidth 2.5 pointscale 1.4"
+    size="$(($1 * 5 / 2)),$(($2 * 5 / 2)) fontscale 2.5 linewidth 2.5 pointscale 3.2"
   LC_ALL=C.UTF-8 gnuplot -d \
     -e "set terminal $terminal size $size font 'sans-serif,14' background 'white'" \
     -e "${3:-}" style.gp /dev/stdin |

@@ -1,6 +1,7 @@
 #!/bin/bash
-# Fig. 1 near the stop: the cylinder on rubber rolls backwards before it rests. The law D(v) alone cannot show it; a bulge that
-# remembers the last half millimetre does (the record was made with one). `make figures/fig1-stop.svg`
+# Fig. 1 near the stop: the cylinder on rubber rolls backwards before it rests. The law D(v) alone
+# cannot show it; a bulge that remembers the last half millimetre does. This length is not fitted:
+# it is the one of which the record was made. `make figures/fig1-stop.svg`
 . "$(dirname "$0")/draw.sh"
 roll() { simulate --law fit -K 0.5 -R 0.04 --columns t,x,v "$@"; }
 smooth -q --coast -c x -w 1 CR.csv >roll
@@ -8,20 +9,26 @@ fitpower -q --route position -K 0.5 -R 0.04 roll >fit
 roll --until 4 >law
 roll --until 4 --dt 0.005 --memory 5e-4 --damping 0.02 >memory
 differentiate -q -c x CR.csv >raw
-# Times from the stop that the law alone foretells; positions from the place of rest, for the record the mean of its last second.
+# Times are from the stop that the law alone predicts; positions from the place of rest, for the
+# record the mean of its last second.
 stop=$(awk '!/^#/ { print $1; exit }' roll; roll | awk 'END { print $1 }')
 rest=$(tail -n 25 raw | awk '{ sum += $2 } END { print sum / NR }'
   for file in law memory; do awk 'END { print $2 }' "$file"; done)
 draw 720 760 "stop = '${stop//$'\n'/ }'; rest = '${rest//$'\n'/ }'" <<'PLOT'
 set multiplot layout 2,1 margins 0.13,0.98,0.09,0.98 spacing 0.08
-set xrange [-0.52:0.82]; set xzeroaxis lt -1 lw 0.5; set xlabel 'time after the stop that the law D(v) alone foretells / s'
+set xrange [-0.52:0.82]; set xzeroaxis lt -1 lw 0.5
+set xlabel 'time after the stop that the law D(v) alone predicts / s'
 after(t, start) = t - word(stop, 2) - (start ? word(stop, 1) : 0)
 set ylabel 'velocity v / (mm/s)' offset 0.7, 0; set yrange [-22:110]
-plot 'raw' using (after($1,1)):(1e3*$4) with points ls 1 ps 0.6 title 'C on rubber: differences of the positions', \
-     'memory' using (after($1,0)):(1e3*$3) with lines ls 1 title 'fitted law with a memory of 0.5 mm', \
+plot 'raw' using (after($1,1)):(1e3*$4) with points ls 1 ps 0.6 \
+       title 'C on rubber: differences of the positions', \
+     'memory' using (after($1,0)):(1e3*$3) with lines ls 1 \
+       title 'with a memory of 0.5 mm (given, not fitted)', \
      'law' using (after($1,0)):(1e3*$3) with lines ls 12 title 'fitted law alone'
 set ylabel 'distance from rest / mm' offset -1, 0; set yrange [-8:2]; set key bottom right
-plot 'raw' using (after($1,1)):(1e3*($2-word(rest,1))) with points ls 1 ps 0.6 title 'C on rubber: the positions', \
-     'memory' using (after($1,0)):(1e3*($2-word(rest,3))) with lines ls 1 title 'fitted law with a memory of 0.5 mm', \
+plot 'raw' using (after($1,1)):(1e3*($2-word(rest,1))) with points ls 1 ps 0.6 \
+       title 'C on rubber: the positions', \
+     'memory' using (after($1,0)):(1e3*($2-word(rest,3))) with lines ls 1 \
+       title 'with a memory of 0.5 mm (given, not fitted)', \
      'law' using (after($1,0)):(1e3*($2-word(rest,2))) with lines ls 12 title 'fitted law alone'
 PLOT

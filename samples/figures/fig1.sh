@@ -1,6 +1,7 @@
 #!/bin/bash
-# Fig. 1, v(t) of the four experiments: differences of the sensor's positions, the same smoothed, and the trajectory that fits the
-# positions, both of the free roll. `make figures/fig1.svg`, or samples/figures/fig1.sh svg >fig1.svg
+# Fig. 1, v(t) of the four experiments: differences of the sensor's positions, the same smoothed,
+# and the trajectory that fits the positions, both of the free roll. `make figures/fig1.svg`, or
+# samples/figures/fig1.sh >fig1.svg
 . "$(dirname "$0")/draw.sh"
 run() {  # NAME K
   differentiate -q -c x "$1.csv" >"$1.raw"
@@ -9,7 +10,8 @@ run() {  # NAME K
   # The fit's time begins with the roll.
   local start
   start=$(awk '!/^#/ { print $1; exit }' "$1.roll")
-  fitpower -q --route position -K "$2" -R 0.04 "$1.roll" | simulate --law - -K "$2" -R 0.04 --columns t,v |
+  fitpower -q --route position -K "$2" -R 0.04 "$1.roll" |
+    simulate --law - -K "$2" -R 0.04 --columns t,v |
     awk -v start="$start" '!/^#/ { print $1 + start "\t" $2 }' >"$1.line"
 }
 run CR 0.5; run SR 0.83; run CF 0.5; run SF 0.83
@@ -19,7 +21,8 @@ set xrange [0.8:9.2]; set yrange [-0.05:0.55]; set xzeroaxis lt -1 lw 0.5
 set ylabel 'velocity v / (m/s)'; set xlabel 'time t / s'
 of(i, kind) = word(runs, i) . kind
 do for [mat = 0:1] {
-  plot for [i = 2*mat+1:2*mat+2] of(i, '.raw') using 1:4 with points pt 7 ps 0.3 lc rgb grey notitle, \
+  plot for [i = 2*mat+1:2*mat+2] of(i, '.raw') using 1:4 with points pt 7 ps 0.3 lc rgb grey \
+         notitle, \
        for [i = 2*mat+1:2*mat+2] of(i, '.v') using 1:4 every 2 with points ls i ps 0.6 notitle, \
        for [i = 2*mat+1:2*mat+2] of(i, '.line') with lines ls 10+i notitle, \
        for [i = 2*mat+1:2*mat+2] keyentry with points ls i ps 0.8 title label[i], \

@@ -1,5 +1,6 @@
-# What the figures share. Colours of Okabe and Ito, safe for the colour-blind: rubber vermilion, felt blue. The body by symbol
-# and dash, legible in grey: C filled circles and full lines, S crosses and dashed lines.
+# What the figures share. Colours of Okabe and Ito, safe for the colour-blind: rubber vermilion,
+# felt blue. The body by symbol and dash, legible in grey: C filled circles and full lines, S
+# crosses and dashed lines.
 set encoding utf8
 set minussign
 set border 3 lw 1
@@ -13,8 +14,14 @@ set style line 2 lc rgb '#D55E00' lw 2 dt 2 pt 2 ps 0.65
 set style line 3 lc rgb '#0072B2' lw 2 dt 1 pt 7 ps 0.55
 set style line 4 lc rgb '#0072B2' lw 2 dt 2 pt 2 ps 0.65
 do for [i = 1:4] { set style line 10 + i lc rgb 'black' lw 1.5 dt 2 - i % 2 }
-black = 0x000000; grey = 0xA0A0A0; pale = 0xE8E4DC; green = 0x009E73; purple = 0xCC79A7; blue = 0x0072B2; vermilion = 0xD55E00
+black = 0x000000; grey = 0xA0A0A0; pale = 0xE8E4DC; green = 0x009E73
+purple = 0xCC79A7; blue = 0x0072B2; vermilion = 0xD55E00
 runs = 'CR SR CF SF'
 array label[4] = ['C on rubber', 'S on rubber', 'C on felt', 'S on felt']
 array body[4] = ['C', 'S', 'C', 'S']
 number(x) = (x < 0 ? '−' : '').sprintf('%.3g', abs(x))
+# For records of somebody's own, after the four experiments.
+set style line 5 lc rgb '#009E73' lw 2 dt 1 pt 9 ps 0.6
+set style line 6 lc rgb '#009E73' lw 2 dt 2 pt 4 ps 0.55
+set style line 7 lc rgb '#CC79A7' lw 2 dt 1 pt 13 ps 0.7
+set style line 8 lc rgb '#000000' lw 2 dt 2 pt 6 ps 0.55

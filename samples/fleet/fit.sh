@@ -1,14 +1,35 @@
 #!/bin/bash
-# fit.sh RECORD: the row that fitpower finds for one record, under its names, with the name of the
-# record in front. K and R are those of make.sh. In the name, what a field of a table cannot hold (a
-# tab, a line end, a quote) is written as ?, and a name that begins with # is quoted.
+# fit.sh [-K K] [-R R] [-c x|v] RECORD: the row that fitpower finds for one record, under its names,
+# with the name of the record in front. K (0.5) is the shape factor, R (0.04) the radius in metres;
+# x (the default) fits the positions of the record, v its velocities. In the name, what a field of a
+# table cannot hold (a tab, a line end, a quote) is written as ?; a name that begins with # is
+# quoted.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
-row=$(smooth -q --coast -c x -w 1 -- "$1" | fitpower -q --route position -K 0.5 -R 0.04)
+K=0.5 R=0.04 column=x
+while getopts K:R:c: option; do
+  case $option in
+    K) K=$OPTARG ;;
+    R) R=$OPTARG ;;
+    c) column=$OPTARG ;;
+    *) exit 2 ;;
+  esac
+done
+shift $((OPTIND - 1))
+case $column in
+  x) route=position ;;
+  v) route=velocity ;;
+  *) echo "fit.sh: -c $column: x or v" >&2; exit 2 ;;
+esac
+# The tools of this source, or those on the PATH.
+PATH=$(cd "$(dirname "$0")/../.." && pwd)/bin:$PATH
+
+row=$(smooth -q --coast -c $column -w 1 -- "$1" |
+  fitpower -q --digits 6 --route $route -K "$K" -R "$R")
 record=${1##*/} row=$row awk 'BEGIN {
   name = ENVIRON["record"]
-  sub(/\.csv$/, "", name)
+  sub(/\.[^.]*$/, "", name)
   gsub(/[[:cntrl:]"]/, "?", name)
   if (name ~ /^#/) name = "\"" name "\""
   n = split(ENVIRON["row"], line, "\n")

@@ -2,11 +2,14 @@
 # make.sh FOLDER [RECORDS [SPREAD]]: records of a motion sensor, FOLDER/0001.csv on, each of a
 # cylinder on a mat of its own, and FOLDER/truth.txt, the laws D = a v^b that made them. With the
 # spread s (0.1), ln a is normal about ln 1.87e-3 with standard deviation s, b about 0.215 with s/5;
-# v0 is uniform from 0.4 to 0.6 m/s. A record depends on its number alone: it is the same everywhere.
+# v0 is uniform from 0.4 to 0.6 m/s. A record depends on its number alone: it is the same
+# everywhere.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
 folder=$1 records=${2:-1000} spread=${3:-0.1}
+# The tools of this source, or those on the PATH.
+PATH=$(cd "$(dirname "$0")/../.." && pwd)/bin:$PATH
 mkdir -p -- "$folder"
 awk -v records="$records" -v spread="$spread" '
   # Park and Miller 1988, Comm. ACM 31, 1192: exact in doubles

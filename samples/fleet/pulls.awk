@@ -1,6 +1,6 @@
 # awk -f pulls.awk truth.txt table.txt: (found - true)/error of a and of b over the records, their
-# mean (0) and their standard deviation (1). The status is 1 if either is further off than four of its
-# standard errors and 0.2: fits of such short records may be biased by as much.
+# mean (0) and their standard deviation (1). The status is 1 if either is further off than four of
+# its standard errors and 0.2: fits of such short records may be biased by as much.
 BEGIN { FS = "\t" }
 /^#/ { next }
 FILENAME == ARGV[1] { a[$1] = $2; b[$1] = $3; next }

@@ -7,7 +7,10 @@
 # what else the machine does; what a run of ten rows costs is taken off.
 set -euo pipefail
 export LC_ALL=C
-command -v valgrind >/dev/null || { echo 'profile.sh: without valgrind there is no profile' >&2; exit 0; }
+unset CDPATH
+export LC_ALL=C
+command -v valgrind >/dev/null ||
+  { echo 'profile.sh: without valgrind there is no profile' >&2; exit 0; }
 rows=${1:-20000}
 speed=$PWD/build/bench/speed
 cd build/speed

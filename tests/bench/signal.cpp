@@ -65,7 +65,8 @@ Roll roll(const Scene& scene, unsigned long seed) {
   SonarOptions options;
   options.seed = seed, options.lost = 0;
   Roll out;
-  const auto record = sonar_record(motion, options);
+  std::vector<SonarSample> record;
+  sonar_record(motion, options, [&](const SonarSample& s) { record.push_back(s); });
   motion.seek(0);
   for (const SonarSample& s : record) {
     const double t = s.t - options.rest_before - options.push;

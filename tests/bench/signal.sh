@@ -3,6 +3,8 @@
 # beside them where it is installed, and against window and run time as FOLDER/signal{,-time}.{svg,png} where gnuplot is.
 # Prints the best and the usual for each scene.
 set -euo pipefail
+export LC_ALL=C
+unset CDPATH
 folder=$1
 build/bench/signal >"$folder/signal.tsv"
 if /usr/bin/python3 -c 'import scipy' 2>/dev/null; then

@@ -7,6 +7,8 @@
 # Needs build/bench/speed, and the tools on the PATH; leaves its files in build/speed/.
 set -euo pipefail
 export LC_ALL=C
+unset CDPATH
+export LC_ALL=C
 long=false
 [ "${1:-}" != --long ] || { long=true && shift; }
 rows=${1:-5000000} rounds=${2:-3}

@@ -1,6 +1,8 @@
 #!/bin/bash
 # work-precision.sh FOLDER - log-log figures of the tables FOLDER/*.txt, as SVG and PNG, and who failed how.
 set -u
+export LC_ALL=C
+unset CDPATH
 style=$PWD/samples/figures/style.gp
 cd "$1" || exit 2
 echo "# failures: problem, by, method: how often of the tolerances, and how"

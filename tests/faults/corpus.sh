@@ -3,6 +3,7 @@
 . "$(dirname "$0")/tools"
 for target in number reader scene $tools; do
   attempt "build/replay/$target" "tests/fuzz/corpus/$target"/*
-  [ "$status" = 0 ] || complain "$target: exit $status after $(tail -n 1 "$scratch/out"): $(head -c 500 "$scratch/err")"
+  [ "$status" = 0 ] ||
+    complain "$target: exit $status after $(tail -n 1 "$scratch/out"): $(head -c 500 "$scratch/err")"
 done
 finish

@@ -70,7 +70,8 @@ while IFS=$'\t' read -r name says file; do
     # shellcheck disable=SC2086
     attempt ${command[$tool]} - <"$scratch/in"
     refused "$tool $name" "$says"
-    ! grep -q '^77' "$scratch/out" || complain "$tool: $name: a bad record went out: $(cat "$scratch/out")"
+    ! grep -q '^77' "$scratch/out" ||
+      complain "$tool: $name: a bad record went out: $(cat "$scratch/out")"
   done
 done <<'END'
 empty	-: no records	
@@ -117,7 +118,8 @@ for tool in $tools; do
     simulate) accepted 'simulate 500000 columns' ;;
     *)
       accepted "$tool 500000 columns"
-      [ "$(awk -F'\t' '!/^#/ && NF >= 500000 && NF <= 500010' "$scratch/out" | wc -l)" = 2 ] || complain "$tool: 500000 columns do not come out" ;;
+      [ "$(awk -F'\t' '!/^#/ && NF >= 500000 && NF <= 500010' "$scratch/out" | wc -l)" = 2 ] ||
+        complain "$tool: 500000 columns do not come out" ;;
   esac
 done
 

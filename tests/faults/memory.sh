@@ -1,6 +1,6 @@
 #!/bin/bash
-# Every allocation of every tool fails in turn, by itself and with all after it: each time one line and 2, never an abort.
-# LONG=1 takes each of them, otherwise every seventh.
+# Every allocation of every tool fails in turn, by itself and with all after it: each time one line
+# and 2, never an abort. LONG=1 takes each of them, otherwise every seventh.
 . "$(dirname "$0")/tools"
 shim=$PWD/build/shim.so
 preloads || { echo 'skipped: nothing can be preloaded into this build'; exit 77; }

@@ -1,5 +1,6 @@
 #!/bin/bash
-# Every option of --help with every value that is none, twice, and without a value; then values that mean nothing.
+# Every option of --help with every value that is none, twice, and without a value; then values that
+# mean nothing.
 . "$(dirname "$0")/tools"
 good 9 >"$scratch/good"
 
@@ -98,8 +99,8 @@ shift-from-accel -R -1 -K 0.5 @|'-1' must be greater than 0
 shift-from-accel -R 1 -K -1 @|'-1' must be 0 or more
 shift-from-accel -R 1 -K 0.5 -g 0 @|'0' must be greater than 0
 shift-from-accel -R 1 -K 0.5 -g -9.81 @|'-9.81' must be greater than 0
-shift-from-accel -R 1 -K 100 @|is beyond the radius
-shift-from-accel -R 1e-300 -K 1e308 @|
+shift-from-accel --exact -R 1 -K 100 @|within the radius
+shift-from-accel --exact -R 1e-300 -K 1e308 @|
 shift-from-accel -K 0.5 @|--radius is not given
 shift-from-accel -R 1 @|--shape-factor is not given
 fitpower --route velocity -K -1 -R 1 @|'-1' must be 0 or more

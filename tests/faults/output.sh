@@ -23,14 +23,16 @@ for tool in $tools; do
       # The reader has gone: SIGPIPE, quietly; where that is ignored, one line.
       exec 8<>"$scratch/fifo" 7>"$scratch/fifo" 8<&-
       $operands >&7 2>"$scratch/err"; status=$?
-      [ "$status" = 141 ] && [ ! -s "$scratch/err" ] || complain "$operands into a closed pipe: exit $status, $(cat "$scratch/err")"
+      [ "$status" = 141 ] && [ ! -s "$scratch/err" ] ||
+        complain "$operands into a closed pipe: exit $status, $(cat "$scratch/err")"
       (trap '' PIPE; exec $operands >&7 2>"$scratch/err"); status=$?
       exec 7>&-
       refused "$operands" 'standard output: Broken pipe'
       tried=$((tried + 6))
       if preloads; then
         FAULT_WRITE=1 LD_PRELOAD=$PWD/build/shim.so attempt $operands
-        cmp -s "$scratch/out" "$scratch/whole" || complain "$operands: other output through short and interrupted writes"
+        cmp -s "$scratch/out" "$scratch/whole" ||
+          complain "$operands: other output through short and interrupted writes"
       fi
     }
   done
@@ -57,7 +59,8 @@ for tool in $tools; do
     cmp -s "$scratch/both" "$scratch/good" || complain "$tool $redirect wrote into its input"
   done
 
-  # A signal in mid-stream: what has gone out is whole rows. The reader is slow, so that it comes in the middle of a write.
+  # A signal in mid-stream: what has gone out is whole rows. The reader is slow, so that it comes in
+  # the middle of a write.
   [ "$tool" = fitpower ] || for signal in TERM INT HUP; do
     { sleep 0.1; cat >"$scratch/out"; } <"$scratch/fifo" &
     reader=$!
@@ -68,7 +71,10 @@ for tool in $tools; do
     kill -$signal $writer
     wait $writer $reader 2>/dev/null
     tried=$((tried + 1))
-    [ -z "$(tail -c 1 "$scratch/out")" ] || complain "$tool: SIG$signal leaves half a row: $(tail -n 1 "$scratch/out")"
+    [ -z "$(tail -c 1 "$scratch/out")" ] ||
+      complain "$tool: SIG$signal leaves half a row: $(tail -n 1 "$scratch/out")"
+    sed '$d' "$scratch/out" | grep -q 'ended with an error' &&
+      complain "$tool: SIG$signal, and the error is not the last line"
   done
 done
 finish

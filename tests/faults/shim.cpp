@@ -1,6 +1,6 @@
 // Preloaded into a tool (LD_PRELOAD), what a system may do to it at any time:
-//   FAULT_READ=1     one byte a read, and every second call interrupted
-//   FAULT_WRITE=1    a few bytes a write, and every second call interrupted
+//   FAULT_READ=1     one byte a read, and every second call interrupted or told to try again
+//   FAULT_WRITE=1    a few bytes a write, and every second call interrupted or told to try again
 //   FAULT_MALLOC=once | on   runs the tool again and again: with its first allocation failing, its
 //   second, ... (`on`: that one
 //                    and all after it; with /N, only every N-th run), and checks that each is
@@ -76,6 +76,11 @@ const char* what_is_wrong(const char* tool) {
     return "does not say why";
   if (memchr(run.err, '\n', static_cast<size_t>(run.err_size)) != run.err + run.err_size - 1)
     return "does not say why in one line";
+  const char end[] = ": ended with an error\n";  // which a tool says when it has begun to print
+  const long last = 3 + prefix + static_cast<long>(sizeof end) - 1;
+  if (run.out_size >= last &&
+      memcmp(run.out + run.out_size - (sizeof end - 1), end, sizeof end - 1) == 0)
+    run.out_size -= last;
   if (run.out_size > whole.out_size ||
       memcmp(run.out, whole.out, static_cast<size_t>(run.out_size)) != 0)
     return "prints other rows";
@@ -112,7 +117,7 @@ __attribute__((constructor)) void every_allocation() {
 
 bool interrupted(const char* variable, unsigned& calls) {
   if (!getenv(variable) || ++calls % 2 == 0) return false;
-  errno = EINTR;
+  errno = calls % 4 == 1 ? EINTR : EAGAIN;
   return true;
 }
 

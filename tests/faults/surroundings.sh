@@ -1,13 +1,14 @@
 #!/bin/bash
-# The same rows whatever the surroundings: how the input arrives, the locale, the environment, the folder, the limits. And
-# refusals where there is no input to be had.
+# The same rows whatever the surroundings: how the input arrives, the locale, the environment, the
+# folder, the limits. And refusals where there is no input to be had.
 . "$(dirname "$0")/tools"
 good 400 >"$scratch/good"
 top=$PWD
 localedef -i de_DE -f UTF-8 "$scratch/de_DE.UTF-8" 2>/dev/null || :  # where the sources of locales are installed
 
 same() {  # NAME: the last attempt gave $scratch/whole
-  [ "$status" = 0 ] && cmp -s "$scratch/out" "$scratch/whole" || complain "$1: exit $status, $(head -c 200 "$scratch/err")"
+  [ "$status" = 0 ] && cmp -s "$scratch/out" "$scratch/whole" ||
+    complain "$1: exit $status, $(head -c 200 "$scratch/err")"
 }
 for tool in $tools; do
   run=${command[$tool]}
@@ -97,6 +98,8 @@ live 0 smooth -u -w 1
 live 1 smooth -u -w 3
 live 2 smooth -u -w 5
 live 1 smooth -u -w 3 -M median
+live 5 smooth -u -w 1 --outliers 9  # whose window has at least 11 records
+live 4 differentiate -u -M savgol -w 5  # its first rows wait for a whole window
 live 2 differentiate -u  # the first row is of second order too: it takes three
 live 0 shift-from-accel -u -K 0.5 -R 0.04 --use a=3
 live 0 energy-ledger -u -m 1 -K 0.5 -R 0.04 --use D=4

@@ -2,6 +2,8 @@
 # fuzz.sh FOLDER SECONDS TARGET...: runs each fuzzer of FOLDER for so long, beginning from tests/fuzz/corpus; ends with a table
 # of executions and findings. What it finds stays in FOLDER/found.
 set -u
+export LC_ALL=C
+unset CDPATH
 folder=$1 seconds=$2
 shift 2
 found=0

@@ -28,9 +28,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         require(std::isfinite(in[t]) && (first || in[t] > last), "times do not rise");
         require(std::isfinite(in[v]) || (choice & 16), "a number is not finite");
         first = false, last = in[t];
-        std::size_t from = 0, to = 0;
-        const std::string_view row = in.text(in.column_of(v), from, to);
-        require(from <= to && to <= row.size(), "a column stands outside its row", row);
+        const Reader::Text row = in.text(in.column_of(v));
+        require(row.first <= row.last && row.last <= row.line.size(),
+                "a column stands outside its row", row.line);
       }
     }
   } catch (const Error& error) {

@@ -1,6 +1,9 @@
 #!/bin/bash
-# The completions offer what --help lists: in bash (the function, called as bash calls it, and typed at a terminal) and in zsh.
+# The completions offer what --help lists: in bash (the function, called as bash calls it, and typed
+# at a terminal) and in zsh.
 set -u
+export LC_ALL=C
+unset CDPATH
 cd "$(dirname "$0")/../.." || exit 2
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
@@ -33,9 +36,11 @@ expect "$(offered smooth --width '')" '' 'smooth --width'
 expect "$(offered smooth samp)" '' 'smooth samp'  # left to readline
 expect "$(offered fitpower --route '')" 'loglog position shift velocity' 'fitpower --route'
 expect "$(offered simulate --sensor '')" pasco 'simulate --sensor'
-grep -q rk8pd <<<"$(offered simulate --method r)" || complain "simulate --method r: $(offered simulate --method r)"
+grep -q rk8pd <<<"$(offered simulate --method r)" ||
+  complain "simulate --method r: $(offered simulate --method r)"
 
-# Keys at a terminal, tabs among them, and then what the command line has become: the tools are stand-ins that tell it.
+# Keys at a terminal, tabs among them, and then what the command line has become: the tools are
+# stand-ins that tell it.
 touch "$scratch/run of CR.csv" "$scratch/SF.toml"
 await() { for _ in {1..100}; do [ ! -e "$1" ] || return; sleep 0.1; done; }
 typed() {  # SHELL KEYS: what the stand-in saw

@@ -1,10 +1,12 @@
 #!/bin/bash
-# `make deb` makes a package that holds what `make install` installs, whose tools run, and which lintian finds no error in.
+# `make deb` makes a package that holds what `make install` installs, whose tools run, and which
+# lintian finds no error in.
 set -u
 export LC_ALL=C
 unset CDPATH
 cd "$(dirname "$0")/../.." || exit 2
-command -v dpkg-shlibdeps >/dev/null || { echo "skipped: no dpkg-shlibdeps" && exit 77; }
+command -v dpkg-shlibdeps >/dev/null ||
+  { echo "skipped: no dpkg-shlibdeps; make setup deb installs it" && exit 77; }
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 unset MAKEFLAGS MAKELEVEL DESTDIR PREFIX PROGRAM_PREFIX
@@ -14,7 +16,8 @@ complain() { echo "$*" && wrong=1; }
 # As outside of git: PATH has a git that refuses, as git does in a folder of another user.
 mkdir "$scratch/path" && printf '#!/bin/sh\nexit 128\n' >"$scratch/path/git" && chmod +x "$scratch/path/git"
 PATH="$scratch/path:$PATH" make deb >"$scratch/made" 2>&1 || { cat "$scratch/made" && exit 1; }
-[ -z "$(git log -1 --format=%an 2>/dev/null)" ] || make deb >"$scratch/made" 2>&1 || { cat "$scratch/made" && exit 1; }
+[ -z "$(git log -1 --format=%an 2>/dev/null)" ] || make deb >"$scratch/made" 2>&1 ||
+  { cat "$scratch/made" && exit 1; }
 version=$(bin/smooth --version | cut -d ' ' -f 3)
 package=build/rolling_${version}_$(dpkg --print-architecture).deb
 [ "$(dpkg-deb --field "$package" Version)" = "$version" ] || complain "its version is not $version"
@@ -24,13 +27,16 @@ for library in libc6 libstdc++6 libgsl libfmt; do
 done
 
 dpkg-deb --extract "$package" "$scratch/tree"
-make install DESTDIR="$scratch/stage" PREFIX=/usr >"$scratch/made" 2>&1 || { cat "$scratch/made" && exit 1; }
+make install DESTDIR="$scratch/stage" PREFIX=/usr >"$scratch/made" 2>&1 ||
+  { cat "$scratch/made" && exit 1; }
 files() { (cd "$1" && find . ! -type d | sed 's/\.gz$//; s|zsh/vendor-completions|zsh/site-functions|' | sort); }
-diff <(files "$scratch/stage") <(files "$scratch/tree" | grep -vE '/(changelog|copyright)$') || complain "its files are not those of make install"
+diff <(files "$scratch/stage") <(files "$scratch/tree" | grep -vE '/(changelog|copyright)$') ||
+  complain "its files are not those of make install"
 for tool in "$scratch"/tree/usr/bin/*; do
   "$tool" --version | grep -q " $version$" || complain "$tool does not run"
 done
-(cd "$scratch/tree" && dpkg-deb --info "$OLDPWD/$package" md5sums | md5sum --quiet -c) || complain "its md5sums"
+(cd "$scratch/tree" && dpkg-deb --info "$OLDPWD/$package" md5sums | md5sum --quiet -c) ||
+  complain "its md5sums"
 
 if command -v lintian >/dev/null; then
   lintian --fail-on error "$package" 2>/dev/null || complain "lintian"

@@ -13,7 +13,7 @@ complain() { echo "$*" && wrong=1; }
 
 # Each script sets the locale and CDPATH before its first other command, or sources draw.sh.
 first=$'\nexport LC_ALL=C\nunset CDPATH'
-for script in cmd/install/*.sh samples/*.sh samples/*/*.sh tests/run.sh; do
+for script in cmd/install/*.sh samples/*.sh samples/*/*.sh tests/run.sh tests/bench/*.sh; do
   start=$(grep -v '^#' "$script" | head -n 3)
   [[ $start == 'set -'*"$first" || $start == *'/draw.sh"'* ]] ||
     complain "$script does not begin with set, LC_ALL and CDPATH"

@@ -1,6 +1,8 @@
 #!/bin/bash
 # Who may include whom: read from the #include "room/..." lines.
 set -u
+export LC_ALL=C
+unset CDPATH
 cd "$(dirname "$0")/../.." || exit 2
 declare -A may=(
   [base]=''
@@ -22,27 +24,32 @@ for room in lib/*/; do
   for file in lib/"$room"/*; do
     files=$((files + 1))
     while read -r other; do
-      [[ " $room ${may[$room]} " == *" $other "* ]] || complain "$file includes $other/; $room may include: ${may[$room]:-nothing of ours}"
+      [[ " $room ${may[$room]} " == *" $other "* ]] ||
+        complain "$file includes $other/; $room may include: ${may[$room]:-nothing of ours}"
     done < <(sed -nE 's|^ *# *include "([^/"]+)/.*|\1|p' "$file")
     # A file's own room too is named in full.
-    bare=$(grep -nE '^ *# *include "[^/]*"' "$file") && complain "$file: an include without its room: $bare"
+    bare=$(grep -nE '^ *# *include "[^/]*"' "$file") &&
+      complain "$file: an include without its room: $bare"
     case $room in
       cli) ;;
       *) grep -qE '# *include <CLI/' "$file" && complain "$file: only lib/cli knows CLI11" ;;
     esac
     case $room in
       text | cli) ;;
-      *) grep -qE '# *include <(iostream|fstream|cstdio|stdio\.h|unistd\.h|fcntl\.h)>' "$file" && complain "$file: only lib/text and lib/cli see files" ;;
+      *) grep -qE '# *include <(iostream|fstream|cstdio|stdio\.h|unistd\.h|fcntl\.h)>' "$file" &&
+        complain "$file: only lib/text and lib/cli see files" ;;
     esac
     case $room in
       base | ode | fit | sensor | contact | motion) ;;
-      *) grep -qE '# *include (<gsl/|"base/gsl\.h")' "$file" && complain "$file: $room does without GSL" ;;
+      *) grep -qE '# *include (<gsl/|"base/gsl\.h")' "$file" &&
+        complain "$file: $room does without GSL" ;;
     esac
   done
 done
 for file in cmd/*.cpp; do
   files=$((files + 1))
-  grep -qE '# *include <(CLI/|gsl/)' "$file" && complain "$file: a command uses CLI11 and GSL through lib/"
+  grep -qE '# *include <(CLI/|gsl/)' "$file" &&
+    complain "$file: a command uses CLI11 and GSL through lib/"
 done
 [ "$files" -gt 20 ] || complain "only $files files were looked at"
 exit $wrong

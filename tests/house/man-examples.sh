@@ -10,7 +10,8 @@ export LC_ALL=C
 unset CDPATH
 overstrike=$(printf '\b')
 cd "$(dirname "$0")/../.." || exit 2
-command -v mandoc >/dev/null || { echo "skipped: mandoc is not installed"; exit 77; }
+command -v mandoc >/dev/null ||
+  { echo "skipped: no mandoc; make setup check installs it"; exit 77; }
 
 top=$PWD
 bin=${1:-$top}/bin pages=(man/*.[1-9])
@@ -20,7 +21,8 @@ trap 'rm -rf "$scratch"' EXIT
 export PATH="$bin:$PATH"
 failed=0 count=0
 
-# run PAGE COMMAND SHOWN: runs in a fresh copy, as from the top of the checkout; SHOWN is empty if the page shows no output.
+# run PAGE COMMAND SHOWN: runs in a fresh copy, as from the top of the checkout; SHOWN is empty if
+# the page shows no output.
 run() {
   local page=$1 command=$2 shown=$3 status wanted=0
   [[ $command =~ \#\ exits\ ([0-9]+)$ ]] && wanted=${BASH_REMATCH[1]}

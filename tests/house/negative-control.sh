@@ -1,6 +1,9 @@
 #!/bin/bash
-# A test that must fail does fail: each of these cases is wrong in one way, and run.sh has to notice every one.
+# A test that must fail does fail: each of these cases is wrong in one way, and run.sh has to notice
+# every one.
 set -u
+export LC_ALL=C
+unset CDPATH
 top=$(cd "$(dirname "$0")/../.." && pwd) || exit 2
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT

@@ -1,7 +1,11 @@
 #!/bin/bash
-# What takes more than two seconds says at a terminal how far it is, and wipes that; not what is quick, nor with -q, nor into a file.
+# What takes more than two seconds says at a terminal how far it is, and wipes that; not what is
+# quick, nor with -q, nor into a file.
 set -u
-script -qec 'test -t 2' /dev/null </dev/null >/dev/null 2>&1 || { echo "skipped: no script, or no terminal that it could make" && exit 77; }
+export LC_ALL=C
+unset CDPATH
+script -qec 'test -t 2' /dev/null </dev/null >/dev/null 2>&1 ||
+  { echo "skipped: no terminal could be made (script of package bsdutils)" && exit 77; }
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch" || exit 2
@@ -13,9 +17,11 @@ wipe='>^[K'
 awk 'BEGIN { for (i = 0; i < 100000; i++) printf "%.2f\t%.4f\n", i / 25, 0.5 + sin(i / 1000) / 4 }' >big
 slow_reader='(sleep 4; cat >/dev/null)'
 said=$(at_terminal "smooth big | $slow_reader")
-[[ $said == "${wipe}smooth: big "[1-9]*" %, 2 s$wipe"*"$wipe" ]] || { echo "smooth says '$said'" && wrong=1; }
+[[ $said == "${wipe}smooth: big "[1-9]*" %, 2 s$wipe"*"$wipe" ]] ||
+  { echo "smooth says '$said'" && wrong=1; }
 said=$(at_terminal "smooth <big | $slow_reader")
-[[ $said == *"smooth: standard input "* ]] || { echo "smooth of its standard input says '$said'" && wrong=1; }
+[[ $said == *"smooth: standard input "* ]] ||
+  { echo "smooth of its standard input says '$said'" && wrong=1; }
 silent 'with -q' at_terminal "smooth -q big | $slow_reader"
 silent 'quick' at_terminal 'smooth big >out'
 grep -q __asan_init "$(command -v smooth)" ||  # which needs more memory
@@ -31,7 +37,8 @@ for ((runs = 300; ; runs *= 2)); do
   said=$(at_terminal 'fitpower --each --route position -K 0.5 -R 0.04 runs >out')
   [ "$SECONDS" -lt 4 ] || break
 done
-[[ $said == "${wipe}fitpower: fitting "[0-9]*" %, 2 s$wipe"*"$wipe" ]] || { echo "fitpower of $runs runs says '$said'" && wrong=1; }
+[[ $said == "${wipe}fitpower: fitting "[0-9]*" %, 2 s$wipe"*"$wipe" ]] ||
+  { echo "fitpower of $runs runs says '$said'" && wrong=1; }
 said=$(at_terminal 'fitpower --each --route position -K 0.5 -R 0.04 runs' | head -n 1)  # and its rows on the terminal too
 [[ $said == *"$wipe# a[m]"* ]] || { echo "before its rows fitpower says '$said'" && wrong=1; }
 exit $wrong

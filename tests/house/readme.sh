@@ -17,7 +17,11 @@ examples=0
 inside=0
 command=''
 : >"$scratch/new"
-absent() { [[ $command == *gnuplot* ]] && ! command -v gnuplot >/dev/null; }  # what it prints is left as it is
+# An example that draws: where there is no gnuplot, what it prints is left as it is.
+absent() {
+  [[ $command == *gnuplot* || $command == *figures/* || $command == *samples/lab* ]] &&
+    ! command -v gnuplot >/dev/null
+}
 run() {  # the command collected so far, if any
   [ -n "$command" ] || return 0
   if absent; then command=''; return; fi

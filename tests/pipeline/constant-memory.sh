@@ -1,6 +1,8 @@
 #!/bin/bash
 # A million rows through each filter in the memory of a window: 24 MiB of address space, libraries included.
 set -eu
+export LC_ALL=C
+unset CDPATH
 if grep -q __asan_init bin/smooth; then echo 'skipped: a sanitizer takes more than these tools'; exit 77; fi
 rows() { awk 'BEGIN { for (i = 0; i < 1000000; i++) printf "%.2f\t%.4f\t%.5f\n", i / 25, 0.5 + sin(i / 1000) / 4, 1e-3 }'; }
 check() {  # NAME COMMAND...

@@ -3,6 +3,8 @@
 # the command that its table names. Prints the table of the equations with the largest relative
 # difference of their two sides over the run; 1e-12 and more is a failure.
 set -u
+export LC_ALL=C
+unset CDPATH
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 wrong=0
@@ -124,7 +126,8 @@ while read -r tool column; do
     grep -qx "$column" || { echo "rolling-motion(7): $tool does not print $column" && wrong=1; }
 done < <(sed -n '/^\.Ss Symbols/,/^\.El/p' man/rolling-motion.7 |
   sed -nE 's/^\.It .* Ta ([a-z-]+ [A-Za-z0-9_]+)$/\1/p')
-[ "$symbols" -ge 30 ] || { echo "only $symbols symbols in the table of rolling-motion(7)" && wrong=1; }
+[ "$symbols" -ge 30 ] ||
+  { echo "only $symbols symbols in the table of rolling-motion(7)" && wrong=1; }
 
 # And the commands of its table of equations.
 commands=0

@@ -1,10 +1,14 @@
 #!/bin/bash
-# The figures say what the tools say: each script draws, in silence, a well-formed picture; the arrows of Fig. 5 are as wide as the
-# powers of energy-ledger and labelled with them; the bands of Fig. 4 lie about their laws by 1.96 standard errors; Figs. 2 and 3
-# have the forces and velocities of the equations, to scale; the sum in energy stays; the report has them all in it; and make builds
-# for a figure no more than it needs.
+# The figures say what the tools say: each script draws, in silence, a well-formed picture; the
+# arrows of Fig. 5 are as wide as the powers of energy-ledger and labelled with them; the bands of
+# Fig. 4 lie about their laws by 1.96 standard errors; Figs. 2 and 3 have the forces and velocities
+# of the equations, to scale; the sum in energy stays; the report has them all in it; and make
+# builds for a figure no more than it needs.
 set -eu
-command -v gnuplot >/dev/null || { echo "skipped: gnuplot is not installed"; exit 77; }
+export LC_ALL=C
+unset CDPATH
+command -v gnuplot >/dev/null ||
+  { echo "skipped: no gnuplot; make setup check installs it"; exit 77; }
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 wrong=0
@@ -14,34 +18,42 @@ parser() { python3 -c 'import xml.dom.minidom' 2>/dev/null; }  # whether there i
 
 # draw NAME [INSTANT]: the picture, and its texts, a line each.
 draw() {
-  "samples/figures/$1.sh" svg "${@:2}" >"$scratch/$1.svg" 2>"$scratch/said" || complain "$1: exit $?"
+  "samples/figures/$1.sh" "${@:2}" >"$scratch/$1.svg" 2>"$scratch/said" || complain "$1: exit $?"
   [ ! -s "$scratch/said" ] || { complain "$1 says:"; cat "$scratch/said"; }
   tr -d '\n\t' <"$scratch/$1.svg" | sed 's|<title>[^<]*</title>||g; s|</text>|\n|g' |
     sed 's/<[^>]*>//g; s/^ *//; s/ *$//; s/−/-/g' >"$scratch/$1.text"
 }
 has() {  # NAME TEXT...
   local name=$1 text
-  for text in "${@:2}"; do grep -qxF -e "$text" "$scratch/$name.text" || complain "$name: no '$text'"; done
+  for text in "${@:2}"; do grep -qxF -e "$text" "$scratch/$name.text" ||
+    complain "$name: no '$text'"; done
 }
 
 for script in samples/figures/*.sh; do
   name=$(basename "$script" .sh)
-  [ "$name" != common ] || continue
+  [ "$name" != draw ] || continue
   draw "$name"
   grep -q '^</svg>' "$scratch/$name.svg" || complain "$name: no end"
   if parser; then
-    python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' "$scratch/$name.svg" || complain "$name: not well-formed"
+    python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' "$scratch/$name.svg" ||
+      complain "$name: not well-formed"
   fi
 done
-samples/figures/fig2.sh pngcairo | head -c 8 | cmp -s - <(printf '\211PNG\r\n\032\n') || complain "fig2: no PNG"
+samples/figures/fig2.sh -t pngcairo | head -c 8 | cmp -s - <(printf '\211PNG\r\n\032\n') ||
+  complain "fig2: no PNG"
 has fig1 'velocity v / (m/s)' 'time t / s' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt' 'C, fitted trajectory' \
   'before smoothing'
-has fig1-stop 'velocity v / (mm/s)' 'distance from rest / mm' 'fitted law with a memory of 0.5 mm'
-has fig4 'velocity v / (m/s)' 'shift D / mm' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt'
-has energy 'energy / J' 'time t / s' translational rotational dissipated sum
+has fig1-stop 'velocity v / (mm/s)' 'distance from rest / mm' \
+  'with a memory of 0.5 mm (given, not fitted)'
+has fig4 'velocity v / (m/s)' 'shift D / mm' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt' \
+  'Bands: 95 % confidence of the law, not of the points.' \
+  'Points: the free roll, less five records at each end.'
+has energy 'energy / J' 'time t / s' translational rotational dissipated sum \
+  'points: measured velocities' 'lines: fitted trajectory'
 
-# Figs. 2 and 3 by the equations, from a, b, K, R, m of the scene and v = 0.5 m/s: the numbers that they say, and where the tips of
-# their arrows are, by the lower left corner of each panel in pixels and in millimetres, and its scale.
+# Figs. 2 and 3 by the equations, from a, b, K, R, m of the scene and v = 0.5 m/s: the numbers that
+# they say, and where the tips of their arrows are, by the lower left corner of each panel in pixels
+# and in millimetres, and its scale.
 awk 'function say(text, x) { printf "%s\n", sprintf(text, x) }
   function tip(figure, height, left, bottom, x0, y0, scale, x, y) {
     printf "%d tip %.3f %.3f\n", figure, left + (x - x0) * scale, height - bottom - (y - y0) * scale }
@@ -77,9 +89,11 @@ while read -r figure text; do
     *) has "fig$figure" "$text" ;;
   esac
 done <"$scratch/geometry"
-[ "$(wc -l <"$scratch/geometry")" = 18 ] || complain "the geometry has $(wc -l <"$scratch/geometry") lines"
+[ "$(wc -l <"$scratch/geometry")" = 18 ] ||
+  complain "the geometry has $(wc -l <"$scratch/geometry") lines"
 
-# Fig. 5 at its own instant and at another: label after label, and the widths of the shafts in the order in which they are drawn.
+# Fig. 5 at its own instant and at another: label after label, and the widths of the shafts in the
+# order in which they are drawn.
 for instant in 0.5 1.5; do
   draw fig5 "$instant"
   echo "$instant" | simulate --scene samples/CR.toml --exact --at - | energy-ledger --scene samples/CR.toml --exact >"$scratch/row"
@@ -94,16 +108,20 @@ for instant in 0.5 1.5; do
       for (i = 1; i <= NF; i++) is[name[i]] = $i
       is["trans"] = -1.375 * is["v"] * is["a"]; is["rot"] = is["trans"] / 2; next }
     FILENAME ~ /text$/ {
-      if (before ~ /^(P[TR][12]|IE2)$/) { key = before; sub(/E/, "_E", key); sub(/^P/, "P_", key); compare(before, $1, is[key]) }
-      if (before == "Pdiss = IE1 + IE2") compare("P_diss", $2, is["P_diss"])
-      if (/^IE1 = /) compare("I_E1", $3 / 1e3, is["I_E1"])
-      if (before ~ / J$/ && / W$/ && !stored++) { compare("what E_trans gives", $1, is["trans"]) }
+      if (before ~ /^(P[TR][12]|IE2)$/) { key = before; sub(/E/, "_E", key); sub(/^P/, "P_", key)
+        compare(before, $1 / 1e3, is[key]) }
+      if (before == "Pdiss = IE1 + IE2") compare("P_diss", $2 / 1e3, is["P_diss"])
+      if (/^IE1 = /) compare("I_E1", 100 * $3, int(1e5 * is["I_E1"] + 0.5))  # mW, two decimals
+      if (before ~ / J$/ && /^[0-9.]+$/ && !stored++) {
+        compare("what E_trans gives", $1 / 1e3, is["trans"])
+      }
+      if (/^ΠS = /) compare("Pi_S", 100 * $5, int(1e5 * is["P_diss"] / 293 + 0.5))
       before = $0; next }
     { split($1, first, ","); split($7, last, ","); width[FNR] = sqrt((first[1] - last[1])^2 + (first[2] - last[2])^2) }
     END {
       split("P_T1 P_R2 I_E2 trans rot P_diss", drawn, " ")
       for (i = 1; i <= 5; i++) compare("the width of " drawn[i], width[i] / width[6], is[drawn[i]] / is["P_diss"])
-      if (checks != 13) { print "fig5: " checks " of 13 numbers found"; bad = 1 }
+      if (checks != 14) { print "fig5: " checks " of 14 numbers found"; bad = 1 }
       exit bad }' "$scratch/row" "$scratch/fig5.text" "$scratch/shafts" || wrong=1
 done
 
@@ -141,7 +159,27 @@ for run in CR:0.5 SR:0.83 CF:0.5 SF:0.83; do
       exit bad || checks != 2 }' "$scratch/law" "$scratch/band" "$scratch/line" || complain "fig4: $run"
 done
 
-# The stop: in the upper panel, from -22 to 110 mm/s, the law alone ends at 0, and with memory the lowest velocity is simulate's.
+# Records of somebody's own: a picture of speeds alone, in another unit and under a name that is no
+# code, has the law of the route by D through the speeds as they are.
+sed 's/Time (s),.*/Time (s),Velocity (km\/h)/; 2,$s/,.*,\(.*\)/,\1/' samples/CR.csv |
+  awk -F, -v OFS=, 'NR > 1 && $2 != "" { $2 *= 3.6 } { print }' >"$scratch/my_'run'; set label.1.csv"
+(cd "$scratch" && "$OLDPWD/samples/figures/fig4.sh" -K 0.5 -R 0.04 "my_'run'; set label.1.csv") \
+  >"$scratch/own.svg" || complain "fig4 of an own record: exit $?"
+smooth -q --coast -c v -w 11 "$scratch/my_'run'; set label.1.csv" | differentiate -c v |
+  shift-from-accel -q -K 0.5 -R 0.04 | fitpower -q | tail -n 1 >"$scratch/law"
+sed -n 's/.*>\(my_.*\)<.text>.*/\1/p' "$scratch/own.svg" | grep -qxF "my_&#39;run&#39;; set label.1" ||
+  grep -qF "my_'run'; set label.1" "$scratch/own.svg" ||
+    complain "own record: its name is not there"
+part own 3 | grep -oE '[0-9.]+,[0-9.]+' | tr ',' ' ' | awk -v frame="$(axes own)" '
+  BEGIN { split(frame, f, " ") }
+  FNR == NR { a = $1; b = $3; next }
+  { if (!n++) { x0 = $1; y0 = $2 } x1 = $1; y1 = $2 }
+  END {  # from 4 % to the whole of the axis the law grows by 25^b
+    grows = (f[4] - y1) / (f[4] - y0); wide = (x1 - f[1]) / (x0 - f[1])
+    exit !(n > 50 && (grows / wide^b - 1)^2 < 1e-4) }' "$scratch/law" - || complain "own record: its law"
+
+# The stop: in the upper panel, from -22 to 110 mm/s, the law alone ends at 0, and with memory the
+# lowest velocity is simulate's.
 smooth -q --coast -c x -w 1 samples/CR.csv | fitpower -q --route position -K 0.5 -R 0.04 >"$scratch/fit"
 back=$(simulate --law "$scratch/fit" -K 0.5 -R 0.04 --until 4 --dt 0.005 --columns v --memory 5e-4 --damping 0.02 |
   awk '!/^#/ && $1 < least { least = $1 } END { print least }')
@@ -158,7 +196,8 @@ awk -v law="$(lowest 3a)" -v memory="$(lowest 2a)" -v back="$back" -v top="$top"
     if (!(back < -2e-3 && v(law)^2 < pixel^2 && (v(memory) - back)^2 < pixel^2)) {
       print "fig1-stop: lowest", v(law), v(memory), "instead of 0 and", back; exit 1 } }' || wrong=1
 
-# energy: the line of the sum is level within a pixel in 500, its points within 3 %; what is dissipated ends there.
+# energy: the line of the sum is level within a pixel in 500, its points within 3 %; what is
+# dissipated ends there.
 heights() { part energy "$2" | grep -oE "$3[0-9.]+,[0-9.]+" | sed "s/.*,/$1 /"; }
 read -r _ _ _ bottom _ < <(axes energy)
 { heights line 4 '[ML]'; heights point 8 'translate.'; heights dissipated 3 '[ML]'; } | awk -v bottom="$bottom" '
@@ -170,7 +209,8 @@ read -r _ _ _ bottom _ < <(axes energy)
       print "energy: sum", sum, high["line"], "points", low["point"], high["point"], "dissipated", last["dissipated"]; bad = 1 }
     exit bad }' || wrong=1
 
-# The report: one well-formed page that loads nothing, each name in it once, the figures, and every number of table1.sh.
+# The report: one well-formed page that loads nothing, each name in it once, the figures, and every
+# number of table1.sh.
 samples/report.sh "$scratch" >"$scratch/report.html" 2>"$scratch/said" || complain "report: exit $?"
 [ ! -s "$scratch/said" ] || { complain "report says:"; cat "$scratch/said"; }
 if parser; then
@@ -183,7 +223,7 @@ wrong = [f"{n} times id {i}" for i, n in names.items() if n > 1]
 for e in elements:
     for attribute in ("src", "href", "xlink:href", "data"):
         to = e.getAttribute(attribute)
-        if to and not (to.startswith("#") and to[1:] in names):
+        if to and to != "#_" and not (to.startswith("#") and to[1:] in names):
             wrong.append(f"{e.tagName} refers to {to}")
 wrong += [f"no svg in {f}" for f in ("fig1", "fig1-stop", "fig2", "fig3", "fig4", "fig5", "energy")
           if not any(e.getElementsByTagName("svg") for e in elements if e.getAttribute("id") == f and e.tagName == "figure")]
@@ -197,19 +237,22 @@ samples/table1.sh | grep '^  ' | grep -oE '[-+]?[0-9]+[.][0-9]+' | sort -u >"$sc
 missing=$(comm -23 "$scratch/in-table" "$scratch/in-page")
 [ -z "$missing" ] || complain "report: not in the page:" $missing
 
-# The README shows Fig. 4 as this gnuplot, if it is the same one, draws it today.
-if grep -q "GNUPLOT $(gnuplot --version | sed -E 's/^gnuplot ([0-9.]+) .*/\1/') " samples/fig4.svg; then
-  diff <(grep -v '<desc>' samples/fig4.svg) <(grep -v '<desc>' "$scratch/fig4.svg") >/dev/null ||
-    complain "samples/fig4.svg is not what samples/figures/fig4.sh draws: make figures/fig4.svg && cp figures/fig4.svg samples"
-fi
+# The README shows Fig. 4 and the picture of its first example as this gnuplot, if it is the same one,
+# draws them today.
+grep -qF 'cut -d , -f 1,3 samples/CR.csv >run.csv' README.md || complain 'README: no run.csv'
+cut -d , -f 1,3 samples/CR.csv >"$scratch/run.csv"
+samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/run.csv" >"$scratch/run.svg"
+for picture in fig4 run; do
+  drawn_by=$(grep -o 'GNUPLOT [0-9.]*' "samples/$picture.svg")
+  [ "$drawn_by" = "GNUPLOT $(gnuplot --version | cut -d ' ' -f 2)" ] || continue
+  diff <(grep -v '<desc>' "samples/$picture.svg") <(grep -v '<desc>' "$scratch/$picture.svg") >/dev/null ||
+    complain "samples/$picture.svg is not what samples/figures/fig4.sh draws: see $0"
+done
 
-# What make would do: Fig. 5 needs two tools; gnuplot is installed for figures and the report, not for Table 1.
+# What make would do: Fig. 5 needs two tools.
 needs() { make -nB "$1" 2>/dev/null | grep -oE -e '-o bin/[a-z-]+' | sort | tr -d '\n'; }
-[ "$(needs figures/fig5.svg)" = '-o bin/energy-ledger-o bin/simulate' ] || complain "fig5.svg needs $(needs figures/fig5.svg)"
+[ "$(needs figures/fig5.svg)" = '-o bin/energy-ledger-o bin/simulate' ] ||
+  complain "fig5.svg needs $(needs figures/fig5.svg)"
 [ "$(needs figures/fig4.png)" = '-o bin/differentiate-o bin/fitpower-o bin/shift-from-accel-o bin/smooth' ] ||
   complain "fig4.png needs $(needs figures/fig4.png)"
-for goal in figures figures/fig4.svg report; do
-  make -n setup "$goal" 2>/dev/null | grep -q gnuplot-nox || complain "make setup $goal does not install gnuplot"
-done
-if make -n setup table1 2>/dev/null | grep -q gnuplot-nox; then complain "make setup table1 installs gnuplot"; fi
 exit $wrong

@@ -2,6 +2,8 @@
 # Simulated records of many seeds, through the whole chain: a and b come back within the errors that fitpower reports.
 # Of 40 runs with honest 95 % intervals fewer than 33 hits have a chance of 1 in 700; two normal scores beyond 5, of 1 in a million.
 set -eu
+export LC_ALL=C
+unset CDPATH
 record() { simulate --scene "samples/$1.toml" --memory 5e-4 --damping 0.02 --sensor pasco --seed "$2" | smooth -q --coast -c x -w 1; }
 by_position() { record "$1" "$2" | fitpower -q --route position -K 0.5 -R 0.04; }
 by_shift() { record "$1" "$2" | differentiate -c x | smooth -w 11 | differentiate | shift-from-accel -K 0.5 -R 0.04 | fitpower -q; }

@@ -2,8 +2,11 @@
 # PASCO's own velocities and accelerations come out of differentiate -M pasco within the rounding of the file: positions to
 # 0.01 m and velocities to 0.01 m/s at 50 Hz, so 4 * 0.005 / (6 * 0.02) and the last digit of the result.
 set -eu
+export LC_ALL=C
+unset CDPATH
 file="${REAL_DATA:-}/falling-coffee-filters/data_for_coffee.csv"
-[ -r "$file" ] || { echo "skipped: REAL_DATA has no falling-coffee-filters"; exit 77; }
+[ -r "$file" ] ||
+  { echo "skipped: REAL_DATA names no folder with falling-coffee-filters; see tests/recordings.md"; exit 77; }
 check() {  # COLUMN, the field that holds what is in the file, RUN, the first row inside
   # the new column is the last one; what has fewer fields is padding of the file
   differentiate -q -M pasco -c "$1" --run "$3" "$file" | awk -F'\t' -v of="$1 run $3" -v field="$2" -v first="$4" '

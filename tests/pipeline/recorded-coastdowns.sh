@@ -2,8 +2,11 @@
 # Four coast-downs that others recorded: which law is adequate, with what errors. What is checked does not come from the fit that it
 # checks: another route, a figure of the record's owners, or the reckoning of the way.
 set -eu
+export LC_ALL=C
+unset CDPATH
 data=${REAL_DATA:-}
-[ -r "$data/kart-coastdown-1hz/Michelin60A.csv" ] || { echo "skipped: REAL_DATA is not set, or has no kart-coastdown-1hz"; exit 77; }
+[ -r "$data/kart-coastdown-1hz/Michelin60A.csv" ] ||
+  { echo "skipped: REAL_DATA names no folder with kart-coastdown-1hz; see tests/recordings.md"; exit 77; }
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 wrong=0
@@ -20,7 +23,8 @@ fit kart --route velocity -K 0 -R 0.15 "$scratch/kart"
 { shifts A | fitpower -q; kart A | fitpower -q --route velocity -K 0 -R 0.15; } |
   awk '!/^#/ { b[++n] = $3; s[n] = $4 } END { d = b[1] - b[2]; exit !(n == 2 && d * d < 9 * (s[1]^2 + s[2]^2)) }' || complain "kart: the routes do not agree"
 for way in A B; do shifts $way | energy-ledger -m 76 -K 0 -R 0.15 --summary --check 0.01 >/dev/null || complain "kart $way: the balance does not close"; done
-grep -q 'v^b is adequate' "$scratch/kart.report" || complain "kart: the law of the trajectory is not adequate"
+grep -q 'v^b is adequate' "$scratch/kart.report" ||
+  complain "kart: the law of the trajectory is not adequate"
 
 # Flywheel: rpm and ms; R = g = 1, so D is the angular deceleration in rad/s^2. Every 50th record; a gap of 1.8 s.
 awk 'NF == 9 { t = ($6 - 783072) / 1000; if (n && t <= last) next; last = t; if (n++ % 50 == 0) print t, $4 * 0.1047197551 }' \
@@ -34,7 +38,8 @@ row "$scratch/wheel.row" | { read -r a _ b _ _ _ _ v0 _; awk -v a="$a" -v b="$b"
 # Down to the stop it is no power law: dry friction in the bearings holds the wheel to the end, where a v^b fades away. The law
 # stops late; over the last 16 s the record slows down much more than the law has it; the quadratic law is the better one.
 fit whole --route velocity -K 0 -R 1 -g 1 "$scratch/wheel"
-grep -q 'd2 v^2 0.0; .*v^b is not adequate' "$scratch/whole.report" || complain "wheel: down to its stop a power law is said to be adequate"
+grep -q 'd2 v^2 0.0; .*v^b is not adequate' "$scratch/whole.report" ||
+  complain "wheel: down to its stop a power law is said to be adequate"
 row "$scratch/whole.row" | { read -r a _ b _ _ _ _ v0 _; awk -v a="$a" -v b="$b" -v v0="$v0" '
   $2 > 0 { stop = $1 } $1 > 241 && !slow { slow = $1; w = $2 }
   END { law = v0^(1 - b) / ((1 - b) * a); last = w / (stop - slow); at_half = a * (w / 2)^b
@@ -44,7 +49,8 @@ row "$scratch/whole.row" | { read -r a _ b _ _ _ _ v0 _; awk -v a="$a" -v b="$b"
 # Small car: 500 Hz, rpm of a wheel of 0.5842 m, from the top of the spin-up. Its brake grows as it slows: no power law.
 awk -F '\t' 'NR > 1 && $1 >= 9.6 && ++n % 10 == 1 { print $1, $8 / 60 * 3.14159265 * 0.5842 }' "$data/small-car-coastdown/RR-Coastdown-1.txt" >"$scratch/car"
 fit car --route velocity -K 0 -R 0.2921 "$scratch/car"
-grep -q 'v^b is not adequate' "$scratch/car.report" || complain "car: a law is said to be adequate that is not"
+grep -q 'v^b is not adequate' "$scratch/car.report" ||
+  complain "car: a law is said to be adequate that is not"
 awk '{ t = $1; v = $2; if (v > 10 && !high) high = t; if (v > 10) fast = t; if (v > 4) mid = t; if (v > 1) slow = t } END { exit !(6 / (mid - fast) < 3 / (slow - mid)) }' "$scratch/car" ||
   complain "car: it does not brake harder when it is slow"
 
@@ -57,7 +63,8 @@ grep -q 'do not determine b' "$scratch/refusal" || complain "sphere: $(cat "$scr
 awk '$1 >= 0.2' "$scratch/sphere" >"$scratch/roll"
 fit sphere --route position -K 0.4 -R 0.0075 "$scratch/roll"
 row "$scratch/sphere.row" | awk '{ exit !($4 > 0.04 && $3 > 2 * $4 && $6 < 0.000307 && $7 == 43) }' || complain "sphere: b, or the roll is not known to a pixel"
-grep -q 'v^b 0.8; d0 8.0; d0 + d1 v 0.0; .*v^b is adequate' "$scratch/sphere.report" || complain "sphere: the laws"
+grep -q 'v^b 0.8; d0 8.0; d0 + d1 v 0.0; .*v^b is adequate' "$scratch/sphere.report" ||
+  complain "sphere: the laws"
 awk '$1 < 0.34' "$scratch/roll" | fitpower -q --route position -K 0.4 -R 0.0075 >"$scratch/early"
 simulate --law "$scratch/early" -K 0.4 -R 0.0075 --dt 0.01 --columns t,x | tail -n 1 | { read -r stop way; awk -v stop="$stop" -v way="$way" '
   NR == 1 { start = $2 } $1 > 0.37 { rest += $2; n++ }

@@ -2,8 +2,11 @@
 # Files that motion programs and other people wrote, read as they are or after one line of sed or awk: records, runs, and what
 # can be checked in each.
 set -u
+export LC_ALL=C
+unset CDPATH
 data=${REAL_DATA:-}
-[ -d "$data/cart-vernier" ] || { echo "skipped: REAL_DATA names no recorded files"; exit 77; }
+[ -d "$data/cart-vernier" ] ||
+  { echo "skipped: REAL_DATA names no folder of recordings; see tests/recordings.md"; exit 77; }
 failed=0
 
 # expect FIGURES COMMAND...: the records of each run that the command prints
@@ -58,7 +61,8 @@ expect 3752 differentiate -c x "$data/ball-on-curved-track/P1100902-data.csv"
 pucks=$data/air-table-pucks/ResultatKollisjon1.txt
 refuse "10 fields under a line of 5 names; if some of its commas are decimal ones, make them points first" smooth "$pucks"
 [ "$(sed -E 's/([0-9]),([0-9]{6}E)/\1.\2/g; s/−/-/g' "$pucks" | smooth -q -w 1 --use t=1 --use v=2 | awk '!/^#/ { print $1 + 0, $2 + 0, $3 + 0 }' | md5sum)" = \
-  "$(awk -F ';' '{ print $1 + 0, $2 + 0, $3 + 0 }' "${pucks%.txt}.csv" | md5sum)" ] || { echo "$pucks: not the authors' numbers"; failed=1; }
+  "$(awk -F ';' '{ print $1 + 0, $2 + 0, $3 + 0 }' "${pucks%.txt}.csv" | md5sum)" ] ||
+    { echo "$pucks: not the authors' numbers"; failed=1; }
 
 # Columns without names: km/h once a second; microseconds; milliseconds and rpm behind a line that is cut off.
 kart() { awk '{ print NR - 1, $1 / 3.6 }' "$data/kart-coastdown-1hz/Michelin60$1.csv" | energy-ledger -m 76 -K 0 -R 0.15 -a 1e-3 -b 0; }

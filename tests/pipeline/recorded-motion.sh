@@ -2,8 +2,11 @@
 # What eight recordings of others say about the motion in them, each against something that the reading did not use: a law of
 # physics, a second sensor, a figure of the record's owners. What is measured is printed; each line must stay within its bounds.
 set -u
+export LC_ALL=C
+unset CDPATH
 data=${REAL_DATA:-}
-[ -d "$data/cart-push-smartphone" ] || { echo "skipped: REAL_DATA names no recorded files"; exit 77; }
+[ -d "$data/cart-push-smartphone" ] ||
+  { echo "skipped: REAL_DATA names no folder of recordings; see tests/recordings.md"; exit 77; }
 scratch=$(mktemp)
 trap 'rm -f "$scratch"' EXIT
 wrong=0

@@ -1,6 +1,8 @@
 #!/bin/bash
 # `make samples` makes the raw records again byte for byte.
 set -eu
+export LC_ALL=C
+unset CDPATH
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 make -n samples | grep '^bin/simulate' >"$scratch/recipe"

@@ -2,6 +2,8 @@
 # The shape factor comes back from made records with the error that is told, over 25 seeds of two
 # bodies; a caliper that is read wrong is noticed; and what is printed serves as -K.
 set -u
+export LC_ALL=C
+unset CDPATH
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 samples/shape-factor.sh >"$scratch/out" || { echo "samples/shape-factor.sh fails"; exit 1; }

@@ -16,7 +16,7 @@ TEST_CASE(
   const Body body{1.375, 0.04, 0.83};
   const double D = 5.75e-4, v0 = 0.5, deceleration = body.g * D / ((body.K + 1) * body.R),
                stop = v0 / deceleration;
-  Balance balance;
+  Balance balance(body);
   for (int i = 0; i <= 37; ++i) {
     const double t = stop * i / 37;
     balance.push(t, Ledger(body, Geometry::approximate, v0 - deceleration * t, D));
@@ -30,7 +30,7 @@ TEST_CASE(
 TEST_CASE("a shift that is a tenth too large leaves a closure of a tenth", "[contact]") {
   const Body body{2, 0.1, 0.5};
   const double D = 1e-3, deceleration = body.g * D / (1.5 * body.R);
-  Balance balance;
+  Balance balance(body);
   for (int i = 0; i <= 10; ++i)
     balance.push(0.1 * i, Ledger(body, Geometry::approximate, 1 - deceleration * 0.1 * i, 1.1 * D));
   CHECK(std::abs(balance.closure() - 0.1) <= 1e-12);
@@ -43,7 +43,7 @@ TEST_CASE("in the exact geometry the loss of a constant shift is its force's own
   const Body body{1, 0.04, 0.5};
   const double D = 0.03, A = std::sqrt(1 - D * D / (body.R * body.R)),
                deceleration = body.g * D / ((body.K + A) * body.R);
-  Balance balance;
+  Balance balance(body);
   for (int i = 0; i <= 4; ++i)
     balance.push(0.01 * i, Ledger(body, Geometry::exact, 1 - deceleration * 0.01 * i, D));
   CHECK(std::abs(balance.closure()) <= 1e-12);
@@ -51,7 +51,7 @@ TEST_CASE("in the exact geometry the loss of a constant shift is its force's own
 
 TEST_CASE("a run whose energy does not change has no closure", "[contact]") {
   const Body body{1, 0.04, 0.5};
-  Balance balance;
+  Balance balance(body);
   const Ledger now(body, Geometry::approximate, 0.5, 1e-3);
   balance.push(0, now);
   CHECK_THROWS_AS(balance.closure(), Error);
@@ -66,7 +66,7 @@ TEST_CASE("on a slope the work of gravity is an entry of the balance", "[contact
     for (const double slope : {0.05, -0.003}) {
       const Body body{1.375, 0.04, 0.83, 9.81, slope};
       const double D = 1e-3, a = acceleration_from_shift(body, geometry, D), v0 = 0.5, T = 0.7;
-      Balance balance;
+      Balance balance(body);
       for (int i = 0; i <= 7; ++i)
         balance.push(T * i / 7, Ledger(body, geometry, v0 + a * T * i / 7, D));
       const double x = v0 * T + a * T * T / 2,
@@ -76,7 +76,7 @@ TEST_CASE("on a slope the work of gravity is an entry of the balance", "[contact
       CHECK(balance.imbalance() <= 1e-12);
       // Whoever does not know of the slope finds that it does not close.
       const Body level{1.375, 0.04, 0.83};
-      Balance untold;
+      Balance untold(level);
       for (int i = 0; i <= 7; ++i)
         untold.push(T * i / 7, Ledger(level, geometry, v0 + a * T * i / 7, D));
       CHECK(std::abs(untold.closure()) > 0.05);
@@ -88,7 +88,7 @@ TEST_CASE("an exponent that is wrong meets the closure and not the balance at ev
   // The coefficient of b = 0 that dissipates as much as the true law over the whole run.
   const Body body{1.375, 0.04, 0.5};
   ClosedForm roll(body, {1.87e-3, 0.215}, 0.5, 0);
-  Balance balance;
+  Balance balance(body);
   for (int i = 0; i <= 240; ++i) {
     const double t = i == 240 ? roll.stop_time() : 0.01 * i;
     roll.seek(t);
@@ -106,7 +106,7 @@ TEST_CASE("a right law does not fail by the quadrature", "[contact]") {
   for (const double b : {0.0, 0.0244, 0.215, 0.5, 0.8})
     for (const double dt : {0.01, 0.04, 0.1}) {
       ClosedForm roll(body, {1.87e-3, b}, 0.5, 0);
-      Balance balance;
+      Balance balance(body);
       const double T = std::min(roll.stop_time(), 6.0);
       for (int i = 0; i * dt < T; ++i) {
         roll.seek(i * dt);

@@ -22,7 +22,7 @@ double integral_of_sine(int n) {  // of sin(t) from 0 to 2: 1 - cos 2
 /// What the last of three samples adds: the parabola through them over the last step.
 double last_part(double t0, double y0, double t1, double y1, double t2, double y2) {
   const double h = t2 - t1, k = t1 - t0;
-  return 0.5 * h * (y2 + y1) - ((y2 - y1) / h - (y1 - y0) / k) / (h + k) * h * h * h / 6;
+  return 0.5 * h * (y2 + y1) - h * h / (6 * (h + k) * k) * ((y2 - y1) * k - (y1 - y0) * h);
 }
 
 }  // namespace

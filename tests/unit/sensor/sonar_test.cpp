@@ -16,9 +16,15 @@ namespace {
 
 ClosedForm roll() { return {{1.375, 0.04, 0.5}, {1.87e-3, 0.215}, 0.5, 7}; }
 
+std::vector<SonarSample> record(Motion& motion, const SonarOptions& options) {
+  std::vector<SonarSample> samples;
+  sonar_record(motion, options, [&](const SonarSample& sample) { samples.push_back(sample); });
+  return samples;
+}
+
 std::vector<SonarSample> record(const SonarOptions& options) {
   ClosedForm motion = roll();
-  return sonar_record(motion, options);
+  return record(motion, options);
 }
 
 SonarOptions perfect() {
@@ -145,9 +151,15 @@ TEST_CASE("sonar: until, never stopping, at rest all the time, refusals", "[sens
   CHECK(std::abs(record(options).back().t - 2.5) < 0.04);
   ClosedForm never({1.375, 0.04, 0.5}, {1.87e-3, 1.5}, 0.5, 0),
       still({1.375, 0.04, 0.5}, {1.87e-3, 0.2}, 0, 0);
-  CHECK_THROWS_AS(sonar_record(never, {}), Error);
-  CHECK(std::abs(sonar_record(never, options).back().t - 2.5) < 0.04);
-  for (const auto& s : sonar_record(still, perfect())) CHECK(s.x == 0.3);
+  SonarOptions beyond;  // the stop
+  beyond.until = 10;
+  CHECK(std::abs(record(beyond).back().t - 11.5) < 0.04);
+  SonarOptions endless;
+  endless.rate = 1e9, endless.until = 1e9;
+  CHECK_THROWS_AS(record(endless), Error);
+  CHECK_THROWS_AS(record(never, {}), Error);
+  CHECK(std::abs(record(never, options).back().t - 2.5) < 0.04);
+  for (const auto& s : record(still, perfect())) CHECK(s.x == 0.3);
   const auto refused = [](auto&& change) {
     SonarOptions bad;
     change(bad);

@@ -76,21 +76,21 @@ Projection projection(const Series& t, const Series& y, std::size_t at, std::siz
   Projection result;
   for (std::size_t k = 0; k <= order; ++k) {
     Long p(n, 1);
-    long double slope = 0;
+    long double steep = 0;
     if (k > 0) {
       for (std::size_t j = 0; j < n; ++j)
         p[j] = (static_cast<long double>(t[j]) - t[at]) / scale * basis[k - 1][j];
-      slope = basis[k - 1][at] / scale;
+      steep = basis[k - 1][at] / scale;
     }
     for (int round = 0; round < 2; ++round)
       for (std::size_t m = 0; m < k; ++m) {
         const long double c = dot(p, basis[m]);
         for (std::size_t j = 0; j < n; ++j) p[j] -= c * basis[m][j];
-        slope -= c * slopes[m];
+        steep -= c * slopes[m];
       }
     const long double size = std::sqrt(dot(p, p));
     for (long double& x : p) x /= size;
-    slopes.push_back(slope / size);
+    slopes.push_back(steep / size);
     const long double c = dot(p, Long(y.begin(), y.end()));
     result.value += c * p[at], result.slope += c * slopes[k];
     result.value_size += p[at] * p[at], result.slope_size += slopes[k] * slopes[k];

@@ -84,6 +84,8 @@ TEST_CASE("column: each unit against its exact size", "[text]") {
       {"x", "in", 1, 0.0254},     {"x", "ft", 1, 0.3048},     {"v", "m/s", 0.1, 0.1},
       {"v", "mm/s", 1, 0.001},    {"v", "cm/s", 7, 0.07},     {"v", "km/h", 72, 20},
       {"v", "km/h", 3.6, 1},      {"v", "mph", 1, 0.44704},   {"v", "ft/s", 1, 0.3048},
+      {"v", "MPH", 1, 0.44704},   {"v", "Km/h", 72, 20},      {"v", "kph", 72, 20},
+      {"v", "m s^-1", 2, 2},      {"v", "cm*s-1", 7, 0.07},   {"a", "m s^-2", 2, 2},
       {"a", "m/s^2", 9.81, 9.81}, {"a", "m/s/s", 9.81, 9.81}, {"a", "mm/s^2", 1, 0.001},
       {"a", "cm/s^2", 981, 9.81}, {"D", "m", 1e-3, 1e-3},     {"D", "mm", 1.5, 0.0015},
       {"D", "um", 1500, 0.0015},
@@ -126,7 +128,7 @@ TEST_CASE("column: a unit that the quantity cannot have is refused", "[text]") {
           conversion_to_si("t", Column{"t", "fortnight", ""});
         }) ==
         "column 't[fortnight]' cannot serve as t: its unit 'fortnight' is not one of those known "
-        "(s, ...); convert it first");
+        "(s, sec, ms, us, min, h); convert it first");
 }
 
 TEST_CASE("column: the SI unit of each quantity", "[text]") {

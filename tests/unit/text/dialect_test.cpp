@@ -69,10 +69,8 @@ TEST_CASE("dialect: a quote opens where a field begins; elsewhere it is a charac
   CHECK(chosen("5\" pipe,7") == "<5\" pipe><7>");
   CHECK(chosen("a, \"b,c\" ,7") == "<a><b,c><7>");
   CHECK(chosen("\"a\"\"\",\"\",7") == "<a\"><><7>");
-  CHECK(
-      chosen("\"a\" b,\"c\"d\"e,7") ==
-      "no number: <a b><cde,7>");  // what stands behind the closing quote, up to another that opens
-  CHECK(chosen("7,\"open") == "<7><open>");
+  CHECK_THROWS_WITH(chosen("7,\"a\" b"), "field 2: text behind the quote that closes 'a'");
+  CHECK_THROWS_WITH(chosen("7,\"open"), "field 2: a quote that does not end");
 }
 
 TEST_CASE("dialect: a wanted number is that of its field, wherever and however it stands",
@@ -109,8 +107,8 @@ TEST_CASE("dialect: the texts of a long line that do not stand in it all last un
   std::string line = "1,5", expected = "<1.5>";
   CHECK(dialect.choose("0,5;x"));
   for (int i = 0; i < 1000; ++i) {
-    line += ";\"1\"2,5;\"a \"\"b\"\"\";\xE2\x88\x92" + std::to_string(i) + ",25;\"" +
-            std::string(static_cast<std::size_t>(i % 40), '7') + ",\"8";
+    line += ";\"12,5\";\"a \"\"b\"\"\";\xE2\x88\x92" + std::to_string(i) + ",25;\"" +
+            std::string(static_cast<std::size_t>(i % 40), '7') + ",8\"";
     expected += "<12.5><a \"b\"><-" + std::to_string(i) + ".25><" +
                 std::string(static_cast<std::size_t>(i % 40), '7') + ".8>";
   }

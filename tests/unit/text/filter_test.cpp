@@ -9,6 +9,13 @@ using namespace rolling;
 
 namespace {
 
+std::string base_names_as_FILE(std::string text) {
+  const std::string base = temporary_name().substr(temporary_name().rfind('/') + 1);
+  for (auto at = text.find(base); at != std::string::npos; at = text.find(base))
+    text.replace(at, base.size() + 6, "FILE");
+  return text;
+}
+
 /// What a filter prints that replaces v by -v, or appends `columns` of v, 2 v, ..., each record
 /// `late` records late.
 std::string filtered(const std::vector<std::string>& texts, const std::vector<Column>& append,
@@ -17,7 +24,7 @@ std::string filtered(const std::vector<std::string>& texts, const std::vector<Co
   ReaderOptions options;
   for (const std::string& text : texts)
     options.files.push_back(files.emplace_back(std::make_unique<TemporaryFile>(text))->name());
-  return printed([&] {
+  return base_names_as_FILE(printed([&] {
     Reader in(options, {"t", "v"});
     Output out;
     const auto v = in.need("v");
@@ -39,7 +46,7 @@ std::string filtered(const std::vector<std::string>& texts, const std::vector<Co
       while (!waiting.empty()) put();
     }
     out.flush();
-  });
+  }));
 }
 
 const std::vector<Column> one = {{"y", "m", ""}}, two = {{"y", "m", ""}, {"z", "", ""}};
@@ -72,19 +79,23 @@ TEST_CASE("filter: comments keep their place, also after the last record", "[tex
     CHECK(
         filtered({"# by hand\n# t v\n0 1\n# among\n1 2\n# end of run\n\n# between\n0 4\n# last\n"},
                  one, late) ==
-        "# by hand\n## test it\n# t\tv[m/s]\ty[m]\n0\t1\t1\n# among\n1\t2\t2\n# end of run\n\n# "
-        "between\n0\t4\t4\n# last\n");
+        "## run FILE 1\n# by hand\n## test it\n# t\tv[m/s]\ty[m]\n0\t1\t1\n# among\n1\t2\t2\n"
+        "# end of run\n\n## run FILE 2\n# between\n## test it\n# t\tv[m/s]\ty[m]\n0\t4\t4\n"
+        "# last\n");
   }
 }
 
 TEST_CASE("filter: one blank line between runs, none before the first and after the last",
           "[text]") {
   CHECK(filtered({"\n\n0 1\n\n\n\n0 2\n\n\n"}, one) ==
-        "## test it\n# t[s]\tv[m/s]\ty[m]\n0\t1\t1\n\n0\t2\t2\n");
+        "## run FILE 1\n## test it\n# t[s]\tv[m/s]\ty[m]\n0\t1\t1\n\n"
+        "## run FILE 2\n## test it\n# t[s]\tv[m/s]\ty[m]\n0\t2\t2\n");
   CHECK(filtered({"0 1\n", "0 2\n"}, one) ==
-        "## test it\n# t[s]\tv[m/s]\ty[m]\n0\t1\t1\n\n0\t2\t2\n");
+        "## run FILE\n## test it\n# t[s]\tv[m/s]\ty[m]\n0\t1\t1\n\n"
+        "## run FILE\n## test it\n# t[s]\tv[m/s]\ty[m]\n0\t2\t2\n");
   CHECK(filtered({"# t v\n0 NaN\n\n0 2\n\n0 NaN\n\n0 3\n"}, one) ==
-        "## test it\n# t\tv[m/s]\ty[m]\n0\t2\t2\n\n0\t3\t3\n");
+        "## run FILE 2\n## test it\n# t\tv[m/s]\ty[m]\n0\t2\t2\n\n"
+        "## run FILE 4\n## test it\n# t\tv[m/s]\ty[m]\n0\t3\t3\n");
 }
 
 TEST_CASE("filter: the name of a computed column is its own, the old one becomes NAME_in",
@@ -95,9 +106,16 @@ TEST_CASE("filter: the name of a computed column is its own, the old one becomes
         "## test it\n# y_in\tv[m/s]\ty_in_in\ty[m]\n0\t1\t2\t1\n");
 }
 
-TEST_CASE("filter: where the history changes, it says again what it does", "[text]") {
-  CHECK(filtered({"## a b c\n# t v\n0 1\n", "# t v\n0 2\n"}, one) ==
-        "## a b c\n## test it\n# t\tv[m/s]\ty[m]\n0\t1\t1\n\n## test it\n0\t2\t2\n");
+TEST_CASE("filter: each run goes out with its own history, columns and units", "[text]") {
+  CHECK(filtered({"## a b c\n# t v\n0 1\n", "# w v[km/h] t[ms]\n0 36 7\n"}, one) ==
+        "## run FILE\n## a b c\n## test it\n# t\tv[m/s]\ty[m]\n0\t1\t1\n\n"
+        "## run FILE\n## test it\n# w\tv[m/s]\tt[ms]\ty[m]\n0\t10\t7\t10\n");
+}
+
+TEST_CASE("filter: what a run without rows had to say goes before the next one, its history not",
+          "[text]") {
+  CHECK(filtered({"# one\n## a\n# t v\n0 NaN\n# in it\n\n# two\n0 2\n\n# three\n0 NaN\n"}, one) ==
+        "# one\n# in it\n## run FILE 2\n# two\n## test it\n# t\tv[m/s]\ty[m]\n0\t2\t2\n# three\n");
 }
 
 TEST_CASE("filter: a result that is not finite is refused, and its row is not begun", "[text]") {
@@ -142,12 +160,12 @@ TEST_CASE("filter: rows that could not be written are not written later", "[text
           }
           CHECK(message == "standard output: No space left on device");
           out.flush();
-        }) == "## test it\n# t[s]\tv[m/s]\ty\n");
+        }) == "");
 }
 
 TEST_CASE("filter: rows left out before the first run with a history", "[text]") {
   const TemporaryFile file("0 1\n1 2\n# between\n\n0 3\n1 4\n2 5\n");
-  CHECK(printed([&] {
+  CHECK(base_names_as_FILE(printed([&] {
           Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
           Output out;
           const auto v = in.need("v");
@@ -164,7 +182,7 @@ TEST_CASE("filter: rows left out before the first run with a history", "[text]")
           filter.tell("test it");
           filter.next_run();
           out.flush();
-        }) == "## test it\n# t[s]\tv[m/s]\n# between\n0\t30\n2\t50\n");
+        })) == "# between\n## run FILE 2\n## test it\n# t[s]\tv[m/s]\n0\t30\n2\t50\n");
 }
 
 TEST_CASE("filter: no record with all its readings is an error", "[text]") {

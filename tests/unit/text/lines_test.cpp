@@ -39,7 +39,6 @@ TEST_CASE("lines: a quoted field takes its line ends with it, and has the number
 TEST_CASE("lines: a quote that begins no field ends at its line", "[text]") {
   CHECK(lines("5\" wheel\n1\n") == "<1 5\" wheel><2 1>");
   CHECK(lines("\"a\",\"b\"\n1\n") == "<1 \"a\",\"b\"><2 1>");
-  CHECK(lines("he said, \"go\n1\n") == "<1 he said, \"go><2 1>");
   CHECK(lines("# a,\"b\n1\n") == "<1 # a,\"b><2 1>");
   CHECK(lines(" # a,\"b\n1\n") == "<1  # a,\"b><2 1>");  // nor one in a comment
 }
@@ -68,19 +67,22 @@ TEST_CASE("lines: taken from what is there, and counted", "[text]") {
   CHECK(all.ahead().empty());
 }
 
-TEST_CASE("lines: what is kept is read again, as often as asked for", "[text]") {
-  const TemporaryFile file("names\n1\n2\n\"3\n4\"\n");
+TEST_CASE("lines: a line that is put back comes once more", "[text]") {
+  const TemporaryFile file("a\nb\n");
   Lines all(file.name());
   REQUIRE(all.next());
-  REQUIRE(all.next());
-  all.keep();
-  CHECK(all.text() == "1");
-  CHECK(all.number() == 2);
+  all.put_back();
   CHECK(all.ahead().empty());
-  CHECK(rest(all) == "<3 2><4 \"3\n4\">");
-  CHECK_FALSE(all.next());
-  for (int i = 0; i < 2; ++i) {
-    all.again();
-    CHECK(rest(all) == "<2 1><3 2><4 \"3\n4\">");
-  }
+  CHECK(rest(all) == "<1 a><2 b>");
+}
+
+TEST_CASE("lines: what a line is", "[text]") {
+  CHECK(kind_of(" \t ") == LineKind::blank);
+  CHECK(kind_of("") == LineKind::blank);
+  CHECK(kind_of(" # a") == LineKind::comment);
+  CHECK(kind_of("#N/Atlantic") == LineKind::comment);
+  CHECK(kind_of("\t## a") == LineKind::history);
+  CHECK(kind_of("#N/A\t1") == LineKind::record);
+  CHECK(kind_of("#REF!") == LineKind::record);
+  CHECK(kind_of("a # b") == LineKind::record);
 }

@@ -78,3 +78,34 @@ TEST_CASE("output: a full disk is an error, once, and nothing is left to write",
   CHECK(first == "standard output: No space left on device");
   CHECK(second.empty());
 }
+
+TEST_CASE("output: a last line goes behind what has been printed, and only there", "[text]") {
+  CHECK(printed([] {
+          Output out;
+          out.row(std::array{1.0});
+          out.text("half a");
+          out.end_with("## the end");
+        }) == "1\n## the end\n");
+  CHECK(printed([] {
+          Output out;
+          out.text("half a");
+          out.end_with("## the end");
+        }).empty());
+  CHECK(printed([] {
+          Output out;
+          out.row(std::array{1.0});
+          const Redirect full(STDOUT_FILENO, "/dev/full");
+          out.end_with("## the end");  // and does not throw
+        }).empty());
+}
+
+TEST_CASE("output: a cell of text is quoted where it has to be", "[text]") {
+  CHECK(printed([] {
+          Output out;
+          out.cell(1.0);
+          out.cell("a b");
+          out.cell("a\"b");
+          out.end_line();
+          out.flush();
+        }) == "1\ta b\t\"a\"\"b\"\n");
+}

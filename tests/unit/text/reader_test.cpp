@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "unit/text/files.h"
@@ -48,11 +49,10 @@ std::string copies(const std::string& text, ReaderOptions options = {},
   std::string all;
   Reader in(options, {"t", "v"});
   for (const std::string& name : wanted) in.need(name);
-  std::size_t first, last;
   while (in.next_run())
     while (in.next()) {
       all += '<';
-      all += in.text(static_cast<std::size_t>(-1), first, last);
+      all += in.text().line;
       all += '>';
     }
   return all;
@@ -98,7 +98,7 @@ TEST_CASE("reader: names in the last # line before the data", "[text]") {
   CHECK(records({"# made by me\n# on a Monday\n# v t\n5 0\n"}) == "0 5");
   CHECK(records({"# v t\n## smooth v mean width 3\n5 0\n"}) == "0 5");
   CHECK(records({"# v t\n# three words here\n5 0\n"}) ==
-        "5 0");  // not as many names as columns: no names
+        "0 5");  // a remark: not as many names as columns
   CHECK(records({"#\n#\n5 0\n"}) == "5 0");
 }
 
@@ -128,7 +128,11 @@ TEST_CASE("reader: byte order mark, CR LF, quotes", "[text]") {
   CHECK(records({"\xEF\xBB\xBF"
                  "5,0\r\n"}) == "5 0");
   CHECK(records({"\"t\",\"v\"\n\"0\",\"5\"\n\"1\",6\n"}) == "0 5 | 1 6");
-  CHECK(copies("t,v,note\n0,5,\"a, \"\"b\"\"\"\n") == "<0\t5\ta, \"b\">");
+  CHECK(copies("t,v,note\n0,5,\"a, \"\"b\"\"\"\n") == "<0\t5\t\"a, \"\"b\"\"\">");
+  CHECK(copies("t,v,u\n0,0,\"\"\"\"\n") == "<0\t0\t\"\"\"\">");  // quoted where it has to be
+  CHECK(copies("u,t,v\n\"#1\",0,5\n\"a\tb\",1,5\n\"a\nb\",2,5\n") ==
+        "<\"#1\"\t0\t5><\"a\tb\"\t1\t5><\"a\nb\"\t2\t5>");
+  CHECK(records({"t,v\n0,\"1\"5\n"}) == "FILE:2: field 2: text behind the quote that closes '1'");
 }
 
 TEST_CASE("reader: a decimal comma where ; or tab separates", "[text]") {
@@ -169,6 +173,10 @@ TEST_CASE("reader: two decimal marks in one file are refused", "[text]") {
   CHECK(records({"0.5 1\n1,5 2\n"}) ==
         "FILE:2: field 1 (t): '1,5' is not a number; if a comma here is a decimal one, make it a "
         "point first");
+  CHECK(records({"t\tv\n0\t998\n1\t1,002\n"}) ==
+        "FILE:3: field 2: '1,002' has two readings: make its comma a point if it is a decimal one, "
+        "else take it out");
+  CHECK(records({"t\tv\n0,0\t1,002\n"}) == "0 1.002");
   CHECK(records({"t;v\n0;1,234,567\n"}) == "FILE:2: field 2 (v): '1,234,567' is not a number");
   CHECK(records({"t;v\n0;1,234.5\n"}) == "FILE:2: field 2 (v): '1,234.5' is not a number");
 }
@@ -187,11 +195,12 @@ TEST_CASE("reader: files in order, a run break between them", "[text]") {
   CHECK(records({"# t v\n0 1\n", "t,v\n0,3\n"}) ==
         "0 1 || 0 3");  // the form is each file's own, the columns are not
   CHECK(records({"0 1\n\n", "\n0 3\n"}) == "0 1 || 0 3");
-  CHECK(records({"# t v\n0 1\n", "# v t\n0 3\n"}) == "FILE: its columns are not those of FILE");
-  CHECK(records({"# t v\n0 1\n", "0 3\n"}) == "FILE: its columns are not those of FILE");
-  CHECK(records({"# t[s] v[m/s]\n0 1\n", "# t[ms] v[m/s]\n0 3\n"}) ==
-        "FILE: its columns are not those of FILE");
-  CHECK(records({"0 1\n", "0 3 4\n"}) == "FILE: its columns are not those of FILE");
+  CHECK(records({"# t v\n0 1\n", "# v t\n0 3\n"}) == "0 1 || 3 0");
+  CHECK(records({"# t[s] v[m/s]\n0 1\n", "# t[ms] v[m/s]\n7 3\n"}) == "0 1 || 0.007 3");
+  CHECK(records({"# t v\n0 1\n", "0 3\n"}) ==
+        "FILE: its columns are not those of FILE: give it a line of names");
+  CHECK(records({"0 1\n", "0 3 4\n"}) ==
+        "FILE: its columns are not those of FILE: give it a line of names");
   CHECK(records({"0 1\n", ""}) == "FILE: no records");
 }
 
@@ -213,15 +222,22 @@ TEST_CASE("reader: --use says which column serves, by name or number", "[text]")
                 use({"t=time_of_day", "v=speed_of_light"})) == "0 1");
   CHECK(records({"# t v\n0 1\n"}, use({"t=v", "v=t"})) == "1 0");
   CHECK(records({"# t w[rpm]\n0 1\n"}, use({"v=w"})) ==
-        "column 'w[rpm]' cannot serve as v: its unit 'rpm' is not one of those known (m/s, ...); "
-        "convert it first");
+        "FILE: column 'w[rpm]' cannot serve as v: its unit 'rpm' is not one of those known (m/s, "
+        "mm/s, cm/s, km/h, mph, ft/s); convert it first");
+  CHECK(records({"0 1 72\n"}, use({"v=3[km/h]"})) == "0 20");
+  CHECK(records({"# t w\n0 72\n"}, use({"v=w[MPH]"})) == "0 32.18688");
+  CHECK(records({"# t w[m/s]\n0 72\n"}, use({"v=w[km/h]"})) ==
+        "FILE: --use v says km/h, but the column's name w[m/s]");
+  CHECK(records({"1 2 3 40\n"}, use({"t=4[ms]", "v=2"})) == "0.04 2");
+  CHECK(records({"1 2 3 40\n"}, use({"t=4"})) ==
+        "FILE: there is no column 'v' among 4 without names; say --use v=COLUMN");
   CHECK(records({"# t w[km/h]\n0 72\n"}, use({"v=w"})) == "0 20");
   CHECK(records({"# t w\n0 1\n"}, use({"v=4"})) ==
-        "FILE: --use v=4: there is no column '4' among t[s], w");
+        "FILE: --use v=4: there is no column '4' among t, w");
   CHECK(records({"# t w\n0 1\n"}, use({"v=0"})) ==
-        "FILE: --use v=0: there is no column '0' among t[s], w");
+        "FILE: --use v=0: there is no column '0' among t, w");
   CHECK(records({"# t w\n0 1\n"}, use({"v=1.5"})) ==
-        "FILE: --use v=1.5: there is no column '1.5' among t[s], w");
+        "FILE: --use v=1.5: there is no column '1.5' among t, w");
   CHECK(records({"0 1\n"}, use({"v"})) == "--use: 'v' is not NAME=COLUMN");
   CHECK(records({"0 1\n"}, use({"=2"})) == "--use: '=2' is not NAME=COLUMN");
   CHECK(records({"0 1\n"}, use({"v="})) == "--use: 'v=' is not NAME=COLUMN");
@@ -231,7 +247,7 @@ TEST_CASE("reader: a --use that says nothing, or two things, is refused", "[text
   CHECK(records({"0 1 2\n"}, use({"w=3"})) == "--use: 'w=3' is not about t, x, v, a or D");
   CHECK(records({"0 1 2\n"}, use({"V=3"})) == "--use: 'V=3' is not about t, x, v, a or D");
   CHECK(records({"0 1 2\n"}, use({"v=2", "v=3"})) == "--use: 'v=3' comes after another for v");
-  CHECK(records({"0 1\n"}, use({"v=1"})) == "FILE: column 1 cannot serve as both t and v");
+  CHECK(records({"0 1\n"}, use({"v=1"})) == "FILE: column 1 cannot serve as both v and t");
   CHECK(records({"0 1 2\n"}, use({"Velocity=3"})) == "0 2");  // the long name is the same quantity
 }
 
@@ -254,22 +270,24 @@ TEST_CASE("reader: there is no such column", "[text]") {
 TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]") {
   CHECK(records({"0 1\n\n0 2\n1 3\n\n0 4\n"}, run(2)) == "0 2 | 1 3");
   CHECK(records({"0 1\n\n0 2\n"}, run(1)) == "0 1");
-  CHECK(records({"0 1\n\nbad bad\n\n0 4\n"}, run(3)) == "0 4");  // what is not read is not judged
+  CHECK(records({"0 1\n\n0 bad\n\n0 4\n"}, run(3)) == "0 4");  // what is not read is not judged
   CHECK(records({"0 1\n", "0 2\n", "0 3\n"}, run(2)) == "0 2");
   CHECK(records({"Time (s) Run #7,Velocity (m/s) Run #7\n0,1\n"}, run(7)) == "0 1");
   CHECK(records({"0 1\n\n0 2\n"}, run(3)) == "there is no run 3 (runs: 2)");
   CHECK(records({"t Run 2,v Run 2,t Run 4,v Run 4\n0,1,0,5\n"}, run(4)) == "0 5");
   CHECK(records({"t Run 2,v Run 2,t Run 4,v Run 4\n0,1,0,5\n"}, run(3)) ==
-        "FILE: there is no run 3 among the 2 side by side: 2, 4");
+        "there is no run 3 (runs: 2)");
+  CHECK(records({"t,v,t,v\n0,1,0,2\n", "t,v,t,v\n0,3,0,4\n"}, run(3)) == "0 3");
 }
 
 TEST_CASE("reader: units are converted, and go out converted", "[text]") {
   CHECK(records({"# t[ms] v[km/h]\n0 72\n40 36\n"}) == "0 20 | 0.04 10");
   CHECK(copies("# t[ms] v[km/h] x[mm]\n40 36 007\n") ==
         "<0.04\t10\t007>");  // x is not needed: as it came
-  CHECK(records({"# t[parsec] v\n0 1\n"}) ==
-        "column 't[parsec]' cannot serve as t: its unit 'parsec' is not one of those known (s, "
-        "...); convert it first");
+  CHECK(
+      records({"# t[parsec] v\n0 1\n"}) ==
+      "FILE: column 't[parsec]' cannot serve as t: its unit 'parsec' is not one of those known (s, "
+      "sec, ms, us, min, h); convert it first");
   CHECK(records({"# t[h] v\n1e308 1\n"}) ==
         "FILE:2: field 1 (t): '1e308' is beyond the range of a double in SI units");
 }
@@ -320,18 +338,30 @@ TEST_CASE("reader: an empty file, a header alone, words alone", "[text]") {
   CHECK(records({words}) == "FILE: no numbers in the first 100 lines");
 }
 
-TEST_CASE("reader: comments pass, those before the records apart from those among them", "[text]") {
+TEST_CASE("reader: comments pass, those in front of a run apart from those among its records",
+          "[text]") {
   const TemporaryFile file(
-      "# by hand\n## smooth x mean width 3\n# t v\n0 1\n# among\n1 2\n\n# between\n0 3\n# after\n");
+      "# by hand\n## smooth x mean width 3\n# t v\n0 1\n# among\n1 2\n# end\n\n# between\n0 3\n"
+      "# after\n\n# last\n");
   Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
-  CHECK(in.comments() ==
-        Texts{"# by hand", "## smooth x mean width 3"});  // the names line is not among them
-  CHECK(in.history() == Texts{"smooth x mean width 3"});
-  std::string among;
-  in.on_comment = [&](std::string_view text) { among.append(text).append(";"); };
-  while (in.next_run())
-    while (in.next()) continue;
-  CHECK(among == "# among;# between;# after;");
+  std::string all;
+  const auto add = [&](const Texts& comments) {
+    for (const std::string& comment : comments)
+      if (!comment.starts_with("## run")) all += comment + ';';
+  };
+  while (in.next_run()) {
+    all += '[';
+    add(in.comments());
+    all += ']';
+    bool more = true;
+    while (more) {
+      more = in.next();
+      add(in.remarks());
+      if (more) all += '|';
+    }
+  }
+  add(in.comments());
+  CHECK(all == "[# by hand;## smooth x mean width 3;]|# among;|# end;[# between;]|# after;# last;");
 }
 
 TEST_CASE("reader: a preamble becomes comments", "[text]") {
@@ -340,32 +370,117 @@ TEST_CASE("reader: a preamble becomes comments", "[text]") {
   CHECK(in.comments() == Texts{"# Motion sensor, hall 3"});
 }
 
-TEST_CASE("reader: the history is that of the present run", "[text]") {
+TEST_CASE("reader: the history is that of the present run alone", "[text]") {
   const TemporaryFile first(
-      "## smooth v mean width 3\n## differentiate v central\n# t v\n0 1\n\n0 2\n"),
-      second("# t v\n0 3\n");
+      "## smooth v mean width 3\n## differentiate v central\n# t v\n0 1\n\n0 2\n\n"
+      "## smooth v mean width 5\n0 3\n"
+      "## differentiate v central\n0 4\n"),  // which begins a run, without a blank line
+      second("# t v\n0 5\n");
   Reader in({{first.name(), second.name()}, {}, {}, false}, {});
-  CHECK(in.history().size() == 2);
-  CHECK_FALSE(in.history_changed());
-  REQUIRE(in.next_run());
-  while (in.next()) continue;
-  REQUIRE(in.next_run());
-  CHECK(in.history().size() == 2);  // the ## lines hold until there are others
-  while (in.next()) continue;
-  REQUIRE(in.next_run());
-  CHECK(in.history_changed());
-  CHECK(in.history().empty());
+  std::string all;
+  while (in.next_run()) {
+    all += '[';
+    for (const std::string& line : in.history()) all += line + ';';
+    all += ']';
+    while (in.next()) continue;
+  }
+  CHECK(all ==
+        "[smooth v mean width 3;differentiate v central;][][smooth v mean width 5;]"
+        "[differentiate v central;][]");
 }
 
-TEST_CASE("reader: new ## lines among the records replace the old ones", "[text]") {
+TEST_CASE("reader: --run gives the head of its run and nothing of another", "[text]") {
   const TemporaryFile file(
-      "## smooth v mean width 3\n# t v\n0 1\n\n## smooth v mean width 5\n## differentiate v "
-      "central\n0 2\n");
-  Reader in({{file.name()}, {}, {}, false}, {});
+      "# one\n## smooth v mean width 3\n# t[s] v[m/s]\n0 1\n\n# two\n# t[ms] v[km/h] n\n0 36 1\n");
+  Reader in({{file.name()}, {}, 2, false}, {});
+  CHECK(in.history().empty());
+  CHECK(in.comments() == Texts{"# two"});
+  const auto v = in.need("v");
+  CHECK(in.columns().size() == 3);
   REQUIRE(in.next_run());
-  while (in.next()) continue;
-  REQUIRE(in.next_run());
-  CHECK(in.history() == Texts{"smooth v mean width 5", "differentiate v central"});
+  REQUIRE(in.next());
+  CHECK(in[v] == 10);
+}
+
+TEST_CASE("reader: names and units hold until others come", "[text]") {
+  const std::string first = "# t[s]\tv[m/s]\n0\t1\n\n";
+  CHECK(records({first + "1\t2\n\n# t[ms]\tv[km/h]\n0\t36\n\n1000\t72\n"}) ==
+        "0 1 || 1 2 || 0 10 || 1 20");
+  CHECK(records({first + "# v[m/s]\tt[s]\n5\t7\n"}) == "0 1 || 7 5");
+  CHECK(records({first + "# t[s]\tx[m]\tv[m/s]\n7\t8\t9\n"}) == "0 1 || 7 9");
+  CHECK(records({first + "# second run\n1\t2\n"}) == "0 1 || 1 2");  // a remark of two words
+  CHECK(records({first + "# t[s]\tx[m]\n1\t2\n"}) ==
+        "FILE:4: there is no column 'v' among t[s], x[m]; say --use v=COLUMN");
+  CHECK(records({first + "# t[s]\tv[furlong/s]\n1\t2\n"}) ==
+        "FILE:4: column 'v[furlong/s]' cannot serve as v: its unit 'furlong/s' is not one of those "
+        "known (m/s, mm/s, cm/s, km/h, mph, ft/s); convert it first");
+  CHECK(records({"# t w[rpm]\n0 1\n\n# t w[rad/s]\n0 2\n"}, {}, {"t", "w"}) ==
+        "FILE:4: column w is in rad/s, and in rpm in the runs before");
+  CHECK(records({"# t w\n0 1\n\n# t u\n0 2\n"}, {}, {"t", "2"}) ==
+        "FILE:4: column 2 is u, and w in the runs before");
+  CHECK(records({first + "1\t2\t3\n"}) == "FILE:4: 3 fields where the first record has 2");
+}
+
+TEST_CASE("reader: the names are the last comment with as many fields as the records", "[text]") {
+  CHECK(records({"# t[ms] v[km/h]\n#----\n0 36\n"}) == "0 10");
+  CHECK(records({"# t[ms] v[km/h]\n# made on Tuesday\n0 36\n"}) == "0 10");
+  CHECK(records({"# t[ms], v[km/h]\n0 36\n"}) == "0 10");
+  CHECK(records({"# t[s] v[cm s^-1]\n0 100\n"}) == "0 1");
+  CHECK(records({"# t[ms] v[km/h] n\n# made on Tuesday\n0 36 1\n"}) == "0 10");
+  CHECK(records({"# t[ms] v[km/h] x[m]\n0 36\n"}) ==
+        "FILE:1: a comment with units, but not the names of 2 columns");
+  CHECK(records({"# Speed (km/h) from GPS\n0 36\n"}) ==
+        "FILE:1: a comment with units, but not the names of 2 columns");
+  CHECK(records({"# t[s] v[m/s]\n0 1\n# t[ms] v[km/h]\n1000 36\n"}) ==
+        "FILE:3: names among the records; where another run begins, put a blank line before it");
+}
+
+TEST_CASE("reader: a run's name", "[text]") {
+  const auto run_names = [](const Texts& texts, ReaderOptions options = {}) {
+    std::vector<std::unique_ptr<TemporaryFile>> files;
+    for (const std::string& text : texts)
+      options.files.push_back(files.emplace_back(std::make_unique<TemporaryFile>(text))->name());
+    Reader in(options, {"t", "v"});
+    std::string all;
+    while (in.next_run()) {
+      const bool goes_out = !in.comments().empty() && in.comments()[0] == "## run " + in.run_name();
+      all += (goes_out ? "<" : "(") + in.run_name() + (goes_out ? ">" : ")");
+    }
+    for (const auto& file : files) {
+      const std::string name = file->name().substr(file->name().rfind('/') + 1);
+      for (auto at = all.find(name); at != std::string::npos; at = all.find(name))
+        all.replace(at, name.size(), "FILE");
+    }
+    return all;
+  };
+  CHECK(run_names({"0 1\n"}) == "(FILE)");
+  CHECK(run_names({"0 1\n", "0 2\n\n0 3\n"}) == "<FILE><FILE 1><FILE 2>");
+  CHECK(run_names({"t Run 7,v Run 7\n0,1\n\nt Run 9,v Run 9\n0,1\n"}) == "<FILE 7><FILE 9>");
+  CHECK(run_names({"t Run 2,v Run 2,t Run 4,v Run 4\n0,1,0,5\n"}) == "<FILE 2><FILE 4>");
+  CHECK(run_names({"## run a b\n0 1\n\n0 2\n"}) == "<a b><FILE 2>");
+  CHECK(run_names({"0 1\n\n0 2\n"}, run(2)) == "(FILE 2)");
+  const TemporaryFile file("0 1\n\n0 2\n");
+  const Redirect from_file(STDIN_FILENO, file.name());
+  CHECK(run_names({}) == "<1><2>");
+}
+
+TEST_CASE("reader: a tool that ended with an error is refused, wherever it says so", "[text]") {
+  for (const std::string text :
+       {"## smooth: ended with an error\n", "0 1\n## smooth: ended with an error\n",
+        "0 1\n\n## smooth: ended with an error\n",
+        "# t v\n## smooth: ended with an error\n0 1\n"}) {
+    INFO(text);
+    const std::string message = records({text});
+    CHECK(message.substr(message.find(": ")) ==
+          ": smooth ended with an error: the records are not complete");
+  }
+  CHECK(records({"## no error: ended with an error\n0 1\n"}) == "0 1");
+}
+
+TEST_CASE("reader: what spreadsheets write for an error is no comment", "[text]") {
+  CHECK(records({"0\t1\n#N/A\t2\n"}) == "FILE:2: field 1 (t): '#N/A' is not a number");
+  CHECK(records({"0 1\n#DIV/0! 2\n"}) == "FILE:2: field 1 (t): '#DIV/0!' is not a number");
+  CHECK(records({"0,1\n#1,2\n"}) == "0 1");  // a record that was taken out
 }
 
 TEST_CASE("reader: what passes through passes byte for byte, its separator aside", "[text]") {
@@ -379,9 +494,8 @@ TEST_CASE("reader: a record says where a column's text stands", "[text]") {
   in.need("v");
   REQUIRE(in.next_run());
   REQUIRE(in.next());
-  std::size_t first = 0, last = 0;
-  const std::string_view text = in.text(1, first, last);
-  CHECK(text.substr(first, last - first) == "1.50");
+  const Reader::Text text = in.text(1);
+  CHECK(text.line.substr(text.first, text.last - text.first) == "1.50");
   CHECK(in.where() == file.name() + ":1");
 }
 
@@ -406,6 +520,18 @@ TEST_CASE("reader: a needed column that displaces another of its name", "[text]"
   CHECK(all == "t[s] v_in[m/s] v[m/s] ");
 }
 
+TEST_CASE("reader: in whichever order columns are asked for, they have the same names", "[text]") {
+  const TemporaryFile file("# t[s] v w[cm/s] x v_in\n0 1 2 3 4\n");
+  std::vector<std::string> order = {"v", "x", "t"};
+  do {
+    Reader in({{file.name()}, {"v=w", "x=2"}, {}, false}, {});
+    for (const std::string& name : order) in.need(name);
+    std::string all;
+    for (const Column& column : in.columns()) all += to_text(column) + ' ';
+    CHECK(all == "t[s] x[m] v[m/s] x_in v_in ");
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
 TEST_CASE(
     "reader: runs side by side come out one under another, the padding of the shorter uncounted",
     "[text]") {
@@ -423,6 +549,13 @@ TEST_CASE(
   CHECK(records({"t v t v\n0 1 0 5\n1 2 1 6\n"}) == "0 1 | 1 2 || 0 5 | 1 6");
   CHECK(records({"t;v;t;v\n0;1;0;5\n1;2\n"}) ==
         "0 1 | 1 2 || 0 5");  // a line that ends where the longer runs do
+  const TemporaryFile torn("t,v,t,v\n0,1,5,3\n1,2\n2,3,7,4\n3,4\n");
+  Reader in({{torn.name()}, {}, {}, false}, {});
+  in.need_time();
+  while (in.next_run())
+    while (in.next()) continue;
+  CHECK(in.left_out() == 1);  // data follows the torn row, so that it is no padding
+  CHECK(records({"t Run 1,v Run 1,t Run 2,v (km/h) Run 2,n Run 2\n0,1,0,36,7\n"}) == "0 1 || 0 10");
   CHECK(records({"t Run 1,v Run 1,t Run 2,v Run 2\n0,1,0,x\n"}) ==
         "FILE:2: field 4 (v): 'x' is not a number");
   CHECK(copies("Time (s) Run #2,v Run #2,Time (s) Run #4,v Run #4\n0.0,1,0.00,5\n") ==
@@ -437,10 +570,17 @@ TEST_CASE("reader: stacked runs under repeated names keep their numbers", "[text
   CHECK(records({stacked}, run(1)) == "there is no run 1 (runs: 2)");
   CHECK(records({"v Run #3,t\n1,0\n\nv Run #5,t\n2,0\n"}, run(5), {"v"}) ==
         "2");  // not every name has it
-  CHECK(records({"t,v\n0,1\n\nt,w\n0,2\n"}) == "FILE:4: field 1 (t): 't' is not a number");
+  CHECK(records({"t,v\n0,1\n\nt,w\n0,2\n"}) ==
+        "FILE:4: there is no column 'v' among t, w; say --use v=COLUMN");
 }
 
-TEST_CASE("reader: a delimiter that ends the line is no cell", "[text]") {
+TEST_CASE("reader: a separator that ends every line is an empty last column", "[text]") {
+  CHECK(names("t\tv\t\n0\t1\t\n1\t2\t\n") == "t v c3");
+  CHECK(names("# t\tv\t\n0\t1\t\n") == "t v c3");
+  CHECK(names("# t\tv\n0\t1\t\n") == "t v c3");
+  CHECK(copies("t\tv\t\n0\t1\t\n") == "<0\t1\t>");
+  CHECK(copies("t\tv\t\n0\t1\t\n1\t2\n") == "<0\t1\t><1\t2\t>");
+  CHECK(copies("t\tv\n0\t1\n1\t2\t\n") == "<0\t1><1\t2>");
   CHECK(records({"t,v,\n0,1,\n1,2,\n"}) == "0 1 | 1 2");
   CHECK(records({"t,v,\n0,1\n1,2,\n"}) == "0 1 | 1 2");
   CHECK(records({"t,v\n0,1,\n1,2\n"}) == "0 1 | 1 2");

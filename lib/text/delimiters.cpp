@@ -1,0 +1,47 @@
+#include "text/delimiters.h"
+
+#include <algorithm>
+
+#include "text/number.h"
+
+namespace rolling {
+
+const char* closing_quote(const char* at, const char* end) {
+  for (;; at += 2) {
+    at = std::find(at, end, quote);
+    if (at == end || at + 1 == end || at[1] != quote) return at;
+  }
+}
+
+Unquoted outside_quotes(std::string_view text, std::string_view between, bool field_begins) {
+  Unquoted outside;
+  const char *at = text.data(), *const end = at + text.size();
+  for (; at != end; ++at) {
+    if (field_begins && *at == quote) {
+      at = closing_quote(at + 1, end);
+      outside.ends_within = at == end;
+      if (outside.ends_within) break;
+      field_begins = false;
+      continue;
+    }
+    outside.text += *at;
+    field_begins = between.find(*at) != std::string_view::npos || (field_begins && is_blank(*at));
+  }
+  return outside;
+}
+
+bool needs_quotes(std::string_view field) {
+  return field.starts_with('#') || field.find_first_of("\"\t\n\r") != std::string_view::npos;
+}
+
+void append_field(Bytes& line, std::string_view field) {
+  if (!needs_quotes(field)) return line.append(field);
+  line.append(quote);
+  for (const char c : field) {
+    if (c == quote) line.append(quote);
+    line.append(c);
+  }
+  line.append(quote);
+}
+
+}  // namespace rolling

@@ -1,0 +1,282 @@
+#include "text/head.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+#include "text/delimiters.h"
+#include "text/number.h"
+
+namespace rolling {
+namespace {
+
+constexpr std::size_t npos = static_cast<std::size_t>(-1);
+constexpr std::size_t longest_preamble =
+    100;  // lines; more without a number is not a file of columns
+constexpr std::string_view ended_with_an_error = ": ended with an error";
+
+/// The comments and other lines in front of the first record.
+class HeadReader {
+ public:
+  HeadReader(Lines& lines, Dialect& dialect, const Head* before)
+      : lines_(lines), dialect_(dialect), before_(before) {}
+
+  Head read(const std::vector<std::string>& order, bool one_run);
+
+ private:
+  bool find_record();
+  void take_history();
+  void check_bytes() const;
+  bool is_record(std::string_view line);
+  bool is_missing_record(std::string_view line);
+  std::vector<std::string> take_names(std::size_t width);
+  enum class Proof { known, known_or_tabs, none };
+  std::vector<std::string> take_commented_names(std::size_t width, Proof);
+  void refuse_other_names(std::size_t width) const;
+  std::vector<Column> known_columns() const;
+
+  struct Line {
+    std::string text;
+    std::size_t number;
+  };
+  Lines& lines_;
+  Dialect& dialect_;
+  const Head* before_;
+  Head head_;
+  std::vector<std::size_t> numbers_;  // of the lines of the comments
+  std::vector<Line> preamble_;        // lines that are neither comments nor records
+};
+
+std::vector<Column> HeadReader::known_columns() const {
+  return before_ ? before_->layout.runs.front().columns : std::vector<Column>();
+}
+
+void HeadReader::check_bytes() const {
+  const std::string_view line = lines_.text();
+  if (line.find('\0') != npos)
+    fail<InputError>("{}:{}: a NUL byte; UTF-16 must be made UTF-8 first (iconv -f UTF-16)",
+                     lines_.name(), lines_.number());
+  if (line.find('\r') != npos)
+    fail<InputError>(
+        "{}:{}: a carriage return within the line; make the line ends LF first (tr '\\r' '\\n')",
+        lines_.name(), lines_.number());
+}
+
+void HeadReader::take_history() {
+  refuse_error_line(lines_);
+  const std::string_view line = trim(lines_.text()), text = trim(line.substr(2));
+  if (text.starts_with("run ")) {
+    head_.run = trim(text.substr(4));
+    return;
+  }
+  head_.history.emplace_back(text);
+  head_.comments.emplace_back(line);
+  numbers_.push_back(lines_.number());
+}
+
+/// The line is a record all of whose readings are missing, or one that begins a run with readings
+/// missing: nobody names columns NaN; and blanks, under names already given, are no names.
+bool HeadReader::is_missing_record(std::string_view line) {
+  const auto fields = dialect_.split(line);
+  const auto is_blank_field = [](const Field& field) { return field.text.empty(); };
+  if (std::any_of(fields.begin(), fields.end(),
+                  [](const Field& field) { return !field.text.empty() && is_missing(field.text); }))
+    return true;
+  const std::size_t width = fields.size();
+  const bool all_blank = std::all_of(fields.begin(), fields.end(), is_blank_field);
+  if (before_ && !all_blank) {  // a names line has no blanks where the one before had names
+    const auto last = before_->blank_end ? fields.end() - 1 : fields.end();
+    return width == before_->layout.width && std::any_of(fields.begin(), last, is_blank_field);
+  }
+  if (!all_blank || before_) return all_blank;
+  if (preamble_.empty())
+    return std::any_of(head_.comments.begin(), head_.comments.end(), [&](const auto& comment) {
+      return !names_in_comment(comment, width, {}).names.empty();
+    });
+  const auto names = names_in(preamble_.back().text, dialect_);
+  return names.size() == width &&
+         std::none_of(names.begin(), names.end(),
+                      [](const std::string& name) { return name.empty(); });
+}
+
+bool HeadReader::is_record(std::string_view line) {
+  return (before_ ? dialect_.holds_number(line) : dialect_.choose(line)) || is_missing_record(line);
+}
+
+/// Goes to the first record; false if there is none.
+bool HeadReader::find_record() {
+  while (lines_.next()) {
+    check_bytes();
+    switch (kind_of(lines_.text())) {
+      case LineKind::blank:
+        break;
+      case LineKind::history:
+        take_history();
+        break;
+      case LineKind::comment:
+        head_.comments.emplace_back(lines_.text().substr(lines_.text().find('#')));
+        numbers_.push_back(lines_.number());
+        break;
+      case LineKind::record:
+        if (is_record(lines_.text())) return true;
+        preamble_.push_back({std::string(lines_.text()), lines_.number()});
+        if (preamble_.size() > longest_preamble)
+          fail<InputError>("{}: no numbers in the first {} lines", lines_.name(), longest_preamble);
+    }
+  }
+  return false;
+}
+
+/// The last comment that has as many names as there are columns, and as much proof that they are
+/// names.
+std::vector<std::string> HeadReader::take_commented_names(std::size_t width, Proof proof) {
+  std::size_t found = npos;
+  const std::vector<Column> known = known_columns();
+  for (std::size_t i = head_.comments.size(); found == npos && i-- > 0;) {
+    const auto [names, tabs, is_known] = names_in_comment(head_.comments[i], width, known);
+    const bool proven = is_known || (tabs && proof != Proof::known) || proof == Proof::none;
+    if (!names.empty() && proven) found = i;
+  }
+  if (found == npos) return {};
+  auto names = names_in_comment(head_.comments[found], width, known).names;
+  head_.line = numbers_[found];
+  head_.comments.erase(head_.comments.begin() + static_cast<std::ptrdiff_t>(found));
+  return names;
+}
+
+/// Nothing is read as SI when a comment says otherwise: one that speaks of units, but has not as
+/// many names as there are columns, is refused.
+void HeadReader::refuse_other_names(std::size_t width) const {
+  for (std::size_t i = 0; i < head_.comments.size(); ++i) {
+    const std::string& comment = head_.comments[i];
+    if (comment.starts_with("##")) continue;
+    const auto names = split_names(trim(std::string_view(comment).substr(1)),
+                                   comment.find('\t') == npos ? '\0' : '\t');
+    std::size_t units = 0, others = 0;
+    for (const std::string& name : names) {
+      const Column column = read_column(name);
+      const bool known = !si_unit(column.name).empty() && !column.unit.empty();
+      units += known;
+      others += known && column.unit != si_unit(column.name);
+    }
+    if (units > 1 || others > 0)
+      fail<InputError>("{}:{}: a comment with units, but not the names of {} column{}",
+                       lines_.name(), numbers_[i], width, width == 1 ? "" : "s");
+  }
+}
+
+/// The names of `width` columns; empty if there are none here.
+std::vector<std::string> HeadReader::take_names(std::size_t width) {
+  const bool blank_end = dialect_.split(lines_.text()).back().text.empty();
+  if (preamble_.empty()) {
+    auto names = take_commented_names(width, Proof::known_or_tabs);
+    if (names.empty() && blank_end &&  // a nameless column stands behind the others
+        !(names = take_commented_names(width - 1, Proof::known)).empty())
+      names.emplace_back();
+    if (names.empty() && !before_) names = take_commented_names(width, Proof::none);
+    if (names.empty()) refuse_other_names(width);
+    return names;
+  }
+  auto names = names_in(preamble_.back().text, dialect_);
+  head_.line = preamble_.back().number;
+  preamble_.pop_back();
+  for (Line& line : preamble_) {
+    std::replace(line.text.begin(), line.text.end(), '\n', ' ');
+    head_.comments.push_back("# " + std::move(line.text));
+  }
+  if (names.size() == width + 1 && names.back().empty()) names.pop_back();
+  else if (names.size() + 1 == width && blank_end) names.emplace_back();
+  return names;
+}
+
+Head HeadReader::read(const std::vector<std::string>& order, bool one_run) {
+  if (!find_record()) {
+    if (!before_) fail<InputError>("{}: no records", lines_.name());
+    for (const Line& line : preamble_) head_.comments.push_back("# " + line.text);
+    return std::move(head_);
+  }
+  lines_.put_back();
+  lines_.separate_by(dialect_.separator());
+  head_.line = lines_.number();
+  const auto fields = dialect_.split(lines_.text());
+  const std::size_t width = fields.size();
+  const bool blank_field = fields.back().text.empty();
+  const auto names = take_names(width);
+  if (names.empty() && before_) {
+    head_.named = before_->named;
+    head_.blank_end = before_->blank_end;
+    head_.layout = before_->layout;
+    return std::move(head_);
+  }
+  head_.named = !names.empty();
+  head_.blank_end =
+      blank_field && width > 1 && (names.size() < width ? !head_.named : names.back().empty());
+  std::vector<Column> columns;
+  for (std::size_t i = 0; i < std::max(width, names.size()); ++i) {
+    if (i < names.size()) columns.push_back(read_column(names[i]));
+    else if (i < order.size() && !head_.named)
+      columns.push_back({order[i], std::string(si_unit(order[i]))});
+    else columns.emplace_back();
+    if (columns.back().name.empty()) columns.back().name = fmt::format("c{}", i + 1);
+  }
+  head_.layout = one_run ? Layout::one(columns) : Layout::of(columns);
+  if (head_.named && (head_.layout.side_by_side() ? width > names.size() : width != names.size()))
+    fail<InputError>("{}:{}: {} field{} under a line of {} names{}", lines_.name(), lines_.number(),
+                     width, width == 1 ? "" : "s", names.size(),
+                     dialect_.separator() == ','
+                         ? "; if some of its commas are decimal ones, make them points first"
+                         : "");
+  return std::move(head_);
+}
+
+}  // namespace
+
+std::vector<std::string> names_in(std::string_view line, Dialect& dialect) {
+  if (dialect.separator() == '\0') return split_names(line, '\0');
+  std::vector<std::string> names;
+  for (const Field& field : dialect.split(line)) names.emplace_back(field.text);
+  return names;
+}
+
+CommentedNames names_in_comment(std::string_view comment, std::size_t width,
+                                const std::vector<Column>& known) {
+  if (comment.starts_with("##")) return {};
+  const std::string_view text = comment.substr(1);
+  const auto in_force = [&](const std::string& name) {
+    const std::string plain = read_column(name).name;
+    return !si_unit(plain).empty() || std::any_of(known.begin(), known.end(),
+                                                  [&](const Column& c) { return c.name == plain; });
+  };
+  for (const char separator : std::string(separators) + '\0')
+    for (const std::string_view some : {text, trim(text)}) {  // a tab at an end may separate or not
+      auto names = split_names(some, separator);
+      if (names.size() != width) continue;
+      const bool is_known = std::any_of(names.begin(), names.end(), in_force);
+      return {names, separator == '\t' && width > 1, is_known};
+    }
+  return {};
+}
+
+Head read_head(Lines& lines, Dialect& dialect, const Head* before,
+               const std::vector<std::string>& order, bool one_run) {
+  try {
+    return HeadReader(lines, dialect, before).read(order, one_run);
+  } catch (const InputError&) {
+    throw;
+  } catch (const Error& error) {
+    fail<InputError>("{}:{}: {}", lines.name(), lines.number(), error.what());
+  }
+}
+
+void refuse_error_line(const Lines& lines) {
+  const std::string_view text = trim(trim(lines.text()).substr(2));
+  if (text.ends_with(ended_with_an_error) && text.find(' ') == text.find(':') + 1)
+    fail<InputError>("{}:{}: {} ended with an error: the records are not complete", lines.name(),
+                     lines.number(), shown(text.substr(0, text.find(':'))));
+}
+
+std::string error_line(std::string_view tool) {
+  return fmt::format("## {}{}", tool, ended_with_an_error);
+}
+
+}  // namespace rolling

@@ -1,0 +1,72 @@
+#!/bin/bash
+# live.sh [-K K] [-R R] [-w WIDTH] [-c x|v] [-T TERMINAL] SOURCE: draws D against v while the body
+# rolls, again with every record. SOURCE is the device of a sensor (a serial port), a file that
+# grows, or - for standard input, with lines of time and velocity (-c v, the default) or of time and
+# position (-c x). TERMINAL is one of gnuplot's: without -T qt or x11 on a graphic screen, else
+# dumb, which draws with letters. The picture is (WIDTH - 1)/2 + 1 records behind the sensor, one
+# more with -c x.
+set -euo pipefail
+export LC_ALL=C
+unset CDPATH
+K=0.5 R=0.04 width=11 column=v terminal=''
+while getopts K:R:w:c:T: option; do
+  case $option in
+    K) K=$OPTARG ;;
+    R) R=$OPTARG ;;
+    w) width=$OPTARG ;;
+    c) column=$OPTARG ;;
+    T) terminal=$OPTARG ;;
+    *) exit 2 ;;
+  esac
+done
+shift $((OPTIND - 1))
+[ $# = 1 ] || { sed -n '2s/^# //p' "$0" >&2; exit 2; }
+PATH=$(cd "$(dirname "$0")/../.." && pwd)/bin:$PATH
+command -v gnuplot >/dev/null ||
+  { echo "$0: gnuplot is not installed; make setup figures installs it" >&2; exit 2; }
+if [ -z "$terminal" ]; then
+  terminal=dumb
+  if [ -n "${DISPLAY-}${WAYLAND_DISPLAY-}" ]; then
+    for name in x11 qt; do
+      ! gnuplot -d -e "set terminal $name" 2>/dev/null || terminal=$name
+    done
+  fi
+fi
+
+records() {
+  if [ "$1" = - ]; then
+    [ ! -t 0 ] || stty raw -echo
+    cat
+  elif [ -c "$1" ]; then
+    stty raw -echo <"$1"
+    cat -- "$1"
+  else
+    tail -n +1 -F --pid=$$ -- "$1" 2>/dev/null
+  fi
+}
+# The commands of gnuplot, with each record all points so far. (awk would read ahead.)
+pictures() {
+  local points='' v=0 D=0 i field
+  if [ "$terminal" = dumb ]; then
+    echo 'set terminal dumb size 78, 22; set print "-"; set style line 1 pt "o"'
+  else
+    echo "set terminal $terminal noraise; set style line 1 pt 7"
+  fi
+  echo 'set xlabel "v / (m/s)"; set ylabel "D / mm"; set xrange [0:*]; set yrange [0:*]'
+  while IFS=$'\t' read -r -a field; do
+    case ${field[0]-} in
+      '# t'*)
+        for i in "${!field[@]}"; do
+          case ${field[i]} in v\[*) v=$i ;; D\[*) D=$i ;; esac
+        done ;;
+      [0-9.-]*)
+        points+="${field[v]} ${field[D]}"$'\n'
+        [ "$terminal" != dumb ] || echo 'print "\033[H\033[J"'
+        printf 'plot "-" using 1:(1e3*$2) with points ls 1 notitle\n%se\n' "$points" ;;
+    esac
+  done
+}
+velocity() { if [ "$column" = x ]; then differentiate -u -c x; else cat; fi; }
+records "$1" | velocity | smooth -q -u -c v -w "$width" | differentiate -u -c v |
+  shift-from-accel -q -u -K "$K" -R "$R" |
+  pictures | gnuplot -d -

@@ -1,0 +1,75 @@
+#include "cli/law_file.h"
+
+#include <unistd.h>
+
+#include <vector>
+
+#include "unit/catch.h"
+#include "unit/text/files.h"
+
+using namespace rolling;
+
+namespace {
+
+struct Given {
+  PowerLaw law{};
+  double slope = 0, v0 = not_given;
+  std::optional<TableLaw> table;
+  int status = 0;
+  std::string said;
+};
+
+/// What a file with this text sets, beside these words on the command line.
+Given law_of(const std::string& text, std::vector<std::string> words = {}) {
+  const TemporaryFile file(text), errors;
+  Given given;
+  Tool tool("tool", "");
+  Body body;
+  tool.body(body, {BodyOption::slope});
+  tool.law(given.law);
+  tool.number("--v0", given.v0, not_negative, "");
+  words.insert(words.begin(), "tool");
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  {
+    const Redirect to_file(STDERR_FILENO, errors.name());
+    given.status = tool.run(static_cast<int>(words.size()), arguments.data(), [&] {
+      given.table = read_law(tool, file.name(), given.law, body.slope, &given.v0);
+      given.slope = body.slope;
+      return 0;
+    });
+  }
+  given.said = errors.text();
+  return given;
+}
+
+}  // namespace
+
+TEST_CASE("law file: a row of fitpower, in its units; the command line wins", "[cli]") {
+  const std::string row = "# a[mm]\tsigma_a[mm]\tb\tv0[cm/s]\tslope\n1.5\t0.1\t0.25\t50\t0.001\n";
+  const Given all = law_of(row);
+  CHECK((all.status == 0 && all.said.empty() && !all.table));
+  CHECK((all.law.a == 1.5e-3 && all.law.b == 0.25 && all.v0 == 0.5 && all.slope == 0.001));
+  const Given some = law_of(row, {"-a", "2e-3", "--v0", "1", "--slope", "0"});
+  CHECK((some.law.a == 2e-3 && some.law.b == 0.25 && some.v0 == 1 && some.slope == 0));
+  const Given bare = law_of("a b\n2e-3 0\n");
+  CHECK((bare.law.a == 2e-3 && bare.law.b == 0 && bare.v0 != bare.v0 && bare.slope == 0));
+}
+
+TEST_CASE("law file: a table of v and D", "[cli]") {
+  const Given given = law_of("# v[cm/s]\tD[mm]\n100\t2\n0\t1\n");
+  REQUIRE(given.table);
+  CHECK(((*given.table)(1) == 2e-3 && given.table->highest() == 1));
+}
+
+TEST_CASE("law file: what is neither is refused", "[cli]") {
+  for (const char* text : {"a b\n", "a b\n1 0\n1 0\n", "a b\n-1 0\n", "a[s] b\n1 0\n",
+                           "v0[kg] a b\n1 1 0\n", "v D\n1 -1\n", "t x\n1 1\n", ""}) {
+    CAPTURE(text);
+    const Given given = law_of(text);
+    CHECK(given.status == 2);
+    CHECK(given.said.size() > 10);
+  }
+  CHECK(law_of("v D\n1 1\n", {"-a", "1", "-b", "0"}).status == 2);
+}

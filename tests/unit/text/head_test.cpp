@@ -1,0 +1,75 @@
+#include "text/head.h"
+
+#include "unit/text/files.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+
+namespace {
+
+/// What stands before the first record: comments, the columns, and the record with its number.
+std::string head(std::string_view text, bool one_run = false) {
+  const TemporaryFile file(text);
+  std::string all;
+  const std::string message = refusal([&] {
+    Lines lines(file.name());
+    Dialect dialect;
+    const Head head = read_head(lines, dialect, nullptr, {"t", "v"}, one_run);
+    for (const std::string& comment : head.comments) all += comment + '|';
+    all += head.named ? "" : " no names,";
+    for (const Column& column : head.layout.runs.front().columns) all += ' ' + to_text(column);
+    lines.next();
+    all += fmt::format(" in {} of {}; {}: {}", head.layout.runs.size(), head.layout.width,
+                       lines.number(), lines.text());
+  });
+  return message.empty() ? all : message.substr(message.find(':') + 1);
+}
+
+}  // namespace
+
+TEST_CASE("head: names in the last comment, in a line, or in the order of the tool", "[text]") {
+  CHECK(head("# by hand\n# t[s] x[m]\n0 1\n") == "# by hand| t[s] x[m] in 1 of 2; 3: 0 1");
+  CHECK(head("Hall three\n\nTime (s),Position (m)\n0,1\n") ==
+        "# Hall three| t[s] x[m] in 1 of 2; 4: 0,1");
+  CHECK(head("0 1 2\n") == " no names, t[s] v[m/s] c3 in 1 of 3; 1: 0 1 2");
+  CHECK(head("# about three words\n0 1\n") ==
+        "# about three words| no names, t[s] v[m/s] in 1 of 2; 2: 0 1");
+  CHECK(head("## smooth v mean\n# t v\n## differentiate v central\n0 1\n") ==
+        "## smooth v mean|## differentiate v central| t v in 1 of 2; 4: 0 1");
+  CHECK(head("\"two\nlines\" ,\nt,v\n0,1\n") == "# \"two lines\" ,| t v in 1 of 2; 4: 0,1");
+}
+
+TEST_CASE("head: runs side by side, or one record of all", "[text]") {
+  const std::string text = "t Run 1,v Run 1,t Run 2,v Run 2\n0,1,0,2\n";
+  CHECK(head(text) == " t v in 2 of 4; 2: 0,1,0,2");
+  CHECK(head(text, true) == " t v t v in 1 of 4; 2: 0,1,0,2");
+}
+
+TEST_CASE("head: a record without readings is one, as wide as the names", "[text]") {
+  CHECK(head("t,v\n,\n0,1\n") == " t v in 1 of 2; 2: ,");
+  CHECK(head("# t v\nNaN NaN\n") == " t v in 1 of 2; 2: NaN NaN");
+  CHECK(head("My cart,\n,\nt,v\n0,1\n") == "# My cart,|# ,| t v in 1 of 2; 4: 0,1");
+}
+
+TEST_CASE("head: what ends a line of names alone is no column; what ends the record too is one",
+          "[text]") {
+  CHECK(head("t,v,\n0,1\n") == " t v in 1 of 2; 2: 0,1");
+  CHECK(head("t,v\n0,1,\n") == " t v c3 in 1 of 3; 2: 0,1,");
+  CHECK(head("t,v,\n0,1,\n") == " t v c3 in 1 of 3; 2: 0,1,");
+}
+
+TEST_CASE("head: no columns are refused, with the line", "[text]") {
+  CHECK(head("") == " no records");
+  CHECK(head("# t v\n") == " no records");
+  CHECK(head("t,v\n0,1,2\n") ==
+        "2: 3 fields under a line of 2 names; if some of its commas are decimal ones, make them "
+        "points first");
+  CHECK(head("t v\n0\n") == "2: 1 field under a line of 2 names");
+  CHECK(head(std::string_view("t\0v\n", 4)) ==
+        "1: a NUL byte; UTF-16 must be made UTF-8 first (iconv -f UTF-16)");
+  CHECK(head("t v\r0 1\r") ==
+        "1: a carriage return within the line; make the line ends LF first (tr '\\r' '\\n')");
+  std::string words;
+  for (int i = 0; i < 101; ++i) words += "once upon a time\n";
+  CHECK(head(words) == " no numbers in the first 100 lines");
+}
