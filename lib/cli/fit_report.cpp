@@ -94,17 +94,24 @@ std::string described(const LawFit& fit, double least) {
          fmt::format(" AICc {:.1f} above the least", fit.aicc - least);
 }
 
-/// "the runs disagree (chance 2e-08): run 3 has D(0.21 m/s) 4.1 +- 0.4 % above the others' and ..."
+/// "the runs disagree ...: run 3 stands out, its D(0.21 m/s) is 4.1 +- 0.4 % less than the others'
+/// and its b 0.012 +- 0.004 more"
 std::string disagreement(const FitResult& r, std::size_t first) {
   const Agreement& found = *r.agreement;
-  return fmt::format(
+  const auto more = [](double x) { return x < 0 ? "less" : "more"; };
+  std::string line = fmt::format(
       "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees of freedom, chance "
-      "{:.1g}): run {} stands out, its D({:.2g} m/s) is {:.2g} +- {:.1g} % {} that of the other{}, "
-      "its b {:.2g} +- {:.1g} {}",
-      found.chi2, found.dof, found.significance, first + found.run + 1, found.speed,
-      100 * std::abs(std::expm1(found.log_D.value)), 100 * found.log_D.sigma,
-      found.log_D.value < 0 ? "below" : "above", found.runs > 2 ? "s" : "", std::abs(found.b.value),
-      found.b.sigma, found.b.value < 0 ? "below" : "above");
+      "{:.1g}): run {} stands out",
+      found.chi2, found.dof, found.significance, first + found.run + 1);
+  if (found.log_D.sigma > 0)
+    line +=
+        fmt::format(", its D({:.2g} m/s) is {:.2g} +- {:.1g} % {} than that of the other{}",
+                    found.speed, 100 * std::abs(std::expm1(found.log_D.value)),
+                    100 * found.log_D.sigma, more(found.log_D.value), found.runs > 2 ? "s" : "");
+  if (found.b.sigma > 0)
+    line += fmt::format(", its b {:.2g} +- {:.1g} {}", std::abs(found.b.value), found.b.sigma,
+                        more(found.b.value));
+  return line;
 }
 
 }  // namespace

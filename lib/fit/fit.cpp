@@ -273,10 +273,9 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
   Fitted found = fit_route(route, runs, options);
   NoiseErrors noise = noise_errors(found, uncertainty_of(found));
   const auto eccentricity = eccentricity_of(route, runs, found, noise.whiteness);
-  const auto moved = moved_by_given(route, runs, options, found);
   const auto agreement = agreement_of(route, runs, options, noise, found);
   require_determined(result_of(found, noise, {}), options.fit_slope);
-  FitResult result = result_of(found, noise, moved);
+  FitResult result = result_of(found, noise, moved_by_given(route, runs, options, found));
   if (route != Route::velocity && route != Route::position) result.v0 = result.sigma_v0 = {};
   result.agreement = agreement;
   result.eccentricity = eccentricity;
