@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
     const bool all = select.all();
     bool told = false;
     const auto tell = [&] {
-      if (!std::exchange(told, true)) filter.tell(history(name, select, options));
+      if (!std::exchange(told, true)) filter.set_history(history(name, select, options));
     };
     std::size_t outliers = 0;
     while (filter.next_run()) {

@@ -8,7 +8,7 @@
 namespace rolling {
 namespace {
 
-/// The lines of `comments` that are no history.
+/// The lines of `comments` that do not begin with ##.
 std::string remarks_of(const std::string& comments) {
   std::string remarks;
   for (std::size_t at = 0; at < comments.size();) {
@@ -28,11 +28,11 @@ Filter::Filter(Reader& in, Output& out, std::string history)
 Filter::~Filter() {
   try {
     if (!writing_) write_rows();
-  } catch (...) {  // an error is on its way already
+  } catch (...) {  // the error that ended the work is reported, not this one
   }
 }
 
-void Filter::tell(std::string history) {
+void Filter::set_history(std::string history) {
   history_ = history.empty() ? "" : "## " + std::move(history) + '\n';
   write_rows();
 }
@@ -42,7 +42,7 @@ void Filter::append(Column column) {
   enough_ = rows_at_once() * appended_.size();
 }
 
-/// Those of the present run as they go out.
+/// The columns of the present run in the output.
 std::vector<Column> Filter::columns() const {
   std::vector<Column> all = in_.columns();
   for (const Column& column : appended_) {
@@ -111,7 +111,8 @@ void Filter::drop(std::size_t i) {
   write_rows();
 }
 
-/// Before the first row of a run. What a run without rows had to say goes before the next one.
+/// Writes the head of a run before its first row. The comments of a run without rows are written
+/// with the head of the next run.
 void Filter::write_head() {
   if (!std::exchange(head_.due, false)) return;
   if (any_row_) out_.end_line();
@@ -121,7 +122,7 @@ void Filter::write_head() {
   head_ = {};
 }
 
-/// Up to the first that has not all its numbers.
+/// Writes all rows before the first one that lacks a number.
 void Filter::write_rows() {
   if (!history_) return;
   writing_ = true;
@@ -159,10 +160,10 @@ void Filter::write_rows() {
   writing_ = false;
 }
 
-/// Those before the front one; amortised, at most one move a row.
+/// Removes the rows that have been written; amortised, each row is moved at most once.
 void Filter::forget_rows() {
   rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(front_));
-  held_.drop(front_begin_);
+  held_.erase_front(front_begin_);
   front_ = front_begin_ = 0;
 }
 

@@ -179,7 +179,7 @@ TEST_CASE("filter: rows left out before the first run with a history", "[text]")
           filter.drop(1);
           filter.put(30);
           filter.put(50);
-          filter.tell("test it");
+          filter.set_history("test it");
           filter.next_run();
           out.flush();
         })) == "# between\n## run FILE 2\n## test it\n# t[s]\tv[m/s]\n0\t30\n2\t50\n");
