@@ -88,6 +88,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> fixed, start;
   std::string given_slope = "0";
   Body body;
+  BodyUncertainty uncertainty;
   FitOptions options;
   bool each = false, with_report = false, with_check = false;
   tool.choice("--route", given_route, fit_routes(),
@@ -95,7 +96,7 @@ int main(int argc, char** argv) {
               "velocity if v, else position)");
   tool.numbers("-K,--shape-factor", shape_factors, not_negative,
                "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
-  tool.body(body, {radius, gravity});
+  tool.body(body, {radius, gravity}, &uncertainty);
   tool.text("--slope", given_slope, "S|fit",
             "the mat rises by S metres a metre along growing x; fit: find it, of all runs");
   tool.geometry(options.geometry);
@@ -125,8 +126,10 @@ int main(int argc, char** argv) {
                                        : Route::position;
     options.possible_filters = filters_of_sensors();
     options.fit_slope = given_slope == "fit";
-    if (Estimate given; parse_estimate(given_slope, given)) body.slope = given.value;
-    else if (!options.fit_slope)
+    if (Estimate given; parse_estimate(given_slope, given)) {
+      body.slope = given.value;
+      uncertainty.slope = given.sigma;
+    } else if (!options.fit_slope)
       fail("--slope: '{}' is no number, and not `fit`", shown(given_slope));
     const bool trajectory = route == Route::velocity || route == Route::position;
     if (trajectory) tool.need({"radius", "shape-factor"});
@@ -137,9 +140,13 @@ int main(int argc, char** argv) {
     auto [runs, run_names] = read_runs(tool, in, route, body, with_report);
     if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
       fail("--shape-factor gives {} values, but runs are {}", shape_factors.size(), runs.size());
-    for (std::size_t i = 0; i < runs.size(); ++i)
-      runs[i].body.K =
-          shape_factors.empty() ? not_given : shape_factors[shape_factors.size() > 1 ? i : 0].value;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const Estimate K = shape_factors.empty() ? Estimate{not_given}
+                                               : shape_factors[shape_factors.size() > 1 ? i : 0];
+      runs[i].body.K = K.value;
+      runs[i].given = uncertainty;
+      runs[i].given.K = K.sigma;
+    }
 
     std::vector<std::vector<FitRun>> fits;
     if (each)
