@@ -1,33 +1,15 @@
 // fitpower - fit the power law D = a v^b to columns; see fitpower(1)
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <span>
 
+#include "cli/fit_report.h"
 #include "cli/history.h"
-#include "cli/tool.h"
-#include "fit/fit.h"
-#include "fit/laws.h"
 #include "text/estimate.h"
 
 using namespace rolling;
 
 namespace {
-
-std::vector<std::string> columns_of(Route route) {
-  switch (route) {
-    case Route::velocity:
-      return {"t", "v"};
-    case Route::position:
-      return {"t", "x"};
-    default:
-      return {"v", "D"};
-  }
-}
-
-const std::map<std::string, std::optional<Route>> routes{{"loglog", Route::loglog},
-                                                         {"shift", Route::shift},
-                                                         {"velocity", Route::velocity},
-                                                         {"position", Route::position}};
 
 /// The values of NAME=VALUE, repeated.
 void set_parameters(const std::string& option, const std::vector<std::string>& settings,
@@ -96,68 +78,6 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, bool all_c
   return all;
 }
 
-/// What the user should know of errors that are not those of white noise.
-void warn_of_noise(Tool& tool, const FitResult& r) {
-  if (r.sigma_a < 1e-9 * r.a) return;  // what is left is rounding
-  if (r.errors == Errors::autocorrelation)
-    tool.warn(fmt::format(
-        "the noise is correlated from record to record (Ljung-Box p {:.2g}), or the law is not the "
-        "right one: the errors allow for the correlation; see --report",
-        r.whiteness));
-  if (r.errors == Errors::uneven)
-    tool.warn("the noise is not of one size along the run: the errors allow for that");
-}
-
-/// For these runs, what each route finds at which cost, and which law describes them on the route
-/// that was asked for.
-void report(Tool& tool, Route asked, const std::vector<FitRun>& runs, const FitOptions& options) {
-  const std::map<Errors, const char*> kinds{{Errors::none, "none"},
-                                            {Errors::classical, "classical"},
-                                            {Errors::filters, "of the filters"},
-                                            {Errors::differences, "of differences of positions"},
-                                            {Errors::uneven, "of noise of uneven size"},
-                                            {Errors::autocorrelation, "of the autocorrelation"}};
-  for (const auto& [name, route] : routes) try {
-      for (const FitRun& run : runs)
-        for (const std::string& column : columns_of(*route))
-          if ((column == "t"   ? run.t
-               : column == "x" ? run.x
-               : column == "v" ? run.v
-                               : run.D)
-                  .empty())
-            fail("there is no column {}", column);
-      if (columns_of(*route).front() == "t" && std::isnan(runs.front().body.R))
-        fail("--radius is not given");
-      if (columns_of(*route).front() == "t" && std::isnan(runs.front().body.K))
-        fail("--shape-factor is not given");
-      const auto begin = std::chrono::steady_clock::now();
-      const FitResult r = fit(*route, runs, options);
-      const std::chrono::duration<double, std::milli> time =
-          std::chrono::steady_clock::now() - begin;
-      tool.say(fmt::format(
-          "{}: a {:.5g} +- {:.2g}, b {:.5g} +- {:.2g}, rms {:.3g}, n {}, errors {}{}, {:.2g} ms",
-          name, r.a, r.sigma_a, r.b, r.sigma_b, r.rms, r.n, kinds.at(r.errors),
-          std::isnan(r.whiteness) ? "" : fmt::format(" (Ljung-Box p {:.2g})", r.whiteness),
-          time.count()));
-    } catch (const Error& error) {
-      tool.say(fmt::format("{}: {}", name, error.what()));
-    }
-  if (options.robust) return;
-  const auto scores = compare_laws(asked, runs, options);
-  double least = scores.front().aicc;
-  double other = std::numeric_limits<double>::infinity();  // of a law that is no a v^b
-  for (const LawScore& s : scores) {
-    least = std::min(least, s.aicc);
-    if (!s.is_power) other = std::min(other, s.aicc);
-  }
-  if (std::isinf(scores.front().aicc))
-    return tool.say("too few independent records to compare a v^b with other laws");
-  std::string line = "AICc above the least:";
-  for (const LawScore& s : scores) line += fmt::format(" {} {:.1f};", s.law, s.aicc - least);
-  tool.say(line + (scores.front().aicc - other <= 2 ? " D = a v^b is adequate"
-                                                    : " D = a v^b is not adequate"));
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -169,8 +89,8 @@ int main(int argc, char** argv) {
   std::string given_slope = "0";
   Body body;
   FitOptions options;
-  bool each = false, with_report = false;
-  tool.choice("--route", given_route, routes,
+  bool each = false, with_report = false, with_check = false;
+  tool.choice("--route", given_route, fit_routes(),
               "what is fitted: D of v (loglog, shift), v of t or x of t (shift if there is D, else "
               "velocity if v, else position)");
   tool.numbers("-K,--shape-factor", shape_factors, not_negative,
@@ -187,6 +107,8 @@ int main(int argc, char** argv) {
             "let outliers count little: bisquare loss instead of squares");
   tool.flag("--report", with_report,
             "tell on standard error what each route finds, and whether the law is adequate");
+  tool.flag("--check", with_check,
+            "exit with 1 if another law is better or the residuals are not white");
   tool.scene();
   tool.input();
   tool.output();
@@ -270,11 +192,15 @@ int main(int argc, char** argv) {
       tool.out.end_line();
       left_out += r.left_out;
     }
-    for (const auto& r : results)
-      if (r) warn_of_noise(tool, *r);
-    if (with_report)
-      for (std::size_t i = 0; i < fits.size(); ++i)
-        if (results[i]) report(tool, route, fits[i], options);
+    for (std::size_t i = 0; i < fits.size(); ++i) {
+      if (!results[i]) continue;
+      const auto of_fit = each ? std::span(run_names).subspan(i, 1) : std::span(run_names);
+      warn_of(tool, *results[i], of_fit);
+      if (!with_report && !with_check) continue;
+      const auto laws = compare_if_possible(route, fits[i], options);
+      if (with_report) report(tool, fits[i], options, laws);
+      if (with_check) check(tool, *results[i], laws, of_fit);
+    }
     tool.count_left_out(left_out, "this route cannot use them");
     return std::all_of(results.begin(), results.end(), fitted) ? 0 : 2;
   });

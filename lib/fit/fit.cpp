@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "fit/eccentricity.h"
 #include "fit/errors.h"
 #include "fit/first_guess.h"
 #include "fit/model_shift.h"
@@ -201,7 +202,8 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
                    .whiteness = errors.whiteness,
                    .v0 = {},
                    .sigma_v0 = {},
-                   .errors = errors.kind};
+                   .errors = errors.kind,
+                   .eccentricity = eccentricity_of(route, runs, found, errors.whiteness)};
   if (n > p) result.rms = std::sqrt(found.rss / static_cast<double>(n - p));
   if (result.sigma_a != 0 && result.sigma_b != 0)
     result.corr =

@@ -48,6 +48,15 @@ struct FitOptions {
 /// consistent for noise of uneven size (HC3); from the autocorrelation of the residuals.
 enum class Errors { none, classical, filters, differences, uneven, autocorrelation };
 
+/// The centre of mass of a body lies e off its axis: its weight then turns the body back and forth
+/// once a turn, as if the shift were D + e cos(x/R - phase), x from the beginning of the run.
+struct Eccentricity {
+  std::size_t run;      ///< counted from 0
+  double significance;  ///< the chance of residuals that show it as clearly, from noise alone
+  double e, sigma;      ///< and its standard error [m]
+  double phase;         ///< [rad]
+};
+
 struct FitResult {
   double a, sigma_a, b, sigma_b;  ///< a [m (s/m)^b]
   double corr;                    ///< correlation of a and b; 0 where one of them is fixed
@@ -59,6 +68,7 @@ struct FitResult {
   std::vector<double> v0, sigma_v0;   ///< trajectory routes, one a run
   double slope = 0, sigma_slope = 0;  ///< where it was fitted
   Errors errors;
+  std::optional<Eccentricity> eccentricity = {};  ///< of the run that shows it best; see there
 };
 
 /// One joint fit over all runs: one a and b, own v0 and x0 for each run. Throws Error with one
