@@ -1,4 +1,5 @@
-// What a motion sensor at the end of the track records of a roll: raw data with a known answer.
+// Simulates the record of a motion sensor (sonar) at the end of the track, with noise, rounding and
+// lost echoes: raw data for which the right result is known.
 #pragma once
 
 #include "motion/motion.h"
@@ -9,7 +10,7 @@
 
 namespace rolling {
 
-/// Defaults: a PASCO-type sonar with a careful hand.
+/// The defaults describe a sonar of PASCO and a smooth push by hand.
 struct SonarOptions {
   double rate = 25;           ///< records a second
   double resolution = 0.001;  ///< positions are rounded to this [m]; 0: not at all
