@@ -1,6 +1,7 @@
 // fitpower - fit the power law D = a v^b to columns; see fitpower(1)
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "cli/fit_report.h"
 #include "cli/history.h"
@@ -200,11 +201,12 @@ int main(int argc, char** argv) {
     }
     for (std::size_t i = 0; i < fits.size(); ++i) {
       if (!results[i]) continue;
-      warn_of(tool, *results[i], each ? i : 0);
+      const auto of_fit = each ? std::span(run_names).subspan(i, 1) : std::span(run_names);
+      warn_of(tool, *results[i], of_fit);
       if (!with_report && !with_check) continue;
       const auto laws = compare_if_possible(route, fits[i], options);
       if (with_report) report(tool, fits[i], options, laws);
-      if (with_check) check(tool, *results[i], laws, each ? i : 0);
+      if (with_check) check(tool, *results[i], laws, of_fit);
     }
     tool.count_left_out(left_out, "this route cannot use them");
     return std::all_of(results.begin(), results.end(), fitted) ? 0 : 2;

@@ -96,13 +96,13 @@ std::string described(const LawFit& fit, double least) {
 
 /// "the runs disagree ...: run 3 stands out, its D(0.21 m/s) is 4.1 +- 0.4 % less than the others'
 /// and its b 0.012 +- 0.004 more"
-std::string disagreement(const FitResult& r, std::size_t first) {
+std::string disagreement(const FitResult& r, std::span<const std::string> names) {
   const Agreement& found = *r.agreement;
   const auto more = [](double x) { return x < 0 ? "less" : "more"; };
   std::string line = fmt::format(
       "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees of freedom, chance "
       "{:.1g}): run {} stands out",
-      found.chi2, found.dof, found.significance, first + found.run + 1);
+      found.chi2, found.dof, found.significance, names[found.run]);
   if (found.log_D.sigma > 0)
     line +=
         fmt::format(", its D({:.2g} m/s) is {:.2g} +- {:.1g} % {} than that of the other{}",
@@ -116,7 +116,7 @@ std::string disagreement(const FitResult& r, std::size_t first) {
 
 }  // namespace
 
-void warn_of(Tool& tool, const FitResult& r, std::size_t first) {
+void warn_of(Tool& tool, const FitResult& r, std::span<const std::string> names) {
   if (exact(r)) return;
   if (r.errors == Errors::autocorrelation)
     tool.warn(fmt::format(
@@ -126,13 +126,13 @@ void warn_of(Tool& tool, const FitResult& r, std::size_t first) {
   if (r.errors == Errors::uneven)
     tool.warn("the noise is not of one size along the run: the errors allow for that");
   if (r.agreement && !r.agreement->agree())
-    tool.warn(disagreement(r, first) + "; the errors allow for that");
+    tool.warn(disagreement(r, names) + "; the errors allow for that");
   if (const auto& found = r.eccentricity)
     tool.warn(fmt::format(
         "run {}: the speed changes once a turn (significance {:.1g}), as if the centre of mass lay "
         "{:.2g} +- {:.1g} mm off the axis, most ahead of it at {:.0f} degrees: a and b are further "
         "off than their errors say; balance the body",
-        first + found->run + 1, found->significance, 1e3 * found->e, 1e3 * found->sigma,
+        names[found->run], found->significance, 1e3 * found->e, 1e3 * found->sigma,
         std::fmod(found->phase * 180 / std::numbers::pi + 360, 360)));
 }
 
@@ -157,15 +157,15 @@ void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& optio
 }
 
 void check(Tool& tool, const FitResult& r, const std::optional<LawComparison>& laws,
-           std::size_t first) {
+           std::span<const std::string> names) {
   constexpr double better = 10;       // AICc: the other law has no support any more (Burnham and
                                       // Anderson 2002, section 2.6)
   constexpr double decisive = 0.005;  // as many false alarms
-  const std::string run = first ? fmt::format("run {}: ", first + 1) : "";
+  const std::string run = names.size() == 1 ? fmt::format("run {}: ", names[0]) : "";
   if (laws && laws->against_power() >= better)
     tool.check_failed(fmt::format("{}D = {} is better than a v^b by {:.1f} in AICc; see --report",
                                   run, laws->best_other().law->formula, laws->against_power()));
-  if (r.agreement && !r.agreement->agree()) tool.check_failed(disagreement(r, first));
+  if (r.agreement && !r.agreement->agree()) tool.check_failed(disagreement(r, names));
   if (!exact(r) && r.whiteness <= decisive)
     tool.check_failed(
         fmt::format("{}the residuals are not white (Ljung-Box p {:.2g}): the law, or what is "

@@ -3,6 +3,8 @@
 
 #include <map>
 #include <optional>
+#include <span>
+#include <string>
 
 #include "cli/tool.h"
 #include "fit/laws.h"
@@ -16,8 +18,8 @@ const std::map<std::string, std::optional<Route>>& fit_routes();
 std::vector<std::string> columns_of(Route);
 
 /// What the user should know: errors that are not those of white noise, a body that does not run
-/// true. `first` is the number of the first run of the fit, from 0.
-void warn_of(Tool&, const FitResult&, std::size_t first);
+/// true. The names are those of the runs of the fit.
+void warn_of(Tool&, const FitResult&, std::span<const std::string> names);
 
 /// The laws on the records of one fit; none for a robust fit, which is no matter of squares.
 std::optional<LawComparison> compare_if_possible(Route, const std::vector<FitRun>&,
@@ -28,7 +30,8 @@ void report(Tool&, const std::vector<FitRun>&, const FitOptions&,
             const std::optional<LawComparison>&);
 
 /// Fails the check of the tool where another law is better by 10 in AICc, or the residuals are not
-/// white.
-void check(Tool&, const FitResult&, const std::optional<LawComparison>&, std::size_t first);
+/// white. Here a disagreement of the runs of a joint fit is to be said too.
+void check(Tool&, const FitResult&, const std::optional<LawComparison>&,
+           std::span<const std::string> names);
 
 }  // namespace rolling

@@ -31,8 +31,8 @@ double parabola(const double* c, double v, double* by_c) {
 
 double square(const double* c, double v, double* by_c) { return line(c, v * v, by_c); }
 
-/// d0 + a v^n as h + s (v^n - 1)/n (Box and Cox 1964, J. R. Stat. Soc. B 26, 211): where n is small,
-/// d0 and a are large and nearly cancel, while h, s and n stay what they are.
+/// d0 + a v^n as h + s (v^n - 1)/n (Box and Cox 1964, J. R. Stat. Soc. B 26, 211): where n is
+/// small, d0 and a are large and nearly cancel, while h, s and n stay what they are.
 double constant_and_power(const double* c, double v, double* by_c) {
   const double n = c[2], log = std::log(v), x = n * log,
                B = std::abs(x) < 1e-5 ? log * (1 + x / 2) : std::expm1(x) / n,
@@ -59,6 +59,14 @@ double peak(const double* c, double v, double* by_c) {
   return c[0] + c[1] * by_c[1];
 }
 
+/// The same curve has p w = (-p)(-w): the formula is written with w > 0.
+void written_peak(const double* c, double* d, double* by_c) {
+  const double sign = c[2] < 0 ? -1 : 1;
+  d[0] = c[0], d[1] = sign * c[1], d[2] = sign * c[2];
+  const double J[]{1, 0, 0, 0, sign, 0, 0, 0, sign};
+  std::copy(std::begin(J), std::end(J), by_c);
+}
+
 }  // namespace
 
 const std::vector<Law>& laws() {
@@ -81,7 +89,7 @@ const std::vector<Law>& laws() {
       {"d0 + 2 p v w/(v^2 + w^2)",
        {{"d0"}, {"p"}, {"w", 0, 1}},
        peak,
-       nullptr,
+       written_peak,
        {{0.5, 0.5, 0.2}, {0.5, 0.5, 0.6}, {0.5, 0.5, 2}}},
   };
   return all;
@@ -99,8 +107,8 @@ double LawInUnits::in_SI(const double* c, std::size_t j, std::span<double> by_c)
   const double power = by_exponent ? -d[e] : of.v,
                unit = std::pow(D_unit, of.D) * std::pow(v_unit, power);
   for (std::size_t i = 0; i < size(); ++i)
-    by_c[i] = unit * (J[j * size() + i] -
-                      (by_exponent ? d[j] * std::log(v_unit) * J[e * size() + i] : 0));
+    by_c[i] = unit *
+              (J[j * size() + i] - (by_exponent ? d[j] * std::log(v_unit) * J[e * size() + i] : 0));
   return d[j] * unit;
 }
 

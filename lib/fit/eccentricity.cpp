@@ -133,7 +133,8 @@ class Periodogram {
     const double reduction = by_cos * c + by_sin * s, e = std::hypot(by_cos, by_sin),
                  freedom = static_cast<double>(fit_.minimum.f.size()) -
                            static_cast<double>(fit_.minimum.theta.size()) - 2,
-                 variance = variance_ * (1 - reduction / fit_.minimum.rss) * (freedom + 2) / freedom;
+                 variance =
+                     variance_ * (1 - reduction / fit_.minimum.rss) * (freedom + 2) / freedom;
     const double along = (by_cos * by_cos * ss - 2 * by_cos * by_sin * cs + by_sin * by_sin * cc);
     return {run_, gsl_cdf_fdist_Q(reduction / variance / 2, 2, freedom), e,
             std::sqrt(variance * along / det) / e, std::atan2(by_sin, by_cos)};
@@ -157,7 +158,9 @@ std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRu
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
                     q = fit.system.columns();
   if (!fit.rolls || n < p + 10) return {};
-  const double variance = noise_variance(fit);
+  const double variance = fit.noise->known() && !fit.noise_inferred
+                              ? noise_variance(fit)
+                              : fit.minimum.rss / static_cast<double>(n - p);
   const auto Q = orthonormal(fit.system, fit.minimum);
   std::optional<Eccentricity> found;
   std::size_t first = 0;

@@ -19,8 +19,8 @@ constexpr double slope_unit = 1e-3;
 class Records {
  public:
   Records(Route route, Fitted power, const FitOptions& options)
-      : route_(route), power_(std::move(power)), options_(options),
-        law_{power_.a.value, power_.b.value} {
+      : route_(route), power_(std::move(power)),
+        options_(options), law_{power_.a.value, power_.b.value} {
     for (double v : power_.v) v_unit_ = std::max(v_unit_, v);
     for (const auto& q : power_.v0) v_unit_ = std::max(v_unit_, std::abs(q.value));
     if (power_.rolls)
@@ -124,7 +124,9 @@ struct Candidate {
 /// starts. A special case of the law comes out as itself.
 std::vector<std::vector<double>> closest(const Law& law, const Candidate& other) {
   constexpr std::size_t points = 20;
-  const System curve{{points}, 0, law.coefficients.size(),
+  const System curve{{points},
+                     0,
+                     law.coefficients.size(),
                      [&](const std::vector<double>& c, const TakeRows& take) {
     std::vector<double> f(points), J(points * c.size());
     for (std::size_t i = 0; i < points; ++i) {
@@ -203,15 +205,14 @@ void report_coefficients(LawFit& result, const Records& records, const Candidate
     const LawInUnits law = records.in_units(*found.law);
     for (std::size_t j = 0; j < law.size(); ++j) {
       Quantity q{0, std::vector<double>(fit.system.columns())};
-      q.value = law.in_SI(found.c.data(), j,
-                          std::span(q.gradient).subspan(records.own(), law.size()));
+      q.value =
+          law.in_SI(found.c.data(), j, std::span(q.gradient).subspan(records.own(), law.size()));
       values.push_back(std::move(q));
     }
   }
   const Uncertainty errors = uncertainty_of(fit);
   for (const Quantity& x : values)
-    result.coefficients.push_back(
-        {x.value, std::sqrt(errors.covariance(x.gradient, x.gradient))});
+    result.coefficients.push_back({x.value, std::sqrt(errors.covariance(x.gradient, x.gradient))});
   for (std::size_t i = 0; i < values.size(); ++i)
     for (std::size_t j = 0; j < values.size(); ++j) {
       const double sigmas = result.coefficients[i].sigma * result.coefficients[j].sigma;
@@ -249,8 +250,7 @@ LawComparison compare_laws(Route route, const std::vector<FitRun>& runs,
   const Records records(route, fit_route(route, runs, options), options);
   const Fitted& power = records.power();
   std::vector<Candidate> all{{&laws().front(), power.minimum, {1, power.b.value}}};
-  for (std::size_t i = 1; i < laws().size(); ++i)
-    all.push_back(fit_law(records, laws()[i], all));
+  for (std::size_t i = 1; i < laws().size(); ++i) all.push_back(fit_law(records, laws()[i], all));
   const double n = static_cast<double>(power.minimum.f.size()),
                independent = independent_records(all, power.system.runs);
   LawComparison result;

@@ -33,9 +33,9 @@ struct LawComparison {
 };
 
 /// Fits every law to the same records with the same weights as fit() fits a v^b, a roll where that
-/// is a roll. Records with correlated residuals count as n (1 - r)/(1 + r) independent ones, r their
-/// correlation from one to the next under the law that leaves least of it: so much less does the
-/// mean of an AR(1) process tell (Bayley and Hammersley 1946, J. R. Stat. Soc. Suppl. 8, 184).
+/// is a roll. Records with correlated residuals count as n (1 - r)/(1 + r) independent ones, r
+/// their correlation from one to the next under the law that leaves least of it: so much less does
+/// the mean of an AR(1) process tell (Bayley and Hammersley 1946, J. R. Stat. Soc. Suppl. 8, 184).
 /// For loglog the laws are compared on D itself, as for shift.
 /// Throws Error for a robust fit.
 LawComparison compare_laws(Route, const std::vector<FitRun>&, const FitOptions&);

@@ -186,8 +186,7 @@ void hand_over_filtered(const ObservedRun& run, std::size_t r, std::span<const d
   std::vector<double> f(rows), J(rows * q);
   for (std::size_t i = 0; i < rows; ++i) {
     f[i] = run.H->times(i, raw) - run.y[i];
-    for (std::size_t j = 0; j < q; ++j)
-      J[j * rows + i] = run.H->times(i, slopes.subspan(j * m, m));
+    for (std::size_t j = 0; j < q; ++j) J[j * rows + i] = run.H->times(i, slopes.subspan(j * m, m));
   }
   if (noise.weighted()) noise.weight(r, f, J);
   take(r, f, J);

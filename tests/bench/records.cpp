@@ -8,7 +8,8 @@ int main(int argc, char** argv) {
   const int runs = argc > 1 ? std::atoi(argv[1]) : 1000;
   const std::string only = argc > 2 ? argv[2] : "";
   constexpr rolling::PowerLaw CR{1.87e-3, 0.215}, CF{5.75e-4, 0.0244};
-  std::printf("# What a record really has: %d records each, position route; shares of them\n", runs);
+  std::printf("# What a record really has: %d records each, position route; shares of them\n",
+              runs);
   std::printf("%-31s %-5s %8s %7s %7s %8s %6s %9s %6s %9s %9s %6s %7s\n", "# trouble", "scene",
               "%_of_a", "cover_a", "cover_b", "adequate", "noise", "eccentric", "mm", "other_law",
               "not_white", "check", "refused");
@@ -33,7 +34,9 @@ int main(int argc, char** argv) {
     std::printf("%-29s", rolling::laws()[truth.law].formula);
     for (std::size_t j = 0; j < c.won.size(); ++j)
       if (c.apart[j] == 0) std::printf(" %24s", "-");
-      else std::printf("            %4d %7.3f", c.apart[j], static_cast<double>(c.won[j]) / c.apart[j]);
+      else
+        std::printf("            %4d %7.3f", c.apart[j],
+                    static_cast<double>(c.won[j]) / c.apart[j]);
     std::printf(" %6.3f %12d clear %d won %d\n", c.cover, c.not_determined, c.clear, c.won_by_all);
     std::fflush(stdout);
   }

@@ -24,15 +24,15 @@ inline const rolling::Body cylinder{1.375, 0.04, 0.5};
 struct Trouble {
   const char* name;
   double slope = 0;
-  double drag = 0;                   ///< v' has -drag v [1/s]
-  double K = 0.5;                    ///< as the fit is told
-  double scale = 1;                  ///< of the sensor
-  double eccentricity = 0;           ///< [m]
-  double aside = 0;                  ///< the sensor stands so far off the line [m], 0.3 m behind
-  double least = 1, most = 1;        ///< the noise, at the end and at the beginning
+  double drag = 0;             ///< v' has -drag v [1/s]
+  double K = 0.5;              ///< as the fit is told
+  double scale = 1;            ///< of the sensor
+  double eccentricity = 0;     ///< [m]
+  double aside = 0;            ///< the sensor stands so far off the line [m], 0.3 m behind
+  double least = 1, most = 1;  ///< the noise, at the end and at the beginning
   double AR = 0;
-  double outliers = 0;               ///< then --robust
-  double hand = 0;                   ///< a hand keeps the speed for so long [s]
+  double outliers = 0;  ///< then --robust
+  double hand = 0;      ///< a hand keeps the speed for so long [s]
 };
 
 /// Positions every dt, to the stop, under D(v); Runge-Kutta with 100 steps a record.
@@ -50,9 +50,8 @@ inline std::vector<double> path(const std::function<double(double)>& D, const Tr
   while (t < limit) {
     for (int i = 0; i < steps && v > 0; ++i, t += h) {
       const double k1 = acceleration(x, v), k2 = acceleration(x + h / 2 * v, v + h / 2 * k1),
-                   v2 = v + h / 2 * k1, v3 = v + h / 2 * k2,
-                   k3 = acceleration(x + h / 2 * v2, v3), v4 = v + h * k3,
-                   k4 = acceleration(x + h * v3, v4);
+                   v2 = v + h / 2 * k1, v3 = v + h / 2 * k2, k3 = acceleration(x + h / 2 * v2, v3),
+                   v4 = v + h * k3, k4 = acceleration(x + h * v3, v4);
       x += h / 6 * (v + 2 * v2 + 2 * v3 + v4);
       v += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
     }
@@ -98,9 +97,9 @@ class Readings {
 struct Verdict {
   double bias = 0;  ///< of a, in parts of a
   double cover_a = 0, cover_b = 0, adequate = 0;
-  double noise = 0, eccentric = 0;       ///< warnings
+  double noise = 0, eccentric = 0;                  ///< warnings
   double other_law = 0, not_white = 0, failed = 0;  ///< of --check
-  double e = 0, covered_e = 0;           ///< mean eccentricity where it was found
+  double e = 0, covered_e = 0;                      ///< mean eccentricity where it was found
   int refused = 0;
 };
 
@@ -164,8 +163,8 @@ struct Truth {
   std::vector<double> c;
 };
 inline std::vector<Truth> truths() {
-  return {{0, {1.87e-3, 0.215}},     {1, {5.75e-4}},           {2, {1e-3, 1.5e-3}},
-          {3, {6e-4, 3e-3, 6e-3}},   {4, {8e-4, 4e-3}},        {5, {8e-4, 2e-2, 4}},
+  return {{0, {1.87e-3, 0.215}},   {1, {5.75e-4}},    {2, {1e-3, 1.5e-3}},
+          {3, {6e-4, 3e-3, 6e-3}}, {4, {8e-4, 4e-3}}, {5, {8e-4, 2e-2, 4}},
           {6, {3e-4, 8e-4, 0.08}}};
 }
 
@@ -196,9 +195,9 @@ inline Contest contest(const Truth& truth, int runs, unsigned seed) {
       continue;
     }
     for (std::size_t j = 0; j < own.coefficients.size(); ++j)
-      all.cover += (std::abs(own.coefficients[j].value - truth.c[j]) <
-                    1.96 * own.coefficients[j].sigma) /
-                   static_cast<double>(own.coefficients.size() * static_cast<std::size_t>(runs));
+      all.cover +=
+          (std::abs(own.coefficients[j].value - truth.c[j]) < 1.96 * own.coefficients[j].sigma) /
+          static_cast<double>(own.coefficients.size() * static_cast<std::size_t>(runs));
     double least = INFINITY, next = INFINITY;
     for (std::size_t j = 0; j < fits.size(); ++j) {
       next = std::min(next, std::max(least, fits[j].aicc));

@@ -37,12 +37,10 @@ std::array<double, 2> amplitudes(const FitRun& run) {
   constexpr std::size_t p = 5;
   double A[p][p + 1] = {};
   for (std::size_t i = 0; i < run.t.size(); ++i) {
-    const double t = run.t[i], row[]{1,
-                                     t,
-                                     t * t,
-                                     std::cos(smooth(t) / body.R),
-                                     std::sin(smooth(t) / body.R),
-                                     run.x[i]};
+    const double t = run.t[i],
+                 row[]{
+                     1,       t, t * t, std::cos(smooth(t) / body.R), std::sin(smooth(t) / body.R),
+                     run.x[i]};
     for (std::size_t j = 0; j < p; ++j)
       for (std::size_t l = 0; l <= p; ++l) A[j][l] += row[j] * row[l];
   }

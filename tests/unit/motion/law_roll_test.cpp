@@ -62,7 +62,8 @@ TEST_CASE("law roll: closed forms of the other laws", "[law]") {
     const bool rolls = t < 5 * std::log(3);
     CHECK(by_line.at(t).v ==
           Approx(rolls ? 1.5 * std::exp(-0.2 * t) - 0.5 : 0).epsilon(1e-8).margin(1e-10));
-    if (rolls) CHECK(by_line.at(t).x == Approx(7.5 * (1 - std::exp(-0.2 * t)) - 0.5 * t).epsilon(1e-9));
+    if (rolls)
+      CHECK(by_line.at(t).x == Approx(7.5 * (1 - std::exp(-0.2 * t)) - 0.5 * t).epsilon(1e-9));
     if (t < 5 * std::atan(2))
       CHECK(by_square.at(t).v ==
             Approx(0.5 * std::tan(std::atan(2) - 0.2 * t)).epsilon(1e-8).margin(1e-10));
