@@ -100,12 +100,12 @@ class Periodogram {
   }
 
   bool worth() const {
+    if (f_.size() < 30 || !(steps_.way >= 2 * std::numbers::pi * R_)) return false;
     const double fastest = *std::max_element(steps_.v.begin(), steps_.v.end());
     double longest = 0;
     for (std::size_t i = 1; i < seen_.t.size(); ++i)
       longest = std::max(longest, seen_.t[i] - seen_.t[i - 1]);
-    return f_.size() >= 30 && steps_.way >= 2 * std::numbers::pi * R_ &&
-           fastest * longest < std::numbers::pi * R_;
+    return fastest * longest < std::numbers::pi * R_;
   }
 
   /// For the period 2 pi R times `stretch`.
