@@ -101,6 +101,20 @@ void add_options(Tool& tool, FitOptions& options) {
             "let outliers count little: bisquare loss instead of squares");
 }
 
+/// The shape factor of each run, and the uncertainties of the numbers of its body.
+void set_bodies(std::vector<FitRun>& runs, const std::vector<Estimate>& shape_factors,
+                const BodyUncertainty& uncertainty) {
+  if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
+    fail("--shape-factor gives {} values, but runs are {}", shape_factors.size(), runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Estimate K = shape_factors.empty() ? Estimate{not_given}
+                                             : shape_factors[shape_factors.size() > 1 ? i : 0];
+    runs[i].body.K = K.value;
+    runs[i].given = uncertainty;
+    runs[i].given.K = K.sigma;
+  }
+}
+
 /// The runs that are fitted together: all, or each by itself.
 std::vector<std::vector<FitRun>> grouped(std::vector<FitRun> runs, bool each) {
   std::vector<std::vector<FitRun>> groups;
@@ -220,16 +234,7 @@ int main(int argc, char** argv) {
     if (options.x0 && route != Route::position) fail("--fix: this route has no x0");
 
     auto [runs, run_names] = read_runs(tool, in, route, body, with_report);
-    if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
-      fail("--shape-factor gives {} values, but runs are {}", shape_factors.size(), runs.size());
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      const Estimate K = shape_factors.empty() ? Estimate{not_given}
-                                               : shape_factors[shape_factors.size() > 1 ? i : 0];
-      runs[i].body.K = K.value;
-      runs[i].given = uncertainty;
-      runs[i].given.K = K.sigma;
-    }
-
+    set_bodies(runs, shape_factors, uncertainty);
     const auto fits = grouped(std::move(runs), each);
     const Table table{tool.out, trajectory && fits.front().size() == 1, options.fit_slope, each};
     const auto results = fit_all(tool, route, fits, options, each ? &run_names : nullptr);
