@@ -1,12 +1,26 @@
 #include "contact/table_law.h"
 
+#include <gsl/gsl_interp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "base/error.h"
+#include "base/gsl.h"
 
 namespace rolling {
+
+struct TableLaw::Curve {
+  std::unique_ptr<gsl_interp, void (*)(gsl_interp*)> gsl;
+
+  Curve(const std::vector<double>& v, const std::vector<double>& D)
+      : gsl(own(gsl_interp_alloc(v.size() > 2 ? gsl_interp_steffen : gsl_interp_linear, v.size()),
+                gsl_interp_free)) {
+    silence_gsl();
+    gsl_interp_init(gsl.get(), v.data(), D.data(), v.size());
+  }
+};
 
 TableLaw::TableLaw(std::vector<double> v, std::vector<double> D) {
   if (v.empty() || v.size() != D.size())
@@ -23,44 +37,24 @@ TableLaw::TableLaw(std::vector<double> v, std::vector<double> D) {
     v_.push_back(v[i]);
     D_.push_back(D[i]);
   }
-  const std::size_t n = v_.size();
-  if (n == 1) return;
-  std::vector<double> h(n - 1), s(n - 1), slope(n);
-  for (std::size_t i = 0; i + 1 < n; ++i)
-    h[i] = v_[i + 1] - v_[i], s[i] = (D_[i + 1] - D_[i]) / h[i];
-  slope.front() = s.front(), slope.back() = s.back();
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    const double parabola = (s[i - 1] * h[i] + s[i] * h[i - 1]) / (h[i - 1] + h[i]);
-    const double least = std::min({std::abs(s[i - 1]), std::abs(s[i]), std::abs(parabola) / 2});
-    slope[i] = s[i - 1] * s[i] > 0 ? 2 * std::copysign(least, s[i]) : 0;
-  }
-  for (std::size_t i = 0; i + 1 < n; ++i) {
-    c1_.push_back(slope[i]);
-    c2_.push_back((3 * s[i] - 2 * slope[i] - slope[i + 1]) / h[i]);
-    c3_.push_back((slope[i] + slope[i + 1] - 2 * s[i]) / (h[i] * h[i]));
-  }
-}
-
-TableLaw::Place TableLaw::place(double v) const {
-  const auto above = std::upper_bound(v_.begin() + 1, v_.end() - 1, v);
-  const auto i = static_cast<std::size_t>(above - v_.begin()) - 1;
-  return {i, v - v_[i]};
+  if (v_.size() > 1) curve_ = std::make_shared<Curve>(v_, D_);
 }
 
 double TableLaw::operator()(double v) const {
-  if (v <= v_.front() || v_.size() == 1) return D_.front();
-  if (v > highest()) return D_.back() + c1_.back() * (v - highest());
-  const auto [i, s] = place(v);
+  if (v <= v_.front() || !curve_) return D_.front();
+  if (v > highest()) return D_.back() + slope(v) * (v - highest());
+  const std::size_t i = gsl_interp_bsearch(v_.data(), v, 0, v_.size() - 1);
+  gsl_interp_accel place{i, 0, 0};
   const auto [least, most] = std::minmax(D_[i], D_[i + 1]);
-  return std::clamp(D_[i] + s * (c1_[i] + s * (c2_[i] + s * c3_[i])), least,
-                    most);  // rounding may lead beyond them
+  // Rounding may lead beyond the two points.
+  return std::clamp(gsl_interp_eval(curve_->gsl.get(), v_.data(), D_.data(), v, &place), least,
+                    most);
 }
 
 double TableLaw::slope(double v) const {
-  if (v < v_.front() || v_.size() == 1) return 0;
-  if (v > highest()) return c1_.back();
-  const auto [i, s] = place(v);
-  return c1_[i] + s * (2 * c2_[i] + 3 * s * c3_[i]);
+  if (v < v_.front() || !curve_) return 0;
+  return gsl_interp_eval_deriv(curve_->gsl.get(), v_.data(), D_.data(), std::min(v, highest()),
+                               nullptr);
 }
 
 double TableLaw::largest_shift(double v) const {

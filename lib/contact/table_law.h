@@ -1,7 +1,7 @@
 // A law D(v) given by points, with monotone interpolation.
 #pragma once
 
-#include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace rolling {
@@ -24,14 +24,9 @@ class TableLaw {
   double largest_shift(double v) const;  ///< largest D at speeds up to v [m]
 
  private:
-  struct Place {
-    std::size_t i;
-    double s;  // v - v_[i]
-  };
-  Place place(double v) const;
-
+  struct Curve;  // GSL's coefficients
   std::vector<double> v_, D_;
-  std::vector<double> c1_, c2_, c3_;  // D = D_[i] + s (c1 + s (c2 + s c3))
+  std::shared_ptr<const Curve> curve_;  // of two points or more
 };
 
 }  // namespace rolling
