@@ -11,17 +11,6 @@
 
 namespace rolling {
 
-struct TableLaw::Curve {
-  std::unique_ptr<gsl_interp, void (*)(gsl_interp*)> gsl;
-
-  Curve(const std::vector<double>& v, const std::vector<double>& D)
-      : gsl(own(gsl_interp_alloc(v.size() > 2 ? gsl_interp_steffen : gsl_interp_linear, v.size()),
-                gsl_interp_free)) {
-    silence_gsl();
-    gsl_interp_init(gsl.get(), v.data(), D.data(), v.size());
-  }
-};
-
 TableLaw::TableLaw(std::vector<double> v, std::vector<double> D) {
   if (v.empty() || v.size() != D.size())
     fail("a table of a law needs a point at least, and a D to each v");
@@ -37,24 +26,45 @@ TableLaw::TableLaw(std::vector<double> v, std::vector<double> D) {
     v_.push_back(v[i]);
     D_.push_back(D[i]);
   }
-  if (v_.size() > 1) curve_ = std::make_shared<Curve>(v_, D_);
+  const std::size_t n = v_.size();
+  if (n == 1) return;
+  silence_gsl();
+  const auto gsl =
+      own(gsl_interp_alloc(n > 2 ? gsl_interp_steffen : gsl_interp_linear, n), gsl_interp_free);
+  gsl_interp_init(gsl.get(), v_.data(), D_.data(), n);
+  const auto slope_at = [&](std::size_t i) {
+    return gsl_interp_eval_deriv(gsl.get(), v_.data(), D_.data(), v_[i], nullptr);
+  };
+  // The coefficients are kept here, because a call of gsl_interp_eval takes twice the time.
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double h = v_[i + 1] - v_[i], s = (D_[i + 1] - D_[i]) / h, begin = slope_at(i),
+                 end = slope_at(i + 1);
+    c1_.push_back(begin);
+    c2_.push_back((3 * s - 2 * begin - end) / h);
+    c3_.push_back((begin + end - 2 * s) / (h * h));
+  }
+}
+
+TableLaw::Place TableLaw::place(double v) const {
+  const auto above = std::upper_bound(v_.begin() + 1, v_.end() - 1, v);
+  const auto i = static_cast<std::size_t>(above - v_.begin()) - 1;
+  return {i, v - v_[i]};
 }
 
 double TableLaw::operator()(double v) const {
-  if (v <= v_.front() || !curve_) return D_.front();
-  if (v > highest()) return D_.back() + slope(v) * (v - highest());
-  const std::size_t i = gsl_interp_bsearch(v_.data(), v, 0, v_.size() - 1);
-  gsl_interp_accel place{i, 0, 0};
+  if (v <= v_.front() || v_.size() == 1) return D_.front();
+  if (v > highest()) return D_.back() + c1_.back() * (v - highest());
+  const auto [i, s] = place(v);
   const auto [least, most] = std::minmax(D_[i], D_[i + 1]);
-  // Rounding may lead beyond the two points.
-  return std::clamp(gsl_interp_eval(curve_->gsl.get(), v_.data(), D_.data(), v, &place), least,
-                    most);
+  return std::clamp(D_[i] + s * (c1_[i] + s * (c2_[i] + s * c3_[i])), least,
+                    most);  // rounding may lead beyond them
 }
 
 double TableLaw::slope(double v) const {
-  if (v < v_.front() || !curve_) return 0;
-  return gsl_interp_eval_deriv(curve_->gsl.get(), v_.data(), D_.data(), std::min(v, highest()),
-                               nullptr);
+  if (v < v_.front() || v_.size() == 1) return 0;
+  if (v > highest()) return c1_.back();
+  const auto [i, s] = place(v);
+  return c1_[i] + s * (2 * c2_[i] + 3 * s * c3_[i]);
 }
 
 double TableLaw::largest_shift(double v) const {

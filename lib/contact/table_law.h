@@ -1,7 +1,7 @@
 // A law D(v) given by points, with monotone interpolation.
 #pragma once
 
-#include <memory>
+#include <cstddef>
 #include <vector>
 
 namespace rolling {
@@ -24,9 +24,14 @@ class TableLaw {
   double largest_shift(double v) const;  ///< largest D at speeds up to v [m]
 
  private:
-  struct Curve;  // GSL's coefficients
+  struct Place {
+    std::size_t i;
+    double s;  // v - v_[i]
+  };
+  Place place(double v) const;
+
   std::vector<double> v_, D_;
-  std::shared_ptr<const Curve> curve_;  // of two points or more
+  std::vector<double> c1_, c2_, c3_;  // D = D_[i] + s (c1 + s (c2 + s c3))
 };
 
 }  // namespace rolling
