@@ -176,7 +176,7 @@ std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRu
         (found && found->significance < once_a_turn.significance))
       continue;
     const double near = std::min(spectrum.at(0.7).significance, spectrum.at(1.4).significance);
-    if (once_a_turn.significance < (whiteness <= decisive ? near * near : near))
+    if (once_a_turn.significance < (whiteness <= decisive ? 1e-4 * near : near))
       found = once_a_turn;
   }
   return found;

@@ -179,10 +179,12 @@ struct Contest {
 
 inline Contest contest(const Truth& truth, int runs, unsigned seed) {
   const rolling::Law& law = rolling::laws()[truth.law];
+  std::vector<double> c = truth.c;
+  if (truth.law == 5) c = {c[0] + c[1], c[1] * c[2], c[2]};  // h, s, n of d0 + a v^n
   Readings readings(path(
                         [&](double v) {
     double by_c[rolling::Law::most];
-    return law.shift(truth.c.data(), v, by_c);
+    return law.shift(c.data(), v, by_c);
                         },
                         {}),
                     {.name = ""}, seed);
