@@ -74,8 +74,8 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, bool all_c
     run.filters = std::move(history.filters);
     run.shift_of = history.shift_of;
     if (!history.doubt.empty())
-      tool.warn(fmt::format("run {}: {}: the fit goes on as if no filter were known", runs.size(),
-                            history.doubt));
+      tool.warn(fmt::format("run {}: {}: the fit goes on as if no filter were known",
+                            all.names.back(), history.doubt));
   }
   return all;
 }
@@ -88,11 +88,33 @@ void set_parameters(FitOptions& options, const std::vector<std::string>& fixed,
   set_parameters("--start", start, {{"a", &options.start_a}, {"b", &options.start_b}});
 }
 
+/// A slope that is not `fit`.
+void set_slope(const std::string& text, Body& body, BodyUncertainty& uncertainty) {
+  Estimate given;
+  if (!parse_estimate(text, given)) fail("--slope: '{}' is no number, and not `fit`", shown(text));
+  body.slope = given.value;
+  uncertainty.slope = given.sigma;
+}
+
 void add_options(Tool& tool, FitOptions& options) {
   tool.geometry(options.geometry);
   tool.number("--min-speed", options.min_speed, not_negative, "leave slower records out [m/s]");
   tool.flag("--robust", options.robust,
             "let outliers count little: bisquare loss instead of squares");
+}
+
+/// The shape factor of each run, and the uncertainties of the numbers of its body.
+void set_bodies(std::vector<FitRun>& runs, const std::vector<Estimate>& shape_factors,
+                const BodyUncertainty& uncertainty) {
+  if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
+    fail("--shape-factor gives {} values, but runs are {}", shape_factors.size(), runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Estimate K = shape_factors.empty() ? Estimate{not_given}
+                                             : shape_factors[shape_factors.size() > 1 ? i : 0];
+    runs[i].body.K = K.value;
+    runs[i].given = uncertainty;
+    runs[i].given.K = K.sigma;
+  }
 }
 
 /// The runs that are fitted together: all, or each by itself.
@@ -176,7 +198,7 @@ int main(int argc, char** argv) {
   std::optional<Route> given_route;
   std::vector<Estimate> shape_factors;
   std::vector<std::string> fixed, start;
-  std::string given_slope = "0";
+  std::string slope_text = "0";
   Body body;
   BodyUncertainty uncertainty;
   FitOptions options;
@@ -187,7 +209,7 @@ int main(int argc, char** argv) {
   tool.numbers("-K,--shape-factor", shape_factors, not_negative,
                "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
   tool.body(body, {radius, gravity}, &uncertainty);
-  tool.text("--slope", given_slope, "S|fit",
+  tool.text("--slope", slope_text, "S|fit",
             "the mat rises by S metres a metre along growing x; fit: find it, of all runs");
   add_options(tool, options);
   tool.flag("--each", each, "fit each run by itself, a row for each");
@@ -196,7 +218,7 @@ int main(int argc, char** argv) {
   tool.flag("--report", with_report,
             "tell on standard error what each route finds, and whether the law is adequate");
   tool.flag("--check", with_check,
-            "exit with 1 if another law is better or the residuals are not white");
+            "exit with 1 if another law is better, the residuals are not white, or runs disagree");
   tool.scene();
   tool.input();
   tool.output();
@@ -206,28 +228,15 @@ int main(int argc, char** argv) {
     Reader& in = tool.read(columns_of(given_route.value_or(Route::shift)));
     const Route route = given_route ? *given_route : default_route(in);
     options.possible_filters = filters_of_sensors();
-    options.fit_slope = given_slope == "fit";
-    if (Estimate given; parse_estimate(given_slope, given)) {
-      body.slope = given.value;
-      uncertainty.slope = given.sigma;
-    } else if (!options.fit_slope)
-      fail("--slope: '{}' is no number, and not `fit`", shown(given_slope));
+    options.fit_slope = slope_text == "fit";
+    if (!options.fit_slope) set_slope(slope_text, body, uncertainty);
     const bool trajectory = route == Route::velocity || route == Route::position;
     if (trajectory) tool.need({"radius", "shape-factor"});
     if (options.v0 && !trajectory) fail("--fix: this route has no v0");
     if (options.x0 && route != Route::position) fail("--fix: this route has no x0");
 
     auto [runs, run_names] = read_runs(tool, in, route, body, with_report);
-    if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
-      fail("--shape-factor gives {} values, but runs are {}", shape_factors.size(), runs.size());
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      const Estimate K = shape_factors.empty() ? Estimate{not_given}
-                                               : shape_factors[shape_factors.size() > 1 ? i : 0];
-      runs[i].body.K = K.value;
-      runs[i].given = uncertainty;
-      runs[i].given.K = K.sigma;
-    }
-
+    set_bodies(runs, shape_factors, uncertainty);
     const auto fits = grouped(std::move(runs), each);
     const Table table{tool.out, trajectory && fits.front().size() == 1, options.fit_slope, each};
     const auto results = fit_all(tool, route, fits, options, each ? &run_names : nullptr);
