@@ -29,12 +29,13 @@ constexpr DoubleDouble exp_series(DoubleDouble x) {
 constexpr DoubleDouble ln2 =
     twice_artanh(DoubleDouble(1) / 7) * 2 + twice_artanh(DoubleDouble(1) / 17);  // 2 = (4/3)^2 9/8
 
-// x = 2^k m: m is divided by the number c of 9 bits that is nearest to the middle of its interval,
-// and ln x = k ln2 + ln c + ln(m/c).
+// x = 2^k m, and ln x = k ln2 + ln c + ln(m/c). The range of m is divided into intervals; 1/c is
+// the number of 9 bits nearest to the inverse of the middle of the interval.
 constexpr int log_bits = 7, log_size = 1 << log_bits;
 constexpr std::uint64_t log_offset = 0x3fe6a00000000000;  // m from 0.707 to 1.414
 
-/// A part that is a multiple of 2^-42, and the rest: sums of such parts below 1024 are exact.
+/// Rounds hi to a multiple of 2^-42; lo is the remainder. Sums of such multiples are exact below
+/// 1024.
 constexpr DoubleDouble coarse(DoubleDouble x) {
   const double top = static_cast<double>(static_cast<std::int64_t>(x.hi * 0x1p42)) * 0x1p-42;
   return {top, (x.hi - top) + x.lo};
@@ -58,14 +59,14 @@ constexpr auto log_table = [] {
   return table;
 }();
 
-// e^x = 2^(n/128) e^r. The powers have 26 bits and a rest.
+// e^x = 2^(n/128) e^r. hi of each power keeps 26 bits; lo is the remainder.
 constexpr int exp_bits = 7, exp_size = 1 << exp_bits;
 constexpr auto exp_table = [] {
   std::array<DoubleDouble, exp_size> table{};
   for (std::size_t i = 0; i < exp_size; ++i) {
     const DoubleDouble power = exp_series(ln2 * static_cast<double>(i) / (2 * exp_size)),
                        square = power * power;
-    const double hi = split(square.hi).hi;
+    const double hi = split(square.hi).hi;  // 26 bits: its products with 26 bits are exact
     table[i] = {hi, (square.hi - hi) + square.lo};
   }
   return table;
@@ -88,7 +89,7 @@ DoubleDouble log(DoubleDouble x) {
   int k = 0;
   const double m = std::frexp(x.hi, &k);
   const DoubleDouble mantissa(m, std::ldexp(x.lo, -k));
-  const DoubleDouble first = std::log(m);  // and one step of Newton's method
+  const DoubleDouble first = std::log(m);  // one step of Newton's method follows
   return first + (mantissa * exp(-first) - 1.0) + ln2 * static_cast<double>(k);
 }
 
@@ -115,8 +116,8 @@ DoubleDouble quick_log(DoubleDouble x) {
   const auto& [inverse, log_c] = log_table[(above >> (52 - log_bits)) % log_size];
   const double m = std::bit_cast<double>(bits - (static_cast<std::uint64_t>(k) << 52)),
                top = cut(m, 32);
-  // m/c - 1 = r1 + r2 and ln(1 + r) = r - r^2/2 + cubic. Exact: r1 of 23 bits and its square, r2, k
-  // log_2.hi + ln c + r1, r2 - r1^2/2.
+  // m/c - 1 = r1 + r2 and ln(1 + r) = r - r^2/2 + cubic. These are exact: r1 (23 bits) and its
+  // square, r2, k log_2.hi + ln c + r1, and r2 - r1^2/2.
   const double r1 = top * inverse - 1, r2 = (m - top) * inverse, r = r1 + r2;
   const DoubleDouble sum = quick_two_sum(k * log_2.hi + log_c.hi + r1, r2 - r1 * r1 / 2);
   return {sum.hi, sum.lo + (x.lo / x.hi + (k * log_2.lo + log_c.lo) +

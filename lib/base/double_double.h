@@ -19,8 +19,8 @@
 
 namespace rolling {
 
-/// hi + lo, |lo| <= ulp(hi)/2, or as the function that made it says. Of magnitude 1e-290 .. 1e290:
-/// the products split their factors.
+/// The number hi + lo, with |lo| <= ulp(hi)/2 unless a function states another bound. Its magnitude
+/// must be within 1e-290 .. 1e290, because products split their factors.
 struct DoubleDouble {
   double hi = 0, lo = 0;
 
@@ -40,19 +40,19 @@ constexpr DoubleDouble two_sum(double a, double b) {
   return {sum, (a - (sum - of_b)) + (b - of_b)};
 }
 
-/// The same for |a| >= |b|.
+/// a + b for |a| >= |b|.
 constexpr DoubleDouble quick_two_sum(double a, double b) {
   const double sum = a + b;
   return {sum, b - (sum - a)};
 }
 
-/// a into 26 + 26 bits: products of the parts are exact.
+/// Splits a into two parts of 26 bits, whose products with such parts are exact (Dekker).
 constexpr DoubleDouble split(double a) {
   const double c = 134217729 * a, hi = c - (c - a);
   return {hi, a - hi};
 }
 
-/// The same with the parts of a at hand.
+/// a b, exactly; `parts` is split(a).
 constexpr DoubleDouble two_product(double a, DoubleDouble parts, double b) {
   const double p = a * b;
   const auto [b1, b2] = split(b);
@@ -89,21 +89,21 @@ constexpr DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
   return quick_two_sum(q1, q2) + left.hi / b.hi;
 }
 
-/// ln(x) and e^x to about 1e-31 max(1, |ln x|) and 1e-31 max(1, |x|), relatively for e^x; slow. x
-/// as far as e^x is in range.
+/// ln(x), with an absolute error of about 1e-31 max(1, |ln x|), and e^x, with a relative error of
+/// about 1e-31 max(1, |x|), for x such that e^x is in range. Both are slow.
 DoubleDouble log(DoubleDouble x);
 DoubleDouble exp(DoubleDouble x);
 
-/// x without its last `bits` bits.
+/// x with its last `bits` bits set to 0.
 constexpr double cut(double x, int bits) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & ~((1ull << bits) - 1));
 }
 
-// What follows is fast, and leaves out the last step that makes lo small: it gives and takes |lo|
-// up to 2^-16 |hi|.
+// The functions below are faster. Their results are not renormalised: |lo| may reach 2^-16 |hi|.
+// They accept such arguments; the operators above do not.
 
-/// A constant factor: its upper part has 26 bits, so that a product with 26 more needs no
-/// splitting.
+/// A constant factor. hi has 26 bits, so that its product with another number of 26 bits is exact
+/// without splitting.
 struct Factor {
   double hi = 0, lo = 0;
 
@@ -116,7 +116,7 @@ inline DoubleDouble operator*(Factor f, DoubleDouble x) {
   return {f.hi * top, f.hi * ((x.hi - top) + x.lo) + f.lo * (x.hi + x.lo)};
 }
 
-/// A constant factor of all its bits.
+/// A constant factor with full precision; the parts of hi are computed once.
 struct SplitFactor {
   DoubleDouble value, parts;
 
@@ -129,13 +129,14 @@ inline DoubleDouble operator*(const SplitFactor& f, double x) {
   return {p.hi, p.lo + f.value.lo * x};
 }
 
-/// log1p(r)/r for |r| <= 1/128: relative error below 2^-66.
+/// ln(1 + r)/r for |r| <= 1/128: relative error below 2^-66.
 DoubleDouble log1p_ratio(DoubleDouble r);
 
-/// ln(x): absolute error below 2^-66 max(1, |ln x|). x a normal number, |lo| <= ulp(hi).
+/// ln(x) for a normal number x with |lo| <= ulp(hi): absolute error below 2^-66 max(1, |ln x|).
 DoubleDouble quick_log(DoubleDouble x);
 
-/// m 2^exponent: products that may leave the range of double on the way.
+/// The number m 2^exponent, for products whose factors or partial products are beyond the range of
+/// a double.
 struct Scaled {
   DoubleDouble m;
   int exponent = 0;
@@ -149,7 +150,7 @@ Scaled operator/(const Scaled&, const Scaled&);
 /// x^p for x > 0: relative error about 1e-31 max(1, |p|).
 Scaled power(double x, DoubleDouble p);
 
-/// A factor made ready for products: m 2^exponent.
+/// A constant factor m 2^exponent.
 struct ScaledFactor {
   Factor m;
   int exponent = 0;

@@ -1,5 +1,4 @@
-// The one exception type: trouble that the user can read about in one line. Every command catches
-// it in one place.
+// The exception type of the library. Its message is one line for the user. Tool::run() catches it.
 #pragma once
 
 #include <fmt/core.h>
@@ -14,7 +13,7 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// One that says itself where in the input the trouble is.
+/// An error whose message names the file, and the line where there is one.
 class InputError : public Error {
  public:
   using Error::Error;

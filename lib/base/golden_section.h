@@ -9,7 +9,7 @@ struct Largest {
   double at, value;
 };
 
-/// By golden section, to within `width`.
+/// Golden-section search on [low, high]; the interval at the end is at most `width` wide.
 template <typename Function>
 Largest golden_section(double low, double high, double width, Function&& f) {
   constexpr double golden = 0.6180339887498949;  // (sqrt(5) - 1) / 2

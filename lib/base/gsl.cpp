@@ -1,20 +1,16 @@
 #include "base/gsl.h"
 
-#include "base/error.h"
+#include <gsl/gsl_errno.h>
 
 namespace rolling {
 
-// An exception, through C: GSL does not look whether all its allocations succeed (that of
-// LU_decomp, that of a driver's error control), and would go on with a null pointer. What it holds
-// at that moment is lost.
+// The exception passes through C code. A status would not do: GSL does not test all its allocations
+// (LU_decomp, the error control of a driver) and would go on with a null pointer. The memory that
+// GSL holds at that moment is not freed.
 void silence_gsl() {
   gsl_set_error_handler([](const char*, const char*, int, int status) {
     if (status == GSL_ENOMEM) throw std::bad_alloc();
   });
-}
-
-void check_gsl(int status, const char* what) {
-  if (status != GSL_SUCCESS) fail("{}: {}", what, gsl_strerror(status));
 }
 
 }  // namespace rolling

@@ -1,18 +1,14 @@
-// GSL without its aborting error handler: handles that free themselves, and every status an Error.
+// GSL without its aborting error handler, and owners of its objects.
 #pragma once
 
-#include <gsl/gsl_errno.h>
-
 #include <memory>
+#include <new>
 
 namespace rolling {
 
-/// In place of GSL's default handler, which aborts: an allocation that fails is std::bad_alloc, all
-/// else a status. Call it before the first use of GSL in a room.
+/// Replaces GSL's error handler, which aborts the program: a failed allocation throws
+/// std::bad_alloc, any other error is a status that GSL returns. Call it before using GSL.
 void silence_gsl();
-
-/// Throws Error("what: reason") when a GSL status is not GSL_SUCCESS.
-void check_gsl(int status, const char* what);
 
 /// Owns a GSL object: `auto x = own(gsl_vector_alloc(n), gsl_vector_free)`. A null pointer (no
 /// memory) throws std::bad_alloc.

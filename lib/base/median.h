@@ -1,4 +1,4 @@
-// The median of numbers, by partial sorting.
+// The median, by partial sorting.
 #pragma once
 
 #include <algorithm>
@@ -8,15 +8,15 @@
 
 namespace rolling {
 
-/// The number of this rank, from 0, if they were sorted; puts them into another order. O(n).
+/// The number of this rank (0 is the smallest). Changes the order of the values. O(n).
 inline double nth_smallest(std::span<double> values, std::size_t rank) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
 
-/// The middle one, or the mean of the two in the middle; needs one number at least; puts them into
-/// another order. O(n).
+/// The median of at least one value; of an even number of values, the mean of the middle two.
+/// Changes the order of the values. O(n).
 inline double median(std::span<double> values) {
   const std::size_t half = values.size() / 2;
   const double upper = nth_smallest(values, half);

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t page_width = 79, help_column = 30;
 
-/// CLI11 takes `[a,g]` for a list of two values. A word that begins with a bracket wears this mark
-/// while CLI11 has it, and so does a word that begins with the mark.
+/// CLI11 reads `[a,g]` as a list of two values. To prevent that, this mark is put before a word
+/// that begins with a bracket (or with the mark) and is removed behind CLI11.
 constexpr char mark = '\x01';
 
 std::string marked(const char* word) {
@@ -57,7 +57,7 @@ std::string synopsis(const CLI::Option& option) {
   return text;
 }
 
-/// CLI11's message on one line, its words cut to a length that can be shown.
+/// CLI11's message on one line, with long words cut.
 std::string one_line(const char* message) {
   std::istringstream words(message);
   std::string text;
@@ -69,7 +69,7 @@ std::string one_line(const char* message) {
 
 struct CommandLine::Parser {
   CLI::App app;
-  /// Where the repeated words go once CLI11 is done: it changes what it hands out itself.
+  /// The lists are filled after parsing: the values that CLI11 writes itself still have the mark.
   std::list<std::pair<const CLI::Option*, std::vector<std::string>*>> lists;
 };
 

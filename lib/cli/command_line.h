@@ -1,5 +1,5 @@
-// The command line and a scene's assignments as CLI11 reads them. Only command_line.cpp includes
-// CLI11, which takes several seconds to compile.
+// The command line, and the assignments of a scene file, as CLI11 parses them. Only
+// command_line.cpp includes CLI11, which needs several seconds to compile.
 #pragma once
 
 #include <functional>
@@ -21,24 +21,24 @@ class CommandLine {
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 
-  // `names` as CLI11 writes them: "-w,--width"; `type` is what --help calls the value. The values
-  // arrive as they were typed. What a setter throws comes out of parse().
+  // `names` in the notation of CLI11: "-w,--width"; `type` is the word for the value in --help.
+  // A setter receives the value as it was typed; its exceptions leave parse().
   void option(const std::string& names, const std::string& type, const std::string& help, Set);
   void flag(const std::string& names, const std::string& help, std::function<void()> set);
   /// An option that may be repeated.
   void list(const std::string& names, const std::string& type, const std::string& help,
             std::vector<std::string>& values);
-  /// The words that belong to no option.
+  /// The words of the command line that are not options: the input files.
   void operands(const std::string& help, std::vector<std::string>& values);
 
   enum class Asked { work, help, version };
-  /// Throws Error for what is no command line of these options.
+  /// Throws Error for unknown options and for values that are missing or too many.
   Asked parse(int argc, const char* const* argv);
 
-  /// Whether an option, by its long name, stands on the command line that was parsed.
+  /// True if the option with this long name was on the command line that was parsed.
   bool given(std::string_view option) const;
 
-  /// What --help prints for a program of this name; cmd/install/completion.awk reads it.
+  /// The text of --help for a program of this name; cmd/install/completion.awk reads it.
   std::string help(const std::string& name) const;
 
  private:
@@ -47,7 +47,7 @@ class CommandLine {
 };
 
 /// The key and the value of a line `key = value` of a TOML file, without quotes and comment;
-/// nothing where CLI11 finds anything else in it.
+/// nullopt if CLI11 does not read the line so.
 std::optional<std::pair<std::string, std::string>> read_assignment(const std::string& line);
 
 }  // namespace rolling

@@ -8,8 +8,8 @@
 namespace rolling {
 namespace {
 
-/// A column of a row of fitpower. Its name means something else in a file of records (a is an
-/// acceleration there), so it is read as it is, and converted as the quantity that it is here.
+/// A column of a row of fitpower. In a file of records its name may mean another quantity (a is an
+/// acceleration there), so it is read without conversion and converted here.
 class RowColumn {
  public:
   RowColumn(Reader& in, const std::string& name, std::string_view quantity)

@@ -1,4 +1,4 @@
-// The law D(v) of a mat from a file: what --law reads.
+// Reads the law D(v) of a mat from the file of the option --law.
 #pragma once
 
 #include <optional>
@@ -10,10 +10,11 @@
 
 namespace rolling {
 
-/// Reads a row of fitpower, or a table of v and D; `-` is standard input. A row sets the law by its
-/// columns a and b, and where it has them the slope of the mat, and v0 [m/s] if that is asked for;
-/// the command line wins over it. A table is returned; -a and -b do not go with it. Columns with
-/// units are converted to SI. Throws Error for a file that is neither, and for more than one row.
+/// Reads a row of fitpower (a file with columns a and b) or a table of v and D; `-` is standard
+/// input. A row sets `law`, and `slope` and `v0` [m/s] if it has these columns and v0 is not null,
+/// except for values that are on the command line. A table is returned; with -a or -b it is
+/// refused. Columns with units are converted to SI. Throws Error for any other file and for more
+/// than one row.
 std::optional<TableLaw> read_law(Tool&, const std::string& file, PowerLaw& law, double& slope,
                                  double* v0 = nullptr);
 

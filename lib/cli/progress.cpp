@@ -15,7 +15,7 @@ using std::chrono::steady_clock;
 constexpr std::chrono::milliseconds patience(2000), interval(500);
 constexpr std::size_t width = 79;
 
-/// To the beginning of the line, which is wiped, and there `text`.
+/// Clears the line of the terminal and writes `text` there.
 void put(const std::string& text) {
   const std::string line = "\r\033[K" + text;
   [[maybe_unused]] const auto count = ::write(STDERR_FILENO, line.data(), line.size());
@@ -29,7 +29,7 @@ void Progress::start(std::string name) {
   part_ = std::nan("");
   try {
     thread_ = std::jthread([this](const std::stop_token& stop) { show(stop); });
-  } catch (const std::system_error&) {  // no thread to be had: the work goes on without
+  } catch (const std::system_error&) {  // no thread can be made: there is no progress line
   }
 }
 
@@ -47,7 +47,7 @@ void Progress::stop() {
 }
 
 void Progress::show(const std::stop_token& stop) {
-  sigset_t all;  // signals are for the thread that writes the rows, and when it lets them come
+  sigset_t all;  // the main thread handles signals, between whole lines of output
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, nullptr);
   const auto begin = steady_clock::now();

@@ -1,4 +1,4 @@
-// For who waits at a terminal: what a program is doing, and how much of it is done.
+// A progress line on the terminal.
 #pragma once
 
 #include <condition_variable>
@@ -9,16 +9,18 @@
 
 namespace rolling {
 
-/// A line on standard error, `NAME: WHAT 43 %, 12 s`, from two seconds on and twice a second, wiped
-/// in the end; only on a terminal. A thread writes it, so that the work need not look at the clock.
+/// Shows a line `NAME: WHAT 43 %, 12 s` on standard error if that is a terminal: first after two
+/// seconds, then twice a second. The line is removed at the end. A thread of its own writes it, so
+/// that the computation does not have to look at the clock.
 class Progress {
  public:
-  /// The clock begins. Without this, a terminal, or a thread to be had, nothing is ever shown.
+  /// Starts the clock and the thread. Does nothing if standard error is not a terminal or if no
+  /// thread can be made.
   void start(std::string name);
-  /// What is being done, and the part of it that is done, from 0 to 1; NaN if that is not known.
-  /// Nothing is shown before the first.
+  /// Sets the text of the line and the fraction of the work that is done, NaN if it is not known.
+  /// Nothing is shown before the first call.
   void at(std::string_view what, double part);
-  /// Wipes the line, and it does not come back. Whoever writes to the terminal stops it first.
+  /// Removes the line for good. Call it before anything else is written to the terminal.
   void stop();
   ~Progress() { stop(); }
 

@@ -1,5 +1,5 @@
 // The columns that a tool can compute: one list of quantities, each with its name, its unit and its
-// function. What is not asked for is not computed.
+// function. Only the columns that the user chooses are computed.
 #pragma once
 
 #include <fmt/ranges.h>
@@ -20,8 +20,8 @@ struct Quantity {
   Function of;
 };
 
-/// Those of a list like `t,x,v`, in its order. Throws Error for a name that is not known, or that
-/// stands there twice.
+/// The quantities of a list like `t,x,v`, in its order. Throws Error for an unknown name and for a
+/// name that occurs twice.
 template <typename Function>
 std::vector<Quantity<Function>> chosen(const std::string& list,
                                        const std::vector<Quantity<Function>>& all) {
@@ -34,14 +34,13 @@ std::vector<Quantity<Function>> chosen(const std::string& list,
       for (const auto& quantity : all) names.push_back(quantity.column.name);
       fail("--columns: '{}' is none of {}", shown(name), fmt::join(names, ", "));
     }
-    if (std::any_of(chosen.begin(), chosen.end(), same))
-      fail("--columns: {} stands there twice", name);
+    if (std::any_of(chosen.begin(), chosen.end(), same)) fail("--columns: {} is there twice", name);
     chosen.push_back(*found);
   }
   return chosen;
 }
 
-/// Their columns.
+/// The columns of these quantities.
 template <typename Function>
 std::vector<Column> columns_of(const std::vector<Quantity<Function>>& quantities) {
   std::vector<Column> columns;

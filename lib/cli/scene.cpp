@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t largest_file = 1 << 16;
 
-/// What a scene may say, whether or not a tool needs it.
+/// The keys of a scene. A tool ignores those that it does not need.
 constexpr std::array<std::string_view, 12> keys = {
     "mass",     "radius", "shape-factor", "gravity", "slope",  "coefficient",
     "exponent", "exact",  "v0",           "x0",      "memory", "damping"};
@@ -42,7 +42,7 @@ bool in_key(char c) {
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < ' ' && c != '\t'; }
 
-/// Whether only a comment stands here, or nothing.
+/// True for a comment or a blank text.
 bool is_comment(std::string_view text) {
   text = trim(text);
   return text.empty() ||
@@ -67,8 +67,8 @@ std::size_t end_of_value(std::string_view text) {
   return is_number(word) || word == "true" || word == "false" ? end : 0;
 }
 
-/// Throws Error unless the line is `key = value`, a comment behind it perhaps. Whatever passes
-/// means the same to TOML and to every release of CLI11.
+/// Throws Error unless the line is `key = value` with an optional comment. A line that passes has
+/// the same meaning in TOML and in every release of CLI11.
 void require_assignment(std::string_view line) {
   const auto key_end = std::find_if_not(line.begin(), line.end(), in_key);
   const std::string_view key(line.begin(), key_end);
@@ -88,7 +88,7 @@ SceneValue read_line(const std::string& line) {
   if (!assignment) fail("'{}' is not `key = value`", shown(line));
   const auto& [key, value] = *assignment;
   if (std::find(keys.begin(), keys.end(), key) == keys.end())
-    fail("a scene has no '{}' (but mass, radius, shape-factor, ...)", shown(key));
+    fail("a scene has no '{}'; it has mass, radius, shape-factor, ...", shown(key));
   return {key, value, 0};
 }
 
@@ -107,7 +107,7 @@ std::vector<SceneValue> read_scene(const std::string& file) {
     try {
       SceneValue value = read_line(std::string(trim(line)));
       for (const SceneValue& earlier : scene)
-        if (earlier.key == value.key) fail("{} stands in line {} too", value.key, earlier.line);
+        if (earlier.key == value.key) fail("{} is in line {} too", value.key, earlier.line);
       value.line = number;
       scene.push_back(std::move(value));
     } catch (const Error& error) {

@@ -1,4 +1,4 @@
-// Scene files: the options that describe a roll, by their long names, in a TOML file.
+// Scene files: TOML files with the long names of the options that describe a roll.
 #pragma once
 
 #include <string>
@@ -8,15 +8,14 @@ namespace rolling {
 
 struct SceneValue {
   std::string key;    ///< the long name of an option
-  std::string value;  ///< as it stands, without quotes
+  std::string value;  ///< as in the file, without quotes
   std::size_t line;   ///< counted from 1
 };
 
-/// Reads a scene file of at most 64 KiB: a line is blank, a comment (#), or `key = value` with a
-/// comment behind it perhaps. A value is a number, true, false, or a string in single or double
-/// quotes without backslash, quote and #. A key is one of a scene and stands once. These files are
-/// TOML; what else TOML allows (tables, arrays, dates, escapes) is refused. Throws InputError,
-/// which names file and line.
+/// Reads a scene file of at most 64 KiB. Each line is blank, a comment (#), or `key = value`, which
+/// a comment may follow. A value is a number, true, false, or a string in single or double quotes
+/// that contains no backslash, no quote and no #. Each key may occur once. These files are TOML;
+/// other TOML (tables, arrays, dates, escapes) is refused. Throws InputError with file and line.
 std::vector<SceneValue> read_scene(const std::string& file);
 
 }  // namespace rolling

@@ -51,23 +51,23 @@ std::string enumeration(const std::vector<std::string>& words) {
   return text;
 }
 
-/// One line of printable ASCII on standard error, at most 512 bytes. Needs no memory: that may be
-/// what has run out.
+/// Writes one line of printable ASCII to standard error, at most 512 bytes. Allocates no memory, so
+/// that it works when memory has run out.
 void write_line(std::string_view name, std::string_view text) {
   std::array<char, 512> line;
   char* const end = fmt::format_to_n(line.data(), line.size() - 1, "{}: {}", name, text).out;
   std::replace_if(
       line.data(), end, [](char c) { return c < ' ' || c > '~'; }, '?');
   *end = '\n';
-  [[maybe_unused]] const auto count = ::write(
-      STDERR_FILENO, line.data(),
-      static_cast<std::size_t>(end + 1 - line.data()));  // where could one say that it failed?
+  // If this fails, there is no place left for a message.
+  [[maybe_unused]] const auto count =
+      ::write(STDERR_FILENO, line.data(), static_cast<std::size_t>(end + 1 - line.data()));
 }
 
-/// What is thrown where nothing catches: before main(), by a static object, or while a message is
-/// being made.
-[[noreturn]] void last_words() {
-  const char* what = "unknown trouble";
+/// The terminate handler. It reports exceptions that nothing catches: before main(), from a static
+/// object, or while a message is being made.
+[[noreturn]] void report_uncaught() {
+  const char* what = "unknown error";
   try {
     if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const std::bad_alloc&) {
@@ -79,8 +79,8 @@ void write_line(std::string_view name, std::string_view text) {
   ::_exit(trouble);
 }
 
-/// Ahead of all static objects.
-[[gnu::constructor(101)]] void set_last_words() { std::set_terminate(last_words); }
+/// Runs before the constructors of static objects.
+[[gnu::constructor(101)]] void set_terminate_handler() { std::set_terminate(report_uncaught); }
 
 std::string long_name(const std::string& names) {
   const auto at = names.find("--");
@@ -91,7 +91,7 @@ std::string long_name(const std::string& names) {
 
 Tool::Tool(std::string name, const std::string& purpose)
     : name_(std::move(name)), command_line_(name_, purpose) {
-  flag("-q,--quiet", quiet_, "neither counts of left-out records nor progress on standard error");
+  flag("-q,--quiet", quiet_, "print no warnings, counts or progress on standard error");
 }
 
 void Tool::add(const std::string& names, const std::string& type, const std::string& help, Set set,
@@ -206,7 +206,7 @@ void Tool::body(Body& body, std::initializer_list<BodyOption> options,
         break;
       case BodyOption::slope:
         estimate("--slope", body.slope, u ? &u->slope : nullptr, any_number,
-                 "metres that the mat rises a metre along growing x (0)");
+                 "rise of the mat in metres per metre of growing x (0)");
         break;
     }
 }
@@ -232,7 +232,7 @@ void Tool::input() {
   command_line_.operands("input files, read in order; - or none is standard input", input_.files);
   list("--use", input_.use, "NAME=COLUMN",
        "the column (a name or a number from 1) that serves as t, x, v, a or D");
-  add("--run", "N", "read this run only: the number in its header, else its place",
+  add("--run", "N", "read this run only: by the number in its header, else by its place",
       [this](const std::string& text) { input_.run = static_cast<int>(to_number(text, whole)); });
   flag("--strict", input_.strict, "a missing reading is an error");
 }
@@ -244,11 +244,11 @@ void Tool::output() {
                                                      return x >= 1 && x <= 17 && x == std::floor(x);
                                                    }}));
   });
-  flag("-u,--unbuffered", out.unbuffered, "let each record go out at once");
+  flag("-u,--unbuffered", out.unbuffered, "write each record at once");
 }
 
-/// Sets what the command line has left open from the scene file. Keys that this tool has no option
-/// for say nothing to it.
+/// Sets the options that are not on the command line from the scene file; ignores keys without an
+/// option in this tool.
 void Tool::take_scene() {
   if (scene_file_.empty()) return;
   refuse_output(scene_file_);
@@ -282,7 +282,7 @@ Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
   const auto& files = options.files;
   if ((files.empty() || std::find(files.begin(), files.end(), "-") != files.end()) &&
       std::exchange(standard_input_taken_, true))
-    fail("standard input is asked for twice: name a file for one of the two");
+    fail("standard input cannot be read twice: name a file for one of the two");
   options.on_block = [this](const std::string& name, double part) {
     progress.at(name == "-" ? "standard input" : name, part);
   };
@@ -309,13 +309,13 @@ void Tool::count_left_out(std::size_t count, const std::string& why) {
 
 namespace {
 
-/// What a signal handler may use: the line that ends the output.
+// The last line of the output after a signal; static because a signal handler has no arguments.
 std::array<char, 128> last_line;
 std::size_t last_line_size = 0;
 const Output* printed = nullptr;
 
-/// Ends the output as an error does, as far as there is room for a line at once, and then the tool.
-/// Output::flush() lets no signal come before whole lines have gone out.
+/// The signal handler: writes the last line, unless standard output would block, and ends the tool
+/// by the same signal. Output::flush() blocks signals, so the output ends with a whole line.
 void end_by_signal(int signal) {
   pollfd ready{STDOUT_FILENO, POLLOUT, 0};
   if (printed->has_printed() && ::poll(&ready, 1, 0) == 1 && (ready.revents & POLLOUT) != 0) {
@@ -327,8 +327,7 @@ void end_by_signal(int signal) {
 
 }  // namespace
 
-/// A tool that is ended by a signal ends its output with the line of an error. Signals that are
-/// ignored stay so.
+/// Installs the handler. Signals that the caller has set to be ignored stay ignored.
 void Tool::handle_signals() {
   error_line_ = error_line(name_);
   if (error_line_.size() >= last_line.size()) return;
@@ -343,7 +342,7 @@ void Tool::check_failed(const std::string& text) {
   if (failed_checks_++ == 0) failed_check_ = text;
 }
 
-/// What is said once the work is done and its output is out; returns the exit status.
+/// Flushes the output and prints the counts and failed checks; returns the exit status.
 int Tool::finish(int status) {
   if (status == trouble) out.end_with(error_line_);
   out.flush();
@@ -365,16 +364,16 @@ int Tool::finish(int status) {
 }
 
 int Tool::run(int argc, char** argv, const std::function<int()>& work) {
-  if (argc > 0) name_ = argv[0];  // as it is installed: see PROGRAM_PREFIX in the Makefile
+  if (argc > 0) name_ = argv[0];  // PROGRAM_PREFIX in the Makefile may have renamed the tool
   name_.erase(0, name_.rfind('/') + 1);
-  // A file that may not grow is one that cannot be written, which flush() tells.
+  // A write beyond the limit of the file size then fails, which flush() reports.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     handle_signals();
     switch (command_line_.parse(argc, argv)) {
       case CommandLine::Asked::help: {
         const std::string text = command_line_.help(name_);
-        // CLI11 writes into streams, which are silent when memory runs out.
+        // CLI11 writes into streams, which lose text silently when memory runs out.
         if (text != command_line_.help(name_)) throw std::bad_alloc();
         return print(text);
       }
@@ -386,7 +385,7 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
     take_scene();
     if (!quiet_) progress.start(name_);
     if (::isatty(STDOUT_FILENO))
-      out.before_write = [this] { progress.stop(); };  // rows are progress enough
+      out.before_write = [this] { progress.stop(); };  // rows on the terminal show the progress
     return finish(work());
   } catch (const OutputError& error) {
     say(error.what());
@@ -399,12 +398,12 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   } catch (const std::exception& error) {
     say(error.what());
   }
-  // What came before a bad record may stand, but the end of a pipe has to know.
+  // The records before the error remain; this line tells the next tool of a pipe that it ended.
   out.end_with(error_line_);
   return trouble;
 }
 
-/// Writes what is due and `text`; returns the exit status.
+/// Writes `text` to standard output; returns the exit status.
 int Tool::print(const std::string& text) {
   try {
     out.text(text);

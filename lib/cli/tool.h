@@ -1,4 +1,4 @@
-// What every command shares: options, the scene file, input and output, messages, exit status.
+// The frame of every command: options, scene file, input and output, messages, exit status.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +22,9 @@
 
 namespace rolling {
 
-/// What a number on the command line may be.
+/// The values that a numeric option accepts.
 struct Range {
-  const char* text;  ///< as the message says it: "greater than 0"
+  const char* text;  ///< in the message "must be ...": "greater than 0"
   bool (*holds)(double);
 };
 inline constexpr Range any_number{"a number", [](double) { return true; }};
@@ -48,12 +48,12 @@ class Tool {
  public:
   Tool(std::string name, const std::string& purpose);
 
-  // Options of one tool. `names` as CLI11 writes them: "-w,--width". Each may be given once; the
-  // value must be a number of rolling-columns(5), whole, within the range.
+  // Options of one tool. `names` in the notation of CLI11: "-w,--width". Each option may be given
+  // once. Its value must be a number in the syntax of rolling-columns(5) and within the range.
   void flag(const std::string& names, bool& value, const std::string& help);
   void number(const std::string& names, double& value, const Range&, const std::string& help);
   void count(const std::string& names, std::size_t& value, const Range&, const std::string& help);
-  /// One or several with commas between them, each perhaps with an uncertainty: 0.5+-0.005,0.83
+  /// One number or several, separated by commas; each may have an uncertainty: 0.5+-0.005,0.83
   void numbers(const std::string& names, std::vector<Estimate>& values, const Range&,
                const std::string& help);
   void text(const std::string& names, std::string& value, const std::string& type,
@@ -65,54 +65,54 @@ class Tool {
               const std::string& help);
 
   // Options that tools share.
-  /// Those of -m -R -K -g --slope that are named. Body holds not_given, 9.81 for g, and 0 for the
-  /// slope until they are read. R, K, g and the slope may carry an uncertainty (0.5+-0.005): it
-  /// goes to `uncertainty`, and nowhere without one.
+  /// The named ones of -m -R -K -g --slope. Before they are read, Body has not_given, 9.81 for g,
+  /// and 0 for the slope. R, K, g and the slope may have an uncertainty (0.5+-0.005), which is
+  /// stored in `uncertainty`, or ignored if that is null.
   void body(Body&, std::initializer_list<BodyOption>, BodyUncertainty* uncertainty = nullptr);
   void law(PowerLaw&);       ///< -a -b
   void geometry(Geometry&);  ///< --exact
-  void scene();              ///< --scene, for the options above and others that scene.cpp names
+  void scene();              ///< --scene, whose keys are listed in scene.cpp
   void input();              ///< operands, --use --run --strict
   void output();             ///< --digits -u
 
-  /// Parses the command line, runs `work`, flushes; returns the exit status: what work returns, or
-  /// 2 after one line on standard error.
+  /// Parses the command line, runs `work` and flushes the output. Returns the exit status: that of
+  /// `work`, 1 after check_failed(), or 2 after an error, which is one line on standard error.
   int run(int argc, char** argv, const std::function<int()>& work);
 
   /// The records of the operands. `order` names the columns of a file without names.
   Reader& read(std::vector<std::string> order);
-  /// The records of one file that an option names.
+  /// The records of a file that is the value of an option.
   Reader& read_file(const std::string& file, std::vector<std::string> order);
 
   /// One line of printable ASCII on standard error, at most 512 bytes.
   void say(const std::string& text);
-  /// The same, unless -q: something that the user should know, and that is no error.
+  /// A warning: the same line, unless -q is given.
   void warn(const std::string& text) {
     if (!quiet_) say(text);
   }
 
-  /// Says how many records were left out and why, unless -q.
+  /// Prints how many records were left out and why, unless -q is given.
   void count_left_out(std::size_t count, const std::string& why);
 
-  /// A check that was asked for does not hold: run() says the first such line, and how many
-  /// followed, and returns 1, once work has returned. Where work is refused, the refusal is the
-  /// only line.
+  /// Reports that a check does not hold. When `work` has returned, run() prints the first of these
+  /// texts and how many followed, and returns 1. If `work` ends with an error, that is printed
+  /// alone.
   void check_failed(const std::string& text);
 
-  /// Throws one Error for all of these options (long names of number(), numbers(), body() and
-  /// law()) that still have no value: neither the command line nor the scene gives one.
+  /// Throws one Error that lists those of these options (long names of number(), numbers(), body()
+  /// and law()) which have a value neither on the command line nor in the scene.
   void need(const std::vector<std::string>& options) const;
-  /// Whether an option, by its long name, was given on the command line itself.
+  /// True if the option with this long name is on the command line (not only in the scene).
   bool on_command_line(std::string_view option) const { return command_line_.given(option); }
 
   Output out;
-  Progress progress;  ///< of work that takes its time; Readers tell it themselves
+  Progress progress;  ///< Readers update it; a tool does for longer computations of its own
 
  private:
   using Set = CommandLine::Set;
   struct Option {
-    Set set;                        // from text; its errors do not name the option
-    std::function<bool()> missing;  // empty where need() has nothing to say
+    Set set;                        // from text; its error messages do not name the option
+    std::function<bool()> missing;  // for need(); empty for options that have a default
   };
 
   void add(const std::string& names, const std::string& type, const std::string& help, Set,
@@ -135,7 +135,7 @@ class Tool {
   ReaderOptions input_;
   std::string scene_file_;
   bool quiet_ = false;
-  bool standard_input_taken_ = false;  // by a Reader: there is no more of it for another
+  bool standard_input_taken_ = false;  // a Reader reads it; a second one cannot
   std::string failed_check_;
   std::size_t failed_checks_ = 0;
   std::vector<std::unique_ptr<Reader>> readers_;

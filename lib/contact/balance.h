@@ -1,5 +1,5 @@
-// The energy balance of a run: the loss of what was stored against what the shift dissipated
-// (Eq. 23), at every moment and at the end.
+// The energy balance of a run (Eq. 23): the loss of stored energy against the energy that the shift
+// dissipates, at every moment and at the end.
 #pragma once
 
 #include "contact/integral.h"
@@ -11,7 +11,7 @@ class Balance {
  public:
   explicit Balance(const Body& body) : inclined_(body.slope != 0) {}
 
-  /// Takes the next record of the run: its time [s] and its quantities.
+  /// Adds the next record of the run: its time [s] and its quantities.
   void push(double t, const Ledger&);
 
   double start() const { return start_; }  ///< E_trans + E_rot at the first record [J]
@@ -21,13 +21,13 @@ class Balance {
   /// The work against gravity so far [J]: m g sin theta v integrated over time; 0 on a level mat.
   double lifted() const { return lifted_; }
 
-  /// dissipated / (start - end - lifted) - 1: 0 where shift and velocity agree over the whole run.
-  /// Throws Error when the denominator, the energy that is missing, is 0.
+  /// dissipated / (start - end - lifted) - 1: 0 if shift and velocity agree over the whole run.
+  /// Throws Error if the denominator, the energy that is missing at the end, is 0.
   double closure() const;
-  /// The largest |start - E(t) - lifted(t) - dissipated(t)| of the run, as a share of the energy
-  /// that is missing at its end: 0 where shift and velocity agree at every moment. Throws alike.
+  /// The largest |start - E(t) - lifted(t) - dissipated(t)| of the run, divided by the energy that
+  /// is missing at its end: 0 if shift and velocity agree at every moment. Throws as closure().
   double imbalance() const;
-  double time_of_imbalance() const { return worst_time_; }  ///< where that is [s]
+  double time_of_imbalance() const { return worst_time_; }  ///< the time of that moment [s]
 
  private:
   double missing() const;
@@ -35,7 +35,7 @@ class Balance {
   Integral outflow_, lift_;
   bool inclined_, begun_ = false;
   double start_ = 0, end_ = 0, dissipated_ = 0, lifted_ = 0;
-  double worst_ = 0, worst_time_ = 0;  // the largest imbalance [J], and where it is
+  double worst_ = 0, worst_time_ = 0;  // the largest imbalance [J] and its time [s]
 };
 
 }  // namespace rolling

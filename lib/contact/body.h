@@ -1,4 +1,4 @@
-// The rolling body, and how the arm of its horizontal force is taken.
+// The rolling body, and the geometry of its contact.
 #pragma once
 
 namespace rolling {
@@ -9,10 +9,10 @@ struct Body {
   double R;          ///< radius [m]
   double K;          ///< shape factor: 1/2 solid cylinder, 1 thin shell
   double g = 9.81;   ///< gravity [m/s^2]
-  double slope = 0;  ///< of the mat: tan theta, metres that it rises a metre along growing x
+  double slope = 0;  ///< of the mat: tan theta, its rise in metres per metre of growing x
 };
 
-/// The standard uncertainties of what is given about a body; 0 where none is given.
+/// The standard uncertainties of the numbers of a body; 0 if none is given.
 struct BodyUncertainty {
   double R = 0;      ///< [m]
   double K = 0;      ///< of the shape factor
@@ -20,8 +20,8 @@ struct BodyUncertainty {
   double slope = 0;  ///< of tan(theta)
 };
 
-/// The arm of F_H is A R: the paper takes A = 1 in its simulations (Eq. 11 to 13); exact is A =
-/// sqrt(1 - D^2/R^2) (Eq. 8).
+/// The arm of F_H is A R. In the approximate geometry A = 1, as in the paper's simulations (Eqs. 11
+/// to 13); in the exact one A = sqrt(1 - D^2/R^2) (Eq. 8).
 enum class Geometry { approximate, exact };
 
 }  // namespace rolling

@@ -16,8 +16,8 @@ double arm_factor(const Body& c, Geometry geometry, double D) {
   return geometry == Geometry::approximate ? 1 : std::sqrt((1 - D / c.R) * (1 + D / c.R));
 }
 
-// Both functions below subtract from 0 where a sign would do: no shift then gives +0, and nobody
-// reads "-0" in a table.
+// Both functions below write 0 - x instead of -x: for x = 0 the result is then +0, and no table
+// shows "-0".
 
 double acceleration_from_shift(const Body& c, Geometry geometry, double D) {
   check_shift(c, D);
@@ -30,16 +30,16 @@ double shift_from_acceleration(const Body& c, Geometry geometry, double a) {
   const auto [cos, sin] = incline(c);
   const double K = c.K, s = 0 - a / c.g;
   if (geometry == Geometry::approximate) return ((1 + K) * c.R * s - c.R * sin) / cos;
-  // Eq. 12 is s (K + A) = cos D/R + sin A with s = -a/g. At |D| = R, where A = 0, it says
-  // K |s| = cos. Beyond that the root would need A < 0, and comes back below R: |D| > R cannot be
-  // what tells it. The margin lets the acceleration of D = R itself pass, which is rounded.
+  // Eq. 12 is s (K + A) = cos D/R + sin A with s = -a/g. At |D| = R, where A = 0, this is
+  // K |s| = cos. For larger |s| the root below belongs to A < 0, and its |D| is less than R again,
+  // so a test of |D| would not detect it. The margin accepts the rounded acceleration of D = R.
   constexpr double eps = std::numeric_limits<double>::epsilon();
   if (!(K * std::abs(s) <= (1 + 4 * eps) * cos))
     fail(
         "no shift D within the radius {:.6g} m gives the acceleration {:.6g} m/s^2: the largest is "
         "{:.6g} m/s^2",
         c.R, a, c.g * cos / K);
-  // Only a body with next to no K can be so fast to slow down that s^2 overflows.
+  // s^2 may overflow, which needs a K close to 0.
   if (K * std::abs(s) >= cos || std::abs(s) > 1e100) return std::copysign(c.R, s);
   // Squared, K s - cos D/R = A (sin - s) is quadratic in D/R, and A >= 0 chooses its root.
   const double q = s - sin, h2 = cos * cos + q * q;

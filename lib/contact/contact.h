@@ -19,7 +19,7 @@ inline Incline incline(const Body& c) {
   return {1 / hypotenuse, c.slope / hypotenuse};
 }
 
-/// Throws Error when |D| > R: no point of the body is there.
+/// Throws Error if |D| > R, where the body has no point.
 void check_shift(const Body&, double D);
 
 /// A = sqrt(1 - D^2/R^2) (Eq. 8), or 1 in the approximate geometry. The exact one needs |D| <= R.
@@ -30,10 +30,10 @@ double arm_factor(const Body&, Geometry, double D);
 /// Throws Error when |D| > R.
 double acceleration_from_shift(const Body&, Geometry, double D);
 
-/// Shift D [m] from an observed acceleration [m/s^2], the inverse of the above. With A = 1 it is
-/// Eq. 11, which has an answer for any acceleration, beyond the radius too. The exact geometry has
-/// a shift only for |a| <= g cos theta / K (A would be negative), and throws Error else. A body
-/// that speeds up on a level mat has D < 0; that is reported, not clipped.
+/// Shift D [m] from an observed acceleration a [m/s^2], the inverse of acceleration_from_shift().
+/// With A = 1 this is Eq. 11, which gives a shift for any acceleration, beyond the radius too. In
+/// the exact geometry there is a shift only for |a| <= g cos theta / K; else it throws Error. A
+/// body that speeds up on a level mat has D < 0, which is returned as it is.
 double shift_from_acceleration(const Body&, Geometry, double a);
 
 }  // namespace rolling

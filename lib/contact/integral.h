@@ -3,16 +3,15 @@
 
 namespace rolling {
 
-/// Over each step stands the parabola through its two samples and the one before (the third-order
-/// rule of Adams and Moulton, on uneven times): third order in the spacing. A straight line stands
-/// where a parabola has no ground: over the first step, over a step that is more than twice as long
-/// as the one before, and over a step from or to a sample of exactly 0, which is rest, and where a
-/// power that has been falling ends in a corner.
+/// Each step is integrated under the parabola through its two samples and the one before (the
+/// third-order rule of Adams and Moulton on uneven times): the error is of third order in the
+/// spacing. The trapezoidal rule replaces it where the parabola would be wrong: for the first step,
+/// for a step more than twice as long as the one before, and for a step from or to a sample of
+/// exactly 0, which is rest: the power has a corner there.
 class Integral {
  public:
-  /// Takes the next sample (times increase); returns the integral from the first sample to this
-  /// one. The sum is carried with its rounding error (Neumaier), so it does not drift however long
-  /// the run.
+  /// Adds the next sample (times increase) and returns the integral from the first sample to this
+  /// one. The sum is compensated (Neumaier), so rounding errors do not accumulate in long runs.
   double push(double t, double y);
 
  private:

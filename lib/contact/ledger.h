@@ -1,13 +1,13 @@
-// Every quantity of the paper that follows from the velocity and the shift at one instant (Eqs. 1
-// to 22). What leaves the body is positive; rolling-motion(7) gives the reason for the signs.
+// The quantities of the paper that follow from the velocity and the shift at one instant (Eqs. 1 to
+// 22). Flows out of the body are positive; rolling-motion(7) gives the reason for the signs.
 #pragma once
 
 #include "contact/contact.h"
 
 namespace rolling {
 
-/// The quantities of one instant, in SI units. The forces and the flows of energy come from the
-/// shift, the stored energy from the velocity.
+/// The quantities of one instant, in SI units. Forces and energy flows are computed from the shift,
+/// the stored energy from the velocity.
 class Ledger {
  public:
   /// Velocity [m/s] and shift [m]. Throws Error when |D| > R in the exact geometry; with A = 1 the
@@ -23,7 +23,7 @@ class Ledger {
     F_H_ = 0 - (D * incline_.cos - c.K * c.R * incline_.sin) * c.m * c.g / ((c.K + A_) * c.R);
   }
 
-  // 0 - x stands where a sign would do: rest then gives +0, not "-0".
+  // 0 - x instead of -x: at rest the result is then +0, not "-0".
   double omega() const { return omega_; }                          ///< [rad/s] (Eq. 1)
   double p() const { return body_.m * v_; }                        ///< momentum [N s]
   double L() const { return body_.K * body_.m * body_.R * v_; }    ///< J omega [N m s] (Eqs. 2, 3)
@@ -40,13 +40,13 @@ class Ledger {
   double I_E1() const { return 0 - vP_H() * F_H_; }     ///< outflow with p_x [W] (Eq. 17)
   double I_E2() const { return 0 - vP_V() * F_N(); }    ///< outflow with p_y [W] (Eq. 21)
   double P_T1() const { return 0 + omega_ * tau_H(); }  ///< released by p_x in the body (Eq. 18)
-  double P_R1() const { return 0 - P_T1(); }            ///< pumps L in [W]
+  double P_R1() const { return 0 - P_T1(); }            ///< used to pump L in [W]
   double P_R2() const { return 0 - omega_ * tau_N(); }  ///< released by L leaving [W] (Eq. 19)
-  double P_T2() const { return 0 - P_R2(); }            ///< pumps p_y in [W]
-  double P_T3() const { return I_E1(); }                ///< released by p_x in the mat, at rest [W]
-  double P_T4() const { return I_E2(); }                ///< released by p_y in the mat, at rest [W]
+  double P_T2() const { return 0 - P_R2(); }            ///< used to pump p_y in [W]
+  double P_T3() const { return I_E1(); }                ///< released by p_x in the mat [W]
+  double P_T4() const { return I_E2(); }                ///< released by p_y in the mat [W]
   double P_diss() const { return I_E1() + I_E2(); }     ///< dissipated in the mat [W] (Eq. 22)
-  /// Goes into lifting the body on an incline [W].
+  /// Power against gravity on an incline [W].
   double P_g() const { return body_.m * body_.g * incline_.sin * v_; }
 
  private:

@@ -1,4 +1,4 @@
-// A law D(v) given by points: monotone between them, never beyond them.
+// A law D(v) given by points, with monotone interpolation.
 #pragma once
 
 #include <cstddef>
@@ -6,22 +6,22 @@
 
 namespace rolling {
 
-/// Between two points a cubic with the slopes of Steffen (1990, Astron. Astrophys. 239, 443):
-/// monotone where the points are, with a continuous derivative. Below the lowest point D keeps its
-/// value; above the highest there is no law.
+/// Interpolates by cubics with the slopes of Steffen (1990, Astron. Astrophys. 239, 443): monotone
+/// between two points, with a continuous derivative. Below the lowest point D is constant; above
+/// the highest point the law is not defined.
 class TableLaw {
  public:
-  /// Points in any order, v [m/s] >= 0 and D [m] > 0, all v different. Throws Error else.
+  /// Points in any order, with v [m/s] >= 0, D [m] > 0 and all v different; else it throws Error.
   TableLaw(std::vector<double> v, std::vector<double> D);
 
-  /// D [m], and dD/dv [s], at 0 <= v <= highest(). Above, D goes on with the last slope for solvers
-  /// to try, and is no law.
+  /// D [m] and dD/dv [s] at 0 <= v <= highest(). Above that D continues with the last slope, only
+  /// for the trial steps of a solver.
   double operator()(double v) const;
   double slope(double v) const;
 
   const std::vector<double>& speeds() const { return v_; }  ///< increasing [m/s]
   double highest() const { return v_.back(); }
-  double largest_shift(double v) const;  ///< of all speeds up to v [m]
+  double largest_shift(double v) const;  ///< largest D at speeds up to v [m]
 
  private:
   struct Place {

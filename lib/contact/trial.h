@@ -1,4 +1,4 @@
-// The acceleration that a solver tries on its way: what it tries is not yet a state of the body.
+// dv/dt for the trial steps of a solver, which may lead to states that the body cannot have.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace rolling {
 
-/// dv/dt [m/s^2] as acceleration_from_shift() has it (Eq. 12), continued beyond |D| = R with A = 0:
-/// a step that went too far is rejected for its error, not refused.
+/// dv/dt [m/s^2] as in acceleration_from_shift() (Eq. 12), but continued beyond |D| = R with A = 0
+/// instead of throwing: the error control of the solver then rejects the step.
 inline double trial_acceleration(const Body& c, Geometry geometry, double D) {
   const auto [cos, sin] = incline(c);
   const double d = D / c.R,

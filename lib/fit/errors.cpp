@@ -175,74 +175,108 @@ std::vector<double> squares_of(std::span<const double> u, std::size_t q,
 
 /// theta - truth = -R^-1 sum B(s) e(s) over the sources s of noise e.
 struct Sources {
-  std::vector<double> e;  // their estimated noise
+  const std::vector<double>& e;  // their estimated noise
+  const std::vector<std::size_t>& runs;
   std::vector<double> B;  // a row of q numbers for each
-  std::vector<std::size_t> runs;
-  double variance;  // of e
 };
 
+bool filters_known(const Fitted& fit) { return fit.noise->known() && !fit.noise_inferred; }
+
 Sources sources_of(const Fitted& fit) {
-  const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
-                    q = fit.system.columns();
   std::vector<double> Q = orthonormal(fit.system, fit.minimum);
-  if (!fit.noise->known() || fit.noise_inferred)
-    return {fit.minimum.f, std::move(Q), fit.system.runs,
-            fit.minimum.rss / static_cast<double>(n - p)};
-  Sources known{fit.sources, fit.noise->through(Q, q), fit.source_runs, 0};
-  // f f^T is on average the variance times A A^T, of which the fit has taken the part along Q:
-  // tr((I - Q Q^T) A A^T) = tr A A^T - |A^T Q|^2.
-  known.variance = fit.noise_variance.value_or(
-      fit.minimum.rss / (fit.noise->trace() - dot(known.B.data(), known.B.data(), known.B.size())));
-  return known;
+  if (!filters_known(fit)) return {fit.minimum.f, fit.system.runs, std::move(Q)};
+  return {fit.sources, fit.source_runs, fit.noise->through(Q, fit.system.columns())};
+}
+
+/// f f^T is on average the variance times A A^T, A = W E, of which the fit has taken the part along
+/// Q: tr((I - Q Q^T) A A^T) = tr A A^T - |B|^2.
+double variance_of(const Fitted& fit, const Sources& from) {
+  return fit.noise_variance.value_or(
+      fit.minimum.rss / (fit.noise->trace() - dot(from.B.data(), from.B.data(), from.B.size())));
+}
+
+/// The middle of the classical covariance, s^2 I.
+std::vector<double> classical(const Fitted& fit, double variance) {
+  const std::size_t q = fit.system.columns();
+  std::vector<double> M(fit.minimum.R.size(), 0);
+  for (std::size_t i = 0; i < M.size(); i += q * q)
+    for (std::size_t j = 0; j < q; ++j) M[i + j * (q + 1)] = variance;
+  return M;
+}
+
+/// HC3: a residual is smaller than its noise by 1 - h, h its leverage (MacKinnon and White 1985, J.
+/// Econometrics 29, 305).
+void correct_for_leverage(const Sources& from, std::size_t q, std::vector<double>& scores) {
+  for (std::size_t i = 0; i < from.e.size(); ++i) {
+    const double* const row = &from.B[i * q];
+    const double h = std::min(dot(row, row, q), 0.99);
+    for (std::size_t j = 0; j < q; ++j) scores[i * q + j] /= 1 - h;
+  }
 }
 
 }  // namespace
 
-double noise_variance(const Fitted& fit) { return sources_of(fit).variance; }
+double noise_variance(const Fitted& fit) { return variance_of(fit, sources_of(fit)); }
 
 Uncertainty uncertainty_of(const Fitted& fit) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), decisive = 0.01;
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
-                    q = fit.system.columns(), shared = fit.system.shared;
-  if (n <= p)
-    return {Errors::none, nan, {fit.minimum.R, std::vector<double>(fit.minimum.R.size(), nan), q}};
-  const Sources from = sources_of(fit);
-  const bool many = n >= 30, known = fit.noise->known() && !fit.noise_inferred;
+                    q = fit.system.columns();
+  const auto& R = fit.minimum.R;
+  if (n <= p) return {Errors::none, nan, {R, std::vector<double>(R.size(), nan), q}};
+  const bool known = filters_known(fit);
   const auto& tested = known ? fit.innovations : fit.minimum.f;
-  const auto& tested_runs = known ? fit.innovation_runs : fit.system.runs;
-  const double whiteness = ljung_box(tested, p, tested_runs);
-  Errors kind = known                ? Errors::filters
-                : fit.noise_inferred ? Errors::differences
-                                     : Errors::classical;
+  const auto& runs = known ? fit.innovation_runs : fit.system.runs;
+  const double whiteness = ljung_box(tested, p, runs);
+  Errors kind =
+      known ? Errors::filters : (fit.noise_inferred ? Errors::differences : Errors::classical);
+  if (n >= 30 && whiteness <= decisive) kind = Errors::autocorrelation;
+  else if (n >= 30 && breusch_pagan(tested, runs) <= decisive) kind = Errors::uneven;
+
+  const double plain = fit.minimum.rss / static_cast<double>(n - p);
+  if (kind == Errors::classical || kind == Errors::differences)
+    return {kind, whiteness, {R, classical(fit, plain), q}};
+  const Sources from = sources_of(fit);
+  const double variance = known ? variance_of(fit, from) : plain;
   std::vector<double> M;
-  if (many && whiteness <= decisive) kind = Errors::autocorrelation;
-  else if (many && breusch_pagan(tested, tested_runs) <= decisive) kind = Errors::uneven;
-  if (kind == Errors::autocorrelation || kind == Errors::uneven) {
+  if (kind == Errors::filters) {
+    M = squares_of(from.B, q, from.runs);
+    for (double& x : M) x *= variance;
+  } else {
     std::vector<double> scores = from.B;
     for (std::size_t i = 0; i < scores.size(); ++i) scores[i] *= from.e[i / q];
-    if (kind == Errors::autocorrelation) M = newey_west(scores, p, from.e, from.runs);
-    else {
-      // HC3: a residual is smaller than its noise by 1 - h, h its leverage (MacKinnon and White
-      // 1985, J. Econometrics 29, 305).
-      if (!known)
-        for (std::size_t i = 0; i < from.e.size(); ++i) {
-          const double* const row = &from.B[i * q];
-          const double h = std::min(dot(row, row, q), 0.99);
-          for (std::size_t j = 0; j < q; ++j) scores[i * q + j] /= 1 - h;
-        }
-      M = squares_of(scores, q, from.runs);
-    }
+    const bool by_leverage = kind == Errors::uneven && !known;
+    if (by_leverage) correct_for_leverage(from, q, scores);
+    M = kind == Errors::uneven ? squares_of(scores, q, from.runs)
+                               : newey_west(scores, p, from.e, from.runs);
     // The noise that the residuals show is smaller than it is by what the fit has taken.
-    const double shown =
-        dot(from.e.data(), from.e.data(), from.e.size()) / static_cast<double>(from.e.size());
-    if (kind == Errors::autocorrelation || known)
-      for (double& x : M) x *= from.variance / shown;
-  } else {
-    M = squares_of(from.B, q, from.runs);
-    for (double& x : M) x *= from.variance;
+    const auto sources = static_cast<double>(from.e.size());
+    const double shown = dot(from.e.data(), from.e.data(), from.e.size()) / sources;
+    if (!by_leverage)
+      for (double& x : M) x *= variance / shown;
   }
-  add_shared(M, q, shared);
-  return {kind, whiteness, {fit.minimum.R, std::move(M), q}};
+  add_shared(M, q, fit.system.shared);
+  return {kind, whiteness, {R, std::move(M), q}};
+}
+
+NoiseErrors noise_errors(const Fitted& fit, const Uncertainty& by) {
+  const auto sigma = [&](const Quantity& x, std::size_t run = 0) {
+    const bool fixed =
+        std::all_of(x.gradient.begin(), x.gradient.end(), [](double slope) { return slope == 0; });
+    return fixed ? 0 : std::sqrt(by.covariance(x.gradient, x.gradient, run));
+  };
+  NoiseErrors errors{by.kind, by.whiteness, sigma(fit.a), sigma(fit.b), 0};
+  if (errors.a != 0 && errors.b != 0)
+    errors.together = by.covariance(fit.a.gradient, fit.b.gradient);
+  if (fit.slope) errors.slope = sigma(*fit.slope);
+  for (std::size_t r = 0; r < fit.v0.size(); ++r) errors.v0.push_back(sigma(fit.v0[r], r));
+  return errors;
+}
+
+void NoiseErrors::multiply(double factor) {
+  for (double* error : {&a, &b, &slope}) *error *= factor;
+  together *= factor * factor;
+  for (double& error : v0) error *= factor;
 }
 
 }  // namespace rolling

@@ -28,6 +28,20 @@ ObservedRun means(const ObservedRun& run, const std::vector<std::size_t>& edges)
   return thin;
 }
 
+/// The run with the median of five neighbours for each record, so that a false echo counts little.
+ObservedRun without_outliers(ObservedRun run) {
+  const std::vector<double> y = run.y;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const std::size_t first = i < 2 ? 0 : i - 2, end = std::min(i + 3, y.size());
+    std::vector<double> near(y.begin() + static_cast<std::ptrdiff_t>(first),
+                             y.begin() + static_cast<std::ptrdiff_t>(end));
+    const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
+    std::nth_element(near.begin(), middle, near.end());
+    run.y[i] = *middle;
+  }
+  return run;
+}
+
 /// A run thinned to at most 64 means, without a long rest at its end, and a coarse v0 of it.
 struct Thinned {
   ObservedRun run;
@@ -178,7 +192,7 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
   std::vector<ObservedRun> thin_runs;
   std::size_t n = 0;
   for (const ObservedRun& run : runs) {
-    thin.push_back(thinned(run, options));
+    thin.push_back(thinned(options.robust ? without_outliers(run) : run, options));
     thin_runs.push_back(thin.back().run);
     n += run.t.size();
   }

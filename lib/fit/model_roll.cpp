@@ -31,15 +31,16 @@ Noise::Matrix filters_of_rows(const Response& response, Route route, const Rows&
   return std::make_shared<const BandMatrix>(std::move(H));
 }
 
-/// +1 or -1: which way the body rolls.
+/// +1 or -1: which way the body rolls; by all records, of which some may be false echoes.
 double way_of(Route route, const FitRun& run, const Rows& rows, const FitOptions& options) {
-  double sum = 0;
-  if (options.v0) sum = *options.v0;
-  else if (route == Route::position)
-    sum = run.x[rows.back()] - options.x0.value_or(run.x[rows.front()]);
-  else
-    for (std::size_t i : rows) sum += run.v[i];
-  return sum < 0 ? -1 : 1;
+  if (options.v0) return *options.v0 < 0 ? -1 : 1;
+  double sum = 0, before = 0;  // of v; or of x in the later half less those in the earlier one
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (route != Route::position) sum += run.v[rows[k]];
+    else if (options.x0) sum += run.x[rows[k]] - *options.x0;
+    else if (2 * k + 1 < rows.size()) before += run.x[rows[k]];
+    else if (2 * k + 1 > rows.size()) sum += run.x[rows[k]];
+  return sum < before ? -1 : 1;
 }
 
 }  // namespace
@@ -149,7 +150,7 @@ void RollModel::evaluate(const std::vector<double>& theta, const Noise& noise,
                          const TakeRows& take) const {
   const std::size_t q = parameters_.columns();
   const double a = parameters_.law(theta).a;
-  std::vector<double> raw, slopes, f, J;
+  std::vector<double> raw, slopes;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const ObservedRun& run = runs_[r];
     const Trajectory roll = trajectory(theta, r);
@@ -174,18 +175,21 @@ void RollModel::evaluate(const std::vector<double>& theta, const Noise& noise,
         take(r, raw, slopes);
         continue;
       }
-      const std::size_t rows = run.y.size();
-      f.resize(rows);
-      J.resize(rows * q);
-      for (std::size_t i = 0; i < rows; ++i) {
-        f[i] = run.H->times(i, raw) - run.y[i];
-        for (std::size_t j = 0; j < q; ++j)
-          J[j * rows + i] = run.H->times(i, std::span(slopes).subspan(j * m, m));
-      }
-      if (noise.weighted()) noise.weight(r, f, J);
-      take(r, f, J);
+      hand_over_filtered(run, r, raw, slopes, noise, take);
     }
   }
+}
+
+void hand_over_filtered(const ObservedRun& run, std::size_t r, std::span<const double> raw,
+                        std::span<const double> slopes, const Noise& noise, const TakeRows& take) {
+  const std::size_t rows = run.y.size(), m = raw.size(), q = slopes.size() / m;
+  std::vector<double> f(rows), J(rows * q);
+  for (std::size_t i = 0; i < rows; ++i) {
+    f[i] = run.H->times(i, raw) - run.y[i];
+    for (std::size_t j = 0; j < q; ++j) J[j * rows + i] = run.H->times(i, slopes.subspan(j * m, m));
+  }
+  if (noise.weighted()) noise.weight(r, f, J);
+  take(r, f, J);
 }
 
 System system_of(std::shared_ptr<const RollModel> model, std::shared_ptr<const Noise> noise) {

@@ -19,7 +19,7 @@ class Whitener {
   void apply_transposed(std::span<double> x) const;
   /// Whether an element of R^-T x is more than what the floor makes of it: where it is not, the
   /// residual is a sum of those before it.
-  bool informative(std::size_t i) const { return i >= n_ || R_[i * band_] > 3 * floor_; }
+  bool informative(std::size_t i) const { return i >= n_ || R_[i * band_] > 30 * floor_; }
   /// ln of the determinant of R.
   double log_size() const;
   /// The trace of R^-T E E^T R^-1: the number of residuals less what the floor takes.

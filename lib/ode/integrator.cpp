@@ -1,7 +1,11 @@
 #include "ode/integrator.h"
 
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <utility>
 
@@ -13,8 +17,10 @@ namespace rolling {
 struct Integrator::Problem {
   OdeSystem system;
   gsl_odeiv2_system gsl{};
+  std::unique_ptr<gsl_odeiv2_driver, void (*)(gsl_odeiv2_driver*)> driver{nullptr,
+                                                                          gsl_odeiv2_driver_free};
   unsigned long evaluations = 0;
-  std::exception_ptr thrown;  // no exception may cross GSL, which is C
+  std::exception_ptr thrown;  // of the system; it is rethrown behind GSL, which is C
 
   template <typename Call>
   int guard(Call&& call) {
@@ -72,8 +78,8 @@ const gsl_odeiv2_step_type* gsl_type(Stepper stepper) {
 }  // namespace
 
 Integrator::Integrator(OdeSystem system, const OdeOptions& options, double t, std::vector<double> y)
-    : problem_(std::make_shared<Problem>()), driver_(nullptr, gsl_odeiv2_driver_free),
-      max_steps_(options.max_steps), t_(t), y_(std::move(y)) {
+    : problem_(std::make_shared<Problem>()), max_steps_(options.max_steps), t_(t),
+      y_(std::move(y)) {
   if (y_.size() != system.dimension)
     fail("a state of {} numbers for a system of {}", y_.size(), system.dimension);
   if (!(options.rtol >= 0 && options.atol >= 0 && options.rtol + options.atol > 0 &&
@@ -85,9 +91,9 @@ Integrator::Integrator(OdeSystem system, const OdeOptions& options, double t, st
   problem_->gsl = {Problem::derivative, problem_->system.jacobian ? Problem::jacobian : nullptr,
                    y_.size(), problem_.get()};
   silence_gsl();
-  driver_ = own(gsl_odeiv2_driver_alloc_y_new(&problem_->gsl, gsl_type(options.stepper), h_,
-                                              options.atol, options.rtol),
-                gsl_odeiv2_driver_free);
+  problem_->driver = own(gsl_odeiv2_driver_alloc_y_new(&problem_->gsl, gsl_type(options.stepper),
+                                                       h_, options.atol, options.rtol),
+                         gsl_odeiv2_driver_free);
 }
 
 unsigned long Integrator::evaluations() const { return problem_->evaluations; }
@@ -95,19 +101,20 @@ unsigned long Integrator::evaluations() const { return problem_->evaluations; }
 void Integrator::step(double t) {
   if (steps_left_ == 0)
     fail(
-        "the integration has used up its {} steps at t = {:.6g} s (a stiff problem needs an "
-        "implicit method)",
+        "the integration has reached its limit of {} steps at t = {:.6g} s (a stiff problem needs "
+        "an implicit method)",
         max_steps_, t_);
   --steps_left_;
   const double before = t_;
-  const int status = gsl_odeiv2_evolve_apply(driver_->e, driver_->c, driver_->s, &problem_->gsl,
-                                             &t_, t, &h_, y_.data());
+  const gsl_odeiv2_driver& driver = *problem_->driver;
+  const int status =
+      gsl_odeiv2_evolve_apply(driver.e, driver.c, driver.s, &problem_->gsl, &t_, t, &h_, y_.data());
   if (problem_->thrown) std::rethrow_exception(std::exchange(problem_->thrown, nullptr));
   if (status != GSL_SUCCESS)
     fail("the integration fails at t = {:.6g} s: {}", t_, gsl_strerror(status));
-  // GSL takes an error estimate of NaN for a good step.
+  // GSL accepts a step whose error estimate is NaN.
   if (!std::all_of(y_.begin(), y_.end(), [](double y) { return std::isfinite(y); }))
-    fail("the integration leaves the finite numbers at t = {:.6g} s", before);
+    fail("the state is no longer finite after t = {:.6g} s", before);
   if (t_ == before)
     fail("the integration cannot go on at t = {:.6g} s: its step is below the rounding of t", t_);
 }
@@ -139,8 +146,8 @@ bool Integrator::advance(double t, const Event& event) {
   return false;
 }
 
-/// The sign change within the step just done, by the Illinois form of regula falsi; every try
-/// integrates from before the step, so its state is as good as any other.
+/// Locates the sign change within the last step by the Illinois form of regula falsi. Each trial
+/// integrates anew from the beginning of the step, so its state is as accurate as any other.
 void Integrator::locate(double t_before, const std::vector<double>& y_before, double value_before,
                         const Event& event) {
   double lo = t_before, f_lo = value_before, hi = t_, f_hi = event(y_);
@@ -168,8 +175,8 @@ void Integrator::locate(double t_before, const std::vector<double>& y_before, do
 
 void Integrator::restart(std::vector<double> y) {
   y_ = std::move(y);
-  gsl_odeiv2_evolve_reset(driver_->e);
-  gsl_odeiv2_step_reset(driver_->s);
+  gsl_odeiv2_evolve_reset(problem_->driver->e);
+  gsl_odeiv2_step_reset(problem_->driver->s);
 }
 
 }  // namespace rolling

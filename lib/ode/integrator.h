@@ -2,17 +2,14 @@
 // given times or to an event.
 #pragma once
 
-#include <gsl/gsl_odeiv2.h>
-
 #include <cstddef>
-#include <exception>
 #include <functional>
 #include <memory>
 #include <vector>
 
 namespace rolling {
 
-/// Both functions may throw; the exception comes out of Integrator::advance.
+/// Both functions may throw; the exception leaves Integrator::advance().
 struct OdeSystem {
   std::size_t dimension;
   std::function<void(double t, const double* y, double* dydt)> derivative;
@@ -25,14 +22,14 @@ enum class Stepper { rk2, rk4, rkf45, rkck, rk8pd, msadams, rk1imp, rk2imp, rk4i
 
 struct OdeOptions {
   Stepper stepper = Stepper::rk8pd;
-  double rtol = 1e-10;                   ///< error of a step relative to y ...
-  double atol = 1e-13;                   ///< ... plus this, in the units of y
+  double rtol = 1e-10;                ///< error of a step relative to y ...
+  double atol = 1e-13;                ///< ... plus this, in the units of y
   unsigned long max_steps = 300'000;  ///< of one advance(); then it is refused
 };
 
 class Integrator {
  public:
-  /// Zero where something happens.
+  /// A function of the state whose zero is the event.
   using Event = std::function<double(const std::vector<double>& y)>;
 
   Integrator(OdeSystem, const OdeOptions&, double t, std::vector<double> y);
@@ -41,25 +38,24 @@ class Integrator {
   const std::vector<double>& state() const { return y_; }
   unsigned long evaluations() const;  ///< calls of the derivative so far
 
-  /// Integrates to t exactly; a time that is past does nothing. Throws Error when GSL fails, when
-  /// the state is no longer finite and when the steps run out.
+  /// Integrates to exactly t; does nothing if t is not after time(). Throws Error if GSL fails, if
+  /// the state is no longer finite, or after max_steps.
   void advance(double t);
   /// The same, but stops at the first sign change of the event (located to rounding) and then
   /// returns true. t may be infinite.
   bool advance(double t, const Event&);
-  /// Goes on from another state at the same time: where the system has a kink, start again on its
+  /// Continues from another state at the same time: at a kink of the derivative, restart on its
   /// other side.
   void restart(std::vector<double> y);
 
  private:
-  struct Problem;  // what GSL points to
+  struct Problem;  // the system and the objects of GSL, which have pointers to it
   void step(double t);
   void run(double t);
   void locate(double t_before, const std::vector<double>& y_before, double value_before,
               const Event&);
 
   std::shared_ptr<Problem> problem_;
-  std::unique_ptr<gsl_odeiv2_driver, void (*)(gsl_odeiv2_driver*)> driver_;
   unsigned long max_steps_, steps_left_ = 0;
   double t_;
   std::vector<double> y_;

@@ -1,4 +1,5 @@
-// What a motion sensor at the end of the track records of a roll: raw data with a known answer.
+// Simulates the record of a motion sensor (sonar) at the end of the track, with noise, rounding and
+// lost echoes: raw data for which the right result is known.
 #pragma once
 
 #include "motion/motion.h"
@@ -9,19 +10,21 @@
 
 namespace rolling {
 
-/// Defaults: a PASCO-type sonar with a careful hand.
+/// The defaults describe a sonar of PASCO and a smooth push by hand.
 struct SonarOptions {
   double rate = 25;           ///< records a second
   double resolution = 0.001;  ///< positions are rounded to this [m]; 0: not at all
   double noise = 0.0003;      ///< standard deviation of a position before rounding [m]
   double lost = 0.01;         ///< fraction of echoes that do not come back
   unsigned long seed = 1;
-  double rest_before = 1;  ///< at rest before the push [s]
-  double push = 0.5;       ///< how long the hand pushes [s]
-  double rest_after = 1;   ///< record after the stop [s]
-  double start = 0.3;      ///< distance from the sensor before the push [m]
-  /// The record ends so long after the push [s]; infinite: rest_after after the stop.
+  /// Time from the end of the push to the end of the record [s]; infinite: the record ends
+  /// rest_after after the stop.
   double until = std::numeric_limits<double>::infinity();
+
+  static constexpr double rest_before = 1;  ///< at rest before the push [s]
+  static constexpr double push = 0.5;       ///< duration of the push [s]
+  static constexpr double rest_after = 1;   ///< at rest after the stop [s]
+  static constexpr double start = 0.3;      ///< distance from the sensor before the push [m]
 };
 
 /// One record; x or v is missing where the echo was lost.

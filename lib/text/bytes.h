@@ -1,4 +1,5 @@
-// Text that grows at its end: the rows of a block, the texts of rows that wait.
+// A buffer of text that grows at its end. Unlike std::string it hands out uninitialised space, into
+// which numbers are written directly.
 #pragma once
 
 #include <algorithm>
@@ -15,20 +16,21 @@ class Bytes {
   bool empty() const { return end_ == data_.get(); }
 
   void append(std::string_view text) {
-    end_ = std::copy(text.begin(), text.end(), room(text.size()));
+    end_ = std::copy(text.begin(), text.end(), reserve(text.size()));
   }
-  void append(char c) { *room(1) = c, ++end_; }
-  /// Where up to `count` more bytes may be written; then they end at end().
-  char* room(std::size_t count) {
+  void append(char c) { *reserve(1) = c, ++end_; }
+  /// Makes space for `count` more bytes and returns where it begins. The caller writes there and
+  /// then passes the end of what it has written to set_end().
+  char* reserve(std::size_t count) {
     if (static_cast<std::size_t>(limit_ - end_) < count) grow(count);
     return end_;
   }
-  void end(char* end) { end_ = end; }
+  void set_end(char* end) { end_ = end; }
 
-  /// Forgets all but the first `size` bytes.
-  void cut(std::size_t size) { end_ = data_.get() + size; }
-  /// Forgets the first `count` bytes.
-  void drop(std::size_t count) { end_ = std::copy(data_.get() + count, end_, data_.get()); }
+  /// Keeps the first `size` bytes only.
+  void truncate(std::size_t size) { end_ = data_.get() + size; }
+  /// Removes the first `count` bytes.
+  void erase_front(std::size_t count) { end_ = std::copy(data_.get() + count, end_, data_.get()); }
 
  private:
   [[gnu::noinline]] void grow(std::size_t count) {

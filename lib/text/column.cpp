@@ -15,15 +15,15 @@ struct Unit {
   std::string_view name;
   Conversion to_si;
 };
-struct Quantity {
+struct KnownQuantity {
   std::string_view name, long_name, other_name;
-  std::vector<Unit> units;
-};  // the SI unit first
+  std::vector<Unit> units;  // the SI unit is the first
+};
 
 const std::vector<Unit> lengths = {{"m", {}},          {"mm", {1, 1e3}},   {"cm", {1, 1e2}},
                                    {"dm", {1, 10}},    {"um", {1, 1e6}},   {"km", {1e3, 1}},
                                    {"in", {254, 1e4}}, {"ft", {3048, 1e4}}};
-const std::array<Quantity, 5> quantities = {{
+const std::array<KnownQuantity, 5> quantities = {{
     {"t",
      "time",
      "time",
@@ -56,7 +56,7 @@ std::string replace_all(std::string text, std::string_view from, std::string_vie
   return text;
 }
 
-/// One spelling of a unit: UTF-8 and Latin-1 powers as ^2 and ^-1, both micro signs as u.
+/// A unit in ASCII: superscripts in UTF-8 or Latin-1 become ^2 and ^-1, micro signs become u.
 std::string plain_unit(std::string unit) {
   for (const auto& [from, to] : {std::pair{"\xE2\x81\xBB\xC2\xB9", "^-1"},
                                  {"\xE2\x81\xBB\xC2\xB2", "^-2"},
@@ -76,8 +76,8 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-/// A unit as it stands in the lists above: products of powers as a quotient (`m s^-1`, `m*s-1` as
-/// m/s), kph and the like as km/h, and km/h and mph in any case.
+/// The spelling of a unit in the lists above: a product of powers becomes a quotient (`m s^-1` and
+/// `m*s-1` become m/s), kph and kmh become km/h, and the case of km/h and mph does not matter.
 std::string listed_unit(std::string unit) {
   for (const std::string_view times : {"\xC2\xB7", "\xE2\x8B\x85", "*", " "})
     unit = replace_all(std::move(unit), times, ".");
@@ -90,14 +90,14 @@ std::string listed_unit(std::string unit) {
   return small == "mph" ? small : unit;
 }
 
-const Quantity* known(std::string_view name) {
-  for (const Quantity& q : quantities)
+const KnownQuantity* known(std::string_view name) {
+  for (const KnownQuantity& q : quantities)
     if (q.name == name) return &q;
   return nullptr;
 }
 
-/// Takes `Run #2` or `Run 2` off the end of a name, `Latest:` or `Data Set 1:` off its front;
-/// returns the number, else the word.
+/// Removes `Run #2` or `Run 2` from the end of a name, and `Latest:` or `Data Set 1:` from its
+/// beginning; returns the number, or the word if there is no number.
 std::string take_run(std::string_view& name) {
   const auto number_at_end = [](std::string_view text) {
     return text.substr(text.find_last_not_of("0123456789") + 1);
@@ -137,7 +137,7 @@ Column read_column(std::string_view text) {
     name = trim(name.substr(0, open));
   }
   const std::string small = lower(name);
-  for (const Quantity& q : quantities)
+  for (const KnownQuantity& q : quantities)
     if (small == q.long_name || small == q.other_name) name = q.name;
   column.name = name;
   std::replace_if(
@@ -157,12 +157,12 @@ std::string free_name(const std::vector<Column>& columns, std::string name) {
 }
 
 std::string_view si_unit(std::string_view quantity) {
-  const Quantity* q = known(quantity);
+  const KnownQuantity* q = known(quantity);
   return q ? q->units.front().name : std::string_view();
 }
 
 Conversion conversion_to_si(std::string_view quantity, const Column& column) {
-  const Quantity* q = known(quantity);
+  const KnownQuantity* q = known(quantity);
   if (!q || column.unit.empty()) return {};
   std::string all;
   for (const Unit& unit : q->units) {

@@ -1,4 +1,4 @@
-// What a column's name says: which quantity it is, and in which unit.
+// The name of a column: its quantity, its unit and its run.
 #pragma once
 
 #include <string>
@@ -8,17 +8,18 @@
 namespace rolling {
 
 struct Column {
-  std::string
-      name{};  ///< short name (t, x, v, a, D), or the name as it stands with blanks as underscores
-  std::string unit{};  ///< as it stands, m/s² as m/s^2; empty if the name says none
-  std::string run{};   ///< the number in `Run #2` or `Data Set 1:`, the word in `Latest:`; empty if
-                       ///< the name says none
+  /// t, x, v, a or D for a known quantity; else the name of the file, with underscores for blanks.
+  std::string name{};
+  /// The unit of the file, with ^2 for a superscript; empty if the name has no unit.
+  std::string unit{};
+  /// The number in `Run #2` or `Data Set 1:`, the word in `Latest:`; empty if the name has neither.
+  std::string run{};
 
   bool operator==(const Column&) const = default;
 };
 
-/// Value in SI units = value * multiply / divide, each exact, so that a decimal unit costs one
-/// rounding.
+/// Value in SI units = value * multiply / divide. Both factors are exact in a double, so that a
+/// decimal unit adds one rounding error only.
 struct Conversion {
   double multiply = 1, divide = 1;
   bool changes() const { return multiply != divide; }
@@ -29,22 +30,23 @@ struct Conversion {
 /// (m/s) Run #2`, or a bare name.
 Column read_column(std::string_view text);
 
-/// The style in which names go out: `v[m/s]`.
+/// The form in which the tools write names: `v[m/s]`.
 std::string to_text(const Column&);
 
-/// The name that a column takes when another one gets its name: `name_in`, or with more of them if
-/// that is taken too.
+/// The new name of a column whose name is given to a computed one: `name_in`; `name_in_in` and so
+/// on if that name exists too.
 std::string free_name(const std::vector<Column>&, std::string name);
 
 /// The SI unit of a known quantity (t, x, v, a, D); empty for any other name.
 std::string_view si_unit(std::string_view quantity);
 
-/// How a column that serves as `quantity` becomes SI. Units are read as programs write them: `MPH`,
-/// `Km/h`, `m s^-1`. Throws Error for a unit that the quantity cannot have; no unit is SI.
+/// The conversion to SI of a column that serves as `quantity`. Units may be spelled as common
+/// programs spell them: `MPH`, `Km/h`, `m s^-1`. A column without a unit is in SI units. Throws
+/// Error for a unit that is not one of this quantity.
 Conversion conversion_to_si(std::string_view quantity, const Column&);
 
-/// The names of a line, one a field: `separator` 0 stands for blanks, where a unit in brackets,
-/// which may hold blanks, belongs to the name before it.
+/// The names in a line, one for each field. With `separator` 0 blanks separate the names; a unit in
+/// brackets, which may contain blanks, then belongs to the name before it.
 std::vector<std::string> split_names(std::string_view line, char separator);
 
 }  // namespace rolling

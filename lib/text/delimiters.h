@@ -1,4 +1,4 @@
-// What separates fields, and what quotes them.
+// The separators of fields, and quoted fields.
 #pragma once
 
 #include <string>
@@ -8,30 +8,32 @@
 
 namespace rolling {
 
-/// What may separate the fields of a delimited file, in the order in which a line is searched for
-/// them.
+/// The separators of delimited files. A line is searched for them in this order.
 inline constexpr std::string_view separators = "\t;,";
 constexpr bool is_separator(char c) { return separators.find(c) != std::string_view::npos; }
 
 inline constexpr char quote = '"';
 
-/// The quote that closes a field, from behind its opening one; `end` if there is none. Two quotes
-/// in a row stand for one inside the field.
+/// Finds the quote that closes a field; `at` is behind the opening quote. Returns `end` if there is
+/// none. Two quotes in a row stand for one quote inside the field.
 const char* closing_quote(const char* at, const char* end);
 
-/// What of `text` stands outside quoted fields. A quote opens where a field begins: behind one of
-/// these separators, and at the beginning if `field_begins`.
+/// The part of a text that is outside quoted fields.
 struct Unquoted {
   std::string text;
   bool ends_within = false;  ///< a quoted field is still open at the end
 };
-Unquoted outside_quotes(std::string_view text, std::string_view between, bool field_begins = true);
+/// `text` begins at the beginning of a field. A quote opens a quoted field only where a field
+/// begins: there, and behind one of these separators.
+Unquoted outside_quotes(std::string_view text, std::string_view separators);
+/// The same for a text that begins behind a closing quote.
+Unquoted behind_quote(std::string_view text, std::string_view separators);
 
-/// A field cannot stand bare in a tab-separated line, whatever precedes it: it holds a tab, a line
-/// end or a quote, or begins with a comment's mark.
+/// True for a field that must be quoted in a tab-separated line: it contains a tab, a line end or a
+/// quote, or begins with #.
 bool needs_quotes(std::string_view field);
 
-/// Appends a field to a tab-separated line, quoted where it has to be.
+/// Appends a field to a tab-separated line, in quotes if it needs them.
 void append_field(Bytes& line, std::string_view field);
 
 }  // namespace rolling

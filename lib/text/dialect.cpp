@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t npos = std::string_view::npos;
 constexpr std::string_view minus = "\xE2\x88\x92";  // U+2212
 
-/// Where a number may be of another form.
+/// The places of the characters in which numbers of other countries may differ.
 struct Marks {
   std::size_t first_minus, comma, point;
 };
@@ -21,7 +21,8 @@ Marks marks_in(std::string_view field) {
   return {field.find(minus[0]), field.find(','), field.find('.')};
 }
 
-/// Appends `1,5` as `1.5`, U+2212 as `-`; returns what it has appended.
+/// Appends a number with a decimal point and a hyphen: `1,5` as `1.5`, U+2212 as `-`. Returns the
+/// appended text.
 std::string_view append_plain(std::string& to, std::string_view field, Marks marks) {
   const auto from = to.size();
   to += field;
@@ -32,8 +33,8 @@ std::string_view append_plain(std::string& to, std::string_view field, Marks mar
   return std::string_view(to).substr(from);
 }
 
-/// `1,002`, where a comma may group thousands: one to three digits, of which the first is not 0,
-/// and three behind it.
+/// True for `1,002`, whose comma may separate thousands: one to three digits, of which the first is
+/// not 0, before the comma, and three behind it.
 bool may_be_thousands(std::string_view field) {
   if (!field.empty() && (field.front() == '-' || field.front() == '+')) field.remove_prefix(1);
   const auto comma = field.find(',');
@@ -41,20 +42,21 @@ bool may_be_thousands(std::string_view field) {
          field.find_first_not_of("0123456789,") == npos;
 }
 
+/// The characters of plain text: no separator, no quote, and none that only numbers with a decimal
+/// comma or U+2212 have.
 constexpr auto plain = [] {
   std::array<bool, 256> is{};
   for (std::size_t c = '-'; c <= 'z'; ++c) is[c] = !is_separator(static_cast<char>(c));
   return is;
 }();
 
-/// Up to the first character that may separate fields, quote one, or stand in a number of another
-/// form.
+/// The first character that is not plain.
 const char* skip_plain(const char* at, const char* end) {
   while (at != end && plain[static_cast<unsigned char>(*at)]) ++at;
   return at;
 }
 
-/// Reads a number, if it is wanted, or passes over plain text; returns its end.
+/// Reads the number of the field if it is wanted, else skips plain text; returns the end of either.
 const char* read_plain(const char* at, const char* end, Field& field) {
   return field.wanted ? read_number(at, end, field.number) : skip_plain(at, end);
 }
@@ -80,7 +82,7 @@ bool Dialect::choose(std::string_view line) {
     const bool has_blanks = std::any_of(fields.begin(), fields.end(), [](const Field& field) {
       return field.text.find(' ') != npos;
     });
-    separator_ = '\0';  // a line of numbers in which tabs and blanks both separate is one of blanks
+    separator_ = '\0';  // where tabs and blanks both separate numbers, any blank separates
     const auto words = has_blanks ? split(line) : std::span<const Field>();
     if (words.empty() || !std::all_of(words.begin(), words.end(),
                                       [](const Field& word) { return is_number(word.text); }))
@@ -91,7 +93,8 @@ bool Dialect::choose(std::string_view line) {
 
 bool Dialect::holds_number(std::string_view line) {
   const auto fields = split(line);
-  // A quoted decimal comma among commas makes a record too, which is then refused with the way out.
+  // A decimal comma counts here even between commas: the line is then refused as a record, with a
+  // message that says what to do, and not taken for a line of names.
   return std::any_of(fields.begin(), fields.end(), [](const Field& field) {
     std::string text;
     return is_number(append_plain(text, field.text, marks_in(field.text)));
@@ -107,8 +110,7 @@ void Dialect::want_none() {
   for (Field& field : fields_) field = Field();
 }
 
-// A number is read, or passed over, where it stands, which shows where its field ends: no other
-// search, no second pass.
+// Reading a number finds its end, and so the end of its field: the line is passed over only once.
 
 std::span<const Field> Dialect::split(std::string_view line) {
   count_ = 0;
@@ -144,7 +146,7 @@ const char* Dialect::split_plain(std::string_view text, std::span<const Field>& 
   for (Field* field = fields_.data(); field != fields_.data() + fields_.size(); ++field, ++at) {
     const char* first = at;
     at = read_plain(at, end, *field);
-    if (at == first) {  // perhaps a quoted one, which costs the others nothing
+    if (at == first) {  // quoted fields are looked for here, where plain fields lose no time
       if (at == end || *at != quote) return nullptr;
       first = ++at;
       at = read_plain(at, end, *field);
@@ -178,7 +180,7 @@ void Dialect::split_blanks(const char* at, const char* end) {
   }
 }
 
-/// Takes the field that begins at `at`, whatever it holds; returns its end.
+/// Reads the field that begins at `at`, with any content; returns its end.
 const char* Dialect::take_text(const char* at, const char* end, Field& field) {
   const char* const first = at;
   while (at != end && is_blank(*at) && *at != separator_) ++at;
@@ -196,10 +198,10 @@ const char* Dialect::take_text(const char* at, const char* end, Field& field) {
   return at;
 }
 
-/// The text of the field whose quote opens at `at`, which goes behind the field.
+/// The text of the quoted field at `at`; moves `at` to the end of the field.
 std::string_view Dialect::take_quoted(const char*& at, const char* end) {
   const char *const first = ++at, *const close = closing_quote(first, end);
-  if (close == end) fail("field {}: a quote that does not end", count_);
+  if (close == end) fail("field {}: a quote that is not closed", count_);
   at = close + 1;
   while (at != end && is_blank(*at) && *at != separator_) ++at;
   if (at != end && *at != separator_)
@@ -213,8 +215,8 @@ std::string_view Dialect::take_quoted(const char*& at, const char* end) {
   return std::string_view(made_).substr(from);
 }
 
-/// A number with a decimal comma or U+2212 takes its plain form, and is read; false for any other
-/// text, which stays as it is.
+/// Reads a number with a decimal comma or U+2212 and puts its form with point and hyphen into the
+/// field. False for any other text, which is left unchanged.
 bool Dialect::rewrite(Field& field) {
   const Marks marks = marks_in(field.text);
   const bool other_minus = marks.first_minus != npos, comma = marks.comma != npos,
@@ -223,8 +225,8 @@ bool Dialect::rewrite(Field& field) {
   if (separator_ == '\t' && decimal_mark_ == '\0' && may_be_thousands(field.text)) {
     if (field.wanted)
       fail(
-          "field {}: '{}' has two readings: make its comma a point if it is a decimal one, else "
-          "take it out",
+          "field {}: '{}' can be read in two ways: if its comma is a decimal one, replace it by a "
+          "point, else remove it",
           count_, shown(field.text));
     return false;
   }
@@ -236,7 +238,7 @@ bool Dialect::rewrite(Field& field) {
     const char mark = comma ? ',' : '.';
     if (decimal_mark_ == '\0') decimal_mark_ = mark;
     if (decimal_mark_ != mark)
-      fail("field {}: '{}' has another decimal mark than the numbers before it", count_,
+      fail("field {}: the decimal mark of '{}' is not that of the numbers before it", count_,
            shown(field.text));
   }
   if (field.wanted) field.number = number;

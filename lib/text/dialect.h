@@ -1,4 +1,4 @@
-// How the lines of a file fall into fields.
+// Splits the lines of a file into fields.
 #pragma once
 
 #include <limits>
@@ -12,47 +12,48 @@ namespace rolling {
 /// A field without its quotes and the blanks around it.
 struct Field {
   std::string_view text{};
-  double number =
-      std::numeric_limits<double>::quiet_NaN();  ///< if it is wanted; NaN if the text is none
-  bool wanted = false;
+  /// The number, if it is wanted; NaN if the text is not a number.
+  double number = std::numeric_limits<double>::quiet_NaN();
+  bool wanted = false;  ///< the number of this field is needed
 };
 
 class Dialect {
  public:
-  /// Blanks separate, until another form is chosen.
+  /// Blanks separate fields until choose() finds another separator.
   Dialect() = default;
-  /// That of the tools' own output: tabs, and a decimal point.
+  /// The form that the tools write: separated by tabs, with a decimal point.
   static Dialect of_output();
 
-  /// Takes the form from a line: the first of the separators that it has outside quotes, else
-  /// blanks. True if it holds a number.
+  /// Chooses the separator from a line: the first of the separators that the line contains outside
+  /// quotes, else blanks. True if the line contains a number.
   bool choose(std::string_view line);
-  /// A line of the form that has been chosen holds a number.
+  /// True if a line, split by the chosen separator, contains a number.
   bool holds_number(std::string_view line);
-  /// The number of this field is wanted, from 0, until the next choice, or until none is.
+  /// From now on the number of this field (counted from 0) is read, until the next choose() or
+  /// want_none().
   void want(std::size_t field);
   void want_none();
 
-  /// The fields of a line, valid until the next call or the line's end. In files delimited by ; or
-  /// tab, where they leave no doubt, a decimal comma becomes a point and U+2212 a minus. Throws
-  /// Error where two decimal marks meet, where a comma may be a decimal one or one of thousands,
-  /// and for a quote that does not end or has text behind it.
+  /// The fields of a line, valid until the next call or as long as the line. In files delimited by
+  /// ; or tab a decimal comma becomes a point, and the minus sign U+2212 a hyphen. Throws Error for
+  /// a file with both decimal marks, for a comma that may separate thousands, and for a quote that
+  /// is not closed or has text behind it.
   std::span<const Field> split(std::string_view line);
-  /// The same for the line that begins `text`, whose end is not known yet, if its fields leave no
-  /// doubt where each ends: numbers, or plain text, quoted or not, between separators, up to a line
-  /// feed within `text`. Returns the end of the last one; null if there is doubt.
+  /// Fast path of split() for the line at the beginning of `text`, whose end has not been searched
+  /// for: each field is a number, or text without special characters, quoted or not, and the line
+  /// feed is within `text`. Returns the end of the line; null for any other line, which is left to
+  /// split().
   const char* split_plain(std::string_view text, std::span<const Field>& fields);
 
-  /// The last line was its fields with a tab between them.
+  /// The last line can be written out unchanged: it is its fields with tabs between them.
   bool as_it_stands() const { return as_it_stands_; }
-  /// A field of the last line may need quotes in a tab-separated one.
+  /// A field of the last line may need quotes in the output.
   bool may_need_quotes() const { return may_need_quotes_; }
   char separator() const { return separator_; }  ///< '\0' for blanks
 
  private:
-  bool foreign() const {
-    return foreign_numbers_ && decimal_mark_ != '.';
-  }  ///< the next number may still be of another form
+  /// The next number may have a decimal comma or a minus sign U+2212.
+  bool foreign() const { return foreign_numbers_ && decimal_mark_ != '.'; }
   Field& next_field() {
     if (count_ == fields_.size()) fields_.emplace_back();
     return fields_[count_++];
@@ -63,12 +64,13 @@ class Dialect {
   bool rewrite(Field&);
 
   char separator_ = '\0';
-  bool foreign_numbers_ = false;  // numbers may have decimal commas and U+2212
-  char decimal_mark_ = '\0';      // the one seen
+  bool foreign_numbers_ = false;  // the separator allows decimal commas and U+2212
+  char decimal_mark_ = '\0';      // of the numbers so far; '\0' if none had one
   bool as_it_stands_ = false, may_need_quotes_ = false;
-  std::vector<Field> fields_;  // room for those of the longest line
-  std::size_t count_ = 0;      // of the fields of this line
-  std::string made_;  // the texts of fields that do not stand in the line, with room for all
+  std::vector<Field> fields_;  // as many as the longest line had
+  std::size_t count_ = 0;      // fields of this line
+  // The texts of fields that were rewritten. Fields point into it, so it may not be reallocated.
+  std::string made_;
 };
 
 }  // namespace rolling

@@ -21,7 +21,7 @@ bool parse_estimate(std::string_view text, Estimate& estimate) {
   if (sign == std::string_view::npos) {
     if (!parse_number(text, read.value)) return false;
   } else {
-    // trim() takes the blanks on both sides, of which the outer ones are an error.
+    // Blanks are allowed around +-, but not around the whole.
     const auto sigma_text = text.substr(sign + 2);
     if (trim(text) != text || !parse_number(trim(value_text), read.value) ||
         !parse_number(trim(sigma_text), read.sigma) || std::signbit(read.sigma))

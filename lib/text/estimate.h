@@ -8,13 +8,12 @@
 
 namespace rolling {
 
-/// Reads the whole of `text`: a number, or two with `+-` between them, of which the second is the
-/// standard uncertainty; blanks may stand around the `+-`. Each number is one of number.h, and the
-/// second has no minus. False, and `estimate` as it was, for anything else.
+/// Reads the whole of `text`: a number, or a number, `+-` and the standard uncertainty, which has
+/// no sign. Blanks may stand around `+-`. Both numbers have the syntax of number.h. Returns false
+/// for any other text and then leaves `estimate` unchanged.
 bool parse_estimate(std::string_view text, Estimate& estimate);
 
-/// The shortest text that reads back to the same numbers: `0.5+-0.005`, and `0.5` alone where sigma
-/// is 0.
+/// The shortest text that reads back to the same numbers: `0.5+-0.005`, or `0.5` if sigma is 0.
 std::string to_text(const Estimate&);
 
 }  // namespace rolling

@@ -8,7 +8,7 @@
 namespace rolling {
 namespace {
 
-/// The lines of `comments` that are no history.
+/// The lines of `comments` that do not begin with ##.
 std::string remarks_of(const std::string& comments) {
   std::string remarks;
   for (std::size_t at = 0; at < comments.size();) {
@@ -28,11 +28,11 @@ Filter::Filter(Reader& in, Output& out, std::string history)
 Filter::~Filter() {
   try {
     if (!writing_) write_rows();
-  } catch (...) {  // an error is on its way already
+  } catch (...) {  // the error that ended the work is reported, not this one
   }
 }
 
-void Filter::tell(std::string history) {
+void Filter::set_history(std::string history) {
   history_ = history.empty() ? "" : "## " + std::move(history) + '\n';
   write_rows();
 }
@@ -42,7 +42,7 @@ void Filter::append(Column column) {
   enough_ = rows_at_once() * appended_.size();
 }
 
-/// Those of the present run as they go out.
+/// The columns of the present run in the output.
 std::vector<Column> Filter::columns() const {
   std::vector<Column> all = in_.columns();
   for (const Column& column : appended_) {
@@ -55,7 +55,7 @@ std::vector<Column> Filter::columns() const {
 
 /// The head of the present run waits like a row.
 void Filter::take_head() {
-  Row& row = rows_.emplace_back(Row{Kind::head});
+  Row& row = rows_.emplace_back(Row{Kind::head, 0, 0, 0, records_});
   std::string text;
   for (const std::string& comment : in_.comments()) (text += comment) += '\n';
   row.first = row.last = text.size();
@@ -68,16 +68,14 @@ void Filter::take_head() {
 void Filter::take_remarks(const std::vector<std::string>& remarks) {
   for (const std::string& remark : remarks) {
     held_.append(remark);
-    rows_.push_back({Kind::remark, remark.size()});
+    rows_.push_back({Kind::remark, remark.size(), 0, 0, records_});
   }
   if (!remarks.empty()) write_rows();
 }
 
 bool Filter::next_run() {
   write_rows();
-  gone_ = -std::count_if(
-      rows_.begin() + static_cast<std::ptrdiff_t>(front_), rows_.end(),
-      [](const Row& row) { return row.kind == Kind::record || row.kind == Kind::dropped; });
+  run_begins_ = records_;
   if (in_.next_run()) {
     take_head();
     return true;
@@ -95,23 +93,25 @@ bool Filter::next() {
   if (!more) return false;
   const Reader::Text text = in_.text(cut_);
   const std::size_t size = text.line.size();
-  if (cut_ == Reader::no_column) rows_.push_back({Kind::record, size, size, size});
-  else rows_.push_back({Kind::record, size, text.first, text.last});
+  if (cut_ == Reader::no_column) rows_.push_back({Kind::record, size, size, size, records_});
+  else rows_.push_back({Kind::record, size, text.first, text.last, records_});
+  ++records_;
   held_.append(text.line);
   return true;
 }
 
 void Filter::drop(std::size_t i) {
-  auto row = rows_.begin() + static_cast<std::ptrdiff_t>(front_);
-  for (auto records = gone_; row->kind == Kind::remark || row->kind == Kind::head ||
-                             records++ < static_cast<std::ptrdiff_t>(i);)
-    ++row;
+  const std::size_t number = run_begins_ + i;
+  auto row = std::partition_point(rows_.begin() + static_cast<std::ptrdiff_t>(front_), rows_.end(),
+                                  [&](const Row& earlier) { return earlier.record < number; });
+  while (row->kind != Kind::record) ++row;  // a head or a remark before it
   row->kind = Kind::dropped;
   any_dropped_ = true;
   write_rows();
 }
 
-/// Before the first row of a run. What a run without rows had to say goes before the next one.
+/// Writes the head of a run before its first row. The comments of a run without rows are written
+/// with the head of the next run.
 void Filter::write_head() {
   if (!std::exchange(head_.due, false)) return;
   if (any_row_) out_.end_line();
@@ -121,7 +121,7 @@ void Filter::write_head() {
   head_ = {};
 }
 
-/// Up to the first that has not all its numbers.
+/// Writes all rows before the first one that lacks a number.
 void Filter::write_rows() {
   if (!history_) return;
   writing_ = true;
@@ -141,16 +141,13 @@ void Filter::write_rows() {
       if (row.last < row.size) out_.text(text.substr(row.last));
       out_.end_line();
       any_row_ = true;
-      ++gone_;
-    } else if (row.kind == Kind::dropped) {
-      ++gone_;
     } else if (row.kind == Kind::head) {
       head_.due = true;
       head_.comments = remarks_of(head_.comments).append(text.substr(0, row.first));
       head_.names = text.substr(row.first);
-    } else if (head_.due) {
+    } else if (row.kind == Kind::remark && head_.due) {
       head_.comments.append(text) += '\n';
-    } else {
+    } else if (row.kind == Kind::remark) {
       out_.text(text), out_.end_line();
     }
   }
@@ -159,10 +156,10 @@ void Filter::write_rows() {
   writing_ = false;
 }
 
-/// Those before the front one; amortised, at most one move a row.
+/// Removes the rows that have been written; amortised, each row is moved at most once.
 void Filter::forget_rows() {
   rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(front_));
-  held_.drop(front_begin_);
+  held_.erase_front(front_begin_);
   front_ = front_begin_ = 0;
 }
 

@@ -1,8 +1,10 @@
-// Rows on their way through a filter: each waits, as the text it came as, for the numbers that the
-// filter owes it. So a filter may answer late (a window that looks ahead) and every byte that it
-// does not compute still goes out as it came in. Answered rows wait for company: the digits of one
-// number wait for each other, those of several numbers do not. Each run goes out with its own head:
-// its name, its comments and history, what this filter did, the names.
+// The input and the output of a tool that adds computed numbers to each record, or replaces a
+// column. A record is kept as text until its numbers have been computed, which may be later (a
+// window that looks ahead). Every byte that is not computed is written as it was read. Each run is
+// written with its own head: its name, comments and history, the line of this filter, the names.
+//
+// Complete rows are formatted 32 at a time: the conversions of several numbers overlap in the
+// processor, which those of the digits of one number cannot.
 #pragma once
 
 #include <cstddef>
@@ -19,28 +21,27 @@ namespace rolling {
 
 class Filter {
  public:
-  /// `history` is the `##` line, without the marks, that says what this filter did. Without it
-  /// nothing goes out before it has been told.
+  /// `history` is the `##` line, without the marks, that says what this filter does. If it is not
+  /// known yet, it is set by set_history(); nothing is written before.
   Filter(Reader& in, Output& out, std::string history = {});
-  /// Writes the rows that have all their numbers, when an Error ends the work before the last run
-  /// has.
+  /// If an Error ends the work early, writes the rows that are complete.
   ~Filter();
   Filter(const Filter&) = delete;
   Filter& operator=(const Filter&) = delete;
-  void tell(std::string history);  ///< nothing, if the filter changes no number
+  /// An empty history writes no line: this filter changes no number.
+  void set_history(std::string history);
 
-  /// The numbers replace the column in this slot of the reader.
+  /// The numbers replace the column of this slot of the reader.
   void replace(std::size_t slot) { replaced_ = slot; }
-  /// The numbers are a new last column; several columns take them in turn. A column of that name
-  /// becomes `name_in`.
+  /// The numbers form a new last column. With several new columns each row needs one number for
+  /// each, in their order. An existing column of that name is renamed `name_in`.
   void append(Column);
 
-  /// Goes to the next run or record, as Reader does; the record waits for its numbers.
+  /// Goes to the next run or record, as Reader does. The record waits for its numbers.
   bool next_run();
   bool next();
   double operator[](std::size_t slot) const { return in_[slot]; }
-  /// The next number for the oldest row that has not all of them. Throws Error when it is not
-  /// finite.
+  /// Gives the next number to the oldest record that lacks one. Throws Error if it is not finite.
   void put(double value) {
     require_finite(value);
     numbers_.push_back(value);
@@ -49,7 +50,7 @@ class Filter {
   void put(std::span<const double> values) {
     for (const double value : values) put(value);
   }
-  /// Leaves out the record that is the i-th of this run, from 0: it waits for no numbers.
+  /// Leaves out the record with the index i in this run (from 0). It needs no numbers.
   void drop(std::size_t i);
 
  private:
@@ -57,8 +58,9 @@ class Filter {
   struct Row {
     Kind kind = Kind::record;
     std::size_t size = 0;  // of its text
-    std::size_t first = 0,
-                last = 0;  // of a record, its numbers go between; of a head, this filter's history
+    // The numbers of a record, or the `##` line of this filter in a head, replace [first, last).
+    std::size_t first = 0, last = 0;
+    std::size_t record = 0;  // how many records of all runs came before it
   };
 
   std::size_t rows_at_once() const { return out_.unbuffered ? 1 : 32; }
@@ -71,19 +73,18 @@ class Filter {
 
   Reader& in_;
   Output& out_;
-  std::optional<std::string> history_;  // lines; none until it has been told
+  std::optional<std::string> history_;  // lines; nullopt until they are known
   std::vector<Column> appended_;
   std::size_t replaced_ = Reader::no_column;  // a slot
   std::size_t cut_ = Reader::no_column;       // its column in this run
-  std::vector<Row> rows_;                     // those that wait, from front_ on
+  std::vector<Row> rows_;                     // from front_ on: those not written yet
   Bytes held_;                                // their texts, one after the other
-  std::vector<double> numbers_;               // for them, in order
-  std::size_t enough_;                        // numbers to write rows for
+  std::vector<double> numbers_;               // of these rows, in order
+  std::size_t enough_;                        // so many numbers make put() write rows
   std::size_t front_ = 0;
-  std::size_t front_begin_ = 0;  // where the text of the front row begins
-  std::ptrdiff_t gone_ =
-      0;  // records of this run that are no longer among them, less those of earlier runs that are
-  struct Head {  // of a run none of whose rows has been written
+  std::size_t front_begin_ = 0;               // where the text of the front row begins
+  std::size_t records_ = 0, run_begins_ = 0;  // of all runs; of those before this one
+  struct Head {                               // of a run none of whose rows has been written
     bool due = false;
     std::string comments, names;
   } head_;

@@ -11,8 +11,7 @@ namespace rolling {
 namespace {
 
 constexpr std::size_t npos = static_cast<std::size_t>(-1);
-constexpr std::size_t longest_preamble =
-    100;  // lines; more without a number is not a file of columns
+constexpr std::size_t longest_preamble = 100;  // lines without a number; else no file of columns
 constexpr std::string_view ended_with_an_error = ": ended with an error";
 
 /// The comments and other lines in front of the first record.
@@ -21,7 +20,7 @@ class HeadReader {
   HeadReader(Lines& lines, Dialect& dialect, const Head* before)
       : lines_(lines), dialect_(dialect), before_(before) {}
 
-  Head read(const std::vector<std::string>& order, bool one_run);
+  Head read(const std::vector<std::string>& order, Sides sides);
 
  private:
   bool find_record();
@@ -74,8 +73,8 @@ void HeadReader::take_history() {
   numbers_.push_back(lines_.number());
 }
 
-/// The line is a record all of whose readings are missing, or one that begins a run with readings
-/// missing: nobody names columns NaN; and blanks, under names already given, are no names.
+/// True for a first record with missing readings: a field is NaN, which is no name of a column; or
+/// fields are blank below a line of names.
 bool HeadReader::is_missing_record(std::string_view line) {
   const auto fields = dialect_.split(line);
   const auto is_blank_field = [](const Field& field) { return field.text.empty(); };
@@ -127,8 +126,8 @@ bool HeadReader::find_record() {
   return false;
 }
 
-/// The last comment that has as many names as there are columns, and as much proof that they are
-/// names.
+/// The names of the last comment that has as many names as there are columns, and as much proof
+/// that they are names.
 std::vector<std::string> HeadReader::take_commented_names(std::size_t width, Proof proof) {
   std::size_t found = npos;
   const std::vector<Column> known = known_columns();
@@ -144,8 +143,8 @@ std::vector<std::string> HeadReader::take_commented_names(std::size_t width, Pro
   return names;
 }
 
-/// Nothing is read as SI when a comment says otherwise: one that speaks of units, but has not as
-/// many names as there are columns, is refused.
+/// Refuses a comment that contains units but not as many names as there are columns: columns
+/// without names are read in SI units, which would contradict it.
 void HeadReader::refuse_other_names(std::size_t width) const {
   for (std::size_t i = 0; i < head_.comments.size(); ++i) {
     const std::string& comment = head_.comments[i];
@@ -189,7 +188,7 @@ std::vector<std::string> HeadReader::take_names(std::size_t width) {
   return names;
 }
 
-Head HeadReader::read(const std::vector<std::string>& order, bool one_run) {
+Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
   if (!find_record()) {
     if (!before_) fail<InputError>("{}: no records", lines_.name());
     for (const Line& line : preamble_) head_.comments.push_back("# " + line.text);
@@ -219,7 +218,7 @@ Head HeadReader::read(const std::vector<std::string>& order, bool one_run) {
     else columns.emplace_back();
     if (columns.back().name.empty()) columns.back().name = fmt::format("c{}", i + 1);
   }
-  head_.layout = one_run ? Layout::one(columns) : Layout::of(columns);
+  head_.layout = sides == Sides::one ? Layout::one(columns) : Layout::of(columns);
   if (head_.named && (head_.layout.side_by_side() ? width > names.size() : width != names.size()))
     fail<InputError>("{}:{}: {} field{} under a line of {} names{}", lines_.name(), lines_.number(),
                      width, width == 1 ? "" : "s", names.size(),
@@ -248,8 +247,8 @@ CommentedNames names_in_comment(std::string_view comment, std::size_t width,
                                                   [&](const Column& c) { return c.name == plain; });
   };
   for (const char separator : std::string(separators) + '\0')
-    for (const std::string_view some : {text, trim(text)}) {  // a tab at an end may separate or not
-      auto names = split_names(some, separator);
+    for (const std::string_view words : {text, trim(text)}) {  // a tab at an end may be a separator
+      auto names = split_names(words, separator);
       if (names.size() != width) continue;
       const bool is_known = std::any_of(names.begin(), names.end(), in_force);
       return {names, separator == '\t' && width > 1, is_known};
@@ -258,9 +257,9 @@ CommentedNames names_in_comment(std::string_view comment, std::size_t width,
 }
 
 Head read_head(Lines& lines, Dialect& dialect, const Head* before,
-               const std::vector<std::string>& order, bool one_run) {
+               const std::vector<std::string>& order, Sides sides) {
   try {
-    return HeadReader(lines, dialect, before).read(order, one_run);
+    return HeadReader(lines, dialect, before).read(order, sides);
   } catch (const InputError&) {
     throw;
   } catch (const Error& error) {

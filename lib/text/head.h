@@ -1,4 +1,4 @@
-// What stands in front of a run's records: comments, history, names.
+// The head of a run: the comments, history and names before its first record.
 #pragma once
 
 #include <optional>
@@ -13,41 +13,42 @@
 namespace rolling {
 
 struct Head {
-  /// Remarks and history with their marks, in their order. Other lines before the names have become
-  /// remarks; the names, and what names the run, are not among them.
+  /// Comments and history lines with their marks, in order. Other lines before the names have been
+  /// made comments. The line of names and the line `## run NAME` are not among them.
   std::vector<std::string> comments;
   std::vector<std::string> history;  ///< the `##` lines among them, without their marks
-  std::string run;                   ///< NAME of a line `## run NAME`; empty without one
-  std::size_t line = 0;              ///< the number of the line with the names, else of the record
-  bool named = false;                ///< there are names, here or further up in the file
-  bool blank_end = false;            ///< a separator without a name ends the line
-  Layout layout;                     ///< no runs: the file has ended before a record
+  std::string run;                   ///< NAME of the line `## run NAME`; empty without one
+  std::size_t line = 0;              ///< number of the line of names, else of the first record
+  bool named = false;                ///< the columns have names, from this head or an earlier one
+  bool blank_end = false;            ///< the lines end with a separator, behind the last column
+  Layout layout;                     ///< without runs if the file has no further record
 };
 
-/// Reads up to the next record, to which the lines go back. `before` is the head before this one in
-/// the file, whose names and units hold until others come; without one the dialect is chosen by the
-/// record, and `order` names the columns of a file without names. With `one_run` a line is one
-/// record, whatever its names say. Throws InputError, also for the line with which a tool says that
-/// it has ended with an error.
-Head read_head(Lines&, Dialect&, const Head* before, const std::vector<std::string>& order,
-               bool one_run);
+/// Whether the names may tell several runs side by side, or each line is one record.
+enum class Sides { by_names, one };
 
-/// The names in a line that is no comment.
+/// Reads up to the next record, which is then the present line again. `before` is the previous head
+/// of the file: its names and units hold until there are others. It is null for the first head,
+/// where the dialect is chosen by the record and `order` names the columns if the file does not.
+/// Throws InputError, also for the line that a tool writes when it ends with an error.
+Head read_head(Lines&, Dialect&, const Head* before, const std::vector<std::string>& order, Sides);
+
+/// The names in a line that is not a comment.
 std::vector<std::string> names_in(std::string_view line, Dialect&);
 
-/// The names in a comment, with a name for each of `width` columns.
+/// The names of `width` columns in a comment.
 struct CommentedNames {
-  std::vector<std::string> names;  ///< empty if the comment has more or fewer
-  bool tabs = false;               ///< these separate them
-  bool known = false;              ///< one is t, x, v, a, D or in `known`
+  std::vector<std::string> names;  ///< empty if the comment has another number of words
+  bool tabs = false;               ///< tabs separate them
+  bool known = false;              ///< one of them is t, x, v, a, D or in `known`
 };
 CommentedNames names_in_comment(std::string_view comment, std::size_t width,
                                 const std::vector<Column>& known);
 
-/// The line that a tool leaves behind what it has printed when it ends with an error.
+/// The last line of the output of a tool that ends with an error after it has begun to print.
 std::string error_line(std::string_view tool);
 
-/// Throws InputError if the present line, which begins with ##, is one of these.
+/// Throws InputError if the present line, which begins with ##, is such a line.
 void refuse_error_line(const Lines&);
 
 }  // namespace rolling

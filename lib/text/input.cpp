@@ -16,7 +16,8 @@ namespace rolling {
 namespace {
 constexpr std::size_t block = 1 << 18;
 
-/// As read(2), which waits for a descriptor that another process has made non-blocking.
+/// read(2), repeated after a signal, and waiting if another process has made the descriptor
+/// non-blocking.
 ssize_t read_some(int fd, char* to, std::size_t size) {
   for (;;) {
     const ssize_t count = ::read(fd, to, size);
@@ -38,7 +39,7 @@ void refuse_output(const std::string& name) {
 
 namespace {
 int open_for_reading(const std::string& name) {
-  refuse_output(name);  // before a closed standard output gives its number to the file
+  refuse_output(name);  // first: if standard output is closed, open() may return its number
   return name == "-" ? STDIN_FILENO : ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
 }
 }  // namespace
@@ -48,8 +49,8 @@ Input::Input(std::string name, BlockHook on_block)
       buffer_(block), at_(buffer_.data()), end_(at_) {
   if (fd_ < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
 #ifdef F_SETPIPE_SZ
-  ::fcntl(fd_, F_SETPIPE_SZ, 1 << 20);  // the tools of a chain wait less for each other; where it
-                                        // is refused, or no pipe, no matter
+  // A larger pipe lets the tools of a chain wait less for each other. Failure does no harm.
+  ::fcntl(fd_, F_SETPIPE_SZ, 1 << 20);
 #endif
   struct stat status;
   if (::fstat(fd_, &status) == 0 && S_ISREG(status.st_mode))
@@ -81,8 +82,8 @@ bool Input::fill() {
   return count > 0;
 }
 
-/// The end of the line that begins at at_, of which the line feed has not been read yet; null if
-/// there is no line.
+/// Reads on until the end of the line at at_, whose line feed is not in memory yet, and returns it;
+/// null if there is no further line.
 const char* Input::end_of_line() {
   for (std::size_t searched = 0; !at_end_;) {
     searched = static_cast<std::size_t>(end_ - at_);

@@ -1,4 +1,4 @@
-// Lines of one input file, in blocks.
+// The lines of one input file, which is read in blocks.
 #pragma once
 
 #include <functional>
@@ -8,16 +8,16 @@
 
 namespace rolling {
 
-/// A record of motion data has tens of bytes; a line of more than a megabyte is of another kind of
-/// file.
+/// Bytes. A record of motion data has tens of bytes; a file with longer lines is not one of
+/// columns.
 inline constexpr std::size_t longest_line = 1 << 20;
 
-/// Throws InputError where standard output goes into this regular file: what is written there would
-/// be read, or would stand behind what has been read.
+/// Throws InputError if standard output is this regular file: the tool would read what it writes,
+/// or append its output to its input.
 void refuse_output(const std::string& name);
 
-/// Told after each block of a file whose size is known: its name, and which part of it has been
-/// read.
+/// Called after each block of a file of known size, with the name of the file and the fraction of
+/// it that has been read.
 using BlockHook = std::function<void(const std::string& name, double part)>;
 
 class Input {
@@ -31,25 +31,24 @@ class Input {
   /// The next line without its end (LF or CR LF), valid until the next call; false at the end of
   /// the file.
   bool next(std::string_view& line);
-  /// What has been read and not taken: lines, and perhaps a part of one.
+  /// The bytes that are in memory behind the present line; they may end within a line.
   std::string_view ahead() const { return {at_, end_}; }
-  /// Takes the line that begins ahead() and is `size` bytes long with its end, as next() does.
+  /// Goes behind the next line, as next() does; it has `size` bytes, the line end included.
   void skip(std::size_t size) {
     at_ += size;
     ++line_number_;
   }
 
-  /// About as many lines as are left, and an eighth more: by those that come next, and the size of
-  /// a file (else of what has been read).
+  /// An estimate of the number of lines that are left, and an eighth more, from the next lines and
+  /// the size of the file (for a pipe: of ahead()).
   std::size_t lines_ahead() const;
 
-  /// A regular file of which a blank line, and more below it, is in what has been read and not
-  /// taken.
+  /// True for a regular file with a blank line, and something below it, in ahead().
   bool another_run() const;
 
   const std::string& name() const { return name_; }  ///< as the user gave it
   std::size_t line_number() const { return line_number_; }
-  bool quotes() const { return quotes_; }  ///< a " is in what has been read so far
+  bool quotes() const { return quotes_; }  ///< a " has been read so far
 
  private:
   bool fill();
@@ -58,9 +57,9 @@ class Input {
   std::string name_;
   BlockHook on_block_;
   int fd_;
-  double size_ = 0, read_ = 0;  // bytes; no size: not known
+  double size_ = 0, read_ = 0;  // bytes; a size of 0 is unknown
   std::vector<char> buffer_;
-  const char *at_, *end_;  // what has been read of it and not taken
+  const char *at_, *end_;  // ahead()
   std::size_t line_number_ = 0;
   bool at_end_ = false, quotes_ = false;
 };

@@ -6,7 +6,7 @@
 namespace rolling {
 namespace {
 
-/// Puts column `field` into run `r`, or into all of them.
+/// Adds the column of `field` to the run `r`, or to all runs if `r` is their number.
 void add(Layout& layout, const std::vector<Column>& line, std::size_t field, std::size_t r) {
   const auto put = [&](Layout::Run& run) {
     run.fields.push_back(field);

@@ -1,4 +1,4 @@
-// Which fields of a line make a record: one run to a line, or several runs side by side.
+// The fields of a line that form a record: those of one run, or of several runs side by side.
 #pragma once
 
 #include <string>
@@ -10,21 +10,19 @@ namespace rolling {
 
 struct Layout {
   struct Run {
-    std::string
-        label;  ///< what its names print: 2 for `Run #2`, Latest for `Latest:`; may be empty
-    std::vector<std::size_t> fields;  ///< where its columns stand in a line
+    std::string label;                ///< Column::run of its columns: 2 for `Run #2`; may be empty
+    std::vector<std::size_t> fields;  ///< of a line, from 0: the places of its columns
     std::vector<Column> columns;
   };
   std::vector<Run> runs;
-  std::size_t width = 0;     ///< fields of a line
-  std::vector<bool> shared;  ///< fields that belong to every run
+  std::size_t width = 0;     ///< number of fields of a line
+  std::vector<bool> shared;  ///< for each field: it belongs to every run
   bool side_by_side() const { return runs.size() > 1; }
 
-  /// One run, whatever the names say.
+  /// One run of all columns.
   static Layout one(const std::vector<Column>& line);
-  /// From the columns of a names line. They stand for several runs if they print more than one
-  /// label, or if there is more than one t; a column without a label, or that stands but once, is
-  /// shared.
+  /// The runs in a line of names. There are several if the columns have more than one label, or if
+  /// there is more than one t. A column without a label, or whose name occurs only once, is shared.
   static Layout of(const std::vector<Column>& line);
 };
 

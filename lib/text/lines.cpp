@@ -10,7 +10,7 @@
 namespace rolling {
 namespace {
 
-/// What spreadsheets write in place of a number that they do not have.
+/// The error values of spreadsheets.
 constexpr std::array<std::string_view, 8> error_values = {
     "#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!", "#SPILL!"};
 
@@ -39,10 +39,10 @@ void Lines::join_quoted() {
   joined_ = text_;
   for (bool open = true; open;) {
     if (joined_.size() > longest_line || !input_.next(text_))
-      fail<InputError>("{}:{}: a quote that does not end", name(), number_);
+      fail<InputError>("{}:{}: a quote that is not closed", name(), number_);
     (joined_ += '\n') += text_;
     const char *const end = text_.data() + text_.size(), *close = closing_quote(text_.data(), end);
-    open = close == end || outside_quotes({close + 1, end}, separators_, false).ends_within;
+    open = close == end || behind_quote({close + 1, end}, separators_).ends_within;
   }
   text_ = joined_;
 }

@@ -1,5 +1,4 @@
-// Lines as records, names and comments are: those of a file, but that a quoted field may hold line
-// ends.
+// Logical lines of a file: a line end inside a quoted field does not end the line.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +13,17 @@ namespace rolling {
 
 enum class LineKind { blank, comment, history, record };
 
-/// A blank line holds nothing but blanks and tabs; a comment begins with #, a line of history with
-/// ##. What begins with an error value of a spreadsheet (#N/A) is a record.
+/// A blank line contains blanks and tabs only. A comment begins with #, a history line with ##. A
+/// line that begins with an error value of a spreadsheet (#N/A) is a record.
 LineKind kind_of(std::string_view line);
 
 class Lines {
  public:
-  /// As Input.
+  /// Opens the file, see Input.
   explicit Lines(std::string name, BlockHook on_block = {})
       : input_(std::move(name), std::move(on_block)) {}
 
-  /// Goes to the next line; false at the end. Throws InputError for a quote that does not end.
+  /// Goes to the next line; false at the end. Throws InputError for a quote that is not closed.
   bool next() {
     if (std::exchange(again_, false)) return true;
     if (!input_.next(text_)) return false;
@@ -32,23 +31,23 @@ class Lines {
     if (input_.quotes() && !separators_.empty()) join_quoted();
     return true;
   }
-  /// From here on only this character separates fields; 0 stands for blanks, where there are no
-  /// quoted fields. Without it any separator may.
+  /// From now on only this character separates fields, and a quote opens a field behind it. With 0,
+  /// blanks separate and there are no quoted fields. Before this call any separator counts.
   void separate_by(char separator) {
     separators_ = separator ? std::string(1, separator) : std::string();
   }
-  /// next() comes to the present line once more.
+  /// The next call of next() returns to the present line.
   void put_back() { again_ = true; }
   /// The present line, valid until the next one.
   std::string_view text() const { return text_; }
-  std::size_t number() const { return number_; }  ///< of its beginning, from 1
+  std::size_t number() const { return number_; }  ///< of its first line in the file, from 1
   const std::string& name() const { return input_.name(); }
 
-  /// What of the file is there behind the present line: lines, and perhaps a part of one. Nothing
-  /// after put_back().
+  /// The bytes that are in memory behind the present line; they may end within a line. Empty after
+  /// put_back().
   std::string_view ahead() const { return again_ ? std::string_view() : input_.ahead(); }
-  /// Goes to the line that begins ahead(), which is not quoted, of `size` bytes and `end` ones that
-  /// end it.
+  /// Goes to the line at the beginning of ahead(), which has no quoted line end: `size` bytes, and
+  /// `end` bytes of its line end.
   void take(std::size_t size, std::size_t end) {
     text_ = ahead().substr(0, size);
     input_.skip(size + end);

@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 #include "base/double_double.h"
+#include "text/shortest.h"
 
 namespace rolling {
 
@@ -23,52 +22,10 @@ constexpr std::array<T, count> powers_of_ten() {
   return powers;
 }
 constexpr auto power_of_ten = powers_of_ten<double, 23>();  // all that are exact
-constexpr auto whole_power_of_ten = powers_of_ten<std::uint64_t, 18>();
 
-/// Writes the eight digits of a number below 10^8, each in a byte of one word.
-void write_eight_digits(char* to, std::uint64_t number) {
-  std::uint64_t word = number / 10000 | number % 10000 << 32;
-  std::uint64_t tens = word * 5243 >> 19 & 0x0000007f0000007f;  // / 100
-  word = tens | (word - 100 * tens) << 16;
-  tens = word * 103 >> 10 & 0x000f000f000f000f;  // / 10
-  word = (tens | (word - 10 * tens) << 8) + 0x3030303030303030;
-  if constexpr (std::endian::native == std::endian::big)
-    word = __builtin_bswap64(word);  // the first one stands lowest
-  std::memcpy(to, &word, sizeof word);
-}
-
-/// The shortest text that reads back to the same double: fmt's digits (Dragonbox), in the form that
-/// fmt gives them.
-char* write_shortest(char* to, double value) {
-  *to = '-';
-  to += std::signbit(value);
-  if (value == 0) return *to = '0', to + 1;
-  const auto decimal = fmt::detail::dragonbox::to_decimal(std::abs(value));
-  int count = static_cast<int>(std::bit_width(decimal.significand)) * 1233 >>
-              12;  // of its digits: log10(2) = 0.30103
-  count += decimal.significand >= whole_power_of_ten[static_cast<std::size_t>(count)];
-  const int point = count + decimal.exponent;  // stands behind so many digits
-  const bool scientific = point < -3 || point > 16;
-  const int whole = scientific ? 1 : point;
-
-  std::string_view("0.000").copy(to, 5);
-  char* const digits = whole > 0 ? to + 1 : to + 2 - whole;
-  const std::uint64_t seventeen = decimal.significand *
-                                  whole_power_of_ten[static_cast<std::size_t>(17 - count)],
-                      nine = seventeen / 100000000;
-  digits[0] = static_cast<char>('0' + nine / 100000000);
-  write_eight_digits(digits + 1, nine % 100000000);
-  if (count > 9 || whole > 9) write_eight_digits(digits + 9, seventeen % 100000000);
-  if (whole <= 0) return digits + count;
-  std::memmove(to, digits, static_cast<std::size_t>(whole));
-  to[whole] = '.';
-  to += count > whole ? count + 1 : whole;
-  return scientific ? fmt::format_to(to, FMT_COMPILE("e{:+03}"), point - 1) : to;
-}
-
-/// digits / 10^decimals, correctly rounded; false where that cannot be told. The quotient's rest is
-/// exact, so that the sum of both is known to 2^-52 of its last bit: only what lies that close to
-/// the middle of two doubles is in doubt.
+/// digits / 10^decimals, correctly rounded; false if this method cannot decide the rounding. The
+/// remainder of the quotient is exact, so the sum of both has an error of 2^-52 of its last bit:
+/// only a value that is so close to the middle of two doubles is undecided.
 bool divide(std::uint64_t digits, std::size_t decimals, double& value) {
   const double power = power_of_ten[decimals], most = static_cast<double>(digits),
                quotient = most / power;
@@ -80,12 +37,12 @@ bool divide(std::uint64_t digits, std::size_t decimals, double& value) {
   return value == quotient + rest * (1 - 0x1p-40);
 }
 
-/// What the two exact ways below do not settle: an exponent, more than 19 digits, the middle of two
-/// doubles.
+/// For the numbers that the two exact methods below cannot read: with an exponent, with more than
+/// 19 digits, or close to the middle of two doubles.
 [[gnu::noinline]] const char* read_any_number(const char* const begin, const char* const end,
                                               double& value) {
   const auto [behind, status] =
-      std::from_chars(*begin == '+' ? begin + 1 : begin, end, value);  // which knows no plus
+      std::from_chars(*begin == '+' ? begin + 1 : begin, end, value);  // it does not accept a plus
   return status == std::errc() ? behind : begin;
 }
 
@@ -107,9 +64,9 @@ const char* read_number(const char* const begin, const char* const end, double& 
     ++at;
     count += decimals = take_digits();
   }
-  if (count == 0) return begin;  // inf, nan, +-1 as well
+  if (count == 0) return begin;  // inf, nan and +-1 too
   if (at != end && (*at | 32) == 'e') return read_any_number(begin, end, value);
-  if (count > 19)  // than which no more are sure to be in `digits`, but for zeros in front
+  if (count > 19)  // `digits` holds 19 digits at least; leading zeros do not count
     for (const char* zero = begin + sign; zero != at && (*zero == '0' || *zero == '.'); ++zero)
       count -= *zero == '0';
   if (count > 19 || decimals >= power_of_ten.size()) return read_any_number(begin, end, value);

@@ -1,4 +1,4 @@
-// Numbers as text: what may be read, and how they are written.
+// Numbers as text: reading and writing.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 namespace rolling {
 
 /// Reads the whole of `field` as [+-]? (digits [. digits?] | . digits) ([eE] [+-]? digits)?,
-/// whatever the locale. False for anything else (inf, nan, hex, blanks) and for what a double
-/// cannot hold (1e400, 1e-400).
+/// independent of the locale. Returns false for any other text (inf, nan, hexadecimal numbers,
+/// blanks) and for numbers beyond the range of a double (1e400, 1e-400).
 bool parse_number(std::string_view field, double& value);
 
-/// The same at the beginning of [at, end): returns where the number ends; `at`, and the value as it
-/// was, where there is none.
+/// Reads a number at the beginning of [at, end) and returns its end. If there is no number it
+/// returns `at` and leaves `value` unchanged.
 const char* read_number(const char* at, const char* end, double& value);
 
 inline bool is_number(std::string_view field) {
@@ -20,15 +20,15 @@ inline bool is_number(std::string_view field) {
   return parse_number(field, value);
 }
 
-/// A missing reading: nothing at all, or NaN in any case.
+/// True for a missing reading: an empty field, or NaN in upper or lower case.
 bool is_missing(std::string_view field);
 
-/// Writes the shortest text that reads back to the same double, or `digits` significant digits when
-/// digits > 0; returns its end, which is at most longest_number behind `to`.
+/// Writes the shortest text that reads back to the same double, or `digits` significant digits if
+/// digits > 0. Returns the end of the text, which has at most longest_number characters.
 char* write_number(char* to, double value, int digits = 0);
 inline constexpr std::size_t longest_number = 32;
 
-/// `text` for a message: printable ASCII only, cut at 40 characters.
+/// `text` as a message shows it: printable ASCII only, at most 40 characters.
 std::string shown(std::string_view text);
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t'; }

@@ -11,7 +11,7 @@
 namespace rolling {
 namespace {
 
-/// Signals that end a tool wait while it writes, so that they cut no line in two.
+/// Blocks the signals that end a tool while it writes, so that they do not cut a line in two.
 class SignalsWait {
  public:
   SignalsWait() {
@@ -79,7 +79,7 @@ void Output::end_with(std::string_view line) noexcept {
     text(line);
     end_line();
     flush();
-  } catch (...) {  // what stands in the way of the output has been told
+  } catch (...) {  // the error of the output has been reported already
   }
 }
 

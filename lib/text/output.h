@@ -1,4 +1,4 @@
-// Standard output, whole lines at a time, every write checked.
+// Standard output, written in whole lines; every write is checked.
 #pragma once
 
 #include <cmath>
@@ -15,13 +15,13 @@
 
 namespace rolling {
 
-/// Standard output does not take it: no record is to blame.
+/// Standard output cannot be written. The message then names no record.
 class OutputError : public Error {
  public:
   using Error::Error;
 };
 
-/// The names as they go out: `# t[s]<TAB>v[m/s]`.
+/// The line of names: `# t[s]<TAB>v[m/s]`.
 std::string names_line(const std::vector<Column>&);
 
 inline void require_finite(double value) {
@@ -31,23 +31,23 @@ inline void require_finite(double value) {
 class Output {
  public:
   int digits = 0;  ///< significant digits of computed numbers; 0: the shortest text that reads back
-  bool unbuffered = false;  ///< every line goes out at once
+  bool unbuffered = false;  ///< each line is written at once
   std::function<void()> before_write;
 
-  // The line in the making.
+  // These append to the current line.
   void text(std::string_view text) { buffer_.append(text); }
   void text(char c) { buffer_.append(c); }
   /// Throws Error for a number that is not finite.
   void number(double value) {
     require_finite(value);
-    buffer_.end(write_number(buffer_.room(longest_number), value, digits));
+    buffer_.set_end(write_number(buffer_.reserve(longest_number), value, digits));
   }
-  /// The next cell of a tab-separated row.
+  /// Appends the next cell of a tab-separated row.
   void cell(double value) {
     separate();
     number(value);
   }
-  void blank() { separate(); }  ///< the next cell, missing
+  void blank() { separate(); }  ///< a missing cell
   void cell(std::string_view text) {
     separate();
     append_field(buffer_, text);
@@ -58,17 +58,17 @@ class Output {
     cells_ = 0;
     if (unbuffered || whole_ >= block) flush();
   }
-  void names(const std::vector<Column>&);    ///< the names line
-  void row(std::span<const double> values);  ///< cells and the line's end
-  /// Writes what is there. Throws OutputError when the system does not take it.
+  void names(const std::vector<Column>&);    ///< the line of names
+  void row(std::span<const double> values);  ///< the cells and the end of a line
+  /// Writes the buffer. Throws OutputError if the system reports an error.
   void flush();
-  /// Ends what has been printed with this line, as far as the system still takes it; nothing where
-  /// nothing has been printed. Forgets a line in the making. Never throws.
+  /// Removes the current line and writes this one as the last of the output, if there has been any
+  /// output and the system accepts it. Never throws.
   void end_with(std::string_view line) noexcept;
-  bool has_printed() const { return written_; }  ///< whether anything has gone out
-  /// Forgets a line in the making.
+  bool has_printed() const { return written_; }  ///< something has been written
+  /// Removes the current line.
   void drop_line() {
-    buffer_.cut(whole_);
+    buffer_.truncate(whole_);
     cells_ = 0;
   }
 
@@ -79,10 +79,10 @@ class Output {
 
   static constexpr std::size_t block = 1 << 16;
   Bytes buffer_;
-  std::size_t cells_ = 0;  // of the line in the making
-  std::size_t whole_ = 0;  // bytes of whole lines
-  bool written_ = false;   // something has gone out
-  bool torn_ = false;      // and not up to the end of a line
+  std::size_t cells_ = 0;  // of the current line
+  std::size_t whole_ = 0;  // bytes of the lines before it
+  bool written_ = false;   // something has been written
+  bool torn_ = false;      // the last write ended within a line
 };
 
 }  // namespace rolling

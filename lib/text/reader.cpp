@@ -30,7 +30,7 @@ Reader::Reader(ReaderOptions options, std::vector<std::string> order)
     if (!use_.emplace(quantity, Use{column.name, column.unit}).second)
       fail("--use: '{}' comes after another for {}", shown(use), quantity);
   }
-  // Behind a column that is taken from elsewhere nobody knows which ones the others are.
+  // Once --use assigns a column to another place, the order of those behind it is unknown.
   for (std::size_t i = 0; i < order_.size(); ++i)
     if (const auto use = use_.find(order_[i]);
         use != use_.end() && use->second.column != fmt::format("{}", i + 1))
@@ -93,10 +93,10 @@ std::size_t Reader::require(std::string_view name) const {
   return *column;
 }
 
-/// A column as its name says, or as --use does in place of it.
+/// A column with the unit of its name, or with the unit that --use gives.
 Column Reader::column_as_read(std::size_t column, const std::string& quantity) const {
   Column read = layout().columns[column];
-  if (!head_.named) read.unit.clear();  // that of the tool's order is no claim
+  if (!head_.named) read.unit.clear();  // Layout has the SI unit of the tool's order
   const auto use = use_.find(quantity);
   if (use == use_.end() || use->second.unit.empty()) return read;
   if (head_.named && !read.unit.empty() && read.unit != use->second.unit)
@@ -114,7 +114,7 @@ void Reader::resolve(Needed& needed) {
   if (!found) return;
   const bool first = needed.quantity.empty();
   const Column read = column_as_read(*found, needed.quantity);
-  // A column asked for by its number is what its name says; one asked for by name serves as that.
+  // A column that is requested by its number serves as the quantity of its own name.
   const std::string quantity = is_column_number(needed.name) ? read.name
                                : needed.kind == Kind::as_is  ? needed.name
                                                              : read_column(needed.name).name;
@@ -152,8 +152,8 @@ void Reader::resolve() {
   name_columns();
 }
 
-/// A column that serves as a quantity has its name, and its unit; another one of that name gives
-/// way.
+/// A column that serves as a quantity gets the name and the unit of the quantity; another column of
+/// that name is renamed.
 void Reader::name_columns() {
   columns_ = layout().columns;
   for (const Needed& needed : needed_) {
@@ -191,7 +191,7 @@ std::size_t Reader::add(std::string_view name, Kind kind) {
 // ----------------------------------------------------------------------------------------
 // runs
 
-/// The run on this side of the present block is one that the user wants.
+/// True if the run on this side is to be read.
 bool Reader::asked_for(std::size_t side) const {
   if (!options_.run) return true;
   const std::string& label = head_.layout.runs[side].label;
@@ -207,7 +207,7 @@ bool Reader::next_run() {
   return true;
 }
 
-/// Goes to the next run that is wanted, and reads its head.
+/// Goes to the next run that is to be read, and reads its head.
 bool Reader::find_run() {
   remarks_.clear();
   comments_.clear();
@@ -227,19 +227,20 @@ bool Reader::find_run() {
   return false;
 }
 
-/// Goes to the head in front of the next run, be it wanted or not. The comments behind the last run
-/// of a file, which belong to none, go before the next one.
+/// Reads the head of the next run, whether the run is to be read or not. Comments behind the last
+/// run of a file are added to those of the next run.
 bool Reader::next_head() {
   if (file_open_ && side_ + 1 < head_.layout.runs.size()) {
     ++side_;
     return true;
   }
-  // A column that --use names by its number is one of the line: then the line is one record.
+  // Column numbers in --use count the fields of a line: the line is then one record.
   const bool by_number = std::any_of(use_.begin(), use_.end(),
                                      [](const auto& use) { return is_number(use.second.column); });
+  const Sides sides = by_number ? Sides::one : Sides::by_names;
   while (file_open_ || next_file()) {
     const bool first = run_in_file_ == 0;
-    Head head = read_head(*lines_, file_dialect_, first ? nullptr : &head_, order_, by_number);
+    Head head = read_head(*lines_, file_dialect_, first ? nullptr : &head_, order_, sides);
     if (!head.layout.runs.empty()) {
       take_head(std::move(head));
       return true;
@@ -277,7 +278,7 @@ void Reader::take_head(Head head) {
   sides_ = take_apart(*lines_, file_dialect_, head_.layout, wanted);
 }
 
-/// A run is named where there are several, or it was named when it came in.
+/// True if there are several runs, or if the run has a name in the input.
 bool Reader::run_is_named() const {
   if (!head_.run.empty()) return true;
   return !options_.run && (options_.files.size() > 1 || head_.layout.side_by_side() ||
@@ -299,7 +300,7 @@ std::string Reader::run_name() const {
   return std::string(trim(name));
 }
 
-/// Takes what the head says of the present run.
+/// Prepares for the records of the run whose head has been read.
 void Reader::begin_run() {
   state_ = State::found;
   run_found_ = true;
@@ -335,7 +336,7 @@ bool Reader::next_line() {
       remarks_.emplace_back(line_.substr(line_.find('#')));
       continue;
     }
-    // What a tool says in a `##` line, it says of the run below.
+    // A `##` line belongs to the run below it.
     if (kind == LineKind::history) {
       refuse_error_line(*lines_);
       lines_->put_back();
@@ -360,7 +361,7 @@ bool Reader::next_side_line() {
   return false;
 }
 
-/// A comment among the records that names all of the needed columns may mean other units.
+/// Refuses a comment among the records that names all of the needed columns: it may change units.
 void Reader::refuse_names(std::string_view comment) const {
   if (state_ != State::in_run || needed_.empty()) return;
   const auto names = names_in_comment(comment, layout().columns.size(), layout().columns).names;
@@ -376,8 +377,8 @@ void Reader::refuse_names(std::string_view comment) const {
         lines_->name(), lines_->number());
 }
 
-/// What most lines are, a record like the one before it in this run, is found and split in one
-/// pass; all else is next_line()'s.
+/// Fast path for most lines: a record of the same form as the one before it in this run is found
+/// and split in one pass. False for any other line, which is left to next_line().
 inline bool Reader::take_plain_line() {
   if (!sides_.empty()) return false;
   const std::string_view ahead = lines_->ahead();
@@ -410,7 +411,8 @@ void Reader::split_line() {
   }
 }
 
-/// Other fields than the first record has: a separator that ends only some of the lines is none.
+/// Accepts a record with one field more or less than the first one if the difference is a separator
+/// at the end of the line; refuses any other number of fields.
 void Reader::change_fields() {
   const std::size_t width = layout().columns.size();
   if (fields_.size() == width + 1 && fields_.back().text.empty() && head_.named) {
@@ -426,7 +428,7 @@ void Reader::change_fields() {
   fields_changed_ = true;
 }
 
-/// The needed numbers of the record; false if one is missing.
+/// Reads the needed numbers of the record; false if one is missing.
 bool Reader::take_record() {
   fields_changed_ = false;
   if (fields_.size() != columns_.size()) change_fields();
@@ -458,14 +460,15 @@ inline void Reader::check_time() {
   const double t = values_[time_slot_];
   if (t <= last_time_)
     reject(needed_[time_slot_].column, fmt::format("does not come after {}", last_time_));
-  coarse_time_ |= t - last_time_ < 0x1p-39 * std::abs(t);  // two roundings of 2^-53 t: 2^-13 of it
+  // The roundings of two times, 2^-53 t each, are then more than 2^-13 of the step between them.
+  coarse_time_ |= t - last_time_ < 0x1p-39 * std::abs(t);
   last_time_ = t;
 }
 
-/// text() of a record that does not go out as it came.
+/// text() of a record that is not written as it was read.
 Reader::Text Reader::made_text(std::size_t column) {
   Text text;
-  text_.cut(0);
+  text_.truncate(0);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     if (i) text_.append('\t');
     const auto from = text_.size();
@@ -475,8 +478,8 @@ Reader::Text Reader::made_text(std::size_t column) {
                                    return n.column == i && n.to_si.changes();
                                  });
     if (converted != needed_.end() && !std::isnan(fields_[i].number))
-      text_.end(write_number(text_.room(longest_number),
-                             values_[static_cast<std::size_t>(converted - needed_.begin())]));
+      text_.set_end(write_number(text_.reserve(longest_number),
+                                 values_[static_cast<std::size_t>(converted - needed_.begin())]));
     else if (dialect_->may_need_quotes()) append_field(text_, fields_[i].text);
     else text_.append(fields_[i].text);
     if (i == column) text.first = from, text.last = text_.size();
@@ -490,8 +493,8 @@ void Reader::reject(std::size_t column, std::string_view why) const {
                    shown(columns_[column].name), shown(fields_[column].text), why);
 }
 
-/// After a field that is no number, what to do about what it often is: a decimal comma, a minus
-/// sign of print, a heading.
+/// What to do about a field that is not a number, where its text shows the likely reason: a decimal
+/// comma, a typographic minus sign, an error value of a spreadsheet, a line of text.
 std::string Reader::way_out(std::string_view field) const {
   const bool in_field =
       std::count(field.begin(), field.end(), ',') == 1 && field.find('.') == std::string_view::npos;
@@ -500,16 +503,17 @@ std::string Reader::way_out(std::string_view field) const {
                       is_number(field.substr(0, field.find(' ')));
   if (in_field || beside) return "; if a comma here is a decimal one, make it a point first";
   if (field.starts_with("\xE2\x88\x92")) return "; make its minus sign (U+2212) a hyphen first";
+  if (field.starts_with('#')) return "; write NaN for a missing reading";
   const bool word = !field.empty() &&
                     std::string_view("+-.0123456789").find(field.front()) == std::string_view::npos;
   return word && !head_.named && line_number_ == first_record_
-             ? "; if this line is no record, begin it with #"
+             ? "; if this line is not a record, begin it with #"
              : "";
 }
 
 std::string Reader::here() const { return fmt::format("{}:{}", lines_->name(), line_number_); }
 
-/// Where the names of the present run are: the file, and behind its first run the line.
+/// The place of the names of the present run: the file, and after its first run the line.
 std::string Reader::head_here() const {
   return run_in_file_ > 1 ? fmt::format("{}:{}", lines_->name(), head_.line) : lines_->name();
 }

@@ -1,5 +1,5 @@
-// Records from files of columns: rolling-columns(5). The reader knows what the heads say, which
-// columns are needed, and where each record stands; what the numbers mean is not its business.
+// Reads the records of files in the format of rolling-columns(5): finds the needed columns by the
+// names in each head, converts them to SI units, and passes all other text through.
 #pragma once
 
 #include <map>
@@ -21,46 +21,46 @@
 namespace rolling {
 
 struct ReaderOptions {
-  std::vector<std::string> files;  ///< operands, in order; none is standard input
+  std::vector<std::string> files;  ///< operands, in order; empty for standard input
   std::vector<std::string> use;    ///< NAME=COLUMN, or NAME=COLUMN[UNIT]
-  std::optional<int> run;          ///< only this one
+  std::optional<int> run;          ///< the only run to be read
   bool strict = false;             ///< a missing reading is an error
-  BlockHook on_block = {};         ///< told how far a file has been read
-  bool has_use = true;             ///< a refusal may propose --use for this file
+  BlockHook on_block = {};         ///< is called with the progress of reading a file
+  bool has_use = true;             ///< the option --use applies to these files
 };
 
 class Reader {
  public:
   /// Reads up to the first record of the first run. `order` names the columns of a file without
-  /// names, up to the first that --use takes from elsewhere.
+  /// names, up to the first column that --use assigns to another place.
   Reader(ReaderOptions, std::vector<std::string> order);
 
-  // What stands in front of the present run; before next_run(), of the first.
-  /// Its columns under the names that they serve as, in their units.
+  // The head of the present run; before next_run(), of the first run.
+  /// Its columns, with the names and units of the output.
   const std::vector<Column>& columns() const { return columns_; }
   /// Index of the column that serves as `name` (a name, a 1-based number, or what --use says), if
   /// there is one.
   std::optional<std::size_t> find(std::string_view name) const;
-  /// Its comments, the history and the line `## run NAME` among them, as they go out.
+  /// Its comments in the output; the history and the line `## run NAME` are among them.
   const std::vector<std::string>& comments() const { return comments_; }
-  /// Its own `##` lines, without the marks; none of another run.
+  /// The `##` lines of this run, without the marks.
   const std::vector<std::string>& history() const { return head_.history; }
-  /// Its name: that of a line `## run NAME`; else the base name of its file, with the label that
-  /// the names print, or with its number in a file of several.
+  /// The name in a line `## run NAME`; else the base name of its file, followed by its label
+  /// (Layout::Run), or by its number in a file of several runs.
   std::string run_name() const;
 
-  /// Declares a column needed: its numbers are parsed, converted to SI, and never missing. Returns
-  /// its slot for operator[]. Throws Error when there is none, in this run or in a later one.
+  /// Declares that a column is needed: its numbers are read and converted to SI, and records
+  /// without one are left out. Returns its slot for operator[]. Throws Error if the column does not
+  /// exist, in this run or in a later one.
   std::size_t need(std::string_view name) { return add(name, Kind::needed); }
-  /// The same for a column whose readings may be missing, in later runs the whole column: they are
-  /// NaN.
+  /// The same for a column with missing readings, which are NaN. It may be absent from later runs.
   std::size_t want(std::string_view name) { return add(name, Kind::wanted); }
-  /// The same as need() for a column that is no known quantity here, whatever its name and unit
-  /// (the a of a law): nothing is converted.
+  /// The same as need(), without conversion, for a column whose name means something else than the
+  /// known quantity (a is the coefficient in a row of fitpower, not an acceleration).
   std::size_t need_as_is(std::string_view name) { return add(name, Kind::as_is); }
-  /// Needs t, increasing strictly within a run.
+  /// Needs t, and refuses times that do not increase within a run.
   std::size_t need_time() { return time_slot_ = need("t"); }
-  /// Where a needed column stands in the records of the present run.
+  /// The index of a needed column in the records of the present run.
   std::size_t column_of(std::size_t slot) const { return needed_[slot].column; }
 
   // The records.
@@ -68,13 +68,13 @@ class Reader {
   bool next_run();
   /// Goes to the next record of this run; false at its end.
   bool next();
-  /// About as many records as this file still has, and an eighth more; of a pipe, as have been
-  /// read.
+  /// An estimate of the number of records that are left in this file, and an eighth more; for a
+  /// pipe, of those in memory.
   std::size_t records_ahead() const { return lines_->lines_ahead(); }
   /// The number in a needed column [SI].
   double operator[](std::size_t slot) const { return values_[slot]; }
 
-  /// A record as it goes out, tab-separated; the text of one column is [first, last) of it.
+  /// A record in the output, tab-separated; one column of it is the range [first, last).
   struct Text {
     std::string_view line;
     std::size_t first = 0, last = 0;
@@ -88,26 +88,25 @@ class Reader {
     const auto first = static_cast<std::size_t>(field.data() - line_.data());
     return {line_, first, first + field.size()};
   }
-  /// The comments between the record before and the present one; behind the last record of a run,
-  /// those up to its end.
+  /// The comments between the previous record and the present one; after the last record of a run,
+  /// those up to the end of the run.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
   /// `file:line` of the present record; empty before the first one of a file, and when all input
   /// has been read.
   std::string where() const;
-  std::size_t left_out() const {
-    return left_out_;
-  }  ///< records left out because a needed cell was missing
-  /// Some times are so large that a double keeps fewer than four digits of the time between two
+  /// Number of records that were left out because a needed reading was missing.
+  std::size_t left_out() const { return left_out_; }
+  /// True if times are so large that a double keeps fewer than four digits of the step between two
   /// records.
   bool coarse_time() const { return coarse_time_; }
 
  private:
   enum class Kind { needed, wanted, as_is };
   struct Needed {
-    std::string name, quantity;  // as asked for; what it serves as
+    std::string name, quantity;  // the name in the call of need(); the quantity it serves as
     Kind kind;
-    std::string unit{};  // of a quantity that is not known: the same in all runs
+    std::string unit{};  // of a quantity that is not known; it may not change between runs
     std::size_t column = no_column;
     Conversion to_si{};
   };
@@ -161,13 +160,13 @@ class Reader {
   State state_ = State::between;
   Head head_;
   std::size_t side_ = 0;
-  std::vector<Side> sides_;  // of runs side by side
+  std::vector<Side> sides_;  // runs side by side; else empty
   std::size_t side_line_ = 0;
   Dialect file_dialect_, side_dialect_, *dialect_ = &file_dialect_;
   std::vector<Column> columns_;
   std::vector<std::string> comments_, remarks_;
-  int run_ = 0;                  // its number in the input, from 1
-  std::size_t run_in_file_ = 0;  // and in the file
+  int run_ = 0;                  // number of the run in the input, from 1
+  std::size_t run_in_file_ = 0;  // number of the run in the file
   bool run_found_ = false, file_open_ = false;
 
   // Its columns.

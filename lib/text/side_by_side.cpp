@@ -14,7 +14,7 @@ Side::Line Side::operator[](std::size_t i) const {
   return {{text_.data() + line.begin, line.end - line.begin}, line.number, line.kind};
 }
 
-/// What has been appended to the text is a line.
+/// Ends a line: it is the text that has been appended since the last call.
 void Side::take(LineKind kind, std::size_t number) {
   lines_.push_back({number, lines_.empty() ? 0 : lines_.back().end, text_.size(), kind});
 }

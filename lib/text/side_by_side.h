@@ -1,4 +1,4 @@
-// Runs that stand side by side, taken apart: each becomes records of its own, one under another.
+// Separates runs that are side by side in a file: each becomes a list of records.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace rolling {
 
-/// The tab-separated lines of one of the runs, and the comments that stood among them.
+/// The tab-separated lines of one of the runs, and the comments among them.
 class Side {
  public:
   struct Line {
@@ -33,13 +33,12 @@ class Side {
 
   Bytes text_;
   std::vector<Entry> lines_;
-  std::size_t with_readings_ = 0;  // lines up to the last that is no padding
+  std::size_t with_readings_ = 0;  // number of lines up to the last one with a reading
 };
 
-/// Reads the records up to a blank line, a history line or the end of the file, and gives those of
-/// each run that is `wanted`. A run ends with its last reading: the blanks below it, which longer
-/// runs leave beside them, are no records. Throws InputError for a line with more fields than there
-/// are names.
+/// Reads up to a blank line, a history line or the end of the file, and returns the records of each
+/// run that is `wanted`. A run ends with its last reading: blank cells below it, beside a longer
+/// run, are not records. Throws InputError for a line with more fields than there are names.
 std::vector<Side> take_apart(Lines&, Dialect&, const Layout&, const std::vector<bool>& wanted);
 
 }  // namespace rolling

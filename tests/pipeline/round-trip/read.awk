@@ -46,4 +46,4 @@ pending != "" { $0 = pending "\n" $0; pending = "" }
   for (i = 1; i <= n - extra; i++) row = row (i > 1 ? "|" : "") shown(field[i])
   print "ROW " row
 }
-END { if (pending != "") { print "a quote that does not end: " pending; exit 1 } }
+END { if (pending != "") { print "a quote that is not closed: " pending; exit 1 } }

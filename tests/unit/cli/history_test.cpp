@@ -253,7 +253,7 @@ TEST_CASE("history: damaged at random, it gives a fit or a refusal", "[cli][fit]
                                "1e-300", "K",  "exact", "",          "\x80", "coast"};
   std::size_t fitted = 0, refused = 0;
   for (int k = 0; k < 4000; ++k) {
-    FitRun run = shifts(k % 3 ? 5 + any(30) : 1 + any(5));
+    FitRun run = shifts(k % 3 ? 5 + any(30) : 2 + any(5));
     if (k % 7 == 0) run.t.clear();
     Lines lines;
     for (std::size_t i = any(6); i > 0; --i) {

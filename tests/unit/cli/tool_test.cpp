@@ -126,5 +126,5 @@ TEST_CASE("tool: what is thrown where nothing catches is one line and 2 too", "[
   const std::string name = program_invocation_short_name;
   CHECK(terminate([] { throw std::bad_alloc(); }) == "2 " + name + ": out of memory\n");
   CHECK(terminate([] { throw std::length_error("too\nlong"); }) == "2 " + name + ": too?long\n");
-  CHECK(terminate([] { throw 1; }) == "2 " + name + ": unknown trouble\n");
+  CHECK(terminate([] { throw 1; }) == "2 " + name + ": unknown error\n");
 }

@@ -94,5 +94,5 @@ TEST_CASE(
   CHECK(refused([](int) { return 1.0; }) ==
         "the data do not determine the parameters: they cannot be told apart");
   CHECK(refused([](int i) { return i < 2 ? 1.0 : 0.0; }) ==
-        "the fit cannot start: the law has no finite values at the starting point");
+        "the data do not determine the parameters: they cannot be told apart");
 }

@@ -161,7 +161,7 @@ TEST_CASE("trajectory: two directions tell the slope from the law, one does not"
     const auto r = fit(Route::position, runs, options);
     covered_a += std::abs(r.a - a) < 1.96 * r.sigma_a;
     covered_S += std::abs(r.slope - S) < 1.96 * r.sigma_slope;
-    CHECK(r.sigma_slope < 2e-5);
+    CHECK(r.sigma_slope < 4e-5);
     if (k > 0) continue;
     CHECK_THROWS_AS(fit(Route::position, {runs[0]}, options), Error);
     // A slope that is known does as well as none.
@@ -169,7 +169,6 @@ TEST_CASE("trajectory: two directions tell the slope from the law, one does not"
     for (FitRun& run : runs) run.body.slope = S;
     const auto told = fit(Route::position, runs, options);
     CHECK(std::abs(told.a - a) < 4 * told.sigma_a);
-    CHECK(told.sigma_a < r.sigma_a);
     // Nothing of a slope shows in a plain D(v).
     FitRun plain{};
     plain.v = {0.1, 0.2, 0.3, 0.4};

@@ -8,13 +8,13 @@ using namespace rolling;
 namespace {
 
 /// What stands before the first record: comments, the columns, and the record with its number.
-std::string head(std::string_view text, bool one_run = false) {
+std::string head(std::string_view text, Sides sides = Sides::by_names) {
   const TemporaryFile file(text);
   std::string all;
   const std::string message = refusal([&] {
     Lines lines(file.name());
     Dialect dialect;
-    const Head head = read_head(lines, dialect, nullptr, {"t", "v"}, one_run);
+    const Head head = read_head(lines, dialect, nullptr, {"t", "v"}, sides);
     for (const std::string& comment : head.comments) all += comment + '|';
     all += head.named ? "" : " no names,";
     for (const Column& column : head.layout.runs.front().columns) all += ' ' + to_text(column);
@@ -42,7 +42,7 @@ TEST_CASE("head: names in the last comment, in a line, or in the order of the to
 TEST_CASE("head: runs side by side, or one record of all", "[text]") {
   const std::string text = "t Run 1,v Run 1,t Run 2,v Run 2\n0,1,0,2\n";
   CHECK(head(text) == " t v in 2 of 4; 2: 0,1,0,2");
-  CHECK(head(text, true) == " t v t v in 1 of 4; 2: 0,1,0,2");
+  CHECK(head(text, Sides::one) == " t v t v in 1 of 4; 2: 0,1,0,2");
 }
 
 TEST_CASE("head: a record without readings is one, as wide as the names", "[text]") {

@@ -43,14 +43,14 @@ TEST_CASE("lines: a quote that begins no field ends at its line", "[text]") {
   CHECK(lines(" # a,\"b\n1\n") == "<1  # a,\"b><2 1>");  // nor one in a comment
 }
 
-TEST_CASE("lines: a quote that does not end is refused where it begins", "[text]") {
+TEST_CASE("lines: a quote that is not closed is refused where it begins", "[text]") {
   const TemporaryFile file("1\n2,\"a\n3\n");
   Lines all(file.name());
   REQUIRE(all.next());
-  CHECK(refusal([&] { all.next(); }) == file.name() + ":2: a quote that does not end");
+  CHECK(refusal([&] { all.next(); }) == file.name() + ":2: a quote that is not closed");
   const TemporaryFile many("2,\"a\n" + std::string(1 << 20, '\n') + "\"\n");  // in a megabyte
   Lines megabyte(many.name());
-  CHECK(refusal([&] { megabyte.next(); }) == many.name() + ":1: a quote that does not end");
+  CHECK(refusal([&] { megabyte.next(); }) == many.name() + ":1: a quote that is not closed");
 }
 
 TEST_CASE("lines: taken from what is there, and counted", "[text]") {

@@ -166,7 +166,7 @@ TEST_CASE("reader: a line of tabs is a blank line, in a file delimited by tabs t
 
 TEST_CASE("reader: two decimal marks in one file are refused", "[text]") {
   CHECK(records({"t;v\n0,5;1\n1.5;2\n"}) ==
-        "FILE:3: field 1: '1.5' has another decimal mark than the numbers before it");
+        "FILE:3: field 1: the decimal mark of '1.5' is not that of the numbers before it");
   CHECK(records({"t;v\n0.5;1\n1,5;2\n"}) ==
         "FILE:3: field 1 (t): '1,5' is not a number; if a comma here is a decimal one, make it a "
         "point first");
@@ -174,8 +174,9 @@ TEST_CASE("reader: two decimal marks in one file are refused", "[text]") {
         "FILE:2: field 1 (t): '1,5' is not a number; if a comma here is a decimal one, make it a "
         "point first");
   CHECK(records({"t\tv\n0\t998\n1\t1,002\n"}) ==
-        "FILE:3: field 2: '1,002' has two readings: make its comma a point if it is a decimal one, "
-        "else take it out");
+        "FILE:3: field 2: '1,002' can be read in two ways: if its comma is a decimal one, replace "
+        "it by "
+        "a point, else remove it");
   CHECK(records({"t\tv\n0,0\t1,002\n"}) == "0 1.002");
   CHECK(records({"t;v\n0;1,234,567\n"}) == "FILE:2: field 2 (v): '1,234,567' is not a number");
   CHECK(records({"t;v\n0;1,234.5\n"}) == "FILE:2: field 2 (v): '1,234.5' is not a number");
@@ -478,8 +479,12 @@ TEST_CASE("reader: a tool that ended with an error is refused, wherever it says 
 }
 
 TEST_CASE("reader: what spreadsheets write for an error is no comment", "[text]") {
-  CHECK(records({"0\t1\n#N/A\t2\n"}) == "FILE:2: field 1 (t): '#N/A' is not a number");
-  CHECK(records({"0 1\n#DIV/0! 2\n"}) == "FILE:2: field 1 (t): '#DIV/0!' is not a number");
+  CHECK(records({"0\t1\n#N/A\t2\n"}) ==
+        "FILE:2: field 1 (t): '#N/A' is not a number; write NaN for a "
+        "missing reading");
+  CHECK(records({"0 1\n#DIV/0! 2\n"}) ==
+        "FILE:2: field 1 (t): '#DIV/0!' is not a number; write NaN for "
+        "a missing reading");
   CHECK(records({"0,1\n#1,2\n"}) == "0 1");  // a record that was taken out
 }
 
@@ -593,7 +598,7 @@ TEST_CASE("reader: a quoted field may hold separators and line ends", "[text]") 
   CHECK(records({"\"t\",\"v, of\nthe cart\"\n0,1\n"}, {}, {"t", "v,_of_the_cart"}) == "0 1");
   CHECK(records({"note,t,v\n\"one\ntwo, three\",0,1\nfour,1,x\n"}) ==
         "FILE:4: field 3 (v): 'x' is not a number");
-  CHECK(records({"t,v,note\n0,1,\"open\n1,2,x\n"}) == "FILE:2: a quote that does not end");
+  CHECK(records({"t,v,note\n0,1,\"open\n1,2,x\n"}) == "FILE:2: a quote that is not closed");
 }
 
 TEST_CASE("reader: a column that is wanted but not needed may miss its readings", "[text]") {
