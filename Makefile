@@ -23,8 +23,10 @@ else
 
 CXX      ?= g++
 CXXFLAGS ?= -O2 -g1
-# No flag of the user's, behind which it stands, may fuse a multiplication and an addition.
-override CXXFLAGS += -ffp-contract=off -std=c++20 -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+# No flag of the user's, behind which these stand, may fuse a multiplication and an addition or
+# regroup a sum.
+override CXXFLAGS += -ffp-contract=off -fno-unsafe-math-optimizations
+override CXXFLAGS += -std=c++20 -Wall -Wextra -Wpedantic -Wshadow -Wconversion
 override CPPFLAGS += -Ilib
 override LDFLAGS  += -Wl,--as-needed
 LDLIBS   := -lgsl -lgslcblas -lfmt -lm
@@ -36,7 +38,7 @@ target := number reader scene $(tool)
 object  = $(patsubst %.cpp,build/%.o,$1)
 
 .PHONY: all table1 samples figures report html check install uninstall deb coverage work-precision \
-        work-precision-signal bench lint fuzz sanitize coverage-lines mutate check-long clean always
+        work-precision-signal bench lint fuzz sanitize coverage-lines mutate check-long check-arm64 clean always
 .SECONDARY:
 all: $(tool:%=bin/%)
 
@@ -134,6 +136,11 @@ build/fused/plain: $(exact_source:%.cpp=build/%.o)
 
 check: all build/unit build/shim.so $(target:%=build/replay/%) $(if $(has_fma),build/fused/plain build/fused/fused)
 	@PATH="$$PWD/bin:$$PATH" tests/run.sh build/unit
+
+# Most of the suite on arm64, through qemu: make setup check-arm64.
+check-arm64: all
+	@$(call copy,build/arm64)
+	tests/arm64.sh build/arm64
 
 # tests/faults preloads it into the tools: it may not depend on the C++ library or on a sanitizer.
 build/shim.so: tests/faults/shim.cpp

@@ -24,6 +24,7 @@ root=$(cd "$(dirname "$0")/.." && pwd) || exit 2
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 trap 'exit 130' INT TERM
+slower=${SLOWER:-1}  # a machine so many times slower has so much more time for each test
 export PATH="$root/bin:$PATH" TMPDIR="$scratch"
 
 # Each of these takes the path of a test and a folder of its own, says what is wrong, and leaves its
@@ -57,7 +58,7 @@ run_case() {
   if [ -f "$1/expected" ]; then expected=$1/expected
   elif [ "$wanted" = 0 ]; then wrong='there is no file expected'
   fi
-  (cd "$1" && TMPDIR=$2 exec timeout 60 bash ./cmd) </dev/null >"$2/out" 2>"$2/err"
+  (cd "$1" && TMPDIR=$2 exec timeout "$((60 * slower))" bash ./cmd) </dev/null >"$2/out" 2>"$2/err"
   status=$?
   {
     [ -z "$wrong" ] || echo "$wrong"
@@ -79,7 +80,7 @@ run_case() {
 }
 
 run_script() {
-  (cd "$root" && TMPDIR=$2 exec timeout 1200 "$1") </dev/null >"$2/out" 2>&1
+  (cd "$root" && TMPDIR=$2 exec timeout "$((1200 * slower))" "$1") </dev/null >"$2/out" 2>&1
   local status=$?
   case $status in
     0) echo 1 0 0 >"$2/counts" ;;

@@ -10,7 +10,7 @@
 #include <cfloat>
 #include <cstdint>
 
-#ifdef __FAST_MATH__
+#if defined __FAST_MATH__ || defined __ASSOCIATIVE_MATH__ || __FINITE_MATH_ONLY__
 #error "rolling rests on exact sums and products of doubles: build it without -ffast-math"
 #endif
 #if FLT_EVAL_METHOD != 0

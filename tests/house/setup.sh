@@ -34,6 +34,7 @@ needs html mandoc
 needs deb dpkg-dev
 needs lint 'clang-format-14 clang-tidy-14 cppcheck mandoc shellcheck'
 needs check 'catch2 gnuplot-nox libboost-dev locales mandoc'
+needs check-arm64 'catch2 g++-aarch64-linux-gnu gnuplot-nox libboost-dev locales mandoc qemu-user'
 needs sanitize 'catch2 gnuplot-nox libboost-dev locales mandoc valgrind'
 
 stub dpkg-query 'echo install ok installed'

@@ -2,6 +2,12 @@
 # Flags that fuse a multiplication and an addition (-march with FMA, arm64 by itself) change no bit of a roll: the project's own
 # flags, behind them, forbid it. build/fused/ has the same sources without them and with them.
 set -eu
+# Flags that let the compiler drop the exact sums are refused in one line, whatever the processor.
+for flag in -ffast-math -Ofast -ffinite-math-only; do
+  # shellcheck disable=SC2086  # the compiler may be two words
+  said=$(${CXX:-g++} $flag -std=c++20 -Ilib -E lib/base/double_double.cpp 2>&1 >/dev/null) && exit 1
+  [ "$(grep -c 'error:.*build it without -ffast-math' <<<"$said")" = 1 ] || { echo "$said"; exit 1; }
+done
 [ -x build/fused/fused ] || { echo 'this processor has no x86-64-v3'; exit 77; }
 trap 'rm -f "$plain"' EXIT
 plain=$(mktemp)
