@@ -107,9 +107,8 @@ void explain(Fitted& fit, const std::vector<double>& theta) {
 
 }  // namespace
 
-Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows,
-                 const Making& making, const FitOptions& options,
-                 std::optional<double> white_share) {
+Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows, Making making,
+                 const FitOptions& options, std::optional<double> white_share) {
   Fitted fit{};
   fit.noise_inferred = white_share.has_value();
   std::optional<FirstGuess> guess;
@@ -125,10 +124,11 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       guess = making.known() ? first_guess(without_filters(route, runs, all, rows), options)
                              : first_guess(runs, options);
     }
+    if (options.min_speed <= 0) making = {};  // no other round: these matrices are large
     fit.noise = noise_of(runs, white_share.value_or(floor_share));
     fit.rolls = std::make_shared<const RollModel>(std::move(runs), guess->parameters);
     fit.system = system_of(fit.rolls, fit.noise);
-    fit.minimum = solve(fit.system, guess->theta, options, making.known());
+    fit.minimum = solve(fit.system, guess->theta, options, fit.noise->known());
     guess->theta = fit.minimum.theta;
     if (options.min_speed <= 0 ||
         !leave_out_slow(*fit.rolls, guess->theta, all, rows, options.min_speed))
@@ -141,10 +141,6 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
   return fit;
 }
 
-namespace {
-
-/// The records that a route can fit to a roll: all that are there. Those of a shift need no v > 0:
-/// to choose by noisy speeds would choose by their noise.
 std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
   std::vector<Rows> rows;
   for (const FitRun& run : all) {
@@ -157,12 +153,15 @@ std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
   return rows;
 }
 
+namespace {
+
 Fitted fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOptions& options) {
-  const Making making = making_of(route, all);
+  Making making = making_of(route, all);
+  const bool known = making.known();
   const auto rows = usable(route, all);
-  Fitted fit = fit_rolls(route, all, rows, making, options);
-  if (route == Route::velocity && !making.known() && !options.robust &&
-      !options.possible_filters.empty() && fit.minimum.f.size() >= 30)
+  Fitted fit = fit_rolls(route, all, rows, std::move(making), options);
+  if (route == Route::velocity && !known && !options.robust && !options.possible_filters.empty() &&
+      fit.minimum.f.size() >= 30)
     if (auto differences = fit_differences(all, rows, options, fit)) return *std::move(differences);
   return fit;
 }
