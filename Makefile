@@ -213,11 +213,13 @@ check-long: check
 	LONG=1 tests/faults/memory.sh
 
 # How often the errors of fitpower hold, by case and route: 1000 simulated runs each; ten minutes.
+# Then what it says of records with one thing wrong, and which law it finds; ten minutes more.
 build/tests/bench/coverage.o: CPPFLAGS += -Itests
 build/coverage: build/tests/bench/coverage.o build/lib.a
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) -pthread
-coverage: build/coverage
+coverage: build/coverage build/bench/records
 	@build/coverage
+	@build/bench/records
 
 # Error against run time of all methods: some minutes; figures where gnuplot is installed. See
 # tests/bench/README.md.

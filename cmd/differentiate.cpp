@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
     if (!options.method->has_width() &&
         (tool.on_command_line("width") || tool.on_command_line("order")))
       fail("--width and --order go with --method savgol");
-    make_signal(options);  // refuses what does not go together, before anything is read
+    make_signal(options);  // refuses wrong options before anything is read
     Reader& in = tool.read({"t", "v"});
     const auto t = in.need_time();
     const auto y = in.need(!column.empty() ? column : in.find("v") || !in.find("x") ? "v" : "x");

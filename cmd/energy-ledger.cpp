@@ -12,7 +12,7 @@ using namespace rolling;
 
 namespace {
 
-/// What a quantity is computed from.
+/// The arguments of a quantity.
 struct Moment {
   const Ledger& now;
   const Balance& balance;
@@ -47,7 +47,8 @@ const std::vector<Quantity<double (*)(const Moment&)>> quantities = {
     {{"Pi_S", "W/K"}, [](const Moment& m) { return m.now.P_diss() / m.temperature; }},
 };
 
-/// The law D(v) that stands for the column D, odd in v: the mat does not know left from right.
+/// The law D(v) that replaces the column D. It is odd in v, as the mat is the same in both
+/// directions.
 struct Law {
   PowerLaw power;
   std::optional<TableLaw> table;
@@ -62,8 +63,8 @@ struct Law {
   std::string words() const { return table ? "table" : fmt::format("a {} b {}", power.a, power.b); }
 };
 
-/// True if the `##` lines say that D was made of the derivative of v, the v that the file has: then
-/// the balance compares v with itself.
+/// True if, by the `##` lines, D was computed from the derivative of the v in the file: the balance
+/// then compares v with itself.
 bool differenced_from_v(const std::vector<std::string>& history) {
   constexpr std::string_view smoothed = "smooth v ";
   bool a_of_v = false, D_of_v = false;
@@ -72,12 +73,12 @@ bool differenced_from_v(const std::vector<std::string>& history) {
     if (line.starts_with("shift-from-accel ")) D_of_v = a_of_v;
     if (line.starts_with(smoothed) &&
         signal_options(smoothing_methods, line.substr(smoothed.size())))
-      a_of_v = D_of_v = false;  // that v is gone
+      a_of_v = D_of_v = false;  // v has been replaced since
   }
   return D_of_v;
 }
 
-/// The accounts of the runs, one after the other, and what there is to say at their end.
+/// The energy balances of the runs, and the warnings after the last one.
 class Accounts {
  public:
   Accounts(Tool& tool, Reader& in, const Body& body, Geometry geometry, const Law* law,
@@ -85,13 +86,13 @@ class Accounts {
       : tool_(tool), in_(in), body_(body), geometry_(geometry), law_(law), checked_(checked),
         tolerance_(tolerance), t_(in.need_time()), v_(in.need("v")), D_(law ? v_ : in.need("D")) {}
 
-  /// The account of a run, before its first record.
+  /// Begins the balance of a run.
   Balance open() {
     tests_nothing_ |= checked_ && !law_ && differenced_from_v(in_.history());
     return Balance(body_);
   }
 
-  /// The present record, entered into the balance of its run.
+  /// Adds the present record to the balance of its run.
   Ledger enter(Balance& balance) {
     const double v = in_[v_], D = law_ ? (*law_)(v) : in_[D_];
     const Ledger now(body_, geometry_, v, D);
@@ -100,7 +101,7 @@ class Accounts {
     return now;
   }
 
-  /// Checks the balance of a run that has been read.
+  /// Checks the balance at the end of a run.
   void close(const Balance& balance) {
     if (std::isnan(tolerance_)) return;
     std::string beyond;
@@ -113,15 +114,15 @@ class Accounts {
       tool_.check_failed(fmt::format("the check does not hold: {}: beyond {}", beyond, tolerance_));
   }
 
-  /// Says what there is to say of all runs.
+  /// Prints the warnings about all runs.
   void finish() const {
     if (beyond_ > 0)
       tool_.warn(fmt::format("{} shift{} beyond the radius {} m", beyond_,
                              beyond_ == 1 ? " is" : "s are", body_.R));
     if (tests_nothing_)
       tool_.warn(
-          "D was made of the derivative of the same v: the balance holds for any v and tests "
-          "nothing; take a law with --law, or with -a and -b");
+          "D was computed from the derivative of the same v: the balance holds for any v and tests "
+          "nothing; give a law with --law, or with -a and -b");
   }
 
  private:
@@ -129,14 +130,14 @@ class Accounts {
   Reader& in_;
   const Body& body_;
   Geometry geometry_;
-  const Law* law_;    // none: there is a column D
+  const Law* law_;    // null: use the column D
   bool checked_;      // --summary or --check
   double tolerance_;  // NaN without --check
   std::size_t t_, v_, D_, beyond_ = 0;
   bool tests_nothing_ = false;
 };
 
-/// A row for each run.
+/// Writes the table of --summary: a row for each run.
 void write_summary(Output& out, Reader& in, Accounts& accounts, bool inclined) {
   std::vector<Column> columns = {
       {"E_start", "J"}, {"E_end", "J"}, {"E_diss", "J"}, {"closure", ""}, {"imbalance", ""}};
@@ -190,7 +191,7 @@ int main(int argc, char** argv) {
     if (!law_file.empty()) law.table = read_law(tool, law_file, law.power, body.slope);
     tool.need({"mass", "radius", "shape-factor"});
     Reader& in = tool.read({"t", "v", "D"});
-    // A law on the command line is meant; the law of a scene stands in for a D that is not there.
+    // A law on the command line takes precedence over a column D, the law of a scene does not.
     const bool use_law = !law_file.empty() || tool.on_command_line("coefficient") ||
                          tool.on_command_line("exponent") ||
                          (!std::isnan(law.power.a) && !in.find("D"));

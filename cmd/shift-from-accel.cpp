@@ -11,7 +11,7 @@ using namespace rolling;
 
 namespace {
 
-/// The `##` line: what made D of a, with the uncertainties of what was given, for fitpower.
+/// The `##` line for fitpower: the numbers from which D was computed, with their uncertainties.
 std::string history(const Body& body, const BodyUncertainty& given, Geometry geometry) {
   std::string line =
       fmt::format("shift-from-accel {}K {} R {} g {}", geometry == Geometry::exact ? "exact " : "",

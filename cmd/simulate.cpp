@@ -36,7 +36,7 @@ const std::vector<Quantity<double (*)(double t, Motion&)>> quantities = {
     {{"D", "m"}, [](double, Motion& motion) { return motion.shift(); }},
 };
 
-/// The times 0, dt, 2 dt, ...; where 1/dt is a whole number (25 Hz), each the double nearest to
+/// The times 0, dt, 2 dt, ... If 1/dt is a whole number (25 Hz), each is the double nearest to
 /// k/rate.
 struct Clock {
   double dt, rate = std::round(1 / dt);
@@ -58,7 +58,7 @@ void write_record(Output& out, Motion& motion, const SonarOptions& sonar) {
   });
 }
 
-/// On standard error: what the methods cost on this scene, and how far they are off.
+/// Prints the run times and the errors of the methods on this scene to standard error.
 void report(Tool& tool, const Roll& roll, double rtol, double end) {
   const Reference right = reference(roll, 200, end);
   const Method best = best_method(roll);
@@ -90,47 +90,54 @@ std::string why_endless(const Roll& roll, const Motion& motion) {
                         : "the body never stops";
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  using enum BodyOption;
-  Tool tool("simulate", "Roll a body on a mat under a law D(v).");
+/// What the options and the scene describe: the roll and how it is solved.
+struct Task {
   Roll roll{};
-  Body& body = roll.body;
-  PowerLaw& law = roll.law;
-  Bulge& bulge = roll.bulge;
-  double& v0 = roll.v0 = not_given;
   Method method{};
-  SonarOptions sonar;
-  double dt = 0.01, until = not_given, rtol = 1e-10;
-  std::size_t seed = 1;
-  std::string times_file, law_file, columns = "t,x,v,a,D";
-  bool sensor = false, with_report = false;
-  tool.body(body, {radius, shape_factor, gravity, slope});
-  tool.law(law);
+  double rtol = 1e-10;
+  std::string law_file;
+  bool report = false;
+
+  /// Reads the law, checks that nothing is missing, and chooses the method.
+  void complete(Tool& tool) {
+    if (!law_file.empty())
+      roll.table = read_law(tool, law_file, roll.law, roll.body.slope, &roll.v0);
+    std::vector<std::string> needed = {"radius", "shape-factor", "v0"};
+    if (!roll.table) needed.insert(needed.end(), {"coefficient", "exponent"});
+    tool.need(needed);
+    if (roll.bulge.length == 0 && roll.bulge.damping > 0) fail("--damping goes with --memory");
+    if (!tool.on_command_line("method")) method = best_method(roll);
+    if (method.kind != Method::solver && !report && tool.on_command_line("rtol"))
+      fail("--rtol goes with a solver: there is no tolerance here");
+  }
+  std::unique_ptr<Motion> start() const { return rolling::start(roll, method, rtol); }
+};
+
+void add_options(Tool& tool, Task& task) {
+  using enum BodyOption;
+  Roll& roll = task.roll;
+  roll.v0 = not_given;
+  tool.body(roll.body, {radius, shape_factor, gravity, slope});
+  tool.law(roll.law);
   tool.geometry(roll.geometry);
-  tool.number("--v0", v0, not_negative, "speed at t = 0 [m/s]");
+  tool.number("--v0", roll.v0, not_negative, "speed at t = 0 [m/s]");
   tool.number("--x0", roll.x0, any_number, "position at t = 0 [m] (0)");
-  tool.number("--dt", dt, positive, "time between rows [s] (0.01)");
-  tool.number("--until", until, not_negative, "time of the last row [s] (the stop)");
-  tool.text("--at", times_file, "FILE", "file with a column t: the times of the rows, instead");
-  tool.text("--columns", columns, "NAME,...", "what to compute, of t,x,v,a,D (all)");
-  tool.text("--law", law_file, "FILE",
+  tool.text("--law", task.law_file, "FILE",
             "file (- is standard input) with a table of v D, or with a row of fitpower: a, b and "
             "v0 that are not given otherwise");
-  tool.number("--memory", bulge.length, positive,
+  tool.number("--memory", roll.bulge.length, positive,
               "length over which the bulge follows the law [m]: rolls backwards before rest");
-  tool.number("--damping", bulge.damping, not_negative, "damping of the bulge [s] (0)");
-  tool.choice("--method", method, methods,
+  tool.number("--damping", roll.bulge.damping, not_negative, "damping of the bulge [s] (0)");
+  tool.choice("--method", task.method, methods,
               "how v(t) is found: closed, exact, or else a solver (the cheapest that is exact)");
-  tool.number("--rtol", rtol,
+  tool.number("--rtol", task.rtol,
               {"from 1e-14 to 0.1", [](double x) { return x >= 1e-14 && x <= 0.1; }},
               "relative tolerance of a solver's step (1e-10)");
-  tool.flag("--report", with_report,
+  tool.flag("--report", task.report,
             "on standard error, error against run time of the methods on this scene");
-  tool.choice<bool>("--sensor", sensor, {{"pasco", true}},
-                    "write what this motion sensor records, push and rest included");
-  tool.count("--seed", seed, whole, "seed of the sensor's noise (1)");
+}
+
+void add_options(Tool& tool, SonarOptions& sonar) {
   tool.number("--rate", sonar.rate, positive, "records of the sensor a second (25)");
   tool.number("--resolution", sonar.resolution, not_negative,
               "resolution of the sensor [m] (0.001)");
@@ -138,69 +145,100 @@ int main(int argc, char** argv) {
               "noise of a position before it is rounded [m] (0.0003)");
   tool.number("--lost", sonar.lost, {"from 0 to below 1", [](double x) { return x >= 0 && x < 1; }},
               "share of lost echoes (0.01)");
-  tool.scene();
-  tool.output();
+}
 
-  return tool.run(argc, argv, [&] {
-    if (!law_file.empty()) roll.table = read_law(tool, law_file, law, body.slope, &v0);
-    std::vector<std::string> needed = {"radius", "shape-factor", "v0"};
-    if (!roll.table) needed.insert(needed.end(), {"coefficient", "exponent"});
-    tool.need(needed);
-    if (bulge.length == 0 && bulge.damping > 0) fail("--damping goes with --memory");
-    if (!tool.on_command_line("method")) method = best_method(roll);
-    if (method.kind != Method::solver && !with_report && tool.on_command_line("rtol"))
-      fail("--rtol goes with a solver: there is no tolerance here");
+/// Writes the rows of a roll: these quantities at each time.
+class Rows {
+ public:
+  Rows(Output& out, const Task& task, const std::string& columns)
+      : out_(out), task_(task), row_(chosen(columns, quantities)),
+        only_t_(row_.size() == 1 && row_[0].column.name == "t") {}
 
-    if (with_report) report(tool, roll, rtol, std::isnan(until) ? 10 : until);
-    if (sensor) {
-      sonar.seed = seed;
-      if (!std::isnan(until)) sonar.until = until;
-      write_record(tool.out, *start(roll, method, rtol), sonar);
-      return 0;
-    }
+  void write_header() const {
+    const auto& [body, geometry, law, table, bulge, v0, x0] = task_.roll;
+    out_.text("## simulate " + (table ? "table" : fmt::format("a {} b {}", law.a, law.b)) +
+              fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, v0) +
+              (body.slope == 0 ? "" : fmt::format(" slope {}", body.slope)));
+    out_.end_line();
+    out_.names(columns_of(row_));
+  }
 
-    const auto row = chosen(columns, quantities);
-    const auto write_header = [&] {
-      tool.out.text("## simulate " +
-                    (roll.table ? "table" : fmt::format("a {} b {}", law.a, law.b)) +
-                    fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, v0) +
-                    (body.slope == 0 ? "" : fmt::format(" slope {}", body.slope)));
-      tool.out.end_line();
-      tool.out.names(columns_of(row));
-    };
-    const bool only_t = row.size() == 1 && row[0].column.name == "t";
-    const auto write = [&](double t, Motion& motion) {
-      if (!only_t) motion.seek(t);
-      for (const auto& quantity : row) tool.out.cell(quantity.of(t, motion));
-      tool.out.end_line();
-    };
+  void write(double t, Motion& motion) const {
+    if (!only_t_) motion.seek(t);
+    for (const auto& quantity : row_) out_.cell(quantity.of(t, motion));
+    out_.end_line();
+  }
 
-    if (!times_file.empty()) {
-      Reader& in = tool.read_file(times_file, {"t"});
-      const auto t = in.need_time();
-      write_header();
-      for (bool first = true; in.next_run(); first = false) {
-        if (!first) tool.out.end_line();
-        const auto motion = start(roll, method, rtol);
-        while (in.next()) {
-          if (in[t] < 0) fail("t = {} is before the roll, which begins at 0", in[t]);
-          write(in[t], *motion);
-        }
+  /// At the times in the column t of a file; each run of the file starts the roll anew.
+  void write_at(Reader& in) const {
+    const auto t = in.need_time();
+    write_header();
+    for (bool first = true; in.next_run(); first = false) {
+      if (!first) out_.end_line();
+      const auto motion = task_.start();
+      while (in.next()) {
+        if (in[t] < 0) fail("t = {} is before the roll, which begins at 0", in[t]);
+        write(in[t], *motion);
       }
-      return 0;
     }
-    const auto motion = start(roll, method, rtol);
+  }
+
+  /// Every dt up to `until`; if that is not given, up to the stop, which is the last row.
+  void write_every(double dt, double until) const {
+    const auto motion = task_.start();
     const bool to_the_stop = std::isnan(until);
     const double end = to_the_stop ? motion->stop_time() : until;
-    if (!std::isfinite(end)) fail("{}: say --until when to end", why_endless(roll, *motion));
-    const double steps = std::floor(
-        end / dt +
-        (to_the_stop ? -1e-9 : 1e-9));  // rounding of end / dt makes no row and loses none
+    if (!std::isfinite(end)) fail("{}: say --until when to end", why_endless(task_.roll, *motion));
+    // The margin keeps rounding of end / dt from adding a row beside the stop or losing the last.
+    const double steps = std::floor(end / dt + (to_the_stop ? -1e-9 : 1e-9));
     if (steps > 1e9) fail("these are {:.3g} rows; the most is 1e9: --dt is too small", steps);
     const Clock clock{dt};
     write_header();
     for (double k = 0; k <= steps; ++k) write(clock.at(k), *motion);
     if (to_the_stop) write(end, *motion);
+  }
+
+ private:
+  Output& out_;
+  const Task& task_;
+  std::vector<Quantity<double (*)(double t, Motion&)>> row_;
+  bool only_t_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("simulate", "Roll a body on a mat under a law D(v).");
+  Task task;
+  SonarOptions sonar;
+  double dt = 0.01, until = not_given;
+  std::size_t seed = 1;
+  std::string times_file, columns = "t,x,v,a,D";
+  bool sensor = false;
+  add_options(tool, task);
+  tool.number("--dt", dt, positive, "time between rows [s] (0.01)");
+  tool.number("--until", until, not_negative, "time of the last row [s] (the stop)");
+  tool.text("--at", times_file, "FILE", "file with a column t: the times of the rows, instead");
+  tool.text("--columns", columns, "NAME,...", "what to compute, of t,x,v,a,D (all)");
+  tool.choice<bool>("--sensor", sensor, {{"pasco", true}},
+                    "write what this motion sensor records, push and rest included");
+  tool.count("--seed", seed, whole, "seed of the sensor's noise (1)");
+  add_options(tool, sonar);
+  tool.scene();
+  tool.output();
+
+  return tool.run(argc, argv, [&] {
+    task.complete(tool);
+    if (task.report) report(tool, task.roll, task.rtol, std::isnan(until) ? 10 : until);
+    if (sensor) {
+      sonar.seed = seed;
+      if (!std::isnan(until)) sonar.until = until;
+      write_record(tool.out, *task.start(), sonar);
+      return 0;
+    }
+    const Rows rows(tool.out, task, columns);
+    if (!times_file.empty()) rows.write_at(tool.read_file(times_file, {"t"}));
+    else rows.write_every(dt, until);
     return 0;
   });
 }

@@ -20,6 +20,19 @@ std::size_t odd_number(const std::string& text) {
   return static_cast<std::size_t>(value);
 }
 
+/// The column to smooth where none is given: v, else the first column that is not t.
+std::string default_column(const Reader& in, std::size_t t) {
+  return in.find("v") || in.columns().size() == 1 ? "v" : in.column_of(t) == 0 ? "2" : "1";
+}
+
+/// Refuses options that exclude each other.
+void check(const Tool& tool, const SignalOptions& options) {
+  if (options.width.seconds > 0 && tool.on_command_line("width"))
+    fail("--width and --seconds are two widths: give one");
+  if (!options.method->has_order && tool.on_command_line("order"))
+    fail("--order goes with --method savgol");
+}
+
 /// The `##` lines.
 std::string history(const std::string& column, const SelectionOptions& selected,
                     const SignalOptions& smoothed) {
@@ -62,18 +75,14 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    if (options.width.seconds > 0 && tool.on_command_line("width"))
-      fail("--width and --seconds are two widths: give one");
+    check(tool, options);
     bool choose = width == "auto";
     if (width != "auto") options.width.samples = odd_number(width);
-    if (!options.method->has_order && tool.on_command_line("order"))
-      fail("--order goes with --method savgol");
     select.width = options.width;
-    make_signal(options);  // refuses what does not go together, before anything is read
+    make_signal(options);  // refuses wrong options before anything is read
     Reader& in = tool.read({"t", "v"});
     const auto t = in.need_time();
-    if (column.empty())
-      column = in.find("v") || in.columns().size() == 1 ? 'v' : in.column_of(t) == 0 ? '2' : '1';
+    if (column.empty()) column = default_column(in, t);
     const auto y = in.need(column);
     const std::string name = in.columns()[in.column_of(y)].name;
     select.positions = name == "x";
@@ -82,7 +91,6 @@ int main(int argc, char** argv) {
 
     Filter filter(in, tool.out);
     filter.replace(y);
-    const bool all = select.all();
     bool told = false;
     const auto tell = [&] {
       if (!std::exchange(told, true)) filter.set_history(history(name, select, options));
@@ -103,7 +111,7 @@ int main(int argc, char** argv) {
         }
       };
       while (filter.next()) {
-        if (all) filter.put(smoother->push(filter[t], filter[y])), ++kept;
+        if (select.all()) filter.put(smoother->push(filter[t], filter[y])), ++kept;
         else take(selection.push(filter[t], filter[y]));
       }
       const auto last = selection.finish();

@@ -29,8 +29,8 @@ constexpr DoubleDouble exp_series(DoubleDouble x) {
 constexpr DoubleDouble ln2 =
     twice_artanh(DoubleDouble(1) / 7) * 2 + twice_artanh(DoubleDouble(1) / 17);  // 2 = (4/3)^2 9/8
 
-// x = 2^k m, and ln x = k ln2 + ln c + ln(m/c). The range of m is divided into intervals; 1/c is the
-// number of 9 bits nearest to the inverse of the middle of the interval.
+// x = 2^k m, and ln x = k ln2 + ln c + ln(m/c). The range of m is divided into intervals; 1/c is
+// the number of 9 bits nearest to the inverse of the middle of the interval.
 constexpr int log_bits = 7, log_size = 1 << log_bits;
 constexpr std::uint64_t log_offset = 0x3fe6a00000000000;  // m from 0.707 to 1.414
 

@@ -13,5 +13,4 @@ void silence_gsl() {
   });
 }
 
-
 }  // namespace rolling

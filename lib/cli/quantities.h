@@ -34,8 +34,7 @@ std::vector<Quantity<Function>> chosen(const std::string& list,
       for (const auto& quantity : all) names.push_back(quantity.column.name);
       fail("--columns: '{}' is none of {}", shown(name), fmt::join(names, ", "));
     }
-    if (std::any_of(chosen.begin(), chosen.end(), same))
-      fail("--columns: {} is there twice", name);
+    if (std::any_of(chosen.begin(), chosen.end(), same)) fail("--columns: {} is there twice", name);
     chosen.push_back(*found);
   }
   return chosen;

@@ -3,232 +3,268 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "base/error.h"
-#include "contact/contact.h"
 #include "fit/errors.h"
+#include "motion/law_roll.h"
 
 namespace rolling {
 namespace {
 
-/// The roll under v' = -(alpha + 2 h v + gamma v^2), a Riccati equation: with d^2 = h^2 - alpha
-/// gamma, C = cosh(d t), S = sinh(d t)/d, v = (v0 C - (alpha + h v0) S) / (C + (h + gamma v0) S).
-/// Where v reaches 0 the body stops.
-class CoastDown {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double slope_unit = 1e-3;
+
+/// The records and the weights of a fit of a v^b, for other laws. theta holds v0 and x0 of every
+/// run in units of their own, then the coefficients and perhaps the slope, for all runs.
+class Records {
  public:
-  CoastDown(double alpha, double h, double gamma, double v0)
-      : alpha_(alpha), h_(h), gamma_(gamma), v0_(v0), d2_(h * h - alpha * gamma) {
-    const double d = std::sqrt(std::abs(d2_)), down = alpha + h * v0;
-    if (d2_ < 0) stop_ = std::atan2(d * v0, down) / d;
-    else if (down > d * v0) stop_ = d > 0 ? std::atanh(d * v0 / down) / d : v0 / down;
-  }
-  double stop_time() const { return stop_; }
-  double v(double t) const {
-    if (t >= stop_) return 0;
-    const double d = std::sqrt(std::abs(d2_)), C = d2_ < 0 ? std::cos(d * t) : std::cosh(d * t);
-    const double S = d * t < 1e-6 ? t : (d2_ < 0 ? std::sin(d * t) : std::sinh(d * t)) / d;
-    const double below = C + (h_ + gamma_ * v0_) * S;
-    if (!(below > 0) || !std::isfinite(below)) fail("the speed grows without bound");
-    return (v0_ * C - (alpha_ + h_ * v0_) * S) / below;
-  }
-  /// The way from time s to t, by Gauss and Legendre with three points.
-  double way(double s, double t) const {
-    const double end = std::min(t, stop_), half = (end - s) / 2, middle = (end + s) / 2,
-                 node = half * std::sqrt(0.6);
-    return end > s ? half / 9 * (5 * v(middle - node) + 8 * v(middle) + 5 * v(middle + node)) : 0;
-  }
-
- private:
-  double alpha_, h_, gamma_, v0_, d2_;
-  double stop_ = std::numeric_limits<double>::infinity();
-};
-
-using Residuals = std::function<std::vector<double>(const std::vector<double>&)>;
-
-/// Residuals with derivatives by central differences: enough for a sum of squares, which is flat at
-/// its minimum. Those by the own parameters of all runs are taken at once.
-System differenced(const System& shape, std::shared_ptr<const Noise> noise, Residuals residuals) {
-  System system = shape;
-  system.evaluate = [=](const std::vector<double>& theta, const TakeRows& take) {
-    const auto step = [&](std::size_t run, std::size_t column) {
-      return 1e-6 * std::max(1.0, std::abs(theta[shape.place(run, column)]));
-    };
-    const auto f = residuals(theta);
-    std::vector<std::vector<double>> low, high;
-    for (std::size_t j = 0; j < shape.columns(); ++j) {
-      auto before = theta, after = theta;
-      for (std::size_t r = 0; r < (j < shape.own ? shape.runs.size() : 1); ++r) {
-        before[shape.place(r, j)] -= step(r, j);
-        after[shape.place(r, j)] += step(r, j);
-      }
-      low.push_back(residuals(before));
-      high.push_back(residuals(after));
-    }
-    std::size_t first = 0;
-    for (std::size_t r = 0; r < shape.runs.size(); ++r) {
-      const std::size_t n = shape.runs[r];
-      std::vector<double> part(&f[first], &f[first] + n), J(n * shape.columns());
-      for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < shape.columns(); ++j)
-          J[j * n + i] = (high[j][first + i] - low[j][first + i]) / (2 * step(r, j));
-      if (noise->weighted()) noise->weight(r, part, J);
-      take(r, part, J);
-      first += n;
-    }
-  };
-  return system;
-}
-
-double polynomial(std::span<const double> c, double u) {
-  double sum = 0;
-  for (std::size_t j = c.size(); j-- > 0;) sum = sum * u + c[j];
-  return sum;
-}
-
-/// A polynomial D(v) = D_ref p(v / v_ref), on the records and with the weights of a power law that
-/// has been fitted.
-class Polynomial {
- public:
-  Polynomial(Route route, Fitted power, const FitOptions& options)
-      : route_(route), power_(std::move(power)), options_(options) {
-    for (double v : power_.v) v_ref_ = std::max(v_ref_, v);
-    for (const auto& q : power_.v0) v_ref_ = std::max(v_ref_, std::abs(q.value));
-    D_ref_ = PowerLaw{power_.a.value, power_.b.value}(v_ref_);
+  Records(Route route, Fitted power, const FitOptions& options)
+      : route_(route), power_(std::move(power)),
+        options_(options), law_{power_.a.value, power_.b.value} {
+    for (double v : power_.v) v_unit_ = std::max(v_unit_, v);
+    for (const auto& q : power_.v0) v_unit_ = std::max(v_unit_, std::abs(q.value));
     if (power_.rolls)
       for (const auto& run : power_.rolls->runs())
-        x_ref_ = std::max(x_ref_, std::abs(run.y.back() - run.y.front()));
+        x_unit_ = std::max(x_unit_, std::abs(run.y.back() - run.y.front()));
   }
 
-  /// The minimum with so many coefficients. The search begins at the one with a coefficient less,
-  /// if there is one, so that it never ends above it.
-  Minimum fit(std::size_t terms, std::vector<double> simpler) const {
-    System shape = power_.system;
-    const bool of_rolls = power_.rolls != nullptr;
-    shape.own = of_rolls ? !options_.v0 + free_x0() : 0;
-    shape.shared = terms;
-    std::vector<double> theta = simpler.empty() ? start(terms) : std::move(simpler);
-    if (theta.size() < shape.parameters()) theta.push_back(0);
-    return minimise(
-        differenced(
-            shape, power_.noise,
-            [&](const std::vector<double>& c) { return of_rolls ? of_roll(c, terms) : of_law(c); }),
-        theta);
+  const Fitted& power() const { return power_; }
+  LawInUnits in_units(const Law& law) const { return {&law, law_(v_unit_), v_unit_}; }
+  std::size_t own() const { return power_.rolls ? !options_.v0 + free_x0() : 0; }
+  std::size_t shared(const Law& law) const { return law.coefficients.size() + fits_slope(); }
+
+  /// v0, x0 and the slope of the fitted a v^b, with these coefficients.
+  std::vector<double> theta(const std::vector<double>& c) const {
+    std::vector<double> all;
+    if (power_.rolls)
+      for (std::size_t r = 0; r < power_.v0.size(); ++r) {
+        const Parameters& q = power_.rolls->parameters();
+        if (!options_.v0) all.push_back(q.v0(power_.minimum.theta, r) / v_unit_);
+        if (free_x0()) all.push_back(q.x0(power_.minimum.theta, r) / x_unit_);
+      }
+    all.insert(all.end(), c.begin(), c.end());
+    if (fits_slope()) all.push_back(power_.slope->value / slope_unit);
+    return all;
+  }
+
+  System system(const Law& law) const {
+    return {power_.system.runs, own(), shared(law),
+            [this, &law](const std::vector<double>& theta, const TakeRows& take) {
+      for (std::size_t r = 0, first = 0; r < power_.system.runs.size(); ++r) {
+        if (power_.rolls) roll(law, r, theta, take);
+        else shifts(law, r, first, theta, take);
+        first += power_.system.runs[r];
+      }
+            }};
   }
 
  private:
   bool free_x0() const { return route_ == Route::position && !options_.x0; }
-
-  /// The polynomial that is closest to the power law over the speeds.
-  std::vector<double> start(std::size_t terms) const {
-    constexpr std::size_t points = 20;
-    const double b = power_.b.value;
-    const System shape{{points}, 0, terms, {}};
-    const auto c = minimise(differenced(
-                                shape, std::make_shared<const Noise>(),
-                                [=](const std::vector<double>& trial) {
-      std::vector<double> f;
-      for (std::size_t i = 1; i <= points; ++i) {
-        const double u = static_cast<double>(i) / points;
-        f.push_back(polynomial(trial, u) - std::pow(u, b));
-      }
-      return f;
-                                }),
-                            std::vector<double>(terms, 1))
-        .theta;
-    std::vector<double> theta;
-    for (std::size_t r = 0; r < power_.v0.size(); ++r) {
-      if (!options_.v0) theta.push_back(std::abs(power_.v0[r].value) / v_ref_);
-      if (free_x0())
-        theta.push_back(power_.rolls->parameters().x0(power_.minimum.theta, r) / x_ref_);
-    }
-    theta.insert(theta.end(), c.begin(), c.end());
-    return theta;
-  }
+  bool fits_slope() const { return power_.slope.has_value(); }
 
   /// The residuals of the law itself: by how much it differs from the power law, and those of that.
-  std::vector<double> of_law(const std::vector<double>& c) const {
-    std::vector<double> f;
-    for (std::size_t i = 0; i < power_.v.size(); ++i) {
-      const double v = power_.v[i], law = PowerLaw{power_.a.value, power_.b.value}(v),
-                   D = D_ref_ * polynomial(c, v / v_ref_);
-      if (route_ == Route::loglog && !(D > 0)) fail("no logarithm");
-      f.push_back((route_ == Route::loglog ? std::log(D / law) : D - law) + power_.minimum.f[i]);
+  void shifts(const Law& law, std::size_t r, std::size_t first, const std::vector<double>& theta,
+              const TakeRows& take) const {
+    const LawInUnits D = in_units(law);
+    const std::size_t n = power_.system.runs[r];
+    std::vector<double> f(n), J(n * D.size());
+    for (std::size_t i = 0; i < n; ++i) {
+      double by_c[Law::most];
+      const double v = power_.v[first + i], old = law_(v), now = D(theta.data(), v, by_c);
+      f[i] = now - old + power_.minimum.f[first + i];
+      for (std::size_t j = 0; j < D.size(); ++j) J[j * n + i] = by_c[j];
     }
-    return f;
+    take(r, f, J);
   }
 
-  std::vector<double> of_roll(const std::vector<double>& c, std::size_t terms) const {
-    std::vector<double> f;
-    const auto law = std::span(c).last(terms);
-    std::size_t next = 0, r = 0;
-    for (const auto& run : power_.rolls->runs()) {
-      const double v0 = options_.v0 ? std::abs(*options_.v0) : c[next++] * v_ref_,
-                   x0 = free_x0() ? c[next++] * x_ref_ : options_.x0.value_or(0);
-      Body body = run.body;
-      body.slope = power_.rolls->slope(power_.minimum.theta, r++);  // that of the power law
-      const auto [cos, sin] = incline(body);
-      const double unit = body.g * cos / ((body.K + 1) * body.R) * D_ref_;
-      const CoastDown coast(unit * law[0] + body.g * sin / (body.K + 1),
-                            terms > 1 ? unit * law[1] / v_ref_ / 2 : 0,
-                            terms > 2 ? unit * law[2] / (v_ref_ * v_ref_) : 0, v0);
-      std::vector<double> raw;
-      double last = 0, x = 0;
-      for (double t : run.t) {
-        x += coast.way(last, t);
-        last = t;
-        raw.push_back(run.raw_is_position ? x0 + run.way * x : run.way * coast.v(t));
-      }
-      for (std::size_t i = 0; i < run.y.size(); ++i)
-        f.push_back((run.H ? run.H->times(i, raw) : raw[i]) - run.y[i]);
+  void roll(const Law& law, std::size_t r, const std::vector<double>& theta,
+            const TakeRows& take) const {
+    const ObservedRun& run = power_.rolls->runs()[r];
+    const double* own_of_run = &theta[r * own()];
+    const double* const c = &theta[theta.size() - shared(law)];
+    const double v0 = options_.v0 ? std::abs(*options_.v0) : *own_of_run++ * v_unit_,
+                 x0 = free_x0() ? *own_of_run * x_unit_ : options_.x0.value_or(0);
+    Body body = run.body;
+    body.slope = fits_slope() ? run.way * theta.back() * slope_unit
+                              : power_.rolls->slope(power_.minimum.theta, r);
+    LawRoll roll(body, run.geometry, in_units(law), c, v0);
+    const std::size_t m = run.t.size(), coefficients = law.coefficients.size();
+    std::vector<double> raw(m), J(m * (own() + shared(law)));
+    for (std::size_t i = 0; i < m; ++i) {
+      const LawRoll::Point p = roll.at(run.t[i]);
+      const bool x = run.raw_is_position;
+      raw[i] = x ? x0 + run.way * p.x : run.way * p.v;
+      double* to = &J[i];
+      const auto put = [&](double value) { *std::exchange(to, to + m) = value; };
+      if (!options_.v0) put(run.way * v_unit_ * (x ? p.x_v0 : p.v_v0));
+      if (free_x0()) put(x_unit_);
+      for (std::size_t j = 0; j < coefficients; ++j) put(run.way * (x ? p.x_c[j] : p.v_c[j]));
+      if (fits_slope()) put(slope_unit * (x ? p.x_c[coefficients] : p.v_c[coefficients]));
     }
-    return f;
+    if (run.H) return hand_over_filtered(run, r, raw, J, *power_.noise, take);
+    for (std::size_t i = 0; i < m; ++i) raw[i] -= run.y[i];
+    take(r, raw, J);
   }
 
   Route route_;
   Fitted power_;
   FitOptions options_;
-  double v_ref_ = 0, D_ref_ = 1, x_ref_ = 1;
+  PowerLaw law_;
+  double v_unit_ = 0, x_unit_ = 1;
 };
 
+/// A law that has been fitted.
+struct Candidate {
+  const Law* law;
+  Minimum minimum;  // theta is empty where there is none
+  std::vector<double> c;
+};
+
+/// The coefficients with which a law is closest to another one over the speeds, from each of its
+/// starts. A special case of the law comes out as itself.
+std::vector<std::vector<double>> closest(const Law& law, const Candidate& other) {
+  constexpr std::size_t points = 20;
+  const System curve{{points},
+                     0,
+                     law.coefficients.size(),
+                     [&](const std::vector<double>& c, const TakeRows& take) {
+    std::vector<double> f(points), J(points * c.size());
+    for (std::size_t i = 0; i < points; ++i) {
+      const double u = static_cast<double>(i + 1) / points;
+      double by_c[Law::most], by_other[Law::most];
+      f[i] = law.shift(c.data(), u, by_c) - other.law->shift(other.c.data(), u, by_other);
+      for (std::size_t j = 0; j < c.size(); ++j) J[j * points + i] = by_c[j];
+    }
+    take(0, f, J);
+                     }};
+  std::vector<std::vector<double>> all;
+  for (const auto& start : law.starts) all.push_back(approach(curve, start));
+  return all;
+}
+
+/// The least minimum of a law that is found from where it is closest to a v^b and to the laws that
+/// have been fitted before it: it never ends above a special case of it.
+Candidate fit_law(const Records& records, const Law& law, const std::vector<Candidate>& before) {
+  const System system = records.system(law);
+  std::vector<std::pair<double, std::vector<double>>> starts;
+  for (const Candidate& other : before) {
+    if (other.minimum.theta.empty()) continue;
+    for (const auto& c : closest(law, other)) {
+      // The own parameters go with the law that is approached.
+      std::vector<double> theta = records.theta(c);
+      if (&other != &before.front())
+        std::copy_n(other.minimum.theta.begin(), system.runs.size() * system.own, theta.begin());
+      double rss = 0;
+      try {
+        system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double>) {
+          for (double x : f) rss += x * x;
+        });
+      } catch (const Error&) {
+        continue;
+      }
+      if (std::isfinite(rss)) starts.emplace_back(rss, std::move(theta));
+    }
+  }
+  std::sort(starts.begin(), starts.end());
+  Candidate best{&law, {{}, {}, {}, infinity}, {}};
+  for (auto start = starts.begin(); start != starts.end() && best.minimum.theta.empty(); ++start)
+    try {
+      best.minimum = minimise(system, start->second);
+    } catch (const Error&) {  // no minimum from here
+    }
+  if (best.minimum.theta.empty()) return best;
+  const auto shared = best.minimum.theta.end() - static_cast<std::ptrdiff_t>(system.shared);
+  best.c.assign(shared, shared + static_cast<std::ptrdiff_t>(law.coefficients.size()));
+  return best;
+}
+
 /// How many independent records there are, by the law that leaves the least correlation.
-double independent_records(const std::vector<Minimum>& minima,
+double independent_records(const std::vector<Candidate>& all,
                            const std::vector<std::size_t>& runs) {
-  const double n = static_cast<double>(minima.front().f.size());
+  const double n = static_cast<double>(all.front().minimum.f.size());
   double r = 1;
-  for (const auto& m : minima)
+  for (const auto& [law, m, c] : all)
     if (m.rss > 0 && std::isfinite(m.rss)) r = std::min(r, lagged(m.f, runs, 1) / m.rss);
   return r > 0 && r < 1 ? n * (1 - r) / (1 + r) : n;
 }
 
+/// The coefficients with the errors that fit() would give them.
+void report_coefficients(LawFit& result, const Records& records, const Candidate& found) {
+  Fitted fit = records.power();
+  std::vector<Quantity> values{fit.a, fit.b};
+  if (found.law != &laws().front()) {
+    values.clear();
+    fit.system = records.system(*found.law);
+    fit.minimum = found.minimum;
+    const bool known = fit.noise->known() && !fit.noise_inferred;
+    if (known && fit.noise->weighted()) {
+      fit.sources = fit.noise->explain(found.minimum.f);
+      fit.innovation_runs.clear();
+      fit.innovations = fit.noise->innovations(found.minimum.f, fit.innovation_runs);
+    }
+    const LawInUnits law = records.in_units(*found.law);
+    for (std::size_t j = 0; j < law.size(); ++j) {
+      Quantity q{0, std::vector<double>(fit.system.columns())};
+      q.value =
+          law.in_SI(found.c.data(), j, std::span(q.gradient).subspan(records.own(), law.size()));
+      values.push_back(std::move(q));
+    }
+  }
+  const Uncertainty errors = uncertainty_of(fit);
+  for (const Quantity& x : values)
+    result.coefficients.push_back({x.value, std::sqrt(errors.covariance(x.gradient, x.gradient))});
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (std::size_t j = 0; j < values.size(); ++j) {
+      const double sigmas = result.coefficients[i].sigma * result.coefficients[j].sigma;
+      result.correlations.push_back(
+          sigmas == 0 ? 0 : errors.covariance(values[i].gradient, values[j].gradient) / sigmas);
+    }
+}
+
 }  // namespace
 
-std::vector<LawScore> compare_laws(Route route, const std::vector<FitRun>& runs,
-                                   const FitOptions& options) {
+double LawComparison::least() const {
+  return std::min_element(fits.begin(), fits.end(),
+                          [](const auto& x, const auto& y) { return x.aicc < y.aicc; })
+      ->aicc;
+}
+
+const LawFit& LawComparison::best_other() const {
+  const LawFit* best = nullptr;
+  for (const LawFit& fit : fits)
+    if (!fit.law->is_power && (!best || fit.aicc < best->aicc)) best = &fit;
+  return *best;
+}
+
+double LawComparison::against_power() const {
+  return possible() ? fits.front().aicc - best_other().aicc : 0;
+}
+
+bool LawComparison::possible() const { return std::isfinite(fits.front().aicc); }
+
+LawComparison compare_laws(Route route, const std::vector<FitRun>& runs,
+                           const FitOptions& options) {
   if (options.robust) fail("laws are compared by squares only");
-  const Fitted power = fit_route(route, runs, options);
-  const Polynomial polynomials(route, power, options);
-  std::vector<Minimum> minima{power.minimum};
-  for (std::size_t terms = 1; terms <= 3; ++terms) try {
-      minima.push_back(
-          polynomials.fit(terms, terms > 1 ? minima.back().theta : std::vector<double>{}));
-    } catch (const Error&) {  // it has no minimum on these records
-      minima.emplace_back().rss = std::numeric_limits<double>::infinity();
-    }
+  // The mean logarithm of a noisy D is not that of its mean: other laws would fit the difference.
+  if (route == Route::loglog) route = Route::shift;
+  const Records records(route, fit_route(route, runs, options), options);
+  const Fitted& power = records.power();
+  std::vector<Candidate> all{{&laws().front(), power.minimum, {1, power.b.value}}};
+  for (std::size_t i = 1; i < laws().size(); ++i) all.push_back(fit_law(records, laws()[i], all));
   const double n = static_cast<double>(power.minimum.f.size()),
-               independent = independent_records(minima, power.system.runs);
-  std::vector<LawScore> scores;
-  constexpr const char* names[] = {"a v^b", "d0", "d0 + d1 v", "d0 + d1 v + d2 v^2"};
-  for (const auto& m : minima) {
+               independent = independent_records(all, power.system.runs);
+  LawComparison result;
+  for (const Candidate& found : all) {
+    const Minimum& m = found.minimum;
     const double k = static_cast<double>(m.theta.size()) + 1;  // and the size of the noise
     const double aicc =
         independent * std::log(std::max(m.rss, std::numeric_limits<double>::min()) / n) + 2 * k +
         2 * k * (k + 1) / (independent - k - 1);
-    scores.push_back({names[scores.size()],
-                      independent > k + 1 ? aicc : std::numeric_limits<double>::infinity(),
-                      scores.size() < 2});
+    LawFit& of_law = result.fits.emplace_back(
+        LawFit{found.law, !m.theta.empty() && independent > k + 1 ? aicc : infinity, {}, {}});
+    if (!m.theta.empty()) report_coefficients(of_law, records, found);
   }
-  return scores;
+  return result;
 }
 
 }  // namespace rolling

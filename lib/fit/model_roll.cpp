@@ -155,7 +155,7 @@ void RollModel::evaluate(const std::vector<double>& theta, const Noise& noise,
                          const TakeRows& take) const {
   const std::size_t q = parameters_.columns();
   const double a = parameters_.law(theta).a;
-  std::vector<double> raw, slopes, f, J;
+  std::vector<double> raw, slopes;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const ObservedRun& run = runs_[r];
     const Trajectory roll = trajectory(theta, r);
@@ -180,18 +180,21 @@ void RollModel::evaluate(const std::vector<double>& theta, const Noise& noise,
         take(r, raw, slopes);
         continue;
       }
-      const std::size_t rows = run.y.size();
-      f.resize(rows);
-      J.resize(rows * q);
-      for (std::size_t i = 0; i < rows; ++i) {
-        f[i] = run.H->times(i, raw) - run.y[i];
-        for (std::size_t j = 0; j < q; ++j)
-          J[j * rows + i] = run.H->times(i, std::span(slopes).subspan(j * m, m));
-      }
-      if (noise.weighted()) noise.weight(r, f, J);
-      take(r, f, J);
+      hand_over_filtered(run, r, raw, slopes, noise, take);
     }
   }
+}
+
+void hand_over_filtered(const ObservedRun& run, std::size_t r, std::span<const double> raw,
+                        std::span<const double> slopes, const Noise& noise, const TakeRows& take) {
+  const std::size_t rows = run.y.size(), m = raw.size(), q = slopes.size() / m;
+  std::vector<double> f(rows), J(rows * q);
+  for (std::size_t i = 0; i < rows; ++i) {
+    f[i] = run.H->times(i, raw) - run.y[i];
+    for (std::size_t j = 0; j < q; ++j) J[j * rows + i] = run.H->times(i, slopes.subspan(j * m, m));
+  }
+  if (noise.weighted()) noise.weight(r, f, J);
+  take(r, f, J);
 }
 
 System system_of(std::shared_ptr<const RollModel> model, std::shared_ptr<const Noise> noise) {

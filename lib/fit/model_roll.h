@@ -72,6 +72,11 @@ class RollModel {
   Parameters parameters_;
 };
 
+/// Hands over H raw - y and its derivatives, weighted where the noise says so, for the raw column
+/// of a run that has an H and the column's derivatives, parameter by parameter.
+void hand_over_filtered(const ObservedRun&, std::size_t run, std::span<const double> raw,
+                        std::span<const double> slopes, const Noise&, const TakeRows&);
+
 /// The model and the weights as one problem of least squares.
 System system_of(std::shared_ptr<const RollModel>, std::shared_ptr<const Noise>);
 

@@ -107,8 +107,8 @@ void Integrator::step(double t) {
   --steps_left_;
   const double before = t_;
   const gsl_odeiv2_driver& driver = *problem_->driver;
-  const int status = gsl_odeiv2_evolve_apply(driver.e, driver.c, driver.s, &problem_->gsl, &t_, t,
-                                             &h_, y_.data());
+  const int status =
+      gsl_odeiv2_evolve_apply(driver.e, driver.c, driver.s, &problem_->gsl, &t_, t, &h_, y_.data());
   if (problem_->thrown) std::rethrow_exception(std::exchange(problem_->thrown, nullptr));
   if (status != GSL_SUCCESS)
     fail("the integration fails at t = {:.6g} s: {}", t_, gsl_strerror(status));

@@ -22,8 +22,8 @@ enum class Stepper { rk2, rk4, rkf45, rkck, rk8pd, msadams, rk1imp, rk2imp, rk4i
 
 struct OdeOptions {
   Stepper stepper = Stepper::rk8pd;
-  double rtol = 1e-10;                   ///< error of a step relative to y ...
-  double atol = 1e-13;                   ///< ... plus this, in the units of y
+  double rtol = 1e-10;                ///< error of a step relative to y ...
+  double atol = 1e-13;                ///< ... plus this, in the units of y
   unsigned long max_steps = 300'000;  ///< of one advance(); then it is refused
 };
 

@@ -125,6 +125,7 @@ double rise(std::span<const Sample> window, double duration) {
 std::vector<Sample> without_spikes(std::vector<Sample> speeds, std::size_t first) {
   MovingMedian median_of_five({5, 0});
   std::vector<double> medians, distances;
+  medians.reserve(speeds.size());
   const auto take = [&](std::span<const double> values) {
     medians.insert(medians.end(), values.begin(), values.end());
   };
@@ -149,6 +150,7 @@ Corner last_corner(std::span<const Sample> speeds, std::size_t first, double lea
   constexpr std::size_t w = corner_window;
   constexpr double standing_out = 5, less_than = 0.5;
   std::vector<double> bends;  // from index w on, as speeds that were gained in one window
+  bends.reserve(speeds.size());
   for (std::size_t i = w; i + w <= speeds.size(); ++i) {
     const double duration = (speeds[i + w - 1].t - speeds[i - w].t) * w / (2 * w - 1);
     bends.push_back(rise(speeds.subspan(i - w, w), duration) -

@@ -32,6 +32,7 @@ std::span<const Judged> Selection::finish() {
   if (hampel_) take(hampel_->finish());
   if (!options_.coast) return decided_;
   std::vector<Sample> run;
+  run.reserve(decided_.size());
   for (const Judged& s : decided_)
     if (s.kept) run.push_back({s.t, s.y});
   const Stretch roll = free_roll(run, options_.positions);

@@ -15,7 +15,8 @@ extern const std::span<const SignalMethod> smoothing_methods;
 /// the method stands for (a straight line for mean and median) is fitted without it and the two on
 /// either side of it, whose noise may be bound to its own (as it is after a central difference),
 /// and the squared distances are added up. At least 7, or what the order needs beyond the five left
-/// out; at most half of the run. For short runs the narrowest; O(n^2) in all.
+/// out; at most half of the run, or 2001. For short runs the narrowest. Of 4000 samples or more
+/// every second, third, ... is predicted, so that the work is bounded.
 std::size_t best_width(std::span<const Sample> run, const SignalOptions&);
 
 /// Smooths as the options say, but by the best width of the run, which it therefore needs whole.

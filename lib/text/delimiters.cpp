@@ -34,12 +34,12 @@ Unquoted unquoted(std::string_view text, std::string_view between, bool field_be
 
 }  // namespace
 
-Unquoted outside_quotes(std::string_view text, std::string_view separators) {
-  return unquoted(text, separators, true);
+Unquoted outside_quotes(std::string_view text, std::string_view between) {
+  return unquoted(text, between, true);
 }
 
-Unquoted behind_quote(std::string_view text, std::string_view separators) {
-  return unquoted(text, separators, false);
+Unquoted behind_quote(std::string_view text, std::string_view between) {
+  return unquoted(text, between, false);
 }
 
 bool needs_quotes(std::string_view field) {

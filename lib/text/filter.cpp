@@ -55,7 +55,7 @@ std::vector<Column> Filter::columns() const {
 
 /// The head of the present run waits like a row.
 void Filter::take_head() {
-  Row& row = rows_.emplace_back(Row{Kind::head});
+  Row& row = rows_.emplace_back(Row{Kind::head, 0, 0, 0, records_});
   std::string text;
   for (const std::string& comment : in_.comments()) (text += comment) += '\n';
   row.first = row.last = text.size();
@@ -68,16 +68,14 @@ void Filter::take_head() {
 void Filter::take_remarks(const std::vector<std::string>& remarks) {
   for (const std::string& remark : remarks) {
     held_.append(remark);
-    rows_.push_back({Kind::remark, remark.size()});
+    rows_.push_back({Kind::remark, remark.size(), 0, 0, records_});
   }
   if (!remarks.empty()) write_rows();
 }
 
 bool Filter::next_run() {
   write_rows();
-  gone_ = -std::count_if(
-      rows_.begin() + static_cast<std::ptrdiff_t>(front_), rows_.end(),
-      [](const Row& row) { return row.kind == Kind::record || row.kind == Kind::dropped; });
+  run_begins_ = records_;
   if (in_.next_run()) {
     take_head();
     return true;
@@ -95,17 +93,18 @@ bool Filter::next() {
   if (!more) return false;
   const Reader::Text text = in_.text(cut_);
   const std::size_t size = text.line.size();
-  if (cut_ == Reader::no_column) rows_.push_back({Kind::record, size, size, size});
-  else rows_.push_back({Kind::record, size, text.first, text.last});
+  if (cut_ == Reader::no_column) rows_.push_back({Kind::record, size, size, size, records_});
+  else rows_.push_back({Kind::record, size, text.first, text.last, records_});
+  ++records_;
   held_.append(text.line);
   return true;
 }
 
 void Filter::drop(std::size_t i) {
-  auto row = rows_.begin() + static_cast<std::ptrdiff_t>(front_);
-  for (auto records = gone_; row->kind == Kind::remark || row->kind == Kind::head ||
-                             records++ < static_cast<std::ptrdiff_t>(i);)
-    ++row;
+  const std::size_t number = run_begins_ + i;
+  auto row = std::partition_point(rows_.begin() + static_cast<std::ptrdiff_t>(front_), rows_.end(),
+                                  [&](const Row& earlier) { return earlier.record < number; });
+  while (row->kind != Kind::record) ++row;  // a head or a remark before it
   row->kind = Kind::dropped;
   any_dropped_ = true;
   write_rows();
@@ -142,16 +141,13 @@ void Filter::write_rows() {
       if (row.last < row.size) out_.text(text.substr(row.last));
       out_.end_line();
       any_row_ = true;
-      ++gone_;
-    } else if (row.kind == Kind::dropped) {
-      ++gone_;
     } else if (row.kind == Kind::head) {
       head_.due = true;
       head_.comments = remarks_of(head_.comments).append(text.substr(0, row.first));
       head_.names = text.substr(row.first);
-    } else if (head_.due) {
+    } else if (row.kind == Kind::remark && head_.due) {
       head_.comments.append(text) += '\n';
-    } else {
+    } else if (row.kind == Kind::remark) {
       out_.text(text), out_.end_line();
     }
   }

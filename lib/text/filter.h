@@ -60,6 +60,7 @@ class Filter {
     std::size_t size = 0;  // of its text
     // The numbers of a record, or the `##` line of this filter in a head, replace [first, last).
     std::size_t first = 0, last = 0;
+    std::size_t record = 0;  // how many records of all runs came before it
   };
 
   std::size_t rows_at_once() const { return out_.unbuffered ? 1 : 32; }
@@ -81,10 +82,9 @@ class Filter {
   std::vector<double> numbers_;               // of these rows, in order
   std::size_t enough_;                        // so many numbers make put() write rows
   std::size_t front_ = 0;
-  std::size_t front_begin_ = 0;  // where the text of the front row begins
-  std::ptrdiff_t gone_ =
-      0;  // records of this run that are no longer among them, less those of earlier runs that are
-  struct Head {  // of a run none of whose rows has been written
+  std::size_t front_begin_ = 0;               // where the text of the front row begins
+  std::size_t records_ = 0, run_begins_ = 0;  // of all runs; of those before this one
+  struct Head {                               // of a run none of whose rows has been written
     bool due = false;
     std::string comments, names;
   } head_;

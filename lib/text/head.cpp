@@ -126,8 +126,8 @@ bool HeadReader::find_record() {
   return false;
 }
 
-/// The names of the last comment that has as many names as there are columns, and as much proof that
-/// they are names.
+/// The names of the last comment that has as many names as there are columns, and as much proof
+/// that they are names.
 std::vector<std::string> HeadReader::take_commented_names(std::size_t width, Proof proof) {
   std::size_t found = npos;
   const std::vector<Column> known = known_columns();

@@ -31,8 +31,7 @@ enum class Sides { by_names, one };
 /// of the file: its names and units hold until there are others. It is null for the first head,
 /// where the dialect is chosen by the record and `order` names the columns if the file does not.
 /// Throws InputError, also for the line that a tool writes when it ends with an error.
-Head read_head(Lines&, Dialect&, const Head* before, const std::vector<std::string>& order,
-               Sides);
+Head read_head(Lines&, Dialect&, const Head* before, const std::vector<std::string>& order, Sides);
 
 /// The names in a line that is not a comment.
 std::vector<std::string> names_in(std::string_view line, Dialect&);

@@ -8,7 +8,8 @@
 
 namespace rolling {
 
-/// Bytes. A record of motion data has tens of bytes; a file with longer lines is not one of columns.
+/// Bytes. A record of motion data has tens of bytes; a file with longer lines is not one of
+/// columns.
 inline constexpr std::size_t longest_line = 1 << 20;
 
 /// Throws InputError if standard output is this regular file: the tool would read what it writes,

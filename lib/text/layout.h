@@ -10,7 +10,7 @@ namespace rolling {
 
 struct Layout {
   struct Run {
-    std::string label;  ///< Column::run of its columns: 2 for `Run #2`; may be empty
+    std::string label;                ///< Column::run of its columns: 2 for `Run #2`; may be empty
     std::vector<std::size_t> fields;  ///< of a line, from 0: the places of its columns
     std::vector<Column> columns;
   };

@@ -479,7 +479,7 @@ Reader::Text Reader::made_text(std::size_t column) {
                                  });
     if (converted != needed_.end() && !std::isnan(fields_[i].number))
       text_.set_end(write_number(text_.reserve(longest_number),
-                             values_[static_cast<std::size_t>(converted - needed_.begin())]));
+                                 values_[static_cast<std::size_t>(converted - needed_.begin())]));
     else if (dialect_->may_need_quotes()) append_field(text_, fields_[i].text);
     else text_.append(fields_[i].text);
     if (i == column) text.first = from, text.last = text_.size();

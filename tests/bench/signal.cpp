@@ -160,7 +160,7 @@ int main(int argc, char** argv) {
       std::size_t n = 0;
       for (unsigned long seed = 1; seed <= seeds; ++seed) {
         const Roll r = roll(scene, seed);
-        const Series v = derivative({}, r.t, r.x);
+        const Series v = apply({differentiation.at("central")}, r.t, r.x);
         const auto begin = std::chrono::steady_clock::now();
         method.apply(r, v, smooth, a);
         n = r.t.size();

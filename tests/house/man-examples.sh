@@ -3,6 +3,7 @@
 # that ends in `# exits N` must exit with N.
 #
 #   tests/house/man-examples.sh [PREFIX]     those of the source, or what is installed there
+#   tests/house/man-examples.sh refresh      writes into the pages what they print today: read the diff
 #
 # The examples run in the locale EXAMPLES_LOCALE (C).
 set -u
@@ -13,6 +14,8 @@ cd "$(dirname "$0")/../.." || exit 2
 command -v mandoc >/dev/null ||
   { echo "skipped: no mandoc; make setup check installs it"; exit 77; }
 
+refresh=0
+[[ ${1:-} != refresh ]] || { refresh=1; shift; }
 top=$PWD
 bin=${1:-$top}/bin pages=(man/*.[1-9])
 [[ $# -eq 0 ]] || pages=("$1"/share/man/man?/*.?)
@@ -20,6 +23,35 @@ scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 export PATH="$bin:$PATH"
 failed=0 count=0
+
+# refresh PAGE COMMAND: puts the lines of $scratch/out, columns aligned, in the place of those of
+# $scratch/shown, which follow the command. Blanks aside, a line of the source is the shown one with
+# its escapes.
+refresh() {
+  local columns
+  columns=$(awk -F '\t' '
+    FNR == NR { for (i = 1; i <= NF; ++i) if (NF > 1 && length($i) > width[i]) width[i] = length($i); next }
+    { for (i = 1; i < NF; ++i) printf "%-" width[i] + 2 "s", $i; print $NF }' "$scratch/out" "$scratch/out")
+  printf '%s\n' "$columns" | sed 's/\\/\\e/g; s/\^/\\(ha/g; s/'\''/\\(aq/g; s/^[.]/\\\&./' >"$scratch/new"
+  FIRST_LINE=${2%%$'\n'*} awk -v new="$scratch/new" '
+    function plain(line) {
+      gsub(/\\\(ha/, "^", line); gsub(/\\\(aq/, "\047", line); gsub(/\\-/, "-", line); gsub(/\\&/, "", line)
+      gsub(/\\e/, "\\", line); gsub(/[ \t]+/, " ", line); sub(/ $/, "", line)
+      return line
+    }
+    FILENAME != ARGV[2] { shown[++lines] = plain($0); next }
+    { source[++count] = $0 }
+    END {
+      for (at = 1; at <= count && plain(source[at]) != "$ " plain(ENVIRON["FIRST_LINE"]); ++at) print source[at]
+      for (; at <= count; ++at) {
+        for (same = 0; same < lines && plain(source[at + same]) == shown[same + 1]; ++same) continue
+        if (same == lines) break
+        print source[at]
+      }
+      while (at <= count && (getline line <new) > 0) print line
+      for (at += lines; at <= count; ++at) print source[at]
+    }' "$scratch/shown" "$1" >"$scratch/page" && cp "$scratch/page" "$1"
+}
 
 # run PAGE COMMAND SHOWN: runs in a fresh copy, as from the top of the checkout; SHOWN is empty if
 # the page shows no output.
@@ -36,6 +68,12 @@ run() {
     sed 's/^/  /' "$scratch/err"
     failed=$((failed + 1))
   elif [[ -n $shown ]] && ! diff -b <(printf '%s' "$shown") <(expand "$scratch/out" "$scratch/err") >"$scratch/diff"; then
+    if [[ $refresh -eq 1 ]]; then
+      cat "$scratch/err" >>"$scratch/out"
+      printf '%s' "$shown" >"$scratch/shown"
+      refresh "$page" "$command"
+      return
+    fi
     printf '%s: the page shows (<) other output than the command gives (>):\n  $ %s\n' "$page" "$command"
     sed 's/^/  /' "$scratch/diff"
     failed=$((failed + 1))

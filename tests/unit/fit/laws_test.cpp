@@ -13,11 +13,12 @@ namespace {
 
 const Body unit{1, 1, 0, 1};  // g/((K + 1) R) = 1: D is the deceleration
 
-enum Law { power, constant, linear, quadratic };
+enum Made { power, constant, linear, quadratic };
+constexpr std::size_t number[] = {0, 1, 2, 4};  // of these in laws()
 
 /// Rolls to the stop under D = 0.2 sqrt(v); 0.1; 0.1 + 0.2 v; 0.1 + 0.4 v^2, all from v0 = 1, by
 /// hand.
-FitRun roll(Law law, Route route, double size) {
+FitRun roll(Made law, Route route, double size) {
   FitRun run{};
   run.body = unit;
   simulated::Noise noise(31);
@@ -48,19 +49,72 @@ FitRun roll(Law law, Route route, double size) {
 TEST_CASE("laws: on every route the law that made the record is not beaten, and lesser laws are",
           "[fit]") {
   for (Route route : {Route::loglog, Route::shift, Route::velocity, Route::position})
-    for (Law law : {power, constant, linear, quadratic}) {
-      const auto scores = compare_laws(route, {roll(law, route, 1e-3)}, {});
+    for (Made law : {power, constant, linear, quadratic}) {
+      const auto result = compare_laws(route, {roll(law, route, 1e-3)}, {});
+      const auto aicc = [&](Made of) { return result.fits[number[of]].aicc; };
       CAPTURE(static_cast<int>(route), static_cast<int>(law));
-      REQUIRE(scores.size() == 4);
-      double least = std::numeric_limits<double>::infinity();
-      for (const auto& s : scores) least = std::min(least, s.aicc);
-      CHECK(scores[law].aicc <
-            least + 4);  // an unneeded coefficient wins by more than 2 in one of twenty
-      if (law != constant) CHECK(scores[constant].aicc > least + 100);
-      if (law == quadratic) CHECK(scores[linear].aicc > least + 10);
-      if (law == linear || law == quadratic) CHECK(scores[power].aicc > least + 10);
-      if (law == power) CHECK(scores[linear].aicc > least + 10);
+      REQUIRE(result.fits.size() == laws().size());
+      // An unneeded coefficient wins by more than 2 in one of twenty.
+      CHECK(aicc(law) < result.least() + 4);
+      if (law != constant) CHECK(aicc(constant) > result.least() + 100);
+      if (law == quadratic) CHECK(aicc(linear) > result.least() + 10);
+      if (law == linear || law == quadratic) {
+        CHECK(aicc(power) > result.least() + 10);
+        CHECK(result.against_power() > 10);
+      }
+      if (law == power) {
+        CHECK(aicc(linear) > result.least() + 10);
+        CHECK(result.against_power() < 4);
+      }
+      const std::vector<double> truth = law == power      ? std::vector{0.2, 0.5}
+                                        : law == constant ? std::vector{0.1}
+                                        : law == linear   ? std::vector{0.1, 0.2}
+                                                          : std::vector{0.1, 0.4};
+      const LawFit& own = result.fits[number[law]];
+      REQUIRE(own.coefficients.size() == truth.size());
+      // loglog is biased by the noise of D.
+      for (std::size_t j = 0; j < truth.size(); ++j)
+        CHECK(std::abs(own.coefficients[j].value - truth[j]) < 4 * own.coefficients[j].sigma);
     }
+}
+
+TEST_CASE("laws: coefficients are those of linear least squares, with its errors", "[fit]") {
+  FitRun run{};
+  simulated::Noise noise(8);
+  for (int i = 1; i <= 25; ++i)
+    run.v.push_back(0.2 * i), run.D.push_back(1 + 0.5 * run.v.back() + noise(0.05));
+  const auto line = compare_laws(Route::shift, {run}, {}).fits[2];
+  // The textbook's straight line.
+  double n = 25, Sv = 0, SD = 0, Svv = 0, SvD = 0;
+  for (std::size_t i = 0; i < 25; ++i)
+    Sv += run.v[i], SD += run.D[i], Svv += run.v[i] * run.v[i], SvD += run.v[i] * run.D[i];
+  const double det = n * Svv - Sv * Sv, d1 = (n * SvD - Sv * SD) / det, d0 = (SD - d1 * Sv) / n;
+  double rss = 0;
+  for (std::size_t i = 0; i < 25; ++i) rss += std::pow(run.D[i] - d0 - d1 * run.v[i], 2);
+  const double s2 = rss / (n - 2);
+  CHECK(line.coefficients[0].value == Approx(d0));
+  CHECK(line.coefficients[1].value == Approx(d1));
+  CHECK(line.coefficients[0].sigma == Approx(std::sqrt(s2 * Svv / det)));
+  CHECK(line.coefficients[1].sigma == Approx(std::sqrt(s2 * n / det)));
+  CHECK(line.correlations[1] == Approx(-Sv / std::sqrt(n * Svv)));
+  CHECK(line.correlations[0] == Approx(1));
+}
+
+TEST_CASE("laws: the row's a and b are those of the comparison; a slope is fitted for every law",
+          "[fit]") {
+  FitRun there = roll(linear, Route::position, 1e-4), back = there;
+  for (double& x : back.x) x = -x;
+  const auto r = fit(Route::position, {there, back}, {});
+  const auto same = compare_laws(Route::position, {there, back}, {}).fits[0];
+  CHECK(same.coefficients[0].value == r.a);
+  CHECK(same.coefficients[1].sigma == r.sigma_b);
+  CHECK(same.correlations[1] == Approx(r.corr));
+  FitOptions options;
+  options.fit_slope = true;
+  const auto result = compare_laws(Route::position, {there, back}, options);
+  CHECK(result.against_power() > 10);
+  CHECK(std::abs(result.fits[2].coefficients[1].value - 0.2) <
+        4 * result.fits[2].coefficients[1].sigma);
 }
 
 TEST_CASE("laws: a law that the records cannot determine is not among those that win", "[fit]") {
@@ -69,10 +123,11 @@ TEST_CASE("laws: a law that the records cannot determine is not among those that
   simulated::Noise noise(3);
   for (int i = 0; i < 20; ++i)
     run.v.push_back(i % 2 ? 1 : 2), run.D.push_back(run.v.back() + noise(0.01));
-  const auto scores =
-      compare_laws(Route::shift, {run}, {});  // two speeds: a line through them, and no parabola
-  CHECK(std::isfinite(scores[linear].aicc));
-  CHECK(scores[quadratic].aicc == std::numeric_limits<double>::infinity());
+  // Two speeds: a line through them, and no parabola.
+  const auto result = compare_laws(Route::shift, {run}, {});
+  CHECK(std::isfinite(result.fits[2].aicc));
+  CHECK(result.fits[3].aicc == std::numeric_limits<double>::infinity());
+  CHECK(result.fits[3].coefficients.empty());
 }
 
 TEST_CASE("laws: what is held stays held, and a robust comparison is refused", "[fit]") {
@@ -81,7 +136,7 @@ TEST_CASE("laws: what is held stays held, and a robust comparison is refused", "
   options.v0 = 0.7;  // a wrong one: no law can mend it
   const auto held = compare_laws(Route::velocity, {run}, options),
              free = compare_laws(Route::velocity, {run}, {});
-  CHECK(held[linear].aicc > free[linear].aicc + 100);
+  CHECK(held.fits[2].aicc > free.fits[2].aicc + 100);
   options = {};
   options.robust = true;
   CHECK_THROWS_AS(compare_laws(Route::velocity, {run}, options), Error);

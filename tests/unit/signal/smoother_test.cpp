@@ -111,3 +111,21 @@ TEST_CASE(
     CHECK(automatic.options().width.samples == 7);
   }
 }
+
+TEST_CASE("smoother: the best width of a long run, of which every tenth record is predicted",
+          "[signal]") {
+  const Series t = even_times(20000), e = noise(20000, 4);
+  std::vector<Sample> line, wave;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    line.push_back({t[i], 0.1 * t[i] + e[i]});
+    wave.push_back({t[i], std::sin(3 * t[i]) + 0.1 * e[i]});
+  }
+  CHECK(best_width(line, {methods.at("mean")}) > 1000);
+  CHECK(best_width(line, {methods.at("mean")}) <= 2001);
+  // As of its first 2000 records, all of which are predicted, to a step of the widths that are
+  // tried.
+  const auto whole = static_cast<double>(best_width(wave, {methods.at("mean")}));
+  const auto part =
+      static_cast<double>(best_width(std::span(wave).subspan(0, 2000), {methods.at("mean")}));
+  CHECK(std::abs(whole - part) <= 0.3 * part);
+}

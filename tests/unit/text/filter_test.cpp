@@ -211,3 +211,30 @@ TEST_CASE("filter: ten thousand rows that wait for a late filter", "[text]") {
   }
   CHECK((filtered({text}, one, 3000) == expected));
 }
+
+TEST_CASE("filter: rows left out behind one that waits", "[text]") {
+  std::string text;
+  for (int i = 0; i < 100; ++i) text += std::to_string(i) + " 1\n";
+  const TemporaryFile file("# a\n9 9\n\n" + text);
+  const std::string written = printed([&] {
+    Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
+    Output out;
+    const auto v = in.need("v");
+    Filter filter(in, out, "test it");
+    filter.replace(v);
+    filter.next_run();
+    filter.next();
+    filter.next_run();
+    while (filter.next())
+      ;
+    for (std::size_t i = 0; i < 100; ++i)
+      if (i != 3 && i != 98) filter.drop(i);
+    filter.put(7);
+    filter.put(8);
+    filter.put(9);
+    filter.next_run();
+    out.flush();
+  });
+  CHECK(written.find("\n9\t7\n") != std::string::npos);
+  CHECK(written.substr(written.rfind("v[m/s]")) == "v[m/s]\n3\t8\n98\t9\n");
+}

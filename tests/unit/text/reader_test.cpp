@@ -174,7 +174,8 @@ TEST_CASE("reader: two decimal marks in one file are refused", "[text]") {
         "FILE:2: field 1 (t): '1,5' is not a number; if a comma here is a decimal one, make it a "
         "point first");
   CHECK(records({"t\tv\n0\t998\n1\t1,002\n"}) ==
-        "FILE:3: field 2: '1,002' can be read in two ways: if its comma is a decimal one, replace it by "
+        "FILE:3: field 2: '1,002' can be read in two ways: if its comma is a decimal one, replace "
+        "it by "
         "a point, else remove it");
   CHECK(records({"t\tv\n0,0\t1,002\n"}) == "0 1.002");
   CHECK(records({"t;v\n0;1,234,567\n"}) == "FILE:2: field 2 (v): '1,234,567' is not a number");
@@ -478,9 +479,11 @@ TEST_CASE("reader: a tool that ended with an error is refused, wherever it says 
 }
 
 TEST_CASE("reader: what spreadsheets write for an error is no comment", "[text]") {
-  CHECK(records({"0\t1\n#N/A\t2\n"}) == "FILE:2: field 1 (t): '#N/A' is not a number; write NaN for a "
+  CHECK(records({"0\t1\n#N/A\t2\n"}) ==
+        "FILE:2: field 1 (t): '#N/A' is not a number; write NaN for a "
         "missing reading");
-  CHECK(records({"0 1\n#DIV/0! 2\n"}) == "FILE:2: field 1 (t): '#DIV/0!' is not a number; write NaN for "
+  CHECK(records({"0 1\n#DIV/0! 2\n"}) ==
+        "FILE:2: field 1 (t): '#DIV/0!' is not a number; write NaN for "
         "a missing reading");
   CHECK(records({"0,1\n#1,2\n"}) == "0 1");  // a record that was taken out
 }

@@ -1,0 +1,176 @@
+#include "cli/fit_report.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+namespace rolling {
+
+const std::map<std::string, std::optional<Route>>& fit_routes() {
+  static const std::map<std::string, std::optional<Route>> routes{{"loglog", Route::loglog},
+                                                                  {"shift", Route::shift},
+                                                                  {"velocity", Route::velocity},
+                                                                  {"position", Route::position}};
+  return routes;
+}
+
+std::vector<std::string> columns_of(Route route) {
+  switch (route) {
+    case Route::velocity:
+      return {"t", "v"};
+    case Route::position:
+      return {"t", "x"};
+    default:
+      return {"v", "D"};
+  }
+}
+
+namespace {
+
+/// Residuals of such a size are rounding, which is no noise.
+bool exact(const FitResult& r) { return r.sigma_a < 1e-9 * r.a; }
+
+const std::map<Errors, const char*> kinds{{Errors::none, "none"},
+                                          {Errors::classical, "classical"},
+                                          {Errors::filters, "of the filters"},
+                                          {Errors::differences, "of differences of positions"},
+                                          {Errors::uneven, "of noise of uneven size"},
+                                          {Errors::autocorrelation, "of the autocorrelation"}};
+
+const std::vector<double>& column(const FitRun& run, std::string_view name) {
+  return name == "t" ? run.t : name == "x" ? run.x : name == "v" ? run.v : run.D;
+}
+
+/// "sigma_a 1.9e-05: noise 1.2e-05, K 6.2e-06; sigma_b 0.0086: noise 0.0086, K 0"
+std::string budget(const FitResult& r) {
+  std::string a, b;
+  for (const ErrorShare& share : r.shares) {
+    // What is left of rounding is nothing.
+    const auto part = [](double x, double all) { return x < 1e-9 * all ? 0 : x; };
+    const char* const comma = a.empty() ? "" : ",";
+    a += fmt::format("{} {} {:.2g}", comma, share.of, part(share.a, r.sigma_a));
+    b += fmt::format("{} {} {:.2g}", comma, share.of, part(share.b, r.sigma_b));
+  }
+  return fmt::format(
+      "sigma_a {:.2g} is the root of the sum of squares of:{}; sigma_b {:.2g}, of:{}", r.sigma_a, a,
+      r.sigma_b, b);
+}
+
+void report_route(Tool& tool, const std::string& name, Route route, const std::vector<FitRun>& runs,
+                  const FitOptions& options) {
+  for (const FitRun& run : runs)
+    for (const std::string& needed : columns_of(route))
+      if (column(run, needed).empty()) fail("there is no column {}", needed);
+  if (columns_of(route).front() == "t" && std::isnan(runs.front().body.R))
+    fail("--radius is not given");
+  if (columns_of(route).front() == "t" && std::isnan(runs.front().body.K))
+    fail("--shape-factor is not given");
+  const auto begin = std::chrono::steady_clock::now();
+  const FitResult r = fit(route, runs, options);
+  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
+  tool.say(fmt::format(
+      "{}: a {:.5g} +- {:.2g}, b {:.5g} +- {:.2g}, rms {:.3g}, n {}, errors {}{}, {:.2g} ms", name,
+      r.a, r.sigma_a, r.b, r.sigma_b, r.rms, r.n, kinds.at(r.errors),
+      std::isnan(r.whiteness) ? "" : fmt::format(" (Ljung-Box p {:.2g})", r.whiteness),
+      time.count()));
+  if (r.shares.size() > 1) tool.say(budget(r));
+}
+
+/// "D = d0 + d1 v: d0 = 0.0012 +- 1e-05, d1 = 0.0005 +- 3e-05; corr d0 d1 -0.93; AICc 1.2"
+std::string described(const LawFit& fit, double least) {
+  const auto& names = fit.law->coefficients;
+  if (fit.coefficients.empty()) return fmt::format("D = {}: not determined", fit.law->formula);
+  std::string line = fmt::format("D = {}:", fit.law->formula), corr;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const Estimate& c = fit.coefficients[i];
+    line += fmt::format(" {} = {:.6g} +- {:.2g}{}", names[i].name, c.value, c.sigma,
+                        i + 1 < names.size() ? "," : ";");
+    for (std::size_t j = 0; j < i; ++j)
+      corr += fmt::format("{} {} {} {:.3f}", corr.empty() ? " corr" : ",", names[j].name,
+                          names[i].name, fit.correlations[i * names.size() + j]);
+  }
+  return line + (corr.empty() ? "" : corr + ";") +
+         fmt::format(" AICc {:.1f} above the least", fit.aicc - least);
+}
+
+/// "the runs disagree ...: run 3 stands out, its D(0.21 m/s) is 4.1 +- 0.4 % less than the others'
+/// and its b 0.012 +- 0.004 more"
+std::string disagreement(const FitResult& r, std::span<const std::string> names) {
+  const Agreement& found = *r.agreement;
+  const auto more = [](double x) { return x < 0 ? "less" : "more"; };
+  std::string line = fmt::format(
+      "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees of freedom, chance "
+      "{:.1g}): run {} stands out",
+      found.chi2, found.dof, found.significance, names[found.run]);
+  if (found.log_D.sigma > 0)
+    line +=
+        fmt::format(", its D({:.2g} m/s) is {:.2g} +- {:.1g} % {} than that of the other{}",
+                    found.speed, 100 * std::abs(std::expm1(found.log_D.value)),
+                    100 * found.log_D.sigma, more(found.log_D.value), found.runs > 2 ? "s" : "");
+  if (found.b.sigma > 0)
+    line += fmt::format(", its b {:.2g} +- {:.1g} {}", std::abs(found.b.value), found.b.sigma,
+                        more(found.b.value));
+  return line;
+}
+
+}  // namespace
+
+void warn_of(Tool& tool, const FitResult& r, std::span<const std::string> names) {
+  if (exact(r)) return;
+  if (r.errors == Errors::autocorrelation)
+    tool.warn(fmt::format(
+        "the noise is correlated from record to record (Ljung-Box p {:.2g}), or the law is not the "
+        "right one: the errors allow for the correlation; see --report",
+        r.whiteness));
+  if (r.errors == Errors::uneven)
+    tool.warn("the noise is not of one size along the run: the errors allow for that");
+  if (r.agreement && !r.agreement->agree())
+    tool.warn(disagreement(r, names) + "; the errors allow for that");
+  if (const auto& found = r.eccentricity)
+    tool.warn(fmt::format(
+        "run {}: the speed changes once a turn (significance {:.1g}), as if the centre of mass lay "
+        "{:.2g} +- {:.1g} mm off the axis, most ahead of it at {:.0f} degrees: a and b are further "
+        "off than their errors say; balance the body",
+        names[found->run], found->significance, 1e3 * found->e, 1e3 * found->sigma,
+        std::fmod(found->phase * 180 / std::numbers::pi + 360, 360)));
+}
+
+std::optional<LawComparison> compare_if_possible(Route route, const std::vector<FitRun>& runs,
+                                                 const FitOptions& options) {
+  if (options.robust) return {};
+  return compare_laws(route, runs, options);
+}
+
+void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& options,
+            const std::optional<LawComparison>& laws) {
+  for (const auto& [name, route] : fit_routes()) try {
+      report_route(tool, name, *route, runs, options);
+    } catch (const Error& error) {
+      tool.say(fmt::format("{}: {}", name, error.what()));
+    }
+  if (!laws) return;
+  if (!laws->possible())
+    return tool.say("too few independent records to compare a v^b with other laws");
+  for (const LawFit& fit : laws->fits) tool.say(described(fit, laws->least()));
+  tool.say(laws->against_power() <= 2 ? "D = a v^b is adequate" : "D = a v^b is not adequate");
+}
+
+void check(Tool& tool, const FitResult& r, const std::optional<LawComparison>& laws,
+           std::span<const std::string> names) {
+  constexpr double better = 10;       // AICc: the other law has no support any more (Burnham and
+                                      // Anderson 2002, section 2.6)
+  constexpr double decisive = 0.005;  // as many false alarms
+  const std::string run = names.size() == 1 ? fmt::format("run {}: ", names[0]) : "";
+  if (laws && laws->against_power() >= better)
+    tool.check_failed(fmt::format("{}D = {} is better than a v^b by {:.1f} in AICc; see --report",
+                                  run, laws->best_other().law->formula, laws->against_power()));
+  if (r.agreement && !r.agreement->agree()) tool.check_failed(disagreement(r, names));
+  if (!exact(r) && r.whiteness <= decisive)
+    tool.check_failed(
+        fmt::format("{}the residuals are not white (Ljung-Box p {:.2g}): the law, or what is "
+                    "known of the noise, is not right",
+                    run, r.whiteness));
+}
+
+}  // namespace rolling

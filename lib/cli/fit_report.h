@@ -1,0 +1,37 @@
+// What fitpower says beside its row: warnings, the report, and whether the fit passes its check.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "cli/tool.h"
+#include "fit/laws.h"
+
+namespace rolling {
+
+/// The routes by the names of the command line; none where the columns decide.
+const std::map<std::string, std::optional<Route>>& fit_routes();
+
+/// The columns that a route fits, by their short names.
+std::vector<std::string> columns_of(Route);
+
+/// What the user should know: errors that are not those of white noise, a body that does not run
+/// true. The names are those of the runs of the fit.
+void warn_of(Tool&, const FitResult&, std::span<const std::string> names);
+
+/// The laws on the records of one fit; none for a robust fit, which is no matter of squares.
+std::optional<LawComparison> compare_if_possible(Route, const std::vector<FitRun>&,
+                                                 const FitOptions&);
+
+/// What each route finds at which cost, the coefficients of the laws, and which is the best.
+void report(Tool&, const std::vector<FitRun>&, const FitOptions&,
+            const std::optional<LawComparison>&);
+
+/// Fails the check of the tool where another law is better by 10 in AICc, the runs of a joint fit
+/// disagree, or the residuals are not white.
+void check(Tool&, const FitResult&, const std::optional<LawComparison>&,
+           std::span<const std::string> names);
+
+}  // namespace rolling

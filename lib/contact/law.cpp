@@ -1,0 +1,115 @@
+#include "contact/law.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace rolling {
+namespace {
+
+double power(const double* c, double v, double* by_c) {
+  by_c[0] = std::pow(v, c[1]);
+  by_c[1] = c[0] * by_c[0] * std::log(v);
+  return c[0] * by_c[0];
+}
+
+double constant(const double* c, double, double* by_c) {
+  by_c[0] = 1;
+  return c[0];
+}
+
+double line(const double* c, double v, double* by_c) {
+  by_c[0] = 1;
+  by_c[1] = v;
+  return c[0] + c[1] * v;
+}
+
+double parabola(const double* c, double v, double* by_c) {
+  by_c[2] = v * v;
+  return line(c, v, by_c) + c[2] * v * v;
+}
+
+double square(const double* c, double v, double* by_c) { return line(c, v * v, by_c); }
+
+/// d0 + a v^n as h + s (v^n - 1)/n (Box and Cox 1964, J. R. Stat. Soc. B 26, 211): where n is
+/// small, d0 and a are large and nearly cancel, while h, s and n stay what they are.
+double constant_and_power(const double* c, double v, double* by_c) {
+  const double n = c[2], log = std::log(v), x = n * log,
+               B = std::abs(x) < 1e-5 ? log * (1 + x / 2) : std::expm1(x) / n,
+               B_n = std::abs(x) < 1e-3 ? log * log * (0.5 + x / 3 + x * x / 8)
+                                        : (log * std::exp(x) - B) / n;
+  by_c[0] = 1;
+  by_c[1] = B;
+  by_c[2] = c[1] * B_n;
+  return c[0] + c[1] * B;
+}
+
+void written_constant_and_power(const double* c, double* d, double* by_c) {
+  const double h = c[0], s = c[1], n = c[2];
+  d[0] = h - s / n, d[1] = s / n, d[2] = n;
+  const double J[]{1, -1 / n, s / (n * n), 0, 1 / n, -s / (n * n), 0, 0, 1};
+  std::copy(std::begin(J), std::end(J), by_c);
+}
+
+double peak(const double* c, double v, double* by_c) {
+  const double w = c[2], below = v * v + w * w;
+  by_c[0] = 1;
+  by_c[1] = 2 * v * w / below;
+  by_c[2] = c[1] * 2 * v * (v * v - w * w) / (below * below);
+  return c[0] + c[1] * by_c[1];
+}
+
+/// The same curve has p w = (-p)(-w): the formula is written with w > 0.
+void written_peak(const double* c, double* d, double* by_c) {
+  const double sign = c[2] < 0 ? -1 : 1;
+  d[0] = c[0], d[1] = sign * c[1], d[2] = sign * c[2];
+  const double J[]{1, 0, 0, 0, sign, 0, 0, 0, sign};
+  std::copy(std::begin(J), std::end(J), by_c);
+}
+
+}  // namespace
+
+const std::vector<Law>& laws() {
+  constexpr int per_speed = -1, per_square = -2;
+  static const std::vector<Law> all{
+      {"a v^b", {{"a", 1, 0, 1}, {"b", 0}}, power, nullptr, {{1, 0.3}}, true},
+      {"d0", {{"d0"}}, constant, nullptr, {{1}}, true},
+      {"d0 + d1 v", {{"d0"}, {"d1", 1, per_speed}}, line, nullptr, {{1, 0}}},
+      {"d0 + d1 v + d2 v^2",
+       {{"d0"}, {"d1", 1, per_speed}, {"d2", 1, per_square}},
+       parabola,
+       nullptr,
+       {{1, 0, 0}}},
+      {"d0 + d2 v^2", {{"d0"}, {"d2", 1, per_square}}, square, nullptr, {{1, 0}}},
+      {"d0 + a v^n",
+       {{"d0"}, {"a", 1, 0, 2}, {"n", 0}},
+       constant_and_power,
+       written_constant_and_power,
+       {{1, 0.3, 0.5}, {1, 0.3, 2}}},
+      {"d0 + 2 p v w/(v^2 + w^2)",
+       {{"d0"}, {"p"}, {"w", 0, 1}},
+       peak,
+       written_peak,
+       {{0.5, 0.5, 0.2}, {0.5, 0.5, 0.6}, {0.5, 0.5, 2}}},
+  };
+  return all;
+}
+
+double LawInUnits::in_SI(const double* c, std::size_t j, std::span<double> by_c) const {
+  std::array<double, Law::most> d{};
+  std::array<double, Law::most * Law::most> J{};
+  if (law->written) law->written(c, d.data(), J.data());
+  else
+    for (std::size_t i = 0; i < size(); ++i) d[i] = c[i], J[i * size() + i] = 1;
+  const Law::Coefficient& of = law->coefficients[j];
+  const bool by_exponent = of.exponent >= 0;
+  const auto e = static_cast<std::size_t>(std::max(of.exponent, 0));
+  const double power = by_exponent ? -d[e] : of.v,
+               unit = std::pow(D_unit, of.D) * std::pow(v_unit, power);
+  for (std::size_t i = 0; i < size(); ++i)
+    by_c[i] = unit *
+              (J[j * size() + i] - (by_exponent ? d[j] * std::log(v_unit) * J[e * size() + i] : 0));
+  return d[j] * unit;
+}
+
+}  // namespace rolling

@@ -1,0 +1,66 @@
+// The free roll under any law D(v; c), and its derivatives by the coefficients: what a comparison
+// of laws needs. Trajectory does the same for a v^b to the last digits.
+#pragma once
+
+#include "contact/body.h"
+#include "contact/law.h"
+
+#include <array>
+
+namespace rolling {
+
+/// The law is autonomous, so that time and distance are integrals over speed (Eq. 12), with q =
+/// -v'(u) the deceleration at the speed u:
+///   t = int_v^v0 du/q,   x = int_v^v0 u du/q.
+/// They are taken in ln(v0/u), by Gauss and Legendre with four points over short panels, as far as
+/// times are asked for; the relative error is about 1e-10. Where q vanishes at a speed, the body
+/// tends to that speed and never gets there.
+class LawRoll {
+ public:
+  /// c are the coefficients of the law, in its units; they are copied. Throws Error where the body
+  /// does not slow down at v0, for v0 <= 0, and in the exact geometry where |D| > R.
+  LawRoll(const Body&, Geometry, const LawInUnits&, const double* c, double v0);
+
+  static constexpr std::size_t most = Law::most + 1;
+  using Derivatives = std::array<double, most>;  ///< by the coefficients, then by the slope
+  struct Point {
+    double v, x;
+    double v_v0, x_v0;
+    Derivatives v_c, x_c;
+  };
+  /// The state at t >= 0, which may not fall from call to call, x from 0 at t = 0; and the partial
+  /// derivatives at fixed t. From the stop on v = 0, with zero derivatives. Throws Error for a law
+  /// that changes by many orders of magnitude over the speeds.
+  Point at(double t);
+
+ private:
+  struct Rate {
+    double q;         // -v' [m/s^2]
+    Derivatives q_c;  // its derivatives
+  };
+  struct Sums {
+    double time = 0, distance = 0;
+    Derivatives G{}, U{};  // int q_c/q^2 du, int u q_c/q^2 du
+  };
+  struct Panel {
+    double u, q;       // at its beginning; it ends at u e^-width
+    double width = 0;  // 0: what follows is a stop or a steady speed
+    double q_end = 0;
+    Sums before = {}, after = {};
+  };
+  Rate rate(double u) const;
+  bool add(Sums&, double u, double width) const;  // false where q is not positive
+  double time(double u, double width) const;
+  Panel panel_from(double u, double q, const Sums& before) const;
+  Point point(const Sums&, double v, double q) const;
+
+  Body body_;
+  Geometry geometry_;
+  LawInUnits law_;
+  std::array<double, Law::most> c_{};
+  double v0_, q0_;
+  Panel panel_{};
+  int panels_ = 0;
+};
+
+}  // namespace rolling

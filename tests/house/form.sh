@@ -1,0 +1,61 @@
+#!/bin/bash
+# The form of the code: the lengths of functions and of lines, and a header for each source.
+#
+#   tests/house/form.sh            complains
+#   tests/house/form.sh table      prints the figures of each part instead
+#
+# A function is counted from the first line of its signature to the line that closes its body:
+# clang-format puts both at the same indentation.
+set -u
+export LC_ALL=C
+unset CDPATH
+cd "$(dirname "$0")/../.." || exit 2
+wrong=0
+complain() { echo "$*" && wrong=1; }
+
+# LENGTH FILE:LINE of each function at the indentation of a file or of a class.
+functions() {
+  awk '
+    FNR == 1 { delete begin }
+    /^(  )?[^ \/#]/ {
+      match($0, /^ */)
+      if (substr($0, RLENGTH + 1, 1) != "}") {
+        begin[RLENGTH] = FNR
+        if (/^ *(namespace|class|struct|enum|union) |= (\[.*)?\{+$|\]\(.*\{$/) delete begin[RLENGTH]
+      } else {
+        if (RLENGTH in begin) print FNR - begin[RLENGTH] + 1, FILENAME ":" begin[RLENGTH]
+        delete begin[RLENGTH]
+      }
+    }' "$@"
+}
+
+if [ "${1:-}" = table ]; then
+  printf '%-10s %5s %6s %16s %14s %8s\n' part files lines 'longest function' 'lines over 100' includes
+  for part in cmd lib/*; do
+    mapfile -t files < <(find "$part" -name '*.cpp' -o -name '*.h')
+    printf '%-10s %5d %6d %16d %14d %8d\n' "${part#lib/}" "${#files[@]}" "$(cat "${files[@]}" | wc -l)" \
+      "$(functions "${files[@]}" | sort -n | tail -n 1 | cut -d ' ' -f 1)" \
+      "$(cat "${files[@]}" | grep -cE '.{101}')" \
+      "$(sed -nE 's|^#include "([^/"]+)/.*|\1|p' "${files[@]}" | grep -vx "${part#lib/}" | sort -u | wc -l)"
+  done
+  exit
+fi
+
+mapfile -t files < <(find cmd lib tests -name '*.cpp' -o -name '*.h')
+while read -r place; do
+  complain "$place: a line of more than 100 characters"
+done < <(LC_ALL=C.UTF-8 grep -HnoE '^.{101}' "${files[@]}" | cut -d : -f 1,2)
+
+count=0
+while read -r length place; do
+  count=$((count + 1))
+  most=60
+  case $place in cmd/*) most=80 ;; esac
+  [ "$length" -le "$most" ] || complain "$place: a function of $length lines; at most $most"
+done < <(functions cmd/*.cpp lib/*/*)
+[ "$count" -gt 300 ] || complain "only $count functions were found"
+
+for source in lib/*/*.cpp; do
+  [ -e "${source%.cpp}.h" ] || complain "$source has no header"
+done
+exit $wrong

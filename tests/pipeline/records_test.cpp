@@ -1,0 +1,53 @@
+// The short form of the second table of `make coverage`: what fitpower says of records with one
+// thing wrong, and which law it finds.
+#include "bench/records.h"
+#include "unit/catch.h"
+
+namespace {
+
+records::Trouble find(const std::string& name) {
+  for (const auto& trouble : records::troubles())
+    if (trouble.name == name) return trouble;
+  FAIL("there is no trouble " << name);
+  return {};
+}
+
+constexpr rolling::PowerLaw CR{1.87e-3, 0.215}, CF{5.75e-4, 0.0244};
+
+}  // namespace
+
+// Of 100 good records, 5 false alarms or more come by chance in 0.4 % where their rate is 1 %.
+TEST_CASE("records: a good one passes the check, a body that runs true is not blamed", "[fit]") {
+  for (const auto law : {CR, CF}) {
+    const auto good = records::judge(find("nothing"), law, 100, 3);
+    CAPTURE(law.b);
+    CHECK(good.failed <= 4. / 100);
+    CHECK(good.eccentric <= 4. / 100);
+    CHECK(good.adequate >= 0.85);
+    CHECK(good.refused == 0);
+  }
+}
+
+TEST_CASE("records: an eccentric body, drag and a hand that stays on are caught", "[fit]") {
+  const auto eccentric = records::judge(find("eccentricity 30 um"), CF, 30, 3);
+  CHECK(eccentric.eccentric > 0.85);
+  CHECK(eccentric.e == Approx(3e-5).epsilon(0.1));
+  CHECK(eccentric.failed > 0.9);
+  CHECK(records::judge(find("viscous drag 0.02/s"), CF, 30, 3).failed > 0.8);
+  CHECK(records::judge(find("hand on for 0.2 s"), CR, 30, 3).failed > 0.8);
+}
+
+TEST_CASE("records: where AICc tells two laws apart, the one that made the record is better",
+          "[fit]") {
+  for (const auto& truth : records::truths()) {
+    const auto found = records::contest(truth, 20, 3);
+    CAPTURE(rolling::laws()[truth.law].formula);
+    CHECK(found.not_determined == 0);
+    for (std::size_t j = 0; j < found.won.size(); ++j) {
+      CAPTURE(rolling::laws()[j].formula);
+      // A law that contains the true one is better by 10 in one record of a thousand.
+      CHECK(found.apart[j] - found.won[j] <= 1);
+      if (found.apart[j] > 5) CHECK(found.won[j] >= 0.95 * found.apart[j]);
+    }
+  }
+}

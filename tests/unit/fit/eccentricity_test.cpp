@@ -1,0 +1,95 @@
+#include "fit/fit.h"
+#include "unit/catch.h"
+#include "unit/fit/simulated.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+using namespace rolling;
+
+namespace {
+
+const Body body{1, 0.04, 0.5};
+constexpr double v = 0.5, e = 40e-6, phase = 0.7;
+
+constexpr double k = 9.81 / (1.5 * 0.04);  // g/((K + 1) R)
+
+double smooth(double t) { return v * t - k * 2e-6 / 2 * t * t; }
+
+/// A body of all but steady speed, whose weight turns it by e once a turn: to first order its x has
+/// k e (R/v)^2 cos(x/R - phase) more.
+FitRun wobbling(double size, double noise) {
+  FitRun run{};
+  run.body = body;
+  simulated::Noise random(5);
+  const double amplitude = k * size * std::pow(body.R / v, 2);
+  for (double t = 0; t < 4; t += 0.03) {
+    run.t.push_back(t);
+    run.x.push_back(smooth(t) + amplitude * std::cos(smooth(t) / body.R - phase) + random(noise));
+  }
+  return run;
+}
+
+/// Least squares of x on 1, t, t^2, cos and sin of x/R: the periodogram at one period, by the
+/// normal equations.
+std::array<double, 2> amplitudes(const FitRun& run) {
+  constexpr std::size_t p = 5;
+  double A[p][p + 1] = {};
+  for (std::size_t i = 0; i < run.t.size(); ++i) {
+    const double t = run.t[i],
+                 row[]{
+                     1,       t, t * t, std::cos(smooth(t) / body.R), std::sin(smooth(t) / body.R),
+                     run.x[i]};
+    for (std::size_t j = 0; j < p; ++j)
+      for (std::size_t l = 0; l <= p; ++l) A[j][l] += row[j] * row[l];
+  }
+  for (std::size_t j = 0; j < p; ++j)
+    for (std::size_t i = 0; i < p; ++i)
+      if (i != j)
+        for (std::size_t l = p + 1; l-- > j;) A[i][l] -= A[i][j] / A[j][j] * A[j][l];
+  return {A[3][p] / A[3][3], A[4][p] / A[4][4]};
+}
+
+FitResult fitted(const FitRun& run) {
+  FitOptions options;
+  options.b = 0;
+  return fit(Route::position, {run}, options);
+}
+
+}  // namespace
+
+TEST_CASE("eccentricity: at a steady speed it is the periodogram over time", "[fit]") {
+  const FitRun run = wobbling(e, 1e-5);
+  const auto found = fitted(run).eccentricity;
+  REQUIRE(found);
+  const auto [cos, sin] = amplitudes(run);
+  const double unit = k * std::pow(body.R / v, 2);
+  CHECK(found->e == Approx(std::hypot(cos, sin) / unit).epsilon(0.01));
+  CHECK(found->phase == Approx(std::atan2(sin, cos)).margin(0.01));
+  CHECK(std::abs(found->e - e) < 4 * found->sigma);
+  // The standard error of an amplitude among n records is sqrt(2/n) of the noise.
+  CHECK(found->sigma ==
+        Approx(1e-5 * std::sqrt(2. / static_cast<double>(run.t.size())) / unit).epsilon(0.2));
+  CHECK(found->significance < 1e-6);
+}
+
+TEST_CASE("eccentricity: of another period, or none, it is not said", "[fit]") {
+  CHECK_FALSE(fitted(wobbling(0, 1e-5)).eccentricity);
+  FitRun other = wobbling(e, 1e-5);
+  other.body.R *= 1.4;
+  CHECK_FALSE(fitted(other).eccentricity);
+}
+
+TEST_CASE("eccentricity: the run of several that has it is named; less than a turn tells nothing",
+          "[fit]") {
+  const FitRun good = wobbling(0, 1e-5), bad = wobbling(e, 1e-5);
+  FitOptions options;
+  options.b = 0;
+  const auto found = fit(Route::position, {good, bad, good}, options).eccentricity;
+  REQUIRE(found);
+  CHECK(found->run == 1);
+  FitRun brief = bad;
+  brief.t.resize(10), brief.x.resize(10);
+  CHECK_FALSE(fitted(brief).eccentricity);
+}
