@@ -278,8 +278,11 @@ void Reader::take_head(Head head) {
   if (run_in_file_ == 0) {
     const bool other_width = !head.named && !head_.named && head_.layout.width != head.layout.width;
     if (next_file_ > 1 && !head.named && (head_.named || other_width))
-      fail<InputError>("{}: its columns are not those of {}: give it a line of names",
-                       lines_->name(), options_.files.front());
+      fail<InputError>("{}: its columns are not those of {}: {}; give it a line of names",
+                       lines_->name(), options_.files.front(),
+                       other_width
+                           ? fmt::format("{}, not {}", head.layout.width, head_.layout.width)
+                           : "those have names");
     first_record_ = lines_->number();
   }
   head_ = std::move(head);
