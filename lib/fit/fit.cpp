@@ -203,7 +203,7 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
                    .v0 = {},
                    .sigma_v0 = {},
                    .errors = errors.kind,
-                   .eccentricity = eccentricity_of(route, runs, found, errors.whiteness)};
+                   .eccentricity = eccentricity_of(route, runs, found)};
   if (n > p) result.rms = std::sqrt(found.rss / static_cast<double>(n - p));
   if (result.sigma_a != 0 && result.sigma_b != 0)
     result.corr =
