@@ -78,6 +78,20 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, bool all_c
   return all;
 }
 
+/// The cells of a row; blank where a fit of as many parameters as records has no errors.
+void write_cells(Tool& tool, const FitResult& r, bool with_v0, bool with_slope) {
+  const auto cell = [&](double value) {
+    r.errors == Errors::none&& std::isnan(value) ? tool.out.blank() : tool.out.cell(value);
+  };
+  for (const double value : {r.a, r.sigma_a, r.b, r.sigma_b, r.corr, r.rms}) cell(value);
+  tool.out.blank();
+  tool.out.text(std::to_string(r.n));  // a count is never rounded to --digits
+  if (with_v0)
+    for (const double value : {r.v0.front(), r.sigma_v0.front()}) cell(value);
+  if (with_slope)
+    for (const double value : {r.slope, r.sigma_slope}) cell(value);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -178,16 +192,7 @@ int main(int argc, char** argv) {
         continue;
       }
       const FitResult& r = *results[i];
-      const auto cell = [&](double value) {
-        r.errors == Errors::none&& std::isnan(value) ? tool.out.blank() : tool.out.cell(value);
-      };
-      for (const double value : {r.a, r.sigma_a, r.b, r.sigma_b, r.corr, r.rms}) cell(value);
-      tool.out.blank();
-      tool.out.text(std::to_string(r.n));  // a count is never rounded to --digits
-      if (with_v0)
-        for (const double value : {r.v0.front(), r.sigma_v0.front()}) cell(value);
-      if (options.fit_slope)
-        for (const double value : {r.slope, r.sigma_slope}) cell(value);
+      write_cells(tool, r, with_v0, options.fit_slope);
       if (each) tool.out.cell(run_names[i]);
       tool.out.end_line();
       left_out += r.left_out;
