@@ -72,24 +72,120 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, bool all_c
     run.filters = std::move(history.filters);
     run.shift_of = history.shift_of;
     if (!history.doubt.empty())
-      tool.warn(fmt::format("run {}: {}: the fit goes on as if no filter were known", runs.size(),
-                            history.doubt));
+      tool.warn(fmt::format("run {}: {}: the fit goes on as if no filter were known",
+                            all.names.back(), history.doubt));
   }
   return all;
 }
 
-/// The cells of a row; blank where a fit of as many parameters as records has no errors.
-void write_cells(Tool& tool, const FitResult& r, bool with_v0, bool with_slope) {
-  const auto cell = [&](double value) {
-    r.errors == Errors::none&& std::isnan(value) ? tool.out.blank() : tool.out.cell(value);
-  };
-  for (const double value : {r.a, r.sigma_a, r.b, r.sigma_b, r.corr, r.rms}) cell(value);
-  tool.out.blank();
-  tool.out.text(std::to_string(r.n));  // a count is never rounded to --digits
-  if (with_v0)
-    for (const double value : {r.v0.front(), r.sigma_v0.front()}) cell(value);
-  if (with_slope)
-    for (const double value : {r.slope, r.sigma_slope}) cell(value);
+/// The values of --fix and --start.
+void set_parameters(FitOptions& options, const std::vector<std::string>& fixed,
+                    const std::vector<std::string>& start) {
+  set_parameters("--fix", fixed,
+                 {{"a", &options.a}, {"b", &options.b}, {"v0", &options.v0}, {"x0", &options.x0}});
+  set_parameters("--start", start, {{"a", &options.start_a}, {"b", &options.start_b}});
+}
+
+/// A slope that is not `fit`.
+void set_slope(const std::string& text, Body& body, BodyUncertainty& uncertainty) {
+  Estimate given;
+  if (!parse_estimate(text, given)) fail("--slope: '{}' is no number, and not `fit`", shown(text));
+  body.slope = given.value;
+  uncertainty.slope = given.sigma;
+}
+
+void add_options(Tool& tool, FitOptions& options) {
+  tool.geometry(options.geometry);
+  tool.number("--min-speed", options.min_speed, not_negative, "leave slower records out [m/s]");
+  tool.flag("--robust", options.robust,
+            "let outliers count little: bisquare loss instead of squares");
+}
+
+/// The shape factor of each run, and the uncertainties of the numbers of its body.
+void set_bodies(std::vector<FitRun>& runs, const std::vector<Estimate>& shape_factors,
+                const BodyUncertainty& uncertainty) {
+  if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
+    fail("--shape-factor gives {} values, but runs are {}", shape_factors.size(), runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Estimate K = shape_factors.empty() ? Estimate{not_given}
+                                             : shape_factors[shape_factors.size() > 1 ? i : 0];
+    runs[i].body.K = K.value;
+    runs[i].given = uncertainty;
+    runs[i].given.K = K.sigma;
+  }
+}
+
+/// The runs that are fitted together: all, or each by itself.
+std::vector<std::vector<FitRun>> grouped(std::vector<FitRun> runs, bool each) {
+  std::vector<std::vector<FitRun>> groups;
+  if (each)
+    for (FitRun& run : runs) groups.push_back({std::move(run)});
+  else groups.push_back(std::move(runs));
+  return groups;
+}
+
+/// Fits each group of runs. With `names` a group is one run: if it cannot be fitted, a message
+/// names it and the others are fitted all the same.
+std::vector<std::optional<FitResult>> fit_all(Tool& tool, Route route,
+                                              const std::vector<std::vector<FitRun>>& fits,
+                                              const FitOptions& options,
+                                              const std::vector<std::string>* names) {
+  std::vector<std::optional<FitResult>> results;
+  for (const auto& runs : fits) {
+    const double done = static_cast<double>(results.size()) / static_cast<double>(fits.size());
+    tool.progress.at("fitting", fits.size() == 1 ? not_given : done);
+    try {
+      results.emplace_back(fit(route, runs, options));
+    } catch (const Error& error) {
+      if (!names) throw;
+      tool.say(fmt::format("run {}: {}", (*names)[results.size()], error.what()));
+      results.emplace_back();
+    }
+  }
+  return results;
+}
+
+/// The output: a row for each fit.
+struct Table {
+  Output& out;
+  bool with_v0, with_slope, with_run;
+
+  std::vector<Column> columns() const {
+    std::vector<Column> columns = {{"a", "m"}, {"sigma_a", "m"}, {"b"}, {"sigma_b"},
+                                   {"corr"},   {"rms"},          {"n"}};
+    if (with_v0) columns.insert(columns.end(), {{"v0", "m/s"}, {"sigma_v0", "m/s"}});
+    if (with_slope) columns.insert(columns.end(), {{"slope"}, {"sigma_slope"}});
+    if (with_run) columns.push_back({"run"});
+    return columns;
+  }
+  void write_names() const { out.names(columns()); }
+
+  /// A run that could not be fitted has blank cells, and so have errors that do not exist.
+  void write(const std::optional<FitResult>& result, const std::string& run) const {
+    if (result) {
+      const FitResult& r = *result;
+      const auto cell = [&](double value) {
+        const bool no_error = r.errors == Errors::none && std::isnan(value);
+        no_error ? out.blank() : out.cell(value);
+      };
+      for (const double value : {r.a, r.sigma_a, r.b, r.sigma_b, r.corr, r.rms}) cell(value);
+      out.blank();
+      out.text(std::to_string(r.n));  // a count is never rounded to --digits
+      if (with_v0)
+        for (const double value : {r.v0.front(), r.sigma_v0.front()}) cell(value);
+      if (with_slope)
+        for (const double value : {r.slope, r.sigma_slope}) cell(value);
+    } else {
+      for (std::size_t i = 1; i < columns().size(); ++i) out.blank();
+    }
+    if (with_run) out.cell(run);
+    out.end_line();
+  }
+};
+
+/// The route without --route, by the columns of the input.
+Route default_route(const Reader& in) {
+  return in.find("D") ? Route::shift : in.find("v") ? Route::velocity : Route::position;
 }
 
 }  // namespace
@@ -100,8 +196,9 @@ int main(int argc, char** argv) {
   std::optional<Route> given_route;
   std::vector<Estimate> shape_factors;
   std::vector<std::string> fixed, start;
-  std::string given_slope = "0";
+  std::string slope_text = "0";
   Body body;
+  BodyUncertainty uncertainty;
   FitOptions options;
   bool each = false, with_report = false, with_check = false;
   tool.choice("--route", given_route, fit_routes(),
@@ -109,93 +206,46 @@ int main(int argc, char** argv) {
               "velocity if v, else position)");
   tool.numbers("-K,--shape-factor", shape_factors, not_negative,
                "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
-  tool.body(body, {radius, gravity});
-  tool.text("--slope", given_slope, "S|fit",
+  tool.body(body, {radius, gravity}, &uncertainty);
+  tool.text("--slope", slope_text, "S|fit",
             "the mat rises by S metres a metre along growing x; fit: find it, of all runs");
-  tool.geometry(options.geometry);
+  add_options(tool, options);
   tool.flag("--each", each, "fit each run by itself, a row for each");
   tool.list("--fix", fixed, "NAME=VALUE", "hold a, b, v0 or x0 fixed");
   tool.list("--start", start, "NAME=VALUE", "begin the search at this a or b");
-  tool.number("--min-speed", options.min_speed, not_negative, "leave slower records out [m/s]");
-  tool.flag("--robust", options.robust,
-            "let outliers count little: bisquare loss instead of squares");
   tool.flag("--report", with_report,
             "tell on standard error what each route finds, and whether the law is adequate");
   tool.flag("--check", with_check,
-            "exit with 1 if another law is better or the residuals are not white");
+            "exit with 1 if another law is better, the residuals are not white, or runs disagree");
   tool.scene();
   tool.input();
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    set_parameters(
-        "--fix", fixed,
-        {{"a", &options.a}, {"b", &options.b}, {"v0", &options.v0}, {"x0", &options.x0}});
-    set_parameters("--start", start, {{"a", &options.start_a}, {"b", &options.start_b}});
+    set_parameters(options, fixed, start);
     Reader& in = tool.read(columns_of(given_route.value_or(Route::shift)));
-    const Route route = given_route    ? *given_route
-                        : in.find("D") ? Route::shift
-                        : in.find("v") ? Route::velocity
-                                       : Route::position;
+    const Route route = given_route ? *given_route : default_route(in);
     options.possible_filters = filters_of_sensors();
-    options.fit_slope = given_slope == "fit";
-    if (Estimate given; parse_estimate(given_slope, given)) body.slope = given.value;
-    else if (!options.fit_slope)
-      fail("--slope: '{}' is no number, and not `fit`", shown(given_slope));
+    options.fit_slope = slope_text == "fit";
+    if (!options.fit_slope) set_slope(slope_text, body, uncertainty);
     const bool trajectory = route == Route::velocity || route == Route::position;
     if (trajectory) tool.need({"radius", "shape-factor"});
-    for (const auto& [name, held] : {std::pair("v0", options.v0), std::pair("x0", options.x0)})
-      if (held && !(name[0] == 'v' ? trajectory : route == Route::position))
-        fail("--fix: this route has no {}", name);
+    if (options.v0 && !trajectory) fail("--fix: this route has no v0");
+    if (options.x0 && route != Route::position) fail("--fix: this route has no x0");
 
     auto [runs, run_names] = read_runs(tool, in, route, body, with_report);
-    if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
-      fail("--shape-factor gives {} values, but runs are {}", shape_factors.size(), runs.size());
-    for (std::size_t i = 0; i < runs.size(); ++i)
-      runs[i].body.K =
-          shape_factors.empty() ? not_given : shape_factors[shape_factors.size() > 1 ? i : 0].value;
-
-    std::vector<std::vector<FitRun>> fits;
-    if (each)
-      for (FitRun& run : runs) fits.push_back({std::move(run)});
-    else fits.push_back(std::move(runs));
-
-    std::vector<Column> names = {{"a", "m"}, {"sigma_a", "m"}, {"b"}, {"sigma_b"},
-                                 {"corr"},   {"rms"},          {"n"}};
-    const bool with_v0 = trajectory && fits.front().size() == 1;
-    if (with_v0) names.insert(names.end(), {{"v0", "m/s"}, {"sigma_v0", "m/s"}});
-    if (options.fit_slope) names.insert(names.end(), {{"slope"}, {"sigma_slope"}});
-    if (each) names.push_back({"run"});
-    std::vector<std::optional<FitResult>> results;
-    for (const auto& joint : fits) {
-      tool.progress.at("fitting", fits.size() == 1 ? not_given
-                                                   : static_cast<double>(results.size()) /
-                                                         static_cast<double>(fits.size()));
-      try {
-        results.emplace_back(fit(route, joint, options));
-      } catch (const Error& error) {  // one run that cannot be fitted loses no other
-        if (!each) throw;
-        tool.say(fmt::format("run {}: {}", run_names[results.size()], error.what()));
-        results.emplace_back();
-      }
-    }
+    set_bodies(runs, shape_factors, uncertainty);
+    const auto fits = grouped(std::move(runs), each);
+    const Table table{tool.out, trajectory && fits.front().size() == 1, options.fit_slope, each};
+    const auto results = fit_all(tool, route, fits, options, each ? &run_names : nullptr);
     const auto fitted = [](const auto& result) { return result.has_value(); };
     if (std::none_of(results.begin(), results.end(), fitted)) return 2;
 
-    tool.out.names(names);
+    table.write_names();
     std::size_t left_out = 0;
     for (std::size_t i = 0; i < results.size(); ++i) {
-      if (!results[i]) {
-        for (std::size_t blank = 1; blank < names.size(); ++blank) tool.out.blank();
-        tool.out.cell(run_names[i]);
-        tool.out.end_line();
-        continue;
-      }
-      const FitResult& r = *results[i];
-      write_cells(tool, r, with_v0, options.fit_slope);
-      if (each) tool.out.cell(run_names[i]);
-      tool.out.end_line();
-      left_out += r.left_out;
+      table.write(results[i], run_names[i]);
+      if (results[i]) left_out += results[i]->left_out;
     }
     for (std::size_t i = 0; i < fits.size(); ++i) {
       if (!results[i]) continue;

@@ -42,6 +42,21 @@ const std::vector<double>& column(const FitRun& run, std::string_view name) {
   return name == "t" ? run.t : name == "x" ? run.x : name == "v" ? run.v : run.D;
 }
 
+/// "sigma_a 1.9e-05: noise 1.2e-05, K 6.2e-06; sigma_b 0.0086: noise 0.0086, K 0"
+std::string budget(const FitResult& r) {
+  std::string a, b;
+  for (const ErrorShare& share : r.shares) {
+    // What is left of rounding is nothing.
+    const auto part = [](double x, double all) { return x < 1e-9 * all ? 0 : x; };
+    const char* const comma = a.empty() ? "" : ",";
+    a += fmt::format("{} {} {:.2g}", comma, share.of, part(share.a, r.sigma_a));
+    b += fmt::format("{} {} {:.2g}", comma, share.of, part(share.b, r.sigma_b));
+  }
+  return fmt::format(
+      "sigma_a {:.2g} is the root of the sum of squares of:{}; sigma_b {:.2g}, of:{}", r.sigma_a, a,
+      r.sigma_b, b);
+}
+
 void report_route(Tool& tool, const std::string& name, Route route, const std::vector<FitRun>& runs,
                   const FitOptions& options) {
   for (const FitRun& run : runs)
@@ -59,6 +74,7 @@ void report_route(Tool& tool, const std::string& name, Route route, const std::v
       r.a, r.sigma_a, r.b, r.sigma_b, r.rms, r.n, kinds.at(r.errors),
       std::isnan(r.whiteness) ? "" : fmt::format(" (Ljung-Box p {:.2g})", r.whiteness),
       time.count()));
+  if (r.shares.size() > 1) tool.say(budget(r));
 }
 
 /// "D = d0 + d1 v: d0 = 0.0012 +- 1e-05, d1 = 0.0005 +- 3e-05; corr d0 d1 -0.93; AICc 1.2"
@@ -78,6 +94,26 @@ std::string described(const LawFit& fit, double least) {
          fmt::format(" AICc {:.1f} above the least", fit.aicc - least);
 }
 
+/// "the runs disagree ...: run 3 stands out, its D(0.21 m/s) is 4.1 +- 0.4 % less than the others'
+/// and its b 0.012 +- 0.004 more"
+std::string disagreement(const FitResult& r, std::span<const std::string> names) {
+  const Agreement& found = *r.agreement;
+  const auto more = [](double x) { return x < 0 ? "less" : "more"; };
+  std::string line = fmt::format(
+      "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees of freedom, chance "
+      "{:.1g}): run {} stands out",
+      found.chi2, found.dof, found.significance, names[found.run]);
+  if (found.log_D.sigma > 0)
+    line +=
+        fmt::format(", its D({:.2g} m/s) is {:.2g} +- {:.1g} % {} than that of the other{}",
+                    found.speed, 100 * std::abs(std::expm1(found.log_D.value)),
+                    100 * found.log_D.sigma, more(found.log_D.value), found.runs > 2 ? "s" : "");
+  if (found.b.sigma > 0)
+    line += fmt::format(", its b {:.2g} +- {:.1g} {}", std::abs(found.b.value), found.b.sigma,
+                        more(found.b.value));
+  return line;
+}
+
 }  // namespace
 
 void warn_of(Tool& tool, const FitResult& r, std::span<const std::string> names) {
@@ -89,6 +125,8 @@ void warn_of(Tool& tool, const FitResult& r, std::span<const std::string> names)
         r.whiteness));
   if (r.errors == Errors::uneven)
     tool.warn("the noise is not of one size along the run: the errors allow for that");
+  if (r.agreement && !r.agreement->agree())
+    tool.warn(disagreement(r, names) + "; the errors allow for that");
   if (const auto& found = r.eccentricity)
     tool.warn(fmt::format(
         "run {}: the speed changes once a turn (significance {:.1g}), as if the centre of mass lay "
@@ -127,6 +165,7 @@ void check(Tool& tool, const FitResult& r, const std::optional<LawComparison>& l
   if (laws && laws->against_power() >= better)
     tool.check_failed(fmt::format("{}D = {} is better than a v^b by {:.1f} in AICc; see --report",
                                   run, laws->best_other().law->formula, laws->against_power()));
+  if (r.agreement && !r.agreement->agree()) tool.check_failed(disagreement(r, names));
   if (!exact(r) && r.whiteness <= decisive)
     tool.check_failed(
         fmt::format("{}the residuals are not white (Ljung-Box p {:.2g}): the law, or what is "

@@ -29,8 +29,8 @@ std::optional<LawComparison> compare_if_possible(Route, const std::vector<FitRun
 void report(Tool&, const std::vector<FitRun>&, const FitOptions&,
             const std::optional<LawComparison>&);
 
-/// Fails the check of the tool where another law is better by 10 in AICc, or the residuals are not
-/// white. Here a disagreement of the runs of a joint fit is to be said too.
+/// Fails the check of the tool where another law is better by 10 in AICc, the runs of a joint fit
+/// disagree, or the residuals are not white.
 void check(Tool&, const FitResult&, const std::optional<LawComparison>&,
            std::span<const std::string> names);
 

@@ -168,11 +168,17 @@ class Chain {
 }  // namespace
 
 History history_of(const std::vector<std::string>& lines, std::span<const double> t) {
-  if (t.empty()) return {};  // filters act on times
   Chain chain(t);
   for (const std::string& line : lines)
-    if (!chain.add(line)) break;
-  return std::move(chain).take();
+    if (t.empty() || !chain.add(line)) break;  // filters act on times
+  History history = std::move(chain).take();
+  // Which numbers made D is known even where the filters before it are not.
+  for (const std::string& line : lines) {
+    const auto words = split_names(line, '\0');
+    if (history.doubt.empty() && !words.empty() && words[0] == "shift-from-accel")
+      history.shift_of = shift_line(std::span(words).subspan(1));
+  }
+  return history;
 }
 
 namespace {

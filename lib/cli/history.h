@@ -19,9 +19,9 @@ struct History {
 };
 
 /// The filters that the `##` lines of a run name (smooth, differentiate, shift-from-accel), for
-/// records at times t [s]. Lines of others say nothing. Nothing is known if there are no times, or
-/// if a line names a filter that is not linear; and a line in the name of one of these tools that
-/// is not, word by word, what the tool writes is not believed.
+/// records at times t [s]. Lines of others say nothing. No filter is known if there are no times,
+/// or if a line names a filter that is not linear; and a line in the name of one of these tools
+/// that is not, word by word, what the tool writes is not believed.
 History history_of(const std::vector<std::string>& lines, std::span<const double> t);
 
 /// Compares what the last filter claims with the columns of the run where it was made from one to

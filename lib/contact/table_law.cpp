@@ -1,10 +1,13 @@
 #include "contact/table_law.h"
 
+#include <gsl/gsl_interp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "base/error.h"
+#include "base/gsl.h"
 
 namespace rolling {
 
@@ -25,19 +28,20 @@ TableLaw::TableLaw(std::vector<double> v, std::vector<double> D) {
   }
   const std::size_t n = v_.size();
   if (n == 1) return;
-  std::vector<double> h(n - 1), s(n - 1), slope(n);
-  for (std::size_t i = 0; i + 1 < n; ++i)
-    h[i] = v_[i + 1] - v_[i], s[i] = (D_[i + 1] - D_[i]) / h[i];
-  slope.front() = s.front(), slope.back() = s.back();
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    const double parabola = (s[i - 1] * h[i] + s[i] * h[i - 1]) / (h[i - 1] + h[i]);
-    const double least = std::min({std::abs(s[i - 1]), std::abs(s[i]), std::abs(parabola) / 2});
-    slope[i] = s[i - 1] * s[i] > 0 ? 2 * std::copysign(least, s[i]) : 0;
-  }
+  silence_gsl();
+  const auto gsl =
+      own(gsl_interp_alloc(n > 2 ? gsl_interp_steffen : gsl_interp_linear, n), gsl_interp_free);
+  gsl_interp_init(gsl.get(), v_.data(), D_.data(), n);
+  const auto slope_at = [&](std::size_t i) {
+    return gsl_interp_eval_deriv(gsl.get(), v_.data(), D_.data(), v_[i], nullptr);
+  };
+  // The coefficients are kept here: gsl_interp_eval in their place made rolls measurably slower.
   for (std::size_t i = 0; i + 1 < n; ++i) {
-    c1_.push_back(slope[i]);
-    c2_.push_back((3 * s[i] - 2 * slope[i] - slope[i + 1]) / h[i]);
-    c3_.push_back((slope[i] + slope[i + 1] - 2 * s[i]) / (h[i] * h[i]));
+    const double h = v_[i + 1] - v_[i], s = (D_[i + 1] - D_[i]) / h, begin = slope_at(i),
+                 end = slope_at(i + 1);
+    c1_.push_back(begin);
+    c2_.push_back((3 * s - 2 * begin - end) / h);
+    c3_.push_back((begin + end - 2 * s) / (h * h));
   }
 }
 

@@ -259,4 +259,24 @@ Uncertainty uncertainty_of(const Fitted& fit) {
   return {kind, whiteness, {R, std::move(M), q}};
 }
 
+NoiseErrors noise_errors(const Fitted& fit, const Uncertainty& by) {
+  const auto sigma = [&](const Quantity& x, std::size_t run = 0) {
+    const bool fixed =
+        std::all_of(x.gradient.begin(), x.gradient.end(), [](double slope) { return slope == 0; });
+    return fixed ? 0 : std::sqrt(by.covariance(x.gradient, x.gradient, run));
+  };
+  NoiseErrors errors{by.kind, by.whiteness, sigma(fit.a), sigma(fit.b), 0};
+  if (errors.a != 0 && errors.b != 0)
+    errors.together = by.covariance(fit.a.gradient, fit.b.gradient);
+  if (fit.slope) errors.slope = sigma(*fit.slope);
+  for (std::size_t r = 0; r < fit.v0.size(); ++r) errors.v0.push_back(sigma(fit.v0[r], r));
+  return errors;
+}
+
+void NoiseErrors::multiply(double factor) {
+  for (double* error : {&a, &b, &slope}) *error *= factor;
+  together *= factor * factor;
+  for (double& error : v0) error *= factor;
+}
+
 }  // namespace rolling

@@ -32,6 +32,18 @@ struct Uncertainty {
 /// noise that is tested is that of the raw column.
 Uncertainty uncertainty_of(const Fitted&);
 
+/// What the noise brings to the errors of the numbers that are reported.
+struct NoiseErrors {
+  Errors kind;
+  double whiteness;
+  double a, b, together;  ///< standard errors, and the covariance of a and b
+  double slope = 0;
+  std::vector<double> v0 = {};  ///< of each run
+
+  void multiply(double factor);
+};
+NoiseErrors noise_errors(const Fitted&, const Uncertainty&);
+
 /// The variance of the noise of the raw column, where the filters are known.
 double noise_variance(const Fitted&);
 

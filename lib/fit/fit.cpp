@@ -7,8 +7,10 @@
 
 #include "base/error.h"
 #include "fit/eccentricity.h"
+#include "fit/agreement.h"
 #include "fit/errors.h"
 #include "fit/first_guess.h"
+#include "fit/given_numbers.h"
 #include "fit/model_shift.h"
 #include "fit/sensor_filters.h"
 
@@ -106,13 +108,37 @@ void explain(Fitted& fit, const std::vector<double>& theta) {
   fit.innovations = fit.noise->innovations(fit.minimum.f, fit.innovation_runs);
 }
 
+void find_minimum(Fitted& fit, std::vector<ObservedRun> runs, const FirstGuess& start,
+                  const FitOptions& options) {
+  const bool filters_known = runs.front().H != nullptr;
+  fit.noise = noise_of(runs, fit.white_share);
+  fit.rolls = std::make_shared<const RollModel>(std::move(runs), start.parameters);
+  fit.system = system_of(fit.rolls, fit.noise);
+  fit.minimum = solve(fit.system, start.theta, options, filters_known);
+}
+
 }  // namespace
+
+Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options) {
+  const auto& theta = joint.minimum.theta;
+  const Parameters& all = joint.rolls->parameters();
+  ObservedRun run = joint.rolls->runs()[r];
+  run.body.slope = all.slope(theta, run.body.slope);
+  Fitted fit{};
+  fit.noise_inferred = joint.noise_inferred;
+  fit.white_share = joint.white_share;
+  find_minimum(fit, {std::move(run)}, {all.of_one_run(), all.theta_of_run(theta, r)}, options);
+  report(fit, fit.minimum.theta);
+  explain(fit, fit.minimum.theta);
+  return fit;
+}
 
 Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows,
                  const Making& making, const FitOptions& options,
                  std::optional<double> white_share) {
   Fitted fit{};
   fit.noise_inferred = white_share.has_value();
+  fit.white_share = white_share.value_or(floor_share);
   std::optional<FirstGuess> guess;
   for (int round = 0; round < 4; ++round) {  // without the slow records, once they are known
     auto runs = observe(route, all, rows, making, options);
@@ -126,10 +152,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       guess = making.known() ? first_guess(without_filters(route, runs, all, rows), options)
                              : first_guess(runs, options);
     }
-    fit.noise = noise_of(runs, white_share.value_or(floor_share));
-    fit.rolls = std::make_shared<const RollModel>(std::move(runs), guess->parameters);
-    fit.system = system_of(fit.rolls, fit.noise);
-    fit.minimum = solve(fit.system, guess->theta, options, making.known());
+    find_minimum(fit, std::move(runs), *guess, options);
     guess->theta = fit.minimum.theta;
     if (options.min_speed <= 0 ||
         !leave_out_slow(*fit.rolls, guess->theta, all, rows, options.min_speed))
@@ -182,55 +205,80 @@ Fitted fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions&
   return fit_trajectory(route, runs, options);
 }
 
-FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
-  const Fitted found = fit_route(route, runs, options);
-  const Uncertainty errors = uncertainty_of(found);
+namespace {
+
+/// A standard error from what the noise and each of the given numbers bring.
+double total(double noise, const std::vector<Moved>& moved, auto&& part) {
+  double square = noise * noise;
+  for (const Moved& by : moved) square += part(by) * part(by);
+  return std::sqrt(square);
+}
+
+/// The values with their errors, by noise and by the given numbers.
+FitResult result_of(const Fitted& found, const NoiseErrors& noise,
+                    const std::vector<Moved>& moved) {
   const std::size_t n = found.minimum.f.size(), p = found.minimum.theta.size();
-  const auto sigma = [&](const Quantity& x, std::size_t run = 0) {
-    const bool fixed =
-        std::all_of(x.gradient.begin(), x.gradient.end(), [](double slope) { return slope == 0; });
-    return fixed ? 0 : std::sqrt(errors.covariance(x.gradient, x.gradient, run));
-  };
   FitResult result{.a = found.a.value,
-                   .sigma_a = sigma(found.a),
+                   .sigma_a = total(noise.a, moved, [](const Moved& by) { return by.a; }),
                    .b = found.b.value,
-                   .sigma_b = sigma(found.b),
+                   .sigma_b = total(noise.b, moved, [](const Moved& by) { return by.b; }),
                    .corr = 0,
                    .rms = std::numeric_limits<double>::quiet_NaN(),
                    .n = found.records,
                    .left_out = found.left_out,
-                   .whiteness = errors.whiteness,
+                   .whiteness = noise.whiteness,
                    .v0 = {},
                    .sigma_v0 = {},
-                   .errors = errors.kind,
-                   .eccentricity = eccentricity_of(route, runs, found)};
+                   .errors = noise.kind};
   if (n > p) result.rms = std::sqrt(found.rss / static_cast<double>(n - p));
-  if (result.sigma_a != 0 && result.sigma_b != 0)
-    result.corr =
-        errors.covariance(found.a.gradient, found.b.gradient) / (result.sigma_a * result.sigma_b);
-  if (route == Route::velocity || route == Route::position)
-    for (const auto& v0 : found.v0) {
-      result.sigma_v0.push_back(sigma(v0, result.v0.size()));
-      result.v0.push_back(v0.value);
-    }
+  double together = noise.together;
+  result.shares.push_back({"noise", noise.a, noise.b});
+  for (const Moved& by : moved) {
+    result.shares.push_back({by.by, std::abs(by.a), std::abs(by.b)});
+    together += by.a * by.b;
+  }
+  if (together != 0) result.corr = together / (result.sigma_a * result.sigma_b);
+  for (std::size_t r = 0; r < found.v0.size(); ++r) {
+    result.v0.push_back(found.v0[r].value);
+    result.sigma_v0.push_back(total(noise.v0[r], moved, [r](const Moved& by) { return by.v0[r]; }));
+  }
+  if (found.slope) {
+    result.slope = found.slope->value;
+    result.sigma_slope = total(noise.slope, moved, [](const Moved& by) { return by.slope; });
+  }
+  return result;
+}
+
+/// Throws Error for what is not determined.
+void require_determined(const FitResult& result, bool with_slope) {
   for (double x : {result.a, result.b})
     if (!std::isfinite(x)) fail("the fit gives no finite a and b");
   if (result.errors != Errors::none)
     for (double x : {result.sigma_a, result.sigma_b, result.corr, result.rms})
       if (!std::isfinite(x)) fail("the fit gives no finite errors of a and b");
-  if (found.slope) {
-    result.slope = found.slope->value;
-    result.sigma_slope = sigma(*found.slope);
-    // Far from a linear problem the errors themselves mean little.
-    if (!(result.sigma_a < result.a / 10) || !(result.sigma_b < 0.1))
-      fail(
-          "a slope of the mat and its law slow the body down alike, and these runs do not tell "
-          "them "
-          "apart (a comes out as {:.3g} +- {:.2g}): add runs in the other direction",
-          result.a, result.sigma_a);
-  }
+  // Far from a linear problem the errors themselves mean little.
+  if (with_slope && (!(result.sigma_a < result.a / 10) || !(result.sigma_b < 0.1)))
+    fail(
+        "a slope of the mat and its law slow the body down alike, and these runs do not tell "
+        "them "
+        "apart (a comes out as {:.3g} +- {:.2g}): add runs in the other direction",
+        result.a, result.sigma_a);
   if (result.sigma_b > 3)
     fail("the data do not determine b: it comes out as {:.3g} +- {:.2g}", result.b, result.sigma_b);
+}
+
+}  // namespace
+
+FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+  Fitted found = fit_route(route, runs, options);
+  NoiseErrors noise = noise_errors(found, uncertainty_of(found));
+  const auto eccentricity = eccentricity_of(route, runs, found);
+  const auto agreement = agreement_of(route, runs, options, noise, found);
+  require_determined(result_of(found, noise, {}), options.fit_slope);
+  FitResult result = result_of(found, noise, moved_by_given(route, runs, options, found));
+  if (route != Route::velocity && route != Route::position) result.v0 = result.sigma_v0 = {};
+  result.agreement = agreement;
+  result.eccentricity = eccentricity;
   return result;
 }
 

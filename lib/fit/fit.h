@@ -1,6 +1,7 @@
 // The power law D(v) = a v^b from records: what goes in, what comes out, and the four routes.
 #pragma once
 
+#include "base/estimate.h"
 #include "contact/body.h"
 #include "fit/filter.h"
 
@@ -27,6 +28,7 @@ struct FitRun {
   FilterChain filters;  ///< what made these columns, in order; empty if nothing is known. Its
                         ///< column D is the acceleration that shift_of made D of.
   std::optional<ShiftOf> shift_of = {};
+  BodyUncertainty given = {};  ///< of `body`; runs with the same number and uncertainty share it
 };
 
 enum class Route { loglog, shift, velocity, position };
@@ -57,6 +59,27 @@ struct Eccentricity {
   double phase;         ///< [rad]
 };
 
+/// How the runs of a joint fit compare, each with a law of its own, and which one stands out.
+struct Agreement {
+  double chi2 = 0;  ///< of the differences of their laws; on average as large as dof
+  std::size_t dof = 0;
+  double significance = 1;  ///< the chance of runs that differ as much, from noise alone
+  std::size_t runs = 0;     ///< that determine a law
+  std::size_t run = 0;      ///< that is furthest from the others, counted from 0
+  double speed = 1;         ///< at which its D is known best [m/s]
+  Estimate log_D = {};      ///< ln of its D there less that of the others, with standard error
+  Estimate b = {};          ///< its exponent less that of the others
+
+  bool agree() const { return significance > 0.01; }
+};
+
+/// What one source of error brings to the standard errors; they are the roots of the sums of the
+/// squares.
+struct ErrorShare {
+  std::string of;  ///< "noise", or the given number: "K", or "K 0.5" where runs have several
+  double a, b;
+};
+
 struct FitResult {
   double a, sigma_a, b, sigma_b;  ///< a [m (s/m)^b]
   double corr;                    ///< correlation of a and b; 0 where one of them is fixed
@@ -69,10 +92,13 @@ struct FitResult {
   double slope = 0, sigma_slope = 0;  ///< where it was fitted
   Errors errors;
   std::optional<Eccentricity> eccentricity = {};  ///< of the run that shows it best; see there
+  std::optional<Agreement> agreement = {};        ///< of two or more runs
+  std::vector<ErrorShare> shares = {};            ///< of the errors, the noise first
 };
 
-/// One joint fit over all runs: one a and b, own v0 and x0 for each run. Throws Error with one
-/// clear line for what cannot be determined: fewer than two points, all v equal, no positive D
+/// One joint fit over all runs: one a and b, own v0 and x0 for each run. Where the
+/// runs disagree, a and b are the means of their own (agreement.h). Throws Error with
+/// one clear line for what cannot be determined: fewer than two points, all v equal, no positive D
 /// (loglog), no convergence, a standard error of b above 3, a slope that cannot be told from a.
 FitResult fit(Route, const std::vector<FitRun>&, const FitOptions&);
 

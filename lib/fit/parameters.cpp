@@ -15,4 +15,12 @@ std::vector<double> Parameters::theta(PowerLaw law, const std::vector<double>& v
   return all;
 }
 
+std::vector<double> Parameters::theta_of_run(const std::vector<double>& theta,
+                                             std::size_t run) const {
+  const auto at = [&](std::size_t i) { return theta.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::vector<double> one(at(run * own()), at((run + 1) * own()));
+  one.insert(one.end(), at(runs_ * own()), at(count() - slope_));
+  return one;
+}
+
 }  // namespace rolling

@@ -42,6 +42,14 @@ class Parameters {
     return slope_ ? theta.back() * slope_unit : given;
   }
   bool fits_slope() const { return slope_; }
+  /// Those of a run by itself, on a mat of known slope.
+  Parameters of_one_run() const {
+    Parameters one = *this;
+    one.runs_ = 1;
+    one.slope_ = false;
+    return one;
+  }
+  std::vector<double> theta_of_run(const std::vector<double>& theta, std::size_t run) const;
   /// The theta of a level mat, a law and a v0 and x0 for each run.
   std::vector<double> theta(PowerLaw, const std::vector<double>& v0,
                             const std::vector<double>& x0) const;

@@ -15,14 +15,13 @@ namespace rolling {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr unsigned long most_steps = 1'000'000;
 constexpr double gain = 1e-9;        // of v, that rounding may make
 constexpr double least_part = 1e-8;  // of v0; much below it the steps are a rounding of t
 
 }  // namespace
 
 IntegratedRoll::IntegratedRoll(const Body& body, Geometry geometry, AnyLaw law, double v0,
-                               double x0, Stepper stepper, double rtol)
+                               double x0, Stepper stepper, double rtol, unsigned long most_steps)
     : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0), x0_(x0),
       floor_(law_.stops ? std::max(least_part * v0, law_.rest) : 0),
       options_{stepper, rtol, v0 > 0 ? rtol * least_part * v0 : 1, most_steps}, ode_(start()),
@@ -70,7 +69,7 @@ Integrator::Event IntegratedRoll::floor_event() const {
 }
 
 IntegratedRoll::Tail IntegratedRoll::tail(const Integrator& ode) const {
-  const double v = ode.state()[1], D = law_.shift(v);
+  const double v = std::max(0.0, ode.state()[1]), D = law_.shift(v);
   if (geometry_ == Geometry::exact && D >= body_.R * (1 - 1e-9))
     fail("at t = {:.6g} s the shift has grown to the radius {:.6g} m", ode.time(), body_.R);
   if (law_.rest >= v) return {ode.time(), 0, v, 0};
@@ -91,10 +90,11 @@ double IntegratedRoll::stop_time() const {
 
 void IntegratedRoll::seek(double t) {
   t_ = t;
-  // Where the steps end changes the time of the stop by its error: the one that was told counts.
+  // The time of the stop depends on where the steps end, by the error of the solver. A stop that
+  // has been returned stays as it is.
   if (ode_.advance(tail_ ? std::min(t, tail_->begin) : t, floor_event()) && !tail_)
     tail_ = tail(ode_);
-  if (body_.slope >= 0) fastest_ = std::min(fastest_, ode_.state()[1]);
+  if (body_.slope >= 0) fastest_ = std::min(fastest_, std::max(0.0, ode_.state()[1]));
   if (ode_.state()[1] > law_.highest * (1 + 1e-9))
     fail("at t = {:.6g} s the speed {:.6g} m/s is above the table of the law, which ends at {}",
          ode_.time(), ode_.state()[1], law_.highest);
@@ -105,7 +105,7 @@ double IntegratedRoll::left() const {
 }
 
 double IntegratedRoll::velocity() {
-  if (!tail_ || t_ < tail_->begin) return std::min(ode_.state()[1], fastest_);
+  if (!tail_ || t_ < tail_->begin) return std::clamp(ode_.state()[1], 0.0, fastest_);
   return t_ < stop_time() ? tail_->v * std::pow(left(), 1 / (1 - tail_->q)) : 0;
 }
 

@@ -30,9 +30,10 @@ struct AnyLaw {
 class IntegratedRoll final : public Motion {
  public:
   /// Refuses R, g, v0 and K as check_roll does. Errors of the solver come out of seek() and
-  /// stop_time(): steps that run out (1e6 between two calls), D beyond R, v beyond the law, v that
+  /// stop_time(): steps that run out (most_steps in one call), D beyond R, v beyond the law, v that
   /// grows where the mat slows the body (the error of a step).
-  IntegratedRoll(const Body&, Geometry, AnyLaw, double v0, double x0, Stepper, double rtol);
+  IntegratedRoll(const Body&, Geometry, AnyLaw, double v0, double x0, Stepper, double rtol,
+                 unsigned long most_steps = 1'000'000);
 
   /// The first call integrates to the stop, apart from where seek() stands.
   double stop_time() const override;

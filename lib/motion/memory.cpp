@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "base/error.h"
@@ -14,33 +15,69 @@ namespace rolling {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rest_fraction = 1e-3;  // of v0
-constexpr unsigned long most_evaluations = 5'000'000;
-constexpr double stiff = 3e4;  // measured: from here on an implicit solver is faster
+constexpr double stiff = 3e4;           // measured: from here on an implicit solver is faster
+constexpr double most_swings = 1e5, most_relaxations = 2e7;
 
-OdeOptions options(Stepper stepper) {
-  OdeOptions options;
-  options.stepper = stepper;
-  return options;
+double slowing_time(const Body& body, PowerLaw law, double v0) {
+  return v0 / std::abs(trial_acceleration(body, Geometry::approximate, law(v0)));
 }
 
 }  // namespace
 
 Stepper memory_stepper(const Body& body, PowerLaw law, Bulge bulge, double v0) {
-  const double slowing = v0 / std::abs(trial_acceleration(body, Geometry::approximate, law(v0))),
-               following = bulge.length / v0;
-  return slowing > stiff * following ? Stepper::rk4imp : Stepper::rk8pd;
+  const double following = bulge.length / v0;
+  return slowing_time(body, law, v0) > stiff * following ? Stepper::rk4imp : Stepper::rk8pd;
 }
 
-MemoryRoll::MemoryRoll(const Body& body, Geometry geometry, PowerLaw law, Bulge bulge, double v0,
-                       double x0)
-    : MemoryRoll(body, geometry, law, bulge, v0, x0,
-                 options(memory_stepper(body, law, bulge, v0))) {}
+// Swings: about v = 0 the bulge is a spring, v'' = -w^2 v with w^2 = c a u^b / length at the speed
+// u. E falls by a factor e over each length of path, and a swing has the path u/w: that makes
+// w length/u swings while u falls by a factor e, and u is about length/t at the time t. Most swings
+// are those at the lowest speed: that of rest, or the one that the body creeps down a slope with.
+// With the damping it is a damped spring, which rests after about 1/(damping w) swings.
+//
+// Relaxations: z follows v at the rate |v|/length, and v follows z at the rate c damping a
+// |v|^b/length. Both are integrated over the roll under the law, and over the creep.
+MemoryWork memory_work(const Body& body, PowerLaw law, Bulge bulge, double v0, double t) {
+  const double c = body.g / ((body.K + 1) * body.R), L = bulge.length, grade = std::abs(body.slope);
+  const double creep =
+      grade == 0 ? 0
+                 : std::min(std::pow(body.R * grade / law.a, 1 / law.b), v0 + body.g * grade * t);
+  const double rest = law.b < 2 && grade == 0 ? rest_fraction * v0 : 0;
+  const double log_u = std::log(std::max({rest, creep, L / t})),
+               log_w = (std::log(c) + std::log(law.a) + law.b * log_u - std::log(L)) / 2,
+               swings = std::exp(log_w + std::log(L) - log_u);
+  const double to_rest = law.b < 2 ? slowing_time(body, law, v0) / (2 - law.b) : infinity;
+  double path = v0 * std::min(t, to_rest), lost = std::min(v0, c * law(v0) * t);
+  if (creep > 0) path += creep * t, lost += c * law(creep) * t;
+  return {std::min(swings, 2 / (bulge.damping * std::exp(log_w))),
+          (path + bulge.damping * lost) / L};
+}
 
+// The steps are counted from turn to turn. An explicit solver needs about half a step for each
+// relaxation, of which most_relaxations are allowed.
 MemoryRoll::MemoryRoll(const Body& body, Geometry geometry, PowerLaw law, Bulge bulge, double v0,
-                       double x0, const OdeOptions& options)
-    : body_(body), geometry_(geometry), law_(law), bulge_(bulge), v0_(v0), x0_(x0),
-      options_(options), ode_(start()), at_rest_(v0 == 0) {}
+                       double x0, Stepper stepper, double rtol, unsigned long most_steps)
+    : body_(body), geometry_(geometry), law_(law), bulge_(bulge), v0_(v0),
+      x0_(x0), options_{stepper, rtol, 1e-3 * rtol,
+                        most_steps * (stepper < Stepper::rk1imp ? 20 : 1)},
+      spare_evaluations_(5.0 * static_cast<double>(most_steps)), ode_(start()), at_rest_(v0 == 0) {}
+
+double MemoryRoll::expected_evaluations(double t) const {
+  const MemoryWork work = memory_work(body_, law_, bulge_, v0_, t);
+  if (work.swings > most_swings)
+    fail(
+        "with a memory over {:.4g} m the body swings about {:.2g} times; the most is {:g}: a "
+        "shorter length, an earlier end or a damping",
+        bulge_.length, work.swings, most_swings);
+  if (work.relaxations > most_relaxations && options_.stepper < Stepper::rk1imp)
+    fail(
+        "the memory over {:.4g} m is stiff: about {:.2g} relaxations, and the most for an explicit "
+        "solver is {:g} (rk4imp is an implicit one)",
+        bulge_.length, work.relaxations, most_relaxations);
+  return 300 * work.swings + 4 * (options_.stepper < Stepper::rk1imp ? work.relaxations : 0);
+}
 
 Integrator MemoryRoll::start() const {
   check_roll(body_, law_, v0_);
@@ -79,6 +116,8 @@ Integrator MemoryRoll::start() const {
 }
 
 bool MemoryRoll::advance(Integrator& ode, bool& backwards, double t) const {
+  const double most = ode.time() < t ? spare_evaluations_ + 10 * expected_evaluations(t) : 0;
+  const unsigned long before = ode.evaluations();
   // The system has a kink at v = 0: each zero is located, and the integration starts again from v =
   // 0 exactly.
   while (ode.advance(t, [](const std::vector<double>& y) { return y[1]; })) {
@@ -90,9 +129,10 @@ bool MemoryRoll::advance(Integrator& ode, bool& backwards, double t) const {
     ode.restart(y);
     if (law_.b < 2 && body_.slope == 0 && backwards && fastest <= rest_fraction * v0_) return true;
     backwards = true;
-    if (ode.evaluations() > most_evaluations)
+    const unsigned long taken = ode.evaluations() - before;
+    if (static_cast<double>(taken) > most)
       fail("the bulge still rings at t = {:.6g} s, after {} evaluations of its equation",
-           ode.time(), ode.evaluations());
+           ode.time(), taken);
   }
   return false;
 }
@@ -111,7 +151,8 @@ double MemoryRoll::stop_time() const {
 
 void MemoryRoll::seek(double t) {
   if (at_rest_) return;
-  // Where the steps end changes the time of rest by a rounding or so: the one that was told counts.
+  // The moment of rest depends on where the steps end, by a rounding or so. A time of rest that has
+  // been returned stays as it is.
   const double stop = stop_time_.value_or(std::numeric_limits<double>::infinity());
   at_rest_ = advance(ode_, backwards_, std::min(t, stop)) || t >= stop;
   if (at_rest_ && !stop_time_) stop_time_ = ode_.time();

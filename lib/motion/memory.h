@@ -22,6 +22,15 @@ struct Bulge {
 /// these differ by more than 3e4 the system is stiff: rk4imp, else rk8pd.
 Stepper memory_stepper(const Body&, PowerLaw, Bulge, double v0);
 
+/// What any solver has to do from the start to the time t, or to the rest if that is earlier, known
+/// before it begins: estimates, good to a factor of about 4.
+struct MemoryWork {
+  double swings;       ///< how often the body turns round: each turn takes some 100 evaluations
+  double relaxations;  ///< of the bulge, which follows the speed: an explicit solver takes two to
+                       ///< four evaluations for each
+};
+MemoryWork memory_work(const Body&, PowerLaw, Bulge, double v0, double t);
+
 /// x' = v, v' = -g D / ((K + A) R) (Eq. 12), z as in Bulge; z = D(v0) at t = 0.
 ///
 /// Rest: with c = g / ((K + A) R),  E = c z^2 / 2 + a |v|^(2+b) / ((2+b) length)  never grows
@@ -34,10 +43,12 @@ Stepper memory_stepper(const Body&, PowerLaw, Bulge, double v0);
 class MemoryRoll final : public Motion {
  public:
   /// Refuses what check_roll refuses, b < 0 (no shift at rest to return to), length <= 0, damping <
-  /// 0.
-  MemoryRoll(const Body&, Geometry, PowerLaw, Bulge, double v0, double x0, const OdeOptions&);
-  /// The same by the solver that memory_stepper() names.
-  MemoryRoll(const Body&, Geometry, PowerLaw, Bulge, double v0, double x0);
+  /// 0. `rtol` is the solver's tolerance in each step, relative to x, v and z.
+  /// Errors of the solver come out of seek() and stop_time(). A work of more than 1e5 swings, or
+  /// with an explicit solver of more than 2e7 relaxations, is refused before it begins. The work of
+  /// one call is bounded by that and by most_steps.
+  MemoryRoll(const Body&, Geometry, PowerLaw, Bulge, double v0, double x0, Stepper, double rtol,
+             unsigned long most_steps = 1'000'000);
 
   /// The first call integrates to the rest, apart from where seek() stands.
   double stop_time() const override;
@@ -50,6 +61,7 @@ class MemoryRoll final : public Motion {
 
  private:
   Integrator start() const;
+  double expected_evaluations(double t) const;  // throws Error where the work is too much
   /// Integrates to t or to the rest, whichever is first, and returns true at rest. `backwards`: v
   /// has had its first zero.
   bool advance(Integrator&, bool& backwards, double t) const;
@@ -60,6 +72,7 @@ class MemoryRoll final : public Motion {
   Bulge bulge_;
   double v0_, x0_;
   OdeOptions options_;
+  double spare_evaluations_;  // of one call, beyond ten times those expected
   Integrator ode_;
   bool backwards_ = false, at_rest_ = false;
   mutable std::optional<double> stop_time_;

@@ -39,7 +39,8 @@ Method best_method(const Roll& roll) {
                                                                    : Method::closed};
 }
 
-std::unique_ptr<Motion> start(const Roll& roll, Method method, double rtol) {
+std::unique_ptr<Motion> start(const Roll& roll, Method method, double rtol,
+                              unsigned long most_steps) {
   const auto& [body, geometry, law, table, bulge, v0, x0] = roll;
   if (bulge.length > 0) {
     if (table) fail("the memory goes with a law a v^b, not with a table");
@@ -47,11 +48,8 @@ std::unique_ptr<Motion> start(const Roll& roll, Method method, double rtol) {
       fail(
           "a bulge with memory has no closed form and no integral over speed: its methods are the "
           "solvers");
-    OdeOptions options;
-    options.stepper = method.stepper;
-    options.rtol = rtol;
-    options.atol = 1e-3 * rtol;
-    return std::make_unique<MemoryRoll>(body, geometry, law, bulge, v0, x0, options);
+    return std::make_unique<MemoryRoll>(body, geometry, law, bulge, v0, x0, method.stepper, rtol,
+                                        most_steps);
   }
   if (method.kind == Method::closed) {
     if (table) fail("the method closed goes with a law a v^b: a table has no closed form");
@@ -74,7 +72,7 @@ std::unique_ptr<Motion> start(const Roll& roll, Method method, double rtol) {
     fail("the initial velocity v0 = {} is above the table of the law, which ends at {}", v0,
          table->highest());
   return std::make_unique<IntegratedRoll>(body, geometry, any_law(roll), v0, x0, method.stepper,
-                                          rtol);
+                                          rtol, most_steps);
 }
 
 }  // namespace rolling

@@ -35,7 +35,9 @@ struct Method {
 /// a table that does not slow the body everywhere on its slope.
 Method best_method(const Roll&);
 
-/// Throws Error when the method does not fit the scene. rtol: of the solvers.
-std::unique_ptr<Motion> start(const Roll&, Method, double rtol);
+/// Throws Error when the method does not fit the scene. For solvers: the tolerance of a step, and
+/// the most steps from one seek() to the next.
+std::unique_ptr<Motion> start(const Roll&, Method, double rtol,
+                              unsigned long most_steps = 1'000'000);
 
 }  // namespace rolling

@@ -16,23 +16,16 @@ namespace rolling {
 namespace {
 
 void check(const SonarOptions& o) {
-  const auto positive = [](const char* name, double value) {
-    if (!(value > 0 && std::isfinite(value)))
-      fail("the sensor's {} = {} must be a positive number", name, value);
-  };
   const auto not_negative = [](const char* name, double value) {
     if (!(value >= 0 && std::isfinite(value)))
       fail("the sensor's {} = {} must be a number that is not negative", name, value);
   };
-  positive("rate", o.rate);
+  if (!(o.rate > 0 && std::isfinite(o.rate)))
+    fail("the sensor's rate = {} must be a positive number", o.rate);
   not_negative("resolution", o.resolution);
   not_negative("noise", o.noise);
   if (!(o.lost >= 0 && o.lost <= 1))
     fail("the sensor's lost = {} must be a fraction between 0 and 1", o.lost);
-  not_negative("rest_before", o.rest_before);
-  positive("push", o.push);
-  not_negative("rest_after", o.rest_after);
-  if (!std::isfinite(o.start)) fail("the sensor's start = {} must be finite", o.start);
   if (!(o.until >= 0))
     fail("the sensor's until = {} must be a number that is not negative", o.until);
 }

@@ -17,12 +17,14 @@ struct SonarOptions {
   double noise = 0.0003;      ///< standard deviation of a position before rounding [m]
   double lost = 0.01;         ///< fraction of echoes that do not come back
   unsigned long seed = 1;
-  double rest_before = 1;  ///< at rest before the push [s]
-  double push = 0.5;       ///< how long the hand pushes [s]
-  double rest_after = 1;   ///< record after the stop [s]
-  double start = 0.3;      ///< distance from the sensor before the push [m]
-  /// The record ends so long after the push [s]; infinite: rest_after after the stop.
+  /// Time from the end of the push to the end of the record [s]; infinite: the record ends
+  /// rest_after after the stop.
   double until = std::numeric_limits<double>::infinity();
+
+  static constexpr double rest_before = 1;  ///< at rest before the push [s]
+  static constexpr double push = 0.5;       ///< duration of the push [s]
+  static constexpr double rest_after = 1;   ///< at rest after the stop [s]
+  static constexpr double start = 0.3;      ///< distance from the sensor before the push [m]
 };
 
 /// One record; x or v is missing where the echo was lost.

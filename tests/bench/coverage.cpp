@@ -28,11 +28,12 @@ int main(int argc, char** argv) {
   std::printf(
       "# %d runs each; biases in sd; sigma/sd: standard errors over the spread; 95 %% intervals; "
       "told: "
-      "errors of the autocorrelation or of uneven noise; far: beyond 6 standard errors\n",
+      "errors of the autocorrelation or of uneven noise; differ: joint runs that are said to "
+      "disagree; far: beyond 6 standard errors\n",
       runs);
-  std::printf("%-31s %-8s %-5s %7s %7s %7s %8s %9s %7s %7s %7s %7s %5s %4s %8s %6s\n", "# case",
+  std::printf("%-31s %-8s %-5s %7s %7s %7s %8s %9s %7s %7s %7s %7s %5s %6s %4s %8s %6s\n", "# case",
               "route", "scene", "bias_a", "%_of_a", "bias_b", "sd_b", "sd/bound", "sigma_a",
-              "sigma_b", "cover_a", "cover_b", "told", "far", "refused", "ms");
+              "sigma_b", "cover_a", "cover_b", "told", "differ", "far", "refused", "ms");
   std::atomic<std::size_t> next = 0;
   std::size_t finished = 0;
   const auto work = [&] {
@@ -55,11 +56,12 @@ int main(int argc, char** argv) {
     char bound[16] = "-";
     if (job->what.bound) std::snprintf(bound, sizeof bound, "%.3f", r.over_bound);
     std::printf(
-        "%-31s %-8s %-5s %+7.2f %+7.2f %+7.2f %8.5f %9s %7.3f %7.3f %7.3f %7.3f %5.2f %4d %8d "
+        "%-31s %-8s %-5s %+7.2f %+7.2f %+7.2f %8.5f %9s %7.3f %7.3f %7.3f %7.3f %5.2f %6.3f %4d "
+        "%8d "
         "%6.2f\n",
         job->what.name, route_names[static_cast<int>(job->what.route)], job->scene.name, r.bias_a,
         r.percent_a, r.bias_b, r.sd_b, bound, r.sigma_a, r.sigma_b, r.cover_a, r.cover_b, r.told,
-        r.far, r.refused, 1e3 * r.seconds);
+        r.differ, r.far, r.refused, 1e3 * r.seconds);
     std::fflush(stdout);
   }
   for (auto& thread : threads) thread.join();

@@ -32,6 +32,8 @@ struct Case {
   double lost = 0;        ///< share of records that are missing
   double growth = 0;      ///< the noise grows along the run by so many times its size
   double AR = 0;          ///< correlation of the noise from one reading to the next
+  int runs = 1;           ///< that are fitted jointly
+  double scatter = 0;     ///< of a from run to run, as a share
   bool bound = false;     ///< white noise on the fitted column: the Cramer-Rao bound holds
 };
 
@@ -100,7 +102,8 @@ struct Row {
   double cover_a = 0, cover_b = 0;  ///< share of runs whose 95 % interval holds the truth
   double sigma_a = 0, sigma_b = 0;  ///< root of the mean square of the standard errors, over the sd
   double told = 0;  ///< share of runs whose errors are not those of white noise through the filters
-  int far = 0;      ///< runs further than 6 of their own standard errors from the truth
+  double differ = 0;  ///< share of joint fits whose runs are said to disagree
+  int far = 0;        ///< runs further than 6 of their own standard errors from the truth
   int refused = 0;
   double seconds = 0;  ///< per fit
 };
@@ -126,19 +129,23 @@ inline double bound_of_b(const rolling::Trajectory& roll, std::size_t n, bool po
 /// A run of readings with noise, and what the filters make of them.
 class Simulation {
  public:
-  Simulation(const Case& c, const rolling::Trajectory& truth, unsigned seed)
-      : c_(c), truth_(truth), n_(static_cast<std::size_t>(truth.stop_time() / dt) + 1),
+  Simulation(const Case& c, const rolling::Trajectory& truth, rolling::PowerLaw law, unsigned seed)
+      : c_(c), truth_(truth), law_(law), n_(static_cast<std::size_t>(truth.stop_time() / dt) + 1),
         noise_(seed), random_(seed + 1) {}
   std::size_t records() const { return n_; }
 
   rolling::FitRun next() {
+    const rolling::Trajectory truth =
+        c_.scatter > 0 ? rolling::Trajectory(cylinder, rolling::Geometry::approximate,
+                                             {law_.a * (1 + noise_(c_.scatter)), law_.b}, 0.5)
+                       : truth_;
     rolling::FitRun run{};
     run.body = cylinder;
     Column raw;
     double error = 0;
     for (std::size_t i = 0; i < n_; ++i) {
-      const double t = dt * static_cast<double>(i), share = t / truth_.stop_time();
-      const auto s = truth_.at(t);
+      const double t = dt * static_cast<double>(i), share = t / truth.stop_time();
+      const auto s = truth.at(t);
       const double size = (c_.raw == Case::x ? noise_x : noise_v) * (1 + c_.growth * share);
       error = c_.AR * error + noise_(i == 0 ? 1 : std::sqrt(1 - c_.AR * c_.AR));
       double y = (c_.raw == Case::x ? s.x : s.v) + size * error;
@@ -168,6 +175,7 @@ class Simulation {
 
   const Case& c_;
   const rolling::Trajectory& truth_;
+  rolling::PowerLaw law_;
   std::size_t n_;
   simulated::Noise noise_;
   std::mt19937 random_;
@@ -179,20 +187,22 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
   rolling::FitOptions options;
   options.robust = c.outliers > 0;
   options.possible_filters = rolling::filters_of_sensors();
-  Simulation simulation(c, truth, seed);
+  Simulation simulation(c, truth, {scene.a, scene.b}, seed);
   Row row;
   std::vector<double> as, bs;
   for (int k = 0; k < runs; ++k) {
-    const rolling::FitRun run = simulation.next();
+    std::vector<rolling::FitRun> joint;
+    for (int i = 0; i < c.runs; ++i) joint.push_back(simulation.next());
     const auto begin = std::chrono::steady_clock::now();
     try {
-      const auto r = rolling::fit(c.route, {run}, options);
+      const auto r = rolling::fit(c.route, joint, options);
       const double a = (r.a - scene.a) / r.sigma_a, b = (r.b - scene.b) / r.sigma_b;
       row.cover_a += std::abs(a) < 1.96;
       row.cover_b += std::abs(b) < 1.96;
       row.far += std::abs(b) > 6 || std::abs(a) > 6;
       row.told +=
           r.errors == rolling::Errors::autocorrelation || r.errors == rolling::Errors::uneven;
+      row.differ += r.agreement && !r.agreement->agree();
       row.sigma_a += r.sigma_a * r.sigma_a;
       row.sigma_b += r.sigma_b * r.sigma_b;
       as.push_back(r.a - scene.a);
@@ -221,6 +231,7 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
   row.cover_a /= runs;
   row.cover_b /= runs;
   row.told /= runs;
+  row.differ /= runs;
   return row;
 }
 
@@ -268,6 +279,26 @@ inline std::vector<Case> cases() {
   all.push_back({.name = "x, noise grows", .route = Route::position, .growth = 10});
   all.push_back({.name = "x, 10 % lost", .route = Route::position, .lost = 0.1});
   all.push_back({.name = "v, AR(1) 0.8", .route = Route::velocity, .raw = Case::v, .AR = 0.8});
+  // Runs that agree, and runs that scatter by 2 %.
+  const auto joint = [&](const char* name, Route route, std::vector<std::string> history, int runs,
+                         double scatter = 0, double AR = 0, double growth = 0) {
+    all.push_back({.name = name,
+                   .route = route,
+                   .history = std::move(history),
+                   .growth = growth,
+                   .AR = AR,
+                   .runs = runs,
+                   .scatter = scatter});
+  };
+  joint("2 runs, x", Route::position, {}, 2);
+  joint("4 runs, x", Route::position, {}, 4);
+  joint("4 runs, D from x, mean 11", Route::shift, to_shift(Case::x, 11), 4);
+  joint("4 runs, D from x, W 15", Route::loglog, to_shift(Case::x, 15), 4);
+  joint("4 runs, x, AR(1) 0.8", Route::position, {}, 4, 0, 0.8);
+  joint("4 runs, x, noise grows", Route::position, {}, 4, 0, 0, 10);
+  joint("4 runs, x, 2 % scatter", Route::position, {}, 4, 0.02);
+  joint("10 runs, x, 2 % scatter", Route::position, {}, 10, 0.02);
+  joint("4 runs, D, 2 % scatter", Route::shift, to_shift(Case::x, 11), 4, 0.02);
   static const char* const names[][4] = {
       {"D from v, W 5", "D from v, W 9", "D from v, W 15", "D from v, W 31"},
       {"D from x, W 5", "D from x, W 9", "D from x, W 15", "D from x, W 31"}};

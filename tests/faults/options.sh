@@ -132,7 +132,7 @@ simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --method none|'none' is not one of
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --memory 0|'0' must be greater than 0
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --damping 1|--damping goes with --memory
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1e308|is beyond the radius
-simulate -K 0.5 -R 0.04 -a 1e-3 -b -1e300 --v0 0.5|is beyond the radius
+simulate -K 0.5 -R 0.04 -a 1e-3 -b -1e300 --v0 0.5|is beyond -1000 to 1000
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 1.5 --v0 1|the body never stops
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --sensor pasco --rate 0|'0' must be greater than 0
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --sensor pasco --rate 1e10|the sensor would make

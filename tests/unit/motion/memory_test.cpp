@@ -17,8 +17,9 @@ namespace {
 const Body cylinder{1.375, 0.04, 0.5};
 const PowerLaw rubber{1.87e-3, 0.215};
 
-MemoryRoll roll(Bulge bulge, Geometry geometry = Geometry::approximate) {
-  return {cylinder, geometry, rubber, bulge, 0.5, 0};
+MemoryRoll roll(Bulge bulge, Geometry geometry = Geometry::approximate, PowerLaw law = rubber,
+                double v0 = 0.5, double x0 = 0) {
+  return {cylinder, geometry, law, bulge, v0, x0, memory_stepper(cylinder, law, bulge, v0), 1e-10};
 }
 
 struct Backwards {
@@ -60,7 +61,7 @@ TEST_CASE("MemoryRoll: the roll backwards of model.md", "[rolling]") {
 
 TEST_CASE("MemoryRoll: tends to the law without memory as the length goes to 0", "[rolling]") {
   const auto difference = [](Geometry geometry, Motion& law, double length) {
-    MemoryRoll motion(cylinder, geometry, {0.01, 0.215}, {length}, 0.5, 0);
+    MemoryRoll motion = roll({length}, geometry, {0.01, 0.215});
     motion.seek(0.3);
     law.seek(0.3);
     return motion.velocity() - law.velocity();
@@ -80,11 +81,9 @@ TEST_CASE("MemoryRoll: every stepper that is fit for it finds the same rest", "[
     for (const Bulge bulge : {Bulge{length}, Bulge{length, length / 2}}) {
       const double stop = roll(bulge).stop_time();
       for (const Stepper stepper : {Stepper::rkf45, Stepper::bsimp, Stepper::rk4imp}) {
-        OdeOptions options;
-        options.stepper = stepper;
         INFO("length " << length << " damping " << bulge.damping << " stepper "
                        << static_cast<int>(stepper));
-        MemoryRoll motion(cylinder, Geometry::approximate, rubber, bulge, 0.5, 0, options);
+        MemoryRoll motion(cylinder, Geometry::approximate, rubber, bulge, 0.5, 0, stepper, 1e-10);
         CHECK(std::abs(motion.stop_time() / stop - 1) < 1e-6);
       }
     }
@@ -114,7 +113,7 @@ TEST_CASE("MemoryRoll: rest is rest, and comes sooner with damping", "[rolling]"
     CHECK(stop > 2.5);
     // No later speed beyond v0/1000 if the integration went on: a law that is at rest later, at a
     // lower speed, shows it.
-    MemoryRoll longer(cylinder, geometry, rubber, {1e-3}, 0.5, 0);
+    MemoryRoll longer = roll({1e-3}, geometry);
     double fastest = 0;
     for (int i = 0; i < 200; ++i) {
       longer.seek(stop * (0.9 + i * 1e-3));
@@ -136,7 +135,7 @@ TEST_CASE("MemoryRoll: rest is rest, and comes sooner with damping", "[rolling]"
 
 TEST_CASE("MemoryRoll: shift and acceleration are those of the moving bulge", "[rolling]") {
   for (const Geometry geometry : {Geometry::approximate, Geometry::exact}) {
-    MemoryRoll motion(cylinder, geometry, {0.02, 0.215}, {5e-3, 5e-3}, 0.5, 0);
+    MemoryRoll motion = roll({5e-3, 5e-3}, geometry, {0.02, 0.215});
     for (const double t : {0.01, 0.1, 0.2, 0.35, 0.5}) {
       const double h = 1e-4;
       motion.seek(t - h);
@@ -168,7 +167,7 @@ TEST_CASE(
     "included",
     "[rolling]") {
   for (const Geometry geometry : {Geometry::approximate, Geometry::exact}) {
-    MemoryRoll motion(cylinder, geometry, {0.02, 0.215}, {1e-3}, 0.5, 0);
+    MemoryRoll motion = roll({1e-3}, geometry, {0.02, 0.215});
     const double energy = 0.5 * 1.5 * cylinder.m * 0.25, dt = 1e-5;
     double sum = 0, back = 0;
     for (int i = 0; i * dt < 1.5; ++i) {
@@ -184,23 +183,61 @@ TEST_CASE(
 }
 
 TEST_CASE("MemoryRoll: at rest from the start, never at rest, and refusals", "[rolling]") {
-  MemoryRoll rest(cylinder, Geometry::approximate, rubber, {1e-3}, 0, 0.3);
+  MemoryRoll rest = roll({1e-3}, Geometry::approximate, rubber, 0, 0.3);
   CHECK(rest.stop_time() == 0);
   rest.seek(5);
   CHECK((rest.velocity() == 0 && rest.position() == 0.3 && rest.shift() == 0));
-  MemoryRoll never(cylinder, Geometry::approximate, {1.87e-3, 2}, {1e-3}, 0.5, 0);
+  MemoryRoll never = roll({1e-3}, Geometry::approximate, {1.87e-3, 2});
   CHECK(std::isinf(never.stop_time()));
   never.seek(10);
   CHECK(never.velocity() > 0);
-  MemoryRoll swings(cylinder, Geometry::approximate, {1.87e-3, 2}, {5}, 0.5,
-                    0);  // so long a bulge that v has zeros all the same
+  // So long a bulge that v has zeros all the same.
+  MemoryRoll swings = roll({5}, Geometry::approximate, {1.87e-3, 2});
   swings.seek(1e8);
   CHECK((swings.velocity() != 0 && std::isinf(swings.stop_time())));
   CHECK_THROWS_AS(roll({0}), Error);
   CHECK_THROWS_AS(roll({std::nan("")}), Error);
   CHECK_THROWS_AS(roll({1e-3, -1}), Error);
-  CHECK_THROWS_AS(MemoryRoll(cylinder, Geometry::approximate, {1.87e-3, -0.1}, {1e-3}, 0.5, 0),
-                  Error);
-  CHECK_THROWS_AS(MemoryRoll(cylinder, Geometry::exact, {0.05, 0}, {1e-3}, 0.5, 0), Error);
-  CHECK_THROWS_AS(MemoryRoll(cylinder, Geometry::exact, rubber, {1e-3}, -0.5, 0), Error);
+  CHECK_THROWS_AS(roll({1e-3}, Geometry::approximate, {1.87e-3, -0.1}), Error);
+  CHECK_THROWS_AS(roll({1e-3}, Geometry::exact, {0.05, 0}), Error);
+  CHECK_THROWS_AS(roll({1e-3}, Geometry::exact, rubber, -0.5), Error);
+}
+
+TEST_CASE("MemoryRoll: the work is known before it begins, and refused where it is too much",
+          "[rolling]") {
+  // The number of swings that the estimate gives is that of the roll, to a factor of 4.
+  for (const double length : {1e-3, 1e-2, 0.1, 1.0, 10.0}) {
+    MemoryRoll motion = roll({length});
+    const double stop = motion.stop_time(),
+                 swings = memory_work(cylinder, rubber, {length}, 0.5, stop).swings;
+    int zeros = 0;
+    double before = 0.5;
+    const double dt = stop / (100 * swings);
+    for (double t = 0; t < stop; t += dt) {
+      motion.seek(t);
+      const double v = motion.velocity();
+      if ((v < 0) != (before < 0)) ++zeros;
+      before = v;
+    }
+    INFO("length " << length << " zeros " << zeros << " estimate " << swings);
+    CHECK((zeros < 4 * swings && zeros > swings / 4));
+  }
+  // An explicit solver is slow where the bulge is short, and is let do it.
+  MemoryRoll slow(cylinder, Geometry::approximate, rubber, {1e-6}, 0.5, 0, Stepper::rk8pd, 1e-6);
+  CHECK(std::abs(slow.stop_time() / roll({1e-6}).stop_time() - 1) < 1e-5);
+  const double lengths = memory_work(cylinder, rubber, {1e-6}, 0.5, 10).relaxations;
+  CHECK(std::abs(lengths - 0.5317e6) < 100);  // the way of simulate(1)
+  slow.seek(10);
+  const auto evaluations = static_cast<double>(slow.evaluations());
+  CHECK((evaluations > 2 * lengths && evaluations < 4 * lengths));
+  // No evaluation is spent on what is refused.
+  MemoryRoll never_done(cylinder, Geometry::approximate, rubber, {1e-9}, 0.5, 0, Stepper::rk8pd,
+                        1e-10);
+  CHECK_THROWS_AS(never_done.stop_time(), Error);
+  CHECK_THROWS_AS(never_done.seek(2), Error);
+  CHECK(never_done.evaluations() == 0);
+  MemoryRoll rings = roll({1e300});
+  CHECK_THROWS_AS(rings.stop_time(), Error);
+  rings.seek(1);  // the roll before it
+  CHECK(rings.evaluations() > 0);
 }

@@ -170,10 +170,6 @@ TEST_CASE("sonar: until, never stopping, at rest all the time, refusals", "[sens
     refused([&](SonarOptions& o) { o.resolution = value; });
     refused([&](SonarOptions& o) { o.noise = value; });
     refused([&](SonarOptions& o) { o.lost = value; });
-    refused([&](SonarOptions& o) { o.rest_before = value; });
-    refused([&](SonarOptions& o) { o.push = value; });
-    refused([&](SonarOptions& o) { o.rest_after = value; });
-    if (value != -1) refused([&](SonarOptions& o) { o.start = value; });
     if (!std::isinf(value)) refused([&](SonarOptions& o) { o.until = value; });
   }
   refused([](SonarOptions& o) { o.rate = 0; });

@@ -1,0 +1,135 @@
+#include "motion/trajectory.h"
+#include "unit/catch.h"
+#include "unit/fit/simulated.h"
+
+using namespace rolling;
+
+namespace {
+
+const Body cylinder{1.375, 0.04, 0.5};
+
+/// Positions every 40 ms with noise of 0.3 mm, down to the stop; way -1 towards falling x.
+FitRun roll(PowerLaw law, double slope, double way, simulated::Noise& noise) {
+  FitRun run{};
+  run.body = cylinder;
+  Body seen = cylinder;
+  seen.slope = way * slope;
+  const Trajectory truth(seen, Geometry::approximate, law, 0.5);
+  for (double t = 0; t < truth.stop_time(); t += 0.04) {
+    run.t.push_back(t);
+    run.x.push_back(way * (truth.at(t).x) + noise(3e-4));
+  }
+  return run;
+}
+
+constexpr PowerLaw rubber{1.87e-3, 0.215}, felt{5.75e-4, 0.0244};
+
+}  // namespace
+
+// Means of D, each of 7 records, with b held at 0: chi^2 and the errors are those of any textbook.
+TEST_CASE("agreement: the scatter of means, by hand", "[fit]") {
+  const double means[] = {5, 5.3, 4.6, 5.5};
+  const double off[] = {-0.1, 0.05, 0.1, -0.05, 0, 0.02, -0.02};  // sum 0, squares 0.0258
+  std::vector<FitRun> runs;
+  for (double mean : means) {
+    FitRun& run = runs.emplace_back();
+    for (double d : off) run.v.push_back(1), run.D.push_back(mean + d);
+  }
+  FitOptions options;
+  options.b = 0;
+  const auto r = fit(Route::shift, runs, options);
+  const double variance = 0.0258 / 6 / 7;  // of each mean
+  REQUIRE(r.agreement);
+  CHECK(r.agreement->dof == 3);
+  CHECK_FALSE(r.agreement->agree());
+  CHECK(r.agreement->run == 2);
+  CHECK(r.agreement->log_D.value < 0);
+  // The errors of ln a are those of a over each a: the mean of the logarithms, by the squares of a.
+  double weights = 0, sum = 0, chi2 = 0;
+  for (double mean : means) weights += mean * mean, sum += mean * mean * std::log(mean);
+  for (double mean : means) chi2 += std::pow(mean * (std::log(mean) - sum / weights), 2);
+  CHECK(std::abs(r.a - std::exp(sum / weights)) < 1e-9);
+  CHECK(std::abs(r.agreement->chi2 / (chi2 / variance) - 1) < 1e-9);
+  constexpr double t = 3.182446;  // Student, 0.975, 3 degrees of freedom
+  CHECK(std::abs(r.sigma_a / (t / 1.96 * r.a * std::sqrt(chi2 / 3 / weights)) - 1) < 1e-6);
+  CHECK(r.sigma_b == 0);
+
+  // Runs that agree have the errors of one fit.
+  for (std::size_t i = 0; i < 4; ++i)
+    for (double& D : runs[i].D) D += 5.1 - means[i];
+  const auto same = fit(Route::shift, runs, options);
+  CHECK(same.agreement->agree());
+  CHECK(same.agreement->chi2 < 1e-20);
+  CHECK(std::abs(same.sigma_a / std::sqrt(4 * 0.0258 / 27 / 28) - 1) < 1e-10);
+}
+
+TEST_CASE("agreement: of 1000 pairs of rolls under one law 1 % are said to disagree", "[fit]") {
+  simulated::Noise noise(31);
+  int alarms = 0;
+  for (int k = 0; k < 1000; ++k) {
+    std::vector<FitRun> runs;
+    for (int i = 0; i < 2; ++i) runs.push_back(roll(rubber, 0, 1, noise));
+    alarms += !fit(Route::position, runs, {}).agreement->agree();
+  }
+  CHECK(alarms >= 2);  // fewer or more by chance in 0.05 % and 0.07 %
+  CHECK(alarms <= 21);
+}
+
+TEST_CASE("agreement: a mat that is 1 mm a metre off level shows in two directions", "[fit]") {
+  simulated::Noise noise(32);
+  for (int k = 0; k < 20; ++k) {
+    const std::vector<FitRun> runs{roll(felt, 1e-3, 1, noise), roll(felt, 1e-3, -1, noise)};
+    const auto r = fit(Route::position, runs, {});
+    REQUIRE(r.agreement);
+    CHECK_FALSE(r.agreement->agree());
+    CHECK(r.agreement->run == 0);
+    // Up the slope the body seems to roll on a mat with (1 + K) R S/(1 + K) = R S more shift, down
+    // with as much less.
+    const double D = felt.a * std::pow(r.agreement->speed, felt.b), by_slope = 0.04 * 1e-3;
+    CHECK(std::abs(r.agreement->log_D.value - std::log((D + by_slope) / (D - by_slope))) < 0.01);
+    CHECK(std::abs(r.a - felt.a) < 1.96 * r.sigma_a);
+    CHECK(r.sigma_a < felt.a);
+    // With the slope as a parameter they agree; one degree of freedom is left.
+    FitOptions options;
+    options.fit_slope = true;
+    const auto level = fit(Route::position, runs, options);
+    CHECK(level.agreement->dof == 1);
+    if (k < 5) CHECK(level.agreement->significance > 1e-3);
+  }
+}
+
+TEST_CASE("agreement: the errors allow for 2 % of scatter from run to run", "[fit]") {
+  for (const auto& [law, count] : {std::pair(felt, 4), std::pair(rubber, 6)}) {
+    simulated::Noise noise(33);
+    int a = 0, b = 0, told = 0;
+    for (int k = 0; k < 200; ++k) {
+      std::vector<FitRun> runs;
+      for (int i = 0; i < count; ++i)
+        runs.push_back(roll({law.a * (1 + noise(0.02)), law.b}, 0, 1, noise));
+      const auto r = fit(Route::position, runs, {});
+      a += std::abs(r.a - law.a) < 1.96 * r.sigma_a;
+      b += std::abs(r.b - law.b) < 1.96 * r.sigma_b;
+      told += !r.agreement->agree();
+    }
+    CAPTURE(count, a, b);
+    CHECK(told == 200);
+    for (int covered : {a, b}) {
+      CHECK(covered >= 178);  // fewer of 95 % by chance in 0.02 %
+      CHECK(covered <= 199);
+    }
+  }
+}
+
+// What a run cannot tell by itself, it does not tell of agreement either.
+TEST_CASE("agreement: a run of two records has no say", "[fit]") {
+  simulated::Noise noise(34);
+  std::vector<FitRun> runs{roll(rubber, 0, 1, noise), roll(rubber, 0, 1, noise)};
+  for (auto* column : {&runs[1].t, &runs[1].x}) column->resize(2);
+  CHECK_FALSE(fit(Route::position, runs, {}).agreement);
+  CHECK_FALSE(fit(Route::position, {runs[0]}, {}).agreement);
+  runs.push_back(roll(rubber, 0, 1, noise));
+  const auto r = fit(Route::position, runs, {});
+  REQUIRE(r.agreement);
+  CHECK(r.agreement->runs == 2);
+  CHECK(r.agreement->dof == 2);
+}

@@ -1,0 +1,145 @@
+#include "base/error.h"
+#include "motion/trajectory.h"
+#include "unit/catch.h"
+#include "unit/fit/simulated.h"
+
+using namespace rolling;
+
+namespace {
+
+const Body cylinder{1.375, 0.04, 0.5};
+const BodyUncertainty given{.R = 2e-4, .K = 0.005, .g = 0.02};
+
+double share(const FitResult& r, const std::string& of, double ErrorShare::*part) {
+  for (const ErrorShare& s : r.shares)
+    if (s.of == of) return s.*part;
+  return -1;
+}
+
+/// A noisy roll on rubber as positions or speeds, or as shifts whose filters are known.
+FitRun record(Route route, unsigned seed) {
+  const auto truth = simulated::roll(cylinder, 1.87e-3, 0.215, 0.5);
+  simulated::Noise noise(seed);
+  FitRun run{};
+  for (int i = 0; i < 60; ++i) {
+    run.t.push_back(0.04 * i);
+    run.v.push_back(truth.v(0.04 * i) + noise(2e-3));
+    run.x.push_back(truth.x(0.04 * i) + noise(3e-4));
+  }
+  if (route == Route::shift || route == Route::loglog)
+    run = simulated::shifts(cylinder, run.t, run.x, 9, "x");
+  run.body = cylinder;
+  run.given = given;
+  if (run.shift_of) run.shift_of->given = given;
+  return run;
+}
+
+}  // namespace
+
+// With A = 1 only g/((1 + K) R) counts: D is proportional to (1 + K) R/g, on every route.
+TEST_CASE("given numbers: ln a moves by dK/(1 + K), dR/R and dg/g, b does not", "[fit]") {
+  for (Route route : {Route::loglog, Route::shift, Route::velocity, Route::position})
+    for (bool filters_known : {true, false}) {
+      FitRun run = record(route, 3);
+      if (!filters_known) run.filters.clear();
+      const auto r = fit(route, {run}, {});
+      run.given = {};
+      if (run.shift_of) run.shift_of->given = {};
+      const auto by_noise = fit(route, {run}, {});
+      CAPTURE(static_cast<int>(route), filters_known);
+      REQUIRE(r.shares.size() == 4);
+      REQUIRE(by_noise.shares.size() == 1);
+      const double K = 0.005 / 1.5, R = 2e-4 / 0.04, g = 0.02 / 9.81;
+      CHECK(std::abs(share(r, "K", &ErrorShare::a) / r.a / K - 1) < 1e-3);
+      CHECK(std::abs(share(r, "R", &ErrorShare::a) / r.a / R - 1) < 1e-3);
+      CHECK(std::abs(share(r, "g", &ErrorShare::a) / r.a / g - 1) < 1e-3);
+      for (const char* of : {"K", "R", "g"}) CHECK(share(r, of, &ErrorShare::b) < 1e-5 * r.sigma_b);
+      CHECK(share(r, "noise", &ErrorShare::a) == by_noise.sigma_a);
+      const double all = by_noise.sigma_a * by_noise.sigma_a + r.a * r.a * (K * K + R * R + g * g);
+      CHECK(std::abs(r.sigma_a / std::sqrt(all) - 1) < 1e-3);
+      CHECK(std::abs(r.corr * r.sigma_a / (by_noise.corr * by_noise.sigma_a) - 1) < 1e-3);
+      if (!r.v0.empty()) CHECK(std::abs(r.sigma_v0[0] / by_noise.sigma_v0[0] - 1) < 1e-5);
+    }
+}
+
+TEST_CASE("given numbers: runs of one body move together, those of two each by itself", "[fit]") {
+  std::vector<FitRun> runs{record(Route::position, 3), record(Route::position, 4)};
+  for (FitRun& run : runs) run.given = {.K = 0.005};
+  const auto one = fit(Route::position, runs, {});
+  REQUIRE(one.shares.size() == 2);
+  CHECK(std::abs(share(one, "K", &ErrorShare::a) / one.a / (0.005 / 1.5) - 1) < 1e-3);
+  // The same records, as if of two bodies that are all but the same: each moves about half.
+  runs[1].body.K = 0.5 + 1e-9;
+  const auto two = fit(Route::position, runs, {});
+  REQUIRE(two.shares.size() == 3);
+  CHECK(std::abs((two.shares[1].a + two.shares[2].a) / one.shares[1].a - 1) < 1e-2);
+  CHECK(two.shares[1].a > 0.3 * one.shares[1].a);
+  CHECK(two.shares[2].a > 0.3 * one.shares[1].a);
+}
+
+TEST_CASE("given numbers: what is held fixed has no error from them", "[fit]") {
+  FitOptions options;
+  options.a = 1.87e-3;
+  const auto r = fit(Route::position, {record(Route::position, 3)}, options);
+  CHECK(r.sigma_a == 0);
+  CHECK(r.corr == 0);
+  CHECK(r.sigma_b > share(r, "noise", &ErrorShare::b));
+}
+
+// The records are those of the nominal body; the fits take its numbers from their distributions.
+TEST_CASE("given numbers: errors and correlation are those of Monte Carlo draws", "[fit]") {
+  Body body = cylinder;
+  body.slope = 0.002;
+  const PowerLaw law{1.87e-3, 0.215};
+  const BodyUncertainty u{.R = 4e-4, .K = 0.01, .g = 0.01, .slope = 3e-4};
+  const Trajectory truth(body, Geometry::exact, law, 0.5);
+  FitOptions options;
+  options.geometry = Geometry::exact;
+  options.start_a = law.a;
+  options.start_b = law.b;
+  simulated::Noise noise(8);
+  constexpr int draws = 2000;
+  double a = 0, b = 0, aa = 0, bb = 0, ab = 0, v0 = 0, v0v0 = 0;
+  std::vector<FitResult> with_errors;
+  for (int k = 0; k < draws; ++k) {
+    FitRun run{};
+    run.body = body;
+    for (double t = 0; t < 0.9 * truth.stop_time(); t += 0.05) {
+      run.t.push_back(t);
+      run.x.push_back(truth.at(t).x + noise(3e-4));
+    }
+    if (k % 100 == 0) {
+      run.given = u;
+      with_errors.push_back(fit(Route::position, {run}, options));
+      run.given = {};
+    }
+    run.body.K += noise(u.K);
+    run.body.R += noise(u.R);
+    run.body.g += noise(u.g);
+    run.body.slope += noise(u.slope);
+    const auto r = fit(Route::position, {run}, options);
+    const double da = r.a - law.a, db = r.b - law.b, dv = r.v0[0] - 0.5;
+    a += da, b += db, v0 += dv;
+    aa += da * da, bb += db * db, ab += da * db, v0v0 += dv * dv;
+  }
+  const auto moment = [](double xy, double x, double y) { return (xy - x * y / draws) / draws; };
+  const double sd_a = std::sqrt(moment(aa, a, a)), sd_b = std::sqrt(moment(bb, b, b)),
+               sd_v0 = std::sqrt(moment(v0v0, v0, v0)), corr = moment(ab, a, b) / (sd_a * sd_b);
+  double sigma_a = 0, sigma_b = 0, sigma_v0 = 0, reported = 0;
+  for (const FitResult& r : with_errors) {
+    const double n = static_cast<double>(with_errors.size());
+    sigma_a += r.sigma_a / n;
+    sigma_b += r.sigma_b / n;
+    sigma_v0 += r.sigma_v0[0] / n;
+    reported += r.corr / n;
+  }
+  // A spread of 2000 draws scatters by 1.6 %.
+  CAPTURE(sigma_a, sd_a, sigma_b, sd_b, reported, corr, sigma_v0, sd_v0);
+  CHECK(std::abs(sigma_a / sd_a - 1) < 0.06);
+  CHECK(std::abs(sigma_b / sd_b - 1) < 0.06);
+  CHECK(std::abs(sigma_v0 / sd_v0 - 1) < 0.06);
+  CHECK(std::abs(reported - corr) < 0.03);
+  // No given number is a trifle here.
+  for (const char* of : {"K", "R", "slope"})
+    CHECK(share(with_errors[0], of, &ErrorShare::a) > 0.2 * sigma_a);
+}

@@ -1,0 +1,28 @@
+#include "fit/parameters.h"
+
+#include "unit/catch.h"
+
+using namespace rolling;
+
+TEST_CASE("parameters: a run by itself has the law, v0 and x0 that it has among others", "[fit]") {
+  for (bool fit_slope : {false, true})
+    for (bool hold_a : {false, true}) {
+      FitOptions options;
+      options.fit_slope = fit_slope;
+      if (hold_a) options.a = 2e-3;
+      const Parameters all(options, true, 3, 0.25, 2), one = all.of_one_run();
+      auto theta = all.theta({2e-3, 0.3}, {0.4, 0.5, 0.6}, {1, 2, 3});
+      REQUIRE(theta.size() == all.count());
+      if (fit_slope) theta.back() = 1.5;
+      CHECK(all.slope(theta, 7) == (fit_slope ? 1.5e-3 : 7));
+      for (std::size_t r = 0; r < 3; ++r) {
+        const auto own = all.theta_of_run(theta, r);
+        REQUIRE(own.size() == one.count());
+        CHECK(one.v0(own, 0) == all.v0(theta, r));
+        CHECK(one.x0(own, 0) == all.x0(theta, r));
+        CHECK(one.law(own).a == all.law(theta).a);
+        CHECK(one.law(own).b == all.law(theta).b);
+        CHECK(one.slope(own, 7) == 7);
+      }
+    }
+}
