@@ -14,7 +14,7 @@ for tool in $tools; do
     long=${option##*,}
     names[$long]+="$tool "
     case $type in
-      NUMBER | NUMBER,... | N)
+      NUMBER | NUMBER,... | N | 'S|fit')
         for value in "${values[@]}"; do
           [[ $type != NUMBER,* || $value != *' '* ]] || continue  # a list may have blanks around its numbers
           attempt "$tool" "$long" "$value" $operand

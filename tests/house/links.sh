@@ -6,12 +6,13 @@ unset CDPATH
 cd "$(dirname "$0")/../.." || exit 2
 command -v ldd >/dev/null || { echo "skipped: no ldd (package libc-bin)" && exit 77; }
 wrong=0
-for tool in smooth differentiate shift-from-accel energy-ledger; do
+for tool in smooth differentiate shift-from-accel; do
   libraries=$(ldd "bin/$tool") || { echo "bin/$tool: ldd does not read it" && exit 1; }
   grep -q 'libc\.so' <<<"$libraries" || { echo "bin/$tool: no libc among: $libraries" && wrong=1; }
   if grep -i gsl <<<"$libraries"; then echo "bin/$tool depends on GSL" && wrong=1; fi
 done
-# The look itself works: fitpower, which fits with GSL, shows it.
+# The look itself works: fitpower, which takes probabilities from GSL, shows it. energy-ledger and
+# simulate interpolate the table of a law with it.
 ldd bin/fitpower | grep -q libgsl ||
   { echo "bin/fitpower does not depend on GSL: is it linked in, and into the others too?" && wrong=1; }
 exit $wrong

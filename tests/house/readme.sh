@@ -3,7 +3,7 @@
 # `tests/house/readme.sh refresh` writes there what they print today: read the diff.
 set -u
 export LC_ALL=C
-unset CDPATH
+unset CDPATH MAKEFLAGS MFLAGS  # what make says of its own parallel runs is no output of an example
 cd "$(dirname "$0")/../.." || exit 2
 export PATH="$PWD/bin:$PATH"
 readme=$PWD/README.md

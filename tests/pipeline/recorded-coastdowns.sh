@@ -22,7 +22,11 @@ shifts() { kart "$1" | smooth -w 11 | differentiate | shift-from-accel -K 0 -R 0
 fit kart --route velocity -K 0 -R 0.15 "$scratch/kart"
 { shifts A | fitpower -q; kart A | fitpower -q --route velocity -K 0 -R 0.15; } |
   awk '!/^#/ { b[++n] = $3; s[n] = $4 } END { d = b[1] - b[2]; exit !(n == 2 && d * d < 9 * (s[1]^2 + s[2]^2)) }' || complain "kart: the routes do not agree"
-for way in A B; do shifts $way | energy-ledger -m 76 -K 0 -R 0.15 --summary --check 0.01 >/dev/null || complain "kart $way: the balance does not close"; done
+# Records come once a second, so that at a moment the balance is less exact than at the end.
+for way in A B; do
+  shifts $way | energy-ledger -q -m 76 -K 0 -R 0.15 --summary --check 0.02 |
+    awk '!/^#/ { exit !($4 * $4 < 1e-4) }' || complain "kart $way: the balance does not close"
+done
 grep -q 'v^b is adequate' "$scratch/kart.report" ||
   complain "kart: the law of the trajectory is not adequate"
 # The two directions on one street: with a slope shared by both the fit is better by far, and both directions have a and b in
