@@ -5,6 +5,7 @@
 
 #include "cli/fit_report.h"
 #include "cli/history.h"
+#include "signal/repeats.h"
 #include "text/estimate.h"
 
 using namespace rolling;
@@ -25,6 +26,17 @@ void set_parameters(const std::string& option, const std::vector<std::string>& s
       fail("{}: '{}' comes after another for {}", option, shown(setting), parameter->first);
     *parameter->second = value;
   }
+}
+
+/// Readings that a logger held count as often as they stand there: the fit takes them for new ones.
+void warn_of_held(Tool& tool, const std::string& name, Route route, const FitRun& run) {
+  const bool position = route == Route::position;
+  const double held = records_held(position ? run.x : run.v);
+  if (held > 1)
+    tool.warn(fmt::format(
+        "run {}: {} repeat: each stands in {:.2g} records on average; keep only the record "
+        "in which a new one comes",
+        name, position ? "positions" : "speeds", held));
 }
 
 struct Runs {
@@ -66,7 +78,10 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, bool all_c
     for (const auto& [slot, column] : needed) (run.*column).reserve(room);
     while (in.next())
       for (const auto& [slot, column] : needed) (run.*column).push_back(in[slot]);
+    warn_of_held(tool, all.names.back(), route, run);
     History history = history_of(in.history(), run.t);
+    if (in.renames() && !history.filters.empty())
+      history = {{}, {}, "--use takes other columns than its `##` lines speak of"};
     run.shift_of = history.shift_of;
     history = compared(std::move(history), run);
     run.filters = std::move(history.filters);
@@ -183,6 +198,13 @@ struct Table {
   }
 };
 
+/// The columns of a file without names. Who says where t is, and no route, means a trajectory: then
+/// no column counts as v and D by its place.
+std::vector<std::string> order_without_names(std::optional<Route> given, bool times_given) {
+  if (!given && times_given) return {};
+  return columns_of(given.value_or(Route::shift));
+}
+
 /// The route without --route, by the columns of the input.
 Route default_route(const Reader& in) {
   return in.find("D") ? Route::shift : in.find("v") ? Route::velocity : Route::position;
@@ -223,7 +245,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     set_parameters(options, fixed, start);
-    Reader& in = tool.read(columns_of(given_route.value_or(Route::shift)));
+    Reader& in = tool.read(order_without_names(given_route, tool.used("t")));
     const Route route = given_route ? *given_route : default_route(in);
     options.possible_filters = filters_of_sensors();
     options.fit_slope = slope_text == "fit";

@@ -12,6 +12,7 @@
 #include "signal/smoother.h"
 #include "text/column.h"
 #include "text/estimate.h"
+#include "text/filter.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -104,6 +105,7 @@ class Chain {
     const auto words = split_names(line, '\0');
     if (words.size() < 2) return true;
     const std::span<const std::string> rest = std::span(words).subspan(1);
+    if (line == columns_renamed) return unknown();
     if (words[0] == "smooth") return smooth(line, rest);
     if (words[0] == "differentiate") return filter(line, derivative_methods, rest, true);
     if (words[0] == "shift-from-accel") {

@@ -23,6 +23,13 @@ class RowColumn {
   std::size_t slot_;
 };
 
+/// A column of a row of fitpower that has no unit.
+std::size_t need_number(Reader& in, const std::string& name) {
+  if (const Column& column = in.columns()[*in.find(name)]; !column.unit.empty())
+    fail("column '{}': {} is a number without a unit", shown(to_text(column)), name);
+  return in.need_as_is(name);
+}
+
 }  // namespace
 
 std::optional<TableLaw> read_law(Tool& tool, const std::string& file, PowerLaw& law, double& slope,
@@ -30,9 +37,9 @@ std::optional<TableLaw> read_law(Tool& tool, const std::string& file, PowerLaw& 
   Reader& in = tool.read_file(file, {"v", "D"});
   if (in.find("a") && in.find("b")) {
     const RowColumn a(in, "a", "D");
-    const auto b = in.need_as_is("b");
+    const auto b = need_number(in, "b");
     std::optional<std::size_t> slope_slot;
-    if (in.find("slope")) slope_slot = in.need_as_is("slope");
+    if (in.find("slope")) slope_slot = need_number(in, "slope");
     std::optional<RowColumn> speed;
     if (v0 && in.find("v0")) speed.emplace(in, "v0", "v");
     if (!in.next_run() || !in.next()) fail("{}: no row of fitpower", shown(file));

@@ -263,6 +263,11 @@ void Tool::take_scene() {
   }
 }
 
+bool Tool::used(const std::string& quantity) const {
+  return std::any_of(input_.use.begin(), input_.use.end(),
+                     [&](const std::string& use) { return use.starts_with(quantity + '='); });
+}
+
 Reader& Tool::read(std::vector<std::string> order) {
   const bool standard_input =
       input_.files.empty() ||

@@ -73,7 +73,9 @@ class Tool {
   void geometry(Geometry&);  ///< --exact
   void scene();              ///< --scene, whose keys are listed in scene.cpp
   void input();              ///< operands, --use --run --strict
-  void output();             ///< --digits -u
+  /// Whether --use says which column this quantity is.
+  bool used(const std::string& quantity) const;
+  void output();  ///< --digits -u
 
   /// Parses the command line, runs `work` and flushes the output. Returns the exit status: that of
   /// `work`, 1 after check_failed(), or 2 after an error, which is one line on standard error.

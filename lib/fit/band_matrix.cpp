@@ -3,13 +3,28 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 
 namespace rolling {
 
 BandMatrix BandMatrix::identity(std::size_t n) {
   BandMatrix I;
-  for (std::size_t i = 0; i < n; ++i) I.append(i, std::vector<double>{1});
+  I.reserve(n, n);
+  constexpr double one = 1;
+  for (std::size_t i = 0; i < n; ++i) I.append(i, {&one, 1});
   return I;
+}
+
+bool BandMatrix::is_identity() const {
+  for (std::size_t i = 0; i < rows(); ++i)
+    if (row(i).size() != 1 || first_[i] != i || row(i)[0] != 1) return false;
+  return true;
+}
+
+void BandMatrix::reserve(std::size_t rows, std::size_t numbers) {
+  first_.reserve(rows);
+  start_.reserve(rows + 1);
+  values_.reserve(numbers);
 }
 
 void BandMatrix::append(std::size_t first, std::span<const double> values) {
@@ -47,16 +62,27 @@ std::vector<double> BandMatrix::transposed_times(std::span<const double> x) cons
 }
 
 BandMatrix BandMatrix::operator*(const BandMatrix& B) const {
-  BandMatrix product;
-  std::vector<double> sum;
-  for (std::size_t i = 0; i < rows(); ++i) {
-    const auto r = row(i);
+  // The columns that row i of the product reaches.
+  const auto reach = [&](std::size_t i) {
     std::size_t from = B.rows() ? SIZE_MAX : 0, to = 0;
-    for (std::size_t k = first_[i]; k < first_[i] + r.size(); ++k) {
+    for (std::size_t k = first_[i]; k < first_[i] + row(i).size(); ++k) {
       if (B.row(k).empty()) continue;
       from = std::min(from, B.first(k));
       to = std::max(to, B.first(k) + B.row(k).size());
     }
+    return std::pair(from, to);
+  };
+  std::size_t numbers = 0;
+  for (std::size_t i = 0; i < rows(); ++i) {
+    const auto [from, to] = reach(i);
+    numbers += to > from ? to - from : 0;
+  }
+  BandMatrix product;
+  product.reserve(rows(), numbers);
+  std::vector<double> sum;
+  for (std::size_t i = 0; i < rows(); ++i) {
+    const auto r = row(i);
+    const auto [from, to] = reach(i);
     sum.assign(to > from ? to - from : 0, 0);
     for (std::size_t k = 0; k < r.size(); ++k) {
       const auto b = B.row(first_[i] + k);

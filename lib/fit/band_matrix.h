@@ -9,13 +9,19 @@ namespace rolling {
 
 class BandMatrix {
  public:
+  BandMatrix() = default;
+  /// At least so many columns, though no row should reach the last of them.
+  explicit BandMatrix(std::size_t columns) : columns_(columns) {}
   static BandMatrix identity(std::size_t n);
+  bool is_identity() const;
+  /// Makes room for so many rows of so many numbers in all.
+  void reserve(std::size_t rows, std::size_t numbers);
   /// Appends a row; zeros at either end of it are not stored.
   void append(std::size_t first, std::span<const double> values);
   /// Appends row i of X times x plus row i of Y times y.
   void append(std::size_t i, double x, const BandMatrix& X, double y, const BandMatrix& Y);
   std::size_t rows() const { return first_.size(); }
-  /// One more than the last column that a row reaches.
+  /// One more than the last column that a row reaches, or more.
   std::size_t columns() const { return columns_; }
   std::size_t first(std::size_t i) const { return first_[i]; }
   std::span<const double> row(std::size_t i) const {

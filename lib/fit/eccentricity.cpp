@@ -100,12 +100,12 @@ class Periodogram {
   }
 
   bool worth() const {
+    if (f_.size() < 30 || !(steps_.way >= 2 * std::numbers::pi * R_)) return false;
     const double fastest = *std::max_element(steps_.v.begin(), steps_.v.end());
     double longest = 0;
     for (std::size_t i = 1; i < seen_.t.size(); ++i)
       longest = std::max(longest, seen_.t[i] - seen_.t[i - 1]);
-    return f_.size() >= 30 && steps_.way >= 2 * std::numbers::pi * R_ &&
-           fastest * longest < std::numbers::pi * R_;
+    return fastest * longest < std::numbers::pi * R_;
   }
 
   /// For the period 2 pi R times `stretch`.
@@ -153,7 +153,7 @@ class Periodogram {
 }  // namespace
 
 std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRun>& runs,
-                                            const Fitted& fit, double whiteness) {
+                                            const Fitted& fit) {
   constexpr double decisive = 0.01;
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
                     q = fit.system.columns();
@@ -176,8 +176,7 @@ std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRu
         (found && found->significance < once_a_turn.significance))
       continue;
     const double near = std::min(spectrum.at(0.7).significance, spectrum.at(1.4).significance);
-    if (once_a_turn.significance < (whiteness <= decisive ? 1e-4 * near : near))
-      found = once_a_turn;
+    if (once_a_turn.significance < near) found = once_a_turn;
   }
   return found;
 }

@@ -13,10 +13,8 @@ namespace rolling {
 /// taken as white before the filters.
 ///
 /// None if no run shows it at 1 % (after Bonferroni), or another period near by explains as much:
-/// then it is something else that the law does not follow. Where the noise is not white at 1 %
-/// (`whiteness` as in FitResult), its significance has to be 10^4 times better than theirs. Runs of
-/// less than one turn, or with less than two records a turn, are not looked at.
-std::optional<Eccentricity> eccentricity_of(Route, const std::vector<FitRun>&, const Fitted&,
-                                            double whiteness);
+/// then it is something else that the law does not follow. Runs of less than one
+/// turn, or with less than two records a turn, are not looked at.
+std::optional<Eccentricity> eccentricity_of(Route, const std::vector<FitRun>&, const Fitted&);
 
 }  // namespace rolling

@@ -133,9 +133,8 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   return fit;
 }
 
-Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows,
-                 const Making& making, const FitOptions& options,
-                 std::optional<double> white_share) {
+Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows, Making making,
+                 const FitOptions& options, std::optional<double> white_share) {
   Fitted fit{};
   fit.noise_inferred = white_share.has_value();
   fit.white_share = white_share.value_or(floor_share);
@@ -152,6 +151,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       guess = making.known() ? first_guess(without_filters(route, runs, all, rows), options)
                              : first_guess(runs, options);
     }
+    if (options.min_speed <= 0) making = {};  // no other round: these matrices are large
     find_minimum(fit, std::move(runs), *guess, options);
     guess->theta = fit.minimum.theta;
     if (options.min_speed <= 0 ||
@@ -165,10 +165,6 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
   return fit;
 }
 
-namespace {
-
-/// The records that a route can fit to a roll: all that are there. Those of a shift need no v > 0:
-/// to choose by noisy speeds would choose by their noise.
 std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
   std::vector<Rows> rows;
   for (const FitRun& run : all) {
@@ -181,12 +177,15 @@ std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
   return rows;
 }
 
+namespace {
+
 Fitted fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOptions& options) {
-  const Making making = making_of(route, all);
+  Making making = making_of(route, all);
+  const bool known = making.known();
   const auto rows = usable(route, all);
-  Fitted fit = fit_rolls(route, all, rows, making, options);
-  if (route == Route::velocity && !making.known() && !options.robust &&
-      !options.possible_filters.empty() && fit.minimum.f.size() >= 30)
+  Fitted fit = fit_rolls(route, all, rows, std::move(making), options);
+  if (route == Route::velocity && !known && !options.robust && !options.possible_filters.empty() &&
+      fit.minimum.f.size() >= 30)
     if (auto differences = fit_differences(all, rows, options, fit)) return *std::move(differences);
   return fit;
 }
@@ -272,7 +271,7 @@ void require_determined(const FitResult& result, bool with_slope) {
 FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   Fitted found = fit_route(route, runs, options);
   NoiseErrors noise = noise_errors(found, uncertainty_of(found));
-  const auto eccentricity = eccentricity_of(route, runs, found, noise.whiteness);
+  const auto eccentricity = eccentricity_of(route, runs, found);
   const auto agreement = agreement_of(route, runs, options, noise, found);
   require_determined(result_of(found, noise, {}), options.fit_slope);
   FitResult result = result_of(found, noise, moved_by_given(route, runs, options, found));

@@ -52,10 +52,14 @@ void require_records(std::size_t n, std::size_t p);
 
 Fitted fit_route(Route, const std::vector<FitRun>&, const FitOptions&);
 
+/// The records that a route can fit to a roll: all that are there. Those of a shift need no v > 0:
+/// to choose by noisy speeds would choose by their noise.
+std::vector<Rows> usable(Route, const std::vector<FitRun>&);
+
 /// A fit of a roll: position, velocity, and shift with known filters (`making`). With `white_share`
 /// the filters are inferred, and so much of their noise is white.
-Fitted fit_rolls(Route, const std::vector<FitRun>&, std::vector<Rows>, const Making&,
-                 const FitOptions&, std::optional<double> white_share = {});
+Fitted fit_rolls(Route, const std::vector<FitRun>&, std::vector<Rows>, Making, const FitOptions&,
+                 std::optional<double> white_share = {});
 
 /// The fit of one run of a fit of rolls by itself: the same records with the same weights, the
 /// slope of the mat held at that of all runs.

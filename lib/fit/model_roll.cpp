@@ -17,12 +17,17 @@ const char* column_of(Route route) {
 /// The rows of H for the fitted records, and for shifts one for the mean of their speeds: D alone
 /// hardly depends on v0.
 Noise::Matrix filters_of_rows(const Response& response, Route route, const Rows& rows) {
+  const Noise::Matrix& all = response.of.at(column_of(route));
+  const BandMatrix& of = *all;
+  if (route != Route::shift && rows.size() == of.rows()) return all;
+  std::size_t numbers = route == Route::shift ? response.t.size() : 0;
+  for (std::size_t i : rows) numbers += of.row(i).size();
   BandMatrix H;
-  const BandMatrix& of = response.of.at(column_of(route));
+  H.reserve(rows.size() + 1, numbers);
   for (std::size_t i : rows) H.append(of.first(i), of.row(i));
   if (route == Route::shift) {
     std::vector<double> mean(response.t.size());
-    const BandMatrix& of_v = response.of.at("v");
+    const BandMatrix& of_v = *response.of.at("v");
     for (std::size_t i : rows)
       for (std::size_t k = 0; k < of_v.row(i).size(); ++k)
         mean[of_v.first(i) + k] += of_v.row(i)[k] / static_cast<double>(rows.size());

@@ -232,7 +232,8 @@ void carry_noise(Fitted& line, const ShiftRecords& records, const std::vector<Fi
   const double b = line.b.value;
   Fitted roll;
   try {
-    roll = fit_rolls(Route::shift, all, records.rows, making, options);
+    // Of all records: those with D > 0 alone would be chosen by their noise.
+    roll = fit_rolls(Route::shift, all, usable(Route::shift, all), making, options);
   } catch (const Error&) {  // there is no such roll
     return;
   }
@@ -247,15 +248,15 @@ void carry_noise(Fitted& line, const ShiftRecords& records, const std::vector<Fi
       raw.push_back(run.raw_is_position ? s.x : s.v);
     }
     const auto& of = making.responses[r].of;
-    BandMatrix E;
+    BandMatrix E(run.H->columns());
     for (std::size_t i : records.rows[r]) {
-      const double a_i = -of.at("D").times(i, raw), v_i = of.at("v").times(i, raw);
+      const double a_i = -of.at("D")->times(i, raw), v_i = of.at("v")->times(i, raw);
       const double by_D = a_i > 0 ? 1 / a_i : 1e100, by_v = v_i > 0 ? b / v_i : 0;
       BandMatrix one;
-      one.append(i, by_D, of.at("D"), by_v, of.at("v"));
+      one.append(i, by_D, *of.at("D"), by_v, *of.at("v"));
       const double s = std::sqrt(variance) * row_norms(one)[0],
                    shrink = s > 0 && std::isfinite(s) ? spread_of_logarithm(s) / s : 0;
-      E.append(i, by_D * shrink, of.at("D"), by_v * shrink, of.at("v"));
+      E.append(i, by_D * shrink, *of.at("D"), by_v * shrink, *of.at("v"));
     }
     matrices.push_back(std::make_shared<const BandMatrix>(std::move(E)));
   }

@@ -33,6 +33,7 @@ BandMatrix probe(const LinearFilter& filter, std::span<const double> t) {
     }
   }
   BandMatrix L;
+  L.reserve(n, all.size());
   for (std::size_t i = 0; i < n; ++i)
     L.append(span_of(i).first, std::span(all).subspan(start[i], start[i + 1] - start[i]));
   return L;
@@ -59,7 +60,8 @@ Response response_of(const FilterChain& chain, std::span<const double> t) {
   std::size_t still_before = before, still_after = after;
   reach = 0;
   response.source = chain.front().from;
-  response.of.emplace(response.source, BandMatrix::identity(present.size()));
+  response.of.emplace(response.source,
+                      std::make_shared<const BandMatrix>(BandMatrix::identity(present.size())));
   for (const auto& filter : chain) {
     const auto input = response.of.find(filter.from);
     if (input == response.of.end())
@@ -68,12 +70,16 @@ Response response_of(const FilterChain& chain, std::span<const double> t) {
     const std::size_t first = filter.cut_begin && n > 1 ? still_before - (before - reach) : 0,
                       last = filter.cut_end && n > 1 ? still_after - (after - reach) : 0;
     if (first + last > 0) {
-      for (auto& [name, matrix] : response.of) matrix = matrix.without(first, last);
+      for (auto& [name, matrix] : response.of)
+        matrix = std::make_shared<const BandMatrix>(matrix->without(first, last));
       present = present.subspan(first, present.size() - first - last);
       still_before -= first;
       still_after -= last;
     }
-    response.of.insert_or_assign(filter.to, probe(filter, present) * input->second);
+    BandMatrix L = probe(filter, present);
+    response.of.insert_or_assign(
+        filter.to,
+        L.is_identity() ? input->second : std::make_shared<const BandMatrix>(L * *input->second));
     reach += filter.reach;
   }
   return response;

@@ -5,6 +5,7 @@
 #include "fit/filter.h"
 
 #include <map>
+#include <memory>
 #include <string>
 
 namespace rolling {
@@ -17,8 +18,9 @@ struct Response {
   std::string source;     ///< the raw column; its noise is taken as white
   std::vector<double> t;  ///< times of the raw records: the run's, and those that were cut away
                           ///< after filters had used them
-  std::map<std::string, BandMatrix> of;  ///< each column, the source included: a row for each
-                                         ///< record of the run
+  /// Each column, the source included: a row for each record of the run. Two names of one column
+  /// share their matrix.
+  std::map<std::string, std::shared_ptr<const BandMatrix>> of;
 };
 
 /// Records that were cut away are taken as spaced like those at that end of the run. Throws Error

@@ -161,6 +161,16 @@ std::string_view si_unit(std::string_view quantity) {
   return q ? q->units.front().name : std::string_view();
 }
 
+UnitKind unit_kind(std::string_view text) {
+  if (text.size() > 2 && (text.front() == '[' || text.front() == '('))
+    text = trim(text.substr(1, text.size() - 2));
+  const std::string listed = listed_unit(plain_unit(std::string(text)));
+  for (const KnownQuantity& q : quantities)
+    for (const Unit& unit : q.units)
+      if (unit.name == listed) return unit.to_si.changes() ? UnitKind::other : UnitKind::si;
+  return UnitKind::none;
+}
+
 Conversion conversion_to_si(std::string_view quantity, const Column& column) {
   const KnownQuantity* q = known(quantity);
   if (!q || column.unit.empty()) return {};

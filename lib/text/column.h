@@ -37,6 +37,10 @@ std::string to_text(const Column&);
 /// on if that name exists too.
 std::string free_name(const std::vector<Column>&, std::string name);
 
+/// Whether a text is a unit, perhaps in brackets, in which t, x, v, a or D can be read.
+enum class UnitKind { none, si, other };
+UnitKind unit_kind(std::string_view text);
+
 /// The SI unit of a known quantity (t, x, v, a, D); empty for any other name.
 std::string_view si_unit(std::string_view quantity);
 

@@ -58,6 +58,7 @@ void Filter::take_head() {
   Row& row = rows_.emplace_back(Row{Kind::head, 0, 0, 0, records_});
   std::string text;
   for (const std::string& comment : in_.comments()) (text += comment) += '\n';
+  if (in_.renames() && !in_.history().empty()) text += fmt::format("## {}\n", columns_renamed);
   row.first = row.last = text.size();
   text += names_line(columns());
   row.size = text.size();

@@ -19,6 +19,10 @@
 
 namespace rolling {
 
+/// The `##` line of a filter for which --use has given another column the name that lines above it
+/// speak of.
+inline constexpr std::string_view columns_renamed = "columns renamed";
+
 class Filter {
  public:
   /// `history` is the `##` line, without the marks, that says what this filter does. If it is not

@@ -25,6 +25,7 @@ class HeadReader {
  private:
   bool find_record();
   void take_history();
+  void forget_history();
   void check_bytes() const;
   bool is_record(std::string_view line);
   bool is_missing_record(std::string_view line);
@@ -32,6 +33,8 @@ class HeadReader {
   enum class Proof { known, known_or_tabs, none };
   std::vector<std::string> take_commented_names(std::size_t width, Proof);
   void refuse_other_names(std::size_t width) const;
+  void refuse_units(const std::vector<std::string>& fields, std::size_t line) const;
+  void refuse_lines_of_units(std::size_t width) const;
   std::vector<Column> known_columns() const;
 
   struct Line {
@@ -66,11 +69,22 @@ void HeadReader::take_history() {
   const std::string_view line = trim(lines_.text()), text = trim(line.substr(2));
   if (text.starts_with("run ")) {
     head_.run = trim(text.substr(4));
+    forget_history();
     return;
   }
   head_.history.emplace_back(text);
   head_.comments.emplace_back(line);
   numbers_.push_back(lines_.number());
+}
+
+/// What stands above the line that names the run is that of a run without records.
+void HeadReader::forget_history() {
+  head_.history.clear();
+  for (std::size_t i = head_.comments.size(); i-- > 0;) {
+    if (!head_.comments[i].starts_with("##")) continue;
+    head_.comments.erase(head_.comments.begin() + static_cast<std::ptrdiff_t>(i));
+    numbers_.erase(numbers_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
 }
 
 /// True for a first record with missing readings: a field is NaN, which is no name of a column; or
@@ -87,11 +101,14 @@ bool HeadReader::is_missing_record(std::string_view line) {
     const auto last = before_->blank_end ? fields.end() - 1 : fields.end();
     return width == before_->layout.width && std::any_of(fields.begin(), last, is_blank_field);
   }
-  if (!all_blank || before_) return all_blank;
-  if (preamble_.empty())
-    return std::any_of(head_.comments.begin(), head_.comments.end(), [&](const auto& comment) {
-      return !names_in_comment(comment, width, {}).names.empty();
-    });
+  if (before_) return all_blank;
+  if (preamble_.empty())  // blanks under the names of a comment; beside text, if these are certain
+    return std::any_of(fields.begin(), fields.end(), is_blank_field) &&
+           std::any_of(head_.comments.begin(), head_.comments.end(), [&](const auto& comment) {
+             const auto [names, tabs, is_known] = names_in_comment(comment, width, {});
+             return !names.empty() && (all_blank || tabs || is_known);
+           });
+  if (!all_blank) return false;
   const auto names = names_in(preamble_.back().text, dialect_);
   return names.size() == width &&
          std::none_of(names.begin(), names.end(),
@@ -164,6 +181,28 @@ void HeadReader::refuse_other_names(std::size_t width) const {
   }
 }
 
+void HeadReader::refuse_units(const std::vector<std::string>& fields, std::size_t line) const {
+  bool all_units = true, other = false;
+  for (const std::string& field : fields) {
+    const UnitKind kind = unit_kind(field);
+    all_units = all_units && (field.empty() || kind != UnitKind::none);
+    other = other || kind == UnitKind::other;
+  }
+  if (all_units && other)
+    fail<InputError>("{}:{}: a line of units: put each behind the name of its column, as in t[ms]",
+                     lines_.name(), line);
+}
+
+/// Units in a line of their own are not read, and nothing is read as SI when a line says otherwise.
+void HeadReader::refuse_lines_of_units(std::size_t width) const {
+  if (width < 2) return;
+  for (std::size_t i = 0; i < head_.comments.size(); ++i)
+    refuse_units(names_in_comment(head_.comments[i], width, {}).names, numbers_[i]);
+  for (const Line& line : preamble_)
+    if (const auto fields = names_in(line.text, dialect_); fields.size() == width)
+      refuse_units(fields, line.number);
+}
+
 /// The names of `width` columns; empty if there are none here.
 std::vector<std::string> HeadReader::take_names(std::size_t width) {
   const bool blank_end = dialect_.split(lines_.text()).back().text.empty();
@@ -200,6 +239,7 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
   const auto fields = dialect_.split(lines_.text());
   const std::size_t width = fields.size();
   const bool blank_field = fields.back().text.empty();
+  refuse_lines_of_units(width);
   const auto names = take_names(width);
   if (names.empty() && before_) {
     head_.named = before_->named;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "base/error.h"
+
 namespace rolling {
 namespace {
 
@@ -15,6 +17,19 @@ void add(Layout& layout, const std::vector<Column>& line, std::size_t field, std
   layout.shared[field] = r == layout.runs.size();
   if (!layout.shared[field]) put(layout.runs[r]);
   else std::for_each(layout.runs.begin(), layout.runs.end(), put);
+}
+
+/// Which of several times a quantity goes with, that stands fewer times than they, is not clear.
+void refuse_unclear(const std::vector<Column>& line, std::map<std::string, std::size_t>& count,
+                    bool labelled) {
+  std::size_t times = 0;
+  for (const Column& c : line) times += c.name == "t" && (!labelled || !c.run.empty());
+  if (times < 2) return;
+  for (const Column& c : line)
+    if (c.name != "t" && !si_unit(c.name).empty() &&
+        (labelled ? c.run.empty() : count[c.name] < times))
+      fail("of {} columns t, which one {} goes with is not clear: say --use t=N, by number", times,
+           c.name);
 }
 
 }  // namespace
@@ -37,9 +52,11 @@ Layout Layout::of(const std::vector<Column>& line) {
       layout.runs.push_back({column.run, {}, {}});
   }
   if (place.size() > 1) {
+    refuse_unclear(line, count, true);
     for (std::size_t i = 0; i < line.size(); ++i)
       add(layout, line, i, line[i].run.empty() ? layout.runs.size() : place[line[i].run]);
   } else if (count["t"] > 1) {
+    refuse_unclear(line, count, false);
     layout.runs.assign(count["t"], {});
     std::map<std::string, std::size_t> seen;
     for (std::size_t i = 0; i < line.size(); ++i)

@@ -24,7 +24,10 @@ Reader::Reader(ReaderOptions options, std::vector<std::string> order)
     const auto equals = use.find('=');
     if (equals == 0 || equals == std::string::npos || equals + 1 == use.size())
       fail("--use: '{}' is not NAME=COLUMN", shown(use));
-    const std::string quantity = read_column(use.substr(0, equals)).name;
+    const auto [quantity, unit, label] = read_column(use.substr(0, equals));
+    if (!unit.empty() || !label.empty())
+      fail("--use: '{}': a unit goes behind the column: {}=COLUMN[{}]", shown(use), quantity,
+           shown(unit));
     if (si_unit(quantity).empty()) fail("--use: '{}' is not about t, x, v, a or D", shown(use));
     const Column column = read_column(use.substr(equals + 1));
     if (!use_.emplace(quantity, Use{column.name, column.unit}).second)
@@ -172,6 +175,13 @@ void Reader::name_columns() {
   }
 }
 
+bool Reader::renames() const {
+  return std::any_of(needed_.begin(), needed_.end(), [&](const Needed& needed) {
+    return needed.column != no_column && needed.kind != Kind::as_is &&
+           layout().columns[needed.column].name != needed.quantity;
+  });
+}
+
 std::size_t Reader::add(std::string_view name, Kind kind) {
   Needed asked{std::string(name), {}, kind};
   resolve(asked);
@@ -215,6 +225,8 @@ bool Reader::find_run() {
     const bool wanted = asked_for(side_);
     ++run_;
     ++run_in_file_;
+    if (const std::string& label = layout().label; options_.run && is_number(label))
+      labels_ += (labels_.empty() ? "" : ", ") + label;
     if (wanted) {
       begin_run();
       return true;
@@ -223,7 +235,9 @@ bool Reader::find_run() {
   }
   state_ = State::ended;
   line_number_ = 0;
-  if (options_.run && !run_found_) fail("there is no run {} (runs: {})", *options_.run, run_);
+  if (options_.run && !run_found_)
+    fail("there is no run {} (runs: {})", *options_.run,
+         labels_.empty() ? fmt::format("{}", run_) : labels_);
   return false;
 }
 
@@ -264,8 +278,11 @@ void Reader::take_head(Head head) {
   if (run_in_file_ == 0) {
     const bool other_width = !head.named && !head_.named && head_.layout.width != head.layout.width;
     if (next_file_ > 1 && !head.named && (head_.named || other_width))
-      fail<InputError>("{}: its columns are not those of {}: give it a line of names",
-                       lines_->name(), options_.files.front());
+      fail<InputError>("{}: its columns are not those of {}: {}; give it a line of names",
+                       lines_->name(), options_.files.front(),
+                       other_width
+                           ? fmt::format("{}, not {}", head.layout.width, head_.layout.width)
+                           : "those have names");
     first_record_ = lines_->number();
   }
   head_ = std::move(head);

@@ -62,6 +62,9 @@ class Reader {
   std::size_t need_time() { return time_slot_ = need("t"); }
   /// The index of a needed column in the records of the present run.
   std::size_t column_of(std::size_t slot) const { return needed_[slot].column; }
+  /// A needed column of this run has another name in the file: what the history says of the name
+  /// that it serves under is not about it.
+  bool renames() const;
 
   // The records.
   /// Goes to the next run; false when there is none.
@@ -167,6 +170,7 @@ class Reader {
   std::vector<std::string> comments_, remarks_;
   int run_ = 0;                  // number of the run in the input, from 1
   std::size_t run_in_file_ = 0;  // number of the run in the file
+  std::string labels_;           // the numbers that runs before it carry, where one is asked for
   bool run_found_ = false, file_open_ = false;
 
   // Its columns.

@@ -17,6 +17,7 @@ while getopts K:R:c: option; do
   esac
 done
 shift $((OPTIND - 1))
+[ $# = 1 ] || { echo "fit.sh: one record, not $#" >&2; exit 2; }
 case $column in
   x) route=position ;;
   v) route=velocity ;;

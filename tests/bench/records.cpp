@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
       else
         std::printf("            %4d %7.3f", c.apart[j],
                     static_cast<double>(c.won[j]) / c.apart[j]);
-    std::printf(" %6.3f %12d clear %d won %d\n", c.cover, c.not_determined, c.clear, c.won_by_all);
+    std::printf(" %6.3f %12d\n", c.cover, c.not_determined);
     std::fflush(stdout);
   }
 }

@@ -172,7 +172,6 @@ inline std::vector<Truth> truths() {
 /// away from that of the other, and in how many of those it is the smaller.
 struct Contest {
   std::vector<int> apart, won;
-  int won_by_all = 0, clear = 0;  ///< the least is 10 or more below all others; and is the true one
   double cover = 0;  ///< share of the true law's coefficients within 1.96 of their standard errors
   int not_determined = 0;
 };
@@ -200,15 +199,11 @@ inline Contest contest(const Truth& truth, int runs, unsigned seed) {
       all.cover +=
           (std::abs(own.coefficients[j].value - truth.c[j]) < 1.96 * own.coefficients[j].sigma) /
           static_cast<double>(own.coefficients.size() * static_cast<std::size_t>(runs));
-    double least = INFINITY, next = INFINITY;
     for (std::size_t j = 0; j < fits.size(); ++j) {
-      next = std::min(next, std::max(least, fits[j].aicc));
-      least = std::min(least, fits[j].aicc);
       if (std::abs(fits[j].aicc - own.aicc) < better) continue;
       ++all.apart[j];
       all.won[j] += own.aicc < fits[j].aicc;
     }
-    if (next - least >= better) ++all.clear, all.won_by_all += own.aicc == least;
   }
   return all;
 }

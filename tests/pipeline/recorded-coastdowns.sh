@@ -72,7 +72,7 @@ grep -q 'do not determine b' "$scratch/refusal" || complain "sphere: $(cat "$scr
 awk '$1 >= 0.2' "$scratch/sphere" >"$scratch/roll"
 fit sphere --route position -K 0.4 -R 0.0075 "$scratch/roll"
 row "$scratch/sphere.row" | awk '{ exit !($4 > 0.04 && $3 > 2 * $4 && $6 < 0.000307 && $7 == 43) }' || complain "sphere: b, or the roll is not known to a pixel"
-grep -q 'D = d0: .*AICc 8.0 above' "$scratch/sphere.report" && grep -q 'D = d0 + d1 v: .*AICc 0.0 above' "$scratch/sphere.report" &&
+grep -q 'D = d0: .*AICc 8.[01] above' "$scratch/sphere.report" && grep -q 'D = d0 + d1 v: .*AICc 0.0 above' "$scratch/sphere.report" &&
   grep -q 'v^b is adequate' "$scratch/sphere.report" ||
   complain "sphere: the laws"
 awk '$1 < 0.34' "$scratch/roll" | fitpower -q --route position -K 0.4 -R 0.0075 >"$scratch/early"

@@ -36,7 +36,7 @@ coffee=$data/falling-coffee-filters/data_for_coffee.csv
 expect "265 349 287 253 158 114 139 123 145 172" smooth -w 1 "$coffee"
 expect "267 351 289 255 160 116 141 125 147 174" smooth -w 1 -c x "$coffee"
 expect 172 smooth -w 1 --run 12 "$coffee"
-refuse "there is no run 7 among the 10 side by side: 2, 3, 4, 5, 6, 8, 9, 10, 11, 12" smooth --run 7 "$coffee"
+refuse "there is no run 7 (runs: 2, 3, 4, 5, 6, 8, 9, 10, 11, 12)" smooth --run 7 "$coffee"
 named 't[s]\tx[m]\tv[m/s]\ta[m/s^2]' smooth "$coffee"
 
 # Vernier: names with a data set before them and the unit glued on.
@@ -59,7 +59,7 @@ named 't[s]\tx[m]\ty' smooth "$data/ball-on-curved-track/mass_a.txt"
 expect 3752 differentiate -c x "$data/ball-on-curved-track/P1100902-data.csv"
 # Tracker with decimal commas between commas has two readings; by its six decimals it has one, the authors' own.
 pucks=$data/air-table-pucks/ResultatKollisjon1.txt
-refuse "10 fields under a line of 5 names; if some of its commas are decimal ones, make them points first" smooth "$pucks"
+refuse "10 fields under a line of 6 names; if some of its commas are decimal ones, make them points first" smooth "$pucks"
 [ "$(sed -E 's/([0-9]),([0-9]{6}E)/\1.\2/g; s/−/-/g' "$pucks" | smooth -q -w 1 --use t=1 --use v=2 | awk '!/^#/ { print $1 + 0, $2 + 0, $3 + 0 }' | md5sum)" = \
   "$(awk -F ';' '{ print $1 + 0, $2 + 0, $3 + 0 }' "${pucks%.txt}.csv" | md5sum)" ] ||
     { echo "$pucks: not the authors' numbers"; failed=1; }

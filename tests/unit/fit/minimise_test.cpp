@@ -123,6 +123,30 @@ TEST_CASE(
   CHECK(weight(5) < weight(1));
 }
 
+// Huber 1981, section 7.6: the pseudo-residuals are psi(r/s) K / mean(psi'), K = 1 + p/n var(psi')
+// / mean(psi')^2. The scale s and the factor follow from two of them: sqrt(f/r) is linear in r^2.
+TEST_CASE("minimise_robust: the pseudo-residuals of a short record are corrected for p/n",
+          "[fit]") {
+  const std::vector<double> t{0, 1, 2, 3, 4, 5, 6, 7}, y{0, 1.2, 1.9, 3.8, 4.1, 4.2, 6.9, 50};
+  const System line = one_run(
+      8, 2, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+        for (std::size_t i = 0; i < 8; ++i)
+          f[i] = x[0] + x[1] * t[i] - y[i], J[i] = 1, J[8 + i] = t[i];
+      });
+  const auto m = minimise_robust(line, {0, 0});
+  const auto r2 = [&](std::size_t i) { return std::pow(m.theta[0] + m.theta[1] * t[i] - y[i], 2); };
+  const auto root = [&](std::size_t i) { return std::sqrt(std::sqrt(m.f[i] * m.f[i] / r2(i))); };
+  const double slope = (root(5) - root(1)) / (r2(5) - r2(1)), top = root(1) - slope * r2(1);
+  double mean = 0, squares = 0;
+  for (std::size_t i = 0; i < 7; ++i) {  // the eighth counts nothing
+    const double u2 = -slope / top * r2(i), by = (1 - u2) * (1 - 5 * u2);
+    mean += by / 8, squares += by * by / 8;
+  }
+  const double K = 1 + 2. / 8 * (squares - mean * mean) / (mean * mean);
+  CHECK(K > 1.02);
+  CHECK(std::abs(top * top * mean / K - 1) < 1e-9);
+}
+
 TEST_CASE("minimise_robust: without outliers a line with its classical errors, nearly", "[fit]") {
   simulated::Noise noise(17);
   constexpr std::size_t n = 4000;

@@ -18,6 +18,7 @@ TEST_CASE(
   options.possible_filters = {difference, mean};
   simulated::Noise noise(12);
   std::size_t found[4] = {}, covered = 0;
+  double share = 0;  // of the errors by filters that the `##` lines would tell
   constexpr std::size_t runs = 50;
   for (std::size_t k = 0; k < runs; ++k) {
     FitRun run{};
@@ -32,8 +33,12 @@ TEST_CASE(
     const auto r = fit(Route::velocity, {run}, options);
     found[0] += r.errors == Errors::differences;
     covered += std::abs(r.b - 0.1) < 1.96 * r.sigma_b;
-    if (r.errors == Errors::differences)
+    if (r.errors == Errors::differences) {
       CHECK(r.left_out == 2);  // the ends, where nobody knows what was done
+      FitRun told = run;
+      told.filters = {difference};
+      share += r.sigma_b / fit(Route::velocity, {told}, {}).sigma_b;
+    }
     run.v = v;
     found[1] += fit(Route::velocity, {run}, options).errors == Errors::differences;
     run.v = mean.apply(run.t, v);
@@ -43,6 +48,8 @@ TEST_CASE(
     found[3] += fit(Route::velocity, {run}, options).errors == Errors::differences;
   }
   CHECK(found[0] >= 45);
+  CAPTURE(share / static_cast<double>(found[0]));
+  CHECK(std::abs(share / static_cast<double>(found[0]) - 1) < 0.1);
   CHECK(covered >= 42);  // fewer of 95 % by chance in 0.2 %
   CHECK(found[1] <= 4);
   CHECK(found[2] == 0);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/error.h"
 #include "unit/catch.h"
 
 using namespace rolling;
@@ -45,6 +46,14 @@ TEST_CASE("layout: runs side by side, grouped by run, by quantity, with a shared
   CHECK(layout({"Data Set 1:Time(s)", "Data Set 1:x", "Data Set 2:x", "Data Set 2:Time(s)"}) ==
         "t[s] x 1:01 x t[s] 2:23 ");
   CHECK(layout({"t", "v", "t", "v", "room"}) == "t v room :014 :234 ");
+}
+
+TEST_CASE("layout: of several times, a quantity goes with one that is its own", "[text]") {
+  for (const std::vector<std::string>& names : {std::vector<std::string>{"t", "v", "t", "x"},
+                                                {"t", "v", "t", "v", "t", "x"},
+                                                {"t Run 1", "v Run 1", "t Run 2", "v Run 2", "x"}})
+    CHECK_THROWS_AS(layout(names), Error);
+  CHECK(layout({"t", "v Run 1", "v Run 2", "x"}) == "t v x 1:013 2:023 ");
 }
 
 TEST_CASE("layout: columns of one name keep their places in every run", "[text]") {

@@ -199,9 +199,9 @@ TEST_CASE("reader: files in order, a run break between them", "[text]") {
   CHECK(records({"# t v\n0 1\n", "# v t\n0 3\n"}) == "0 1 || 3 0");
   CHECK(records({"# t[s] v[m/s]\n0 1\n", "# t[ms] v[m/s]\n7 3\n"}) == "0 1 || 0.007 3");
   CHECK(records({"# t v\n0 1\n", "0 3\n"}) ==
-        "FILE: its columns are not those of FILE: give it a line of names");
+        "FILE: its columns are not those of FILE: those have names; give it a line of names");
   CHECK(records({"0 1\n", "0 3 4\n"}) ==
-        "FILE: its columns are not those of FILE: give it a line of names");
+        "FILE: its columns are not those of FILE: 3, not 2; give it a line of names");
   CHECK(records({"0 1\n", ""}) == "FILE: no records");
 }
 
@@ -277,7 +277,7 @@ TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]
   CHECK(records({"0 1\n\n0 2\n"}, run(3)) == "there is no run 3 (runs: 2)");
   CHECK(records({"t Run 2,v Run 2,t Run 4,v Run 4\n0,1,0,5\n"}, run(4)) == "0 5");
   CHECK(records({"t Run 2,v Run 2,t Run 4,v Run 4\n0,1,0,5\n"}, run(3)) ==
-        "there is no run 3 (runs: 2)");
+        "there is no run 3 (runs: 2, 4)");
   CHECK(records({"t,v,t,v\n0,1,0,2\n", "t,v,t,v\n0,3,0,4\n"}, run(3)) == "0 3");
 }
 
@@ -572,7 +572,7 @@ TEST_CASE("reader: stacked runs under repeated names keep their numbers", "[text
       "Time (s) Run #3,v Run #3\n0,1\n\nTime (s) Run #5,v Run #5\n0,2\n1,3\n";
   CHECK(records({stacked}) == "0 1 || 0 2 | 1 3");
   CHECK(records({stacked}, run(5)) == "0 2 | 1 3");
-  CHECK(records({stacked}, run(1)) == "there is no run 1 (runs: 2)");
+  CHECK(records({stacked}, run(1)) == "there is no run 1 (runs: 3, 5)");
   CHECK(records({"v Run #3,t\n1,0\n\nv Run #5,t\n2,0\n"}, run(5), {"v"}) ==
         "2");  // not every name has it
   CHECK(records({"t,v\n0,1\n\nt,w\n0,2\n"}) ==
