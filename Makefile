@@ -121,7 +121,7 @@ figures/man/index.html: cmd/install/html.sh $(wildcard man/*)
 	$< $(@D)
 
 # The exact arithmetic built as it is, and with flags in front of the project's that would fuse multiplications and additions:
-# tests/pipeline/fused.sh compares what the two print.
+# tests/pipeline/fused.sh compares what the two print, and smooth and differentiate with their sums and numbers built so.
 exact_source := lib/base/double_double.cpp lib/contact/contact.cpp tests/fused/fused.cpp \
                 $(addprefix lib/motion/,$(addsuffix .cpp,closed_form exact_form power_integral slope_integrals slope_roll speed_integrals trajectory))
 has_fma := $(shell grep -qw avx2 /proc/cpuinfo 2>/dev/null && grep -qw fma /proc/cpuinfo && uname -m | grep -x x86_64)
@@ -133,8 +133,14 @@ build/fused/fused: $(exact_source:%.cpp=build/fused/obj/%.o)
 build/fused/plain: $(exact_source:%.cpp=build/%.o)
 	@mkdir -p $(@D)
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+fused_room := $(patsubst %,build/fused/obj/lib/%.o,text/number \
+                $(addprefix signal/,derivative exact_sum savitzky_golay smoother windows))
+build/fused/bin/%: $(fused_room) build/cmd/%.o build/lib.a
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+fused := $(addprefix build/fused/,plain fused bin/smooth bin/differentiate)
 
-check: all build/unit build/shim.so $(target:%=build/replay/%) $(if $(has_fma),build/fused/plain build/fused/fused)
+check: all build/unit build/shim.so $(target:%=build/replay/%) $(if $(has_fma),$(fused))
 	@PATH="$$PWD/bin:$$PATH" tests/run.sh build/unit
 
 # Most of the suite on arm64, through qemu: make setup check-arm64.

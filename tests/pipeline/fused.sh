@@ -14,3 +14,16 @@ plain=$(mktemp)
 build/fused/plain >"$plain"
 [ "$(wc -l <"$plain")" -gt 8000 ]
 build/fused/fused | cmp - "$plain"
+
+# Sums of windows, numbers read and numbers written.
+filtered() {  # FOLDER OF THE TOOLS
+  local name
+  for name in CF CR SF SR; do
+    "$1/smooth" -q -w 1 "samples/$name.csv"
+    "$1/smooth" -q -c x -w 11 "samples/$name.csv" | "$1/differentiate" -c x
+    "$1/smooth" -q -M savgol -w 7 "samples/$name.csv" | "$1/differentiate" -M savgol -w 9
+  done
+}
+filtered bin >"$plain"
+[ "$(wc -l <"$plain")" -gt 1500 ]
+filtered build/fused/bin | cmp - "$plain"
