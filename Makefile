@@ -272,7 +272,8 @@ lint:
 	  tests/*.sh tests/*/*.sh
 	cppcheck --quiet --std=c++20 --language=c++ --enable=warning,performance,portability \
 	  --inline-suppr --error-exitcode=1 -Ilib --suppress=internalAstError \
-	  --suppress=derefInvalidIteratorRedundantCheck --suppress=containerOutOfBounds lib cmd
+	  --suppress=derefInvalidIteratorRedundantCheck --suppress=containerOutOfBounds \
+	  --suppress=passedByValue lib cmd
 	printf '%s\n' $(source) $(wildcard cmd/*.cpp) | xargs -P $(shell nproc) -n 4 sh -c \
 	  'clang-tidy-14 --quiet --warnings-as-errors="*" "$$@" -- -x c++ -std=c++20 -Ilib' sh
 

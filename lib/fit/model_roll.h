@@ -74,7 +74,7 @@ class RollModel {
 
 /// Hands over H raw - y and its derivatives, weighted where the noise says so, for the raw column
 /// of a run that has an H and the column's derivatives, parameter by parameter.
-void hand_over_filtered(const ObservedRun&, std::size_t run, std::span<const double> raw,
+void hand_over_filtered(const ObservedRun& run, std::size_t r, std::span<const double> raw,
                         std::span<const double> slopes, const Noise&, const TakeRows&);
 
 /// The model and the weights as one problem of least squares.

@@ -90,6 +90,7 @@ Decimal shortest_decimal(std::uint64_t bits) {
   // below divided by 2^64. The shift is from 1 to 4.
   const int shift = q + (-k * 1741647 >> 19) + 1;
   const std::uint64_t c = (fraction | hidden) << shift;
+  // cppcheck-suppress shiftTooManyBits  ; a Wide has 128
   const Wide product = Wide{c} * power.high + static_cast<std::uint64_t>(Wide{c} * power.low >> 64);
   const auto whole = static_cast<std::uint64_t>(product >> 64);
   const auto part = static_cast<std::uint64_t>(product);
