@@ -1,5 +1,7 @@
 #include "cli/tool.h"
 
+#include <fmt/format.h>
+
 #include <poll.h>
 #include <unistd.h>
 

@@ -40,7 +40,7 @@ void move(Route route, FitRun& run, const Number& number, double by) {
   for (double& D : run.D)
     if (std::isfinite(D))
       D = shift_from_acceleration(to.body, to.geometry, acceleration_of(*run.shift_of, D));
-  run.shift_of = std::move(to);
+  run.shift_of = to;
 }
 
 /// The fit with the number moved in every run that has this one.

@@ -95,6 +95,7 @@ Decimal shortest_decimal(std::uint64_t bits) {
   const auto whole = static_cast<std::uint64_t>(product >> 64);
   const auto part = static_cast<std::uint64_t>(product);
 
+  constexpr std::uint64_t half = (std::uint64_t{1} << 63) - 64;  // between two whole numbers
   // In units of 2^-60, each less than 2 too small or too great.
   constexpr std::uint64_t doubt = 4, ten = 10 * (std::uint64_t{1} << 60);
   const std::uint64_t half_step = power.high >> (5 - shift), tens = whole / 10,
@@ -102,8 +103,7 @@ Decimal shortest_decimal(std::uint64_t bits) {
   std::uint64_t digits;
   if (above + doubt < half_step) digits = 10 * tens;
   else if (below + doubt < half_step) digits = 10 * tens + 10;
-  else if (above <= half_step + doubt || below <= half_step + doubt) return {};
-  else if (part - ((std::uint64_t{1} << 63) - 64) < 128) return {};  // between two whole numbers
+  else if (above <= half_step + doubt || below <= half_step + doubt || part - half < 128) return {};
   else digits = whole + (part >> 63);
   const bool sixteen = digits < 10000000000000000;
   return sixteen ? Decimal{10 * digits, k - 1} : Decimal{digits, k};
