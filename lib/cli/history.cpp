@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "contact/uncertain_number.h"
 #include "signal/derivative.h"
 #include "signal/smoother.h"
 #include "text/column.h"
@@ -40,18 +41,9 @@ std::optional<ShiftOf> shift_line(std::span<const std::string> words) {
     of.geometry = Geometry::exact;
     words = words.subspan(1);
   }
-  struct Number {
-    const char* name;
-    double Body::*value;
-    double BodyUncertainty::*sigma;
-  };
-  constexpr Number numbers[] = {{"K", &Body::K, &BodyUncertainty::K},
-                                {"R", &Body::R, &BodyUncertainty::R},
-                                {"g", &Body::g, &BodyUncertainty::g},
-                                {"slope", &Body::slope, &BodyUncertainty::slope}};
   if (words.size() != 6 && words.size() != 8) return {};
   for (std::size_t i = 0; i < words.size(); i += 2) {
-    const Number& number = numbers[i / 2];
+    const UncertainNumber& number = uncertain_numbers[i / 2];
     Estimate estimate;
     if (words[i] != number.name || !parse_estimate(words[i + 1], estimate)) return {};
     of.body.*number.value = estimate.value;

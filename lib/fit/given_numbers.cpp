@@ -6,23 +6,14 @@
 #include <cmath>
 
 #include "contact/contact.h"
+#include "contact/uncertain_number.h"
 
 namespace rolling {
 namespace {
 
-struct Number {
-  const char* name;
-  double Body::*value;
-  double BodyUncertainty::*sigma;
-};
-constexpr Number numbers[] = {{"K", &Body::K, &BodyUncertainty::K},
-                              {"R", &Body::R, &BodyUncertainty::R},
-                              {"g", &Body::g, &BodyUncertainty::g},
-                              {"slope", &Body::slope, &BodyUncertainty::slope}};
-
 bool rolls_by_time(Route route) { return route == Route::velocity || route == Route::position; }
 
-Estimate given(Route route, const FitRun& run, const Number& number) {
+Estimate given(Route route, const FitRun& run, const UncertainNumber& number) {
   if (rolls_by_time(route)) return {run.body.*number.value, run.given.*number.sigma};
   if (!run.shift_of) return {};
   return {run.shift_of->body.*number.value, run.shift_of->given.*number.sigma};
@@ -30,7 +21,7 @@ Estimate given(Route route, const FitRun& run, const Number& number) {
 
 bool same(const Estimate& x, const Estimate& y) { return x.value == y.value && x.sigma == y.sigma; }
 
-void move(Route route, FitRun& run, const Number& number, double by) {
+void move(Route route, FitRun& run, const UncertainNumber& number, double by) {
   if (rolls_by_time(route)) {
     run.body.*number.value += by;
     return;
@@ -45,7 +36,7 @@ void move(Route route, FitRun& run, const Number& number, double by) {
 
 /// The fit with the number moved in every run that has this one.
 Fitted fit_with(Route route, std::vector<FitRun> runs, const FitOptions& options,
-                const Number& number, const Estimate& value, double by) {
+                const UncertainNumber& number, const Estimate& value, double by) {
   for (FitRun& run : runs)
     if (same(given(route, run, number), value)) move(route, run, number, by);
   return fit_route(route, runs, options);
@@ -59,7 +50,7 @@ std::vector<Moved> moved_by_given(Route route, const std::vector<FitRun>& runs,
   warm.start_a = fit.a.value;
   warm.start_b = fit.b.value;
   std::vector<Moved> all;
-  for (const Number& number : numbers) {
+  for (const UncertainNumber& number : uncertain_numbers) {
     std::vector<Estimate> values;
     for (const FitRun& run : runs) {
       const Estimate value = given(route, run, number);

@@ -11,11 +11,11 @@ wrong=0
 complain() { echo "$*" && wrong=1; }
 
 # Stand-ins: a user who is not root, on a machine where no package is installed.
-stub() { printf '#!/bin/sh\n%s\n' "$2" >"$scratch/$1" && chmod +x "$scratch/$1"; }
-stub dpkg-query 'exit 1'
-stub id 'echo 1000'
-stub sudo 'echo "sudo $*"'
-stub apt-get 'echo "without sudo: apt-get $*"; exit 1'
+stand_in() { printf '#!/bin/sh\n%s\n' "$2" >"$scratch/$1" && chmod +x "$scratch/$1"; }
+stand_in dpkg-query 'exit 1'
+stand_in id 'echo 1000'
+stand_in sudo 'echo "sudo $*"'
+stand_in apt-get 'echo "without sudo: apt-get $*"; exit 1'
 
 needs() {  # GOALS PACKAGES: those besides compiler and libraries
   local said
@@ -37,7 +37,7 @@ needs check 'catch2 gnuplot-nox libboost-dev locales mandoc'
 needs check-arm64 'catch2 g++-aarch64-linux-gnu gnuplot-nox libboost-dev locales mandoc qemu-user'
 needs sanitize 'catch2 gnuplot-nox libboost-dev locales mandoc valgrind'
 
-stub dpkg-query 'echo install ok installed'
+stand_in dpkg-query 'echo install ok installed'
 said=$(PATH="$scratch:$PATH" cmd/install/setup.sh check 2>&1) && [ -z "$said" ] ||
   complain "where nothing is missing: $said"
 said=$(make -n setup table1 2>/dev/null | head -n 1)
