@@ -184,7 +184,7 @@ echo '</div><div class="section"><h3>What the paper expects</h3>'
 table "What the paper" "$scratch/table1"
 cat <<'HTML'
 </div><div class="section"><h3>Is the mat level?</h3>
-<p>No floor is level to a millimetre in a metre, and on felt that is 7&nbsp;% of the shift. A roll in one
+<p>No floor is level to a millimetre in a metre, and on felt that is 7 % of the shift. A roll in one
 direction hides it: the residuals of its fit are as good as on a level mat. Two rolls in opposite
 directions tell the slope from the law. <i>To discuss:</i> the paper’s two laws on rubber differ by a
 tenth. What slope could make them one law, and which way must each body have rolled?</p>
