@@ -238,7 +238,8 @@ int main(int argc, char** argv) {
   tool.flag("--report", with_report,
             "tell on standard error what each route finds, and whether the law is adequate");
   tool.flag("--check", with_check,
-            "exit with 1 if another law is better, the residuals are not white, or runs disagree");
+            "exit with 1 if runs disagree, a beginning, another law or the residuals speak against "
+            "the fit");
   tool.scene();
   tool.input();
   tool.output();
@@ -272,11 +273,12 @@ int main(int argc, char** argv) {
     for (std::size_t i = 0; i < fits.size(); ++i) {
       if (!results[i]) continue;
       const auto of_fit = each ? std::span(run_names).subspan(i, 1) : std::span(run_names);
-      warn_of(tool, *results[i], of_fit);
+      warn_of(tool, *results[i], of_fit, with_check);
       if (!with_report && !with_check) continue;
       const auto laws = compare_if_possible(route, fits[i], options);
       if (with_report) report(tool, fits[i], options, laws);
-      if (with_check) check(tool, *results[i], laws, of_fit);
+      if (with_check)
+        check(tool, *results[i], laws, beginning_if_possible(route, fits[i], options), of_fit);
     }
     tool.count_left_out(left_out, "this route cannot use them");
     return std::all_of(results.begin(), results.end(), fitted) ? 0 : 2;

@@ -58,6 +58,19 @@ void write_record(Output& out, Motion& motion, const SonarOptions& sonar) {
   });
 }
 
+/// A sensor has its own clock and place, and columns of its own; and only a sensor has noise.
+void check_options(const Tool& tool, bool sensor) {
+  const auto refuse = [&](std::initializer_list<const char*> options, const char* why) {
+    for (const char* option : options)
+      if (tool.on_command_line(option)) fail("--{} {}", option, why);
+  };
+  if (sensor)
+    refuse({"dt", "at", "columns", "x0"},
+           "does not go with --sensor, whose records come at --rate, with its own columns, from "
+           "0.3 m on");
+  else refuse({"seed", "rate", "resolution", "noise", "lost"}, "goes with --sensor");
+}
+
 /// Prints the run times and the errors of the methods on this scene to standard error.
 void report(Tool& tool, const Roll& roll, double rtol, double end) {
   const Reference right = reference(roll, 200, end);
@@ -231,6 +244,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     task.complete(tool);
+    check_options(tool, sensor);
     if (task.report) report(tool, task.roll, task.rtol, std::isnan(until) ? 10 : until);
     if (sensor) {
       sonar.seed = seed;
