@@ -223,7 +223,7 @@ Uncertainty uncertainty_of(const Fitted& fit) {
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
                     q = fit.system.columns();
   const auto& R = fit.minimum.R;
-  if (n <= p) return {Errors::none, nan, {R, std::vector<double>(R.size(), nan), q}};
+  if (n <= p) return {Errors::none, nan, nan, {R, std::vector<double>(R.size(), nan), q}};
   const bool known = filters_known(fit);
   const auto& tested = known ? fit.innovations : fit.minimum.f;
   const auto& runs = known ? fit.innovation_runs : fit.system.runs;
@@ -235,7 +235,7 @@ Uncertainty uncertainty_of(const Fitted& fit) {
 
   const double plain = fit.minimum.rss / static_cast<double>(n - p);
   if (kind == Errors::classical || kind == Errors::differences)
-    return {kind, whiteness, {R, classical(fit, plain), q}};
+    return {kind, whiteness, plain, {R, classical(fit, plain), q}};
   const Sources from = sources_of(fit);
   const double variance = known ? variance_of(fit, from) : plain;
   std::vector<double> M;
@@ -256,7 +256,7 @@ Uncertainty uncertainty_of(const Fitted& fit) {
       for (double& x : M) x *= variance / shown;
   }
   add_shared(M, q, fit.system.shared);
-  return {kind, whiteness, {R, std::move(M), q}};
+  return {kind, whiteness, variance, {R, std::move(M), q}};
 }
 
 NoiseErrors noise_errors(const Fitted& fit, const Uncertainty& by) {

@@ -270,8 +270,9 @@ void require_determined(const FitResult& result, bool with_slope) {
 
 FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   Fitted found = fit_route(route, runs, options);
-  NoiseErrors noise = noise_errors(found, uncertainty_of(found));
-  const auto eccentricity = eccentricity_of(route, runs, found);
+  const Uncertainty uncertainty = uncertainty_of(found);
+  NoiseErrors noise = noise_errors(found, uncertainty);
+  const auto eccentricity = eccentricity_of(route, runs, found, uncertainty.variance);
   const auto agreement = agreement_of(route, runs, options, noise, found);
   require_determined(result_of(found, noise, {}), options.fit_slope);
   FitResult result = result_of(found, noise, moved_by_given(route, runs, options, found));

@@ -151,36 +151,43 @@ double RollModel::slope(const std::vector<double>& theta, std::size_t run) const
   return runs_[run].way * parameters_.slope(theta, runs_[run].body.slope);
 }
 
+RawModel::RawModel(const ObservedRun& run, const Parameters& parameters,
+                   const std::vector<double>& theta, std::size_t r, Trajectory roll)
+    : run_(run), parameters_(parameters), a_(parameters.law(theta).a), x0_(parameters.x0(theta, r)),
+      roll_(std::move(roll)) {}
+
+double RawModel::operator()(double t, double* slopes, std::size_t stride) const {
+  const double way = run_.way;
+  if (run_.raw_is_position) {
+    const auto s = roll_.at(t);
+    parameters_.chain(slopes, stride, a_, {way * s.x_a, way * s.x_b, way * s.x_v0, 1, s.x_S});
+    return x0_ + way * s.x;
+  }
+  const auto s = roll_.speed_at(t);
+  parameters_.chain(slopes, stride, a_, {way * s.v_a, way * s.v_b, way * s.v_v0, 0, s.v_S});
+  return way * s.v;
+}
+
 void RollModel::evaluate(const std::vector<double>& theta, const Noise& noise,
                          const TakeRows& take) const {
   const std::size_t q = parameters_.columns();
-  const double a = parameters_.law(theta).a;
-  std::vector<double> raw, slopes;
+  std::vector<double> column, slopes;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const ObservedRun& run = runs_[r];
-    const Trajectory roll = trajectory(theta, r);
-    const double way = run.way, x0 = parameters_.x0(theta, r);
+    const RawModel model = raw(theta, r);
     // Without filters few records at a time, which stay in the cache; else the whole run.
     const std::size_t n = run.t.size(), block = run.H ? n : 256;
     for (std::size_t first = 0; first < n; first += block) {
       const std::size_t m = std::min(block, n - first);
-      raw.resize(m);
+      column.resize(m);
       slopes.resize(m * q);
-      for (std::size_t i = 0; i < m; ++i) {
-        const double t = run.t[first + i];
-        const auto s = run.raw_is_position ? roll.at(t) : roll.speed_at(t);
-        raw[i] = run.raw_is_position ? x0 + way * s.x : way * s.v;
-        if (run.raw_is_position)
-          parameters_.chain(&slopes[i], m, a, {way * s.x_a, way * s.x_b, way * s.x_v0, 1, s.x_S});
-        else
-          parameters_.chain(&slopes[i], m, a, {way * s.v_a, way * s.v_b, way * s.v_v0, 0, s.v_S});
-      }
+      for (std::size_t i = 0; i < m; ++i) column[i] = model(run.t[first + i], &slopes[i], m);
       if (!run.H) {
-        for (std::size_t i = 0; i < m; ++i) raw[i] -= run.y[first + i];
-        take(r, raw, slopes);
+        for (std::size_t i = 0; i < m; ++i) column[i] -= run.y[first + i];
+        take(r, column, slopes);
         continue;
       }
-      hand_over_filtered(run, r, raw, slopes, noise, take);
+      hand_over_filtered(run, r, column, slopes, noise, take);
     }
   }
 }

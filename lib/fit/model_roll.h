@@ -54,6 +54,22 @@ std::vector<ObservedRun> observe(Route, const std::vector<FitRun>&, const std::v
 /// The noise of these runs, with the weights of Noise; nothing is known of it without H.
 std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>&, double share);
 
+/// The raw column of one run under one theta, and its derivatives.
+class RawModel {
+ public:
+  RawModel(const ObservedRun&, const Parameters&, const std::vector<double>& theta, std::size_t run,
+           Trajectory);
+  /// At time t from the origin. The derivatives by the parameters of the run, then by the shared
+  /// ones, are written to `slopes`, `stride` apart.
+  double operator()(double t, double* slopes, std::size_t stride) const;
+
+ private:
+  const ObservedRun& run_;
+  const Parameters& parameters_;
+  double a_, x0_;
+  Trajectory roll_;
+};
+
 class RollModel {
  public:
   RollModel(std::vector<ObservedRun> runs, Parameters parameters)
@@ -62,6 +78,9 @@ class RollModel {
   const std::vector<ObservedRun>& runs() const { return runs_; }
   const Parameters& parameters() const { return parameters_; }
   Trajectory trajectory(const std::vector<double>& theta, std::size_t run) const;
+  RawModel raw(const std::vector<double>& theta, std::size_t run) const {
+    return {runs_[run], parameters_, theta, run, trajectory(theta, run)};
+  }
   /// The slope that a run sees along its way.
   double slope(const std::vector<double>& theta, std::size_t run) const;
   /// Hands over model - data of each run, weighted where the noise says so.
