@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "contact/contact.h"
 #include "fit/triangles.h"
@@ -159,19 +160,20 @@ class Periodogram {
 
   void fold_filtered(const Wobble& wobble, Triangles& all) const {
     const RawModel model = fit_.rolls->raw(fit_.minimum.theta, run_);
-    const std::size_t q = fit_.system.columns(), m = seen_.t.size();
-    Column raw(m), J(m * (q + 2));
-    for (std::size_t i = 0; i < m; ++i) {
-      raw[i] = model(seen_.t[i], &J[i], m);
-      const auto by_e = wobble.at(seen_.t[i]);
-      J[q * m + i] = by_e[0];
-      J[(q + 1) * m + i] = by_e[1];
+    const std::size_t q = fit_.system.columns();
+    const double* f = f_.data();
+    const TakeRows take = [&](std::size_t, std::span<double> of_rows, std::span<double> J) {
+      std::copy_n(std::exchange(f, f + of_rows.size()), of_rows.size(), of_rows.begin());
+      all.add(0, of_rows, J);
+    };
+    Residuals residuals(seen_, run_, q + 2, *fit_.noise, take);
+    for (double t : seen_.t) {
+      const auto to = residuals.place();
+      *to.raw = model(t, to.slopes, to.stride);
+      const auto by_e = wobble.at(t);
+      for (std::size_t k = 0; k < 2; ++k) to.slopes[(q + k) * to.stride] = by_e[k];
+      residuals.push();
     }
-    hand_over_filtered(seen_, run_, raw, J, *fit_.noise,
-                       [&](std::size_t, std::span<double> f, std::span<double> by_theta) {
-      std::copy(f_.begin(), f_.end(), f.begin());
-      all.add(0, f, by_theta);
-    });
   }
 
   const Fitted& fit_;
