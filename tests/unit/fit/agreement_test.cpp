@@ -133,3 +133,17 @@ TEST_CASE("agreement: a run of two records has no say", "[fit]") {
   CHECK(r.agreement->runs == 2);
   CHECK(r.agreement->dof == 2);
 }
+
+TEST_CASE("agreement: where runs disagree, a and b are correlated as they scatter from run to run",
+          "[fit]") {
+  // b falls where a grows; the noise of one run would correlate them the other way round.
+  simulated::Noise noise(35);
+  std::vector<FitRun> runs;
+  for (const double by : {-0.1, 0.1, -0.06, 0.06})
+    runs.push_back(roll({rubber.a * std::exp(by), rubber.b - 0.3 * by}, 0, 1, noise));
+  CHECK(fit(Route::position, {runs[0]}, {}).corr > 0.5);
+  const auto r = fit(Route::position, runs, {});
+  CHECK_FALSE(r.agreement->agree());
+  CHECK(r.corr < -0.9);
+  CHECK(r.corr >= -1);
+}

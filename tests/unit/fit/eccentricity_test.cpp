@@ -19,12 +19,12 @@ double smooth(double t) { return v * t - k * 2e-6 / 2 * t * t; }
 
 /// A body of all but steady speed, whose weight turns it by e once a turn: to first order its x has
 /// k e (R/v)^2 cos(x/R - phase) more.
-FitRun wobbling(double size, double noise) {
+FitRun wobbling(double size, double noise, double end = 4, double step = 0.03) {
   FitRun run{};
   run.body = body;
   simulated::Noise random(5);
   const double amplitude = k * size * std::pow(body.R / v, 2);
-  for (double t = 0; t < 4; t += 0.03) {
+  for (double t = 0; t < end; t += step) {
     run.t.push_back(t);
     run.x.push_back(smooth(t) + amplitude * std::cos(smooth(t) / body.R - phase) + random(noise));
   }
@@ -92,4 +92,10 @@ TEST_CASE("eccentricity: the run of several that has it is named; less than a tu
   FitRun brief = bad;
   brief.t.resize(10), brief.x.resize(10);
   CHECK_FALSE(fitted(brief).eccentricity);
+}
+
+TEST_CASE("eccentricity: it takes more than one record in each half turn", "[fit]") {
+  // A half turn takes pi R/v = 0.25 s.
+  CHECK(fitted(wobbling(e, 1e-6, 12, 0.24)).eccentricity);
+  CHECK_FALSE(fitted(wobbling(e, 1e-6, 12, 0.27)).eccentricity);
 }
