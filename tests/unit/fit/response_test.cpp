@@ -64,6 +64,10 @@ TEST_CASE(
     CHECK(std::abs(response.of.at("a").times(i, raw) - smooth[i]) < 1e-12);
   for (std::size_t i = 0; i < 20; ++i)
     CHECK(std::abs(response.of.at("v").times(i, raw) - v[i + 10]) < 1e-12);
+  // Two records are enough to tell the times of those that were cut away.
+  const auto brief = response_of(chain, simulated::times(2));
+  CHECK(brief.t.size() == 8);
+  CHECK(brief.of.at("a").rows() == 2);
 }
 
 TEST_CASE("response: a filter that does the same everywhere is probed in a short run", "[fit]") {
