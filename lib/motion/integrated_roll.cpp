@@ -18,40 +18,43 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double gain = 1e-9;        // of v, that rounding may make
 constexpr double least_part = 1e-8;  // of v0; much below it the steps are a rounding of t
 
-}  // namespace
-
-IntegratedRoll::IntegratedRoll(const Body& body, Geometry geometry, AnyLaw law, double v0,
-                               double x0, Stepper stepper, double rtol, unsigned long most_steps)
-    : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0), x0_(x0),
-      floor_(law_.stops ? std::max(least_part * v0, law_.rest) : 0),
-      options_{stepper, rtol, v0 > 0 ? rtol * least_part * v0 : 1, most_steps}, ode_(start()),
-      fastest_(body.slope < 0 ? infinity : v0) {
-  if (v0 == 0) tail_ = {0, 0, 0, 0};
+/// The speed at which the solver ends; 0 where the body never stops.
+double floor_of(const AnyLaw& law, double v0) {
+  return law.stops ? std::max(least_part * v0, law.rest) : 0;
 }
 
-Integrator IntegratedRoll::start() const {
-  if (!(v0_ >= 0 && std::isfinite(v0_)))
-    fail("the initial velocity v0 = {} must be a number that is not negative", v0_);
-  if (!std::isfinite(x0_)) fail("the initial position x0 = {} must be finite", x0_);
-  if (v0_ > 0) check_shift(body_, law_.shift(v0_));
+OdeSystem equations(const Body& body, Geometry geometry, const AnyLaw& law, double v0) {
+  if (!(v0 >= 0 && std::isfinite(v0)))
+    fail("the initial velocity v0 = {} must be a number that is not negative", v0);
+  if (v0 > 0) check_shift(body, law.shift(v0));
+  const double floor = floor_of(law, v0);
   // Below its floor D goes on as a constant: nothing holds a solver at v = 0, and v falls through
   // the floor.
-  const auto shift = [law = law_.shift, floor = floor_](double v) {
+  const auto shift = [law = law.shift, floor](double v) {
     return floor > 0 || v > 0 ? law(std::max(v, floor)) : 0;
   };
-  const auto derivative =
-      [body = body_, geometry = geometry_, shift](double, const double* y, double* dydt) {
+  const auto derivative = [body, geometry, shift](double, const double* y, double* dydt) {
     dydt[0] = y[1];
     dydt[1] = trial_acceleration(body, geometry, shift(y[1]));
   };
-  const auto jacobian = [body = body_, geometry = geometry_, shift, slope = law_.slope,
-                         floor = floor_](double, const double* y, double* dfdy, double* dfdt) {
+  const auto jacobian = [body, geometry, shift, slope = law.slope, floor](
+                            double, const double* y, double* dfdy, double* dfdt) {
     dfdy[0] = 0, dfdy[1] = 1, dfdy[2] = 0;
     dfdy[3] =
         y[1] <= floor ? 0 : trial_acceleration_slope(body, geometry, shift(y[1])) * slope(y[1]);
     dfdt[0] = dfdt[1] = 0;
   };
-  return {{2, derivative, jacobian}, options_, 0, {x0_, v0_}};
+  return {2, derivative, jacobian};
+}
+
+}  // namespace
+
+IntegratedRoll::IntegratedRoll(const Body& body, Geometry geometry, AnyLaw law, double v0,
+                               double x0, Stepper stepper, double rtol, unsigned long most_steps)
+    : SolvedRoll(body, geometry, equations(body, geometry, law, v0),
+                 {stepper, rtol, v0 > 0 ? rtol * least_part * v0 : 1, most_steps}, {x0, v0}),
+      law_(std::move(law)), floor_(floor_of(law_, v0)), fastest_(body.slope < 0 ? infinity : v0) {
+  if (v0 == 0) tail_ = {0, 0, 0, 0};
 }
 
 Integrator::Event IntegratedRoll::floor_event() const {
@@ -79,9 +82,9 @@ IntegratedRoll::Tail IntegratedRoll::tail(const Integrator& ode) const {
 }
 
 double IntegratedRoll::stop_time() const {
-  if (v0_ > 0 && !law_.stops) return infinity;
+  if (v0() > 0 && !law_.stops) return infinity;
   if (!tail_) {
-    Integrator ode = start();
+    Integrator ode = from_start();
     ode.advance(infinity, floor_event());
     tail_ = tail(ode);
   }
@@ -94,10 +97,10 @@ void IntegratedRoll::seek(double t) {
   // has been returned stays as it is.
   if (ode_.advance(tail_ ? std::min(t, tail_->begin) : t, floor_event()) && !tail_)
     tail_ = tail(ode_);
-  if (body_.slope >= 0) fastest_ = std::min(fastest_, std::max(0.0, ode_.state()[1]));
-  if (ode_.state()[1] > law_.highest * (1 + 1e-9))
+  if (body_.slope >= 0) fastest_ = std::min(fastest_, std::max(0.0, v()));
+  if (v() > law_.highest * (1 + 1e-9))
     fail("at t = {:.6g} s the speed {:.6g} m/s is above the table of the law, which ends at {}",
-         ode_.time(), ode_.state()[1], law_.highest);
+         ode_.time(), v(), law_.highest);
 }
 
 double IntegratedRoll::left() const {
@@ -105,15 +108,14 @@ double IntegratedRoll::left() const {
 }
 
 double IntegratedRoll::velocity() {
-  if (!tail_ || t_ < tail_->begin) return std::clamp(ode_.state()[1], 0.0, fastest_);
+  if (!tail_ || t_ < tail_->begin) return std::clamp(v(), 0.0, fastest_);
   return t_ < stop_time() ? tail_->v * std::pow(left(), 1 / (1 - tail_->q)) : 0;
 }
 
 double IntegratedRoll::position() {
-  const double x = ode_.state()[0];
-  if (!tail_ || t_ <= tail_->begin) return x;
+  if (!tail_ || t_ <= tail_->begin) return x();
   const double q = tail_->q;
-  return x +
+  return x() +
          tail_->v * tail_->duration * (1 - q) / (2 - q) * (1 - std::pow(left(), (2 - q) / (1 - q)));
 }
 
@@ -121,10 +123,6 @@ double IntegratedRoll::shift() {
   const double v = velocity(), D = v == 0 ? 0 : law_.shift(v);
   check_shift(body_, D);
   return D;
-}
-
-double IntegratedRoll::acceleration() {
-  return velocity() == 0 ? 0 : acceleration_from_shift(body_, geometry_, shift());
 }
 
 }  // namespace rolling

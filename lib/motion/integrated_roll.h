@@ -2,9 +2,7 @@
 // without an integral over speed.
 #pragma once
 
-#include "ode/integrator.h"
-#include "contact/body.h"
-#include "motion/motion.h"
+#include "motion/solved_roll.h"
 
 #include <functional>
 #include <limits>
@@ -27,7 +25,7 @@ struct AnyLaw {
 /// goes to v = 1e-8 v0, located as an event. The rest is taken as a power, dv/dt ~ -v^q with the q
 /// that it has there: it stops v / ((1 - q) |dv/dt|) later. That is no small part where q is near 1
 /// (16 % of the whole for b = 0.9). From the stop on v, D and dv/dt are exactly 0.
-class IntegratedRoll final : public Motion {
+class IntegratedRoll final : public SolvedRoll {
  public:
   /// Refuses R, g, v0 and K as check_roll does. Errors of the solver come out of seek() and
   /// stop_time(): steps that run out (most_steps in one call), D beyond R, v beyond the law, v that
@@ -40,9 +38,7 @@ class IntegratedRoll final : public Motion {
   void seek(double t) override;
   double position() override;
   double velocity() override;
-  double acceleration() override;
   double shift() override;
-  unsigned long evaluations() const override { return ode_.evaluations(); }
 
  private:
   /// The part of the way that is left to a power law.
@@ -50,17 +46,12 @@ class IntegratedRoll final : public Motion {
     double begin, duration, v, q;  // from [s] on, for [s], from v
   };
   Tail tail(const Integrator&) const;
-  Integrator start() const;
   Integrator::Event floor_event() const;
   double left() const;  // of the tail, 1 .. 0
+  bool at_rest() override { return velocity() == 0; }
 
-  Body body_;
-  Geometry geometry_;
   AnyLaw law_;
-  double v0_, x0_;
-  double floor_;  // 0: the body never stops
-  OdeOptions options_;
-  Integrator ode_;
+  double floor_;            // 0: the body never stops
   double t_ = 0, fastest_;  // v may not be above it
   mutable std::optional<Tail> tail_;
 };

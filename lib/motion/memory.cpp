@@ -24,6 +24,40 @@ double slowing_time(const Body& body, PowerLaw law, double v0) {
   return v0 / std::abs(trial_acceleration(body, Geometry::approximate, law(v0)));
 }
 
+OdeSystem equations(const Body& body, Geometry geometry, PowerLaw law, Bulge bulge, double v0) {
+  check_roll(body, law, v0);
+  if (law.b < 0)
+    fail(
+        "the exponent b = {} is negative: a bulge with memory needs a shift that is finite at rest",
+        law.b);
+  if (!(bulge.length > 0 && std::isfinite(bulge.length)))
+    fail("the length of the memory = {} m must be a positive number", bulge.length);
+  if (!(bulge.damping >= 0 && std::isfinite(bulge.damping)))
+    fail("the damping of the memory = {} s must be a number that is not negative", bulge.damping);
+  // y = (x, v, z).
+  const auto derivative = [body, geometry, law, bulge](double, const double* y, double* dydt) {
+    const double v = y[1], z = y[2];
+    dydt[0] = v;
+    dydt[2] = std::abs(v) * (law(v) - z) / bulge.length;
+    dydt[1] = trial_acceleration(body, geometry, z + bulge.damping * dydt[2]);
+  };
+  const auto jacobian =
+      [body, geometry, law, bulge](double, const double* y, double* dfdy, double* dfdt) {
+    const double v = y[1], z = y[2], speed = std::abs(v);
+    const double dv_dD = trial_acceleration_slope(
+        body, geometry, z + bulge.damping * speed * (law(v) - z) / bulge.length);
+    const double dz_dv =
+                     ((1 + law.b) * std::abs(law(v)) - std::copysign(1.0, v) * z) / bulge.length,
+                 dz_dz = -speed / bulge.length;
+    const double rows[9] = {
+        0, 1,     0,    0, dv_dD * bulge.damping * dz_dv, dv_dD * (1 + bulge.damping * dz_dz),
+        0, dz_dv, dz_dz};
+    std::copy(rows, rows + 9, dfdy);
+    dfdt[0] = dfdt[1] = dfdt[2] = 0;
+  };
+  return {3, derivative, jacobian};
+}
+
 }  // namespace
 
 Stepper memory_stepper(const Body& body, PowerLaw law, Bulge bulge, double v0) {
@@ -59,13 +93,14 @@ MemoryWork memory_work(const Body& body, PowerLaw law, Bulge bulge, double v0, d
 // relaxation, of which most_relaxations are allowed.
 MemoryRoll::MemoryRoll(const Body& body, Geometry geometry, PowerLaw law, Bulge bulge, double v0,
                        double x0, Stepper stepper, double rtol, unsigned long most_steps)
-    : body_(body), geometry_(geometry), law_(law), bulge_(bulge), v0_(v0),
-      x0_(x0), options_{stepper, rtol, 1e-3 * rtol,
-                        most_steps * (stepper < Stepper::rk1imp ? 20 : 1)},
-      spare_evaluations_(5.0 * static_cast<double>(most_steps)), ode_(start()), at_rest_(v0 == 0) {}
+    : SolvedRoll(body, geometry, equations(body, geometry, law, bulge, v0),
+                 {stepper, rtol, 1e-3 * rtol, most_steps * (stepper < Stepper::rk1imp ? 20 : 1)},
+                 {x0, v0, law(v0)}),
+      law_(law), bulge_(bulge), spare_evaluations_(5.0 * static_cast<double>(most_steps)),
+      at_rest_(v0 == 0) {}
 
 double MemoryRoll::expected_evaluations(double t) const {
-  const MemoryWork work = memory_work(body_, law_, bulge_, v0_, t);
+  const MemoryWork work = memory_work(body_, law_, bulge_, v0(), t);
   if (work.swings > most_swings)
     fail(
         "with a memory over {:.4g} m the body swings about {:.2g} times; the most is {:g}: a "
@@ -77,42 +112,6 @@ double MemoryRoll::expected_evaluations(double t) const {
         "solver is {:g} (rk4imp is an implicit one)",
         bulge_.length, work.relaxations, most_relaxations);
   return 300 * work.swings + 4 * (options_.stepper < Stepper::rk1imp ? work.relaxations : 0);
-}
-
-Integrator MemoryRoll::start() const {
-  check_roll(body_, law_, v0_);
-  if (law_.b < 0)
-    fail(
-        "the exponent b = {} is negative: a bulge with memory needs a shift that is finite at rest",
-        law_.b);
-  if (!(bulge_.length > 0 && std::isfinite(bulge_.length)))
-    fail("the length of the memory = {} m must be a positive number", bulge_.length);
-  if (!(bulge_.damping >= 0 && std::isfinite(bulge_.damping)))
-    fail("the damping of the memory = {} s must be a number that is not negative", bulge_.damping);
-  if (!std::isfinite(x0_)) fail("the initial position x0 = {} must be finite", x0_);
-  // y = (x, v, z). The system keeps its own copy of what it needs: this object may be moved.
-  const auto derivative = [body = body_, geometry = geometry_, law = law_, bulge = bulge_](
-                              double, const double* y, double* dydt) {
-    const double v = y[1], z = y[2];
-    dydt[0] = v;
-    dydt[2] = std::abs(v) * (law(v) - z) / bulge.length;
-    dydt[1] = trial_acceleration(body, geometry, z + bulge.damping * dydt[2]);
-  };
-  const auto jacobian = [body = body_, geometry = geometry_, law = law_, bulge = bulge_](
-                            double, const double* y, double* dfdy, double* dfdt) {
-    const double v = y[1], z = y[2], speed = std::abs(v);
-    const double dv_dD = trial_acceleration_slope(
-        body, geometry, z + bulge.damping * speed * (law(v) - z) / bulge.length);
-    const double dz_dv =
-                     ((1 + law.b) * std::abs(law(v)) - std::copysign(1.0, v) * z) / bulge.length,
-                 dz_dz = -speed / bulge.length;
-    const double rows[9] = {
-        0, 1,     0,    0, dv_dD * bulge.damping * dz_dv, dv_dD * (1 + bulge.damping * dz_dz),
-        0, dz_dv, dz_dz};
-    std::copy(rows, rows + 9, dfdy);
-    dfdt[0] = dfdt[1] = dfdt[2] = 0;
-  };
-  return {{3, derivative, jacobian}, options_, 0, {x0_, v0_, law_(v0_)}};
 }
 
 bool MemoryRoll::advance(Integrator& ode, bool& backwards, double t) const {
@@ -127,7 +126,7 @@ bool MemoryRoll::advance(Integrator& ode, bool& backwards, double t) const {
     const double fastest = std::pow((2 + law_.b) * bulge_.length * c * z * z / (2 * law_.a),
                                     1 / (2 + law_.b));  // E at v = 0
     ode.restart(y);
-    if (law_.b < 2 && body_.slope == 0 && backwards && fastest <= rest_fraction * v0_) return true;
+    if (law_.b < 2 && body_.slope == 0 && backwards && fastest <= rest_fraction * v0()) return true;
     backwards = true;
     const unsigned long taken = ode.evaluations() - before;
     if (static_cast<double>(taken) > most)
@@ -138,10 +137,10 @@ bool MemoryRoll::advance(Integrator& ode, bool& backwards, double t) const {
 }
 
 double MemoryRoll::stop_time() const {
-  if (v0_ == 0) return 0;
+  if (v0() == 0) return 0;
   if (law_.b >= 2 || body_.slope != 0) return std::numeric_limits<double>::infinity();
   if (!stop_time_) {
-    Integrator ode = start();
+    Integrator ode = from_start();
     bool backwards = false;
     advance(ode, backwards, std::numeric_limits<double>::infinity());
     stop_time_ = ode.time();
@@ -158,17 +157,9 @@ void MemoryRoll::seek(double t) {
   if (at_rest_ && !stop_time_) stop_time_ = ode_.time();
 }
 
-double MemoryRoll::position() { return ode_.state()[0]; }
-
-double MemoryRoll::velocity() { return at_rest_ ? 0 : ode_.state()[1]; }
-
-double MemoryRoll::acceleration() {
-  return at_rest_ ? 0 : acceleration_from_shift(body_, geometry_, shift());
-}
-
 double MemoryRoll::shift() {
-  const double v = velocity(), z = ode_.state()[2];
-  return at_rest_ ? 0 : z + bulge_.damping * std::abs(v) * (law_(v) - z) / bulge_.length;
+  const double z = ode_.state()[2];
+  return at_rest_ ? 0 : z + bulge_.damping * std::abs(v()) * (law_(v()) - z) / bulge_.length;
 }
 
 }  // namespace rolling

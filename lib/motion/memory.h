@@ -2,10 +2,8 @@
 // rolls backwards before it rests.
 #pragma once
 
-#include "ode/integrator.h"
-#include "contact/body.h"
-#include "motion/motion.h"
 #include "contact/power_law.h"
+#include "motion/solved_roll.h"
 
 #include <optional>
 
@@ -40,7 +38,7 @@ MemoryWork memory_work(const Body&, PowerLaw, Bulge, double v0, double t);
 /// for every length. For b >= 2 the shift fades too fast to stop the body:
 /// stop_time() is infinite. So it is on a slope: at rest the bulge would relax, and the body creeps
 /// down.
-class MemoryRoll final : public Motion {
+class MemoryRoll final : public SolvedRoll {
  public:
   /// Refuses what check_roll refuses, b < 0 (no shift at rest to return to), length <= 0, damping <
   /// 0. `rtol` is the solver's tolerance in each step, relative to x, v and z.
@@ -53,27 +51,20 @@ class MemoryRoll final : public Motion {
   /// The first call integrates to the rest, apart from where seek() stands.
   double stop_time() const override;
   void seek(double t) override;
-  double position() override;
-  double velocity() override;
-  double acceleration() override;
+  double position() override { return x(); }
+  double velocity() override { return at_rest_ ? 0 : v(); }
   double shift() override;
-  unsigned long evaluations() const override { return ode_.evaluations(); }
 
  private:
-  Integrator start() const;
+  bool at_rest() override { return at_rest_; }
   double expected_evaluations(double t) const;  // throws Error where the work is too much
   /// Integrates to t or to the rest, whichever is first, and returns true at rest. `backwards`: v
   /// has had its first zero.
   bool advance(Integrator&, bool& backwards, double t) const;
 
-  Body body_;
-  Geometry geometry_;
   PowerLaw law_;
   Bulge bulge_;
-  double v0_, x0_;
-  OdeOptions options_;
   double spare_evaluations_;  // of one call, beyond ten times those expected
-  Integrator ode_;
   bool backwards_ = false, at_rest_ = false;
   mutable std::optional<double> stop_time_;
 };
