@@ -21,18 +21,19 @@ void troubles(int runs) {
       "# What a record really has: %d records each, position route; shares of them; best: what the "
       "most powerful test of the fit could find at 0.5 %%\n",
       runs);
-  std::printf("%-31s %-5s %8s %7s %7s %8s %6s %9s %6s %9s %9s %9s %6s %6s %7s\n", "# trouble",
+  std::printf("%-31s %-5s %8s %7s %7s %8s %6s %9s %6s %9s %9s %9s %6s %6s %6s %7s\n", "# trouble",
               "scene", "%_of_a", "cover_a", "cover_b", "adequate", "noise", "eccentric", "mm",
-              "other_law", "beginning", "not_white", "check", "best", "refused");
+              "other_law", "beginning", "not_white", "check", "told", "best", "refused");
   for (const auto& trouble : records::troubles())
     for (const auto& [name, law] : scenes) {
       if (only && !std::strstr(trouble.name, only)) continue;
       const auto v = records::judge(trouble, law, runs, seed);
       std::printf(
           "%-31s %-5s %+8.2f %7.3f %7.3f %8.3f %6.3f %9.3f %6.3f %9.3f %9.3f %9.3f %6.3f %6.3f "
+          "%6.3f "
           "%7d\n",
           trouble.name, name, 100 * v.bias, v.cover_a, v.cover_b, v.adequate, v.noise, v.eccentric,
-          1e3 * v.e, v.other_law, v.beginning, v.not_white, v.failed,
+          1e3 * v.e, v.other_law, v.beginning, v.not_white, v.failed, v.told,
           records::best_power(trouble, law), v.refused);
       std::fflush(stdout);
     }
