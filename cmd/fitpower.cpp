@@ -44,7 +44,11 @@ struct Runs {
   std::vector<std::string> names;
 };
 
-Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, bool all_columns) {
+/// The columns that are read: those that the route fits, or those of the other routes too.
+enum class Columns { of_route, of_all_routes };
+
+Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns columns) {
+  const bool all_columns = columns == Columns::of_all_routes;
   struct Needed {
     std::size_t slot;
     std::vector<double> FitRun::*column;
@@ -256,7 +260,8 @@ int main(int argc, char** argv) {
     if (options.v0 && !trajectory) fail("--fix: this route has no v0");
     if (options.x0 && route != Route::position) fail("--fix: this route has no x0");
 
-    auto [runs, run_names] = read_runs(tool, in, route, body, with_report);
+    auto [runs, run_names] =
+        read_runs(tool, in, route, body, with_report ? Columns::of_all_routes : Columns::of_route);
     set_bodies(runs, shape_factors, uncertainty);
     const auto fits = grouped(std::move(runs), each);
     const Table table{tool.out, trajectory && fits.front().size() == 1, options.fit_slope, each};

@@ -113,8 +113,13 @@ struct Task {
 
   /// Reads the law, checks that nothing is missing, and chooses the method.
   void complete(Tool& tool) {
-    if (!law_file.empty())
-      roll.table = read_law(tool, law_file, roll.law, roll.body.slope, &roll.v0);
+    if (!law_file.empty()) {
+      LawFile read = read_law(tool, law_file);
+      roll.law = read.law_or(roll.law);
+      roll.table = std::move(read.table);
+      roll.body.slope = read.slope.value_or(roll.body.slope);
+      roll.v0 = read.v0.value_or(roll.v0);
+    }
     std::vector<std::string> needed = {"radius", "shape-factor", "v0"};
     if (!roll.table) needed.insert(needed.end(), {"coefficient", "exponent"});
     tool.need(needed);
