@@ -278,15 +278,17 @@ FilterMatrix over_themselves(const FilterMatrix& D, const FilterMatrix& v,
 
 /// The noise of ln D - b ln v where the filters are known: that of D and v over D and v themselves,
 /// which are those of the roll that fits best, seen through the filters.
-void carry_noise(Fitted& line, const ShiftRecords& records, const std::vector<FitRun>& all,
+void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<FitRun>& all,
                  const FitOptions& options) {
-  const Making making = making_of(Route::shift, all);
+  Making making = making_of(Route::shift, all);
   if (!making.known()) return;
-  const double b = line.b.value;
+  std::vector<FilterMatrix> D, v;
+  for (const Response& response : making.responses)
+    D.push_back(response.of.at("D")), v.push_back(response.of.at("v"));
   Fitted roll;
   try {
     // Of all records: those with D > 0 alone would be chosen by their noise.
-    roll = fit_rolls(Route::shift, all, usable(Route::shift, all), making, options);
+    roll = fit_rolls(Route::shift, all, usable(Route::shift, all), std::move(making), options);
   } catch (const Error&) {  // there is no such roll
     return;
   }
@@ -306,31 +308,29 @@ void carry_noise(Fitted& line, const ShiftRecords& records, const std::vector<Fi
   line.innovation_runs = std::move(roll.innovation_runs);
   roll = {};  // its weights are large
   std::vector<FilterMatrix> matrices;
-  for (std::size_t r = 0; r < all.size(); ++r) {
-    const auto& of = making.responses[r].of;
-    matrices.push_back(over_themselves(of.at("D"), of.at("v"), raw[r], records.rows[r], b,
+  for (std::size_t r = 0; r < all.size(); ++r)
+    matrices.push_back(over_themselves(D[r], v[r], raw[r], rows[r], line.b.value,
                                        std::sqrt(*line.noise_variance)));
-  }
   line.noise = std::make_shared<const Noise>(std::move(matrices), std::nullopt);
 }
 
 }  // namespace
 
 Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) {
-  const ShiftRecords records = shift_records(all, options, true);
+  ShiftRecords records = shift_records(all, options, true);
   const Height height{options.a, options.b, records.log_v_ref};
-  const System system = line_system(records, height);
-  Fitted line{.system = system,
-              .minimum = solve(system, std::vector<double>(height.count(), 0), options,
-                               options.robust && making_of(Route::shift, all).known())};
-  const double b = height.exponent(line.minimum.theta),
-               a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * records.log_v_ref);
-  line.rss = line.minimum.rss;
+  const std::vector<Rows> rows = std::move(records.rows);
+  Fitted line{.system = {}, .minimum = {}};
   line.records = records.D.size();
   line.left_out = records.left_out;
+  line.system = line_system(std::move(records), height);
+  line.minimum = solve(line.system, std::vector<double>(height.count(), 0), options,
+                       options.robust && making_of(Route::shift, all).known());
+  line.rss = line.minimum.rss;
+  const double b = height.exponent(line.minimum.theta),
+               a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * height.log_v_ref);
   height.report(line, a, a);
-  for (double x : records.log_u) line.v.push_back(std::exp(x + records.log_v_ref));
-  if (!options.robust) carry_noise(line, records, all, options);
+  if (!options.robust) carry_noise(line, rows, all, options);
   return line;
 }
 
