@@ -48,6 +48,14 @@ std::string history(const std::string& column, const SelectionOptions& selected,
   return fmt::format("{}", fmt::join(lines, "\n## "));
 }
 
+void warn_of_doubt(Tool& tool, const Reader& in, const Selection& selection) {
+  if (const auto& doubt = selection.doubt())
+    tool.warn(
+        fmt::format("run {}: --coast keeps the roll from {:.6g} s on, but by fainter signs it "
+                    "begins at {:.6g} s: choose with --from",
+                    in.run_name(), doubt->begin, doubt->other));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -99,9 +107,8 @@ int main(int argc, char** argv) {
     while (filter.next_run()) {
       if (!choose && !select.coast) tell();  // else the first run may still be refused
       Selection selection(select);
-      std::unique_ptr<Signal> smoother;
-      if (choose) smoother = std::make_unique<AutoSmoother>(options);
-      else smoother = make_signal(options);
+      std::unique_ptr<Signal> smoother =
+          choose ? std::make_unique<AutoSmoother>(options) : make_signal(options);
       std::size_t record = 0, kept = 0;
       const auto take = [&](std::span<const Judged> samples) {
         for (const Judged& s : samples) {
@@ -115,6 +122,7 @@ int main(int argc, char** argv) {
         else take(selection.push(filter[t], filter[y]));
       }
       const auto last = selection.finish();
+      warn_of_doubt(tool, in, selection);
       if (!choose) tell();
       take(last);
       const auto rest = smoother->finish();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/error.h"
 #include "fit/errors.h"
@@ -229,10 +230,8 @@ double LawComparison::least() const {
 }
 
 const LawFit& LawComparison::best_other() const {
-  const LawFit* best = nullptr;
-  for (const LawFit& fit : fits)
-    if (!fit.law->is_power && (!best || fit.aicc < best->aicc)) best = &fit;
-  return *best;
+  return *std::ranges::min_element(
+      fits, {}, [](const LawFit& fit) { return std::pair(fit.law->is_power, fit.aicc); });
 }
 
 double LawComparison::against_power() const {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace rolling {
 namespace {
@@ -214,7 +215,8 @@ System system_of(std::shared_ptr<const RollModel> model, std::shared_ptr<const N
   for (const ObservedRun& run : model->runs()) runs.push_back(run.y.size());
   const Parameters& q = model->parameters();
   return {std::move(runs), q.own(), q.shared(),
-          [model, noise](const std::vector<double>& theta, const TakeRows& take) {
+          [model = std::move(model), noise = std::move(noise)](const std::vector<double>& theta,
+                                                               const TakeRows& take) {
     model->evaluate(theta, *noise, take);
           }};
 }

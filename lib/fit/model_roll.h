@@ -72,8 +72,8 @@ class RawModel {
 
 class RollModel {
  public:
-  RollModel(std::vector<ObservedRun> runs, Parameters parameters)
-      : runs_(std::move(runs)), parameters_(std::move(parameters)) {}
+  RollModel(std::vector<ObservedRun> runs, const Parameters& parameters)
+      : runs_(std::move(runs)), parameters_(parameters) {}
 
   const std::vector<ObservedRun>& runs() const { return runs_; }
   const Parameters& parameters() const { return parameters_; }

@@ -2,38 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/median.h"
-#include "signal/derivative.h"
+#include "signal/corner.h"
 #include "signal/moving_median.h"
+#include "signal/release.h"
 
 namespace rolling {
 namespace {
 
-/// The standard deviation of normal numbers with outliers: their distances from 0 are less than it
-/// in 68.27 % of cases. Steps of rounded readings, of which most are 0, do not make it 0 as early
-/// as they do the median. Puts the distances into another order.
-double deviation(std::span<double> distances) {
-  if (distances.empty()) return {};
-  const auto count = static_cast<double>(distances.size());
-  return nth_smallest(distances, static_cast<std::size_t>(0.6827 * count));
-}
-
-std::vector<Sample> speeds_of(std::span<const Sample> run, bool positions) {
-  std::vector<Sample> speeds(run.begin(), run.end());
-  if (!positions) return speeds;
-  CentralDerivative derivative;
-  auto next = speeds.begin();
-  const auto take = [&](std::span<const double> slopes) {
-    for (const double slope : slopes) (next++)->y = slope;
-  };
-  for (const Sample& s : run) take(derivative.push(s.t, s.y));
-  take(derivative.finish());
-  return speeds;
+/// The way that belongs to speeds.
+std::vector<Sample> way_of(std::span<const Sample> run, bool positions, double sign) {
+  std::vector<Sample> way(run.begin(), run.end());
+  double x = 0;
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    if (i > 0) x += (run[i].t - run[i - 1].t) * std::midpoint(run[i].y, run[i - 1].y);
+    way[i].y = sign * (positions ? run[i].y : x);
+  }
+  return way;
 }
 
 /// The sums of a sliding window, by which it has a mean and a slope: O(1) a sample. Indices count
@@ -78,9 +69,9 @@ struct View {
   /// From the second differences of windows that do not overlap, after a sample and while the body
   /// moves at least so fast; of the whole run where these are too few.
   double noise_from(std::size_t first, double least) const {
-    const std::size_t apart = 2 * k + 1, every = 1 + speeds.size() / 100000;
+    const std::size_t apart = 2 * k + 1;
     std::vector<double> distances;
-    for (std::size_t i = first + apart; i + apart < speeds.size(); i += every)
+    for (std::size_t i = first + apart; i + apart < speeds.size(); ++i)
       if (std::abs(speeds[i]) >= least)
         distances.push_back(std::abs(speeds[i + apart] - 2 * speeds[i] + speeds[i - apart]));
     if (distances.size() < 10 && least > 0) return noise_from(0, 0);
@@ -104,140 +95,161 @@ View best_view(std::span<const Sample> run, bool positions) {
   return view;
 }
 
-constexpr std::size_t corner_window = 4;
-constexpr double least_corner = 0.05;  // speed that a push adds in a window, of the greatest
-
-/// The least-squares line through corner_window samples: how much it rises from window to window.
-double rise(std::span<const Sample> window, double duration) {
-  double t = 0, y = 0, tt = 0, ty = 0;
-  for (const Sample& s : window) t += s.t - window[0].t, y += s.y;
-  t /= corner_window, y /= corner_window;
-  for (const Sample& s : window) {
-    const double from = s.t - window[0].t - t;
-    tt += from * from, ty += from * (s.y - y);
-  }
-  return ty / tt * duration;
+/// The smallest step between neighbours, beyond what a program that computed them may have added:
+/// what the readings are rounded to, if they are.
+double smallest_step(std::span<const Sample> readings) {
+  double largest = 0, step = std::numeric_limits<double>::infinity();
+  for (const Sample& s : readings) largest = std::max(largest, std::abs(s.y));
+  for (std::size_t i = 1; i < readings.size(); ++i)
+    if (const double here = std::abs(readings[i].y - readings[i - 1].y); here > 1e-9 * largest)
+      step = std::min(step, here);
+  return step;
 }
 
-/// One or two speeds that do not belong make no corner: the median of five takes the place of
+/// One or two readings that do not belong make no corner: the median of five takes the place of
 /// those that are further from it than 6 standard deviations of such distances while the body
-/// moves, from `first` on.
-std::vector<Sample> without_spikes(std::vector<Sample> speeds, std::size_t first) {
+/// moves, from `first` on, and than the smallest step between neighbours.
+std::vector<Sample> without_spikes(std::span<const Sample> readings, std::size_t first) {
   MovingMedian median_of_five({5, 0});
   std::vector<double> medians, distances;
-  medians.reserve(speeds.size());
+  std::vector<Sample> kept(readings.begin(), readings.end());
+  medians.reserve(kept.size());
   const auto take = [&](std::span<const double> values) {
     medians.insert(medians.end(), values.begin(), values.end());
   };
-  for (const Sample& s : speeds) take(median_of_five.push(s.t, s.y));
+  for (const Sample& s : kept) take(median_of_five.push(s.t, s.y));
   take(median_of_five.finish());
-  const std::size_t every = 1 + speeds.size() / 100000;
-  for (std::size_t i = first; i < speeds.size(); i += every)
-    distances.push_back(std::abs(speeds[i].y - medians[i]));
-  const double most = 6 * deviation(distances);
-  for (std::size_t i = 0; i < speeds.size(); ++i)
-    if (std::abs(speeds[i].y - medians[i]) > most) speeds[i].y = medians[i];
-  return speeds;
+  for (std::size_t i = first; i < kept.size(); ++i)
+    distances.push_back(std::abs(kept[i].y - medians[i]));
+  const double most = std::max(6 * deviation(distances), 3 * smallest_step(readings));
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    if (std::abs(kept[i].y - medians[i]) > most) kept[i].y = medians[i];
+  return kept;
 }
 
-/// Where a corner is sharpest, and where it is last seen, as indices; 0 if there is none.
-struct Corner {
-  std::size_t at = 0, last = 0;
+constexpr const char* not_found =
+    "no free roll is found after the last push: choose it by its times (--from, --to)";
+
+/// A run, and what its roll is sought with.
+class Search {
+ public:
+  Search(std::span<const Sample> run, bool positions)
+      : positions_(positions), view_(best_view(run, positions)),
+        sign_(view_.speeds[view_.peak] < 0 ? -1 : 1) {
+    if (!(view_.fastest > 8 * view_.noise)) fail("nothing moves in this run: it has no free roll");
+    const auto moves = [&](std::size_t i) { return speed(i) > 2 * view_.noise; };
+    first_ = end_ = view_.peak;
+    while (first_ > 0 && moves(first_ - 1)) --first_;
+    while (end_ < run.size() && moves(end_)) ++end_;
+    if (end_ < run.size()) end_ -= std::min(view_.k, end_);
+    while (!positions && end_ > 0 && sign_ * run[end_ - 1].y <= 0) --end_;
+    if (end_ < least_samples) fail("{}", not_found);
+    samples_ = without_spikes(run.subspan(0, end_), first_);
+  }
+  std::size_t end() const { return end_; }
+
+  /// Where the roll begins by corners that stand out so far; end() if it does not.
+  std::size_t begin(double significance) const {
+    const std::size_t corner = corner_of(significance);
+    auto [from, to] = slowing_after(corner);
+    if (to < from + least_samples) return end_;
+    Release release = release_in(from, to);
+    if (corner == 0 && !(release.significance >= significance)) return 0;
+    // A roll is not straight. Where the samples tell its release to an eighth of what is fitted of
+    // it, half of that bends a quarter as much.
+    while (8 * (release.latest - release.earliest) < to - release.latest &&
+           to - release.latest > 2 * least_samples) {
+      to = std::midpoint(release.latest, to);
+      from = std::midpoint(from, release.earliest);
+      release = release_in(from, to);
+    }
+    return std::min(release.latest + 3, end_);
+  }
+
+ private:
+  static constexpr std::size_t least_samples = 8;
+
+  Release release_in(std::size_t from, std::size_t to) const {
+    Release release = release_of(std::span(samples_).subspan(from, to - from), positions_, sign_);
+    release.earliest += from, release.latest += from;
+    return release;
+  }
+  double speed(std::size_t i) const { return sign_ * view_.speeds[i]; }
+
+  std::size_t corner_of(double significance) const {
+    constexpr double least = 0.05;  // of the greatest speed
+    const double step = smallest_step(samples_),
+                 dt = (samples_[end_ - 1].t - samples_[0].t) / static_cast<double>(end_ - 1);
+    // The noise of a reading in steps is step / sqrt(12). Of means of the way the bend has sqrt(6)
+    // times as much, of means of white speeds twice, and those that a sensor took from four
+    // positions are twice as noisy as their own step tells.
+    const RoundedSpeeds coarse = positions_ ? RoundedSpeeds{step / std::sqrt(2) / dt, 1.5}
+                                            : RoundedSpeeds{4 * step / std::sqrt(12), 0.5};
+    std::size_t size = 1;  // narrower windows than those of the view see nothing but noise
+    while (4 * size <= view_.k) size *= 2;
+    return last_corner(way_of(samples_, positions_, sign_),
+                       {size, first_, least * view_.fastest, significance, coarse});
+  }
+
+  /// The samples about the release: the speed is above 0.9 of its greatest behind the corner, and
+  /// falls to 0.75 of it. Over so much of the roll its slope changes little.
+  std::pair<std::size_t, std::size_t> slowing_after(std::size_t corner) const {
+    std::size_t peak = corner;
+    for (std::size_t i = corner; i < end_; ++i)
+      if (speed(i) > speed(peak)) peak = i;
+    const auto last_above = [&](double share) {
+      std::size_t last = end_;
+      while (last > peak + 1 && speed(last - 1) < share * speed(peak)) --last;
+      return last;
+    };
+    const std::size_t to = std::min(std::max(last_above(0.75), peak + least_samples), end_),
+                      slow = 6 * (to - std::min(last_above(0.9), to));
+    std::size_t from = peak;
+    while (from > first_ && from + slow > to && speed(from - 1) > 0.9 * speed(peak)) --from;
+    return {from, to};
+  }
+
+  bool positions_;
+  View view_;
+  double sign_;
+  std::size_t first_, end_;
+  std::vector<Sample> samples_;  // up to the end of the roll
 };
 
-/// The last corner of speeds, at `first` or later, of more than `least`.
-Corner last_corner(std::span<const Sample> speeds, std::size_t first, double least) {
-  constexpr std::size_t w = corner_window;
-  constexpr double standing_out = 5, less_than = 0.5;
-  std::vector<double> bends;  // from index w on, as speeds that were gained in one window
-  bends.reserve(speeds.size());
-  for (std::size_t i = w; i + w <= speeds.size(); ++i) {
-    const double duration = (speeds[i + w - 1].t - speeds[i - w].t) * w / (2 * w - 1);
-    bends.push_back(rise(speeds.subspan(i - w, w), duration) -
-                    less_than * rise(speeds.subspan(i, w), duration));
-  }
-  if (bends.empty()) return {};
+constexpr std::size_t at_once = 20000;  // samples that are searched: their cost is less than that
+                                        // of reading a longer run
 
-  const std::size_t every = 1 + bends.size() / 100000;
-  std::vector<double> noise, distances;
-  for (std::size_t i = std::max<std::size_t>(first, 1); i + 1 < speeds.size(); i += every)
-    noise.push_back(std::abs(speeds[i + 1].y - 2 * speeds[i].y + speeds[i - 1].y));
-  for (std::size_t i = std::max(first, w); i - w < bends.size(); i += every)
-    distances.push_back(bends[i - w]);
-  if (distances.empty()) return {};
-  // Of white noise of the speeds, second differences have sqrt(6) times as much, lines through w of
-  // them rise by sqrt(12 w / (w^2 - 1)) times as much from window to window.
-  double sigma = deviation(noise) / std::sqrt(6.0) *
-                 std::sqrt(12.0 * w / (w * w - 1) * (1 + less_than * less_than));
-  if (distances.size() >= 20) {  // enough to ask them themselves: noise need not be white
-    const double middle = median(distances);
-    for (double& bend : distances) bend = std::abs(bend - middle);
-    sigma = std::max(sigma, 1.4826 * median(distances));
-  }
-  const auto seen = [&](std::size_t i) { return bends[i] > std::max(least, standing_out * sigma); };
-  std::size_t last = bends.size();
-  while (last > 0 && last + w > first && !seen(last - 1)) --last;
-  if (last == 0 || last + w <= first) return {};
-  std::size_t at = last - 1;
-  for (std::size_t i = last; i-- > 0 && seen(i);)
-    if (bends[i] > bends[at]) at = i;
-  return {at + w, last - 1 + w};
-}
-
-/// The last corner of speeds > 0, of which the moving ones begin at `first`; 0 if there is none.
-std::size_t last_corner_at_any_scale(std::vector<Sample> speeds, std::size_t first, double least) {
-  std::size_t corner = 0, clear = 0;  // windows that begin at `clear` do not know of it
-  for (std::size_t size = 1; speeds.size() > 2 * corner_window; size *= 2) {
-    const std::size_t from = std::min((clear + size - 1) / size, speeds.size());
-    const Corner found = last_corner(std::span<const Sample>(speeds).subspan(from),
-                                     std::max(first / size, from) - from, least);
-    if (found.at > 0) {
-      corner = (from + found.at) * size;
-      clear = (from + found.last + corner_window / 2) * size;
-    }
-    for (std::size_t i = 0; i < speeds.size() / 2; ++i) {
-      const Sample &a = speeds[2 * i], &b = speeds[2 * i + 1];
-      speeds[i] = {std::midpoint(a.t, b.t), std::midpoint(a.y, b.y)};
-    }
-    speeds.resize(speeds.size() / 2);
-  }
-  return corner;
+/// The roll in a run of at most so many samples.
+Stretch roll_of(std::span<const Sample> run, bool positions) {
+  constexpr double clear = 5, faint = 3.5;  // standard deviations
+  const Search search(run, positions);
+  Stretch roll{search.begin(clear), search.end(), {}};
+  if (roll.begin + 3 > roll.end) fail("{}", not_found);
+  const std::size_t other = std::min(search.begin(faint), roll.end - 1);
+  const std::size_t apart = other > roll.begin ? other - roll.begin : roll.begin - other;
+  if (10 * apart > roll.end - roll.begin) roll.other = other;
+  return roll;
 }
 
 }  // namespace
 
 Stretch free_roll(std::span<const Sample> run, bool positions) {
-  const std::size_t n = run.size();
-  if (n < 10) fail("a run of {} records is too short to find its free roll", n);
-  std::vector<Sample> speeds = speeds_of(run, positions);
-  const View view = best_view(run, positions);
-  if (!(view.fastest > 8 * view.noise)) fail("nothing moves in this run: it has no free roll");
-
-  const double sign = view.speeds[view.peak] < 0 ? -1 : 1;
-  const auto moves = [&](std::size_t i) { return sign * view.speeds[i] > 2 * view.noise; };
-  std::size_t first = view.peak, end = view.peak;
-  while (first > 0 && moves(first - 1)) --first;
-  while (end < n && moves(end)) ++end;
-  if (end < n) end -= std::min(view.k, end);
-  speeds.resize(end);
-  for (Sample& s : speeds) s.y *= sign;
-  while (!positions && !speeds.empty() && speeds.back().y <= 0) speeds.pop_back();
-  end = speeds.size();
-  std::size_t begin =
-      last_corner_at_any_scale(without_spikes(speeds, first), first, least_corner * view.fastest);
-  if (begin > 0) {
-    const auto speed = [&](std::size_t i) { return sign * view.speeds[i]; };
-    std::size_t release = begin;
-    for (std::size_t i = begin; i < end; ++i)
-      if (speed(i) > speed(release)) release = i;
-    const double fastest = speed(release);
-    for (std::size_t i = release; i < end && speed(i) > 0.9 * fastest; ++i)
-      if (speed(i) > fastest - view.noise) release = i;
-    begin = release + view.k + 3;
-  }
-  if (begin + 3 > end)
-    fail("no free roll is found after the last push: choose it by its times (--from, --to)");
-  return {begin, end};
+  if (run.size() < 10) fail("a run of {} records is too short to find its free roll", run.size());
+  if (run.size() <= at_once) return roll_of(run, positions);
+  const std::size_t size = 2 * run.size() / at_once, n = run.size();
+  Stretch roll = roll_of(means(run, size), positions);
+  roll.begin *= size, roll.end = std::min(roll.end * size, n);
+  if (roll.other) *roll.other *= size;
+  // As much as the roll on either side shows its beginning and its end; what is wider than half of
+  // the run would be seen no finer than now.
+  const std::size_t around = std::max(roll.end - roll.begin, 20 * size),
+                    from = roll.begin - std::min(around, roll.begin),
+                    to = std::min(roll.end + around, n);
+  if (to - from > n / 2) return roll;
+  Stretch finer = free_roll(run.subspan(from, to - from), positions);
+  finer.begin += from, finer.end += from;
+  if (finer.other) *finer.other += from;
+  return finer;
 }
 
 }  // namespace rolling

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "signal/windows.h"
@@ -16,19 +17,24 @@ namespace rolling {
 /// as much more as brings that noise below 2 % of the greatest speed, or as low as it comes in up
 /// to a tenth of the run.
 ///
-/// It begins after the last corner of the speed before that: where the body, over one window, slows
-/// down less than half as fast as over the next window of the same length, or gains speed. Under a
-/// law D = a v^b with b > -0.5 a body that rolls by itself has no such corner, since
-/// v = (c (T - t))^(1 / (1 - b)): the ratio of the two is least for the last two windows before the
-/// stop T, 2^(1 / (1 - b)) - 1. Windows are of 4 samples, 4 means of 2 neighbours, of 4, and so on;
-/// a corner counts if it stands out of their noise by 5 standard deviations and adds 5 % of the
-/// greatest speed in a window; one or two readings that do not belong make none. The roll begins
-/// k + 3 samples after the local speed is last within its noise of the greatest behind the corner.
-/// A record without a corner begins with the roll. O(n log n).
+/// It begins after the last corner of the speed before that (signal/corner.h) which stands out of
+/// the noise by 5 standard deviations and adds 5 % of the greatest speed in a window; one or two
+/// readings that do not belong make none. There, where the speed is above 0.9 of its greatest
+/// behind the corner and then falls to 0.75 of it, a constant speed that begins to fall in a
+/// straight line is fitted, and the roll begins 3 samples after the latest time of release that
+/// agrees with the samples (signal/release.h). A record without a corner, and without a hold of
+/// such significance at its beginning, begins with the roll.
+///
+/// The beginning is in doubt if corners of 3.5 standard deviations put it elsewhere, by more than a
+/// tenth of the roll.
+///
+/// More than 20 000 samples are seen through the means of blocks, 10 000 in a run, then again about
+/// the roll, the finer the shorter it is. O(n).
 ///
 /// A hand that slows the body down is not told from the roll. Throws Error when nothing moves.
 struct Stretch {
   std::size_t begin, end;
+  std::optional<std::size_t> other = {};  ///< where it is in doubt: it may begin at this sample
 };
 Stretch free_roll(std::span<const Sample> run, bool positions);
 

@@ -36,6 +36,7 @@ std::span<const Judged> Selection::finish() {
   for (const Judged& s : decided_)
     if (s.kept) run.push_back({s.t, s.y});
   const Stretch roll = free_roll(run, options_.positions);
+  if (roll.other) doubt_ = {run[roll.begin].t, run[*roll.other].t};
   std::size_t i = 0;
   for (Judged& s : decided_)
     if (s.kept) s.kept = i >= roll.begin && i < roll.end, ++i;

@@ -33,6 +33,11 @@ class Selection {
   /// The run has ended. Throws Error as free_roll does.
   std::span<const Judged> finish();
   std::size_t outliers() const { return outliers_; }  ///< so far
+  /// After finish(): where the free roll is in doubt.
+  struct Doubt {
+    double begin, other;  ///< it begins at this time [s]; or, by fainter signs, at the other
+  };
+  const std::optional<Doubt>& doubt() const { return doubt_; }
 
  private:
   void take(std::span<const Judged>);
@@ -41,6 +46,7 @@ class Selection {
   std::optional<Hampel> hampel_;
   std::vector<Judged> decided_;
   std::size_t outliers_ = 0;
+  std::optional<Doubt> doubt_;
 };
 
 }  // namespace rolling

@@ -45,7 +45,7 @@ TEST_CASE("free_roll: from after the push up to the stop, speeds and positions, 
         const auto v = record(rate, 0.004, seed, false, sign),
                    x = record(rate, 0.0004, seed, true, sign);
         for (const auto* run : {&v, &x}) {
-          const auto [begin, end] = free_roll(*run, run == &x);
+          const auto [begin, end, other] = free_roll(*run, run == &x);
           INFO((run == &x ? "x " : "v ") << rate << " Hz, seed " << seed << ": " << (*run)[begin].t
                                          << " to " << (*run)[end - 1].t);
           CHECK((*run)[begin].t >=
@@ -73,7 +73,7 @@ TEST_CASE(
 
 TEST_CASE("free_roll: without noise the roll ends where the speed is 0", "[signal]") {
   const auto run = record(25, 0, 1, false);
-  const auto [begin, end] = free_roll(run, false);
+  const auto [begin, end, other] = free_roll(run, false);
   CHECK(std::abs(run[end - 1].t - stop) < 0.09);
   CHECK(run[end - 1].y > 0);
   CHECK(begin > 38);
@@ -113,7 +113,7 @@ TEST_CASE("free_roll: a short roll in a long rest, stopped by hand", "[signal]")
       for (int k = 0; k < 20; ++k) x += v(t - 0.05 + 0.0025 * (k + 0.5)) * 0.0025;
       run.push_back({t, x + 0.0003 * e[i]});
     }
-    const auto [begin, end] = free_roll(run, true);
+    const auto [begin, end, other] = free_roll(run, true);
     INFO(seed << ": " << run[begin].t << " to " << run[end - 1].t);
     CHECK(run[begin].t > 2.85);
     CHECK(run[begin].t < 3.4);
@@ -191,6 +191,125 @@ TEST_CASE("free_roll: a record that begins in mid-roll keeps its beginning, with
       kept += free_roll(std::span(run).subspan(45), positions).begin == 0;
     }
   CHECK(kept >= 198);
+}
+
+namespace {
+
+/// A record with a known release: rest for 1 s, a push of 0.4 s to 0.5 m/s, a hold, a roll under
+/// v' = -c v^b which would last `roll` seconds from 0.5 m/s, once more a push by 0.15 m/s when it
+/// is as slow as `again`, and rest for 1 s; or the roll alone, from its middle.
+struct Made {
+  double hold = 0, again = 0;
+  bool middle = false;
+  double b = 0.215, roll = 2.5, rate = 25;
+  double noise = 3e-4, resolution = 1e-3;  ///< of positions [m]
+  bool positions = true;  ///< else the speeds that a sensor takes from four of its positions
+
+  std::vector<Sample> run = {};
+  double release = 0, stop = 0;
+
+  void make(unsigned seed) {
+    constexpr int steps = 40;
+    const double h = 1 / (rate * steps), c = std::pow(0.5, 1 - b) / (roll * (1 - b));
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> any;
+    std::vector<double> x;
+    double at = 0.3, v = middle ? 0.5 : 0, since = 1;
+    enum { rest, push, held, pushed_again, free, stopped } now = middle ? free : rest;
+    bool due = again > 0;
+    for (int i = 0; now != stopped || i * h < stop + 1; ++i, at += v * h) {
+      const double t = i * h, past = t - since;
+      if (i % steps == 0) {
+        const double y = at + noise * any(random);
+        x.push_back(resolution > 0 ? resolution * std::round(y / resolution) : y);
+      }
+      if (now == rest && past >= 0) now = push;
+      if (now == push) v = 0.5 * std::pow(std::sin(3.14159265358979 / 0.8 * past), 2);
+      if (now == push && past >= 0.4) now = held, v = 0.5;
+      if (now == held && past >= 0.4 + hold) now = free, release = t;
+      if (now == free && due && v < again) now = pushed_again, since = t, due = false;
+      if (now == pushed_again)
+        v = again + 0.15 * std::pow(std::sin(3.14159265358979 / 0.8 * (t - since)), 2);
+      if (now == pushed_again && t - since >= 0.4) now = free, release = t;
+      if (now == free) v -= h * c * std::pow(v, b);
+      if (now == free && !(v > 0)) now = stopped, stop = t, v = 0;
+    }
+    run.clear();
+    for (std::size_t i = 2; i + 2 < x.size(); ++i)
+      run.push_back({static_cast<double>(i) / rate,
+                     positions ? x[i] : (x[i + 1] + x[i + 2] - x[i - 1] - x[i - 2]) * rate / 6});
+  }
+
+  /// The roll that is kept begins at most one record before the release and loses no more than a
+  /// quarter of the roll, or 0.8 s; it ends at most 4 records after the stop.
+  bool right(const Stretch& kept) const {
+    const double late = run[kept.begin].t - release;
+    return (middle ? kept.begin < 3 : late > -0.5 / rate && late < std::max(0.8, roll / 4)) &&
+           run[kept.end - 1].t < stop + 4 / rate && run[kept.end - 1].t > stop - 0.4 * roll;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("free_roll: pushes, holds, noise and rounding: right, or told to be in doubt",
+          "[signal]") {
+  std::vector<Made> kinds;
+  for (const double hold : {0.0, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0}) kinds.push_back({.hold = hold});
+  for (const double again : {0.2, 0.3}) kinds.push_back({.again = again});
+  kinds.push_back({.middle = true});
+  constexpr double noises[][2] = {{5e-4, 0},    {1e-3, 0},    {2e-3, 0},   {5e-3, 0},
+                                  {3e-4, 1e-3}, {5e-4, 1e-2}, {2e-3, 1e-2}};
+  constexpr double laws[][2] = {{0.215, 2.5}, {0.0244, 6}, {0.255, 3.4}, {0.5, 5}};
+  unsigned seed = 7000;
+  int told_of_good = 0, good = 0;
+  for (Made& made : kinds) {
+    int records = 0, right = 0, told = 0;
+    for (const auto& [noise, resolution] : noises)
+      for (const auto& [b, roll] : laws)
+        for (const bool positions : {true, false})
+          for (const double rate : {25.0, 50.0}) {
+            made.b = b, made.roll = roll, made.rate = rate, made.positions = positions;
+            made.noise = noise, made.resolution = resolution;
+            made.make(++seed);
+            ++records;
+            const bool usual = made.hold + made.again == 0 && noise <= 5e-4 && resolution <= 1e-3;
+            good += usual;
+            try {
+              const Stretch kept = free_roll(made.run, positions);
+              right += made.right(kept);
+              told += !made.right(kept) && kept.other;
+              told_of_good += usual && kept.other;
+            } catch (const Error&) {
+              ++told;
+            }
+          }
+    INFO("hold " << made.hold << " s, again at " << made.again << " m/s, middle " << made.middle
+                 << ": of " << records << " right " << right << ", told " << told);
+    CHECK(100 * (right + told) >= 95 * records);
+    CHECK(100 * right >= 90 * records);
+  }
+  INFO("told of " << told_of_good << " of " << good);
+  CHECK(50 * told_of_good <= good);
+}
+
+TEST_CASE("free_roll: a long record keeps what a short one keeps", "[signal]") {
+  // 4e5 records of 10 kHz; those of 25 Hz of the same motion begin and end within two of theirs.
+  Made fine{.hold = 1, .b = 0.5, .roll = 36, .rate = 10000, .noise = 1e-3, .resolution = 0};
+  fine.make(1);
+  const Stretch kept = free_roll(fine.run, true);
+  CHECK(fine.run[kept.begin].t > fine.release);
+  CHECK(fine.run[kept.begin].t < fine.release + 0.5);
+  CHECK(fine.run[kept.end - 1].t < fine.stop);
+  CHECK(fine.right(kept));
+  // The same rest for ten times as long: the roll is sought again in a part of the record.
+  std::vector<Sample> longer;
+  const double before = 400;
+  for (std::size_t i = 0; i < 4'000'000; ++i)
+    longer.push_back({static_cast<double>(i) / 1e4 - before, fine.run[i % 9000].y});
+  longer.insert(longer.end(), fine.run.begin(), fine.run.end());
+  const Stretch again = free_roll(longer, true);
+  CHECK(std::abs(longer[again.begin].t - fine.run[kept.begin].t) < 0.1);
+  CHECK(std::abs(longer[again.end - 1].t - fine.run[kept.end - 1].t) < 2);
 }
 
 TEST_CASE("free_roll: a reading that does not belong is no push", "[signal]") {
