@@ -78,17 +78,21 @@ bool differenced_from_v(const std::vector<std::string>& history) {
   return D_of_v;
 }
 
+/// What is printed: the records with their energies, or --summary.
+enum class Form { records, summary };
+
 /// The energy balances of the runs, and the warnings after the last one.
 class Accounts {
  public:
-  Accounts(Tool& tool, Reader& in, const Body& body, Geometry geometry, const Law* law,
-           bool checked, double tolerance)
-      : tool_(tool), in_(in), body_(body), geometry_(geometry), law_(law), checked_(checked),
-        tolerance_(tolerance), t_(in.need_time()), v_(in.need("v")), D_(law ? v_ : in.need("D")) {}
+  Accounts(Tool& tool, Reader& in, const Body& body, Geometry geometry, const Law* law, Form form,
+           double tolerance)
+      : tool_(tool), in_(in), body_(body), geometry_(geometry), law_(law), tolerance_(tolerance),
+        balance_is_shown_(form == Form::summary || !std::isnan(tolerance)), t_(in.need_time()),
+        v_(in.need("v")), D_(law ? v_ : in.need("D")) {}
 
   /// Begins the balance of a run.
   Balance open() {
-    tests_nothing_ |= checked_ && !law_ && differenced_from_v(in_.history());
+    tests_nothing_ |= balance_is_shown_ && !law_ && differenced_from_v(in_.history());
     return Balance(body_);
   }
 
@@ -130,15 +134,16 @@ class Accounts {
   Reader& in_;
   const Body& body_;
   Geometry geometry_;
-  const Law* law_;    // null: use the column D
-  bool checked_;      // --summary or --check
-  double tolerance_;  // NaN without --check
+  const Law* law_;         // null: use the column D
+  double tolerance_;       // NaN without --check
+  bool balance_is_shown_;  // by --summary or --check
   std::size_t t_, v_, D_, beyond_ = 0;
   bool tests_nothing_ = false;
 };
 
 /// Writes the table of --summary: a row for each run.
-void write_summary(Output& out, Reader& in, Accounts& accounts, bool inclined) {
+void write_summary(Output& out, Reader& in, Accounts& accounts, const Body& body) {
+  const bool inclined = body.slope != 0;
   std::vector<Column> columns = {
       {"E_start", "J"}, {"E_end", "J"}, {"E_diss", "J"}, {"closure", ""}, {"imbalance", ""}};
   if (inclined) columns.push_back({"W_g", "J"});
@@ -188,7 +193,11 @@ int main(int argc, char** argv) {
     const auto row = chosen(columns, quantities);
     for (const auto& quantity : row)
       if (quantity.column.name == "Pi_S") tool.need({"temperature"});
-    if (!law_file.empty()) law.table = read_law(tool, law_file, law.power, body.slope);
+    if (!law_file.empty()) {
+      LawFile read = read_law(tool, law_file);
+      law = {read.law_or(law.power), std::move(read.table)};
+      body.slope = read.slope.value_or(body.slope);
+    }
     tool.need({"mass", "radius", "shape-factor"});
     Reader& in = tool.read({"t", "v", "D"});
     // A law on the command line takes precedence over a column D, the law of a scene does not.
@@ -197,9 +206,9 @@ int main(int argc, char** argv) {
                          (!std::isnan(law.power.a) && !in.find("D"));
     if (use_law && !law.table) tool.need({"coefficient", "exponent"});
     Accounts accounts(tool, in, body, geometry, use_law ? &law : nullptr,
-                      summary || !std::isnan(tolerance), tolerance);
+                      summary ? Form::summary : Form::records, tolerance);
     if (summary) {
-      write_summary(tool.out, in, accounts, body.slope != 0);
+      write_summary(tool.out, in, accounts, body);
       accounts.finish();
       return 0;
     }

@@ -44,7 +44,11 @@ struct Runs {
   std::vector<std::string> names;
 };
 
-Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, bool all_columns) {
+/// The columns that are read: those that the route fits, or those of the other routes too.
+enum class Columns { of_route, of_all_routes };
+
+Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns columns) {
+  const bool all_columns = columns == Columns::of_all_routes;
   struct Needed {
     std::size_t slot;
     std::vector<double> FitRun::*column;
@@ -238,7 +242,8 @@ int main(int argc, char** argv) {
   tool.flag("--report", with_report,
             "tell on standard error what each route finds, and whether the law is adequate");
   tool.flag("--check", with_check,
-            "exit with 1 if another law is better, the residuals are not white, or runs disagree");
+            "exit with 1 if runs disagree, a beginning, another law or the residuals speak against "
+            "the fit");
   tool.scene();
   tool.input();
   tool.output();
@@ -255,7 +260,8 @@ int main(int argc, char** argv) {
     if (options.v0 && !trajectory) fail("--fix: this route has no v0");
     if (options.x0 && route != Route::position) fail("--fix: this route has no x0");
 
-    auto [runs, run_names] = read_runs(tool, in, route, body, with_report);
+    auto [runs, run_names] =
+        read_runs(tool, in, route, body, with_report ? Columns::of_all_routes : Columns::of_route);
     set_bodies(runs, shape_factors, uncertainty);
     const auto fits = grouped(std::move(runs), each);
     const Table table{tool.out, trajectory && fits.front().size() == 1, options.fit_slope, each};
@@ -272,11 +278,12 @@ int main(int argc, char** argv) {
     for (std::size_t i = 0; i < fits.size(); ++i) {
       if (!results[i]) continue;
       const auto of_fit = each ? std::span(run_names).subspan(i, 1) : std::span(run_names);
-      warn_of(tool, *results[i], of_fit);
+      warn_of(tool, *results[i], of_fit, with_check);
       if (!with_report && !with_check) continue;
       const auto laws = compare_if_possible(route, fits[i], options);
       if (with_report) report(tool, fits[i], options, laws);
-      if (with_check) check(tool, *results[i], laws, of_fit);
+      if (with_check)
+        check(tool, *results[i], laws, beginning_if_possible(route, fits[i], options), of_fit);
     }
     tool.count_left_out(left_out, "this route cannot use them");
     return std::all_of(results.begin(), results.end(), fitted) ? 0 : 2;

@@ -58,6 +58,19 @@ void write_record(Output& out, Motion& motion, const SonarOptions& sonar) {
   });
 }
 
+/// A sensor has its own clock and place, and columns of its own; and only a sensor has noise.
+void check_options(const Tool& tool, bool sensor) {
+  const auto refuse = [&](std::initializer_list<const char*> options, const char* why) {
+    for (const char* option : options)
+      if (tool.on_command_line(option)) fail("--{} {}", option, why);
+  };
+  if (sensor)
+    refuse({"dt", "at", "columns", "x0"},
+           "does not go with --sensor, whose records come at --rate, with its own columns, from "
+           "0.3 m on");
+  else refuse({"seed", "rate", "resolution", "noise", "lost"}, "goes with --sensor");
+}
+
 /// Prints the run times and the errors of the methods on this scene to standard error.
 void report(Tool& tool, const Roll& roll, double rtol, double end) {
   const Reference right = reference(roll, 200, end);
@@ -100,8 +113,13 @@ struct Task {
 
   /// Reads the law, checks that nothing is missing, and chooses the method.
   void complete(Tool& tool) {
-    if (!law_file.empty())
-      roll.table = read_law(tool, law_file, roll.law, roll.body.slope, &roll.v0);
+    if (!law_file.empty()) {
+      LawFile read = read_law(tool, law_file);
+      roll.law = read.law_or(roll.law);
+      roll.table = std::move(read.table);
+      roll.body.slope = read.slope.value_or(roll.body.slope);
+      roll.v0 = read.v0.value_or(roll.v0);
+    }
     std::vector<std::string> needed = {"radius", "shape-factor", "v0"};
     if (!roll.table) needed.insert(needed.end(), {"coefficient", "exponent"});
     tool.need(needed);
@@ -231,6 +249,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     task.complete(tool);
+    check_options(tool, sensor);
     if (task.report) report(tool, task.roll, task.rtol, std::isnan(until) ? 10 : until);
     if (sensor) {
       sonar.seed = seed;

@@ -174,13 +174,22 @@ HTML
 cat <<'HTML'
 <div class="section"><h3>Table 1: <i>D</i> = <i>a v<sup>b</sup></i></h3>
 <p>By two routes: through the points of Fig. 4, and by the motion of Fig. 1 fitted to the positions,
-which is more precise. <i>a</i> is the shift at 1 m/s. The columns “off” tell by how many standard
-errors a value differs from the paper’s, from which the records were made. <code>make
-table1</code></p>
+which is more precise. <i>a</i> is the shift at 1 m/s. The first error is that of the noise, the second
+that of <i>K</i> and <i>R</i>, which no further roll of the same body makes smaller. The columns “off”
+tell by how many standard errors of the noise a value differs from the paper’s, from which the records
+were made. <code>make table1</code></p>
 HTML
 table "Table 1" "$scratch/table1"
 echo '</div><div class="section"><h3>What the paper expects</h3>'
 table "What the paper" "$scratch/table1"
+cat <<'HTML'
+</div><div class="section"><h3>Is the mat level?</h3>
+<p>No floor is level to a millimetre in a metre, and on felt that is 7 % of the shift. A roll in one
+direction hides it: the residuals of its fit are as good as on a level mat. Two rolls in opposite
+directions tell the slope from the law. <i>To discuss:</i> the paper’s two laws on rubber differ by a
+tenth. What slope could make them one law, and which way must each body have rolled?</p>
+HTML
+table "A mat that is not level" "$scratch/table1"
 echo '</div>'
 cat <<'HTML'
 <h2>Where the energy goes</h2>

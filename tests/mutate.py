@@ -1,19 +1,33 @@
 #!/usr/bin/env python3
 """Breaks the sources in one place at a time and sees whether the tests notice.
 
-    tests/mutate.py [--count N] [--seed S] [--jobs J] [--only PATH] [--again OUTPUT] [TREE]
+    tests/mutate.py [--count N] [--seed S] [--jobs J] [--only PATH] [--near] [--again OUTPUT] [TREE]
 
-TREE is a checkout to copy (the present one by default). Mutants are drawn at random, evenly over the places in the files of lib/ and cmd/
-where one of the RULES applies; comments, strings of messages and preprocessor lines are left alone. With --again they are those that survived
-in the OUTPUT of an earlier run. Each is built in a copy, and the tests run, those nearest to it first, up to the first that fails. A mutant
-that does not build is not counted; one that takes far longer than the tests do without it is killed.
+TREE is a checkout to copy (the present one by default). Mutants are drawn at random, evenly over
+the places in the files of lib/ and cmd/ where one of the RULES applies; comments, strings of
+messages and preprocessor lines are left alone. With --again they are those that survived in the
+OUTPUT of an earlier run. Each is built in a copy, and the tests run, those nearest to it first, up
+to the first that fails; with --near only the unit tests of its room and the tests of the tools that
+show what it does. A mutant that does not build is not counted; one that takes far longer than the
+tests do without it is killed. The compiler is CXX of the environment (`CXX='ccache g++'`).
+
 Ends with `M of N killed` and the survivors; exits with 1 when less than 85 % are.
 """
-import argparse, os, random, re, shutil, signal, subprocess, sys, tempfile, time
+import argparse
+import os
+import random
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from queue import Queue
 
+NUMBER_BEFORE, NUMBER_AFTER = r"(?<![\w.'])", r"(?![\w.'])"
 RULES = [
     # comparisons
     (r"(?<=[\w)\]] )<(?= [\w(*!-])", ["<=", ">"]),
@@ -35,18 +49,34 @@ RULES = [
     (r"(?<=[( ])!(?=[\w(])", [""]),
     (r"\+\+(?=\w)", ["--"]),
     # constants
-    (r"(?<![\w.'])0(?![\w.'])", ["1"]),
-    (r"(?<![\w.'])1(?![\w.'])", ["0", "2"]),
-    (r"(?<![\w.'])[2-9](?![\w.'])", ["1"]),
-    (r"(?<![\w.'])\d+(?:\.\d+)?e-?\d+(?![\w.'])", ["1"]),
-    (r"(?<![\w.'])0\.5(?![\w.'])", ["0.25"]),
+    (NUMBER_BEFORE + "0" + NUMBER_AFTER, ["1"]),
+    (NUMBER_BEFORE + "1" + NUMBER_AFTER, ["0", "2"]),
+    (NUMBER_BEFORE + "[2-9]" + NUMBER_AFTER, ["1"]),
+    (NUMBER_BEFORE + r"\d+(?:\.\d+)?e-?\d+" + NUMBER_AFTER, ["1"]),
+    (NUMBER_BEFORE + r"0\.5" + NUMBER_AFTER, ["0.25"]),
     (r"\btrue\b", ["false"]),
     (r"\bfalse\b", ["true"]),
     # statements: a whole line that is a call or an assignment
-    (r"^ +(?!return|throw|const|auto|double|using|case|break|else|static|friend|explicit|virtual)[\w.\->\[\]*]+(?:\(.*\)| [-+*/|]?= .*);$", [";"]),
+    (
+        r"^ +(?!return|throw|const|auto|double|using|case|break|else|static|friend|explicit"
+        r"|virtual)[\w.\->\[\]*]+(?:\(.*\)| [-+*/|]?= .*);$",
+        [";"],
+    ),
     (r"\bcontinue;", [";"]),
     (r"\bbreak;", [";"]),
 ]
+NOT_CODE = re.compile(r"\s*(#|extern|template|namespace|constexpr std::string_view)")
+LITERAL = re.compile(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'')
+
+# The tools whose output shows what a room computes.
+TOOLS = {
+    "contact": ["energy-ledger", "shift-from-accel"],
+    "fit": ["fitpower"],
+    "motion": ["simulate"],
+    "ode": ["simulate"],
+    "sensor": ["simulate"],
+    "signal": ["smooth", "differentiate"],
+}
 
 
 def places(text):
@@ -55,8 +85,8 @@ def places(text):
     found = []
     for line in text.splitlines(keepends=True):
         code = re.split(r"(?<!:)//", line.rstrip("\n"))[0]
-        if not re.match(r"\s*(#|extern|template|namespace|constexpr std::string_view)", code) and "asm" not in code:
-            bare = re.sub(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'', lambda m: "\x01" * len(m.group()), code)
+        if not NOT_CODE.match(code) and "asm" not in code:
+            bare = LITERAL.sub(lambda m: "\x01" * len(m.group()), code)
             for pattern, replacements in RULES:
                 for m in re.finditer(pattern, code if pattern.startswith("^") else bare):
                     found += [(offset + m.start(), offset + m.end(), r) for r in replacements]
@@ -65,9 +95,18 @@ def places(text):
 
 
 def run(command, where, seconds):
-    """Exit status (None after too long: the whole group is ended) and output. A mutant may take memory without end, so that is limited."""
-    process = subprocess.Popen(["prlimit", f"--as={2 << 30}", *command], cwd=where, env={**os.environ, "PATH": f"{where}/bin:{os.environ['PATH']}"},
-                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True)
+    """Exit status (None after too long: the whole group is ended) and output. A mutant may take
+    memory without end, so that is limited."""
+    process = subprocess.Popen(
+        ["prlimit", f"--as={2 << 30}", *command],
+        cwd=where,
+        env={**os.environ, "PATH": f"{where}/bin:{os.environ['PATH']}"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+        start_new_session=True,
+    )
     try:
         output, _ = process.communicate(timeout=seconds)
         return process.returncode, output
@@ -79,97 +118,166 @@ def run(command, where, seconds):
 
 def make(goals, where):
     """As `run`. What has been built before may have been of another kind."""
-    return run(["make", "MAKEFLAGS=", "CXXFLAGS=-O1", *goals.split()], where, 900)
+    compiler = os.environ.get("CXX", "g++")
+    return run(
+        ["make", "MAKEFLAGS=", "CXXFLAGS=-O1", f"CXX={compiler}", *goals.split()], where, 900
+    )
 
 
-def stages(tree, path):
-    """(goals of make, command) of the tests that can notice a mutant of path: its own first, the long ones last."""
+def stages(tree, path, near):
+    """(goals of make, command) of the tests that can notice a mutant of path: its own first, the
+    long ones last."""
     room = path.parts[1]
+
+    def scripts(folder, names="*"):
+        found = []
+        for name in names.split():
+            found += sorted((tree / "tests" / folder).glob(f"{name}.sh"))
+        return [str(p.relative_to(tree)) for p in found]
+
     if path.parts[0] == "cmd":
-        near = [("all", ["tests/run.sh", f"tests/tools/{path.stem}"])]
+        first = [("all", ["tests/run.sh", f"tests/tools/{path.stem}"])]
     else:
-        near = [("build/unit", ["build/unit", "--abort", f"[{room}]"]), ("build/unit", ["build/unit", "--abort"])]
-    scripts = lambda room, names="*": [str(p.relative_to(tree)) for name in names.split() for p in sorted((tree / "tests" / room).glob(f"{name}.sh"))]
-    replay = " ".join(f"build/replay/{p.name}" for p in sorted((tree / "tests/fuzz/corpus").iterdir()))
-    return near + [
-        ("all build/shim.so", ["tests/run.sh", "tests/tools", *scripts("house", "man-examples readme help-matches-man completion negative-control")]),
+        unit = f"build/unit-{room}"
+        own = f"{path.stem}_test"
+        first = [(unit, [unit, "--abort"])]
+        if (tree / "tests/unit" / room / f"{own}.cpp").exists():
+            first.insert(0, (unit, [unit, "--abort", "--filenames-as-tags", f"[#{own}]"]))
+        tools = TOOLS.get(room, [])
+        if near and tools:
+            bins = " ".join(f"bin/{tool}" for tool in tools)
+            first.append((bins, ["tests/run.sh", *(f"tests/tools/{tool}" for tool in tools)]))
+    if near:
+        return first
+    if path.parts[0] == "lib":
+        first.append(("build/unit", ["build/unit", "--abort"]))
+    house = scripts("house", "man-examples readme help-matches-man completion negative-control")
+    replays = sorted((tree / "tests/fuzz/corpus").iterdir())
+    replay = " ".join(f"build/replay/{p.name}" for p in replays)
+    return first + [
+        ("all build/shim.so", ["tests/run.sh", "tests/tools", *house]),
         ("all", ["tests/run.sh", *scripts("pipeline")]),
-        (f"all build/shim.so {replay}", ["tests/run.sh", *scripts("faults"), *scripts("house", "progress")]),
+        (
+            f"all build/shim.so {replay}",
+            ["tests/run.sh", *scripts("faults"), *scripts("house", "progress")],
+        ),
     ]
 
 
-def main():
-    options = argparse.ArgumentParser()
-    options.add_argument("--count", type=int, default=150)
-    options.add_argument("--seed", type=int, default=1)
-    options.add_argument("--jobs", type=int, default=os.cpu_count())
-    options.add_argument("--only", default="")
-    options.add_argument("--again", type=Path)
-    options.add_argument("tree", nargs="?", default=str(Path(__file__).resolve().parent.parent))
-    options = options.parse_args()
-    tree = Path(options.tree)
-    sources = sorted(p for room in ("lib", "cmd") for p in (tree / room).rglob("*.[ch]*") if p.suffix in (".cpp", ".h") and options.only in str(p))
-    mutants = [(p.relative_to(tree), *place) for p in sources for place in places(p.read_text())]
+def described(tree, mutant):
+    """One line: the file, the line, what stands there and what the mutant has instead."""
+    path, start, end, replacement = mutant
+    original = (tree / path).read_text()
+    first, last = original.rfind("\n", 0, start) + 1, original.find("\n", end)
+    number = original.count("\n", 0, start) + 1
+    before = original[first:last].strip()
+    after = (original[first:start] + replacement + original[end:last]).strip()
+    return f"{path}:{number}: {before} => {after}"
+
+
+def judged(copy, mutant, near, usual):
+    """Builds the mutant in the copy and tests it; the copy is then as it was."""
+    path, start, end, replacement = mutant
+    source, built = copy / path, copy / "build" / path.with_suffix(".o")
+    original, times = source.read_text(), source.stat()
+    built_bytes = built.read_bytes() if path.suffix == ".cpp" else b""
+    source.write_text(original[:start] + replacement + original[end:])
+    verdict = "SURVIVED"
+    for goals, command in stages(copy, path, near):
+        if make(goals, copy)[0] != 0:
+            verdict = "does not build"
+            break
+        status, _ = run(command, copy, 30 + 5 * usual[tuple(command)])
+        if status != 0:
+            words = " ".join(Path(word).name for word in command)
+            verdict = f"killed by {words[:60]}" + (" (too long)" if status is None else "")
+            break
+    source.write_text(original)
+    if built_bytes:
+        # Newer than its source and than what is linked from it. After a header all that includes
+        # it is built again.
+        os.utime(source, ns=(times.st_atime_ns, times.st_mtime_ns))
+        built.write_bytes(built_bytes)
+    return verdict
+
+
+def times_without_mutation(copies, commands):
+    """Seconds that each command takes in the copies, which are built for it."""
+    usual = {}
+    for copy in copies:
+        for goals, command in commands(copy):
+            status, output = make(goals, copy)
+            if status != 0:
+                sys.exit(f"the sources do not build:\n{output[-2000:]}")
+            since = time.monotonic()
+            status, output = run(command, copy, 900)
+            if status != 0:
+                sys.exit(f"{command}: fails without a mutation:\n{output[-2000:]}")
+            usual[tuple(command)] = time.monotonic() - since
+    return usual
+
+
+def chosen_mutants(tree, options):
+    rooms = ("lib", "cmd")
+    sources = sorted(p for room in rooms for p in (tree / room).rglob("*.[ch]*"))
+    sources = [p for p in sources if p.suffix in (".cpp", ".h") and options.only in str(p)]
+    mutants = [
+        (p.relative_to(tree), *place) for p in sources for place in places(p.read_text())
+    ]
     print(f"{len(mutants)} places in {len(sources)} files", flush=True)
+    if not options.again:
+        count = min(options.count, len(mutants))
+        return random.Random(options.seed).sample(mutants, count)
 
-    def describe(mutant):
-        path, start, end, replacement = mutant
-        original = (tree / path).read_text()
-        first, last = original.rfind("\n", 0, start) + 1, original.find("\n", end)
-        return f"{path}:{original.count(chr(10), 0, start) + 1}: {original[first:last].strip()} => {(original[first:start] + replacement + original[end:last]).strip()}"
+    def without_line(what):
+        return re.sub(r":\d+:", ":", what, count=1)
 
-    if options.again:
-        without_line = lambda what: re.sub(r":\d+:", ":", what, count=1)
-        survived = {without_line(what) for what in re.findall(r"^SURVIVED: (.*)$", options.again.read_text(), re.M)}
-        chosen = [m for m in mutants if without_line(describe(m)) in survived]
-    else:
-        chosen = random.Random(options.seed).sample(mutants, min(options.count, len(mutants)))
-    chosen = [(m, describe(m)) for m in chosen]
+    lines = re.findall(r"^SURVIVED: (.*)$", options.again.read_text(), re.M)
+    survived = {without_line(what) for what in lines}
+    return [m for m in mutants if without_line(described(tree, m)) in survived]
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--count", type=int, default=150)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--only", default="")
+    parser.add_argument("--near", action="store_true")
+    parser.add_argument("--again", type=Path)
+    parser.add_argument("tree", nargs="?", default=str(Path(__file__).resolve().parent.parent))
+    options = parser.parse_args()
+    tree = Path(options.tree)
+    mutants = chosen_mutants(tree, options)
     scratch = Path(tempfile.mkdtemp(prefix="mutate."))
     copies = Queue()
     for i in range(options.jobs):
-        shutil.copytree(tree, scratch / str(i), symlinks=True, ignore=shutil.ignore_patterns(".git"), copy_function=shutil.copy2)
+        shutil.copytree(
+            tree,
+            scratch / str(i),
+            symlinks=True,
+            ignore=shutil.ignore_patterns(".git", "covered", "sanitized", "fuzzing", "arm64"),
+            copy_function=shutil.copy2,
+        )
         copies.put(scratch / str(i))
-    usual = {}  # seconds that a command takes without a mutation
 
-    def judge(one):
-        (path, start, end, replacement), what = one
+    def commands(copy):
+        all_stages = [s for m in mutants for s in stages(copy, m[0], options.near)]
+        return {str(stage): stage for stage in all_stages}.values()
+
+    def judge(mutant):
         copy = copies.get()
         try:
-            source, object = copy / path, copy / "build" / path.with_suffix(".o")
-            original, times, built = source.read_text(), source.stat(), object.read_bytes() if path.suffix == ".cpp" else b""
-            source.write_text(original[:start] + replacement + original[end:])
-            verdict = "SURVIVED"
-            for goals, command in stages(copy, path):
-                if make(goals, copy)[0] != 0:
-                    verdict = "does not build"
-                    break
-                status, _ = run(command, copy, 30 + 5 * usual[tuple(command)])
-                if status != 0:
-                    verdict = f"killed by {' '.join(Path(word).name for word in command[:3])}" + (" (too long)" if status is None else "")
-                    break
-            source.write_text(original)
-            if built:  # newer than its source, and than what is linked from it; after a header all that includes it is built again
-                os.utime(source, ns=(times.st_atime_ns, times.st_mtime_ns))
-                object.write_bytes(built)
+            verdict, what = judged(copy, mutant, options.near, usual), described(tree, mutant)
             print(f"{verdict}: {what}", flush=True)
             return verdict, what
         finally:
             copies.put(copy)
 
     try:
-        for copy in list(copies.queue):
-            for goals, command in {str(stage): stage for mutant, _ in chosen for stage in stages(copy, mutant[0])}.values():
-                status, output = make(goals, copy)
-                if status != 0:
-                    sys.exit(f"the sources do not build:\n{output[-2000:]}")
-                since = time.monotonic()
-                status, output = run(command, copy, 900)
-                if status != 0:
-                    sys.exit(f"{command}: fails without a mutation:\n{output[-2000:]}")
-                usual[tuple(command)] = time.monotonic() - since
+        usual = times_without_mutation(list(copies.queue), commands)
         with ThreadPoolExecutor(options.jobs) as pool:
-            results = [r for r in pool.map(judge, chosen) if r[0] != "does not build"]
+            results = [r for r in pool.map(judge, mutants) if r[0] != "does not build"]
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
     survivors = [what for verdict, what in results if verdict == "SURVIVED"]

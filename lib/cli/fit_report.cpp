@@ -116,7 +116,7 @@ std::string disagreement(const FitResult& r, std::span<const std::string> names)
 
 }  // namespace
 
-void warn_of(Tool& tool, const FitResult& r, std::span<const std::string> names) {
+void warn_of(Tool& tool, const FitResult& r, std::span<const std::string> names, bool check_comes) {
   if (exact(r)) return;
   if (r.errors == Errors::autocorrelation)
     tool.warn(fmt::format(
@@ -125,7 +125,7 @@ void warn_of(Tool& tool, const FitResult& r, std::span<const std::string> names)
         r.whiteness));
   if (r.errors == Errors::uneven)
     tool.warn("the noise is not of one size along the run: the errors allow for that");
-  if (r.agreement && !r.agreement->agree())
+  if (r.agreement && !r.agreement->agree() && !check_comes)
     tool.warn(disagreement(r, names) + "; the errors allow for that");
   if (const auto& found = r.eccentricity)
     tool.warn(fmt::format(
@@ -140,6 +140,12 @@ std::optional<LawComparison> compare_if_possible(Route route, const std::vector<
                                                  const FitOptions& options) {
   if (options.robust) return {};
   return compare_laws(route, runs, options);
+}
+
+std::optional<Beginning> beginning_if_possible(Route route, const std::vector<FitRun>& runs,
+                                               const FitOptions& options) {
+  if (options.robust) return {};
+  return disturbed_beginning(route, runs, options);
 }
 
 void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& options,
@@ -157,15 +163,23 @@ void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& optio
 }
 
 void check(Tool& tool, const FitResult& r, const std::optional<LawComparison>& laws,
-           std::span<const std::string> names) {
+           const std::optional<Beginning>& beginning, std::span<const std::string> names) {
   constexpr double better = 10;       // AICc: the other law has no support any more (Burnham and
                                       // Anderson 2002, section 2.6)
   constexpr double decisive = 0.005;  // as many false alarms
   const std::string run = names.size() == 1 ? fmt::format("run {}: ", names[0]) : "";
+  // The first reason is printed whatever else fails: what no warning has told, and what would make
+  // the others.
+  if (r.agreement && !r.agreement->agree())
+    tool.check_failed(disagreement(r, names) + "; the errors allow for that");
+  if (!exact(r) && beginning)
+    tool.check_failed(fmt::format(
+        "run {}: the first {} records do not go on as the others (chance {:.1g}), as if a hand "
+        "were still on: cut off {:.2g} s",
+        names[beginning->run], beginning->records, beginning->significance, beginning->time));
   if (laws && laws->against_power() >= better)
     tool.check_failed(fmt::format("{}D = {} is better than a v^b by {:.1f} in AICc; see --report",
                                   run, laws->best_other().law->formula, laws->against_power()));
-  if (r.agreement && !r.agreement->agree()) tool.check_failed(disagreement(r, names));
   if (!exact(r) && r.whiteness <= decisive)
     tool.check_failed(
         fmt::format("{}the residuals are not white (Ljung-Box p {:.2g}): the law, or what is "

@@ -23,6 +23,7 @@ namespace {
 std::vector<double> apply(const std::unique_ptr<Signal>& signal, std::span<const double> t,
                           std::span<const double> y) {
   std::vector<double> out;
+  out.reserve(t.size());
   for (std::size_t i = 0; i < t.size(); ++i)
     for (const double value : signal->push(t[i], y[i])) out.push_back(value);
   for (const double value : signal->finish()) out.push_back(value);
@@ -56,7 +57,8 @@ std::optional<ShiftOf> shift_line(std::span<const std::string> words) {
 LinearFilter linear(const std::string& from, const std::string& to, const SignalOptions& options,
                     std::span<const double> t) {
   return {from, to, reach(options, t),
-          [options](auto time, auto y) { return apply(make_signal(options), time, y); }};
+          [options](auto time, auto y) { return apply(make_signal(options), time, y); },
+          options.method->shift_invariant && options.width.seconds == 0};
 }
 
 std::string derivative_of(const std::string& column) {

@@ -32,24 +32,24 @@ std::size_t need_number(Reader& in, const std::string& name) {
 
 }  // namespace
 
-std::optional<TableLaw> read_law(Tool& tool, const std::string& file, PowerLaw& law, double& slope,
-                                 double* v0) {
+LawFile read_law(Tool& tool, const std::string& file) {
   Reader& in = tool.read_file(file, {"v", "D"});
   if (in.find("a") && in.find("b")) {
     const RowColumn a(in, "a", "D");
     const auto b = need_number(in, "b");
     std::optional<std::size_t> slope_slot;
     if (in.find("slope")) slope_slot = need_number(in, "slope");
-    std::optional<RowColumn> speed;
-    if (v0 && in.find("v0")) speed.emplace(in, "v0", "v");
+    std::optional<RowColumn> v0;
+    if (tool.has("v0") && in.find("v0")) v0.emplace(in, "v0", "v");
     if (!in.next_run() || !in.next()) fail("{}: no row of fitpower", shown(file));
+    LawFile law;
     if (!tool.on_command_line("coefficient")) law.a = a.value();
-    if (!(law.a > 0)) fail("a = {} must be greater than 0", law.a);
+    if (law.a && !(*law.a > 0)) fail("a = {} must be greater than 0", *law.a);
     if (!tool.on_command_line("exponent")) law.b = in[b];
-    if (slope_slot && !tool.on_command_line("slope")) slope = in[*slope_slot];
-    if (speed && !tool.on_command_line("v0")) *v0 = speed->value();
+    if (slope_slot && !tool.on_command_line("slope")) law.slope = in[*slope_slot];
+    if (v0 && !tool.on_command_line("v0")) law.v0 = v0->value();
     if (in.next() || in.next_run()) fail("more than one row: a law is one row of fitpower");
-    return {};
+    return law;
   }
   if (tool.on_command_line("coefficient") || tool.on_command_line("exponent"))
     fail("-a and -b do not go with a table of v D");
@@ -57,7 +57,7 @@ std::optional<TableLaw> read_law(Tool& tool, const std::string& file, PowerLaw& 
   std::vector<double> speeds, shifts;
   while (in.next_run())
     while (in.next()) speeds.push_back(in[v]), shifts.push_back(in[D]);
-  return TableLaw(std::move(speeds), std::move(shifts));
+  return {.table = TableLaw(std::move(speeds), std::move(shifts))};
 }
 
 }  // namespace rolling

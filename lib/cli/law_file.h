@@ -10,12 +10,19 @@
 
 namespace rolling {
 
+/// What the file says: a table, or the numbers of a row of fitpower. A number is empty where the
+/// row has no such column, or where the command line gives the value, which takes precedence.
+struct LawFile {
+  std::optional<TableLaw> table = {};
+  std::optional<double> a = {}, b = {}, slope = {}, v0 = {};  ///< SI units
+
+  /// `given`, with a and b replaced by those of the file.
+  PowerLaw law_or(PowerLaw given) const { return {a.value_or(given.a), b.value_or(given.b)}; }
+};
+
 /// Reads a row of fitpower (a file with columns a and b) or a table of v and D; `-` is standard
-/// input. A row sets `law`, and `slope` and `v0` [m/s] if it has these columns and v0 is not null,
-/// except for values that are on the command line. A table is returned; with -a or -b it is
-/// refused. Columns with units are converted to SI. Throws Error for any other file and for more
-/// than one row.
-std::optional<TableLaw> read_law(Tool&, const std::string& file, PowerLaw& law, double& slope,
-                                 double* v0 = nullptr);
+/// input. Columns with units are converted to SI; v0 is read only for a tool with the option --v0.
+/// Throws Error for any other file, for more than one row, and for a table beside -a or -b.
+LawFile read_law(Tool&, const std::string& file);
 
 }  // namespace rolling

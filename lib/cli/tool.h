@@ -104,6 +104,8 @@ class Tool {
   /// Throws one Error that lists those of these options (long names of number(), numbers(), body()
   /// and law()) which have a value neither on the command line nor in the scene.
   void need(const std::vector<std::string>& options) const;
+  /// True if this tool has an option with this long name, given or not.
+  bool has(const std::string& option) const { return options_.contains(option); }
   /// True if the option with this long name is on the command line (not only in the scene).
   bool on_command_line(std::string_view option) const { return command_line_.given(option); }
 

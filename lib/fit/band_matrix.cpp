@@ -1,15 +1,12 @@
 #include "fit/band_matrix.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <numeric>
-#include <utility>
 
 namespace rolling {
 
 BandMatrix BandMatrix::identity(std::size_t n) {
   BandMatrix I;
-  I.reserve(n, n);
+  I.reserve(n, 1);
   constexpr double one = 1;
   for (std::size_t i = 0; i < n; ++i) I.append(i, {&one, 1});
   return I;
@@ -17,87 +14,67 @@ BandMatrix BandMatrix::identity(std::size_t n) {
 
 bool BandMatrix::is_identity() const {
   for (std::size_t i = 0; i < rows(); ++i)
-    if (row(i).size() != 1 || first_[i] != i || row(i)[0] != 1) return false;
+    if (row(i).size() != 1 || first(i) != i || row(i)[0] != 1) return false;
   return true;
 }
 
 void BandMatrix::reserve(std::size_t rows, std::size_t numbers) {
-  first_.reserve(rows);
-  start_.reserve(rows + 1);
+  rows_.reserve(rows);
   values_.reserve(numbers);
 }
 
 void BandMatrix::append(std::size_t first, std::span<const double> values) {
   while (!values.empty() && values.back() == 0) values = values.first(values.size() - 1);
   while (!values.empty() && values.front() == 0) values = values.subspan(1), ++first;
-  first_.push_back(first);
-  values_.insert(values_.end(), values.begin(), values.end());
-  start_.push_back(values_.size());
-  if (!values.empty()) columns_ = std::max(columns_, first + values.size());
+  if (values.empty()) {
+    rows_.push_back({0, 0, 0});
+    return;
+  }
+  const auto before = rows_.empty() ? std::span<const double>() : row(rows() - 1);
+  const std::size_t start =
+      std::ranges::equal(before, values) ? rows_.back().start : values_.size();
+  if (start == values_.size()) values_.insert(values_.end(), values.begin(), values.end());
+  rows_.push_back(
+      {start, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(values.size())});
+  columns_ = std::max(columns_, first + values.size());
+  window_ = std::max(window_, columns_ - first);
 }
 
 void BandMatrix::append(std::size_t i, double x, const BandMatrix& X, double y,
                         const BandMatrix& Y) {
   const auto a = X.row(i), b = Y.row(i);
-  const std::size_t from = std::min(X.first(i), Y.first(i));
-  std::vector<double> sum(std::max(X.first(i) + a.size(), Y.first(i) + b.size()) - from, 0);
+  if (a.empty() && b.empty()) return append(0, a);
+  const std::size_t from = a.empty()   ? Y.first(i)
+                           : b.empty() ? X.first(i)
+                                       : std::min(X.first(i), Y.first(i));
+  std::vector<double> sum(std::max(X.end(i), Y.end(i)) - from, 0);
   for (std::size_t j = 0; j < a.size(); ++j) sum[X.first(i) - from + j] += x * a[j];
   for (std::size_t j = 0; j < b.size(); ++j) sum[Y.first(i) - from + j] += y * b[j];
   append(from, sum);
 }
 
-double BandMatrix::times(std::size_t i, std::span<const double> x) const {
-  const auto r = row(i);
-  return std::inner_product(r.begin(), r.end(), x.begin() + static_cast<std::ptrdiff_t>(first_[i]),
-                            0.0);
-}
-
-std::vector<double> BandMatrix::transposed_times(std::span<const double> x) const {
-  std::vector<double> product(columns_);
-  for (std::size_t i = 0; i < rows(); ++i) {
-    const auto r = row(i);
-    for (std::size_t k = 0; k < r.size(); ++k) product[first_[i] + k] += r[k] * x[i];
-  }
-  return product;
-}
-
 BandMatrix BandMatrix::operator*(const BandMatrix& B) const {
-  // The columns that row i of the product reaches.
-  const auto reach = [&](std::size_t i) {
-    std::size_t from = B.rows() ? SIZE_MAX : 0, to = 0;
-    for (std::size_t k = first_[i]; k < first_[i] + row(i).size(); ++k) {
-      if (B.row(k).empty()) continue;
-      from = std::min(from, B.first(k));
-      to = std::max(to, B.first(k) + B.row(k).size());
-    }
-    return std::pair(from, to);
-  };
-  std::size_t numbers = 0;
-  for (std::size_t i = 0; i < rows(); ++i) {
-    const auto [from, to] = reach(i);
-    numbers += to > from ? to - from : 0;
-  }
   BandMatrix product;
-  product.reserve(rows(), numbers);
+  product.reserve(rows(), 0);
   std::vector<double> sum;
   for (std::size_t i = 0; i < rows(); ++i) {
-    const auto r = row(i);
-    const auto [from, to] = reach(i);
+    std::size_t from = SIZE_MAX, to = 0;
+    for (std::size_t k = first(i); k < end(i); ++k)
+      if (!B.row(k).empty()) from = std::min(from, B.first(k)), to = std::max(to, B.end(k));
     sum.assign(to > from ? to - from : 0, 0);
-    for (std::size_t k = 0; k < r.size(); ++k) {
-      const auto b = B.row(first_[i] + k);
-      for (std::size_t j = 0; j < b.size(); ++j)
-        sum[B.first(first_[i] + k) - from + j] += r[k] * b[j];
-    }
+    for (std::size_t k = first(i); k < end(i); ++k)
+      for (std::size_t j = 0; j < B.row(k).size(); ++j)
+        sum[B.first(k) - from + j] += row(i)[k - first(i)] * B.row(k)[j];
     product.append(sum.empty() ? 0 : from, sum);
   }
   return product;
 }
 
-BandMatrix BandMatrix::without(std::size_t before, std::size_t after) const {
-  BandMatrix rest;
-  for (std::size_t i = before; i + after < rows(); ++i) rest.append(first(i), row(i));
-  return rest;
+BandMatrix BandMatrix::of_rows(std::span<const std::size_t> rows) const {
+  BandMatrix few;
+  few.reserve(rows.size(), 0);
+  for (std::size_t i : rows) few.append(first(i), row(i));
+  return few;
 }
 
 }  // namespace rolling

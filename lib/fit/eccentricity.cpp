@@ -3,172 +3,201 @@
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "contact/contact.h"
-#include "fit/dot.h"
-#include "fit/errors.h"
+#include "fit/triangles.h"
 
 namespace rolling {
 namespace {
 
 using Column = std::vector<double>;
 
-/// The middles of short steps of the fitted roll, and how many of them end at each record.
-struct Steps {
-  Column h, x, v, acceleration;
-  std::vector<std::size_t> until;  // the first step behind each record
-  double way = 0;
+/// What an eccentricity of one metre makes of the raw column, to first order: by dD = cos(x/r), and
+/// by dD = sin(x/r). The law is autonomous, so that dv = v' w with w' = -(g cos theta/((K + 1) R))
+/// dD / v'.
+class Wobble {
+ public:
+  /// At these times, which increase.
+  Wobble(const ObservedRun& run, const Trajectory& roll, std::span<const double> times, double r)
+      : t_(times.begin(), times.end()) {
+    constexpr double longest = 0.2;  // of a step of integration, in radians of the body
+    constexpr double slow = 0.05;    // of v0: w would grow without bound towards the stop
+    const double by_D = -run.body.g * incline(run.body).cos / ((run.body.K + 1) * run.body.R);
+    std::array<double, 2> w{}, dx{}, dv{};
+    double before = 0;
+    for (double t : t_) {
+      const double angle = roll.speed_at(before).v * (t - before) / r;
+      const double count = std::clamp(std::ceil(angle / longest), 1.0, 32.0),
+                   h = (t - before) / count;
+      for (double i = 0; h > 0 && i < count; ++i) {
+        const auto s = roll.at(before + (i + 0.5) * h);
+        if (first_v_ == 0) first_v_ = s.v;
+        fastest_ = std::max(fastest_, s.v);
+        const double acceleration = s.v > 0 ? roll.acceleration(s.v) : 0,
+                     by_force = s.v > slow * first_v_ ? by_D / acceleration * h / 2 : 0;
+        for (std::size_t k = 0; k < 2; ++k) {
+          const double half_w = by_force * (k ? std::sin(s.x / r) : std::cos(s.x / r));
+          dv[k] = acceleration * (w[k] + half_w);
+          dx[k] += dv[k] * h;
+          w[k] += 2 * half_w;
+        }
+        way_ = s.x;
+      }
+      const auto& raw = run.raw_is_position ? dx : dv;
+      of_t_.push_back({run.way * raw[0], run.way * raw[1]});
+      before = t;
+    }
+  }
+
+  /// Between the times they are taken as straight lines.
+  std::array<double, 2> at(double t) const {
+    const auto next = std::lower_bound(t_.begin(), t_.end(), t) - t_.begin();
+    const auto i = static_cast<std::size_t>(next);
+    if (i == t_.size()) return of_t_.back();
+    if (i == 0 || t_[i] == t) return of_t_[i];
+    const double share = (t - t_[i - 1]) / (t_[i] - t_[i - 1]);
+    std::array<double, 2> between;
+    for (std::size_t k = 0; k < 2; ++k)
+      between[k] = of_t_[i - 1][k] + share * (of_t_[i][k] - of_t_[i - 1][k]);
+    return between;
+  }
+  double fastest() const { return fastest_; }
+  double way() const { return way_; }
+
+ private:
+  Column t_;
+  std::vector<std::array<double, 2>> of_t_;
+  double first_v_ = 0, fastest_ = 0, way_ = 0;
 };
-
-Steps steps_of(const ObservedRun& run, const Trajectory& roll, double R) {
-  constexpr double longest = 0.2;  // of a step, in radians of the body
-  Steps steps;
-  double before = 0;
-  for (double t : run.t) {
-    const double angle = (roll.speed_at(before).v) * (t - before) / R;
-    const auto count = static_cast<std::size_t>(std::clamp(std::ceil(angle / longest), 1.0, 32.0));
-    const double h = (t - before) / static_cast<double>(count);
-    for (std::size_t i = 0; h > 0 && i < count; ++i) {
-      const auto s = roll.at(before + (static_cast<double>(i) + 0.5) * h);
-      steps.h.push_back(h);
-      steps.x.push_back(s.x);
-      steps.v.push_back(s.v);
-      steps.acceleration.push_back(s.v > 0 ? roll.acceleration(s.v) : 0);
-    }
-    steps.until.push_back(steps.h.size());
-    before = t;
-  }
-  steps.way = steps.x.empty() ? 0 : steps.x.back();
-  return steps;
-}
-
-/// What the raw column becomes by dD = cos(x/r - phase), to first order. The law is autonomous, so
-/// that dv = v' w with w' = -(g cos theta/((K + 1) R)) dD / v'.
-Column response(const ObservedRun& run, const Steps& steps, double r, double phase) {
-  constexpr double slow = 0.05;  // of v0: w would grow without bound towards the stop
-  const double by_D = -run.body.g * incline(run.body).cos / ((run.body.K + 1) * run.body.R);
-  Column raw;
-  double w = 0, dx = 0, dv = 0;
-  std::size_t i = 0;
-  for (std::size_t until : steps.until) {
-    for (; i < until; ++i) {
-      const double force = by_D * std::cos(steps.x[i] / r - phase), half = steps.h[i] / 2;
-      const bool rolls = steps.v[i] > slow * steps.v.front();
-      const double half_w = rolls ? force / steps.acceleration[i] * half : 0;
-      w += half_w;
-      dv = steps.acceleration[i] * w;
-      dx += dv * steps.h[i];
-      w += half_w;
-    }
-    raw.push_back(run.way * (run.raw_is_position ? dx : dv));
-  }
-  return raw;
-}
-
-/// Takes from `column` what lies along the others, which are orthonormal.
-void orthogonalise(Column& column, const std::vector<Column>& others) {
-  for (int twice = 0; twice < 2; ++twice)
-    for (const Column& other : others) {
-      const double along = dot(other.data(), column.data(), column.size());
-      for (std::size_t i = 0; i < column.size(); ++i) column[i] -= along * other[i];
-    }
-}
-
-double norm(const Column& x) { return std::sqrt(dot(x.data(), x.data(), x.size())); }
 
 /// One run of a fit, seen for something periodic.
 class Periodogram {
  public:
   Periodogram(const Fitted& fit, std::size_t run, double R, double variance,
-              std::span<const double> Q, std::span<const double> f)
+              std::span<const double> f)
       : fit_(fit), run_(run), R_(R), variance_(variance), seen_(fit.rolls->runs()[run]),
-        steps_(steps_of(seen_, fit.rolls->trajectory(fit.minimum.theta, run), R)),
-        f_(f.begin(), f.end()) {
-    const std::size_t q = fit.system.columns();
-    for (std::size_t j = 0; j < q; ++j) {
-      Column column(f.size());
-      for (std::size_t i = 0; i < f.size(); ++i) column[i] = Q[i * q + j];
-      const double before = norm(column);
-      orthogonalise(column, tangent_);
-      const double length = norm(column);
-      if (!(length > 1e-9 * before)) continue;
-      for (double& x : column) x /= length;
-      tangent_.push_back(std::move(column));
-    }
+        roll_(fit.rolls->trajectory(fit.minimum.theta, run)), f_(f), ends_(thinned()) {
+    for (std::size_t end : ends_) times_.push_back(seen_.t[end - 1]);
   }
 
   bool worth() const {
-    if (f_.size() < 30 || !(steps_.way >= 2 * std::numbers::pi * R_)) return false;
-    const double fastest = *std::max_element(steps_.v.begin(), steps_.v.end());
+    const Wobble wobble(seen_, roll_, times_, R_);
+    if (f_.size() < 30 || !(wobble.way() >= 2 * std::numbers::pi * R_)) return false;
     double longest = 0;
     for (std::size_t i = 1; i < seen_.t.size(); ++i)
       longest = std::max(longest, seen_.t[i] - seen_.t[i - 1]);
-    return fastest * longest < std::numbers::pi * R_;
+    return wobble.fastest() * longest < std::numbers::pi * R_;
   }
 
   /// For the period 2 pi R times `stretch`.
   Eccentricity at(double stretch) const {
-    // The columns of cos and sin, as the fit sees them, freed of the tangent plane.
-    std::vector<Column> C;
-    for (double phase : {0.0, std::numbers::pi / 2}) {
-      Column column = response(seen_, steps_, stretch * R_, phase);
-      if (seen_.H)
-        hand_over_filtered(seen_, run_, Column(column), column, *fit_.noise,
-                           [&](std::size_t, std::span<double>, std::span<double> J) {
-          column.assign(J.begin(), J.end());
-        });
-      orthogonalise(column, tangent_);
-      C.push_back(std::move(column));
-    }
-    const auto product = [&](const Column& x, const Column& y) {
-      return dot(x.data(), y.data(), x.size());
-    };
-    // f = model - data: least squares of C e = -f.
-    const double cc = product(C[0], C[0]), cs = product(C[0], C[1]), ss = product(C[1], C[1]),
-                 c = -product(C[0], f_), s = -product(C[1], f_), det = cc * ss - cs * cs;
-    if (!(det > 1e-12 * cc * ss)) return {run_, 1, 0, 0, 0};
-    const double by_cos = (ss * c - cs * s) / det, by_sin = (cc * s - cs * c) / det;
-    const double reduction = by_cos * c + by_sin * s, e = std::hypot(by_cos, by_sin),
+    const Wobble wobble(seen_, roll_, times_, stretch * R_);
+    // The triangle of all columns, those of the wobble last: its end is the triangle of theirs,
+    // freed of what the parameters can follow, and f = model - data along them.
+    const std::size_t q = fit_.system.columns() + 2;
+    Triangles all(System{{f_.size()}, 0, q, {}});
+    if (seen_.H) fold_filtered(wobble, all);
+    else fold_means(wobble, all);
+    all.join();
+    const Column R = all.without_f(), theta = all.solve();
+    const double cc = R[(q - 2) * q + q - 2], cs = R[(q - 2) * q + q - 1], ss = R[q * q - 1],
+                 by_cos = theta[q - 2], by_sin = theta[q - 1];
+    if (!(ss * ss > 1e-12 * (cs * cs + ss * ss))) return {run_, 1, 0, 0, 0};
+    const double reduction = square(cc * by_cos + cs * by_sin) + square(ss * by_sin),
+                 e = std::hypot(by_cos, by_sin),
                  freedom = static_cast<double>(fit_.minimum.f.size()) -
                            static_cast<double>(fit_.minimum.theta.size()) - 2,
                  variance =
                      variance_ * (1 - reduction / fit_.minimum.rss) * (freedom + 2) / freedom;
-    const double along = (by_cos * by_cos * ss - 2 * by_cos * by_sin * cs + by_sin * by_sin * cc);
+    // (by_cos, by_sin)/e times the root of the inverse of R^T R.
+    const double u = by_cos / (e * cc), w = (by_sin / e - u * cs) / ss;
     return {run_, gsl_cdf_fdist_Q(reduction / variance / 2, 2, freedom), e,
-            std::sqrt(variance * along / det) / e, std::atan2(by_sin, by_cos)};
+            std::sqrt(variance * (u * u + w * w)), std::atan2(by_sin, by_cos)};
   }
 
  private:
+  static double square(double x) { return x * x; }
+
+  /// The ends of stretches of records that are short against a turn, and against the run.
+  std::vector<std::size_t> thinned() const {
+    constexpr double turned = 0.1, shares = 512;
+    const Column& t = seen_.t;
+    std::vector<std::size_t> ends;
+    double begin = t.front(), most = 0;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      if (i > 0 && i + 1 < t.size() && t[i + 1] - begin <= most) continue;
+      ends.push_back(i + 1);
+      begin = t[i];
+      const double v = roll_.speed_at(begin).v;
+      most = (t.back() - t.front()) / shares;
+      if (v > 0) most = std::min(most, turned * R_ / v);
+    }
+    return ends;
+  }
+
+  /// Of white noise, the means of the stretches hold all that changes slowly.
+  void fold_means(const Wobble& wobble, Triangles& all) const {
+    const RawModel model = fit_.rolls->raw(fit_.minimum.theta, run_);
+    const std::size_t q = fit_.system.columns();
+    Column J(q + 2);
+    std::size_t first = 0;
+    for (std::size_t end : ends_) {
+      const double n = static_cast<double>(end - first);
+      double t = 0, f = 0;
+      for (; first < end; ++first) t += seen_.t[first] / n, f += f_[first];
+      model(t, J.data(), 1);
+      const auto by_e = wobble.at(t);
+      std::copy(by_e.begin(), by_e.end(), J.end() - 2);
+      for (double& x : J) x *= std::sqrt(n);
+      f /= std::sqrt(n);
+      all.add(0, {&f, 1}, J);
+    }
+  }
+
+  void fold_filtered(const Wobble& wobble, Triangles& all) const {
+    const RawModel model = fit_.rolls->raw(fit_.minimum.theta, run_);
+    const std::size_t q = fit_.system.columns();
+    const double* f = f_.data();
+    const TakeRows take = [&](std::size_t, std::span<double> of_rows, std::span<double> J) {
+      std::copy_n(std::exchange(f, f + of_rows.size()), of_rows.size(), of_rows.begin());
+      all.add(0, of_rows, J);
+    };
+    Residuals residuals(seen_, run_, q + 2, *fit_.noise, take);
+    for (double t : seen_.t) {
+      const auto to = residuals.place();
+      *to.raw = model(t, to.slopes, to.stride);
+      const auto by_e = wobble.at(t);
+      for (std::size_t k = 0; k < 2; ++k) to.slopes[(q + k) * to.stride] = by_e[k];
+      residuals.push();
+    }
+  }
+
   const Fitted& fit_;
   std::size_t run_;
   double R_, variance_;
   const ObservedRun& seen_;
-  Steps steps_;
-  Column f_;
-  std::vector<Column> tangent_;
+  Trajectory roll_;
+  std::span<const double> f_;
+  std::vector<std::size_t> ends_;
+  Column times_;
 };
 
 }  // namespace
 
 std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRun>& runs,
-                                            const Fitted& fit) {
+                                            const Fitted& fit, double variance) {
   constexpr double decisive = 0.01;
-  const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
-                    q = fit.system.columns();
-  if (!fit.rolls || n < p + 10) return {};
-  const double variance = fit.noise->known() && !fit.noise_inferred
-                              ? noise_variance(fit)
-                              : fit.minimum.rss / static_cast<double>(n - p);
-  const auto Q = orthonormal(fit.system, fit.minimum);
+  if (!fit.rolls || fit.minimum.f.size() < fit.minimum.theta.size() + 10) return {};
   std::optional<Eccentricity> found;
   std::size_t first = 0;
   for (std::size_t r = 0; r < runs.size(); first += fit.system.runs[r++]) {
-    const std::size_t m = fit.system.runs[r];
     const double R = route == Route::shift ? runs[r].shift_of->body.R : runs[r].body.R;
-    const Periodogram spectrum(fit, r, R, variance, std::span(Q).subspan(first * q, m * q),
-                               std::span(fit.minimum.f).subspan(first, m));
+    const Periodogram spectrum(fit, r, R, variance,
+                               std::span(fit.minimum.f).subspan(first, fit.system.runs[r]));
     if (!spectrum.worth()) continue;
     Eccentricity once_a_turn = spectrum.at(1);
     once_a_turn.significance *= static_cast<double>(runs.size());

@@ -185,14 +185,25 @@ bool filters_known(const Fitted& fit) { return fit.noise->known() && !fit.noise_
 Sources sources_of(const Fitted& fit) {
   std::vector<double> Q = orthonormal(fit.system, fit.minimum);
   if (!filters_known(fit)) return {fit.minimum.f, fit.system.runs, std::move(Q)};
-  return {fit.sources, fit.source_runs, fit.noise->through(Q, fit.system.columns())};
+  return {fit.sources, fit.source_runs, fit.noise->through(std::move(Q), fit.system.columns())};
+}
+
+/// B^T B of each run, B of the sources.
+std::vector<double> middle_of(const Fitted& fit) {
+  const std::size_t q = fit.system.columns();
+  if (fit.noise->weighted()) return fit.noise->middle(orthonormal(fit.system, fit.minimum), q);
+  return squares_of(sources_of(fit).B, q, fit.source_runs);
 }
 
 /// f f^T is on average the variance times A A^T, A = W E, of which the fit has taken the part along
 /// Q: tr((I - Q Q^T) A A^T) = tr A A^T - |B|^2.
-double variance_of(const Fitted& fit, const Sources& from) {
-  return fit.noise_variance.value_or(
-      fit.minimum.rss / (fit.noise->trace() - dot(from.B.data(), from.B.data(), from.B.size())));
+double variance_of(const Fitted& fit, const std::vector<double>& middle) {
+  if (fit.noise_variance) return *fit.noise_variance;
+  const std::size_t q = fit.system.columns();
+  double taken = 0;
+  for (std::size_t i = 0; i < middle.size(); ++i)
+    taken += i % (q * q) % (q + 1) == 0 ? middle[i] : 0;
+  return fit.minimum.rss / (fit.noise->trace() - taken);
 }
 
 /// The middle of the classical covariance, s^2 I.
@@ -216,14 +227,14 @@ void correct_for_leverage(const Sources& from, std::size_t q, std::vector<double
 
 }  // namespace
 
-double noise_variance(const Fitted& fit) { return variance_of(fit, sources_of(fit)); }
+double noise_variance(const Fitted& fit) { return variance_of(fit, middle_of(fit)); }
 
 Uncertainty uncertainty_of(const Fitted& fit) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), decisive = 0.01;
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
                     q = fit.system.columns();
   const auto& R = fit.minimum.R;
-  if (n <= p) return {Errors::none, nan, {R, std::vector<double>(R.size(), nan), q}};
+  if (n <= p) return {Errors::none, nan, nan, {R, std::vector<double>(R.size(), nan), q}};
   const bool known = filters_known(fit);
   const auto& tested = known ? fit.innovations : fit.minimum.f;
   const auto& runs = known ? fit.innovation_runs : fit.system.runs;
@@ -235,14 +246,14 @@ Uncertainty uncertainty_of(const Fitted& fit) {
 
   const double plain = fit.minimum.rss / static_cast<double>(n - p);
   if (kind == Errors::classical || kind == Errors::differences)
-    return {kind, whiteness, {R, classical(fit, plain), q}};
-  const Sources from = sources_of(fit);
-  const double variance = known ? variance_of(fit, from) : plain;
+    return {kind, whiteness, plain, {R, classical(fit, plain), q}};
   std::vector<double> M;
+  if (known) M = middle_of(fit);
+  const double variance = known ? variance_of(fit, M) : plain;
   if (kind == Errors::filters) {
-    M = squares_of(from.B, q, from.runs);
     for (double& x : M) x *= variance;
   } else {
+    const Sources from = sources_of(fit);
     std::vector<double> scores = from.B;
     for (std::size_t i = 0; i < scores.size(); ++i) scores[i] *= from.e[i / q];
     const bool by_leverage = kind == Errors::uneven && !known;
@@ -256,7 +267,7 @@ Uncertainty uncertainty_of(const Fitted& fit) {
       for (double& x : M) x *= variance / shown;
   }
   add_shared(M, q, fit.system.shared);
-  return {kind, whiteness, {R, std::move(M), q}};
+  return {kind, whiteness, variance, {R, std::move(M), q}};
 }
 
 NoiseErrors noise_errors(const Fitted& fit, const Uncertainty& by) {

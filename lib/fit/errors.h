@@ -23,6 +23,7 @@ class Spread {
 struct Uncertainty {
   Errors kind;
   double whiteness;  ///< as in FitResult
+  double variance;   ///< of the noise: of the raw column, where the filters are known
   Spread covariance;
 };
 

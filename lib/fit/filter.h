@@ -16,6 +16,8 @@ struct LinearFilter {
   std::string from, to;  ///< columns, by their short names
   std::size_t reach;
   std::function<std::vector<double>(std::span<const double> t, std::span<const double> y)> apply;
+  bool shift_invariant = false;  ///< but for the 2 reach + 1 rows at either end, L[i][j] depends on
+                                 ///< i - j alone
   bool cut_begin = false,
        cut_end = false;  ///< then records were cut away there before this filter came
 };

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "fit/eccentricity.h"
 #include "fit/agreement.h"
+#include "fit/dot.h"
 #include "fit/errors.h"
 #include "fit/first_guess.h"
 #include "fit/given_numbers.h"
@@ -43,7 +44,6 @@ std::vector<ObservedRun> without_filters(Route route, std::vector<ObservedRun> r
   for (std::size_t r = 0; r < runs.size(); ++r) {
     ObservedRun& run = runs[r];
     run.H.reset();
-    run.with_mean_speed = false;
     run.raw_is_position = position;
     run.t.clear();
     run.y.clear();
@@ -91,17 +91,16 @@ void report(Fitted& fit, const std::vector<double>& theta) {
 }
 
 /// What the residuals tell of the noise; and their sum of squares as they stand.
-void explain(Fitted& fit, const std::vector<double>& theta) {
+void explain(Fitted& fit) {
   fit.rss = fit.minimum.rss;
   if (!fit.noise->known()) return;
   fit.rss = 0;
-  const auto& runs = fit.rolls->runs();
-  system_of(fit.rolls, std::make_shared<const Noise>())
-      .evaluate(theta, [&](std::size_t r, std::span<double> f, std::span<double>) {
-        const double rss =
-            std::inner_product(f.begin(), f.end() - runs[r].with_mean_speed, f.begin(), 0.0);
-        fit.rss += rss * runs[r].unit * runs[r].unit;
-      });
+  const auto plain = fit.noise->without_weights(fit.minimum.f);
+  const double* f = plain.data();
+  for (const ObservedRun& run : fit.rolls->runs()) {
+    fit.rss += dot(f, f, run.records()) * run.unit * run.unit;
+    f += run.y.size();
+  }
   if (fit.noise_inferred) return;
   fit.sources = fit.noise->explain(fit.minimum.f);
   fit.source_runs = fit.noise->sources();
@@ -110,7 +109,7 @@ void explain(Fitted& fit, const std::vector<double>& theta) {
 
 void find_minimum(Fitted& fit, std::vector<ObservedRun> runs, const FirstGuess& start,
                   const FitOptions& options) {
-  const bool filters_known = runs.front().H != nullptr;
+  const bool filters_known = runs.front().H.has_value();
   fit.noise = noise_of(runs, fit.white_share);
   fit.rolls = std::make_shared<const RollModel>(std::move(runs), start.parameters);
   fit.system = system_of(fit.rolls, fit.noise);
@@ -129,7 +128,7 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   fit.white_share = joint.white_share;
   find_minimum(fit, {std::move(run)}, {all.of_one_run(), all.theta_of_run(theta, r)}, options);
   report(fit, fit.minimum.theta);
-  explain(fit, fit.minimum.theta);
+  explain(fit);
   return fit;
 }
 
@@ -159,7 +158,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       break;
   }
   report(fit, guess->theta);
-  explain(fit, guess->theta);
+  explain(fit);
   for (const FitRun& run : all) fit.left_out += run.t.size();
   fit.left_out -= fit.records;
   return fit;
@@ -170,6 +169,7 @@ std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
   for (const FitRun& run : all) {
     const auto& y = route == Route::position ? run.x : run.v;
     Rows& of_run = rows.emplace_back();
+    of_run.reserve(y.size());
     for (std::size_t i = 0; i < y.size(); ++i)
       if (std::isfinite(y[i]) && (route != Route::shift || std::isfinite(run.D[i])))
         of_run.push_back(i);
@@ -270,8 +270,9 @@ void require_determined(const FitResult& result, bool with_slope) {
 
 FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   Fitted found = fit_route(route, runs, options);
-  NoiseErrors noise = noise_errors(found, uncertainty_of(found));
-  const auto eccentricity = eccentricity_of(route, runs, found);
+  const Uncertainty uncertainty = uncertainty_of(found);
+  NoiseErrors noise = noise_errors(found, uncertainty);
+  const auto eccentricity = eccentricity_of(route, runs, found, uncertainty.variance);
   const auto agreement = agreement_of(route, runs, options, noise, found);
   require_determined(result_of(found, noise, {}), options.fit_slope);
   FitResult result = result_of(found, noise, moved_by_given(route, runs, options, found));

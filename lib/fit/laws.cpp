@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/error.h"
 #include "fit/errors.h"
@@ -88,22 +89,21 @@ class Records {
     body.slope = fits_slope() ? run.way * theta.back() * slope_unit
                               : power_.rolls->slope(power_.minimum.theta, r);
     LawRoll roll(body, run.geometry, in_units(law), c, v0);
-    const std::size_t m = run.t.size(), coefficients = law.coefficients.size();
-    std::vector<double> raw(m), J(m * (own() + shared(law)));
-    for (std::size_t i = 0; i < m; ++i) {
-      const LawRoll::Point p = roll.at(run.t[i]);
+    const std::size_t coefficients = law.coefficients.size();
+    Residuals residuals(run, r, own() + shared(law), *power_.noise, take);
+    for (double t : run.t) {
+      const LawRoll::Point p = roll.at(t);
       const bool x = run.raw_is_position;
-      raw[i] = x ? x0 + run.way * p.x : run.way * p.v;
-      double* to = &J[i];
-      const auto put = [&](double value) { *std::exchange(to, to + m) = value; };
+      const auto place = residuals.place();
+      *place.raw = x ? x0 + run.way * p.x : run.way * p.v;
+      double* to = place.slopes;
+      const auto put = [&](double value) { *std::exchange(to, to + place.stride) = value; };
       if (!options_.v0) put(run.way * v_unit_ * (x ? p.x_v0 : p.v_v0));
       if (free_x0()) put(x_unit_);
       for (std::size_t j = 0; j < coefficients; ++j) put(run.way * (x ? p.x_c[j] : p.v_c[j]));
       if (fits_slope()) put(slope_unit * (x ? p.x_c[coefficients] : p.v_c[coefficients]));
+      residuals.push();
     }
-    if (run.H) return hand_over_filtered(run, r, raw, J, *power_.noise, take);
-    for (std::size_t i = 0; i < m; ++i) raw[i] -= run.y[i];
-    take(r, raw, J);
   }
 
   Route route_;
@@ -230,10 +230,8 @@ double LawComparison::least() const {
 }
 
 const LawFit& LawComparison::best_other() const {
-  const LawFit* best = nullptr;
-  for (const LawFit& fit : fits)
-    if (!fit.law->is_power && (!best || fit.aicc < best->aicc)) best = &fit;
-  return *best;
+  return *std::ranges::min_element(
+      fits, {}, [](const LawFit& fit) { return std::pair(fit.law->is_power, fit.aicc); });
 }
 
 double LawComparison::against_power() const {

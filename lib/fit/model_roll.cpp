@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace rolling {
 namespace {
@@ -16,24 +17,14 @@ const char* column_of(Route route) {
 
 /// The rows of H for the fitted records, and for shifts one for the mean of their speeds: D alone
 /// hardly depends on v0.
-Noise::Matrix filters_of_rows(const Response& response, Route route, const Rows& rows) {
-  const Noise::Matrix& all = response.of.at(column_of(route));
-  const BandMatrix& of = *all;
-  if (route != Route::shift && rows.size() == of.rows()) return all;
-  std::size_t numbers = route == Route::shift ? response.t.size() : 0;
-  for (std::size_t i : rows) numbers += of.row(i).size();
-  BandMatrix H;
-  H.reserve(rows.size() + 1, numbers);
-  for (std::size_t i : rows) H.append(of.first(i), of.row(i));
-  if (route == Route::shift) {
-    std::vector<double> mean(response.t.size());
-    const BandMatrix& of_v = *response.of.at("v");
-    for (std::size_t i : rows)
-      for (std::size_t k = 0; k < of_v.row(i).size(); ++k)
-        mean[of_v.first(i) + k] += of_v.row(i)[k] / static_cast<double>(rows.size());
-    H.append(0, mean);
-  }
-  return std::make_shared<const BandMatrix>(std::move(H));
+FilterMatrix filters_of_rows(const Response& response, Route route, const Rows& rows) {
+  FilterMatrix H = response.of.at(column_of(route));
+  if (rows.size() != H.rows()) H = H.of_rows(rows);
+  if (route != Route::shift) return H;
+  const FilterMatrix& of_v = response.of.at("v");
+  std::vector<double> chosen(of_v.rows());
+  for (std::size_t i : rows) chosen[i] = 1 / static_cast<double>(rows.size());
+  return H.with_last_row(of_v.transposed_times(chosen));
 }
 
 /// +1 or -1: which way the body rolls; by all records, of which some may be false echoes.
@@ -109,7 +100,6 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
       for (std::size_t i : rows[r]) mean += run.v[i] / static_cast<double>(rows[r].size());
       for (double& y : seen.y) y = acceleration_of(by, y);
       seen.y.push_back(mean);
-      seen.with_mean_speed = true;
     }
     // With A = 1 on a level mat only g/((K + 1) R) matters (Eq. 12), and D may be larger than R:
     // the radius is taken so large that it never is.
@@ -134,9 +124,9 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
 
 std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>& runs, double share) {
   if (!runs.front().H) return std::make_shared<const Noise>();
-  std::vector<Noise::Matrix> all;
-  for (const ObservedRun& run : runs) all.push_back(run.H);
-  return std::make_shared<const Noise>(std::move(all), share, runs.front().with_mean_speed);
+  std::vector<FilterMatrix> all;
+  for (const ObservedRun& run : runs) all.push_back(*run.H);
+  return std::make_shared<const Noise>(std::move(all), share);
 }
 
 Trajectory RollModel::trajectory(const std::vector<double>& theta, std::size_t run) const {
@@ -151,50 +141,73 @@ double RollModel::slope(const std::vector<double>& theta, std::size_t run) const
   return runs_[run].way * parameters_.slope(theta, runs_[run].body.slope);
 }
 
+RawModel::RawModel(const ObservedRun& run, const Parameters& parameters,
+                   const std::vector<double>& theta, std::size_t r, Trajectory roll)
+    : run_(run), parameters_(parameters), a_(parameters.law(theta).a), x0_(parameters.x0(theta, r)),
+      roll_(std::move(roll)) {}
+
+double RawModel::operator()(double t, double* slopes, std::size_t stride) const {
+  const double way = run_.way;
+  if (run_.raw_is_position) {
+    const auto s = roll_.at(t);
+    parameters_.chain(slopes, stride, a_, {way * s.x_a, way * s.x_b, way * s.x_v0, 1, s.x_S});
+    return x0_ + way * s.x;
+  }
+  const auto s = roll_.speed_at(t);
+  parameters_.chain(slopes, stride, a_, {way * s.v_a, way * s.v_b, way * s.v_v0, 0, s.v_S});
+  return way * s.v;
+}
+
 void RollModel::evaluate(const std::vector<double>& theta, const Noise& noise,
                          const TakeRows& take) const {
-  const std::size_t q = parameters_.columns();
-  const double a = parameters_.law(theta).a;
-  std::vector<double> raw, slopes;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    const ObservedRun& run = runs_[r];
-    const Trajectory roll = trajectory(theta, r);
-    const double way = run.way, x0 = parameters_.x0(theta, r);
-    // Without filters few records at a time, which stay in the cache; else the whole run.
-    const std::size_t n = run.t.size(), block = run.H ? n : 256;
-    for (std::size_t first = 0; first < n; first += block) {
-      const std::size_t m = std::min(block, n - first);
-      raw.resize(m);
-      slopes.resize(m * q);
-      for (std::size_t i = 0; i < m; ++i) {
-        const double t = run.t[first + i];
-        const auto s = run.raw_is_position ? roll.at(t) : roll.speed_at(t);
-        raw[i] = run.raw_is_position ? x0 + way * s.x : way * s.v;
-        if (run.raw_is_position)
-          parameters_.chain(&slopes[i], m, a, {way * s.x_a, way * s.x_b, way * s.x_v0, 1, s.x_S});
-        else
-          parameters_.chain(&slopes[i], m, a, {way * s.v_a, way * s.v_b, way * s.v_v0, 0, s.v_S});
-      }
-      if (!run.H) {
-        for (std::size_t i = 0; i < m; ++i) raw[i] -= run.y[first + i];
-        take(r, raw, slopes);
-        continue;
-      }
-      hand_over_filtered(run, r, raw, slopes, noise, take);
+    const RawModel model = raw(theta, r);
+    Residuals residuals(runs_[r], r, parameters_.columns(), noise, take);
+    for (double t : runs_[r].t) {
+      const auto to = residuals.place();
+      *to.raw = model(t, to.slopes, to.stride);
+      residuals.push();
     }
   }
 }
 
-void hand_over_filtered(const ObservedRun& run, std::size_t r, std::span<const double> raw,
-                        std::span<const double> slopes, const Noise& noise, const TakeRows& take) {
-  const std::size_t rows = run.y.size(), m = raw.size(), q = slopes.size() / m;
-  std::vector<double> f(rows), J(rows * q);
-  for (std::size_t i = 0; i < rows; ++i) {
-    f[i] = run.H->times(i, raw) - run.y[i];
-    for (std::size_t j = 0; j < q; ++j) J[j * rows + i] = run.H->times(i, slopes.subspan(j * m, m));
+Residuals::Residuals(const ObservedRun& run, std::size_t number, std::size_t parameters,
+                     const Noise& noise, const TakeRows& take)
+    : run_(run), number_(number), parameters_(parameters), take_(take) {
+  if (run.H) filters_.emplace(*run.H, parameters + 1);
+  if (noise.weighted()) whitener_.emplace(noise.whitener(number), filters_->stride());
+}
+
+Residuals::Place Residuals::place() {
+  if (k_ == 0) {
+    f_.resize(std::min<std::size_t>(run_.y.size() - done_, 256));
+    J_.resize(f_.size() * parameters_);
   }
-  if (noise.weighted()) noise.weight(r, f, J);
-  take(r, f, J);
+  if (!filters_) return {&f_[k_], &J_[k_], f_.size()};
+  return {filters_->place(), filters_->place() + 1, 1};
+}
+
+void Residuals::push() {
+  if (!filters_) {
+    f_[k_] -= run_.y[done_ + k_];
+    if (++k_ == f_.size()) hand_over();
+    return;
+  }
+  filters_->push();
+  while (double* const row = filters_->next()) {
+    row[0] -= run_.y[done_ + k_];
+    if (whitener_) whitener_->push(row);
+    f_[k_] = row[0];
+    for (std::size_t j = 0; j < parameters_; ++j) J_[j * f_.size() + k_] = row[1 + j];
+    if (++k_ == f_.size()) hand_over();
+  }
+}
+
+void Residuals::hand_over() {
+  take_(number_, f_, J_);
+  done_ += k_;
+  k_ = 0;
+  place();
 }
 
 System system_of(std::shared_ptr<const RollModel> model, std::shared_ptr<const Noise> noise) {
@@ -202,7 +215,8 @@ System system_of(std::shared_ptr<const RollModel> model, std::shared_ptr<const N
   for (const ObservedRun& run : model->runs()) runs.push_back(run.y.size());
   const Parameters& q = model->parameters();
   return {std::move(runs), q.own(), q.shared(),
-          [model, noise](const std::vector<double>& theta, const TakeRows& take) {
+          [model = std::move(model), noise = std::move(noise)](const std::vector<double>& theta,
+                                                               const TakeRows& take) {
     model->evaluate(theta, *noise, take);
           }};
 }

@@ -15,6 +15,7 @@
 #include "motion/trajectory.h"
 
 #include <memory>
+#include <optional>
 
 namespace rolling {
 
@@ -29,14 +30,13 @@ struct ObservedRun {
   double origin = 0;  ///< the time at which v0 and x0 hold; the times below count from it
   double start = 0;   ///< the time for which v0 is reported, from the origin
   bool raw_is_position = false;
-  std::vector<double> t;  ///< where the model is needed: all records of the raw column
-  Noise::Matrix H;        ///< y = H raw; none: y is the raw column itself
-  std::vector<double> y;  ///< a number for each fitted record; for shifts their acceleration,
-                          ///< and at the end the mean speed
-  bool with_mean_speed = false;
-  double unit = 1;  ///< the unit of the fitted column is so many units of y
+  std::vector<double> t;          ///< where the model is needed: all records of the raw column
+  std::optional<FilterMatrix> H;  ///< y = H raw; none: y is the raw column itself
+  std::vector<double> y;          ///< a number for each fitted record; for shifts their
+                                  ///< acceleration, and at the end the mean speed
+  double unit = 1;                ///< the unit of the fitted column is so many units of y
 
-  std::size_t records() const { return y.size() - with_mean_speed; }
+  std::size_t records() const { return y.size() - (H && H->bordered()); }
 };
 
 /// How the columns of each run came from the raw one; none if that is not known.
@@ -54,14 +54,33 @@ std::vector<ObservedRun> observe(Route, const std::vector<FitRun>&, const std::v
 /// The noise of these runs, with the weights of Noise; nothing is known of it without H.
 std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>&, double share);
 
+/// The raw column of one run under one theta, and its derivatives.
+class RawModel {
+ public:
+  RawModel(const ObservedRun&, const Parameters&, const std::vector<double>& theta, std::size_t run,
+           Trajectory);
+  /// At time t from the origin. The derivatives by the parameters of the run, then by the shared
+  /// ones, are written to `slopes`, `stride` apart.
+  double operator()(double t, double* slopes, std::size_t stride) const;
+
+ private:
+  const ObservedRun& run_;
+  const Parameters& parameters_;
+  double a_, x0_;
+  Trajectory roll_;
+};
+
 class RollModel {
  public:
-  RollModel(std::vector<ObservedRun> runs, Parameters parameters)
-      : runs_(std::move(runs)), parameters_(std::move(parameters)) {}
+  RollModel(std::vector<ObservedRun> runs, const Parameters& parameters)
+      : runs_(std::move(runs)), parameters_(parameters) {}
 
   const std::vector<ObservedRun>& runs() const { return runs_; }
   const Parameters& parameters() const { return parameters_; }
   Trajectory trajectory(const std::vector<double>& theta, std::size_t run) const;
+  RawModel raw(const std::vector<double>& theta, std::size_t run) const {
+    return {runs_[run], parameters_, theta, run, trajectory(theta, run)};
+  }
   /// The slope that a run sees along its way.
   double slope(const std::vector<double>& theta, std::size_t run) const;
   /// Hands over model - data of each run, weighted where the noise says so.
@@ -72,10 +91,34 @@ class RollModel {
   Parameters parameters_;
 };
 
-/// Hands over H raw - y and its derivatives, weighted where the noise says so, for the raw column
-/// of a run that has an H and the column's derivatives, parameter by parameter.
-void hand_over_filtered(const ObservedRun& run, std::size_t r, std::span<const double> raw,
-                        std::span<const double> slopes, const Noise&, const TakeRows&);
+/// Hands over H raw - y of one run and its derivatives, weighted where the noise says so, for the
+/// rows of its raw column that come one after another. Few records at a time stay in the cache.
+class Residuals {
+ public:
+  /// Derivatives by so many parameters.
+  Residuals(const ObservedRun&, std::size_t run, std::size_t parameters, const Noise&,
+            const TakeRows&);
+  /// Where the next number of the raw column belongs, and its derivatives, `stride` apart.
+  struct Place {
+    double* raw;
+    double* slopes;
+    std::size_t stride;
+  };
+  Place place();
+  /// Takes what stands at the place.
+  void push();
+
+ private:
+  void hand_over();
+
+  const ObservedRun& run_;
+  std::size_t number_, parameters_;
+  const TakeRows& take_;
+  std::optional<FilterPass> filters_;
+  std::optional<Whitener::Pass> whitener_;
+  std::size_t done_ = 0, k_ = 0;
+  std::vector<double> f_, J_;
+};
 
 /// The model and the weights as one problem of least squares.
 System system_of(std::shared_ptr<const RollModel>, std::shared_ptr<const Noise>);

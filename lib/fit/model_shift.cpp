@@ -223,6 +223,31 @@ double spread_of_logarithm(double s) {
   return std::sqrt(squares / weight - sum / weight * (sum / weight));
 }
 
+/// The noise of ln D - b ln v of a run for raw noise of one: that of D and v over themselves, which
+/// are those of this raw column; `sigma` is the size that raw noise has.
+FilterMatrix over_themselves(const FilterMatrix& D, const FilterMatrix& v,
+                             const std::vector<double>& raw, const Rows& rows, double b,
+                             double sigma) {
+  const auto [shared, of_D, of_v] = D.split(v);
+  const auto as = D.times(raw), vs = v.times(raw);
+  const auto weighted = [&](const std::vector<double>& shrink) {
+    BandMatrix E;
+    E.reserve(rows.size(), 0);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const double a_i = -as[rows[k]], v_i = vs[rows[k]], by = shrink.empty() ? 1 : shrink[k],
+                   by_D = a_i > 0 ? 1 / a_i : 1e100, by_v = v_i > 0 ? b / v_i : 0;
+      E.append(rows[k], by_D * by, of_D, by_v * by, of_v);
+    }
+    return shared.then(std::move(E));
+  };
+  std::vector<double> shrink = row_norms(weighted({}));
+  for (double& of_row : shrink) {
+    const double s = sigma * of_row;
+    of_row = s > 0 && std::isfinite(s) ? spread_of_logarithm(s) / s : 0;
+  }
+  return weighted(shrink);
+}
+
 /// The noise of ln D - b ln v where the filters are known: that of D and v over D and v themselves,
 /// which are those of the roll that fits best, seen through the filters.
 void carry_noise(Fitted& line, const ShiftRecords& records, const std::vector<FitRun>& all,
@@ -237,28 +262,18 @@ void carry_noise(Fitted& line, const ShiftRecords& records, const std::vector<Fi
   } catch (const Error&) {  // there is no such roll
     return;
   }
-  std::vector<Noise::Matrix> matrices;
+  std::vector<FilterMatrix> matrices;
   const double variance = noise_variance(roll);
   for (std::size_t r = 0; r < all.size(); ++r) {
     const ObservedRun& run = roll.rolls->runs()[r];
     const Trajectory trajectory = roll.rolls->trajectory(roll.minimum.theta, r);
     std::vector<double> raw;
-    for (double t : run.t) {
-      const auto s = run.raw_is_position ? trajectory.at(t) : trajectory.speed_at(t);
-      raw.push_back(run.raw_is_position ? s.x : s.v);
-    }
+    raw.reserve(run.t.size());
+    for (double t : run.t)
+      raw.push_back(run.raw_is_position ? trajectory.at(t).x : trajectory.speed_at(t).v);
     const auto& of = making.responses[r].of;
-    BandMatrix E(run.H->columns());
-    for (std::size_t i : records.rows[r]) {
-      const double a_i = -of.at("D")->times(i, raw), v_i = of.at("v")->times(i, raw);
-      const double by_D = a_i > 0 ? 1 / a_i : 1e100, by_v = v_i > 0 ? b / v_i : 0;
-      BandMatrix one;
-      one.append(i, by_D, *of.at("D"), by_v, *of.at("v"));
-      const double s = std::sqrt(variance) * row_norms(one)[0],
-                   shrink = s > 0 && std::isfinite(s) ? spread_of_logarithm(s) / s : 0;
-      E.append(i, by_D * shrink, *of.at("D"), by_v * shrink, *of.at("v"));
-    }
-    matrices.push_back(std::make_shared<const BandMatrix>(std::move(E)));
+    matrices.push_back(
+        over_themselves(of.at("D"), of.at("v"), raw, records.rows[r], b, std::sqrt(variance)));
   }
   line.noise = std::make_shared<const Noise>(std::move(matrices), std::nullopt);
   line.noise_variance = variance;

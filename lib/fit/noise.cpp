@@ -8,23 +8,33 @@
 
 namespace rolling {
 
-std::vector<double> row_norms(const BandMatrix& E) {
-  std::vector<double> norms;
-  norms.reserve(E.rows());
-  for (std::size_t i = 0; i < E.rows(); ++i)
-    norms.push_back(std::sqrt(dot(E.row(i).data(), E.row(i).data(), E.row(i).size())));
+std::vector<double> row_norms(const FilterMatrix& E) {
+  std::vector<double> norms, row;
+  norms.reserve(E.band_rows());
+  for (std::size_t i = 0; i < E.band_rows(); ++i) {
+    E.row(i, row);
+    norms.push_back(std::sqrt(dot(row.data(), row.data(), row.size())));
+  }
   return norms;
 }
 
-Noise::Noise(std::vector<Matrix> E, std::optional<double> share, bool border) : E_(std::move(E)) {
+namespace {
+
+void append(std::vector<double>& to, std::vector<double> more) {
+  if (to.empty()) to = std::move(more);
+  else to.insert(to.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+Noise::Noise(std::vector<FilterMatrix> E, std::optional<double> share) : E_(std::move(E)) {
   if (!share) return;
-  for (const Matrix& of_run : E_) {
-    std::vector<double> norms = row_norms(*of_run);
-    if (border) norms.pop_back();
+  for (const FilterMatrix& of_run : E_) {
+    std::vector<double> norms = row_norms(of_run);
     if (norms.empty()) fail("a run has no record that can be fitted");
     const auto middle = norms.begin() + static_cast<std::ptrdiff_t>(norms.size() / 2);
     std::nth_element(norms.begin(), middle, norms.end());
-    whiteners_.emplace_back(*of_run, *share * *middle, border);
+    whiteners_.emplace_back(of_run, *share * *middle);
   }
 }
 
@@ -47,41 +57,41 @@ double Noise::trace() const {
 
 std::vector<std::size_t> Noise::sources() const {
   std::vector<std::size_t> all;
-  for (const Matrix& E : E_) all.push_back(E->columns());
+  for (const FilterMatrix& E : E_) all.push_back(E.columns());
   return all;
 }
 
-std::vector<double> Noise::through(const std::vector<double>& Q, std::size_t p) const {
+std::vector<double> Noise::without_weights(const std::vector<double>& f) const {
   std::vector<double> all;
   std::size_t start = 0;
-  for (std::size_t r = 0; r < E_.size(); ++r) {
-    const BandMatrix& E = *E_[r];
-    const std::size_t before = all.size();
-    all.resize(before + E.columns() * p);
-    std::vector<double> q(E.rows());
-    for (std::size_t j = 0; j < p; ++j) {
-      for (std::size_t i = 0; i < q.size(); ++i) q[i] = Q[(start + i) * p + j];
-      if (weighted()) whiteners_[r].apply_transposed(q);
-      const auto b = E.transposed_times(q);
-      for (std::size_t s = 0; s < b.size(); ++s) all[before + s * p + j] = b[s];
-    }
-    start += q.size();
+  for (std::size_t r = 0; r < E_.size(); start += E_[r++].rows())
+    append(all, whiteners_[r].undo(std::span(f).subspan(start, E_[r].rows())));
+  return all;
+}
+
+std::vector<double> Noise::through(std::vector<double> Q, std::size_t p) const {
+  std::vector<double> all;
+  std::size_t start = 0;
+  for (std::size_t r = 0; r < E_.size(); start += E_[r++].rows()) {
+    const auto of_run = std::span(Q).subspan(start * p, E_[r].rows() * p);
+    if (weighted()) whiteners_[r].apply_transposed(of_run, p);
+    append(all, E_[r].transposed_times(of_run, p));
   }
   return all;
 }
 
-std::vector<double> Noise::explain(std::vector<double> f) const {
+std::vector<double> Noise::middle(std::vector<double> Q, std::size_t p) const {
   std::vector<double> all;
   std::size_t start = 0;
-  for (std::size_t r = 0; r < E_.size(); ++r) {
-    const std::span<double> of_run = std::span(f).subspan(start, E_[r]->rows());
-    whiteners_[r].apply_transposed(of_run);
-    const auto e = E_[r]->transposed_times(of_run);
-    all.insert(all.end(), e.begin(), e.end());
-    start += of_run.size();
+  for (std::size_t r = 0; r < E_.size(); start += E_[r++].rows()) {
+    const auto from = Q.begin() + static_cast<std::ptrdiff_t>(start * p),
+               to = from + static_cast<std::ptrdiff_t>(E_[r].rows() * p);
+    append(all, whiteners_[r].middle(E_.size() == 1 ? std::move(Q) : std::vector(from, to), p));
   }
   return all;
 }
+
+std::vector<double> Noise::explain(std::vector<double> f) const { return through(std::move(f), 1); }
 
 std::vector<double> Noise::innovations(const std::vector<double>& f,
                                        std::vector<std::size_t>& runs) const {
@@ -89,10 +99,10 @@ std::vector<double> Noise::innovations(const std::vector<double>& f,
   std::size_t start = 0;
   for (std::size_t r = 0; r < E_.size(); ++r) {
     const std::size_t before = all.size();
-    for (std::size_t i = 0; i < E_[r]->rows(); ++i)
+    for (std::size_t i = 0; i < E_[r].rows(); ++i)
       if (whiteners_[r].informative(i)) all.push_back(f[start + i]);
     runs.push_back(all.size() - before);
-    start += E_[r]->rows();
+    start += E_[r].rows();
   }
   return all;
 }

@@ -11,27 +11,29 @@ namespace rolling {
 /// The residuals of each run are E times white noise of one unknown size.
 class Noise {
  public:
-  using Matrix = std::shared_ptr<const BandMatrix>;
-
   /// Nothing is known: no weights.
   Noise() = default;
   /// The weights are the inverse of E E^T + (share s)^2 I, s the norm of the median row of E: where
   /// the filters leave all but no noise, the misfit of the model would otherwise count without
-  /// bound. With `border` the last row of each E is a mean that reaches over the run. Without a
-  /// share there are no weights; the covariance is known all the same.
-  Noise(std::vector<Matrix> E, std::optional<double> share, bool border = false);
+  /// bound. Without a share there are no weights; the covariance is known all the same.
+  Noise(std::vector<FilterMatrix> E, std::optional<double> share);
 
   bool known() const { return !E_.empty(); }
   bool weighted() const { return !whiteners_.empty(); }
+  const Whitener& whitener(std::size_t run) const { return whiteners_[run]; }
   /// Weights the residuals of a run, and their derivatives column by column.
   void weight(std::size_t run, std::span<double> f, std::span<double> J) const;
+  /// The residuals of all runs without their weights.
+  std::vector<double> without_weights(const std::vector<double>& f) const;
   /// ln of the factor by which weighting shrinks a volume.
   double log_size() const;
 
   /// For Q = J R^-1 of a fit with these weights (a row of `columns` numbers for each residual):
   /// B = (W E)^T Q, a row for each source, run by run. The error of the parameters is
   /// -R^-1 B^T e, e the noise of the sources, whatever the weights.
-  std::vector<double> through(const std::vector<double>& Q, std::size_t columns) const;
+  std::vector<double> through(std::vector<double> Q, std::size_t columns) const;
+  /// B^T B of each run, one matrix after another.
+  std::vector<double> middle(std::vector<double> Q, std::size_t columns) const;
   /// tr W E E^T W^T: what the weighted sum of squares would be on average for noise of size one if
   /// nothing were fitted.
   double trace() const;
@@ -45,11 +47,11 @@ class Noise {
   std::vector<std::size_t> sources() const;
 
  private:
-  std::vector<Matrix> E_;
+  std::vector<FilterMatrix> E_;
   std::vector<Whitener> whiteners_;
 };
 
-/// The norm of each row.
-std::vector<double> row_norms(const BandMatrix&);
+/// The norm of each row, but of one that reaches over the run.
+std::vector<double> row_norms(const FilterMatrix&);
 
 }  // namespace rolling

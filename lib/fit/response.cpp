@@ -3,39 +3,66 @@
 #include "base/error.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace rolling {
+
+namespace {
+
+/// The rows of a filter of that reach, where they may be other than 0.
+struct Rows {
+  std::size_t n, reach;
+
+  std::size_t most() const { return std::min(2 * reach, n); }  // of a row at an end
+  bool inside(std::size_t i) const { return i >= reach && i + reach < n; }
+  std::size_t first(std::size_t i) const {
+    const std::size_t side = inside(i) ? reach : most();
+    return i > side ? i - side : 0;
+  }
+  std::size_t end(std::size_t i) const { return std::min(n, i + (inside(i) ? reach : most()) + 1); }
+};
+
+/// A filter that does inside the same everywhere: by that of a short run.
+BandMatrix repeated(LinearFilter filter, std::span<const double> t) {
+  const std::size_t n = t.size(), end = 2 * filter.reach + 1;
+  filter.shift_invariant = false;
+  const BandMatrix few = probe(filter, t.first(3 * end));
+  BandMatrix L;
+  L.reserve(n, 0);
+  for (std::size_t i = 0; i < end; ++i) L.append(few.first(i), few.row(i));
+  for (std::size_t i = end; i + end < n; ++i) L.append(few.first(end) + i - end, few.row(end));
+  for (std::size_t i = 2 * end; i < 3 * end; ++i) L.append(few.first(i) + n - 3 * end, few.row(i));
+  return L;
+}
+
+}  // namespace
 
 BandMatrix probe(const LinearFilter& filter, std::span<const double> t) {
   // A row reaches at most 2 reach to either side (that far only at the ends), so of impulses 4
   // reach + 1 apart it sees one.
-  const std::size_t n = t.size(), most = std::min(2 * filter.reach, n),
-                    spacing = std::min(4 * filter.reach + 1, n);
-  const auto span_of = [&](std::size_t i) {
-    const bool end = i < filter.reach || i + filter.reach >= n;
-    const std::size_t to_side = end ? most : filter.reach, first = i > to_side ? i - to_side : 0;
-    return std::pair(first, std::min(n, i + to_side + 1));
-  };
+  const Rows rows{t.size(), filter.reach};
+  const std::size_t n = t.size(), spacing = std::min(4 * filter.reach + 1, n);
+  if (filter.shift_invariant && n > 3 * (2 * filter.reach + 1)) return repeated(filter, t);
   std::vector<std::size_t> start{0};
-  for (std::size_t i = 0; i < n; ++i)
-    start.push_back(start.back() + span_of(i).second - span_of(i).first);
+  start.reserve(n + 1);
+  for (std::size_t i = 0; i < n; ++i) start.push_back(start.back() + rows.end(i) - rows.first(i));
   std::vector<double> all(start.back()), comb(n);
   for (std::size_t k = 0; k < spacing; ++k) {
-    for (std::size_t j = 0; j < n; ++j) comb[j] = j % spacing == k;
+    for (std::size_t j = k; j < n; j += spacing) comb[j] = 1;
     const auto response = filter.apply(t, comb);
     if (response.size() != n)
       fail("a filter of {} gives {} values for {} records", filter.from, response.size(), n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const auto [first, end] = span_of(i);
-      const std::size_t j = first + (k + spacing - first % spacing) %
-                                        spacing;  // the first impulse at or after `first`
-      if (j < end) all[start[i] + j - first] = response[i];
+    for (std::size_t j = k; j < n; j += spacing) {
+      comb[j] = 0;
+      const std::size_t end = std::min(n, j + rows.most() + 1);
+      for (std::size_t i = j > rows.most() ? j - rows.most() : 0; i < end; ++i)
+        if (rows.first(i) <= j && j < rows.end(i)) all[start[i] + j - rows.first(i)] = response[i];
     }
   }
   BandMatrix L;
   L.reserve(n, all.size());
   for (std::size_t i = 0; i < n; ++i)
-    L.append(span_of(i).first, std::span(all).subspan(start[i], start[i + 1] - start[i]));
+    L.append(rows.first(i), std::span(all).subspan(start[i], start[i + 1] - start[i]));
   return L;
 }
 
@@ -60,8 +87,7 @@ Response response_of(const FilterChain& chain, std::span<const double> t) {
   std::size_t still_before = before, still_after = after;
   reach = 0;
   response.source = chain.front().from;
-  response.of.emplace(response.source,
-                      std::make_shared<const BandMatrix>(BandMatrix::identity(present.size())));
+  response.of.emplace(response.source, FilterMatrix::identity(present.size()));
   for (const auto& filter : chain) {
     const auto input = response.of.find(filter.from);
     if (input == response.of.end())
@@ -70,16 +96,16 @@ Response response_of(const FilterChain& chain, std::span<const double> t) {
     const std::size_t first = filter.cut_begin && n > 1 ? still_before - (before - reach) : 0,
                       last = filter.cut_end && n > 1 ? still_after - (after - reach) : 0;
     if (first + last > 0) {
-      for (auto& [name, matrix] : response.of)
-        matrix = std::make_shared<const BandMatrix>(matrix->without(first, last));
+      std::vector<std::size_t> kept(present.size() - first - last);
+      std::iota(kept.begin(), kept.end(), first);
+      for (auto& [name, matrix] : response.of) matrix = matrix.of_rows(kept);
       present = present.subspan(first, present.size() - first - last);
       still_before -= first;
       still_after -= last;
     }
     BandMatrix L = probe(filter, present);
     response.of.insert_or_assign(
-        filter.to,
-        L.is_identity() ? input->second : std::make_shared<const BandMatrix>(L * *input->second));
+        filter.to, L.is_identity() ? input->second : input->second.then(std::move(L)));
     reach += filter.reach;
   }
   return response;

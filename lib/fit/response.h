@@ -1,11 +1,10 @@
 // The columns of a run as linear maps of the one raw column that the sensor recorded.
 #pragma once
 
-#include "fit/band_matrix.h"
 #include "fit/filter.h"
+#include "fit/filter_matrix.h"
 
 #include <map>
-#include <memory>
 #include <string>
 
 namespace rolling {
@@ -18,9 +17,8 @@ struct Response {
   std::string source;     ///< the raw column; its noise is taken as white
   std::vector<double> t;  ///< times of the raw records: the run's, and those that were cut away
                           ///< after filters had used them
-  /// Each column, the source included: a row for each record of the run. Two names of one column
-  /// share their matrix.
-  std::map<std::string, std::shared_ptr<const BandMatrix>> of;
+  /// Each column, the source included: a row for each record of the run.
+  std::map<std::string, FilterMatrix> of;
 };
 
 /// Records that were cut away are taken as spaced like those at that end of the run. Throws Error

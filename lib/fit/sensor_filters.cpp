@@ -32,7 +32,12 @@ class Likelihood {
     linear_system_ =
         system_of(std::make_shared<const RollModel>(runs_, q), std::make_shared<const Noise>());
     linear_system_.evaluate(theta, [&](std::size_t r, std::span<double> f, std::span<double> J) {
-      linear_[r] = {{f.begin(), f.end()}, {J.begin(), J.end()}};
+      auto& [all_f, all_J] = linear_[r];  // column by column, of the whole run
+      const std::size_t n = linear_system_.runs[r], done = all_f.size();
+      all_J.resize(J.size() / f.size() * n);
+      all_f.insert(all_f.end(), f.begin(), f.end());
+      for (std::size_t i = 0; i < J.size(); ++i)
+        all_J[i / f.size() * n + done + i % f.size()] = J[i];
     });
     theta_ = theta;
   }

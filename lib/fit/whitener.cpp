@@ -9,35 +9,73 @@
 namespace rolling {
 namespace {
 
-/// Element (i, j) of E E^T.
-double product(const BandMatrix& E, std::size_t i, std::size_t j) {
-  const auto x = E.row(i), y = E.row(j);
-  const std::size_t from = std::max(E.first(i), E.first(j)),
-                    to = std::min(E.first(i) + x.size(), E.first(j) + y.size());
-  return from < to ? dot(&x[from - E.first(i)], &y[from - E.first(j)], to - from) : 0;
-}
-
-/// One more than the largest distance of two of the first n rows of E that share a column.
-std::size_t band_of(const BandMatrix& E, std::size_t n) {
-  std::vector<std::size_t> first_row;  // that reaches a column
+/// One more than the largest distance of two rows of E that share a column.
+std::size_t band_of(const FilterMatrix& E) {
+  std::vector<std::uint32_t> first_row(E.columns(), UINT32_MAX);  // that reaches a column
   std::size_t band = 1;
-  for (std::size_t i = 0; i < n; ++i) {
-    first_row.resize(std::max(first_row.size(), E.first(i) + E.row(i).size()), n);
-    for (std::size_t j = E.first(i); j < E.first(i) + E.row(i).size(); ++j) {
-      first_row[j] = std::min(first_row[j], i);
+  for (std::size_t i = 0; i < E.band_rows(); ++i) {
+    const auto [first, end] = E.extent(i);
+    for (std::size_t j = first; j < end; ++j) {
+      first_row[j] = std::min(first_row[j], static_cast<std::uint32_t>(i));
       band = std::max(band, i - first_row[j] + 1);
     }
   }
   return band;
 }
 
+/// The last rows of E, as many as the band is wide.
+class LastRows {
+ public:
+  LastRows(const FilterMatrix& E, std::size_t band) : E_(E), rows_(band) {}
+  void add(std::size_t i) {
+    Row& row = rows_[i % rows_.size()];
+    row.first = E_.extent(i).first;
+    E_.row(i, row.values);
+  }
+  /// Element (i, j) of E E^T.
+  double product(std::size_t i, std::size_t j) const {
+    const Row &x = rows_[i % rows_.size()], &y = rows_[j % rows_.size()];
+    const std::size_t from = std::max(x.first, y.first),
+                      to = std::min(x.first + x.values.size(), y.first + y.values.size());
+    return from < to ? dot(&x.values[from - x.first], &y.values[from - y.first], to - from) : 0;
+  }
+  double product(std::size_t i, std::span<const double> x) const {
+    const Row& row = rows_[i % rows_.size()];
+    return row.values.empty() ? 0 : dot(row.values.data(), &x[row.first], row.values.size());
+  }
+
+ private:
+  struct Row {
+    std::size_t first = 0;
+    std::vector<double> values;
+  };
+  const FilterMatrix& E_;
+  std::vector<Row> rows_;
+};
+
 }  // namespace
 
-Whitener::Whitener(const BandMatrix& E, double floor, bool border)
-    : n_(E.rows() - border), band_(band_of(E, n_)), floor_(floor), R_(n_ * band_) {
-  for (std::size_t i = 0; i < n_; ++i)
-    for (std::size_t j = i; j < std::min(i + band_, n_); ++j)
-      R_[i * band_ + j - i] = product(E, i, j) + (i == j ? floor * floor : 0);
+Whitener::Whitener(const FilterMatrix& E, double floor)
+    : n_(E.band_rows()), band_(band_of(E)), floor_(floor), R_(n_ * band_) {
+  LastRows last(E, band_);
+  if (E.bordered()) border_.resize(n_);
+  for (std::size_t i = 0; i < n_; ++i) {
+    last.add(i);
+    for (std::size_t j = i < band_ ? 0 : i - band_ + 1; j <= i; ++j)
+      R_[j * band_ + i - j] = last.product(i, j) + (i == j ? floor * floor : 0);
+    if (E.bordered()) border_[i] = last.product(i, E.last_row());
+  }
+  factorise();
+  if (!E.bordered()) return;
+  apply(border_);
+  const auto row = E.last_row();
+  const double rest =
+      dot(row.data(), row.data(), row.size()) - dot(border_.data(), border_.data(), n_);
+  if (!(rest > 0)) fail("the filters leave a column without noise");
+  corner_ = std::sqrt(rest);
+}
+
+void Whitener::factorise() {
   for (std::size_t k = 0; k < n_; ++k) {
     double* const R = &R_[k * band_];
     if (!(R[0] > 0)) fail("the filters leave a column without noise");
@@ -46,43 +84,71 @@ Whitener::Whitener(const BandMatrix& E, double floor, bool border)
     for (std::size_t i = 1; i < std::min(band_, n_ - k); ++i)
       for (std::size_t j = i; j < band_; ++j) R[i * band_ + j - i] -= R[i] * R[j];
   }
-  if (!border) return;
-  border_.resize(n_);
-  for (std::size_t i = 0; i < n_; ++i) border_[i] = product(E, i, n_);
-  apply(border_);
-  const double rest = product(E, n_, n_) - dot(border_.data(), border_.data(), n_);
-  if (!(rest > 0)) fail("the filters leave a column without noise");
-  corner_ = std::sqrt(rest);
+}
+
+Whitener::Pass::Pass(const Whitener& by, std::size_t stride)
+    : by_(by), stride_(stride), later_((by.band_ + 256) * stride), along_border_(stride) {}
+
+void Whitener::Pass::push(double* row) {
+  if (k_ == by_.n_) {
+    for (std::size_t c = 0; c < stride_; ++c) row[c] = (row[c] - along_border_[c]) / by_.corner_;
+    return;
+  }
+  const std::size_t band = by_.band_, end = std::min(band, by_.n_ - k_);
+  if ((k_ - base_ + band) * stride_ > later_.size()) {
+    const auto first = later_.begin() + static_cast<std::ptrdiff_t>((k_ - base_) * stride_);
+    std::fill(std::copy(first, later_.end(), later_.begin()), later_.end(), 0.0);
+    base_ = k_;
+  }
+  const double* const R = &by_.R_[k_ * band];
+  for (std::size_t c = 0; c < stride_; c += 2) {  // two columns are one register
+    double* to = &later_[(k_ - base_) * stride_ + c];
+    const double x = row[c] = (row[c] - to[0]) / R[0], y = row[c + 1] = (row[c + 1] - to[1]) / R[0];
+    for (std::size_t j = 1; j < end; ++j) {
+      to += stride_;
+      to[0] += R[j] * x;
+      to[1] += R[j] * y;
+    }
+  }
+  if (by_.corner_ > 0)
+    for (std::size_t c = 0; c < stride_; ++c) along_border_[c] += by_.border_[k_] * row[c];
+  ++k_;
 }
 
 void Whitener::apply(std::span<double> X) const {
-  const std::size_t rows = n_ + (corner_ > 0);
-  for (std::size_t k = 0; k < n_; ++k) {
-    const double* const R = &R_[k * band_];
-    const std::size_t end = std::min(band_, n_ - k);
-    for (std::size_t at = k; at < X.size();
-         at += rows) {  // all columns at once: the steps of one wait for each other
-      double* const x = &X[at];
-      const double z = x[0] /= R[0];
-      for (std::size_t j = 1; j < end; ++j) x[j] -= R[j] * z;
+  for (std::size_t at = 0; at < X.size(); at += rows()) {
+    Pass pass(*this, 2);
+    for (std::size_t i = 0; i < rows(); ++i) {
+      double row[2]{X[at + i]};
+      pass.push(row);
+      X[at + i] = row[0];
     }
   }
-  if (corner_ > 0)
-    for (std::size_t at = 0; at < X.size(); at += rows)
-      X[at + n_] = (X[at + n_] - dot(border_.data(), &X[at], n_)) / corner_;
 }
 
-void Whitener::apply_transposed(std::span<double> x) const {
-  if (corner_ > 0) {
-    x[n_] /= corner_;
-    for (std::size_t i = 0; i < n_; ++i) x[i] -= border_[i] * x[n_];
-  }
+void Whitener::apply_transposed(std::span<double> X, std::size_t columns) const {
+  if (corner_ > 0)
+    for (std::size_t c = 0; c < columns; ++c) {
+      const double x = X[n_ * columns + c] /= corner_;
+      for (std::size_t i = 0; i < n_; ++i) X[i * columns + c] -= border_[i] * x;
+    }
   for (std::size_t k = n_; k-- > 0;) {
     const double* const R = &R_[k * band_];
     const std::size_t end = std::min(band_, n_ - k);
-    for (std::size_t j = 1; j < end; ++j) x[k] -= R[j] * x[k + j];
-    x[k] /= R[0];
+    double* const x = &X[k * columns];
+    for (std::size_t j = 1; j < end; ++j)
+      for (std::size_t c = 0; c < columns; ++c) x[c] -= R[j] * x[j * columns + c];
+    for (std::size_t c = 0; c < columns; ++c) x[c] /= R[0];
   }
+}
+
+std::vector<double> Whitener::undo(std::span<const double> f) const {
+  std::vector<double> all(rows());
+  for (std::size_t k = 0; k < n_; ++k)
+    for (std::size_t j = 0; j < std::min(band_, n_ - k); ++j)
+      all[k + j] += R_[k * band_ + j] * f[k];
+  if (corner_ > 0) all[n_] = dot(border_.data(), f.data(), n_) + corner_ * f[n_];
+  return all;
 }
 
 double Whitener::log_size() const {
@@ -95,21 +161,19 @@ double Whitener::log_size() const {
 /// 1975, Commun. ACM 18, 177): R Z = R^-T is 0 above the diagonal and 1/R(k,k) on it.
 double Whitener::trace_of_inverse() const {
   const std::size_t w = band_;
-  std::vector<double> Z(w *
-                        w);  // Z(k + i, k + j) for i <= j stands in row (k + i) mod w, place j - i
-  const auto at = [&](std::size_t i, std::size_t j) -> double& {
-    return Z[std::min(i, j) % w * w + (std::max(i, j) - std::min(i, j))];
-  };
+  // Z(i, j) stands in row i mod w at place w + j - i, on both sides of the diagonal.
+  std::vector<double> Z(w * 2 * w);
+  std::vector<double*> rows(w);  // k, k + 1, ...
   double trace = 0;
   for (std::size_t k = n_; k-- > 0;) {
     const double* const R = &R_[k * w];
     const std::size_t end = std::min(w, n_ - k);
-    for (std::size_t j = end; j-- > 0;) {
-      double sum = j == 0 ? 1 / R[0] : 0;
-      for (std::size_t i = 1; i < end; ++i) sum -= R[i] * at(k + i, k + j);
-      at(k, k + j) = sum / R[0];
-    }
-    trace += at(k, k);
+    for (std::size_t j = 0, slot = k % w; j < end; ++j, slot = slot + 1 == w ? 0 : slot + 1)
+      rows[j] = &Z[slot * 2 * w + w];
+    for (std::size_t j = end; j-- > 1;)
+      rows[0][j] = *(rows[j] - j) = -dot(R + 1, rows[j] - j + 1, end - 1) / R[0];
+    rows[0][0] = (1 / R[0] - dot(R + 1, rows[0] + 1, end - 1)) / R[0];
+    trace += rows[0][0];
   }
   return trace;
 }
@@ -122,7 +186,22 @@ double Whitener::trace() const {
     apply_transposed(u);
     of_inverse += dot(u.data(), u.data(), n_) / (corner_ * corner_);
   }
-  return static_cast<double>(n_ + (corner_ > 0)) - floor_ * floor_ * of_inverse;
+  return static_cast<double>(rows()) - floor_ * floor_ * of_inverse;
+}
+
+// R^-T E E^T R^-1 = I - floor^2 R^-T F R^-1, F = I but for the border, which has no floor.
+std::vector<double> Whitener::middle(std::vector<double> Q, std::size_t columns) const {
+  std::vector<double> M(columns * columns);
+  const auto add_squares = [&](std::size_t n, double by) {
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < columns; ++j)
+        for (std::size_t k = 0; k < columns; ++k)
+          M[j * columns + k] += by * Q[i * columns + j] * Q[i * columns + k];
+  };
+  add_squares(rows(), 1);
+  apply_transposed(Q, columns);
+  add_squares(n_, -floor_ * floor_);
+  return M;
 }
 
 }  // namespace rolling

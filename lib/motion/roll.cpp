@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "contact/contact.h"
 #include "motion/closed_form.h"
 #include "motion/exact_form.h"
 #include "motion/integrated_roll.h"
@@ -27,6 +28,21 @@ AnyLaw any_law(const Roll& roll) {
   return {roll.law, slope, std::isfinite(trajectory.stop_time()), trajectory.rest_speed()};
 }
 
+/// A body at rest on a slope stays there if the law has a shift at rest that holds it.
+void check_rest(const Roll& roll) {
+  const auto& [body, geometry, law, table, bulge, v0, x0] = roll;
+  if (v0 != 0 || body.slope == 0 || (!table && bulge.length == 0 && law.b < 0)) return;
+  const double D = bulge.length > 0 ? 0 : table ? (*table)(0) : law.b == 0 ? law.a : 0;
+  const auto [cos, sin] = incline(body);
+  if (D * cos >= arm_factor(body, geometry, D) * body.R * std::abs(sin)) return;
+  fail(
+      "v0 = 0: on a slope of {} the body begins to roll {}, for at rest the law holds it by D = "
+      "{:.3g} m alone: {}",
+      body.slope, body.slope < 0 ? "down" : "back", D,
+      body.slope < 0 ? "say a small v0, as 1e-9"
+                     : "turn the sign of the slope, and say a small v0, as 1e-9");
+}
+
 }  // namespace
 
 Method best_method(const Roll& roll) {
@@ -42,6 +58,7 @@ Method best_method(const Roll& roll) {
 std::unique_ptr<Motion> start(const Roll& roll, Method method, double rtol,
                               unsigned long most_steps) {
   const auto& [body, geometry, law, table, bulge, v0, x0] = roll;
+  check_rest(roll);
   if (bulge.length > 0) {
     if (table) fail("the memory goes with a law a v^b, not with a table");
     if (method.kind != Method::solver)

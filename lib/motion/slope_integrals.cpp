@@ -106,7 +106,8 @@ double SlopeIntegrals::width(double r, double left) const {
                                      gap > 0 ? ahead * gap : -behind * gap));
   }
   if (!exact_) return limit;
-  if (beta_ > 0 ? r < deep_end_ : r >= deep_end_) return std::min(limit / 2, 0.5 / size);
+  // Where A is the variable, z = d^2 changes by at most a factor 2: see SpeedPanel.
+  if (beta_ > 0 ? r < deep_end_ : r >= deep_end_) return std::min(limit / 2, 1 / (3 * size));
   const double root = std::log(depth_) / beta_;  // A = 0
   return std::min(limit, root > r ? ahead * (root - r) : behind * (r - root));
 }
@@ -134,7 +135,7 @@ void SlopeIntegrals::add_panel(double r, double left, double width) {
   Panel p{r, width, left, deep, arm(r), 0, 0, 0, {}, 0};
   if (!panels_.empty()) {
     const Panel& last = panels_.back();
-    p.before = total(last, last.width, local(last, last.width, true));
+    p.before = total(last, last.width, local(last, last.width, Wanted::speed_and_distance));
     panels_.back().duration = p.before.time - last.before.time;
   }
   p.begin = time_per_r(p, 0);
@@ -182,7 +183,7 @@ double SlopeIntegrals::local_time(const Panel& p, double r) const {
   return sum;
 }
 
-SlopeIntegrals::Sums SlopeIntegrals::local(const Panel& p, double width, bool way) const {
+SlopeIntegrals::Sums SlopeIntegrals::local(const Panel& p, double width, Wanted wanted) const {
   Sums sum;
   quadrature(p, width, [&](const Node& n) {
     const double part = n.d / n.net, E_by_net = n.by_d * part;  // E/d is by_d: E may be 0, d too
@@ -192,7 +193,7 @@ SlopeIntegrals::Sums SlopeIntegrals::local(const Panel& p, double width, bool wa
     const double k = dt * n.A / n.net;
     sum.time += dt;
     sum.h0 += h, sum.h1 += h * n.r, sum.k0 += k;
-    if (!way) return;
+    if (wanted == Wanted::speed) return;
     const double E = std::exp(-way_ * n.r),
                  E_left = E * std::abs(std::expm1(way_ * (n.local - width)));
     sum.distance += dt * E;
@@ -256,9 +257,9 @@ double SlopeIntegrals::distance(Place at) const {
   return sum + at.beyond * speed(at);
 }
 
-SlopeIntegrals::Gradient SlopeIntegrals::gradient(Place at, bool way) const {
+SlopeIntegrals::Gradient SlopeIntegrals::gradient(Place at, Wanted wanted) const {
   const Panel& p = panels_[at.panel];
-  const Sums sum = total(p, at.r, local(p, at.r, way));
+  const Sums sum = total(p, at.r, local(p, at.r, wanted));
   const double r = p.r + at.r, A = arm(r), n = net(depth_at(r), A, p.left - at.r);
   return {n / (K_ + A), std::abs(std::expm1(-way_ * r)),
           sum.time,     sum.distance,

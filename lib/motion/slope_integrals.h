@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/body.h"
+#include "motion/wanted.h"
 
 namespace rolling {
 
@@ -67,7 +68,7 @@ class SlopeIntegrals {
     double h0, h1, k0;    ///< int of h, h r, k
     double g0, g1, j, w;  ///< the same three and E (K + A)/|net|, with a factor |E - E(end)|
   };
-  Gradient gradient(Place, bool way) const;
+  Gradient gradient(Place, Wanted) const;
   double start_rate() const;  ///< |net|/(K + A) at v0
   bool slows() const { return way_ > 0; }
 
@@ -101,7 +102,7 @@ class SlopeIntegrals {
   void add_panel(double r, double left, double width);
   template <typename Integrand>
   void quadrature(const Panel&, double width, Integrand&&) const;
-  Sums local(const Panel&, double width, bool way) const;
+  Sums local(const Panel&, double width, Wanted) const;
   double local_time(const Panel&, double r) const;
   double time_per_r(const Panel&, double r) const;
   Sums total(const Panel&, double r, const Sums& local) const;

@@ -3,18 +3,22 @@
 #pragma once
 
 #include <limits>
+#include <variant>
 #include <vector>
+
+#include "motion/speed_arm.h"
+#include "motion/speed_panel.h"
+#include "motion/speed_series.h"
+#include "motion/wanted.h"
 
 namespace rolling {
 
-/// With y = ln(v0/u), s = 1 - b, z = (D(v0)/R)^2 e^(-2 b y), A = sqrt(1 - z) (or 1):
-///   f = (K + A) / (K + 1),   h = (K + 1/A) / (K + 1), which replaces f when u^-b f / a is
-///   differentiated by a or b.
+/// With y = ln(v0/u), s = 1 - b, and f, z and A of SpeedArm, the time is the integral of f e^(-s y)
+/// over y and the distance that of f e^(-(s+1) y).
 ///
-/// For z <= 1/4 and b > 0 the binomial series of A and 1/A make every integral a sum of powers
-/// (power_integral.h). Larger z, where that is slow, and b < 0, where z grows: Gauss-Legendre
-/// panels, with A itself as the variable of integration (dy = A dA / (b z)), which removes the root
-/// of A and the pole of 1/A at D = R.
+/// The range of y is divided into pieces. Where z <= 1/4 and b > 0, one SpeedSeries takes the whole
+/// range. SpeedPanels take larger z, where the series converges slowly, and b < 0, where z grows
+/// with y.
 class SpeedIntegrals {
  public:
   /// depth = D(v0)/R in 0 .. 1, and 0 for A = 1; arm_square = 1 - depth^2, from a caller who knows
@@ -34,7 +38,7 @@ class SpeedIntegrals {
   double lambda(double time, double rest) const;
 
   /// f at y = lambda.
-  double f(double lambda) const;
+  double f(double lambda) const { return arm_.f(lambda); }
   /// int_0^lambda f e^(-(s+1) y) dy.
   double distance(double lambda) const;
 
@@ -43,55 +47,38 @@ class SpeedIntegrals {
   double lag(double lambda) const;
   double lag_rest(double lambda) const;
 
-  /// The distance, and what derivatives need. All integrals run over 0 < y < lambda.
-  struct Gradient {
-    double distance;
-    double h0, h1;  ///< of h e^(-s y), with a factor y
-    double g0, g1;  ///< of h (e^-y - e^-lambda) e^(-s y), with a factor y
-  };
-  /// Without `way` only h0 and h1.
-  Gradient gradient(double lambda, bool way = true) const;
+  /// What derivatives need. For Wanted::speed only h0 and h1.
+  SpeedGradient gradient(double lambda, Wanted = Wanted::speed_and_distance) const;
 
  private:
-  struct Term {
-    double s, f, f_by_s, h;
-  };
   struct Sums {
-    double time = 0, lag = 0, distance = 0;
-    double h0 = 0, h1 = 0, x0 = 0, x1 = 0;  // of h e^(-s y) and of h e^(-(s+1) y), with a factor y
+    double time = 0, lag = 0;
+    SpeedGradient gradient;
   };
   struct Piece {
-    bool panel;      // or the series
-    double y, z, A;  // where it begins, and z and A there
-    double width;
-    double power;           // e^(-s y)
-    Sums before;            // integrals up to it
-    double rest, lag_rest;  // from it to the stop
+    double y, width;  // where it begins, and its length
+    double power;     // e^(-s y): its unit of time in units of the whole
+    std::variant<SpeedPanel, SpeedSeries> integrals;
+    Sums before;            // the integrals from 0 to y
+    double rest, lag_rest;  // time and lag from y to the stop; infinite where there is none
+
+    double time(double local) const;
+    double lag(double local) const;
+    double distance(double local) const;
+    SpeedGradient gradient(double local, Wanted) const;
+    double local(double lambda) const { return std::min(lambda - y, width); }
   };
 
-  void add_piece(bool panel, double y, double width);
+  void add(double y, double width, std::variant<SpeedPanel, SpeedSeries>);
   void add_panels(double from, double to);
-  void add_series(double from, double to);
-  Sums sums(const Piece&, double y) const;
+  void add_up_from_stop(double last);
+  Sums sums_to_end(const Piece&) const;
+  SpeedGradient gradient(const Piece&, double local, Wanted) const;
   const Piece& piece_at(double lambda) const;
 
-  // Within a piece: y counted from its beginning, in units of e^(-s y) there.
-  template <typename Integrand>
-  void quadrature(const Piece&, double y, Integrand&&) const;
-  double local_time(const Piece&, double y) const;
-  double local_lag(const Piece&, double y) const;
-  double series_lag_rest(double y) const;
-  double local_distance(const Piece&, double y) const;
-  Gradient local_gradient(const Piece&, double y, bool way) const;
-  double panel_lambda(const Piece&, double time) const;
-  double series_lambda(const Piece&, double time, double rest) const;
-
-  double z(double y) const;  // and A, at y from the start
-  double A(double y) const;
-
-  double b_, s_, K_, depth_, arm_square_;
+  SpeedArm arm_;
+  double s_;
   std::vector<Piece> pieces_;
-  std::vector<Term> series_;
   double stop_ = std::numeric_limits<double>::infinity();
   double end_ = std::numeric_limits<double>::infinity();
 };

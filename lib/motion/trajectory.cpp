@@ -49,7 +49,7 @@ Trajectory::Trajectory(const Body& body, Geometry geometry, PowerLaw law, double
     stop_time_ = unit_ * incline_->stop();
     last_time_ = unit_ * incline_->end();
     if (std::isinf(stop_time_)) return;
-    stopped_ = point_of(incline_->last(), true);
+    stopped_ = point_of(incline_->last(), Wanted::speed_and_distance);
     stopped_.v = stopped_.v_a = stopped_.v_b = stopped_.v_v0 = stopped_.v_S = 0;
     return;
   }
@@ -127,9 +127,9 @@ double Trajectory::acceleration(double v) const {
 // -(dT/dp) dv/dt,  and
 //   dT/da = -int h ... / a,   dT/db = -int ln(u) h ...,   dT/dv0 = -1 / (dv/dt at v0);
 //   dx/dp = dX/dp - v dT/dp,  which is the same integral with a factor u - v.
-Trajectory::Point Trajectory::at(double t, bool way) const {
+Trajectory::Point Trajectory::at(double t, Wanted wanted) const {
   if (t == 0) return {v0_, 0, 0, 0, v0_ > 0 ? 1.0 : 0.0, 0, 0, 0};
-  if (incline_) return on_slope(t, way);
+  if (incline_) return on_slope(t, wanted);
   const double lambda = log_ratio(t), a = law_.a, log_v0 = log_v0_;
   if (lambda == infinity) return stopped_;
   if (lambda < 1e-100) {  // unit_ may be infinite, lambda^2 be 0: a speed that hardly changes
@@ -139,7 +139,7 @@ Trajectory::Point Trajectory::at(double t, bool way) const {
                  dv_db = a * log_v0 * dv_da;
     return {v0_, v0_ * t, dv_da, dv_db, 1, dv_da * t / 2, dv_db * t / 2, t};
   }
-  const auto g = integrals_.gradient(lambda, way);
+  const auto g = integrals_.gradient(lambda, wanted);
   const double rate = std::exp(-law_.b * lambda) / integrals_.f(lambda);  // -(dv/dt) unit_ / v0
   Point point{velocity(lambda),
               0,
@@ -149,7 +149,7 @@ Trajectory::Point Trajectory::at(double t, bool way) const {
               0,
               0,
               0};
-  if (!way) return point;
+  if (wanted == Wanted::speed) return point;
   const double length = v0_ * unit_;
   point.x = v0_ * (unit_ * g.distance);
   point.x_a = -length * g.g0 / a;
@@ -158,18 +158,18 @@ Trajectory::Point Trajectory::at(double t, bool way) const {
   return point;
 }
 
-Trajectory::Point Trajectory::on_slope(double t, bool way) const {
+Trajectory::Point Trajectory::on_slope(double t, Wanted wanted) const {
   const double rest = stop_time_ - t;
   if (rest <= 0) return stopped_;
   check_time(t);
-  return point_of(incline_->place(t / unit_, rest / unit_), way);
+  return point_of(incline_->place(t / unit_, rest / unit_), wanted);
 }
 
 // With q = g cos(theta) net/(K + A), the deceleration, the time is T = int du/q, and as above, at
 // fixed t,  dv/dp = q dT/dp,  dx/dp = dX/dp - v dT/dp.  The slope acts through A S in net and
 // through cos(theta), whose logarithm has the derivative -S cos(theta)^2 by S.
-Trajectory::Point Trajectory::point_of(SlopeIntegrals::Place place, bool way) const {
-  const auto g = incline_->gradient(place, way);
+Trajectory::Point Trajectory::point_of(SlopeIntegrals::Place place, Wanted wanted) const {
+  const auto g = incline_->gradient(place, wanted);
   const double a = law_.a, E = incline_->speed(place), S = body_.slope,
                sign = incline_->slows() ? 1 : -1, fall = sign * S / (1 + S * S),
                length = v0_ * unit_, start = incline_->start_rate();
@@ -182,7 +182,7 @@ Trajectory::Point Trajectory::point_of(SlopeIntegrals::Place place, bool way) co
               0,
               0,
               -v0_ * g.rate * (g.k0 - fall * g.time)};
-  if (!way) return point;
+  if (wanted == Wanted::speed) return point;
   const double beyond = place.beyond * unit_;
   point.x = v0_ * (unit_ * g.distance) + point.v * beyond;
   point.x_a = -length * g.g0 / a + point.v_a * beyond;
@@ -195,9 +195,10 @@ Trajectory::Point Trajectory::point_of(SlopeIntegrals::Place place, bool way) co
 // With w = (v/v0)^s = 1 - s t/unit all of the above are powers: h0 is t/unit, and the rate e^(-b
 // lambda) = (v/v0)/w.
 Trajectory::Point Trajectory::speed_at(double t) const {
-  if (incline_) return at(t, false);
+  if (incline_) return at(t, Wanted::speed);
   const double s = 1 - law_.b, rest = stop_time_ - t, time = t / unit_;
-  if (geometry_ == Geometry::exact || s == 0 || !(time > 1e-100 && rest > 0)) return at(t, false);
+  if (geometry_ == Geometry::exact || s == 0 || !(time > 1e-100 && rest > 0))
+    return at(t, Wanted::speed);
   const double w = rest < t ? s * (rest / unit_) : 1 - s * time;
   const double lambda = -(rest < t ? std::log(w) : std::log1p(-s * time)) / s,
                ratio = std::exp(-lambda), rate = ratio / w;

@@ -9,6 +9,7 @@
 #include "contact/power_law.h"
 #include "motion/slope_integrals.h"
 #include "motion/speed_integrals.h"
+#include "motion/wanted.h"
 
 namespace rolling {
 
@@ -59,7 +60,7 @@ class Trajectory {
 
   /// t >= 0 [s]. From the stop on: v = 0 with zero derivatives, x the stopping distance with its
   /// derivatives.
-  Point at(double t) const { return at(t, true); }
+  Point at(double t) const { return at(t, Wanted::speed_and_distance); }
   /// The same without x and its derivatives, which are left 0, in half the time; for A = 1 in
   /// closed form, in a quarter of it.
   Point speed_at(double t) const;
@@ -81,10 +82,10 @@ class Trajectory {
   double acceleration(double v) const;
 
  private:
-  Point at(double t, bool way) const;
-  Point on_slope(double t, bool way) const;
+  Point at(double t, Wanted) const;
+  Point on_slope(double t, Wanted) const;
   void check_time(double t) const;  // throws Error beyond last_time_
-  Point point_of(SlopeIntegrals::Place, bool way) const;
+  Point point_of(SlopeIntegrals::Place, Wanted) const;
 
   Body body_;
   Geometry geometry_;

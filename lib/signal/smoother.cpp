@@ -22,10 +22,10 @@ std::unique_ptr<Signal> make_savgol(const SignalOptions& options) {
 }
 
 constexpr SignalMethod methods[] = {
-    // name, linear, reach, has an order, make
-    {"mean", true, half_width, false, make<MovingMean>},
-    {"median", false, half_width, false, make<MovingMedian>},
-    {"savgol", true, half_width, true, make_savgol},
+    // name, linear, shift-invariant, reach, has an order, make
+    {"mean", true, true, half_width, false, make<MovingMean>},
+    {"median", false, false, half_width, false, make<MovingMedian>},
+    {"savgol", true, false, half_width, true, make_savgol},
 };
 
 }  // namespace

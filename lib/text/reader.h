@@ -161,6 +161,7 @@ class Reader {
 
   // The run.
   State state_ = State::between;
+  int run_ = 0;  // number of the run in the input, from 1
   Head head_;
   std::size_t side_ = 0;
   std::vector<Side> sides_;  // runs side by side; else empty
@@ -168,7 +169,6 @@ class Reader {
   Dialect file_dialect_, side_dialect_, *dialect_ = &file_dialect_;
   std::vector<Column> columns_;
   std::vector<std::string> comments_, remarks_;
-  int run_ = 0;                  // number of the run in the input, from 1
   std::size_t run_in_file_ = 0;  // number of the run in the file
   std::string labels_;           // the numbers that runs before it carry, where one is asked for
   bool run_found_ = false, file_open_ = false;
@@ -183,12 +183,11 @@ class Reader {
   std::size_t line_number_ = 0;  // 0: there is none
   std::span<const Field> fields_;
   std::vector<Field> changed_fields_;
-  bool fields_changed_ = false;
+  bool fields_changed_ = false, coarse_time_ = false;
   Bytes text_;  // if it does not go out as it came
   std::size_t first_record_ = 0;
   std::size_t time_slot_ = no_column;
   double last_time_ = 0;  // NaN before the first record of a run
-  bool coarse_time_ = false;
   std::size_t left_out_ = 0;
 };
 

@@ -60,9 +60,10 @@ assignments() {
     !/^#/ { for (i = 1; i <= NF; i++) printf "%s = %s; ", name[i], $i }'
 }
 
-# scene FILE: its mass, radius and shape factor, likewise.
+# scene FILE: its mass, radius and shape factor, likewise, without their uncertainties.
 scene() {
-  sed -n 's/^mass *=/m =/p; s/^radius *=/R =/p; s/^shape-factor *=/K =/p' "$1" | tr '\n' ';'
+  sed -n 's/ *+-.*//; s/"//g; s/^mass *=/m =/p; s/^radius *=/R =/p; s/^shape-factor *=/K =/p' "$1" |
+    tr '\n' ';'
 }
 
 # The rows of smooth -w 11 whose windows are whole: the first and last five means of each run are

@@ -1,36 +1,50 @@
-// Prints the tables of tests/bench/records.h: records [RUNS]. `make coverage`.
+// Prints the tables of tests/bench/records.h and studies.h: records [RUNS [TABLE]], all of them or
+// one of troubles, laws, agreement, slope, given, min-speed. `make coverage`.
 #include "bench/records.h"
 
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
-int main(int argc, char** argv) {
-  const int runs = argc > 1 ? std::atoi(argv[1]) : 1000;
-  const std::string only = argc > 2 ? argv[2] : "";
-  constexpr rolling::PowerLaw CR{1.87e-3, 0.215}, CF{5.75e-4, 0.0244};
-  std::printf("# What a record really has: %d records each, position route; shares of them\n",
-              runs);
-  std::printf("%-31s %-5s %8s %7s %7s %8s %6s %9s %6s %9s %9s %6s %7s\n", "# trouble", "scene",
-              "%_of_a", "cover_a", "cover_b", "adequate", "noise", "eccentric", "mm", "other_law",
-              "not_white", "check", "refused");
+#include "bench/studies.h"
+
+namespace {
+
+constexpr unsigned seed = 20261122;
+const std::pair<const char*, rolling::PowerLaw> scenes[] = {{"CR", studies::CR},
+                                                            {"CF", studies::CF}};
+
+void troubles(int runs) {
+  std::printf(
+      "# What a record really has: %d records each, position route; shares of them; best: what the "
+      "most powerful test of the fit could find at 0.5 %%\n",
+      runs);
+  std::printf("%-31s %-5s %8s %7s %7s %8s %6s %9s %6s %9s %9s %9s %6s %6s %7s\n", "# trouble",
+              "scene", "%_of_a", "cover_a", "cover_b", "adequate", "noise", "eccentric", "mm",
+              "other_law", "beginning", "not_white", "check", "best", "refused");
   for (const auto& trouble : records::troubles())
-    for (const auto& [name, law] : {std::pair("CR", CR), std::pair("CF", CF)}) {
-      if (only == "laws") continue;
-      const auto v = records::judge(trouble, law, runs, 20261122);
-      std::printf("%-31s %-5s %+8.2f %7.3f %7.3f %8.3f %6.3f %9.3f %6.3f %9.3f %9.3f %6.3f %7d\n",
-                  trouble.name, name, 100 * v.bias, v.cover_a, v.cover_b, v.adequate, v.noise,
-                  v.eccentric, 1e3 * v.e, v.other_law, v.not_white, v.failed, v.refused);
+    for (const auto& [name, law] : scenes) {
+      const auto v = records::judge(trouble, law, runs, seed);
+      std::printf(
+          "%-31s %-5s %+8.2f %7.3f %7.3f %8.3f %6.3f %9.3f %6.3f %9.3f %9.3f %9.3f %6.3f %6.3f "
+          "%7d\n",
+          trouble.name, name, 100 * v.bias, v.cover_a, v.cover_b, v.adequate, v.noise, v.eccentric,
+          1e3 * v.e, v.other_law, v.beginning, v.not_white, v.failed,
+          records::best_power(trouble, law), v.refused);
       std::fflush(stdout);
     }
+}
+
+void laws(int runs) {
   std::printf(
-      "\n# Which law made the record: of %d records, those in which the AICc of the true law is 10 "
+      "# Which law made the record: of %d records, those in which the AICc of the true law is 10 "
       "or more away from that of the other, and the share of them in which it is the smaller\n",
       runs);
   std::printf("%-29s", "# true law");
   for (const auto& law : rolling::laws()) std::printf(" %24s", law.formula);
   std::printf(" %6s %12s\n", "cover", "undetermined");
   for (const auto& truth : records::truths()) {
-    const auto c = records::contest(truth, runs, 20261122);
+    const auto c = records::contest(truth, runs, seed);
     std::printf("%-29s", rolling::laws()[truth.law].formula);
     for (std::size_t j = 0; j < c.won.size(); ++j)
       if (c.apart[j] == 0) std::printf(" %24s", "-");
@@ -40,4 +54,69 @@ int main(int argc, char** argv) {
     std::printf(" %6.3f %12d\n", c.cover, c.not_determined);
     std::fflush(stdout);
   }
+}
+
+void agreement(int runs) {
+  std::printf("# Rolls that are said to disagree, of %d joint fits\n", runs);
+  for (const auto& [name, law] : scenes) {
+    for (int rolls : {2, 4, 10})
+      std::printf("%-5s %2d rolls under one law         %5d\n", name, rolls,
+                  studies::disagreements(law, rolls, 0, runs, seed));
+    std::printf("%-5s  2 rolls up and down 1 mm/m      %5d\n", name,
+                studies::disagreements(law, 2, 1e-3, runs, seed));
+    std::fflush(stdout);
+  }
+}
+
+void print(const char* name, const studies::Tally& x) {
+  std::printf("%-12s %+10.2e %10.3e %10.3e %7.3f %7.3f\n", name, x.bias(), x.sd(), x.sigma(),
+              x.sigma() / x.sd(), x.cover());
+}
+constexpr const char* tally_names =
+    "#            bias               sd      sigma sigma/sd  cover\n";
+
+void slope(int runs) {
+  std::printf("# %d pairs of rolls up and down a slope of 1 mm/m, the slope fitted\n%s", runs,
+              tally_names);
+  for (const auto& [name, law] : scenes) {
+    const auto all = studies::slope_pairs(law, 1e-3, runs, seed);
+    for (const auto& [what, tally] :
+         {std::pair(" a", &all.a), std::pair(" b", &all.b), std::pair(" slope", &all.slope)})
+      print((std::string(name) + what).c_str(), *tally);
+    std::fflush(stdout);
+  }
+}
+
+void given(int runs) {
+  const auto all = studies::given_numbers(10 * runs, seed);
+  std::printf("# %d draws of K, R, g and the slope: spread, and the error that is stated\n",
+              10 * runs);
+  const auto line = [](const char* name, double spread, double stated) {
+    std::printf("%-5s %10.4e %10.4e %7.4f\n", name, spread, stated, stated / spread);
+  };
+  line("a", all.a.sd(), all.stated_a);
+  line("b", all.b.sd(), all.stated_b);
+  line("v0", all.v0.sd(), all.stated_v0);
+  line("corr", all.corr, all.stated_corr);
+}
+
+void min_speed(int runs) {
+  std::printf("# %d records of noisy speeds, --min-speed 0.1\n%s", runs, tally_names);
+  for (const auto& [name, law] : scenes) {
+    const auto all = studies::min_speed(law, 0.1, runs, seed);
+    print((std::string(name) + " a").c_str(), all.a);
+    print((std::string(name) + " b").c_str(), all.b);
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int runs = argc > 1 ? std::atoi(argv[1]) : 1000;
+  const std::pair<const char*, void (*)(int)> tables[] = {
+      {"troubles", troubles}, {"laws", laws},   {"agreement", agreement},
+      {"slope", slope},       {"given", given}, {"min-speed", min_speed}};
+  for (const auto& [name, table] : tables)
+    if (argc < 3 || std::strcmp(argv[2], name) == 0) table(runs);
 }

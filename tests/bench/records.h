@@ -6,6 +6,8 @@
 #include "base/error.h"
 #include "contact/law.h"
 #include "contact/power_law.h"
+#include "fit/beginning.h"
+#include "fit/fitted.h"
 #include "fit/laws.h"
 #include "unit/fit/simulated.h"
 
@@ -97,9 +99,9 @@ class Readings {
 struct Verdict {
   double bias = 0;  ///< of a, in parts of a
   double cover_a = 0, cover_b = 0, adequate = 0;
-  double noise = 0, eccentric = 0;                  ///< warnings
-  double other_law = 0, not_white = 0, failed = 0;  ///< of --check
-  double e = 0, covered_e = 0;                      ///< mean eccentricity where it was found
+  double noise = 0, eccentric = 0;                                 ///< warnings
+  double other_law = 0, beginning = 0, not_white = 0, failed = 0;  ///< of --check
+  double e = 0, covered_e = 0;  ///< mean eccentricity where it was found
   int refused = 0;
 };
 
@@ -127,19 +129,34 @@ inline Verdict judge(const Trouble& wrong, rolling::PowerLaw law, int runs, unsi
       if (!options.robust)
         against = rolling::compare_laws(rolling::Route::position, {run}, options).against_power();
       sum.adequate += against <= 2;
-      const bool other = against >= better, coloured = r.whiteness <= 0.005;
+      const bool other = against >= better, coloured = r.whiteness <= 0.005,
+                 hand = !options.robust &&
+                        rolling::disturbed_beginning(rolling::Route::position, {run}, options);
       sum.other_law += other;
+      sum.beginning += hand;
       sum.not_white += coloured;
-      sum.failed += other || coloured;
+      sum.failed += other || hand || coloured;
     } catch (const rolling::Error&) {
       ++sum.refused;
     }
   }
   if (sum.eccentric > 0) sum.e /= sum.eccentric, sum.covered_e /= sum.eccentric;
   for (double* share : {&sum.cover_a, &sum.cover_b, &sum.adequate, &sum.noise, &sum.eccentric,
-                        &sum.other_law, &sum.not_white, &sum.failed})
+                        &sum.other_law, &sum.beginning, &sum.not_white, &sum.failed})
     *share /= runs;
   return sum;
+}
+
+/// The share of records in which the most powerful test of whether the fitted roll is right finds
+/// the trouble, with one false alarm in 200: of its squares in units of the noise, where there is
+/// none, the root is so far above 0 (Neyman and Pearson). No test that knows less finds more.
+inline double best_power(const Trouble& wrong, rolling::PowerLaw law) {
+  if (wrong.least != wrong.most || wrong.AR != 0 || wrong.outliers > 0) return NAN;
+  Trouble quiet = wrong;
+  quiet.least = quiet.most = 1e-6;  // of the noise, so that the fit is one of its own errors
+  const auto run = Readings(path(law, wrong), quiet, 1).next();
+  const auto fit = rolling::fit_route(rolling::Route::position, {run}, {});
+  return 0.5 * std::erfc((2.576 - std::sqrt(fit.minimum.rss) / noise) / std::sqrt(2.0));
 }
 
 inline std::vector<Trouble> troubles() {

@@ -1,7 +1,8 @@
 #!/bin/bash
 # samples/lab: `make` goes from the records to the table, the joint law and the figure, and does again
-# only what has changed; `make check` fails where the records disagree or the energy does not balance;
-# live.sh draws while a record comes, from a terminal line and from a file that grows.
+# only what has changed; `make check` fails where a v^b is not the law of a record, where the records
+# disagree or the energy does not balance; live.sh draws while a record comes, from a terminal line
+# and from a file that grows.
 set -u
 export LC_ALL=C
 unset CDPATH MAKEFLAGS MAKELEVEL
@@ -52,6 +53,12 @@ sed 's/0\.001[0-9]*/0.0025/' results/CR.fit >results/wrong.fit
 ./check.sh -c v speeds/CR.csv results/CR.fit >said 2>&1 || complain "check of CR: $(cat said)"
 ./check.sh -c v speeds/CR.csv results/wrong.fit >said 2>&1
 [ $? = 1 ] && grep -q 'the check does not hold' said || complain "a wrong law: $(cat said)"
+# Another law, D = 0.5 mm + 4 mm (v/(m/s))^2: no a v^b describes its roll, whatever the energy says.
+awk 'BEGIN { print "# v D"; for (i = 0; i <= 60; i++) print i / 100, 5e-4 + 4e-3 * (i / 100)^2 }' |
+  simulate --law - -K 0.5 -R 0.04 --v0 0.5 --sensor pasco --seed 3 >other
+../fleet/fit.sh other >other.fit 2>said
+./check.sh other other.fit >said 2>&1 && complain 'check: D = 0.5 mm + 4 mm v^2 is a v^b'
+grep -q 'fitpower: .*a v^b' said || complain "another law: $(cat said)"
 
 # live.sh: a picture for every record but the last six: five wait for their window to be whole, one
 # for the difference with the next. A record comes at its own pace through a pseudo terminal.

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Four coast-downs that others recorded: which law is adequate, with what errors. What is checked does not come from the fit that it
+# Five coast-downs that others recorded: which law is adequate, with what errors. What is checked does not come from the fit that it
 # checks: another route, a figure of the record's owners, or the reckoning of the way.
 set -eu
 export LC_ALL=C
@@ -38,6 +38,51 @@ fit street --route velocity -K 0 -R 0.15 --slope fit "$scratch/street"
   awk '{ rms[NR] = $6; S = $8; sigma = $9 } END { printf "kart: slope %.2g +- %.1g\n", S, sigma; exit !(rms[2] < 0.8 * rms[1] && S > 4 * sigma && S < 1e-3) }' ||
   complain "kart: the slope of the street"
 grep -q 'v^b is adequate' "$scratch/street.report" || complain "kart: the law is not adequate on a street with a slope"
+
+# Car on a road of 1.03 degrees, up north and down south, with 3.13 m/s of wind from the north; GPS speeds once a second in rows of
+# some 45 Hz. The owners fit v' = -+g sin(theta) - mu g cos(theta) - rho Cd A u^2/2m, u the speed in the air: D = d0 + d2 u^2 with
+# R = 1 and K = 0, mu = d0, Cd = 2 m g cos(theta) d2/(rho A), if u is the column of speeds. Each held reading taken as one more,
+# as theirs are (but for the first, whose beginning nobody saw), their own mu, Cd and rms come back; of the readings alone the rms is less.
+road=$data/car-coasting-lab
+if [ -r "$road/north_data.csv" ]; then
+  readings() {  # FILE WIND
+    awk -F, -v wind="$2" -v OFS='\t' '/^[0-9]/ { if (v != "" && $2 != v) print $1, $2 + wind; v = $2 }' "$road/$1_data.csv"
+  }
+  held() { awk -v OFS='\t' '{ for (; v && t < $1 - 0.01; t += 0.0225) print t, v; t = $1; v = $2 }' "$1"; }
+  # The row of D = d0 + d2 u^2 in a report: mu Cd rms; the rms, of v(t) = k tan(phi0 - sqrt(p q) t) for v' = -p - q v^2, k = sqrt(p/q),
+  # at the best v0.
+  quadratic() {  # NAME SLOPE
+    sed -n 's/.* D = d0 + d2 v^2: d0 = \([^ ]*\) .* d2 = \([^ ]*\) .*/\1 \2/p' "$scratch/$1.report" | awk -v S="$2" '
+      function v(v0, t) { t = atan2(v0 / k, 1) - sqrt(p * q) * t; return k * sin(t) / cos(t) }
+      function rss(v0,  i, sum) { for (i = 1; i <= n; i++) sum += (u[i] - v(v0, t[i] - t[1]))^2; return sum }
+      NR == 1 { d0 = $1; d2 = $2; next }
+      { t[++n] = $1; u[n] = $2 }
+      END {
+        theta = atan2(S, 1); g = 9.81; p = g * (d0 * cos(theta) + sin(theta)); q = g * d2 * cos(theta); k = sqrt(p / q)
+        low = u[1] - 1; high = u[1] + 1
+        while (high - low > 1e-6) {
+          third = (high - low) / 3
+          if (rss(low + third) < rss(high - third)) high -= third; else low += third
+        }
+        print d0, 2 * 1910 * g * cos(theta) * d2 / (1.06 * 2.15), sqrt(rss(low) / n)
+      }' - "$scratch/$1"
+  }
+  for way in "north 3.13 0.0179788 0.0079 0.348 0.136" "south -3.13 -0.0179788 0.0228 0.233 0.108"; do
+    read -r name wind slope mu Cd rms <<<"$way"
+    readings "$name" "$wind" >"$scratch/$name"
+    held "$scratch/$name" >"$scratch/$name-held"
+    for records in "$name" "$name-held"; do
+      fitpower -q --report --route velocity -K 0 -R 1 --slope "$slope" "$scratch/$records" >/dev/null 2>"$scratch/$records.report"
+      quadratic "$records" "$slope"
+    done | awk -v name="$name" -v mu="$mu" -v Cd="$Cd" -v rms="$rms" '
+      { printf "car, %s: mu %.4f Cd %.3f rms %.3f m/s of %s; its owners: %s %s %s\n", name, $1, $2, $3, NR == 1 ? "the readings" : "all rows", mu, Cd, rms }
+      { off = NR == 1 ? 0.02 : 0.01 }
+      ($1 / mu - 1)^2 > off^2 || ($2 / Cd - 1)^2 > off^2 || (NR == 1 ? $3 > 0.9 * rms : ($3 / rms - 1)^2 > off^2) { bad = 1 }
+      END { exit bad || NR != 2 }' || complain "car, $name: not what its owners found"
+  done
+else
+  echo "car: no car-coasting-lab in REAL_DATA; see tests/recordings.md"
+fi
 
 # Flywheel: rpm and ms; R = g = 1, so D is the angular deceleration in rad/s^2. Every 50th record; a gap of 1.8 s.
 awk 'NF == 9 { t = ($6 - 783072) / 1000; if (n && t <= last) next; last = t; if (n++ % 50 == 0) print t, $4 * 0.1047197551 }' \

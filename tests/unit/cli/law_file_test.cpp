@@ -35,8 +35,11 @@ Given law_of(const std::string& text, std::vector<std::string> words = {}) {
   {
     const Redirect to_file(STDERR_FILENO, errors.name());
     given.status = tool.run(static_cast<int>(words.size()), arguments.data(), [&] {
-      given.table = read_law(tool, file.name(), given.law, body.slope, &given.v0);
-      given.slope = body.slope;
+      const LawFile read = read_law(tool, file.name());
+      given.table = read.table;
+      given.law = read.law_or(given.law);
+      given.slope = read.slope.value_or(body.slope);
+      given.v0 = read.v0.value_or(given.v0);
       return 0;
     });
   }

@@ -1,15 +1,18 @@
 // A band matrix with its zeros, row by row.
 #pragma once
 
-#include "fit/band_matrix.h"
+#include "fit/filter_matrix.h"
 
 namespace rolling {
 
-inline std::vector<double> dense(const BandMatrix& M, std::size_t columns) {
-  std::vector<double> all(M.rows() * columns, 0);
-  for (std::size_t i = 0; i < M.rows(); ++i)
-    for (std::size_t j = 0; j < M.row(i).size(); ++j)
-      all[i * columns + M.first(i) + j] = M.row(i)[j];
+inline std::vector<double> dense(const FilterMatrix& M, std::size_t columns) {
+  std::vector<double> all(M.rows() * columns, 0), row;
+  for (std::size_t i = 0; i < M.band_rows(); ++i) {
+    M.row(i, row);
+    for (std::size_t j = 0; j < row.size(); ++j) all[i * columns + M.extent(i).first + j] = row[j];
+  }
+  if (M.bordered())
+    for (std::size_t j = 0; j < columns; ++j) all[M.band_rows() * columns + j] = M.last_row()[j];
   return all;
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t n = 40;
 const std::vector<double> t = simulated::times(n);
-const BandMatrix E =
-    probe(simulated::differentiate("v", "a"), t) * probe(simulated::smooth_v(5), t);
+const FilterMatrix E = FilterMatrix(probe(simulated::smooth_v(5), t))
+                           .then(probe(simulated::differentiate("v", "a"), t));
 
 /// A straight line through data whose noise is E times white noise, with a floor in the weights.
 System line(const std::vector<double>& data, std::shared_ptr<const Noise> noise) {
@@ -35,8 +35,7 @@ System line(const std::vector<double>& data, std::shared_ptr<const Noise> noise)
 // line is R^-1 B^T B R^-T.
 TEST_CASE("noise: its variance and the covariance of the parameters, whatever the floor", "[fit]") {
   for (const double share : {1e-3, 0.1, 1.0, 30.0}) {
-    const auto noise = std::make_shared<const Noise>(
-        std::vector<Noise::Matrix>{std::make_shared<const BandMatrix>(E)}, share);
+    const auto noise = std::make_shared<const Noise>(std::vector<FilterMatrix>{E}, share);
     simulated::Noise random(7);
     double variances = 0, squares = 0, covariance = 0;
     constexpr int runs = 2000;
@@ -50,10 +49,17 @@ TEST_CASE("noise: its variance and the covariance of the parameters, whatever th
       variances += noise_variance(fit) / runs;
       squares += (fit.minimum.theta[1] - 0.5) * (fit.minimum.theta[1] - 0.5) / runs;
       if (k > 0) continue;
-      const auto B = noise->through(orthonormal(fit.system, fit.minimum), 2);
+      const auto Q = orthonormal(fit.system, fit.minimum);
+      const auto B = noise->through(Q, 2), M = noise->middle(Q, 2);
       const auto& R = fit.minimum.R;  // of which the slope needs the last element alone
       for (std::size_t s = 0; s < noise->sources()[0]; ++s)
         covariance += 4 * B[2 * s + 1] * B[2 * s + 1] / (R[3] * R[3]);
+      for (std::size_t i : {0, 1})
+        for (std::size_t j : {0, 1}) {
+          double sum = 0;
+          for (std::size_t s = 0; s < B.size(); s += 2) sum += B[s + i] * B[s + j];
+          CHECK(std::abs(M[2 * i + j] - sum) < 1e-9);
+        }
     }
     CAPTURE(share);
     CHECK(std::abs(variances / 4 - 1) < 3.3 * std::sqrt(2.0 / 10 / runs));
@@ -62,16 +68,17 @@ TEST_CASE("noise: its variance and the covariance of the parameters, whatever th
 }
 
 TEST_CASE("noise: the least sources that explain residuals give them back", "[fit]") {
-  const Noise noise({std::make_shared<const BandMatrix>(E)}, 1e-4);
+  const Noise noise({E}, 1e-4);
   simulated::Noise random(3);
   std::vector<double> e, f;
   for (std::size_t i = 0; i < n; ++i) e.push_back(random(1));
   for (std::size_t i = 0; i < n; ++i) f.push_back(E.times(i, e));
   auto weighted = f;
   noise.weight(0, weighted, {});
-  const auto least = noise.explain(weighted);
+  const auto again = noise.without_weights(weighted), least = noise.explain(weighted);
   double size = 0, true_size = 0;
   for (std::size_t i = 0; i < n; ++i) {
+    CHECK(std::abs(again[i] - f[i]) < 1e-12);
     CHECK(std::abs(E.times(i, least) - f[i]) < 1e-5);
     size += least[i] * least[i];
     true_size += e[i] * e[i];

@@ -1,6 +1,7 @@
 #include "fit/response.h"
 
 #include "base/error.h"
+#include "unit/fit/dense.h"
 #include "unit/fit/simulated.h"
 #include "unit/catch.h"
 
@@ -20,8 +21,8 @@ TEST_CASE(
     for (std::size_t i = 0; i < n; ++i) x.push_back(std::sin(3.7 * static_cast<double>(i * i)));
     const auto v = chain[1].apply(t, chain[0].apply(t, x)), a = chain[2].apply(t, v);
     for (std::size_t i = 0; i < n; ++i) {
-      CHECK(std::abs(response.of.at("v")->times(i, x) - v[i]) < 1e-12);
-      CHECK(std::abs(response.of.at("a")->times(i, x) - a[i]) < 1e-11);
+      CHECK(std::abs(response.of.at("v").times(i, x) - v[i]) < 1e-12);
+      CHECK(std::abs(response.of.at("a").times(i, x) - a[i]) < 1e-11);
     }
   }
 }
@@ -58,9 +59,45 @@ TEST_CASE(
   REQUIRE(response.t.size() == 26);  // both filters before the last cut reach 2 + 1 records further
   for (std::size_t i = 0; i < 26; ++i) CHECK(std::abs(response.t[i] - t[i + 7]) < 1e-12);
   const std::vector<double> raw(x.begin() + 7, x.begin() + 33);
-  REQUIRE(response.of.at("a")->rows() == 20);
+  REQUIRE(response.of.at("a").rows() == 20);
   for (std::size_t i = 0; i < 20; ++i)
-    CHECK(std::abs(response.of.at("a")->times(i, raw) - smooth[i]) < 1e-12);
+    CHECK(std::abs(response.of.at("a").times(i, raw) - smooth[i]) < 1e-12);
   for (std::size_t i = 0; i < 20; ++i)
-    CHECK(std::abs(response.of.at("v")->times(i, raw) - v[i + 10]) < 1e-12);
+    CHECK(std::abs(response.of.at("v").times(i, raw) - v[i + 10]) < 1e-12);
+}
+
+TEST_CASE("response: a filter that does the same everywhere is probed in a short run", "[fit]") {
+  LinearFilter mean = simulated::smooth_v(5);
+  mean.shift_invariant = true;
+  for (std::size_t n : {4u, 14u, 15u, 16u, 17u, 40u}) {
+    const auto t = simulated::times(n);
+    CHECK(dense(probe(mean, t), n) == dense(probe(simulated::smooth_v(5), t), n));
+  }
+}
+
+TEST_CASE("response: a pass through the filters is the product with their matrix", "[fit]") {
+  constexpr std::size_t n = 600;
+  const auto t = simulated::times(n);
+  const FilterMatrix H = FilterMatrix::identity(n)
+                             .then(probe(simulated::smooth_v(9), t))
+                             .then(probe(simulated::differentiate("v", "a"), t))
+                             .of_rows(std::vector<std::size_t>{0, 1, 5, 300, 301, 598, 599})
+                             .with_last_row(std::vector<double>(n, 2));
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i < n; ++i) x.push_back(std::sin(0.3 * static_cast<double>(i * i)));
+  const auto Hx = H.times(x), matrix = dense(H, n);
+  REQUIRE(Hx.size() == 8);
+  for (std::size_t i = 0; i < Hx.size(); ++i) {
+    double sum = 0;
+    for (std::size_t k = 0; k < n; ++k) sum += matrix[i * n + k] * x[k];
+    CHECK(std::abs(Hx[i] - sum) < 1e-11);
+    if (i + 1 < Hx.size()) CHECK(std::abs(H.times(i, x) - sum) < 1e-11);
+    y.push_back(std::cos(static_cast<double>(i)));
+  }
+  const auto Hty = H.transposed_times(y);
+  for (std::size_t k = 0; k < n; ++k) {
+    double sum = 0;
+    for (std::size_t i = 0; i < y.size(); ++i) sum += matrix[i * n + k] * y[i];
+    CHECK(std::abs(Hty[k] - sum) < 1e-11);
+  }
 }

@@ -39,8 +39,8 @@ TEST_CASE(
     "[fit]") {
   constexpr std::size_t n = 40;
   const auto t = simulated::times(n);
-  const BandMatrix E =
-      probe(simulated::differentiate("v", "a"), t) * probe(simulated::smooth_v(7), t);
+  const FilterMatrix E = FilterMatrix(probe(simulated::smooth_v(7), t))
+                             .then(probe(simulated::differentiate("v", "a"), t));
   const auto dense_E = dense(E, n);
   double largest = 0;
   for (double norm : row_norms(E)) largest = std::max(largest, norm);
@@ -89,13 +89,11 @@ TEST_CASE(
 TEST_CASE("whitener: a last row that borders the band is whitened like the others", "[fit]") {
   constexpr std::size_t n = 30;
   const auto t = simulated::times(n);
-  const BandMatrix smooth = probe(simulated::smooth_v(5), t),
-                   a = probe(simulated::differentiate("v", "a"), t) * smooth;
-  BandMatrix E;
-  for (std::size_t i = 0; i < n; ++i) E.append(a.first(i), a.row(i));
-  E.append(0, std::vector<double>(n, 1.0 / n));
+  const FilterMatrix E = FilterMatrix(probe(simulated::smooth_v(5), t))
+                             .then(probe(simulated::differentiate("v", "a"), t))
+                             .with_last_row(std::vector<double>(n, 1.0 / n));
   const double floor = 0.3;
-  const Whitener whitener(E, floor, true);
+  const Whitener whitener(E, floor);
   const auto dense_E = dense(E, n);
   std::vector<std::vector<double>> columns;  // of R^-T [E, floor I], no floor in the last row
   double of_E = 0;
@@ -132,5 +130,6 @@ TEST_CASE("whitener: a column that the filters leave without noise is refused", 
   E.append(0, std::vector<double>{0, 0});
   E.append(0, std::vector<double>{0, 0});
   CHECK_THROWS_AS(Whitener(E, 0), Error);
-  CHECK_THROWS_AS(Whitener(E, 0, true), Error);
+  // The mean of a column without noise.
+  CHECK_THROWS_AS(Whitener(FilterMatrix(E).with_last_row({0, 0}), 0.1), Error);
 }

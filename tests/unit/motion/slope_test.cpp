@@ -241,3 +241,14 @@ TEST_CASE("Slope: solvers, tables and the integral over speed agree", "[rolling]
       }
     }
 }
+
+TEST_CASE("Slope: panels that begin at D = R lose nothing", "[rolling]") {
+  // Level, b = 1, K = 0: time = artanh A - A, and h0 = artanh A, where artanh A = r + ln(1 + A).
+  const SlopeIntegrals integrals(exact, 1, 0, 1, 0, 0);
+  for (const double r : {0.1, 0.3, 0.5, 1.0, 3.0}) {
+    const double A = std::sqrt(-std::expm1(-2 * r)), artanh = r + std::log1p(A);
+    const auto place = integrals.place(artanh - A, infinity);
+    CHECK(std::abs(std::log(integrals.speed(place)) + r) < 40 * eps * r);
+    CHECK(std::abs(integrals.gradient(place, Wanted::speed).h0 - artanh) < 40 * eps * artanh);
+  }
+}

@@ -1,0 +1,187 @@
+#include "fit/filter_matrix.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rolling {
+
+FilterMatrix::FilterMatrix(BandMatrix L) : columns_(L.columns()) {
+  factors_.push_back(std::make_shared<const BandMatrix>(std::move(L)));
+}
+
+FilterMatrix FilterMatrix::identity(std::size_t n) { return FilterMatrix(n); }
+
+FilterMatrix FilterMatrix::then(BandMatrix L) const {
+  FilterMatrix product = *this;
+  product.factors_.push_back(std::make_shared<const BandMatrix>(std::move(L)));
+  return product;
+}
+
+FilterMatrix FilterMatrix::of_rows(std::span<const std::size_t> rows) const {
+  if (factors_.empty()) return then(BandMatrix::identity(columns_).of_rows(rows));
+  FilterMatrix few = *this;
+  few.factors_.back() = std::make_shared<const BandMatrix>(factors_.back()->of_rows(rows));
+  return few;
+}
+
+FilterMatrix FilterMatrix::with_last_row(std::vector<double> row) const {
+  FilterMatrix bordered = *this;
+  bordered.border_ = std::make_shared<const std::vector<double>>(std::move(row));
+  return bordered;
+}
+
+FilterMatrix::Extent FilterMatrix::extent(std::size_t i) const {
+  Extent here{i, i + 1};
+  for (auto L = factors_.rbegin(); L != factors_.rend(); ++L) {
+    Extent next{SIZE_MAX, 0};
+    for (std::size_t k = here.first; k < here.end; ++k)
+      if (!(*L)->row(k).empty())
+        next = {std::min(next.first, (*L)->first(k)), std::max(next.end, (*L)->end(k))};
+    here = next.first < next.end ? next : Extent{0, 0};
+  }
+  return here;
+}
+
+void FilterMatrix::row(std::size_t i, std::vector<double>& values) const {
+  Extent here{i, i + 1};
+  values.assign(1, 1);
+  std::vector<double> next;
+  for (std::size_t f = factors_.size(); f-- > 0;) {
+    const BandMatrix& L = *factors_[f];
+    Extent reach{SIZE_MAX, 0};
+    for (std::size_t k = here.first; k < here.end; ++k)
+      if (!L.row(k).empty())
+        reach = {std::min(reach.first, L.first(k)), std::max(reach.end, L.end(k))};
+    if (reach.first > reach.end) reach = {0, 0};
+    next.assign(reach.end - reach.first, 0);
+    for (std::size_t k = here.first; k < here.end; ++k) {
+      const auto row = L.row(k);
+      const double by = values[k - here.first];
+      if (row.empty()) continue;
+      double* const to = &next[L.first(k) - reach.first];
+      for (std::size_t j = 0; j < row.size(); ++j) to[j] += by * row[j];
+    }
+    here = reach;
+    values.swap(next);
+  }
+}
+
+double FilterMatrix::times(std::size_t i, std::span<const double> x) const {
+  std::vector<double> values;
+  row(i, values);
+  const std::size_t first = extent(i).first;
+  double sum = 0;
+  for (std::size_t j = 0; j < values.size(); ++j) sum += values[j] * x[first + j];
+  return sum;
+}
+
+std::vector<double> FilterMatrix::times(std::span<const double> x) const {
+  FilterPass pass(*this, 1);
+  std::vector<double> all;
+  all.reserve(rows());
+  for (double value : x) {
+    *pass.place() = value;
+    pass.push();
+    while (const double* row = pass.next()) all.push_back(*row);
+  }
+  return all;
+}
+
+std::vector<double> FilterMatrix::transposed_times(std::span<const double> X,
+                                                   std::size_t columns) const {
+  std::vector<double> all(X.begin(),
+                          X.begin() + static_cast<std::ptrdiff_t>(band_rows() * columns));
+  for (std::size_t f = factors_.size(); f-- > 0;) {
+    const BandMatrix& L = *factors_[f];
+    std::vector<double> next((f > 0 ? factors_[f - 1]->rows() : columns_) * columns);
+    for (std::size_t i = 0; i < L.rows(); ++i) {
+      double* to = &next[L.first(i) * columns];
+      for (const double by : L.row(i))
+        for (std::size_t c = 0; c < columns; ++c) *to++ += by * all[i * columns + c];
+    }
+    all.swap(next);
+  }
+  if (bordered())
+    for (std::size_t k = 0; k < columns_; ++k)
+      for (std::size_t c = 0; c < columns; ++c)
+        all[k * columns + c] += (*border_)[k] * X[band_rows() * columns + c];
+  return all;
+}
+
+BandMatrix FilterMatrix::last_factors(std::size_t from) const {
+  if (from == factors_.size())
+    return BandMatrix::identity(from > 0 ? factors_.back()->rows() : columns_);
+  BandMatrix product = *factors_.back();
+  for (std::size_t f = factors_.size() - 1; f-- > from;) product = product * *factors_[f];
+  return product;
+}
+
+FilterMatrix::Split FilterMatrix::split(const FilterMatrix& other) const {
+  std::size_t same = 0;
+  while (same < std::min(factors_.size(), other.factors_.size()) &&
+         factors_[same] == other.factors_[same])
+    ++same;
+  FilterMatrix shared(columns_);
+  shared.factors_.assign(factors_.begin(), factors_.begin() + static_cast<std::ptrdiff_t>(same));
+  return {std::move(shared), last_factors(same), other.last_factors(same)};
+}
+
+FilterPass::FilterPass(const FilterMatrix& H, std::size_t columns)
+    : H_(H), stride_((columns + 1) / 2 * 2), raw_(stride_), last_(stride_) {
+  constexpr std::size_t room = 256;  // rows between two moves to the front
+  for (const auto& L : H.factors_) {
+    stages_.push_back({L.get(), {}, 0, 0, 0, std::vector<double>(stride_)});
+    stages_.back().in.resize((L->window() + room) * stride_);
+  }
+}
+
+void FilterPass::push() {
+  fresh_ = true;
+  if (H_.bordered()) {
+    const double by = (*H_.border_)[pushed_];
+    for (std::size_t c = 0; c < stride_; ++c) last_[c] += by * raw_[c];
+  }
+  ++pushed_;
+}
+
+double* FilterPass::next() {
+  if (double* const row = next_of(stages_.size())) return row;
+  if (!H_.bordered() || pushed_ < H_.columns() || std::exchange(last_given_, true)) return nullptr;
+  return last_.data();
+}
+
+double* FilterPass::next_of(std::size_t stage) {
+  if (stage == 0) return std::exchange(fresh_, false) ? raw_.data() : nullptr;
+  Stage& s = stages_[stage - 1];
+  if (s.row == s.L->rows()) return nullptr;
+  while (s.count < s.L->end(s.row)) {
+    const double* const in = next_of(stage - 1);
+    if (!in) return nullptr;
+    if ((s.count - s.base + 1) * stride_ > s.in.size()) {
+      const std::size_t kept = std::min(s.L->window(), s.count - s.base);
+      const auto end = s.in.begin() + static_cast<std::ptrdiff_t>((s.count - s.base) * stride_);
+      std::copy(end - static_cast<std::ptrdiff_t>(kept * stride_), end, s.in.begin());
+      s.base = s.count - kept;
+    }
+    std::copy_n(in, stride_, &s.in[(s.count - s.base) * stride_]);
+    ++s.count;
+  }
+  const auto row = s.L->row(s.row);
+  const std::size_t from = row.empty() ? 0 : s.L->first(s.row) - s.base;
+  for (std::size_t c = 0; c < stride_; c += 2) {  // two columns are one register
+    const double* x = &s.in[from * stride_ + c];
+    double sum[4]{};
+    std::size_t k = 0;
+    for (; k + 2 <= row.size(); k += 2, x += 2 * stride_) {
+      sum[0] += row[k] * x[0], sum[1] += row[k] * x[1];
+      sum[2] += row[k + 1] * x[stride_], sum[3] += row[k + 1] * x[stride_ + 1];
+    }
+    if (k < row.size()) sum[0] += row[k] * x[0], sum[1] += row[k] * x[1];
+    s.out[c] = sum[0] + sum[2];
+    s.out[c + 1] = sum[1] + sum[3];
+  }
+  ++s.row;
+  return s.out.data();
+}
+
+}  // namespace rolling

@@ -1,0 +1,91 @@
+// What a chain of filters makes of its raw column, as a matrix.
+#pragma once
+
+#include "fit/band_matrix.h"
+
+#include <memory>
+
+namespace rolling {
+
+/// A product of band matrices, the first filter rightmost. It is never multiplied out: one filter
+/// after another is narrower than all of them at once. Below it may stand one row that reaches over
+/// the whole run (the mean of a column).
+class FilterMatrix {
+ public:
+  FilterMatrix(BandMatrix);
+  static FilterMatrix identity(std::size_t n);
+  /// L times this matrix.
+  FilterMatrix then(BandMatrix L) const;
+  /// These rows of it.
+  FilterMatrix of_rows(std::span<const std::size_t> rows) const;
+  FilterMatrix with_last_row(std::vector<double> row) const;
+
+  std::size_t rows() const { return band_rows() + bordered(); }
+  std::size_t columns() const { return columns_; }
+  /// Without the last row that reaches over the run.
+  std::size_t band_rows() const { return factors_.empty() ? columns_ : factors_.back()->rows(); }
+  bool bordered() const { return border_ != nullptr; }
+  std::span<const double> last_row() const { return *border_; }
+
+  struct Extent {
+    std::size_t first, end;  // of the columns that a row reaches
+  };
+  Extent extent(std::size_t i) const;
+  /// Writes row i of the band, over its extent.
+  void row(std::size_t i, std::vector<double>& values) const;
+  /// Element i of the product with x.
+  double times(std::size_t i, std::span<const double> x) const;
+  std::vector<double> times(std::span<const double> x) const;
+  /// The product of the transposed matrix with X, of `columns` numbers a row.
+  std::vector<double> transposed_times(std::span<const double> X, std::size_t columns = 1) const;
+
+  /// What is left of two products without the filters, from the first one on, that they share:
+  /// this = left * shared, other = right * shared.
+  struct Split;
+  Split split(const FilterMatrix& other) const;
+
+ private:
+  friend class FilterPass;
+  explicit FilterMatrix(std::size_t columns) : columns_(columns) {}
+  BandMatrix last_factors(std::size_t from) const;
+
+  std::size_t columns_;
+  std::vector<std::shared_ptr<const BandMatrix>> factors_;  // that of the first filter first
+  std::shared_ptr<const std::vector<double>> border_;
+};
+
+struct FilterMatrix::Split {
+  FilterMatrix shared;
+  BandMatrix left, right;
+};
+
+/// Sends rows of numbers through the filters, one at a time: the product with a matrix of so many
+/// columns.
+class FilterPass {
+ public:
+  FilterPass(const FilterMatrix&, std::size_t columns);
+  /// So many numbers a row, with room that is not used.
+  std::size_t stride() const { return stride_; }
+  /// The place for the next row of the raw column, and then takes it from there.
+  double* place() { return raw_.data(); }
+  void push();
+  /// The next row of the product; null as long as it is not known. Valid until the next call.
+  double* next();
+
+ private:
+  struct Stage {
+    const BandMatrix* L;
+    std::vector<double> in;  // the rows base .. count - 1 of what comes in
+    std::size_t base, count, row;
+    std::vector<double> out;
+  };
+  double* next_of(std::size_t stage);
+
+  const FilterMatrix& H_;
+  std::size_t stride_, pushed_ = 0;
+  std::vector<double> raw_, last_;
+  bool fresh_ = false, last_given_ = false;
+  std::vector<Stage> stages_;
+};
+
+}  // namespace rolling

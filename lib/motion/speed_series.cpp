@@ -1,0 +1,113 @@
+#include "motion/speed_series.h"
+
+#include <limits>
+#include <utility>
+
+#include "motion/increasing_root.h"
+#include "motion/power_integral.h"
+
+namespace rolling {
+
+namespace {
+
+constexpr double least_term = 1e-18;  // of the sum of the series, which is near 1
+
+/// int_0^lambda e^(-s y) dy = time, solved for lambda; rest is 1/s - time for s > 0.
+double power_integral_inverse(double s, double time, double rest) {
+  if (s > 0 && rest < time) return -std::log(s * rest) / s;
+  return s == 0 ? time : -std::log1p(-s * time) / s;
+}
+
+}  // namespace
+
+SpeedSeries SpeedSeries::constant(const SpeedArm& arm) {
+  SpeedSeries series(arm, 0);
+  const double f = arm.f(0);
+  series.terms_ = {{1 - arm.b, f, 1 - f, (arm.K + 1 / arm.A(0)) / (arm.K + 1)}};
+  return series;
+}
+
+SpeedSeries SpeedSeries::binomial(const SpeedArm& arm, double from) {
+  SpeedSeries series(arm, from);
+  const double s = 1 - arm.b, z = arm.z(from);
+  series.terms_ = {{s, 1, 0, 1}};
+  double c = 1;  // binom(2n, n) (z/4)^n: 1/A is the sum of c, A that of -c / (2n - 1)
+  for (int n = 1; (c *= z * (2 * n - 1) / (2 * n)) > least_term; ++n) {
+    const double f = -c / ((2 * n - 1) * (arm.K + 1));
+    series.terms_.push_back({s + 2 * arm.b * n, f, -f, c / (arm.K + 1)});
+  }
+  return series;
+}
+
+double SpeedSeries::time(double y) const {
+  double sum = 0;
+  for (const Term& term : terms_) sum += term.f * power_integral(term.s, y);
+  return sum;
+}
+
+double SpeedSeries::lag(double y) const {
+  double sum = 0;
+  for (const Term& term : terms_)
+    if (term.lag != 0) sum += term.lag * power_integral(term.s, y);
+  return sum;
+}
+
+double SpeedSeries::lag_rest(double y) const {
+  const double ratio = std::exp(-2 * arm_.b * y);
+  double sum = terms_.back().lag_by_s;
+  for (auto term = terms_.rbegin() + 1; term != terms_.rend(); ++term)
+    sum = sum * ratio + term->lag_by_s;
+  return sum * std::exp((arm_.b - 1) * y);
+}
+
+double SpeedSeries::distance(double y) const {
+  double sum = 0;
+  for (const Term& term : terms_) sum += term.f * power_integral(term.s + 1, y);
+  return sum;
+}
+
+SpeedGradient SpeedSeries::gradient(double y, Wanted wanted) const {
+  SpeedGradient sum;
+  for (const Term& term : terms_)
+    sum.h0 += term.h * power_integral(term.s, y), sum.h1 += term.h * power_moment(term.s, y);
+  if (wanted == Wanted::speed) return sum;
+  sum.distance = distance(y);
+  for (const Term& term : terms_) {
+    const auto [integral, moment] = headway_integrals(term.s, y);
+    sum.g0 += term.h * integral, sum.g1 += term.h * moment;
+  }
+  return sum;
+}
+
+double SpeedSeries::lambda(double time, double rest) const {
+  const double s = terms_.front().s, most = terms_.front().f;
+  if (terms_.size() > 1 && s > 0 && rest < 2 * time) return lambda_of_rest(rest);
+  const double start = power_integral_inverse(s, time / most, rest / most);
+  if (terms_.size() == 1) return start;
+  // f is least at the beginning, and below 1 everywhere: that brackets the root.
+  const double end =
+      power_integral_inverse(s, time / arm_.f(from_), std::numeric_limits<double>::infinity());
+  return increasing_root(start, end, start, [&](double y) {
+    double value = -time;  // the first term nearly cancels it: so the sum rounds least
+    for (const Term& term : terms_) value += term.f * power_integral(term.s, y);
+    return std::pair(value, arm_.f(from_ + y) * std::exp(-s * y));
+  });
+}
+
+/// rest = int_y^infinity f e^(-s u) du = e^(-s y) S(z) is nearly a power of the speed, and its
+/// logarithm nearly a line. A step takes two exponential functions, where time(y) takes one for
+/// each term.
+double SpeedSeries::lambda_of_rest(double rest) const {
+  const double s = terms_.front().s;
+  const auto inverse = [&](double f) { return std::max(0.0, std::log(f / (s * rest)) / s); };
+  const double start = inverse(1);
+  return increasing_root(inverse(arm_.f(from_)), start, start, [&](double y) {
+    const double ratio = std::exp(-2 * arm_.b * y);
+    double S = 0, f = 0;
+    for (auto term = terms_.rbegin(); term != terms_.rend(); ++term)
+      S = S * ratio + term->f_by_s, f = f * ratio + term->f;
+    return std::pair(s * y - std::log(S / rest), f / S);
+  });
+}
+
+}  // namespace rolling

@@ -1,0 +1,10 @@
+// What a caller wants to know of a roll at a time.
+#pragma once
+
+namespace rolling {
+
+/// The speed with its derivatives by the parameters, or the distance with its derivatives as well,
+/// which takes about twice as long.
+enum class Wanted { speed, speed_and_distance };
+
+}  // namespace rolling

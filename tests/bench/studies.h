@@ -1,0 +1,156 @@
+// Do the answers of a joint fit hold: whether runs agree, the slope of the mat, what the given
+// numbers bring to the errors, and records that --min-speed leaves out? Simulated rolls, fitted
+// again and again. `make coverage` prints them; tests of tests/unit/fit take short forms.
+#pragma once
+
+#include "bench/records.h"
+#include "motion/trajectory.h"
+
+namespace studies {
+
+using namespace rolling;
+
+constexpr PowerLaw CR{1.87e-3, 0.215}, CF{5.75e-4, 0.0244};
+
+/// Positions of a roll with noise of 0.3 mm every 40 ms, down to the stop, on a mat that rises by
+/// `slope`; way -1 towards falling x.
+inline FitRun roll(PowerLaw law, double slope, double way, simulated::Noise& noise) {
+  FitRun run{};
+  run.body = records::cylinder;
+  Body seen = run.body;
+  seen.slope = way * slope;
+  const Trajectory truth(seen, Geometry::approximate, law, records::v0);
+  for (double t = 0; t < truth.stop_time(); t += records::dt) {
+    run.t.push_back(t);
+    run.x.push_back(way * truth.at(t).x + noise(records::noise));
+  }
+  return run;
+}
+
+/// Of estimates with a standard error, and their truth.
+struct Tally {
+  double truth;
+  double sum = 0, squares = 0, of_sigma = 0;
+  int n = 0, covered = 0;
+
+  void add(double value, double sigma) {
+    const double off = value - truth;
+    sum += off;
+    squares += off * off;
+    of_sigma += sigma * sigma;
+    covered += std::abs(off) < 1.96 * sigma;
+    ++n;
+  }
+  double bias() const { return sum / n; }
+  double sd() const { return std::sqrt((squares - sum * sum / n) / (n - 1)); }
+  double sigma() const { return std::sqrt(of_sigma / n); }  ///< root of the mean square
+  double cover() const { return static_cast<double>(covered) / n; }
+};
+
+/// How many of `sets` joint fits of so many rolls are said to disagree; with a slope every second
+/// roll goes the other way.
+inline int disagreements(PowerLaw law, int rolls, double slope, int sets, unsigned seed) {
+  simulated::Noise noise(seed);
+  int all = 0;
+  for (int k = 0; k < sets; ++k) {
+    std::vector<FitRun> runs;
+    for (int i = 0; i < rolls; ++i)
+      runs.push_back(roll(law, slope, slope != 0 && i % 2 ? -1 : 1, noise));
+    all += !fit(Route::position, runs, {}).agreement->agree();
+  }
+  return all;
+}
+
+/// Pairs of rolls up and down, with the slope as a parameter: a, b, slope.
+struct SlopePairs {
+  Tally a, b, slope;
+};
+inline SlopePairs slope_pairs(PowerLaw law, double slope, int pairs, unsigned seed) {
+  simulated::Noise noise(seed);
+  SlopePairs all{{law.a}, {law.b}, {slope}};
+  FitOptions options;
+  options.fit_slope = true;
+  for (int k = 0; k < pairs; ++k) {
+    const std::vector<FitRun> runs{roll(law, slope, 1, noise), roll(law, slope, -1, noise)};
+    const FitResult r = fit(Route::position, runs, options);
+    all.a.add(r.a, r.sigma_a);
+    all.b.add(r.b, r.sigma_b);
+    all.slope.add(r.slope, r.sigma_slope);
+  }
+  return all;
+}
+
+/// Fits of records of a nominal body that take its numbers from their distributions: the spread of
+/// a, b and v0 beside the errors that a fit states, for every hundredth of the records.
+struct GivenNumbers {
+  Tally a, b, v0;
+  double stated_a = 0, stated_b = 0, stated_v0 = 0, stated_corr = 0, corr = 0;
+};
+inline GivenNumbers given_numbers(int draws, unsigned seed) {
+  Body body = records::cylinder;
+  body.slope = 0.002;
+  const BodyUncertainty u{.R = 4e-4, .K = 0.01, .g = 0.01, .slope = 3e-4};
+  const Trajectory truth(body, Geometry::exact, CR, records::v0);
+  FitOptions options;
+  options.geometry = Geometry::exact;
+  options.start_a = CR.a;
+  options.start_b = CR.b;
+  simulated::Noise noise(seed);
+  GivenNumbers all{{CR.a}, {CR.b}, {records::v0}};
+  double ab = 0;
+  for (int k = 0; k < draws; ++k) {
+    FitRun run{};
+    run.body = body;
+    for (double t = 0; t < 0.9 * truth.stop_time(); t += 0.05) {
+      run.t.push_back(t);
+      run.x.push_back(truth.at(t).x + noise(records::noise));
+    }
+    if (k % 100 == 0) {
+      run.given = u;
+      const FitResult r = fit(Route::position, {run}, options);
+      all.stated_a += r.sigma_a * 100 / draws;
+      all.stated_b += r.sigma_b * 100 / draws;
+      all.stated_v0 += r.sigma_v0[0] * 100 / draws;
+      all.stated_corr += r.corr * 100 / draws;
+      run.given = {};
+    }
+    run.body.K += noise(u.K);
+    run.body.R += noise(u.R);
+    run.body.g += noise(u.g);
+    run.body.slope += noise(u.slope);
+    const FitResult r = fit(Route::position, {run}, options);
+    all.a.add(r.a, r.sigma_a);
+    all.b.add(r.b, r.sigma_b);
+    all.v0.add(r.v0[0], r.sigma_v0[0]);
+    ab += (r.a - CR.a) * (r.b - CR.b);
+  }
+  all.corr = (ab - all.a.sum * all.b.sum / draws) / (draws - 1) / (all.a.sd() * all.b.sd());
+  return all;
+}
+
+/// Noisy speeds down to the stop (5.3 mm/s), the slow ones left out.
+struct MinSpeed {
+  Tally a, b;
+};
+inline MinSpeed min_speed(PowerLaw law, double limit, int runs, unsigned seed) {
+  constexpr double sd = 5.3e-3;
+  simulated::Noise noise(seed);
+  MinSpeed all{{law.a}, {law.b}};
+  FitOptions options;
+  options.min_speed = limit;
+  const Trajectory truth(records::cylinder, Geometry::approximate, law, records::v0);
+  for (int k = 0; k < runs; ++k) {
+    FitRun run{};
+    run.body = records::cylinder;
+    for (double t = 0; t < truth.stop_time(); t += records::dt) {
+      run.t.push_back(t);
+      run.v.push_back(truth.speed_at(t).v + noise(sd));
+    }
+    const FitResult r = fit(Route::velocity, {run}, options);
+    all.a.add(r.a, r.sigma_a);
+    all.b.add(r.b, r.sigma_b);
+  }
+  return all;
+}
+
+}  // namespace studies

@@ -1,0 +1,98 @@
+#include "fit/beginning.h"
+
+#include <gsl/gsl_cdf.h>
+
+#include <cmath>
+
+#include "fit/fitted.h"
+#include "unit/catch.h"
+#include "unit/fit/simulated.h"
+
+using namespace rolling;
+
+namespace {
+
+const Body cylinder{1.375, 0.04, 0.5};
+
+/// Positions on felt every 40 ms; the speed stays for `hand` seconds.
+FitRun held(double hand, simulated::Noise& noise, double AR = 0) {
+  const auto truth = simulated::roll(cylinder, 5.75e-4, 0.0244, 0.5);
+  FitRun run{};
+  run.body = cylinder;
+  double error = 0;
+  for (int i = 0; i < 120; ++i) {
+    const double t = 0.04 * i;
+    error = AR * error + noise(3e-4);
+    run.t.push_back(t);
+    run.x.push_back(0.5 * std::min(t, hand) + truth.x(std::max(0.0, t - hand)) + error);
+  }
+  return run;
+}
+
+FitRun without_first(FitRun run, std::size_t k) {
+  for (auto* column : {&run.t, &run.x})
+    column->erase(column->begin(), column->begin() + static_cast<std::ptrdiff_t>(k));
+  return run;
+}
+
+}  // namespace
+
+// The squares that go with the first records are those of two fits, with and without them.
+TEST_CASE("beginning: the chance is that of Chow's F of two fits", "[fit]") {
+  simulated::Noise noise(4);
+  for (int i = 0; i < 5; ++i) {
+    const FitRun run = held(0.3, noise);
+    const auto found = disturbed_beginning(Route::position, {run}, {});
+    REQUIRE(found);
+    CHECK(found->run == 0);
+    CHECK(found->time == Approx(0.04 * static_cast<double>(found->records)));
+    const double k = static_cast<double>(found->records), left = 120 - 4 - k;
+    const double all = fit_route(Route::position, {run}, {}).minimum.rss,
+                 rest = fit_route(Route::position, {without_first(run, found->records)}, {})
+                            .minimum.rss;
+    constexpr double tests = 5;  // the first 3, 5, 8, 13 and 21 records
+    const double chance = tests * gsl_cdf_fdist_Q((all - rest) / rest * left / k, k, left);
+    CHECK(std::log(found->significance) == Approx(std::log(chance)).epsilon(0.01));
+  }
+}
+
+TEST_CASE("beginning: in joint fits the run that shows it is named", "[fit]") {
+  simulated::Noise noise(5);
+  const std::vector<FitRun> runs{held(0, noise), held(0.3, noise), held(0, noise)};
+  const auto found = disturbed_beginning(Route::position, runs, {});
+  REQUIRE(found);
+  CHECK(found->run == 1);
+}
+
+// Of 300 with a chance of 0.1 %, 4 or more come in 1 of 3000.
+TEST_CASE("beginning: free rolls, noise of long memory and fits of no roll show none", "[fit]") {
+  simulated::Noise noise(6);
+  int free = 0, of_memory = 0;
+  for (int i = 0; i < 300; ++i) {
+    free += disturbed_beginning(Route::position, {held(0, noise)}, {}).has_value();
+    of_memory += disturbed_beginning(Route::position, {held(0, noise, 0.95)}, {}).has_value();
+  }
+  CHECK(free <= 3);
+  CHECK(of_memory <= 30);  // in most of them the others are not white either
+  FitRun curve{};
+  for (int i = 0; i < 60; ++i) {
+    curve.v.push_back(0.5 - 0.005 * i);
+    curve.D.push_back(i < 5 ? 0 : 6e-4 + noise(1e-5));
+  }
+  CHECK_FALSE(disturbed_beginning(Route::shift, {curve}, {}));
+  FitRun few = held(0.3, noise);
+  for (auto* column : {&few.t, &few.x}) column->resize(23);
+  CHECK_FALSE(disturbed_beginning(Route::position, {few}, {}));
+}
+
+// Filters spread a hand of 0.3 s over all residuals, which are not white then.
+TEST_CASE("beginning: in columns of known filters the test for white residuals sees it", "[fit]") {
+  simulated::Noise noise(7);
+  for (double hand : {0.3, 0.0}) {
+    const FitRun raw = held(hand, noise);
+    FitRun run = simulated::shifts(cylinder, raw.t, raw.x, 5, "x");
+    run.body = cylinder;
+    CHECK_FALSE(disturbed_beginning(Route::shift, {run}, {}));
+    CHECK((fit(Route::shift, {run}, {}).whiteness < 0.005) == (hand > 0));
+  }
+}
