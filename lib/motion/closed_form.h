@@ -9,8 +9,8 @@
 namespace rolling {
 
 /// With s = 1 - b, k = a g / ((K+1) R) and rate = k v0^-s:
-///   w = 1 - s rate t = (v/v0)^s,   L = ln(v/v0) = ln(w) / s,   v = v0 e^L,   dv/dt = -k v0^b e^(b
-///   L),   x = x0 + v0/rate (1 - e^((1+s) L)) / (1+s).
+///   w = 1 - s rate t = (v/v0)^s,   L = ln(v/v0) = ln(w) / s,   v = v0 e^L,
+///   dv/dt = -k v0^b e^(b L),   x = x0 + v0/rate (1 - e^((1+s) L)) / (1+s).
 /// b < 1 stops at t* = 1 / (s rate), and v is exactly 0 from there on; b >= 1 never stops.
 ///
 /// The numbers given are taken as exact. Where digits are lost (rate, w, L) they are carried in
@@ -34,8 +34,9 @@ class ClosedForm final : public Motion {
 
   Body body_;
   double b_, v0_, x0_, stop_time_ = 0;
-  SplitFactor slope_;                                   // -s rate, divided by two powers of two ...
-  double unit1_ = 1, unit2_ = 1;                        // ... whose product may leave the range
+  // -s rate is slope_ unit1_ unit2_: two powers of two, as one could leave the range of a double.
+  SplitFactor slope_;
+  double unit1_ = 1, unit2_ = 1;
   Factor minus_rate_, inverse_s_, s1_, exponent_;       // -rate, divided like it; 1/s, 1 + s, b
   ScaledFactor speed_, shift_, deceleration_, length_;  // v0, a v0^b, k v0^b, v0/rate
   ScaledFactor distance_;                               // v0/rate / (1+s)

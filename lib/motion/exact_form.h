@@ -7,13 +7,13 @@
 
 namespace rolling {
 
-/// Refusals, and what b < 0 means, as in Trajectory, whose lambda = ln(v0/v) is the start of one
-/// step of Newton's method for b >= 0: with lag = int (1 - f) e^(-s y) dy (SpeedIntegrals) over 0 <
-/// y < lambda, or lag' over what follows,
-///   e^(-s lambda) = 1 - s (t/unit + lag) = s ((T - t)/unit + lag'),
-/// where t/unit, the stop T, and the logarithm are carried in double-double; the lags are smooth
-/// and small, double is enough. The relative errors of v and x are below 1e-13 until (T - t)/T =
-/// 1e-9.
+/// It refuses what Trajectory refuses, and for b < 0 it is Trajectory. For b >= 0 one step of
+/// Newton's method follows, from the lambda = ln(v0/v) of Trajectory. Let lag be the integral of
+/// (1 - f) e^(-s y) over 0 < y < lambda (SpeedIntegrals), and lag' that over y > lambda. Then
+///   e^(-s lambda) = 1 - s (t/unit + lag) = s ((T - t)/unit + lag').
+/// t/unit, the stop T and the logarithm are carried in double-double. The lags are smooth and
+/// small, and a double is enough for them. The relative errors of v and x are below 1e-13 until (T
+/// - t)/T = 1e-9.
 class ExactForm final : public Motion {
  public:
   ExactForm(const Body&, PowerLaw, double v0, double x0);

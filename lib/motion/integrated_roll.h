@@ -1,5 +1,6 @@
-// The roll under any law D(v) by an adaptive solver of differential equations: what it costs to do
-// without an integral over speed.
+// The roll under any law D(v) by an adaptive solver of differential equations. It is the rival that
+// the closed forms and the integrals over speed are compared with, and the method for the laws that
+// have neither.
 #pragma once
 
 #include "motion/solved_roll.h"
@@ -18,13 +19,14 @@ struct AnyLaw {
   double highest = std::numeric_limits<double>::infinity();  ///< speed where the law ends [m/s]
 };
 
-/// y = (x, v), v' = -g D(v) / ((K + A) R) (Eq. 12), with the slope's part. The tolerance is rtol of
-/// x and v in each step.
+/// The state is (x, v), with v' = -g D(v) / ((K + A) R) (Eq. 12) and the slope's part of gravity. A
+/// step may have a relative error rtol in x and in v.
 ///
-/// About v = 0 the right-hand side has no bounded derivative, and solvers chatter. So the solver
-/// goes to v = 1e-8 v0, located as an event. The rest is taken as a power, dv/dt ~ -v^q with the q
-/// that it has there: it stops v / ((1 - q) |dv/dt|) later. That is no small part where q is near 1
-/// (16 % of the whole for b = 0.9). From the stop on v, D and dv/dt are exactly 0.
+/// Near v = 0 the derivative of the right-hand side has no bound, and the steps of a solver become
+/// ever shorter. So the solver goes to v = 1e-8 v0, which is located as an event. From there on
+/// dv/dt is taken to be proportional to -v^q, with the q that it has there, and the body stops
+/// v / ((1 - q) |dv/dt|) later. That time is not small where q is near 1: for b = 0.9 it is 16 % of
+/// the whole roll. From the stop on v, D and dv/dt are exactly 0.
 class IntegratedRoll final : public SolvedRoll {
  public:
   /// Refuses R, g, v0 and K as check_roll does. Errors of the solver come out of seek() and

@@ -1,5 +1,5 @@
-// The free roll under any law D(v; c), and its derivatives by the coefficients: what a comparison
-// of laws needs. Trajectory does the same for a v^b to the last digits.
+// The free roll under any law D(v; c) and its derivatives by the coefficients c, for the comparison
+// of laws. For the law a v^b alone, Trajectory does the same with smaller errors.
 #pragma once
 
 #include "contact/body.h"
@@ -12,9 +12,9 @@ namespace rolling {
 /// The law is autonomous, so that time and distance are integrals over speed (Eq. 12), with q =
 /// -v'(u) the deceleration at the speed u:
 ///   t = int_v^v0 du/q,   x = int_v^v0 u du/q.
-/// They are taken in ln(v0/u), by Gauss and Legendre with four points over short panels, as far as
-/// times are asked for; the relative error is about 1e-10. Where q vanishes at a speed, the body
-/// tends to that speed and never gets there.
+/// The variable of integration is ln(v0/u). The Gauss-Legendre rule of four points is used on short
+/// panels, which are added up to the latest time that is asked for. The relative error is about
+/// 1e-10. Where q is 0 at a speed, the body tends to that speed and never reaches it.
 class LawRoll {
  public:
   /// c are the coefficients of the law, in its units; they are copied. Throws Error where the body

@@ -1,4 +1,4 @@
-// What a method costs on a scene, and how far it is off: work and precision.
+// The error of a method on a scene, and the time of the processor that it takes.
 #pragma once
 
 #include <functional>
@@ -11,15 +11,16 @@
 
 namespace rolling {
 
-/// Speeds at given times, and the stop, that count as right.
+/// Speeds at given times and the time of the stop, with which methods are compared.
 struct Reference {
   std::vector<double> times, speeds;
   double stop;  ///< infinity: none
 };
 
-/// n times evenly to 1.2 times the stop, or to `end` [s] where there is none before 1000 times
-/// that; with memory to the stop, for rest is declared there, where solvers by themselves ring on.
-/// Speeds from the best method; with memory from its solver at a relative tolerance of 1e-13.
+/// At n times, evenly spaced from 0 to 1.2 times the stop, or to `end` [s] where the stop is later
+/// than 1000 times that. With memory they end at the stop: there rest is declared, while the
+/// equations by themselves ring on. The speeds are those of the best method, which with memory is
+/// its solver at a relative tolerance of 1e-13.
 Reference reference(const Roll&, std::size_t n, double end);
 
 struct Measured {

@@ -1,5 +1,5 @@
-// The roll over a bulge that remembers: the shift follows D(v) over a rolled length, so the body
-// rolls backwards before it rests.
+// The roll over a bulge that adapts slowly: the shift follows D(v) over a rolled length, and so the
+// body rolls backwards before it rests.
 #pragma once
 
 #include "contact/power_law.h"
@@ -9,8 +9,9 @@
 
 namespace rolling {
 
-/// The bulge: z' = (v D(|v|) - |v| z) / length, and the shift is z + damping z' (a Dahl/LuGre
-/// bristle).
+/// The bulge has the state z, with z' = (v D(|v|) - |v| z) / length, and the shift is
+/// z + damping z': the bristle of Dahl's and the LuGre model of friction (Canudas de Wit et al.
+/// 1995, IEEE Trans. Automat. Contr. 40, 419).
 struct Bulge {
   double length;       ///< rolled length over which the shift follows the law [m], > 0
   double damping = 0;  ///< sigma_1 [s], >= 0

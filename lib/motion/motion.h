@@ -1,9 +1,10 @@
-// What every way of rolling a body has in common: go to a time, then ask for what is needed there.
+// A roll as a function of time, whatever the method: seek() goes to a time, and the others tell the
+// state there.
 #pragma once
 
 namespace rolling {
 
-/// A free roll from v0 at t = 0. Nothing is computed that is not asked for.
+/// A free roll from v0 at t = 0. Only what is called for is computed.
 class Motion {
  public:
   virtual ~Motion() = default;

@@ -1,5 +1,5 @@
-// Simulates the record of a motion sensor (sonar) at the end of the track, with noise, rounding and
-// lost echoes: raw data for which the right result is known.
+// Simulates the record that a motion sensor (sonar) at the end of the track makes of a roll, with
+// noise, rounding and lost echoes: raw data of which the law and the start are known.
 #pragma once
 
 #include "motion/motion.h"
@@ -10,7 +10,7 @@
 
 namespace rolling {
 
-/// The defaults describe a sonar of PASCO and a smooth push by hand.
+/// The defaults describe a sonar of PASCO, and a push by hand that begins and ends smoothly.
 struct SonarOptions {
   double rate = 25;           ///< records a second
   double resolution = 0.001;  ///< positions are rounded to this [m]; 0: not at all
@@ -35,11 +35,13 @@ struct SonarSample {
                             ///< positions, with one decimal more than they have [m/s]
 };
 
-/// Rest, the hand's push from 0 to the motion's speed at its t = 0 (v0 sin^2), free roll, rest.
-/// Before the rounding white gaussian noise is added. The same seed gives the same record
-/// everywhere; `lost` does not change the noise of the others. Throws Error for an option out of
-/// its range, for a motion that never stops if `until` is infinite, and for more than 1e9 samples.
-/// `write` gets one sample after the other: five are kept at a time.
+/// The body is at rest; the hand pushes it, v = v0 sin^2(pi u/(2 push)) at the time u after it took
+/// hold, to the speed v0 of the motion at its t = 0; it rolls freely; it is at rest again. White
+/// gaussian noise is added to each position before the rounding. The same seed gives the same
+/// record on every machine, and `lost` does not change the noise of the records that are not lost.
+/// `write` gets one sample after the other; five are kept at a time. Throws Error for an option out
+/// of its range, for a motion that never stops if `until` is infinite, and for more than 1e9
+/// samples.
 void sonar_record(Motion&, const SonarOptions&,
                   const std::function<void(const SonarSample&)>& write);
 
