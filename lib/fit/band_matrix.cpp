@@ -1,5 +1,7 @@
 #include "fit/band_matrix.h"
 
+#include "base/error.h"
+
 #include <algorithm>
 
 namespace rolling {
@@ -33,9 +35,11 @@ void BandMatrix::append(std::size_t first, std::span<const double> values) {
   const auto before = rows_.empty() ? std::span<const double>() : row(rows() - 1);
   const std::size_t start =
       std::ranges::equal(before, values) ? rows_.back().start : values_.size();
+  if (first + values.size() > UINT32_MAX || start + values.size() > UINT32_MAX)
+    fail("a filter of more than {} numbers", UINT32_MAX);
   if (start == values_.size()) values_.insert(values_.end(), values.begin(), values.end());
-  rows_.push_back(
-      {start, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(values.size())});
+  rows_.push_back({static_cast<std::uint32_t>(start), static_cast<std::uint32_t>(first),
+                   static_cast<std::uint32_t>(values.size())});
   columns_ = std::max(columns_, first + values.size());
   window_ = std::max(window_, columns_ - first);
 }

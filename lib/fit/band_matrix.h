@@ -38,8 +38,7 @@ class BandMatrix {
 
  private:
   struct Row {
-    std::size_t start;  // in values_
-    std::uint32_t first, size;
+    std::uint32_t start, first, size;  // start in values_
   };
   std::vector<Row> rows_;
   std::vector<double> values_;

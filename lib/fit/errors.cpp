@@ -121,6 +121,28 @@ double correlation_of_neighbours(std::span<const double> r, std::span<const std:
   return std::clamp(lagged(r, runs, 1) / lagged(r, runs, 0), -0.97, 0.97);
 }
 
+/// The sum of w(|i - j|) u_i u_j^T over the rows of one run, w(l) = 1 - l/(width + 1) up to lags of
+/// half the run. Up to `width` the weights are the autocorrelation of a box, so that the sum is one
+/// of squares of moving sums, whatever the width; where the run cuts them off, a box remains.
+std::vector<double> bartlett(std::span<const double> u, std::size_t q, std::size_t width) {
+  const std::size_t m = u.size() / q, most = std::min({width, m / 2, m - 1});
+  std::vector<double> P((m + 1) * q), S(q * q, 0), sum(q);  // P: sums up to each row
+  for (std::size_t i = 0; i < m * q; ++i) P[i + q] = P[i] + u[i];
+  const auto add = [&](const double* x, std::size_t from, std::size_t to, double by) {
+    for (std::size_t j = 0; j < q; ++j) sum[j] = P[to * q + j] - P[from * q + j];
+    if (!x) x = sum.data();
+    for (std::size_t j = 0; j < q; ++j)
+      for (std::size_t k = 0; k < q; ++k) S[j * q + k] += by * x[j] * sum[k];
+  };
+  const double triangle = 1 / static_cast<double>(width + 1),
+               box = 1 - static_cast<double>(most + 1) * triangle;
+  for (std::size_t end = 1; end <= m + most; ++end)
+    add(nullptr, end > most + 1 ? end - most - 1 : 0, std::min(end, m), triangle);
+  for (std::size_t i = 0; box > 0 && i < m; ++i)
+    add(&u[i * q], i > most ? i - most : 0, std::min(i + most + 1, m), box);
+  return S;
+}
+
 }  // namespace
 
 std::vector<double> newey_west(std::span<const double> scores, std::size_t p,
@@ -140,16 +162,7 @@ std::vector<double> newey_west(std::span<const double> scores, std::size_t p,
   std::vector<double> all;
   std::size_t start = 0;
   for (std::size_t m : runs) {
-    std::vector<double> S(q * q, 0);
-    for (std::size_t lag = 0; lag <= std::min(width, m / 2) && lag < m; ++lag) {
-      const double w =
-          (lag ? 1.0 : 0.5) * (1 - static_cast<double>(lag) / static_cast<double>(width + 1));
-      for (std::size_t i = start + lag; i < start + m; ++i)
-        for (std::size_t j = 0; j < q; ++j)
-          for (std::size_t k = 0; k < q; ++k)
-            S[j * q + k] +=
-                w * (u[i * q + j] * u[(i - lag) * q + k] + u[i * q + k] * u[(i - lag) * q + j]);
-    }
+    const auto S = bartlett(std::span(u).subspan(start * q, m * q), q, width);
     for (double x : S) all.push_back(x / ((1 - AR) * (1 - AR)));
     start += m;
   }

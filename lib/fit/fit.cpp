@@ -182,7 +182,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       guess = making.known() ? first_guess(without_filters(route, runs, all, rows), options)
                              : first_guess(runs, options);
     }
-    if (options.min_speed <= 0) making = {};  // no other round: these matrices are large
+    if (options.min_speed <= 0) making = {}, rows.clear();  // no other round: these are large
     find_minimum(fit, std::move(runs), *guess, options);
     guess->theta = fit.minimum.theta;
     if (options.min_speed <= 0 ||
@@ -215,11 +215,11 @@ namespace {
 Fitted fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOptions& options) {
   Making making = making_of(route, all);
   const bool known = making.known();
-  const auto rows = usable(route, all);
-  Fitted fit = fit_rolls(route, all, rows, std::move(making), options);
+  Fitted fit = fit_rolls(route, all, usable(route, all), std::move(making), options);
   if (route == Route::velocity && !known && !options.robust && !options.possible_filters.empty() &&
       fit.minimum.f.size() >= 30)
-    if (auto differences = fit_differences(all, rows, options, fit)) return *std::move(differences);
+    if (auto differences = fit_differences(all, usable(route, all), options, fit))
+      return *std::move(differences);
   return fit;
 }
 

@@ -210,18 +210,45 @@ System line_system(ShiftRecords records, Height height) {
 /// The standard deviation of ln(1 + e) for normal e of standard deviation s, of those with 1 + e >
 /// 0, which have a logarithm: s itself for a small s; for a large one it grows like a logarithm.
 double spread_of_logarithm(double s) {
-  constexpr int steps = 400;
+  // z = u^2 + the least z: at the pole of the logarithm the integrands become smooth, so that so
+  // many steps are within 5e-4.
+  constexpr int steps = 200;
+  constexpr double range = 6;
+  const double least = std::max(-range, -1 / s), length = std::sqrt(range - least);
   double weight = 0, sum = 0, squares = 0;
   for (int i = 0; i < steps; ++i) {
-    const double z = 6 * ((i + 0.5) * 2 / steps - 1), w = std::exp(-z * z / 2);
-    if (1 + s * z <= 0) continue;
-    const double log = std::log1p(s * z);
+    const double u = (i + 0.5) / steps * length, z = least + u * u, w = u * std::exp(-z * z / 2);
+    const double log = least > -range ? std::log(s * u * u) : std::log1p(s * z);
     weight += w;
     sum += w * log;
     squares += w * log * log;
   }
   return std::sqrt(squares / weight - sum / weight * (sum / weight));
 }
+
+/// The same from a table, by straight lines between its places, which are filled as they are asked
+/// for.
+class SpreadOfLogarithm {
+ public:
+  double operator()(double s) {
+    const double place = (std::log(s) - least) * places;
+    if (!(place >= 0 && place + 1 < static_cast<double>(table_.size())))
+      return spread_of_logarithm(s);
+    const double before = std::floor(place);
+    const auto i = static_cast<std::size_t>(before);
+    return at(i) + (place - before) * (at(i + 1) - at(i));
+  }
+
+ private:
+  static constexpr double least = -7, most = 7, places = 32;  // of ln s, and for each unit of it
+  double at(std::size_t i) {
+    if (table_[i] == 0)
+      table_[i] = spread_of_logarithm(std::exp(least + static_cast<double>(i) / places));
+    return table_[i];
+  }
+  std::vector<double> table_ =
+      std::vector<double>(static_cast<std::size_t>((most - least) * places) + 1);
+};
 
 /// The noise of ln D - b ln v of a run for raw noise of one: that of D and v over themselves, which
 /// are those of this raw column; `sigma` is the size that raw noise has.
@@ -241,65 +268,69 @@ FilterMatrix over_themselves(const FilterMatrix& D, const FilterMatrix& v,
     return shared.then(std::move(E));
   };
   std::vector<double> shrink = row_norms(weighted({}));
+  SpreadOfLogarithm spread;
   for (double& of_row : shrink) {
     const double s = sigma * of_row;
-    of_row = s > 0 && std::isfinite(s) ? spread_of_logarithm(s) / s : 0;
+    of_row = s > 0 && std::isfinite(s) ? spread(s) / s : 0;
   }
   return weighted(shrink);
 }
 
 /// The noise of ln D - b ln v where the filters are known: that of D and v over D and v themselves,
 /// which are those of the roll that fits best, seen through the filters.
-void carry_noise(Fitted& line, const ShiftRecords& records, const std::vector<FitRun>& all,
+void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<FitRun>& all,
                  const FitOptions& options) {
-  const Making making = making_of(Route::shift, all);
+  Making making = making_of(Route::shift, all);
   if (!making.known()) return;
-  const double b = line.b.value;
+  std::vector<FilterMatrix> D, v;
+  for (const Response& response : making.responses)
+    D.push_back(response.of.at("D")), v.push_back(response.of.at("v"));
   Fitted roll;
   try {
     // Of all records: those with D > 0 alone would be chosen by their noise.
-    roll = fit_rolls(Route::shift, all, usable(Route::shift, all), making, options);
+    roll = fit_rolls(Route::shift, all, usable(Route::shift, all), std::move(making), options);
   } catch (const Error&) {  // there is no such roll
     return;
   }
-  std::vector<FilterMatrix> matrices;
-  const double variance = noise_variance(roll);
+  line.noise_variance = noise_variance(roll);
+  std::vector<std::vector<double>> raw;
   for (std::size_t r = 0; r < all.size(); ++r) {
     const ObservedRun& run = roll.rolls->runs()[r];
     const Trajectory trajectory = roll.rolls->trajectory(roll.minimum.theta, r);
-    std::vector<double> raw;
-    raw.reserve(run.t.size());
+    auto& of_run = raw.emplace_back();
+    of_run.reserve(run.t.size());
     for (double t : run.t)
-      raw.push_back(run.raw_is_position ? trajectory.at(t).x : trajectory.speed_at(t).v);
-    const auto& of = making.responses[r].of;
-    matrices.push_back(
-        over_themselves(of.at("D"), of.at("v"), raw, records.rows[r], b, std::sqrt(variance)));
+      of_run.push_back(run.raw_is_position ? trajectory.at(t).x : trajectory.speed_at(t).v);
   }
-  line.noise = std::make_shared<const Noise>(std::move(matrices), std::nullopt);
-  line.noise_variance = variance;
   line.sources = std::move(roll.sources);
   line.source_runs = std::move(roll.source_runs);
   line.innovations = std::move(roll.innovations);
   line.innovation_runs = std::move(roll.innovation_runs);
+  roll = {};  // its weights are large
+  std::vector<FilterMatrix> matrices;
+  for (std::size_t r = 0; r < all.size(); ++r)
+    matrices.push_back(over_themselves(D[r], v[r], raw[r], rows[r], line.b.value,
+                                       std::sqrt(*line.noise_variance)));
+  line.noise = std::make_shared<const Noise>(std::move(matrices), std::nullopt);
 }
 
 }  // namespace
 
 Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) {
-  const ShiftRecords records = shift_records(all, options, true);
+  ShiftRecords records = shift_records(all, options, true);
   const Height height{options.a, options.b, records.log_v_ref};
-  const System system = line_system(records, height);
-  Fitted line{.system = system,
-              .minimum = solve(system, std::vector<double>(height.count(), 0), options,
-                               options.robust && making_of(Route::shift, all).known())};
-  const double b = height.exponent(line.minimum.theta),
-               a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * records.log_v_ref);
-  line.rss = line.minimum.rss;
+  const std::vector<Rows> rows = std::move(records.rows);
+  Fitted line{.system = {}, .minimum = {}};
   line.records = records.D.size();
   line.left_out = records.left_out;
+  line.system = line_system(std::move(records), height);
+  line.minimum = solve(line.system, std::vector<double>(height.count(), 0), options,
+                       options.robust && making_of(Route::shift, all).known());
+  line.rss = line.minimum.rss;
+  const double b = height.exponent(line.minimum.theta),
+               a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * height.log_v_ref);
   height.report(line, a, a);
-  for (double x : records.log_u) line.v.push_back(std::exp(x + records.log_v_ref));
-  if (!options.robust) carry_noise(line, records, all, options);
+  if (!options.robust) carry_noise(line, rows, all, options);
   return line;
 }
 

@@ -119,7 +119,7 @@ void Whitener::apply(std::span<double> X) const {
   for (std::size_t at = 0; at < X.size(); at += rows()) {
     Pass pass(*this, 2);
     for (std::size_t i = 0; i < rows(); ++i) {
-      double row[2]{X[at + i]};
+      double row[2] = {X[at + i], 0};
       pass.push(row);
       X[at + i] = row[0];
     }
