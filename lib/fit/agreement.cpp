@@ -111,8 +111,8 @@ double student(double freedom) { return gsl_cdf_tdist_Pinv(0.975, freedom) / 1.9
 
 struct Comparison {
   Agreement result;
-  double freedom;  // of the scatter of a number from run to run
-  double scale;    // of the error of the D that is known best, or of all together
+  double freedom = 0;  // of the scatter of a number from run to run
+  double scale = 1;    // of the error of the D that is known best, or of all together
 };
 
 Comparison compare(const std::vector<OwnLaw>& laws, std::size_t parameters, bool slope) {
