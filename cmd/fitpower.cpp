@@ -93,6 +93,11 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns co
     if (!history.doubt.empty())
       tool.warn(fmt::format("run {}: {}: the fit goes on as if no filter were known",
                             all.names.back(), history.doubt));
+    if (history.left_out > 0)
+      tool.warn(
+          fmt::format("run {}: it was cut after the filters that its `##` lines name: {} more "
+                      "records at the cut are left out, since their windows are not known",
+                      all.names.back(), history.left_out));
   }
   return all;
 }

@@ -166,7 +166,7 @@ void check(Tool& tool, const FitResult& r, const std::optional<LawComparison>& l
            const std::optional<Beginning>& beginning, std::span<const std::string> names) {
   constexpr double better = 10;       // AICc: the other law has no support any more (Burnham and
                                       // Anderson 2002, section 2.6)
-  constexpr double decisive = 0.005;  // as many false alarms
+  constexpr double decisive = 0.003;  // of two tests: some 0.6 % of false alarms
   const std::string run = names.size() == 1 ? fmt::format("run {}: ", names[0]) : "";
   // The first reason is printed whatever else fails: what no warning has told, and what would make
   // the others.

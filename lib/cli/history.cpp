@@ -197,7 +197,7 @@ std::vector<double> standing_for(const FitRun& run, const std::string& column) {
 
 }  // namespace
 
-History compared(History history, const FitRun& run) {
+History compared(History history, FitRun& run) {
   // The last filter that is no mere name for a column; no later one has changed what it left.
   auto last = history.filters.rbegin();
   while (last != history.filters.rend() && last->reach == 0) ++last;
@@ -217,13 +217,26 @@ History compared(History history, const FitRun& run) {
   const double most = std::max(20 * typical, 1e-6 * large);
   bool inside = !(typical <= 0.05 * large);
   for (std::size_t i = reach; i + reach < n; ++i) inside = inside || off[i] > most;
-  if (inside) return {{}, {}, "the columns are not what the `##` lines say"};
   LinearFilter cut = identity(history.filters.back().to, history.filters.back().to);
   for (std::size_t i = 0; i < reach; ++i) {
     cut.cut_begin = cut.cut_begin || off[i] > most;
     cut.cut_end = cut.cut_end || off[n - 1 - i] > most;
   }
-  if (cut.cut_begin || cut.cut_end) history.filters.push_back(std::move(cut));
+  if (!inside && !cut.cut_begin && !cut.cut_end) return history;
+  // How many were cut is not known, so neither is how far the windows had shrunk at what was the
+  // end; further inside they were whole.
+  std::size_t windows = 0;
+  for (const LinearFilter& filter : history.filters) windows += filter.reach;
+  history.left_out = windows * (std::size_t{cut.cut_begin} + cut.cut_end);
+  if (inside || n < history.left_out + 10)
+    return {{}, {}, "the columns are not what the `##` lines say"};
+  for (std::vector<double>* column : {&run.t, &run.x, &run.v, &run.D}) {
+    if (column->empty()) continue;
+    if (cut.cut_end) column->resize(n - windows);
+    if (cut.cut_begin)
+      column->erase(column->begin(), column->begin() + static_cast<std::ptrdiff_t>(windows));
+  }
+  history.filters.push_back(std::move(cut));
   return history;
 }
 

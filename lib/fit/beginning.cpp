@@ -52,6 +52,8 @@ Without without_first(std::size_t k, std::size_t q, const double* Q, const doubl
 std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitRun>& runs,
                                              const FitOptions& options) {
   constexpr double decisive = 0.001, white = 0.005;
+  for (const FitRun& run : runs)
+    if (!run.filters.empty()) return {};
   silence_gsl();
   const Fitted fit = fit_route(route, runs, options);
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),

@@ -20,9 +20,9 @@ struct Beginning {
 /// The run that shows it most clearly, where the chance is below 0.1 % after Bonferroni, and the
 /// other records are white: noise of long memory would show everywhere.
 ///
-/// None for a fit of no roll, of less than 20 records more than parameters, or of columns that known
-/// filters have made: whatever is wrong at the beginning of those spreads over all the residuals,
-/// which then are not white. Throws Error where fit() would.
+/// None for a fit of no roll, of less than 20 records more than parameters, or of columns that
+/// known filters have made: whatever is wrong at the beginning of those spreads over all the
+/// residuals, which then are not white. Throws Error where fit() would.
 std::optional<Beginning> disturbed_beginning(Route, const std::vector<FitRun>&, const FitOptions&);
 
 }  // namespace rolling

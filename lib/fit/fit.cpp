@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/golden_section.h"
 #include "fit/eccentricity.h"
 #include "fit/agreement.h"
 #include "fit/dot.h"
@@ -116,6 +117,37 @@ void find_minimum(Fitted& fit, std::vector<ObservedRun> runs, const FirstGuess& 
   fit.minimum = solve(fit.system, start.theta, options, filters_known);
 }
 
+/// True if the weighted residuals are larger than the noise of the columns allows: by more than
+/// twice the size that it has in all of them.
+bool rounded(const Fitted& fit) {
+  if (!fit.noise->known() || fit.noise_inferred) return false;
+  double all = 0, norms = 0;
+  for (const double f : fit.noise->without_weights(fit.minimum.f)) all += f * f;
+  for (const ObservedRun& run : fit.rolls->runs())
+    for (const double norm : row_norms(*run.H)) norms += norm * norm;
+  return fit.minimum.rss * norms > 4 * all * static_cast<double>(fit.minimum.f.size());
+}
+
+/// Columns that were rounded between their filters have white noise of their own: as much as is
+/// most likely.
+void allow_for_rounding(Fitted& fit, const FitOptions& options) {
+  if (!rounded(fit)) return;
+  constexpr double decisive = 3;  // in ln of the likelihood: noise of the filters alone gains as
+                                  // much once in a hundred records
+  const auto likelihood = [&](double log_share) {
+    const auto noise = noise_of(fit.rolls->runs(), std::exp(log_share));
+    return restricted_likelihood(system_of(fit.rolls, noise), fit.minimum.theta) -
+           noise->log_size();
+  };
+  const double least = std::log(floor_share);
+  const Largest found = golden_section(least, 0, 0.1, likelihood);
+  if (found.value < likelihood(least) + decisive) return;
+  fit.white_share = std::exp(found.at);
+  fit.noise = noise_of(fit.rolls->runs(), fit.white_share);
+  fit.system = system_of(fit.rolls, fit.noise);
+  fit.minimum = solve(fit.system, fit.minimum.theta, options, true);
+}
+
 }  // namespace
 
 Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options) {
@@ -157,7 +189,8 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
         !leave_out_slow(*fit.rolls, guess->theta, all, rows, options.min_speed))
       break;
   }
-  report(fit, guess->theta);
+  allow_for_rounding(fit, options);
+  report(fit, fit.minimum.theta);
   explain(fit);
   for (const FitRun& run : all) fit.left_out += run.t.size();
   fit.left_out -= fit.records;

@@ -143,7 +143,9 @@ std::vector<std::vector<double>> closest(const Law& law, const Candidate& other)
 }
 
 /// The least minimum of a law that is found from where it is closest to a v^b and to the laws that
-/// have been fitted before it: it never ends above a special case of it.
+/// have been fitted before it, so that it never ends above a special case of it; and from each of
+/// its starts where it has several: next to a law without a peak a law with one has another minimum
+/// than where its peak is.
 Candidate fit_law(const Records& records, const Law& law, const std::vector<Candidate>& before) {
   const System system = records.system(law);
   std::vector<std::pair<double, std::vector<double>>> starts;
@@ -167,11 +169,17 @@ Candidate fit_law(const Records& records, const Law& law, const std::vector<Cand
   }
   std::sort(starts.begin(), starts.end());
   Candidate best{&law, {{}, {}, {}, infinity}, {}};
-  for (auto start = starts.begin(); start != starts.end() && best.minimum.theta.empty(); ++start)
+  const auto try_from = [&](const std::vector<double>& theta) {
     try {
-      best.minimum = minimise(system, start->second);
+      Minimum minimum = minimise(system, theta);
+      if (minimum.rss < best.minimum.rss) best.minimum = std::move(minimum);
     } catch (const Error&) {  // no minimum from here
     }
+  };
+  for (auto start = starts.begin(); start != starts.end() && best.minimum.theta.empty(); ++start)
+    try_from(start->second);
+  if (law.starts.size() > 1)
+    for (const auto& start : law.starts) try_from(records.theta(start));
   if (best.minimum.theta.empty()) return best;
   const auto shared = best.minimum.theta.end() - static_cast<std::ptrdiff_t>(system.shared);
   best.c.assign(shared, shared + static_cast<std::ptrdiff_t>(law.coefficients.size()));

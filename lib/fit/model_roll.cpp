@@ -142,9 +142,9 @@ double RollModel::slope(const std::vector<double>& theta, std::size_t run) const
 }
 
 RawModel::RawModel(const ObservedRun& run, const Parameters& parameters,
-                   const std::vector<double>& theta, std::size_t r, Trajectory roll)
-    : run_(run), parameters_(parameters), a_(parameters.law(theta).a), x0_(parameters.x0(theta, r)),
-      roll_(std::move(roll)) {}
+                   const std::vector<double>& theta, std::size_t number, Trajectory roll)
+    : run_(run), parameters_(parameters), a_(parameters.law(theta).a),
+      x0_(parameters.x0(theta, number)), roll_(std::move(roll)) {}
 
 double RawModel::operator()(double t, double* slopes, std::size_t stride) const {
   const double way = run_.way;

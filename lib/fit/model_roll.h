@@ -57,8 +57,8 @@ std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>&, double sh
 /// The raw column of one run under one theta, and its derivatives.
 class RawModel {
  public:
-  RawModel(const ObservedRun&, const Parameters&, const std::vector<double>& theta, std::size_t run,
-           Trajectory);
+  RawModel(const ObservedRun& run, const Parameters& parameters, const std::vector<double>& theta,
+           std::size_t number, Trajectory);
   /// At time t from the origin. The derivatives by the parameters of the run, then by the shared
   /// ones, are written to `slopes`, `stride` apart.
   double operator()(double t, double* slopes, std::size_t stride) const;
@@ -95,8 +95,8 @@ class RollModel {
 /// rows of its raw column that come one after another. Few records at a time stay in the cache.
 class Residuals {
  public:
-  /// Derivatives by so many parameters.
-  Residuals(const ObservedRun&, std::size_t run, std::size_t parameters, const Noise&,
+  /// Of the run with this number, with derivatives by so many parameters.
+  Residuals(const ObservedRun& run, std::size_t number, std::size_t parameters, const Noise&,
             const TakeRows&);
   /// Where the next number of the raw column belongs, and its derivatives, `stride` apart.
   struct Place {

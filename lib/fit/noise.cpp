@@ -82,12 +82,13 @@ std::vector<double> Noise::through(std::vector<double> Q, std::size_t p) const {
 }
 
 std::vector<double> Noise::middle(std::vector<double> Q, std::size_t p) const {
+  if (E_.size() == 1) return whiteners_[0].middle(std::move(Q), p);
   std::vector<double> all;
   std::size_t start = 0;
   for (std::size_t r = 0; r < E_.size(); start += E_[r++].rows()) {
     const auto from = Q.begin() + static_cast<std::ptrdiff_t>(start * p),
                to = from + static_cast<std::ptrdiff_t>(E_[r].rows() * p);
-    append(all, whiteners_[r].middle(E_.size() == 1 ? std::move(Q) : std::vector(from, to), p));
+    append(all, whiteners_[r].middle(std::vector(from, to), p));
   }
   return all;
 }

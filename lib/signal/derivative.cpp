@@ -76,12 +76,12 @@ std::unique_ptr<Signal> make_savgol(const SignalOptions& options) {
 
 // The spline is not linear: its parameter comes from the readings.
 constexpr SignalMethod methods[] = {
-    // name, linear, shift-invariant, reach, has an order, make
-    {"central", true, false, 1, false, make<CentralDerivative>},
-    {"savgol", true, false, half_width, true, make_savgol},
-    {"spline", false, false, whole_run, false, make<SplineDerivative>},
-    {"vernier", true, false, 3, false, make<VernierDerivative>},
-    {"pasco", true, false, 2, false, make<PascoDerivative>},
+    // name, reach, linear, shift-invariant, has an order, make
+    {"central", 1, true, false, false, make<CentralDerivative>},
+    {"savgol", half_width, true, false, true, make_savgol},
+    {"spline", whole_run, false, false, false, make<SplineDerivative>},
+    {"vernier", 3, true, false, false, make<VernierDerivative>},
+    {"pasco", 2, true, false, false, make<PascoDerivative>},
 };
 
 }  // namespace

@@ -22,11 +22,12 @@ inline constexpr Reach half_width = static_cast<Reach>(-1), whole_run = half_wid
 
 struct SignalMethod {
   std::string_view name;
-  bool linear;  ///< numbers are sums of readings times coefficients that the times alone give
-  bool
-      shift_invariant;  ///< the coefficients do not depend on the times, but for a width in seconds
-  Reach reach;          ///< half_width: the method has a width
-  bool has_order;       ///< that of a polynomial
+  Reach reach;  ///< half_width: the method has a width
+  /// Numbers are sums of readings times coefficients that the times alone give.
+  bool linear;
+  /// The coefficients do not depend on the times, but for a width in seconds.
+  bool shift_invariant;
+  bool has_order;  ///< that of a polynomial
   std::unique_ptr<Signal> (*make)(const SignalOptions&);
 
   bool has_width() const { return reach == half_width; }

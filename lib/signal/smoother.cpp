@@ -22,10 +22,10 @@ std::unique_ptr<Signal> make_savgol(const SignalOptions& options) {
 }
 
 constexpr SignalMethod methods[] = {
-    // name, linear, shift-invariant, reach, has an order, make
-    {"mean", true, true, half_width, false, make<MovingMean>},
-    {"median", false, false, half_width, false, make<MovingMedian>},
-    {"savgol", true, false, half_width, true, make_savgol},
+    // name, reach, linear, shift-invariant, has an order, make
+    {"mean", half_width, true, true, false, make<MovingMean>},
+    {"median", half_width, false, false, false, make<MovingMedian>},
+    {"savgol", half_width, true, false, true, make_savgol},
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Prints the tables of tests/bench/records.h and studies.h: records [RUNS [TABLE]], all of them or
-// one of troubles, laws, agreement, slope, given, min-speed. `make coverage`.
+// Prints the tables of tests/bench/records.h and studies.h: records [RUNS [TABLE [TROUBLE]]], all
+// of them or one of troubles, remedies, laws, agreement, slope, given, min-speed. `make coverage`.
 #include "bench/records.h"
 
 #include <cstdio>
@@ -14,25 +14,54 @@ constexpr unsigned seed = 20261122;
 const std::pair<const char*, rolling::PowerLaw> scenes[] = {{"CR", studies::CR},
                                                             {"CF", studies::CF}};
 
+const char* only = nullptr;  // the trouble that is looked at, if not all
+
 void troubles(int runs) {
   std::printf(
       "# What a record really has: %d records each, position route; shares of them; best: what the "
       "most powerful test of the fit could find at 0.5 %%\n",
       runs);
-  std::printf("%-31s %-5s %8s %7s %7s %8s %6s %9s %6s %9s %9s %9s %6s %6s %7s\n", "# trouble",
+  std::printf("%-31s %-5s %8s %7s %7s %8s %6s %9s %6s %9s %9s %9s %6s %6s %6s %7s\n", "# trouble",
               "scene", "%_of_a", "cover_a", "cover_b", "adequate", "noise", "eccentric", "mm",
-              "other_law", "beginning", "not_white", "check", "best", "refused");
+              "other_law", "beginning", "not_white", "check", "told", "best", "refused");
   for (const auto& trouble : records::troubles())
     for (const auto& [name, law] : scenes) {
+      if (only && !std::strstr(trouble.name, only)) continue;
       const auto v = records::judge(trouble, law, runs, seed);
       std::printf(
           "%-31s %-5s %+8.2f %7.3f %7.3f %8.3f %6.3f %9.3f %6.3f %9.3f %9.3f %9.3f %6.3f %6.3f "
+          "%6.3f "
           "%7d\n",
           trouble.name, name, 100 * v.bias, v.cover_a, v.cover_b, v.adequate, v.noise, v.eccentric,
-          1e3 * v.e, v.other_law, v.beginning, v.not_white, v.failed,
+          1e3 * v.e, v.other_law, v.beginning, v.not_white, v.failed, v.told,
           records::best_power(trouble, law), v.refused);
       std::fflush(stdout);
     }
+}
+
+constexpr const char* tally_names =
+    "#            bias               sd      sigma sigma/sd  cover\n";
+void print(const char* name, const studies::Tally& x) {
+  std::printf("%-12s %+10.2e %10.3e %10.3e %7.3f %7.3f\n", name, x.bias(), x.sd(), x.sigma(),
+              x.sigma() / x.sd(), x.cover());
+}
+
+void remedies(int runs) {
+  std::printf("# a of %d records each, where something is done about the trouble\n%s", runs,
+              tally_names);
+  for (const auto& [name, law] : scenes) {
+    for (const auto& trouble : records::troubles()) {
+      const bool remedy = trouble.K != records::cylinder.K || trouble.hand > 0;
+      if (!remedy && trouble.slope == 0) continue;
+      std::printf("# %s, %s\n", trouble.name,
+                  trouble.slope != 0  ? "rolled both ways, --slope fit"
+                  : trouble.hand != 0 ? "the first 0.2 s cut off"
+                                      : "-K 0.515+-0.015");
+      print(name, remedy ? studies::remedied(trouble, law, runs, seed)
+                         : studies::slope_pairs(law, trouble.slope, runs, seed).a);
+      std::fflush(stdout);
+    }
+  }
 }
 
 void laws(int runs) {
@@ -67,13 +96,6 @@ void agreement(int runs) {
     std::fflush(stdout);
   }
 }
-
-void print(const char* name, const studies::Tally& x) {
-  std::printf("%-12s %+10.2e %10.3e %10.3e %7.3f %7.3f\n", name, x.bias(), x.sd(), x.sigma(),
-              x.sigma() / x.sd(), x.cover());
-}
-constexpr const char* tally_names =
-    "#            bias               sd      sigma sigma/sd  cover\n";
 
 void slope(int runs) {
   std::printf("# %d pairs of rolls up and down a slope of 1 mm/m, the slope fitted\n%s", runs,
@@ -114,9 +136,10 @@ void min_speed(int runs) {
 
 int main(int argc, char** argv) {
   const int runs = argc > 1 ? std::atoi(argv[1]) : 1000;
+  if (argc > 3) only = argv[3];
   const std::pair<const char*, void (*)(int)> tables[] = {
-      {"troubles", troubles}, {"laws", laws},   {"agreement", agreement},
-      {"slope", slope},       {"given", given}, {"min-speed", min_speed}};
+      {"troubles", troubles}, {"laws", laws},           {"agreement", agreement}, {"slope", slope},
+      {"given", given},       {"min-speed", min_speed}, {"remedies", remedies}};
   for (const auto& [name, table] : tables)
     if (argc < 3 || std::strcmp(argv[2], name) == 0) table(runs);
 }

@@ -101,6 +101,7 @@ struct Verdict {
   double cover_a = 0, cover_b = 0, adequate = 0;
   double noise = 0, eccentric = 0;                                 ///< warnings
   double other_law = 0, beginning = 0, not_white = 0, failed = 0;  ///< of --check
+  double told = 0;              ///< --check fails, or a warning speaks of the body
   double e = 0, covered_e = 0;  ///< mean eccentricity where it was found
   int refused = 0;
 };
@@ -129,20 +130,21 @@ inline Verdict judge(const Trouble& wrong, rolling::PowerLaw law, int runs, unsi
       if (!options.robust)
         against = rolling::compare_laws(rolling::Route::position, {run}, options).against_power();
       sum.adequate += against <= 2;
-      const bool other = against >= better, coloured = r.whiteness <= 0.005,
+      const bool other = against >= better, coloured = r.whiteness <= 0.003,
                  hand = !options.robust &&
                         rolling::disturbed_beginning(rolling::Route::position, {run}, options);
       sum.other_law += other;
       sum.beginning += hand;
       sum.not_white += coloured;
       sum.failed += other || hand || coloured;
+      sum.told += other || hand || coloured || r.eccentricity;
     } catch (const rolling::Error&) {
       ++sum.refused;
     }
   }
   if (sum.eccentric > 0) sum.e /= sum.eccentric, sum.covered_e /= sum.eccentric;
   for (double* share : {&sum.cover_a, &sum.cover_b, &sum.adequate, &sum.noise, &sum.eccentric,
-                        &sum.other_law, &sum.beginning, &sum.not_white, &sum.failed})
+                        &sum.other_law, &sum.beginning, &sum.not_white, &sum.failed, &sum.told})
     *share /= runs;
   return sum;
 }

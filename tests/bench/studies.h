@@ -20,7 +20,9 @@ inline FitRun roll(PowerLaw law, double slope, double way, simulated::Noise& noi
   Body seen = run.body;
   seen.slope = way * slope;
   const Trajectory truth(seen, Geometry::approximate, law, records::v0);
-  for (double t = 0; t < truth.stop_time(); t += records::dt) {
+  // Rubber 5 mm/m downhill holds no body at rest: it creeps on at 0.03 mm/s.
+  const double end = std::min(truth.stop_time(), 10.0);
+  for (double t = 0; t < end; t += records::dt) {
     run.t.push_back(t);
     run.x.push_back(way * truth.at(t).x + noise(records::noise));
   }
@@ -151,6 +153,22 @@ inline MinSpeed min_speed(PowerLaw law, double limit, int runs, unsigned seed) {
     all.b.add(r.b, r.sigma_b);
   }
   return all;
+}
+
+/// a where something is done about a trouble of records.h: K 3 % wrong is given as 0.515 +- 0.015,
+/// and the 0.2 s of the hand are cut off.
+inline Tally remedied(const records::Trouble& wrong, PowerLaw law, int runs, unsigned seed) {
+  records::Readings readings(records::path(law, wrong), wrong, seed);
+  Tally a{law.a};
+  for (int k = 0; k < runs; ++k) {
+    FitRun run = readings.next();
+    if (wrong.K != records::cylinder.K) run.given.K = wrong.K - records::cylinder.K;
+    while (wrong.hand > 0 && run.t.front() < wrong.hand)
+      run.t.erase(run.t.begin()), run.x.erase(run.x.begin());
+    const FitResult r = fit(Route::position, {run}, {});
+    a.add(r.a, r.sigma_a);
+  }
+  return a;
 }
 
 }  // namespace studies

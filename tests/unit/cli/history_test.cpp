@@ -207,19 +207,25 @@ FitRun cut(const FitRun& run, std::size_t first, std::size_t last) {
 
 TEST_CASE("history: records cut off the ends after the filters are noticed by the columns",
           "[cli]") {
-  const FitRun whole = shifts(40);
+  FitRun whole = shifts(40);
   CHECK(compared(claimed(whole), whole).filters.size() == 3);
-  const FitRun ends = cut(whole, 5, 35), head = cut(whole, 5, 40);
+  FitRun ends = cut(whole, 5, 35), head = cut(whole, 5, 40);
   const History both = compared(claimed(ends), ends), begin = compared(claimed(head), head);
   REQUIRE(both.filters.size() == 4);
   CHECK((both.filters[3].cut_begin && both.filters[3].cut_end));
+  // A mean of 5 and a central difference reach 3 records to either side.
+  CHECK(both.left_out == 6);
+  CHECK(ends.t == std::vector(whole.t.begin() + 8, whole.t.begin() + 32));
+  CHECK(ends.D == std::vector(whole.D.begin() + 8, whole.D.begin() + 32));
   REQUIRE(begin.filters.size() == 4);
   CHECK((begin.filters[3].cut_begin && !begin.filters[3].cut_end));
+  CHECK(begin.left_out == 3);
+  CHECK(head.t == std::vector(whole.t.begin() + 8, whole.t.end()));
   FitRun hole = whole, other = whole;
   for (auto column : {&FitRun::t, &FitRun::v, &FitRun::D})
     (hole.*column).erase((hole.*column).begin() + 20, (hole.*column).begin() + 25);
   for (double& D : other.D) D *= 1.2;
-  for (const FitRun& run : {hole, other}) {
+  for (FitRun run : {hole, other}) {
     const History history = compared(claimed(run), run);
     CHECK(history.filters.empty());
     CHECK(history.doubt == "the columns are not what the `##` lines say");
