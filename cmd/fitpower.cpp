@@ -283,7 +283,7 @@ int main(int argc, char** argv) {
     for (std::size_t i = 0; i < fits.size(); ++i) {
       if (!results[i]) continue;
       const auto of_fit = each ? std::span(run_names).subspan(i, 1) : std::span(run_names);
-      warn_of(tool, *results[i], of_fit, with_check);
+      warn_of(tool, route, *results[i], of_fit, with_check);
       if (!with_report && !with_check) continue;
       const auto laws = compare_if_possible(route, fits[i], options);
       if (with_report) report(tool, fits[i], options, laws);

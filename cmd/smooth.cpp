@@ -121,10 +121,10 @@ int main(int argc, char** argv) {
         if (select.all()) filter.put(smoother->push(filter[t], filter[y])), ++kept;
         else take(selection.push(filter[t], filter[y]));
       }
-      const auto last = selection.finish();
+      selection.finish();
       warn_of_doubt(tool, in, selection);
       if (!choose) tell();
-      take(last);
+      for (auto more = selection.rest(); !more.empty(); more = selection.rest()) take(more);
       const auto rest = smoother->finish();
       if (choose && kept > 0) {  // the first run with records decides for all
         options = static_cast<AutoSmoother&>(*smoother).options();

@@ -116,13 +116,18 @@ std::string disagreement(const FitResult& r, std::span<const std::string> names)
 
 }  // namespace
 
-void warn_of(Tool& tool, const FitResult& r, std::span<const std::string> names, bool check_comes) {
+void warn_of(Tool& tool, Route route, const FitResult& r, std::span<const std::string> names,
+             bool check_comes) {
   if (exact(r)) return;
   if (r.errors == Errors::autocorrelation)
     tool.warn(fmt::format(
         "the noise is correlated from record to record (Ljung-Box p {:.2g}), or the law is not the "
         "right one: the errors allow for the correlation; see --report",
         r.whiteness));
+  if (route == Route::loglog && logarithms_too_low(r))
+    tool.warn(
+        "the noise of D makes its logarithms too low, by more than the standard error of the line: "
+        "use --route shift");
   if (r.errors == Errors::uneven)
     tool.warn("the noise is not of one size along the run: the errors allow for that");
   if (r.agreement && !r.agreement->agree() && !check_comes)

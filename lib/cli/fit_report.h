@@ -19,9 +19,9 @@ const std::map<std::string, std::optional<Route>>& fit_routes();
 std::vector<std::string> columns_of(Route);
 
 /// What the user should know: errors that are not those of white noise, runs that disagree (which
-/// check() tells, if it comes), a body that does not run true. The names are those of the runs of
-/// the fit.
-void warn_of(Tool&, const FitResult&, std::span<const std::string> names, bool check_comes);
+/// check() tells, if it comes), logarithms of noise, a body that does not run true. The names are
+/// those of the runs of the fit.
+void warn_of(Tool&, Route, const FitResult&, std::span<const std::string> names, bool check_comes);
 
 /// The laws on the records of one fit; none for a robust fit, which is no matter of squares.
 std::optional<LawComparison> compare_if_possible(Route, const std::vector<FitRun>&,

@@ -315,4 +315,8 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
   return result;
 }
 
+bool logarithms_too_low(const FitResult& r) {
+  return r.rms * r.rms / 2 > r.sigma_a / r.a * std::sqrt(1 - r.corr * r.corr) && r.sigma_a > 0;
+}
+
 }  // namespace rolling

@@ -96,6 +96,11 @@ struct FitResult {
   std::vector<ErrorShare> shares = {};            ///< of the errors, the noise first
 };
 
+/// For a fit by loglog. Noise makes logarithms too low, those of D by rms^2 / 2 on average (to
+/// second order): true if that is more than the standard error of the line at the speed
+/// where it is known best, sigma_a / a sqrt(1 - corr^2).
+bool logarithms_too_low(const FitResult&);
+
 /// One joint fit over all runs: one a and b, own v0 and x0 for each run. Where the
 /// runs disagree, a and b are the means of their own (agreement.h). Throws Error with
 /// one clear line for what cannot be determined: fewer than two points, all v equal, no positive D

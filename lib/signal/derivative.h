@@ -26,14 +26,16 @@ class CentralDerivative : public Signal {
 };
 
 /// As Vernier's programs do it: the slopes over one, two and three samples to either side, weighted
-/// 3, 2, 1; a sample beyond the end of the run is the one at the end.
+/// 3, 2, 1; a sample beyond the end of the run is the one at the end. The weights are those by
+/// which an export of such a program, 304 records, comes out to the last bit (tests/recordings.md).
 class VernierDerivative : public WindowedSignal<VernierDerivative> {
  public:
   VernierDerivative() : WindowedSignal({7, 0}, Windows::Ends::cut) {}
   double value(const Windows&);
 };
 
-/// As PASCO's programs do it: (y[i+1] + y[i+2] - y[i-1] - y[i-2]) / (6 dt), the times in place of
+/// As PASCO's programs do it, by an export whose speeds come out to the rounding of its positions
+/// (tests/recordings.md): (y[i+1] + y[i+2] - y[i-1] - y[i-2]) / (6 dt), the times in place of
 /// the y below the line. The second sample and the last but one have the slope between their
 /// neighbours, as there; the first and the last, which have none there, that of the parabola
 /// through three samples.

@@ -1,6 +1,7 @@
 #include "signal/selection.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace rolling {
 
@@ -11,35 +12,42 @@ Selection::Selection(const SelectionOptions& options) : options_(options) {
 void Selection::take(std::span<const Judged> samples) {
   outliers_ += static_cast<std::size_t>(
       std::count_if(samples.begin(), samples.end(), [](const Judged& s) { return !s.kept; }));
-  decided_.insert(decided_.end(), samples.begin(), samples.end());
+  for (const Judged& s : samples) wait(s);
+}
+
+void Selection::wait(const Judged& s) {
+  if (!options_.coast) return decided_.push_back(s);
+  in_run_.push_back(s.kept);
+  if (s.kept) run_.push_back({s.t, s.y});
 }
 
 std::span<const Judged> Selection::push(double t, double y) {
-  if (!options_.coast) decided_.clear();
+  decided_.clear();
   const bool within = t >= options_.from && t <= options_.to;
   if (hampel_ && t > options_.to) take(hampel_->finish());
-  if (hampel_ && within) {
-    take(hampel_->push(t, y));
-  } else {
-    Judged& judged = decided_.emplace_back();
-    judged.t = t, judged.y = y, judged.kept = within;
-  }
-  return options_.coast ? std::span<const Judged>() : decided_;
+  if (hampel_ && within) take(hampel_->push(t, y));
+  else wait({t, y, within});
+  return decided_;
 }
 
-std::span<const Judged> Selection::finish() {
-  if (!options_.coast) decided_.clear();
+void Selection::finish() {
+  decided_.clear();
   if (hampel_) take(hampel_->finish());
-  if (!options_.coast) return decided_;
-  std::vector<Sample> run;
-  run.reserve(decided_.size());
-  for (const Judged& s : decided_)
-    if (s.kept) run.push_back({s.t, s.y});
-  const Stretch roll = free_roll(run, options_.positions);
-  if (roll.other) doubt_ = {run[roll.begin].t, run[*roll.other].t};
-  std::size_t i = 0;
-  for (Judged& s : decided_)
-    if (s.kept) s.kept = i >= roll.begin && i < roll.end, ++i;
+  if (!options_.coast) return;
+  roll_ = free_roll(run_, options_.positions);
+  if (roll_.other) doubt_ = {run_[roll_.begin].t, run_[*roll_.other].t};
+}
+
+std::span<const Judged> Selection::rest() {
+  if (!options_.coast && std::exchange(any_rest_, false)) return decided_;
+  constexpr std::size_t at_a_time = 1024;
+  decided_.clear();
+  for (; out_ < in_run_.size() && decided_.size() < at_a_time; ++out_) {
+    const std::size_t i = out_of_run_;
+    if (in_run_[out_]) ++out_of_run_;
+    const bool kept = in_run_[out_] && i >= roll_.begin && i < roll_.end;
+    decided_.push_back(kept ? Judged{run_[i].t, run_[i].y, true} : Judged{0, 0, false});
+  }
   return decided_;
 }
 

@@ -31,7 +31,10 @@ class Selection {
   /// The samples that are now decided on, in order. Valid until the next call.
   std::span<const Judged> push(double t, double y);
   /// The run has ended. Throws Error as free_roll does.
-  std::span<const Judged> finish();
+  void finish();
+  /// After finish(): the samples that were still to be decided on, in order, some at a time; none
+  /// when all are out. t and y of those that are left out are not told. Valid until the next call.
+  std::span<const Judged> rest();
   std::size_t outliers() const { return outliers_; }  ///< so far
   /// After finish(): where the free roll is in doubt.
   struct Doubt {
@@ -41,11 +44,19 @@ class Selection {
 
  private:
   void take(std::span<const Judged>);
+  void wait(const Judged&);
 
   SelectionOptions options_;
   std::optional<Hampel> hampel_;
   std::vector<Judged> decided_;
+  bool any_rest_ = true;
   std::size_t outliers_ = 0;
+  // With coast, of the whole run: the samples that are neither outliers nor at other times, and
+  // which of all samples they are.
+  std::vector<Sample> run_;
+  std::vector<bool> in_run_;
+  Stretch roll_{0, 0};
+  std::size_t out_ = 0, out_of_run_ = 0;  // by rest()
   std::optional<Doubt> doubt_;
 };
 

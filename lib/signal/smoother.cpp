@@ -46,6 +46,9 @@ std::size_t best_width(std::span<const Sample> run, const SignalOptions& options
   std::vector<Sample> others;
   double least_sum = std::numeric_limits<double>::infinity();
   std::size_t best = least;
+  // The best of widths an eighth apart is at most a sixteenth off, which costs 1 % of the squared
+  // error: the square of a mean's bias grows as w^4, its noise falls as 1/w, and about the least of
+  // the sum, w^4 / 4 + 1 / w, both balance.
   for (std::size_t half = least; half <= most; half += 1 + half / 8) {
     double sum = 0;
     for (std::size_t i = least; i + least < n; i += every) {

@@ -7,11 +7,17 @@
 #include "cli/history.h"
 #include "fit/fit.h"
 #include "motion/trajectory.h"
+#include "signal/derivative.h"
+#include "signal/smoother.h"
 #include "unit/fit/simulated.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
+#include <cstdlib>
 #include <map>
 #include <memory>
+#include <sstream>
 #include <string>
 
 namespace coverage {
@@ -34,6 +40,7 @@ struct Case {
   double AR = 0;          ///< correlation of the noise from one reading to the next
   int runs = 1;           ///< that are fitted jointly
   double scatter = 0;     ///< of a from run to run, as a share
+  int digits = 0;         ///< all columns are rounded to so many by the tools
   bool bound = false;     ///< white noise on the fitted column: the Cramer-Rao bound holds
 };
 
@@ -93,6 +100,12 @@ struct Scene {
   double a, b;
 };
 constexpr Scene CR{"CR", 1.87e-3, 0.215}, CF{"CF", 5.75e-4, 0.0244};
+/// Other exponents, with D(0.5 m/s) as on rubber.
+constexpr Scene exponents[] = {{"b=0", 1.611e-3, 0},
+                               {"b=.1", 1.727e-3, 0.1},
+                               {"b=.3", 1.984e-3, 0.3},
+                               {"b=.4", 2.126e-3, 0.4},
+                               {"b=.5", 2.278e-3, 0.5}};
 inline const rolling::Body cylinder{1.375, 0.04, 0.5};
 
 struct Row {
@@ -158,19 +171,55 @@ class Simulation {
     run.x = run.v = run.D = raw;
     if (c_.unknown) run.v = c_.unknown(raw);
     if (c_.history.empty()) return run;
-    rolling::History history = rolling::history_of(c_.history, run.t);
+    const auto history_lines = lines(run.t, raw);
+    rolling::History history = rolling::history_of(history_lines, run.t);
     run.filters = std::move(history.filters);
     run.shift_of = history.shift_of;
     std::map<std::string, Column> columns{{c_.raw == Case::x ? "x" : "v", raw}};
-    for (const auto& filter : run.filters)
-      columns[filter.to] = filter.apply(run.t, columns[filter.from]);
+    for (const std::string& line : history_lines) filter(line, run.t, columns);
     run.v = columns["v"];
-    run.D = columns["D"];
+    run.D = columns["a"];
     for (double& D : run.D) D *= -(1 + cylinder.K) * cylinder.R / cylinder.g;
     return run;
   }
 
  private:
+  /// Does to the columns what a `##` line of smooth or differentiate says.
+  void filter(const std::string& line, const Column& t, std::map<std::string, Column>& columns) {
+    std::istringstream words(line);
+    std::string tool, column, rest;
+    std::getline(words >> tool >> column >> std::ws, rest);
+    if (tool == "shift-from-accel") return;
+    const bool derivative = tool == "differentiate";
+    const auto signal = rolling::make_signal(
+        rolling::signal_options(
+            derivative ? rolling::derivative_methods : rolling::smoothing_methods, rest)
+            .value());
+    Column y;
+    const auto take = [&](std::span<const double> known) {
+      y.insert(y.end(), known.begin(), known.end());
+    };
+    for (std::size_t i = 0; i < t.size(); ++i) take(signal->push(t[i], columns[column][i]));
+    take(signal->finish());
+    if (c_.digits > 0)
+      for (double& value : y)
+        value = std::strtod(fmt::format("{:.{}g}", value, c_.digits).c_str(), nullptr);
+    columns[!derivative ? column : column == "x" ? "v" : "a"] = std::move(y);
+  }
+  /// The `##` lines, with the width that `smooth -w auto` takes for these speeds.
+  std::vector<std::string> lines(const Column& t, const Column& x) {
+    std::vector<std::string> lines = c_.history;
+    for (std::string& line : lines) {
+      if (line != "smooth v auto") continue;
+      std::map<std::string, Column> columns{{"x", x}};
+      filter(lines[0], t, columns);
+      rolling::AutoSmoother smoother({rolling::by_name(rolling::smoothing_methods).at("mean")});
+      for (std::size_t i = 0; i < t.size(); ++i) smoother.push(t[i], columns["v"][i]);
+      smoother.finish();
+      line = "smooth v " + rolling::describe(smoother.options());
+    }
+    return lines;
+  }
   double uniform() { return static_cast<double>(random_()) / 4294967296.0; }
 
   const Case& c_;
@@ -201,7 +250,8 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
       row.cover_b += std::abs(b) < 1.96;
       row.far += std::abs(b) > 6 || std::abs(a) > 6;
       row.told +=
-          r.errors == rolling::Errors::autocorrelation || r.errors == rolling::Errors::uneven;
+          r.errors == rolling::Errors::autocorrelation || r.errors == rolling::Errors::uneven ||
+          (c.route == Route::loglog && rolling::logarithms_too_low(r));
       row.differ += r.agreement && !r.agreement->agree();
       row.sigma_a += r.sigma_a * r.sigma_a;
       row.sigma_b += r.sigma_b * r.sigma_b;
@@ -272,8 +322,19 @@ inline std::vector<Case> cases() {
   shift("D from x, 20 % lost", to_shift(Case::x, 11), 0.2);
   shift("D from x, savgol 31", to_shift(Case::x, "", "savgol width 31 order 2"));
   shift("D from x, savgol 31, 10 % lost", to_shift(Case::x, "", "savgol width 31 order 2"), 0.1);
+  shift("D from x, savgol 31, 20 % lost", to_shift(Case::x, "", "savgol width 31 order 2"), 0.2);
+  shift("D from x, spline", to_shift(Case::x, "", "spline"));
+  shift("D from x, mean 11, spline", to_shift(Case::x, "mean width 11", "spline"));
+  shift("D from x, mean auto", to_shift(Case::x, "auto"));
+  shift("D from x, AR(1) 0.5", to_shift(Case::x, 11), 0, 0.5);
   shift("D from x, AR(1) 0.8", to_shift(Case::x, 11), 0, 0.8);
+  shift("D from x, AR(1) 0.95", to_shift(Case::x, 11), 0, 0.95);
+  for (const int digits : {4, 3}) {
+    shift(digits == 4 ? "D from x, --digits 4" : "D from x, --digits 3", to_shift(Case::x, 11));
+    all.back().digits = digits;
+  }
   shift("D from x, noise grows", to_shift(Case::x, 11), 0, 0, 10);
+  all.push_back({.name = "x, AR(1) 0.5", .route = Route::position, .AR = 0.5});
   all.push_back({.name = "x, AR(1) 0.8", .route = Route::position, .AR = 0.8});
   all.push_back({.name = "x, AR(1) 0.95", .route = Route::position, .AR = 0.95});
   all.push_back({.name = "x, noise grows", .route = Route::position, .growth = 10});
