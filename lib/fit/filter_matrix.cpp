@@ -30,48 +30,40 @@ FilterMatrix FilterMatrix::with_last_row(std::vector<double> row) const {
   return bordered;
 }
 
-FilterMatrix::Extent FilterMatrix::extent(std::size_t i) const {
-  Extent here{i, i + 1};
-  for (auto L = factors_.rbegin(); L != factors_.rend(); ++L) {
-    Extent next{SIZE_MAX, 0};
-    for (std::size_t k = here.first; k < here.end; ++k)
-      if (!(*L)->row(k).empty())
-        next = {std::min(next.first, (*L)->first(k)), std::max(next.end, (*L)->end(k))};
-    here = next.first < next.end ? next : Extent{0, 0};
+void FilterMatrix::row(std::size_t i, Row& to) const {
+  if (factors_.empty()) {
+    to.first = i;
+    to.values.assign(1, 1);
+    return;
   }
-  return here;
-}
-
-void FilterMatrix::row(std::size_t i, std::vector<double>& values) const {
-  Extent here{i, i + 1};
-  values.assign(1, 1);
-  std::vector<double> next;
-  for (std::size_t f = factors_.size(); f-- > 0;) {
+  const auto last = factors_.back()->row(i);
+  to.first = factors_.back()->first(i);
+  to.values.assign(last.begin(), last.end());
+  std::vector<double>& sum = to.spare;
+  for (std::size_t f = factors_.size() - 1; f-- > 0;) {
     const BandMatrix& L = *factors_[f];
-    Extent reach{SIZE_MAX, 0};
-    for (std::size_t k = here.first; k < here.end; ++k)
-      if (!L.row(k).empty())
-        reach = {std::min(reach.first, L.first(k)), std::max(reach.end, L.end(k))};
-    if (reach.first > reach.end) reach = {0, 0};
-    next.assign(reach.end - reach.first, 0);
-    for (std::size_t k = here.first; k < here.end; ++k) {
+    std::size_t first = SIZE_MAX, end = 0;
+    for (std::size_t k = to.first; k < to.end(); ++k)
+      if (!L.row(k).empty()) first = std::min(first, L.first(k)), end = std::max(end, L.end(k));
+    if (first > end) first = end;
+    sum.assign(end - first, 0);
+    for (std::size_t k = to.first; k < to.end(); ++k) {
       const auto row = L.row(k);
-      const double by = values[k - here.first];
+      const double by = to.values[k - to.first];
       if (row.empty()) continue;
-      double* const to = &next[L.first(k) - reach.first];
-      for (std::size_t j = 0; j < row.size(); ++j) to[j] += by * row[j];
+      double* const at = &sum[L.first(k) - first];
+      for (std::size_t j = 0; j < row.size(); ++j) at[j] += by * row[j];
     }
-    here = reach;
-    values.swap(next);
+    to.first = first;
+    to.values.swap(sum);
   }
 }
 
 double FilterMatrix::times(std::size_t i, std::span<const double> x) const {
-  std::vector<double> values;
-  row(i, values);
-  const std::size_t first = extent(i).first;
+  Row here;
+  row(i, here);
   double sum = 0;
-  for (std::size_t j = 0; j < values.size(); ++j) sum += values[j] * x[first + j];
+  for (std::size_t j = 0; j < here.values.size(); ++j) sum += here.values[j] * x[here.first + j];
   return sum;
 }
 

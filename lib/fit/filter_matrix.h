@@ -27,12 +27,15 @@ class FilterMatrix {
   bool bordered() const { return border_ != nullptr; }
   std::span<const double> last_row() const { return *border_; }
 
-  struct Extent {
-    std::size_t first, end;  // of the columns that a row reaches
+  /// A row of the band, from the first column that it reaches.
+  struct Row {
+    std::size_t first = 0;
+    std::vector<double> values, spare;
+
+    std::size_t end() const { return first + values.size(); }
   };
-  Extent extent(std::size_t i) const;
-  /// Writes row i of the band, over its extent.
-  void row(std::size_t i, std::vector<double>& values) const;
+  /// Writes row i; whoever asks for row after row gives the same place again.
+  void row(std::size_t i, Row& to) const;
   /// Element i of the product with x.
   double times(std::size_t i, std::span<const double> x) const;
   std::vector<double> times(std::span<const double> x) const;

@@ -9,11 +9,12 @@
 namespace rolling {
 
 std::vector<double> row_norms(const FilterMatrix& E) {
-  std::vector<double> norms, row;
+  std::vector<double> norms;
   norms.reserve(E.band_rows());
+  FilterMatrix::Row row;
   for (std::size_t i = 0; i < E.band_rows(); ++i) {
     E.row(i, row);
-    norms.push_back(std::sqrt(dot(row.data(), row.data(), row.size())));
+    norms.push_back(std::sqrt(dot(row.values.data(), row.values.data(), row.values.size())));
   }
   return norms;
 }

@@ -13,9 +13,10 @@ namespace {
 std::size_t band_of(const FilterMatrix& E) {
   std::vector<std::uint32_t> first_row(E.columns(), UINT32_MAX);  // that reaches a column
   std::size_t band = 1;
+  FilterMatrix::Row row;
   for (std::size_t i = 0; i < E.band_rows(); ++i) {
-    const auto [first, end] = E.extent(i);
-    for (std::size_t j = first; j < end; ++j) {
+    E.row(i, row);
+    for (std::size_t j = row.first; j < row.end(); ++j) {
       first_row[j] = std::min(first_row[j], static_cast<std::uint32_t>(i));
       band = std::max(band, i - first_row[j] + 1);
     }
@@ -23,47 +24,25 @@ std::size_t band_of(const FilterMatrix& E) {
   return band;
 }
 
-/// The last rows of E, as many as the band is wide.
-class LastRows {
- public:
-  LastRows(const FilterMatrix& E, std::size_t band) : E_(E), rows_(band) {}
-  void add(std::size_t i) {
-    Row& row = rows_[i % rows_.size()];
-    row.first = E_.extent(i).first;
-    E_.row(i, row.values);
-  }
-  /// Element (i, j) of E E^T.
-  double product(std::size_t i, std::size_t j) const {
-    const Row &x = rows_[i % rows_.size()], &y = rows_[j % rows_.size()];
-    const std::size_t from = std::max(x.first, y.first),
-                      to = std::min(x.first + x.values.size(), y.first + y.values.size());
-    return from < to ? dot(&x.values[from - x.first], &y.values[from - y.first], to - from) : 0;
-  }
-  double product(std::size_t i, std::span<const double> x) const {
-    const Row& row = rows_[i % rows_.size()];
-    return row.values.empty() ? 0 : dot(row.values.data(), &x[row.first], row.values.size());
-  }
-
- private:
-  struct Row {
-    std::size_t first = 0;
-    std::vector<double> values;
-  };
-  const FilterMatrix& E_;
-  std::vector<Row> rows_;
-};
+/// Of E E^T an element, by two rows of E.
+double product(const FilterMatrix::Row& x, const FilterMatrix::Row& y) {
+  const std::size_t from = std::max(x.first, y.first), to = std::min(x.end(), y.end());
+  return from < to ? dot(&x.values[from - x.first], &y.values[from - y.first], to - from) : 0;
+}
 
 }  // namespace
 
 Whitener::Whitener(const FilterMatrix& E, double floor)
     : n_(E.band_rows()), band_(band_of(E)), floor_(floor), R_(n_ * band_) {
-  LastRows last(E, band_);
+  std::vector<FilterMatrix::Row> last(band_);  // rows of E
   if (E.bordered()) border_.resize(n_);
   for (std::size_t i = 0; i < n_; ++i) {
-    last.add(i);
+    const FilterMatrix::Row& row = last[i % band_];
+    E.row(i, last[i % band_]);
     for (std::size_t j = i < band_ ? 0 : i - band_ + 1; j <= i; ++j)
-      R_[j * band_ + i - j] = last.product(i, j) + (i == j ? floor * floor : 0);
-    if (E.bordered()) border_[i] = last.product(i, E.last_row());
+      R_[j * band_ + i - j] = product(row, last[j % band_]) + (i == j ? floor * floor : 0);
+    if (E.bordered() && !row.values.empty())
+      border_[i] = dot(row.values.data(), &E.last_row()[row.first], row.values.size());
   }
   factorise();
   if (!E.bordered()) return;
@@ -116,13 +95,13 @@ void Whitener::Pass::push(double* row) {
 }
 
 void Whitener::apply(std::span<double> X) const {
-  for (std::size_t at = 0; at < X.size(); at += rows()) {
-    Pass pass(*this, 2);
-    for (std::size_t i = 0; i < rows(); ++i) {
-      double row[2] = {X[at + i], 0};
-      pass.push(row);
-      X[at + i] = row[0];
-    }
+  const std::size_t n = rows(), columns = X.size() / n, stride = (columns + 1) / 2 * 2;
+  Pass pass(*this, stride);
+  std::vector<double> row(stride);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t c = 0; c < columns; ++c) row[c] = X[c * n + i];
+    pass.push(row.data());
+    for (std::size_t c = 0; c < columns; ++c) X[c * n + i] = row[c];
   }
 }
 

@@ -1,11 +1,14 @@
 // The bare loops that the tools are measured against, and the watch that measures.
 //
 //   speed filter [COLUMNS] <FILE    parse two numbers of each row, pass its bytes through, append
-//   COLUMNS (1) new numbers speed fit <FILE                 parse two numbers of each row, add up
-//   what a straight line through their logarithms takes speed print ROWS                rows of two
-//   numbers speed compare ROUNDS cpu|elapsed COMMAND OTHER
+//                                   COLUMNS (1) new numbers
+//   speed fit <FILE                 parse two numbers of each row, add up what a straight line
+//                                   through their logarithms takes
+//   speed print ROWS                rows of two numbers
+//   speed compare ROUNDS user|cpu|elapsed COMMAND OTHER
 //                                   two shell commands in turn: median seconds of each; median,
-//                                   least and greatest ratio OTHER/COMMAND
+//                                   least and greatest ratio OTHER/COMMAND; rounds that other
+//                                   processes disturbed
 //   speed peak COMMAND              the largest resident memory of any of its processes [KiB]
 //
 // The loops are what no tool of this kind can do without, and nothing else: no other form of file,
@@ -23,6 +26,7 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -31,48 +35,55 @@
 
 namespace {
 
-class Writer {
- public:
-  ~Writer() { flush(); }
-  void bytes(const char* from, std::size_t count) {
-    to_ = static_cast<char*>(std::memcpy(to_, from, count)) + count;
-  }
-  void byte(char c) { *to_++ = c; }
-  void number(double x) { to_ = fmt::format_to(to_, FMT_COMPILE("{}"), x); }
-  void end_line() {
-    *to_++ = '\n';
-    if (to_ - out_.data() >= 1 << 16) flush();
-  }
+/// Text on its way out, in writes of 64 KiB.
+struct Out {
+  std::vector<char> block = std::vector<char>(1 << 17);
+  char* to = block.data();
 
- private:
+  void end_line() {
+    *to++ = '\n';
+    if (to - block.data() >= 1 << 16) flush();
+  }
   void flush() {
-    for (const char* from = out_.data(); from != to_;) {
-      const ssize_t count = ::write(STDOUT_FILENO, from, static_cast<std::size_t>(to_ - from));
+    for (const char* from = block.data(); from != to;) {
+      const ssize_t count = ::write(STDOUT_FILENO, from, static_cast<std::size_t>(to - from));
       if (count < 0) std::_Exit(2);
       from += count;
     }
-    to_ = out_.data();
+    to = block.data();
   }
-  std::vector<char> out_ = std::vector<char>(1 << 18);
-  char* to_ = out_.data();
 };
 
-/// Calls row(line, its end, first number, second number) for each; comments are passed over.
+/// Calls row(line, its end, first number, second number) for each line; lines that begin with # are
+/// passed over. The numbers may stand in quotes.
 template <typename Row>
 void rows(Row row) {
+#ifdef F_SETPIPE_SZ
+  ::fcntl(STDIN_FILENO, F_SETPIPE_SZ, 1 << 20);  // as the tools do
+#endif
   std::vector<char> in(1 << 18);
   std::size_t kept = 0;
   for (ssize_t count; (count = ::read(STDIN_FILENO, in.data() + kept, in.size() - kept)) > 0;) {
     const char *line = in.data(), *const end = line + kept + count;
-    for (const char* feed; (feed = static_cast<const char*>(
-                                std::memchr(line, '\n', static_cast<std::size_t>(end - line))));
-         line = feed + 1) {
-      if (*line == '#') continue;
-      double x, y;
-      const char* const gap = std::from_chars(line, feed, x).ptr;
-      if (gap == line || gap == feed || std::from_chars(gap + 1, feed, y).ec != std::errc())
-        std::_Exit(2);
-      row(line, feed, x, y);
+    const auto* const last =
+        static_cast<const char*>(::memrchr(line, '\n', static_cast<std::size_t>(end - line)));
+    while (last && line <= last) {
+      const char* feed = line;
+      if (*line != '#') {
+        double x, y;
+        const auto first = std::from_chars(line + (*line == '"'), last, x);
+        const char* next = first.ptr + (*first.ptr == '"') + 1;
+        next += *next == '"';
+        const auto second = std::from_chars(next, last, y);
+        if (first.ec != std::errc() || second.ec != std::errc()) std::_Exit(2);
+        feed = static_cast<const char*>(
+            std::memchr(second.ptr, '\n', static_cast<std::size_t>(end - second.ptr)));
+        row(line, feed, x, y);
+      } else {
+        feed =
+            static_cast<const char*>(std::memchr(line, '\n', static_cast<std::size_t>(end - line)));
+      }
+      line = feed + 1;
     }
     kept = static_cast<std::size_t>(end - line);
     std::memmove(in.data(), line, kept);
@@ -80,15 +91,18 @@ void rows(Row row) {
 }
 
 void filter(int columns) {
-  Writer out;
+  Out out;
   rows([&](const char* line, const char* end, double x, double y) {
-    out.bytes(line, static_cast<std::size_t>(end - line));
+    char* to = static_cast<char*>(std::memcpy(out.to, line, static_cast<std::size_t>(end - line))) +
+               (end - line);
     for (int i = 0; i < columns; ++i) {
-      out.byte('\t');
-      out.number((x + y) / (3 + i));
+      *to++ = '\t';
+      to = fmt::format_to(to, FMT_COMPILE("{}"), (x + y) / (3 + i));
     }
+    out.to = to;
     out.end_line();
   });
+  out.flush();
 }
 
 void fit() {
@@ -102,21 +116,33 @@ void fit() {
 }
 
 void print(double n) {
-  Writer out;
+  Out out;
   for (double i = 0; i < n; ++i) {
-    out.number(i / 1000);
-    out.byte('\t');
-    out.number(0.5 - i / (3 * n));
+    out.to = fmt::format_to(out.to, FMT_COMPILE("{}\t{}"), i / 1000, 0.5 - i / (3 * n));
     out.end_line();
   }
+  out.flush();
 }
 
 struct Used {
-  double elapsed, cpu;
+  double elapsed, user, cpu;
   long peak;
+  double others = 0;  // of a core, that other processes have used meanwhile
 };
 
+/// The time that all processors have worked so far [s]; 0 where the system does not tell it.
+double worked() {
+  long long user = 0, nice = 0, system = 0;
+  if (std::FILE* const file = std::fopen("/proc/stat", "r")) {
+    if (std::fscanf(file, "cpu %lld %lld %lld", &user, &nice, &system) != 3)
+      user = nice = system = 0;
+    std::fclose(file);
+  }
+  return static_cast<double>(user + nice + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+}
+
 Used run(const char* command) {
+  const double before = worked();
   const auto begin = std::chrono::steady_clock::now();
   const pid_t child = ::fork();
   if (child == 0) {
@@ -134,8 +160,10 @@ Used run(const char* command) {
   const auto seconds = [](const timeval& t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
-  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-          seconds(used.ru_utime) + seconds(used.ru_stime), used.ru_maxrss};
+  const double elapsed =
+                   std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+               user = seconds(used.ru_utime), cpu = user + seconds(used.ru_stime);
+  return {elapsed, user, cpu, used.ru_maxrss, (worked() - before - cpu) / elapsed};
 }
 
 double median(std::vector<double> values) {
@@ -143,16 +171,24 @@ double median(std::vector<double> values) {
   return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
 }
 
+/// A round in which other processes take more than a tenth of a core is repeated, but not for ever:
+/// then as many as were disturbed are said.
 void compare(int rounds, double Used::*what, const char* command, const char* other) {
   std::vector<double> one, two, ratio;
-  for (int i = 0; i < rounds; ++i) {
-    one.push_back(run(command).*what);
-    two.push_back(run(other).*what);
+  int disturbed = 0;
+  for (int left = rounds; static_cast<int>(one.size()) < rounds;) {
+    const Used first = run(command), second = run(other);
+    if (std::max(first.others, second.others) > 0.1) {
+      if (left-- > 0) continue;
+      ++disturbed;
+    }
+    one.push_back(first.*what);
+    two.push_back(second.*what);
     ratio.push_back(two.back() / one.back());
   }
-  fmt::print("{:.4f} {:.4f} {:.3f} {:.3f} {:.3f}\n", median(one), median(two), median(ratio),
+  fmt::print("{:.4f} {:.4f} {:.3f} {:.3f} {:.3f} {}\n", median(one), median(two), median(ratio),
              *std::min_element(ratio.begin(), ratio.end()),
-             *std::max_element(ratio.begin(), ratio.end()));
+             *std::max_element(ratio.begin(), ratio.end()), disturbed);
 }
 
 }  // namespace
@@ -163,7 +199,10 @@ int main(int argc, char** argv) {
   else if (what == "fit") fit();
   else if (what == "print" && argc == 3) print(std::strtod(argv[2], nullptr));
   else if (what == "compare" && argc == 6)
-    compare(std::atoi(argv[2]), std::string_view(argv[3]) == "cpu" ? &Used::cpu : &Used::elapsed,
+    compare(std::atoi(argv[2]),
+            std::string_view(argv[3]) == "user"  ? &Used::user
+            : std::string_view(argv[3]) == "cpu" ? &Used::cpu
+                                                 : &Used::elapsed,
             argv[4], argv[5]);
   else if (what == "peak" && argc == 3) fmt::print("{}\n", run(argv[2]).peak);
   else return 2;

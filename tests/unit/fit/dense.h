@@ -6,10 +6,12 @@
 namespace rolling {
 
 inline std::vector<double> dense(const FilterMatrix& M, std::size_t columns) {
-  std::vector<double> all(M.rows() * columns, 0), row;
+  std::vector<double> all(M.rows() * columns, 0);
+  FilterMatrix::Row row;
   for (std::size_t i = 0; i < M.band_rows(); ++i) {
     M.row(i, row);
-    for (std::size_t j = 0; j < row.size(); ++j) all[i * columns + M.extent(i).first + j] = row[j];
+    for (std::size_t j = 0; j < row.values.size(); ++j)
+      all[i * columns + row.first + j] = row.values[j];
   }
   if (M.bordered())
     for (std::size_t j = 0; j < columns; ++j) all[M.band_rows() * columns + j] = M.last_row()[j];

@@ -341,3 +341,21 @@ TEST_CASE("number: read_number ends where the number does", "[text]") {
   CHECK(rest("12345678901234567890.5 x") == " x");
   for (const char* none : {"", "x", "-", "+-1", ".e5", "1e400 ", "inf"}) CHECK(rest(none) == none);
 }
+
+// Digits behind the point are read eight at a time where there are so many.
+TEST_CASE("number: any count of digits before and behind the point, and what stands behind it",
+          "[text]") {
+  for (const std::string behind : {"", "\t1", "/:", "e2", "x", "12345\n"})
+    for (std::size_t whole = 0; whole < 12; ++whole)
+      for (std::size_t decimals = 1; decimals < 26; ++decimals) {
+        const std::string digits = "90817263540918273645",
+                          text = digits.substr(0, whole) + "." +
+                                 (digits + "67890").substr(25 - decimals) + behind;
+        double value = -1, expected = -1;
+        const char* const end = text.data() + text.size();
+        const auto by_library = std::from_chars(text.data(), end, expected);
+        CAPTURE(text);
+        CHECK(read_number(text.data(), end, value) == by_library.ptr);
+        CHECK(value == expected);
+      }
+}
