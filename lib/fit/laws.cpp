@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "base/error.h"
@@ -15,6 +16,32 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double slope_unit = 1e-3;
 
+/// Searches go over so many means of consecutive records where there are more records than that;
+/// of each run so many remain at least.
+constexpr std::size_t searched = 4000, searched_of_run = 100;
+
+/// The runs with the means of consecutive records, as many in each mean, in the place of records.
+/// No runs where there are few records, or where filters have made them.
+std::vector<ObservedRun> thinned(std::vector<ObservedRun> runs) {
+  std::size_t all = 0, shortest = runs.empty() ? 0 : runs.front().t.size();
+  for (const ObservedRun& run : runs) {
+    if (run.H) return {};
+    all += run.t.size();
+    shortest = std::min(shortest, run.t.size());
+  }
+  const std::size_t together = std::min(all / searched, shortest / searched_of_run);
+  if (together < 2) return {};
+  const auto means = [together](std::vector<double>& x) {
+    const std::size_t n = x.size() / together;
+    for (std::size_t i = 0; i < n; ++i)
+      x[i] = std::accumulate(&x[i * together], &x[(i + 1) * together], 0.0) /
+             static_cast<double>(together);
+    x.resize(n);
+  };
+  for (ObservedRun& run : runs) means(run.t), means(run.y);
+  return runs;
+}
+
 /// The records and the weights of a fit of a v^b, for other laws. theta holds v0 and x0 of every
 /// run in units of their own, then the coefficients and perhaps the slope, for all runs.
 class Records {
@@ -24,9 +51,10 @@ class Records {
         options_(options), law_{power_.a.value, power_.b.value} {
     for (double v : power_.v) v_unit_ = std::max(v_unit_, v);
     for (const auto& q : power_.v0) v_unit_ = std::max(v_unit_, std::abs(q.value));
-    if (power_.rolls)
-      for (const auto& run : power_.rolls->runs())
-        x_unit_ = std::max(x_unit_, std::abs(run.y.back() - run.y.front()));
+    if (!power_.rolls) return;
+    for (const auto& run : power_.rolls->runs())
+      x_unit_ = std::max(x_unit_, std::abs(run.y.back() - run.y.front()));
+    thinned_ = thinned(power_.rolls->runs());
   }
 
   const Fitted& power() const { return power_; }
@@ -52,10 +80,22 @@ class Records {
     return {power_.system.runs, own(), shared(law),
             [this, &law](const std::vector<double>& theta, const TakeRows& take) {
       for (std::size_t r = 0, first = 0; r < power_.system.runs.size(); ++r) {
-        if (power_.rolls) roll(law, r, theta, take);
+        if (power_.rolls) roll(law, power_.rolls->runs()[r], r, theta, take);
         else shifts(law, r, first, theta, take);
         first += power_.system.runs[r];
       }
+            }};
+  }
+
+  bool are_many() const { return !thinned_.empty(); }
+  /// The same of the thinned records where there are many: there a search is quick.
+  System system_of_few(const Law& law) const {
+    if (!are_many()) return system(law);
+    std::vector<std::size_t> sizes;
+    for (const ObservedRun& run : thinned_) sizes.push_back(run.t.size());
+    return {std::move(sizes), own(), shared(law),
+            [this, &law](const std::vector<double>& theta, const TakeRows& take) {
+      for (std::size_t r = 0; r < thinned_.size(); ++r) roll(law, thinned_[r], r, theta, take);
             }};
   }
 
@@ -78,9 +118,8 @@ class Records {
     take(r, f, J);
   }
 
-  void roll(const Law& law, std::size_t r, const std::vector<double>& theta,
+  void roll(const Law& law, const ObservedRun& run, std::size_t r, const std::vector<double>& theta,
             const TakeRows& take) const {
-    const ObservedRun& run = power_.rolls->runs()[r];
     const double* own_of_run = &theta[r * own()];
     const double* const c = &theta[theta.size() - shared(law)];
     const double v0 = options_.v0 ? std::abs(*options_.v0) : *own_of_run++ * v_unit_,
@@ -111,6 +150,7 @@ class Records {
   FitOptions options_;
   PowerLaw law_;
   double v_unit_ = 0, x_unit_ = 1;
+  std::vector<ObservedRun> thinned_;  // for searches; none where there are few records
 };
 
 /// A law that has been fitted.
@@ -142,12 +182,24 @@ std::vector<std::vector<double>> closest(const Law& law, const Candidate& other)
   return all;
 }
 
+/// Without theta, and infinite, where there is none.
+const Minimum none{{}, {}, {}, infinity};
+
+Minimum minimum_or_none(const System& system, const std::vector<double>& start) {
+  try {
+    return minimise(system, start);
+  } catch (const Error&) {
+    return none;
+  }
+}
+
 /// The least minimum of a law that is found from where it is closest to a v^b and to the laws that
 /// have been fitted before it, so that it never ends above a special case of it; and from each of
 /// its starts where it has several: next to a law without a peak a law with one has another minimum
-/// than where its peak is.
+/// than where its peak is. Of many records it is found in their means, and only the last steps go
+/// over all.
 Candidate fit_law(const Records& records, const Law& law, const std::vector<Candidate>& before) {
-  const System system = records.system(law);
+  const System system = records.system_of_few(law);
   std::vector<std::pair<double, std::vector<double>>> starts;
   for (const Candidate& other : before) {
     if (other.minimum.theta.empty()) continue;
@@ -168,18 +220,17 @@ Candidate fit_law(const Records& records, const Law& law, const std::vector<Cand
     }
   }
   std::sort(starts.begin(), starts.end());
-  Candidate best{&law, {{}, {}, {}, infinity}, {}};
+  Candidate best{&law, none, {}};
   const auto try_from = [&](const std::vector<double>& theta) {
-    try {
-      Minimum minimum = minimise(system, theta);
-      if (minimum.rss < best.minimum.rss) best.minimum = std::move(minimum);
-    } catch (const Error&) {  // no minimum from here
-    }
+    if (Minimum m = minimum_or_none(system, theta); m.rss < best.minimum.rss)
+      best.minimum = std::move(m);
   };
   for (auto start = starts.begin(); start != starts.end() && best.minimum.theta.empty(); ++start)
     try_from(start->second);
   if (law.starts.size() > 1)
     for (const auto& start : law.starts) try_from(records.theta(start));
+  if (records.are_many() && !best.minimum.theta.empty())
+    best.minimum = minimum_or_none(records.system(law), best.minimum.theta);
   if (best.minimum.theta.empty()) return best;
   const auto shared = best.minimum.theta.end() - static_cast<std::ptrdiff_t>(system.shared);
   best.c.assign(shared, shared + static_cast<std::ptrdiff_t>(law.coefficients.size()));
