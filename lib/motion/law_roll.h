@@ -53,6 +53,9 @@ class LawRoll {
   double time(double u, double width) const;
   Panel panel_from(double u, double q, const Sums& before) const;
   Point point(const Sums&, double v, double q) const;
+  Point integrated(double since) const;  // in the panel, so long after its beginning
+  void take_series();
+  Point by_series(double since) const;
 
   Body body_;
   Geometry geometry_;
@@ -61,6 +64,11 @@ class LawRoll {
   double v0_, q0_;
   Panel panel_{};
   int panels_ = 0;
+  // The Chebyshev coefficients of all numbers of a Point over the panel.
+  static constexpr std::size_t terms = 16, worth_a_series = 4 * terms;
+  using Numbers = std::array<double, sizeof(Point) / sizeof(double)>;
+  std::array<Numbers, terms> series_;
+  std::size_t asked_ = 0;  // in the panel
 };
 
 }  // namespace rolling

@@ -160,3 +160,37 @@ TEST_CASE("laws: records with correlated noise count as the fewer that they are"
   }
   CHECK(wrong <= 6);
 }
+
+TEST_CASE("laws: of many records, which are searched in their means, all count", "[fit]") {
+  // Under a constant D the place is a parabola: the textbook's least squares, u^2 less its mean
+  // being orthogonal to 1 and u.
+  constexpr int half = 10000;
+  constexpr double h = 5e-4;
+  FitRun run{};
+  run.body = unit;
+  simulated::Noise noise(17);
+  double mean = 0, along = 0, squares = 0, rss = 0;
+  for (int i = -half; i <= half; ++i) {
+    const double t = h * (i + half);
+    run.t.push_back(t), run.x.push_back(t - 0.05 * t * t + noise(1e-3));
+    mean += static_cast<double>(i) * i / (2 * half + 1);
+  }
+  double x_mean = 0, slope = 0, uu = 0;
+  const auto each = [&](auto what) {
+    for (int i = -half; i <= half; ++i)
+      what(static_cast<double>(i), run.x[static_cast<std::size_t>(i + half)]);
+  };
+  each([&](double u, double x) {
+    x_mean += x / (2 * half + 1), slope += u * x, uu += u * u;
+    along += (u * u - mean) * x, squares += (u * u - mean) * (u * u - mean);
+  });
+  each([&](double u, double x) {
+    rss += std::pow(x - x_mean - slope / uu * u - along / squares * (u * u - mean), 2);
+  });
+  const auto result = compare_laws(Route::position, {run}, {});
+  const LawFit& constant_D = result.fits[number[constant]];
+  CHECK(constant_D.coefficients[0].value == Approx(-2 * along / squares / (h * h)).epsilon(1e-9));
+  CHECK(constant_D.coefficients[0].sigma ==
+        Approx(2 * std::sqrt(rss / (2 * half - 2) / squares) / (h * h)).epsilon(1e-6));
+  CHECK(constant_D.aicc < result.least() + 4);
+}

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 using namespace rolling;
 
@@ -90,6 +91,28 @@ TEST_CASE("law roll: derivatives are limits of differences for every law", "[law
         CHECK(p.v_c[j] == Approx((b.v - a.v) / (2 * h)).epsilon(1e-5).margin(1e-6));
         CHECK(p.x_c[j] == Approx((b.x - a.x) / (2 * h)).epsilon(1e-5).margin(1e-6));
       }
+  }
+}
+
+TEST_CASE("law roll: asked for many times, it is as where it is asked once", "[law]") {
+  const std::vector<std::vector<double>> c{{0.1, 0.4},       {0.1},      {0.1, 0.2},
+                                           {0.1, 0.3, -0.1}, {0.1, 0.4}, {0.05, 0.2, 1.3},
+                                           {0.05, 0.3, 0.4}};
+  for (std::size_t law = 0; law < laws().size(); ++law) {
+    LawRoll often = roll(law, c[law].data());
+    for (int i = 0; i < 40000; ++i) {
+      const double t = 3e-4 * i;
+      const auto p = often.at(t);
+      if (i % 97) continue;
+      const auto q = roll(law, c[law].data()).at(t);
+      CAPTURE(law, t);
+      const auto same = [&](double x, double y) {
+        CHECK(x == Approx(y).epsilon(1e-11).margin(1e-11));
+      };
+      same(p.v, q.v), same(p.x, q.x), same(p.v_v0, q.v_v0), same(p.x_v0, q.x_v0);
+      for (std::size_t j = 0; j < LawRoll::most; ++j)
+        same(p.v_c[j], q.v_c[j]), same(p.x_c[j], q.x_c[j]);
+    }
   }
 }
 
