@@ -13,9 +13,8 @@ namespace {
 
 /// The means of the records from each edge to the next.
 ObservedRun means(const ObservedRun& run, const std::vector<std::size_t>& edges) {
-  ObservedRun thin = run;
-  thin.t.clear();
-  thin.y.clear();
+  ObservedRun thin{run.body, run.geometry, run.way, run.origin, run.start, run.raw_is_position,
+                   {},       {},           {},      run.unit};
   for (auto edge = edges.begin(); edge + 1 != edges.end(); ++edge) {
     const auto mean = [&](const std::vector<double>& x) {
       return std::accumulate(x.begin() + static_cast<std::ptrdiff_t>(edge[0]),
@@ -167,14 +166,13 @@ System unweighted(std::vector<ObservedRun> runs, const Parameters& q) {
                    std::make_shared<const Noise>());
 }
 
-/// Means of so many stretches of a long run follow its roll closely: at their minimum its own is
-/// all but reached.
-constexpr std::size_t longest = 4096;
+}  // namespace
 
-/// The minimum for as many means of neighbouring records as `longest` allows, most of the way to
-/// that for all; `theta` if there is none.
-std::vector<double> fit_means(const std::vector<ObservedRun>& runs, const Parameters& q,
-                              std::vector<double> theta) {
+std::vector<ObservedRun> means_of_many(const std::vector<ObservedRun>& runs) {
+  constexpr std::size_t longest = 4096;
+  std::size_t n = 0;
+  for (const ObservedRun& run : runs) n += run.t.size();
+  if (n <= longest * runs.size()) return {};
   std::vector<ObservedRun> few;
   for (const ObservedRun& run : runs) {
     const std::size_t records = run.t.size(), most = std::min(records, longest);
@@ -182,19 +180,16 @@ std::vector<double> fit_means(const std::vector<ObservedRun>& runs, const Parame
     for (std::size_t k = 0; k <= most; ++k) edges.push_back(k * records / most);
     few.push_back(means(run, edges));
   }
-  return approach(unweighted(std::move(few), q), std::move(theta));
+  return few;
 }
-
-}  // namespace
 
 FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& options) {
   std::vector<Thinned> thin;
   std::vector<ObservedRun> thin_runs;
-  std::size_t n = 0;
   for (const ObservedRun& run : runs) {
-    thin.push_back(thinned(options.robust ? without_outliers(run) : run, options));
+    thin.push_back(options.robust ? thinned(without_outliers(run), options)
+                                  : thinned(run, options));
     thin_runs.push_back(thin.back().run);
-    n += run.t.size();
   }
   const bool position = runs.front().raw_is_position;
   const double v0 = thin.front().v0, duration = thin.front().run.t.back(),
@@ -215,7 +210,9 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
       } catch (const Error&) {  // all of the data may do better
       }
   }
-  if (n > longest * runs.size() && !options.robust) theta = fit_means(runs, q, std::move(theta));
+  if (options.robust) return {q, std::move(theta)};
+  if (auto few = means_of_many(runs); !few.empty())
+    theta = approach(unweighted(std::move(few), q), std::move(theta));
   return {q, std::move(theta)};
 }
 

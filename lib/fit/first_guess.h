@@ -14,4 +14,8 @@ struct FirstGuess {
 /// show no roll.
 FirstGuess first_guess(const std::vector<ObservedRun>&, const FitOptions&);
 
+/// Means of neighbouring records in the place of long runs (without filters): at their minimum that
+/// of all records is all but reached. No runs where there are few records.
+std::vector<ObservedRun> means_of_many(const std::vector<ObservedRun>&);
+
 }  // namespace rolling

@@ -218,8 +218,7 @@ Fitted fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOpti
   Fitted fit = fit_rolls(route, all, usable(route, all), std::move(making), options);
   if (route == Route::velocity && !known && !options.robust && !options.possible_filters.empty() &&
       fit.minimum.f.size() >= 30)
-    if (auto differences = fit_differences(all, usable(route, all), options, fit))
-      return *std::move(differences);
+    if (auto differences = fit_differences(all, options, fit)) return *std::move(differences);
   return fit;
 }
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "base/error.h"
 #include "fit/errors.h"
+#include "fit/first_guess.h"
 #include "motion/law_roll.h"
 
 namespace rolling {
@@ -15,32 +15,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double slope_unit = 1e-3;
-
-/// Searches go over so many means of consecutive records where there are more records than that;
-/// of each run so many remain at least.
-constexpr std::size_t searched = 4000, searched_of_run = 100;
-
-/// The runs with the means of consecutive records, as many in each mean, in the place of records.
-/// No runs where there are few records, or where filters have made them.
-std::vector<ObservedRun> thinned(std::vector<ObservedRun> runs) {
-  std::size_t all = 0, shortest = runs.empty() ? 0 : runs.front().t.size();
-  for (const ObservedRun& run : runs) {
-    if (run.H) return {};
-    all += run.t.size();
-    shortest = std::min(shortest, run.t.size());
-  }
-  const std::size_t together = std::min(all / searched, shortest / searched_of_run);
-  if (together < 2) return {};
-  const auto means = [together](std::vector<double>& x) {
-    const std::size_t n = x.size() / together;
-    for (std::size_t i = 0; i < n; ++i)
-      x[i] = std::accumulate(&x[i * together], &x[(i + 1) * together], 0.0) /
-             static_cast<double>(together);
-    x.resize(n);
-  };
-  for (ObservedRun& run : runs) means(run.t), means(run.y);
-  return runs;
-}
 
 /// The records and the weights of a fit of a v^b, for other laws. theta holds v0 and x0 of every
 /// run in units of their own, then the coefficients and perhaps the slope, for all runs.
@@ -54,7 +28,7 @@ class Records {
     if (!power_.rolls) return;
     for (const auto& run : power_.rolls->runs())
       x_unit_ = std::max(x_unit_, std::abs(run.y.back() - run.y.front()));
-    thinned_ = thinned(power_.rolls->runs());
+    if (!power_.noise->known()) means_ = means_of_many(power_.rolls->runs());
   }
 
   const Fitted& power() const { return power_; }
@@ -87,15 +61,15 @@ class Records {
             }};
   }
 
-  bool are_many() const { return !thinned_.empty(); }
-  /// The same of the thinned records where there are many: there a search is quick.
+  bool are_many() const { return !means_.empty(); }
+  /// The same of the means of records where there are many: there a search is quick.
   System system_of_few(const Law& law) const {
     if (!are_many()) return system(law);
     std::vector<std::size_t> sizes;
-    for (const ObservedRun& run : thinned_) sizes.push_back(run.t.size());
+    for (const ObservedRun& run : means_) sizes.push_back(run.t.size());
     return {std::move(sizes), own(), shared(law),
             [this, &law](const std::vector<double>& theta, const TakeRows& take) {
-      for (std::size_t r = 0; r < thinned_.size(); ++r) roll(law, thinned_[r], r, theta, take);
+      for (std::size_t r = 0; r < means_.size(); ++r) roll(law, means_[r], r, theta, take);
             }};
   }
 
@@ -150,7 +124,7 @@ class Records {
   FitOptions options_;
   PowerLaw law_;
   double v_unit_ = 0, x_unit_ = 1;
-  std::vector<ObservedRun> thinned_;  // for searches; none where there are few records
+  std::vector<ObservedRun> means_;  // to search in; none where there are few records
 };
 
 /// A law that has been fitted.

@@ -115,12 +115,11 @@ constexpr std::size_t searched = 2000;
 
 }  // namespace
 
-std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
-                                      const FitOptions& options, const Fitted& plain) {
+std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const FitOptions& options,
+                                      const Fitted& plain) {
   std::size_t reach = 0;
   for (const auto& filter : options.possible_filters) reach = std::max(reach, filter.reach);
   std::vector<FitRun> heads;
-  std::vector<Rows> head_rows;
   for (std::size_t r = 0; r < all.size(); ++r) {
     const std::size_t n = std::min(all[r].t.size(), searched);
     const auto head = [n](const std::vector<double>& x) {
@@ -130,14 +129,14 @@ std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const std:
     run.t = head(all[r].t);
     run.v = head(all[r].v);
     run.body = all[r].body;
-    head_rows.emplace_back(rows[r].begin(), std::lower_bound(rows[r].begin(), rows[r].end(), n));
   }
+  std::vector<Rows> head_rows = usable(Route::velocity, heads);
   try {
     if (!leave_out_irregular(heads, head_rows, reach)) return {};
     const Maker maker = most_likely(heads, head_rows, options, plain);
-    std::vector<Rows> regular = rows;
-    if (!maker.filter || maker.filter->from == "v" || !leave_out_irregular(all, regular, reach))
-      return {};
+    if (!maker.filter || maker.filter->from == "v") return {};
+    std::vector<Rows> regular = usable(Route::velocity, all);
+    if (!leave_out_irregular(all, regular, reach)) return {};
     Fitted fit = fit_rolls(Route::velocity, all, std::move(regular), making_by(*maker.filter, all),
                            options, maker.white_share);
     if (uncertainty_of(fit).kind == Errors::differences) return fit;

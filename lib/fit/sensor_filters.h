@@ -10,7 +10,7 @@ namespace rolling {
 /// with some white noise added to what it makes, under which the residuals are most likely around
 /// `plain`, a fit that knows of no filter. None if white noise alone is nearly as likely, or if the
 /// residuals that it leaves do not look white.
-std::optional<Fitted> fit_differences(const std::vector<FitRun>&, const std::vector<Rows>&,
-                                      const FitOptions&, const Fitted& plain);
+std::optional<Fitted> fit_differences(const std::vector<FitRun>&, const FitOptions&,
+                                      const Fitted& plain);
 
 }  // namespace rolling

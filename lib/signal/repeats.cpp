@@ -22,15 +22,17 @@ double records_held(std::span<const double> readings) {
   double largest = 0;
   for (const double y : readings) largest = std::max(largest, std::abs(y));
   const double rounding = 1e-9 * largest;  // of a program that computed the readings
-  std::vector<double> jumps;               // the steps that are not 0
-  std::size_t steps = 0;
+  const auto step = [&](std::size_t i) { return std::abs(readings[i] - readings[i - 1]); };
+  std::size_t steps = 0, changes = 0;
   for (std::size_t i = 1; i < readings.size(); ++i) {
     if (readings[i] == 0 && readings[i - 1] == 0) continue;
-    const double step = std::abs(readings[i] - readings[i - 1]);
-    if (step > rounding) jumps.push_back(step);
+    changes += step(i) > rounding;
     ++steps;
   }
-  if (jumps.empty() || 4 * jumps.size() >= 3 * steps) return 1;
+  if (changes == 0 || 4 * changes >= 3 * steps) return 1;
+  std::vector<double> jumps;
+  for (std::size_t i = 1; i < readings.size(); ++i)
+    if (step(i) > rounding) jumps.push_back(step(i));
   const double unit = *std::min_element(jumps.begin(), jumps.end()),
                place = last_place(readings, rounding) + rounding;
   const auto rounded = std::count_if(jumps.begin(), jumps.end(), [&](double jump) {
