@@ -39,11 +39,6 @@ Noise::Noise(std::vector<FilterMatrix> E, std::optional<double> share) : E_(std:
   }
 }
 
-void Noise::weight(std::size_t run, std::span<double> f, std::span<double> J) const {
-  whiteners_[run].apply(f);
-  whiteners_[run].apply(J);
-}
-
 double Noise::log_size() const {
   double sum = 0;
   for (const auto& whitener : whiteners_) sum += whitener.log_size();

@@ -32,12 +32,13 @@ class Likelihood {
     linear_system_ =
         system_of(std::make_shared<const RollModel>(runs_, q), std::make_shared<const Noise>());
     linear_system_.evaluate(theta, [&](std::size_t r, std::span<double> f, std::span<double> J) {
-      auto& [all_f, all_J] = linear_[r];  // column by column, of the whole run
-      const std::size_t n = linear_system_.runs[r], done = all_f.size();
-      all_J.resize(J.size() / f.size() * n);
-      all_f.insert(all_f.end(), f.begin(), f.end());
+      auto& [columns, done] = linear_[r];
+      const std::size_t n = linear_system_.runs[r];
+      columns.resize((1 + linear_system_.columns()) * n);
+      std::copy(f.begin(), f.end(), columns.begin() + static_cast<std::ptrdiff_t>(done));
       for (std::size_t i = 0; i < J.size(); ++i)
-        all_J[i / f.size() * n + done + i % f.size()] = J[i];
+        columns[(1 + i / f.size()) * n + done + i % f.size()] = J[i];
+      done += f.size();
     });
     theta_ = theta;
   }
@@ -46,9 +47,10 @@ class Likelihood {
     System system = linear_system_;
     system.evaluate = [&](const std::vector<double>&, const TakeRows& take) {
       for (std::size_t r = 0; r < linear_.size(); ++r) {
-        auto [f, J] = linear_[r];
-        noise->weight(r, f, J);
-        take(r, f, J);
+        auto columns = linear_[r].columns;
+        noise->weight(r, columns);
+        const std::size_t n = linear_system_.runs[r];
+        take(r, std::span(columns).first(n), std::span(columns).subspan(n));
       }
     };
     return restricted_likelihood(system, theta_) - noise->log_size();
@@ -56,7 +58,8 @@ class Likelihood {
 
  private:
   struct Linear {
-    std::vector<double> f, J;
+    std::vector<double> columns;  // f of the whole run, then the columns of J
+    std::size_t done = 0;         // the rows that are there
   };
   std::vector<ObservedRun> runs_;
   std::vector<Linear> linear_;
