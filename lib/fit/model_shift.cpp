@@ -255,7 +255,7 @@ class SpreadOfLogarithm {
 FilterMatrix over_themselves(const FilterMatrix& D, const FilterMatrix& v,
                              const std::vector<double>& raw, const Rows& rows, double b,
                              double sigma) {
-  const auto [shared, of_D, of_v] = D.split(v);
+  const FilterMatrix::Split parts = D.split(v);
   const auto as = D.times(raw), vs = v.times(raw);
   const auto weighted = [&](const std::vector<double>& shrink) {
     BandMatrix E;
@@ -263,9 +263,9 @@ FilterMatrix over_themselves(const FilterMatrix& D, const FilterMatrix& v,
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const double a_i = -as[rows[k]], v_i = vs[rows[k]], by = shrink.empty() ? 1 : shrink[k],
                    by_D = a_i > 0 ? 1 / a_i : 1e100, by_v = v_i > 0 ? b / v_i : 0;
-      E.append(rows[k], by_D * by, of_D, by_v * by, of_v);
+      E.append(rows[k], by_D * by, parts.left, by_v * by, parts.right);
     }
-    return shared.then(std::move(E));
+    return parts.shared.then(std::move(E));
   };
   std::vector<double> shrink = row_norms(weighted({}));
   SpreadOfLogarithm spread;

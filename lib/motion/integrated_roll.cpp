@@ -75,7 +75,8 @@ IntegratedRoll::Tail IntegratedRoll::tail(const Integrator& ode) const {
   const double v = std::max(0.0, ode.state()[1]), D = law_.shift(v);
   if (geometry_ == Geometry::exact && D >= body_.R * (1 - 1e-9))
     fail("at t = {:.6g} s the shift has grown to the radius {:.6g} m", ode.time(), body_.R);
-  if (law_.rest >= v) return {ode.time(), 0, v, 0};
+  // The speed has been located at its floor to a rounding, above it or below.
+  if (law_.rest == floor_) return {ode.time(), 0, v, 0};
   const double a = trial_acceleration(body_, geometry_, D),
                q = v * trial_acceleration_slope(body_, geometry_, D) * law_.slope(v) / a;
   return {ode.time(), v / ((1 - q) * -a), v, q};

@@ -147,7 +147,7 @@ TEST_CASE("trajectory: two directions tell the slope from the law, one does not"
   int covered_a = 0, covered_S = 0;
   for (int k = 0; k < 100; ++k) {
     std::vector<FitRun> runs(2);
-    for (int r = 0; r < 2; ++r) {
+    for (std::size_t r = 0; r < 2; ++r) {
       const double way = r ? -1 : 1;
       const Even roll = even(cylinder, a, way * S, 0.5);
       runs[r].body = cylinder;

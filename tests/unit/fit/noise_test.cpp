@@ -54,8 +54,8 @@ TEST_CASE("noise: its variance and the covariance of the parameters, whatever th
       const auto& R = fit.minimum.R;  // of which the slope needs the last element alone
       for (std::size_t s = 0; s < noise->sources()[0]; ++s)
         covariance += 4 * B[2 * s + 1] * B[2 * s + 1] / (R[3] * R[3]);
-      for (std::size_t i : {0, 1})
-        for (std::size_t j : {0, 1}) {
+      for (const std::size_t i : {0U, 1U})
+        for (const std::size_t j : {0U, 1U}) {
           double sum = 0;
           for (std::size_t s = 0; s < B.size(); s += 2) sum += B[s + i] * B[s + j];
           CHECK(std::abs(M[2 * i + j] - sum) < 1e-9);

@@ -194,6 +194,19 @@ TEST_CASE("Slope: what never stops, what counts as rest, and rest itself", "[rol
   CHECK_THROWS_AS(roll(std::nan(""), 1e-3, 0.2, 0.5), Error);
 }
 
+TEST_CASE("Slope: where the law balances it, a solver stops when the integral over speed does",
+          "[rolling]") {
+  for (int i = 0; i < 40; ++i) {
+    Roll roll{};
+    roll.body = {1, 0.04, 0.5, 9.81, -8e-4 - 1e-5 * i};
+    roll.law = {1.87e-3, 0.215}, roll.v0 = 0.5;
+    const double stop = start(roll, best_method(roll), 0)->stop_time();
+    INFO("S " << roll.body.slope);
+    for (const Stepper stepper : {Stepper::rk8pd, Stepper::rkf45})
+      CHECK(std::abs(start(roll, {Method::solver, stepper}, 1e-12)->stop_time() / stop - 1) < 1e-8);
+  }
+}
+
 TEST_CASE("Slope: solvers, tables and the integral over speed agree", "[rolling]") {
   for (const Geometry geometry : {paper, exact})
     for (const double S : {1e-3, -1e-3, 0.02, -5e-3, -0.1}) {
