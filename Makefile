@@ -152,7 +152,7 @@ check: all build/unit build/shim.so $(target:%=build/replay/%) $(if $(has_fma),$
 # Most of the suite on arm64, through qemu: make setup check-arm64.
 check-arm64: all
 	@$(call copy,build/arm64)
-	+tests/arm64.sh build/arm64
+	tests/arm64.sh build/arm64
 
 # tests/faults preloads it into the tools: it may not depend on the C++ library or on a sanitizer.
 build/shim.so: tests/faults/shim.cpp

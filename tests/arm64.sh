@@ -5,7 +5,7 @@
 # FOLDER/sysroot: nothing is installed.
 set -euo pipefail
 export LC_ALL=C
-unset CDPATH
+unset CDPATH MAKEFLAGS
 here=$PWD
 cd "$1"
 root=$PWD
@@ -40,7 +40,7 @@ fi
 ln -sfn /usr/include/CLI /usr/include/boost "$sysroot/usr/include"
 
 # -Wno-psabi: g++ notes there, for each pair of doubles passed, that its version 9 did otherwise.
-make -s all build/unit AR=aarch64-linux-gnu-ar \
+make -s -j"$(nproc)" all build/unit AR=aarch64-linux-gnu-ar \
   CXX="${ARM64_CXX:-aarch64-linux-gnu-g++} -isystem sysroot/usr/include -Wno-psabi" \
   LDFLAGS='-Lsysroot/usr/lib/aarch64-linux-gnu -Wl,-rpath-link,sysroot/usr/lib/aarch64-linux-gnu'
 
