@@ -161,7 +161,8 @@ TEST_CASE("SpeedIntegrals: |b| = 1e-19, below it A is constant", "[rolling]") {
 
 TEST_CASE("SpeedIntegrals: z = 1e-20, below it A is 1 to the last bit (b < 0)", "[rolling]") {
   // With b = -30 A matters soon. The panels begin after the start and at it.
-  for (const auto& [b, depth] : {std::pair{-0.5, 0.99e-10}, {-0.5, 1.01e-10}, {-30.0, 0.99e-10}}) {
+  for (const auto& scene : {std::pair{-0.5, 0.99e-10}, {-0.5, 1.01e-10}, {-30.0, 0.99e-10}}) {
+    const double b = scene.first, depth = scene.second;
     const SpeedIntegrals integrals(b, 0.5, depth);
     const SpeedArm arm = arm_of(b, 0.5, depth);
     const auto part = [&](double y, auto of) {
