@@ -283,7 +283,7 @@ lint:
 	printf '%s\n' $(source) $(wildcard cmd/*.cpp) | xargs -P $(shell nproc) -n 4 sh -c \
 	  'clang-tidy-14 --quiet --warnings-as-errors="*" "$$@" -- -x c++ -std=c++20 -Ilib' sh
 	printf '%s\n' $(source) $(wildcard cmd/*.cpp tests/*/*.cpp tests/*/*/*.cpp) | \
-	  xargs -P $(shell nproc) -n 4 clang++-14 -fsyntax-only -Werror $(CPPFLAGS) -Itests $(CXXFLAGS)
+	  xargs -P $(shell nproc) -n 4 clang++-14 -fsyntax-only -Werror '-DTOOL=""' $(CPPFLAGS) -Itests $(CXXFLAGS)
 
 clean:
 	rm -rf bin build figures
