@@ -90,13 +90,13 @@ bool Filter::next() {
   const bool more = in_.next();
   if (!in_.remarks().empty()) take_remarks(in_.remarks());
   if (!more) return false;
-  const Reader::Text text = in_.text(cut_);
+  const std::size_t begin = held_.size();
+  const Reader::Part cut = in_.append_text(held_, cut_);
   const auto at = [](std::size_t place) { return static_cast<std::uint32_t>(place); };
-  const std::uint32_t size = at(text.line.size());
+  const std::uint32_t size = at(held_.size() - begin);
   if (cut_ == Reader::no_column) rows_.push_back({Kind::record, size, size, size});
-  else rows_.push_back({Kind::record, size, at(text.first), at(text.last)});
+  else rows_.push_back({Kind::record, size, at(cut.first), at(cut.last)});
   ++records_;
-  held_.append(text.line);
   return true;
 }
 
