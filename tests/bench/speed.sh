@@ -42,7 +42,7 @@ mawk -v n="$small" 'BEGIN {
 sed 's/\t/;/; /^#/!s/\./,/g; s/^# //' small.txt >decimal-comma.csv
 differentiate small.txt >tva.txt
 mawk 'BEGIN { OFS = "\t"; print "# t[s]\tv[m/s]\tD[m]" } !/^#/ { print $1, $2, 0.0018 * (1 + $2 / 4) }' small.txt >tvD.txt
-mawk -v n="$small" 'BEGIN { srand(2); print "# v[m/s]\tD[m]"; for (i = 1; i <= n; i++) { v = 0.02 + 0.5 * i / n; printf "%.7f\t%.9f\n", v, 0.00187 * v ^ 0.215 * (1 + 0.02 * rand()) } }' >vD.txt
+mawk -v n="$small" 'BEGIN { srand(2); print "# v[m/s]\tD[m]"; for (i = 1; i <= n; i++) { v = 0.02 + 0.5 * rand(); printf "%.6f\t%.9f\n", v, 0.00187 * v ^ 0.215 * (1 + 0.02 * rand()) } }' >vD.txt
 simulate -K 0.5 -R 0.04 -a 1.87e-3 -b 0.215 --v0 0.5 --dt "$(mawk -v n="$small" 'BEGIN { print 2.2 / n }')" --until 2 --columns t,v |
   mawk 'BEGIN { srand(3); OFS = "\t"; print "# t[s]\tv[m/s]" } !/^#/ { printf "%s\t%.6f\n", $1, $2 + 0.002 * (rand() + rand() - 1) }' >roll.txt
 
