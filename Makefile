@@ -198,7 +198,7 @@ fuzz:
 # valgrind.
 sanitize: all build/unit $(target:%=build/replay/%)
 	@$(call copy,build/sanitized)
-	$(call check_in,build/sanitized) CXXFLAGS="$(sanitized)"
+	+$(call check_in,build/sanitized) CXXFLAGS="$(sanitized)"
 	tests/valgrind.sh
 
 # The names smooth and simulate are common: PROGRAM_PREFIX=roll- installs roll-smooth,
@@ -220,7 +220,7 @@ coverage-lines:
 	@$(call copy,build/covered)
 	find build/covered -name '*.gcda' -delete
 	$(MAKE) -C build/covered build/tests/gcov_exit.o CXXFLAGS="$(covered)"
-	$(call check_in,build/covered) CXXFLAGS="$(covered)" LDFLAGS=build/tests/gcov_exit.o
+	+$(call check_in,build/covered) CXXFLAGS="$(covered)" LDFLAGS=build/tests/gcov_exit.o
 	gcovr --root build/covered --filter build/covered/lib/ --exclude-throw-branches \
 	  --exclude-unreachable-branches --print-summary -o build/covered/lines.txt --fail-under-line 100 \
 	  build/covered/build || { cat build/covered/lines.txt; exit 1; }
