@@ -4,7 +4,7 @@
 #   tests/bench/speed.sh [--long] [ROWS [ROUNDS]]
 #
 # Rows of the large file (5000000) and rounds of each pair, in turn (7). A * marks pairs that other processes disturbed in spite of
-# repetitions. --long measures memory and growth up to 10^8 rows.
+# repetitions. --long measures memory and growth up to 10^8 rows, and what building takes.
 # Needs build/bench/speed, and the tools on the PATH; leaves its files in build/speed/.
 set -euo pipefail
 export LC_ALL=C
@@ -196,6 +196,15 @@ for tool in 'smooth few.txt' 'differentiate few.txt' "shift-from-accel $body few
   strip -o stripped "$tools/${tool%% *}"
   mawk -v tool="${tool%% *}" -v a="$a" -v b="$b" -v size="$(stat -c %s stripped)" 'BEGIN { printf "%-18s %12.2f %55.2f\n", tool, 10 * (a - b), size / 1048576 }'
 done
+
+if $long; then
+  echo
+  echo '# building the six tools from nothing, user and system time [s] (at most 60)'
+  rm -rf fresh && mkdir fresh && cp -r ../../Makefile ../../lib ../../cmd fresh/
+  TIMEFORMAT='%U + %S'
+  { time CCACHE_DISABLE=1 make -s -C fresh all CXX=g++; } 2>&1
+  rm -rf fresh
+fi
 
 if have parallel; then
   echo
