@@ -1,10 +1,9 @@
 #include "fit/noise.h"
 
-#include "base/error.h"
 #include "fit/dot.h"
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rolling {
 
@@ -31,18 +30,10 @@ void append(std::vector<double>& to, std::vector<double> more) {
 Noise::Noise(std::vector<FilterMatrix> E, std::optional<double> share) : E_(std::move(E)) {
   if (!share) return;
   for (const FilterMatrix& of_run : E_) {
-    std::vector<double> norms = row_norms(of_run);
-    if (norms.empty()) fail("a run has no record that can be fitted");
-    const auto middle = norms.begin() + static_cast<std::ptrdiff_t>(norms.size() / 2);
-    std::nth_element(norms.begin(), middle, norms.end());
-    whiteners_.emplace_back(of_run, *share * *middle);
+    Covariance covariance(of_run);
+    const double floor = *share * covariance.median_norm();
+    whiteners_.emplace_back(std::move(covariance), floor);
   }
-}
-
-double Noise::log_size() const {
-  double sum = 0;
-  for (const auto& whitener : whiteners_) sum += whitener.log_size();
-  return sum;
 }
 
 double Noise::trace() const {

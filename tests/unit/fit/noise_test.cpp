@@ -24,7 +24,7 @@ System line(const std::vector<double>& data, std::shared_ptr<const Noise> noise)
               J[i] = 1;
               J[n + i] = t[i];
             }
-            noise->weight(0, f), noise->weight(0, J);
+            noise->whitener(0).apply(f), noise->whitener(0).apply(J);
             take(0, f, J);
           }};
 }
@@ -74,7 +74,7 @@ TEST_CASE("noise: the least sources that explain residuals give them back", "[fi
   for (std::size_t i = 0; i < n; ++i) e.push_back(random(1));
   for (std::size_t i = 0; i < n; ++i) f.push_back(E.times(i, e));
   auto weighted = f;
-  noise.weight(0, weighted);
+  noise.whitener(0).apply(weighted);
   const auto again = noise.without_weights(weighted), least = noise.explain(weighted);
   double size = 0, true_size = 0;
   for (std::size_t i = 0; i < n; ++i) {
