@@ -185,8 +185,9 @@ std::vector<ObservedRun> means_of_many(const std::vector<ObservedRun>& runs) {
 
 FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& options) {
   std::vector<Thinned> thin;
-  std::vector<ObservedRun> thin_runs;
-  for (const ObservedRun& run : runs) {
+  std::vector<ObservedRun> thin_runs,
+      few = options.robust ? std::vector<ObservedRun>() : means_of_many(runs);
+  for (const ObservedRun& run : few.empty() ? runs : few) {
     thin.push_back(options.robust ? thinned(without_outliers(run), options)
                                   : thinned(run, options));
     thin_runs.push_back(thin.back().run);
@@ -210,9 +211,7 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
       } catch (const Error&) {  // all of the data may do better
       }
   }
-  if (options.robust) return {q, std::move(theta)};
-  if (auto few = means_of_many(runs); !few.empty())
-    theta = approach(unweighted(std::move(few), q), std::move(theta));
+  if (!few.empty()) theta = approach(unweighted(std::move(few), q), std::move(theta));
   return {q, std::move(theta)};
 }
 
