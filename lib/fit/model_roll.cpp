@@ -40,9 +40,11 @@ double way_of(bool position, const std::vector<double>& records, const FitOption
              : 1;
 }
 
+/// These records, with room for one more number.
 std::vector<double> taken(const std::vector<double>& column, const Rows& rows) {
-  std::vector<double> few(rows.size());
-  std::transform(rows.begin(), rows.end(), few.begin(), [&](std::size_t i) { return column[i]; });
+  std::vector<double> few;
+  few.reserve(rows.size() + 1);
+  for (std::size_t i : rows) few.push_back(column[i]);
   return few;
 }
 
