@@ -202,18 +202,17 @@ History compared(History history, FitRun& run) {
   auto last = history.filters.rbegin();
   while (last != history.filters.rend() && last->reach == 0) ++last;
   if (last == history.filters.rend() || last->from == last->to) return history;
-  const auto from = standing_for(run, last->from), to = standing_for(run, last->to);
+  auto off = standing_for(run, last->from), size = standing_for(run, last->to);
   const std::size_t n = run.t.size(), reach = last->reach;
-  if (from.size() != n || to.size() != n || n < 2 * reach + 3) return history;
-  const auto made = last->apply(run.t, from);
-  std::vector<double> off, size;
+  if (off.size() != n || size.size() != n || n < 2 * reach + 3) return history;
+  off = last->apply(run.t, off);
   for (std::size_t i = 0; i < n; ++i) {
-    off.push_back(std::abs(made[i] - to[i]));
-    size.push_back(std::abs(to[i]));
-    if (!std::isfinite(off.back())) return history;  // readings are missing
+    off[i] = std::abs(off[i] - size[i]);
+    size[i] = std::abs(size[i]);
+    if (!std::isfinite(off[i])) return history;  // readings are missing
   }
   // Columns that were rounded by --digits 3 differ by a hundredth; others hardly at all.
-  const double typical = median(off), large = median(size);
+  const double large = median(std::move(size)), typical = median(off);
   const double most = std::max(20 * typical, 1e-6 * large);
   bool inside = !(typical <= 0.05 * large);
   for (std::size_t i = reach; i + reach < n; ++i) inside = inside || off[i] > most;
