@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "contact/uncertain_number.h"
 #include "signal/derivative.h"
 #include "signal/smoother.h"
@@ -179,12 +180,6 @@ History history_of(const std::vector<std::string>& lines, std::span<const double
 
 namespace {
 
-double median(std::vector<double> x) {
-  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
-  std::nth_element(x.begin(), middle, x.end());
-  return *middle;
-}
-
 /// The column of a run that stands for one of its chain; D for the acceleration it was made of.
 std::vector<double> standing_for(const FitRun& run, const std::string& column) {
   if (column == "x") return run.x;
@@ -212,7 +207,8 @@ History compared(History history, FitRun& run) {
     if (!std::isfinite(off[i])) return history;  // readings are missing
   }
   // Columns that were rounded by --digits 3 differ by a hundredth; others hardly at all.
-  const double large = median(std::move(size)), typical = median(off);
+  auto sorted = off;
+  const double large = nth_smallest(size, n / 2), typical = nth_smallest(sorted, n / 2);
   const double most = std::max(20 * typical, 1e-6 * large);
   bool inside = !(typical <= 0.05 * large);
   for (std::size_t i = reach; i + reach < n; ++i) inside = inside || off[i] > most;

@@ -1,6 +1,7 @@
 #include "fit/first_guess.h"
 
 #include "base/error.h"
+#include "base/median.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,9 +35,7 @@ ObservedRun without_outliers(ObservedRun run) {
     const std::size_t first = i < 2 ? 0 : i - 2, end = std::min(i + 3, y.size());
     std::vector<double> near(y.begin() + static_cast<std::ptrdiff_t>(first),
                              y.begin() + static_cast<std::ptrdiff_t>(end));
-    const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
-    std::nth_element(near.begin(), middle, near.end());
-    run.y[i] = *middle;
+    run.y[i] = nth_smallest(near, near.size() / 2);
   }
   return run;
 }

@@ -1,6 +1,7 @@
 #include "fit/minimise.h"
 
 #include "base/error.h"
+#include "base/median.h"
 #include "fit/dot.h"
 #include "fit/triangles.h"
 
@@ -188,9 +189,7 @@ Influence bisquare(double u) {
 double median_scale(std::vector<double> f, std::size_t p) {
   for (double& x : f) x = std::abs(x);
   const std::size_t first = std::min(p, f.size() - 1);
-  const auto middle = f.begin() + static_cast<std::ptrdiff_t>(first + (f.size() - first) / 2);
-  std::nth_element(f.begin(), middle, f.end());
-  return *middle / 0.6745;
+  return nth_smallest(f, first + (f.size() - first) / 2) / 0.6745;
 }
 
 }  // namespace

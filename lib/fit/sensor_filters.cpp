@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "fit/errors.h"
 #include "fit/white_share.h"
 
@@ -50,10 +51,9 @@ bool leave_out_irregular(const std::vector<FitRun>& all, std::vector<Rows>& rows
     for (std::size_t i = 2 * reach; i < t.size(); ++i) spans.push_back(t[i] - t[i - 2 * reach]);
     if (spans.empty()) return false;
     auto sorted = spans;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
     // Half a record more than is usual.
-    const double most = *middle * (1 + 0.25 / static_cast<double>(reach));
+    const double most =
+        nth_smallest(sorted, sorted.size() / 2) * (1 + 0.25 / static_cast<double>(reach));
     std::erase_if(rows[r], [&](std::size_t i) {
       return i < reach || i + reach >= t.size() || spans[i - reach] > most;
     });

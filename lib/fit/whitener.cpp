@@ -1,6 +1,7 @@
 #include "fit/whitener.h"
 
 #include "base/error.h"
+#include "base/median.h"
 #include "fit/dot.h"
 
 #include <algorithm>
@@ -51,9 +52,7 @@ double Covariance::median_norm() const {
   if (n == 0) fail("a run has no record that can be fitted");
   std::vector<double> squares(n);
   for (std::size_t i = 0; i < n; ++i) squares[i] = rows[i * band];
-  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(n / 2);
-  std::nth_element(squares.begin(), middle, squares.end());
-  return std::sqrt(*middle);
+  return std::sqrt(nth_smallest(squares, n / 2));
 }
 
 Whitener::Whitener(Covariance of_E, double floor)
