@@ -43,6 +43,9 @@ class Noise {
   std::vector<std::size_t> sources() const;
 
  private:
+  template <typename Number, typename OfRun>
+  std::vector<double> each(std::span<Number> all, std::size_t columns, OfRun&&) const;
+
   std::vector<FilterMatrix> E_;
   std::vector<Whitener> whiteners_;
 };

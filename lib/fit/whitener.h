@@ -40,8 +40,8 @@ class Whitener {
   double log_size() const;
   /// The trace of R^-T E E^T R^-1: the number of residuals less what the floor takes.
   double trace() const;
-  /// Q^T R^-T E E^T R^-1 Q, for Q of `columns` numbers a row.
-  std::vector<double> middle(std::vector<double> Q, std::size_t columns) const;
+  /// Q^T R^-T E E^T R^-1 Q, for Q of `columns` numbers a row, which is overwritten.
+  std::vector<double> middle(std::span<double> Q, std::size_t columns) const;
 
  private:
   double trace_of_inverse() const;
