@@ -314,6 +314,10 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
   return result;
 }
 
+bool noise_is_correlated(const FitResult& r) {
+  return r.errors == Errors::autocorrelation && r.whiteness <= not_white;
+}
+
 bool logarithms_too_low(const FitResult& r) {
   return r.rms * r.rms / 2 > r.sigma_a / r.a * std::sqrt(1 - r.corr * r.corr) && r.sigma_a > 0;
 }

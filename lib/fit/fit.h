@@ -96,6 +96,11 @@ struct FitResult {
   std::vector<ErrorShare> shares = {};            ///< of the errors, the noise first
 };
 
+/// At so small a significance the noise is not white: of two tests, some 0.6 % of false alarms.
+inline constexpr double not_white = 0.003;
+/// The noise is correlated beyond doubt, and the errors allow for it.
+bool noise_is_correlated(const FitResult&);
+
 /// For a fit by loglog. Noise makes logarithms too low, those of D by rms^2 / 2 on average (to
 /// second order): true if that is more than the standard error of the line at the speed
 /// where it is known best, sigma_a / a sqrt(1 - corr^2).

@@ -249,8 +249,7 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
       row.cover_a += std::abs(a) < 1.96;
       row.cover_b += std::abs(b) < 1.96;
       row.far += std::abs(b) > 6 || std::abs(a) > 6;
-      row.told += r.errors == rolling::Errors::autocorrelation ||
-                  r.errors == rolling::Errors::uneven ||
+      row.told += rolling::noise_is_correlated(r) || r.errors == rolling::Errors::uneven ||
                   (c.route == Route::loglog && rolling::logarithms_too_low(r));
       row.differ += r.agreement && !r.agreement->agree();
       row.sigma_a += r.sigma_a * r.sigma_a;
