@@ -76,7 +76,8 @@ struct Agreement {
 /// What one source of error brings to the standard errors; they are the roots of the sums of the
 /// squares.
 struct ErrorShare {
-  std::string of;  ///< "noise", or the given number: "K", or "K 0.5" where runs have several
+  /// "noise"; the given number, "K", or "K 0.5" where runs have several; the expected "bias"
+  std::string of;
   double a, b;
 };
 
