@@ -111,6 +111,11 @@ std::string disagreement(const FitResult& r, std::span<const std::string> names)
   if (found.b.sigma > 0)
     line += fmt::format(", its b {:.2g} +- {:.1g} {}", std::abs(found.b.value), found.b.sigma,
                         more(found.b.value));
+  std::string given;
+  for (const ErrorShare& share : r.shares)
+    if (share.of != "noise" && share.of != "bias")
+      given += fmt::format("{}{}", given.empty() ? "" : ", ", share.of);
+  if (!given.empty()) line += fmt::format("; this test takes {} as exact", given);
   return line;
 }
 
