@@ -147,7 +147,7 @@ build/fused/bin/%: $(fused_room) build/cmd/%.o build/lib.a
 fused := $(addprefix build/fused/,plain fused bin/smooth bin/differentiate)
 
 check: all build/unit build/shim.so $(target:%=build/replay/%) $(if $(has_fma),$(fused))
-	@PATH="$$PWD/bin:$$PATH" tests/run.sh build/unit
+	@PATH="$$PWD/bin:$$PATH" tests/run.sh build/unit $(TESTS)
 
 # Most of the suite on arm64, through qemu: make setup check-arm64.
 check-arm64: all
@@ -181,6 +181,10 @@ build/fuzzer/%: build/fuzz/%.o build/lib.a
 # A copy of the sources for a build of another kind; what has not changed there is not built again.
 copy = mkdir -p $1 && rm -rf $(addprefix $1/,cmd lib man samples tests) && \
        tar -cf - Makefile README.md cmd lib man samples tests | tar -xf - -C $1
+# There the tests of what the tools do run, with more time for each; those of pages, packages and the
+# sizes of programs do not.
+check_in = $(MAKE) -C $1 check SLOWER=5 \
+           TESTS='tests/tools tests/pipeline/*.sh tests/faults/*.sh tests/house/progress.sh'
 SECONDS ?= 60
 sanitized := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined \
              -fno-sanitize-recover=all
@@ -194,7 +198,7 @@ fuzz:
 # valgrind.
 sanitize: all build/unit $(target:%=build/replay/%)
 	@$(call copy,build/sanitized)
-	$(MAKE) -C build/sanitized check CXXFLAGS="$(sanitized)"
+	+$(call check_in,build/sanitized) CXXFLAGS="$(sanitized)"
 	tests/valgrind.sh
 
 # The names smooth and simulate are common: PROGRAM_PREFIX=roll- installs roll-smooth,
@@ -211,15 +215,15 @@ deb: all
 	cmd/install/deb.sh
 
 # Lines and branches of lib/ that the tests reach; less than every line is an error.
-covered := -O0 -g --coverage -fprofile-update=atomic
+covered := -O0 -g --coverage
 coverage-lines:
 	@$(call copy,build/covered)
 	find build/covered -name '*.gcda' -delete
 	$(MAKE) -C build/covered build/tests/gcov_exit.o CXXFLAGS="$(covered)"
-	$(MAKE) -C build/covered check CXXFLAGS="$(covered)" LDFLAGS=build/tests/gcov_exit.o
+	+$(call check_in,build/covered) CXXFLAGS="$(covered)" LDFLAGS=build/tests/gcov_exit.o
 	gcovr --root build/covered --filter build/covered/lib/ --exclude-throw-branches \
 	  --exclude-unreachable-branches --print-summary -o build/covered/lines.txt --fail-under-line 100 \
-	  build/covered/build || { cat build/covered/lines.txt; exit 1; }
+	  build/covered/build/{lib,cmd,tests} || { cat build/covered/lines.txt; exit 1; }
 
 # Mutants of lib/ and cmd/ that no test notices; half an hour and more.
 MUTANTS ?= 150

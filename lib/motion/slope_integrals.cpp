@@ -14,14 +14,16 @@ namespace rolling {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double far = 42;         // e^-42 does not show in a double
-constexpr double fastest = 300;    // speeds above v0 e^300 are refused
-constexpr double least_b = 1e-19;  // below it D is constant
+constexpr double far = 42;       // a part e^-42 of a sum does not show in a double
+constexpr double fastest = 300;  // speeds above v0 e^300 are refused
+// Below these, numbers count as 0 or are raised to the bound, so that no quotient overflows; the
+// change does not show in a double: v^b is 1 for every speed, and d or net is far below its
+// partner.
+constexpr double least_b = 1e-19, least_slope = 1e-200;
 constexpr double least_net = 1e-100, least_depth = 1e-290;
-constexpr double least_slope = 1e-200;
-constexpr double least_part = 1e-17;             // of the way to the last speed
-constexpr double negligible = 1e-6;              // last speeds below it, as a part of v0, are rest
-constexpr double rest_left = std::numbers::ln2;  // from the stop to a negligible last speed
+constexpr double least_part = 1e-17;  // the panels towards a last speed end at this part of the way
+constexpr double negligible = 1e-6;   // last speeds below it, as a part of v0, count as rest:
+constexpr double rest_left = std::numbers::ln2;  // the stop is at twice the last speed
 // The 16 nodes leave an error below 1e-17 where an exponential function changes by e^12 over the
 // panel, and where the ellipse without singularities is 3.4 times as large as the half panel: a
 // singularity on the line is then 0.85 half panels away from its end, one beside it 1.5.
@@ -37,8 +39,9 @@ SlopeIntegrals::SlopeIntegrals(Geometry geometry, double b, double K, double dep
       sine_(exact_ ? std::abs(slope_) / std::hypot(1, slope_) : std::abs(slope_)),
       way_(depth_ + std::sqrt(arm_square_) * slope_ >= 0 ? 1 : -1), beta_(way_ * b_) {
   crossing_ = b_ == 0 ? infinity : std::log(depth_ / sine_) / beta_;
-  if (b_ != 0 && slope_ < 0)  // for b > 0 the body tends to the speed where net = 0, else it leaves
-    crossing_ = std::copysign(std::max(std::abs(crossing_), 1e-16), b_);  // it
+  // For b > 0 the body tends to the speed where net = 0, for b < 0 it leaves that speed: crossing_
+  // has the sign of b, also where rounding has moved it to the other side of v0.
+  if (b_ != 0 && slope_ < 0) crossing_ = std::copysign(std::max(std::abs(crossing_), 1e-16), b_);
   deep_end_ = b_ == 0 ? infinity : std::log(2 * depth_) / beta_;
 
   double last = horizon(), left = slope_ < 0 ? crossing_ : infinity;
@@ -60,11 +63,14 @@ SlopeIntegrals::SlopeIntegrals(Geometry geometry, double b, double K, double dep
   add_panels(last, left);
   const Panel& end = panels_.back();
   if (end_ == 0) end_ = end.before.time + end.duration;
-  double rest = stops ? 0 : infinity;  // added up from the end: the last panels keep their digits
+  // The time to the stop is summed from the end, so that the last panels keep their digits.
+  double rest = stops ? 0 : infinity;
   for (auto p = panels_.rbegin(); p != panels_.rend(); ++p) p->rest = rest += p->duration;
   stop_ = rest;
 }
 
+/// Panels from v0 to r = last, or until almost nothing is left of the way to the speed where net =
+/// 0.
 void SlopeIntegrals::add_panels(double last, double left) {
   const double least_left = std::min(std::abs(left), 1.0) * least_part;
   for (double r = 0; r < last && std::abs(left) > least_left;) {
@@ -80,33 +86,42 @@ void SlopeIntegrals::add_panels(double last, double left) {
 }
 
 /// r beyond which the time that is left does not show in a double, or which no time reaches.
+///
+/// Where d is larger than the slope's part of net, the time per r changes like e^(-s r), s = 1 - b;
+/// where it is smaller, like e^-r. The two ranges meet at crossing_.
 double SlopeIntegrals::horizon() const {
   if (way_ < 0) return fastest;
   const double s = 1 - b_, crossing = std::max(crossing_, 0.0);
+  // For b >= 1 the body never stops on a level mat: to times of e^600, or the least double of
+  // speed.
   if (slope_ == 0) return s > 0 ? far / s : std::min(745.0, s < 0 ? -2 * fastest / s : infinity);
   if (slope_ < 0) return s > 0 ? far / s : infinity;
-  if (b_ <= 0) return crossing < far && b_ < 0 ? crossing + (far - crossing) / s : far;
-  // The integrand falls like e^(-s r) while D is more than the slope's part, like e^-r afterwards.
+  if (b_ <= 0)  // d grows as the body slows down
+    return crossing < far && b_ < 0 ? crossing + (far - crossing) / s : far;
   return s * crossing >= far ? far / s : crossing + far - std::max(s, 0.0) * crossing;
 }
 
-/// How long a panel may be that begins at r.
+/// How long a panel may be that begins at r: as the fastest exponential decay of an integrand
+/// allows, and the nearest singularity.
 double SlopeIntegrals::width(double r, double left) const {
   const double size = std::abs(b_), s = std::abs(1 - b_);
   const bool past = slope_ > 0 && b_ > 0 && r > crossing_,
              faded = beta_ > 0 && r - crossing_ > 46 / size;  // d is below 1e-20 of the slope's
+  // The factors are E for the time, one E more for the distance (which beyond `far` adds nothing),
+  // and d/net for the derivative by ln a.
   const double decay = way_ < 0 ? 2 + (faded ? 0 : 2 * size)
                        : faded  ? 1 + (r < far ? 1 : 0)
                                 : std::max(s, past ? 1.0 : 0.0) + (r < far ? 1 + size : 0);
   double limit = most_decay / decay;
   if (b_ == 0) return limit;
   if (slope_ != 0) {
+    // net = 0 at crossing_ for S < 0, and at crossing_ +- i pi/b for S > 0.
     const double gap = slope_ < 0 ? left : crossing_ - r;
     limit = std::min(limit, std::max(slope_ > 0 ? behind * std::numbers::pi / size : 0,
                                      gap > 0 ? ahead * gap : -behind * gap));
   }
   if (!exact_) return limit;
-  // Where A is the variable, z = d^2 changes by at most a factor 2: see SpeedPanel.
+  // Where A is the variable, z = d^2 changes by at most a factor 2 = e^(2/3): see SpeedPanel.
   if (beta_ > 0 ? r < deep_end_ : r >= deep_end_) return std::min(limit / 2, 1 / (3 * size));
   const double root = std::log(depth_) / beta_;  // A = 0
   return std::min(limit, root > r ? ahead * (root - r) : behind * (r - root));
@@ -162,6 +177,7 @@ void SlopeIntegrals::quadrature(const Panel& p, double width, Integrand&& integr
       }
     return;
   }
+  // dA/dr = beta z/A with z = d^2 = 1 - A^2, and r from A by ln(z), both without cancellation.
   const double z = 1 - p.A * p.A, rise = -z * std::expm1(-2 * beta_ * width);
   const double slope = rise / (p.A + std::sqrt(std::max(0.0, p.A * p.A + rise)));
   for (const GaussNode& node : gauss_legendre)
@@ -172,17 +188,21 @@ void SlopeIntegrals::quadrature(const Panel& p, double width, Integrand&& integr
     }
 }
 
+/// E (K + A)/|net| at r from the beginning of the panel; E/d in one power, for either may
+/// underflow.
 double SlopeIntegrals::time_per_r(const Panel& p, double r) const {
   const double at = p.r + r, A = arm(at), d = depth_at(at), n = net(d, A, p.left - r);
   return std::exp(-way_ * (1 - b_) * at) / depth_ * (d / n) * (K_ + A);
 }
 
+/// The time over the first `r` of the panel.
 double SlopeIntegrals::local_time(const Panel& p, double r) const {
   double sum = 0;
   quadrature(p, r, [&](const Node& n) { sum += n.by_d * (n.d / n.net) * (K_ + n.A) * n.dr; });
   return sum;
 }
 
+/// All integrals over the first `width` of the panel.
 SlopeIntegrals::Sums SlopeIntegrals::local(const Panel& p, double width, Wanted wanted) const {
   Sums sum;
   quadrature(p, width, [&](const Node& n) {
@@ -231,7 +251,7 @@ SlopeIntegrals::Place SlopeIntegrals::place(double time, double rest) const {
       fail("the speed has grown by a factor e^{}", fastest);
     return {i, p.width, after == panels_.end() && last_speed_ > 0 ? since - p.duration : 0};
   }
-  // The integrand is nearly an exponential function.
+  // The first guess takes the time per r for an exponential function between the panel's ends.
   const double q = p.decay * since / p.begin,
                start = std::abs(q) < 1e-8 ? since / p.begin : -std::log1p(-q) / p.decay;
   const double r = increasing_root(

@@ -13,6 +13,8 @@ namespace rolling {
 
 namespace {
 
+// Between two points of the table the law is a cubic, and a quarter of a piece is a panel on which
+// 16 nodes reach 1e-15. On a falling mat panels are halved, to 2^-30 of their first width.
 constexpr int panels_in_a_piece = 4;
 constexpr int most_halvings = 30;
 
@@ -51,8 +53,9 @@ TableRoll::TableRoll(const Body& body, Geometry geometry, TableLaw law, double v
   }
 }
 
-/// Panels from the last one down to the speed `to`. On a falling slope the integrand has poles near
-/// the speeds that the mat hardly slows: panels are halved until the halves agree with the whole.
+/// Adds panels from the last speed down to `to`. On a falling mat the integrand has poles near the
+/// speeds at which the law almost balances the slope: there a panel is halved until its halves
+/// agree with the whole.
 void TableRoll::add_panels(double to, int halvings) {
   const Panel last = panels_.back();
   const Integrals whole = integrals(last.v, to);
@@ -68,6 +71,7 @@ void TableRoll::add_panels(double to, int halvings) {
   panels_.push_back({to, last.time + whole.time, last.distance + whole.distance});
 }
 
+/// dt/du [s^2/m] at the speed v, positive: time and distance are its integrals over speed (Eq. 12).
 double TableRoll::inverse_acceleration(double v) const {
   return -1 / acceleration_from_shift(body_, geometry_, law_(v));
 }
@@ -94,7 +98,7 @@ void TableRoll::seek(double t) {
                                       [](double time, const Panel& p) { return time < p.time; });
   panel_ = static_cast<std::size_t>(after - panels_.begin()) - 1;
   const Panel &begin = panels_[panel_], &end = panels_[panel_ + 1];
-  // Newton's method; the time is nearly a line in v within a panel.
+  // Newton's method from the straight line between the ends of the panel.
   v_ = begin.v + (end.v - begin.v) * (t - begin.time) / (end.time - begin.time);
   for (int i = 0; i < 20; ++i) {
     const double step = (integrals(begin.v, v_).time - (t - begin.time)) / inverse_acceleration(v_);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// D(v0)/R and 1 - (D(v0)/R)^2, without cancellation.
+/// D(v0)/R and 1 - (D(v0)/R)^2, the latter without cancellation where D is near R.
 struct Depth {
   double ratio, arm_square;
 };
@@ -132,7 +132,9 @@ Trajectory::Point Trajectory::at(double t, Wanted wanted) const {
   if (incline_) return on_slope(t, wanted);
   const double lambda = log_ratio(t), a = law_.a, log_v0 = log_v0_;
   if (lambda == infinity) return stopped_;
-  if (lambda < 1e-100) {  // unit_ may be infinite, lambda^2 be 0: a speed that hardly changes
+  // The speed hardly changes: the limit for lambda -> 0, where lambda^2 underflows and unit_ may be
+  // infinite.
+  if (lambda < 1e-100) {
     const double A = arm_factor(body_, geometry_, law_(v0_)), K = body_.K;
     const double dv_da = -body_.g / body_.R * std::pow(v0_, law_.b) * t * (K + 1 / A) /
                          ((K + A) * (K + A)),
@@ -192,8 +194,8 @@ Trajectory::Point Trajectory::point_of(SlopeIntegrals::Place place, Wanted wante
   return point;
 }
 
-// With w = (v/v0)^s = 1 - s t/unit all of the above are powers: h0 is t/unit, and the rate e^(-b
-// lambda) = (v/v0)/w.
+// For A = 1 on a level mat, Eq. 13: with s = 1 - b and w = (v/v0)^s = 1 - s t/unit the integral h0
+// is t/unit, and the rate e^(-b lambda) is (v/v0)/w.
 Trajectory::Point Trajectory::speed_at(double t) const {
   if (incline_) return at(t, Wanted::speed);
   const double s = 1 - law_.b, rest = stop_time_ - t, time = t / unit_;
