@@ -217,12 +217,6 @@ void report_coefficients(LawFit& result, const Records& records, const Candidate
     values.clear();
     fit.system = records.system(*found.law);
     fit.minimum = found.minimum;
-    const bool known = fit.noise->known() && !fit.noise_inferred;
-    if (known && fit.noise->weighted()) {
-      fit.sources = fit.noise->explain(found.minimum.f);
-      fit.innovation_runs.clear();
-      fit.innovations = fit.noise->innovations(found.minimum.f, fit.innovation_runs);
-    }
     const LawInUnits law = records.in_units(*found.law);
     for (std::size_t j = 0; j < law.size(); ++j) {
       Quantity q{0, std::vector<double>(fit.system.columns())};

@@ -332,11 +332,11 @@ void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<
   } catch (const Error&) {  // there is no such roll
     return;
   }
-  line.noise_variance = noise_variance(roll);
-  line.sources = std::move(roll.sources);
-  line.source_runs = std::move(roll.source_runs);
-  line.innovations = std::move(roll.innovations);
-  line.innovation_runs = std::move(roll.innovation_runs);
+  RawNoise& of_roll = line.raw_noise.emplace();
+  of_roll.variance = noise_variance(roll);
+  of_roll.sources = roll.noise->explain(roll.minimum.f);
+  of_roll.source_runs = roll.noise->sources();
+  of_roll.innovations = roll.noise->innovations(roll.minimum.f, of_roll.innovation_runs);
   roll.system = {}, roll.noise = {};  // its weights are large
   std::vector<FilterMatrix> noise;
   std::vector<double> bias;
@@ -350,7 +350,7 @@ void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<
       return run.way * shift_from_acceleration(by.body, by.geometry, run.way * a);
     };
     Logarithms of_run = logarithms_of(D[r], v[r], raw, rows[r], {roll.a.value, roll.b.value}, shift,
-                                      std::sqrt(*line.noise_variance));
+                                      std::sqrt(of_roll.variance));
     noise.push_back(std::move(of_run.noise));
     bias.insert(bias.end(), of_run.bias.begin(), of_run.bias.end());
   }
