@@ -128,13 +128,13 @@ bool rounded(const Fitted& fit) {
 /// most likely.
 void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   if (!rounded(fit)) return;
+  fit.system = {}, fit.noise = {};  // these are large, and so is what the search needs
   const WhiteShare found =
       most_likely_share(fit.rolls, fit.minimum.theta, floor_share, 1, floor_share);
-  if (!found.decisive()) return;
-  fit.white_share = found.share;
+  if (found.decisive()) fit.white_share = found.share;
   fit.noise = noise_of(fit.rolls->runs(), fit.white_share);
   fit.system = system_of(fit.rolls, fit.noise);
-  fit.minimum = solve(fit.system, fit.minimum.theta, options, true);
+  if (found.decisive()) fit.minimum = solve(fit.system, fit.minimum.theta, options, true);
 }
 
 }  // namespace
