@@ -32,8 +32,7 @@ ObservedRun without_outliers(ObservedRun run) {
   const std::vector<double> y = run.y;
   for (std::size_t i = 0; i < y.size(); ++i) {
     const std::size_t first = i < 2 ? 0 : i - 2, end = std::min(i + 3, y.size());
-    std::vector<double> near(y.begin() + static_cast<std::ptrdiff_t>(first),
-                             y.begin() + static_cast<std::ptrdiff_t>(end));
+    std::vector<double> near(&y[first], &y[first] + (end - first));
     const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
     std::nth_element(near.begin(), middle, near.end());
     run.y[i] = *middle;

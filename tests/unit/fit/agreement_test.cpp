@@ -147,3 +147,42 @@ TEST_CASE("agreement: where runs disagree, a and b are correlated as they scatte
   CHECK(r.corr < -0.9);
   CHECK(r.corr >= -1);
 }
+
+// Two rolls up and two down: by_slope is then the mean of the four, the slope is found, and the
+// scatter of 2 % from run to run remains in a alone.
+TEST_CASE("agreement: the errors allow for scatter from run to run beside a slope", "[fit]") {
+  simulated::Noise noise(36);
+  FitOptions options;
+  options.fit_slope = true;
+  int a = 0, b = 0, told = 0;
+  for (int k = 0; k < 200; ++k) {
+    std::vector<FitRun> runs;
+    for (const double way : {1, -1, 1, -1})
+      runs.push_back(roll({felt.a * (1 + noise(0.02)), felt.b}, 1e-3, way, noise));
+    const auto r = fit(Route::position, runs, options);
+    REQUIRE(r.agreement);
+    CHECK(r.agreement->dof == 5);
+    a += std::abs(r.a - felt.a) < 1.96 * r.sigma_a;
+    b += std::abs(r.b - felt.b) < 1.96 * r.sigma_b;
+    told += !r.agreement->agree();
+  }
+  CAPTURE(a, b);
+  CHECK(told == 200);
+  for (int covered : {a, b}) {
+    CHECK(covered >= 178);  // fewer of 95 % by chance in 0.02 %
+    CHECK(covered <= 199);
+  }
+}
+
+// --min-speed leaves the records out that are slower in the fitted roll, the joint one or the run's
+// own: the two need not have the same records.
+TEST_CASE("agreement: runs that disagree are told where slow records are left out", "[fit]") {
+  simulated::Noise noise(37);
+  FitOptions options;
+  options.min_speed = 0.1;
+  const std::vector<FitRun> runs{roll(rubber, 0, 1, noise), roll({2.4e-3, 0.215}, 0, 1, noise)};
+  const auto r = fit(Route::position, runs, options);
+  REQUIRE(r.agreement);
+  CHECK_FALSE(r.agreement->agree());
+  CHECK(std::abs(r.agreement->log_D.value) == Approx(std::log(2.4 / 1.87)).epsilon(0.05));
+}

@@ -96,3 +96,15 @@ TEST_CASE("beginning: in columns of known filters the test for white residuals s
     CHECK((fit(Route::shift, {run}, {}).whiteness < 0.005) == (hand > 0));
   }
 }
+
+// Speeds of a roll of five records and a long rest: without the five nothing determines the roll.
+TEST_CASE("beginning: records that alone determine the roll cannot be tested", "[fit]") {
+  simulated::Noise noise(8);
+  FitRun run{};
+  run.body = cylinder;
+  for (int i = 0; i < 60; ++i) {
+    run.t.push_back(0.1 * i);
+    run.v.push_back(std::max(0.0, 0.05 - 0.1 * run.t.back()) + noise(1e-3));
+  }
+  CHECK_FALSE(disturbed_beginning(Route::velocity, {run}, {}));
+}
