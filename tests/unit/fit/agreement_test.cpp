@@ -148,8 +148,8 @@ TEST_CASE("agreement: where runs disagree, a and b are correlated as they scatte
   CHECK(r.corr >= -1);
 }
 
-// Two rolls up and two down: by_slope is then the mean of the four, the slope is found, and the
-// scatter of 2 % from run to run remains in a alone.
+// Of three rolls up and one down the mean of a hangs on the slope, which is found from their
+// scatter.
 TEST_CASE("agreement: the errors allow for scatter from run to run beside a slope", "[fit]") {
   simulated::Noise noise(36);
   FitOptions options;
@@ -157,7 +157,7 @@ TEST_CASE("agreement: the errors allow for scatter from run to run beside a slop
   int a = 0, b = 0, told = 0;
   for (int k = 0; k < 200; ++k) {
     std::vector<FitRun> runs;
-    for (const double way : {1, -1, 1, -1})
+    for (const double way : {1, 1, 1, -1})
       runs.push_back(roll({felt.a * (1 + noise(0.02)), felt.b}, 1e-3, way, noise));
     const auto r = fit(Route::position, runs, options);
     REQUIRE(r.agreement);
