@@ -26,12 +26,16 @@ struct ShiftRecords {
 ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& options,
                            bool logarithms) {
   ShiftRecords records;
+  std::size_t most = 0;
+  for (const auto& run : all) most += run.v.size();
+  records.D.reserve(most), records.log_u.reserve(most);
   for (const auto& run : all) {
     double sum = 0;
     for (double v : run.v)
       if (std::isfinite(v)) sum += v;
     const double way = sum < 0 ? -1 : 1;
     Rows rows;
+    rows.reserve(run.v.size());
     for (std::size_t i = 0; i < run.v.size(); ++i) {
       const double v = way * run.v[i], D = way * run.D[i];
       if (!(std::isfinite(v) && std::isfinite(D) && v > 0 && v >= options.min_speed) ||
