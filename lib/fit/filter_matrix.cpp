@@ -59,14 +59,6 @@ void FilterMatrix::row(std::size_t i, Row& to) const {
   }
 }
 
-double FilterMatrix::times(std::size_t i, std::span<const double> x) const {
-  Row here;
-  row(i, here);
-  double sum = 0;
-  for (std::size_t j = 0; j < here.values.size(); ++j) sum += here.values[j] * x[here.first + j];
-  return sum;
-}
-
 std::vector<double> FilterMatrix::times(std::span<const double> x) const {
   FilterPass pass(*this, 1);
   std::vector<double> all;

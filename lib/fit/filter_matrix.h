@@ -36,8 +36,6 @@ class FilterMatrix {
   };
   /// Writes row i; whoever asks for row after row gives the same place again.
   void row(std::size_t i, Row& to) const;
-  /// Element i of the product with x.
-  double times(std::size_t i, std::span<const double> x) const;
   std::vector<double> times(std::span<const double> x) const;
   /// The product of the transposed matrix with X, of `columns` numbers a row.
   std::vector<double> transposed_times(std::span<const double> X, std::size_t columns = 1) const;

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "base/golden_section.h"
 #include "fit/eccentricity.h"
 #include "fit/agreement.h"
 #include "fit/dot.h"
@@ -15,6 +14,7 @@
 #include "fit/given_numbers.h"
 #include "fit/model_shift.h"
 #include "fit/sensor_filters.h"
+#include "fit/white_share.h"
 
 namespace rolling {
 
@@ -132,17 +132,10 @@ bool rounded(const Fitted& fit) {
 /// most likely.
 void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   if (!rounded(fit)) return;
-  constexpr double decisive = 3;  // in ln of the likelihood: noise of the filters alone gains as
-                                  // much once in a hundred records
-  const auto likelihood = [&](double log_share) {
-    const auto noise = noise_of(fit.rolls->runs(), std::exp(log_share));
-    return restricted_likelihood(system_of(fit.rolls, noise), fit.minimum.theta) -
-           noise->log_size();
-  };
-  const double least = std::log(floor_share);
-  const Largest found = golden_section(least, 0, 0.1, likelihood);
-  if (found.value < likelihood(least) + decisive) return;
-  fit.white_share = std::exp(found.at);
+  const WhiteShare found =
+      most_likely_share(fit.rolls, fit.minimum.theta, floor_share, 1, floor_share);
+  if (!found.decisive()) return;
+  fit.white_share = found.share;
   fit.noise = noise_of(fit.rolls->runs(), fit.white_share);
   fit.system = system_of(fit.rolls, fit.noise);
   fit.minimum = solve(fit.system, fit.minimum.theta, options, true);

@@ -194,6 +194,10 @@ Candidate fit_law(const Records& records, const Law& law, const std::vector<Cand
     }
   }
   std::sort(starts.begin(), starts.end());
+  const auto same = [](const auto& x, const auto& y) {
+    return y.first - x.first <= 1e-9 * x.first;
+  };
+  starts.erase(std::unique(starts.begin(), starts.end(), same), starts.end());
   Candidate best{&law, none, {}};
   const auto try_from = [&](const std::vector<double>& theta) {
     if (Minimum m = minimum_or_none(system, theta); m.rss < best.minimum.rss)

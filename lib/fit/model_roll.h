@@ -104,11 +104,15 @@ class Residuals {
     double* slopes;
     std::size_t stride;
   };
-  Place place();
+  Place place() {
+    if (!filters_) return {&f_[k_], &J_[k_], f_.size()};
+    return {filters_->place(), filters_->place() + 1, 1};
+  }
   /// Takes what stands at the place.
   void push();
 
  private:
+  void begin_rows();
   void hand_over();
 
   const ObservedRun& run_;
