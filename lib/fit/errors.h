@@ -28,9 +28,9 @@ struct Uncertainty {
 };
 
 /// The errors are those of the known filters (exact sandwich), or the classical ones. Where the
-/// noise of 30 or more records is not white at 1 % (Ljung-Box), they are those of its
-/// autocorrelation (Newey-West); where it is of uneven size at 1 %, HC3. For known filters the
-/// noise that is tested is that of the raw column.
+/// noise of 30 or more records is not white (Ljung-Box) they are those of its autocorrelation
+/// (Newey-West), at 10 % already if neighbours go along; where it is of uneven size at 1 %, HC3.
+/// For known filters the noise that is tested is that of the raw column.
 Uncertainty uncertainty_of(const Fitted&);
 
 /// What the noise brings to the errors of the numbers that are reported.

@@ -300,11 +300,18 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
   const auto eccentricity = eccentricity_of(route, runs, found, uncertainty.variance);
   const auto agreement = agreement_of(route, runs, options, noise, found);
   require_determined(result_of(found, noise, {}), options.fit_slope);
-  FitResult result = result_of(found, noise, moved_by_given(route, runs, options, found));
+  auto moved = moved_by_given(route, runs, options, found);
+  if (found.bias_a != 0 || found.bias_b != 0)
+    moved.push_back({"bias", found.bias_a, found.bias_b, 0, {}});
+  FitResult result = result_of(found, noise, moved);
   if (route != Route::velocity && route != Route::position) result.v0 = result.sigma_v0 = {};
   result.agreement = agreement;
   result.eccentricity = eccentricity;
   return result;
+}
+
+bool noise_is_correlated(const FitResult& r) {
+  return r.errors == Errors::autocorrelation && r.whiteness <= not_white;
 }
 
 bool logarithms_too_low(const FitResult& r) {

@@ -36,6 +36,7 @@ struct Fitted {
   double rss = 0;  ///< sum of the squares of model - data in the unit of the fitted column
   std::size_t records = 0, left_out = 0;
   Quantity a = {}, b = {};
+  double bias_a = 0, bias_b = 0;                ///< of these values, as far as it is known
   std::optional<Quantity> slope = {};           ///< where it is a parameter
   std::vector<Quantity> v0 = {};                ///< one a run, if the model is a roll
   std::shared_ptr<const RollModel> rolls = {};  ///< the model, if it is a roll

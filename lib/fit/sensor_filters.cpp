@@ -91,7 +91,8 @@ std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const FitO
     if (!leave_out_irregular(all, regular, reach)) return {};
     Fitted fit = fit_rolls(Route::velocity, all, std::move(regular), making_by(*maker.filter, all),
                            options, maker.white.share);
-    if (uncertainty_of(fit).kind == Errors::differences) return fit;
+    const Uncertainty found = uncertainty_of(fit);
+    if (found.whiteness > not_white && found.kind != Errors::uneven) return fit;
   } catch (const Error&) {  // too few records, or no minimum
   }
   return {};

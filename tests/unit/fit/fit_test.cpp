@@ -26,6 +26,29 @@ TEST_CASE("fit: correlated residuals are noticed, and the errors grow", "[fit]")
   CHECK(covered < runs);
 }
 
+// Of 60 records with a correlation of a half one in five does not show it beyond doubt.
+TEST_CASE("fit: the errors allow for a correlation that is not sure enough for a warning",
+          "[fit]") {
+  simulated::Noise noise(6);
+  int silent = 0, covered = 0;
+  for (int k = 0; k < 1000; ++k) {
+    FitRun run{};
+    double error = noise(0.115);
+    for (int i = 0; i < 60; ++i) {
+      const double v = 0.1 + 0.015 * i;
+      error = 0.5 * error + noise(0.1);
+      run.v.push_back(v);
+      run.D.push_back(2 * std::sqrt(v) + error);
+    }
+    const auto r = fit(Route::shift, {run}, {});
+    if (noise_is_correlated(r)) continue;
+    ++silent;
+    covered += std::abs(r.b - 0.5) < 1.96 * r.sigma_b;
+  }
+  CHECK(silent > 100);
+  CHECK(covered > 0.74 * silent);  // 173 of 220; with errors of white noise 149
+}
+
 TEST_CASE("fit: fewer than 30 records have classical errors, whatever their residuals", "[fit]") {
   FitRun run{};
   for (int i = 1; i < 30; ++i)
