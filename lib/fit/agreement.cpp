@@ -180,33 +180,35 @@ Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, bool 
 Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitted>>& own) {
   Fitted fit = joint;
   fit.minimum.f.clear();
-  fit.sources.clear();
-  fit.innovations.clear();
-  double rss = 0, variance = 0;
+  RawNoise raw{};
+  double rss = 0;
   std::size_t p = 0;
-  const auto append = [](std::vector<double>& to, const std::vector<double>& more) {
+  const auto append = [](auto& to, const auto& more) {
     to.insert(to.end(), more.begin(), more.end());
   };
   for (const auto& one : own) {
-    if (!one) return joint;
+    if (!one || one->raw_noise.has_value() != joint.raw_noise.has_value()) return joint;
     append(fit.minimum.f, one->minimum.f);
-    append(fit.sources, one->sources);
-    append(fit.innovations, one->innovations);
     rss += one->minimum.rss;
-    variance += one->noise_variance.value_or(0) / static_cast<double>(own.size());
     p += one->minimum.theta.size();
+    if (!one->raw_noise) continue;
+    raw.variance += one->raw_noise->variance / static_cast<double>(own.size());
+    append(raw.sources, one->raw_noise->sources);
+    append(raw.source_runs, one->raw_noise->source_runs);
+    append(raw.innovations, one->raw_noise->innovations);
+    append(raw.innovation_runs, one->raw_noise->innovation_runs);
   }
   const std::size_t n = joint.minimum.f.size();
-  if (fit.minimum.f.size() != n || fit.sources.size() != joint.sources.size() ||
-      fit.innovations.size() != joint.innovations.size() || n <= p)
+  if (fit.minimum.f.size() != n || n <= p ||
+      (joint.raw_noise && raw.source_runs != joint.raw_noise->source_runs))
     return joint;
   // So many parameters more have been fitted.
   const double more =
       static_cast<double>(n - joint.minimum.theta.size()) / static_cast<double>(n - p);
-  for (auto* of_noise : {&fit.minimum.f, &fit.sources})
+  for (auto* of_noise : {&fit.minimum.f, &raw.sources})
     for (double& x : *of_noise) x *= std::sqrt(more);
   fit.minimum.rss = rss * more;
-  if (fit.noise_variance) fit.noise_variance = variance;
+  if (fit.raw_noise) fit.raw_noise = std::move(raw);
   return fit;
 }
 

@@ -188,8 +188,8 @@ std::vector<double> squares_of(std::span<const double> u, std::size_t q,
 
 /// theta - truth = -R^-1 sum B(s) e(s) over the sources s of noise e.
 struct Sources {
-  const std::vector<double>& e;  // their estimated noise
-  const std::vector<std::size_t>& runs;
+  std::vector<double> e;  // their estimated noise
+  std::vector<std::size_t> runs;
   std::vector<double> B;  // a row of q numbers for each
 };
 
@@ -198,20 +198,23 @@ bool filters_known(const Fitted& fit) { return fit.noise->known() && !fit.noise_
 Sources sources_of(const Fitted& fit) {
   std::vector<double> Q = orthonormal(fit.system, fit.minimum);
   if (!filters_known(fit)) return {fit.minimum.f, fit.system.runs, std::move(Q)};
-  return {fit.sources, fit.source_runs, fit.noise->through(std::move(Q), fit.system.columns())};
+  auto B = fit.noise->through(std::move(Q), fit.system.columns());
+  if (fit.raw_noise) return {fit.raw_noise->sources, fit.raw_noise->source_runs, std::move(B)};
+  return {fit.noise->explain(fit.minimum.f), fit.noise->sources(), std::move(B)};
 }
 
 /// B^T B of each run, B of the sources.
 std::vector<double> middle_of(const Fitted& fit) {
   const std::size_t q = fit.system.columns();
   if (fit.noise->weighted()) return fit.noise->middle(orthonormal(fit.system, fit.minimum), q);
-  return squares_of(sources_of(fit).B, q, fit.source_runs);
+  const Sources from = sources_of(fit);
+  return squares_of(from.B, q, from.runs);
 }
 
 /// f f^T is on average the variance times A A^T, A = W E, of which the fit has taken the part along
 /// Q: tr((I - Q Q^T) A A^T) = tr A A^T - |B|^2.
 double variance_of(const Fitted& fit, const std::vector<double>& middle) {
-  if (fit.noise_variance) return *fit.noise_variance;
+  if (fit.raw_noise) return fit.raw_noise->variance;
   const std::size_t q = fit.system.columns();
   double taken = 0;
   for (std::size_t i = 0; i < middle.size(); ++i)
@@ -259,12 +262,22 @@ Uncertainty uncertainty_of(const Fitted& fit) {
   const auto& R = fit.minimum.R;
   if (n <= p) return {Errors::none, nan, nan, {R, std::vector<double>(R.size(), nan), q}};
   const bool known = filters_known(fit);
-  const auto& tested = known ? fit.innovations : fit.minimum.f;
-  const auto& runs = known ? fit.innovation_runs : fit.system.runs;
-  const double whiteness = ljung_box(tested, p, runs);
+  double whiteness = 1;
   Errors kind =
       known ? Errors::filters : (fit.noise_inferred ? Errors::differences : Errors::classical);
-  if (n >= 30) kind = errors_of(tested, runs, whiteness, kind);
+  const auto test = [&](std::span<const double> noise, std::span<const std::size_t> runs) {
+    whiteness = ljung_box(noise, p, runs);
+    if (n >= 30) kind = errors_of(noise, runs, whiteness, kind);
+  };
+  if (!known) {
+    test(fit.minimum.f, fit.system.runs);
+  } else if (fit.raw_noise) {
+    test(fit.raw_noise->innovations, fit.raw_noise->innovation_runs);
+  } else {
+    std::vector<std::size_t> runs;
+    const auto innovations = fit.noise->innovations(fit.minimum.f, runs);
+    test(innovations, runs);
+  }
 
   const double plain = fit.minimum.rss / static_cast<double>(n - p);
   if (kind == Errors::classical || kind == Errors::differences)

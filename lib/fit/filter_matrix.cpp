@@ -92,24 +92,6 @@ std::vector<double> FilterMatrix::transposed_times(std::span<const double> X,
   return all;
 }
 
-BandMatrix FilterMatrix::last_factors(std::size_t from) const {
-  if (from == factors_.size())
-    return BandMatrix::identity(from > 0 ? factors_.back()->rows() : columns_);
-  BandMatrix product = *factors_.back();
-  for (std::size_t f = factors_.size() - 1; f-- > from;) product = product * *factors_[f];
-  return product;
-}
-
-FilterMatrix::Split FilterMatrix::split(const FilterMatrix& other) const {
-  std::size_t same = 0;
-  while (same < std::min(factors_.size(), other.factors_.size()) &&
-         factors_[same] == other.factors_[same])
-    ++same;
-  FilterMatrix shared(columns_);
-  shared.factors_.assign(factors_.begin(), factors_.begin() + static_cast<std::ptrdiff_t>(same));
-  return {std::move(shared), last_factors(same), other.last_factors(same)};
-}
-
 FilterPass::FilterPass(const FilterMatrix& H, std::size_t columns)
     : H_(H), stride_((columns + 1) / 2 * 2), raw_(stride_), last_(stride_) {
   constexpr std::size_t room = 256;  // rows between two moves to the front

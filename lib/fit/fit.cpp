@@ -91,21 +91,17 @@ void report(Fitted& fit, const std::vector<double>& theta) {
   }
 }
 
-/// What the residuals tell of the noise; and their sum of squares as they stand.
-void explain(Fitted& fit) {
-  fit.rss = fit.minimum.rss;
-  if (!fit.noise->known()) return;
-  fit.rss = 0;
+/// The sum of the squares of the residuals as they stand.
+double squares_of(const Fitted& fit) {
+  if (!fit.noise->known()) return fit.minimum.rss;
+  double sum = 0;
   const auto plain = fit.noise->without_weights(fit.minimum.f);
   const double* f = plain.data();
   for (const ObservedRun& run : fit.rolls->runs()) {
-    fit.rss += dot(f, f, run.records()) * run.unit * run.unit;
+    sum += dot(f, f, run.records()) * run.unit * run.unit;
     f += run.y.size();
   }
-  if (fit.noise_inferred) return;
-  fit.sources = fit.noise->explain(fit.minimum.f);
-  fit.source_runs = fit.noise->sources();
-  fit.innovations = fit.noise->innovations(fit.minimum.f, fit.innovation_runs);
+  return sum;
 }
 
 void find_minimum(Fitted& fit, std::vector<ObservedRun> runs, const FirstGuess& start,
@@ -153,7 +149,7 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   fit.white_share = joint.white_share;
   find_minimum(fit, {std::move(run)}, {all.of_one_run(), all.theta_of_run(theta, r)}, options);
   report(fit, fit.minimum.theta);
-  explain(fit);
+  fit.rss = squares_of(fit);
   return fit;
 }
 
@@ -184,7 +180,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
   }
   allow_for_rounding(fit, options);
   report(fit, fit.minimum.theta);
-  explain(fit);
+  fit.rss = squares_of(fit);
   for (const FitRun& run : all) fit.left_out += run.t.size();
   fit.left_out -= fit.records;
   return fit;

@@ -267,40 +267,45 @@ struct Logarithms {
   std::vector<double> bias;  ///< of the same: by how much it is above ln a on average
 };
 
+/// x X + y Y.
+void add(double x, const FilterMatrix::Row& X, double y, const FilterMatrix::Row& Y,
+         FilterMatrix::Row& sum) {
+  sum.first = std::min(X.first, Y.first);
+  sum.values.assign(std::max(X.end(), Y.end()) - sum.first, 0);
+  for (std::size_t j = X.first; j < X.end(); ++j)
+    sum.values[j - sum.first] += x * X.values[j - X.first];
+  for (std::size_t j = Y.first; j < Y.end(); ++j)
+    sum.values[j - sum.first] += y * Y.values[j - Y.first];
+}
+
 /// Of a roll under the law, which these filters make of this raw column along the way of the body;
 /// `sigma` is the size of the raw noise. Smoothing bends the curve, and noise has a logarithm that
 /// is too low and spreads less than the noise over its mean.
 Logarithms logarithms_of(const FilterMatrix& D, const FilterMatrix& v,
                          const std::vector<double>& raw, const Rows& rows, PowerLaw law,
                          const std::function<double(double)>& shift, double sigma) {
-  const FilterMatrix::Split parts = D.split(v);
   const auto as = D.times(raw), vs = v.times(raw);
-  std::vector<double> by_D, by_v, bias;
+  BandMatrix E;
+  E.reserve(rows.size(), 0);
+  std::vector<double> bias;
+  bias.reserve(rows.size());
+  FilterMatrix::Row of_D, of_v, row;
+  LogarithmOfNoise logarithm;
   for (std::size_t i : rows) {
     constexpr double step = 1e-4;
-    const double here = shift(as[i]);
-    by_D.push_back(here > 0 ? (shift((1 - step) * as[i]) / here - 1) / (step * as[i]) : 1e100);
-    by_v.push_back(vs[i] > 0 ? law.b / vs[i] : 0);
-    bias.push_back(here > 0 && vs[i] > 0 ? std::log(here / law(vs[i])) : 0);
+    const double a_i = as[i], v_i = vs[i], here = shift(a_i);
+    D.row(i, of_D), v.row(i, of_v);
+    add(here > 0 ? (shift((1 - step) * a_i) / here - 1) / (step * a_i) : 1e100, of_D,
+        v_i > 0 ? law.b / v_i : 0, of_v, row);
+    const double s =
+        sigma * std::sqrt(dot(row.values.data(), row.values.data(), row.values.size()));
+    const Estimate of_noise = s > 0 && std::isfinite(s) ? logarithm(s) : Estimate{};
+    for (double& x : row.values) x *= of_noise.sigma > 0 ? of_noise.sigma / s : 0;
+    E.append(row.first, row.values);
+    bias.push_back(here > 0 && v_i > 0 ? std::log(here / law(v_i)) : 0);
+    if (here > 0) bias.back() += of_noise.value;
   }
-  const auto shrunk = [&](const std::vector<double>& by) {
-    BandMatrix E;
-    E.reserve(rows.size(), 0);
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      E.append(rows[k], by_D[k] * by[k], parts.left, by_v[k] * by[k], parts.right);
-    return parts.shared.then(std::move(E));
-  };
-  std::vector<double> by = row_norms(shrunk(std::vector<double>(rows.size(), 1.0)));
-  LogarithmOfNoise logarithm;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const double s = sigma * by[k];
-    by[k] = 0;
-    if (!(s > 0 && std::isfinite(s))) continue;
-    const Estimate of_noise = logarithm(s);
-    by[k] = of_noise.sigma / s;
-    if (by_D[k] < 1e100) bias[k] += of_noise.value;
-  }
-  return {shrunk(by), std::move(bias)};
+  return {FilterMatrix::identity(raw.size()).then(std::move(E)), std::move(bias)};
 }
 
 /// What biases of the points make of a and b of the line through them.
@@ -331,11 +336,11 @@ void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<
   } catch (const Error&) {  // there is no such roll
     return;
   }
-  line.noise_variance = noise_variance(roll);
-  line.sources = std::move(roll.sources);
-  line.source_runs = std::move(roll.source_runs);
-  line.innovations = std::move(roll.innovations);
-  line.innovation_runs = std::move(roll.innovation_runs);
+  RawNoise& of_roll = line.raw_noise.emplace();
+  of_roll.variance = noise_variance(roll);
+  of_roll.sources = roll.noise->explain(roll.minimum.f);
+  of_roll.source_runs = roll.noise->sources();
+  of_roll.innovations = roll.noise->innovations(roll.minimum.f, of_roll.innovation_runs);
   roll.system = {}, roll.noise = {};  // its weights are large
   std::vector<FilterMatrix> noise;
   std::vector<double> bias;
@@ -349,7 +354,7 @@ void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<
       return run.way * shift_from_acceleration(by.body, by.geometry, run.way * a);
     };
     Logarithms of_run = logarithms_of(D[r], v[r], raw, rows[r], {roll.a.value, roll.b.value}, shift,
-                                      std::sqrt(*line.noise_variance));
+                                      std::sqrt(of_roll.variance));
     noise.push_back(std::move(of_run.noise));
     bias.insert(bias.end(), of_run.bias.begin(), of_run.bias.end());
   }
