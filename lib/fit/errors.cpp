@@ -281,7 +281,7 @@ Uncertainty uncertainty_of(const Fitted& fit) {
     const bool by_leverage = kind == Errors::uneven && !known;
     if (by_leverage) correct_for_leverage(from, q, scores);
     M = kind == Errors::uneven ? squares_of(scores, q, from.runs)
-                               : newey_west(scores, p, from.e, from.runs);
+                               : newey_west(scores, p + fit.means_taken, from.e, from.runs);
     // The noise that the residuals show is smaller than it is by what the fit has taken.
     const auto sources = static_cast<double>(from.e.size());
     const double shown = dot(from.e.data(), from.e.data(), from.e.size()) / sources;

@@ -103,6 +103,8 @@ void explain(Fitted& fit) {
     f += run.y.size();
   }
   if (fit.noise_inferred) return;
+  for (const ObservedRun& run : fit.rolls->runs())
+    fit.means_taken += run.raw_is_position && !fit.rolls->parameters().has_x0();
   fit.sources = fit.noise->explain(fit.minimum.f);
   fit.source_runs = fit.noise->sources();
   fit.innovations = fit.noise->innovations(fit.minimum.f, fit.innovation_runs);

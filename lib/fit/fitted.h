@@ -30,6 +30,7 @@ struct Fitted {
   /// Where the filters are known: the noise of the raw column as far as the residuals tell of it.
   std::vector<double> sources = {};
   std::vector<std::size_t> source_runs = {};  ///< the number of them in each run
+  std::size_t means_taken = 0;  ///< runs of positions whose mean the filters have taken away
   /// The weighted residuals that have noise of their own: white, if the noise of the raw column is.
   std::vector<double> innovations = {};
   std::vector<std::size_t> innovation_runs = {};

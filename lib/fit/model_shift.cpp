@@ -330,6 +330,7 @@ void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<
   line.noise_variance = noise_variance(roll);
   line.sources = std::move(roll.sources);
   line.source_runs = std::move(roll.source_runs);
+  line.means_taken = roll.means_taken;
   line.innovations = std::move(roll.innovations);
   line.innovation_runs = std::move(roll.innovation_runs);
   roll.system = {}, roll.noise = {};  // its weights are large
