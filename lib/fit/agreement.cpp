@@ -193,6 +193,7 @@ Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitte
     p += one->minimum.theta.size();
     if (!one->raw_noise) continue;
     raw.variance += one->raw_noise->variance / static_cast<double>(own.size());
+    raw.means_taken += one->raw_noise->means_taken;
     append(raw.sources, one->raw_noise->sources);
     append(raw.source_runs, one->raw_noise->source_runs);
     append(raw.innovations, one->raw_noise->innovations);

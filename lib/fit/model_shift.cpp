@@ -341,6 +341,7 @@ void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<
   of_roll.sources = roll.noise->explain(roll.minimum.f);
   of_roll.source_runs = roll.noise->sources();
   of_roll.innovations = roll.noise->innovations(roll.minimum.f, of_roll.innovation_runs);
+  of_roll.means_taken = roll.rolls->means_taken();
   roll.system = {}, roll.noise = {};  // its weights are large
   std::vector<FilterMatrix> noise;
   std::vector<double> bias;
