@@ -285,11 +285,12 @@ Logarithms logarithms_of(const FilterMatrix& D, const FilterMatrix& v,
                          const std::vector<double>& raw, const Rows& rows, PowerLaw law,
                          const std::function<double(double)>& shift, double sigma) {
   const auto as = D.times(raw), vs = v.times(raw);
+  FilterMatrix::Row of_D, of_v, row;
+  if (!rows.empty()) D.row(rows[rows.size() / 2], of_D);
   BandMatrix E;
-  E.reserve(rows.size(), 0);
+  E.reserve(rows.size(), rows.size() * of_D.values.size());
   std::vector<double> bias;
   bias.reserve(rows.size());
-  FilterMatrix::Row of_D, of_v, row;
   LogarithmOfNoise logarithm;
   for (std::size_t i : rows) {
     constexpr double step = 1e-4;
