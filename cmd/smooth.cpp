@@ -1,6 +1,4 @@
 // smooth - smooth a column and select its records; see smooth(1)
-#include <fmt/ranges.h>
-
 #include <cmath>
 #include <utility>
 
@@ -36,16 +34,18 @@ void check(const Tool& tool, const SignalOptions& options) {
 /// The `##` lines.
 std::string history(const std::string& column, const SelectionOptions& selected,
                     const SignalOptions& smoothed) {
-  std::vector<std::string> lines;
-  if (std::isfinite(selected.from)) lines.push_back(fmt::format("smooth t from {}", selected.from));
-  if (std::isfinite(selected.to)) lines.push_back(fmt::format("smooth t to {}", selected.to));
-  if (selected.outliers > 0)
-    lines.push_back(fmt::format("smooth {} outliers {}", column, selected.outliers));
-  if (selected.coast) lines.push_back(fmt::format("smooth {} coast", column));
+  std::string lines;
+  const auto add = [&](const std::string& line) {
+    (lines += lines.empty() ? "" : "\n## ") += "smooth " + line;
+  };
+  if (std::isfinite(selected.from)) add(fmt::format("t from {}", selected.from));
+  if (std::isfinite(selected.to)) add(fmt::format("t to {}", selected.to));
+  if (selected.outliers > 0) add(fmt::format("{} outliers {}", column, selected.outliers));
+  if (selected.coast) add(column + " coast");
   const Width& width = smoothed.width;
   if (width.seconds > 0 || width.samples > 1)  // a window of one record is no filter
-    lines.push_back(fmt::format("smooth {} {}", column, describe(smoothed)));
-  return fmt::format("{}", fmt::join(lines, "\n## "));
+    add(column + ' ' + describe(smoothed));
+  return lines;
 }
 
 void warn_of_doubt(Tool& tool, const Reader& in, const Selection& selection) {

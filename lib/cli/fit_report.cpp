@@ -7,12 +7,12 @@
 
 namespace rolling {
 
-const std::map<std::string, std::optional<Route>>& fit_routes() {
-  static const std::map<std::string, std::optional<Route>> routes{{"loglog", Route::loglog},
-                                                                  {"shift", Route::shift},
-                                                                  {"velocity", Route::velocity},
-                                                                  {"position", Route::position}};
-  return routes;
+std::map<std::string, std::optional<Route>> fit_routes() {
+  static constexpr std::pair<const char*, Route> routes[] = {{"loglog", Route::loglog},
+                                                             {"shift", Route::shift},
+                                                             {"velocity", Route::velocity},
+                                                             {"position", Route::position}};
+  return {std::begin(routes), std::end(routes)};
 }
 
 std::vector<std::string> columns_of(Route route) {

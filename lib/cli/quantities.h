@@ -2,8 +2,6 @@
 // function. Only the columns that the user chooses are computed.
 #pragma once
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -30,9 +28,9 @@ std::vector<Quantity<Function>> chosen(const std::string& list,
     const auto same = [&](const auto& quantity) { return quantity.column.name == name; };
     const auto found = std::find_if(all.begin(), all.end(), same);
     if (found == all.end()) {
-      std::vector<std::string> names;
-      for (const auto& quantity : all) names.push_back(quantity.column.name);
-      fail("--columns: '{}' is none of {}", shown(name), fmt::join(names, ", "));
+      std::string names;
+      for (const auto& [column, of] : all) (names += names.empty() ? "" : ", ") += column.name;
+      fail("--columns: '{}' is none of {}", shown(name), names);
     }
     if (std::any_of(chosen.begin(), chosen.end(), same)) fail("--columns: {} is there twice", name);
     chosen.push_back(*found);

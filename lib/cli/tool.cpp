@@ -1,7 +1,5 @@
 #include "cli/tool.h"
 
-#include <fmt/format.h>
-
 #include <poll.h>
 #include <unistd.h>
 
@@ -57,7 +55,9 @@ std::string enumeration(const std::vector<std::string>& words) {
 /// that it works when memory has run out.
 void write_line(std::string_view name, std::string_view text) {
   std::array<char, 512> line;
-  char* const end = fmt::format_to_n(line.data(), line.size() - 1, "{}: {}", name, text).out;
+  char* end = line.data();
+  for (const std::string_view part : {name, std::string_view(": "), text})
+    end += part.copy(end, static_cast<std::size_t>(line.data() + line.size() - 1 - end));
   std::replace_if(
       line.data(), end, [](char c) { return c < ' ' || c > '~'; }, '?');
   *end = '\n';

@@ -1,7 +1,8 @@
 #include "contact/integral.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "base/double_double.h"
 
 namespace rolling {
 
@@ -11,9 +12,8 @@ double Integral::push(double t, double y) {
     double part = 0.5 * h * (y + y_);
     if (samples_ > 1 && h <= 2 * k && y != 0 && y_ != 0)
       part -= h * h / (6 * (h + k) * k) * (rise * k - last_rise_ * h);
-    const double sum = sum_ + part;
-    error_ += std::abs(sum_) >= std::abs(part) ? (sum_ - sum) + part : (part - sum) + sum_;
-    sum_ = sum;
+    const DoubleDouble sum = two_sum(sum_, part);
+    sum_ = sum.hi, error_ += sum.lo;
     last_step_ = h, last_rise_ = rise;
   }
   samples_ = std::min(samples_ + 1, 2);

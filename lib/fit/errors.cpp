@@ -190,7 +190,8 @@ std::vector<double> squares_of(std::span<const double> u, std::size_t q,
 struct Sources {
   std::vector<double> e;  // their estimated noise
   std::vector<std::size_t> runs;
-  std::vector<double> B;  // a row of q numbers for each
+  std::vector<double> B;        // a row of q numbers for each
+  std::size_t means_taken = 0;  // see RollModel
 };
 
 bool filters_known(const Fitted& fit) { return fit.noise->known() && !fit.noise_inferred; }
@@ -199,8 +200,10 @@ Sources sources_of(const Fitted& fit) {
   std::vector<double> Q = orthonormal(fit.system, fit.minimum);
   if (!filters_known(fit)) return {fit.minimum.f, fit.system.runs, std::move(Q)};
   auto B = fit.noise->through(std::move(Q), fit.system.columns());
-  if (fit.raw_noise) return {fit.raw_noise->sources, fit.raw_noise->source_runs, std::move(B)};
-  return {fit.noise->explain(fit.minimum.f), fit.noise->sources(), std::move(B)};
+  if (const auto& raw = fit.raw_noise)
+    return {raw->sources, raw->source_runs, std::move(B), raw->means_taken};
+  return {fit.noise->explain(fit.minimum.f), fit.noise->sources(), std::move(B),
+          fit.rolls->means_taken()};
 }
 
 /// B^T B of each run, B of the sources.
@@ -294,7 +297,7 @@ Uncertainty uncertainty_of(const Fitted& fit) {
     const bool by_leverage = kind == Errors::uneven && !known;
     if (by_leverage) correct_for_leverage(from, q, scores);
     M = kind == Errors::uneven ? squares_of(scores, q, from.runs)
-                               : newey_west(scores, p, from.e, from.runs);
+                               : newey_west(scores, p + from.means_taken, from.e, from.runs);
     // The noise that the residuals show is smaller than it is by what the fit has taken.
     const auto sources = static_cast<double>(from.e.size());
     const double shown = dot(from.e.data(), from.e.data(), from.e.size()) / sources;

@@ -73,7 +73,8 @@ double lagged(std::span<const double> residuals, std::span<const std::size_t> ru
               std::size_t lag);
 
 /// The middle of the sandwich, sum of w(|i-j|) u_i u_j^T over each run, row by row, run by run; u
-/// are n rows of scores, for the columns of each run, of p parameters in all. Bartlett weights
+/// are n rows of scores, for the columns of each run; p numbers in all, the parameters and what
+/// filters have taken, were fitted to the noise of the residuals. Bartlett weights
 /// (Newey and West 1987, Econometrica 55, 703), bandwidth by Andrews' AR(1) rule (1991,
 /// Econometrica 59, 817), after prewhitening by the AR(1) of the residuals (Andrews and Monahan
 /// 1992, Econometrica 60, 953), corrected for the fit: short records need both.

@@ -33,8 +33,7 @@ ObservedRun without_outliers(ObservedRun run) {
   const std::vector<double> y = run.y;
   for (std::size_t i = 0; i < y.size(); ++i) {
     const std::size_t first = i < 2 ? 0 : i - 2, end = std::min(i + 3, y.size());
-    std::vector<double> near(y.begin() + static_cast<std::ptrdiff_t>(first),
-                             y.begin() + static_cast<std::ptrdiff_t>(end));
+    std::vector<double> near(&y[first], &y[first] + (end - first));
     run.y[i] = nth_smallest(near, near.size() / 2);
   }
   return run;

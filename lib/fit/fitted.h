@@ -27,6 +27,7 @@ struct RawNoise {
   /// The weighted residuals that have noise of their own: white, if the noise of the raw column is.
   std::vector<double> innovations;
   std::vector<std::size_t> innovation_runs;
+  std::size_t means_taken;  ///< see RollModel
 };
 
 struct Fitted {

@@ -14,6 +14,7 @@
 #include "fit/response.h"
 #include "motion/trajectory.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -80,6 +81,12 @@ class RollModel {
   Trajectory trajectory(const std::vector<double>& theta, std::size_t run) const;
   RawModel raw(const std::vector<double>& theta, std::size_t run) const {
     return {runs_[run], parameters_, theta, run, trajectory(theta, run)};
+  }
+  /// Runs of positions whose mean the filters have taken away, so that x0 is no parameter.
+  std::size_t means_taken() const {
+    return parameters_.has_x0() ? 0
+                                : static_cast<std::size_t>(std::ranges::count_if(
+                                      runs_, [](const auto& run) { return run.raw_is_position; }));
   }
   /// The slope that a run sees along its way.
   double slope(const std::vector<double>& theta, std::size_t run) const;

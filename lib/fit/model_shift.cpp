@@ -30,12 +30,16 @@ struct ShiftRecords {
 ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& options,
                            bool logarithms) {
   ShiftRecords records;
+  std::size_t most = 0;
+  for (const auto& run : all) most += run.v.size();
+  records.D.reserve(most), records.log_u.reserve(most);
   for (const auto& run : all) {
     double sum = 0;
     for (double v : run.v)
       if (std::isfinite(v)) sum += v;
     const double way = sum < 0 ? -1 : 1;
     Rows rows;
+    rows.reserve(run.v.size());
     for (std::size_t i = 0; i < run.v.size(); ++i) {
       const double v = way * run.v[i], D = way * run.D[i];
       if (!(std::isfinite(v) && std::isfinite(D) && v > 0 && v >= options.min_speed) ||
@@ -338,6 +342,7 @@ void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<
   of_roll.sources = roll.noise->explain(roll.minimum.f);
   of_roll.source_runs = roll.noise->sources();
   of_roll.innovations = roll.noise->innovations(roll.minimum.f, of_roll.innovation_runs);
+  of_roll.means_taken = roll.rolls->means_taken();
   roll.system = {}, roll.noise = {};  // its weights are large
   std::vector<FilterMatrix> noise;
   std::vector<double> bias;

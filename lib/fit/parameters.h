@@ -44,6 +44,7 @@ class Parameters {
     return slope_ ? theta.back() * slope_unit : given;
   }
   bool fits_slope() const { return slope_; }
+  bool has_x0() const { return position_; }
   /// Those of a run by itself, on a mat of known slope.
   Parameters of_one_run() const {
     Parameters one = *this;

@@ -31,15 +31,22 @@ double records_held(std::span<const double> readings) {
   }
   if (changes == 0 || 4 * changes >= 3 * steps) return 1;
   std::vector<double> jumps;
+  jumps.reserve(changes);
   for (std::size_t i = 1; i < readings.size(); ++i)
     if (step(i) > rounding) jumps.push_back(step(i));
-  const double unit = *std::min_element(jumps.begin(), jumps.end()),
-               place = last_place(readings, rounding) + rounding;
-  const auto rounded = std::count_if(jumps.begin(), jumps.end(), [&](double jump) {
-    const double units = std::round(jump / unit);
-    return units <= 2 && std::abs(jump - units * unit) <= std::max(0.02 * jump, units * place);
-  });
-  if (2 * rounded >= std::ssize(jumps)) return 1;
+  const double unit = *std::min_element(jumps.begin(), jumps.end());
+  const auto mostly_units = [&](double place) {
+    return 2 * std::count_if(
+                   jumps.begin(), jumps.end(),
+                   [&](double jump) {
+      const double units = jump < 1.5 * unit ? 1 : 2;
+      return jump < 2.5 * unit &&
+             std::abs(jump - units * unit) <= std::max(0.02 * jump, units * place);
+                   }) >=
+        std::ssize(jumps);
+  };
+  // Nearly always no place is needed to see that.
+  if (mostly_units(0) || mostly_units(last_place(readings, rounding) + rounding)) return 1;
   return static_cast<double>(steps + 1) / static_cast<double>(jumps.size() + 1);
 }
 

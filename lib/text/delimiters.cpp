@@ -43,7 +43,9 @@ Unquoted behind_quote(std::string_view text, std::string_view between) {
 }
 
 bool needs_quotes(std::string_view field) {
-  return field.starts_with('#') || field.find_first_of("\"\t\n\r") != std::string_view::npos;
+  return field.starts_with('#') || std::any_of(field.begin(), field.end(), [](char c) {
+           return c == quote || c == '\t' || c == '\n' || c == '\r';
+         });
 }
 
 void append_field(Bytes& line, std::string_view field) {

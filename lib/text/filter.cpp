@@ -55,21 +55,19 @@ std::vector<Column> Filter::columns() const {
 
 /// The head of the present run waits like a row.
 void Filter::take_head() {
-  Row& row = rows_.emplace_back(Row{Kind::head, 0, 0, 0, records_});
-  std::string text;
-  for (const std::string& comment : in_.comments()) (text += comment) += '\n';
-  if (in_.renames() && !in_.history().empty()) text += fmt::format("## {}\n", columns_renamed);
-  row.first = row.last = text.size();
-  text += names_line(columns());
-  row.size = text.size();
-  held_.append(text);
+  Head& head = heads_.emplace();
+  for (const std::string& comment : in_.comments()) (head.comments += comment) += '\n';
+  if (in_.renames() && !in_.history().empty())
+    head.comments += fmt::format("## {}\n", columns_renamed);
+  head.names = names_line(columns());
+  rows_.push_back({Kind::head, 0, 0, 0});
   if (replaced_ != Reader::no_column) cut_ = in_.column_of(replaced_);
 }
 
 void Filter::take_remarks(const std::vector<std::string>& remarks) {
   for (const std::string& remark : remarks) {
     held_.append(remark);
-    rows_.push_back({Kind::remark, remark.size(), 0, 0, records_});
+    rows_.push_back({Kind::remark, static_cast<std::uint32_t>(remark.size()), 0, 0});
   }
   if (!remarks.empty()) write_rows();
 }
@@ -84,7 +82,7 @@ bool Filter::next_run() {
   if (!any_row_ && any_dropped_) fail("no records are left");
   if (!any_row_) fail("no records: a needed reading is missing in every one");
   take_remarks(in_.comments());
-  out_.text(remarks_of(head_.comments));
+  if (head_) out_.text(remarks_of(head_->comments));
   return false;
 }
 
@@ -92,21 +90,18 @@ bool Filter::next() {
   const bool more = in_.next();
   if (!in_.remarks().empty()) take_remarks(in_.remarks());
   if (!more) return false;
-  const Reader::Text text = in_.text(cut_);
-  const std::size_t size = text.line.size();
-  if (cut_ == Reader::no_column) rows_.push_back({Kind::record, size, size, size, records_});
-  else rows_.push_back({Kind::record, size, text.first, text.last, records_});
+  const std::size_t begin = held_.size();
+  const Reader::Part cut = in_.append_text(held_, cut_);
+  const auto at = [](std::size_t place) { return static_cast<std::uint32_t>(place); };
+  const std::uint32_t size = at(held_.size() - begin);
+  if (cut_ == Reader::no_column) rows_.push_back({Kind::record, size, size, size});
+  else rows_.push_back({Kind::record, size, at(cut.first), at(cut.last)});
   ++records_;
-  held_.append(text.line);
   return true;
 }
 
 void Filter::drop(std::size_t i) {
-  const std::size_t number = run_begins_ + i;
-  auto row = std::partition_point(rows_.begin() + static_cast<std::ptrdiff_t>(front_), rows_.end(),
-                                  [&](const Row& earlier) { return earlier.record < number; });
-  while (row->kind != Kind::record) ++row;  // a head or a remark before it
-  row->kind = Kind::dropped;
+  dropped_.push(run_begins_ + i);
   any_dropped_ = true;
   write_rows();
 }
@@ -114,12 +109,12 @@ void Filter::drop(std::size_t i) {
 /// Writes the head of a run before its first row. The comments of a run without rows are written
 /// with the head of the next run.
 void Filter::write_head() {
-  if (!std::exchange(head_.due, false)) return;
+  if (!head_) return;
   if (any_row_) out_.end_line();
-  out_.text(head_.comments);
+  out_.text(head_->comments);
   out_.text(*history_);
-  out_.text(head_.names), out_.end_line();
-  head_ = {};
+  out_.text(head_->names), out_.end_line();
+  head_.reset();
 }
 
 /// Writes all rows before the first one that lacks a number.
@@ -131,7 +126,9 @@ void Filter::write_rows() {
   for (; front_ < rows_.size(); front_begin_ += rows_[front_++].size) {
     const Row& row = rows_[front_];
     const std::string_view text(held_.data() + front_begin_, row.size);
-    if (row.kind == Kind::record) {
+    if (row.kind == Kind::record && !dropped_.empty() && dropped_.front() == done_) {
+      dropped_.pop(), ++done_;
+    } else if (row.kind == Kind::record) {
       if (numbers_.cend() - number < each) break;
       write_head();
       out_.text(text.substr(0, row.first));
@@ -142,13 +139,15 @@ void Filter::write_rows() {
       if (row.last < row.size) out_.text(text.substr(row.last));
       out_.end_line();
       any_row_ = true;
+      ++done_;
     } else if (row.kind == Kind::head) {
-      head_.due = true;
-      head_.comments = remarks_of(head_.comments).append(text.substr(0, row.first));
-      head_.names = text.substr(row.first);
-    } else if (row.kind == Kind::remark && head_.due) {
-      head_.comments.append(text) += '\n';
-    } else if (row.kind == Kind::remark) {
+      const std::string before = head_ ? remarks_of(head_->comments) : "";
+      head_ = std::move(heads_.front());
+      head_->comments.insert(0, before);
+      heads_.pop();
+    } else if (head_) {
+      head_->comments.append(text) += '\n';
+    } else {
       out_.text(text), out_.end_line();
     }
   }

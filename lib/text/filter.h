@@ -8,7 +8,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <queue>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,17 +56,20 @@ class Filter {
   void put(std::span<const double> values) {
     for (const double value : values) put(value);
   }
-  /// Leaves out the record with the index i in this run (from 0). It needs no numbers.
+  /// Leaves out the record with the index i in this run (from 0), which must come after those left
+  /// out before. It needs no numbers.
   void drop(std::size_t i);
 
  private:
-  enum class Kind { record, remark, head, dropped };
+  enum class Kind : std::uint8_t { record, remark, head };
+  /// Many rows may wait (smooth --coast): they are kept small. No line is as long as 2^32.
   struct Row {
-    Kind kind = Kind::record;
-    std::size_t size = 0;  // of its text
-    // The numbers of a record, or the `##` line of this filter in a head, replace [first, last).
-    std::size_t first = 0, last = 0;
-    std::size_t record = 0;  // how many records of all runs came before it
+    Kind kind;
+    std::uint32_t size;         // of its text; a head has it elsewhere
+    std::uint32_t first, last;  // the numbers of a record replace [first, last)
+  };
+  struct Head {
+    std::string comments, names;
   };
 
   std::size_t rows_at_once() const { return out_.unbuffered ? 1 : 32; }
@@ -83,15 +88,14 @@ class Filter {
   std::size_t cut_ = Reader::no_column;       // its column in this run
   std::vector<Row> rows_;                     // from front_ on: those not written yet
   Bytes held_;                                // their texts, one after the other
+  std::queue<Head> heads_;                    // of the runs that begin among them
+  std::queue<std::size_t> dropped_;           // the numbers of the records among them to leave out
   std::vector<double> numbers_;               // of these rows, in order
   std::size_t enough_;                        // so many numbers make put() write rows
-  std::size_t front_ = 0;
-  std::size_t front_begin_ = 0;               // where the text of the front row begins
-  std::size_t records_ = 0, run_begins_ = 0;  // of all runs; of those before this one
-  struct Head {                               // of a run none of whose rows has been written
-    bool due = false;
-    std::string comments, names;
-  } head_;
+  std::size_t front_ = 0, front_begin_ = 0;   // the front row, and where its text begins
+  // Records of all runs: read; read before this run; written or left out.
+  std::size_t records_ = 0, run_begins_ = 0, done_ = 0;
+  std::optional<Head> head_;  // of a run none of whose rows has been written
   bool any_row_ = false, any_dropped_ = false;
   bool writing_ = false;  // true for good when a write has failed
 };

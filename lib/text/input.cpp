@@ -46,7 +46,7 @@ int open_for_reading(const std::string& name) {
 
 Input::Input(std::string name, BlockHook on_block)
     : name_(std::move(name)), on_block_(std::move(on_block)), fd_(open_for_reading(name_)),
-      buffer_(block), at_(buffer_.data()), end_(at_) {
+      at_(buffer_.reserve(block)), end_(at_) {
   if (fd_ < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
 #ifdef F_SETPIPE_SZ
   // A larger pipe lets the tools of a chain wait less for each other. Failure does no harm.
@@ -62,20 +62,16 @@ Input::~Input() {
 }
 
 bool Input::fill() {
-  const auto kept = static_cast<std::size_t>(end_ - at_);
-  std::memmove(buffer_.data(), at_, kept);
-  if (kept == buffer_.size()) {
-    if (kept >= longest_line)
-      fail<InputError>("{}:{}: a line of more than {} bytes", name_, line_number_ + 1,
-                       longest_line);
-    buffer_.resize(2 * kept);
-  }
-  at_ = buffer_.data();
-  char* const to = buffer_.data() + kept;
-  end_ = to;
-  const ssize_t count = read_some(fd_, to, buffer_.size() - kept);
+  const std::size_t kept = ahead().size();
+  if (kept >= longest_line)
+    fail<InputError>("{}:{}: a line of more than {} bytes", name_, line_number_ + 1, longest_line);
+  buffer_.erase_front(static_cast<std::size_t>(at_ - buffer_.data()));
+  char* const to = buffer_.reserve(block);
+  const ssize_t count = read_some(fd_, to, std::min(block, longest_line - kept));
+  at_ = buffer_.data(), end_ = to;
   if (count < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
   quotes_ = quotes_ || std::memchr(to, '"', static_cast<std::size_t>(count));
+  buffer_.set_end(to + count);
   end_ += count;
   read_ += static_cast<double>(count);
   if (on_block_ && size_ > 0) on_block_(name_, std::min(read_ / size_, 1.0));

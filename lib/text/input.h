@@ -4,7 +4,8 @@
 #include <functional>
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "text/bytes.h"
 
 namespace rolling {
 
@@ -58,7 +59,7 @@ class Input {
   BlockHook on_block_;
   int fd_;
   double size_ = 0, read_ = 0;  // bytes; a size of 0 is unknown
-  std::vector<char> buffer_;
+  Bytes buffer_;
   const char *at_, *end_;  // ahead()
   std::size_t line_number_ = 0;
   bool at_end_ = false, quotes_ = false;

@@ -482,27 +482,26 @@ inline void Reader::check_time() {
   last_time_ = t;
 }
 
-/// text() of a record that is not written as it was read.
-Reader::Text Reader::made_text(std::size_t column) {
-  Text text;
-  text_.truncate(0);
+/// append_text() of a record that is not written as it was read.
+Reader::Part Reader::append_made(Bytes& to, std::size_t column) {
+  Part part;
+  const std::size_t begin = to.size();
   for (std::size_t i = 0; i < fields_.size(); ++i) {
-    if (i) text_.append('\t');
-    const auto from = text_.size();
+    if (i) to.append('\t');
+    const std::size_t from = to.size();
     const auto converted = !converts_
                                ? needed_.end()
                                : std::find_if(needed_.begin(), needed_.end(), [i](const Needed& n) {
                                    return n.column == i && n.to_si.changes();
                                  });
     if (converted != needed_.end() && !std::isnan(fields_[i].number))
-      text_.set_end(write_number(text_.reserve(longest_number),
-                                 values_[static_cast<std::size_t>(converted - needed_.begin())]));
-    else if (dialect_->may_need_quotes()) append_field(text_, fields_[i].text);
-    else text_.append(fields_[i].text);
-    if (i == column) text.first = from, text.last = text_.size();
+      to.set_end(write_number(to.reserve(longest_number),
+                              values_[static_cast<std::size_t>(converted - needed_.begin())]));
+    else if (dialect_->may_need_quotes()) append_field(to, fields_[i].text);
+    else to.append(fields_[i].text);
+    if (i == column) part = {from - begin, to.size() - begin};
   }
-  text.line = {text_.data(), text_.size()};
-  return text;
+  return part;
 }
 
 void Reader::reject(std::size_t column, std::string_view why) const {

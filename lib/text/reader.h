@@ -77,19 +77,19 @@ class Reader {
   /// The number in a needed column [SI].
   double operator[](std::size_t slot) const { return values_[slot]; }
 
-  /// A record in the output, tab-separated; one column of it is the range [first, last).
-  struct Text {
-    std::string_view line;
+  static constexpr std::size_t no_column = static_cast<std::size_t>(-1);
+  /// A part of a text: [first, last).
+  struct Part {
     std::size_t first = 0, last = 0;
   };
-  static constexpr std::size_t no_column = static_cast<std::size_t>(-1);
-  /// The present record, valid until the next one.
-  Text text(std::size_t column = no_column) {
-    if (!dialect_->as_it_stands() || converts_ || fields_changed_) return made_text(column);
-    if (column >= fields_.size()) return {line_};
+  /// Appends the present record as it goes out, tab-separated; returns where in it a column is.
+  Part append_text(Bytes& to, std::size_t column = no_column) {
+    if (!dialect_->as_it_stands() || converts_ || fields_changed_) return append_made(to, column);
+    to.append(line_);
+    if (column >= fields_.size()) return {};
     const std::string_view field = fields_[column].text;
     const auto first = static_cast<std::size_t>(field.data() - line_.data());
-    return {line_, first, first + field.size()};
+    return {first, first + field.size()};
   }
   /// The comments between the previous record and the present one; after the last record of a run,
   /// those up to the end of the run.
@@ -147,7 +147,7 @@ class Reader {
   void change_fields();
   bool take_record();
   void check_time();
-  Text made_text(std::size_t column);
+  Part append_made(Bytes& to, std::size_t column);
   [[noreturn]] void reject(std::size_t column, std::string_view why) const;
   std::string way_out(std::string_view field) const;
   std::string here() const;
@@ -184,7 +184,6 @@ class Reader {
   std::span<const Field> fields_;
   std::vector<Field> changed_fields_;
   bool fields_changed_ = false, coarse_time_ = false;
-  Bytes text_;  // if it does not go out as it came
   std::size_t first_record_ = 0;
   std::size_t time_slot_ = no_column;
   double last_time_ = 0;  // NaN before the first record of a run

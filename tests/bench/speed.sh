@@ -42,7 +42,7 @@ mawk -v n="$small" 'BEGIN {
 sed 's/\t/;/; /^#/!s/\./,/g; s/^# //' small.txt >decimal-comma.csv
 differentiate small.txt >tva.txt
 mawk 'BEGIN { OFS = "\t"; print "# t[s]\tv[m/s]\tD[m]" } !/^#/ { print $1, $2, 0.0018 * (1 + $2 / 4) }' small.txt >tvD.txt
-mawk -v n="$small" 'BEGIN { srand(2); print "# v[m/s]\tD[m]"; for (i = 1; i <= n; i++) { v = 0.02 + 0.5 * i / n; printf "%.6f\t%.9f\n", v, 0.00187 * v ^ 0.215 * (1 + 0.02 * rand()) } }' >vD.txt
+mawk -v n="$small" 'BEGIN { srand(2); print "# v[m/s]\tD[m]"; for (i = 1; i <= n; i++) { v = 0.02 + 0.5 * rand(); printf "%.6f\t%.9f\n", v, 0.00187 * v ^ 0.215 * (1 + 0.02 * rand()) } }' >vD.txt
 simulate -K 0.5 -R 0.04 -a 1.87e-3 -b 0.215 --v0 0.5 --dt "$(mawk -v n="$small" 'BEGIN { print 2.2 / n }')" --until 2 --columns t,v |
   mawk 'BEGIN { srand(3); OFS = "\t"; print "# t[s]\tv[m/s]" } !/^#/ { printf "%s\t%.6f\n", $1, $2 + 0.002 * (rand() + rand() - 1) }' >roll.txt
 
@@ -142,8 +142,8 @@ against 'energy-ledger, 10 columns' 'bare loop (at most)' "$small" '<1.25' "ener
 if have datamash; then
   against 'energy-ledger --summary' 'datamash mean 1-3' "$small" '' "energy-ledger --summary $ledger tvD.txt" "tail -n +2 tvD.txt | datamash mean 1 mean 2 mean 3"
 fi
-if have mawk; then against 'fitpower --route loglog' mawk "$small" 8 'fitpower --route loglog vD.txt' "mawk '$loglog' vD.txt"; fi
-against 'fitpower --route loglog' 'bare loop (at most)' "$small" '<1.5' 'fitpower --route loglog vD.txt' "$speed fit <vD.txt" user inverse
+if have mawk; then against 'fitpower --route loglog' mawk "$small" 8 'fitpower -q --route loglog vD.txt' "mawk '$loglog' vD.txt"; fi
+against 'fitpower --route loglog' 'bare loop (at most)' "$small" '<1.5' 'fitpower -q --route loglog vD.txt' "$speed fit <vD.txt" user inverse
 if [ -n "$python" ]; then
   cat >curve_fit.py <<'END'
 import numpy, scipy.optimize, sys
@@ -156,7 +156,7 @@ END
   against 'fitpower --route velocity' 'scipy curve_fit' "$small" 5 "fitpower --route velocity $body roll.txt" "$python curve_fit.py"
 fi
 if have gnuplot; then
-  against 'fitpower --route loglog' gnuplot "$small" '' 'fitpower --route loglog vD.txt' "gnuplot -e 'set fit quiet logfile \"/dev/null\"; la = -6; b = 0.1; fit la + b * x \"vD.txt\" using (log(\$1)):(log(\$2)) via la, b' 2>/dev/null"
+  against 'fitpower --route loglog' gnuplot "$small" '' 'fitpower -q --route loglog vD.txt' "gnuplot -e 'set fit quiet logfile \"/dev/null\"; la = -6; b = 0.1; fit la + b * x \"vD.txt\" using (log(\$1)):(log(\$2)) via la, b' 2>/dev/null"
 fi
 scene='-K 0.5 -R 0.04 -a 1.87e-3 -b 0.215 --v0 0.5'
 dt=$(mawk -v n="$rows" 'BEGIN { printf "%.17g", 2 / n }')

@@ -28,9 +28,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         require(std::isfinite(in[t]) && (first || in[t] > last), "times do not rise");
         require(std::isfinite(in[v]) || (choice & 16), "a number is not finite");
         first = false, last = in[t];
-        const Reader::Text row = in.text(in.column_of(v));
-        require(row.first <= row.last && row.last <= row.line.size(),
-                "a column stands outside its row", row.line);
+        Bytes row;
+        const Reader::Part part = in.append_text(row, in.column_of(v));
+        require(part.first <= part.last && part.last <= row.size(),
+                "a column stands outside its row", {row.data(), row.size()});
       }
     }
   } catch (const Error& error) {

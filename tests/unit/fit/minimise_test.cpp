@@ -285,3 +285,14 @@ TEST_CASE(
   CHECK(std::abs(restricted_likelihood(blocks, many.theta) -
                  (-freedom / 2 * std::log(one.rss) - log_det)) < 1e-9);
 }
+
+TEST_CASE("minimise: a start at which the model has no finite values is refused", "[fit]") {
+  const System root = one_run(
+      1, 1, [](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+        f = {std::sqrt(x[0]) - 2};
+        J = {0.5 / std::sqrt(x[0])};
+      });
+  CHECK(std::abs(minimise(root, {1}).theta[0] - 4) < 1e-12);
+  CHECK_THROWS_AS(minimise(root, {-1}), Error);
+  CHECK_THROWS_AS(minimise_robust(root, {-1}), Error);
+}

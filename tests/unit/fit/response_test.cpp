@@ -104,3 +104,10 @@ TEST_CASE("response: a pass through the filters is the product with their matrix
     CHECK(std::abs(Hty[k] - sum) < 1e-11);
   }
 }
+
+TEST_CASE("response: a filter that does not give a value for each record is refused", "[fit]") {
+  const LinearFilter short_one{"v", "v", 1, [](std::span<const double>, std::span<const double> y) {
+                                 return std::vector<double>(y.begin() + 1, y.end());
+                               }};
+  CHECK_THROWS_AS(probe(short_one, simulated::times(9)), Error);
+}
