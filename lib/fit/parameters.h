@@ -70,8 +70,8 @@ class Parameters {
   }
   /// Those, and the derivatives by the shared ones.
   void chain(double* to, std::size_t stride, double a, const Derivatives& by) const noexcept {
-    const auto put = [&](double value) { *std::exchange(to, to + stride) = value; };
-    to = chain_own(to, stride, by.v0, by.x0);
+    double* place = chain_own(to, stride, by.v0, by.x0);
+    const auto put = [&](double value) { *std::exchange(place, place + stride) = value; };
     if (!a_) put(a * by.a);
     if (!b_) put(by.b - (a_ ? 0 : log_v_ref_ * a * by.a));
     if (slope_) put(by.slope * slope_unit);
