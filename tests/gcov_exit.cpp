@@ -1,6 +1,6 @@
-// Linked into what `make coverage-lines` builds: a process that ends by _exit(), or in which
-// allocations fail, leaves its counts of lines too. Not where files may not grow: what gcov cannot
-// finish to write would be lost for all.
+// Linked into what `make coverage-lines` builds: a process that ends by _exit() or raise(), or in
+// which allocations fail, leaves its counts of lines too. Not where files may not grow: what gcov
+// cannot finish to write would be lost for all.
 #include <cstdlib>
 #include <dlfcn.h>
 #include <sys/resource.h>
@@ -28,10 +28,19 @@ void before_gcov(int status, void*) {
 
 __attribute__((constructor)) void at_exit() { on_exit(before_gcov, nullptr); }
 
-}  // namespace
-
-extern "C" void _exit(int status) {
+void dump() {
   end_faults();
   if (can_write()) __gcov_dump();
+}
+
+}  // namespace
+
+extern "C" int raise(int signal) {
+  dump();
+  return static_cast<int>(syscall(SYS_tgkill, getpid(), gettid(), signal));
+}
+
+extern "C" void _exit(int status) {
+  dump();
   for (;;) syscall(SYS_exit_group, status);
 }

@@ -149,9 +149,10 @@ std::optional<std::pair<std::string, std::string>> read_assignment(const std::st
   std::istringstream stream(line);
   const std::vector<CLI::ConfigItem> items = CLI::ConfigTOML().from_config(stream);
   if (stream.bad()) throw std::bad_alloc();  // a stream is silent when memory runs out
-  if (items.size() != 1 || items.front().inputs.size() != 1 || !items.front().parents.empty())
-    return {};
-  return std::pair(items.front().name, items.front().inputs.front());
+  const bool one =
+      items.size() == 1 && items.front().inputs.size() == 1 && items.front().parents.empty();
+  return one ? std::optional(std::pair(items.front().name, items.front().inputs.front()))
+             : std::nullopt;
 }
 
 }  // namespace rolling

@@ -7,12 +7,12 @@
 
 namespace rolling {
 
-const std::map<std::string, std::optional<Route>>& fit_routes() {
-  static const std::map<std::string, std::optional<Route>> routes{{"loglog", Route::loglog},
-                                                                  {"shift", Route::shift},
-                                                                  {"velocity", Route::velocity},
-                                                                  {"position", Route::position}};
-  return routes;
+std::map<std::string, std::optional<Route>> fit_routes() {
+  static constexpr std::pair<const char*, Route> routes[] = {{"loglog", Route::loglog},
+                                                             {"shift", Route::shift},
+                                                             {"velocity", Route::velocity},
+                                                             {"position", Route::position}};
+  return {std::begin(routes), std::end(routes)};
 }
 
 std::vector<std::string> columns_of(Route route) {
@@ -111,6 +111,11 @@ std::string disagreement(const FitResult& r, std::span<const std::string> names)
   if (found.b.sigma > 0)
     line += fmt::format(", its b {:.2g} +- {:.1g} {}", std::abs(found.b.value), found.b.sigma,
                         more(found.b.value));
+  std::string given;
+  for (const ErrorShare& share : r.shares)
+    if (share.of != "noise" && share.of != "bias")
+      given += fmt::format("{}{}", given.empty() ? "" : ", ", share.of);
+  if (!given.empty()) line += fmt::format("; this test takes {} as exact", given);
   return line;
 }
 
@@ -119,7 +124,7 @@ std::string disagreement(const FitResult& r, std::span<const std::string> names)
 void warn_of(Tool& tool, Route route, const FitResult& r, std::span<const std::string> names,
              bool check_comes) {
   if (exact(r)) return;
-  if (r.errors == Errors::autocorrelation)
+  if (noise_is_correlated(r))
     tool.warn(fmt::format(
         "the noise is correlated from record to record (Ljung-Box p {:.2g}), or the law is not the "
         "right one: the errors allow for the correlation; see --report",
@@ -169,9 +174,8 @@ void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& optio
 
 void check(Tool& tool, const FitResult& r, const std::optional<LawComparison>& laws,
            const std::optional<Beginning>& beginning, std::span<const std::string> names) {
-  constexpr double better = 10;       // AICc: the other law has no support any more (Burnham and
-                                      // Anderson 2002, section 2.6)
-  constexpr double decisive = 0.003;  // of two tests: some 0.6 % of false alarms
+  constexpr double better = 10;  // AICc: the other law has no support any more (Burnham and
+                                 // Anderson 2002, section 2.6)
   const std::string run = names.size() == 1 ? fmt::format("run {}: ", names[0]) : "";
   // The first reason is printed whatever else fails: what no warning has told, and what would make
   // the others.
@@ -185,7 +189,7 @@ void check(Tool& tool, const FitResult& r, const std::optional<LawComparison>& l
   if (laws && laws->against_power() >= better)
     tool.check_failed(fmt::format("{}D = {} is better than a v^b by {:.1f} in AICc; see --report",
                                   run, laws->best_other().law->formula, laws->against_power()));
-  if (!exact(r) && r.whiteness <= decisive)
+  if (!exact(r) && r.whiteness <= not_white)
     tool.check_failed(
         fmt::format("{}the residuals are not white (Ljung-Box p {:.2g}): the law, or what is "
                     "known of the noise, is not right",

@@ -13,7 +13,7 @@
 namespace rolling {
 
 /// The routes by the names of the command line; none where the columns decide.
-const std::map<std::string, std::optional<Route>>& fit_routes();
+std::map<std::string, std::optional<Route>> fit_routes();
 
 /// The columns that a route fits, by their short names.
 std::vector<std::string> columns_of(Route);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "contact/uncertain_number.h"
 #include "signal/derivative.h"
 #include "signal/smoother.h"
@@ -179,12 +180,6 @@ History history_of(const std::vector<std::string>& lines, std::span<const double
 
 namespace {
 
-double median(std::vector<double> x) {
-  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
-  std::nth_element(x.begin(), middle, x.end());
-  return *middle;
-}
-
 /// The column of a run that stands for one of its chain; D for the acceleration it was made of.
 std::vector<double> standing_for(const FitRun& run, const std::string& column) {
   if (column == "x") return run.x;
@@ -202,18 +197,18 @@ History compared(History history, FitRun& run) {
   auto last = history.filters.rbegin();
   while (last != history.filters.rend() && last->reach == 0) ++last;
   if (last == history.filters.rend() || last->from == last->to) return history;
-  const auto from = standing_for(run, last->from), to = standing_for(run, last->to);
+  auto off = standing_for(run, last->from), size = standing_for(run, last->to);
   const std::size_t n = run.t.size(), reach = last->reach;
-  if (from.size() != n || to.size() != n || n < 2 * reach + 3) return history;
-  const auto made = last->apply(run.t, from);
-  std::vector<double> off, size;
+  if (off.size() != n || size.size() != n || n < 2 * reach + 3) return history;
+  off = last->apply(run.t, off);
   for (std::size_t i = 0; i < n; ++i) {
-    off.push_back(std::abs(made[i] - to[i]));
-    size.push_back(std::abs(to[i]));
-    if (!std::isfinite(off.back())) return history;  // readings are missing
+    off[i] = std::abs(off[i] - size[i]);
+    size[i] = std::abs(size[i]);
+    if (!std::isfinite(off[i])) return history;  // readings are missing
   }
   // Columns that were rounded by --digits 3 differ by a hundredth; others hardly at all.
-  const double typical = median(off), large = median(size);
+  auto sorted = off;
+  const double large = nth_smallest(size, n / 2), typical = nth_smallest(sorted, n / 2);
   const double most = std::max(20 * typical, 1e-6 * large);
   bool inside = !(typical <= 0.05 * large);
   for (std::size_t i = reach; i + reach < n; ++i) inside = inside || off[i] > most;

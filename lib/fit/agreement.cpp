@@ -83,39 +83,70 @@ void stand_out(Agreement& result, const OwnLaw& one, Pair others, Symmetric C, d
   result.b = {d.b, std::sqrt(C.bb)};
 }
 
-/// The mean of numbers with standard errors (all 0 for one that is held), weighted by their inverse
-/// squares, and the root of chi^2 over `freedom`.
-struct Average {
-  Estimate mean;
-  double scale;
-};
-Average average(const std::vector<Estimate>& numbers, double freedom) {
-  double weights = 0, sum = 0, chi2 = 0;
-  for (const Estimate& x : numbers) weights += 1 / (x.sigma * x.sigma);
-  if (std::isinf(weights)) return {numbers.front(), 1};
-  for (const Estimate& x : numbers) sum += x.value / (x.sigma * x.sigma);
-  const Estimate mean{sum / weights, 1 / std::sqrt(weights)};
-  for (const Estimate& x : numbers) chi2 += std::pow((x.value - mean.value) / x.sigma, 2);
-  return {mean, std::sqrt(chi2 / freedom)};
-}
+/// The line x = mean + slope (g - its mean) through numbers x of the runs with standard errors
+/// sigma, which scatter by tau from run to run beside them: least squares with the weights
+/// 1/(sigma^2 + tau^2). If g is the same in all runs, the slope is 0.
+struct Line {
+  double tau_square = 0;
+  double mean = 0, mean_g = 0, slope = 0;
+  double weight = 0, spread = 0;  ///< sum of w, and of w (g - mean_g)^2
+  double chi2 = 0;                ///< sum of w r^2 of the residuals r
+  double fall = 0;                ///< -d chi2/d tau^2
+  std::vector<double> residuals;  ///< sqrt(w) r
 
-/// Of ln D at a speed.
-Average average_of_D(const std::vector<OwnLaw>& laws, double log_v, double freedom) {
-  std::vector<Estimate> all;
-  for (const OwnLaw& one : laws) all.push_back(one.log_D(log_v));
-  return average(all, freedom);
-}
-
-/// What the few runs say of their scatter is itself uncertain: for these degrees of freedom.
-double student(double freedom) { return gsl_cdf_tdist_Pinv(0.975, freedom) / 1.96; }
-
-struct Comparison {
-  Agreement result;
-  double freedom = 0;  // of the scatter of a number from run to run
-  double scale = 1;    // of the error of the D that is known best, or of all together
+  double weight_of(const Estimate& x) const { return 1 / (x.sigma * x.sigma + tau_square); }
 };
 
-Comparison compare(const std::vector<OwnLaw>& laws, std::size_t parameters, bool slope) {
+Line line_through(const std::vector<Estimate>& x, const std::vector<double>& g, double tau_square) {
+  Line line;
+  line.tau_square = tau_square;
+  const auto w = [&](std::size_t i) { return line.weight_of(x[i]); };
+  for (std::size_t i = 0; i < x.size(); ++i) line.weight += w(i);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    line.mean += w(i) / line.weight * x[i].value;
+    line.mean_g += w(i) / line.weight * g[i];
+  }
+  double together = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double off = g[i] - line.mean_g;
+    line.spread += w(i) * off * off;
+    together += w(i) * off * (x[i].value - line.mean);
+  }
+  if (line.spread > 0) line.slope = together / line.spread;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double r = x[i].value - line.mean - line.slope * (g[i] - line.mean_g);
+    line.residuals.push_back(std::sqrt(w(i)) * r);
+    line.chi2 += w(i) * r * r;
+    line.fall += w(i) * w(i) * r * r;
+  }
+  return line;
+}
+
+/// The line whose tau makes chi^2 what it is on average, `freedom`, or 0 where chi^2 is not above
+/// that (Mandel and Paule 1970, Anal. Chem. 42, 1194). Newton's method on 1/chi^2, which is linear
+/// in tau^2 where all errors are equal.
+Line scattered_line(const std::vector<Estimate>& x, const std::vector<double>& g, double freedom) {
+  double tau_square = 0;
+  Line line = line_through(x, g, 0);
+  for (int i = 0; i < 100 && line.chi2 > 0 && std::isfinite(line.weight); ++i) {
+    const double step = (line.chi2 / freedom - 1) * line.chi2 / line.fall,
+                 next = std::max(0.0, tau_square + step);
+    const bool done = std::abs(next - tau_square) <= 1e-12 * next;
+    tau_square = next;
+    line = line_through(x, g, tau_square);
+    if (done) break;
+  }
+  return line;
+}
+
+/// What the few runs say of their scatter is itself uncertain: the factor of errors that rest on
+/// it, for these degrees of freedom. Where the scatter shows less than the noise alone, 1.
+double student(const Line& line, double freedom) {
+  const double t = gsl_cdf_tdist_Pinv(0.975, freedom) / 1.96;
+  return std::max(1.0, t * std::sqrt(line.chi2 / freedom));
+}
+
+Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, bool slope) {
   Symmetric W{};
   Pair sum{};
   for (const OwnLaw& one : laws) {
@@ -139,13 +170,9 @@ Comparison compare(const std::vector<OwnLaw>& laws, std::size_t parameters, bool
   }
   result.dof = parameters * (laws.size() - 1);
   if (slope) --result.dof;
-  if (result.dof == 0) return {result};
-  result.significance = gsl_cdf_chisq_Q(likelihood, static_cast<double>(result.dof));
-  const double freedom = static_cast<double>(laws.size()) - 1 - slope;
-  const double together = std::sqrt(result.chi2 / static_cast<double>(result.dof));
-  if (freedom < 1) return {result, freedom, std::max(1.0, together)};
-  const Average D = average_of_D(laws, best_known(W.inverse()), freedom);
-  return {result, freedom, std::max(1.0, student(freedom) * D.scale)};
+  if (result.dof > 0)
+    result.significance = gsl_cdf_chisq_Q(likelihood, static_cast<double>(result.dof));
+  return result;
 }
 
 /// The joint fit with the noise that the runs show around their own laws: around the common one the
@@ -153,71 +180,84 @@ Comparison compare(const std::vector<OwnLaw>& laws, std::size_t parameters, bool
 Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitted>>& own) {
   Fitted fit = joint;
   fit.minimum.f.clear();
-  fit.sources.clear();
-  fit.innovations.clear();
-  double rss = 0, variance = 0;
+  RawNoise raw{};
+  double rss = 0;
   std::size_t p = 0;
-  const auto append = [](std::vector<double>& to, const std::vector<double>& more) {
+  const auto append = [](auto& to, const auto& more) {
     to.insert(to.end(), more.begin(), more.end());
   };
   for (const auto& one : own) {
-    if (!one) return joint;
+    if (!one || one->raw_noise.has_value() != joint.raw_noise.has_value()) return joint;
     append(fit.minimum.f, one->minimum.f);
-    append(fit.sources, one->sources);
-    append(fit.innovations, one->innovations);
     rss += one->minimum.rss;
-    variance += one->noise_variance.value_or(0) / static_cast<double>(own.size());
     p += one->minimum.theta.size();
+    if (!one->raw_noise) continue;
+    raw.variance += one->raw_noise->variance / static_cast<double>(own.size());
+    raw.means_taken += one->raw_noise->means_taken;
+    append(raw.sources, one->raw_noise->sources);
+    append(raw.source_runs, one->raw_noise->source_runs);
+    append(raw.innovations, one->raw_noise->innovations);
+    append(raw.innovation_runs, one->raw_noise->innovation_runs);
   }
   const std::size_t n = joint.minimum.f.size();
-  if (fit.minimum.f.size() != n || fit.sources.size() != joint.sources.size() ||
-      fit.innovations.size() != joint.innovations.size() || n <= p)
+  if (fit.minimum.f.size() != n || n <= p ||
+      (joint.raw_noise && raw.source_runs != joint.raw_noise->source_runs))
     return joint;
   // So many parameters more have been fitted.
   const double more =
       static_cast<double>(n - joint.minimum.theta.size()) / static_cast<double>(n - p);
-  for (auto* of_noise : {&fit.minimum.f, &fit.sources})
+  for (auto* of_noise : {&fit.minimum.f, &raw.sources})
     for (double& x : *of_noise) x *= std::sqrt(more);
   fit.minimum.rss = rss * more;
-  if (fit.noise_variance) fit.noise_variance = variance;
+  if (fit.raw_noise) fit.raw_noise = std::move(raw);
   return fit;
 }
 
-/// By how much the mean of ln a moves with the slope that the runs were held at: R S acts like a
-/// shift along the way. Nothing, if as many runs roll up as down.
-double by_slope(const std::vector<OwnLaw>& laws, const Fitted& joint) {
-  double sum = 0;
-  if (!joint.slope) return 0;
-  for (const OwnLaw& one : laws) {
-    const ObservedRun& run = joint.rolls->runs()[one.run];
-    const double log_D = one.log_D(best_known(one.covariance)).value;
-    sum += run.way * run.body.R / std::exp(log_D) / static_cast<double>(laws.size());
+/// The slope of the mat at which the runs of both directions agree best, and the laws as they are
+/// there: R S acts like a shift along the way, so that ln D changes by -way R/D with S.
+void take_slope(std::vector<OwnLaw>& laws, double freedom, std::vector<double>& by_slope,
+                NoiseErrors& errors, Fitted& joint) {
+  double log_v = 0;  // of the speed at which the D of the runs are known best, on average
+  for (const OwnLaw& one : laws)
+    log_v += best_known(one.covariance) / static_cast<double>(laws.size());
+  std::vector<Estimate> log_D;
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    const ObservedRun& run = joint.rolls->runs()[laws[i].run];
+    log_D.push_back(laws[i].log_D(log_v));
+    by_slope[i] = run.way * run.body.R / std::exp(log_D.back().value);
   }
-  return sum;
+  const Line line = scattered_line(log_D, by_slope, freedom);
+  joint.slope->value += line.slope;
+  errors.slope = student(line, freedom) / std::sqrt(line.spread);
+  for (std::size_t i = 0; i < laws.size(); ++i) laws[i].law.a -= by_slope[i] * line.slope;
 }
 
-/// a and b as the means of those of the runs.
-void take_means(const std::vector<OwnLaw>& laws, double freedom, NoiseErrors& errors,
-                Fitted& joint) {
-  const double t = student(freedom);
-  std::vector<Estimate> bs;
-  for (const OwnLaw& one : laws) bs.push_back(one.b());
-  const Average a = average_of_D(laws, 0, freedom), b = average(bs, freedom);
-  double together = 0, scatter = 0;  // of the products of the deviations of both
-  for (const OwnLaw& one : laws) {
-    const double weight =
-        std::pow(a.mean.sigma * b.mean.sigma, 2) / (one.covariance.aa * one.covariance.bb);
-    together += weight * one.covariance.ab;
-    scatter += std::sqrt(weight) * (one.law.a - a.mean.value) * (one.law.b - b.mean.value);
+/// a and b as the means of those of the runs, and the slope that goes with them.
+void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, Fitted& joint) {
+  const std::vector<double> same(laws.size(), 0);
+  std::vector<double> by_slope = same;
+  if (joint.slope) take_slope(laws, freedom, by_slope, errors, joint);
+  std::vector<Estimate> as, bs;
+  for (const OwnLaw& one : laws) as.push_back(one.log_D(0)), bs.push_back(one.b());
+  const Line a = scattered_line(as, same, freedom), b = scattered_line(bs, same, freedom);
+  double mean_by_slope = 0, noise = 0, scatter = 0;  // of a; of the products of a and b
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    const double of_a = a.weight_of(as[i]) / a.weight, of_b = b.weight_of(bs[i]) / b.weight;
+    mean_by_slope += of_a * by_slope[i];
+    noise += of_a * of_b * laws[i].covariance.ab;
+    scatter += a.residuals[i] * b.residuals[i] / std::sqrt(a.weight * b.weight) / freedom;
   }
-  if (a.mean.sigma > 0) joint.a.value = std::exp(a.mean.value);
-  if (b.mean.sigma > 0) joint.b.value = b.mean.value;
-  errors.a = joint.a.value * std::hypot(a.mean.sigma * std::max(1.0, t * a.scale),
-                                        by_slope(laws, joint) * errors.slope);
-  errors.b = b.mean.sigma * std::max(1.0, t * b.scale);
-  if (errors.a == 0 || errors.b == 0) return;
-  errors.together =
-      joint.a.value * (t * std::min(a.scale, b.scale) > 1 ? t * t * scatter / freedom : together);
+  const double by_a = student(a, freedom), by_b = student(b, freedom);
+  const bool free_a = std::isfinite(a.weight), free_b = std::isfinite(b.weight);
+  if (free_a) joint.a.value = std::exp(a.mean);
+  if (free_b) joint.b.value = b.mean;
+  errors.a =
+      free_a ? joint.a.value * std::hypot(by_a / std::sqrt(a.weight), mean_by_slope * errors.slope)
+             : 0;
+  errors.b = free_b ? by_b / std::sqrt(b.weight) : 0;
+  if (!free_a || !free_b) return;
+  const bool scattered = a.tau_square > 0 && b.tau_square > 0;
+  errors.together = joint.a.value * (scattered ? scatter * by_a * by_b : noise);
 }
 
 }  // namespace
@@ -236,13 +276,15 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
     }
   const auto laws = own_laws(own);
   if (laws.size() < 2) return {};
-  const Comparison found = compare(laws, parameters, options.fit_slope);
-  if (found.result.agree()) return found.result;
+  const Agreement found = compare(laws, parameters, options.fit_slope);
+  if (found.agree()) return found;
   const Fitted around_own = with_own_noise(joint, own);
   errors = noise_errors(around_own, uncertainty_of(around_own));
-  errors.multiply(found.scale);
-  if (found.freedom >= 1) take_means(laws, found.freedom, errors, joint);
-  return found.result;
+  const double freedom = static_cast<double>(laws.size()) - 1 - options.fit_slope;
+  if (freedom < 1 || (options.fit_slope && options.a))
+    errors.multiply(std::max(1.0, std::sqrt(found.chi2 / static_cast<double>(found.dof))));
+  else take_means(laws, freedom, errors, joint);
+  return found;
 }
 
 }  // namespace rolling

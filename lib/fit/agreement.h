@@ -10,18 +10,18 @@ namespace rolling {
 /// errors, whatever their kind. None where fewer than two runs determine a law by themselves.
 ///
 /// `errors` are those of the joint fit. Where the runs disagree, a and b of `joint` become the
-/// means of ln a and of b of the runs, each weighted by its own errors: one law for all bends
-/// between them (by 2 % of scatter in a, b would be off by its error), and the correlations of the
-/// errors would carry the scatter of one into the mean of the other. Their errors become those of
-/// the means, each multiplied by its scale factor sqrt(chi^2/(N - 1)), if that is above 1, after
-/// the Particle Data Group (Review of Particle Physics, section "Unconstrained averaging"); and,
-/// since N runs tell the factor only roughly, by t/1.96, t Student's quantile of 0.975 for N - 1
-/// degrees of freedom: so 1.96 standard errors hold the truth in 95 % (JCGM 100:2008, G.3).
+/// means of ln a and of b of the runs, for one law bends between them: by 2 % of scatter in a, b
+/// would be off by its error. Each of the two numbers is taken to scatter from run to run by tau
+/// beside the errors of the runs' own fits, with the tau that makes chi^2 as large as its degrees
+/// of freedom (Mandel and Paule 1970, Anal. Chem. 42, 1194); the weights are 1/(sigma^2 + tau^2).
+/// Since N runs tell tau only roughly, the errors of the means are multiplied by t/1.96, t
+/// Student's quantile of 0.975 for N - 1 degrees of freedom: so 1.96 standard errors hold the truth
+/// in 95 % (Hartung and Knapp 2001, Statist. Med. 20, 1771).
 ///
-/// The errors of v0 and of the slope of the mat, which stay those of the joint fit, are those of
-/// the noise around the runs' own laws, multiplied by the factor of the D that is known best. A
-/// fitted slope takes a degree of freedom; two runs then have none left, and all errors are
-/// multiplied by the sqrt(chi^2/dof) of all.
+/// A slope of the mat that is fitted becomes the one at which the runs of both directions agree
+/// best in ln D, by the same weights, and takes a degree of freedom. Two runs then have none left:
+/// a, b and the slope stay those of the joint fit, and all errors are multiplied by the root of
+/// chi^2/dof of all.
 std::optional<Agreement> agreement_of(Route, const std::vector<FitRun>&, const FitOptions&,
                                       NoiseErrors& errors, Fitted& joint);
 

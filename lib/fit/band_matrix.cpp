@@ -36,42 +36,12 @@ void BandMatrix::append(std::size_t first, std::span<const double> values) {
   const std::size_t start =
       std::ranges::equal(before, values) ? rows_.back().start : values_.size();
   if (first + values.size() > UINT32_MAX || start + values.size() > UINT32_MAX)
-    fail("a filter of more than {} numbers", UINT32_MAX);
+    fail("a filter of more than {} numbers", UINT32_MAX);  // GCOVR_EXCL_LINE: takes 32 GB
   if (start == values_.size()) values_.insert(values_.end(), values.begin(), values.end());
   rows_.push_back({static_cast<std::uint32_t>(start), static_cast<std::uint32_t>(first),
                    static_cast<std::uint32_t>(values.size())});
   columns_ = std::max(columns_, first + values.size());
   window_ = std::max(window_, columns_ - first);
-}
-
-void BandMatrix::append(std::size_t i, double x, const BandMatrix& X, double y,
-                        const BandMatrix& Y) {
-  const auto a = X.row(i), b = Y.row(i);
-  if (a.empty() && b.empty()) return append(0, a);
-  const std::size_t from = a.empty()   ? Y.first(i)
-                           : b.empty() ? X.first(i)
-                                       : std::min(X.first(i), Y.first(i));
-  std::vector<double> sum(std::max(X.end(i), Y.end(i)) - from, 0);
-  for (std::size_t j = 0; j < a.size(); ++j) sum[X.first(i) - from + j] += x * a[j];
-  for (std::size_t j = 0; j < b.size(); ++j) sum[Y.first(i) - from + j] += y * b[j];
-  append(from, sum);
-}
-
-BandMatrix BandMatrix::operator*(const BandMatrix& B) const {
-  BandMatrix product;
-  product.reserve(rows(), 0);
-  std::vector<double> sum;
-  for (std::size_t i = 0; i < rows(); ++i) {
-    std::size_t from = SIZE_MAX, to = 0;
-    for (std::size_t k = first(i); k < end(i); ++k)
-      if (!B.row(k).empty()) from = std::min(from, B.first(k)), to = std::max(to, B.end(k));
-    sum.assign(to > from ? to - from : 0, 0);
-    for (std::size_t k = first(i); k < end(i); ++k)
-      for (std::size_t j = 0; j < B.row(k).size(); ++j)
-        sum[B.first(k) - from + j] += row(i)[k - first(i)] * B.row(k)[j];
-    product.append(sum.empty() ? 0 : from, sum);
-  }
-  return product;
 }
 
 BandMatrix BandMatrix::of_rows(std::span<const std::size_t> rows) const {

@@ -18,8 +18,6 @@ class BandMatrix {
   /// Appends a row; zeros at either end of it are not stored, and equal rows, one after another,
   /// share their numbers.
   void append(std::size_t first, std::span<const double> values);
-  /// Appends row i of X times x plus row i of Y times y.
-  void append(std::size_t i, double x, const BandMatrix& X, double y, const BandMatrix& Y);
   std::size_t rows() const { return rows_.size(); }
   /// One more than the last column that a row reaches.
   std::size_t columns() const { return columns_; }
@@ -31,8 +29,6 @@ class BandMatrix {
   /// So many columns, counted back from the last one that it or a row before it reaches, a row
   /// reaches at most.
   std::size_t window() const { return window_; }
-  /// This matrix times B.
-  BandMatrix operator*(const BandMatrix& B) const;
   /// These rows, of all the columns.
   BandMatrix of_rows(std::span<const std::size_t> rows) const;
 

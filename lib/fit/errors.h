@@ -28,9 +28,9 @@ struct Uncertainty {
 };
 
 /// The errors are those of the known filters (exact sandwich), or the classical ones. Where the
-/// noise of 30 or more records is not white at 1 % (Ljung-Box), they are those of its
-/// autocorrelation (Newey-West); where it is of uneven size at 1 %, HC3. For known filters the
-/// noise that is tested is that of the raw column.
+/// noise of 30 or more records is not white (Ljung-Box) they are those of its autocorrelation
+/// (Newey-West), at 10 % already if neighbours go along; where it is of uneven size at 1 %, HC3.
+/// For known filters the noise that is tested is that of the raw column.
 Uncertainty uncertainty_of(const Fitted&);
 
 /// What the noise brings to the errors of the numbers that are reported.
@@ -73,7 +73,8 @@ double lagged(std::span<const double> residuals, std::span<const std::size_t> ru
               std::size_t lag);
 
 /// The middle of the sandwich, sum of w(|i-j|) u_i u_j^T over each run, row by row, run by run; u
-/// are n rows of scores, for the columns of each run, of p parameters in all. Bartlett weights
+/// are n rows of scores, for the columns of each run; p numbers in all, the parameters and what
+/// filters have taken, were fitted to the noise of the residuals. Bartlett weights
 /// (Newey and West 1987, Econometrica 55, 703), bandwidth by Andrews' AR(1) rule (1991,
 /// Econometrica 59, 817), after prewhitening by the AR(1) of the residuals (Andrews and Monahan
 /// 1992, Econometrica 60, 953), corrected for the fit: short records need both.

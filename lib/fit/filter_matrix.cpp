@@ -59,14 +59,6 @@ void FilterMatrix::row(std::size_t i, Row& to) const {
   }
 }
 
-double FilterMatrix::times(std::size_t i, std::span<const double> x) const {
-  Row here;
-  row(i, here);
-  double sum = 0;
-  for (std::size_t j = 0; j < here.values.size(); ++j) sum += here.values[j] * x[here.first + j];
-  return sum;
-}
-
 std::vector<double> FilterMatrix::times(std::span<const double> x) const {
   FilterPass pass(*this, 1);
   std::vector<double> all;
@@ -98,24 +90,6 @@ std::vector<double> FilterMatrix::transposed_times(std::span<const double> X,
       for (std::size_t c = 0; c < columns; ++c)
         all[k * columns + c] += (*border_)[k] * X[band_rows() * columns + c];
   return all;
-}
-
-BandMatrix FilterMatrix::last_factors(std::size_t from) const {
-  if (from == factors_.size())
-    return BandMatrix::identity(from > 0 ? factors_.back()->rows() : columns_);
-  BandMatrix product = *factors_.back();
-  for (std::size_t f = factors_.size() - 1; f-- > from;) product = product * *factors_[f];
-  return product;
-}
-
-FilterMatrix::Split FilterMatrix::split(const FilterMatrix& other) const {
-  std::size_t same = 0;
-  while (same < std::min(factors_.size(), other.factors_.size()) &&
-         factors_[same] == other.factors_[same])
-    ++same;
-  FilterMatrix shared(columns_);
-  shared.factors_.assign(factors_.begin(), factors_.begin() + static_cast<std::ptrdiff_t>(same));
-  return {std::move(shared), last_factors(same), other.last_factors(same)};
 }
 
 FilterPass::FilterPass(const FilterMatrix& H, std::size_t columns)

@@ -36,30 +36,17 @@ class FilterMatrix {
   };
   /// Writes row i; whoever asks for row after row gives the same place again.
   void row(std::size_t i, Row& to) const;
-  /// Element i of the product with x.
-  double times(std::size_t i, std::span<const double> x) const;
   std::vector<double> times(std::span<const double> x) const;
   /// The product of the transposed matrix with X, of `columns` numbers a row.
   std::vector<double> transposed_times(std::span<const double> X, std::size_t columns = 1) const;
 
-  /// What is left of two products without the filters, from the first one on, that they share:
-  /// this = left * shared, other = right * shared.
-  struct Split;
-  Split split(const FilterMatrix& other) const;
-
  private:
   friend class FilterPass;
   explicit FilterMatrix(std::size_t columns) : columns_(columns) {}
-  BandMatrix last_factors(std::size_t from) const;
 
   std::size_t columns_;
   std::vector<std::shared_ptr<const BandMatrix>> factors_;  // that of the first filter first
   std::shared_ptr<const std::vector<double>> border_;
-};
-
-struct FilterMatrix::Split {
-  FilterMatrix shared;
-  BandMatrix left, right;
 };
 
 /// Sends rows of numbers through the filters, one at a time: the product with a matrix of so many

@@ -1,6 +1,7 @@
 #include "fit/first_guess.h"
 
 #include "base/error.h"
+#include "base/median.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,11 +33,8 @@ ObservedRun without_outliers(ObservedRun run) {
   const std::vector<double> y = run.y;
   for (std::size_t i = 0; i < y.size(); ++i) {
     const std::size_t first = i < 2 ? 0 : i - 2, end = std::min(i + 3, y.size());
-    std::vector<double> near(y.begin() + static_cast<std::ptrdiff_t>(first),
-                             y.begin() + static_cast<std::ptrdiff_t>(end));
-    const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
-    std::nth_element(near.begin(), middle, near.end());
-    run.y[i] = *middle;
+    std::vector<double> near(&y[first], &y[first] + (end - first));
+    run.y[i] = nth_smallest(near, near.size() / 2);
   }
   return run;
 }
@@ -185,8 +183,9 @@ std::vector<ObservedRun> means_of_many(const std::vector<ObservedRun>& runs) {
 
 FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& options) {
   std::vector<Thinned> thin;
-  std::vector<ObservedRun> thin_runs;
-  for (const ObservedRun& run : runs) {
+  std::vector<ObservedRun> thin_runs,
+      few = options.robust ? std::vector<ObservedRun>() : means_of_many(runs);
+  for (const ObservedRun& run : few.empty() ? runs : few) {
     thin.push_back(options.robust ? thinned(without_outliers(run), options)
                                   : thinned(run, options));
     thin_runs.push_back(thin.back().run);
@@ -210,9 +209,7 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
       } catch (const Error&) {  // all of the data may do better
       }
   }
-  if (options.robust) return {q, std::move(theta)};
-  if (auto few = means_of_many(runs); !few.empty())
-    theta = approach(unweighted(std::move(few), q), std::move(theta));
+  if (!few.empty()) theta = approach(unweighted(std::move(few), q), std::move(theta));
   return {q, std::move(theta)};
 }
 

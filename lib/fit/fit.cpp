@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "base/golden_section.h"
 #include "fit/eccentricity.h"
 #include "fit/agreement.h"
 #include "fit/dot.h"
@@ -15,6 +14,7 @@
 #include "fit/given_numbers.h"
 #include "fit/model_shift.h"
 #include "fit/sensor_filters.h"
+#include "fit/white_share.h"
 
 namespace rolling {
 
@@ -91,21 +91,17 @@ void report(Fitted& fit, const std::vector<double>& theta) {
   }
 }
 
-/// What the residuals tell of the noise; and their sum of squares as they stand.
-void explain(Fitted& fit) {
-  fit.rss = fit.minimum.rss;
-  if (!fit.noise->known()) return;
-  fit.rss = 0;
+/// The sum of the squares of the residuals as they stand.
+double squares_of(const Fitted& fit) {
+  if (!fit.noise->known()) return fit.minimum.rss;
+  double sum = 0;
   const auto plain = fit.noise->without_weights(fit.minimum.f);
   const double* f = plain.data();
   for (const ObservedRun& run : fit.rolls->runs()) {
-    fit.rss += dot(f, f, run.records()) * run.unit * run.unit;
+    sum += dot(f, f, run.records()) * run.unit * run.unit;
     f += run.y.size();
   }
-  if (fit.noise_inferred) return;
-  fit.sources = fit.noise->explain(fit.minimum.f);
-  fit.source_runs = fit.noise->sources();
-  fit.innovations = fit.noise->innovations(fit.minimum.f, fit.innovation_runs);
+  return sum;
 }
 
 void find_minimum(Fitted& fit, std::vector<ObservedRun> runs, const FirstGuess& start,
@@ -132,20 +128,13 @@ bool rounded(const Fitted& fit) {
 /// most likely.
 void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   if (!rounded(fit)) return;
-  constexpr double decisive = 3;  // in ln of the likelihood: noise of the filters alone gains as
-                                  // much once in a hundred records
-  const auto likelihood = [&](double log_share) {
-    const auto noise = noise_of(fit.rolls->runs(), std::exp(log_share));
-    return restricted_likelihood(system_of(fit.rolls, noise), fit.minimum.theta) -
-           noise->log_size();
-  };
-  const double least = std::log(floor_share);
-  const Largest found = golden_section(least, 0, 0.1, likelihood);
-  if (found.value < likelihood(least) + decisive) return;
-  fit.white_share = std::exp(found.at);
+  fit.system = {}, fit.noise = {};  // these are large, and so is what the search needs
+  const WhiteShare found =
+      most_likely_share(fit.rolls, fit.minimum.theta, floor_share, 1, floor_share);
+  if (found.decisive()) fit.white_share = found.share;
   fit.noise = noise_of(fit.rolls->runs(), fit.white_share);
   fit.system = system_of(fit.rolls, fit.noise);
-  fit.minimum = solve(fit.system, fit.minimum.theta, options, true);
+  if (found.decisive()) fit.minimum = solve(fit.system, fit.minimum.theta, options, true);
 }
 
 }  // namespace
@@ -160,7 +149,7 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   fit.white_share = joint.white_share;
   find_minimum(fit, {std::move(run)}, {all.of_one_run(), all.theta_of_run(theta, r)}, options);
   report(fit, fit.minimum.theta);
-  explain(fit);
+  fit.rss = squares_of(fit);
   return fit;
 }
 
@@ -191,7 +180,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
   }
   allow_for_rounding(fit, options);
   report(fit, fit.minimum.theta);
-  explain(fit);
+  fit.rss = squares_of(fit);
   for (const FitRun& run : all) fit.left_out += run.t.size();
   fit.left_out -= fit.records;
   return fit;
@@ -307,11 +296,18 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
   const auto eccentricity = eccentricity_of(route, runs, found, uncertainty.variance);
   const auto agreement = agreement_of(route, runs, options, noise, found);
   require_determined(result_of(found, noise, {}), options.fit_slope);
-  FitResult result = result_of(found, noise, moved_by_given(route, runs, options, found));
+  auto moved = moved_by_given(route, runs, options, found);
+  if (found.bias_a != 0 || found.bias_b != 0)
+    moved.push_back({"bias", found.bias_a, found.bias_b, 0, {}});
+  FitResult result = result_of(found, noise, moved);
   if (route != Route::velocity && route != Route::position) result.v0 = result.sigma_v0 = {};
   result.agreement = agreement;
   result.eccentricity = eccentricity;
   return result;
+}
+
+bool noise_is_correlated(const FitResult& r) {
+  return r.errors == Errors::autocorrelation && r.whiteness <= not_white;
 }
 
 bool logarithms_too_low(const FitResult& r) {

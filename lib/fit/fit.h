@@ -76,7 +76,8 @@ struct Agreement {
 /// What one source of error brings to the standard errors; they are the roots of the sums of the
 /// squares.
 struct ErrorShare {
-  std::string of;  ///< "noise", or the given number: "K", or "K 0.5" where runs have several
+  /// "noise"; the given number, "K", or "K 0.5" where runs have several; the expected "bias"
+  std::string of;
   double a, b;
 };
 
@@ -95,6 +96,11 @@ struct FitResult {
   std::optional<Agreement> agreement = {};        ///< of two or more runs
   std::vector<ErrorShare> shares = {};            ///< of the errors, the noise first
 };
+
+/// At so small a significance the noise is not white: of two tests, some 0.6 % of false alarms.
+inline constexpr double not_white = 0.003;
+/// The noise is correlated beyond doubt, and the errors allow for it.
+bool noise_is_correlated(const FitResult&);
 
 /// For a fit by loglog. Noise makes logarithms too low, those of D by rms^2 / 2 on average (to
 /// second order): true if that is more than the standard error of the line at the speed

@@ -19,23 +19,29 @@ struct Quantity {
   std::vector<double> gradient;
 };
 
+/// What the residuals of a fit with known filters tell of the noise of the raw column.
+struct RawNoise {
+  double variance;
+  std::vector<double> sources;           ///< the least noise that explains the residuals
+  std::vector<std::size_t> source_runs;  ///< the number of them in each run
+  /// The weighted residuals that have noise of their own: white, if the noise of the raw column is.
+  std::vector<double> innovations;
+  std::vector<std::size_t> innovation_runs;
+  std::size_t means_taken;  ///< see RollModel
+};
+
 struct Fitted {
   System system;  ///< weighted
   Minimum minimum;
   std::shared_ptr<const Noise> noise = std::make_shared<const Noise>();
   bool noise_inferred = false;  ///< by the residuals: then the weights are the inverse of their
                                 ///< covariance
-  double white_share = floor_share;           ///< the share of Noise
-  std::optional<double> noise_variance = {};  ///< of the sources, where another fit has told it
-  /// Where the filters are known: the noise of the raw column as far as the residuals tell of it.
-  std::vector<double> sources = {};
-  std::vector<std::size_t> source_runs = {};  ///< the number of them in each run
-  /// The weighted residuals that have noise of their own: white, if the noise of the raw column is.
-  std::vector<double> innovations = {};
-  std::vector<std::size_t> innovation_runs = {};
+  double white_share = floor_share;        ///< the share of Noise
+  std::optional<RawNoise> raw_noise = {};  ///< where another fit has told it
   double rss = 0;  ///< sum of the squares of model - data in the unit of the fitted column
   std::size_t records = 0, left_out = 0;
   Quantity a = {}, b = {};
+  double bias_a = 0, bias_b = 0;                ///< of these values, as far as it is known
   std::optional<Quantity> slope = {};           ///< where it is a parameter
   std::vector<Quantity> v0 = {};                ///< one a run, if the model is a roll
   std::shared_ptr<const RollModel> rolls = {};  ///< the model, if it is a roll

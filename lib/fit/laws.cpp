@@ -14,39 +14,30 @@ namespace rolling {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double slope_unit = 1e-3;
 
 /// The records and the weights of a fit of a v^b, for other laws. theta holds v0 and x0 of every
-/// run in units of their own, then the coefficients and perhaps the slope, for all runs.
+/// run as that fit has them, then the coefficients and perhaps the slope, for all runs.
 class Records {
  public:
-  Records(Route route, Fitted power, const FitOptions& options)
-      : route_(route), power_(std::move(power)),
-        options_(options), law_{power_.a.value, power_.b.value} {
+  explicit Records(Fitted power) : power_(std::move(power)), law_{power_.a.value, power_.b.value} {
     for (double v : power_.v) v_unit_ = std::max(v_unit_, v);
     for (const auto& q : power_.v0) v_unit_ = std::max(v_unit_, std::abs(q.value));
-    if (!power_.rolls) return;
-    for (const auto& run : power_.rolls->runs())
-      x_unit_ = std::max(x_unit_, std::abs(run.y.back() - run.y.front()));
-    if (!power_.noise->known()) means_ = means_of_many(power_.rolls->runs());
+    if (power_.rolls && !power_.noise->known()) means_ = means_of_many(power_.rolls->runs());
   }
 
   const Fitted& power() const { return power_; }
   LawInUnits in_units(const Law& law) const { return {&law, law_(v_unit_), v_unit_}; }
-  std::size_t own() const { return power_.rolls ? !options_.v0 + free_x0() : 0; }
+  std::size_t own() const { return power_.system.own; }
   std::size_t shared(const Law& law) const { return law.coefficients.size() + fits_slope(); }
 
   /// v0, x0 and the slope of the fitted a v^b, with these coefficients.
   std::vector<double> theta(const std::vector<double>& c) const {
-    std::vector<double> all;
-    if (power_.rolls)
-      for (std::size_t r = 0; r < power_.v0.size(); ++r) {
-        const Parameters& q = power_.rolls->parameters();
-        if (!options_.v0) all.push_back(q.v0(power_.minimum.theta, r) / v_unit_);
-        if (free_x0()) all.push_back(q.x0(power_.minimum.theta, r) / x_unit_);
-      }
+    const System& system = power_.system;
+    std::vector<double> all = power_.minimum.theta;
+    const double slope = all.back();
+    all.resize(system.runs.size() * system.own);
     all.insert(all.end(), c.begin(), c.end());
-    if (fits_slope()) all.push_back(power_.slope->value / slope_unit);
+    if (fits_slope()) all.push_back(slope);
     return all;
   }
 
@@ -74,7 +65,6 @@ class Records {
   }
 
  private:
-  bool free_x0() const { return route_ == Route::position && !options_.x0; }
   bool fits_slope() const { return power_.slope.has_value(); }
 
   /// The residuals of the law itself: by how much it differs from the power law, and those of that.
@@ -94,36 +84,30 @@ class Records {
 
   void roll(const Law& law, const ObservedRun& run, std::size_t r, const std::vector<double>& theta,
             const TakeRows& take) const {
-    const double* own_of_run = &theta[r * own()];
-    const double* const c = &theta[theta.size() - shared(law)];
-    const double v0 = options_.v0 ? std::abs(*options_.v0) : *own_of_run++ * v_unit_,
-                 x0 = free_x0() ? *own_of_run * x_unit_ : options_.x0.value_or(0);
+    const Parameters& q = power_.rolls->parameters();
     Body body = run.body;
-    body.slope = fits_slope() ? run.way * theta.back() * slope_unit
-                              : power_.rolls->slope(power_.minimum.theta, r);
-    LawRoll roll(body, run.geometry, in_units(law), c, v0);
+    body.slope = power_.rolls->slope(theta, r);
+    LawRoll roll(body, run.geometry, in_units(law), &theta[theta.size() - shared(law)],
+                 q.v0(theta, r));
     const std::size_t coefficients = law.coefficients.size();
     Residuals residuals(run, r, own() + shared(law), *power_.noise, take);
     for (double t : run.t) {
       const LawRoll::Point p = roll.at(t);
       const bool x = run.raw_is_position;
       const auto place = residuals.place();
-      *place.raw = x ? x0 + run.way * p.x : run.way * p.v;
-      double* to = place.slopes;
+      *place.raw = x ? q.x0(theta, r) + run.way * p.x : run.way * p.v;
+      double* to = q.chain_own(place.slopes, place.stride, run.way * (x ? p.x_v0 : p.v_v0), 1);
       const auto put = [&](double value) { *std::exchange(to, to + place.stride) = value; };
-      if (!options_.v0) put(run.way * v_unit_ * (x ? p.x_v0 : p.v_v0));
-      if (free_x0()) put(x_unit_);
       for (std::size_t j = 0; j < coefficients; ++j) put(run.way * (x ? p.x_c[j] : p.v_c[j]));
-      if (fits_slope()) put(slope_unit * (x ? p.x_c[coefficients] : p.v_c[coefficients]));
+      if (fits_slope())
+        put(Parameters::slope_unit * (x ? p.x_c[coefficients] : p.v_c[coefficients]));
       residuals.push();
     }
   }
 
-  Route route_;
   Fitted power_;
-  FitOptions options_;
   PowerLaw law_;
-  double v_unit_ = 0, x_unit_ = 1;
+  double v_unit_ = 0;
   std::vector<ObservedRun> means_;  // to search in; none where there are few records
 };
 
@@ -194,6 +178,10 @@ Candidate fit_law(const Records& records, const Law& law, const std::vector<Cand
     }
   }
   std::sort(starts.begin(), starts.end());
+  const auto same = [](const auto& x, const auto& y) {
+    return y.first - x.first <= 1e-9 * x.first;
+  };
+  starts.erase(std::unique(starts.begin(), starts.end(), same), starts.end());
   Candidate best{&law, none, {}};
   const auto try_from = [&](const std::vector<double>& theta) {
     if (Minimum m = minimum_or_none(system, theta); m.rss < best.minimum.rss)
@@ -229,12 +217,6 @@ void report_coefficients(LawFit& result, const Records& records, const Candidate
     values.clear();
     fit.system = records.system(*found.law);
     fit.minimum = found.minimum;
-    const bool known = fit.noise->known() && !fit.noise_inferred;
-    if (known && fit.noise->weighted()) {
-      fit.sources = fit.noise->explain(found.minimum.f);
-      fit.innovation_runs.clear();
-      fit.innovations = fit.noise->innovations(found.minimum.f, fit.innovation_runs);
-    }
     const LawInUnits law = records.in_units(*found.law);
     for (std::size_t j = 0; j < law.size(); ++j) {
       Quantity q{0, std::vector<double>(fit.system.columns())};
@@ -278,7 +260,7 @@ LawComparison compare_laws(Route route, const std::vector<FitRun>& runs,
   if (options.robust) fail("laws are compared by squares only");
   // The mean logarithm of a noisy D is not that of its mean: other laws would fit the difference.
   if (route == Route::loglog) route = Route::shift;
-  const Records records(route, fit_route(route, runs, options), options);
+  const Records records(fit_route(route, runs, options));
   const Fitted& power = records.power();
   std::vector<Candidate> all{{&laws().front(), power.minimum, {1, power.b.value}}};
   for (std::size_t i = 1; i < laws().size(); ++i) all.push_back(fit_law(records, laws()[i], all));

@@ -1,6 +1,7 @@
 #include "fit/minimise.h"
 
 #include "base/error.h"
+#include "base/median.h"
 #include "fit/dot.h"
 #include "fit/triangles.h"
 
@@ -139,14 +140,19 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
   };
   const auto determined = [&] { return best.angle > undetermined; };
   const auto converged = [&] { return determined() && (best.size < 1e-7 || offset() < 1e-3); };
-  for (int round = 0; !converged() && (round == 0 || determined()); ++round) {
-    const double before = best.rss;
+  for (int round = 0; !converged(); ++round) {
+    const double before = best.rss, size = best.size;
     best = polish(system, descend(system, best), 0);
+    if (converged()) break;
+    const double gain = 1 - best.rss / before;
     // The minimum of a trajectory fit may lie on a kink, where the stop meets a record: hardly a
     // step goes down, but the slope of either side remains. It is worth a fraction of a standard
     // deviation, never more.
-    if (best.rss > before * (1 - std::max(1e-8, 1e-3 / freedom)) && offset() < 1) break;
-    if (round == 20)
+    if (!determined() || (gain < std::max(1e-8, 1e-3 / freedom) && offset() < 1)) break;
+    // All the steps of a round have gained less than a standard deviation, and yet a parameter
+    // would move by more than itself, and further than before: the minimum lies at infinity.
+    const bool lost = freedom > 0 && gain * freedom < 1 && best.size > std::max(1.0, size);
+    if (lost || gain == 0 || round == 20)
       fail(
           "the fit does not converge: are all of these records of the free roll (smooth --coast)?");
   }
@@ -183,9 +189,7 @@ Influence bisquare(double u) {
 double median_scale(std::vector<double> f, std::size_t p) {
   for (double& x : f) x = std::abs(x);
   const std::size_t first = std::min(p, f.size() - 1);
-  const auto middle = f.begin() + static_cast<std::ptrdiff_t>(first + (f.size() - first) / 2);
-  std::nth_element(f.begin(), middle, f.end());
-  return *middle / 0.6745;
+  return nth_smallest(f, first + (f.size() - first) / 2) / 0.6745;
 }
 
 }  // namespace

@@ -27,16 +27,25 @@ FilterMatrix filters_of_rows(const Response& response, Route route, const Rows& 
   return H.with_last_row(of_v.transposed_times(chosen));
 }
 
-/// +1 or -1: which way the body rolls; by all records, of which some may be false echoes.
-double way_of(Route route, const FitRun& run, const Rows& rows, const FitOptions& options) {
+/// +1 or -1: which way the body rolls; by all records (x or v), of which some may be false echoes.
+double way_of(bool position, const std::vector<double>& records, const FitOptions& options) {
   if (options.v0) return *options.v0 < 0 ? -1 : 1;
-  double sum = 0, before = 0;  // of v; or of x in the later half less those in the earlier one
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    if (route != Route::position) sum += run.v[rows[k]];
-    else if (options.x0) sum += run.x[rows[k]] - *options.x0;
-    else if (2 * k + 1 < rows.size()) before += run.x[rows[k]];
-    else if (2 * k + 1 > rows.size()) sum += run.x[rows[k]];
-  return sum < before ? -1 : 1;
+  const auto sum = [](auto begin, auto end) { return std::accumulate(begin, end, 0.0); };
+  const double all = sum(records.begin(), records.end());
+  if (!position) return all < 0 ? -1 : 1;
+  if (options.x0) return all < static_cast<double>(records.size()) * *options.x0 ? -1 : 1;
+  const auto half = static_cast<std::ptrdiff_t>(records.size() / 2);
+  return sum(records.end() - half, records.end()) < sum(records.begin(), records.begin() + half)
+             ? -1
+             : 1;
+}
+
+/// These records, with room for one more number.
+std::vector<double> taken(const std::vector<double>& column, const Rows& rows) {
+  std::vector<double> few;
+  few.reserve(rows.size() + 1);
+  for (std::size_t i : rows) few.push_back(column[i]);
+  return few;
 }
 
 }  // namespace
@@ -78,7 +87,6 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     ObservedRun seen;
     seen.body = run.body;
     seen.geometry = options.geometry;
-    seen.way = way_of(route, run, rows[r], options);
     seen.origin = making.known() ? making.responses[r].t.front() : first_fitted;
     seen.start = held ? 0 : first_fitted - seen.origin;
     if (held && seen.origin < run.t[0])
@@ -86,18 +94,16 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
           "v0 and x0 cannot be held: filters have reached back to what was cut away before run {} "
           "begins",
           r + 1);
-    const auto& column = route == Route::position   ? run.x
-                         : route == Route::velocity ? run.v
-                                                    : run.D;
-    seen.y.reserve(rows[r].size() + 1);
-    for (std::size_t i : rows[r]) seen.y.push_back(column[i]);
+    seen.y = taken(route == Route::position ? run.x : run.v, rows[r]);
+    seen.way = way_of(route == Route::position, seen.y, options);
     if (route == Route::shift) {
       const ShiftOf& by = *run.shift_of;
       seen.body = by.body;
       seen.geometry = by.geometry;
       seen.unit = (by.body.K + 1) * by.body.R / by.body.g;
       double mean = 0;
-      for (std::size_t i : rows[r]) mean += run.v[i] / static_cast<double>(rows[r].size());
+      for (double v : seen.y) mean += v / static_cast<double>(seen.y.size());
+      seen.y = taken(run.D, rows[r]);
       for (double& y : seen.y) y = acceleration_of(by, y);
       seen.y.push_back(mean);
     }
@@ -113,8 +119,7 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
       seen.t = making.responses[r].t;
       seen.H = filters_of_rows(making.responses[r], route, rows[r]);
     } else {
-      seen.t.reserve(rows[r].size());
-      for (std::size_t i : rows[r]) seen.t.push_back(run.t[i]);
+      seen.t = taken(run.t, rows[r]);
     }
     for (double& t : seen.t) t -= seen.origin;
     runs.push_back(std::move(seen));
@@ -176,15 +181,7 @@ Residuals::Residuals(const ObservedRun& run, std::size_t number, std::size_t par
     : run_(run), number_(number), parameters_(parameters), take_(take) {
   if (run.H) filters_.emplace(*run.H, parameters + 1);
   if (noise.weighted()) whitener_.emplace(noise.whitener(number), filters_->stride());
-}
-
-Residuals::Place Residuals::place() {
-  if (k_ == 0) {
-    f_.resize(std::min<std::size_t>(run_.y.size() - done_, 256));
-    J_.resize(f_.size() * parameters_);
-  }
-  if (!filters_) return {&f_[k_], &J_[k_], f_.size()};
-  return {filters_->place(), filters_->place() + 1, 1};
+  begin_rows();
 }
 
 void Residuals::push() {
@@ -206,8 +203,13 @@ void Residuals::push() {
 void Residuals::hand_over() {
   take_(number_, f_, J_);
   done_ += k_;
+  begin_rows();
+}
+
+void Residuals::begin_rows() {
   k_ = 0;
-  place();
+  f_.resize(std::min<std::size_t>(run_.y.size() - done_, 256));
+  J_.resize(f_.size() * parameters_);
 }
 
 System system_of(std::shared_ptr<const RollModel> model, std::shared_ptr<const Noise> noise) {

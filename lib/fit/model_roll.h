@@ -14,6 +14,7 @@
 #include "fit/response.h"
 #include "motion/trajectory.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -81,6 +82,12 @@ class RollModel {
   RawModel raw(const std::vector<double>& theta, std::size_t run) const {
     return {runs_[run], parameters_, theta, run, trajectory(theta, run)};
   }
+  /// Runs of positions whose mean the filters have taken away, so that x0 is no parameter.
+  std::size_t means_taken() const {
+    return parameters_.has_x0() ? 0
+                                : static_cast<std::size_t>(std::ranges::count_if(
+                                      runs_, [](const auto& run) { return run.raw_is_position; }));
+  }
   /// The slope that a run sees along its way.
   double slope(const std::vector<double>& theta, std::size_t run) const;
   /// Hands over model - data of each run, weighted where the noise says so.
@@ -104,11 +111,15 @@ class Residuals {
     double* slopes;
     std::size_t stride;
   };
-  Place place();
+  Place place() {
+    if (!filters_) return {&f_[k_], &J_[k_], f_.size()};
+    return {filters_->place(), filters_->place() + 1, 1};
+  }
   /// Takes what stands at the place.
   void push();
 
  private:
+  void begin_rows();
   void hand_over();
 
   const ObservedRun& run_;

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include "base/error.h"
+#include "contact/contact.h"
+#include "contact/power_law.h"
+#include "fit/dot.h"
 #include "fit/errors.h"
 
 namespace rolling {
@@ -211,9 +215,10 @@ System line_system(ShiftRecords records, Height height) {
           }};
 }
 
-/// The standard deviation of ln(1 + e) for normal e of standard deviation s, of those with 1 + e >
-/// 0, which have a logarithm: s itself for a small s; for a large one it grows like a logarithm.
-double spread_of_logarithm(double s) {
+/// The mean and the standard deviation of ln(1 + e) for normal e of standard deviation s, of those
+/// with 1 + e > 0, which have a logarithm: -s^2/2 and s itself for a small s; for a large one they
+/// grow like a logarithm.
+Estimate logarithm_of_noise(double s) {
   // z = u^2 + the least z: at the pole of the logarithm the integrands become smooth, so that so
   // many steps are within 5e-4.
   constexpr int steps = 200;
@@ -227,61 +232,97 @@ double spread_of_logarithm(double s) {
     sum += w * log;
     squares += w * log * log;
   }
-  return std::sqrt(squares / weight - sum / weight * (sum / weight));
+  const double mean = sum / weight;
+  return {mean, std::sqrt(squares / weight - mean * mean)};
 }
 
 /// The same from a table, by straight lines between its places, which are filled as they are asked
 /// for.
-class SpreadOfLogarithm {
+class LogarithmOfNoise {
  public:
-  double operator()(double s) {
+  Estimate operator()(double s) {
     const double place = (std::log(s) - least) * places;
     if (!(place >= 0 && place + 1 < static_cast<double>(table_.size())))
-      return spread_of_logarithm(s);
-    const double before = std::floor(place);
-    const auto i = static_cast<std::size_t>(before);
-    return at(i) + (place - before) * (at(i + 1) - at(i));
+      return logarithm_of_noise(s);
+    const auto i = static_cast<std::size_t>(place);
+    const double share = place - static_cast<double>(i);
+    const Estimate low = at(i), high = at(i + 1);
+    return {std::lerp(low.value, high.value, share), std::lerp(low.sigma, high.sigma, share)};
   }
 
  private:
   static constexpr double least = -7, most = 7, places = 32;  // of ln s, and for each unit of it
-  double at(std::size_t i) {
-    if (table_[i] == 0)
-      table_[i] = spread_of_logarithm(std::exp(least + static_cast<double>(i) / places));
+  Estimate at(std::size_t i) {
+    if (table_[i].sigma == 0)
+      table_[i] = logarithm_of_noise(std::exp(least + static_cast<double>(i) / places));
     return table_[i];
   }
-  std::vector<double> table_ =
-      std::vector<double>(static_cast<std::size_t>((most - least) * places) + 1);
+  std::vector<Estimate> table_ =
+      std::vector<Estimate>(static_cast<std::size_t>((most - least) * places) + 1);
 };
 
-/// The noise of ln D - b ln v of a run for raw noise of one: that of D and v over themselves, which
-/// are those of this raw column; `sigma` is the size that raw noise has.
-FilterMatrix over_themselves(const FilterMatrix& D, const FilterMatrix& v,
-                             const std::vector<double>& raw, const Rows& rows, double b,
-                             double sigma) {
-  const FilterMatrix::Split parts = D.split(v);
-  const auto as = D.times(raw), vs = v.times(raw);
-  const auto weighted = [&](const std::vector<double>& shrink) {
-    BandMatrix E;
-    E.reserve(rows.size(), 0);
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      const double a_i = -as[rows[k]], v_i = vs[rows[k]], by = shrink.empty() ? 1 : shrink[k],
-                   by_D = a_i > 0 ? 1 / a_i : 1e100, by_v = v_i > 0 ? b / v_i : 0;
-      E.append(rows[k], by_D * by, parts.left, by_v * by, parts.right);
-    }
-    return parts.shared.then(std::move(E));
-  };
-  std::vector<double> shrink = row_norms(weighted({}));
-  SpreadOfLogarithm spread;
-  for (double& of_row : shrink) {
-    const double s = sigma * of_row;
-    of_row = s > 0 && std::isfinite(s) ? spread(s) / s : 0;
-  }
-  return weighted(shrink);
+/// What is known of the points (ln v, ln D) of a run.
+struct Logarithms {
+  FilterMatrix noise;        ///< of ln D - b ln v, for raw noise of one
+  std::vector<double> bias;  ///< of the same: by how much it is above ln a on average
+};
+
+/// x X + y Y.
+void add(double x, const FilterMatrix::Row& X, double y, const FilterMatrix::Row& Y,
+         FilterMatrix::Row& sum) {
+  sum.first = std::min(X.first, Y.first);
+  sum.values.assign(std::max(X.end(), Y.end()) - sum.first, 0);
+  for (std::size_t j = X.first; j < X.end(); ++j)
+    sum.values[j - sum.first] += x * X.values[j - X.first];
+  for (std::size_t j = Y.first; j < Y.end(); ++j)
+    sum.values[j - sum.first] += y * Y.values[j - Y.first];
 }
 
-/// The noise of ln D - b ln v where the filters are known: that of D and v over D and v themselves,
-/// which are those of the roll that fits best, seen through the filters.
+/// Of a roll under the law, which these filters make of this raw column along the way of the body;
+/// `sigma` is the size of the raw noise. Smoothing bends the curve, and noise has a logarithm that
+/// is too low and spreads less than the noise over its mean.
+Logarithms logarithms_of(const FilterMatrix& D, const FilterMatrix& v,
+                         const std::vector<double>& raw, const Rows& rows, PowerLaw law,
+                         const std::function<double(double)>& shift, double sigma) {
+  const auto as = D.times(raw), vs = v.times(raw);
+  FilterMatrix::Row of_D, of_v, row;
+  if (!rows.empty()) D.row(rows[rows.size() / 2], of_D);
+  BandMatrix E;
+  E.reserve(rows.size(), rows.size() * of_D.values.size());
+  std::vector<double> bias;
+  bias.reserve(rows.size());
+  LogarithmOfNoise logarithm;
+  for (std::size_t i : rows) {
+    constexpr double step = 1e-4;
+    const double a_i = as[i], v_i = vs[i], here = shift(a_i);
+    D.row(i, of_D), v.row(i, of_v);
+    add(here > 0 ? (shift((1 - step) * a_i) / here - 1) / (step * a_i) : 1e100, of_D,
+        v_i > 0 ? law.b / v_i : 0, of_v, row);
+    const double s =
+        sigma * std::sqrt(dot(row.values.data(), row.values.data(), row.values.size()));
+    const Estimate of_noise = s > 0 && std::isfinite(s) ? logarithm(s) : Estimate{};
+    for (double& x : row.values) x *= of_noise.sigma > 0 ? of_noise.sigma / s : 0;
+    E.append(row.first, row.values);
+    bias.push_back(here > 0 && v_i > 0 ? std::log(here / law(v_i)) : 0);
+    if (here > 0) bias.back() += of_noise.value;
+  }
+  return {FilterMatrix::identity(raw.size()).then(std::move(E)), std::move(bias)};
+}
+
+/// What biases of the points make of a and b of the line through them.
+void bias_line(Fitted& line, const std::vector<double>& bias) {
+  const std::size_t p = line.system.columns();
+  const std::vector<double> Q = orthonormal(line.system, line.minimum), &R = line.minimum.R;
+  std::vector<double> theta(p, 0.0);
+  for (std::size_t i = 0; i < Q.size(); ++i) theta[i % p] += Q[i] * bias[i / p];
+  for (std::size_t j = p; j-- > 0; theta[j] /= R[j * p + j])
+    for (std::size_t k = j + 1; k < p; ++k) theta[j] -= R[j * p + k] * theta[k];
+  line.bias_a = dot(line.a.gradient.data(), theta.data(), p);
+  line.bias_b = dot(line.b.gradient.data(), theta.data(), p);
+}
+
+/// The noise and the bias of ln D - b ln v where the filters are known: those of the roll that fits
+/// best, seen through the filters.
 void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<FitRun>& all,
                  const FitOptions& options) {
   Making making = making_of(Route::shift, all);
@@ -296,26 +337,31 @@ void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<
   } catch (const Error&) {  // there is no such roll
     return;
   }
-  line.noise_variance = noise_variance(roll);
-  std::vector<std::vector<double>> raw;
+  RawNoise& of_roll = line.raw_noise.emplace();
+  of_roll.variance = noise_variance(roll);
+  of_roll.sources = roll.noise->explain(roll.minimum.f);
+  of_roll.source_runs = roll.noise->sources();
+  of_roll.innovations = roll.noise->innovations(roll.minimum.f, of_roll.innovation_runs);
+  of_roll.means_taken = roll.rolls->means_taken();
+  roll.system = {}, roll.noise = {};  // its weights are large
+  std::vector<FilterMatrix> noise;
+  std::vector<double> bias;
   for (std::size_t r = 0; r < all.size(); ++r) {
     const ObservedRun& run = roll.rolls->runs()[r];
     const Trajectory trajectory = roll.rolls->trajectory(roll.minimum.theta, r);
-    auto& of_run = raw.emplace_back();
-    of_run.reserve(run.t.size());
+    std::vector<double> raw;
     for (double t : run.t)
-      of_run.push_back(run.raw_is_position ? trajectory.at(t).x : trajectory.speed_at(t).v);
+      raw.push_back(run.raw_is_position ? trajectory.at(t).x : trajectory.speed_at(t).v);
+    const auto shift = [&, by = *all[r].shift_of](double a) {
+      return run.way * shift_from_acceleration(by.body, by.geometry, run.way * a);
+    };
+    Logarithms of_run = logarithms_of(D[r], v[r], raw, rows[r], {roll.a.value, roll.b.value}, shift,
+                                      std::sqrt(of_roll.variance));
+    noise.push_back(std::move(of_run.noise));
+    bias.insert(bias.end(), of_run.bias.begin(), of_run.bias.end());
   }
-  line.sources = std::move(roll.sources);
-  line.source_runs = std::move(roll.source_runs);
-  line.innovations = std::move(roll.innovations);
-  line.innovation_runs = std::move(roll.innovation_runs);
-  roll = {};  // its weights are large
-  std::vector<FilterMatrix> matrices;
-  for (std::size_t r = 0; r < all.size(); ++r)
-    matrices.push_back(over_themselves(D[r], v[r], raw[r], rows[r], line.b.value,
-                                       std::sqrt(*line.noise_variance)));
-  line.noise = std::make_shared<const Noise>(std::move(matrices), std::nullopt);
+  line.noise = std::make_shared<const Noise>(std::move(noise), std::nullopt);
+  bias_line(line, bias);
 }
 
 }  // namespace

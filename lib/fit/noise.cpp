@@ -1,10 +1,9 @@
 #include "fit/noise.h"
 
-#include "base/error.h"
 #include "fit/dot.h"
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rolling {
 
@@ -19,30 +18,25 @@ std::vector<double> row_norms(const FilterMatrix& E) {
   return norms;
 }
 
-namespace {
-
-void append(std::vector<double>& to, std::vector<double> more) {
-  if (to.empty()) to = std::move(more);
-  else to.insert(to.end(), more.begin(), more.end());
+/// What of_run(number, its part of `all`) makes of each run, one after another.
+template <typename Number, typename OfRun>
+std::vector<double> Noise::each(std::span<Number> all, std::size_t columns, OfRun&& of_run) const {
+  std::vector<double> made;
+  for (std::size_t r = 0, start = 0; r < E_.size(); start += E_[r++].rows() * columns) {
+    std::vector<double> more = of_run(r, all.subspan(start, E_[r].rows() * columns));
+    if (made.empty()) made = std::move(more);
+    else made.insert(made.end(), more.begin(), more.end());
+  }
+  return made;
 }
-
-}  // namespace
 
 Noise::Noise(std::vector<FilterMatrix> E, std::optional<double> share) : E_(std::move(E)) {
   if (!share) return;
   for (const FilterMatrix& of_run : E_) {
-    std::vector<double> norms = row_norms(of_run);
-    if (norms.empty()) fail("a run has no record that can be fitted");
-    const auto middle = norms.begin() + static_cast<std::ptrdiff_t>(norms.size() / 2);
-    std::nth_element(norms.begin(), middle, norms.end());
-    whiteners_.emplace_back(of_run, *share * *middle);
+    Covariance covariance(of_run);
+    const double floor = *share * covariance.median_norm();
+    whiteners_.emplace_back(std::move(covariance), floor);
   }
-}
-
-double Noise::log_size() const {
-  double sum = 0;
-  for (const auto& whitener : whiteners_) sum += whitener.log_size();
-  return sum;
 }
 
 double Noise::trace() const {
@@ -58,50 +52,36 @@ std::vector<std::size_t> Noise::sources() const {
 }
 
 std::vector<double> Noise::without_weights(const std::vector<double>& f) const {
-  std::vector<double> all;
-  std::size_t start = 0;
-  for (std::size_t r = 0; r < E_.size(); start += E_[r++].rows())
-    append(all, whiteners_[r].undo(std::span(f).subspan(start, E_[r].rows())));
-  return all;
+  return each(std::span(f), 1, [&](std::size_t r, std::span<const double> of_run) {
+    return whiteners_[r].undo(of_run);
+  });
 }
 
 std::vector<double> Noise::through(std::vector<double> Q, std::size_t p) const {
-  std::vector<double> all;
-  std::size_t start = 0;
-  for (std::size_t r = 0; r < E_.size(); start += E_[r++].rows()) {
-    const auto of_run = std::span(Q).subspan(start * p, E_[r].rows() * p);
+  return each(std::span(Q), p, [&](std::size_t r, std::span<double> of_run) {
     if (weighted()) whiteners_[r].apply_transposed(of_run, p);
-    append(all, E_[r].transposed_times(of_run, p));
-  }
-  return all;
+    return E_[r].transposed_times(of_run, p);
+  });
 }
 
 std::vector<double> Noise::middle(std::vector<double> Q, std::size_t p) const {
-  if (E_.size() == 1) return whiteners_[0].middle(std::move(Q), p);
-  std::vector<double> all;
-  std::size_t start = 0;
-  for (std::size_t r = 0; r < E_.size(); start += E_[r++].rows()) {
-    const auto from = Q.begin() + static_cast<std::ptrdiff_t>(start * p),
-               to = from + static_cast<std::ptrdiff_t>(E_[r].rows() * p);
-    append(all, whiteners_[r].middle(std::vector(from, to), p));
-  }
-  return all;
+  return each(std::span(Q), p, [&](std::size_t r, std::span<double> of_run) {
+    return whiteners_[r].middle(of_run, p);
+  });
 }
 
 std::vector<double> Noise::explain(std::vector<double> f) const { return through(std::move(f), 1); }
 
 std::vector<double> Noise::innovations(const std::vector<double>& f,
                                        std::vector<std::size_t>& runs) const {
-  std::vector<double> all;
-  std::size_t start = 0;
-  for (std::size_t r = 0; r < E_.size(); ++r) {
-    const std::size_t before = all.size();
-    for (std::size_t i = 0; i < E_[r].rows(); ++i)
-      if (whiteners_[r].informative(i)) all.push_back(f[start + i]);
-    runs.push_back(all.size() - before);
-    start += E_[r].rows();
-  }
-  return all;
+  return each(std::span(f), 1, [&](std::size_t r, std::span<const double> of_run) {
+    std::vector<double> few;
+    few.reserve(of_run.size());
+    for (std::size_t i = 0; i < of_run.size(); ++i)
+      if (whiteners_[r].informative(i)) few.push_back(of_run[i]);
+    runs.push_back(few.size());
+    return few;
+  });
 }
 
 }  // namespace rolling

@@ -21,12 +21,8 @@ class Noise {
   bool known() const { return !E_.empty(); }
   bool weighted() const { return !whiteners_.empty(); }
   const Whitener& whitener(std::size_t run) const { return whiteners_[run]; }
-  /// Weights the residuals of a run, or any columns of as many numbers, one after another.
-  void weight(std::size_t run, std::span<double> columns) const { whiteners_[run].apply(columns); }
   /// The residuals of all runs without their weights.
   std::vector<double> without_weights(const std::vector<double>& f) const;
-  /// ln of the factor by which weighting shrinks a volume.
-  double log_size() const;
 
   /// For Q = J R^-1 of a fit with these weights (a row of `columns` numbers for each residual):
   /// B = (W E)^T Q, a row for each source, run by run. The error of the parameters is
@@ -47,6 +43,9 @@ class Noise {
   std::vector<std::size_t> sources() const;
 
  private:
+  template <typename Number, typename OfRun>
+  std::vector<double> each(std::span<Number> all, std::size_t columns, OfRun&&) const;
+
   std::vector<FilterMatrix> E_;
   std::vector<Whitener> whiteners_;
 };

@@ -16,6 +16,8 @@ namespace rolling {
 /// the way, never negative.
 class Parameters {
  public:
+  static constexpr double slope_unit = 1e-3;
+
   /// Only positions have an x0.
   Parameters(const FitOptions& options, bool position, std::size_t runs, double v_ref, double x_ref)
       : a_(options.a), b_(options.b), v0_(options.v0), x0_(options.x0), slope_(options.fit_slope),
@@ -42,6 +44,7 @@ class Parameters {
     return slope_ ? theta.back() * slope_unit : given;
   }
   bool fits_slope() const { return slope_; }
+  bool has_x0() const { return position_; }
   /// Those of a run by itself, on a mat of known slope.
   Parameters of_one_run() const {
     Parameters one = *this;
@@ -58,19 +61,23 @@ class Parameters {
   struct Derivatives {
     double a, b, v0 = 0, x0 = 0, slope = 0;
   };
-  /// The derivatives by the own parameters of a run and the shared ones, written `stride` apart.
+  /// The derivatives by the own parameters of a run, written `stride` apart; where the next one
+  /// belongs.
+  double* chain_own(double* to, std::size_t stride, double v0, double x0) const noexcept {
+    if (!v0_) *std::exchange(to, to + stride) = v0 * v_ref_;
+    if (free_x0()) *std::exchange(to, to + stride) = x0 * x_ref_;
+    return to;
+  }
+  /// Those, and the derivatives by the shared ones.
   void chain(double* to, std::size_t stride, double a, const Derivatives& by) const noexcept {
-    const auto put = [&](double value) { *std::exchange(to, to + stride) = value; };
-    if (!v0_) put(by.v0 * v_ref_);
-    if (free_x0()) put(by.x0 * x_ref_);
+    double* place = chain_own(to, stride, by.v0, by.x0);
+    const auto put = [&](double value) { *std::exchange(place, place + stride) = value; };
     if (!a_) put(a * by.a);
     if (!b_) put(by.b - (a_ ? 0 : log_v_ref_ * a * by.a));
     if (slope_) put(by.slope * slope_unit);
   }
 
  private:
-  static constexpr double slope_unit = 1e-3;
-
   bool free_x0() const { return position_ && !x0_; }
 
   std::optional<double> a_, b_, v0_, x0_;

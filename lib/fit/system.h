@@ -27,10 +27,6 @@ struct System {
   std::size_t residuals() const {
     return std::accumulate(runs.begin(), runs.end(), std::size_t{0});
   }
-  /// The place in theta of a column of J.
-  std::size_t place(std::size_t run, std::size_t column) const {
-    return column < own ? run * own + column : (runs.size() - 1) * own + column;
-  }
 };
 
 }  // namespace rolling

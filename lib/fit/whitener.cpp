@@ -1,10 +1,12 @@
 #include "fit/whitener.h"
 
 #include "base/error.h"
+#include "base/median.h"
 #include "fit/dot.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rolling {
 namespace {
@@ -32,29 +34,30 @@ double product(const FilterMatrix::Row& x, const FilterMatrix::Row& y) {
 
 }  // namespace
 
-Whitener::Whitener(const FilterMatrix& E, double floor)
-    : n_(E.band_rows()), band_(band_of(E)), floor_(floor), R_(n_ * band_) {
-  std::vector<FilterMatrix::Row> last(band_);  // rows of E
-  if (E.bordered()) border_.resize(n_);
-  for (std::size_t i = 0; i < n_; ++i) {
-    const FilterMatrix::Row& row = last[i % band_];
-    E.row(i, last[i % band_]);
-    for (std::size_t j = i < band_ ? 0 : i - band_ + 1; j <= i; ++j)
-      R_[j * band_ + i - j] = product(row, last[j % band_]) + (i == j ? floor * floor : 0);
+Covariance::Covariance(const FilterMatrix& E)
+    : n(E.band_rows()), band(band_of(E)), rows(n * band), border(E.bordered() ? n : 0) {
+  std::vector<FilterMatrix::Row> last(band);  // rows of E
+  for (std::size_t i = 0; i < n; ++i) {
+    const FilterMatrix::Row& row = last[i % band];
+    E.row(i, last[i % band]);
+    for (std::size_t j = i < band ? 0 : i - band + 1; j <= i; ++j)
+      rows[j * band + i - j] = product(row, last[j % band]);
     if (E.bordered() && !row.values.empty())
-      border_[i] = dot(row.values.data(), &E.last_row()[row.first], row.values.size());
+      border[i] = dot(row.values.data(), &E.last_row()[row.first], row.values.size());
   }
-  factorise();
-  if (!E.bordered()) return;
-  apply(border_);
-  const auto row = E.last_row();
-  const double rest =
-      dot(row.data(), row.data(), row.size()) - dot(border_.data(), border_.data(), n_);
-  if (!(rest > 0)) fail("the filters leave a column without noise");
-  corner_ = std::sqrt(rest);
+  if (E.bordered()) corner = dot(E.last_row().data(), E.last_row().data(), E.columns());
 }
 
-void Whitener::factorise() {
+double Covariance::median_norm() const {
+  if (n == 0) fail("a run has no record that can be fitted");
+  std::vector<double> squares(n);
+  for (std::size_t i = 0; i < n; ++i) squares[i] = rows[i * band];
+  return std::sqrt(nth_smallest(squares, n / 2));
+}
+
+Whitener::Whitener(Covariance of_E, double floor)
+    : n_(of_E.n), band_(of_E.band), floor_(floor), R_(std::move(of_E.rows)) {
+  for (std::size_t k = 0; k < n_; ++k) R_[k * band_] += floor * floor;
   for (std::size_t k = 0; k < n_; ++k) {
     double* const R = &R_[k * band_];
     if (!(R[0] > 0)) fail("the filters leave a column without noise");
@@ -63,6 +66,12 @@ void Whitener::factorise() {
     for (std::size_t i = 1; i < std::min(band_, n_ - k); ++i)
       for (std::size_t j = i; j < band_; ++j) R[i * band_ + j - i] -= R[i] * R[j];
   }
+  if (of_E.border.empty()) return;
+  apply(of_E.border);
+  border_ = std::move(of_E.border);
+  const double rest = of_E.corner - dot(border_.data(), border_.data(), n_);
+  if (!(rest > 0)) fail("the filters leave a column without noise");
+  corner_ = std::sqrt(rest);
 }
 
 Whitener::Pass::Pass(const Whitener& by, std::size_t stride)
@@ -169,7 +178,7 @@ double Whitener::trace() const {
 }
 
 // R^-T E E^T R^-1 = I - floor^2 R^-T F R^-1, F = I but for the border, which has no floor.
-std::vector<double> Whitener::middle(std::vector<double> Q, std::size_t columns) const {
+std::vector<double> Whitener::middle(std::span<double> Q, std::size_t columns) const {
   std::vector<double> M(columns * columns);
   const auto add_squares = [&](std::size_t n, double by) {
     for (std::size_t i = 0; i < n; ++i)

@@ -5,14 +5,26 @@
 
 namespace rolling {
 
-/// The Cholesky factor of C = E E^T + floor^2 I = R^T R, a band matrix, in O(n band^2) steps. A
-/// last row of E that reaches over the whole run has no floor, and borders the band as a last row
-/// and column of C.
+/// The covariance E E^T of what E makes of white noise of size one: a band matrix, bordered by a
+/// last row and column where a last row of E reaches over the whole run.
+struct Covariance {
+  explicit Covariance(const FilterMatrix& E);
+  /// The norm of the median row of E, but for the last one.
+  double median_norm() const;
+
+  std::size_t n, band;         // of the rows without the border
+  std::vector<double> rows;    // row k holds columns k .. k + band - 1
+  std::vector<double> border;  // above its corner; empty: there is none
+  double corner = 0;
+};
+
+/// The Cholesky factor of C = E E^T + floor^2 I = R^T R, in O(n band^2) steps. The border has no
+/// floor.
 class Whitener {
  public:
   /// floor > 0; it must not be so small against the largest row of E that its square drowns in
   /// rounding.
-  Whitener(const FilterMatrix& E, double floor);
+  Whitener(Covariance of_E, double floor);
   /// Makes the rows of a matrix white, one after another: X becomes R^-T X.
   class Pass;
   /// X becomes R^-T X, column by column, a column for each vector.
@@ -28,12 +40,11 @@ class Whitener {
   double log_size() const;
   /// The trace of R^-T E E^T R^-1: the number of residuals less what the floor takes.
   double trace() const;
-  /// Q^T R^-T E E^T R^-1 Q, for Q of `columns` numbers a row.
-  std::vector<double> middle(std::vector<double> Q, std::size_t columns) const;
+  /// Q^T R^-T E E^T R^-1 Q, for Q of `columns` numbers a row, which is overwritten.
+  std::vector<double> middle(std::span<double> Q, std::size_t columns) const;
 
  private:
   double trace_of_inverse() const;
-  void factorise();
   std::size_t rows() const { return n_ + (corner_ > 0); }
 
   std::size_t n_, band_;  // of the rows without the border

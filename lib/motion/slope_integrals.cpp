@@ -227,15 +227,12 @@ SlopeIntegrals::Sums SlopeIntegrals::local(const Panel& p, double width, Wanted 
 SlopeIntegrals::Sums SlopeIntegrals::total(const Panel& p, double r, const Sums& local) const {
   const Sums& b = p.before;
   const double moved = std::exp(-way_ * p.r) * std::abs(std::expm1(-way_ * r));
-  return {b.time + local.time,
-          b.distance + local.distance,
-          b.h0 + local.h0,
-          b.h1 + local.h1,
-          b.k0 + local.k0,
-          b.g0 + moved * b.h0 + local.g0,
-          b.g1 + moved * b.h1 + local.g1,
-          b.j + moved * b.k0 + local.j,
-          b.w + moved * b.time + local.w};
+  Sums sum = local;
+  sum.time += b.time, sum.distance += b.distance;
+  sum.h0 += b.h0, sum.h1 += b.h1, sum.k0 += b.k0;
+  sum.g0 += b.g0 + moved * b.h0, sum.g1 += b.g1 + moved * b.h1;
+  sum.j += b.j + moved * b.k0, sum.w += b.w + moved * b.time;
+  return sum;
 }
 
 SlopeIntegrals::Place SlopeIntegrals::place(double time, double rest) const {

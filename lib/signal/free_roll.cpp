@@ -141,8 +141,11 @@ class Search {
     first_ = end_ = view_.peak;
     while (first_ > 0 && moves(first_ - 1)) --first_;
     while (end_ < run.size() && moves(end_)) ++end_;
-    if (end_ < run.size()) end_ -= std::min(view_.k, end_);
-    while (!positions && end_ > 0 && sign_ * run[end_ - 1].y <= 0) --end_;
+    if (end_ < run.size()) {
+      end_ = std::min(end_ + 2 * view_.k + 1, run.size());
+      while (!moves(end_ - 1)) --end_;
+      end_ -= std::min(view_.k + 1, end_);
+    }
     if (end_ < least_samples) fail("{}", not_found);
     samples_ = without_spikes(run.subspan(0, end_), first_);
   }

@@ -12,10 +12,11 @@ namespace rolling {
 /// The samples from begin to before end of a run of positions, or of speeds, which may be noisy and
 /// begin and end at rest.
 ///
-/// The roll ends where the body that has had the greatest speed of the run comes to rest: k samples
-/// before the local speed, the mean over 2k + 1 samples, has fallen to twice its noise. k is 2, or
-/// as much more as brings that noise below 2 % of the greatest speed, or as low as it comes in up
-/// to a tenth of the run.
+/// The roll ends where the body that has had the greatest speed of the run comes to rest: before
+/// the last window of 2k + 1 samples whose speed is above twice its noise. k is 2, or as much more
+/// as brings that noise below 2 % of the greatest speed, or as low as it comes in up to a tenth of
+/// the run. That window is sought backwards, from 2k + 1 samples behind the first one that is
+/// slower: so no sample that is kept has been looked at, and none is chosen by its noise.
 ///
 /// It begins after the last corner of the speed before that (signal/corner.h) which stands out of
 /// the noise by 5 standard deviations and adds 5 % of the greatest speed in a window; one or two

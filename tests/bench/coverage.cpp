@@ -26,6 +26,9 @@ int main(int argc, char** argv) {
     if (argc > 2 && !std::strstr(what.name, argv[2])) continue;
     for (const auto& scene : {coverage::CR, coverage::CF})
       jobs.emplace_back(new Job{what, scene, {}});
+    if (what.record)
+      for (const auto& scene : {coverage::SR, coverage::SF})
+        jobs.emplace_back(new Job{what, scene, {}});
     if (what.name == std::string("white x") || what.name == std::string("D from x, mean 11"))
       for (const auto& scene : coverage::exponents) jobs.emplace_back(new Job{what, scene, {}});
   }

@@ -6,8 +6,11 @@
 #include "base/error.h"
 #include "cli/history.h"
 #include "fit/fit.h"
+#include "motion/roll.h"
 #include "motion/trajectory.h"
+#include "sensor/sonar.h"
 #include "signal/derivative.h"
+#include "signal/free_roll.h"
 #include "signal/smoother.h"
 #include "unit/fit/simulated.h"
 
@@ -32,16 +35,18 @@ struct Case {
   enum Raw { x, v } raw = x;              ///< the column that carries white noise
   std::vector<std::string> history = {};  ///< the filters, as the `##` lines tell them
   Column (*unknown)(const Column& x) =
-      nullptr;            ///< or v from x by a sensor's software, of which no line tells
-  double resolution = 0;  ///< positions are rounded to this [m]
-  double outliers = 0;    ///< share of readings that are false echoes
-  double lost = 0;        ///< share of records that are missing
-  double growth = 0;      ///< the noise grows along the run by so many times its size
-  double AR = 0;          ///< correlation of the noise from one reading to the next
-  int runs = 1;           ///< that are fitted jointly
-  double scatter = 0;     ///< of a from run to run, as a share
-  int digits = 0;         ///< all columns are rounded to so many by the tools
-  bool bound = false;     ///< white noise on the fitted column: the Cramer-Rao bound holds
+      nullptr;             ///< or v from x by a sensor's software, of which no line tells
+  double resolution = 0;   ///< positions are rounded to this [m]
+  double outliers = 0;     ///< share of readings that are false echoes
+  double lost = 0;         ///< share of records that are missing
+  double growth = 0;       ///< the noise grows along the run by so many times its size
+  double AR = 0;           ///< correlation of the noise from one reading to the next
+  int runs = 1;            ///< that are fitted jointly
+  double scatter = 0;      ///< of a from run to run, as a share
+  int digits = 0;          ///< all columns are rounded to so many by the tools
+  bool record = false;     ///< the free roll is sought in the whole record of a sensor
+  rolling::Bulge bulge{};  ///< of whole records
+  bool bound = false;      ///< white noise on the fitted column: the Cramer-Rao bound holds
 };
 
 constexpr double dt = 0.04, noise_x = 3e-4,
@@ -97,7 +102,10 @@ inline std::vector<std::string> to_shift(Case::Raw raw, int width) {
 
 struct Scene {
   const char* name;
-  double a, b;
+  double a, b, K = 0.5;
+
+  rolling::PowerLaw law() const { return {a, b}; }
+  rolling::Body body() const { return {1.375, 0.04, K}; }
 };
 constexpr Scene CR{"CR", 1.87e-3, 0.215}, CF{"CF", 5.75e-4, 0.0244};
 /// Other exponents, with D(0.5 m/s) as on rubber.
@@ -106,7 +114,8 @@ constexpr Scene exponents[] = {{"b=0", 1.611e-3, 0},
                                {"b=.3", 1.984e-3, 0.3},
                                {"b=.4", 2.126e-3, 0.4},
                                {"b=.5", 2.278e-3, 0.5}};
-inline const rolling::Body cylinder{1.375, 0.04, 0.5};
+/// The shell under the laws of Table 1.
+constexpr Scene SR{"SR", 1.78e-3, 0.255, 0.83}, SF{"SF", 5.75e-4, 0.0244, 0.83};
 
 struct Row {
   double bias_a = 0, bias_b = 0;    ///< in standard deviations of one run
@@ -142,18 +151,38 @@ inline double bound_of_b(const rolling::Trajectory& roll, std::size_t n, bool po
 /// A run of readings with noise, and what the filters make of them.
 class Simulation {
  public:
-  Simulation(const Case& c, const rolling::Trajectory& truth, rolling::PowerLaw law, unsigned seed)
-      : c_(c), truth_(truth), law_(law), n_(static_cast<std::size_t>(truth.stop_time() / dt) + 1),
-        noise_(seed), random_(seed + 1) {}
+  Simulation(const Case& c, const rolling::Trajectory& truth, const Scene& scene, unsigned seed)
+      : c_(c), truth_(truth), scene_(scene),
+        n_(static_cast<std::size_t>(truth.stop_time() / dt) + 1), noise_(seed), random_(seed + 1) {}
   std::size_t records() const { return n_; }
 
   rolling::FitRun next() {
-    const rolling::Trajectory truth =
-        c_.scatter > 0 ? rolling::Trajectory(cylinder, rolling::Geometry::approximate,
-                                             {law_.a * (1 + noise_(c_.scatter)), law_.b}, 0.5)
-                       : truth_;
     rolling::FitRun run{};
-    run.body = cylinder;
+    run.body = scene_.body();
+    const Column raw = c_.record ? free_roll(run.t) : readings(run.t);
+    run.x = run.v = run.D = raw;
+    if (c_.unknown) run.v = c_.unknown(raw);
+    if (c_.history.empty()) return run;
+    const auto history_lines = lines(run.t, raw);
+    rolling::History history = rolling::history_of(history_lines, run.t);
+    run.filters = std::move(history.filters);
+    run.shift_of = history.shift_of;
+    if (run.shift_of) run.shift_of->body.K = scene_.K;
+    std::map<std::string, Column> columns{{c_.raw == Case::x ? "x" : "v", raw}};
+    for (const std::string& line : history_lines) filter(line, run.t, columns);
+    run.v = columns["v"];
+    run.D = columns["a"];
+    for (double& D : run.D) D *= -(1 + run.body.K) * run.body.R / run.body.g;
+    return run;
+  }
+
+ private:
+  /// The raw column from the beginning of the roll to its stop, at the times t.
+  Column readings(Column& times) {
+    const rolling::Trajectory truth =
+        c_.scatter > 0 ? rolling::Trajectory(scene_.body(), rolling::Geometry::approximate,
+                                             {scene_.a * (1 + noise_(c_.scatter)), scene_.b}, 0.5)
+                       : truth_;
     Column raw;
     double error = 0;
     for (std::size_t i = 0; i < n_; ++i) {
@@ -165,25 +194,27 @@ class Simulation {
       if (c_.resolution > 0) y = c_.resolution * std::round(y / c_.resolution);
       if (uniform() < c_.outliers) y += uniform() - 0.5;
       if (i > 0 && uniform() < c_.lost) continue;
-      run.t.push_back(t);
+      times.push_back(t);
       raw.push_back(y);
     }
-    run.x = run.v = run.D = raw;
-    if (c_.unknown) run.v = c_.unknown(raw);
-    if (c_.history.empty()) return run;
-    const auto history_lines = lines(run.t, raw);
-    rolling::History history = rolling::history_of(history_lines, run.t);
-    run.filters = std::move(history.filters);
-    run.shift_of = history.shift_of;
-    std::map<std::string, Column> columns{{c_.raw == Case::x ? "x" : "v", raw}};
-    for (const std::string& line : history_lines) filter(line, run.t, columns);
-    run.v = columns["v"];
-    run.D = columns["a"];
-    for (double& D : run.D) D *= -(1 + cylinder.K) * cylinder.R / cylinder.g;
-    return run;
+    return raw;
   }
-
- private:
+  /// simulate --sensor pasco | smooth --coast -c x -w 1
+  Column free_roll(Column& times) {
+    const rolling::Roll roll{scene_.body(), {}, scene_.law(), {}, c_.bulge, 0.5, 0};
+    rolling::SonarOptions sonar;
+    sonar.seed = random_();
+    std::vector<rolling::Sample> samples;
+    rolling::sonar_record(*rolling::start(roll, rolling::best_method(roll), 1e-10), sonar,
+                          [&](const rolling::SonarSample& s) {
+      if (s.x) samples.push_back({s.t, *s.x});
+    });
+    const rolling::Stretch stretch = rolling::free_roll(samples, true);
+    Column x;
+    for (std::size_t i = stretch.begin; i < stretch.end; ++i)
+      times.push_back(samples[i].t), x.push_back(samples[i].y);
+    return x;
+  }
   /// Does to the columns what a `##` line of smooth or differentiate says.
   void filter(const std::string& line, const Column& t, std::map<std::string, Column>& columns) {
     std::istringstream words(line);
@@ -224,19 +255,18 @@ class Simulation {
 
   const Case& c_;
   const rolling::Trajectory& truth_;
-  rolling::PowerLaw law_;
+  const Scene& scene_;
   std::size_t n_;
   simulated::Noise noise_;
   std::mt19937 random_;
 };
 
 inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
-  const rolling::Trajectory truth(cylinder, rolling::Geometry::approximate, {scene.a, scene.b},
-                                  0.5);
+  const rolling::Trajectory truth(scene.body(), rolling::Geometry::approximate, scene.law(), 0.5);
   rolling::FitOptions options;
   options.robust = c.outliers > 0;
   options.possible_filters = rolling::filters_of_sensors();
-  Simulation simulation(c, truth, {scene.a, scene.b}, seed);
+  Simulation simulation(c, truth, scene, seed);
   Row row;
   std::vector<double> as, bs;
   for (int k = 0; k < runs; ++k) {
@@ -249,8 +279,7 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
       row.cover_a += std::abs(a) < 1.96;
       row.cover_b += std::abs(b) < 1.96;
       row.far += std::abs(b) > 6 || std::abs(a) > 6;
-      row.told += r.errors == rolling::Errors::autocorrelation ||
-                  r.errors == rolling::Errors::uneven ||
+      row.told += rolling::noise_is_correlated(r) || r.errors == rolling::Errors::uneven ||
                   (c.route == Route::loglog && rolling::logarithms_too_low(r));
       row.differ += r.agreement && !r.agreement->agree();
       row.sigma_a += r.sigma_a * r.sigma_a;
@@ -340,6 +369,17 @@ inline std::vector<Case> cases() {
   all.push_back({.name = "x, noise grows", .route = Route::position, .growth = 10});
   all.push_back({.name = "x, 10 % lost", .route = Route::position, .lost = 0.1});
   all.push_back({.name = "v, AR(1) 0.8", .route = Route::velocity, .raw = Case::v, .AR = 0.8});
+  constexpr rolling::Bulge mat{5e-4, 0.02};
+  for (const bool memory : {false, true}) {
+    all.push_back({.name = memory ? "whole record with memory, x" : "whole record, x",
+                   .route = Route::position,
+                   .record = true,
+                   .bulge = memory ? mat : rolling::Bulge{}});
+    all.push_back(all.back());
+    all.back().name = memory ? "whole record with memory, D" : "whole record, D";
+    all.back().route = Route::shift;
+    all.back().history = to_shift(Case::x, 11);
+  }
   // Runs that agree, and runs that scatter by 2 %.
   const auto joint = [&](const char* name, Route route, std::vector<std::string> history, int runs,
                          double scatter = 0, double AR = 0, double growth = 0) {

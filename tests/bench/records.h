@@ -118,8 +118,7 @@ inline Verdict judge(const Trouble& wrong, rolling::PowerLaw law, int runs, unsi
       sum.bias += (r.a / law.a - 1) / runs;
       sum.cover_a += std::abs(r.a - law.a) < 1.96 * r.sigma_a;
       sum.cover_b += std::abs(r.b - law.b) < 1.96 * r.sigma_b;
-      sum.noise +=
-          r.errors == rolling::Errors::autocorrelation || r.errors == rolling::Errors::uneven;
+      sum.noise += rolling::noise_is_correlated(r) || r.errors == rolling::Errors::uneven;
       if (r.eccentricity) {
         ++sum.eccentric;
         sum.e += r.eccentricity->e;
@@ -130,7 +129,7 @@ inline Verdict judge(const Trouble& wrong, rolling::PowerLaw law, int runs, unsi
       if (!options.robust)
         against = rolling::compare_laws(rolling::Route::position, {run}, options).against_power();
       sum.adequate += against <= 2;
-      const bool other = against >= better, coloured = r.whiteness <= 0.003,
+      const bool other = against >= better, coloured = r.whiteness <= rolling::not_white,
                  hand = !options.robust &&
                         rolling::disturbed_beginning(rolling::Route::position, {run}, options);
       sum.other_law += other;

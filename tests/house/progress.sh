@@ -29,6 +29,11 @@ grep -q __asan_init "$(command -v smooth)" ||  # which needs more memory
 into_file() { smooth big 2>err | { sleep 3; cat >/dev/null; }; cat err; }
 silent 'into a file' into_file
 
+# Whoever reads from the terminal is told so, and ends the columns by Ctrl-D.
+said=$({ printf '0 1\n1 2\n' && sleep 1 && printf '\004'; } | script -qec 'smooth -w 1' /dev/null | tr -d '\r')
+[[ $said == *'smooth: reading columns from the terminal; end with Ctrl-D'*$'\n0\t1\n1\t2' ]] ||
+  { echo "at a terminal smooth says '$said'" && wrong=1; }
+
 # Fits of one run each, as many as take three seconds.
 roll=$(simulate -K 0.5 -R 0.04 -a 1.87e-3 -b 0.215 --v0 0.5 --dt 0.04 --columns t,x --digits 3)
 for ((runs = 300; ; runs *= 2)); do

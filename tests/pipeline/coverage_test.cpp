@@ -24,7 +24,8 @@ TEST_CASE(
       {"white x", Route::position},          {"white v", Route::velocity},
       {"v from x, known", Route::velocity},  {"x to 1 mm", Route::position},
       {"x, 1 % outliers", Route::position},  {"D from x, W 15", Route::shift},
-      {"D from x, 10 % lost", Route::shift}, {"D from x, savgol 31", Route::shift}};
+      {"D from x, 10 % lost", Route::shift}, {"D from x, savgol 31", Route::shift},
+      {"whole record, D", Route::shift}};
   for (const auto& [name, route] : cases) {
     const auto row = coverage::measure(find(name, route), coverage::CR, 400, 42);
     CAPTURE(name, row.bias_a, row.bias_b, row.sd_b, row.cover_a, row.cover_b, row.refused,

@@ -129,5 +129,5 @@ marks() {
     "$data/sphere-on-wet-grains/detections.csv"
 }
 within "sphere: scatter of the last ten marks [pixels]" "$(marks | tail -n 10 | mean 2 | cut -d ' ' -f 2)" 0.3 1.5
-within "sphere: last frame of its roll" "$(marks | smooth -q --coast -c x -w 1 | awk 'END { print 250 * $1 }')" 75 96
+within "sphere: last frame of its roll" "$(marks | smooth -q --coast -c x -w 1 | awk 'END { print 250 * $1 }')" 70 96
 exit $wrong

@@ -8,8 +8,8 @@ namespace {
 
 const Body cylinder{1.375, 0.04, 0.5};
 
-/// Positions every 40 ms with noise of 0.3 mm, down to the stop; way -1 towards falling x.
-FitRun roll(PowerLaw law, double slope, double way, simulated::Noise& noise) {
+/// Positions every 40 ms with noise, down to the stop; way -1 towards falling x.
+FitRun roll(PowerLaw law, double slope, double way, simulated::Noise& noise, double size = 3e-4) {
   FitRun run{};
   run.body = cylinder;
   Body seen = cylinder;
@@ -17,7 +17,7 @@ FitRun roll(PowerLaw law, double slope, double way, simulated::Noise& noise) {
   const Trajectory truth(seen, Geometry::approximate, law, 0.5);
   for (double t = 0; t < truth.stop_time(); t += 0.04) {
     run.t.push_back(t);
-    run.x.push_back(way * (truth.at(t).x) + noise(3e-4));
+    run.x.push_back(way * truth.at(t).x + noise(size));
   }
   return run;
 }
@@ -44,14 +44,30 @@ TEST_CASE("agreement: the scatter of means, by hand", "[fit]") {
   CHECK_FALSE(r.agreement->agree());
   CHECK(r.agreement->run == 2);
   CHECK(r.agreement->log_D.value < 0);
-  // The errors of ln a are those of a over each a: the mean of the logarithms, by the squares of a.
-  double weights = 0, sum = 0, chi2 = 0;
-  for (double mean : means) weights += mean * mean, sum += mean * mean * std::log(mean);
-  for (double mean : means) chi2 += std::pow(mean * (std::log(mean) - sum / weights), 2);
-  CHECK(std::abs(r.a - std::exp(sum / weights)) < 1e-9);
-  CHECK(std::abs(r.agreement->chi2 / (chi2 / variance) - 1) < 1e-9);
+  // The errors of ln a are those of a over each a; tau^2 beside them is what makes the sum of
+  // squares 3.
+  double tau_square = 0, mean = 0, weights = 0;
+  for (double low = 0, high = 1; high - low > 1e-16;) {
+    tau_square = (low + high) / 2;
+    double sum = 0, squares = 0;
+    weights = 0;
+    for (double a : means) {
+      const double w = 1 / (variance / (a * a) + tau_square);
+      weights += w, sum += w * std::log(a);
+    }
+    mean = sum / weights;
+    for (double a : means)
+      squares += std::pow(std::log(a) - mean, 2) / (variance / (a * a) + tau_square);
+    (squares > 3 ? low : high) = tau_square;
+  }
+  CHECK(std::abs(r.a - std::exp(mean)) < 1e-9);
   constexpr double t = 3.182446;  // Student, 0.975, 3 degrees of freedom
-  CHECK(std::abs(r.sigma_a / (t / 1.96 * r.a * std::sqrt(chi2 / 3 / weights)) - 1) < 1e-6);
+  CHECK(std::abs(r.sigma_a / (t / 1.96 * r.a / std::sqrt(weights)) - 1) < 1e-6);
+  // chi^2 is that of the noise alone.
+  double by_noise = 0, sum = 0, chi2 = 0;
+  for (double a : means) by_noise += a * a, sum += a * a * std::log(a);
+  for (double a : means) chi2 += std::pow(a * (std::log(a) - sum / by_noise), 2);
+  CHECK(std::abs(r.agreement->chi2 / (chi2 / variance) - 1) < 1e-9);
   CHECK(r.sigma_b == 0);
 
   // Runs that agree have the errors of one fit.
@@ -120,6 +136,25 @@ TEST_CASE("agreement: the errors allow for 2 % of scatter from run to run", "[fi
   }
 }
 
+// The precise runs do not tell more of the scatter than the others.
+TEST_CASE("agreement: the errors allow for scatter of runs that are not equally precise", "[fit]") {
+  simulated::Noise noise(38);
+  int a = 0, b = 0;
+  for (int k = 0; k < 200; ++k) {
+    std::vector<FitRun> runs;
+    for (const double size : {3e-4, 15e-4, 15e-4, 15e-4})
+      runs.push_back(roll({felt.a * (1 + noise(0.02)), felt.b}, 0, 1, noise, size));
+    const auto r = fit(Route::position, runs, {});
+    a += std::abs(r.a - felt.a) < 1.96 * r.sigma_a;
+    b += std::abs(r.b - felt.b) < 1.96 * r.sigma_b;
+  }
+  CAPTURE(a, b);
+  for (int covered : {a, b}) {
+    CHECK(covered >= 178);  // fewer of 95 % by chance in 0.02 %
+    CHECK(covered <= 199);
+  }
+}
+
 // What a run cannot tell by itself, it does not tell of agreement either.
 TEST_CASE("agreement: a run of two records has no say", "[fit]") {
   simulated::Noise noise(34);
@@ -146,4 +181,43 @@ TEST_CASE("agreement: where runs disagree, a and b are correlated as they scatte
   CHECK_FALSE(r.agreement->agree());
   CHECK(r.corr < -0.9);
   CHECK(r.corr >= -1);
+}
+
+// Of seven rolls up and one down the mean of a hangs on the slope, which is found from their
+// scatter.
+TEST_CASE("agreement: the errors allow for scatter from run to run beside a slope", "[fit]") {
+  simulated::Noise noise(36);
+  FitOptions options;
+  options.fit_slope = true;
+  int a = 0, b = 0, told = 0;
+  for (int k = 0; k < 80; ++k) {
+    std::vector<FitRun> runs;
+    for (const double way : {1, 1, 1, 1, 1, 1, 1, -1})
+      runs.push_back(roll({felt.a * (1 + noise(0.02)), felt.b}, 1e-3, way, noise));
+    const auto r = fit(Route::position, runs, options);
+    REQUIRE(r.agreement);
+    CHECK(r.agreement->dof == 13);
+    a += std::abs(r.a - felt.a) < 1.96 * r.sigma_a;
+    b += std::abs(r.b - felt.b) < 1.96 * r.sigma_b;
+    told += !r.agreement->agree();
+  }
+  CAPTURE(a, b);
+  CHECK(told == 80);
+  for (int covered : {a, b}) {
+    CHECK(covered >= 69);  // fewer of 95 % by chance in 0.1 %
+    CHECK(covered <= 79);
+  }
+}
+
+// --min-speed leaves the records out that are slower in the fitted roll, the joint one or the run's
+// own: the two need not have the same records.
+TEST_CASE("agreement: runs that disagree are told where slow records are left out", "[fit]") {
+  simulated::Noise noise(37);
+  FitOptions options;
+  options.min_speed = 0.1;
+  const std::vector<FitRun> runs{roll(rubber, 0, 1, noise), roll({2.4e-3, 0.215}, 0, 1, noise)};
+  const auto r = fit(Route::position, runs, options);
+  REQUIRE(r.agreement);
+  CHECK_FALSE(r.agreement->agree());
+  CHECK(std::abs(r.agreement->log_D.value) == Approx(std::log(2.4 / 1.87)).epsilon(0.05));
 }

@@ -67,3 +67,37 @@ TEST_CASE("errors: HC3 of a mean of uneven noise is the sum of squares over (n -
   CHECK(std::abs(r.a / (sum / n) - 1) < 1e-13);
   CHECK(std::abs(r.sigma_a / (std::sqrt(squares) / (n - 1)) - 1) < 1e-10);
 }
+
+// In a run that is shorter than twice the bandwidth the weights 1 - lag/(width + 1) are cut off at
+// half the run. By the definition, the sum over all pairs.
+TEST_CASE("errors: Newey-West of a run that is shorter than twice the bandwidth", "[fit]") {
+  constexpr std::size_t runs[] = {60, 9};
+  std::vector<double> r;
+  for (std::size_t i = 0; i < 69; ++i) {
+    const double x = static_cast<double>(i);
+    r.push_back(std::sin(x / 2) + 0.1 * std::sin(x * x));
+  }
+  const auto lag1 = [&](const std::vector<double>& x) {
+    double products = 0, squares = 0;
+    for (std::size_t i = 0; i < 69; ++i) {
+      squares += x[i] * x[i];
+      if (i != 59 && i != 68) products += x[i] * x[i + 1];
+    }
+    return products / squares;
+  };
+  constexpr double n = 69, p = 2;
+  const double AR = (n * lag1(r) + p) / (n - p - 2);
+  std::vector<double> u = r;
+  for (std::size_t i = 0; i < 69; ++i)
+    u[i] = i == 0 || i == 60 ? std::sqrt(1 - AR * AR) * r[i] : r[i] - AR * r[i - 1];
+  const double rho = lag1(u),
+               width = std::ceil(1.1447 * std::cbrt(4 * std::pow(rho / (1 - rho * rho), 2) * n));
+  REQUIRE(width > 4);
+  double sum = 0;
+  for (int i = 60; i < 69; ++i)
+    for (int j = 60; j < 69; ++j)
+      if (const int lag = std::abs(i - j); lag <= 4)
+        sum += (1 - lag / (width + 1)) * u[static_cast<std::size_t>(i)] *
+               u[static_cast<std::size_t>(j)];
+  CHECK(newey_west(r, 2, r, runs)[1] == Approx(sum / ((1 - AR) * (1 - AR))).epsilon(1e-12));
+}

@@ -194,3 +194,23 @@ TEST_CASE("laws: of many records, which are searched in their means, all count",
         Approx(2 * std::sqrt(rss / (2 * half - 2) / squares) / (h * h)).epsilon(1e-6));
   CHECK(constant_D.aicc < result.least() + 4);
 }
+
+// Filters lose nothing but v0 and x0: see fitpower(1).
+TEST_CASE("laws: through known filters the coefficients are as precise as those of the positions",
+          "[fit]") {
+  for (Made law : {linear, quadratic}) {
+    FitRun raw = roll(law, Route::position, 1e-3),
+           filtered = simulated::shifts(unit, raw.t, raw.x, 5, "x");
+    filtered.body = unit;
+    const LawFit by_x = compare_laws(Route::position, {raw}, {}).fits[number[law]],
+                 by_D = compare_laws(Route::shift, {filtered}, {}).fits[number[law]];
+    const std::vector<double> truth = law == linear ? std::vector{0.1, 0.2} : std::vector{0.1, 0.4};
+    for (std::size_t j = 0; j < 2; ++j) {
+      const auto [value, sigma] = by_D.coefficients[j];
+      CAPTURE(j, value, sigma);
+      CHECK(std::abs(value - truth[j]) < 3 * sigma);
+      CHECK(std::abs(value - by_x.coefficients[j].value) < sigma);
+      CHECK(sigma / by_x.coefficients[j].sigma == Approx(1).epsilon(0.1));
+    }
+  }
+}

@@ -119,3 +119,53 @@ TEST_CASE("loglog: with known filters the line is the same and its errors are th
   CHECK(covered < runs);
   CHECK(std::abs(variances / spread - 1) < 0.32);
 }
+
+namespace {
+
+FitResult line_of(const simulated::Roll& truth, const Body& body, std::size_t records,
+                  std::size_t width, double sd, simulated::Noise& noise) {
+  std::vector<double> t, v;
+  for (std::size_t i = 0; i < records; ++i) {
+    t.push_back(0.04 * static_cast<double>(i));
+    v.push_back(truth.v(t.back()) + noise(sd));
+  }
+  return fit(Route::loglog, {simulated::shifts(body, t, v, width)}, {});
+}
+
+}  // namespace
+
+TEST_CASE("loglog: the bias by known filters without noise is all of the difference", "[fit]") {
+  const Body body{1, 0.04, 0.5};
+  simulated::Noise noise(4);
+  const auto r = line_of(simulated::roll(body, 1.87e-3, 0.215, 0.5), body, 60, 31, 1e-9, noise);
+  REQUIRE(r.shares.size() == 2);
+  CHECK(r.shares[1].of == "bias");
+  CHECK(std::abs(r.b - 0.215) > 1e-3);
+  CHECK(std::abs(r.shares[1].b / std::abs(r.b - 0.215) - 1) < 1e-3);
+  CHECK(std::abs(r.shares[1].a / r.a / std::abs(std::log(r.a / 1.87e-3)) - 1) < 1e-3);
+  CHECK(std::abs(r.sigma_b / std::abs(r.b - 0.215) - 1) < 1e-3);
+}
+
+// The noise of D takes half a standard deviation off the logarithms.
+TEST_CASE("loglog: the errors allow for the bias of the logarithms of noise", "[fit]") {
+  const Body body{1, 0.04, 0.5};
+  const auto truth = simulated::roll(body, 5.75e-4, 0.0244, 0.5);
+  simulated::Noise noise(4);
+  double off = 0, squares = 0, expected = 0;
+  int covered = 0, by_noise = 0;
+  constexpr int runs = 300;
+  for (int k = 0; k < runs; ++k) {
+    const auto r = line_of(truth, body, 110, 5, 1e-2, noise);
+    const double error = r.a - 5.75e-4;
+    off += error / runs;
+    squares += error * error / runs;
+    expected -= r.shares[1].a / runs;
+    covered += std::abs(error) < 1.96 * r.sigma_a;
+    by_noise += std::abs(error) < 1.96 * r.shares[0].a;
+  }
+  const double sd = std::sqrt(squares - off * off);
+  CAPTURE(off / sd, expected / sd, covered, by_noise);
+  CHECK(off < -0.4 * sd);
+  CHECK(std::abs(expected - off) < 0.15 * sd);
+  CHECK(covered > by_noise + 10);
+}

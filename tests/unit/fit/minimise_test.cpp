@@ -76,6 +76,26 @@ TEST_CASE("minimise: refuses what does not converge and what cannot be told apar
   CHECK_THROWS_AS(minimise(twins, {0, 0}), Error);
 }
 
+TEST_CASE("minimise: a minimum at infinity is given up where it is not worth the way", "[fit]") {
+  // 2/sqrt(x) falls for ever; along a winding edge, which no step follows far.
+  constexpr std::size_t n = 50;
+  int evaluations = 0;
+  const System edge = one_run(
+      n, 2, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+        ++evaluations;
+        if (!(x[0] > 0)) fail("not allowed");
+        for (std::size_t i = 0; i < n; ++i) f[i] = i % 2 ? 1 : -1;
+        const double side = x[1] > std::sin(x[0]) ? 1 : -1;
+        f[0] = 1 + side * (x[1] - std::sin(x[0]));
+        J[0] = -side * std::cos(x[0]);
+        J[n] = side;
+        f[1] = 2 / std::sqrt(x[0]);
+        J[1] = -f[1] / (2 * x[0]);
+      });
+  CHECK_THROWS_AS(minimise(edge, {1, 0.3}), Error);
+  CHECK(evaluations < 150);  // some 70; 20 rounds take more than 300
+}
+
 TEST_CASE("spread: covariance of functions of the parameters", "[fit]") {
   // R = [2 1; 0 4], M = I: R^-1 R^-T = [17 -2; -2 4] / 64
   const Spread spread({2, 1, 0, 4}, {1, 0, 0, 1}, 2);
@@ -237,11 +257,12 @@ TEST_CASE(
   for (std::size_t r = 0; r < runs; ++r)
     blockwise.insert(blockwise.end(), {1, 0, 0, 0, 1, 0, 0, 0, 1});
   const Spread all(one.R, identity, 7), by_run(many.R, blockwise, 3);
+  const auto place = [](std::size_t run, std::size_t j) { return j < 2 ? 2 * run + j : 6; };
   for (std::size_t r = 0; r < runs; ++r)
     for (std::size_t j = 0; j < 3; ++j)
       for (std::size_t k = 0; k < 3; ++k) {
         std::vector<double> g(7, 0), h(7, 0), g_run(3, 0), h_run(3, 0);
-        g[blocks.place(r, j)] = h[blocks.place(r, k)] = g_run[j] = h_run[k] = 1;
+        g[place(r, j)] = h[place(r, k)] = g_run[j] = h_run[k] = 1;
         CHECK(std::abs(by_run(g_run, h_run, r) / all(g, h) - 1) < 1e-8);
       }
 
@@ -263,4 +284,15 @@ TEST_CASE(
   for (std::size_t j = 0; j < 7; ++j) log_det += std::log(std::abs(one.R[8 * j]));
   CHECK(std::abs(restricted_likelihood(blocks, many.theta) -
                  (-freedom / 2 * std::log(one.rss) - log_det)) < 1e-9);
+}
+
+TEST_CASE("minimise: a start at which the model has no finite values is refused", "[fit]") {
+  const System root = one_run(
+      1, 1, [](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+        f = {std::sqrt(x[0]) - 2};
+        J = {0.5 / std::sqrt(x[0])};
+      });
+  CHECK(std::abs(minimise(root, {1}).theta[0] - 4) < 1e-12);
+  CHECK_THROWS_AS(minimise(root, {-1}), Error);
+  CHECK_THROWS_AS(minimise_robust(root, {-1}), Error);
 }

@@ -24,7 +24,7 @@ System line(const std::vector<double>& data, std::shared_ptr<const Noise> noise)
               J[i] = 1;
               J[n + i] = t[i];
             }
-            noise->weight(0, f), noise->weight(0, J);
+            noise->whitener(0).apply(f), noise->whitener(0).apply(J);
             take(0, f, J);
           }};
 }
@@ -42,7 +42,7 @@ TEST_CASE("noise: its variance and the covariance of the parameters, whatever th
     for (int k = 0; k < runs; ++k) {
       std::vector<double> e, data;
       for (std::size_t i = 0; i < n; ++i) e.push_back(random(2));
-      for (std::size_t i = 0; i < n; ++i) data.push_back(3 + 0.5 * t[i] + E.times(i, e));
+      for (const double of_e : E.times(e)) data.push_back(3 + 0.5 * t[data.size()] + of_e);
       Fitted fit{.system = line(data, noise), .minimum = {}};
       fit.minimum = minimise(fit.system, {0, 0});
       fit.noise = noise;
@@ -70,16 +70,17 @@ TEST_CASE("noise: its variance and the covariance of the parameters, whatever th
 TEST_CASE("noise: the least sources that explain residuals give them back", "[fit]") {
   const Noise noise({E}, 1e-4);
   simulated::Noise random(3);
-  std::vector<double> e, f;
+  std::vector<double> e;
   for (std::size_t i = 0; i < n; ++i) e.push_back(random(1));
-  for (std::size_t i = 0; i < n; ++i) f.push_back(E.times(i, e));
+  const auto f = E.times(e);
   auto weighted = f;
-  noise.weight(0, weighted);
-  const auto again = noise.without_weights(weighted), least = noise.explain(weighted);
+  noise.whitener(0).apply(weighted);
+  const auto again = noise.without_weights(weighted), least = noise.explain(weighted),
+             explained = E.times(least);
   double size = 0, true_size = 0;
   for (std::size_t i = 0; i < n; ++i) {
     CHECK(std::abs(again[i] - f[i]) < 1e-12);
-    CHECK(std::abs(E.times(i, least) - f[i]) < 1e-5);
+    CHECK(std::abs(explained[i] - f[i]) < 1e-5);
     size += least[i] * least[i];
     true_size += e[i] * e[i];
   }

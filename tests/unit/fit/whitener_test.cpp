@@ -11,7 +11,7 @@ using namespace rolling;
 
 TEST_CASE("whitener: the floor is white noise of its own", "[fit]") {
   const BandMatrix E = probe(simulated::smooth_v(3), simulated::times(6));
-  const Whitener whitener(E, 0.5);
+  const Whitener whitener(Covariance(E), 0.5);
   // C = E E^T + 0.25 I, so (W x).(W x) = x^T C^-1 x; for x = C y that is y^T C y
   const auto e = dense(E, 6);
   std::vector<double> y{1, -2, 0.5, 3, -1, 2}, x(6, 0);
@@ -47,7 +47,7 @@ TEST_CASE(
   for (double share : {1e-5, 1e-4, 1e-3, 1e-2, 1.0, 1e3}) {
     // Cholesky's method loses as many digits as the condition number of C has.
     const double floor = share * largest, close = 1e-14 * (10 + 1 / (share * share));
-    const Whitener whitener(E, floor);
+    const Whitener whitener(Covariance(E), floor);
     std::vector<std::vector<double>> columns;  // of R^-T [E, floor I]
     for (std::size_t j = 0; j < 2 * n; ++j) {
       std::vector<double> x(n, 0);
@@ -96,7 +96,7 @@ TEST_CASE("whitener: a last row that borders the band is whitened like the other
                              .then(probe(simulated::differentiate("v", "a"), t))
                              .with_last_row(mean);
   const double floor = 0.3;
-  const Whitener whitener(E, floor);
+  const Whitener whitener(Covariance(E), floor);
   const auto dense_E = dense(E, n);
   std::vector<std::vector<double>> columns;  // of R^-T [E, floor I], no floor in the last row
   double of_E = 0;
@@ -132,7 +132,7 @@ TEST_CASE("whitener: a column that the filters leave without noise is refused", 
   BandMatrix E;
   E.append(0, std::vector<double>{0, 0});
   E.append(0, std::vector<double>{0, 0});
-  CHECK_THROWS_AS(Whitener(E, 0), Error);
+  CHECK_THROWS_AS(Whitener(Covariance(E), 0), Error);
   // The mean of a column without noise.
-  CHECK_THROWS_AS(Whitener(FilterMatrix(E).with_last_row({0, 0}), 0.1), Error);
+  CHECK_THROWS_AS(Whitener(Covariance(FilterMatrix(E).with_last_row({0, 0})), 0.1), Error);
 }

@@ -137,6 +137,8 @@ TEST_CASE("Integrator: trouble becomes an Error", "[ode]") {
                      }),
                      {}, 0, {1});
   CHECK_THROWS_AS(refuses.advance(2), std::domain_error);
+  Integrator late(system([](double, double) { return 1; }), {}, 1e17, {1});  // doubles 16 s apart
+  CHECK_THROWS_AS(late.advance(1e17 + 1000), Error);
 }
 
 TEST_CASE("Integrator: wrong arguments are refused", "[ode]") {
