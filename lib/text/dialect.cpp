@@ -144,14 +144,17 @@ const char* Dialect::split_plain(std::string_view text, std::span<const Field>& 
   as_it_stands_ = separator_ == '\t';
   may_need_quotes_ = false;
   for (Field* field = fields_.data(); field != fields_.data() + fields_.size(); ++field, ++at) {
-    const bool quoted = at != end && *at == quote;
-    const char* const first = at + quoted;
-    at = read_plain(first, end, *field);
-    if (at == first) return nullptr;
-    field->text = {first, at};
-    if (quoted) {
-      if (at == end || *at++ != quote) return nullptr;
+    if (at != end && *at == quote) {
+      const char* const first = ++at;
+      at = read_plain(at, end, *field);
+      field->text = {first, at};
+      if (at == first || at == end || *at++ != quote) return nullptr;
       as_it_stands_ = false;
+    } else {
+      const char* const first = at;
+      at = read_plain(at, end, *field);
+      field->text = {first, at};
+      if (at == first) return nullptr;
     }
     if (at == end) return nullptr;
     if (*at == separator_) continue;
