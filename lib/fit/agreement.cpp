@@ -213,18 +213,28 @@ Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitte
   return fit;
 }
 
+bool of_one_way(const std::vector<OwnLaw>& laws, const Fitted& joint) {
+  const auto way = [&](const OwnLaw& one) { return joint.rolls->runs()[one.run].way; };
+  return std::all_of(laws.begin(), laws.end(),
+                     [&](const OwnLaw& one) { return way(one) == way(laws.front()); });
+}
+
 /// The slope of the mat at which the runs of both directions agree best, and the laws as they are
 /// there: R S acts like a shift along the way, so that ln D changes by -way R/D with S.
 void take_slope(std::vector<OwnLaw>& laws, double freedom, std::vector<double>& by_slope,
                 NoiseErrors& errors, Fitted& joint) {
+  const auto n = static_cast<double>(laws.size());
   double log_v = 0;  // of the speed at which the D of the runs are known best, on average
-  for (const OwnLaw& one : laws)
-    log_v += best_known(one.covariance) / static_cast<double>(laws.size());
+  for (const OwnLaw& one : laws) log_v += best_known(one.covariance) / n;
   std::vector<Estimate> log_D;
+  double mean = 0;
+  for (const OwnLaw& one : laws) {
+    log_D.push_back(one.log_D(log_v));
+    mean += log_D.back().value / n;
+  }
   for (std::size_t i = 0; i < laws.size(); ++i) {
     const ObservedRun& run = joint.rolls->runs()[laws[i].run];
-    log_D.push_back(laws[i].log_D(log_v));
-    by_slope[i] = run.way * run.body.R / std::exp(log_D.back().value);
+    by_slope[i] = run.way * run.body.R / std::exp(mean);
   }
   const Line line = scattered_line(log_D, by_slope, freedom);
   joint.slope->value += line.slope;
@@ -281,7 +291,9 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
   const Fitted around_own = with_own_noise(joint, own);
   errors = noise_errors(around_own, uncertainty_of(around_own));
   const double freedom = static_cast<double>(laws.size()) - 1 - options.fit_slope;
-  if (freedom < 1 || (options.fit_slope && options.a))
+  const bool by_means =
+      freedom >= 1 && !(options.fit_slope && (options.a || of_one_way(laws, joint)));
+  if (!by_means)
     errors.multiply(std::max(1.0, std::sqrt(found.chi2 / static_cast<double>(found.dof))));
   else take_means(laws, freedom, errors, joint);
   return found;

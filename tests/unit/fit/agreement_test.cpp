@@ -1,3 +1,4 @@
+#include "base/error.h"
 #include "motion/trajectory.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
@@ -206,6 +207,25 @@ TEST_CASE("agreement: the errors allow for scatter from run to run beside a slop
   for (int covered : {a, b}) {
     CHECK(covered >= 69);  // fewer of 95 % by chance in 0.1 %
     CHECK(covered <= 79);
+  }
+}
+
+// What the runs scatter by is no slope: in one direction it is found by its part of each roll
+// alone.
+TEST_CASE("agreement: the scatter of runs in one direction does not tell a slope", "[fit]") {
+  simulated::Noise noise(39);
+  FitOptions options;
+  options.fit_slope = true;
+  for (int k = 0; k < 5; ++k) {
+    std::vector<FitRun> runs;
+    for (int i = 0; i < 4; ++i)
+      runs.push_back(roll({rubber.a * (1 + noise(0.01)), rubber.b}, 1e-3, 1, noise, 1e-4));
+    try {
+      const auto r = fit(Route::position, runs, options);
+      CHECK(std::abs(r.slope - 1e-3) < 4 * r.sigma_slope);
+      CHECK(std::abs(r.a - rubber.a) < 4 * r.sigma_a);
+    } catch (const Error&) {  // not determined
+    }
   }
 }
 
