@@ -60,11 +60,11 @@ std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own) {
     const Symmetric C{covariance(by_log_a, by_log_a), covariance(by_log_a, fit.b.gradient),
                       covariance(fit.b.gradient, fit.b.gradient)};
     const Symmetric W = C.inverse();
-    if (!std::isfinite(W.aa) || !std::isfinite(W.ab) || !std::isfinite(W.bb)) continue;
-    laws.push_back({r,
-                    {std::log(fit.a.value), fit.b.value},
-                    C,
-                    static_cast<double>(fit.minimum.f.size() - fit.minimum.theta.size())});
+    if (std::isfinite(W.aa) && std::isfinite(W.ab) && std::isfinite(W.bb))
+      laws.push_back({r,
+                      {std::log(fit.a.value), fit.b.value},
+                      C,
+                      static_cast<double>(fit.minimum.f.size() - fit.minimum.theta.size())});
   }
   return laws;
 }
@@ -200,9 +200,8 @@ Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitte
     append(raw.innovation_runs, one->raw_noise->innovation_runs);
   }
   const std::size_t n = joint.minimum.f.size();
-  if (fit.minimum.f.size() != n || n <= p ||
-      (joint.raw_noise && raw.source_runs != joint.raw_noise->source_runs))
-    return joint;
+  const bool same_noise = !joint.raw_noise || raw.source_runs == joint.raw_noise->source_runs;
+  if (fit.minimum.f.size() != n || n <= p || !same_noise) return joint;
   // So many parameters more have been fitted.
   const double more =
       static_cast<double>(n - joint.minimum.theta.size()) / static_cast<double>(n - p);

@@ -162,10 +162,8 @@ void Reader::name_columns() {
   for (const Needed& needed : needed_) {
     if (needed.column == no_column || needed.kind == Kind::as_is) continue;
     for (std::size_t i = 0; i < columns_.size(); ++i)
-      if (i != needed.column && layout().columns[i].name == needed.quantity) {
-        if (head_.named) columns_[i].name = free_name(columns_, needed.quantity);
-        else columns_[i] = {fmt::format("c{}", i + 1)};
-      }
+      if (i != needed.column && layout().columns[i].name == needed.quantity)
+        columns_[i].name = free_name(columns_, needed.quantity);
   }
   for (const Needed& needed : needed_) {
     if (needed.column == no_column || needed.kind == Kind::as_is) continue;

@@ -241,3 +241,26 @@ TEST_CASE("agreement: runs that disagree are told where slow records are left ou
   CHECK_FALSE(r.agreement->agree());
   CHECK(std::abs(r.agreement->log_D.value) == Approx(std::log(2.4 / 1.87)).epsilon(0.05));
 }
+
+// The noise of the logarithms is that of a roll, which each run has by itself too.
+TEST_CASE("agreement: by loglog, runs whose filters are known", "[fit]") {
+  simulated::Noise noise(40);
+  std::vector<FitRun> runs;
+  for (const double by : {0.8, 1.2, 1.0}) {
+    const FitRun raw = roll({by * felt.a, felt.b}, 0, 1, noise, 1e-5);
+    runs.push_back(simulated::shifts(cylinder, raw.t, raw.x, 9, "x"));
+    runs.back().body = cylinder;
+  }
+  FitOptions options;
+  options.b = felt.b;
+  const auto r = fit(Route::loglog, runs, options);
+  REQUIRE(r.agreement);
+  CHECK_FALSE(r.agreement->agree());
+  // The scatter of ln a is far beyond the noise, and the row is the mean.
+  double mean = 0, squares = 0;
+  for (const double by : {0.8, 1.2, 1.0}) mean += std::log(by) / 3;
+  for (const double by : {0.8, 1.2, 1.0}) squares += std::pow(std::log(by) - mean, 2);
+  CHECK(r.a / felt.a == Approx(std::exp(mean)).epsilon(0.01));
+  constexpr double t = 4.302653;  // Student, 0.975, 2 degrees of freedom
+  CHECK(r.sigma_a / r.a == Approx(t / 1.96 * std::sqrt(squares / 2 / 3)).epsilon(0.05));
+}
