@@ -91,7 +91,8 @@ std::string described(const LawFit& fit, double least) {
                           names[i].name, fit.correlations[i * names.size() + j]);
   }
   return line + (corr.empty() ? "" : corr + ";") +
-         fmt::format(" AICc {:.1f} above the least", fit.aicc - least);
+         (std::isfinite(fit.aicc) ? fmt::format(" AICc {:.1f} above the least", fit.aicc - least)
+                                  : " too few records for its AICc");
 }
 
 /// "the runs disagree ...: run 3 stands out, its D(0.21 m/s) is 4.1 +- 0.4 % less than the others'
