@@ -129,7 +129,7 @@ build/unit-%: $$(call object,$$(wildcard tests/unit/$$*/*.cpp)) build/catch_main
 # The exact arithmetic built as it is, and with flags in front of the project's that would fuse multiplications and additions:
 # tests/pipeline/fused.sh compares what the two print, and smooth and differentiate with their sums and numbers built so.
 exact_source := lib/base/double_double.cpp lib/contact/contact.cpp tests/fused/fused.cpp \
-                $(addprefix lib/motion/,$(addsuffix .cpp,closed_form exact_form power_integral slope_integrals slope_roll speed_integrals speed_panel speed_series trajectory))
+                $(addprefix lib/motion/,$(addsuffix .cpp,closed_form exact_form power_integral slope_integrals speed_integrals speed_panel speed_series trajectory))
 has_fma := $(shell grep -qw avx2 /proc/cpuinfo 2>/dev/null && grep -qw fma /proc/cpuinfo && uname -m | grep -x x86_64)
 build/fused/obj/%.o: %.cpp
 	@mkdir -p $(@D)

@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include <stdexcept>
-#include <utility>
 
 namespace rolling {
 
@@ -19,10 +18,15 @@ class InputError : public Error {
   using Error::Error;
 };
 
+template <typename Kind>
+[[noreturn]] void throw_formatted(fmt::string_view text, fmt::format_args args) {
+  throw Kind(fmt::vformat(text, args));
+}
+
 /// Throws Error, or another kind, with a formatted message.
 template <typename Kind = Error, typename... Args>
-[[noreturn]] void fail(fmt::format_string<Args...> text, Args&&... args) {
-  throw Kind(fmt::format(text, std::forward<Args>(args)...));
+[[noreturn]] void fail(fmt::format_string<Args...> text, const Args&... args) {
+  throw_formatted<Kind>(text, fmt::make_format_args(args...));
 }
 
 }  // namespace rolling

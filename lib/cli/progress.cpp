@@ -6,7 +6,10 @@
 
 #include <chrono>
 #include <cmath>
+#include <condition_variable>
+#include <mutex>
 #include <system_error>
+#include <thread>
 
 namespace rolling {
 namespace {
@@ -23,45 +26,53 @@ void put(const std::string& text) {
 
 }  // namespace
 
+struct Progress::Writer {
+  std::string name;
+  std::mutex mutex = {};  // of the two that follow
+  std::string what = {};
+  double part = std::nan("");
+  std::condition_variable_any stopped = {};
+  std::jthread thread = std::jthread([this](const std::stop_token& stop) { show(stop); });
+
+  void show(const std::stop_token&);
+};
+
+Progress::Progress() = default;
+Progress::~Progress() = default;
+
 void Progress::start(std::string name) {
   if (!::isatty(STDERR_FILENO)) return;
-  name_ = std::move(name);
-  part_ = std::nan("");
   try {
-    thread_ = std::jthread([this](const std::stop_token& stop) { show(stop); });
+    writer_.reset(new Writer{std::move(name)});
   } catch (const std::system_error&) {  // no thread can be made: there is no progress line
   }
 }
 
 void Progress::at(std::string_view what, double part) {
-  if (!thread_.joinable()) return;
-  const std::lock_guard lock(mutex_);
-  what_ = what;
-  part_ = part;
+  if (!writer_) return;
+  const std::lock_guard lock(writer_->mutex);
+  writer_->what = what;
+  writer_->part = part;
 }
 
-void Progress::stop() {
-  if (!thread_.joinable()) return;
-  thread_.request_stop();
-  thread_.join();
-}
+void Progress::stop() { writer_.reset(); }
 
-void Progress::show(const std::stop_token& stop) {
+void Progress::Writer::show(const std::stop_token& stop) {
   sigset_t all;  // the main thread handles signals, between whole lines of output
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, nullptr);
   const auto begin = steady_clock::now();
   bool shown = false;
-  std::unique_lock lock(mutex_);
+  std::unique_lock lock(mutex);
   for (auto next = begin + patience;
-       !stopped_.wait_until(lock, stop, next, [] { return false; }) && !stop.stop_requested();
+       !stopped.wait_until(lock, stop, next, [] { return false; }) && !stop.stop_requested();
        next += interval) {
-    if (what_.empty()) continue;
-    std::string text = name_ + ": " + what_;
+    if (what.empty()) continue;
+    std::string text = name + ": " + what;
     for (char& c : text)
       if (c < ' ' || c > '~') c = '?';
     text.resize(std::min(text.size(), width - 16));
-    if (!std::isnan(part_)) text += fmt::format(" {:.0f} %", 100 * part_);
+    if (!std::isnan(part)) text += fmt::format(" {:.0f} %", 100 * part);
     put(text +
         fmt::format(
             ", {} s",

@@ -1,11 +1,9 @@
 // A progress line on the terminal.
 #pragma once
 
-#include <condition_variable>
-#include <mutex>
+#include <memory>
 #include <string>
 #include <string_view>
-#include <thread>
 
 namespace rolling {
 
@@ -14,6 +12,8 @@ namespace rolling {
 /// that the computation does not have to look at the clock.
 class Progress {
  public:
+  Progress();
+  ~Progress();
   /// Starts the clock and the thread. Does nothing if standard error is not a terminal or if no
   /// thread can be made.
   void start(std::string name);
@@ -22,17 +22,10 @@ class Progress {
   void at(std::string_view what, double part);
   /// Removes the line for good. Call it before anything else is written to the terminal.
   void stop();
-  ~Progress() { stop(); }
 
  private:
-  void show(const std::stop_token&);
-
-  std::string name_;
-  std::mutex mutex_;  // of the two that follow
-  std::string what_;
-  double part_ = 0;
-  std::condition_variable_any stopped_;
-  std::jthread thread_;
+  struct Writer;  // the line and its thread
+  std::unique_ptr<Writer> writer_;
 };
 
 }  // namespace rolling

@@ -11,10 +11,8 @@
 #include "fit/dot.h"
 #include "fit/errors.h"
 #include "fit/first_guess.h"
-#include "fit/given_numbers.h"
 #include "fit/model_shift.h"
 #include "fit/sensor_filters.h"
-#include "fit/white_share.h"
 
 namespace rolling {
 

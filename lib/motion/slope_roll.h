@@ -1,6 +1,9 @@
 // The roll under D(v) = a v^b on a mat that is not level, in either geometry.
 #pragma once
 
+#include <cmath>
+
+#include "base/error.h"
 #include "motion/motion.h"
 #include "motion/trajectory.h"
 
@@ -10,14 +13,20 @@ namespace rolling {
 class SlopeRoll final : public Motion {
  public:
   /// Refuses what check_roll refuses.
-  SlopeRoll(const Body&, Geometry, PowerLaw, double v0, double x0);
+  SlopeRoll(const Body& body, Geometry geometry, PowerLaw law, double v0, double x0)
+      : trajectory_(body, geometry, law, v0), x0_(x0), v_(v0) {
+    if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
+  }
 
   double stop_time() const override { return trajectory_.stop_time(); }
   double last_speed() const override { return trajectory_.last_speed(); }
-  void seek(double t) override;
+  void seek(double t) override {
+    t_ = t;
+    v_ = t < stop_time() ? trajectory_.speed_at(t).v : 0;
+  }
   double position() override { return x0_ + trajectory_.at(t_).x; }
   double velocity() override { return v_; }
-  double acceleration() override;
+  double acceleration() override { return v_ == 0 ? 0 : trajectory_.acceleration(v_); }
   double shift() override { return trajectory_.shift(v_); }
 
  private:

@@ -12,7 +12,12 @@ class MovingMedian : public WindowedSignal<MovingMedian> {
   /// Throws Error for an even width.
   explicit MovingMedian(Width width) : WindowedSignal(width, Windows::Ends::shrink) {}
 
-  double value(const Windows&);
+  double value(const Windows& window) {
+    window.slide(
+        begin_, end_, [this](const Sample& s) { sorted_.insert(s.y); },
+        [this](const Sample& s) { sorted_.erase(s.y); });
+    return sorted_.median();
+  }
 
  private:
   SortedWindow sorted_;

@@ -1,4 +1,4 @@
-#include "fit/band_matrix.h"
+#include "fit/filter_matrix.h"
 
 #include "unit/fit/dense.h"
 #include "unit/catch.h"
