@@ -1,8 +1,5 @@
 #include "text/number.h"
 
-#include <fmt/compile.h>
-#include <fmt/format.h>
-
 #include <array>
 #include <bit>
 #include <charconv>
@@ -114,8 +111,7 @@ bool is_missing(std::string_view field) {
 }
 
 char* write_number(char* to, double value, int digits) {
-  return digits > 0 ? fmt::format_to(to, FMT_COMPILE("{:.{}g}"), value, digits)
-                    : write_shortest(to, value);
+  return digits > 0 ? write_digits(to, value, digits) : write_shortest(to, value);
 }
 
 std::string shown(std::string_view text) {

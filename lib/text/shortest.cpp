@@ -154,4 +154,8 @@ char* write_shortest(char* to, double value) {
   return scientific ? fmt::format_to(to, FMT_COMPILE("e{:+03}"), point - 1) : to;
 }
 
+char* write_digits(char* to, double value, int digits) {
+  return fmt::format_to(to, FMT_COMPILE("{:.{}g}"), value, digits);
+}
+
 }  // namespace rolling

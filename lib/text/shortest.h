@@ -1,4 +1,4 @@
-// The shortest decimal number that reads back to the same double.
+// A double as text: the shortest decimal number that reads back to it, or so many digits.
 #pragma once
 
 namespace rolling {
@@ -7,5 +7,8 @@ namespace rolling {
 /// closest to it, in the form of fmt's "{}": 0.001, 1.5, 1e-04, 1e+16. The value is finite.
 /// Returns the end of the text, at most 24 bytes behind `to`; writes up to 32 bytes.
 char* write_shortest(char* to, double value);
+
+/// The same with so many significant digits, in the form of fmt's "{:.{}g}".
+char* write_digits(char* to, double value, int digits);
 
 }  // namespace rolling
