@@ -38,7 +38,8 @@ target := number reader scene $(tool)
 object  = $(patsubst %.cpp,build/%.o,$1)
 
 .PHONY: all table1 samples figures report html check install uninstall deb coverage work-precision \
-        work-precision-signal bench lint fuzz sanitize coverage-lines mutate check-long check-arm64 clean always
+        work-precision-signal bench lint fuzz sanitize coverage-lines mutate check-long \
+        check-arm64 clean always
 .SECONDARY:
 all: $(tool:%=bin/%)
 
@@ -126,14 +127,18 @@ build/unit-%: $$(call object,$$(wildcard tests/unit/$$*/*.cpp)) build/catch_main
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) \
 	  $$(test -e /usr/include/catch2/catch.hpp || echo -lCatch2)
 
-# The exact arithmetic built as it is, and with flags in front of the project's that would fuse multiplications and additions:
-# tests/pipeline/fused.sh compares what the two print, and smooth and differentiate with their sums and numbers built so.
+# The exact arithmetic built as it is, and with flags in front of the project's that would fuse
+# multiplications and additions: tests/pipeline/fused.sh compares what the two print, and smooth and
+# differentiate with their sums and numbers built so.
 exact_source := lib/base/double_double.cpp lib/contact/contact.cpp tests/fused/fused.cpp \
-                $(addprefix lib/motion/,$(addsuffix .cpp,closed_form exact_form power_integral slope_integrals speed_integrals speed_panel speed_series trajectory))
-has_fma := $(shell grep -qw avx2 /proc/cpuinfo 2>/dev/null && grep -qw fma /proc/cpuinfo && uname -m | grep -x x86_64)
+                $(patsubst %,lib/motion/%.cpp,closed_form exact_form power_integral \
+                  slope_integrals speed_integrals speed_panel speed_series trajectory)
+has_fma := $(shell grep -qw avx2 /proc/cpuinfo 2>/dev/null && grep -qw fma /proc/cpuinfo && \
+                   uname -m | grep -x x86_64)
 build/fused/obj/%.o: %.cpp
 	@mkdir -p $(@D)
-	$(CXX) $(CPPFLAGS) -O3 -march=x86-64-v3 -ffp-contract=fast $(filter-out -O%,$(CXXFLAGS)) -c -o $@ $<
+	$(CXX) $(CPPFLAGS) -O3 -march=x86-64-v3 -ffp-contract=fast $(filter-out -O%,$(CXXFLAGS)) \
+	  -c -o $@ $<
 build/fused/fused: $(exact_source:%.cpp=build/fused/obj/%.o)
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
 build/fused/plain: $(exact_source:%.cpp=build/%.o)
@@ -181,8 +186,8 @@ build/fuzzer/%: build/fuzz/%.o build/lib.a
 # A copy of the sources for a build of another kind; what has not changed there is not built again.
 copy = mkdir -p $1 && rm -rf $(addprefix $1/,cmd lib man samples tests) && \
        tar -cf - Makefile README.md cmd lib man samples tests | tar -xf - -C $1
-# There the tests of what the tools do run, with more time for each; those of pages, packages and the
-# sizes of programs do not.
+# There the tests of what the tools do run, with more time for each; those of pages, packages and
+# the sizes of programs do not.
 check_in = $(MAKE) -C $1 check SLOWER=5 \
            TESTS='tests/tools tests/pipeline/*.sh tests/faults/*.sh tests/house/progress.sh'
 SECONDS ?= 60
@@ -287,7 +292,8 @@ lint:
 	printf '%s\n' $(source) $(wildcard cmd/*.cpp) | xargs -P $(shell nproc) -n 4 sh -c \
 	  'clang-tidy-14 --quiet --warnings-as-errors="*" "$$@" -- -x c++ -std=c++20 -Ilib' sh
 	printf '%s\n' $(source) $(wildcard cmd/*.cpp tests/*/*.cpp tests/*/*/*.cpp) | \
-	  xargs -P $(shell nproc) -n 4 clang++-14 -fsyntax-only -Werror '-DTOOL=""' $(CPPFLAGS) -Itests $(CXXFLAGS)
+	  xargs -P $(shell nproc) -n 4 \
+	  clang++-14 -fsyntax-only -Werror '-DTOOL=""' $(CPPFLAGS) -Itests $(CXXFLAGS)
 
 clean:
 	rm -rf bin build figures

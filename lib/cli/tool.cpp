@@ -96,6 +96,8 @@ Tool::Tool(std::string name, const std::string& purpose)
   flag("-q,--quiet", quiet_, "print no warnings, counts or progress on standard error");
 }
 
+Tool::~Tool() = default;
+
 void Tool::add(const std::string& names, const std::string& type, const std::string& help, Set set,
                std::function<bool()> missing) {
   command_line_.option(names, type, help, [names, set](const std::string& text) {

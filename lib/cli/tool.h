@@ -47,6 +47,7 @@ enum class BodyOption { mass, radius, shape_factor, gravity, slope };
 class Tool {
  public:
   Tool(std::string name, const std::string& purpose);
+  ~Tool();
 
   // Options of one tool. `names` in the notation of CLI11: "-w,--width". Each option may be given
   // once. Its value must be a number in the syntax of rolling-columns(5) and within the range.

@@ -1,10 +1,13 @@
 // What the rolls have in common that are solved as differential equations.
 #pragma once
 
-#include "contact/body.h"
+#include "base/error.h"
+#include "contact/contact.h"
 #include "motion/motion.h"
 #include "ode/integrator.h"
 
+#include <cmath>
+#include <utility>
 #include <vector>
 
 namespace rolling {
@@ -14,13 +17,20 @@ namespace rolling {
 /// time of the stop is asked for, since seek() goes forward only.
 class SolvedRoll : public Motion {
  public:
-  double acceleration() override;
+  double acceleration() override {
+    return at_rest() ? 0 : acceleration_from_shift(body_, geometry_, shift());
+  }
   unsigned long evaluations() const override { return ode_.evaluations(); }
 
  protected:
   /// `start` is the state at t = 0. Throws Error unless its x is finite, and what Integrator
   /// throws.
-  SolvedRoll(const Body&, Geometry, OdeSystem, const OdeOptions&, std::vector<double> start);
+  SolvedRoll(const Body& body, Geometry geometry, OdeSystem equations, const OdeOptions& options,
+             std::vector<double> start)
+      : body_(body), geometry_(geometry), equations_(std::move(equations)), options_(options),
+        start_(std::move(start)), ode_(equations_, options_, 0, start_) {
+    if (!std::isfinite(start_[0])) fail("the initial position x0 = {} must be finite", start_[0]);
+  }
   /// True if the body has come to rest: then dv/dt is exactly 0.
   virtual bool at_rest() = 0;
 

@@ -4,16 +4,20 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 #include <string_view>
 
 namespace rolling {
 
 class Bytes {
  public:
-  const char* data() const { return data_.get(); }
-  std::size_t size() const { return static_cast<std::size_t>(end_ - data_.get()); }
-  bool empty() const { return end_ == data_.get(); }
+  Bytes() = default;
+  ~Bytes() { delete[] data_; }
+  Bytes(const Bytes&) = delete;
+  Bytes& operator=(const Bytes&) = delete;
+
+  const char* data() const { return data_; }
+  std::size_t size() const { return static_cast<std::size_t>(end_ - data_); }
+  bool empty() const { return end_ == data_; }
 
   void append(std::string_view text) {
     end_ = std::copy(text.begin(), text.end(), reserve(text.size()));
@@ -28,21 +32,21 @@ class Bytes {
   void set_end(char* end) { end_ = end; }
 
   /// Keeps the first `size` bytes only.
-  void truncate(std::size_t size) { end_ = data_.get() + size; }
+  void truncate(std::size_t size) { end_ = data_ + size; }
   /// Removes the first `count` bytes.
-  void erase_front(std::size_t count) { end_ = std::copy(data_.get() + count, end_, data_.get()); }
+  void erase_front(std::size_t count) { end_ = std::copy(data_ + count, end_, data_); }
 
  private:
   [[gnu::noinline]] void grow(std::size_t count) {
     const std::size_t capacity = 2 * (size() + count);
-    auto larger = std::make_unique_for_overwrite<char[]>(capacity);
-    end_ = std::copy(data_.get(), end_, larger.get());
-    limit_ = larger.get() + capacity;
-    data_ = std::move(larger);
+    char* const larger = new char[capacity];
+    end_ = std::copy(data_, end_, larger);
+    limit_ = larger + capacity;
+    delete[] data_;
+    data_ = larger;
   }
 
-  std::unique_ptr<char[]> data_;
-  char *end_ = nullptr, *limit_ = nullptr;
+  char *data_ = nullptr, *end_ = nullptr, *limit_ = nullptr;
 };
 
 }  // namespace rolling

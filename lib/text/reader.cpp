@@ -41,6 +41,8 @@ Reader::Reader(ReaderOptions options, std::vector<std::string> order)
   find_run();
 }
 
+Reader::~Reader() = default;
+
 // ----------------------------------------------------------------------------------------
 // columns
 

@@ -34,6 +34,9 @@ class Reader {
   /// Reads up to the first record of the first run. `order` names the columns of a file without
   /// names, up to the first column that --use assigns to another place.
   Reader(ReaderOptions, std::vector<std::string> order);
+  ~Reader();
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
 
   // The head of the present run; before next_run(), of the first run.
   /// Its columns, with the names and units of the output.
