@@ -1,7 +1,5 @@
 #include "cli/history.h"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -144,8 +142,9 @@ class Chain {
   bool filter(const std::string& line, std::span<const SignalMethod> methods,
               std::span<const std::string> words, bool derivative) {
     if (words.size() < 2) return doubt(line);
-    const auto options =
-        signal_options(methods, fmt::format("{}", fmt::join(words.begin() + 1, words.end(), " ")));
+    std::string method;
+    for (const std::string& word : words.subspan(1)) method += (method.empty() ? "" : " ") + word;
+    const auto options = signal_options(methods, method);
     if (!options) return doubt(line);
     if (!options->method->linear) return unknown();
     const std::string& column = words[0];

@@ -57,7 +57,7 @@ Layout Layout::of(const std::vector<Column>& line) {
       add(layout, line, i, line[i].run.empty() ? layout.runs.size() : place[line[i].run]);
   } else if (count["t"] > 1) {
     refuse_unclear(line, count, false);
-    layout.runs.assign(count["t"], {});
+    layout.runs = std::vector<Layout::Run>(count["t"]);
     std::map<std::string, std::size_t> seen;
     for (std::size_t i = 0; i < line.size(); ++i)
       add(layout, line, i,
