@@ -25,7 +25,7 @@ struct Beginning {
 ///
 /// The result is empty for a fit that is not a roll, for fewer than 20 records more than
 /// parameters, and for filtered columns: filters spread a disturbance over all residuals, which
-/// then are not white. Throws Error where fit() would.
+/// then are not white. Throws Error if the fit itself is not possible.
 std::optional<Beginning> disturbed_beginning(Route, const std::vector<FitRun>&, const FitOptions&);
 
 }  // namespace rolling

@@ -17,7 +17,7 @@ struct Moved {
 /// have the same body; they change together. The derivative is a central difference of two fits,
 /// with the number one standard uncertainty (or a tenth of the number, if that is less) above and
 /// below its value. On the routes that read D, which was computed with these numbers, D is computed
-/// again from the same accelerations. Throws Error where fit() would.
+/// again from the same accelerations. Throws Error if the fit itself is not possible.
 std::vector<Moved> moved_by_given(Route, const std::vector<FitRun>&, const FitOptions&,
                                   const Fitted&);
 

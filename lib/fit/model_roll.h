@@ -34,8 +34,8 @@ struct ObservedRun {
   bool raw_is_position = false;
   std::vector<double> t;          ///< times of the raw column, at which the model is evaluated [s]
   std::optional<FilterMatrix> H;  ///< y = H raw; without H, y is the raw column itself
-  std::vector<double>
-      y;  ///< the fitted records; for shift their accelerations, followed by their mean speed
+  /// The fitted records; for shift their accelerations, followed by their mean speed.
+  std::vector<double> y;
   double unit = 1;  ///< one unit of y in units of the fitted column
 
   std::size_t records() const { return y.size() - (H && H->bordered()); }

@@ -16,15 +16,16 @@
 namespace rolling {
 namespace {
 
-/// The records that loglog and shift use, all runs one after another. A body that rolls towards
-/// falling x has v < 0 and D < 0: both count along its way.
+/// The records that the routes loglog and shift use, all runs in sequence. A body that rolls
+/// towards falling x has v < 0 and D < 0; both are taken positive along its direction of motion.
 struct ShiftRecords {
   std::vector<double> D;
   std::vector<double> log_u;      // ln v - log_v_ref
-  std::vector<std::size_t> runs;  // number of records of each
+  std::vector<std::size_t> runs;  // number of records of each run
   std::vector<Rows> rows;
   std::size_t left_out = 0;
-  double log_v_ref = 0;  // ln of the geometric mean of v: there ln D and b are uncorrelated
+  double log_v_ref =
+      0;  // ln of the geometric mean of v, where the estimates of ln D and b are uncorrelated
 };
 
 ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& options,
@@ -67,22 +68,24 @@ ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& opt
   return records;
 }
 
-/// The law in parameters that are nearly uncorrelated: a height, which is a power law's D(v_ref) in
-/// some unit or a line's ln D(v_ref), and b. What is held fixed has no place in theta.
+/// The law in nearly uncorrelated parameters: the height and b. The height is D(v_ref) in some unit
+/// for a power law and ln D(v_ref) for a line. Parameters that are held fixed have no element in
+/// theta.
 struct Height {
   std::optional<double> a, b;  // held
   double log_v_ref;
 
   std::size_t count() const { return !a + !b; }
   double exponent(const std::vector<double>& theta) const { return b ? *b : theta.back(); }
-  /// Puts the derivatives of a residual, by its height and at fixed height by b; `by_log_height`
-  /// times log_v_ref is added where the height moves with b, for a is held.
+  /// Writes the derivatives of residual k of n: by the height, and by b at constant height. If a is
+  /// held, the height depends on b; its part log_v_ref * by_log_height is added.
   void put(std::span<double> J, std::size_t k, std::size_t n, double by_height, double by_b,
            double by_log_height) const {
     if (!a) J[k] = by_height;
     if (!b) J[J.size() - n + k] = by_b + (a ? log_v_ref * by_log_height : 0);
   }
-  /// a and b at the minimum; a_slope is the derivative of a by the height.
+  /// Writes a and b at the minimum with their gradients; a_slope is the derivative of a with
+  /// respect to the height.
   void report(Fitted& fit, double a_fitted, double a_slope) const {
     const double a_value = a.value_or(a_fitted);
     fit.a = {a_value, std::vector<double>(count(), 0)};
@@ -93,8 +96,8 @@ struct Height {
   }
 };
 
-/// Hands over what fill(record, f, place in J) makes of the records, few at a time, which stay in
-/// the cache.
+/// Passes the residuals fill(record, J, row, rows of the block) to the callback, in blocks of at
+/// most 256 records, which fit into the cache.
 template <typename Fill>
 void hand_over(const std::vector<std::size_t>& runs, std::size_t columns, const TakeRows& take,
                Fill&& fill) {
@@ -126,7 +129,7 @@ System power_system(ShiftRecords records, Height height, double unit) {
           }};
 }
 
-/// Every so many-th record, so that at most `most` are left.
+/// Every k-th record, with k the smallest that leaves at most `most` records.
 ShiftRecords thinned(const ShiftRecords& records, std::size_t most) {
   ShiftRecords few;
   few.log_v_ref = records.log_v_ref;
@@ -139,8 +142,8 @@ ShiftRecords thinned(const ShiftRecords& records, std::size_t most) {
   return few;
 }
 
-/// The exponent of a coarse grid that fits best (for each, the height is linear), unless the user
-/// knows one.
+/// A starting point: the exponent of a coarse grid with the smallest sum of squares (the height
+/// follows by linear least squares), or the values that the user gives.
 std::vector<double> power_start(const ShiftRecords& few, const FitOptions& options, double unit) {
   const auto held = options.a ? options.a : options.start_a;
   std::vector<double> exponents;
@@ -176,7 +179,7 @@ Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   double unit = 0;
   for (double D : records.D) unit = std::max(unit, std::abs(D));
   if (unit == 0) fail("all shifts are 0: b cannot be determined");
-  // Of many records a few thousand lead most of the way.
+  // For many records, a few thousand of them give a starting point close to the minimum.
   constexpr std::size_t most = 4096;
   const std::size_t n = records.D.size();
   const ShiftRecords few = thinned(records, options.robust ? n : most);
@@ -215,12 +218,12 @@ System line_system(ShiftRecords records, Height height) {
           }};
 }
 
-/// The mean and the standard deviation of ln(1 + e) for normal e of standard deviation s, of those
-/// with 1 + e > 0, which have a logarithm: -s^2/2 and s itself for a small s; for a large one they
-/// grow like a logarithm.
+/// The mean and the standard deviation of ln(1 + e) for normal e of standard deviation s,
+/// conditional on 1 + e > 0, where the logarithm exists. For small s they are -s^2/2 and s; for
+/// large s the standard deviation tends to a constant and the mean grows like ln s.
 Estimate logarithm_of_noise(double s) {
-  // z = u^2 + the least z: at the pole of the logarithm the integrands become smooth, so that so
-  // many steps are within 5e-4.
+  // The substitution z = u^2 + least makes the integrands smooth at the pole of the logarithm. The
+  // midpoint rule with this number of steps then has an error below 5e-4.
   constexpr int steps = 200;
   constexpr double range = 6;
   const double least = std::max(-range, -1 / s), length = std::sqrt(range - least);
@@ -236,8 +239,7 @@ Estimate logarithm_of_noise(double s) {
   return {mean, std::sqrt(squares / weight - mean * mean)};
 }
 
-/// The same from a table, by straight lines between its places, which are filled as they are asked
-/// for.
+/// The same by linear interpolation in a table over ln s, whose entries are computed on demand.
 class LogarithmOfNoise {
  public:
   Estimate operator()(double s) {
@@ -251,7 +253,8 @@ class LogarithmOfNoise {
   }
 
  private:
-  static constexpr double least = -7, most = 7, places = 32;  // of ln s, and for each unit of it
+  static constexpr double least = -7, most = 7,
+                          places = 32;  // range of ln s, and entries per unit of ln s
   Estimate at(std::size_t i) {
     if (table_[i].sigma == 0)
       table_[i] = logarithm_of_noise(std::exp(least + static_cast<double>(i) / places));
@@ -261,13 +264,13 @@ class LogarithmOfNoise {
       std::vector<Estimate>(static_cast<std::size_t>((most - least) * places) + 1);
 };
 
-/// What is known of the points (ln v, ln D) of a run.
+/// The noise and the bias of the points (ln v, ln D) of a run.
 struct Logarithms {
-  FilterMatrix noise;        ///< of ln D - b ln v, for raw noise of one
-  std::vector<double> bias;  ///< of the same: by how much it is above ln a on average
+  FilterMatrix noise;  ///< matrix that maps raw noise of variance one to the noise of ln D - b ln v
+  std::vector<double> bias;  ///< expectation of ln D - b ln v minus ln a, for each point
 };
 
-/// x X + y Y.
+/// Writes x X + y Y to `sum`.
 void add(double x, const FilterMatrix::Row& X, double y, const FilterMatrix::Row& Y,
          FilterMatrix::Row& sum) {
   sum.first = std::min(X.first, Y.first);
@@ -278,9 +281,11 @@ void add(double x, const FilterMatrix::Row& X, double y, const FilterMatrix::Row
     sum.values[j - sum.first] += y * Y.values[j - Y.first];
 }
 
-/// Of a roll under the law, which these filters make of this raw column along the way of the body;
-/// `sigma` is the size of the raw noise. Smoothing bends the curve, and noise has a logarithm that
-/// is too low and spreads less than the noise over its mean.
+/// The noise and bias of the logarithms for a roll under the law. D and v are the matrices that
+/// compute the accelerations and speeds from the raw column (along the direction of motion),
+/// shift() converts an acceleration to D, and sigma is the standard deviation of the raw noise. The
+/// bias has two causes: smoothing bends the curve D(v), and the logarithm of a noisy number is too
+/// low on average. Its noise is also smaller than the relative noise of D.
 Logarithms logarithms_of(const FilterMatrix& D, const FilterMatrix& v,
                          const std::vector<double>& raw, const Rows& rows, PowerLaw law,
                          const std::function<double(double)>& shift, double sigma) {
@@ -309,7 +314,8 @@ Logarithms logarithms_of(const FilterMatrix& D, const FilterMatrix& v,
   return {FilterMatrix::identity(raw.size()).then(std::move(E)), std::move(bias)};
 }
 
-/// What biases of the points make of a and b of the line through them.
+/// The bias of a and b of the line that follows from the biases of its points: theta = R^-1 Q^T
+/// bias.
 void bias_line(Fitted& line, const std::vector<double>& bias) {
   const std::size_t p = line.system.columns();
   const std::vector<double> Q = orthonormal(line.system, line.minimum), &R = line.minimum.R;
@@ -321,8 +327,8 @@ void bias_line(Fitted& line, const std::vector<double>& bias) {
   line.bias_b = dot(line.b.gradient.data(), theta.data(), p);
 }
 
-/// The noise and the bias of ln D - b ln v where the filters are known: those of the roll that fits
-/// best, seen through the filters.
+/// Adds the noise and the bias of ln D - b ln v to a line if the filters are known: those of the
+/// best-fitting roll, observed through the filters.
 void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<FitRun>& all,
                  const FitOptions& options) {
   Making making = making_of(Route::shift, all);
@@ -332,9 +338,10 @@ void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<
     D.push_back(response.of.at("D")), v.push_back(response.of.at("v"));
   Fitted roll;
   try {
-    // Of all records: those with D > 0 alone would be chosen by their noise.
+    // The roll is fitted to all records; a selection of those with D > 0 would select by their
+    // noise.
     roll = fit_rolls(Route::shift, all, usable(Route::shift, all), std::move(making), options);
-  } catch (const Error&) {  // there is no such roll
+  } catch (const Error&) {  // no roll fits: the line keeps its classical errors
     return;
   }
   RawNoise& of_roll = line.raw_noise.emplace();
@@ -343,7 +350,7 @@ void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<
   of_roll.source_runs = roll.noise->sources();
   of_roll.innovations = roll.noise->innovations(roll.minimum.f, of_roll.innovation_runs);
   of_roll.means_taken = roll.rolls->means_taken();
-  roll.system = {}, roll.noise = {};  // its weights are large
+  roll.system = {}, roll.noise = {};  // frees memory: the weights are large
   std::vector<FilterMatrix> noise;
   std::vector<double> bias;
   for (std::size_t r = 0; r < all.size(); ++r) {
