@@ -12,6 +12,7 @@
 #include "fit/errors.h"
 #include "fit/first_guess.h"
 #include "fit/given_numbers.h"
+#include "fit/log_log_regression.h"
 #include "fit/model_shift.h"
 #include "fit/sensor_filters.h"
 #include "fit/white_share.h"
