@@ -265,15 +265,6 @@ double SlopeIntegrals::speed(Place at) const {
   return std::exp(-way_ * (panels_[at.panel].r + at.r));
 }
 
-double SlopeIntegrals::distance(Place at) const {
-  const Panel& p = panels_[at.panel];
-  double sum = p.before.distance;
-  quadrature(p, at.r, [&](const Node& n) {
-    sum += n.by_d * (n.d / n.net) * (K_ + n.A) * std::exp(-way_ * n.r) * n.dr;
-  });
-  return sum + at.beyond * speed(at);
-}
-
 SlopeIntegrals::Gradient SlopeIntegrals::gradient(Place at, Wanted wanted) const {
   const Panel& p = panels_[at.panel];
   const Sums sum = total(p, at.r, local(p, at.r, wanted));
