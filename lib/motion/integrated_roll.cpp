@@ -15,9 +15,8 @@ namespace rolling {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double gain = 1e-9;  // relative growth of v that rounding explains
-constexpr double least_part =
-    1e-8;  // of v0; at much lower speeds a step is lost in the rounding of t
+constexpr double gain = 1e-9;        // relative growth of v that rounding explains
+constexpr double least_part = 1e-8;  // of v0; for much lower v, rounding of t exceeds a step
 
 /// The speed at which the solver ends; 0 if the body never stops.
 double floor_of(const AnyLaw& law, double v0) {

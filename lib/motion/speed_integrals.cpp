@@ -19,8 +19,8 @@ constexpr double far = 64;  // what lies beyond y = 64 or s y = 64 does not show
 
 SpeedIntegrals::SpeedIntegrals(double b, double K, double depth, double arm_square)
     : arm_{b, K, depth, arm_square}, s_(1 - b) {
-  const double last =
-      s_ > 0 ? far / std::min(s_, 1.0) : infinity;  // the rest beyond it is negligible
+  // The rest beyond y = last is negligible.
+  const double last = s_ > 0 ? far / std::min(s_, 1.0) : infinity;
   if (depth == 0 || std::abs(b) < least_b) {
     add(0, infinity, SpeedSeries::constant(arm_));
   } else if (b > 0) {

@@ -33,8 +33,7 @@ class TableRoll final : public Motion {
 
  private:
   struct Panel {
-    double v, time,
-        distance;  // at the beginning of the panel; its end is the beginning of the next one
+    double v, time, distance;  // at the beginning; a panel ends where the next one begins
   };
   struct Integrals {
     double time, distance;
