@@ -1,4 +1,4 @@
-// What a filter, or a chain of filters, makes of its raw column, as a matrix.
+// The matrix of a chain of filters, which maps the raw column to a filtered one.
 #pragma once
 
 #include <cstddef>
@@ -9,71 +9,78 @@
 
 namespace rolling {
 
-/// A matrix whose rows are zero outside a short stretch: what a filter does to a column.
+/// A band matrix: its rows are zero outside a short range of columns. It represents a linear
+/// filter.
 class BandMatrix {
  public:
   BandMatrix() = default;
   static BandMatrix identity(std::size_t n);
   bool is_identity() const;
-  /// Makes room for so many rows of so many numbers in all.
+  /// Reserves memory for this number of rows and of stored elements.
   void reserve(std::size_t rows, std::size_t numbers);
-  /// Appends a row; zeros at either end of it are not stored, and equal rows, one after another,
-  /// share their numbers.
+  /// Appends a row whose first element is in column `first`. Zeros at either end of the row are not
+  /// stored, and consecutive equal rows share their elements. Throws Error beyond 2^32 - 1
+  /// elements.
   void append(std::size_t first, std::span<const double> values);
   std::size_t rows() const { return rows_.size(); }
-  /// One more than the last column that a row reaches.
+  /// One more than the last column with an element.
   std::size_t columns() const { return columns_; }
   std::size_t first(std::size_t i) const { return rows_[i].first; }
   std::size_t end(std::size_t i) const { return rows_[i].first + rows_[i].size; }
   std::span<const double> row(std::size_t i) const {
     return {values_.data() + rows_[i].start, rows_[i].size};
   }
-  /// So many columns, counted back from the last one that it or a row before it reaches, a row
-  /// reaches at most.
+  /// The largest distance, over the rows, from the first column of a row to the end of the columns
+  /// that this row or an earlier one reaches: the number of input samples that must be kept when
+  /// rows are computed in order.
   std::size_t window() const { return window_; }
-  /// These rows, of all the columns.
+  /// The matrix of these rows alone.
   BandMatrix of_rows(std::span<const std::size_t> rows) const;
 
  private:
   struct Row {
-    std::uint32_t start, first, size;  // start in values_
+    std::uint32_t start, first, size;  // start: index into values_
   };
   std::vector<Row> rows_;
   std::vector<double> values_;
   std::size_t columns_ = 0, window_ = 0;
 };
 
-/// A product of band matrices, the first filter rightmost. It is never multiplied out: one filter
-/// after another is narrower than all of them at once. Below it may stand one row that reaches over
-/// the whole run (the mean of a column).
+/// A product of band matrices, the first filter rightmost. The product is not multiplied out,
+/// because each factor is narrower than the product. An additional last row (the "border") may
+/// reach over the whole run; it holds the mean of a column.
 class FilterMatrix {
  public:
   FilterMatrix(BandMatrix);
   static FilterMatrix identity(std::size_t n);
-  /// L times this matrix.
+  /// The product of L and this matrix.
   FilterMatrix then(BandMatrix L) const;
-  /// These rows of it.
+  /// The matrix of these rows alone.
   FilterMatrix of_rows(std::span<const std::size_t> rows) const;
+  /// This matrix with the border `row` (one element for each column) below it.
   FilterMatrix with_last_row(std::vector<double> row) const;
 
   std::size_t rows() const { return band_rows() + bordered(); }
   std::size_t columns() const { return columns_; }
-  /// Without the last row that reaches over the run.
+  /// The number of rows without the border.
   std::size_t band_rows() const { return factors_.empty() ? columns_ : factors_.back()->rows(); }
   bool bordered() const { return border_ != nullptr; }
   std::span<const double> last_row() const { return *border_; }
 
-  /// A row of the band, from the first column that it reaches.
+  /// One row of the product without the border, from its first nonzero column.
   struct Row {
     std::size_t first = 0;
     std::vector<double> values, spare;
 
     std::size_t end() const { return first + values.size(); }
   };
-  /// Writes row i; whoever asks for row after row gives the same place again.
+  /// Writes row i. A caller that reads row after row passes the same Row again, so that its memory
+  /// is reused.
   void row(std::size_t i, Row& to) const;
+  /// The product with a vector of columns() elements.
   std::vector<double> times(std::span<const double> x) const;
-  /// The product of the transposed matrix with X, of `columns` numbers a row.
+  /// The product of the transposed matrix with X, which is stored row by row with `columns`
+  /// elements in each of its rows() rows.
   std::vector<double> transposed_times(std::span<const double> X, std::size_t columns = 1) const;
 
  private:
@@ -81,27 +88,27 @@ class FilterMatrix {
   explicit FilterMatrix(std::size_t columns) : columns_(columns) {}
 
   std::size_t columns_;
-  std::vector<std::shared_ptr<const BandMatrix>> factors_;  // that of the first filter first
+  std::vector<std::shared_ptr<const BandMatrix>> factors_;  // in the order of application
   std::shared_ptr<const std::vector<double>> border_;
 };
 
-/// Sends rows of numbers through the filters, one at a time: the product with a matrix of so many
-/// columns.
+/// Multiplies a filter matrix by a matrix of `columns` columns, row by row: neither the factors are
+/// multiplied out nor is the product stored.
 class FilterPass {
  public:
   FilterPass(const FilterMatrix&, std::size_t columns);
-  /// So many numbers a row, with room that is not used.
+  /// The number of elements that a row occupies: `columns`, rounded up to an even number.
   std::size_t stride() const { return stride_; }
-  /// The place for the next row of the raw column, and then takes it from there.
+  /// The memory for the next row of the input; push() reads the row from there.
   double* place() { return raw_.data(); }
   void push();
-  /// The next row of the product; null as long as it is not known. Valid until the next call.
+  /// The next row of the product; null if it needs further input. Valid until the next call.
   double* next();
 
  private:
   struct Stage {
     const BandMatrix* L;
-    std::vector<double> in;  // the rows base .. count - 1 of what comes in
+    std::vector<double> in;  // the input rows base .. count - 1
     std::size_t base, count, row;
     std::vector<double> out;
   };

@@ -1,32 +1,31 @@
-// What residuals tell of filters: how much white noise they hold beside the noise that filters
-// make, and whether speeds of which nothing is known are differences that the program of a sensor
-// made of positions.
+// What the residuals say about filters: the white noise that they hold in addition to the filtered
+// noise, and whether speeds of unknown origin are differences of positions.
 #pragma once
 
 #include "fit/fitted.h"
 
 namespace rolling {
 
-/// A share of white noise, as in Noise.
+/// An estimate of the share of white noise (the share of Noise).
 struct WhiteShare {
   double share;
-  double gain;  ///< of ln of the likelihood, over that of the share that it is compared with
+  double gain;  ///< ln of the likelihood ratio to the share that it is compared with
 
-  /// Noise without it gains as much once in a hundred records.
+  /// Noise without additional white noise reaches this gain in about 1 % of the records.
   bool decisive() const { return gain >= 3; }
 };
 
-/// The share between two numbers under which the residuals of a roll are most likely, its model
-/// taken as linear around theta; `other` is the share that it is compared with. H of every run is
+/// The share between `least` and `most` with the largest restricted likelihood of the residuals,
+/// with the model linear around theta, compared with the share `other`. H of every run must be
 /// known.
 WhiteShare most_likely_share(const std::shared_ptr<const RollModel>&,
                              const std::vector<double>& theta, double least, double most,
                              double other);
 
-/// The fit through the positions of which the speeds are most likely differences: by the filter,
-/// with some white noise added to what it makes, under which the residuals are most likely around
-/// `plain`, a fit that knows of no filter. None if white noise alone is nearly as likely, or if the
-/// residuals that it leaves do not look white.
+/// The velocity fit with the difference filter of options.possible_filters, and the share of white
+/// noise, that have the largest restricted likelihood; the likelihood is computed around `plain`, a
+/// fit without a filter. None if white noise alone, or a mean of speeds, is nearly as likely or
+/// more likely, or if the residuals of the new fit are not white or are uneven.
 std::optional<Fitted> fit_differences(const std::vector<FitRun>&, const FitOptions&,
                                       const Fitted& plain);
 

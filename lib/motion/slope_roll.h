@@ -9,10 +9,11 @@
 
 namespace rolling {
 
-/// Time and distance as integrals over speed, by Trajectory. Relative error about 1e-14.
+/// Time and distance are integrals over speed, computed by Trajectory. The relative error is about
+/// 1e-14.
 class SlopeRoll final : public Motion {
  public:
-  /// Refuses what check_roll refuses.
+  /// Throws Error as check_roll does, and if x0 is not finite.
   SlopeRoll(const Body& body, Geometry geometry, PowerLaw law, double v0, double x0)
       : trajectory_(body, geometry, law, v0), x0_(x0), v_(v0) {
     if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
