@@ -249,7 +249,7 @@ coverage: build/coverage build/bench/records
 build/bench/%: CPPFLAGS += -Itests
 build/bench/%: build/tests/bench/%.o build/lib.a
 	@mkdir -p $(@D)
-	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) -pthread
 
 # CVODE beside them where libsundials-dev is installed: see tests/bench/cvode.h.
 ifneq ($(wildcard /usr/include/cvode/cvode.h),)
