@@ -28,7 +28,7 @@ void set_parameters(const std::string& option, const std::vector<std::string>& s
   }
 }
 
-/// Readings that a logger held count as often as they stand there: the fit takes them for new ones.
+/// Warns of readings that a logger held: the fit counts each repetition as a new reading.
 void warn_of_held(Tool& tool, const std::string& name, Route route, const FitRun& run) {
   const bool position = route == Route::position;
   const double held = records_held(position ? run.x : run.v);
@@ -62,8 +62,8 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns co
     if (name != "t") needed.push_back({in.need(name), column_of(name)});
   bool timed = names.front() == "t" || (all_columns && in.find("t"));
   if (timed) needed.push_back({in.need_time(), &FitRun::t});
-  // What other routes would fit; and x, with which speeds that claim to be differences are
-  // compared.
+  // The columns of the other routes; and x, with which the speeds are compared if a `##` line says
+  // that they are differences.
   for (const char* name : {"x", "v", "D"})
     if ((all_columns || (*name == 'x' && route == Route::velocity && !in.history().empty())) &&
         in.find(name) && std::find(names.begin(), names.end(), name) == names.end())
@@ -139,7 +139,7 @@ void set_bodies(std::vector<FitRun>& runs, const std::vector<Estimate>& shape_fa
   }
 }
 
-/// The runs that are fitted together: all, or each by itself.
+/// The groups of runs that are fitted together: one group of all runs, or one for each run.
 std::vector<std::vector<FitRun>> grouped(std::vector<FitRun> runs, bool each) {
   std::vector<std::vector<FitRun>> groups;
   if (each)
@@ -207,8 +207,8 @@ struct Table {
   }
 };
 
-/// The columns of a file without names. Who says where t is, and no route, means a trajectory: then
-/// no column counts as v and D by its place.
+/// The columns of a file without names. If --use says where t is and there is no --route, the route
+/// is a trajectory: no column then counts as v or D by its position.
 std::vector<std::string> order_without_names(std::optional<Route> given, bool times_given) {
   if (!given && times_given) return {};
   return columns_of(given.value_or(Route::shift));

@@ -44,7 +44,8 @@ struct Clock {
   double at(double k) const { return whole ? k / rate : k * dt; }
 };
 
-/// Comma-separated with a names line and blank cells, as such programs export it.
+/// A record in the form that the software of such a sensor exports: comma-separated, with a line of
+/// names and blank cells.
 void write_record(Output& out, Motion& motion, const SonarOptions& sonar) {
   out.text("Time (s),Position (m),Velocity (m/s)");
   out.end_line();
@@ -58,7 +59,8 @@ void write_record(Output& out, Motion& motion, const SonarOptions& sonar) {
   });
 }
 
-/// A sensor has its own clock and place, and columns of its own; and only a sensor has noise.
+/// Refuses options that a sensor excludes, because it has its own clock, position and columns; and
+/// options of noise without a sensor.
 void check_options(const Tool& tool, bool sensor) {
   const auto refuse = [&](std::initializer_list<const char*> options, const char* why) {
     for (const char* option : options)

@@ -1,6 +1,7 @@
 #!/bin/bash
-# Table 1 and the check of the dissipated energy, from the raw records alone: samples/table1.sh (bash, the tools on PATH).
-# Exits with 1 when a recovered value is more than 4 standard errors from the paper's, or an energy balance is open.
+# Table 1 and the check of the dissipated energy, from the raw records alone: samples/table1.sh
+# (bash, the tools on PATH). Exits with 1 when a recovered value is more than 4 standard errors from
+# the paper's, or an energy balance is open.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
@@ -8,16 +9,17 @@ cd "$(dirname "$0")"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 failed=0
-# Of closure and imbalance. Over 160 seeds the closure scatters by 1.2 % (the speeds at both ends, the
-# error of the fit), and the largest imbalance, of a noisy speed anywhere, is 3.5 %.
+# Of closure and imbalance. Over 160 seeds the closure scatters by 1.2 % (the speeds at both ends,
+# the error of the fit), and the largest imbalance, of a noisy speed anywhere, is 3.5 %.
 tolerance=0.05
 
 # KEY of the scene of a run: its value, and its standard uncertainty (0.5+-0.005).
 value() { sed -n "s/^$1 *= *\"*\([^ \"+]*\).*/\1/p" "$2.toml"; }
 given() { sed -n "s/^$1 *= *//p" "$2.toml" | tr -d '" '; }
 
-roll() { smooth -q --coast -c x -w 1 "$1.csv"; }               # the free roll in a raw record, its positions as they are
-velocity() { roll "$1" | differentiate -q -c x | smooth -w 11; }  # v from the positions, smoothed
+# The free roll in a raw record, with the positions as they are; and v from them, smoothed.
+roll() { smooth -q --coast -c x -w 1 "$1.csv"; }
+velocity() { roll "$1" | differentiate -q -c x | smooth -w 11; }
 
 # The two routes to a and b: through D(v), as in Fig. 4, and by the simulated trajectory; each with
 # the errors of the noise alone (NAME.fit) and with what K and R of the scenes bring to them
@@ -34,16 +36,18 @@ fits() {
     for run; do
       if [ "$all" ]; then with=("$(given shape-factor "$run")" "$(given radius "$run")")
       else with=("$(value shape-factor "$run")" "$(value radius "$run")"); fi
-      velocity "$run" | differentiate | shift-from-accel -K "${with[0]}" -R "${with[1]}" >"$scratch/$run.D"
+      velocity "$run" | differentiate |
+        shift-from-accel -K "${with[0]}" -R "${with[1]}" >"$scratch/$run.D"
       shapes+=${shapes:+,}${with[0]}
     done
     fitpower -q "${shifts[@]}" >"$scratch/$name.D$all.fit"
-    fitpower -q --route position -K "$shapes" -R "${with[1]}" "${records[@]}" >"$scratch/$name$all.fit"
+    fitpower -q --route position -K "$shapes" -R "${with[1]}" "${records[@]}" \
+      >"$scratch/$name$all.fit"
   done
 }
 
-# The row of a fit beside the paper's a and b: errors of the noise, then of K and R. The records were
-# made with K and R as they are given, so that the noise alone counts in the distances.
+# The row of a fit beside the paper's a and b: errors of the noise, then of K and R. The records
+# were made with K and R as they are given, so that the noise alone counts in the distances.
 compare() {  # FIT ROUTE A B
   awk -v route="$2" -v a="$3" -v b="$4" '
     function given(noise, all) { return sqrt(all > noise ? all^2 - noise^2 : 0) }
@@ -51,8 +55,9 @@ compare() {  # FIT ROUTE A B
     !all { all_a = $2; all_b = $4; all = 1; next }
     {
       off_a = ($1 - a) / $2; off_b = ($3 - b) / $4; far = off_a^2 > 16 || off_b^2 > 16
-      printf "  %-16s %7.4f +- %.4f +- %.4f  %7.4f +- %.4f +- %.4f  %+5.1f  %+5.1f%s\n", route, 1e3 * $1, 1e3 * $2, 1e3 * given($2, all_a),
-        $3, $4, given($4, all_b), off_a, off_b, far ? "  TOO FAR" : ""
+      printf "  %-16s %7.4f +- %.4f +- %.4f", route, 1e3 * $1, 1e3 * $2, 1e3 * given($2, all_a)
+      printf "  %7.4f +- %.4f +- %.4f", $3, $4, given($4, all_b)
+      printf "  %+5.1f  %+5.1f%s\n", off_a, off_b, far ? "  TOO FAR" : ""
       exit far
     }' "$scratch/$1.all.fit" "$scratch/$1.fit" || failed=1
 }
@@ -61,14 +66,17 @@ table() {  # NAME TITLE A B RUN...
   local name=$1 title=$2 a=$3 b=$4
   shift 4
   fits "$name" "$@"
-  awk -v title="$title" -v a="$a" -v b="$b" 'BEGIN { printf "%s\n  %-16s %7.4f                      %7.4f\n", title, "paper", 1e3 * a, b }'
+  awk -v title="$title" -v a="$a" -v b="$b" 'BEGIN {
+      printf "%s\n  %-16s %7.4f                      %7.4f\n", title, "paper", 1e3 * a, b }'
   compare "$name.D" "D(v), Fig. 4" "$a" "$b"
   compare "$name" "trajectory x(t)" "$a" "$b"
 }
 
-echo "Table 1, D = a v^b: from the raw records in samples/, beside the paper's values; distances in standard errors of the noise"
+echo "Table 1, D = a v^b: from the raw records in samples/, beside the paper's values;" \
+  "distances in standard errors of the noise"
 echo
-printf '  %-16s %-27s  %-27s  %-5s  %s\n' route "a [1e-3 m], noise, K and R" "b, noise, K and R" "off a" "off b"
+printf '  %-16s %-27s  %-27s  %-5s  %s\n' \
+  route "a [1e-3 m], noise, K and R" "b, noise, K and R" "off a" "off b"
 table SR "rubber mat, shell" 1.78e-3 2.55e-1 SR
 table CR "rubber mat, cylinder" 1.87e-3 2.15e-1 CR
 table F "felt mat, both in one fit" 5.75e-4 2.44e-2 CF SF
@@ -88,15 +96,26 @@ awk '
   FNR == 1 { file = FILENAME; sub(/.*\//, "", file); sub(/\.fit$/, "", file) }
   !/^#/ { a[file] = $1; b[file] = $3 }
   function D(which, v) { return a[which] * v^b[which] }
-  function say(what, figure, rule, holds) { printf "  %-53s %-24s %-14s %s\n", what, figure, rule, holds ? "yes" : "NO"; failed += !holds }
+  function say(what, figure, rule, holds) {
+    printf "  %-53s %-24s %-14s %s\n", what, figure, rule, holds ? "yes" : "NO"
+    failed += !holds }
   END {
     rubber = D("SR", 0.25) / D("CR", 0.25); felt = D("SF", 0.25) / D("CF", 0.25)
-    say("nearly the same for both bodies: D_S/D_C at 0.25 m/s", sprintf("rubber %.3f felt %.3f", rubber, felt), "within 15 %", (rubber - 1)^2 < 0.0225 && (felt - 1)^2 < 0.0225)
-    C = D("CR", 0.5) / D("CR", 0.1); S = D("SR", 0.5) / D("SR", 0.1); F = D("F", 0.5) / D("F", 0.1)
-    say("strongly nonlinear on rubber: D(0.5)/D(0.1)", sprintf("C %.3f S %.3f", C, S), "above 1.25", C > 1.25 && S > 1.25)
+    say("nearly the same for both bodies: D_S/D_C at 0.25 m/s",
+      sprintf("rubber %.3f felt %.3f", rubber, felt), "within 15 %",
+      (rubber - 1)^2 < 0.0225 && (felt - 1)^2 < 0.0225)
+    C = D("CR", 0.5) / D("CR", 0.1)
+    S = D("SR", 0.5) / D("SR", 0.1)
+    F = D("F", 0.5) / D("F", 0.1)
+    say("strongly nonlinear on rubber: D(0.5)/D(0.1)", sprintf("C %.3f S %.3f", C, S),
+      "above 1.25", C > 1.25 && S > 1.25)
     say("hardly on felt: D(0.5)/D(0.1)", sprintf("%.3f", F), "below 1.10", F < 1.1)
-    say("smaller on felt: D_felt/D_rubber at 0.25 m/s", sprintf("C %.3f S %.3f", D("F", 0.25) / D("CR", 0.25), D("F", 0.25) / D("SR", 0.25)), "below 1", D("F", 0.25) < D("CR", 0.25) && D("F", 0.25) < D("SR", 0.25))
-    printf "  %-53s %.1e on rubber, %.1e on felt\n", "1 - A, which the fits set to 0, at 0.5 m/s", 1 - sqrt(1 - (D("CR", 0.5) / 0.04)^2), 1 - sqrt(1 - (D("F", 0.5) / 0.04)^2)
+    C = D("F", 0.25) / D("CR", 0.25)
+    S = D("F", 0.25) / D("SR", 0.25)
+    say("smaller on felt: D_felt/D_rubber at 0.25 m/s", sprintf("C %.3f S %.3f", C, S),
+      "below 1", C < 1 && S < 1)
+    printf "  %-53s %.1e on rubber, %.1e on felt\n", "1 - A, which the fits set to 0, at 0.5 m/s",
+      1 - sqrt(1 - (D("CR", 0.5) / 0.04)^2), 1 - sqrt(1 - (D("F", 0.5) / 0.04)^2)
     exit failed > 0
   }' "$scratch"/{SR,CR,F,CF,SF}.fit || failed=1
 
@@ -114,23 +133,31 @@ balance() {  # RUN OPTION...
 }
 plus() { awk -v x="$1" -v y="$2" 'BEGIN { printf "%.17g", x + y }'; }
 echo
-echo "Energy: measured loss against what the fitted shift dissipates (within $tolerance at every moment)"
-printf '  %-4s %-20s %-12s %-16s %-10s %s\n' run "E at the start [J]" "lost [J]" "dissipated [J]" closure imbalance
+echo "Energy: measured loss against what the fitted shift dissipates" \
+  "(within $tolerance at every moment)"
+printf '  %-4s %-20s %-12s %-16s %-10s %s\n' \
+  run "E at the start [J]" "lost [J]" "dissipated [J]" closure imbalance
 for run in "CF F" "CR CR" "SF F" "SR SR"; do
   read -r name fit <<<"$run"
   read -r a _ b _ < <(grep -v '^#' "$scratch/$fit.fit")
   { balance "$name" -a "$a" -b "$b" --check "$tolerance" || echo open; } |
-    awk -v name="$name" '/open/ { open = 1 } /^[0-9]/ { start = $1; end = $2; diss = $3; closure = $4; imbalance = $5 }
-      END { printf "  %-4s %-20.5f %-12.5f %-16.5f %-+10.4f %.4f%s\n", name, start, start - end, diss, closure, imbalance, open ? "  OPEN" : ""; exit open }' || failed=1
+    awk -v name="$name" '/open/ { open = 1 }
+      /^[0-9]/ { start = $1; end = $2; diss = $3; closure = $4; imbalance = $5 }
+      END {
+        printf "  %-4s %-20.5f %-12.5f %-16.5f %-+10.4f %.4f%s\n",
+          name, start, start - end, diss, closure, imbalance, open ? "  OPEN" : ""
+        exit open }' || failed=1
 done
 
 # The first expectation in joules, and the only check that feels K: it cancels where fit and ledger
 # are of one body. A K_S that is 3 % too large lifts one closure by 1.4 % and lowers the other. The
-# errors are that of the fit, of sigma_a, sigma_b and corr; and that of the two K, for the dissipated
-# energy goes as 1 + K of the one body, and the energy that is lost as 1 + K of the other.
+# errors are that of the fit, of sigma_a, sigma_b and corr; and that of the two K, for the
+# dissipated energy goes as 1 + K of the one body, and the energy that is lost as 1 + K of the
+# other.
 echo
 echo "The same with the law of the other body on that mat, and with the paper's law for that body"
-printf '  %-4s %-7s %-9s %-15s %-29s %s\n' run "law of" "lost [J]" "dissipated [J]" "closure, noise, K" "closure, paper's law"
+printf '  %-4s %-7s %-9s %-15s %-29s %s\n' \
+  run "law of" "lost [J]" "dissipated [J]" "closure, noise, K" "closure, paper's law"
 for run in "CF SF" "SF CF" "CR SR" "SR CR"; do
   read -r name other <<<"$run"
   read -r a sigma_a b sigma_b corr _ < <(grep -v '^#' "$scratch/$other.fit")
@@ -140,16 +167,19 @@ for run in "CF SF" "SF CF" "CR SR" "SR CR"; do
     balance "$name" -a "$(plus "$a" "$sigma_a")" -b "$b"
     balance "$name" -a "$a" -b "$(plus "$b" "$sigma_b")"
     balance "$name" -a "$(value coefficient "$other")" -b "$(value exponent "$other")"
-  } | awk -v name="$name" -v other="$other" -v tolerance="$tolerance" -v K="$(given shape-factor "$name") $(given shape-factor "$other")" '
+  } | awk -v name="$name" -v other="$other" -v tolerance="$tolerance" \
+    -v K="$(given shape-factor "$name") $(given shape-factor "$other")" '
     NR == 1 { corr = $3; next }
     { closure[NR - 1] = $4 }
     NR == 2 { lost = $1 - $2; diss = $3 }
     END {
       by_a = closure[2] - closure[1]; by_b = closure[3] - closure[1]
       error = sqrt(by_a^2 + by_b^2 + 2 * corr * by_a * by_b)
-      split(K, k, /\+-| /); by_K = (1 + closure[1]) * sqrt((k[2] / (1 + k[1]))^2 + (k[4] / (1 + k[3]))^2)
+      split(K, k, /\+-| /)
+      by_K = (1 + closure[1]) * sqrt((k[2] / (1 + k[1]))^2 + (k[4] / (1 + k[3]))^2)
       off = closure[1] - closure[4]; far = off^2 > (tolerance + 4 * error)^2
-      printf "  %-4s %-7s %-9.5f %-15.5f %-+7.4f +- %.4f +- %-9.4f %+.4f%s\n", name, other, lost, diss, closure[1], error, by_K, closure[4], far ? "  TOO FAR" : ""
+      printf "  %-4s %-7s %-9.5f %-15.5f %-+7.4f +- %.4f +- %-9.4f %+.4f%s\n", name, other,
+        lost, diss, closure[1], error, by_K, closure[4], far ? "  TOO FAR" : ""
       exit far
     }' || failed=1
 done
@@ -163,11 +193,12 @@ for both bodies" means, on rubber, within a tenth of the energy.
 TEXT
 
 # Two rolls of the cylinder on a mat that rises by 1 mm in a metre, one up and one down, simulated
-# here: the sensor stands at the foot of the slope, and the one that comes down comes towards it. The
-# bulge has no memory here: with one, a body on a slope only nears its rest.
+# here: the sensor stands at the foot of the slope, and the one that comes down comes towards it.
+# The bulge has no memory here: with one, a body on a slope only nears its rest.
 echo
 echo "A mat that is not level, rolled up and down (simulated here); the slope in mm a metre"
-printf '  %-20s %-17s  %-17s  %-17s  %-5s  %-5s  %s\n' run "a [1e-3 m]" b slope "off a" "off b" "off slope"
+printf '  %-20s %-17s  %-17s  %-17s  %-5s  %-5s  %s\n' \
+  run "a [1e-3 m]" b slope "off a" "off b" "off slope"
 slope=0.001
 for mat in "CF felt" "CR rubber"; do
   read -r run mat <<<"$mat"
@@ -175,21 +206,26 @@ for mat in "CF felt" "CR rubber"; do
   simulate --scene "$run.toml" --slope -$slope --sensor pasco --seed 6 |
     awk -F, -v OFS=, 'NR > 1 && $2 != "" { $2 = 2 - $2 } { print $1, $2 }' >"$scratch/down"
   for way in up down; do smooth -q --coast -c x -w 1 "$scratch/$way" >"$scratch/$way.roll"; done
-  fit() { fitpower -q --route position -K "$(value shape-factor "$run")" -R "$(value radius "$run")" "$@"; }
+  K=$(value shape-factor "$run") R=$(value radius "$run")
+  fit() { fitpower -q --route position -K "$K" -R "$R" "$@"; }
   {
     fit --slope fit "$scratch/up.roll" "$scratch/down.roll"
     fit "$scratch/up.roll"
     fit "$scratch/down.roll"
-  } | awk -v mat="$mat" -v a="$(value coefficient "$run")" -v b="$(value exponent "$run")" -v slope=$slope '
+  } | awk -v mat="$mat" -v slope=$slope \
+    -v a="$(value coefficient "$run")" -v b="$(value exponent "$run")" '
     function row(i, title) {
       off_a = (fit_a[i] - a) / sigma_a[i]; off_b = (fit_b[i] - b) / sigma_b[i]
-      printf "  %-19s %7.4f +- %.4f  %7.4f +- %.4f  %-17s  %+5.1f  %+5.1f", title, 1e3 * fit_a[i], 1e3 * sigma_a[i], fit_b[i], sigma_b[i], (i > 1) ? "0, assumed" : found, off_a, off_b
+      printf "  %-19s %7.4f +- %.4f  ", title, 1e3 * fit_a[i], 1e3 * sigma_a[i]
+      printf "%7.4f +- %.4f  ", fit_b[i], sigma_b[i]
+      printf "%-17s  %+5.1f  %+5.1f", (i > 1) ? "0, assumed" : found, off_a, off_b
     }
     /^#/ { next }
     { fit_a[++n] = $1; sigma_a[n] = $2; fit_b[n] = $3; sigma_b[n] = $4 }
     n == 1 { off = ($8 - slope) / $9; found = sprintf("%7.4f +- %.4f", 1e3 * $8, 1e3 * $9) }
     END {
-      printf "%s\n  %-19s %7.4f            %7.4f            %7.4f\n", mat, "put in", 1e3 * a, b, 1e3 * slope
+      printf "%s\n  %-19s %7.4f            %7.4f            %7.4f\n",
+        mat, "put in", 1e3 * a, b, 1e3 * slope
       row(2, "up, as if level"); print ""
       row(3, "down, as if level"); print ""
       row(1, "both, slope fitted")

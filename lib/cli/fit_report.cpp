@@ -28,7 +28,7 @@ std::vector<std::string> columns_of(Route route) {
 
 namespace {
 
-/// Residuals of such a size are rounding, which is no noise.
+/// True if the residuals are rounding errors, to which no test of noise applies.
 bool exact(const FitResult& r) { return r.sigma_a < 1e-9 * r.a; }
 
 const std::map<Errors, const char*> kinds{{Errors::none, "none"},
@@ -46,7 +46,7 @@ const std::vector<double>& column(const FitRun& run, std::string_view name) {
 std::string budget(const FitResult& r) {
   std::string a, b;
   for (const ErrorShare& share : r.shares) {
-    // What is left of rounding is nothing.
+    // A contribution of the size of the rounding error is shown as 0.
     const auto part = [](double x, double all) { return x < 1e-9 * all ? 0 : x; };
     const char* const comma = a.empty() ? "" : ",";
     a += fmt::format("{} {} {:.2g}", comma, share.of, part(share.a, r.sigma_a));
@@ -175,11 +175,12 @@ void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& optio
 
 void check(Tool& tool, const FitResult& r, const std::optional<LawComparison>& laws,
            const std::optional<Beginning>& beginning, std::span<const std::string> names) {
-  constexpr double better = 10;  // AICc: the other law has no support any more (Burnham and
-                                 // Anderson 2002, section 2.6)
+  // The difference in AICc at which the other law has essentially no support (Burnham and
+  // Anderson 2002, section 2.6).
+  constexpr double better = 10;
   const std::string run = names.size() == 1 ? fmt::format("run {}: ", names[0]) : "";
-  // The first reason is printed whatever else fails: what no warning has told, and what would make
-  // the others.
+  // check_failed() prints the first reason in full. Therefore a reason that no warning has
+  // reported, or that would cause the others, comes first.
   if (r.agreement && !r.agreement->agree())
     tool.check_failed(disagreement(r, names) + "; the errors allow for that");
   if (!exact(r) && beginning)

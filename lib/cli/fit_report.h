@@ -1,4 +1,4 @@
-// What fitpower says beside its row: warnings, the report, and whether the fit passes its check.
+// The messages of fitpower in addition to its row: warnings, the report, and the checks of the fit.
 #pragma once
 
 #include <map>
@@ -12,31 +12,34 @@
 
 namespace rolling {
 
-/// The routes by the names of the command line; none where the columns decide.
+/// The routes by their names on the command line. The name that leaves the choice to the columns
+/// has no route.
 std::map<std::string, std::optional<Route>> fit_routes();
 
 /// The columns that a route fits, by their short names.
 std::vector<std::string> columns_of(Route);
 
-/// What the user should know: errors that are not those of white noise, runs that disagree (which
-/// check() tells, if it comes), logarithms of noise, a body that does not run true. The names are
+/// Warns the user: of errors that are not those of white noise, of runs that disagree (unless
+/// check() follows, which reports it), of the bias of logarithms, of an eccentric body. `names` are
 /// those of the runs of the fit.
 void warn_of(Tool&, Route, const FitResult&, std::span<const std::string> names, bool check_comes);
 
-/// The laws on the records of one fit; none for a robust fit, which is no matter of squares.
+/// The comparison of the laws on the records of one fit. None for a robust fit, because AICc needs
+/// sums of squares.
 std::optional<LawComparison> compare_if_possible(Route, const std::vector<FitRun>&,
                                                  const FitOptions&);
 
-/// A beginning that does not go on as the rest of its run; none for a robust fit.
+/// The disturbed beginning of a run, if there is one. None for a robust fit.
 std::optional<Beginning> beginning_if_possible(Route, const std::vector<FitRun>&,
                                                const FitOptions&);
 
-/// What each route finds at which cost, the coefficients of the laws, and which is the best.
+/// Reports the result and the computing time of each route, the coefficients of the laws, and
+/// whether a v^b is adequate.
 void report(Tool&, const std::vector<FitRun>&, const FitOptions&,
             const std::optional<LawComparison>&);
 
-/// Fails the check of the tool where the runs of a joint fit disagree, another law is better by 10
-/// in AICc, the beginning of a run does not go on as its rest, or the residuals are not white.
+/// Reports a failed check if the runs of a joint fit disagree, another law is better by 10 in AICc,
+/// the beginning of a run is disturbed, or the residuals are not white.
 void check(Tool&, const FitResult&, const std::optional<LawComparison>&,
            const std::optional<Beginning>&, std::span<const std::string> names);
 

@@ -89,13 +89,13 @@ std::vector<LinearFilter> filters_of_sensors() {
 
 namespace {
 
-/// The chain as it grows, line by line.
+/// Builds the chain line by line.
 class Chain {
  public:
   explicit Chain(std::span<const double> t) : t_(t) {}
   History take() && { return std::move(history_); }
 
-  /// False if nothing more can be known.
+  /// Adds a line; false if the chain is unknown from here on.
   bool add(const std::string& line) {
     const auto words = split_names(line, '\0');
     if (words.size() < 2) return true;
@@ -137,7 +137,7 @@ class Chain {
       cut_end_ = cut_end_ || method != "from";
       return true;
     }
-    if (method == "outliers")  // which records it left out hangs on the readings: not linear
+    if (method == "outliers")  // the records that it leaves out depend on the readings: not linear
       return words.size() == 3 && parse_number(words[2], number) ? unknown() : doubt(line);
     return filter(line, smoothing_methods, words, false);
   }
@@ -151,7 +151,7 @@ class Chain {
     const std::string& column = words[0];
     append(linear(column, derivative ? derivative_of(column) : column, *options, t_));
     reach_ += history_.filters.back().reach;
-    // The matrices of such wide filters would not fit into memory.
+    // The matrices of wider filters would not fit into memory.
     constexpr std::size_t most = 50'000'000;
     return reach_ * t_.size() <= most && history_.filters.size() <= 100 ? true : unknown();
   }
@@ -167,9 +167,9 @@ class Chain {
 History history_of(const std::vector<std::string>& lines, std::span<const double> t) {
   Chain chain(t);
   for (const std::string& line : lines)
-    if (t.empty() || !chain.add(line)) break;  // filters act on times
+    if (t.empty() || !chain.add(line)) break;  // the filters depend on the times
   History history = std::move(chain).take();
-  // Which numbers made D is known even where the filters before it are not.
+  // The numbers of shift-from-accel are known even if the filters before it are not.
   for (const std::string& line : lines) {
     const auto words = split_names(line, '\0');
     if (history.doubt.empty() && !words.empty() && words[0] == "shift-from-accel")
@@ -180,7 +180,8 @@ History history_of(const std::vector<std::string>& lines, std::span<const double
 
 namespace {
 
-/// The column of a run that stands for one of its chain; D for the acceleration it was made of.
+/// The column of a run that corresponds to a column of the chain; for D, the acceleration from
+/// which it was computed.
 std::vector<double> standing_for(const FitRun& run, const std::string& column) {
   if (column == "x") return run.x;
   if (column == "v") return run.v;
@@ -193,7 +194,7 @@ std::vector<double> standing_for(const FitRun& run, const std::string& column) {
 }  // namespace
 
 History compared(History history, FitRun& run) {
-  // The last filter that is no mere name for a column; no later one has changed what it left.
+  // The last filter that changes numbers (reach > 0); no later one has changed its output.
   auto last = history.filters.rbegin();
   while (last != history.filters.rend() && last->reach == 0) ++last;
   if (last == history.filters.rend() || last->from == last->to) return history;
@@ -206,7 +207,7 @@ History compared(History history, FitRun& run) {
     size[i] = std::abs(size[i]);
     if (!std::isfinite(off[i])) return history;  // readings are missing
   }
-  // Columns that were rounded by --digits 3 differ by a hundredth; others hardly at all.
+  // Columns that were rounded to 3 digits differ by a hundredth, others by much less.
   auto sorted = off;
   const double large = nth_smallest(size, n / 2), typical = nth_smallest(sorted, n / 2);
   const double most = std::max(20 * typical, 1e-6 * large);
@@ -218,8 +219,8 @@ History compared(History history, FitRun& run) {
     cut.cut_end = cut.cut_end || off[n - 1 - i] > most;
   }
   if (!inside && !cut.cut_begin && !cut.cut_end) return history;
-  // How many were cut is not known, so neither is how far the windows had shrunk at what was the
-  // end; further inside they were whole.
+  // The number of removed records is not known, and thus not the width of the windows at the former
+  // end. Further inside, the windows were complete.
   std::size_t windows = 0;
   for (const LinearFilter& filter : history.filters) windows += filter.reach;
   history.left_out = windows * (std::size_t{cut.cut_begin} + cut.cut_end);

@@ -1,5 +1,5 @@
-// The `##` lines in which filters tell what they did to the numbers, read back into the filters
-// themselves.
+// Parses the `##` lines, in which the tools describe what they did to the columns, and constructs
+// the filters from them.
 #pragma once
 
 #include <optional>
@@ -11,29 +11,29 @@
 
 namespace rolling {
 
-/// What the `##` lines of a run say.
+/// The content of the `##` lines of a run.
 struct History {
-  FilterChain filters;  ///< empty if nothing is known
+  FilterChain filters;  ///< empty if the filters are not known
   std::optional<ShiftOf> shift_of = {};
-  std::string doubt = {};    ///< why the lines are not believed; else empty
-  std::size_t left_out = 0;  ///< records, by compared()
+  std::string doubt = {};    ///< the reason why the lines are not trusted; otherwise empty
+  std::size_t left_out = 0;  ///< number of records that compared() left out
 };
 
-/// The filters that the `##` lines of a run name (smooth, differentiate, shift-from-accel), for
-/// records at times t [s]. Lines of others say nothing. No filter is known if there are no times,
-/// or if a line names a filter that is not linear; and a line in the name of one of these tools
-/// that is not, word by word, what the tool writes is not believed.
+/// The filters in the `##` lines of a run (smooth, differentiate, shift-from-accel), for records at
+/// times t [s]. Lines of other programs are ignored. The chain is unknown if there are no times or
+/// if a filter is not linear. A line that names one of these tools but is not, word by word, what
+/// the tool writes is not trusted.
 History history_of(const std::vector<std::string>& lines, std::span<const double> t);
 
-/// Compares what the last filter claims with the columns of the run where it was made from one to
-/// the other. If only records at an end differ, the run was cut there after the filters; those that
-/// their windows may have reached from the old end are left out of the run too. If others differ,
-/// or fewer than 10 are left, the lines are not believed.
+/// Compares the output of the last filter with the columns of the run, if the run has both its
+/// input and its output. If they differ only at an end, records were removed there after the
+/// filters; the records whose windows may have reached beyond that end are then left out, too. If
+/// they differ elsewhere, or fewer than 10 records remain, the lines are not trusted.
 History compared(History, FitRun&);
 
-/// What may be done to speeds before they are exported: the central difference of positions, and
-/// what Vernier's and PASCO's programs do; and means of 2, 3 or 5 speeds, which look like some of
-/// these.
+/// The filters that the software of sensors may apply to speeds: the central difference of
+/// positions and the differences of Vernier's and PASCO's programs; and means of 2, 3 or 5 speeds,
+/// whose noise is similar to some of these.
 std::vector<LinearFilter> filters_of_sensors();
 
 }  // namespace rolling

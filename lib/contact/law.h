@@ -7,7 +7,7 @@
 
 namespace rolling {
 
-/// A law D(v) for v > 0, and what is to be known of it for a fit.
+/// A law D(v) for v > 0, with the properties that a fit needs.
 struct Law {
   /// A coefficient, and its dimension: D^D v^v, or D^D v^-(another coefficient), as a in a v^b.
   struct Coefficient {
@@ -22,7 +22,7 @@ struct Law {
   /// The coefficients that the formula names, in the same units, of those that `shift` takes, and
   /// their derivatives row by row; none where they are the same.
   void (*written)(const double* c, double* as_written, double* by_c);
-  /// Where a search may begin, for a D that is of order one at speeds up to 1.
+  /// Starting points of a search, for a D of order one at speeds up to 1.
   std::vector<std::vector<double>> starts;
   bool is_power = false;  ///< a v^b itself, or a special case of it
 

@@ -15,15 +15,16 @@
 namespace rolling {
 namespace {
 
-/// A fit without the first records of one run, to first order: f = model - data moves by Q c, and
-/// the sum of the squares falls by `reduction`.
+/// The change of a fit when the first records of one run are removed, to first order: the residuals
+/// f = model - data change by Q c, and the sum of squares falls by `reduction`.
 struct Without {
   double reduction;
   std::vector<double> c;
 };
 
-/// The first k residuals are f_S, their rows of the orthonormal Q are Q_S: with A = I - Q_S^T Q_S,
-/// the normal matrix of the other records, c = A^-1 Q_S^T f_S, and what goes is f_S^2 + f_S Q_S c.
+/// f_S are the first k residuals, Q_S their rows of the orthonormal Q. A = I - Q_S^T Q_S is the
+/// normal matrix of the other records. Then c = A^-1 Q_S^T f_S, and the reduction is |f_S|^2 +
+/// f_S^T Q_S c.
 Without without_first(std::size_t k, std::size_t q, const double* Q, const double* f) {
   std::vector<double> A(q * q, 0), g(q, 0);
   double squares = 0;
@@ -39,7 +40,7 @@ Without without_first(std::size_t k, std::size_t q, const double* Q, const doubl
   Without result{squares, g};
   gsl_matrix_view normal = gsl_matrix_view_array(A.data(), q, q);
   gsl_vector_view c = gsl_vector_view_array(result.c.data(), q);
-  // It is not positive definite where the records that go determine a parameter alone.
+  // A is not positive definite if the removed records alone determine a parameter.
   if (gsl_linalg_cholesky_decomp1(&normal.matrix) != GSL_SUCCESS ||
       gsl_linalg_cholesky_svx(&normal.matrix, &c.vector) != GSL_SUCCESS)
     return {0, std::vector<double>(q, 0)};

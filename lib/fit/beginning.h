@@ -1,4 +1,4 @@
-// Does the body roll freely from the first record on?
+// A test whether the body rolls freely from the first record on.
 #pragma once
 
 #include <optional>
@@ -7,22 +7,25 @@
 
 namespace rolling {
 
-/// The first records of a run do not go on as the others: a hand that is still on, or a slide.
+/// A disturbed beginning: the first records of a run do not follow the motion of the other ones,
+/// because of a hand that still pushes or of sliding.
 struct Beginning {
-  std::size_t run;      ///< counted from 0
-  std::size_t records;  ///< so many at its beginning
-  double time;          ///< from the first of them to the first behind them [s]
-  double significance;  ///< the chance of such records, from noise alone
+  std::size_t run;      ///< the number of the run, from 0
+  std::size_t records;  ///< number of disturbed records
+  double time;          ///< from the first disturbed record to the first undisturbed one [s]
+  double significance;  ///< the probability that noise alone gives such records
 };
 
-/// Chow's predictive test (1960, Econometrica 28, 591): are the first 3, 5, 8, 13, ... records of a
-/// run (at most a quarter of it) where the others say, by the F of the squares that go with them?
-/// The run that shows it most clearly, where the chance is below 0.1 % after Bonferroni, and the
-/// other records are white: noise of long memory would show everywhere.
+/// Chow's predictive test (1960, Econometrica 28, 591) asks whether the first 3, 5, 8, 13, ...
+/// records of a run (at most a quarter of it) agree with the prediction from the others. The
+/// statistic is the F ratio of the reduction of the sum of squares that their removal causes. The
+/// result is the run with the smallest significance, if this is below 0.1 % after Bonferroni's
+/// correction and the other residuals of that run are white: noise of long memory would deviate
+/// everywhere.
 ///
-/// None for a fit of no roll, of less than 20 records more than parameters, or of columns that
-/// known filters have made: whatever is wrong at the beginning of those spreads over all the
-/// residuals, which then are not white. Throws Error where fit() would.
+/// The result is empty for a fit that is not a roll, for fewer than 20 records more than
+/// parameters, and for filtered columns: filters spread a disturbance over all residuals, which
+/// then are not white. Throws Error if the fit itself is not possible.
 std::optional<Beginning> disturbed_beginning(Route, const std::vector<FitRun>&, const FitOptions&);
 
 }  // namespace rolling

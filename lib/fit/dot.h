@@ -1,4 +1,5 @@
-// The inner product, in four sums at a time: in one, each addition waits for the one before it.
+// The inner product in four independent partial sums: in a single sum each addition would wait for
+// the one before it.
 #pragma once
 
 #include <cstddef>

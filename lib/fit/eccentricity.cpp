@@ -16,16 +16,16 @@ namespace {
 
 using Column = std::vector<double>;
 
-/// What an eccentricity of one metre makes of the raw column, to first order: by dD = cos(x/r), and
-/// by dD = sin(x/r). The law is autonomous, so that dv = v' w with w' = -(g cos theta/((K + 1) R))
-/// dD / v'.
+/// The response of the raw column to an eccentricity of one metre, to first order: to dD = cos(x/r)
+/// and to dD = sin(x/r). The law is autonomous, so that v'(t) solves the linearised equation of
+/// motion. Variation of the constant gives dv = v' w with w' = -(g cos theta/((K + 1) R)) dD / v'.
 class Wobble {
  public:
-  /// At these times, which increase.
+  /// `times` increase.
   Wobble(const ObservedRun& run, const Trajectory& roll, std::span<const double> times, double r)
       : t_(times.begin(), times.end()) {
-    constexpr double longest = 0.2;  // of a step of integration, in radians of the body
-    constexpr double slow = 0.05;    // of v0: w would grow without bound towards the stop
+    constexpr double longest = 0.2;  // integration step, angle of the body [rad]
+    constexpr double slow = 0.05;  // share of v0 below which w is constant: it diverges at the stop
     const double by_D = -run.body.g * incline(run.body).cos / ((run.body.K + 1) * run.body.R);
     std::array<double, 2> w{}, dx{}, dv{};
     double before = 0;
@@ -53,7 +53,7 @@ class Wobble {
     }
   }
 
-  /// Between the times they are taken as straight lines.
+  /// The response at time t, by linear interpolation.
   std::array<double, 2> at(double t) const {
     const auto next = std::lower_bound(t_.begin(), t_.end(), t) - t_.begin();
     const auto i = static_cast<std::size_t>(next);
@@ -74,7 +74,7 @@ class Wobble {
   double first_v_ = 0, fastest_ = 0, way_ = 0;
 };
 
-/// One run of a fit, seen for something periodic.
+/// The periodogram of one run of a fit.
 class Periodogram {
  public:
   Periodogram(const Fitted& fit, std::size_t run, double R, double variance,
@@ -93,11 +93,12 @@ class Periodogram {
     return wobble.fastest() * longest < std::numbers::pi * R_;
   }
 
-  /// For the period 2 pi R times `stretch`.
+  /// The amplitude and its significance at the period 2 pi R times `stretch`.
   Eccentricity at(double stretch) const {
     const Wobble wobble(seen_, roll_, times_, stretch * R_);
-    // The triangle of all columns, those of the wobble last: its end is the triangle of theirs,
-    // freed of what the parameters can follow, and f = model - data along them.
+    // The QR decomposition of J with the two columns of the response behind it: the last 2 x 2
+    // block of R belongs to these columns after projection orthogonal to J, and theta holds their
+    // coefficients.
     const std::size_t q = fit_.system.columns() + 2;
     Triangles all(System{{f_.size()}, 0, q, {}});
     if (seen_.H) fold_filtered(wobble, all);
@@ -113,7 +114,7 @@ class Periodogram {
                            static_cast<double>(fit_.minimum.theta.size()) - 2,
                  variance =
                      variance_ * (1 - reduction / fit_.minimum.rss) * (freedom + 2) / freedom;
-    // (by_cos, by_sin)/e times the root of the inverse of R^T R.
+    // The standard error of e is the norm of R^-T (by_cos, by_sin)/e times the standard deviation.
     const double u = by_cos / (e * cc), w = (by_sin / e - u * cs) / ss;
     return {run_, gsl_cdf_fdist_Q(reduction / variance / 2, 2, freedom), e,
             std::sqrt(variance * (u * u + w * w)), std::atan2(by_sin, by_cos)};
@@ -122,7 +123,7 @@ class Periodogram {
  private:
   static double square(double x) { return x * x; }
 
-  /// The ends of stretches of records that are short against a turn, and against the run.
+  /// The ends of blocks of records that are short relative to one turn and to the run.
   std::vector<std::size_t> thinned() const {
     constexpr double turned = 0.1, shares = 512;
     const Column& t = seen_.t;
@@ -139,7 +140,7 @@ class Periodogram {
     return ends;
   }
 
-  /// Of white noise, the means of the stretches hold all that changes slowly.
+  /// For white noise, block means keep the information about everything that varies slowly.
   void fold_means(const Wobble& wobble, Triangles& all) const {
     const RawModel model = fit_.rolls->raw(fit_.minimum.theta, run_);
     const std::size_t q = fit_.system.columns();

@@ -1,21 +1,22 @@
-// Does the body run true? What repeats once a turn in the residuals of a fitted roll.
+// A test for an eccentric body: a signal of period one turn in the residuals of a fitted roll.
 #pragma once
 
 #include "fit/fitted.h"
 
 namespace rolling {
 
-/// What the period 2 pi R explains of the residuals: the periodogram of Lomb (1976, Astrophys.
-/// Space Sci. 39, 447) and Scargle (1982, Astrophys. J. 263, 835) over x at this one period, where
-/// sine and cosine are first carried through the equation of motion (to first order around the
-/// fitted roll, A = 1) and the filters of the data, and freed of what the parameters of the fit can
-/// follow. For sine and cosine of the records of a body of steady speed it is theirs. The noise is
-/// taken as white before the filters, of this variance. Of records that are dense against a turn,
-/// means of neighbours are looked at.
+/// The eccentricity from the periodogram of Lomb (1976, Astrophys. Space Sci. 39, 447) and Scargle
+/// (1982, Astrophys. J. 263, 835) of the residuals over x, at the one period 2 pi R. Sine and
+/// cosine of x/R are shifts; they are carried through the equation of motion (to first order around
+/// the fitted roll, A = 1) and through the filters of the data, and made orthogonal to the columns
+/// of the Jacobian, because the fit can follow those. The noise before the filters is assumed
+/// white, with this variance. Dense records are averaged over blocks that are short relative to one
+/// turn.
 ///
-/// None if no run shows it at 1 % (after Bonferroni), or another period near by explains as much:
-/// then it is something else that the law does not follow. Runs of less than one
-/// turn, or with less than two records a turn, are not looked at.
+/// The result is the run with the smallest significance. It is empty if no run reaches 1 % (after
+/// Bonferroni's correction), or if the period 0.7 or 1.4 times as long is as significant: the
+/// residuals then have another cause. A run of less than one turn, or with less than two records in
+/// a turn, is not tested.
 std::optional<Eccentricity> eccentricity_of(Route, const std::vector<FitRun>&, const Fitted&,
                                             double variance);
 

@@ -79,8 +79,9 @@ double ljung_box(std::span<const double> r, std::size_t p, std::span<const std::
 }
 
 double breusch_pagan(std::span<const double> residuals, std::span<const std::size_t> runs) {
-  // n R^2 of the regression of the squares on the first two Legendre polynomials of the place u in
-  // the run (orthogonal but for 1/n^2) is chi-square with two degrees of freedom.
+  // n R^2 of the regression of the squared residuals on the first two Legendre polynomials of the
+  // position u in the run (orthogonal up to 1/n^2) has a chi-square distribution with two degrees
+  // of freedom.
   const double n = static_cast<double>(residuals.size());
   const double mean = lagged(residuals, runs, 0) / n;
   double P1 = 0, P2 = 0, along1 = 0, along2 = 0, all = 0;
@@ -104,7 +105,8 @@ double breusch_pagan(std::span<const double> residuals, std::span<const std::siz
 
 namespace {
 
-/// x[i] - rho x[i - 1] for rows of p numbers, the first of each run by its own size.
+/// x[i] - rho x[i - 1] for rows of p numbers. The first row of each run is multiplied by sqrt(1 -
+/// rho^2), so that its variance is the same.
 std::vector<double> prewhitened(std::span<const double> x, std::size_t p,
                                 std::span<const std::size_t> runs, double rho) {
   std::vector<double> e(x.begin(), x.end());
@@ -121,12 +123,13 @@ double correlation_of_neighbours(std::span<const double> r, std::span<const std:
   return std::clamp(lagged(r, runs, 1) / lagged(r, runs, 0), -0.97, 0.97);
 }
 
-/// The sum of w(|i - j|) u_i u_j^T over the rows of one run, w(l) = 1 - l/(width + 1) up to lags of
-/// half the run. Up to `width` the weights are the autocorrelation of a box, so that the sum is one
-/// of squares of moving sums, whatever the width; where the run cuts them off, a box remains.
+/// The sum of w(|i - j|) u_i u_j^T over the rows of one run, with w(l) = 1 - l/(width + 1) up to
+/// lags of half the run. The triangular weights are the autocorrelation of a box, so that the sum
+/// is a sum of squares of moving sums, at a cost that does not depend on the width. Where the limit
+/// of half the run cuts the triangle off, the remaining part is a box.
 std::vector<double> bartlett(std::span<const double> u, std::size_t q, std::size_t width) {
   const std::size_t m = u.size() / q, most = std::min({width, m / 2, m - 1});
-  std::vector<double> P((m + 1) * q), S(q * q, 0), sum(q);  // P: sums up to each row
+  std::vector<double> P((m + 1) * q), S(q * q, 0), sum(q);  // P: cumulative sums
   for (std::size_t i = 0; i < m * q; ++i) P[i + q] = P[i] + u[i];
   const auto add = [&](const double* x, std::size_t from, std::size_t to, double by) {
     for (std::size_t j = 0; j < q; ++j) sum[j] = P[to * q + j] - P[from * q + j];
@@ -150,7 +153,7 @@ std::vector<double> newey_west(std::span<const double> scores, std::size_t p,
                                std::span<const std::size_t> runs) {
   const double n = static_cast<double>(residuals.size()), fitted = static_cast<double>(p);
   const std::size_t q = scores.size() / residuals.size();
-  // A fit of p smooth terms takes (p (1 + AR) + 2 AR)/n off the correlation that its residuals show
+  // A fit of p smooth terms lowers the lag-1 correlation of its residuals by (p (1 + AR) + 2 AR)/n
   // (Kendall 1954, Biometrika 41, 403, for p = 1).
   const double AR = std::clamp(
       (n * correlation_of_neighbours(residuals, runs) + fitted) / std::max(n - fitted - 2, 1.0),
@@ -171,7 +174,7 @@ std::vector<double> newey_west(std::span<const double> scores, std::size_t p,
 
 namespace {
 
-/// Sum of u u^T over the rows of q numbers of each run, row by row, run by run.
+/// The sum of u u^T over the rows of each run (q numbers in each row), row by row, run by run.
 std::vector<double> squares_of(std::span<const double> u, std::size_t q,
                                std::span<const std::size_t> runs) {
   std::vector<double> all;
@@ -186,12 +189,12 @@ std::vector<double> squares_of(std::span<const double> u, std::size_t q,
   return all;
 }
 
-/// theta - truth = -R^-1 sum B(s) e(s) over the sources s of noise e.
+/// The independent sources of noise: theta - truth = -R^-1 sum B(s) e(s) over the sources s.
 struct Sources {
-  std::vector<double> e;  // their estimated noise
+  std::vector<double> e;  // estimated noise of each source
   std::vector<std::size_t> runs;
-  std::vector<double> B;        // a row of q numbers for each
-  std::size_t means_taken = 0;  // see RollModel
+  std::vector<double> B;        // one row of q numbers for each source
+  std::size_t means_taken = 0;  // see RollModel::means_taken()
 };
 
 bool filters_known(const Fitted& fit) { return fit.noise->known() && !fit.noise_inferred; }
@@ -206,7 +209,7 @@ Sources sources_of(const Fitted& fit) {
           fit.rolls->means_taken()};
 }
 
-/// B^T B of each run, B of the sources.
+/// The meat B^T B of each run for sources of variance one.
 std::vector<double> middle_of(const Fitted& fit) {
   const std::size_t q = fit.system.columns();
   if (fit.noise->weighted()) return fit.noise->middle(orthonormal(fit.system, fit.minimum), q);
@@ -214,8 +217,9 @@ std::vector<double> middle_of(const Fitted& fit) {
   return squares_of(from.B, q, from.runs);
 }
 
-/// f f^T is on average the variance times A A^T, A = W E, of which the fit has taken the part along
-/// Q: tr((I - Q Q^T) A A^T) = tr A A^T - |B|^2.
+/// The variance of the sources. The expectation of f f^T is the variance times A A^T, A = W E,
+/// before the fit, and the fit removes the component along Q. Hence the expectation of |f|^2 is the
+/// variance times tr((I - Q Q^T) A A^T) = tr A A^T - |B|^2.
 double variance_of(const Fitted& fit, const std::vector<double>& middle) {
   if (fit.raw_noise) return fit.raw_noise->variance;
   const std::size_t q = fit.system.columns();
@@ -225,7 +229,7 @@ double variance_of(const Fitted& fit, const std::vector<double>& middle) {
   return fit.minimum.rss / (fit.noise->trace() - taken);
 }
 
-/// The middle of the classical covariance, s^2 I.
+/// The meat of the classical covariance, s^2 I.
 std::vector<double> classical(const Fitted& fit, double variance) {
   const std::size_t q = fit.system.columns();
   std::vector<double> M(fit.minimum.R.size(), 0);
@@ -234,8 +238,8 @@ std::vector<double> classical(const Fitted& fit, double variance) {
   return M;
 }
 
-/// HC3: a residual is smaller than its noise by 1 - h, h its leverage (MacKinnon and White 1985, J.
-/// Econometrics 29, 305).
+/// HC3: the fit multiplies the noise of a residual by 1 - h, with h its leverage (MacKinnon and
+/// White 1985, J. Econometrics 29, 305).
 void correct_for_leverage(const Sources& from, std::size_t q, std::vector<double>& scores) {
   for (std::size_t i = 0; i < from.e.size(); ++i) {
     const double* const row = &from.B[i * q];
@@ -244,13 +248,14 @@ void correct_for_leverage(const Sources& from, std::size_t q, std::vector<double
   }
 }
 
-/// Which errors the noise asks for; `white` if it may be white and even.
+/// The estimator that suits the noise; `white` if the noise may be white and even.
 Errors errors_of(std::span<const double> noise, std::span<const std::size_t> runs, double whiteness,
                  Errors white) {
   if (whiteness <= not_white) return Errors::autocorrelation;
   if (breusch_pagan(noise, runs) <= 0.01) return Errors::uneven;
-  // Among 60 records a correlation of a half is often not sure, but errors of white noise are half
-  // of what they should be. To allow for it in one good record in ten costs them 1 to 2 %.
+  // With 60 records the test often misses an autocorrelation of 0.5, although the classical errors
+  // are then only half as large as they should be. This limit gives Newey-West errors to one in ten
+  // records with white noise, at a cost of 1 to 2 % in their size.
   return whiteness <= 0.1 && lagged(noise, runs, 1) > 0 ? Errors::autocorrelation : white;
 }
 
@@ -298,7 +303,8 @@ Uncertainty uncertainty_of(const Fitted& fit) {
     if (by_leverage) correct_for_leverage(from, q, scores);
     M = kind == Errors::uneven ? squares_of(scores, q, from.runs)
                                : newey_west(scores, p + from.means_taken, from.e, from.runs);
-    // The noise that the residuals show is smaller than it is by what the fit has taken.
+    // The fit has removed part of the noise from the residuals; the ratio of the variances corrects
+    // for that.
     const auto sources = static_cast<double>(from.e.size());
     const double shown = dot(from.e.data(), from.e.data(), from.e.size()) / sources;
     if (!by_leverage)

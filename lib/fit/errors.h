@@ -1,16 +1,17 @@
-// The errors of the parameters. Whoever asks about an error bar looks here.
+// The standard errors of a fit: every question about an error bar is answered here.
 #pragma once
 
 #include "fit/fitted.h"
 
 namespace rolling {
 
-/// The covariance R^-1 M R^-T of the parameters of each run and the shared ones.
+/// The sandwich covariance R^-1 M R^-T of the parameters of each run together with the shared ones.
+/// M is the meat of the sandwich.
 class Spread {
  public:
   Spread(std::vector<double> R, std::vector<double> M, std::size_t columns)
       : R_(std::move(R)), M_(std::move(M)), q_(columns) {}
-  /// Covariance of two functions of the parameters of a run, by their gradients.
+  /// The covariance of two functions of the parameters of a run, given by their gradients.
   double operator()(const std::vector<double>& g, const std::vector<double>& h,
                     std::size_t run = 0) const;
 
@@ -23,17 +24,18 @@ class Spread {
 struct Uncertainty {
   Errors kind;
   double whiteness;  ///< as in FitResult
-  double variance;   ///< of the noise: of the raw column, where the filters are known
+  double variance;   ///< variance of the noise: of the raw column if the filters are known
   Spread covariance;
 };
 
-/// The errors are those of the known filters (exact sandwich), or the classical ones. Where the
-/// noise of 30 or more records is not white (Ljung-Box) they are those of its autocorrelation
-/// (Newey-West), at 10 % already if neighbours go along; where it is of uneven size at 1 %, HC3.
-/// For known filters the noise that is tested is that of the raw column.
+/// The covariance of a fit. For known filters it is the exact sandwich, otherwise the classical s^2
+/// (J^T J)^-1. With 30 or more records the noise is tested (for known filters the noise of the raw
+/// column). If it is not white (Ljung and Box), the covariance is that of Newey and West, already
+/// at 10 % if neighbouring residuals are positively correlated; otherwise, if the variance is
+/// uneven at 1 %, it is HC3.
 Uncertainty uncertainty_of(const Fitted&);
 
-/// What the noise brings to the errors of the numbers that are reported.
+/// The standard errors of the reported numbers that are due to the noise.
 struct NoiseErrors {
   Errors kind;
   double whiteness;
@@ -41,43 +43,44 @@ struct NoiseErrors {
   double slope = 0;
   std::vector<double> v0 = {};  ///< of each run
 
+  /// Multiplies all standard errors by a factor.
   void multiply(double factor);
 };
 NoiseErrors noise_errors(const Fitted&, const Uncertainty&);
 
-/// The variance of the noise of the raw column, where the filters are known.
+/// The variance of the noise of the raw column. The filters must be known.
 double noise_variance(const Fitted&);
 
-/// Q = J R^-1 (a row for each residual), in whose columns the covariance R^-1 M R^-T of the
-/// parameters has its middle M.
+/// Q = J R^-1, one row for each residual. The meat M of the covariance R^-1 M R^-T is a quadratic
+/// form of the rows of Q.
 std::vector<double> orthonormal(const System&, const Minimum&);
 
-/// Sums of each run, one matrix for the columns of each, become those of all runs where both
-/// columns are shared.
+/// Adds, over the runs, the block of the shared parameters of each run's matrix in M, and writes
+/// the sum to every run's block.
 void add_shared(std::vector<double>& M, std::size_t columns, std::size_t shared);
 
-/// Significance of the autocorrelation of the residuals of p parameters by Ljung and Box (1978),
-/// Biometrika 65, 297, over one lag or over min(10, n/10), whichever is smaller. The p/n by which
-/// the fit lowers each correlation is added again. `runs` holds the number of residuals of each
-/// run.
+/// Significance of the autocorrelation of the residuals of a fit of p parameters, after Ljung and
+/// Box (1978, Biometrika 65, 297): the smaller of the values for one lag and for n/10 lags (at
+/// least 1, at most 10). The fit lowers each correlation by about p/n; this is corrected. `runs`
+/// holds the number of residuals of each run.
 double ljung_box(std::span<const double> residuals, std::size_t p,
                  std::span<const std::size_t> runs);
 
-/// Significance of a trend in the size of the residuals along the runs, linear and quadratic in the
-/// number of the record: the studentised test of Breusch and Pagan (Koenker 1981, J. Econometrics
-/// 17, 107).
+/// Significance of a trend of the variance along the runs, linear and quadratic in the record
+/// number: the studentised test of Breusch and Pagan (Koenker 1981, J. Econometrics 17, 107).
 double breusch_pagan(std::span<const double> residuals, std::span<const std::size_t> runs);
 
-/// Sum of the products of residuals `lag` records apart within the runs.
+/// The sum of the products of residuals that are `lag` records apart within a run.
 double lagged(std::span<const double> residuals, std::span<const std::size_t> runs,
               std::size_t lag);
 
-/// The middle of the sandwich, sum of w(|i-j|) u_i u_j^T over each run, row by row, run by run; u
-/// are n rows of scores, for the columns of each run; p numbers in all, the parameters and what
-/// filters have taken, were fitted to the noise of the residuals. Bartlett weights
-/// (Newey and West 1987, Econometrica 55, 703), bandwidth by Andrews' AR(1) rule (1991,
+/// The meat of the sandwich, the sum of w(|i-j|) u_i u_j^T over each run, row by row, run by run.
+/// `scores` holds the rows u_i of n scores, in the columns of each run; p is the number of degrees
+/// of freedom that the fit and the filters have taken from the noise. The weights w are Bartlett's
+/// (Newey and West 1987, Econometrica 55, 703) with the bandwidth of Andrews' AR(1) rule (1991,
 /// Econometrica 59, 817), after prewhitening by the AR(1) of the residuals (Andrews and Monahan
-/// 1992, Econometrica 60, 953), corrected for the fit: short records need both.
+/// 1992, Econometrica 60, 953). The AR(1) coefficient is corrected for the bias of the fit. Short
+/// records need both, prewhitening and correction.
 std::vector<double> newey_west(std::span<const double> scores, std::size_t p,
                                std::span<const double> residuals,
                                std::span<const std::size_t> runs);

@@ -1,5 +1,5 @@
-// What was done to the numbers of a run before they came to be fitted: linear filters, known only
-// by what they do.
+// Linear filters that were applied to the columns of a run before the fit. A filter is known by its
+// output alone.
 #pragma once
 
 #include <cstddef>
@@ -10,19 +10,20 @@
 
 namespace rolling {
 
-/// One linear filter of a chain: output column = L input column. Row i of L reaches at most `reach`
-/// samples to either side of i (at the ends of a run a one-sided row may reach 2 * reach).
+/// One linear filter of a chain: column `to` = L times column `from`. Row i of L is zero further
+/// than `reach` samples from i (further than 2 * reach at the ends of a run, where a row may be
+/// one-sided).
 struct LinearFilter {
-  std::string from, to;  ///< columns, by their short names
+  std::string from, to;  ///< short names of the columns
   std::size_t reach;
   std::function<std::vector<double>(std::span<const double> t, std::span<const double> y)> apply;
-  bool shift_invariant = false;  ///< but for the 2 reach + 1 rows at either end, L[i][j] depends on
-                                 ///< i - j alone
-  bool cut_begin = false,
-       cut_end = false;  ///< then records were cut away there before this filter came
+  /// L[i][j] depends on i - j alone, except in the 2 reach + 1 rows at either end.
+  bool shift_invariant = false;
+  /// Records were removed there before this filter was applied.
+  bool cut_begin = false, cut_end = false;
 };
 
-/// In order; it starts with the filter of the raw column.
+/// The filters in the order in which they were applied; the first one reads the raw column.
 using FilterChain = std::vector<LinearFilter>;
 
 }  // namespace rolling

@@ -94,7 +94,7 @@ std::vector<double> FilterMatrix::transposed_times(std::span<const double> X,
 
 FilterPass::FilterPass(const FilterMatrix& H, std::size_t columns)
     : H_(H), stride_((columns + 1) / 2 * 2), raw_(stride_), last_(stride_) {
-  constexpr std::size_t room = 256;  // rows between two moves to the front
+  constexpr std::size_t room = 256;  // rows between two moves of the kept rows to the front
   for (const auto& L : H.factors_) {
     stages_.push_back({L.get(), {}, 0, 0, 0, std::vector<double>(stride_)});
     stages_.back().in.resize((L->window() + room) * stride_);
@@ -134,7 +134,7 @@ double* FilterPass::next_of(std::size_t stage) {
   }
   const auto row = s.L->row(s.row);
   const std::size_t from = row.empty() ? 0 : s.L->first(s.row) - s.base;
-  for (std::size_t c = 0; c < stride_; c += 2) {  // two columns are one register
+  for (std::size_t c = 0; c < stride_; c += 2) {  // two columns fill one vector register
     const double* x = &s.in[from * stride_ + c];
     double sum[4]{};
     std::size_t k = 0;

@@ -12,7 +12,7 @@
 namespace rolling {
 namespace {
 
-/// The means of the records from each edge to the next.
+/// The run whose records are block means, from each edge to the next.
 ObservedRun means(const ObservedRun& run, const std::vector<std::size_t>& edges) {
   ObservedRun thin{run.body, run.geometry, run.way, run.origin, run.start, run.raw_is_position,
                    {},       {},           {},      run.unit};
@@ -28,7 +28,7 @@ ObservedRun means(const ObservedRun& run, const std::vector<std::size_t>& edges)
   return thin;
 }
 
-/// The run with the median of five neighbours for each record, so that a false echo counts little.
+/// The run after a moving median of five records, which suppresses false echoes.
 ObservedRun without_outliers(ObservedRun run) {
   const std::vector<double> y = run.y;
   for (std::size_t i = 0; i < y.size(); ++i) {
@@ -39,21 +39,24 @@ ObservedRun without_outliers(ObservedRun run) {
   return run;
 }
 
-/// A run thinned to at most 64 means, without a long rest at its end, and a coarse v0 of it.
+/// A run reduced to at most 64 block means, without a long rest at its end, and a rough estimate of
+/// v0.
 struct Thinned {
   ObservedRun run;
   double v0;
 };
 
-/// v0 times the time of half the way is 0.59 of the whole way for a body that slows down evenly
-/// (b = 0) and rolls to its stop, and 0.69 for an exponential (b = 1). For larger b the way has no
-/// such measure; v0 is only the unit in which try_shape() finds the best one.
+/// Estimates v0 from the time of half the distance. v0 times that time is 0.59 of the whole
+/// distance for uniform deceleration to the stop (b = 0) and 0.69 for exponential decay (b = 1).
+/// For larger b there is no such constant; v0 is then only the unit in which try_shape() finds the
+/// best value.
 Thinned thinned(const ObservedRun& run, const FitOptions& options) {
   const std::size_t n = run.t.size();
   const bool position = run.raw_is_position;
   const double x0 = options.x0.value_or(position ? run.y[0] : 0);
   double most = 0;
-  // The first record that has come so far; n if none has, and then `most` is the longest way.
+  // The first record at which the distance has reached the goal. If none has, the result is n and
+  // `most` is the largest distance.
   const auto reached = [&](double goal) {
     double way = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -78,8 +81,8 @@ Thinned thinned(const ObservedRun& run, const FitOptions& options) {
   return {means(run, edges), v0};
 }
 
-/// How well the thinned run follows the shape of (a, b) when v0 (as a factor) and x0 are taken as
-/// they fit best.
+/// The sum of squares of a thinned run under the law (a, b), with v0 (a factor) and x0 at their
+/// least-squares values.
 struct Trial {
   double rss, factor, x0;
 };
@@ -131,8 +134,9 @@ Candidate try_law(const std::vector<Thinned>& thin, const FitOptions& options, P
   return here;
 }
 
-/// Starting points from the data alone, best first: over a grid of b and of the first run's
-/// duration in units of its time scale v/|dv/dt| at the start.
+/// Starting points, best first: for each b of a grid, the best a of a grid. The grid of a is
+/// uniform in the logarithm of the first run's duration divided by its initial time scale
+/// v/|dv/dt|.
 std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions& options) {
   std::vector<double> exponents{-0.5, 0, 0.25, 0.5, 1, 1.5, 2, 3};
   if (options.b || options.start_b) exponents = {options.b ? *options.b : *options.start_b};
@@ -149,7 +153,7 @@ std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions
     for (double a : as) try {
         Candidate here = try_law(thin, options, {a, b});
         if (here.rss < nearest.rss) nearest = std::move(here);
-      } catch (const Error&) {  // no such roll: no start
+      } catch (const Error&) {  // no roll has this law and these data
       }
     if (std::isfinite(nearest.rss)) best.push_back(std::move(nearest));
   }
@@ -174,7 +178,7 @@ std::vector<ObservedRun> means_of_many(const std::vector<ObservedRun>& runs) {
   std::vector<ObservedRun> few;
   for (const ObservedRun& run : runs) {
     const std::size_t records = run.t.size(), most = std::min(records, longest);
-    std::vector<std::size_t> edges;  // of all but equal numbers of records: the means count alike
+    std::vector<std::size_t> edges;  // blocks of nearly equal size: the means have equal weights
     for (std::size_t k = 0; k <= most; ++k) edges.push_back(k * records / most);
     few.push_back(means(run, edges));
   }
@@ -195,7 +199,7 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
                x_ref = position ? v0 * std::max(duration, std::numeric_limits<double>::min()) : 1;
   const Parameters q(options, position, runs.size(), v0 / 2, x_ref);
 
-  // The best of the minima of the thinned runs that are reached from the three best starts.
+  // The three best starting points lead to minima of the thinned runs; the best of these is taken.
   auto candidates = starts(thin, options);
   if (candidates.size() > 3) candidates.resize(3);
   const auto theta_of = [&](const Candidate& c) { return q.theta(c.law, c.v0, c.x0); };
@@ -206,7 +210,7 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
     for (const Candidate& candidate : candidates) try {
         Minimum minimum = minimise(system, theta_of(candidate));
         if (minimum.rss < least) least = minimum.rss, theta = std::move(minimum.theta);
-      } catch (const Error&) {  // all of the data may do better
+      } catch (const Error&) {  // the search on all data may still succeed
       }
   }
   if (!few.empty()) theta = approach(unweighted(std::move(few), q), std::move(theta));

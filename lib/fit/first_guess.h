@@ -1,4 +1,4 @@
-// Where the search for a roll begins.
+// The starting point for the fit of a roll.
 #pragma once
 
 #include "fit/model_roll.h"
@@ -6,16 +6,16 @@
 namespace rolling {
 
 struct FirstGuess {
-  Parameters parameters;  ///< with units that suit the data
+  Parameters parameters;  ///< with units v_ref and x_ref that suit the data
   std::vector<double> theta;
 };
 
-/// From the runs as they stand, without filters (H): positions or speeds. Throws Error where they
-/// show no roll.
+/// Estimates theta from unfiltered runs (without H) of positions or speeds. Throws Error if the
+/// body does not move or if no law comes near the data.
 FirstGuess first_guess(const std::vector<ObservedRun>&, const FitOptions&);
 
-/// Means of neighbouring records in the place of long runs (without filters): at their minimum that
-/// of all records is all but reached. No runs where there are few records.
+/// The runs averaged to at most 4096 block means each; their minimum is very close to that of all
+/// records. Empty if the runs have 4096 records or fewer on average. The runs must have no H.
 std::vector<ObservedRun> means_of_many(const std::vector<ObservedRun>&);
 
 }  // namespace rolling

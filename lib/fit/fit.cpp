@@ -12,6 +12,7 @@
 #include "fit/errors.h"
 #include "fit/first_guess.h"
 #include "fit/given_numbers.h"
+#include "fit/log_log_regression.h"
 #include "fit/model_shift.h"
 #include "fit/sensor_filters.h"
 #include "fit/white_share.h"
@@ -36,8 +37,8 @@ Minimum solve(const System& system, const std::vector<double>& start, const FitO
 
 namespace {
 
-/// The runs as positions or speeds that stand for themselves, for a first guess: a shift is
-/// guessed from its speeds.
+/// The runs without filters, for a first guess: positions for the position route, speeds for the
+/// velocity and shift routes.
 std::vector<ObservedRun> without_filters(Route route, std::vector<ObservedRun> runs,
                                          const std::vector<FitRun>& all,
                                          const std::vector<Rows>& rows) {
@@ -56,8 +57,9 @@ std::vector<ObservedRun> without_filters(Route route, std::vector<ObservedRun> r
   return runs;
 }
 
-/// Takes the records that are slower than the limit from the rows; whether there were any. Only
-/// the fitted roll knows the speeds: noisy ones would choose by their noise.
+/// Removes from `rows` the records whose fitted speed is below the limit; returns whether there
+/// were any. The fitted speed decides, because a threshold on noisy speeds would select records by
+/// their noise.
 bool leave_out_slow(const RollModel& model, const std::vector<double>& theta,
                     const std::vector<FitRun>& all, std::vector<Rows>& rows, double limit) {
   std::size_t slow = 0;
@@ -70,7 +72,7 @@ bool leave_out_slow(const RollModel& model, const std::vector<double>& theta,
   return slow > 0;
 }
 
-/// The numbers that are reported of a fitted roll.
+/// Writes a, b, the slope and v0 with their gradients, and the number of records, into the fit.
 void report(Fitted& fit, const std::vector<double>& theta) {
   const Parameters& q = fit.rolls->parameters();
   const PowerLaw law = q.law(theta);
@@ -91,7 +93,7 @@ void report(Fitted& fit, const std::vector<double>& theta) {
   }
 }
 
-/// The sum of the squares of the residuals as they stand.
+/// The sum of squares of the unweighted residuals, in the unit of the fitted column.
 double squares_of(const Fitted& fit) {
   if (!fit.noise->known()) return fit.minimum.rss;
   double sum = 0;
@@ -113,8 +115,8 @@ void find_minimum(Fitted& fit, std::vector<ObservedRun> runs, const FirstGuess& 
   fit.minimum = solve(fit.system, start.theta, options, filters_known);
 }
 
-/// True if the weighted residuals are larger than the noise of the columns allows: by more than
-/// twice the size that it has in all of them.
+/// True if the weighted sum of squares is more than four times what the unweighted residuals and
+/// the filters predict, that is, if the columns hold noise that did not pass the filters.
 bool rounded(const Fitted& fit) {
   if (!fit.noise->known() || fit.noise_inferred) return false;
   double all = 0, norms = 0;
@@ -124,11 +126,11 @@ bool rounded(const Fitted& fit) {
   return fit.minimum.rss * norms > 4 * all * static_cast<double>(fit.minimum.f.size());
 }
 
-/// Columns that were rounded between their filters have white noise of their own: as much as is
-/// most likely.
+/// Columns that were rounded after a filter hold additional white noise. Its share is estimated by
+/// restricted likelihood, and the fit is repeated with the new weights.
 void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   if (!rounded(fit)) return;
-  fit.system = {}, fit.noise = {};  // these are large, and so is what the search needs
+  fit.system = {}, fit.noise = {};  // frees memory: these are large, and the search needs as much
   const WhiteShare found =
       most_likely_share(fit.rolls, fit.minimum.theta, floor_share, 1, floor_share);
   if (found.decisive()) fit.white_share = found.share;
@@ -159,7 +161,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
   fit.noise_inferred = white_share.has_value();
   fit.white_share = white_share.value_or(floor_share);
   std::optional<FirstGuess> guess;
-  for (int round = 0; round < 4; ++round) {  // without the slow records, once they are known
+  for (int round = 0; round < 4; ++round) {  // each round removes the slow records of the last fit
     auto runs = observe(route, all, rows, making, options);
     const std::size_t n =
         std::accumulate(rows.begin(), rows.end(), std::size_t{0},
@@ -171,7 +173,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       guess = making.known() ? first_guess(without_filters(route, runs, all, rows), options)
                              : first_guess(runs, options);
     }
-    if (options.min_speed <= 0) making = {}, rows.clear();  // no other round: these are large
+    if (options.min_speed <= 0) making = {}, rows.clear();  // frees memory: no round follows
     find_minimum(fit, std::move(runs), *guess, options);
     guess->theta = fit.minimum.theta;
     if (options.min_speed <= 0 ||
@@ -227,14 +229,15 @@ Fitted fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions&
 
 namespace {
 
-/// A standard error from what the noise and each of the given numbers bring.
+/// The root sum of squares of the error from noise and of the contributions part(moved) of the
+/// given numbers.
 double total(double noise, const std::vector<Moved>& moved, auto&& part) {
   double square = noise * noise;
   for (const Moved& by : moved) square += part(by) * part(by);
   return std::sqrt(square);
 }
 
-/// The values with their errors, by noise and by the given numbers.
+/// The result, with standard errors that combine the noise and the given numbers.
 FitResult result_of(const Fitted& found, const NoiseErrors& noise,
                     const std::vector<Moved>& moved) {
   const std::size_t n = found.minimum.f.size(), p = found.minimum.theta.size();
@@ -269,14 +272,14 @@ FitResult result_of(const Fitted& found, const NoiseErrors& noise,
   return result;
 }
 
-/// Throws Error for what is not determined.
+/// Throws Error if the data do not determine a, b or the slope.
 void require_determined(const FitResult& result, bool with_slope) {
   for (double x : {result.a, result.b})
     if (!std::isfinite(x)) fail("the fit gives no finite a and b");
   if (result.errors != Errors::none)
     for (double x : {result.sigma_a, result.sigma_b, result.corr, result.rms})
       if (!std::isfinite(x)) fail("the fit gives no finite errors of a and b");
-  // Far from a linear problem the errors themselves mean little.
+  // Large errors of a nonlinear fit are not reliable themselves; hence these limits on them.
   if (with_slope && (!(result.sigma_a < result.a / 10) || !(result.sigma_b < 0.1)))
     fail(
         "a slope of the mat and its law slow the body down alike, and these runs do not tell "

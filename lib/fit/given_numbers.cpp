@@ -34,7 +34,7 @@ void move(Route route, FitRun& run, const UncertainNumber& number, double by) {
   run.shift_of = to;
 }
 
-/// The fit with the number moved in every run that has this one.
+/// The fit after the number has changed by `by` in each run that has this value and uncertainty.
 Fitted fit_with(Route route, std::vector<FitRun> runs, const FitOptions& options,
                 const UncertainNumber& number, const Estimate& value, double by) {
   for (FitRun& run : runs)

@@ -15,8 +15,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The records and the weights of a fit of a v^b, for other laws. theta holds v0 and x0 of every
-/// run as that fit has them, then the coefficients and perhaps the slope, for all runs.
+/// The records and weights of a fit of a v^b, applied to other laws. theta holds the own parameters
+/// of each run (v0, x0) as in that fit, then the coefficients of the law, then the slope if it is
+/// fitted.
 class Records {
  public:
   explicit Records(Fitted power) : power_(std::move(power)), law_{power_.a.value, power_.b.value} {
@@ -30,7 +31,7 @@ class Records {
   std::size_t own() const { return power_.system.own; }
   std::size_t shared(const Law& law) const { return law.coefficients.size() + fits_slope(); }
 
-  /// v0, x0 and the slope of the fitted a v^b, with these coefficients.
+  /// theta with v0, x0 and the slope of the fitted a v^b, and with these coefficients.
   std::vector<double> theta(const std::vector<double>& c) const {
     const System& system = power_.system;
     std::vector<double> all = power_.minimum.theta;
@@ -53,7 +54,7 @@ class Records {
   }
 
   bool are_many() const { return !means_.empty(); }
-  /// The same of the means of records where there are many: there a search is quick.
+  /// The same problem on block means if there are many records, for a fast search.
   System system_of_few(const Law& law) const {
     if (!are_many()) return system(law);
     std::vector<std::size_t> sizes;
@@ -67,7 +68,8 @@ class Records {
  private:
   bool fits_slope() const { return power_.slope.has_value(); }
 
-  /// The residuals of the law itself: by how much it differs from the power law, and those of that.
+  /// The residuals of a law D(v): its difference from the power law plus the residuals of the power
+  /// law.
   void shifts(const Law& law, std::size_t r, std::size_t first, const std::vector<double>& theta,
               const TakeRows& take) const {
     const LawInUnits D = in_units(law);
@@ -108,18 +110,19 @@ class Records {
   Fitted power_;
   PowerLaw law_;
   double v_unit_ = 0;
-  std::vector<ObservedRun> means_;  // to search in; none where there are few records
+  std::vector<ObservedRun> means_;  // block means for the search; empty for few records
 };
 
-/// A law that has been fitted.
+/// The fit of one law.
 struct Candidate {
   const Law* law;
-  Minimum minimum;  // theta is empty where there is none
+  Minimum minimum;  // theta is empty if there is no minimum
   std::vector<double> c;
 };
 
-/// The coefficients with which a law is closest to another one over the speeds, from each of its
-/// starts. A special case of the law comes out as itself.
+/// The coefficients that bring a law closest to another one, by least squares over the speeds, from
+/// each of its starting points. If the other law is a special case of this one, the result is
+/// exact.
 std::vector<std::vector<double>> closest(const Law& law, const Candidate& other) {
   constexpr std::size_t points = 20;
   const System curve{{points},
@@ -140,7 +143,7 @@ std::vector<std::vector<double>> closest(const Law& law, const Candidate& other)
   return all;
 }
 
-/// Without theta, and infinite, where there is none.
+/// The value for a law without a minimum.
 const Minimum none{{}, {}, {}, infinity};
 
 Minimum minimum_or_none(const System& system, const std::vector<double>& start) {
@@ -151,18 +154,18 @@ Minimum minimum_or_none(const System& system, const std::vector<double>& start) 
   }
 }
 
-/// The least minimum of a law that is found from where it is closest to a v^b and to the laws that
-/// have been fitted before it, so that it never ends above a special case of it; and from each of
-/// its starts where it has several: next to a law without a peak a law with one has another minimum
-/// than where its peak is. Of many records it is found in their means, and only the last steps go
-/// over all.
+/// The smallest minimum of a law over several starting points. The search starts where the law is
+/// closest to a v^b and to the laws fitted before, so that it never ends above a special case of
+/// the law. If the law has several starts of its own, they are tried as well: close to a law
+/// without a peak, a law with a peak has another minimum than at its peak. For many records the
+/// search uses their block means, and only the last steps use all records.
 Candidate fit_law(const Records& records, const Law& law, const std::vector<Candidate>& before) {
   const System system = records.system_of_few(law);
   std::vector<std::pair<double, std::vector<double>>> starts;
   for (const Candidate& other : before) {
     if (other.minimum.theta.empty()) continue;
     for (const auto& c : closest(law, other)) {
-      // The own parameters go with the law that is approached.
+      // v0 and x0 come from the fit of the law that is approximated.
       std::vector<double> theta = records.theta(c);
       if (&other != &before.front())
         std::copy_n(other.minimum.theta.begin(), system.runs.size() * system.own, theta.begin());
@@ -199,7 +202,7 @@ Candidate fit_law(const Records& records, const Law& law, const std::vector<Cand
   return best;
 }
 
-/// How many independent records there are, by the law that leaves the least correlation.
+/// The number of independent records, from the law that leaves the smallest autocorrelation.
 double independent_records(const std::vector<Candidate>& all,
                            const std::vector<std::size_t>& runs) {
   const double n = static_cast<double>(all.front().minimum.f.size());
@@ -209,7 +212,8 @@ double independent_records(const std::vector<Candidate>& all,
   return r > 0 && r < 1 ? n * (1 - r) / (1 + r) : n;
 }
 
-/// The coefficients with the errors that fit() would give them.
+/// Writes the coefficients with their standard errors, estimated as in fit(), and their
+/// correlations.
 void report_coefficients(LawFit& result, const Records& records, const Candidate& found) {
   Fitted fit = records.power();
   std::vector<Quantity> values{fit.a, fit.b};
@@ -258,7 +262,8 @@ bool LawComparison::possible() const { return std::isfinite(fits.front().aicc); 
 LawComparison compare_laws(Route route, const std::vector<FitRun>& runs,
                            const FitOptions& options) {
   if (options.robust) fail("laws are compared by squares only");
-  // The mean logarithm of a noisy D is not that of its mean: other laws would fit the difference.
+  // The mean of ln D is not the logarithm of the mean of D if D is noisy; other laws would fit the
+  // difference.
   if (route == Route::loglog) route = Route::shift;
   const Records records(fit_route(route, runs, options));
   const Fitted& power = records.power();
@@ -269,7 +274,8 @@ LawComparison compare_laws(Route route, const std::vector<FitRun>& runs,
   LawComparison result;
   for (const Candidate& found : all) {
     const Minimum& m = found.minimum;
-    const double k = static_cast<double>(m.theta.size()) + 1;  // and the size of the noise
+    const double k =
+        static_cast<double>(m.theta.size()) + 1;  // the variance of the noise is a parameter, too
     const double aicc =
         independent * std::log(std::max(m.rss, std::numeric_limits<double>::min()) / n) + 2 * k +
         2 * k * (k + 1) / (independent - k - 1);

@@ -1,4 +1,4 @@
-// Is D = a v^b the right law? Other laws on the same records, compared by AICc.
+// Comparison of the power law D = a v^b with other laws on the same records by AICc.
 #pragma once
 
 #include <vector>
@@ -9,35 +9,37 @@
 
 namespace rolling {
 
-/// What the records of a route say of a law.
+/// The fit of one law to the records of a route.
 struct LawFit {
   const Law* law;
-  /// Akaike's criterion (Burnham and Anderson 2002, Model Selection and Multimodel Inference):
-  /// smaller is better, differences below 2 say nothing. Infinite where the law cannot be fitted.
+  /// The corrected Akaike information criterion (Burnham and Anderson 2002, Model Selection and
+  /// Multimodel Inference). Smaller is better; a difference below 2 is not significant. Infinite if
+  /// the law cannot be fitted.
   double aicc;
-  std::vector<Estimate> coefficients;  ///< in SI units; none where the law cannot be fitted
-  std::vector<double> correlations;    ///< of each two of them, row by row
+  std::vector<Estimate> coefficients;  ///< in SI units; empty if the law cannot be fitted
+  std::vector<double> correlations;  ///< matrix of the correlations of the coefficients, row by row
 };
 
-/// Of each law of contact/law.h, a v^b first.
+/// The fits of all laws of contact/law.h, a v^b first.
 struct LawComparison {
   std::vector<LawFit> fits;
 
-  double least() const;  ///< AICc of the best one
-  /// The best law that is no a v^b and no special case of it: those are no evidence against it.
+  double least() const;  ///< AICc of the best law
+  /// The best law that is neither a v^b nor a special case of it; a special case is no evidence
+  /// against a v^b.
   const LawFit& best_other() const;
-  /// By how much the AICc of a v^b is above that of best_other(); negative where it is below.
+  /// AICc of a v^b minus AICc of best_other(); 0 if the comparison is not possible().
   double against_power() const;
-  /// Infinite where nothing can be compared: there are too few independent records.
+  /// False if there are too few independent records for AICc.
   bool possible() const;
 };
 
-/// Fits every law to the same records with the same weights as fit() fits a v^b, a roll where that
-/// is a roll. Records with correlated residuals count as n (1 - r)/(1 + r) independent ones, r
-/// their correlation from one to the next under the law that leaves least of it: so much less does
-/// the mean of an AR(1) process tell (Bayley and Hammersley 1946, J. R. Stat. Soc. Suppl. 8, 184).
-/// For loglog the laws are compared on D itself, as for shift.
-/// Throws Error for a robust fit.
+/// Fits every law to the same records with the same weights that fit() uses for a v^b; the model is
+/// a roll on the routes where fit() uses a roll. Correlated residuals count as n (1 - r)/(1 + r)
+/// independent records, with r the lag-1 autocorrelation under the law that leaves the least; this
+/// is the number for the mean of an AR(1) process (Bayley and Hammersley 1946, J. R. Stat. Soc.
+/// Suppl. 8, 184). For loglog the laws are compared on D itself, as for shift. Throws Error for a
+/// robust fit, and if the fit of a v^b itself is not possible.
 LawComparison compare_laws(Route, const std::vector<FitRun>&, const FitOptions&);
 
 }  // namespace rolling

@@ -15,25 +15,26 @@ namespace {
 
 constexpr double undetermined = 1e-10;  // sine between a column of J and those before it
 constexpr double round_off = 1e-15;     // relative size of a step that is rounding alone
-constexpr double unseen = 1e-10;        // share of the residuals that is too small to matter
+constexpr double unseen = 1e-10;        // relative change of the residuals that is negligible
 
 double square(const std::vector<double>& f) { return dot(f.data(), f.data(), f.size()); }
 
-/// An evaluation, and the Gauss-Newton step from there: from the QR of J, not from the normal
-/// equations, whose condition number is the square of J's.
+/// The residuals at one theta and the Gauss-Newton step from there. The step comes from the QR
+/// decomposition of J, because the condition number of the normal equations is the square of that
+/// of J.
 struct Point {
   explicit Point(const System& system) : R(system) { f.reserve(system.residuals()); }
 
   std::vector<double> theta, f;
   Triangles R;
   double rss = 0;
-  std::vector<double> step, lengths;  // of the columns of J
-  double size = 0;                    // largest relative change of a parameter
-  double reduction = 0;               // of the sum of squares, that the step promises
+  std::vector<double> step, lengths;  // lengths: norms of the columns of J
+  double size = 0;                    // largest relative change of a parameter in that step
+  double reduction = 0;               // of the sum of squares, predicted by the linear model
   double angle = 1;                   // smallest sine between a column of J and those before it
 };
 
-/// Whether theta is allowed.
+/// Evaluates the system at theta; false if theta is not allowed or the residuals are not finite.
 bool evaluate_at(const System& system, Point& at, std::vector<double> theta) {
   at.theta = std::move(theta);
   at.f.clear();
@@ -64,9 +65,9 @@ std::vector<double> moved(std::vector<double> theta, const std::vector<double>& 
   return theta;
 }
 
-/// Levenberg-Marquardt, scaled after More (1978, Lecture Notes in Mathematics 630, 105) and damped
-/// after Nielsen (1999, IMM-REP-1999-05), to where it makes no further progress. The caller tests
-/// whether that is a minimum.
+/// Levenberg-Marquardt steps, scaled after More (1978, Lecture Notes in Mathematics 630, 105) and
+/// damped after Nielsen (1999, IMM-REP-1999-05), until they make no further progress. The caller
+/// tests whether the result is a minimum.
 std::vector<double> descend(const System& system, Point at) {
   Point next(system);
   double mu = 1e-3, growth = 2;
@@ -101,8 +102,8 @@ std::vector<double> descend(const System& system, Point at) {
   return at.theta;
 }
 
-/// Gauss-Newton steps, down to round-off, as long as each reduces the sum of squares by at least
-/// this share of the reduction that the linear model predicts.
+/// Gauss-Newton steps down to the limit of rounding, as long as each step reduces the sum of
+/// squares by at least the fraction `share` of the reduction that the linear model predicts.
 Point polish(const System& system, std::vector<double> theta, double share) {
   Point best(system), next(system);
   if (!evaluate_at(system, best, std::move(theta)))
@@ -126,12 +127,12 @@ Point polish(const System& system, std::vector<double> theta, double share) {
 }  // namespace
 
 Minimum minimise(const System& system, const std::vector<double>& start) {
-  // Where the residuals are linear, or all but so between the start and the minimum, Gauss-Newton
-  // steps do all.
+  // If the residuals are linear or nearly linear between the start and the minimum, Gauss-Newton
+  // steps are sufficient.
   Point best = polish(system, start, 0.9);
-  // Bates & Watts (1981), Technometrics 23, 179: converged when the residuals' part in the tangent
-  // plane is small against the part orthogonal to it. An exact fit has nothing orthogonal; there
-  // the step itself must vanish.
+  // Convergence after Bates and Watts (1981, Technometrics 23, 179): the component of the residuals
+  // in the tangent plane is small relative to the orthogonal component. An exact fit has no
+  // orthogonal component; there the step itself must vanish.
   const std::size_t n = system.residuals(), p = system.parameters();
   const double freedom = n > p ? static_cast<double>(n - p) : 0;
   const auto offset = [&] {
@@ -145,12 +146,14 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
     best = polish(system, descend(system, best), 0);
     if (converged()) break;
     const double gain = 1 - best.rss / before;
-    // The minimum of a trajectory fit may lie on a kink, where the stop meets a record: hardly a
-    // step goes down, but the slope of either side remains. It is worth a fraction of a standard
-    // deviation, never more.
+    // The minimum of a trajectory fit may lie on a kink, where the time of the stop coincides with
+    // a record: no step reduces the sum of squares noticeably, but the gradient on either side is
+    // not zero. The search ends there; the remaining step is at most a fraction of a standard
+    // deviation.
     if (!determined() || (gain < std::max(1e-8, 1e-3 / freedom) && offset() < 1)) break;
-    // All the steps of a round have gained less than a standard deviation, and yet a parameter
-    // would move by more than itself, and further than before: the minimum lies at infinity.
+    // If all steps of a round reduce the sum of squares by less than one standard deviation would,
+    // and yet the next step changes a parameter by more than its own size, and by more than in the
+    // round before, the minimum lies at infinity.
     const bool lost = freedom > 0 && gain * freedom < 1 && best.size > std::max(1.0, size);
     if (lost || gain == 0 || round == 20)
       fail(
@@ -170,7 +173,7 @@ std::vector<double> approach(const System& system, std::vector<double> start) {
 
 namespace {
 
-/// psi(u)/u and psi'(u) of a loss.
+/// psi(u)/u and psi'(u) of a loss with influence function psi.
 struct Influence {
   double weight, slope;
 };
@@ -184,8 +187,8 @@ Influence bisquare(double u) {
   return rest > 0 ? Influence{rest * rest, rest * (5 * rest - 4)} : Influence{0, 0};
 }
 
-/// The median absolute residual over that of a standard normal; the p smallest, which the fit has
-/// made small, are not counted.
+/// The median absolute residual, divided by that of a standard normal variable (0.6745). The p
+/// smallest residuals are not counted: the p parameters may have made as many residuals vanish.
 double median_scale(std::vector<double> f, std::size_t p) {
   for (double& x : f) x = std::abs(x);
   const std::size_t first = std::min(p, f.size() - 1);
@@ -207,7 +210,7 @@ Minimum minimise_robust(const System& system, const std::vector<double>& start) 
     double change = 1;
     for (int round = 0; change > 1e-9; ++round) {
       if (round == 100) fail("the robust fit does not converge");
-      if (influence == huber) scale = median_scale(at.f, p);  // bisquare keeps the last one
+      if (influence == huber) scale = median_scale(at.f, p);  // fixed for bisquare
       if (!(scale > 0)) return minimise(system, at.theta);
       std::vector<double> roots;
       for (double r : at.f) roots.push_back(std::sqrt(influence(r / scale).weight));
@@ -228,7 +231,7 @@ Minimum minimise_robust(const System& system, const std::vector<double>& start) 
         change =
             std::max(change, std::abs(next[j] - at.theta[j]) / std::max(1.0, std::abs(next[j])));
       evaluate(next);
-      if (influence == huber && change < 1e-3) break;  // only a place to start from
+      if (influence == huber && change < 1e-3) break;  // precise enough for a start
     }
   }
   const double n = static_cast<double>(system.residuals());

@@ -1,5 +1,5 @@
-// Nonlinear least squares to round-off: Levenberg-Marquardt, finished by Gauss-Newton steps, each
-// from a QR decomposition of the Jacobian.
+// Nonlinear least squares to the limit of rounding: Levenberg-Marquardt steps, then Gauss-Newton
+// steps. Each step comes from a QR decomposition of the Jacobian.
 #pragma once
 
 #include "fit/system.h"
@@ -8,28 +8,31 @@ namespace rolling {
 
 struct Minimum {
   std::vector<double> theta, f;
-  std::vector<double> R;  ///< J = Q R for the columns of each run: as many upper triangles, row by
-                          ///< row, whose shared part is the same
-  double rss;
+  /// J = Q R for the columns of each run: one upper triangle for each run, row by row. The rows of
+  /// the shared parameters are the same in all triangles.
+  std::vector<double> R;
+  double rss;  ///< |f|^2
 };
 
-/// Throws Error if there is no convergence, or if the parameters cannot be told apart.
+/// The minimum that the search finds from `start`. Throws Error if the search does not converge or
+/// if the Jacobian is rank-deficient.
 Minimum minimise(const System&, const std::vector<double>& start);
 
-/// theta of the minimum of a system that stands in for a larger one; the start if it has none.
+/// The minimum of a smaller system that approximates the one to be solved, as a starting point for
+/// that one; `start` itself if the smaller one has no minimum.
 std::vector<double> approach(const System&, std::vector<double> start);
 
-/// minimise() with Tukey's bisquare loss (constant 4.685: 95 % efficiency for normal noise) by
-/// reweighting, from Huber's (1.345, the same efficiency) on the way; the scale is the median
-/// absolute deviation of the residuals. What comes back are pseudo-residuals f (Huber 1981, Robust
-/// Statistics, section 7.6) with the unweighted R, so that the errors of least squares made from
-/// them are those of the robust fit. The residuals must be those of single records: no correlated
-/// noise.
+/// Minimises Tukey's bisquare loss (constant 4.685: 95 % efficiency for normal noise) by
+/// iteratively reweighted least squares, starting from the minimum of Huber's loss (1.345, the same
+/// efficiency). The scale is the median absolute deviation of the residuals. The f of the result
+/// are pseudo-residuals (Huber 1981, Robust Statistics, section 7.6) and R is unweighted, so that
+/// the least-squares formulas for the errors, applied to them, give the errors of the robust fit.
+/// The residuals must be those of single records, with independent noise.
 Minimum minimise_robust(const System&, const std::vector<double>& start);
 
-/// ln of the restricted likelihood (Patterson and Thompson 1971, Biometrika 58, 545) of residuals
-/// that are normal and white, up to a constant, in the linear approximation around theta:
-/// -(n - p)/2 ln RSS - ln |det R|, J = Q R.
+/// ln of the restricted likelihood (Patterson and Thompson 1971, Biometrika 58, 545) of normal
+/// white residuals, up to a constant, with the model linear around theta: -(n - p)/2 ln RSS - ln
+/// |det R|, J = Q R.
 double restricted_likelihood(const System&, const std::vector<double>& theta);
 
 }  // namespace rolling

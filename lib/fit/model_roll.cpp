@@ -15,8 +15,8 @@ const char* column_of(Route route) {
   return route == Route::position ? "x" : route == Route::velocity ? "v" : "D";
 }
 
-/// The rows of H for the fitted records, and for shifts one for the mean of their speeds: D alone
-/// hardly depends on v0.
+/// The rows of H for the fitted records. For shift a last row gives the mean of their speeds,
+/// because D alone hardly depends on v0.
 FilterMatrix filters_of_rows(const Response& response, Route route, const Rows& rows) {
   FilterMatrix H = response.of.at(column_of(route));
   if (rows.size() != H.rows()) H = H.of_rows(rows);
@@ -27,7 +27,8 @@ FilterMatrix filters_of_rows(const Response& response, Route route, const Rows& 
   return H.with_last_row(of_v.transposed_times(chosen));
 }
 
-/// +1 or -1: which way the body rolls; by all records (x or v), of which some may be false echoes.
+/// The direction of motion, +1 or -1. All records (x or v) contribute, so that a few false echoes
+/// do not decide.
 double way_of(bool position, const std::vector<double>& records, const FitOptions& options) {
   if (options.v0) return *options.v0 < 0 ? -1 : 1;
   const auto sum = [](auto begin, auto end) { return std::accumulate(begin, end, 0.0); };
@@ -40,7 +41,7 @@ double way_of(bool position, const std::vector<double>& records, const FitOption
              : 1;
 }
 
-/// These records, with room for one more number.
+/// The chosen records, with memory reserved for one more number.
 std::vector<double> taken(const std::vector<double>& column, const Rows& rows) {
   std::vector<double> few;
   few.reserve(rows.size() + 1);
@@ -63,7 +64,7 @@ Making making_of(Route route, const std::vector<FitRun>& all) {
     if (run.filters.empty()) return {};
     try {
       making.responses.push_back(response_of(run.filters, run.t));
-    } catch (const Error&) {  // a chain that does not go with the run
+    } catch (const Error&) {  // the chain does not suit the run
       return {};
     }
     const Response& r = making.responses.back();
@@ -107,8 +108,8 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
       for (double& y : seen.y) y = acceleration_of(by, y);
       seen.y.push_back(mean);
     }
-    // With A = 1 on a level mat only g/((K + 1) R) matters (Eq. 12), and D may be larger than R:
-    // the radius is taken so large that it never is.
+    // With A = 1 on a level mat the motion depends on g/((K + 1) R) alone (Eq. 12), and D may
+    // exceed R. R and g are multiplied by the same large factor, so that D/R stays small.
     if (seen.geometry == Geometry::approximate && seen.body.slope == 0 && !options.fit_slope) {
       seen.body.R *= 1e6;
       seen.body.g *= 1e6;

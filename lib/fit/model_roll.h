@@ -1,11 +1,12 @@
-// The model of every route but a plain D = a v^b: a roll, seen through the filters of the data.
+// The model of a roll that is observed through filters. Every route uses it, except plain fits of D
+// = a v^b.
 //
 //   y = H r(t; a, b, v0, x0) + H e
 //
-// r is the raw column (positions or speeds of the roll), H what the filters did to it, e white
-// noise of one unknown size. Positions, speeds and accelerations (for shifts) differ in H alone.
-// The covariance H H^T of the noise does not depend on the parameters, and what smoothing does to
-// the data it does to the model.
+// r is the raw column (positions or speeds of the roll), H the matrix of the filters, and e white
+// noise of one unknown variance. Positions, speeds and accelerations (for shifts) differ in H
+// alone. The covariance H H^T of the noise does not depend on the parameters, and the filters
+// smooth the model exactly as they smooth the data.
 #pragma once
 
 #include "fit/minimise.h"
@@ -20,48 +21,52 @@
 
 namespace rolling {
 
-/// The records of one run that a route can use.
+/// The indices of the records of one run that a route fits.
 using Rows = std::vector<std::size_t>;
 
-/// One run, as the model of a roll sees it.
+/// The data of one run in the form that the model needs.
 struct ObservedRun {
-  Body body;  ///< as far as the roll depends on it
+  Body body;  ///< the body and its mat; only what the motion depends on is meaningful
   Geometry geometry = Geometry::approximate;
-  double way = 1;     ///< -1: the body rolls towards falling x, v < 0
-  double origin = 0;  ///< the time at which v0 and x0 hold; the times below count from it
-  double start = 0;   ///< the time for which v0 is reported, from the origin
+  double way = 1;     ///< direction of motion: -1 if the body rolls towards falling x (v < 0)
+  double origin = 0;  ///< the time at which v0 and x0 hold [s]; the other times count from it
+  double start = 0;   ///< the time for which v0 is reported [s]
   bool raw_is_position = false;
-  std::vector<double> t;          ///< where the model is needed: all records of the raw column
-  std::optional<FilterMatrix> H;  ///< y = H raw; none: y is the raw column itself
-  std::vector<double> y;          ///< a number for each fitted record; for shifts their
-                                  ///< acceleration, and at the end the mean speed
-  double unit = 1;                ///< the unit of the fitted column is so many units of y
+  std::vector<double> t;          ///< times of the raw column, at which the model is evaluated [s]
+  std::optional<FilterMatrix> H;  ///< y = H raw; without H, y is the raw column itself
+  /// The fitted records; for shift their accelerations, followed by their mean speed.
+  std::vector<double> y;
+  double unit = 1;  ///< one unit of y in units of the fitted column
 
   std::size_t records() const { return y.size() - (H && H->bordered()); }
 };
 
-/// How the columns of each run came from the raw one; none if that is not known.
+/// The response of each run, which derives its columns from the raw one; empty if it is not known.
 struct Making {
   std::vector<Response> responses;
   bool known() const { return !responses.empty(); }
 };
-/// Known if the chains of all runs lead from positions or speeds to the column that the route fits.
+/// The responses of all runs, if the chain of each run leads from positions or speeds to the column
+/// that the route fits (for shift also to v, with a known shift_of). Otherwise the result is not
+/// known().
 Making making_of(Route, const std::vector<FitRun>&);
 
-/// The runs as the model sees them, of the rows alone. Throws Error for a run without any.
+/// The runs in the form that the model needs, with the chosen rows alone. Throws Error for a run
+/// without a row, or if v0 or x0 is held and the filters reach back to records before the first
+/// one.
 std::vector<ObservedRun> observe(Route, const std::vector<FitRun>&, const std::vector<Rows>&,
                                  const Making&, const FitOptions&);
 
-/// The noise of these runs, with the weights of Noise; nothing is known of it without H.
+/// The noise of these runs, weighted as Noise describes; unknown if the runs have no H.
 std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>&, double share);
 
-/// The raw column of one run under one theta, and its derivatives.
+/// The raw column of one run for one theta, and its derivatives.
 class RawModel {
  public:
   RawModel(const ObservedRun& run, const Parameters& parameters, const std::vector<double>& theta,
            std::size_t number, Trajectory);
-  /// At time t from the origin. The derivatives by the parameters of the run, then by the shared
-  /// ones, are written to `slopes`, `stride` apart.
+  /// The value at time t from the origin. The derivatives with respect to the parameters of the
+  /// run, then the shared ones, are written to `slopes`, `stride` apart.
   double operator()(double t, double* slopes, std::size_t stride) const;
 
  private:
@@ -71,6 +76,7 @@ class RawModel {
   Trajectory roll_;
 };
 
+/// The rolls of all runs under one law.
 class RollModel {
  public:
   RollModel(std::vector<ObservedRun> runs, const Parameters& parameters)
@@ -82,15 +88,17 @@ class RollModel {
   RawModel raw(const std::vector<double>& theta, std::size_t run) const {
     return {runs_[run], parameters_, theta, run, trajectory(theta, run)};
   }
-  /// Runs of positions whose mean the filters have taken away, so that x0 is no parameter.
+  /// The number of runs of positions whose mean the filters remove, so that x0 is not a parameter;
+  /// each such run loses one degree of freedom.
   std::size_t means_taken() const {
     return parameters_.has_x0() ? 0
                                 : static_cast<std::size_t>(std::ranges::count_if(
                                       runs_, [](const auto& run) { return run.raw_is_position; }));
   }
-  /// The slope that a run sees along its way.
+  /// The slope of the mat along the direction of motion of a run.
   double slope(const std::vector<double>& theta, std::size_t run) const;
-  /// Hands over model - data of each run, weighted where the noise says so.
+  /// Passes the residuals model - data of each run to the callback, whitened if the noise is
+  /// weighted.
   void evaluate(const std::vector<double>& theta, const Noise&, const TakeRows&) const;
 
  private:
@@ -98,14 +106,15 @@ class RollModel {
   Parameters parameters_;
 };
 
-/// Hands over H raw - y of one run and its derivatives, weighted where the noise says so, for the
-/// rows of its raw column that come one after another. Few records at a time stay in the cache.
+/// Computes the residuals H raw - y of one run and their derivatives, whitened if the noise is
+/// weighted, from the rows of the raw column, which are pushed one by one. The callback receives
+/// blocks of at most 256 records, which fit into the cache.
 class Residuals {
  public:
-  /// Of the run with this number, with derivatives by so many parameters.
+  /// `number` is the index of the run, `parameters` the number of columns of J.
   Residuals(const ObservedRun& run, std::size_t number, std::size_t parameters, const Noise&,
             const TakeRows&);
-  /// Where the next number of the raw column belongs, and its derivatives, `stride` apart.
+  /// The memory for the next value of the raw column and for its derivatives, `stride` apart.
   struct Place {
     double* raw;
     double* slopes;
@@ -115,7 +124,7 @@ class Residuals {
     if (!filters_) return {&f_[k_], &J_[k_], f_.size()};
     return {filters_->place(), filters_->place() + 1, 1};
   }
-  /// Takes what stands at the place.
+  /// Processes the values that were written to place().
   void push();
 
  private:
@@ -131,7 +140,7 @@ class Residuals {
   std::vector<double> f_, J_;
 };
 
-/// The model and the weights as one problem of least squares.
+/// The weighted least-squares problem of a model and its noise.
 System system_of(std::shared_ptr<const RollModel>, std::shared_ptr<const Noise>);
 
 }  // namespace rolling

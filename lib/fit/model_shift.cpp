@@ -2,112 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "base/error.h"
-#include "contact/contact.h"
-#include "contact/power_law.h"
-#include "fit/dot.h"
-#include "fit/errors.h"
+#include "fit/shift_records.h"
 
 namespace rolling {
 namespace {
-
-/// The records that loglog and shift use, all runs one after another. A body that rolls towards
-/// falling x has v < 0 and D < 0: both count along its way.
-struct ShiftRecords {
-  std::vector<double> D;
-  std::vector<double> log_u;      // ln v - log_v_ref
-  std::vector<std::size_t> runs;  // number of records of each
-  std::vector<Rows> rows;
-  std::size_t left_out = 0;
-  double log_v_ref = 0;  // ln of the geometric mean of v: there ln D and b are uncorrelated
-};
-
-ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& options,
-                           bool logarithms) {
-  ShiftRecords records;
-  std::size_t most = 0;
-  for (const auto& run : all) most += run.v.size();
-  records.D.reserve(most), records.log_u.reserve(most);
-  for (const auto& run : all) {
-    double sum = 0;
-    for (double v : run.v)
-      if (std::isfinite(v)) sum += v;
-    const double way = sum < 0 ? -1 : 1;
-    Rows rows;
-    rows.reserve(run.v.size());
-    for (std::size_t i = 0; i < run.v.size(); ++i) {
-      const double v = way * run.v[i], D = way * run.D[i];
-      if (!(std::isfinite(v) && std::isfinite(D) && v > 0 && v >= options.min_speed) ||
-          (logarithms && D <= 0)) {
-        ++records.left_out;
-        continue;
-      }
-      records.log_u.push_back(std::log(v));
-      records.D.push_back(D);
-      rows.push_back(i);
-    }
-    records.runs.push_back(rows.size());
-    records.rows.push_back(std::move(rows));
-  }
-  const std::size_t n = records.D.size();
-  if (n == 0 && logarithms && records.left_out > 0)
-    fail("no record has v > 0 and D > 0: there is no logarithm to fit");
-  require_records(n, !options.a + !options.b);
-  auto& log_u = records.log_u;
-  if (!options.b &&
-      std::all_of(log_u.begin(), log_u.end(), [&](double x) { return x == log_u[0]; }))
-    fail("all speeds are equal: b cannot be determined");
-  records.log_v_ref = std::accumulate(log_u.begin(), log_u.end(), 0.0) / static_cast<double>(n);
-  for (double& x : log_u) x -= records.log_v_ref;
-  return records;
-}
-
-/// The law in parameters that are nearly uncorrelated: a height, which is a power law's D(v_ref) in
-/// some unit or a line's ln D(v_ref), and b. What is held fixed has no place in theta.
-struct Height {
-  std::optional<double> a, b;  // held
-  double log_v_ref;
-
-  std::size_t count() const { return !a + !b; }
-  double exponent(const std::vector<double>& theta) const { return b ? *b : theta.back(); }
-  /// Puts the derivatives of a residual, by its height and at fixed height by b; `by_log_height`
-  /// times log_v_ref is added where the height moves with b, for a is held.
-  void put(std::span<double> J, std::size_t k, std::size_t n, double by_height, double by_b,
-           double by_log_height) const {
-    if (!a) J[k] = by_height;
-    if (!b) J[J.size() - n + k] = by_b + (a ? log_v_ref * by_log_height : 0);
-  }
-  /// a and b at the minimum; a_slope is the derivative of a by the height.
-  void report(Fitted& fit, double a_fitted, double a_slope) const {
-    const double a_value = a.value_or(a_fitted);
-    fit.a = {a_value, std::vector<double>(count(), 0)};
-    fit.b = {exponent(fit.minimum.theta), std::vector<double>(count(), 0)};
-    if (!a) fit.a.gradient[0] = a_slope;
-    if (!a && !b) fit.a.gradient[1] = -a_value * log_v_ref;
-    if (!b) fit.b.gradient.back() = 1;
-  }
-};
-
-/// Hands over what fill(record, f, place in J) makes of the records, few at a time, which stay in
-/// the cache.
-template <typename Fill>
-void hand_over(const std::vector<std::size_t>& runs, std::size_t columns, const TakeRows& take,
-               Fill&& fill) {
-  std::vector<double> f, J;
-  std::size_t first = 0;
-  for (std::size_t r = 0; r < runs.size(); ++r)
-    for (const std::size_t end = first + runs[r]; first < end; first += f.size()) {
-      f.resize(std::min<std::size_t>(end - first, 256));
-      J.resize(f.size() * columns);
-      for (std::size_t k = 0; k < f.size(); ++k) f[k] = fill(first + k, std::span(J), k, f.size());
-      take(r, f, J);
-    }
-}
 
 System power_system(ShiftRecords records, Height height, double unit) {
   const std::size_t p = height.count();
@@ -126,7 +28,7 @@ System power_system(ShiftRecords records, Height height, double unit) {
           }};
 }
 
-/// Every so many-th record, so that at most `most` are left.
+/// Every k-th record, with k the smallest that leaves at most `most` records.
 ShiftRecords thinned(const ShiftRecords& records, std::size_t most) {
   ShiftRecords few;
   few.log_v_ref = records.log_v_ref;
@@ -139,8 +41,8 @@ ShiftRecords thinned(const ShiftRecords& records, std::size_t most) {
   return few;
 }
 
-/// The exponent of a coarse grid that fits best (for each, the height is linear), unless the user
-/// knows one.
+/// A starting point: the exponent of a coarse grid with the smallest sum of squares (the height
+/// follows by linear least squares), or the values that the user gives.
 std::vector<double> power_start(const ShiftRecords& few, const FitOptions& options, double unit) {
   const auto held = options.a ? options.a : options.start_a;
   std::vector<double> exponents;
@@ -176,7 +78,7 @@ Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   double unit = 0;
   for (double D : records.D) unit = std::max(unit, std::abs(D));
   if (unit == 0) fail("all shifts are 0: b cannot be determined");
-  // Of many records a few thousand lead most of the way.
+  // For many records, a few thousand of them give a starting point close to the minimum.
   constexpr std::size_t most = 4096;
   const std::size_t n = records.D.size();
   const ShiftRecords few = thinned(records, options.robust ? n : most);
@@ -194,194 +96,6 @@ Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   height.report(result, a, unit * scale);
   for (double x : records.log_u) result.v.push_back(std::exp(x + records.log_v_ref));
   return result;
-}
-
-namespace {
-
-System line_system(ShiftRecords records, Height height) {
-  for (double& D : records.D) D = std::log(D);
-  const std::size_t p = height.count();
-  std::vector<std::size_t> runs = records.runs;
-  return {std::move(runs), 0, p,
-          [records = std::make_shared<const ShiftRecords>(std::move(records)), height, p](
-              const std::vector<double>& theta, const TakeRows& take) {
-    const double b = height.exponent(theta),
-                 h = height.a ? std::log(*height.a) + b * height.log_v_ref : theta[0];
-    hand_over(records->runs, p, take,
-              [&](std::size_t i, std::span<double> J, std::size_t k, std::size_t n) {
-      height.put(J, k, n, 1, records->log_u[i], 1);
-      return h + b * records->log_u[i] - records->D[i];
-    });
-          }};
-}
-
-/// The mean and the standard deviation of ln(1 + e) for normal e of standard deviation s, of those
-/// with 1 + e > 0, which have a logarithm: -s^2/2 and s itself for a small s; for a large one they
-/// grow like a logarithm.
-Estimate logarithm_of_noise(double s) {
-  // z = u^2 + the least z: at the pole of the logarithm the integrands become smooth, so that so
-  // many steps are within 5e-4.
-  constexpr int steps = 200;
-  constexpr double range = 6;
-  const double least = std::max(-range, -1 / s), length = std::sqrt(range - least);
-  double weight = 0, sum = 0, squares = 0;
-  for (int i = 0; i < steps; ++i) {
-    const double u = (i + 0.5) / steps * length, z = least + u * u, w = u * std::exp(-z * z / 2);
-    const double log = least > -range ? std::log(s * u * u) : std::log1p(s * z);
-    weight += w;
-    sum += w * log;
-    squares += w * log * log;
-  }
-  const double mean = sum / weight;
-  return {mean, std::sqrt(squares / weight - mean * mean)};
-}
-
-/// The same from a table, by straight lines between its places, which are filled as they are asked
-/// for.
-class LogarithmOfNoise {
- public:
-  Estimate operator()(double s) {
-    const double place = (std::log(s) - least) * places;
-    if (!(place >= 0 && place + 1 < static_cast<double>(table_.size())))
-      return logarithm_of_noise(s);
-    const auto i = static_cast<std::size_t>(place);
-    const double share = place - static_cast<double>(i);
-    const Estimate low = at(i), high = at(i + 1);
-    return {std::lerp(low.value, high.value, share), std::lerp(low.sigma, high.sigma, share)};
-  }
-
- private:
-  static constexpr double least = -7, most = 7, places = 32;  // of ln s, and for each unit of it
-  Estimate at(std::size_t i) {
-    if (table_[i].sigma == 0)
-      table_[i] = logarithm_of_noise(std::exp(least + static_cast<double>(i) / places));
-    return table_[i];
-  }
-  std::vector<Estimate> table_ =
-      std::vector<Estimate>(static_cast<std::size_t>((most - least) * places) + 1);
-};
-
-/// What is known of the points (ln v, ln D) of a run.
-struct Logarithms {
-  FilterMatrix noise;        ///< of ln D - b ln v, for raw noise of one
-  std::vector<double> bias;  ///< of the same: by how much it is above ln a on average
-};
-
-/// x X + y Y.
-void add(double x, const FilterMatrix::Row& X, double y, const FilterMatrix::Row& Y,
-         FilterMatrix::Row& sum) {
-  sum.first = std::min(X.first, Y.first);
-  sum.values.assign(std::max(X.end(), Y.end()) - sum.first, 0);
-  for (std::size_t j = X.first; j < X.end(); ++j)
-    sum.values[j - sum.first] += x * X.values[j - X.first];
-  for (std::size_t j = Y.first; j < Y.end(); ++j)
-    sum.values[j - sum.first] += y * Y.values[j - Y.first];
-}
-
-/// Of a roll under the law, which these filters make of this raw column along the way of the body;
-/// `sigma` is the size of the raw noise. Smoothing bends the curve, and noise has a logarithm that
-/// is too low and spreads less than the noise over its mean.
-Logarithms logarithms_of(const FilterMatrix& D, const FilterMatrix& v,
-                         const std::vector<double>& raw, const Rows& rows, PowerLaw law,
-                         const std::function<double(double)>& shift, double sigma) {
-  const auto as = D.times(raw), vs = v.times(raw);
-  FilterMatrix::Row of_D, of_v, row;
-  if (!rows.empty()) D.row(rows[rows.size() / 2], of_D);
-  BandMatrix E;
-  E.reserve(rows.size(), rows.size() * of_D.values.size());
-  std::vector<double> bias;
-  bias.reserve(rows.size());
-  LogarithmOfNoise logarithm;
-  for (std::size_t i : rows) {
-    constexpr double step = 1e-4;
-    const double a_i = as[i], v_i = vs[i], here = shift(a_i);
-    D.row(i, of_D), v.row(i, of_v);
-    add(here > 0 ? (shift((1 - step) * a_i) / here - 1) / (step * a_i) : 1e100, of_D,
-        v_i > 0 ? law.b / v_i : 0, of_v, row);
-    const double s =
-        sigma * std::sqrt(dot(row.values.data(), row.values.data(), row.values.size()));
-    const Estimate of_noise = s > 0 && std::isfinite(s) ? logarithm(s) : Estimate{};
-    for (double& x : row.values) x *= of_noise.sigma > 0 ? of_noise.sigma / s : 0;
-    E.append(row.first, row.values);
-    bias.push_back(here > 0 && v_i > 0 ? std::log(here / law(v_i)) : 0);
-    if (here > 0) bias.back() += of_noise.value;
-  }
-  return {FilterMatrix::identity(raw.size()).then(std::move(E)), std::move(bias)};
-}
-
-/// What biases of the points make of a and b of the line through them.
-void bias_line(Fitted& line, const std::vector<double>& bias) {
-  const std::size_t p = line.system.columns();
-  const std::vector<double> Q = orthonormal(line.system, line.minimum), &R = line.minimum.R;
-  std::vector<double> theta(p, 0.0);
-  for (std::size_t i = 0; i < Q.size(); ++i) theta[i % p] += Q[i] * bias[i / p];
-  for (std::size_t j = p; j-- > 0; theta[j] /= R[j * p + j])
-    for (std::size_t k = j + 1; k < p; ++k) theta[j] -= R[j * p + k] * theta[k];
-  line.bias_a = dot(line.a.gradient.data(), theta.data(), p);
-  line.bias_b = dot(line.b.gradient.data(), theta.data(), p);
-}
-
-/// The noise and the bias of ln D - b ln v where the filters are known: those of the roll that fits
-/// best, seen through the filters.
-void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<FitRun>& all,
-                 const FitOptions& options) {
-  Making making = making_of(Route::shift, all);
-  if (!making.known()) return;
-  std::vector<FilterMatrix> D, v;
-  for (const Response& response : making.responses)
-    D.push_back(response.of.at("D")), v.push_back(response.of.at("v"));
-  Fitted roll;
-  try {
-    // Of all records: those with D > 0 alone would be chosen by their noise.
-    roll = fit_rolls(Route::shift, all, usable(Route::shift, all), std::move(making), options);
-  } catch (const Error&) {  // there is no such roll
-    return;
-  }
-  RawNoise& of_roll = line.raw_noise.emplace();
-  of_roll.variance = noise_variance(roll);
-  of_roll.sources = roll.noise->explain(roll.minimum.f);
-  of_roll.source_runs = roll.noise->sources();
-  of_roll.innovations = roll.noise->innovations(roll.minimum.f, of_roll.innovation_runs);
-  of_roll.means_taken = roll.rolls->means_taken();
-  roll.system = {}, roll.noise = {};  // its weights are large
-  std::vector<FilterMatrix> noise;
-  std::vector<double> bias;
-  for (std::size_t r = 0; r < all.size(); ++r) {
-    const ObservedRun& run = roll.rolls->runs()[r];
-    const Trajectory trajectory = roll.rolls->trajectory(roll.minimum.theta, r);
-    std::vector<double> raw;
-    for (double t : run.t)
-      raw.push_back(run.raw_is_position ? trajectory.at(t).x : trajectory.speed_at(t).v);
-    const auto shift = [&, by = *all[r].shift_of](double a) {
-      return run.way * shift_from_acceleration(by.body, by.geometry, run.way * a);
-    };
-    Logarithms of_run = logarithms_of(D[r], v[r], raw, rows[r], {roll.a.value, roll.b.value}, shift,
-                                      std::sqrt(of_roll.variance));
-    noise.push_back(std::move(of_run.noise));
-    bias.insert(bias.end(), of_run.bias.begin(), of_run.bias.end());
-  }
-  line.noise = std::make_shared<const Noise>(std::move(noise), std::nullopt);
-  bias_line(line, bias);
-}
-
-}  // namespace
-
-Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) {
-  ShiftRecords records = shift_records(all, options, true);
-  const Height height{options.a, options.b, records.log_v_ref};
-  const std::vector<Rows> rows = std::move(records.rows);
-  Fitted line{.system = {}, .minimum = {}};
-  line.records = records.D.size();
-  line.left_out = records.left_out;
-  line.system = line_system(std::move(records), height);
-  line.minimum = solve(line.system, std::vector<double>(height.count(), 0), options,
-                       options.robust && making_of(Route::shift, all).known());
-  line.rss = line.minimum.rss;
-  const double b = height.exponent(line.minimum.theta),
-               a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * height.log_v_ref);
-  height.report(line, a, a);
-  if (!options.robust) carry_noise(line, rows, all, options);
-  return line;
 }
 
 }  // namespace rolling

@@ -1,17 +1,13 @@
-// The law D = a v^b itself as a model of the records (v, D), and the straight line of their
-// logarithms.
+// The law D = a v^b as a model of the records (v, D).
 #pragma once
 
 #include "fit/fitted.h"
 
 namespace rolling {
 
-/// Least squares on D, of which no filter is known.
+/// Unweighted least squares on D (or the robust loss) for records whose filters are not known. D
+/// and a are in metres, v in m/s; runs that roll towards falling x are reflected. Throws Error if
+/// the records do not determine the parameters.
 Fitted fit_shift(const std::vector<FitRun>&, const FitOptions&);
-
-/// The line of ln D on ln v through all records with v > 0 and D > 0, each with the same weight, as
-/// it is drawn through a plot. With known filters its errors are those of the noise of the raw
-/// column, carried through the filters and the logarithms.
-Fitted fit_log_log(const std::vector<FitRun>&, const FitOptions&);
 
 }  // namespace rolling

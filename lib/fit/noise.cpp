@@ -18,7 +18,7 @@ std::vector<double> row_norms(const FilterMatrix& E) {
   return norms;
 }
 
-/// What of_run(number, its part of `all`) makes of each run, one after another.
+/// Concatenates the results of of_run(run number, the part of `all` that belongs to the run).
 template <typename Number, typename OfRun>
 std::vector<double> Noise::each(std::span<Number> all, std::size_t columns, OfRun&& of_run) const {
   std::vector<double> made;

@@ -1,4 +1,5 @@
-// What is known of the noise of residuals, and the weights that follow from it.
+// The covariance of the noise of the residuals, as far as it is known, and the weights that follow
+// from it.
 #pragma once
 
 #include "fit/whitener.h"
@@ -8,35 +9,38 @@
 
 namespace rolling {
 
-/// The residuals of each run are E times white noise of one unknown size.
+/// The noise of the residuals of each run is E times white noise of one unknown variance. The
+/// elements of that white noise are called sources; for known filters they are the noise of the raw
+/// records.
 class Noise {
  public:
-  /// Nothing is known: no weights.
+  /// An unknown covariance: the residuals have no weights.
   Noise() = default;
-  /// The weights are the inverse of E E^T + (share s)^2 I, s the norm of the median row of E: where
-  /// the filters leave all but no noise, the misfit of the model would otherwise count without
-  /// bound. Without a share there are no weights; the covariance is known all the same.
+  /// The weight matrix is the inverse of E E^T + (share s)^2 I, with s the norm of the median row
+  /// of E. The second term bounds the weight of directions in which the filters leave almost no
+  /// noise, where otherwise a small misfit of the model would dominate. Without `share` the
+  /// residuals have no weights, although E is known.
   Noise(std::vector<FilterMatrix> E, std::optional<double> share);
 
   bool known() const { return !E_.empty(); }
   bool weighted() const { return !whiteners_.empty(); }
   const Whitener& whitener(std::size_t run) const { return whiteners_[run]; }
-  /// The residuals of all runs without their weights.
+  /// The unweighted residuals W^-1 f of all runs; W^T W is the weight matrix.
   std::vector<double> without_weights(const std::vector<double>& f) const;
 
-  /// For Q = J R^-1 of a fit with these weights (a row of `columns` numbers for each residual):
-  /// B = (W E)^T Q, a row for each source, run by run. The error of the parameters is
-  /// -R^-1 B^T e, e the noise of the sources, whatever the weights.
+  /// B = (W E)^T Q for Q = J R^-1 of a fit with these weights (one row of `columns` numbers for
+  /// each residual): one row for each source, run by run. The error of the parameters is -R^-1 B^T
+  /// e, with e the noise of the sources, whatever the weights are.
   std::vector<double> through(std::vector<double> Q, std::size_t columns) const;
-  /// B^T B of each run, one matrix after another.
+  /// The meat B^T B of the sandwich covariance of each run, run after run.
   std::vector<double> middle(std::vector<double> Q, std::size_t columns) const;
-  /// tr W E E^T W^T: what the weighted sum of squares would be on average for noise of size one if
-  /// nothing were fitted.
+  /// tr W E E^T W^T: the expected weighted sum of squares for sources of variance one without a
+  /// fit.
   double trace() const;
-  /// The least noise of the sources that explains the weighted residuals of all runs.
+  /// The noise of the sources of least norm that explains the weighted residuals f of all runs.
   std::vector<double> explain(std::vector<double> f) const;
-  /// The weighted residuals that are more than what the floor makes of them, and how many they are
-  /// in each run.
+  /// The innovations: the weighted residuals that the residuals before them do not determine (see
+  /// Whitener::informative()), and in `runs` their number in each run.
   std::vector<double> innovations(const std::vector<double>& f,
                                   std::vector<std::size_t>& runs) const;
   /// The number of sources of each run.
@@ -50,7 +54,7 @@ class Noise {
   std::vector<Whitener> whiteners_;
 };
 
-/// The norm of each row, but of one that reaches over the run.
+/// The Euclidean norm of each row without the border.
 std::vector<double> row_norms(const FilterMatrix&);
 
 }  // namespace rolling

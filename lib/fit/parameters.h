@@ -1,5 +1,5 @@
-// The parameters of a fit: theta, of numbers of order one, and the law and the starts that it
-// stands for.
+// The parameter vector theta of a roll, scaled to numbers of order one, and the physical parameters
+// that it stands for.
 #pragma once
 
 #include "contact/power_law.h"
@@ -10,15 +10,15 @@
 
 namespace rolling {
 
-/// theta holds of every run v0 in units of v_ref and x0 in units of x_ref; then, shared by all
-/// runs, ln of the height D(v_ref) (ln a itself is nearly collinear with b), b, and the slope of
-/// the mat in millimetres a metre. What is held fixed has no place in theta. v0 is the speed along
-/// the way, never negative.
+/// For each run, theta holds v0 in units of v_ref and x0 in units of x_ref. The parameters shared
+/// by all runs follow: ln D(v_ref), b, and the slope of the mat in millimetres per metre. ln
+/// D(v_ref) replaces ln a, which is nearly collinear with b. Parameters that are held fixed have no
+/// element in theta. v0 is the speed along the direction of motion and is not negative.
 class Parameters {
  public:
   static constexpr double slope_unit = 1e-3;
 
-  /// Only positions have an x0.
+  /// `position`: the raw column is a position, so that each run has an x0.
   Parameters(const FitOptions& options, bool position, std::size_t runs, double v_ref, double x_ref)
       : a_(options.a), b_(options.b), v0_(options.v0), x0_(options.x0), slope_(options.fit_slope),
         position_(position), runs_(runs), v_ref_(v_ref), log_v_ref_(std::log(v_ref)),
@@ -39,13 +39,13 @@ class Parameters {
   double x0(const std::vector<double>& theta, std::size_t run) const {
     return !position_ ? 0 : x0_ ? *x0_ : theta[run * own() + !v0_] * x_ref_;
   }
-  /// The slope of the mat along growing x, or `given` where it is no parameter.
+  /// The slope of the mat along growing x; `given` if the slope is not a parameter.
   double slope(const std::vector<double>& theta, double given) const {
     return slope_ ? theta.back() * slope_unit : given;
   }
   bool fits_slope() const { return slope_; }
   bool has_x0() const { return position_; }
-  /// Those of a run by itself, on a mat of known slope.
+  /// The parameters of a single run on a mat whose slope is held.
   Parameters of_one_run() const {
     Parameters one = *this;
     one.runs_ = 1;
@@ -53,22 +53,23 @@ class Parameters {
     return one;
   }
   std::vector<double> theta_of_run(const std::vector<double>& theta, std::size_t run) const;
-  /// The theta of a level mat, a law and a v0 and x0 for each run.
+  /// The theta of this law with these v0 and x0 (one for each run), and slope 0.
   std::vector<double> theta(PowerLaw, const std::vector<double>& v0,
                             const std::vector<double>& x0) const;
 
-  /// Partial derivatives of a number by a, b, by v0 and x0 of its run, and by the slope.
+  /// Partial derivatives of a number with respect to a, b, the v0 and x0 of its run, and the slope.
   struct Derivatives {
     double a, b, v0 = 0, x0 = 0, slope = 0;
   };
-  /// The derivatives by the own parameters of a run, written `stride` apart; where the next one
-  /// belongs.
+  /// Converts derivatives with respect to v0 and x0 to the elements of theta that belong to the run
+  /// and writes them `stride` apart; returns the place for the next one.
   double* chain_own(double* to, std::size_t stride, double v0, double x0) const noexcept {
     if (!v0_) *std::exchange(to, to + stride) = v0 * v_ref_;
     if (free_x0()) *std::exchange(to, to + stride) = x0 * x_ref_;
     return to;
   }
-  /// Those, and the derivatives by the shared ones.
+  /// The same for all columns of a run: its own parameters, then the shared ones. a is the value of
+  /// a under theta.
   void chain(double* to, std::size_t stride, double a, const Derivatives& by) const noexcept {
     double* place = chain_own(to, stride, by.v0, by.x0);
     const auto put = [&](double value) { *std::exchange(place, place + stride) = value; };

@@ -9,11 +9,11 @@ namespace rolling {
 
 namespace {
 
-/// The rows of a filter of that reach, where they may be other than 0.
+/// The columns of each row, in a filter with this reach, that may be different from 0.
 struct Rows {
   std::size_t n, reach;
 
-  std::size_t most() const { return std::min(2 * reach, n); }  // of a row at an end
+  std::size_t most() const { return std::min(2 * reach, n); }  // reach of a row at an end
   bool inside(std::size_t i) const { return i >= reach && i + reach < n; }
   std::size_t first(std::size_t i) const {
     const std::size_t side = inside(i) ? reach : most();
@@ -22,7 +22,7 @@ struct Rows {
   std::size_t end(std::size_t i) const { return std::min(n, i + (inside(i) ? reach : most()) + 1); }
 };
 
-/// A filter that does inside the same everywhere: by that of a short run.
+/// The matrix of a shift-invariant filter, constructed from its matrix on a short run.
 BandMatrix repeated(LinearFilter filter, std::span<const double> t) {
   const std::size_t n = t.size(), end = 2 * filter.reach + 1;
   filter.shift_invariant = false;
@@ -38,8 +38,8 @@ BandMatrix repeated(LinearFilter filter, std::span<const double> t) {
 }  // namespace
 
 BandMatrix probe(const LinearFilter& filter, std::span<const double> t) {
-  // A row reaches at most 2 reach to either side (that far only at the ends), so of impulses 4
-  // reach + 1 apart it sees one.
+  // A row reaches at most 2 * reach to either side (that far only at the ends of the run), so that
+  // it responds to only one of several impulses at a distance of 4 * reach + 1.
   const Rows rows{t.size(), filter.reach};
   const std::size_t n = t.size(), spacing = std::min(4 * filter.reach + 1, n);
   if (filter.shift_invariant && n > 3 * (2 * filter.reach + 1)) return repeated(filter, t);
@@ -70,7 +70,8 @@ Response response_of(const FilterChain& chain, std::span<const double> t) {
   Response response;
   if (chain.empty()) return response;
   std::size_t reach = 0, before = 0,
-              after = 0;  // how far beyond the run the filters ahead of the last cut reach
+              after =
+                  0;  // how far the filters before the last cut reach beyond either end of the run
   for (const auto& filter : chain) {
     if (filter.cut_begin) before = reach;
     if (filter.cut_end) after = reach;

@@ -1,4 +1,4 @@
-// The columns of a run as linear maps of the one raw column that the sensor recorded.
+// The columns of a run as linear functions of the one raw column that the sensor recorded.
 #pragma once
 
 #include "fit/filter.h"
@@ -9,20 +9,22 @@
 
 namespace rolling {
 
-/// The matrix of a filter on these times, found by feeding it combs of unit impulses.
+/// The matrix of a filter for records at the times t, measured as its response to combs of unit
+/// impulses. Throws Error if the filter does not return one value for each record.
 BandMatrix probe(const LinearFilter&, std::span<const double> t);
 
-/// What a chain of filters makes of its one raw column.
+/// The response of a chain of filters to its raw column.
 struct Response {
-  std::string source;     ///< the raw column; its noise is taken as white
-  std::vector<double> t;  ///< times of the raw records: the run's, and those that were cut away
-                          ///< after filters had used them
-  /// Each column, the source included: a row for each record of the run.
+  std::string source;     ///< name of the raw column, whose noise is assumed white
+  std::vector<double> t;  ///< times of the raw records: those of the run, and those of records that
+                          ///< were removed after a filter had used them
+  /// The matrix of each column, the raw one included: one row for each record of the run.
   std::map<std::string, FilterMatrix> of;
 };
 
-/// Records that were cut away are taken as spaced like those at that end of the run. Throws Error
-/// for a chain that starts from more than one raw column.
+/// The response of a chain on the times t of a run. Removed records are assumed to be spaced like
+/// the first or last two records of the run. Throws Error for a chain that starts from more than
+/// one raw column.
 Response response_of(const FilterChain&, std::span<const double> t);
 
 }  // namespace rolling

@@ -18,14 +18,14 @@ Making making_by(const LinearFilter& filter, const std::vector<FitRun>& all) {
   return making;
 }
 
-/// A filter, and how much of the noise is white.
+/// A filter and the share of white noise in its output.
 struct Maker {
   const LinearFilter* filter = nullptr;
   WhiteShare white = {0, 0};
 };
 
-/// The filter and the share under which the residuals are most likely; no filter if white noise
-/// alone is nearly as likely.
+/// The filter and the share with the largest restricted likelihood; no filter if white noise alone
+/// is nearly as likely.
 Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
                   const FitOptions& options, const Fitted& plain) {
   const double least = std::exp(-12), white = std::exp(4);
@@ -40,18 +40,18 @@ Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
   return best;
 }
 
-/// What programs do at the ends of a run and at a lost record differs; elsewhere they are known.
-/// Leaves out the records of which an end or a gap is within reach; false if a run is too short to
-/// tell.
+/// Sensors' programs differ in how they treat the ends of a run and lost records; elsewhere the
+/// candidates are known. This function removes from `rows` the records whose window reaches an end
+/// or a gap; it returns false if a run is shorter than one window.
 bool leave_out_irregular(const std::vector<FitRun>& all, std::vector<Rows>& rows,
                          std::size_t reach) {
   for (std::size_t r = 0; r < all.size(); ++r) {
     const auto& t = all[r].t;
-    std::vector<double> spans;  // of the windows
+    std::vector<double> spans;  // durations of the windows
     for (std::size_t i = 2 * reach; i < t.size(); ++i) spans.push_back(t[i] - t[i - 2 * reach]);
     if (spans.empty()) return false;
     auto sorted = spans;
-    // Half a record more than is usual.
+    // A window may be longer than the median by half a record.
     const double most =
         nth_smallest(sorted, sorted.size() / 2) * (1 + 0.25 / static_cast<double>(reach));
     std::erase_if(rows[r], [&](std::size_t i) {
@@ -61,8 +61,8 @@ bool leave_out_irregular(const std::vector<FitRun>& all, std::vector<Rows>& rows
   return true;
 }
 
-/// The filter is looked for in so many records at the beginning of each run. A hundred are usually
-/// enough for a factor e^3 in likelihood.
+/// The search for the filter uses at most this many records from the beginning of each run. About a
+/// hundred records usually give a likelihood ratio of e^3.
 constexpr std::size_t searched = 2000;
 
 }  // namespace

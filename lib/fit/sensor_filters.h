@@ -1,15 +1,15 @@
-// Speeds of which nothing is known may be differences that the program of a sensor made of
-// positions.
+// Inference of an unknown filter: the software of a sensor may have computed the speeds as
+// differences of positions.
 #pragma once
 
 #include "fit/fitted.h"
 
 namespace rolling {
 
-/// The fit through the positions of which the speeds are most likely differences: by the filter,
-/// with some white noise added to what it makes, under which the residuals are most likely around
-/// `plain`, a fit that knows of no filter. None if white noise alone is nearly as likely, or if the
-/// residuals that it leaves do not look white.
+/// The velocity fit with the difference filter of options.possible_filters, and the share of white
+/// noise, that have the largest restricted likelihood; the likelihood is computed around `plain`, a
+/// fit without a filter. None if white noise alone, or a mean of speeds, is nearly as likely or
+/// more likely, or if the residuals of the new fit are not white or are uneven.
 std::optional<Fitted> fit_differences(const std::vector<FitRun>&, const FitOptions&,
                                       const Fitted& plain);
 

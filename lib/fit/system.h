@@ -1,4 +1,4 @@
-// A least-squares problem of several runs, as the minimisers see it.
+// A nonlinear least-squares problem of several runs, in the form that the minimisers need.
 #pragma once
 
 #include <cstddef>
@@ -9,20 +9,21 @@
 
 namespace rolling {
 
-/// Takes the next residuals f (model - data, weighted) of a run, and J = df/dtheta column by
-/// column: of the parameters of that run, then of the shared ones. It may write over both.
+/// A callback that receives the next residuals f of a run (model - data, weighted; n numbers) and J
+/// = df/dtheta, stored column by column: the parameters of that run, then the shared ones. It may
+/// overwrite both.
 using TakeRows = std::function<void(std::size_t run, std::span<double> f, std::span<double> J)>;
 
-/// Residuals of several runs. Each run has `own` parameters beside the `shared` ones of all; theta
-/// holds the former run by run, then the latter. Parameters should be of order one. An Error from
-/// evaluate means that theta is not allowed, and the search backs off.
+/// Residuals of several runs. Each run has `own` parameters; all runs have `shared` parameters in
+/// common. theta holds the own parameters run by run, then the shared ones, scaled to order one. An
+/// Error thrown by evaluate means that theta is not allowed; the search then takes a shorter step.
 struct System {
-  std::vector<std::size_t> runs;  ///< number of residuals of each
+  std::vector<std::size_t> runs;  ///< number of residuals of each run
   std::size_t own, shared;
-  /// Hands over the residuals in their order.
+  /// Passes the residuals at theta to the callback, in order, in blocks of any size.
   std::function<void(const std::vector<double>& theta, const TakeRows&)> evaluate;
 
-  std::size_t columns() const { return own + shared; }  ///< of J
+  std::size_t columns() const { return own + shared; }  ///< columns of J
   std::size_t parameters() const { return runs.size() * own + shared; }
   std::size_t residuals() const {
     return std::accumulate(runs.begin(), runs.end(), std::size_t{0});

@@ -8,8 +8,9 @@
 namespace rolling {
 namespace {
 
-/// Folds m rows of [J f], column by column, into the triangle R of J's q columns and one for f, row
-/// by row, by Householder reflections: R becomes that of [R; J f]. Columns that are 0 cost nothing.
+/// Updates the triangle R (q columns of J and one of f, row by row) with m further rows of [J f],
+/// given column by column, by Householder reflections: R becomes the triangle of [R; J f]. Columns
+/// of zeros cost nothing.
 void fold(double* R, std::size_t q, double* J, double* f, std::size_t m) {
   for (std::size_t j = 0; j < q; ++j) {
     const double* const x = J + j * m;
@@ -75,7 +76,8 @@ Triangles Triangles::damped(const std::vector<double>& D, double mu) const {
   return all;
 }
 
-/// Calls row(run, j, its elements) for each row of the one triangle of all parameters, once.
+/// Calls row(run, j, elements) for each row of the triangle of the whole problem, the shared rows
+/// once.
 template <typename Row>
 void Triangles::rows(Row&& row) const {
   for (std::size_t r = 0; r < runs_; ++r)

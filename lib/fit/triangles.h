@@ -1,34 +1,37 @@
-// The QR decomposition of the Jacobian of several runs that share some of their parameters.
+// The QR decomposition of a Jacobian of several runs that share some of their parameters.
 #pragma once
 
 #include "fit/system.h"
 
 namespace rolling {
 
-/// The upper triangles R of [J f] = Q R, one for the columns of each run. What is left of a run
-/// beside its own parameters is folded together with that of the others (block elimination), so
-/// that the work grows linearly with the number of runs.
+/// The upper triangular factors R of [J f] = Q R, one for the columns of each run (its own
+/// parameters, then the shared ones, then f). Block elimination: the rows of each R that concern
+/// the shared parameters alone are combined into one common block, so that the work grows linearly
+/// with the number of runs.
 class Triangles {
  public:
   explicit Triangles(const System&);
-  /// Folds rows of a run into its triangle by Householder reflections; overwrites them.
+  /// Updates the triangle of a run with further rows by Householder reflections; overwrites f and
+  /// J.
   void add(std::size_t run, std::span<double> f, std::span<double> J);
-  /// To be called after the last row: makes the shared part the same in all triangles.
+  /// Combines the shared blocks of all triangles into one; call it after the last row.
   void join() { join(std::vector<double>(shared_ * (shared_ + 1))); }
-  /// The triangles of J with sqrt(mu) D below it, D diagonal, and of f with 0 below it.
+  /// The triangles of [J; sqrt(mu) D] and [f; 0], D diagonal: those of a Levenberg-Marquardt step.
   Triangles damped(const std::vector<double>& D, double mu) const;
 
-  /// The theta that makes |J theta + f| smallest.
+  /// The theta that minimises |J theta + f|.
   std::vector<double> solve() const;
-  /// By how much the sum of squares at that theta is smaller than at 0.
+  /// The reduction of the sum of squares from theta = 0 to that minimum.
   double reduction() const;
   /// The norms of the columns of J.
   std::vector<double> lengths() const;
-  /// The smallest sine between a column of J and the columns before it.
+  /// The smallest sine of the angle between a column of J and the span of the columns before it; 0
+  /// if J is rank-deficient.
   double smallest_sine() const;
   /// ln |det R|.
   double log_determinant() const;
-  /// R without the column of f: an upper triangle for each run, row by row, one after another.
+  /// R without the column of f: the upper triangle of each run, row by row, run after run.
   std::vector<double> without_f() const;
 
  private:
@@ -44,7 +47,7 @@ class Triangles {
   const double* of(std::size_t run) const { return R_.data() + run * triangle(); }
 
   std::size_t runs_, own_, shared_;
-  std::vector<double> R_;  // row by row, f last in each row
+  std::vector<double> R_;  // triangles of all runs, row by row, f last in each row
 };
 
 }  // namespace rolling

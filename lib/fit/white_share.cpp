@@ -8,17 +8,17 @@
 namespace rolling {
 namespace {
 
-/// The residuals of a run without weights, and what their weights are made of.
+/// The unweighted residuals of a run, their Jacobian, and the covariance of their noise.
 struct Linear {
   Covariance noise;
-  double norm;                  // of the median row
+  double norm;                  // norm of the median row of H
   std::vector<double> columns;  // f of the whole run, then the columns of J
 };
 
 std::vector<Linear> linear_around(const std::vector<double>& theta, const System& system,
                                   const RollModel& model) {
   std::vector<Linear> runs;
-  std::vector<double*> next;  // place in f
+  std::vector<double*> next;  // place of the next f of each run
   for (const ObservedRun& run : model.runs()) {
     Covariance noise(*run.H);
     const double norm = noise.median_norm();

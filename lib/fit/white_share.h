@@ -1,21 +1,21 @@
-// How much white noise residuals hold beside the noise that filters make.
+// Estimate of the white noise that residuals hold in addition to the filtered noise.
 #pragma once
 
 #include "fit/model_roll.h"
 
 namespace rolling {
 
-/// A share of white noise, as in Noise.
+/// An estimate of the share of white noise (the share of Noise).
 struct WhiteShare {
   double share;
-  double gain;  ///< of ln of the likelihood, over that of the share that it is compared with
+  double gain;  ///< ln of the likelihood ratio to the share that it is compared with
 
-  /// Noise without it gains as much once in a hundred records.
+  /// Noise without additional white noise reaches this gain in about 1 % of the records.
   bool decisive() const { return gain >= 3; }
 };
 
-/// The share between two numbers under which the residuals of a roll are most likely, its model
-/// taken as linear around theta; `other` is the share that it is compared with. H of every run is
+/// The share between `least` and `most` with the largest restricted likelihood of the residuals,
+/// with the model linear around theta, compared with the share `other`. H of every run must be
 /// known.
 WhiteShare most_likely_share(const std::shared_ptr<const RollModel>&,
                              const std::vector<double>& theta, double least, double most,

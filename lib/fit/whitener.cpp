@@ -11,9 +11,10 @@
 namespace rolling {
 namespace {
 
-/// One more than the largest distance of two rows of E that share a column.
+/// The width of the upper band of E E^T: one more than the largest distance between two rows of E
+/// with a common column.
 std::size_t band_of(const FilterMatrix& E) {
-  std::vector<std::uint32_t> first_row(E.columns(), UINT32_MAX);  // that reaches a column
+  std::vector<std::uint32_t> first_row(E.columns(), UINT32_MAX);  // of each column
   std::size_t band = 1;
   FilterMatrix::Row row;
   for (std::size_t i = 0; i < E.band_rows(); ++i) {
@@ -26,7 +27,7 @@ std::size_t band_of(const FilterMatrix& E) {
   return band;
 }
 
-/// Of E E^T an element, by two rows of E.
+/// An element of E E^T: the inner product of two rows of E.
 double product(const FilterMatrix::Row& x, const FilterMatrix::Row& y) {
   const std::size_t from = std::max(x.first, y.first), to = std::min(x.end(), y.end());
   return from < to ? dot(&x.values[from - x.first], &y.values[from - y.first], to - from) : 0;
@@ -36,7 +37,7 @@ double product(const FilterMatrix::Row& x, const FilterMatrix::Row& y) {
 
 Covariance::Covariance(const FilterMatrix& E)
     : n(E.band_rows()), band(band_of(E)), rows(n * band), border(E.bordered() ? n : 0) {
-  std::vector<FilterMatrix::Row> last(band);  // rows of E
+  std::vector<FilterMatrix::Row> last(band);  // a ring of rows of E
   for (std::size_t i = 0; i < n; ++i) {
     const FilterMatrix::Row& row = last[i % band];
     E.row(i, last[i % band]);
@@ -89,7 +90,7 @@ void Whitener::Pass::push(double* row) {
     base_ = k_;
   }
   const double* const R = &by_.R_[k_ * band];
-  for (std::size_t c = 0; c < stride_; c += 2) {  // two columns are one register
+  for (std::size_t c = 0; c < stride_; c += 2) {  // two columns fill one vector register
     double* to = &later_[(k_ - base_) * stride_ + c];
     const double x = row[c] = (row[c] - to[0]) / R[0], y = row[c + 1] = (row[c + 1] - to[1]) / R[0];
     for (std::size_t j = 1; j < end; ++j) {
@@ -145,13 +146,14 @@ double Whitener::log_size() const {
   return sum;
 }
 
-/// Of Z = (R^T R)^-1 the elements within the band follow from below, row by row (Erisman and Tinney
-/// 1975, Commun. ACM 18, 177): R Z = R^-T is 0 above the diagonal and 1/R(k,k) on it.
+/// The elements of Z = (R^T R)^-1 within the band follow from the last row upwards (Erisman and
+/// Tinney 1975, Commun. ACM 18, 177), because R Z = R^-T is 0 above the diagonal and 1/R(k,k) on
+/// it.
 double Whitener::trace_of_inverse() const {
   const std::size_t w = band_;
-  // Z(i, j) stands in row i mod w at place w + j - i, on both sides of the diagonal.
+  // Z(i, j) is stored in row i mod w at place w + j - i, for columns on both sides of the diagonal.
   std::vector<double> Z(w * 2 * w);
-  std::vector<double*> rows(w);  // k, k + 1, ...
+  std::vector<double*> rows(w);  // rows k, k + 1, ... of Z
   double trace = 0;
   for (std::size_t k = n_; k-- > 0;) {
     const double* const R = &R_[k * w];
@@ -168,7 +170,7 @@ double Whitener::trace_of_inverse() const {
 
 double Whitener::trace() const {
   double of_inverse = trace_of_inverse();
-  if (corner_ > 0) {  // beside it stands u u^T / corner^2, R u = border
+  if (corner_ > 0) {  // the border adds u u^T / corner^2 to the inverse, with R u = border
     std::vector<double> u = border_;
     u.push_back(0);
     apply_transposed(u);
@@ -177,7 +179,7 @@ double Whitener::trace() const {
   return static_cast<double>(rows()) - floor_ * floor_ * of_inverse;
 }
 
-// R^-T E E^T R^-1 = I - floor^2 R^-T F R^-1, F = I but for the border, which has no floor.
+// R^-T E E^T R^-1 = I - floor^2 R^-T F R^-1, where F = I except for the border, which has no floor.
 std::vector<double> Whitener::middle(std::span<double> Q, std::size_t columns) const {
   std::vector<double> M(columns * columns);
   const auto add_squares = [&](std::size_t n, double by) {

@@ -12,9 +12,9 @@ namespace rolling {
 
 namespace {
 
-constexpr double unseen = 1e-20;  // rate t below it: v is v0
-constexpr double beyond = 1e270;  // rate t above it: its product in double-double has no room
-constexpr double gone = -1e4;     // L below it: v is 0
+constexpr double unseen = 1e-20;  // for rate t below it, v = v0 in a double
+constexpr double beyond = 1e270;  // for rate t above it, double-double products overflow
+constexpr double gone = -1e4;     // for L below it, v = 0 in a double
 
 }  // namespace
 
@@ -65,8 +65,8 @@ void ClosedForm::seek(double t) {
   if (log_.hi < gone) log_ = gone;
 }
 
-/// L where w is -s rate t to the last bit (b > 1), whose logarithm is that of its mantissa and of
-/// its exponent.
+/// L for b > 1 and large rate t, where w = -s rate t in a double. The logarithm is the sum of those
+/// of the mantissa and of the powers of two.
 DoubleDouble ClosedForm::far_log(double t) const {
   int exponent = 0;
   const DoubleDouble product = slope_ * std::frexp(t, &exponent);
@@ -89,7 +89,7 @@ double ClosedForm::position() {
 double ClosedForm::shift() {
   if (!rolls_) return 0;
   const double D = times_exp(shift_, exponent_ * log_);
-  if (b_ < 0) check_shift(body_, D);  // else it falls from D(v0), which is checked
+  if (b_ < 0) check_shift(body_, D);  // for b >= 0, D falls from D(v0), which was checked
   return D;
 }
 

@@ -1,4 +1,4 @@
-// The roll with the paper's A = 1: Eq. 13 to the last bits, for every b.
+// The roll in the paper's geometry A = 1: Eq. 13 to within a few ulp, for every b.
 #pragma once
 
 #include "base/double_double.h"
@@ -13,19 +13,19 @@ namespace rolling {
 ///   dv/dt = -k v0^b e^(b L),   x = x0 + v0/rate (1 - e^((1+s) L)) / (1+s).
 /// b < 1 stops at t* = 1 / (s rate), and v is exactly 0 from there on; b >= 1 never stops.
 ///
-/// The numbers given are taken as exact. Where digits are lost (rate, w, L) they are carried in
-/// double-double: v, D and dv/dt are within 2 ulp and x within 4 ulp of the true value, before the
-/// stop as long as t*/(t* - t) is below 1e13.
+/// The parameters are taken as exact numbers. Intermediate results that lose digits (rate, w, L)
+/// are in double-double arithmetic: before the stop, and as long as t*/(t* - t) is below 1e13, v, D
+/// and dv/dt are within 2 ulp and x within 4 ulp of the true value.
 class ClosedForm final : public Motion {
  public:
-  /// Refuses what check_roll refuses. v0 = 0 is rest for ever.
+  /// Throws Error as check_roll does, and if x0 is not finite. v0 = 0 is rest for ever.
   ClosedForm(const Body&, PowerLaw, double v0, double x0);
 
   double stop_time() const override { return stop_time_; }  ///< t* rounded up
   void seek(double t) override;
   double position() override;
   double velocity() override;
-  /// Both throw Error where |D| > R (b < 0, just before the stop).
+  /// Both throw Error if |D| > R (b < 0, just before the stop).
   double acceleration() override;
   double shift() override;
 
@@ -34,10 +34,11 @@ class ClosedForm final : public Motion {
 
   Body body_;
   double b_, v0_, x0_, stop_time_ = 0;
-  // -s rate is slope_ unit1_ unit2_: two powers of two, as one could leave the range of a double.
+  // -s rate = slope_ unit1_ unit2_. There are two powers of two, because a single one could
+  // overflow.
   SplitFactor slope_;
   double unit1_ = 1, unit2_ = 1;
-  Factor minus_rate_, inverse_s_, s1_, exponent_;       // -rate, divided like it; 1/s, 1 + s, b
+  Factor minus_rate_, inverse_s_, s1_, exponent_;       // -rate / (unit1_ unit2_), 1/s, 1 + s, b
   ScaledFactor speed_, shift_, deceleration_, length_;  // v0, a v0^b, k v0^b, v0/rate
   ScaledFactor distance_;                               // v0/rate / (1+s)
 

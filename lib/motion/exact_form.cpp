@@ -11,16 +11,17 @@ namespace rolling {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double smallest_arm = 0x1p-10;  // the continued fraction takes 16 steps over it
-constexpr double gone = 1e4;              // lambda above it: v is 0
+constexpr double smallest_arm = 0x1p-10;  // least root of the continued fraction: 16/root steps
+constexpr double gone = 1e4;              // for lambda above it, v = 0 in a double
 constexpr double least_f =
     0.01;  // below it (K near 0, D near R) the lag is nearly all, and 1 - lag loses digits
 
 /// int_0^inf A e^(-u) du, A = sqrt(1 - z e^(-u/p)), for z = 1 - root^2: F(-1/2, p; p+1; z) = p z^-p
 /// B_z(p, 3/2), p = s/(2b).
 ///
-/// By the continued fraction of the incomplete beta function (DLMF 8.17.22), its factors multiplied
-/// by 2b, from the end. A step leaves (1 - root)/(1 + root) of the error.
+/// The method is the continued fraction of the incomplete beta function (DLMF 8.17.22) with its
+/// terms multiplied by 2b, evaluated from the end. A step reduces the error by the factor (1 -
+/// root)/(1 + root).
 DoubleDouble mean_arm_fraction(DoubleDouble s, double b, DoubleDouble root) {
   const DoubleDouble z = -(root * root) + 1;
   DoubleDouble fraction = 1;
@@ -35,7 +36,8 @@ DoubleDouble mean_arm_fraction(DoubleDouble s, double b, DoubleDouble root) {
   return root * root * root / fraction;
 }
 
-/// The same by the fraction at a larger root, p root^2 <= 1, and the powers of A between the two:
+/// The same for small roots: the continued fraction at a larger root, p root^2 <= 1, and a power
+/// series in A between the two roots:
 ///   z^p F = z1^p F1 + 2p int_root^root1 (1 - A^2)^(p-1) A^2 dA.
 DoubleDouble mean_arm_series(DoubleDouble s, double b, DoubleDouble root, double larger) {
   const DoubleDouble p = s / two_product(2, b), square = root * root,

@@ -1,4 +1,4 @@
-// The roll with A = sqrt(1 - D^2/R^2) (Eqs. 8, 12).
+// The roll in the exact geometry A = sqrt(1 - D^2/R^2) (Eqs. 8, 12).
 #pragma once
 
 #include "base/double_double.h"
@@ -7,13 +7,13 @@
 
 namespace rolling {
 
-/// It refuses what Trajectory refuses, and for b < 0 it is Trajectory. For b >= 0 one step of
-/// Newton's method follows, from the lambda = ln(v0/v) of Trajectory. Let lag be the integral of
+/// Throws Error as Trajectory does, and for b < 0 returns the results of Trajectory. For b >= 0 one
+/// Newton step in double-double refines lambda = ln(v0/v) of Trajectory. Let lag be the integral of
 /// (1 - f) e^(-s y) over 0 < y < lambda (SpeedIntegrals), and lag' that over y > lambda. Then
 ///   e^(-s lambda) = 1 - s (t/unit + lag) = s ((T - t)/unit + lag').
-/// t/unit, the stop T and the logarithm are carried in double-double. The lags are smooth and
-/// small, and a double is enough for them. The relative errors of v and x are below 1e-13 until (T
-/// - t)/T = 1e-9.
+/// t/unit, the stop T and the logarithm need double-double arithmetic; the lags are smooth and
+/// small, so that doubles suffice. The relative errors of v and x are below 1e-13 until
+/// (T - t)/T = 1e-9.
 class ExactForm final : public Motion {
  public:
   ExactForm(const Body&, PowerLaw, double v0, double x0);

@@ -15,10 +15,10 @@ namespace rolling {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double gain = 1e-9;        // of v, that rounding may make
-constexpr double least_part = 1e-8;  // of v0; much below it the steps are a rounding of t
+constexpr double gain = 1e-9;        // relative growth of v that rounding explains
+constexpr double least_part = 1e-8;  // of v0; for much lower v, rounding of t exceeds a step
 
-/// The speed at which the solver ends; 0 where the body never stops.
+/// The speed at which the solver ends; 0 if the body never stops.
 double floor_of(const AnyLaw& law, double v0) {
   return law.stops ? std::max(least_part * v0, law.rest) : 0;
 }
@@ -28,8 +28,8 @@ OdeSystem equations(const Body& body, Geometry geometry, const AnyLaw& law, doub
     fail("the initial velocity v0 = {} must be a number that is not negative", v0);
   if (v0 > 0) check_shift(body, law.shift(v0));
   const double floor = floor_of(law, v0);
-  // Below its floor D goes on as a constant: nothing holds a solver at v = 0, and v falls through
-  // the floor.
+  // Below the floor D is constant, so that v crosses the floor: nothing attracts the solver to v =
+  // 0.
   const auto shift = [law = law.shift, floor](double v) {
     return floor > 0 || v > 0 ? law(std::max(v, floor)) : 0;
   };
@@ -75,7 +75,7 @@ IntegratedRoll::Tail IntegratedRoll::tail(const Integrator& ode) const {
   const double v = std::max(0.0, ode.state()[1]), D = law_.shift(v);
   if (geometry_ == Geometry::exact && D >= body_.R * (1 - 1e-9))
     fail("at t = {:.6g} s the shift has grown to the radius {:.6g} m", ode.time(), body_.R);
-  // The speed has been located at its floor to a rounding, above it or below.
+  // The event locates the floor up to rounding, so that v may be above or below it.
   if (law_.rest == floor_) return {ode.time(), 0, v, 0};
   const double a = trial_acceleration(body_, geometry_, D),
                q = v * trial_acceleration_slope(body_, geometry_, D) * law_.slope(v) / a;
@@ -94,8 +94,8 @@ double IntegratedRoll::stop_time() const {
 
 void IntegratedRoll::seek(double t) {
   t_ = t;
-  // The time of the stop depends on where the steps end, by the error of the solver. A stop that
-  // has been returned stays as it is.
+  // The computed time of the stop depends, within the error of the solver, on the steps. The first
+  // value that was returned remains valid.
   if (ode_.advance(tail_ ? std::min(t, tail_->begin) : t, floor_event()) && !tail_)
     tail_ = tail(ode_);
   if (body_.slope >= 0) fastest_ = std::min(fastest_, std::max(0.0, v()));

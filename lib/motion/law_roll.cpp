@@ -22,9 +22,10 @@ constexpr Node nodes[] = {{0.06943184420297371, 0.17392742256872693},
                           {0.93056815579702629, 0.17392742256872693}};
 
 constexpr double widest = 0.25, narrowest = 1e-9;
-/// A panel ends where the deceleration has fallen by so much: a zero of it is then far away.
+/// The deceleration falls at most by this factor over a panel; a zero of it is then far away.
 constexpr double least_fall = 0.7;
-/// The rest of the time does not show any more.
+/// The limits below which the remaining time, relative to the elapsed time, or the speed [m/s]
+/// counts as 0.
 constexpr double negligible = 1e-11, slowest = 1e-250;
 constexpr int most_panels = 3000;
 
@@ -51,7 +52,7 @@ LawRoll::Rate LawRoll::rate(double u) const {
   const double A_D = geometry_ == Geometry::exact ? -D / (R * R * A) : 0,
                by_D = unit * (cos + A_D * R * sin - net / arm * A_D);
   for (std::size_t j = 0; j < law_.size(); ++j) r.q_c[j] *= by_D;
-  r.q_c[law_.size()] = unit * cos * cos * (A * R * cos - D * sin);  // by S = tan theta
+  r.q_c[law_.size()] = unit * cos * cos * (A * R * cos - D * sin);  // with respect to S = tan theta
   return r;
 }
 
@@ -108,8 +109,9 @@ LawRoll::Point LawRoll::point(const Sums& sum, double v, double q) const {
   return p;
 }
 
-// At fixed t, with T the integral for the time: dv/dc = q dT/dc = -q G, and dx/dc = dX/dc - v dT/dc
-// = v G - U. A longer v0 is an earlier beginning: dv/dv0 = q(v)/q(v0).
+// Derivatives at fixed t, with T and X the integrals for time and distance: dv/dc = q dT/dc = -q G,
+// and dx/dc = dX/dc - v dT/dc = v G - U. A larger v0 is equivalent to an earlier beginning: dv/dv0
+// = q(v)/q(v0).
 LawRoll::Point LawRoll::at(double t) {
   while (panel_.width > 0 && t >= panel_.after.time) {
     if (++panels_ > most_panels) fail("the law is too steep to be rolled");
@@ -119,7 +121,7 @@ LawRoll::Point LawRoll::at(double t) {
   }
   const double since = t - panel_.before.time;
   if (panel_.u == 0) return point(panel_.before, 0, 0);
-  if (panel_.width == 0) {  // a steady speed
+  if (panel_.width == 0) {  // a constant speed
     Point p = point(panel_.before, panel_.u, panel_.q);
     p.x += p.v * since;
     for (std::size_t j = 0; j <= law_.size(); ++j) p.x_c[j] += p.v_c[j] * since;
@@ -131,7 +133,7 @@ LawRoll::Point LawRoll::at(double t) {
 
 LawRoll::Point LawRoll::integrated(double since) const {
   double width = std::clamp(since * panel_.q / panel_.u, 0.0, panel_.width);
-  for (int i = 0; i < 10; ++i) {  // Newton's method; the time is all but a line in the width
+  for (int i = 0; i < 10; ++i) {  // Newton's method; the time is nearly linear in the width
     const double u = panel_.u * std::exp(-width),
                  step = (since - time(panel_.u, width)) * rate(u).q / u;
     width = std::clamp(width + step, 0.0, panel_.width);
@@ -156,7 +158,7 @@ void LawRoll::take_series() {
   }
 }
 
-// Clenshaw (1955), Math. Tables Aids Comput. 9, 118.
+// Clenshaw's recurrence (1955, Math. Tables Aids Comput. 9, 118).
 LawRoll::Point LawRoll::by_series(double since) const {
   const double s = 2 * since / (panel_.after.time - panel_.before.time) - 1;
   Numbers sum{}, next{};

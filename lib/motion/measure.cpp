@@ -11,7 +11,7 @@ namespace rolling {
 
 namespace {
 
-/// Of the processor, for this thread [s]: what else the machine does costs nothing.
+/// The processor time of this thread [s], which other processes do not affect.
 double processor_time() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -58,7 +58,8 @@ Measured measure(const std::function<std::unique_ptr<Motion>()>& start, const Re
         sum += timed->velocity();
       }
       const double taken = processor_time() - begin;
-      if (!std::isfinite(sum)) fail("v is not finite");  // and the sum is not optimised away
+      if (!std::isfinite(sum))
+        fail("v is not finite");  // the test also keeps the compiler from dropping the sum
       seconds.push_back(taken / static_cast<double>(right.times.size()));
       if (taken > 0.5) break;
     }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rest_fraction = 1e-3;  // of v0
-constexpr double stiff = 3e4;           // measured: from here on an implicit solver is faster
+constexpr double stiff = 3e4;           // measured: above it an implicit solver is faster
 constexpr double most_swings = 1e5, most_relaxations = 2e7;
 
 double slowing_time(const Body& body, PowerLaw law, double v0) {
@@ -89,8 +89,8 @@ MemoryWork memory_work(const Body& body, PowerLaw law, Bulge bulge, double v0, d
           (path + bulge.damping * lost) / L};
 }
 
-// The steps are counted from turn to turn. An explicit solver needs about half a step for each
-// relaxation, of which most_relaxations are allowed.
+// most_steps limits the steps from one turning point to the next. An explicit solver needs about
+// half a step for each relaxation, of which most_relaxations are allowed.
 MemoryRoll::MemoryRoll(const Body& body, Geometry geometry, PowerLaw law, Bulge bulge, double v0,
                        double x0, Stepper stepper, double rtol, unsigned long most_steps)
     : SolvedRoll(body, geometry, equations(body, geometry, law, bulge, v0),
@@ -117,8 +117,8 @@ double MemoryRoll::expected_evaluations(double t) const {
 bool MemoryRoll::advance(Integrator& ode, bool& backwards, double t) const {
   const double most = ode.time() < t ? spare_evaluations_ + 10 * expected_evaluations(t) : 0;
   const unsigned long before = ode.evaluations();
-  // The system has a kink at v = 0: each zero is located, and the integration starts again from v =
-  // 0 exactly.
+  // The right-hand side has a kink at v = 0; therefore each zero is located, and the integration
+  // restarts from v = 0 exactly.
   while (ode.advance(t, [](const std::vector<double>& y) { return y[1]; })) {
     std::vector<double> y = ode.state();
     y[1] = 0;
@@ -150,8 +150,8 @@ double MemoryRoll::stop_time() const {
 
 void MemoryRoll::seek(double t) {
   if (at_rest_) return;
-  // The moment of rest depends on where the steps end, by a rounding or so. A time of rest that has
-  // been returned stays as it is.
+  // The computed time of rest depends, within rounding, on the steps. The first value that was
+  // returned remains valid.
   const double stop = stop_time_.value_or(std::numeric_limits<double>::infinity());
   at_rest_ = advance(ode_, backwards_, std::min(t, stop)) || t >= stop;
   if (at_rest_ && !stop_time_) stop_time_ = ode_.time();

@@ -1,5 +1,5 @@
-// The roll over a bulge that adapts slowly: the shift follows D(v) over a rolled length, and so the
-// body rolls backwards before it rests.
+// The roll over a bulge with memory: the shift follows D(v) over a rolled length, so that the body
+// rolls backwards before it rests.
 #pragma once
 
 #include "contact/power_law.h"
@@ -13,19 +13,20 @@ namespace rolling {
 /// z + damping z': the bristle of Dahl's and the LuGre model of friction (Canudas de Wit et al.
 /// 1995, IEEE Trans. Automat. Contr. 40, 419).
 struct Bulge {
-  double length;       ///< rolled length over which the shift follows the law [m], > 0
+  double length;       ///< rolled length over which the shift approaches the law [m], > 0
   double damping = 0;  ///< sigma_1 [s], >= 0
 };
 
-/// The shift follows v within the time length/v0, the body slows down within v0/(c D(v0)). Where
-/// these differ by more than 3e4 the system is stiff: rk4imp, else rk8pd.
+/// The solver for this stiffness. The shift follows v within the time length/v0, and the body slows
+/// down within v0/(c D(v0)). If the ratio of these times exceeds 3e4 the system is stiff: the
+/// result is rk4imp, otherwise rk8pd.
 Stepper memory_stepper(const Body&, PowerLaw, Bulge, double v0);
 
-/// What any solver has to do from the start to the time t, or to the rest if that is earlier, known
-/// before it begins: estimates, good to a factor of about 4.
+/// The work of any solver from the start to the time t, or to the rest if that is earlier. The
+/// estimates are good to a factor of about 4.
 struct MemoryWork {
-  double swings;       ///< how often the body turns round: each turn takes some 100 evaluations
-  double relaxations;  ///< of the bulge, which follows the speed: an explicit solver takes two to
+  double swings;       ///< number of turning points: each takes some 100 evaluations
+  double relaxations;  ///< number of relaxation times of the bulge: an explicit solver takes two to
                        ///< four evaluations for each
 };
 MemoryWork memory_work(const Body&, PowerLaw, Bulge, double v0, double t);
@@ -41,15 +42,15 @@ MemoryWork memory_work(const Body&, PowerLaw, Bulge, double v0, double t);
 /// down.
 class MemoryRoll final : public SolvedRoll {
  public:
-  /// Refuses what check_roll refuses, b < 0 (no shift at rest to return to), length <= 0, damping <
-  /// 0. `rtol` is the solver's tolerance in each step, relative to x, v and z.
-  /// Errors of the solver come out of seek() and stop_time(). A work of more than 1e5 swings, or
-  /// with an explicit solver of more than 2e7 relaxations, is refused before it begins. The work of
-  /// one call is bounded by that and by most_steps.
+  /// Throws Error as check_roll does, and for b < 0 (no finite shift at rest), length <= 0 or
+  /// damping < 0. `rtol` is the relative error of x, v and z that a step may have. seek() and
+  /// stop_time() throw the errors of the solver. More than 1e5 swings, or with an explicit solver
+  /// more than 2e7 relaxations, are refused before the integration begins; the work of one call is
+  /// bounded by that and by most_steps.
   MemoryRoll(const Body&, Geometry, PowerLaw, Bulge, double v0, double x0, Stepper, double rtol,
              unsigned long most_steps = 1'000'000);
 
-  /// The first call integrates to the rest, apart from where seek() stands.
+  /// The first call integrates to the rest, independently of seek().
   double stop_time() const override;
   void seek(double t) override;
   double position() override { return x(); }
@@ -58,14 +59,14 @@ class MemoryRoll final : public SolvedRoll {
 
  private:
   bool at_rest() override { return at_rest_; }
-  double expected_evaluations(double t) const;  // throws Error where the work is too much
-  /// Integrates to t or to the rest, whichever is first, and returns true at rest. `backwards`: v
-  /// has had its first zero.
+  double expected_evaluations(double t) const;  // throws Error if the work is too much
+  /// Integrates to t or to the rest, whichever is earlier, and returns true at rest. `backwards` is
+  /// true after the first zero of v.
   bool advance(Integrator&, bool& backwards, double t) const;
 
   PowerLaw law_;
   Bulge bulge_;
-  double spare_evaluations_;  // of one call, beyond ten times those expected
+  double spare_evaluations_;  // of one call, in addition to ten times the expected number
   bool backwards_ = false, at_rest_ = false;
   mutable std::optional<double> stop_time_;
 };

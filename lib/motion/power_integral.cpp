@@ -7,12 +7,12 @@
 
 namespace rolling {
 
-// All of them are divided differences of the exponential function (McCurdy, Ng, Parlett 1984, Math.
-// Comp. 43, 501):
+// All of these integrals are divided differences of the exponential function (McCurdy, Ng, Parlett
+// 1984, Math. Comp. 43, 501):
 //   power_integral = l exp[0, -s l],   power_moment = l^2 exp[0, -s l, -s l],
-//   headway: l^2 exp[0, -l, -(s+1) l]  and  l^3 exp[0, -l, -(s+1) l, -(s+1) l],
-// whose Taylor series exp[0, x_1 ... x_n] = sum_k h_k(x_1 ... x_n) / (n + k)!, h_k the complete
-// symmetric polynomials, needs no difference at all. It is used where the arguments are at most 1.
+//   headway: l^2 exp[0, -l, -(s+1) l]  and  l^3 exp[0, -l, -(s+1) l, -(s+1) l].
+// The Taylor series exp[0, x_1 ... x_n] = sum_k h_k(x_1 ... x_n) / (n + k)!, with h_k the complete
+// symmetric polynomials, contains no differences. It is used if the arguments are at most 1.
 
 namespace {
 

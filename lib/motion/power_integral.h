@@ -1,4 +1,5 @@
-// Integrals of powers of a speed, in y = ln(v0/u): the whole free roll is made of them.
+// Integrals of powers of a speed in the variable y = ln(v0/u), from which the free roll is
+// composed.
 #pragma once
 
 namespace rolling {
@@ -12,7 +13,7 @@ double power_integral(double s, double lambda);
 /// int_0^lambda y e^(-s y) dy, which is -d/ds of power_integral:
 ///   dP/ds = int_v^v0 ln(u) u^(s-1) du = v0^s (ln(v0) power_integral - power_moment).
 double power_moment(double s, double lambda);
-/// The same, to 4 ulp, for one who knows power_integral and decay = e^(-s lambda).
+/// The same within 4 ulp, for a caller who knows power_integral and decay = e^(-s lambda).
 double power_moment(double s, double lambda, double integral, double decay);
 
 /// int_0^lambda (e^(-y) - e^(-lambda)) e^(-s y) dy, and the same with a factor y under the

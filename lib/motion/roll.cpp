@@ -28,7 +28,8 @@ AnyLaw any_law(const Roll& roll) {
   return {roll.law, slope, std::isfinite(trajectory.stop_time()), trajectory.rest_speed()};
 }
 
-/// A body at rest on a slope stays there if the law has a shift at rest that holds it.
+/// Throws Error if a body at rest on a slope would begin to roll: it stays only if the shift at
+/// rest balances gravity.
 void check_rest(const Roll& roll) {
   const auto& [body, geometry, law, table, bulge, v0, x0] = roll;
   if (v0 != 0 || body.slope == 0 || (!table && bulge.length == 0 && law.b < 0)) return;

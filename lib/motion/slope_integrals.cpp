@@ -14,19 +14,20 @@ namespace rolling {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double far = 42;       // a part e^-42 of a sum does not show in a double
+constexpr double far = 42;  // a relative change e^-42 of a sum is below the rounding of a double
 constexpr double fastest = 300;  // speeds above v0 e^300 are refused
-// Below these, numbers count as 0 or are raised to the bound, so that no quotient overflows; the
-// change does not show in a double: v^b is 1 for every speed, and d or net is far below its
-// partner.
+// Numbers below these bounds count as 0 or are raised to the bound, so that no quotient overflows.
+// The effect is below the rounding of a double: v^b is 1 for every speed, or d or net is far below
+// the other term.
 constexpr double least_b = 1e-19, least_slope = 1e-200;
 constexpr double least_net = 1e-100, least_depth = 1e-290;
 constexpr double least_part = 1e-17;  // the panels towards a last speed end at this part of the way
 constexpr double negligible = 1e-6;   // last speeds below it, as a part of v0, count as rest:
 constexpr double rest_left = std::numbers::ln2;  // the stop is at twice the last speed
-// The 16 nodes leave an error below 1e-17 where an exponential function changes by e^12 over the
-// panel, and where the ellipse without singularities is 3.4 times as large as the half panel: a
-// singularity on the line is then 0.85 half panels away from its end, one beside it 1.5.
+// The 16 nodes have an error below 1e-17 if an exponential function changes by e^12 over the panel,
+// and if the integrand is analytic within an ellipse 3.4 times as large as the half panel: a
+// singularity on the line is then 0.85 half panels away from the end of the panel, and one beside
+// it 1.5.
 constexpr double most_decay = 12, ahead = 0.7, behind = 1.3;
 
 }  // namespace
@@ -85,10 +86,8 @@ void SlopeIntegrals::add_panels(double last, double left) {
   if (panels_.empty()) add_panel(0, left, 0);
 }
 
-/// r beyond which the time that is left does not show in a double, or which no time reaches.
-///
-/// Where d is larger than the slope's part of net, the time per r changes like e^(-s r), s = 1 - b;
-/// where it is smaller, like e^-r. The two ranges meet at crossing_.
+/// The r beyond which the remaining time is below the rounding of a double, or which no time
+/// reaches.
 double SlopeIntegrals::horizon() const {
   if (way_ < 0) return fastest;
   const double s = 1 - b_, crossing = std::max(crossing_, 0.0);
@@ -101,8 +100,8 @@ double SlopeIntegrals::horizon() const {
   return s * crossing >= far ? far / s : crossing + far - std::max(s, 0.0) * crossing;
 }
 
-/// How long a panel may be that begins at r: as the fastest exponential decay of an integrand
-/// allows, and the nearest singularity.
+/// The largest length of a panel that begins at r. The fastest exponential decay of an integrand
+/// and the nearest singularity limit it.
 double SlopeIntegrals::width(double r, double left) const {
   const double size = std::abs(b_), s = std::abs(1 - b_);
   const bool past = slope_ > 0 && b_ > 0 && r > crossing_,
@@ -248,7 +247,8 @@ SlopeIntegrals::Place SlopeIntegrals::place(double time, double rest) const {
       fail("the speed has grown by a factor e^{}", fastest);
     return {i, p.width, after == panels_.end() && last_speed_ > 0 ? since - p.duration : 0};
   }
-  // The first guess takes the time per r for an exponential function between the panel's ends.
+  // The starting point assumes that the time per r is an exponential function between the ends of
+  // the panel.
   const double q = p.decay * since / p.begin,
                start = std::abs(q) < 1e-8 ? since / p.begin : -std::log1p(-q) / p.decay;
   const double r = increasing_root(
@@ -263,15 +263,6 @@ double SlopeIntegrals::start_rate() const {
 
 double SlopeIntegrals::speed(Place at) const {
   return std::exp(-way_ * (panels_[at.panel].r + at.r));
-}
-
-double SlopeIntegrals::distance(Place at) const {
-  const Panel& p = panels_[at.panel];
-  double sum = p.before.distance;
-  quadrature(p, at.r, [&](const Node& n) {
-    sum += n.by_d * (n.d / n.net) * (K_ + n.A) * std::exp(-way_ * n.r) * n.dr;
-  });
-  return sum + at.beyond * speed(at);
 }
 
 SlopeIntegrals::Gradient SlopeIntegrals::gradient(Place at, Wanted wanted) const {

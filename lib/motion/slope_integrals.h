@@ -1,5 +1,5 @@
-// Time, distance and their derivatives as integrals over speed for D(v) = a v^b on a mat that is
-// not level, in either geometry: numbers without units.
+// Time, distance and their derivatives as dimensionless integrals over speed for D(v) = a v^b on a
+// mat that is not level, in either geometry.
 #pragma once
 
 #include <cmath>
@@ -26,25 +26,25 @@ namespace rolling {
 /// Relative errors are about 1e-15.
 class SlopeIntegrals {
  public:
-  /// depth = D(v0)/R in 0 .. 1, arm_square = 1 - depth^2 from a caller who knows it without
+  /// depth = D(v0)/R in 0 .. 1; arm_square = 1 - depth^2, from a caller who knows it without
   /// cancellation (not used for A = 1). K + A must not be 0.
   SlopeIntegrals(Geometry, double b, double K, double depth, double arm_square, double slope);
 
-  /// Time to the stop; infinity if there is none. On a falling mat with b > 0 the speed tends to
-  /// the one where net = 0. Where that is below 1e-6 v0 it counts as rest: the stop is the time at
-  /// which v is twice that speed.
+  /// The time to the stop; infinity if there is none. On a falling mat with b > 0 the speed tends
+  /// to the one where net = 0. If that is below 1e-6 v0 it counts as rest, and the stop is the time
+  /// at which v is twice that speed.
   double stop() const { return stop_; }
   /// The time at which D reaches R on the way down (exact geometry, b < 0); infinity if it never
   /// does.
   double end() const { return end_; }
-  /// The speed that the body tends to, as a part of v0; 0 where it stops, infinity where it speeds
-  /// up for ever.
+  /// The limit of the speed in units of v0: 0 if the body stops, infinity if its speed grows
+  /// without bound.
   double last_speed() const { return last_speed_; }
-  /// The speed that counts as rest, as a part of v0: 0, or twice a negligible last speed.
+  /// The speed that counts as rest in units of v0: 0, or twice a negligible limit of the speed.
   double rest_speed() const { return rest_speed_; }
 
-  /// Where the integrals have the value that is asked for: r as a panel and a part of it, and the
-  /// time since the last panel ended.
+  /// A position within the integrals: a panel, r from its beginning, and the time since the end of
+  /// the last panel.
   struct Place {
     std::size_t panel;
     double r;
@@ -56,8 +56,7 @@ class SlopeIntegrals {
   Place place(double time, double rest) const;
   Place last() const { return {panels_.size() - 1, panels_.back().width}; }  ///< of the integrals
 
-  double speed(Place) const;     ///< E = v/v0
-  double distance(Place) const;  ///< int E^2 (K + A)/|net| dr
+  double speed(Place) const;  ///< E = v/v0
   /// What the derivatives need. H = K + 1/A - S K d/A, or K + 1 for A = 1, comes from d(net/(K +
   /// A))/dd. The kernels h = E d H / net^2, of the derivative by ln a, and k = E A (K + A)/net^2,
   /// of that by S.

@@ -6,10 +6,11 @@
 
 namespace rolling {
 
-/// Time and distance as integrals over speed, by Trajectory. Relative error about 1e-14.
+/// Time and distance are integrals over speed, computed by Trajectory. The relative error is about
+/// 1e-14.
 class SlopeRoll final : public Motion {
  public:
-  /// Refuses what check_roll refuses.
+  /// Throws Error as check_roll does, and if x0 is not finite.
   SlopeRoll(const Body&, Geometry, PowerLaw, double v0, double x0);
 
   double stop_time() const override { return trajectory_.stop_time(); }

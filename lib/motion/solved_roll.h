@@ -1,4 +1,4 @@
-// What the rolls have in common that are solved as differential equations.
+// The common part of the rolls that are solutions of differential equations.
 #pragma once
 
 #include "contact/body.h"
@@ -9,17 +9,18 @@
 
 namespace rolling {
 
-/// The state begins with x and v; what else is in it, and when the body rests, is up to the roll.
-/// Two integrations run through the same equations: one goes with seek(), another is begun when the
-/// time of the stop is asked for, since seek() goes forward only.
+/// The state vector begins with x and v; further elements and the condition for rest belong to the
+/// derived class. There are two integrations of the same equations: seek() advances one of them; a
+/// second one determines the time of the stop when it is requested, because seek() only goes
+/// forward.
 class SolvedRoll : public Motion {
  public:
   double acceleration() override;
   unsigned long evaluations() const override { return ode_.evaluations(); }
 
  protected:
-  /// `start` is the state at t = 0. Throws Error unless its x is finite, and what Integrator
-  /// throws.
+  /// `start` is the state at t = 0. Throws Error if its x is not finite, and the errors of
+  /// Integrator.
   SolvedRoll(const Body&, Geometry, OdeSystem, const OdeOptions&, std::vector<double> start);
   /// True if the body has come to rest: then dv/dt is exactly 0.
   virtual bool at_rest() = 0;
@@ -34,7 +35,7 @@ class SolvedRoll : public Motion {
   OdeSystem equations_;
   OdeOptions options_;
   std::vector<double> start_;
-  Integrator ode_;  // of seek()
+  Integrator ode_;  // that seek() advances
 };
 
 }  // namespace rolling

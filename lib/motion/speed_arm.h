@@ -1,4 +1,5 @@
-// The arm of the contact force along a roll under D(v) = a v^b, and the integrals that it enters.
+// The arm factor of the contact force along a roll under D(v) = a v^b, and the integrals that
+// contain it.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +20,9 @@ struct SpeedArm {
   double f(double y) const { return depth == 0 ? 1 : (K + A(y)) / (K + 1); }
 };
 
-/// Integrals over 0 < y < lambda that the derivatives of time and distance need. With s = 1 - b
-/// and h = (K + 1/A) / (K + 1), which replaces f when u^-b f / a is differentiated by a or b:
+/// Integrals over 0 < y < lambda from which the derivatives of time and distance follow. With s = 1
+/// - b and h = (K + 1/A) / (K + 1); h replaces f when u^-b f / a is differentiated with respect to
+/// a or b:
 struct SpeedGradient {
   double h0 = 0, h1 = 0;  ///< of h e^(-s y), and with a factor y
   double distance = 0;    ///< of f e^(-(s+1) y)

@@ -9,9 +9,9 @@ namespace rolling {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double shallow = 1e-20;  // z below it: A = 1 to the last bit
-constexpr double deep = 0.25;      // z above it: the series takes more than 30 terms
-constexpr double least_b = 1e-19;  // |b| below it: A is constant to the last bit
+constexpr double shallow = 1e-20;  // for z below it, A = 1 in a double
+constexpr double deep = 0.25;      // for z above it, the series needs more than 30 terms
+constexpr double least_b = 1e-19;  // for |b| below it, A is constant in a double
 constexpr double far = 64;  // what lies beyond y = 64 or s y = 64 does not show in a double, nor in
                             // a rest of 1e-10 of the whole
 
@@ -19,7 +19,8 @@ constexpr double far = 64;  // what lies beyond y = 64 or s y = 64 does not show
 
 SpeedIntegrals::SpeedIntegrals(double b, double K, double depth, double arm_square)
     : arm_{b, K, depth, arm_square}, s_(1 - b) {
-  const double last = s_ > 0 ? far / std::min(s_, 1.0) : infinity;  // nothing is left beyond it
+  // The rest beyond y = last is negligible.
+  const double last = s_ > 0 ? far / std::min(s_, 1.0) : infinity;
   if (depth == 0 || std::abs(b) < least_b) {
     add(0, infinity, SpeedSeries::constant(arm_));
   } else if (b > 0) {
@@ -44,8 +45,8 @@ void SpeedIntegrals::add(double y, double width, std::variant<SpeedPanel, SpeedS
 }
 
 void SpeedIntegrals::add_panels(double from, double to) {
-  // In a panel e^(-s y) changes by at most a factor e, and z by a factor 2: for b > 0 at least two
-  // panels take it from 1 to 1/4, and for b < 0 |s| is above |b|. See SpeedPanel.
+  // Over a panel e^(-s y) changes by at most a factor e and z by at most a factor 2: for b > 0 at
+  // least two panels lead z from 1 to 1/4, and for b < 0 |s| is larger than |b|. See SpeedPanel.
   const double count = std::ceil((to - from) * (std::abs(s_) + 2 * std::abs(arm_.b)));
   for (int i = 0; i < count; ++i) {
     const double y = from + (to - from) * i / count, width = (to - from) / count;
@@ -53,8 +54,8 @@ void SpeedIntegrals::add_panels(double from, double to) {
   }
 }
 
-/// The rests, so that the last pieces keep their digits, and the stop. Behind the last panel, at
-/// y = last, A is taken as constant.
+/// Sums time and lag from the stop backwards, so that the last pieces keep their digits. Beyond the
+/// last panel, at y = last, A is assumed constant.
 void SpeedIntegrals::add_up_from_stop(double last) {
   const double behind = pieces_.back().width < infinity ? std::exp(-s_ * last) / s_ : 0;
   double rest = f(last) * behind, lag_rest = (1 - f(last)) * behind;
@@ -128,8 +129,8 @@ SpeedGradient SpeedIntegrals::gradient(double lambda, Wanted wanted) const {
 SpeedGradient SpeedIntegrals::gradient(const Piece& p, double local, Wanted wanted) const {
   SpeedGradient sum = p.gradient(local, wanted);
   if (p.y == 0) return sum;
-  // y counts from the beginning of the piece in the terms of `sum`; the factor e^-y - e^-lambda of
-  // what lies before has grown by `moved` within it.
+  // In the terms of `sum`, y counts from the beginning of the piece. For the integrals before the
+  // piece, the factor e^-y - e^-lambda has grown by `moved` within it.
   const SpeedGradient& before = p.before.gradient;
   const double unit = std::exp(-p.y), moved = -unit * std::expm1(-local);
   sum.distance = before.distance + p.power * unit * sum.distance;

@@ -1,5 +1,5 @@
-// Time, distance and their derivatives as integrals over speed, for D(v) = a v^b in either
-// geometry: numbers without units.
+// Time, distance and their derivatives as dimensionless integrals over speed, for D(v) = a v^b in
+// either geometry.
 #pragma once
 
 #include <limits>
@@ -42,12 +42,12 @@ class SpeedIntegrals {
   /// int_0^lambda f e^(-(s+1) y) dy.
   double distance(double lambda) const;
 
-  /// int (1 - f) e^(-s y) dy, from 0 to lambda and from lambda to infinity (for s > 0): what the
-  /// geometry takes from A = 1.
+  /// int (1 - f) e^(-s y) dy, from 0 to lambda and from lambda to infinity (for s > 0): the
+  /// difference to the geometry A = 1.
   double lag(double lambda) const;
   double lag_rest(double lambda) const;
 
-  /// What derivatives need. For Wanted::speed only h0 and h1.
+  /// The integrals that the derivatives need; for Wanted::speed only h0 and h1.
   SpeedGradient gradient(double lambda, Wanted = Wanted::speed_and_distance) const;
 
  private:
@@ -56,11 +56,11 @@ class SpeedIntegrals {
     SpeedGradient gradient;
   };
   struct Piece {
-    double y, width;  // where it begins, and its length
-    double power;     // e^(-s y): its unit of time in units of the whole
+    double y, width;  // beginning and length of the piece
+    double power;     // e^(-s y): the piece's unit of time
     std::variant<SpeedPanel, SpeedSeries> integrals;
     Sums before;            // the integrals from 0 to y
-    double rest, lag_rest;  // time and lag from y to the stop; infinite where there is none
+    double rest, lag_rest;  // time and lag from y to the stop; infinite if there is none
 
     double time(double local) const;
     double lag(double local) const;

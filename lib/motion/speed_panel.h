@@ -24,7 +24,7 @@ class SpeedPanel {
   double lag(double y) const;       ///< int_0^y (1 - f) e^(-s u) du
   double distance(double y) const;  ///< int_0^y f e^(-(s+1) u) du
   SpeedGradient gradient(double y, Wanted) const;
-  /// y with time(y) = time. It makes no use of `rest`, the time from there to the stop.
+  /// The y with time(y) = time. `rest`, the time from there to the stop, is not needed.
   double lambda(double time, double rest) const;
 
  private:

@@ -10,7 +10,7 @@ namespace rolling {
 
 namespace {
 
-constexpr double least_term = 1e-18;  // of the sum of the series, which is near 1
+constexpr double least_term = 1e-18;  // relative to the sum of the series, which is close to 1
 
 /// int_0^lambda e^(-s y) dy = time, solved for lambda; rest is 1/s - time for s > 0.
 double power_integral_inverse(double s, double time, double rest) {
@@ -84,19 +84,19 @@ double SpeedSeries::lambda(double time, double rest) const {
   if (terms_.size() > 1 && s > 0 && rest < 2 * time) return lambda_of_rest(rest);
   const double start = power_integral_inverse(s, time / most, rest / most);
   if (terms_.size() == 1) return start;
-  // f is least at the beginning, and below 1 everywhere: that brackets the root.
+  // f is smallest at the beginning and below 1 everywhere, which gives the bracket of the root.
   const double end =
       power_integral_inverse(s, time / arm_.f(from_), std::numeric_limits<double>::infinity());
   return increasing_root(start, end, start, [&](double y) {
-    double value = -time;  // the first term nearly cancels it: so the sum rounds least
+    double value = -time;  // it comes first because the first term nearly cancels it
     for (const Term& term : terms_) value += term.f * power_integral(term.s, y);
     return std::pair(value, arm_.f(from_ + y) * std::exp(-s * y));
   });
 }
 
-/// rest = int_y^infinity f e^(-s u) du = e^(-s y) S(z) is nearly a power of the speed, and its
-/// logarithm nearly a line. A step takes two exponential functions, where time(y) takes one for
-/// each term.
+/// rest = int_y^infinity f e^(-s u) du = e^(-s y) S(z) is nearly a power of the speed, so that its
+/// logarithm is nearly linear in y. A Newton step needs two exponential functions, whereas time(y)
+/// needs one for each term.
 double SpeedSeries::lambda_of_rest(double rest) const {
   const double s = terms_.front().s;
   const auto inverse = [&](double f) { return std::max(0.0, std::log(f / (s * rest)) / s); };

@@ -16,9 +16,9 @@ namespace rolling {
 /// integrals are those of a roll that begins there. s = 1 - b; y = infinity is the stop, for s > 0.
 class SpeedSeries {
  public:
-  /// The series; z is at most 1/4 from there on.
+  /// The binomial series. z must be at most 1/4 from `from` on.
   static SpeedSeries binomial(const SpeedArm&, double from);
-  /// For A that does not change.
+  /// The single term for constant A.
   static SpeedSeries constant(const SpeedArm&);
 
   double time(double y) const;      ///< int_0^y f e^(-s u) du

@@ -13,8 +13,8 @@ namespace rolling {
 
 namespace {
 
-// Between two points of the table the law is a cubic, and a quarter of a piece is a panel on which
-// 16 nodes reach 1e-15. On a falling mat panels are halved, to 2^-30 of their first width.
+// The law is a cubic between two points of the table. With a quarter of that interval as a panel,
+// 16 nodes reach 1e-15. On a falling mat panels are halved, down to 2^-30 of their first width.
 constexpr int panels_in_a_piece = 4;
 constexpr int most_halvings = 30;
 
@@ -53,9 +53,9 @@ TableRoll::TableRoll(const Body& body, Geometry geometry, TableLaw law, double v
   }
 }
 
-/// Adds panels from the last speed down to `to`. On a falling mat the integrand has poles near the
-/// speeds at which the law almost balances the slope: there a panel is halved until its halves
-/// agree with the whole.
+/// Adds panels from the last speed down to `to`. On a falling mat the integrand has poles close to
+/// the speeds at which D almost balances the slope; there a panel is halved until the sum of its
+/// halves agrees with the whole.
 void TableRoll::add_panels(double to, int halvings) {
   const Panel last = panels_.back();
   const Integrals whole = integrals(last.v, to);
@@ -71,7 +71,7 @@ void TableRoll::add_panels(double to, int halvings) {
   panels_.push_back({to, last.time + whole.time, last.distance + whole.distance});
 }
 
-/// dt/du [s^2/m] at the speed v, positive: time and distance are its integrals over speed (Eq. 12).
+/// |dt/du| [s^2/m] at the speed v; time and distance are integrals of it over speed (Eq. 12).
 double TableRoll::inverse_acceleration(double v) const {
   return -1 / acceleration_from_shift(body_, geometry_, law_(v));
 }
@@ -98,7 +98,7 @@ void TableRoll::seek(double t) {
                                       [](double time, const Panel& p) { return time < p.time; });
   panel_ = static_cast<std::size_t>(after - panels_.begin()) - 1;
   const Panel &begin = panels_[panel_], &end = panels_[panel_ + 1];
-  // Newton's method from the straight line between the ends of the panel.
+  // Newton's method, from linear interpolation between the ends of the panel.
   v_ = begin.v + (end.v - begin.v) * (t - begin.time) / (end.time - begin.time);
   for (int i = 0; i < 20; ++i) {
     const double step = (integrals(begin.v, v_).time - (t - begin.time)) / inverse_acceleration(v_);

@@ -1,4 +1,4 @@
-// The roll under a law that is a table: time and distance as integrals over speed (Eq. 12), in
+// The roll under a law given as a table: time and distance as integrals over speed (Eq. 12), in
 // either geometry.
 #pragma once
 
@@ -10,7 +10,8 @@
 
 namespace rolling {
 
-/// Whether the mat slows the body at every speed up to v0: on a falling slope D may be too small.
+/// True if the body slows down at every speed up to v0; on a falling mat D may be too small for
+/// that.
 bool always_slows(const Body&, Geometry, const TableLaw&, double v0);
 
 /// t = int_v^v0 (K + A(u)) R / (g D(u)) du, with the slope's part, by Gauss-Legendre panels within
@@ -19,8 +20,8 @@ bool always_slows(const Body&, Geometry, const TableLaw&, double v0);
 /// so the body stops.
 class TableRoll final : public Motion {
  public:
-  /// Refuses v0 above the table, D > R at a speed up to v0, what check_roll refuses, and a slope on
-  /// which the body does not always slow down.
+  /// Throws Error for v0 above the table, D > R at a speed up to v0, a slope on which the body does
+  /// not always slow down, and as check_roll does.
   TableRoll(const Body&, Geometry, TableLaw, double v0, double x0);
 
   double stop_time() const override { return panels_.back().time; }
@@ -32,7 +33,7 @@ class TableRoll final : public Motion {
 
  private:
   struct Panel {
-    double v, time, distance;  // where it begins; it ends where the next one begins
+    double v, time, distance;  // at the beginning; a panel ends where the next one begins
   };
   struct Integrals {
     double time, distance;

@@ -132,7 +132,7 @@ Trajectory::Point Trajectory::at(double t, Wanted wanted) const {
   if (incline_) return on_slope(t, wanted);
   const double lambda = log_ratio(t), a = law_.a, log_v0 = log_v0_;
   if (lambda == infinity) return stopped_;
-  // The speed hardly changes: the limit for lambda -> 0, where lambda^2 underflows and unit_ may be
+  // The limit for lambda -> 0, where the speed hardly changes, lambda^2 underflows and unit_ may be
   // infinite.
   if (lambda < 1e-100) {
     const double A = arm_factor(body_, geometry_, law_(v0_)), K = body_.K;

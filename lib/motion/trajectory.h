@@ -1,5 +1,5 @@
-// The free roll under D(v) = a v^b, in either geometry, as a function of time and of its
-// parameters. One way through the code for ExactForm and the trajectory fits.
+// The free roll under D(v) = a v^b in either geometry, as a function of time and of its parameters.
+// ExactForm and the trajectory fits both use it.
 #pragma once
 
 #include <limits>

@@ -1,5 +1,5 @@
-// Simulates the record that a motion sensor (sonar) at the end of the track makes of a roll, with
-// noise, rounding and lost echoes: raw data of which the law and the start are known.
+// Simulates the record of a roll by a motion sensor (sonar) at the end of the track, with noise,
+// rounding and lost echoes: raw data for which the law and the start are known.
 #pragma once
 
 #include "motion/motion.h"
@@ -35,13 +35,13 @@ struct SonarSample {
                             ///< positions, with one decimal more than they have [m/s]
 };
 
-/// The body is at rest; the hand pushes it, v = v0 sin^2(pi u/(2 push)) at the time u after it took
-/// hold, to the speed v0 of the motion at its t = 0; it rolls freely; it is at rest again. White
-/// gaussian noise is added to each position before the rounding. The same seed gives the same
-/// record on every machine, and `lost` does not change the noise of the records that are not lost.
-/// `write` gets one sample after the other; five are kept at a time. Throws Error for an option out
-/// of its range, for a motion that never stops if `until` is infinite, and for more than 1e9
-/// samples.
+/// The body is at rest. A hand pushes it with v = v0 sin^2(pi u/(2 push)), u being the time since
+/// the beginning of the push, up to the speed v0 that the motion has at its t = 0. Then the body
+/// rolls freely, and finally it is at rest. White Gaussian noise is added to each position before
+/// the rounding. The same seed gives the same record on every machine; `lost` does not change the
+/// noise of the other records. `write` receives one sample after the other; five are kept in
+/// memory. Throws Error for an option out of range, for a motion that never stops if `until` is
+/// infinite, and for more than 1e9 samples.
 void sonar_record(Motion&, const SonarOptions&,
                   const std::function<void(const SonarSample&)>& write);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t w = 4;  // speeds in a window
 
-/// The least-squares line through the speeds of a window: how much it rises from window to window.
+/// The change of speed over `duration` on the least-squares line through the speeds of a window.
 double rise(std::span<const Sample> window, double duration) {
   double t = 0, y = 0, tt = 0, ty = 0;
   for (const Sample& s : window) t += s.t - window[0].t, y += s.y;
@@ -23,8 +23,8 @@ double rise(std::span<const Sample> window, double duration) {
   return ty / tt * duration;
 }
 
-/// How much more speed is gained in the window before a speed than half of what is gained in the
-/// window after it; from speed w on.
+/// For each speed from number w on: the change of speed in the window before it minus half of the
+/// change in the window after it.
 std::vector<double> bends_of(std::span<const Sample> speeds) {
   std::vector<double> bends;
   for (std::size_t i = w; i + w <= speeds.size(); ++i) {
@@ -35,16 +35,17 @@ std::vector<double> bends_of(std::span<const Sample> speeds) {
   return bends;
 }
 
-/// The standard deviation of bends from speed `first` on, by themselves where they are enough,
-/// since their noise need not be white.
+/// The standard deviation of the bends from speed `first` on. If there are 20 or more, their own
+/// scatter is a lower bound for it, because the noise need not be white.
 double noise_of(std::span<const double> bends, std::span<const Sample> speeds, std::size_t first) {
   std::vector<double> seconds;
   for (std::size_t i = std::max<std::size_t>(first, 1); i + 1 < speeds.size(); ++i)
     seconds.push_back(std::abs(speeds[i + 1].y - 2 * speeds[i].y + speeds[i - 1].y));
   std::vector<double> own(bends.begin() + static_cast<std::ptrdiff_t>(std::max(first, w) - w),
                           bends.end());
-  // Of white noise of the speeds, second differences have sqrt(6) times as much, lines through w of
-  // them rise by sqrt(12 w / (w^2 - 1)) times as much from window to window.
+  // For speeds with white noise of standard deviation 1, second differences have the standard
+  // deviation sqrt(6), and the change of a least-squares line through w speeds over one window has
+  // sqrt(12 w / (w^2 - 1)). The bend is a difference of two such changes with weights 1 and 1/2.
   double sigma = seconds.empty() ? 0
                                  : deviation(seconds) / std::sqrt(6.0) *
                                        std::sqrt(12.0 * w / (w * w - 1) * (1 + 0.25));
@@ -54,13 +55,14 @@ double noise_of(std::span<const double> bends, std::span<const Sample> speeds, s
   return std::max(sigma, 1.4826 * median(own));
 }
 
-/// Where a corner is sharpest, and where it is last seen, as numbers of speeds; 0 if there is none.
+/// The speed at which a corner is sharpest and the last one at which it is visible; 0 if there is
+/// none.
 struct Corner {
   std::size_t at = 0, last = 0;
 };
 
-/// The last corner of speeds, at `first` or later, of more than `least` and so many standard
-/// deviations.
+/// The last corner of the speeds, at number `first` or later, that exceeds `least` and
+/// `significance` standard deviations.
 Corner last_corner(std::span<const Sample> speeds, std::size_t first, double least,
                    double significance) {
   const std::vector<double> bends = bends_of(speeds);
@@ -89,7 +91,7 @@ std::vector<Sample> means(std::span<const Sample> samples, std::size_t size) {
   std::vector<Sample> blocks;
   blocks.reserve(samples.size() / size);
   for (std::size_t i = 0; i + size <= samples.size(); i += size) {
-    const Sample& begin = samples[i];  // its time is taken off: the mean loses no digits
+    const Sample& begin = samples[i];  // means of differences from it lose no digits
     double t = 0, y = 0;
     for (const Sample& s : samples.subspan(i, size)) t += s.t - begin.t, y += s.y - begin.y;
     blocks.push_back(
@@ -99,7 +101,7 @@ std::vector<Sample> means(std::span<const Sample> samples, std::size_t size) {
 }
 
 std::size_t last_corner(std::span<const Sample> way, const CornerOptions& o) {
-  std::size_t corner = 0, clear = 0, size = o.size;  // windows that begin at `clear` do not know it
+  std::size_t corner = 0, clear = 0, size = o.size;  // windows from `clear` on do not contain it
   for (auto blocks = means(way, size); blocks.size() > 2 * w;
        blocks = means(blocks, 2), size *= 2) {
     const std::vector<Sample> speeds = slopes(blocks);

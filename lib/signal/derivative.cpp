@@ -8,9 +8,9 @@
 
 namespace rolling {
 
-// Newton's form of the parabola through three samples: slopes s1, s2 over steps h1, h2, bend c =
-// (s2 - s1) / (h1 + h2). Derivatives: s1 - c h1 at the first, s1 + c h1 = s2 - c h2 in the middle,
-// s2 + c h2 at the last.
+// Newton's form of the parabola through three samples: slopes s1, s2 over steps h1, h2, and the
+// divided difference c = (s2 - s1) / (h1 + h2). The derivatives are s1 - c h1 at the first sample,
+// s1 + c h1 = s2 - c h2 at the middle one, and s2 + c h2 at the last.
 std::span<const double> CentralDerivative::push(double t, double y) {
   const double step = t - t_, slope = (y - y_) / step;
   ++count_;
@@ -27,12 +27,12 @@ std::span<const double> CentralDerivative::push(double t, double y) {
 std::span<const double> CentralDerivative::finish() {
   if (count_ == 0) return {};
   if (count_ == 1) fail("a run of one record has no derivative");
-  known_[0] = known_[1] = slope_ + bend_ * step_;  // the bend is 0 in a run of two
+  known_[0] = known_[1] = slope_ + bend_ * step_;  // bend_ is 0 in a run of two
   return {known_.data(), count_ == 2 ? std::size_t{2} : std::size_t{1}};
 }
 
-// To the last bit as Vernier's programs write it: each weight times the rise comes before the
-// division.
+// The order of operations is that of Vernier's programs, so that the results agree to the last bit:
+// the weight multiplies the rise before the division.
 double VernierDerivative::value(const Windows& window) {
   if (window.size() == 1) fail("a run of one record has no derivative");
   const std::size_t i = window.at(), last = window.end() - 1;
@@ -74,7 +74,7 @@ std::unique_ptr<Signal> make_savgol(const SignalOptions& options) {
   return std::make_unique<SavitzkyGolay>(options.width, options.order, SavitzkyGolay::What::slope);
 }
 
-// The spline is not linear: its parameter comes from the readings.
+// The spline is not linear, because its parameter depends on the readings.
 constexpr SignalMethod methods[] = {
     // name, reach, linear, shift-invariant, has an order, make
     {"central", 1, true, false, false, make<CentralDerivative>},

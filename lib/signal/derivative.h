@@ -1,5 +1,5 @@
-// The time derivative of a column, one sample in at a time. All of these throw Error for a run of
-// one sample.
+// The time derivative of a column, computed sample by sample. Every method throws Error for a run
+// of one sample.
 #pragma once
 
 #include <array>
@@ -9,9 +9,9 @@
 
 namespace rolling {
 
-/// Of the parabola through three neighbouring samples at any spacing: at the middle one inside (the
-/// central difference), at the outer one at the ends. Second order in the spacing, exact on a
-/// parabola. A run of two samples has their slope.
+/// The derivative of the parabola through three neighbouring samples at any spacing: at the middle
+/// sample inside the run (the central difference), at the outer one at the ends. Second order in
+/// the spacing, exact on a parabola. For a run of two samples it is their slope.
 class CentralDerivative : public Signal {
  public:
   std::span<const double> push(double t, double y) override;
@@ -20,32 +20,33 @@ class CentralDerivative : public Signal {
  private:
   std::size_t count_ = 0;
   double t_ = 0, y_ = 0;         // the last sample
-  double step_ = 0, slope_ = 0;  // from the one before it
-  double bend_ = 0;              // half of the parabola's second derivative
+  double step_ = 0, slope_ = 0;  // from the last but one sample to the last
+  double bend_ = 0;              // half of the second derivative of the parabola
   std::array<double, 2> known_{};
 };
 
-/// As Vernier's programs do it: the slopes over one, two and three samples to either side, weighted
-/// 3, 2, 1; a sample beyond the end of the run is the one at the end. The weights are those by
-/// which an export of such a program, 304 records, comes out to the last bit (tests/recordings.md).
+/// The derivative of Vernier's programs: the slopes over one, two and three samples to either side,
+/// with the weights 3, 2, 1; beyond the end of the run the last sample counts instead. With these
+/// weights the 304 records of an export of such a program are reproduced to the last bit
+/// (tests/recordings.md).
 class VernierDerivative : public WindowedSignal<VernierDerivative> {
  public:
   VernierDerivative() : WindowedSignal({7, 0}, Windows::Ends::cut) {}
   double value(const Windows&);
 };
 
-/// As PASCO's programs do it, by an export whose speeds come out to the rounding of its positions
-/// (tests/recordings.md): (y[i+1] + y[i+2] - y[i-1] - y[i-2]) / (6 dt), the times in place of
-/// the y below the line. The second sample and the last but one have the slope between their
-/// neighbours, as there; the first and the last, which have none there, that of the parabola
-/// through three samples.
+/// The derivative of PASCO's programs: (y[i+1] + y[i+2] - y[i-1] - y[i-2]) / (6 dt), where 6 dt is
+/// the same expression in the times. It reproduces the speeds of an export up to the rounding of
+/// its positions (tests/recordings.md). The second and the last but one sample have the slope
+/// between their neighbours, as in the export; the first and the last one, which are empty in the
+/// export, have that of the parabola through three samples.
 class PascoDerivative : public WindowedSignal<PascoDerivative> {
  public:
   PascoDerivative() : WindowedSignal({5, 0}, Windows::Ends::cut) {}
   double value(const Windows&);
 };
 
-/// central, savgol (the only one that has a width), spline, vernier and pasco.
+/// The methods central, savgol (the only one with a width), spline, vernier and pasco.
 extern const std::span<const SignalMethod> derivative_methods;
 
 }  // namespace rolling

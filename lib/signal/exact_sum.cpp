@@ -10,9 +10,9 @@ void ExactSum::add_zero(double zero, int sign) {
   negative_zeros_ += static_cast<std::size_t>(std::signbit(zero) ? sign : 0);
 }
 
-/// add_term() of what the pair cannot take whole.
+/// The part of add_term() for sums that pair_ cannot hold exactly.
 void ExactSum::add_beyond(double y, double high, DoubleDouble low) {
-  if (!std::isfinite(low.lo)) return to_limbs(y);  // beyond a double on the way
+  if (!std::isfinite(low.lo)) return to_limbs(y);  // an intermediate sum overflowed
   pair_ = {high, low.hi};
   to_limbs(low.lo);
 }
@@ -40,8 +40,8 @@ double ExactSum::over(std::size_t n) {
   }
   pair_ = two_sum(pair_.hi, pair_.lo);
   if (pair_.hi == 0) return negative_zeros_ == n ? -0.0 : 0;
-  // The quotient need not be the nearest one: the rest makes up for that, and is so small that 1/n
-  // may be rounded.
+  // The rounding error of the quotient is corrected; the correction is so small that the rounding
+  // of 1/n does not matter.
   const double count = static_cast<double>(n), inverse = 1 / count, quotient = pair_.hi * inverse;
   return quotient + (std::fma(-quotient, count, pair_.hi) + pair_.lo) * inverse;
 }
@@ -50,7 +50,8 @@ double ExactSum::limbs_over(std::size_t n) {
   while (high_ > low_ && limb_[high_ - 1] == 0) --high_;
   while (high_ > low_ && limb_[low_] == 0) ++low_;
 
-  // Carries: what is left are digits of 32 bits, 0 or more, below `sum`, which has the sign.
+  // After the carries, `digit` holds digits of 32 bits and `sum` the part above them, with the
+  // sign.
   std::array<std::uint32_t, limbs> digit;
   int128 sum = 0;
   std::uint32_t any = 0;
@@ -63,8 +64,8 @@ double ExactSum::limbs_over(std::size_t n) {
     low_ = limbs, high_ = 0;
     return negative_zeros_ == n ? -0.0 : 0;
   }
-  // As many leading digits as make 2^73 <= |sum| < 2^105: the rest is below 2^-73 of it, and both
-  // halves are exact doubles.
+  // The leading digits are moved to `sum` until 2^73 <= |sum| < 2^105. The other digits are then
+  // below 2^-73 of it, and both halves of `sum` are exact doubles.
   std::size_t at = high_;
   int scale = 32 * static_cast<int>(high_) - 1074;
   for (; sum >> 73 == sum >> 127; scale -= 32) sum = sum << 32 | (at > low_ ? digit[--at] : 0);
@@ -72,11 +73,11 @@ double ExactSum::limbs_over(std::size_t n) {
   const double high = static_cast<double>(leading) * 0x1p52;
   const auto low =
       static_cast<double>(static_cast<std::int64_t>(sum - (static_cast<int128>(leading) << 52)));
-  // The rest is below 2^-20 of the quotient: that 1/n is rounded does not matter to it.
+  // `rest` is below 2^-20 of the quotient, so that the rounding of 1/n does not matter.
   const double count = static_cast<double>(n), quotient = high / count, inverse = 1 / count;
   const double rest = (std::fma(-quotient, count, high) + low) * inverse;
   return (quotient + rest) * power_of_two(scale / 2) *
-         power_of_two(scale - scale / 2);  // scale is -1170 to 1000: rounds once at most
+         power_of_two(scale - scale / 2);  // scale is -1170 to 1000: at most one rounding
 }
 
 }  // namespace rolling

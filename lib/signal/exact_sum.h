@@ -1,6 +1,6 @@
-// A sum of doubles without rounding, from which terms can be taken away again: after any history of
-// additions and subtractions it is what the terms still in it add up to. So a moving sum cannot
-// drift, and an outlier leaves no trace.
+// A sum of doubles without rounding error, from which terms can be subtracted again. After any
+// sequence of additions and subtractions it is the exact sum of the remaining terms; a moving sum
+// does not drift, and an outlier leaves no trace.
 #pragma once
 
 #include <array>
@@ -16,15 +16,15 @@ class ExactSum {
  public:
   void add(double y) { y == 0 ? add_zero(y, 1) : add_term(y); }
   void subtract(double y) { y == 0 ? add_zero(y, -1) : add_term(-y); }
-  /// Adds one term and subtracts another.
+  /// Adds y and subtracts `old`.
   void exchange(double y, double old) {
-    const DoubleDouble change = two_sum(y, -old);  // mostly exact, of neighbours in a column
+    const DoubleDouble change = two_sum(y, -old);  // usually exact for neighbours in a column
     if (change.lo == 0 && y != 0 && old != 0) return add_term(change.hi);
     add(y);
     subtract(old);
   }
-  /// Sum / n, within 1 ulp of the exact quotient; -0 if all of n terms are -0. At most 2^30 terms;
-  /// n > 0.
+  /// The sum divided by n, within 1 ulp of the exact quotient; -0 if all n terms are -0. n is 1 to
+  /// 2^30.
   double over(std::size_t n);
 
  private:
@@ -40,10 +40,10 @@ class ExactSum {
   void to_limbs(double y);
   double limbs_over(std::size_t n);
 
-  // The sum is that of pair_, which holds readings of one instrument exactly, and of the limbs for
-  // what it cannot hold: a fixed-point number of 2^-1074, in overlapping limbs 32 bits apart. A
-  // term goes whole into the one where it begins, which has room for 2^43 of them; no carries while
-  // adding (after Kulisch's long accumulator).
+  // The sum has two parts. pair_ holds sums of ordinary readings exactly. limb_ holds what pair_
+  // cannot: a fixed-point number with the unit 2^-1074 in overlapping limbs 32 bits apart. A term
+  // is added as a whole to the limb in which it begins, without carries; a limb has room for 2^43
+  // terms (after Kulisch's long accumulator).
   DoubleDouble pair_;
   static constexpr std::size_t limbs = 64;
   std::array<int128, limbs> limb_{};

@@ -16,7 +16,8 @@
 namespace rolling {
 namespace {
 
-/// The way that belongs to speeds.
+/// The distance along the direction of motion: the positions themselves, or the integral of the
+/// speeds by the trapezium rule.
 std::vector<Sample> way_of(std::span<const Sample> run, bool positions, double sign) {
   std::vector<Sample> way(run.begin(), run.end());
   double x = 0;
@@ -27,8 +28,8 @@ std::vector<Sample> way_of(std::span<const Sample> run, bool positions, double s
   return way;
 }
 
-/// The sums of a sliding window, by which it has a mean and a slope: O(1) a sample. Indices count
-/// from the sample in the middle.
+/// The sums of a sliding window, which give its mean and its slope in O(1) per sample. Indices
+/// count from the sample in the middle.
 struct Sums {
   long double n = 0, i = 0, t = 0, y = 0, it = 0, iy = 0;
 
@@ -38,11 +39,12 @@ struct Sums {
   }
   void move_on() { i -= n, it -= t, iy -= y; }
   double mean() const { return static_cast<double>(y / n); }
-  /// Of the line with the same moments about the indices; on even times that of least squares.
+  /// The slope of the line with the same first moments about the indices as the samples; at even
+  /// times it is the least-squares slope.
   double slope() const { return static_cast<double>((iy - i / n * y) / (it - i / n * t)); }
 };
 
-/// The speeds of a run, seen through windows of 2k + 1 samples, cut off at the ends of the run.
+/// The speeds of a run from windows of 2k + 1 samples, which are cut off at the ends of the run.
 struct View {
   std::size_t k, peak = 0;
   std::vector<double> speeds;
@@ -66,8 +68,8 @@ struct View {
     noise = noise_from(peak, fastest / 5);
   }
 
-  /// From the second differences of windows that do not overlap, after a sample and while the body
-  /// moves at least so fast; of the whole run where these are too few.
+  /// The noise of the speeds, from second differences of windows that do not overlap, after sample
+  /// `first` and at speeds of at least `least`; from the whole run if there are fewer than ten.
   double noise_from(std::size_t first, double least) const {
     const std::size_t apart = 2 * k + 1;
     std::vector<double> distances;
@@ -79,13 +81,14 @@ struct View {
   }
 };
 
-constexpr double enough = 0.02;  // of the greatest speed: what is less does not matter
+constexpr double enough = 0.02;  // noise relative to the greatest speed that is small enough
 
-/// The narrowest windows that show the greatest speed to 2 %, if there are such.
+/// The narrowest windows whose noise is below 2 % of the greatest speed, if there are any;
+/// otherwise those with the smallest relative noise.
 View best_view(std::span<const Sample> run, bool positions) {
   View view(run, positions, 2);
   for (std::size_t k = view.k; view.noise > enough * view.fastest;) {
-    // The noise of slopes falls with the width to the power of 3/2, that of means more slowly.
+    // The noise of slopes falls as the width to the power of -3/2; that of means falls more slowly.
     const double excess = std::pow(view.noise / (enough * view.fastest), 2.0 / 3);
     k = 1 + static_cast<std::size_t>(static_cast<double>(k) * std::clamp(excess, 1.25, 4.0));
     if (20 * k >= run.size()) break;
@@ -95,8 +98,8 @@ View best_view(std::span<const Sample> run, bool positions) {
   return view;
 }
 
-/// The smallest step between neighbours, beyond what a program that computed them may have added:
-/// what the readings are rounded to, if they are.
+/// The smallest difference between neighbours above the rounding error of a program: the resolution
+/// of the readings, if they are rounded.
 double smallest_step(std::span<const Sample> readings) {
   double largest = 0, step = std::numeric_limits<double>::infinity();
   for (const Sample& s : readings) largest = std::max(largest, std::abs(s.y));
@@ -106,9 +109,9 @@ double smallest_step(std::span<const Sample> readings) {
   return step;
 }
 
-/// One or two readings that do not belong make no corner: the median of five takes the place of
-/// those that are further from it than 6 standard deviations of such distances while the body
-/// moves, from `first` on, and than the smallest step between neighbours.
+/// Replaces outliers by the moving median of five, so that one or two of them make no corner. An
+/// outlier is further from the median than 6 standard deviations of these distances (for samples
+/// from `first` on, while the body moves) and than 3 times the smallest step between neighbours.
 std::vector<Sample> without_spikes(std::span<const Sample> readings, std::size_t first) {
   MovingMedian median_of_five({5, 0});
   std::vector<double> medians, distances;
@@ -130,7 +133,7 @@ std::vector<Sample> without_spikes(std::span<const Sample> readings, std::size_t
 constexpr const char* not_found =
     "no free roll is found after the last push: choose it by its times (--from, --to)";
 
-/// A run, and what its roll is sought with.
+/// A run with the quantities that the search for its roll needs.
 class Search {
  public:
   Search(std::span<const Sample> run, bool positions)
@@ -151,15 +154,16 @@ class Search {
   }
   std::size_t end() const { return end_; }
 
-  /// Where the roll begins by corners that stand out so far; end() if it does not.
+  /// The beginning of the roll according to corners of this significance; end() if there is none.
   std::size_t begin(double significance) const {
     const std::size_t corner = corner_of(significance);
     auto [from, to] = slowing_after(corner);
     if (to < from + least_samples) return end_;
     Release release = release_in(from, to);
     if (corner == 0 && !(release.significance >= significance)) return 0;
-    // A roll is not straight. Where the samples tell its release to an eighth of what is fitted of
-    // it, half of that bends a quarter as much.
+    // The speed of a roll is not a linear function of time. If the release is known to an eighth of
+    // the fitted samples behind it, half of these suffice; the curvature then matters a quarter as
+    // much.
     while (8 * (release.latest - release.earliest) < to - release.latest &&
            to - release.latest > 2 * least_samples) {
       to = std::midpoint(release.latest, to);
@@ -180,22 +184,24 @@ class Search {
   double speed(std::size_t i) const { return sign_ * view_.speeds[i]; }
 
   std::size_t corner_of(double significance) const {
-    constexpr double least = 0.05;  // of the greatest speed
+    constexpr double least = 0.05;  // relative to the greatest speed
     const double step = smallest_step(samples_),
                  dt = (samples_[end_ - 1].t - samples_[0].t) / static_cast<double>(end_ - 1);
-    // The noise of a reading in steps is step / sqrt(12). Of means of the way the bend has sqrt(6)
-    // times as much, of means of white speeds twice, and those that a sensor took from four
-    // positions are twice as noisy as their own step tells.
+    // The rounding error of a reading has the standard deviation step / sqrt(12). The bend in
+    // corner.cpp has sqrt(6) times that for means of positions and twice that for means of white
+    // speeds. Speeds that a sensor computed from four positions are twice as noisy as their step
+    // suggests.
     const RoundedSpeeds coarse = positions_ ? RoundedSpeeds{step / std::sqrt(2) / dt, 1.5}
                                             : RoundedSpeeds{4 * step / std::sqrt(12), 0.5};
-    std::size_t size = 1;  // narrower windows than those of the view see nothing but noise
+    std::size_t size = 1;  // smaller blocks than those of the view contain only noise
     while (4 * size <= view_.k) size *= 2;
     return last_corner(way_of(samples_, positions_, sign_),
                        {size, first_, least * view_.fastest, significance, coarse});
   }
 
-  /// The samples about the release: the speed is above 0.9 of its greatest behind the corner, and
-  /// falls to 0.75 of it. Over so much of the roll its slope changes little.
+  /// The range of samples around the release: the speed is above 0.9 of its maximum after the
+  /// corner, and the range ends where it falls to 0.75 of that. Within it the deceleration changes
+  /// little.
   std::pair<std::size_t, std::size_t> slowing_after(std::size_t corner) const {
     std::size_t peak = corner;
     for (std::size_t i = corner; i < end_; ++i)
@@ -216,13 +222,13 @@ class Search {
   View view_;
   double sign_;
   std::size_t first_, end_;
-  std::vector<Sample> samples_;  // up to the end of the roll
+  std::vector<Sample> samples_;  // from the beginning of the run to the end of the roll
 };
 
-constexpr std::size_t at_once = 20000;  // samples that are searched: their cost is less than that
-                                        // of reading a longer run
+/// The most samples of one search, which then costs less than reading a longer run.
+constexpr std::size_t at_once = 20000;
 
-/// The roll in a run of at most so many samples.
+/// The roll in a run of at most at_once samples.
 Stretch roll_of(std::span<const Sample> run, bool positions) {
   constexpr double clear = 5, faint = 3.5;  // standard deviations
   const Search search(run, positions);
@@ -243,8 +249,8 @@ Stretch free_roll(std::span<const Sample> run, bool positions) {
   Stretch roll = roll_of(means(run, size), positions);
   roll.begin *= size, roll.end = std::min(roll.end * size, n);
   if (roll.other) *roll.other *= size;
-  // As much as the roll on either side shows its beginning and its end; what is wider than half of
-  // the run would be seen no finer than now.
+  // A range as long as the roll on either side shows its beginning and its end. If that is more
+  // than half of the run, the second search would have nearly the same resolution.
   const std::size_t around = std::max(roll.end - roll.begin, 20 * size),
                     from = roll.begin - std::min(around, roll.begin),
                     to = std::min(roll.end + around, n);

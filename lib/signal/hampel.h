@@ -1,4 +1,4 @@
-// Readings that do not belong: Hampel's test against the median of a window about each.
+// Detection of outliers: Hampel's test of each reading against the median of the window around it.
 #pragma once
 
 #include "signal/signal.h"
@@ -6,6 +6,7 @@
 
 namespace rolling {
 
+/// A sample and the result of the test.
 struct Judged {
   double t, y;
   bool kept;
@@ -13,15 +14,16 @@ struct Judged {
 
 class Hampel {
  public:
-  /// A reading further from the median than `threshold` scaled MADs (1.4826 times the median
-  /// distance from the median, the standard deviation of normal noise) is an outlier; never by less
-  /// than `threshold` of the smallest steps that the run has had so far, so that the last digit of
-  /// rounded readings makes none. Windows are cut off at the ends of a run. They have at least 11
-  /// samples, whatever the width: the MAD of few readings is often far too small (of 3 normal ones
-  /// with threshold 4, one in seven is left out; of 11, one in 250). O(sqrt w) a sample.
+  /// A reading is an outlier if its distance from the median exceeds `threshold` times the scale.
+  /// The scale is 1.4826 times the median absolute deviation (MAD), which is the standard deviation
+  /// for normal noise, and at least the smallest step between neighbours in the run so far, so that
+  /// the last digit of rounded readings makes no outlier. Windows are cut off at the ends of a run.
+  /// They hold at least 11 samples, because the MAD of few readings is often far too small: with
+  /// threshold 4, one in seven normal readings would be removed by windows of 3 samples, and one in
+  /// 250 by windows of 11. O(sqrt w) per sample.
   Hampel(Width, double threshold);
 
-  /// As of Signal: the samples that are now judged, in order.
+  /// As in Signal: the samples that have now been tested, in order.
   std::span<const Judged> push(double t, double y);
   std::span<const Judged> finish();
 
@@ -31,9 +33,9 @@ class Hampel {
   Windows windows_;
   double threshold_;
   bool begun_ = false;
-  double last_ = 0, step_ = 0;  // step_: the smallest between neighbours that is not 0
+  double last_ = 0, step_ = 0;  // step_: the smallest nonzero step between neighbours so far
   SortedWindow sorted_;
-  std::size_t begin_ = 0, end_ = 0;  // the samples in sorted_
+  std::size_t begin_ = 0, end_ = 0;  // range of the samples in sorted_
   std::vector<Judged> judged_;
 };
 

@@ -9,7 +9,7 @@
 namespace rolling {
 namespace {
 
-/// Takes the text up to the next blank off the front.
+/// Removes the text up to the next blank from `words` and returns it.
 std::string_view next_word(std::string_view& words) {
   const std::string_view word = words.substr(0, words.find(' '));
   words.remove_prefix(std::min(word.size() + 1, words.size()));
@@ -55,7 +55,8 @@ std::optional<SignalOptions> signal_options(std::span<const SignalMethod> method
                              : false))
       return {};
   }
-  if (describe(options) != words) return {};  // a number too many or too few, or one that is cut
+  if (describe(options) != words)
+    return {};  // a parameter is missing, superfluous or not in its shortest form
   try {
     make_signal(options);
   } catch (const Error&) {

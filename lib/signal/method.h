@@ -1,5 +1,6 @@
-// What each method of smooth and differentiate declares of itself, in one table a tool: whoever
-// makes a filter, writes it in a `##` line or reads it back from there asks here.
+// The properties of each method of smooth and differentiate, in one table for each tool. The
+// construction of a filter, its description in a `##` line and the parsing of that line all use
+// this table.
 #pragma once
 
 #include <map>
@@ -15,43 +16,44 @@ namespace rolling {
 
 struct SignalOptions;
 
-/// Samples to either side of its own on which a number depends; at the ends of a run, where windows
-/// are one-sided, it may be twice as many.
+/// The number of samples on either side on which an output value depends; at the ends of a run,
+/// where windows are one-sided, it may be twice as many.
 using Reach = std::size_t;
 inline constexpr Reach half_width = static_cast<Reach>(-1), whole_run = half_width - 1;
 
 struct SignalMethod {
   std::string_view name;
-  Reach reach;  ///< half_width: the method has a width
-  /// Numbers are sums of readings times coefficients that the times alone give.
+  Reach reach;  ///< half_width for a method that has a width
+  /// True if an output is a linear combination of readings with coefficients that depend on the
+  /// times alone.
   bool linear;
-  /// The coefficients do not depend on the times, but for a width in seconds.
+  /// True if the coefficients are the same at all times, unless the width is in seconds.
   bool shift_invariant;
-  bool has_order;  ///< that of a polynomial
+  bool has_order;  ///< the order of a polynomial
   std::unique_ptr<Signal> (*make)(const SignalOptions&);
 
   bool has_width() const { return reach == half_width; }
 };
 
-/// A method and its numbers.
+/// A method with its parameters.
 struct SignalOptions {
   const SignalMethod* method;
   Width width{};
-  std::size_t order = 2;  ///< of a polynomial
+  std::size_t order = 2;  ///< of the polynomial
 };
 
-/// Throws Error for a width and an order that do not go together.
+/// Constructs the filter. Throws Error if width and order do not suit each other.
 std::unique_ptr<Signal> make_signal(const SignalOptions&);
 
-/// As a `##` line says it, with all that is needed to make the filter again: `central`,
-/// `mean width 11`, `savgol seconds 0.4 order 2`.
+/// The words of a `##` line, which describe the filter completely: `central`, `mean width 11`,
+/// `savgol seconds 0.4 order 2`.
 std::string describe(const SignalOptions&);
 
-/// The options that describe() writes so; nothing if it writes no such words, or for numbers that
-/// do not go together.
+/// The inverse of describe(). Empty if describe() does not write these words, or if the parameters
+/// do not suit each other.
 std::optional<SignalOptions> signal_options(std::span<const SignalMethod>, std::string_view words);
 
-/// For a run with these times; at most its number of samples.
+/// The reach for a run with these times; at most its number of samples.
 Reach reach(const SignalOptions&, std::span<const double> t);
 
 /// The methods by their names.

@@ -1,6 +1,6 @@
-// The mean over a centred window, one sample in at a time. At the ends the window shrinks
-// symmetrically, so a straight line comes out as itself. Each mean is within 1 ulp of the exact
-// mean of its window, whatever came before it.
+// The mean over a centred window, computed sample by sample. At the ends of a run the window
+// shrinks symmetrically, so that a straight line is unchanged. Each mean is within 1 ulp of the
+// exact mean of its window, independent of earlier readings.
 #pragma once
 
 #include "signal/exact_sum.h"
@@ -25,7 +25,7 @@ class MovingMean : public WindowedSignal<MovingMean> {
 
  private:
   ExactSum sum_;
-  std::size_t begin_ = 0, end_ = 0;  // the samples in sum_
+  std::size_t begin_ = 0, end_ = 0;  // range of the samples in sum_
 };
 
 }  // namespace rolling

@@ -1,5 +1,5 @@
-// The median over a centred window, which at the ends of a run shrinks symmetrically: a straight
-// line, indeed anything that only rises or only falls, comes out as itself. O(sqrt w) a sample.
+// The median over a centred window, which shrinks symmetrically at the ends of a run; a monotonic
+// sequence is unchanged. O(sqrt w) per sample.
 #pragma once
 
 #include "signal/signal.h"
@@ -16,7 +16,7 @@ class MovingMedian : public WindowedSignal<MovingMedian> {
 
  private:
   SortedWindow sorted_;
-  std::size_t begin_ = 0, end_ = 0;  // the samples in sorted_
+  std::size_t begin_ = 0, end_ = 0;  // range of the samples in sorted_
 };
 
 }  // namespace rolling

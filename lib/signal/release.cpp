@@ -14,7 +14,8 @@ double dot(const Vector& a, const Vector& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-/// What is left of a vector behind its projections on a constant and, for positions, on a line.
+/// The residual of a vector after regression on a constant and, for positions, on a straight line
+/// in time.
 class Remainder {
  public:
   Remainder(std::span<const Sample> samples, bool positions) : line_(samples.size(), 0.0) {
@@ -38,7 +39,7 @@ class Remainder {
   Vector line_;
 };
 
-/// Sums of squares of the residuals, by the sample at which the body is let go.
+/// The residual sum of squares as a function of the sample at which the body is released.
 class Residuals {
  public:
   Residuals(std::span<const Sample> samples, bool positions, double falling)
@@ -54,11 +55,12 @@ class Residuals {
       bend_[i] = -(positions_ ? since * since / 2 : since);
     }
     remainder_.of(bend_);
-    const double along = std::max(0.0, dot(bend_, y_));  // a body that is let go does not speed up
+    const double along = std::max(0.0, dot(bend_, y_));  // a released body does not accelerate
     return whole_ - along * along / dot(bend_, bend_);
   }
-  /// Of the noise, where the least sum is this: 2 or 3 coefficients and the time were chosen. What
-  /// the sums lose by rounding is no noise.
+  /// The variance of the noise, from the least sum of squares. Two coefficients (three for
+  /// positions) and the time of release were fitted. A sum below 1e-12 of the total is a rounding
+  /// error.
   double variance(double least) const {
     return std::max(least, 1e-12 * whole_) /
            static_cast<double>(bend_.size() - (positions_ ? 4 : 3));
@@ -76,7 +78,7 @@ class Residuals {
 
 Release release_of(std::span<const Sample> samples, bool positions, double falling) {
   constexpr std::size_t trials = 50;
-  const std::size_t latest = samples.size() - 5;  // what follows has to tell a slope
+  const std::size_t latest = samples.size() - 5;  // 5 samples determine the slope after the release
   Residuals residuals(samples, positions, falling);
   const double held_never = residuals.at(0);
   double least = held_never;
@@ -91,7 +93,7 @@ Release release_of(std::span<const Sample> samples, bool positions, double falli
     const double most = least + 2.5 * 2.5 * residuals.variance(least);
     const auto within = [&](double sum) { return sum <= most; };
     const auto first = std::find_if(sums.begin(), sums.end(), within);
-    if (first == sums.end()) break;  // sums that overflow
+    if (first == sums.end()) break;  // the sums have overflowed
     const auto last = std::find_if(sums.rbegin(), sums.rend(), within);
     const auto at = [&](std::ptrdiff_t i) { return from + static_cast<std::size_t>(i) * step; };
     const std::size_t begin = at(first - sums.begin()), end = at(sums.rend() - last - 1);

@@ -1,4 +1,4 @@
-// When a body that moved at constant speed was let go.
+// Estimate of the time of release of a body that moved at constant speed before.
 #pragma once
 
 #include <cstddef>
@@ -8,16 +8,16 @@
 
 namespace rolling {
 
-/// The body was let go between these samples: 2.5 standard errors to either side, as far as the
-/// samples reach.
+/// The body was released between these samples: the interval of 2.5 standard errors to either side,
+/// within the range of the samples.
 struct Release {
   std::size_t earliest, latest;
-  double significance;  ///< of a hold at the beginning, in standard deviations
+  double significance;  ///< of a motion at constant speed at the beginning, in standard deviations
 };
 
-/// By least squares on at least 8 samples: the speed is constant, and from the release on falls in
-/// a straight line; the position, the integral of that. The noise of the samples is taken as white.
-/// `falling` is 1 for a body that moves forwards, -1 for one that moves backwards. O(100 n).
+/// Estimates the release by least squares on at least 8 samples. Model: the speed is constant and
+/// falls linearly from the release on; a position is the integral of that speed. The noise is
+/// assumed white. `falling` is 1 for a body that moves towards growing x, -1 otherwise. O(100 n).
 Release release_of(std::span<const Sample>, bool positions, double falling);
 
 }  // namespace rolling

@@ -8,7 +8,7 @@
 namespace rolling {
 namespace {
 
-/// The last decimal place that is written: the greatest power of ten that divides all readings.
+/// The last decimal place of the readings: the greatest power of ten that divides all of them.
 double last_place(std::span<const double> readings, double rounding) {
   double place = 1;
   for (const double y : readings)
@@ -21,7 +21,7 @@ double last_place(std::span<const double> readings, double rounding) {
 double records_held(std::span<const double> readings) {
   double largest = 0;
   for (const double y : readings) largest = std::max(largest, std::abs(y));
-  const double rounding = 1e-9 * largest;  // of a program that computed the readings
+  const double rounding = 1e-9 * largest;  // error of a program that computed the readings
   const auto step = [&](std::size_t i) { return std::abs(readings[i] - readings[i - 1]); };
   std::size_t steps = 0, changes = 0;
   for (std::size_t i = 1; i < readings.size(); ++i) {
@@ -45,7 +45,7 @@ double records_held(std::span<const double> readings) {
                    }) >=
         std::ssize(jumps);
   };
-  // Nearly always no place is needed to see that.
+  // The first test nearly always decides, and it needs no decimal place.
   if (mostly_units(0) || mostly_units(last_place(readings, rounding) + rounding)) return 1;
   return static_cast<double>(steps + 1) / static_cast<double>(jumps.size() + 1);
 }

@@ -18,8 +18,8 @@ LocalPolynomial::Point LocalPolynomial::operator()(std::span<const Sample> sampl
     u_[j] = (samples[j].t - here.t) / scale;
     rest_[j] = samples[j].y - here.y;
   }
-  // p(k+1) = (u - alpha) p(k) - beta p(k-1), and the same at u = 0, the sample itself, with the
-  // slopes there.
+  // The three-term recurrence p(k+1) = (u - alpha) p(k) - beta p(k-1), at the samples, and at u = 0
+  // for value and slope.
   Point result{here.y, 0};
   double at = 1, slope = 0, at_before = 0, slope_before = 0, norm_before = 1;
   for (std::size_t k = 0; k <= std::min(order, n - 1); ++k) {

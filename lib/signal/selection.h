@@ -1,5 +1,4 @@
-// Which samples of a run are worth looking at: those between two times, without outliers, of the
-// free roll.
+// Selection of the samples of a run: those between two times, without outliers, of the free roll.
 #pragma once
 
 #include <cmath>
@@ -14,31 +13,32 @@ namespace rolling {
 struct SelectionOptions {
   double from = -std::numeric_limits<double>::infinity(),
          to = std::numeric_limits<double>::infinity();  ///< [s]
-  double outliers = 0;  ///< leaves out what is further off than this many scaled MADs; 0: nothing
-  Width width{};        ///< of the window for that
-  bool coast = false;   ///< the free roll only: needs the whole run
-  bool positions = false;  ///< for that: the column is a position, not a speed
+  /// Readings further from the median than this many scaled MADs are left out; 0: none.
+  double outliers = 0;
+  Width width{};           ///< width of the windows for outliers
+  bool coast = false;      ///< selects the free roll only, which needs the whole run
+  bool positions = false;  ///< the column is a position, not a speed (for coast)
 
   bool all() const {
     return !coast && outliers == 0 && std::isinf(from) && std::isinf(to);
-  }  ///< nothing is left out
+  }  ///< true if no sample is left out
 };
 
 class Selection {
  public:
   explicit Selection(const SelectionOptions&);
 
-  /// The samples that are now decided on, in order. Valid until the next call.
+  /// The samples for which the decision is now known, in order. Valid until the next call.
   std::span<const Judged> push(double t, double y);
-  /// The run has ended. Throws Error as free_roll does.
+  /// Ends the run. Throws Error as free_roll does.
   void finish();
-  /// After finish(): the samples that were still to be decided on, in order, some at a time; none
-  /// when all are out. t and y of those that are left out are not told. Valid until the next call.
+  /// After finish(): the remaining samples in order, in blocks; empty when there are no more. t and
+  /// y of samples that are left out are not set. Valid until the next call.
   std::span<const Judged> rest();
-  std::size_t outliers() const { return outliers_; }  ///< so far
-  /// After finish(): where the free roll is in doubt.
+  std::size_t outliers() const { return outliers_; }  ///< number of outliers so far
+  /// After finish(): the two possible beginnings of the free roll, if it is doubtful.
   struct Doubt {
-    double begin, other;  ///< it begins at this time [s]; or, by fainter signs, at the other
+    double begin, other;  ///< the chosen time [s], and the one by less significant corners
   };
   const std::optional<Doubt>& doubt() const { return doubt_; }
 
@@ -51,8 +51,8 @@ class Selection {
   std::vector<Judged> decided_;
   bool any_rest_ = true;
   std::size_t outliers_ = 0;
-  // With coast, of the whole run: the samples that are neither outliers nor at other times, and
-  // which of all samples they are.
+  // For coast: run_ holds the samples of the run that are between the two times and not outliers;
+  // in_run_ says for each sample whether it is one of them.
   std::vector<Sample> run_;
   std::vector<bool> in_run_;
   Stretch roll_{0, 0};

@@ -1,4 +1,4 @@
-// A column on its way through a filter, one sample in at a time.
+// A filter of a column, which processes sample by sample.
 #pragma once
 
 #include <span>
@@ -11,14 +11,14 @@ namespace rolling {
 class Signal {
  public:
   virtual ~Signal() = default;
-  /// Takes the next sample of the run (times increase); returns the numbers that are now known, in
-  /// order. Valid until the next call.
+  /// Processes the next sample of the run (times increase) and returns the output values that are
+  /// now known, in order. Valid until the next call.
   virtual std::span<const double> push(double t, double y) = 0;
-  /// The run has ended: the numbers still owed.
+  /// Ends the run and returns the remaining output values. Valid until the next call.
   virtual std::span<const double> finish() = 0;
 };
 
-/// One whose number for a sample depends on a window about it: Of::value(window).
+/// A filter whose output depends on a window around each sample: Of::value(window).
 template <typename Of>
 class WindowedSignal : public Signal {
  public:

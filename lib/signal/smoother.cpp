@@ -35,10 +35,11 @@ const std::span<const SignalMethod> smoothing_methods = methods;
 std::size_t best_width(std::span<const Sample> run, const SignalOptions& options) {
   constexpr std::size_t apart = 2;
   const std::size_t order = options.method->has_order ? options.order : 1;
-  const std::size_t least =
-      apart + 1 + order / 2;  // of half a window: 2 (least - apart) > order samples are left
-  // 2000 distances tell their mean square to 3 % (sqrt(2 / 2000)), and all widths are compared at
-  // the same records; a mean over 2001 readings leaves 2 % of their noise, which is enough.
+  // Half of the narrowest window: 2 (least - apart) > order samples remain in it.
+  const std::size_t least = apart + 1 + order / 2;
+  // 2000 prediction errors determine their mean square to 3 % (sqrt(2 / 2000)), and all widths are
+  // compared on the same records. The mean of 2001 readings leaves 2 % of their noise, which is
+  // sufficient.
   constexpr std::size_t records = 2000, widest = 1000;
   const std::size_t n = run.size(), most = std::max(least, std::min(n / 4, widest)),
                     every = std::max<std::size_t>(1, n / records);
@@ -46,9 +47,9 @@ std::size_t best_width(std::span<const Sample> run, const SignalOptions& options
   std::vector<Sample> others;
   double least_sum = std::numeric_limits<double>::infinity();
   std::size_t best = least;
-  // The best of widths an eighth apart is at most a sixteenth off, which costs 1 % of the squared
-  // error: the square of a mean's bias grows as w^4, its noise falls as 1/w, and about the least of
-  // the sum, w^4 / 4 + 1 / w, both balance.
+  // The widths differ by an eighth, so that the chosen one is at most a sixteenth off, at a cost of
+  // 1 % in the squared error. For a mean that error is w^4 / 4 + 1 / w in units of the best width:
+  // the squared bias grows as w^4, and the noise falls as 1 / w.
   for (std::size_t half = least; half <= most; half += 1 + half / 8) {
     double sum = 0;
     for (std::size_t i = least; i + least < n; i += every) {

@@ -1,4 +1,4 @@
-// A smoothed column, one sample in at a time.
+// Smoothing of a column, sample by sample.
 #pragma once
 
 #include <span>
@@ -8,24 +8,26 @@
 
 namespace rolling {
 
-/// mean, median and savgol: all have a width.
+/// The methods mean, median and savgol; all have a width.
 extern const std::span<const SignalMethod> smoothing_methods;
 
-/// The width, in samples, whose window predicts the run best: about each sample the polynomial that
-/// the method stands for (a straight line for mean and median) is fitted without it and the two on
-/// either side of it, whose noise may be bound to its own (as it is after a central difference),
-/// and the squared distances are added up. At least 7, or what the order needs beyond the five left
-/// out; at most half of the run, or 2001. For short runs the narrowest. Of 4000 samples or more
-/// every second, third, ... is predicted, so that the work is bounded.
+/// The width in samples with the smallest error of prediction (cross-validation). The polynomial of
+/// the method (a straight line for mean and median) is fitted to the window around each sample
+/// without that sample and the two on either side, whose noise may be correlated with it (as after
+/// a central difference); the squared prediction errors are summed.
+///
+/// The width is at least 7, or what the order needs in addition to the five samples left out, and
+/// at most half of the run, or 2001. A short run has the smallest width. From 4000 samples on, only
+/// every second, third, ... sample is predicted, so that the cost is bounded.
 std::size_t best_width(std::span<const Sample> run, const SignalOptions&);
 
-/// Smooths as the options say, but by the best width of the run, which it therefore needs whole.
+/// Smooths with the best width of the run, which is computed when the run is complete.
 class AutoSmoother : public Signal {
  public:
   explicit AutoSmoother(const SignalOptions& options) : options_(options) {}
   std::span<const double> push(double t, double y) override;
   std::span<const double> finish() override;
-  const SignalOptions& options() const { return options_; }  ///< with the width, once finished
+  const SignalOptions& options() const { return options_; }  ///< with that width after finish()
 
  private:
   SignalOptions options_;

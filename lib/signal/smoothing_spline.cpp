@@ -9,8 +9,8 @@
 namespace rolling {
 
 // Notation of Green and Silverman (1994), Nonparametric Regression and Generalized Linear Models,
-// section 2.3: with the second derivatives g at the inner knots, (R + alpha Q^T Q) g = Q^T y and
-// the spline's values are y - alpha Q g.
+// section 2.3. The second derivatives g at the inner knots solve (R + alpha Q^T Q) g = Q^T y; the
+// values of the spline are y - alpha Q g.
 
 std::span<const double> SplineDerivative::push(double t, double y) {
   t_.push_back(t);
@@ -18,10 +18,10 @@ std::span<const double> SplineDerivative::push(double t, double y) {
   return {};
 }
 
-/// Solves for the second derivatives; returns the score of the modified generalised
-/// cross-validation, RSS / (n - 1.4 tr A)^2 where y -> A y smooths, infinite where its root would
-/// not be positive. RSS is alpha^2 |Q g|^2 and n - tr A is alpha tr(B^-1 Q^T Q): in that form
-/// nothing cancels, however small or large the parameter.
+/// Solves for the second derivatives and returns the score of the modified generalised
+/// cross-validation, RSS / (n - 1.4 tr A)^2, where A is the matrix of the smoother; infinite if the
+/// root of the denominator is not positive. RSS = alpha^2 |Q g|^2 and n - tr A = alpha tr(B^-1 Q^T
+/// Q), B = R + alpha Q^T Q; these forms have no cancellation, however small or large alpha is.
 double SplineDerivative::solve(double alpha) {
   const std::size_t m = qy_.size();
   for (std::size_t j = 0; j < m; ++j) {
@@ -41,8 +41,8 @@ double SplineDerivative::solve(double alpha) {
     L1_[j] /= D_[j];
     L2_[j] /= D_[j];
   }
-  // Backwards: the solution, and the three bands of B^-1 that the trace takes (s01 is its element
-  // j, j+1).
+  // Backward substitution: the solution and the three bands of B^-1 that the trace needs (s01 is
+  // the element (j, j+1)).
   double trace = 0, s11 = 0, s12 = 0, s22 = 0;
   for (std::size_t j = m; j-- > 0;) {
     bend_[j] = bend_[j] / D_[j] - (j + 1 < m ? L1_[j] * bend_[j + 1] : 0) -
@@ -70,7 +70,7 @@ std::span<const double> SplineDerivative::finish() {
   if (n == 0) return {};
   if (n == 1) fail("a run of one record has no derivative");
   const double unit = (t_.back() - t_.front()) / static_cast<double>(n - 1);
-  // A power of two brings the readings near 1, so that no square leaves the range of doubles.
+  // A power of two scales the readings to order one, so that no square overflows or underflows.
   double largest = 0;
   for (const double y : y_) largest = std::max(largest, std::abs(y));
   const int scale = largest > 0 ? std::ilogb(largest) : 0;
@@ -88,17 +88,17 @@ std::span<const double> SplineDerivative::finish() {
     q2_[j] = b * c;
   }
 
-  // From what changes nothing between neighbours to what is a straight line over a thousand of
-  // them.
+  // The range of alpha reaches from no effect between neighbours to a straight line over a thousand
+  // of them.
   double alpha = 0;
-  if (m > 1) {  // three samples do not tell noise from a bend: the spline goes through them
+  if (m > 1) {  // with three samples the spline interpolates
     constexpr double lowest = -6, highest = 12, coarse = 0.5;
     const auto score = [this](double exponent) { return solve(std::pow(10, exponent)); };
     double best = lowest, least = score(lowest);
     for (double e = lowest + coarse; e <= highest; e += coarse)
       if (const double now = score(e); now < least) least = now, best = e;
     double from = std::max(lowest, best - coarse), to = std::min(highest, best + coarse);
-    while (to - from > 0.01) {  // thirds: the score is flat at its least
+    while (to - from > 0.01) {  // ternary search; the score is flat near its minimum
       const double a = from + (to - from) / 3, b = to - (to - from) / 3;
       if (score(a) < score(b)) to = b;
       else from = a;

@@ -1,5 +1,5 @@
-// The derivative of the cubic smoothing spline: the natural spline that minimises the squared
-// residuals plus a parameter times the integral of its squared second derivative (Reinsch 1967,
+// The derivative of the cubic smoothing spline: the natural spline that minimises the residual sum
+// of squares plus a parameter times the integral of the squared second derivative (Reinsch 1967,
 // Numer. Math. 10, 177). It needs the whole run.
 #pragma once
 
@@ -7,10 +7,10 @@
 
 namespace rolling {
 
-/// The parameter is that of least generalised cross-validation (Craven and Wahba 1979, Numer. Math.
-/// 31, 377), with every degree of freedom counted 1.4 times (Kim and Gu 2004, J. R. Statist. Soc. B
-/// 66, 337): counted once, as it was at first, now and then next to nothing is smoothed, and always
-/// where the noise of neighbours is bound. Each trial takes O(n) (Hutchinson and de Hoog 1985,
+/// The parameter minimises generalised cross-validation (Craven and Wahba 1979, Numer. Math. 31,
+/// 377) in which each degree of freedom counts 1.4 times (Kim and Gu 2004, J. R. Statist. Soc. B
+/// 66, 337). With the original factor 1 the spline is sometimes hardly smoothed, and always so if
+/// the noise of neighbours is correlated. Each trial costs O(n) (Hutchinson and de Hoog 1985,
 /// Numer. Math. 47, 99).
 class SplineDerivative : public Signal {
  public:
@@ -22,8 +22,8 @@ class SplineDerivative : public Signal {
   double solve(double parameter);
 
   std::vector<double> t_, y_, slopes_;
-  std::vector<double> h_;                  // steps, in units of their mean
-  std::vector<double> qy_, q0_, q1_, q2_;  // Q^T y, and the bands of Q^T Q
+  std::vector<double> h_;                  // time steps in units of their mean
+  std::vector<double> qy_, q0_, q1_, q2_;  // Q^T y, and the bands of Q^T Q (Green and Silverman)
   std::vector<double> D_, L1_, L2_,
       bend_;  // B = R + parameter Q^T Q = L D L^T; the spline's second derivatives
 };

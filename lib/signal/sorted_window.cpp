@@ -6,7 +6,7 @@
 
 namespace rolling {
 
-/// The last block that begins with a smaller reading; else the first.
+/// The last block whose first reading is smaller than y, or block 0.
 std::size_t SortedWindow::block_of(double y) const {
   const auto behind = std::lower_bound(
       blocks_.begin(), blocks_.end(), y,
@@ -55,8 +55,8 @@ double SortedWindow::median() const {
   return size_ % 2 == 1 ? upper : std::midpoint((*this)[size_ / 2 - 1], upper);
 }
 
-/// Distances grow from the middle to both sides: `rank` + 1 of them are the first `above` upwards
-/// and the others downwards, and a binary search finds `above`.
+/// The distance of rank `rank`. Distances grow from the middle to both sides: the rank + 1 smallest
+/// ones are the first `above` upwards and the others downwards. A binary search finds `above`.
 double SortedWindow::nth_distance(double median, std::size_t rank) const {
   const std::size_t middle = size_ / 2;
   const auto upwards = [&](std::size_t i) { return std::abs((*this)[middle + i] - median); };

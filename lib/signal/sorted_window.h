@@ -1,4 +1,4 @@
-// The readings of a window in order of size, by rank.
+// The readings of a window in sorted order, with access by rank.
 #pragma once
 
 #include <cstddef>
@@ -6,26 +6,27 @@
 
 namespace rolling {
 
-/// In blocks of about the square root of their number, so that a reading goes in or out by O(sqrt
-/// w) moves in one piece of memory, and small windows are one block.
+/// The readings are stored in blocks of about the square root of their number. Insertion and
+/// removal move O(sqrt w) contiguous numbers; a small window is one block.
 class SortedWindow {
  public:
   void insert(double);
-  void erase(double);  ///< one that is there
+  void erase(double);  ///< of a reading that is in the window
   std::size_t size() const { return size_; }
   double operator[](std::size_t rank) const;
 
-  /// The middle one, or the mean of the two in the middle; the window is not empty.
+  /// The median (the mean of the two middle readings for an even number). The window must not be
+  /// empty.
   double median() const;
-  /// The median distance of the readings from their median.
+  /// The median absolute deviation from `median`.
   double median_distance(double median) const;
 
  private:
   std::size_t block_of(double) const;
   double nth_distance(double median, std::size_t rank) const;
 
-  std::vector<std::vector<double>> blocks_;  // none is empty
-  std::vector<std::size_t> first_;           // the rank of each block's first reading
+  std::vector<std::vector<double>> blocks_;  // no block is empty
+  std::vector<std::size_t> first_;           // rank of the first reading of each block
   std::size_t size_ = 0;
 };
 

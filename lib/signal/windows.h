@@ -1,5 +1,5 @@
-// The window about each sample of a run in turn, as soon as the samples are there; in the memory of
-// one window.
+// The window around each sample of a run, as soon as its samples are known; needs the memory of one
+// window.
 #pragma once
 
 #include <cstddef>
@@ -12,27 +12,27 @@ struct Sample {
   double t, y;
 };
 
-/// An odd number of samples; or, if seconds > 0, a duration of which half lies on either side [s].
+/// The width of a window: an odd number of samples or, if seconds > 0, a duration, half of which
+/// lies on either side [s].
 ///
-/// A sample lies within a duration if it is late for it by no more than a sixteenth of the step
-/// between it and its neighbour inside. Times are rounded, so whether a sample lies exactly on the
-/// edge cannot be asked; a share of the step is the same at every offset of the times (at 25 Hz and
-/// times since 1970, a step is 170 000 times their rounding).
+/// A sample belongs to a duration if it lies outside by no more than a sixteenth of the step to its
+/// inner neighbour. Times are rounded, so that whether a sample lies exactly on the edge is not
+/// decidable; a fraction of the step gives the same result for every offset of the times. (At 25 Hz
+/// and for times since 1970, a step is 170 000 times the rounding error.)
 struct Width {
   std::size_t samples = 11;
   double seconds = 0;
-  std::size_t least = 1;  ///< samples, odd, that a window of seconds has all the same if it is cut
+  std::size_t least = 1;  ///< least number of samples (odd) of a window in seconds, for Ends::cut
 };
 
-/// A window about a sample of a run with these times reaches at most this many samples to either
-/// side; one at an end of the run that stays wide, at most twice as many.
+/// The largest number of samples to either side that such a window reaches in a run with these
+/// times; a window at the end of a run that stays wide (Ends::stay) may reach twice as many.
 std::size_t samples_within(Width, std::span<const double> t);
 
 class Windows {
  public:
-  /// What a window does at the end of a run: `shrink` on both sides alike; be `cut` off there; or
-  /// `stay` as wide as it is, the first or the last whole one, so that the sample is not in its
-  /// middle.
+  /// The treatment of windows at the ends of a run. shrink: symmetrically smaller. cut: cut off.
+  /// stay: the first or last complete window, with the sample off its middle.
   enum class Ends { shrink, cut, stay };
   /// Throws Error for an even width.
   Windows(Width, Ends);
@@ -43,7 +43,7 @@ class Windows {
     ring_[count_++ & mask_] = {t, y};
   }
   void finish() { finished_ = true; }
-  /// Goes to the next sample whose window is complete; false when there is none yet.
+  /// Moves to the next sample whose window is complete; false if there is none yet.
   bool next() {
     if (next_ < half_ || finished_) return next_ < count_ && near_end();
     if (next_ + half_ >= count_) return false;
@@ -52,15 +52,16 @@ class Windows {
     return true;
   }
 
-  /// The samples of the window are those from begin() to before end(), counted from the start of
-  /// the run; at() is among them.
+  /// The samples of the window have the indices [begin(), end()), counted from the start of the
+  /// run; at() is the index of the sample whose window it is.
   std::size_t begin() const { return begin_; }
   std::size_t end() const { return end_; }
   std::size_t size() const { return end_ - begin_; }
   std::size_t at() const { return next_ - 1; }
   const Sample& sample(std::size_t i) const { return ring_[i & mask_]; }
 
-  /// Moves [from, to), a former window, to the present one, one sample at a time.
+  /// Moves the range [from, to) of an earlier window to the present one, sample by sample, and
+  /// calls add and remove for each sample that enters and leaves.
   template <typename Add, typename Remove>
   void slide(std::size_t& from, std::size_t& to, Add add, Remove remove) const {
     while (from > begin_) add(sample(--from));
@@ -78,15 +79,16 @@ class Windows {
   Width width_;
   Ends ends_;
   bool finished_ = false;
-  std::size_t half_;  // of the width in samples; in seconds it is none, and every sample counts as
-                      // near an end
-  std::vector<Sample>
-      ring_;  // sample i at i modulo its size, a power of two; those from first_ on are there
-  std::size_t mask_;  // its size - 1
+  // Half of the width in samples. For a width in seconds it is the largest number, so that next()
+  // calls near_end() for each sample.
+  std::size_t half_;
+  // A ring: sample i is at i modulo the size, a power of two; samples before first_ are dropped.
+  std::vector<Sample> ring_;
+  std::size_t mask_;  // size of the ring - 1
   std::size_t first_ = 0, count_ = 0, next_ = 0;
   std::size_t begin_ = 0, end_ = 0;   // the present window
-  std::size_t left_ = 0, right_ = 0;  // the samples within reach in time
-  double start_ = 0;                  // time of the first sample
+  std::size_t left_ = 0, right_ = 0;  // range of the samples within the duration
+  double start_ = 0;                  // time of the first sample of the run
 };
 
 }  // namespace rolling

@@ -21,8 +21,7 @@
 
 namespace rolling {
 
-/// The `##` line of a filter for which --use has given another column the name that lines above it
-/// speak of.
+/// The `##` line of a filter if --use gives another column the name that earlier lines contain.
 inline constexpr std::string_view columns_renamed = "columns renamed";
 
 class Filter {
@@ -86,14 +85,14 @@ class Filter {
   std::vector<Column> appended_;
   std::size_t replaced_ = Reader::no_column;  // a slot
   std::size_t cut_ = Reader::no_column;       // its column in this run
-  std::vector<Row> rows_;                     // from front_ on: those not written yet
-  Bytes held_;                                // their texts, one after the other
-  std::queue<Head> heads_;                    // of the runs that begin among them
-  std::queue<std::size_t> dropped_;           // the numbers of the records among them to leave out
+  std::vector<Row> rows_;                     // rows from front_ on are not written yet
+  Bytes held_;                                // the texts of these rows, in sequence
+  std::queue<Head> heads_;                    // heads of the runs that begin among these rows
+  std::queue<std::size_t> dropped_;           // indices of the records among rows_ to leave out
   std::vector<double> numbers_;               // of these rows, in order
-  std::size_t enough_;                        // so many numbers make put() write rows
+  std::size_t enough_;                        // put() writes rows at this count of numbers
   std::size_t front_ = 0, front_begin_ = 0;   // the front row, and where its text begins
-  // Records of all runs: read; read before this run; written or left out.
+  // Counts of the records of all runs: read; read before this run; written or left out.
   std::size_t records_ = 0, run_begins_ = 0, done_ = 0;
   std::optional<Head> head_;  // of a run none of whose rows has been written
   bool any_row_ = false, any_dropped_ = false;

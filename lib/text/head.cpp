@@ -11,7 +11,8 @@ namespace rolling {
 namespace {
 
 constexpr std::size_t npos = static_cast<std::size_t>(-1);
-constexpr std::size_t longest_preamble = 100;  // lines without a number; else no file of columns
+constexpr std::size_t longest_preamble =
+    100;  // lines without a number; more means that the file has no columns
 constexpr std::string_view ended_with_an_error = ": ended with an error";
 
 /// The comments and other lines in front of the first record.
@@ -77,7 +78,7 @@ void HeadReader::take_history() {
   numbers_.push_back(lines_.number());
 }
 
-/// What stands above the line that names the run is that of a run without records.
+/// Drops the `##` lines above the line `## run NAME`: they belong to a run without records.
 void HeadReader::forget_history() {
   head_.history.clear();
   for (std::size_t i = head_.comments.size(); i-- > 0;) {
@@ -193,7 +194,8 @@ void HeadReader::refuse_units(const std::vector<std::string>& fields, std::size_
                      lines_.name(), line);
 }
 
-/// Units in a line of their own are not read, and nothing is read as SI when a line says otherwise.
+/// Refuses a separate line of units, which the tools do not read: columns are not taken as SI if a
+/// line says otherwise.
 void HeadReader::refuse_lines_of_units(std::size_t width) const {
   if (width < 2) return;
   for (std::size_t i = 0; i < head_.comments.size(); ++i)

@@ -19,7 +19,7 @@ void add(Layout& layout, const std::vector<Column>& line, std::size_t field, std
   else std::for_each(layout.runs.begin(), layout.runs.end(), put);
 }
 
-/// Which of several times a quantity goes with, that stands fewer times than they, is not clear.
+/// Refuses a quantity that occurs fewer times than t: it is not clear to which t it belongs.
 void refuse_unclear(const std::vector<Column>& line, std::map<std::string, std::size_t>& count,
                     bool labelled) {
   std::size_t times = 0;

@@ -39,8 +39,8 @@ bool divide(std::uint64_t digits, std::size_t decimals, double& value) {
   return value == quotient + rest * (1 - 0x1p-40);
 }
 
-// Eight digits at a time (Lemire 2021, Software: Practice and Experience 51, 1700): of a
-// long number the digits would wait for each other. The first one is the lowest byte.
+// Reads eight digits at a time (Lemire 2021, Software: Practice and Experience 51, 1700): digit by
+// digit, each step would wait for the one before. The first digit is the lowest byte.
 std::uint64_t load_eight(const char* from) {
   std::uint64_t bytes;
   std::memcpy(&bytes, from, sizeof bytes);
@@ -51,7 +51,7 @@ bool is_digits(std::uint64_t eight) {
   constexpr std::uint64_t high = 0xF0F0F0F0F0F0F0F0, zeros = 0x3030303030303030;
   return ((eight & high) == zeros) && (((eight + 0x0606060606060606) & high) == zeros);
 }
-/// By pairs of digits, then of pairs, then of fours.
+/// Combines digits to pairs, then pairs to fours, then fours to eight.
 std::uint64_t number_of(std::uint64_t eight) {
   eight = (eight & 0x0F0F0F0F0F0F0F0F) * (10 * 256 + 1) >> 8;
   eight = (eight & 0x00FF00FF00FF00FF) * (100 * 65536 + 1) >> 16;

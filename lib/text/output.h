@@ -79,8 +79,8 @@ class Output {
 
   static constexpr std::size_t block = 1 << 16;
   Bytes buffer_;
-  std::size_t cells_ = 0;  // of the current line
-  std::size_t whole_ = 0;  // bytes of the lines before it
+  std::size_t cells_ = 0;  // cells of the current line
+  std::size_t whole_ = 0;  // bytes of the complete lines
   bool written_ = false;   // something has been written
   bool torn_ = false;      // the last write ended within a line
 };

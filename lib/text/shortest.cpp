@@ -30,8 +30,8 @@ struct Power {
   std::uint64_t high, low;
 };
 
-/// Multiplied and divided step by step from 1 in 256 bits. Each of the 324 steps cuts off less than
-/// 2^-254 of the number, so that more than 240 bits stay right.
+/// Computes the powers by repeated multiplication and division from 1 in 256 bits. Each of the 324
+/// steps truncates less than 2^-254 of the number, so that more than 240 bits remain correct.
 constexpr auto powers_of_ten = [] {
   std::array<Power, greatest_power - least_power + 1> powers{};
   using Limbs = std::array<std::uint64_t, 4>;  // the lowest first; the highest bit is set
@@ -72,7 +72,8 @@ constexpr auto powers_of_ten = [] {
   return powers;
 }();
 
-/// digits 10^exponent; digits has 17 of them, zeros at the end among them. No digits: not known.
+/// The decimal digits 10^exponent: 17 digits, including zeros at the end. digits = 0 if the method
+/// cannot decide.
 struct Decimal {
   std::uint64_t digits;
   int exponent;

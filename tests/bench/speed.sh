@@ -1,11 +1,13 @@
 #!/bin/bash
-# How fast the tools are, beside the peers that are installed and beside bare loops: one table with ratios, spread and goal.
+# How fast the tools are, beside the peers that are installed and beside bare loops: one table with
+# ratios, spread and goal.
 #
 #   tests/bench/speed.sh [--long] [ROWS [ROUNDS]]
 #
-# Rows of the large file (5000000) and rounds of each pair, in turn (7). A * marks pairs that other processes disturbed in spite of
-# repetitions. --long measures memory and growth up to 10^8 rows, and what building takes.
-# Needs build/bench/speed, and the tools on the PATH; leaves its files in build/speed/.
+# Rows of the large file (5000000) and rounds of each pair, in turn (7). A * marks pairs that other
+# processes disturbed in spite of repetitions. --long measures memory and growth up to 10^8 rows,
+# and what building takes. Needs build/bench/speed, and the tools on the PATH; leaves its files in
+# build/speed/.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
@@ -41,7 +43,8 @@ mawk -v n="$small" 'BEGIN {
 }' >digits17.txt
 sed 's/\t/;/; /^#/!s/\./,/g; s/^# //' small.txt >decimal-comma.csv
 differentiate small.txt >tva.txt
-mawk 'BEGIN { OFS = "\t"; print "# t[s]\tv[m/s]\tD[m]" } !/^#/ { print $1, $2, 0.0018 * (1 + $2 / 4) }' small.txt >tvD.txt
+mawk 'BEGIN { OFS = "\t"; print "# t[s]\tv[m/s]\tD[m]" }
+  !/^#/ { print $1, $2, 0.0018 * (1 + $2 / 4) }' small.txt >tvD.txt
 make_vD() {  # CORRELATION of the noise from one row to the next
   mawk -v n="$small" -v r="$1" 'BEGIN {
     srand(5)
@@ -53,11 +56,14 @@ make_vD() {  # CORRELATION of the noise from one row to the next
     }
   }'
 }
-# Of white records one in twenty looks correlated at 10 %, which takes longer. This one does not (p = 0.27 for 10^6 rows); the other does.
+# Of white records one in twenty looks correlated at 10 %, which takes longer. The first one does
+# not (p = 0.27 for 10^6 rows); the other does.
 make_vD 0 >vD.txt
 make_vD 0.5 >vD-correlated.txt
-simulate -K 0.5 -R 0.04 -a 1.87e-3 -b 0.215 --v0 0.5 --dt "$(mawk -v n="$small" 'BEGIN { print 2.2 / n }')" --until 2 --columns t,v |
-  mawk 'BEGIN { srand(3); OFS = "\t"; print "# t[s]\tv[m/s]" } !/^#/ { printf "%s\t%.6f\n", $1, $2 + 0.002 * (rand() + rand() - 1) }' >roll.txt
+simulate -K 0.5 -R 0.04 -a 1.87e-3 -b 0.215 --v0 0.5 --until 2 --columns t,v \
+  --dt "$(mawk -v n="$small" 'BEGIN { print 2.2 / n }')" |
+  mawk 'BEGIN { srand(3); OFS = "\t"; print "# t[s]\tv[m/s]" }
+    !/^#/ { printf "%s\t%.6f\n", $1, $2 + 0.002 * (rand() + rand() - 1) }' >roll.txt
 
 # --- the peers' programs, at full precision, for evenly spaced times
 mean='!/^#/ {
@@ -65,7 +71,9 @@ mean='!/^#/ {
   if (n >= 11) printf "%s\t%.17g\n", T[(n + 5) % 11], s / 11
   else if (n % 2) printf "%s\t%.17g\n", T[(n - 1) / 2], s / n
 }
-END { for (w = 9; w > 0; w -= 2) { s -= V[(n - w - 1) % 11] + V[(n - w - 2) % 11]; printf "%s\t%.17g\n", T[(n - (w + 1) / 2) % 11], s / w } }'
+END { for (w = 9; w > 0; w -= 2) {
+    s -= V[(n - w - 1) % 11] + V[(n - w - 2) % 11]
+    printf "%s\t%.17g\n", T[(n - (w + 1) / 2) % 11], s / w } }'
 slope='!/^#/ {
   if (++n > 2) {
     if (n == 3) printf "%s\t%.17g\n", L[1], (4 * v2 - 3 * v1 - $2) / ($1 - t1)
@@ -83,12 +91,15 @@ energies='!/^#/ {
 }'
 energies="BEGIN { m = 1.375; R = 0.04; g = 9.81 } $energies"
 loglog='!/^#/ { x = log($1); y = log($2); n++; sx += x; sy += y; sxx += x * x; sxy += x * y }
-END { b = (n * sxy - sx * sy) / (n * sxx - sx * sx); printf "%.17g\t%.17g\n", exp((sy - b * sx) / n), b }'
+END { b = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+  printf "%.17g\t%.17g\n", exp((sy - b * sx) / n), b }'
 
-python=$(for p in python3 /usr/bin/python3; do ! "$p" -c 'import pandas, scipy' 2>/dev/null || { echo "$p" && break; }; done)
+python=$(for p in python3 /usr/bin/python3; do ! "$p" -c 'import pandas, scipy' 2>/dev/null ||
+  { echo "$p" && break; }; done)
 have() { command -v "$1" >/dev/null; }
 same() {  # WHAT TOLERANCE EXPECTED ACTUAL: the peer computes the same
-  mawk -v tolerance="$2" -f "$approx" <(grep -v '^#' "$3") <(grep -v '^#' "$4") || { echo "speed.sh: $1: the peer computes something else" >&2; exit 1; }
+  mawk -v tolerance="$2" -f "$approx" <(grep -v '^#' "$3") <(grep -v '^#' "$4") ||
+    { echo "speed.sh: $1: the peer computes something else" >&2; exit 1; }
 }
 last=''
 row() {  # WHAT PEER RATE RATIO LEAST GREATEST GOAL DISTURBED: a goal is at least N, or at most N with <
@@ -109,7 +120,9 @@ against() {  # WHAT PEER ROWS GOAL OURS THEIRS [user|cpu|elapsed [inverse]]
   read -r a b r least greatest disturbed < <("$speed" compare "$rounds" "${7:-user}" "$5" "$6")
   local rate
   rate=$(mawk -v n="$3" -v t="$a" 'BEGIN { printf "%.2f", n / t / 1e6 }')
-  [ "${8:-}" != inverse ] || read -r r least greatest < <(mawk -v r="$r" -v l="$least" -v g="$greatest" 'BEGIN { print 1 / r, 1 / g, 1 / l }')
+  [ "${8:-}" != inverse ] ||
+    read -r r least greatest < <(
+      mawk -v r="$r" -v l="$least" -v g="$greatest" 'BEGIN { print 1 / r, 1 / g, 1 / l }')
   row "$1" "$2" "$rate" "$r" "$least" "$greatest" "$4" "$disturbed"
 }
 
@@ -118,13 +131,18 @@ printf '%-38s %-22s %9s %8s  %-19s %8s  %s\n' '# what' beside Mrow/s ratio '   l
 
 # --- peers: how many times faster
 if have mawk; then
-  mawk "$mean" head.txt >peer.out && smooth head.txt >ours.out && same smooth '1e-9 1e-12' peer.out ours.out
-  mawk "$slope" head.txt >peer.out && differentiate head.txt >ours.out && same differentiate '1e-6 1e-6' peer.out ours.out
+  mawk "$mean" head.txt >peer.out && smooth head.txt >ours.out &&
+    same smooth '1e-9 1e-12' peer.out ours.out
+  mawk "$slope" head.txt >peer.out && differentiate head.txt >ours.out &&
+    same differentiate '1e-6 1e-6' peer.out ours.out
   head -n 20001 tva.txt >head3.txt
-  mawk "$shift_" head3.txt >peer.out && shift-from-accel $body head3.txt >ours.out && same shift-from-accel '1e-14 1e-300' peer.out ours.out
+  mawk "$shift_" head3.txt >peer.out && shift-from-accel $body head3.txt >ours.out &&
+    same shift-from-accel '1e-14 1e-300' peer.out ours.out
   head -n 20001 tvD.txt >head3.txt
   # E_diss, the last column, is of parabolas there and of straight lines here.
-  mawk "$energies" head3.txt | cut -f 1-12 >peer.out && energy-ledger $ledger head3.txt | grep -v '^#' | cut -f 1-12 >ours.out && same energy-ledger '1e-9 1e-14' peer.out ours.out
+  mawk "$energies" head3.txt | cut -f 1-12 >peer.out &&
+    energy-ledger $ledger head3.txt | grep -v '^#' | cut -f 1-12 >ours.out &&
+    same energy-ledger '1e-9 1e-14' peer.out ours.out
   against smooth 'mawk %.17g' "$rows" 8 'smooth tv.txt' "mawk '$mean' tv.txt"
 fi
 if [ -n "$python" ]; then
@@ -188,11 +206,13 @@ echo
 echo '# rows      ns a row, peak MiB: smooth       differentiate    shift-from-accel energy-ledger    (at most 8 MiB; user and system time)'
 for n in 1000 100000 1000000 10000000 $($long && echo 100000000 || true); do
   printf '%9d                    ' "$n"
-  simulate $scene --dt "$(mawk -v n="$n" 'BEGIN { printf "%.17g", 2.1 / n }')" --until 2 --columns t,v,a,D >grow.txt
+  dt=$(mawk -v n="$n" 'BEGIN { printf "%.17g", 2.1 / n }')
+  simulate $scene --dt "$dt" --until 2 --columns t,v,a,D >grow.txt
   for tool in smooth differentiate "shift-from-accel $body" "energy-ledger $ledger"; do
     read -r t _ < <("$speed" compare 1 cpu "$tool grow.txt" true)
     peak=$("$speed" peak "$tool grow.txt")
-    mawk -v t="$t" -v n="$n" -v p="$peak" 'BEGIN { printf "%7.0f %5.1f    ", 1e9 * t * 2.1 / 2 / n, p / 1024 }'
+    mawk -v t="$t" -v n="$n" -v p="$peak" 'BEGIN {
+        printf "%7.0f %5.1f    ", 1e9 * t * 2.1 / 2 / n, p / 1024 }'
   done
   echo
 done
@@ -209,7 +229,8 @@ for tool in 'smooth few.txt' 'differentiate few.txt' "shift-from-accel $body few
   times='i=0; while [ $i -lt 100 ]; do'
   read -r a b _ < <("$speed" compare "$rounds" cpu "$times $tool || exit; i=\$((i + 1)); done" "$times /bin/true; i=\$((i + 1)); done")
   strip -o stripped "$tools/${tool%% *}"
-  mawk -v tool="${tool%% *}" -v a="$a" -v b="$b" -v size="$(stat -c %s stripped)" 'BEGIN { printf "%-18s %12.2f %55.2f\n", tool, 10 * (a - b), size / 1048576 }'
+  mawk -v tool="${tool%% *}" -v a="$a" -v b="$b" -v size="$(stat -c %s stripped)" 'BEGIN {
+      printf "%-18s %12.2f %55.2f\n", tool, 10 * (a - b), size / 1048576 }'
 done
 
 if $long; then

@@ -1,19 +1,24 @@
 #!/bin/bash
-# smooth --coast finds the free roll of the samples and of other seeds, in positions and in speeds: it begins after the
-# release at 1.5 s and two records more, and before 2.1 s; it ends within 0.5 s of the stop (the closed form's times).
-# On worse records it ends within 0.65 s of the stop: with noise of 0.1 to 3 mm, one echo in twenty lost, 20 or 50 records a
-# second, hardly any rest before and after, a roll backwards at the end; and before 2.5 s with noise of 3 mm: the speeds that
-# the sensor makes of it have 25 mm/s of noise, and those on felt, which fall by 86 mm/s in a second, tell the release to some
-# 0.2 s (one standard error; the roll begins 2.5 of them later).
+# smooth --coast finds the free roll of the samples and of other seeds, in positions and in speeds:
+# it begins after the release at 1.5 s and two records more, and before 2.1 s; it ends within 0.5 s
+# of the stop (the closed form's times). On worse records it ends within 0.65 s of the stop: with
+# noise of 0.1 to 3 mm, one echo in twenty lost, 20 or 50 records a second, hardly any rest before
+# and after, a roll backwards at the end; and before 2.5 s with noise of 3 mm: the speeds that the
+# sensor makes of it have 25 mm/s of noise, and those on felt, which fall by 86 mm/s in a second,
+# tell the release to some 0.2 s (one standard error; the roll begins 2.5 of them later).
 set -eu
 within() {  # NAME FILE COLUMN EARLIEST LATEST-START EARLIEST-END LATEST
-  smooth -q --coast -c "$3" -w 1 "$2" | awk -v name="$1 $3" -v a="$4" -v b="$5" -v c="$6" -v d="$7" '!/^#/ { if (!n++) first = $1; last = $1 }
-    END { if (!n || first < a || first > b || last < c || last > d) { print name ": from " first " to " last ", not from " a ".." b " to " c ".." d; exit 1 } }'
+  smooth -q --coast -c "$3" -w 1 "$2" |
+    awk -v name="$1 $3" -v a="$4" -v b="$5" -v c="$6" -v d="$7" '
+    !/^#/ { if (!n++) first = $1; last = $1 }
+    END { if (!n || first < a || first > b || last < c || last > d) {
+        print name ": from " first " to " last ", not from " a ".." b " to " c ".." d; exit 1 } }'
 }
 scratch=$(mktemp)
 trap 'rm -f "$scratch"' EXIT
 stops() { simulate --scene "samples/$1.toml" --dt 0.5 | awk 'END { print $1 + 1.5 }'; }
-check() { within "$1" "$2" "$3" 1.58 2.1 "$(awk -v s="$4" 'BEGIN { print s - 0.5 }')" "$(awk -v s="$4" 'BEGIN { print s + 0.04 }')"; }
+after() { awk -v t="$1" -v dt="$2" 'BEGIN { print t + dt }'; }
+check() { within "$1" "$2" "$3" 1.58 2.1 "$(after "$4" -0.5)" "$(after "$4" 0.04)"; }
 for scene in CF CR SF SR; do
   stop=$(stops "$scene")
   for column in x v; do check "$scene" "samples/$scene.csv" "$column" "$stop"; done

@@ -58,20 +58,27 @@ awk 'function say(text, x) { printf "%s\n", sprintf(text, x) }
   function tip(figure, height, left, bottom, x0, y0, scale, x, y) {
     printf "%d tip %.3f %.3f\n", figure, left + (x - x0) * scale, height - bottom - (y - y0) * scale }
   BEGIN {
-    K = 0.5; R = 0.04; W = 1.375 * 9.81; v = 0.5; D = 1.87e-3 * v^0.215; A = sqrt(1 - (D / R)^2); F = -D * W / ((K + A) * R)
-    say("2 D = %.3g mm", 1e3 * D); say("2 FH = %.3g N", F); say("2 %.3g N", W); say("2 τN = -D FN = %.3g mN m", -1e3 * D * W)
-    say("2 τH = -A R FH = +%.3g mN m", -1e3 * A * R * F); say("2 P is %.2g mm above the lowest point", 1e3 * R * (1 - A))
+    K = 0.5; R = 0.04; W = 1.375 * 9.81; v = 0.5; D = 1.87e-3 * v^0.215; A = sqrt(1 - (D / R)^2);
+    F = -D * W / ((K + A) * R)
+    say("2 D = %.3g mm", 1e3 * D); say("2 FH = %.3g N", F); say("2 %.3g N", W);
+    say("2 τN = -D FN = %.3g mN m", -1e3 * D * W)
+    say("2 τH = -A R FH = +%.3g mN m", -1e3 * A * R * F);
+    say("2 P is %.2g mm above the lowest point", 1e3 * R * (1 - A))
     say("2 %.2g° off", atan2(D / R, A) * 45 / atan2(1, 1))
-    say("3 D = %.3g mm", 1e3 * D); say("3 = %.3g mm/s", -1e3 * v * D / R); say("3 v(P)H = (1 - A) v = %.3g mm/s", 1e3 * (1 - A) * v)
+    say("3 D = %.3g mm", 1e3 * D); say("3 = %.3g mm/s", -1e3 * v * D / R);
+    say("3 v(P)H = (1 - A) v = %.3g mm/s", 1e3 * (1 - A) * v)
     say("3 = %.2g mm", 1e3 * R * (1 - A))
     d = 1e3 * D; r = 1e3 * R; p = r * (1 - A); newton = 2; speed = 50  # mm for 1 N, for 1 m/s
-    tip(2, 470, 0, 0, -58, -36, 3.45, 0, r - newton * W); tip(2, 470, 0, 0, -58, -36, 3.45, d, p + newton * W)
+    tip(2, 470, 0, 0, -58, -36, 3.45, 0, r - newton * W);
+    tip(2, 470, 0, 0, -58, -36, 3.45, d, p + newton * W)
     tip(2, 470, 415, 15, -0.7, -1.1, 125, d + newton * F, p)
-    tip(3, 780, 0, 310, -58, -36, 3.45, speed * v, r); tip(3, 780, 0, 310, -58, -36, 3.45, speed * 2 * v, 2 * r)
+    tip(3, 780, 0, 310, -58, -36, 3.45, speed * v, r);
+    tip(3, 780, 0, 310, -58, -36, 3.45, speed * 2 * v, 2 * r)
     tip(3, 780, 415, 325, -0.7, -1.6, 125, d, p - speed * v * D / R)
     tip(3, 780, 15, 15, d - 0.13, p - 0.055, 3000, d + speed * v * (1 - A), p) }' >"$scratch/geometry"
 for figure in 2 3; do  # the body: a black circle of 2 R in height and width
-  tr -d '\n\t' <"$scratch/fig$figure.svg" | sed 's/</\n</g' | grep "^<path stroke='rgb(  0,   0,   0)'" | awk '
+  tr -d '\n\t' <"$scratch/fig$figure.svg" | sed 's/</\n</g' |
+    grep "^<path stroke='rgb(  0,   0,   0)'" | awk '
     { n = split($0, at, /[ ML]+/); left = right = ""
       for (i = 1; i <= n; i++) if (at[i] ~ /^[0-9.]+,[0-9.]+/) {
         split(at[i], xy, ","); if (left == "") { left = right = xy[1]; top = bottom = xy[2] }
@@ -96,14 +103,19 @@ done <"$scratch/geometry"
 # order in which they are drawn.
 for instant in 0.5 1.5; do
   draw fig5 "$instant"
-  echo "$instant" | simulate --scene samples/CR.toml --exact --at - | energy-ledger --scene samples/CR.toml --exact >"$scratch/row"
-  grep -oE "fill = 'rgb\(245, 208, 160\)' points = '[^']*" "$scratch/fig5.svg" | sed "s/.*'//" >"$scratch/shafts"
+  echo "$instant" | simulate --scene samples/CR.toml --exact --at - |
+    energy-ledger --scene samples/CR.toml --exact >"$scratch/row"
+  grep -oE "fill = 'rgb\(245, 208, 160\)' points = '[^']*" "$scratch/fig5.svg" |
+    sed "s/.*'//" >"$scratch/shafts"
   awk -v instant="$instant" '
     function off(x, y) { return (x / y - 1)^2 > 0.006^2 }  # three figures; a hundredth of a pixel
     function compare(what, x, y) {
       checks++
-      if (off(x, y)) { print "fig5 at " instant ": " what " is " x ", energy-ledger says " y; bad = 1 } }
-    FILENAME ~ /row$/ && /^# / { sub(/^# /, ""); for (i = 1; i <= NF; i++) { name[i] = $i; sub(/\[.*/, "", name[i]) } next }
+      if (off(x, y)) {
+        print "fig5 at " instant ": " what " is " x ", energy-ledger says " y; bad = 1 } }
+    FILENAME ~ /row$/ && /^# / {
+      sub(/^# /, ""); for (i = 1; i <= NF; i++) { name[i] = $i; sub(/\[.*/, "", name[i]) }
+      next }
     FILENAME ~ /row$/ && !/^#/ {
       for (i = 1; i <= NF; i++) is[name[i]] = $i
       is["trans"] = -1.375 * is["v"] * is["a"]; is["rot"] = is["trans"] / 2; next }
@@ -117,7 +129,8 @@ for instant in 0.5 1.5; do
       }
       if (/^ΠS = /) compare("Pi_S", 100 * $5, int(1e5 * is["P_diss"] / 293 + 0.5))
       before = $0; next }
-    { split($1, first, ","); split($7, last, ","); width[FNR] = sqrt((first[1] - last[1])^2 + (first[2] - last[2])^2) }
+    { split($1, first, ","); split($7, last, ",");
+      width[FNR] = sqrt((first[1] - last[1])^2 + (first[2] - last[2])^2) }
     END {
       split("P_T1 P_R2 I_E2 trans rot P_diss", drawn, " ")
       for (i = 1; i <= 5; i++) compare("the width of " drawn[i], width[i] / width[6], is[drawn[i]] / is["P_diss"])
@@ -128,17 +141,20 @@ done
 # Fig. 4: at 0.1 and 0.5 m/s each law and its band, read off the picture, where fitpower puts them.
 part() { awk -v n="$2" '/id="gnuplot_plot_/ { on = index($0, "\"gnuplot_plot_" n "\"") } on' "$scratch/$1.svg"; }
 curve() { part fig4 "$1" | grep -oE '[0-9.]+,[0-9.]+' | tr ',' ' '; }
-axes() { grep -oE "d='M[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+" "$scratch/$1.svg" | tail -n 1 | tr -c '0-9.\n' ' '; }
+axes() { grep -oE "d='M[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+" "$scratch/$1.svg" |
+  tail -n 1 | tr -c '0-9.\n' ' '; }
 frame=$(axes fig4)
 i=0
 for run in CR:0.5 SR:0.83 CF:0.5 SF:0.83; do
   i=$((i + 1))
-  smooth -q --coast -c x -w 1 "samples/${run%:*}.csv" | differentiate -c x | smooth -w 11 | differentiate |
+  smooth -q --coast -c x -w 1 "samples/${run%:*}.csv" | differentiate -c x | smooth -w 11 |
+    differentiate |
     shift-from-accel -K "${run#*:}" -R 0.04 | fitpower -q | tail -n 1 >"$scratch/law"
   curve $i >"$scratch/band"
   curve $((i + 8)) >"$scratch/line"
   awk -v frame="$frame" -v run="$run" '
-    BEGIN { split(frame, f, " ") }   # left top left bottom right bottom, for D from 2.2 mm to 0, v from 0 to 0.5 m/s
+    # The frame: left top left bottom right bottom, for D from 2.2 mm to 0, v from 0 to 0.5 m/s.
+    BEGIN { split(frame, f, " ") }
     function D(y) { return (f[4] - y) / (f[4] - f[2]) * 2.2e-3 }
     function at(v) { return f[1] + (f[5] - f[1]) * v / 0.5 }
     function near(x, v) { return (x - at(v))^2 < 2.6 }
@@ -153,21 +169,26 @@ for run in CR:0.5 SR:0.83 CF:0.5 SF:0.83; do
       for (v = 0.1; v <= 0.5; v += 0.4) {
         want = a * v^b; s = 1.96 * sqrt((sa / a)^2 + (sb * log(v))^2 + 2 * corr * sa / a * sb * log(v)); checks++
         below = want * exp(-s); above = want * exp(s); pixel = 2.2e-3 / (f[4] - f[2])
-        if (!(low[v] < law[v] && law[v] < high[v])) { print run ": the law is not in its band at " v; bad = 1 }
+        if (!(low[v] < law[v] && law[v] < high[v])) {
+          print run ": the law is not in its band at " v; bad = 1 }
         if ((law[v] - want)^2 > pixel^2 || (low[v] - below)^2 > pixel^2 || (high[v] - above)^2 > pixel^2) {
-          print run " at " v ": drawn", low[v], law[v], high[v], "for", below, want, above; bad = 1 } }
-      exit bad || checks != 2 }' "$scratch/law" "$scratch/band" "$scratch/line" || complain "fig4: $run"
+          print run " at " v ": drawn", low[v], law[v], high[v], "for", below, want, above;
+          bad = 1 } }
+      exit bad || checks != 2 }' "$scratch/law" "$scratch/band" "$scratch/line" ||
+        complain "fig4: $run"
 done
 
 # Records of somebody's own: a picture of speeds alone, in another unit and under a name that is no
 # code, has the law of the route by D through the speeds as they are.
 sed 's/Time (s),.*/Time (s),Velocity (km\/h)/; 2,$s/,.*,\(.*\)/,\1/' samples/CR.csv |
-  awk -F, -v OFS=, 'NR > 1 && $2 != "" { $2 *= 3.6 } { print }' >"$scratch/my_'run'; set label.1.csv"
+  awk -F, -v OFS=, 'NR > 1 && $2 != "" { $2 *= 3.6 }
+    { print }' >"$scratch/my_'run'; set label.1.csv"
 (cd "$scratch" && "$OLDPWD/samples/figures/fig4.sh" -K 0.5 -R 0.04 "my_'run'; set label.1.csv") \
   >"$scratch/own.svg" || complain "fig4 of an own record: exit $?"
 smooth -q --coast -c v -w 11 "$scratch/my_'run'; set label.1.csv" | differentiate -c v |
   shift-from-accel -q -K 0.5 -R 0.04 | fitpower -q | tail -n 1 >"$scratch/law"
-sed -n 's/.*>\(my_.*\)<.text>.*/\1/p' "$scratch/own.svg" | grep -qxF "my_&#39;run&#39;; set label.1" ||
+sed -n 's/.*>\(my_.*\)<.text>.*/\1/p' "$scratch/own.svg" |
+  grep -qxF "my_&#39;run&#39;; set label.1" ||
   grep -qF "my_'run'; set label.1" "$scratch/own.svg" ||
     complain "own record: its name is not there"
 part own 3 | grep -oE '[0-9.]+,[0-9.]+' | tr ',' ' ' | awk -v frame="$(axes own)" '
@@ -176,11 +197,13 @@ part own 3 | grep -oE '[0-9.]+,[0-9.]+' | tr ',' ' ' | awk -v frame="$(axes own)
   { if (!n++) { x0 = $1; y0 = $2 } x1 = $1; y1 = $2 }
   END {  # from 4 % to the whole of the axis the law grows by 25^b
     grows = (f[4] - y1) / (f[4] - y0); wide = (x1 - f[1]) / (x0 - f[1])
-    exit !(n > 50 && (grows / wide^b - 1)^2 < 1e-4) }' "$scratch/law" - || complain "own record: its law"
+    exit !(n > 50 && (grows / wide^b - 1)^2 < 1e-4) }' "$scratch/law" - ||
+      complain "own record: its law"
 
 # The stop: in the upper panel, from -22 to 110 mm/s, the law alone ends at 0, and with memory the
 # lowest velocity is simulate's.
-smooth -q --coast -c x -w 1 samples/CR.csv | fitpower -q --route position -K 0.5 -R 0.04 >"$scratch/fit"
+smooth -q --coast -c x -w 1 samples/CR.csv |
+  fitpower -q --route position -K 0.5 -R 0.04 >"$scratch/fit"
 back=$(simulate --law "$scratch/fit" -K 0.5 -R 0.04 --until 4 --dt 0.005 --columns v --memory 5e-4 --damping 0.02 |
   awk '!/^#/ && $1 < least { least = $1 } END { print least }')
 read -r _ top _ bottom _ < <(grep -oE "d='M[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+" "$scratch/fig1-stop.svg" |
@@ -200,8 +223,10 @@ awk -v law="$(lowest 3a)" -v memory="$(lowest 2a)" -v back="$back" -v top="$top"
 # dissipated ends there.
 heights() { part energy "$2" | grep -oE "$3[0-9.]+,[0-9.]+" | sed "s/.*,/$1 /"; }
 read -r _ _ _ bottom _ < <(axes energy)
-{ heights line 4 '[ML]'; heights point 8 'translate.'; heights dissipated 3 '[ML]'; } | awk -v bottom="$bottom" '
-  { y = bottom - $2; n[$1]++; last[$1] = y; if (!($1 in low) || y < low[$1]) low[$1] = y; if (y > high[$1]) high[$1] = y }
+{ heights line 4 '[ML]'; heights point 8 'translate.'; heights dissipated 3 '[ML]'; } |
+  awk -v bottom="$bottom" '
+  { y = bottom - $2; n[$1]++; last[$1] = y; if (!($1 in low) || y < low[$1]) low[$1] = y;
+    if (y > high[$1]) high[$1] = y }
   END {
     sum = low["line"]
     if (n["line"] < 100 || n["point"] < 15 || high["line"] - sum > 1 || low["point"] < 0.97 * sum || high["point"] > 1.03 * sum ||
@@ -231,14 +256,15 @@ print(*wrong, sep="\n")
 sys.exit(bool(wrong))
 PYTHON
 fi
-sed 's/<[^>]*>/ /g; s/−/-/g' "$scratch/report.html" | grep -oE '[-+]?[0-9]+[.][0-9]+' | sort -u >"$scratch/in-page"
+sed 's/<[^>]*>/ /g; s/−/-/g' "$scratch/report.html" | grep -oE '[-+]?[0-9]+[.][0-9]+' |
+  sort -u >"$scratch/in-page"
 samples/table1.sh | grep '^  ' | grep -oE '[-+]?[0-9]+[.][0-9]+' | sort -u >"$scratch/in-table"
 [ "$(wc -l <"$scratch/in-table")" -gt 40 ] || complain "report: table1.sh prints too little"
 missing=$(comm -23 "$scratch/in-table" "$scratch/in-page")
 [ -z "$missing" ] || complain "report: not in the page:" $missing
 
-# The README shows Fig. 4 and the picture of its first example as this gnuplot, if it is the same one,
-# draws them today.
+# The README shows Fig. 4 and the picture of its first example as this gnuplot, if it is the same
+# one, draws them today.
 grep -qF 'cut -d , -f 1,3 samples/CR.csv >run.csv' README.md || complain 'README: no run.csv'
 cut -d , -f 1,3 samples/CR.csv >"$scratch/run.csv"
 samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/run.csv" >"$scratch/run.svg"

@@ -11,11 +11,17 @@ fail() { echo "$*"; exit 1; }
 
 samples/fleet/make.sh "$scratch/run" 24
 export SLURM_ARRAY_TASK_COUNT=2
-for SLURM_ARRAY_TASK_ID in 0 1; do export SLURM_ARRAY_TASK_ID; samples/fleet/slurm.sh "$scratch/run"; done
+for SLURM_ARRAY_TASK_ID in 0 1; do
+  export SLURM_ARRAY_TASK_ID
+  samples/fleet/slurm.sh "$scratch/run"
+done
 sort -u "$scratch"/run/part.* >"$scratch/table"
-[ "$(grep -vc '^#' "$scratch/table")" = 24 ] && [ "$(head -n 1 "$scratch/table" | cut -f 1,2)" = "# record	a[m]" ] || fail "$(cat "$scratch/table")"
+[ "$(grep -vc '^#' "$scratch/table")" = 24 ] &&
+  [ "$(head -n 1 "$scratch/table" | cut -f 1,2)" = "# record	a[m]" ] ||
+    fail "$(cat "$scratch/table")"
 if command -v parallel >/dev/null; then
-  HOME=$scratch samples/fleet/table.sh "$scratch/run" | diff "$scratch/table" - || fail "parallel makes another table"
+  HOME=$scratch samples/fleet/table.sh "$scratch/run" | diff "$scratch/table" - ||
+    fail "parallel makes another table"
 fi
 awk -f samples/fleet/pulls.awk "$scratch/run/truth.txt" "$scratch/table"
 
@@ -23,13 +29,17 @@ awk -f samples/fleet/pulls.awk "$scratch/run/truth.txt" "$scratch/table"
 # square), and the mean within 4 of its errors.
 awk -f samples/fleet/joint.awk "$scratch/table" | awk '!/^#/ {
   off_a = ($1 - 1.87e-3) / $2; off_b = ($3 - 0.215) / $4
-  if (off_a^2 > 16 || off_b^2 > 16 || $6 < 0.05 || $6 > 0.2 || $7 < 0.01 || $7 > 0.04) { print "joint:", $0; exit 1 } }'
+  if (off_a^2 > 16 || off_b^2 > 16 || $6 < 0.05 || $6 > 0.2 || $7 < 0.01 || $7 > 0.04) {
+    print "joint:", $0; exit 1 } }'
 
 # One law for all: there is nothing that scatters, and the joint fit of the rows is that of fitpower
 # on all records at once.
 samples/fleet/make.sh "$scratch/class" 12 0
 for record in "$scratch"/class/*.csv; do samples/fleet/fit.sh "$record"; done >"$scratch/table"
-smooth -q --coast -c x -w 1 "$scratch"/class/*.csv | fitpower -q --route position -K 0.5 -R 0.04 >"$scratch/joint"
-paste <(awk -f samples/fleet/joint.awk "$scratch/table" | tail -n 1 | cut -f 1-8) <(tail -n 1 "$scratch/joint") | awk '{
+smooth -q --coast -c x -w 1 "$scratch"/class/*.csv |
+  fitpower -q --route position -K 0.5 -R 0.04 >"$scratch/joint"
+awk -f samples/fleet/joint.awk "$scratch/table" | tail -n 1 | cut -f 1-8 >"$scratch/of-rows"
+tail -n 1 "$scratch/joint" | paste "$scratch/of-rows" - | awk '{
   far_a = ($1 - $9) / $10; far_b = ($3 - $11) / $12; wide = $4 / $12
-  if ($6 > 0.02 || far_a^2 > 0.25 || far_b^2 > 0.25 || wide < 0.8 || wide > 1.25) { print "joint of the rows, and of the records:", $0; exit 1 } }'
+  if ($6 > 0.02 || far_a^2 > 0.25 || far_b^2 > 0.25 || wide < 0.8 || wide > 1.25) {
+    print "joint of the rows, and of the records:", $0; exit 1 } }'

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Files that motion programs and other people wrote, read as they are or after one line of sed or awk: records, runs, and what
-# can be checked in each.
+# Files that motion programs and other people wrote, read as they are or after one line of sed or
+# awk: records, runs, and what can be checked in each.
 set -u
 export LC_ALL=C
 unset CDPATH
@@ -13,7 +13,8 @@ failed=0
 expect() {
   local want=$1 got
   shift
-  got=$("$@" 2>/dev/null | awk '/^#/ { next } NF == 0 { if (n) printf "%d ", n; n = 0; next } { n++ } END { print n + 0 }')
+  got=$("$@" 2>/dev/null |
+    awk '/^#/ { next } NF == 0 { if (n) printf "%d ", n; n = 0; next } { n++ } END { print n + 0 }')
   [ "$got" = "$want" ] || { echo "$*: $got records instead of $want"; failed=1; }
 }
 refuse() {  # MESSAGE-END COMMAND...
@@ -31,7 +32,8 @@ named() {  # NAMES COMMAND...
   [ "$got" = "$want" ] || { echo "$*: names $got"; failed=1; }
 }
 
-# Capstone: ten runs side by side, quoted names, BOM; a velocity is missing at both ends of each run.
+# Capstone: ten runs side by side, quoted names, BOM; a velocity is missing at both ends of each
+# run.
 coffee=$data/falling-coffee-filters/data_for_coffee.csv
 expect "265 349 287 253 158 114 139 123 145 172" smooth -w 1 "$coffee"
 expect "267 351 289 255 160 116 141 125 147 174" smooth -w 1 -c x "$coffee"
@@ -57,37 +59,58 @@ named 't[s]\tx[m]\ty' smooth "$data/ball-on-curved-track/mass_a.txt"
 
 # Tracker: the track's name above the names line; semicolons, tabs.
 expect 3752 differentiate -c x "$data/ball-on-curved-track/P1100902-data.csv"
-# Tracker with decimal commas between commas has two readings; by its six decimals it has one, the authors' own.
+# Tracker with decimal commas between commas has two readings; by its six decimals it has one, the
+# authors' own.
 pucks=$data/air-table-pucks/ResultatKollisjon1.txt
 refuse "10 fields under a line of 6 names; if some of its commas are decimal ones, make them points first" smooth "$pucks"
-[ "$(sed -E 's/([0-9]),([0-9]{6}E)/\1.\2/g; s/−/-/g' "$pucks" | smooth -q -w 1 --use t=1 --use v=2 | awk '!/^#/ { print $1 + 0, $2 + 0, $3 + 0 }' | md5sum)" = \
+[ "$(sed -E 's/([0-9]),([0-9]{6}E)/\1.\2/g; s/−/-/g' "$pucks" | smooth -q -w 1 --use t=1 --use v=2 |
+  awk '!/^#/ { print $1 + 0, $2 + 0, $3 + 0 }' | md5sum)" = \
   "$(awk -F ';' '{ print $1 + 0, $2 + 0, $3 + 0 }' "${pucks%.txt}.csv" | md5sum)" ] ||
     { echo "$pucks: not the authors' numbers"; failed=1; }
 
-# Columns without names: km/h once a second; microseconds; milliseconds and rpm behind a line that is cut off.
-kart() { awk '{ print NR - 1, $1 / 3.6 }' "$data/kart-coastdown-1hz/Michelin60$1.csv" | energy-ledger -m 76 -K 0 -R 0.15 -a 1e-3 -b 0; }
+# Columns without names: km/h once a second; microseconds; milliseconds and rpm behind a line that
+# is cut off.
+kart() { awk '{ print NR - 1, $1 / 3.6 }' "$data/kart-coastdown-1hz/Michelin60$1.csv" |
+  energy-ledger -m 76 -K 0 -R 0.15 -a 1e-3 -b 0; }
 expect 165 kart A
 expect 231 kart B
-distance() { awk '{ s += $1 / 3.6 } END { printf "%.0f", s }' "$data/kart-coastdown-1hz/Michelin60$1.csv"; }
+distance() {
+  awk '{ s += $1 / 3.6 } END { printf "%.0f", s }' "$data/kart-coastdown-1hz/Michelin60$1.csv"
+}
 [ "$(distance A) $(distance B)" = "642 733" ] || { echo "kart: distances"; failed=1; }
-drum() { awk -F, '{ print $1 / 1e6, $2 / 3.6 }' "$data/wheel-on-drum/60psi- 215lbm- Left.csv" | smooth --seconds 1; }
+drum() { awk -F, '{ print $1 / 1e6, $2 / 3.6 }' "$data/wheel-on-drum/60psi- 215lbm- Left.csv" |
+  smooth --seconds 1; }
 expect 4508 drum
-flywheel() { (echo 't[ms] rpm E[J]'; sed 1d "$data/flywheel-spindown/spindown_poweredOff_badSprocket.txt" | awk '{ print $6, $4, $8 }'); }
+flywheel() {
+  echo 't[ms] rpm E[J]'
+  sed 1d "$data/flywheel-spindown/spindown_poweredOff_badSprocket.txt" |
+    awk '{ print $6, $4, $8 }'
+}
 expect 12922 eval 'flywheel | smooth -c rpm'
 # Its energy column is 1/2 J omega^2 with J = 0.8489 kg m^2 of the very rpm beside it.
-flywheel | smooth -w 1 -c rpm | awk '!/^#/ { w = $2 * atan2(0, -1) / 30; e = 0.5 * 0.8489 * w * w; if ((e - $3)^2 > (1e-3 * $3 + 0.05)^2) bad++ }
+flywheel | smooth -w 1 -c rpm |
+  awk '!/^#/ { w = $2 * atan2(0, -1) / 30; e = 0.5 * 0.8489 * w * w;
+      if ((e - $3)^2 > (1e-3 * $3 + 0.05)^2) bad++ }
   END { exit bad > 0 }' || { echo "flywheel: energy beside rpm"; failed=1; }
 refuse "9 fields where the first record has 3" smooth "$data/flywheel-spindown/spindown_poweredOff_badSprocket.txt"
 expect 9904 smooth -c 'RR_Wheel Speed' "$data/small-car-coastdown/RR-Coastdown-1.txt"
-# Figures that its owners or its README give: the top of the spin-up, the top speed, the spacing of the phone's records.
+# Figures that its owners or its README give: the top of the spin-up, the top speed, the spacing of
+# the phone's records.
 check() { awk "$2" || { echo "$1"; false; }; }
 smooth -w 1 -c 'RR_Wheel Speed' "$data/small-car-coastdown/RR-Coastdown-1.txt" |
-  check "small car: not 431 rpm at 9.54 s" '!/^#/ && $8 > most { most = $8; at = $1 } END { exit !(int(most + 0.5) == 431 && at > 9.53 && at < 9.55) }' || failed=1
-drum | check "drum: not about 95 km/h" '!/^#/ && 3.6 * $2 > most { most = 3.6 * $2 } END { exit !(most > 93 && most < 98) }' || failed=1
+  check "small car: not 431 rpm at 9.54 s" '
+    !/^#/ && $8 > most { most = $8; at = $1 }
+    END { exit !(int(most + 0.5) == 431 && at > 9.53 && at < 9.55) }' || failed=1
+drum | check "drum: not about 95 km/h" '
+  !/^#/ && 3.6 * $2 > most { most = 3.6 * $2 }
+  END { exit !(most > 93 && most < 98) }' || failed=1
 smooth -c 'Acceleration y' "$data/falling-phone/fall_2/Raw Data.csv" |
-  check "phone: records not 5.00 to 5.07 ms apart" '!/^#/ { if (n++ && ($1 - last < 0.004995 || $1 - last > 0.005075)) bad++; last = $1 } END { exit !(n == 1520 && !bad) }' || failed=1
+  check "phone: records not 5.00 to 5.07 ms apart" '
+    !/^#/ { if (n++ && ($1 - last < 0.004995 || $1 - last > 0.005075)) bad++; last = $1 }
+    END { exit !(n == 1520 && !bad) }' || failed=1
 
 # Video marks: 0,0,0 is no position; the time comes from the frame.
-marks() { awk -F, 'NR == 1 { print "t[s] x"; next } $4 > 0 { print $1 / 250, $2 }' "$data/sphere-on-wet-grains/detections.csv"; }
+marks() { awk -F, 'NR == 1 { print "t[s] x"; next }
+  $4 > 0 { print $1 / 250, $2 }' "$data/sphere-on-wet-grains/detections.csv"; }
 expect 82 eval 'marks | differentiate -c x'
 exit $failed

@@ -1,0 +1,211 @@
+#include "fit/log_log_regression.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "base/error.h"
+#include "contact/contact.h"
+#include "contact/power_law.h"
+#include "fit/dot.h"
+#include "fit/errors.h"
+#include "fit/shift_records.h"
+
+namespace rolling {
+namespace {
+
+System line_system(ShiftRecords records, Height height) {
+  for (double& D : records.D) D = std::log(D);
+  const std::size_t p = height.count();
+  std::vector<std::size_t> runs = records.runs;
+  return {std::move(runs), 0, p,
+          [records = std::make_shared<const ShiftRecords>(std::move(records)), height, p](
+              const std::vector<double>& theta, const TakeRows& take) {
+    const double b = height.exponent(theta),
+                 h = height.a ? std::log(*height.a) + b * height.log_v_ref : theta[0];
+    hand_over(records->runs, p, take,
+              [&](std::size_t i, std::span<double> J, std::size_t k, std::size_t n) {
+      height.put(J, k, n, 1, records->log_u[i], 1);
+      return h + b * records->log_u[i] - records->D[i];
+    });
+          }};
+}
+
+/// The mean and the standard deviation of ln(1 + e) for normal e of standard deviation s,
+/// conditional on 1 + e > 0, where the logarithm exists. For small s they are -s^2/2 and s; for
+/// large s the standard deviation tends to a constant and the mean grows like ln s.
+Estimate logarithm_of_noise(double s) {
+  // The substitution z = u^2 + least makes the integrands smooth at the pole of the logarithm. The
+  // midpoint rule with this number of steps then has an error below 5e-4.
+  constexpr int steps = 200;
+  constexpr double range = 6;
+  const double least = std::max(-range, -1 / s), length = std::sqrt(range - least);
+  double weight = 0, sum = 0, squares = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double u = (i + 0.5) / steps * length, z = least + u * u, w = u * std::exp(-z * z / 2);
+    const double log = least > -range ? std::log(s * u * u) : std::log1p(s * z);
+    weight += w;
+    sum += w * log;
+    squares += w * log * log;
+  }
+  const double mean = sum / weight;
+  return {mean, std::sqrt(squares / weight - mean * mean)};
+}
+
+/// The same by linear interpolation in a table over ln s, whose entries are computed on demand.
+class LogarithmOfNoise {
+ public:
+  Estimate operator()(double s) {
+    const double place = (std::log(s) - least) * places;
+    if (!(place >= 0 && place + 1 < static_cast<double>(table_.size())))
+      return logarithm_of_noise(s);
+    const auto i = static_cast<std::size_t>(place);
+    const double share = place - static_cast<double>(i);
+    const Estimate low = at(i), high = at(i + 1);
+    return {std::lerp(low.value, high.value, share), std::lerp(low.sigma, high.sigma, share)};
+  }
+
+ private:
+  // The range of ln s, and the number of entries for each unit of ln s.
+  static constexpr double least = -7, most = 7, places = 32;
+  Estimate at(std::size_t i) {
+    if (table_[i].sigma == 0)
+      table_[i] = logarithm_of_noise(std::exp(least + static_cast<double>(i) / places));
+    return table_[i];
+  }
+  std::vector<Estimate> table_ =
+      std::vector<Estimate>(static_cast<std::size_t>((most - least) * places) + 1);
+};
+
+/// The noise and the bias of the points (ln v, ln D) of a run.
+struct Logarithms {
+  FilterMatrix noise;  ///< matrix that maps raw noise of variance one to the noise of ln D - b ln v
+  std::vector<double> bias;  ///< expectation of ln D - b ln v minus ln a, for each point
+};
+
+/// Writes x X + y Y to `sum`.
+void add(double x, const FilterMatrix::Row& X, double y, const FilterMatrix::Row& Y,
+         FilterMatrix::Row& sum) {
+  sum.first = std::min(X.first, Y.first);
+  sum.values.assign(std::max(X.end(), Y.end()) - sum.first, 0);
+  for (std::size_t j = X.first; j < X.end(); ++j)
+    sum.values[j - sum.first] += x * X.values[j - X.first];
+  for (std::size_t j = Y.first; j < Y.end(); ++j)
+    sum.values[j - sum.first] += y * Y.values[j - Y.first];
+}
+
+/// The noise and bias of the logarithms for a roll under the law. D and v are the matrices that
+/// compute the accelerations and speeds from the raw column (along the direction of motion),
+/// shift() converts an acceleration to D, and sigma is the standard deviation of the raw noise. The
+/// bias has two causes: smoothing bends the curve D(v), and the logarithm of a noisy number is too
+/// low on average. Its noise is also smaller than the relative noise of D.
+Logarithms logarithms_of(const FilterMatrix& D, const FilterMatrix& v,
+                         const std::vector<double>& raw, const Rows& rows, PowerLaw law,
+                         const std::function<double(double)>& shift, double sigma) {
+  const auto accelerations = D.times(raw), speeds = v.times(raw);
+  FilterMatrix::Row D_row, v_row, log_row;
+  if (!rows.empty()) D.row(rows[rows.size() / 2], D_row);
+  BandMatrix E;
+  E.reserve(rows.size(), rows.size() * D_row.values.size());
+  std::vector<double> bias;
+  bias.reserve(rows.size());
+  LogarithmOfNoise logarithm;
+  for (std::size_t i : rows) {
+    constexpr double step = 1e-4;
+    const double a_i = accelerations[i], v_i = speeds[i], D_i = shift(a_i);
+    D.row(i, D_row), v.row(i, v_row);
+    // Minus the derivative of ln D - b ln v by the raw column; that of ln D is a difference
+    // quotient. Where D of the roll is not positive, its relative noise is infinite; 1e100 stands
+    // for that.
+    add(D_i > 0 ? (shift((1 - step) * a_i) / D_i - 1) / (step * a_i) : 1e100, D_row,
+        v_i > 0 ? law.b / v_i : 0, v_row, log_row);
+    const double s =
+        sigma * std::sqrt(dot(log_row.values.data(), log_row.values.data(), log_row.values.size()));
+    const Estimate log_noise = s > 0 && std::isfinite(s) ? logarithm(s) : Estimate{};
+    for (double& x : log_row.values) x *= log_noise.sigma > 0 ? log_noise.sigma / s : 0;
+    E.append(log_row.first, log_row.values);
+    bias.push_back(D_i > 0 && v_i > 0 ? std::log(D_i / law(v_i)) : 0);
+    if (D_i > 0) bias.back() += log_noise.value;
+  }
+  return {FilterMatrix::identity(raw.size()).then(std::move(E)), std::move(bias)};
+}
+
+/// The bias of a and b of the line that follows from the biases of its points: theta = R^-1 Q^T
+/// bias.
+void bias_line(Fitted& line, const std::vector<double>& bias) {
+  const std::size_t p = line.system.columns();
+  const std::vector<double> Q = orthonormal(line.system, line.minimum), &R = line.minimum.R;
+  std::vector<double> theta(p, 0.0);
+  for (std::size_t i = 0; i < Q.size(); ++i) theta[i % p] += Q[i] * bias[i / p];
+  for (std::size_t j = p; j-- > 0; theta[j] /= R[j * p + j])
+    for (std::size_t k = j + 1; k < p; ++k) theta[j] -= R[j * p + k] * theta[k];
+  line.bias_a = dot(line.a.gradient.data(), theta.data(), p);
+  line.bias_b = dot(line.b.gradient.data(), theta.data(), p);
+}
+
+/// Adds the noise and the bias of ln D - b ln v to a line if the filters are known: those of the
+/// best-fitting roll, observed through the filters.
+void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<FitRun>& all,
+                 const FitOptions& options) {
+  Making making = making_of(Route::shift, all);
+  if (!making.known()) return;
+  std::vector<FilterMatrix> D, v;
+  for (const Response& response : making.responses)
+    D.push_back(response.of.at("D")), v.push_back(response.of.at("v"));
+  Fitted roll;
+  try {
+    // The roll is fitted to all records; a selection of those with D > 0 would select by their
+    // noise.
+    roll = fit_rolls(Route::shift, all, usable(Route::shift, all), std::move(making), options);
+  } catch (const Error&) {  // no roll fits: the line keeps its classical errors
+    return;
+  }
+  RawNoise& raw_noise = line.raw_noise.emplace();
+  raw_noise.variance = noise_variance(roll);
+  raw_noise.sources = roll.noise->explain(roll.minimum.f);
+  raw_noise.source_runs = roll.noise->sources();
+  raw_noise.innovations = roll.noise->innovations(roll.minimum.f, raw_noise.innovation_runs);
+  raw_noise.means_taken = roll.rolls->means_taken();
+  roll.system = {}, roll.noise = {};  // frees memory: the weights are large
+  std::vector<FilterMatrix> noise;
+  std::vector<double> bias;
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    const ObservedRun& run = roll.rolls->runs()[r];
+    const Trajectory trajectory = roll.rolls->trajectory(roll.minimum.theta, r);
+    std::vector<double> raw;
+    for (double t : run.t)
+      raw.push_back(run.raw_is_position ? trajectory.at(t).x : trajectory.speed_at(t).v);
+    const auto shift = [&, by = *all[r].shift_of](double a) {
+      return run.way * shift_from_acceleration(by.body, by.geometry, run.way * a);
+    };
+    Logarithms logarithms = logarithms_of(D[r], v[r], raw, rows[r], {roll.a.value, roll.b.value},
+                                          shift, std::sqrt(raw_noise.variance));
+    noise.push_back(std::move(logarithms.noise));
+    bias.insert(bias.end(), logarithms.bias.begin(), logarithms.bias.end());
+  }
+  line.noise = std::make_shared<const Noise>(std::move(noise), std::nullopt);
+  bias_line(line, bias);
+}
+
+}  // namespace
+
+Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) {
+  ShiftRecords records = shift_records(all, options, true);
+  const Height height{options.a, options.b, records.log_v_ref};
+  const std::vector<Rows> rows = std::move(records.rows);
+  Fitted line{.system = {}, .minimum = {}};
+  line.records = records.D.size();
+  line.left_out = records.left_out;
+  line.system = line_system(std::move(records), height);
+  line.minimum = solve(line.system, std::vector<double>(height.count(), 0), options,
+                       options.robust && making_of(Route::shift, all).known());
+  line.rss = line.minimum.rss;
+  const double b = height.exponent(line.minimum.theta),
+               a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * height.log_v_ref);
+  height.report(line, a, a);
+  if (!options.robust) carry_noise(line, rows, all, options);
+  return line;
+}
+
+}  // namespace rolling
