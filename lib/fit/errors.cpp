@@ -210,9 +210,9 @@ Sources sources_of(const Fitted& fit) {
 }
 
 /// The meat B^T B of each run for sources of variance one.
-std::vector<double> middle_of(const Fitted& fit) {
+std::vector<double> meat_of(const Fitted& fit) {
   const std::size_t q = fit.system.columns();
-  if (fit.noise->weighted()) return fit.noise->middle(orthonormal(fit.system, fit.minimum), q);
+  if (fit.noise->weighted()) return fit.noise->meat(orthonormal(fit.system, fit.minimum), q);
   const Sources from = sources_of(fit);
   return squares_of(from.B, q, from.runs);
 }
@@ -220,12 +220,11 @@ std::vector<double> middle_of(const Fitted& fit) {
 /// The variance of the sources. The expectation of f f^T is the variance times A A^T, A = W E,
 /// before the fit, and the fit removes the component along Q. Hence the expectation of |f|^2 is the
 /// variance times tr((I - Q Q^T) A A^T) = tr A A^T - |B|^2.
-double variance_of(const Fitted& fit, const std::vector<double>& middle) {
+double variance_of(const Fitted& fit, const std::vector<double>& meat) {
   if (fit.raw_noise) return fit.raw_noise->variance;
   const std::size_t q = fit.system.columns();
   double taken = 0;
-  for (std::size_t i = 0; i < middle.size(); ++i)
-    taken += i % (q * q) % (q + 1) == 0 ? middle[i] : 0;
+  for (std::size_t i = 0; i < meat.size(); ++i) taken += i % (q * q) % (q + 1) == 0 ? meat[i] : 0;
   return fit.minimum.rss / (fit.noise->trace() - taken);
 }
 
@@ -261,7 +260,7 @@ Errors errors_of(std::span<const double> noise, std::span<const std::size_t> run
 
 }  // namespace
 
-double noise_variance(const Fitted& fit) { return variance_of(fit, middle_of(fit)); }
+double noise_variance(const Fitted& fit) { return variance_of(fit, meat_of(fit)); }
 
 Uncertainty uncertainty_of(const Fitted& fit) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -291,7 +290,7 @@ Uncertainty uncertainty_of(const Fitted& fit) {
   if (kind == Errors::classical || kind == Errors::differences)
     return {kind, whiteness, plain, {R, classical(fit, plain), q}};
   std::vector<double> M;
-  if (known) M = middle_of(fit);
+  if (known) M = meat_of(fit);
   const double variance = known ? variance_of(fit, M) : plain;
   if (kind == Errors::filters) {
     for (double& x : M) x *= variance;

@@ -123,15 +123,15 @@ struct Candidate {
 };
 
 Candidate try_law(const std::vector<Thinned>& thin, const FitOptions& options, PowerLaw law) {
-  Candidate here{0, law, {}, {}};
+  Candidate candidate{0, law, {}, {}};
   for (const Thinned& run : thin) {
     const Trial trial = try_shape(run, options, law);
     if (!(trial.factor > 0)) fail("rolls the wrong way");
-    here.rss += trial.rss;
-    here.v0.push_back(trial.factor * run.v0);
-    here.x0.push_back(trial.x0);
+    candidate.rss += trial.rss;
+    candidate.v0.push_back(trial.factor * run.v0);
+    candidate.x0.push_back(trial.x0);
   }
-  return here;
+  return candidate;
 }
 
 /// Starting points, best first: for each b of a grid, the best a of a grid. The grid of a is
@@ -151,8 +151,8 @@ std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions
         as.push_back(x / duration * std::pow(v0, 1 - b) * (body.K + 1) * body.R / body.g);
     Candidate nearest{std::numeric_limits<double>::infinity(), {}, {}, {}};
     for (double a : as) try {
-        Candidate here = try_law(thin, options, {a, b});
-        if (here.rss < nearest.rss) nearest = std::move(here);
+        Candidate candidate = try_law(thin, options, {a, b});
+        if (candidate.rss < nearest.rss) nearest = std::move(candidate);
       } catch (const Error&) {  // no roll has this law and these data
       }
     if (std::isfinite(nearest.rss)) best.push_back(std::move(nearest));

@@ -77,9 +77,9 @@ void report(Fitted& fit, const std::vector<double>& theta) {
   const Parameters& q = fit.rolls->parameters();
   const PowerLaw law = q.law(theta);
   const auto quantity = [&](double value, const Parameters::Derivatives& by) {
-    Quantity here{value, std::vector<double>(q.columns())};
-    q.chain(here.gradient.data(), 1, law.a, by);
-    return here;
+    Quantity result{value, std::vector<double>(q.columns())};
+    q.chain(result.gradient.data(), 1, law.a, by);
+    return result;
   };
   fit.a = quantity(law.a, {1, 0});
   fit.b = quantity(law.b, {0, 1});

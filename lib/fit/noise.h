@@ -33,7 +33,7 @@ class Noise {
   /// e, with e the noise of the sources, whatever the weights are.
   std::vector<double> through(std::vector<double> Q, std::size_t columns) const;
   /// The meat B^T B of the sandwich covariance of each run, run after run.
-  std::vector<double> middle(std::vector<double> Q, std::size_t columns) const;
+  std::vector<double> meat(std::vector<double> Q, std::size_t columns) const;
   /// tr W E E^T W^T: the expected weighted sum of squares for sources of variance one without a
   /// fit.
   double trace() const;
@@ -47,8 +47,8 @@ class Noise {
   std::vector<std::size_t> sources() const;
 
  private:
-  template <typename Number, typename OfRun>
-  std::vector<double> each(std::span<Number> all, std::size_t columns, OfRun&&) const;
+  template <typename Number, typename Function>
+  std::vector<double> each(std::span<Number> all, std::size_t columns, Function&&) const;
 
   std::vector<FilterMatrix> E_;
   std::vector<Whitener> whiteners_;

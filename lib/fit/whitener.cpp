@@ -180,7 +180,7 @@ double Whitener::trace() const {
 }
 
 // R^-T E E^T R^-1 = I - floor^2 R^-T F R^-1, where F = I except for the border, which has no floor.
-std::vector<double> Whitener::middle(std::span<double> Q, std::size_t columns) const {
+std::vector<double> Whitener::meat(std::span<double> Q, std::size_t columns) const {
   std::vector<double> M(columns * columns);
   const auto add_squares = [&](std::size_t n, double by) {
     for (std::size_t i = 0; i < n; ++i)

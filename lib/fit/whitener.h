@@ -42,7 +42,7 @@ class Whitener {
   double trace() const;
   /// Q^T R^-T E E^T R^-1 Q, for Q stored row by row with `columns` numbers in each row; overwrites
   /// Q.
-  std::vector<double> middle(std::span<double> Q, std::size_t columns) const;
+  std::vector<double> meat(std::span<double> Q, std::size_t columns) const;
 
  private:
   double trace_of_inverse() const;

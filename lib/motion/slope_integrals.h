@@ -57,9 +57,9 @@ class SlopeIntegrals {
   Place last() const { return {panels_.size() - 1, panels_.back().width}; }  ///< of the integrals
 
   double speed(Place) const;  ///< E = v/v0
-  /// What the derivatives need. H = K + 1/A - S K d/A, or K + 1 for A = 1, comes from d(net/(K +
-  /// A))/dd. The kernels h = E d H / net^2, of the derivative by ln a, and k = E A (K + A)/net^2,
-  /// of that by S.
+  /// The integrals that the derivatives need. H = K + 1/A - S K d/A, or K + 1 for A = 1, comes from
+  /// d(net/(K + A))/dd. The kernels h = E d H / net^2, of the derivative by ln a, and k = E A (K +
+  /// A)/net^2, of that by S.
   struct Gradient {
     double rate;    ///< |net|/(K + A): the deceleration in units of g cos(theta)
     double change;  ///< |1 - E|

@@ -1,4 +1,4 @@
-// What a caller wants to know of a roll at a time.
+// The quantities of a roll that a caller requests for one time.
 #pragma once
 
 namespace rolling {
