@@ -240,8 +240,8 @@ check-long: check
 	PATH="$$PWD/bin:$$PATH" build/unit '[.long]'
 	LONG=1 tests/faults/memory.sh
 
-# How often the errors of fitpower hold, by case and route: 1000 simulated runs each; ten minutes.
-# Then what it says of records with one thing wrong, and which law it finds; ten minutes more.
+# How often the errors of fitpower hold, by case and route: 1000 simulated runs each. Then what it
+# says of records with one thing wrong, and which law it finds. Some 20 minutes of two processors.
 build/tests/bench/coverage.o: CPPFLAGS += -Itests
 build/coverage: build/tests/bench/coverage.o build/lib.a
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) -pthread
@@ -254,7 +254,7 @@ coverage: build/coverage build/bench/records
 build/bench/%: CPPFLAGS += -Itests
 build/bench/%: build/tests/bench/%.o build/lib.a
 	@mkdir -p $(@D)
-	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) -pthread
 
 # CVODE beside them where libsundials-dev is installed: see tests/bench/cvode.h.
 ifneq ($(wildcard /usr/include/cvode/cvode.h),)

@@ -10,16 +10,17 @@
 namespace rolling {
 namespace {
 
-/// Of a number pair (ln a, b); the symmetric matrices of such pairs.
+/// ln a and b of a law, or a difference of two laws.
 struct Pair {
   double a, b;
 };
+/// The covariance of a Pair, or the inverse of one.
 struct Symmetric {
   double aa, ab, bb;
 
   Pair operator*(Pair x) const { return {aa * x.a + ab * x.b, ab * x.a + bb * x.b}; }
   double square(Pair x) const { return x.a * (aa * x.a + 2 * ab * x.b) + x.b * bb * x.b; }
-  /// A row of zeros, of what is held fixed, stays one.
+  /// A parameter that is held fixed has a row and a column of zeros; they stay zeros.
   Symmetric inverse() const {
     if (aa == 0 || bb == 0) return {aa == 0 ? 0 : 1 / aa, 0, bb == 0 ? 0 : 1 / bb};
     const double det = aa * bb - ab * ab;
@@ -30,20 +31,20 @@ Pair operator-(Pair x, Pair y) { return {x.a - y.a, x.b - y.b}; }
 Symmetric operator+(Symmetric X, Symmetric Y) { return {X.aa + Y.aa, X.ab + Y.ab, X.bb + Y.bb}; }
 Symmetric operator-(Symmetric X, Symmetric Y) { return {X.aa - Y.aa, X.ab - Y.ab, X.bb - Y.bb}; }
 
-/// ln D at a speed, and its error.
+/// The logarithm of D at the speed exp(log_v), with its standard error.
 Estimate log_D_of(Pair law, const Symmetric& C, double log_v) {
   return {law.a + log_v * law.b,
           std::sqrt(std::max(0.0, C.aa + log_v * (2 * C.ab + log_v * C.bb)))};
 }
-/// ln of the speed at which D is known best: there its error does not depend on that of b.
+/// The logarithm of the speed at which the error of D is least; D and b are uncorrelated there.
 double best_known(const Symmetric& C) { return C.bb > 0 ? -C.ab / C.bb : 0; }
 
-/// What one run says of the law by itself.
+/// The law of one run that is fitted by itself.
 struct OwnLaw {
   std::size_t run;
   Pair law;
   Symmetric covariance;
-  double freedom;  // of its noise
+  double freedom;  // degrees of freedom of its residuals
 
   Estimate log_D(double log_v) const { return log_D_of(law, covariance, log_v); }
   Estimate b() const { return {law.b, std::sqrt(covariance.bb)}; }
@@ -69,7 +70,8 @@ std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own) {
   return laws;
 }
 
-/// How far a run is from the others: chi^2 of its distance to their mean.
+/// Computes chi^2 of the distance from one run to the weighted mean of the others, and stores the
+/// run in the result if that is more than `most`.
 void stand_out(Agreement& result, const OwnLaw& one, Pair others, Symmetric C, double& most) {
   const Pair d = one.law - others;
   C = C + one.covariance;
@@ -92,7 +94,6 @@ struct Line {
   double weight = 0, spread = 0;  ///< sum of w, and of w (g - mean_g)^2
   double chi2 = 0;                ///< sum of w r^2 of the residuals r
   double fall = 0;                ///< -d chi2/d tau^2
-  std::vector<double> residuals;  ///< sqrt(w) r
 
   double weight_of(const Estimate& x) const { return 1 / (x.sigma * x.sigma + tau_square); }
 };
@@ -115,7 +116,6 @@ Line line_through(const std::vector<Estimate>& x, const std::vector<double>& g, 
   if (line.spread > 0) line.slope = together / line.spread;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double r = x[i].value - line.mean - line.slope * (g[i] - line.mean_g);
-    line.residuals.push_back(std::sqrt(w(i)) * r);
     line.chi2 += w(i) * r * r;
     line.fall += w(i) * w(i) * r * r;
   }
@@ -139,11 +139,52 @@ Line scattered_line(const std::vector<Estimate>& x, const std::vector<double>& g
   return line;
 }
 
-/// What the few runs say of their scatter is itself uncertain: the factor of errors that rest on
-/// it, for these degrees of freedom. Where the scatter shows less than the noise alone, 1.
-double student(const Line& line, double freedom) {
-  const double t = gsl_cdf_tdist_Pinv(0.975, freedom) / 1.96;
-  return std::max(1.0, t * std::sqrt(line.chi2 / freedom));
+/// An error with so few degrees of freedom is multiplied by this factor, so that 1.96 errors hold
+/// the truth in 95 %.
+double student(double freedom) { return gsl_cdf_tdist_Pinv(0.975, freedom) / 1.96; }
+
+/// The weighted mean of numbers of the runs, and its error from the distances of the runs to each
+/// other: a run with the share h of the weights and the residual r brings h r/sqrt(1 - h), and the
+/// error is the root of the sum of their squares. The degrees of freedom of that sum are those of
+/// Satterthwaite for numbers that scatter as the weights say: N - 1 if the weights are equal, and
+/// down to 1 if one run has them all (Bell and McCaffrey 2002, Survey Methodology 28, 169).
+struct Mean {
+  bool free;  ///< the number is not held fixed; else all others are 0
+  double value;
+  std::vector<double> shares, parts;  ///< of the weights; of the error, times student()
+
+  double error() const {
+    double squares = 0;
+    for (double part : parts) squares += part * part;
+    return std::sqrt(squares);
+  }
+};
+
+Mean mean_of(const std::vector<Estimate>& x, double freedom) {
+  const std::size_t n = x.size();
+  const Line line = scattered_line(x, std::vector<double>(n, 0), freedom);
+  Mean mean{std::isfinite(line.weight), line.mean, std::vector<double>(n, 0),
+            std::vector<double>(n, 0)};
+  if (!mean.free) return mean;
+  std::vector<double> k(n);
+  for (std::size_t i = 0; i < n; ++i) mean.shares[i] = line.weight_of(x[i]) / line.weight;
+  for (std::size_t i = 0; i < n; ++i) {
+    double rest = 0, sum = 0;  // rest = 1 - h, also where that rounds to 0
+    for (std::size_t j = 0; j < n; ++j)
+      if (j != i) rest += mean.shares[j], sum += mean.shares[j] * x[j].value;
+    const double h = mean.shares[i];
+    mean.parts[i] = h * std::sqrt(rest) * (x[i].value - sum / rest);  // r/(1 - h) = x - sum/rest
+    k[i] = h * h / rest;
+  }
+  double inverse = 0;  // of the degrees of freedom
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      inverse += i == j ? mean.shares[i] * mean.shares[i] : k[i] * k[j];
+  // The slope, where it was fitted, has taken one of the N - 1.
+  const double left = freedom / static_cast<double>(n - 1),
+               factor = student(left / inverse) / std::sqrt(left);
+  for (double& part : mean.parts) part *= factor;
+  return mean;
 }
 
 Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, bool slope) {
@@ -175,8 +216,9 @@ Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, bool 
   return result;
 }
 
-/// The joint fit with the noise that the runs show around their own laws: around the common one the
-/// residuals hold what the runs disagree by.
+/// The joint fit with the residuals that the runs have around their own laws. The residuals around
+/// the common law contain the disagreement of the runs too, and would be taken for correlated or
+/// uneven noise.
 Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitted>>& own) {
   Fitted fit = joint;
   fit.minimum.f.clear();
@@ -202,7 +244,9 @@ Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitte
   const std::size_t n = joint.minimum.f.size();
   const bool same_noise = !joint.raw_noise || raw.source_runs == joint.raw_noise->source_runs;
   if (fit.minimum.f.size() != n || n <= p || !same_noise) return joint;
-  // So many parameters more have been fitted.
+  // The runs' own fits have more parameters in all than the joint one, p instead of its own number,
+  // and leave smaller residuals: rss/(n - p) is the variance. Whoever takes the joint fit divides
+  // by its own degrees of freedom, and HC3 takes the residuals themselves.
   const double more =
       static_cast<double>(n - joint.minimum.theta.size()) / static_cast<double>(n - p);
   for (auto* of_noise : {&fit.minimum.f, &raw.sources})
@@ -218,55 +262,62 @@ bool of_one_way(const std::vector<OwnLaw>& laws, const Fitted& joint) {
                      [&](const OwnLaw& one) { return way(one) == way(laws.front()); });
 }
 
-/// The slope of the mat at which the runs of both directions agree best, and the laws as they are
-/// there: R S acts like a shift along the way, so that ln D changes by -way R/D with S.
-void take_slope(std::vector<OwnLaw>& laws, double freedom, std::vector<double>& by_slope,
-                NoiseErrors& errors, Fitted& joint) {
+/// What a run's ln a and b lose where the slope of the mat grows, to first order.
+using BySlope = std::vector<Pair>;
+
+/// Finds the slope S of the mat at which the runs of both directions agree best, and moves the laws
+/// to that slope. R S acts like a shift along the way: ln D(v) changes by -way R S/D(v), and its
+/// derivative by ln v, the exponent, by b times as much the other way. A run that is alone in its
+/// direction has no residual; so the error comes from the residuals of all runs together, each
+/// expected to be as large as its weight says.
+BySlope take_slope(std::vector<OwnLaw>& laws, double freedom, NoiseErrors& errors, Fitted& joint) {
   const auto n = static_cast<double>(laws.size());
-  double log_v = 0;  // of the speed at which the D of the runs are known best, on average
+  double log_v = 0;  // the mean of the speeds at which the D of the runs are known best
   for (const OwnLaw& one : laws) log_v += best_known(one.covariance) / n;
   std::vector<Estimate> log_D;
-  double mean = 0;
+  double mean = 0, exponent = 0;
   for (const OwnLaw& one : laws) {
     log_D.push_back(one.log_D(log_v));
     mean += log_D.back().value / n;
+    exponent += one.covariance.bb > 0 ? one.law.b / n : 0;  // one that is held stays
   }
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    const ObservedRun& run = joint.rolls->runs()[laws[i].run];
-    by_slope[i] = run.way * run.body.R / std::exp(mean);
+  std::vector<double> by_slope;
+  for (const OwnLaw& one : laws) {
+    const ObservedRun& run = joint.rolls->runs()[one.run];
+    by_slope.push_back(run.way * run.body.R / std::exp(mean));
   }
   const Line line = scattered_line(log_D, by_slope, freedom);
   joint.slope->value += line.slope;
-  errors.slope = student(line, freedom) / std::sqrt(line.spread);
-  for (std::size_t i = 0; i < laws.size(); ++i) laws[i].law.a -= by_slope[i] * line.slope;
+  errors.slope = student(freedom) * std::sqrt(line.chi2 / freedom / line.spread);
+  BySlope result;
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    const Pair lost{by_slope[i] * (1 + exponent * log_v), -by_slope[i] * exponent};
+    laws[i].law = laws[i].law - Pair{lost.a * line.slope, lost.b * line.slope};
+    result.push_back(lost);
+  }
+  return result;
 }
 
-/// a and b as the means of those of the runs, and the slope that goes with them.
+/// a and b become the means of those of the runs; where the slope is fitted, they are those at the
+/// slope at which the runs agree best.
 void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, Fitted& joint) {
-  const std::vector<double> same(laws.size(), 0);
-  std::vector<double> by_slope = same;
-  if (joint.slope) take_slope(laws, freedom, by_slope, errors, joint);
+  BySlope by_slope(laws.size());
+  if (joint.slope) by_slope = take_slope(laws, freedom, errors, joint);
   std::vector<Estimate> as, bs;
   for (const OwnLaw& one : laws) as.push_back(one.log_D(0)), bs.push_back(one.b());
-  const Line a = scattered_line(as, same, freedom), b = scattered_line(bs, same, freedom);
-  double mean_by_slope = 0, noise = 0, scatter = 0;  // of a; of the products of a and b
+  const Mean a = mean_of(as, freedom), b = mean_of(bs, freedom);
+  Pair lost{};
+  double products = 0;
   for (std::size_t i = 0; i < laws.size(); ++i) {
-    const double of_a = a.weight_of(as[i]) / a.weight, of_b = b.weight_of(bs[i]) / b.weight;
-    mean_by_slope += of_a * by_slope[i];
-    noise += of_a * of_b * laws[i].covariance.ab;
-    scatter += a.residuals[i] * b.residuals[i] / std::sqrt(a.weight * b.weight) / freedom;
+    lost = lost - Pair{-a.shares[i] * by_slope[i].a, -b.shares[i] * by_slope[i].b};
+    products += a.parts[i] * b.parts[i];
   }
-  const double by_a = student(a, freedom), by_b = student(b, freedom);
-  const bool free_a = std::isfinite(a.weight), free_b = std::isfinite(b.weight);
-  if (free_a) joint.a.value = std::exp(a.mean);
-  if (free_b) joint.b.value = b.mean;
-  errors.a =
-      free_a ? joint.a.value * std::hypot(by_a / std::sqrt(a.weight), mean_by_slope * errors.slope)
-             : 0;
-  errors.b = free_b ? by_b / std::sqrt(b.weight) : 0;
-  if (!free_a || !free_b) return;
-  const bool scattered = a.tau_square > 0 && b.tau_square > 0;
-  errors.together = joint.a.value * (scattered ? scatter * by_a * by_b : noise);
+  if (a.free) joint.a.value = std::exp(a.value);
+  if (b.free) joint.b.value = b.value;
+  const double by_slope_a = lost.a * errors.slope, by_slope_b = lost.b * errors.slope;
+  errors.a = joint.a.value * std::hypot(a.error(), by_slope_a);
+  errors.b = std::hypot(b.error(), by_slope_b);
+  errors.together = joint.a.value * (products + by_slope_a * by_slope_b);
 }
 
 }  // namespace
@@ -280,7 +331,7 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
   for (std::size_t r = 0; r < runs.size(); ++r) try {
       own.emplace_back(joint.rolls ? fit_of_run(joint, r, options)
                                    : fit_route(route, {runs[r]}, options));
-    } catch (const Error&) {  // it does not determine a law by itself
+    } catch (const Error&) {  // the run does not determine a law by itself
       own.emplace_back();
     }
   const auto laws = own_laws(own);

@@ -43,6 +43,8 @@ struct Case {
   double AR = 0;           ///< correlation of the noise from one reading to the next
   int runs = 1;            ///< that are fitted jointly
   double scatter = 0;      ///< of a from run to run, as a share
+  int noisy = 0;           ///< the last so many runs have five times the noise
+  int down = 0;            ///< the last so many roll down a slope, which is fitted (positions)
   int digits = 0;          ///< all columns are rounded to so many by the tools
   bool record = false;     ///< the free roll is sought in the whole record of a sensor
   rolling::Bulge bulge{};  ///< of whole records
@@ -51,6 +53,7 @@ struct Case {
 
 constexpr double dt = 0.04, noise_x = 3e-4,
                  noise_v = noise_x / dt / 1.41421356;  // a sonar at 25 Hz
+constexpr double slope = 1e-3;                         // of the mat, where it is fitted
 
 inline double clamped(const Column& x, std::ptrdiff_t i) {
   return x[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, std::ssize(x) - 1))];
@@ -122,6 +125,7 @@ struct Row {
   double sd_b = 0, over_bound = 0;  ///< of b; over the Cramer-Rao bound, 0 where it does not apply
   double percent_a = 0;             ///< bias of a in per cent of a
   double cover_a = 0, cover_b = 0;  ///< share of runs whose 95 % interval holds the truth
+  double cover_slope = 0;
   double sigma_a = 0, sigma_b = 0;  ///< root of the mean square of the standard errors, over the sd
   double told = 0;  ///< share of runs whose errors are not those of white noise through the filters
   double differ = 0;  ///< share of joint fits whose runs are said to disagree
@@ -156,7 +160,10 @@ class Simulation {
         n_(static_cast<std::size_t>(truth.stop_time() / dt) + 1), noise_(seed), random_(seed + 1) {}
   std::size_t records() const { return n_; }
 
-  rolling::FitRun next() {
+  /// The run of this number in a joint fit.
+  rolling::FitRun next(int i) {
+    way_ = i < c_.runs - c_.down ? 1 : -1;
+    times_the_noise_ = i < c_.runs - c_.noisy ? 1 : 5;
     rolling::FitRun run{};
     run.body = scene_.body();
     const Column raw = c_.record ? free_roll(run.t) : readings(run.t);
@@ -179,18 +186,23 @@ class Simulation {
  private:
   /// The raw column from the beginning of the roll to its stop, at the times t.
   Column readings(Column& times) {
+    rolling::Body body = scene_.body();
+    if (c_.down > 0) body.slope = way_ * slope;
     const rolling::Trajectory truth =
-        c_.scatter > 0 ? rolling::Trajectory(scene_.body(), rolling::Geometry::approximate,
-                                             {scene_.a * (1 + noise_(c_.scatter)), scene_.b}, 0.5)
-                       : truth_;
+        c_.scatter > 0 || c_.down > 0
+            ? rolling::Trajectory(body, rolling::Geometry::approximate,
+                                  {scene_.a * (1 + noise_(c_.scatter)), scene_.b}, 0.5)
+            : truth_;
+    const std::size_t n = c_.down > 0 ? static_cast<std::size_t>(truth.stop_time() / dt) + 1 : n_;
     Column raw;
     double error = 0;
-    for (std::size_t i = 0; i < n_; ++i) {
+    for (std::size_t i = 0; i < n; ++i) {
       const double t = dt * static_cast<double>(i), share = t / truth.stop_time();
       const auto s = truth.at(t);
-      const double size = (c_.raw == Case::x ? noise_x : noise_v) * (1 + c_.growth * share);
+      const double size =
+          (c_.raw == Case::x ? noise_x : noise_v) * times_the_noise_ * (1 + c_.growth * share);
       error = c_.AR * error + noise_(i == 0 ? 1 : std::sqrt(1 - c_.AR * c_.AR));
-      double y = (c_.raw == Case::x ? s.x : s.v) + size * error;
+      double y = way_ * (c_.raw == Case::x ? s.x : s.v) + size * error;
       if (c_.resolution > 0) y = c_.resolution * std::round(y / c_.resolution);
       if (uniform() < c_.outliers) y += uniform() - 0.5;
       if (i > 0 && uniform() < c_.lost) continue;
@@ -257,6 +269,7 @@ class Simulation {
   const rolling::Trajectory& truth_;
   const Scene& scene_;
   std::size_t n_;
+  double way_ = 1, times_the_noise_ = 1;
   simulated::Noise noise_;
   std::mt19937 random_;
 };
@@ -265,19 +278,21 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
   const rolling::Trajectory truth(scene.body(), rolling::Geometry::approximate, scene.law(), 0.5);
   rolling::FitOptions options;
   options.robust = c.outliers > 0;
+  options.fit_slope = c.down > 0;
   options.possible_filters = rolling::filters_of_sensors();
   Simulation simulation(c, truth, scene, seed);
   Row row;
   std::vector<double> as, bs;
   for (int k = 0; k < runs; ++k) {
     std::vector<rolling::FitRun> joint;
-    for (int i = 0; i < c.runs; ++i) joint.push_back(simulation.next());
+    for (int i = 0; i < c.runs; ++i) joint.push_back(simulation.next(i));
     const auto begin = std::chrono::steady_clock::now();
     try {
       const auto r = rolling::fit(c.route, joint, options);
       const double a = (r.a - scene.a) / r.sigma_a, b = (r.b - scene.b) / r.sigma_b;
       row.cover_a += std::abs(a) < 1.96;
       row.cover_b += std::abs(b) < 1.96;
+      row.cover_slope += c.down > 0 && std::abs(r.slope - slope) < 1.96 * r.sigma_slope;
       row.far += std::abs(b) > 6 || std::abs(a) > 6;
       row.told += rolling::noise_is_correlated(r) || r.errors == rolling::Errors::uneven ||
                   (c.route == Route::loglog && rolling::logarithms_too_low(r));
@@ -309,6 +324,7 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
   row.sigma_b = std::sqrt(row.sigma_b / fits) / row.sd_b;
   row.cover_a /= runs;
   row.cover_b /= runs;
+  row.cover_slope /= runs;
   row.told /= runs;
   row.differ /= runs;
   return row;
@@ -400,6 +416,16 @@ inline std::vector<Case> cases() {
   joint("4 runs, x, 2 % scatter", Route::position, {}, 4, 0.02);
   joint("10 runs, x, 2 % scatter", Route::position, {}, 10, 0.02);
   joint("4 runs, D, 2 % scatter", Route::shift, to_shift(Case::x, 11), 4, 0.02);
+  const auto unequal = [&](const char* name, int runs, int noisy, int down) {
+    joint(name, Route::position, {}, runs, 0.02);
+    all.back().noisy = noisy;
+    all.back().down = down;
+  };
+  unequal("1 + 3 noisy, x, 2 % scatter", 4, 3, 0);
+  unequal("2 + 2 noisy, x, 2 % scatter", 4, 2, 0);
+  unequal("4 + 4 noisy, x, 2 % scatter", 8, 4, 0);
+  unequal("7 up + 1 down, x, 2 % scatter", 8, 0, 1);
+  unequal("4 up + 4 down, x, 2 % scatter", 8, 0, 4);
   static const char* const names[][4] = {
       {"D from v, W 5", "D from v, W 9", "D from v, W 15", "D from v, W 31"},
       {"D from x, W 5", "D from x, W 9", "D from x, W 15", "D from x, W 31"}};

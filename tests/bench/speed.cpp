@@ -3,7 +3,8 @@
 //   speed filter [COLUMNS] <FILE    parse two numbers of each row, pass its bytes through, append
 //                                   COLUMNS (1) new numbers
 //   speed fit <FILE                 parse two numbers of each row, add up what a straight line
-//                                   through their logarithms takes
+//                                   through their logarithms and its standard errors take: no
+//                                   residuals, so no row is kept
 //   speed print ROWS                rows of two numbers
 //   speed compare ROUNDS user|cpu|elapsed COMMAND OTHER
 //                                   two shell commands in turn: median seconds of each; median,
@@ -106,13 +107,18 @@ void filter(int columns) {
 }
 
 void fit() {
-  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  double n = 0, x0 = 0, y0 = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
   rows([&](const char*, const char*, double x, double y) {
-    const double u = std::log(x), w = std::log(y);
-    ++n, sx += u, sy += w, sxx += u * u, sxy += u * w;
+    const double log_x = std::log(x), log_y = std::log(y);
+    if (n == 0) x0 = log_x, y0 = log_y;  // sums about the first row lose fewer digits
+    const double u = log_x - x0, w = log_y - y0;
+    ++n, sx += u, sy += w, sxx += u * u, sxy += u * w, syy += w * w;
   });
-  const double b = (n * sxy - sx * sy) / (n * sxx - sx * sx);
-  fmt::print("{}\t{}\n", std::exp((sy - b * sx) / n), b);
+  const double xx = sxx - sx * sx / n, xy = sxy - sx * sy / n, yy = syy - sy * sy / n, b = xy / xx,
+               mean_x = x0 + sx / n, variance = (yy - b * xy) / (n - 2);
+  const double a = std::exp(y0 + sy / n - b * mean_x);
+  fmt::print("{}\t{}\t{}\t{}\n", a, a * std::sqrt(variance * (1 / n + mean_x * mean_x / xx)), b,
+             std::sqrt(variance / xx));
 }
 
 void print(double n) {

@@ -1,3 +1,5 @@
+#include <gsl/gsl_cdf.h>
+
 #include "base/error.h"
 #include "motion/trajectory.h"
 #include "unit/catch.h"
@@ -62,8 +64,26 @@ TEST_CASE("agreement: the scatter of means, by hand", "[fit]") {
     (squares > 3 ? low : high) = tau_square;
   }
   CHECK(std::abs(r.a - std::exp(mean)) < 1e-9);
-  constexpr double t = 3.182446;  // Student, 0.975, 3 degrees of freedom
-  CHECK(std::abs(r.sigma_a / (t / 1.96 * r.a / std::sqrt(weights)) - 1) < 1e-6);
+  // The variance of the mean is V = sum of k r^2 with k = h^2/(1 - h), h the shares of the weights;
+  // its degrees of freedom are 2 V^2/var V, where the residuals r of the model have the covariance
+  // C = 1/w - 1/W on the diagonal and -1/W beside it.
+  std::vector<double> k;
+  double V = 0, trace = 0, squares = 0;
+  const auto weight = [&](double a) { return 1 / (variance / (a * a) + tau_square); };
+  for (double a : means) {
+    const double h = weight(a) / weights;
+    k.push_back(h * h / (1 - h));
+    V += k.back() * std::pow(std::log(a) - mean, 2);
+  }
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j) {
+      const double C = (i == j ? 1 / weight(means[i]) : 0) - 1 / weights;
+      if (i == j) trace += k[i] * C;
+      squares += k[i] * k[j] * C * C;
+    }
+  const double t = gsl_cdf_tdist_Pinv(0.975, trace * trace / squares);
+  CHECK(t == Approx(3.182446).epsilon(1e-3));  // 3 degrees of freedom if all were as precise
+  CHECK(std::abs(r.sigma_a / (t / 1.96 * r.a * std::sqrt(V)) - 1) < 1e-6);
   // chi^2 is that of the noise alone.
   double by_noise = 0, sum = 0, chi2 = 0;
   for (double a : means) by_noise += a * a, sum += a * a * std::log(a);
@@ -78,6 +98,48 @@ TEST_CASE("agreement: the scatter of means, by hand", "[fit]") {
   CHECK(same.agreement->agree());
   CHECK(same.agreement->chi2 < 1e-20);
   CHECK(std::abs(same.sigma_a / std::sqrt(4 * 0.0258 / 27 / 28) - 1) < 1e-10);
+}
+
+// With b = 0 speeds fall along straight lines, all with the same slope in the joint fit: the errors
+// of v0 are those of textbooks (HC3), by residuals around lines of the runs' own.
+TEST_CASE("agreement: uneven noise around the runs' own laws, by hand", "[fit]") {
+  constexpr std::size_t count = 4, m = 12;
+  constexpr double n = count * m, mean_t = 0.05 * (m - 1) / 2;
+  simulated::Noise noise(41);
+  std::vector<FitRun> runs;
+  for (const double a : {5e-4, 6e-4, 7e-4, 8e-4}) {
+    FitRun& run = runs.emplace_back();
+    run.body = cylinder;
+    for (std::size_t i = 0; i < m; ++i) {
+      run.t.push_back(0.05 * static_cast<double>(i));
+      run.v.push_back(0.5 - a * cylinder.g / (1.5 * cylinder.R) * run.t[i] +
+                      noise(1e-5 * (1 + 2 * static_cast<double>(i * i))));
+    }
+  }
+  FitOptions options;
+  options.b = 0;
+  const auto r = fit(Route::velocity, runs, options);
+  REQUIRE_FALSE(r.agreement->agree());
+  REQUIRE(r.errors == Errors::uneven);
+  double squares_t = 0;
+  for (double t : runs[0].t) squares_t += (t - mean_t) * (t - mean_t);
+  double sum = 0;  // of the squares of what each record brings to the v0 of the first run
+  for (std::size_t k = 0; k < count; ++k) {
+    double mean_v = 0, slope = 0;
+    for (std::size_t i = 0; i < m; ++i) {
+      mean_v += runs[k].v[i] / m;
+      slope += (runs[k].t[i] - mean_t) * runs[k].v[i] / squares_t;
+    }
+    for (std::size_t i = 0; i < m; ++i) {
+      const double off = runs[k].t[i] - mean_t, residual = runs[k].v[i] - mean_v - slope * off,
+                   leverage = 1.0 / m + off * off / (count * squares_t),
+                   by_v = (k == 0 ? 1.0 / m : 0) - mean_t * off / (count * squares_t);
+      sum += std::pow(by_v * residual / (1 - leverage), 2);
+    }
+  }
+  // The lines have two parameters each, the joint fit one each and the slope.
+  sum *= (n - count - 1) / (n - 2 * count);
+  CHECK(r.sigma_v0[0] == Approx(std::sqrt(sum)).epsilon(1e-6));
 }
 
 TEST_CASE("agreement: of 1000 pairs of rolls under one law 1 % are said to disagree", "[fit]") {
@@ -144,10 +206,10 @@ TEST_CASE("agreement: the errors allow for scatter of runs that are not equally 
   for (int k = 0; k < 200; ++k) {
     std::vector<FitRun> runs;
     for (const double size : {3e-4, 15e-4, 15e-4, 15e-4})
-      runs.push_back(roll({felt.a * (1 + noise(0.02)), felt.b}, 0, 1, noise, size));
+      runs.push_back(roll({rubber.a * (1 + noise(0.02)), rubber.b}, 0, 1, noise, size));
     const auto r = fit(Route::position, runs, {});
-    a += std::abs(r.a - felt.a) < 1.96 * r.sigma_a;
-    b += std::abs(r.b - felt.b) < 1.96 * r.sigma_b;
+    a += std::abs(r.a - rubber.a) < 1.96 * r.sigma_a;
+    b += std::abs(r.b - rubber.b) < 1.96 * r.sigma_b;
   }
   CAPTURE(a, b);
   for (int covered : {a, b}) {
@@ -208,6 +270,23 @@ TEST_CASE("agreement: the errors allow for scatter from run to run beside a slop
     CHECK(covered >= 69);  // fewer of 95 % by chance in 0.1 %
     CHECK(covered <= 79);
   }
+}
+
+// R S acts like a shift, which bends ln D(v) where D is not constant: where the scatter of a puts
+// the slope off, b is off by R b/D of that, and its error holds that of the slope.
+TEST_CASE("agreement: the exponents of the runs are those at the slope that is found", "[fit]") {
+  simulated::Noise noise(42);
+  FitOptions options;
+  options.fit_slope = true;
+  std::vector<FitRun> runs;
+  for (const auto& [by, way] : {std::pair(0.98, 1), {1.01, 1}, {1.03, 1}, {1.02, -1}})
+    runs.push_back(roll({by * rubber.a, rubber.b}, 1e-3, way, noise, 1e-6));
+  const auto r = fit(Route::position, runs, options);
+  REQUIRE_FALSE(r.agreement->agree());
+  const double D = rubber.a * std::pow(0.25, rubber.b), by_slope = 0.5 * 0.04 * rubber.b / D;
+  CHECK((r.b - rubber.b) / (by_slope * (r.slope - 1e-3)) == Approx(1).epsilon(0.15));
+  CHECK(r.sigma_b > 0.9 * by_slope * r.sigma_slope);
+  CHECK(r.sigma_b < 1.5 * by_slope * r.sigma_slope);
 }
 
 // What the runs scatter by is no slope: in one direction it is found by its part of each roll
