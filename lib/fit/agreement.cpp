@@ -309,7 +309,7 @@ void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, F
   Pair lost{};
   double products = 0;
   for (std::size_t i = 0; i < laws.size(); ++i) {
-    lost = lost - Pair{-a.shares[i] * by_slope[i].a, -b.shares[i] * by_slope[i].b};
+    lost.a += a.shares[i] * by_slope[i].a, lost.b += b.shares[i] * by_slope[i].b;
     products += a.parts[i] * b.parts[i];
   }
   if (a.free) joint.a.value = std::exp(a.value);

@@ -1,14 +1,14 @@
 // The common part of the rolls that are solutions of differential equations.
 #pragma once
 
+#include <cmath>
+#include <utility>
+#include <vector>
+
 #include "base/error.h"
 #include "contact/contact.h"
 #include "motion/motion.h"
 #include "ode/integrator.h"
-
-#include <cmath>
-#include <utility>
-#include <vector>
 
 namespace rolling {
 
