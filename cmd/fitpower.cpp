@@ -1,6 +1,7 @@
 // fitpower - fit the power law D = a v^b to columns; see fitpower(1)
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <span>
 
 #include "cli/fit_report.h"
@@ -46,6 +47,21 @@ struct Runs {
 
 /// The columns that are read: those that the route fits, or those of the other routes too.
 enum class Columns { of_route, of_all_routes };
+
+/// Warns of a record that was given twice: in a joint fit it makes the errors too small.
+void warn_of_copies(Tool& tool, Route route, const Runs& all) {
+  const auto y = route == Route::position   ? &FitRun::x
+                 : route == Route::velocity ? &FitRun::v
+                                            : &FitRun::D;
+  const auto less = [&](std::size_t i, std::size_t j) { return all.runs[i].*y < all.runs[j].*y; };
+  std::set<std::size_t, decltype(less)> different(less);
+  for (std::size_t i = 0; i < all.runs.size(); ++i)
+    if (const auto [same, inserted] = different.insert(i); !inserted)
+      tool.warn(
+          fmt::format("run {}: its readings are those of run {}: leave one of the two out, for "
+                      "together they count twice",
+                      all.names[i], all.names[*same]));
+}
 
 Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns columns) {
   const bool all_columns = columns == Columns::of_all_routes;
@@ -99,6 +115,7 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns co
                       "records at the cut are left out, since their windows are not known",
                       all.names.back(), history.left_out));
   }
+  warn_of_copies(tool, route, all);
   return all;
 }
 
