@@ -48,19 +48,27 @@ struct Runs {
 /// The columns that are read: those that the route fits, or those of the other routes too.
 enum class Columns { of_route, of_all_routes };
 
-/// Warns of a record that was given twice: in a joint fit it makes the errors too small.
+/// Warns of a record that was given twice: in a joint fit it makes the errors too small. Fewer than
+/// ten readings may be equal by chance.
 void warn_of_copies(Tool& tool, Route route, const Runs& all) {
   const auto y = route == Route::position   ? &FitRun::x
                  : route == Route::velocity ? &FitRun::v
                                             : &FitRun::D;
   const auto less = [&](std::size_t i, std::size_t j) { return all.runs[i].*y < all.runs[j].*y; };
   std::set<std::size_t, decltype(less)> different(less);
-  for (std::size_t i = 0; i < all.runs.size(); ++i)
-    if (const auto [same, inserted] = different.insert(i); !inserted)
-      tool.warn(
-          fmt::format("run {}: its readings are those of run {}: leave one of the two out, for "
-                      "together they count twice",
-                      all.names[i], all.names[*same]));
+  std::string copy;
+  std::size_t copies = 0;
+  for (std::size_t i = 0; i < all.runs.size(); ++i) {
+    if ((all.runs[i].*y).size() < 10) continue;
+    const auto [same, inserted] = different.insert(i);
+    if (!inserted && ++copies == 1)
+      copy =
+          fmt::format("run {}: its readings are those of run {}", all.names[i], all.names[*same]);
+  }
+  if (copies > 0)
+    tool.warn(
+        fmt::format("{}{}: leave copies out, for each counts as one more roll", copy,
+                    copies > 1 ? fmt::format(", the first of {} copies", copies) : std::string()));
 }
 
 Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns columns) {
