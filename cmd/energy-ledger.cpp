@@ -115,7 +115,8 @@ class Accounts {
       beyond += fmt::format("{}imbalance {:.4g} at t = {:.6g} s", beyond.empty() ? "" : ", ",
                             balance.imbalance(), balance.time_of_imbalance());
     if (!beyond.empty())
-      tool_.check_failed(fmt::format("the check does not hold: {}: beyond {}", beyond, tolerance_));
+      tool_.check_failed(fmt::format("run {}: the check does not hold: {}: beyond {}",
+                                     in_.run_name(), beyond, tolerance_));
   }
 
   /// Prints the warnings about all runs.
@@ -192,7 +193,8 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     const auto row = chosen(columns, quantities);
     for (const auto& quantity : row)
-      if (quantity.column.name == "Pi_S") tool.need({"temperature"});
+      if (quantity.column.name == "Pi_S" && std::isnan(temperature))
+        fail("Pi_S needs --temperature");
     if (!law_file.empty()) {
       LawFile read = read_law(tool, law_file);
       law = {read.law_or(law.power), std::move(read.table)};
