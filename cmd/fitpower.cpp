@@ -29,9 +29,15 @@ void set_parameters(const std::string& option, const std::vector<std::string>& s
   }
 }
 
-/// Warns of readings that a logger held: the fit counts each repetition as a new reading.
-void warn_of_held(Tool& tool, const std::string& name, Route route, const FitRun& run) {
+/// Warns of readings that a logger held: the fit counts each repetition as a new reading. Speeds
+/// that a `##` line calls the differences of positions are none.
+void warn_of_held(Tool& tool, const std::string& name, Route route, const FitRun& run,
+                  const std::vector<std::string>& history) {
   const bool position = route == Route::position;
+  const auto of_positions = [](const std::string& line) {
+    return line.starts_with("differentiate x ");
+  };
+  if (!position && std::any_of(history.begin(), history.end(), of_positions)) return;
   const double held = records_held(position ? run.x : run.v);
   if (held > 1)
     tool.warn(fmt::format(
@@ -106,7 +112,7 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns co
     for (const auto& [slot, column] : needed) (run.*column).reserve(room);
     while (in.next())
       for (const auto& [slot, column] : needed) (run.*column).push_back(in[slot]);
-    warn_of_held(tool, all.names.back(), route, run);
+    warn_of_held(tool, all.names.back(), route, run, in.history());
     History history = history_of(in.history(), run.t);
     if (in.renames() && !history.filters.empty())
       history = {{}, {}, "--use takes other columns than its `##` lines speak of"};
