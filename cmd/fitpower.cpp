@@ -317,6 +317,7 @@ int main(int argc, char** argv) {
       warn_of(tool, route, *results[i], of_fit, with_check);
       if (!with_report && !with_check) continue;
       const auto laws = compare_if_possible(route, fits[i], options);
+      if (with_report && each) tool.say(fmt::format("run {}, the report:", run_names[i]));
       if (with_report) report(tool, fits[i], options, laws);
       if (with_check)
         check(tool, *results[i], laws, beginning_if_possible(route, fits[i], options), of_fit);

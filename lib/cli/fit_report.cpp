@@ -120,22 +120,28 @@ std::string disagreement(const FitResult& r, std::span<const std::string> names)
   return line;
 }
 
+/// What a message about the fit of one run begins with.
+std::string of_run(std::span<const std::string> names) {
+  return names.size() == 1 ? fmt::format("run {}: ", names[0]) : "";
+}
+
 }  // namespace
 
 void warn_of(Tool& tool, Route route, const FitResult& r, std::span<const std::string> names,
              bool check_comes) {
   if (exact(r)) return;
+  const std::string run = of_run(names);
   if (noise_is_correlated(r))
-    tool.warn(fmt::format(
-        "the noise is correlated from record to record (Ljung-Box p {:.2g}), or the law is not the "
-        "right one: the errors allow for the correlation; see --report",
-        r.whiteness));
-  if (route == Route::loglog && logarithms_too_low(r))
     tool.warn(
-        "the noise of D makes its logarithms too low, by more than the standard error of the line: "
-        "use --route shift");
+        fmt::format("{}the noise is correlated from record to record (Ljung-Box p {:.2g}), or the "
+                    "law is not the right one: the errors allow for the correlation; see --report",
+                    run, r.whiteness));
+  if (route == Route::loglog && logarithms_too_low(r))
+    tool.warn(run +
+              "the noise of D makes its logarithms too low, by more than the standard error of the "
+              "line: use --route shift");
   if (r.errors == Errors::uneven)
-    tool.warn("the noise is not of one size along the run: the errors allow for that");
+    tool.warn(run + "the noise is not of one size along the run: the errors allow for that");
   if (r.agreement && !r.agreement->agree() && !check_comes)
     tool.warn(disagreement(r, names) + "; the errors allow for that");
   if (const auto& found = r.eccentricity)
@@ -178,7 +184,7 @@ void check(Tool& tool, const FitResult& r, const std::optional<LawComparison>& l
   // The difference in AICc at which the other law has essentially no support (Burnham and
   // Anderson 2002, section 2.6).
   constexpr double better = 10;
-  const std::string run = names.size() == 1 ? fmt::format("run {}: ", names[0]) : "";
+  const std::string run = of_run(names);
   // check_failed() prints the first reason in full. Therefore a reason that no warning has
   // reported, or that would cause the others, comes first.
   if (r.agreement && !r.agreement->agree())
