@@ -69,11 +69,13 @@ void report_route(Tool& tool, const std::string& name, Route route, const std::v
   const auto begin = std::chrono::steady_clock::now();
   const FitResult r = fit(route, runs, options);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
-  tool.say(fmt::format(
-      "{}: a {:.5g} +- {:.2g}, b {:.5g} +- {:.2g}, rms {:.3g}, n {}, errors {}{}, {:.2g} ms", name,
-      r.a, r.sigma_a, r.b, r.sigma_b, r.rms, r.n, kinds.at(r.errors),
-      std::isnan(r.whiteness) ? "" : fmt::format(" (Ljung-Box p {:.2g})", r.whiteness),
-      time.count()));
+  const auto known = [](const char* text, double value) {  // as many parameters as records: NaN
+    return std::isnan(value) ? "" : fmt::format(fmt::runtime(text), value);
+  };
+  tool.say(fmt::format("{}: a {:.5g}{}, b {:.5g}{}{}, n {}, errors {}{}, {:.2g} ms", name, r.a,
+                       known(" +- {:.2g}", r.sigma_a), r.b, known(" +- {:.2g}", r.sigma_b),
+                       known(", rms {:.3g}", r.rms), r.n, kinds.at(r.errors),
+                       known(" (Ljung-Box p {:.2g})", r.whiteness), time.count()));
   if (r.shares.size() > 1) tool.say(budget(r));
 }
 
