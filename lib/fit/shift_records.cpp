@@ -1,7 +1,6 @@
 #include "fit/shift_records.h"
 
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "base/error.h"
@@ -41,6 +40,7 @@ ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& opt
   std::size_t most = 0;
   for (const auto& run : all) most += run.v.size();
   y.reserve(most), log_u.reserve(most);
+  double sum = 0;
   for (const auto& run : all) {
     const std::size_t before = y.size();
     const double way = way_of(run);
@@ -48,6 +48,7 @@ ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& opt
       const double v = way * run.v[i], D = way * run.D[i];
       if (!is_used(v, D, options, logarithms)) continue;
       log_u.push_back(std::log(v));
+      sum += log_u.back();
       y.push_back(logarithms ? std::log(D) : D);
     }
     records.runs.push_back(y.size() - before);
@@ -60,7 +61,7 @@ ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& opt
   if (!options.b &&
       std::all_of(log_u.begin(), log_u.end(), [&](double x) { return x == log_u[0]; }))
     fail("all speeds are equal: b cannot be determined");
-  records.log_v_ref = std::accumulate(log_u.begin(), log_u.end(), 0.0) / static_cast<double>(n);
+  records.log_v_ref = sum / static_cast<double>(n);
   for (double& x : log_u) x -= records.log_v_ref;
   return records;
 }
