@@ -16,7 +16,6 @@ namespace rolling {
 namespace {
 
 System line_system(ShiftRecords records, Height height) {
-  for (double& D : records.D) D = std::log(D);
   const std::size_t p = height.count();
   std::vector<std::size_t> runs = records.runs;
   return {std::move(runs), 0, p,
@@ -27,7 +26,7 @@ System line_system(ShiftRecords records, Height height) {
     hand_over(records->runs, p, take,
               [&](std::size_t i, std::span<double> J, std::size_t k, std::size_t n) {
       height.put(J, k, n, 1, records->log_u[i], 1);
-      return h + b * records->log_u[i] - records->D[i];
+      return h + b * records->log_u[i] - records->y[i];
     });
           }};
 }
@@ -146,8 +145,7 @@ void bias_line(Fitted& line, const std::vector<double>& bias) {
 
 /// Adds the noise and the bias of ln D - b ln v to a line if the filters are known: those of the
 /// best-fitting roll, observed through the filters.
-void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<FitRun>& all,
-                 const FitOptions& options) {
+void carry_noise(Fitted& line, const std::vector<FitRun>& all, const FitOptions& options) {
   Making making = making_of(Route::shift, all);
   if (!making.known()) return;
   std::vector<FilterMatrix> D, v;
@@ -179,8 +177,9 @@ void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<
     const auto shift = [&, by = *all[r].shift_of](double a) {
       return run.way * shift_from_acceleration(by.body, by.geometry, run.way * a);
     };
-    Logarithms logarithms = logarithms_of(D[r], v[r], raw, rows[r], {roll.a.value, roll.b.value},
-                                          shift, std::sqrt(raw_noise.variance));
+    Logarithms logarithms =
+        logarithms_of(D[r], v[r], raw, shift_rows(all[r], options, true),
+                      {roll.a.value, roll.b.value}, shift, std::sqrt(raw_noise.variance));
     noise.push_back(std::move(logarithms.noise));
     bias.insert(bias.end(), logarithms.bias.begin(), logarithms.bias.end());
   }
@@ -193,9 +192,8 @@ void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<
 Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) {
   ShiftRecords records = shift_records(all, options, true);
   const Height height{options.a, options.b, records.log_v_ref};
-  const std::vector<Rows> rows = std::move(records.rows);
   Fitted line{.system = {}, .minimum = {}};
-  line.records = records.D.size();
+  line.records = records.y.size();
   line.left_out = records.left_out;
   line.system = line_system(std::move(records), height);
   line.minimum = solve(line.system, std::vector<double>(height.count(), 0), options,
@@ -204,7 +202,7 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) {
   const double b = height.exponent(line.minimum.theta),
                a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * height.log_v_ref);
   height.report(line, a, a);
-  if (!options.robust) carry_noise(line, rows, all, options);
+  if (!options.robust) carry_noise(line, all, options);
   return line;
 }
 
