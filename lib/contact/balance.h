@@ -2,6 +2,7 @@
 // dissipates, at every moment and at the end.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "contact/integral.h"
@@ -21,7 +22,10 @@ class Balance {
     dissipated_ = outflow_.push(t, now.P_diss());
     if (inclined_) lifted_ = lift_.push(t, now.P_g());
     const double off = std::abs(start_ - end_ - lifted_ - dissipated_);
-    if (off > worst_) worst_ = off, worst_time_ = t;
+    // There is no branch, which the processor would often predict wrongly: noise decides.
+    const double times[] = {worst_time_, t};
+    worst_time_ = times[off > worst_];
+    worst_ = std::max(worst_, off);
   }
 
   double start() const { return start_; }  ///< E_trans + E_rot at the first record [J]
