@@ -129,7 +129,6 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns co
                       "records at the cut are left out, since their windows are not known",
                       all.names.back(), history.left_out));
   }
-  warn_of_copies(tool, route, all);
   return all;
 }
 
@@ -296,10 +295,12 @@ int main(int argc, char** argv) {
     if (options.v0 && !trajectory) fail("--fix: this route has no v0");
     if (options.x0 && route != Route::position) fail("--fix: this route has no x0");
 
-    auto [runs, run_names] =
+    Runs all =
         read_runs(tool, in, route, body, with_report ? Columns::of_all_routes : Columns::of_route);
-    set_bodies(runs, shape_factors, uncertainty);
-    const auto fits = grouped(std::move(runs), each);
+    if (!each) warn_of_copies(tool, route, all);
+    set_bodies(all.runs, shape_factors, uncertainty);
+    const std::vector<std::string>& run_names = all.names;
+    const auto fits = grouped(std::move(all.runs), each);
     const Table table{tool.out, trajectory && fits.front().size() == 1, options.fit_slope, each};
     const auto results = fit_all(tool, route, fits, options, each ? &run_names : nullptr);
     const auto fitted = [](const auto& result) { return result.has_value(); };
