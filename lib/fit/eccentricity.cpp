@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "contact/contact.h"
+#include "fit/by_run.h"
 #include "fit/triangles.h"
 
 namespace rolling {
@@ -194,11 +195,10 @@ std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRu
   constexpr double decisive = 0.01;
   if (!fit.rolls || fit.minimum.f.size() < fit.minimum.theta.size() + 10) return {};
   std::optional<Eccentricity> found;
-  std::size_t first = 0;
-  for (std::size_t r = 0; r < runs.size(); first += fit.system.runs[r++]) {
+  const auto f_of = by_run(fit.minimum.f, fit.system.runs);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
     const double R = route == Route::shift ? runs[r].shift_of->body.R : runs[r].body.R;
-    const Periodogram spectrum(fit, r, R, variance,
-                               std::span(fit.minimum.f).subspan(first, fit.system.runs[r]));
+    const Periodogram spectrum(fit, r, R, variance, f_of[r]);
     if (!spectrum.worth()) continue;
     Eccentricity once_a_turn = spectrum.at(1);
     once_a_turn.significance *= static_cast<double>(runs.size());

@@ -10,40 +10,37 @@
 #include "base/error.h"
 #include "contact/contact.h"
 #include "contact/uncertain_number.h"
+#include "fit/by_run.h"
 #include "fit/dot.h"
 
 namespace rolling {
 
-std::vector<double> Spread::solve_transposed(std::vector<double> g, std::size_t run) const {
-  const double* const R = &R_[run * q_ * q_];
-  for (std::size_t j = 0; j < q_; ++j) {
-    for (std::size_t k = 0; k < j; ++k) g[j] -= R[k * q_ + j] * g[k];
-    g[j] /= R[j * q_ + j];
+void solve_transposed(const double* R, std::span<double> g) {
+  const std::size_t q = g.size();
+  for (std::size_t j = 0; j < q; ++j) {
+    for (std::size_t k = 0; k < j; ++k) g[j] -= R[k * q + j] * g[k];
+    g[j] /= R[j * q + j];
   }
-  return g;
 }
 
-double Spread::operator()(const std::vector<double>& g, const std::vector<double>& h,
-                          std::size_t run) const {
-  const auto left = solve_transposed(g, run), right = solve_transposed(h, run);
+double Spread::operator()(std::vector<double> g, std::vector<double> h, std::size_t run) const {
+  const std::size_t first = run * q_ * q_;
+  solve_transposed(&R_[first], g), solve_transposed(&R_[first], h);
   double sum = 0;
   for (std::size_t i = 0; i < q_; ++i)
-    for (std::size_t j = 0; j < q_; ++j) sum += left[i] * M_[(run * q_ + i) * q_ + j] * right[j];
+    for (std::size_t j = 0; j < q_; ++j) sum += g[i] * M_[first + i * q_ + j] * h[j];
   return sum;
 }
 
 std::vector<double> orthonormal(const System& system, const Minimum& m) {
   const std::size_t q = system.columns();
-  std::vector<double> Q;
-  Q.reserve(m.f.size() * q);
+  std::vector<double> Q(m.f.size() * q);
+  double* row = Q.data();
   system.evaluate(m.theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
-    const double* const R = &m.R[run * q * q];
-    for (std::size_t i = 0; i < f.size(); ++i)
-      for (std::size_t j = 0; j < q; ++j) {
-        double x = J[j * f.size() + i];
-        for (std::size_t k = 0; k < j; ++k) x -= Q[Q.size() - j + k] * R[k * q + j];
-        Q.push_back(x / R[j * q + j]);
-      }
+    for (std::size_t i = 0; i < f.size(); ++i, row += q) {
+      for (std::size_t j = 0; j < q; ++j) row[j] = J[j * f.size() + i];
+      solve_transposed(&m.R[run * q * q], {row, q});
+    }
   });
   return Q;
 }
@@ -60,11 +57,8 @@ void add_shared(std::vector<double>& M, std::size_t columns, std::size_t shared)
 
 double lagged(std::span<const double> r, std::span<const std::size_t> runs, std::size_t lag) {
   double sum = 0;
-  std::size_t start = 0;
-  for (std::size_t n : runs) {
-    if (n > lag) sum += dot(&r[start], &r[start + lag], n - lag);
-    start += n;
-  }
+  for (const auto run : by_run(r, runs))
+    if (run.size() > lag) sum += dot(run.first(run.size() - lag), run.subspan(lag));
   return sum;
 }
 
@@ -88,20 +82,16 @@ double breusch_pagan(std::span<const double> residuals, std::span<const std::siz
   const double n = static_cast<double>(residuals.size());
   const double mean = lagged(residuals, runs, 0) / n;
   double P1 = 0, P2 = 0, along1 = 0, along2 = 0, all = 0;
-  std::size_t start = 0;
-  for (std::size_t m : runs) {
-    for (std::size_t i = 0; i < m; ++i) {
-      const double u = (2 * static_cast<double>(i) + 1) / static_cast<double>(m) - 1,
-                   p2 = (3 * u * u - 1) / 2,
-                   square = residuals[start + i] * residuals[start + i] - mean;
+  for (const auto run : by_run(residuals, runs))
+    for (std::size_t i = 0; i < run.size(); ++i) {
+      const double u = (2 * static_cast<double>(i) + 1) / static_cast<double>(run.size()) - 1,
+                   p2 = (3 * u * u - 1) / 2, square = run[i] * run[i] - mean;
       P1 += u * u;
       P2 += p2 * p2;
       along1 += u * square;
       along2 += p2 * square;
       all += square * square;
     }
-    start += m;
-  }
   if (!(all > 0) || !(P1 > 0) || !(P2 > 0)) return 1;
   return gsl_cdf_chisq_Q(n * (along1 * along1 / P1 + along2 * along2 / P2) / all, 2);
 }
@@ -113,11 +103,9 @@ namespace {
 std::vector<double> prewhitened(std::span<const double> x, std::size_t p,
                                 std::span<const std::size_t> runs, double rho) {
   std::vector<double> e(x.begin(), x.end());
-  std::size_t start = 0;
-  for (std::size_t m : runs) {
-    for (std::size_t i = start * p; i < (start + m) * p; ++i)
-      e[i] = i < (start + 1) * p ? std::sqrt(1 - rho * rho) * x[i] : x[i] - rho * x[i - p];
-    start += m;
+  for (const auto run : by_run(e, runs, p)) {
+    for (std::size_t i = run.size(); i-- > p;) run[i] -= rho * run[i - p];
+    for (std::size_t i = 0; i < std::min(p, run.size()); ++i) run[i] *= std::sqrt(1 - rho * rho);
   }
   return e;
 }
@@ -134,18 +122,19 @@ std::vector<double> bartlett(std::span<const double> u, std::size_t q, std::size
   const std::size_t m = u.size() / q, most = std::min({width, m / 2, m - 1});
   std::vector<double> P((m + 1) * q), S(q * q, 0), sum(q);  // P: cumulative sums
   for (std::size_t i = 0; i < m * q; ++i) P[i + q] = P[i] + u[i];
-  const auto add = [&](const double* x, std::size_t from, std::size_t to, double by) {
+  const auto sum_over = [&](std::size_t from, std::size_t to) {
     for (std::size_t j = 0; j < q; ++j) sum[j] = P[to * q + j] - P[from * q + j];
-    if (!x) x = sum.data();
-    for (std::size_t j = 0; j < q; ++j)
-      for (std::size_t k = 0; k < q; ++k) S[j * q + k] += by * x[j] * sum[k];
   };
   const double triangle = 1 / static_cast<double>(width + 1),
                box = 1 - static_cast<double>(most + 1) * triangle;
-  for (std::size_t end = 1; end <= m + most; ++end)
-    add(nullptr, end > most + 1 ? end - most - 1 : 0, std::min(end, m), triangle);
-  for (std::size_t i = 0; box > 0 && i < m; ++i)
-    add(&u[i * q], i > most ? i - most : 0, std::min(i + most + 1, m), box);
+  for (std::size_t end = 1; end <= m + most; ++end) {
+    sum_over(end > most + 1 ? end - most - 1 : 0, std::min(end, m));
+    add_outer(S, triangle, sum, sum);
+  }
+  for (std::size_t i = 0; box > 0 && i < m; ++i) {
+    sum_over(i > most ? i - most : 0, std::min(i + most + 1, m));
+    add_outer(S, box, u.subspan(i * q, q), sum);
+  }
   return S;
 }
 
@@ -166,12 +155,8 @@ std::vector<double> newey_west(std::span<const double> scores, std::size_t p,
   const double alpha = 4 * rho * rho / ((1 - rho * rho) * (1 - rho * rho));
   const auto width = static_cast<std::size_t>(std::ceil(1.1447 * std::cbrt(alpha * n)));
   std::vector<double> all;
-  std::size_t start = 0;
-  for (std::size_t m : runs) {
-    const auto S = bartlett(std::span(u).subspan(start * q, m * q), q, width);
-    for (double x : S) all.push_back(x / ((1 - AR) * (1 - AR)));
-    start += m;
-  }
+  for (const auto run : by_run(u, runs, q))
+    for (double x : bartlett(run, q, width)) all.push_back(x / ((1 - AR) * (1 - AR)));
   return all;
 }
 
@@ -181,12 +166,10 @@ namespace {
 std::vector<double> squares_of(std::span<const double> u, std::size_t q,
                                std::span<const std::size_t> runs) {
   std::vector<double> all;
-  const double* row = u.data();
-  for (std::size_t m : runs) {
-    std::vector<double> S(q * q, 0);
-    for (std::size_t i = 0; i < m; ++i, row += q)
-      for (std::size_t j = 0; j < q; ++j)
-        for (std::size_t k = 0; k < q; ++k) S[j * q + k] += row[j] * row[k];
+  for (const auto run : by_run(u, runs, q)) {
+    std::vector<double> S(q * q);
+    for (std::size_t i = 0; i < run.size(); i += q)
+      add_outer(S, 1, run.subspan(i, q), run.subspan(i, q));
     all.insert(all.end(), S.begin(), S.end());
   }
   return all;
@@ -308,7 +291,7 @@ Uncertainty uncertainty_of(const Fitted& fit) {
     // The fit has removed part of the noise from the residuals; the ratio of the variances corrects
     // for that.
     const auto sources = static_cast<double>(from.e.size());
-    const double shown = dot(from.e.data(), from.e.data(), from.e.size()) / sources;
+    const double shown = dot(from.e, from.e) / sources;
     if (!by_leverage)
       for (double& x : M) x *= variance / shown;
   }

@@ -12,11 +12,9 @@ class Spread {
   Spread(std::vector<double> R, std::vector<double> M, std::size_t columns)
       : R_(std::move(R)), M_(std::move(M)), q_(columns) {}
   /// The covariance of two functions of the parameters of a run, given by their gradients.
-  double operator()(const std::vector<double>& g, const std::vector<double>& h,
-                    std::size_t run = 0) const;
+  double operator()(std::vector<double> g, std::vector<double> h, std::size_t run = 0) const;
 
  private:
-  std::vector<double> solve_transposed(std::vector<double> g, std::size_t run) const;
   std::vector<double> R_, M_;
   std::size_t q_;
 };
@@ -65,6 +63,9 @@ std::vector<Moved> moved_by_given(Route, const std::vector<FitRun>&, const FitOp
 
 /// The variance of the noise of the raw column. The filters must be known.
 double noise_variance(const Fitted&);
+
+/// Replaces g by R^-T g, for the upper triangle R of a Minimum (row by row, as many as g has).
+void solve_transposed(const double* R, std::span<double> g);
 
 /// Q = J R^-1, one row for each residual. The meat M of the covariance R^-1 M R^-T is a quadratic
 /// form of the rows of Q.

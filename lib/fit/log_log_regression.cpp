@@ -120,8 +120,7 @@ Logarithms logarithms_of(const FilterMatrix& D, const FilterMatrix& v,
     // for that.
     add(D_i > 0 ? (shift((1 - step) * a_i) / D_i - 1) / (step * a_i) : 1e100, D_row,
         v_i > 0 ? law.b / v_i : 0, v_row, log_row);
-    const double s =
-        sigma * std::sqrt(dot(log_row.values.data(), log_row.values.data(), log_row.values.size()));
+    const double s = sigma * std::sqrt(dot(log_row.values, log_row.values));
     const Estimate log_noise = s > 0 && std::isfinite(s) ? logarithm(s) : Estimate{};
     for (double& x : log_row.values) x *= log_noise.sigma > 0 ? log_noise.sigma / s : 0;
     E.append(log_row.first, log_row.values);
@@ -131,17 +130,19 @@ Logarithms logarithms_of(const FilterMatrix& D, const FilterMatrix& v,
   return {FilterMatrix::identity(raw.size()).then(std::move(E)), std::move(bias)};
 }
 
-/// The bias of a and b of the line that follows from the biases of its points: theta = R^-1 Q^T
-/// bias.
+/// The bias of a and b of the line that follows from the biases of its points: g^T R^-1 Q^T bias
+/// for the gradient g of a or b.
 void bias_line(Fitted& line, const std::vector<double>& bias) {
   const std::size_t p = line.system.columns();
-  const std::vector<double> Q = orthonormal(line.system, line.minimum), &R = line.minimum.R;
-  std::vector<double> theta(p, 0.0);
-  for (std::size_t i = 0; i < Q.size(); ++i) theta[i % p] += Q[i] * bias[i / p];
-  for (std::size_t j = p; j-- > 0; theta[j] /= R[j * p + j])
-    for (std::size_t k = j + 1; k < p; ++k) theta[j] -= R[j * p + k] * theta[k];
-  line.bias_a = dot(line.a.gradient.data(), theta.data(), p);
-  line.bias_b = dot(line.b.gradient.data(), theta.data(), p);
+  const std::vector<double> Q = orthonormal(line.system, line.minimum);
+  std::vector<double> along(p);
+  for (std::size_t i = 0; i < Q.size(); ++i) along[i % p] += Q[i] * bias[i / p];
+  const auto bias_of = [&](std::vector<double> gradient) {
+    solve_transposed(line.minimum.R.data(), gradient);
+    return dot(gradient, along);
+  };
+  line.bias_a = bias_of(line.a.gradient);
+  line.bias_b = bias_of(line.b.gradient);
 }
 
 /// Adds the noise and the bias of ln D - b ln v to a line if the filters are known: those of the

@@ -13,7 +13,7 @@ std::vector<double> row_norms(const FilterMatrix& E) {
   FilterMatrix::Row row;
   for (std::size_t i = 0; i < E.band_rows(); ++i) {
     E.row(i, row);
-    norms.push_back(std::sqrt(dot(row.values.data(), row.values.data(), row.values.size())));
+    norms.push_back(std::sqrt(dot(row.values, row.values)));
   }
   return norms;
 }
