@@ -168,14 +168,12 @@ class Periodogram {
       std::copy_n(std::exchange(f, f + of_rows.size()), of_rows.size(), of_rows.begin());
       all.add(0, of_rows, J);
     };
-    Residuals residuals(seen_, run_, q + 2, *fit_.noise, take);
-    for (double t : seen_.t) {
-      const auto to = residuals.place();
-      *to.raw = model(t, to.slopes, to.stride);
+    const RawModel with_wobble = [&](double t, double* slopes, std::size_t stride) {
       const auto by_e = wobble.at(t);
-      for (std::size_t k = 0; k < 2; ++k) to.slopes[(q + k) * to.stride] = by_e[k];
-      residuals.push();
-    }
+      for (std::size_t k = 0; k < 2; ++k) slopes[(q + k) * stride] = by_e[k];
+      return model(t, slopes, stride);
+    };
+    evaluate(seen_, run_, q + 2, *fit_.noise, with_wobble, take);
   }
 
   const Fitted& fit_;

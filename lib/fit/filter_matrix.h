@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -96,29 +97,29 @@ class FilterMatrix {
 /// multiplied out nor is the product stored.
 class FilterPass {
  public:
-  FilterPass(const FilterMatrix&, std::size_t columns);
-  /// The number of elements that a row occupies: `columns`, rounded up to an even number.
-  std::size_t stride() const { return stride_; }
+  /// The callback receives the rows of the product in order; it may overwrite them.
+  FilterPass(const FilterMatrix&, std::size_t columns, std::function<void(double* row)> take);
   /// The memory for the next row of the input; push() reads the row from there.
   double* place() { return raw_.data(); }
+  /// Passes the rows of the product that need no further input to the callback.
   void push();
-  /// The next row of the product; null if it needs further input. Valid until the next call.
-  double* next();
+  /// The number of elements that a row needs: `columns`, rounded up to an even number.
+  static std::size_t stride(std::size_t columns) { return (columns + 1) / 2 * 2; }
 
  private:
   struct Stage {
     const BandMatrix* L;
-    std::vector<double> in;  // the input rows base .. count - 1
-    std::size_t base, count, row;
-    std::vector<double> out;
+    std::vector<double> in, out;  // the input rows base .. count - 1, and the last row of output
+    std::size_t base = 0, count = 0, row = 0;
   };
-  double* next_of(std::size_t stage);
+  void push(double* row, std::size_t stage);
+  void multiply(Stage&) const;
 
   const FilterMatrix& H_;
   std::size_t stride_, pushed_ = 0;
   std::vector<double> raw_, last_;
-  bool fresh_ = false, last_given_ = false;
   std::vector<Stage> stages_;
+  std::function<void(double* row)> take_;
 };
 
 }  // namespace rolling

@@ -92,19 +92,16 @@ class Records {
     LawRoll roll(body, run.geometry, in_units(law), &theta[theta.size() - shared(law)],
                  q.v0(theta, r));
     const std::size_t coefficients = law.coefficients.size();
-    Residuals residuals(run, r, own() + shared(law), *power_.noise, take);
-    for (double t : run.t) {
+    const bool x = run.raw_is_position;
+    const RawModel raw = [&](double t, double* to, std::size_t stride) {
       const LawRoll::Point p = roll.at(t);
-      const bool x = run.raw_is_position;
-      const auto place = residuals.place();
-      *place.raw = x ? q.x0(theta, r) + run.way * p.x : run.way * p.v;
-      double* to = q.chain_own(place.slopes, place.stride, run.way * (x ? p.x_v0 : p.v_v0), 1);
-      const auto put = [&](double value) { *std::exchange(to, to + place.stride) = value; };
-      for (std::size_t j = 0; j < coefficients; ++j) put(run.way * (x ? p.x_c[j] : p.v_c[j]));
-      if (fits_slope())
-        put(Parameters::slope_unit * (x ? p.x_c[coefficients] : p.v_c[coefficients]));
-      residuals.push();
-    }
+      const auto& by_c = x ? p.x_c : p.v_c;
+      to = q.chain_own(to, stride, run.way * (x ? p.x_v0 : p.v_v0), 1);
+      for (std::size_t j = 0; j < coefficients; ++j, to += stride) *to = run.way * by_c[j];
+      if (fits_slope()) *to = Parameters::slope_unit * by_c[coefficients];
+      return x ? q.x0(theta, r) + run.way * p.x : run.way * p.v;
+    };
+    evaluate(run, r, own() + shared(law), *power_.noise, raw, take);
   }
 
   Fitted power_;
