@@ -175,43 +175,32 @@ std::vector<double> squares_of(std::span<const double> u, std::size_t q,
   return all;
 }
 
-/// The independent sources of noise: theta - truth = -R^-1 sum B(s) e(s) over the sources s.
-struct Sources {
-  std::vector<double> e;  // estimated noise of each source
-  std::vector<std::size_t> runs;
-  std::vector<double> B;        // one row of q numbers for each source
-  std::size_t means_taken = 0;  // see RollModel::means_taken()
-};
-
-bool filters_known(const Fitted& fit) { return fit.noise->known() && !fit.noise_inferred; }
-
 Sources sources_of(const Fitted& fit) {
+  if (fit.raw_noise) return fit.raw_noise->sources;
   std::vector<double> Q = orthonormal(fit.system, fit.minimum);
-  if (!filters_known(fit)) return {fit.minimum.f, fit.system.runs, std::move(Q)};
-  auto B = fit.noise->through(std::move(Q), fit.system.columns());
-  if (const auto& raw = fit.raw_noise)
-    return {raw->sources, raw->source_runs, std::move(B), raw->means_taken};
-  return {fit.noise->explain(fit.minimum.f), fit.noise->sources(), std::move(B),
-          fit.rolls->means_taken()};
+  if (!fit.filters_known()) return {fit.minimum.f, fit.system.runs, std::move(Q)};
+  return {fit.noise->explain(fit.minimum.f), fit.noise->sources(),
+          fit.noise->through(std::move(Q), fit.system.columns()), fit.means_taken()};
 }
 
-/// The meat B^T B of each run for sources of variance one.
+/// The meat B^T B of each run, for sources of variance one and known filters.
 std::vector<double> meat_of(const Fitted& fit) {
   const std::size_t q = fit.system.columns();
-  if (fit.noise->weighted()) return fit.noise->meat(orthonormal(fit.system, fit.minimum), q);
-  const Sources from = sources_of(fit);
-  return squares_of(from.B, q, from.runs);
+  if (!fit.raw_noise) return fit.noise->meat(orthonormal(fit.system, fit.minimum), q);
+  return squares_of(fit.raw_noise->sources.B, q, fit.raw_noise->sources.runs);
 }
 
-/// The variance of the sources. The expectation of f f^T is the variance times A A^T, A = W E,
-/// before the fit, and the fit removes the component along Q. Hence the expectation of |f|^2 is the
-/// variance times tr((I - Q Q^T) A A^T) = tr A A^T - |B|^2.
-double variance_of(const Fitted& fit, const std::vector<double>& meat) {
-  if (fit.raw_noise) return fit.raw_noise->variance;
+/// The raw noise without its sources. The expectation of f f^T is the variance times A A^T, A = W
+/// E, before the fit, and the fit removes the component along Q. Hence the expectation of |f|^2 is
+/// the variance times tr((I - Q Q^T) A A^T) = tr A A^T - |B|^2.
+RawNoise raw_noise_of(const Fitted& fit, const std::vector<double>& meat) {
+  if (fit.raw_noise) return *fit.raw_noise;
   const std::size_t q = fit.system.columns();
   double taken = 0;
   for (std::size_t i = 0; i < meat.size(); ++i) taken += i % (q * q) % (q + 1) == 0 ? meat[i] : 0;
-  return fit.minimum.rss / (fit.noise->trace() - taken);
+  RawNoise raw{fit.minimum.rss / (fit.noise->trace() - taken), {}, {}};
+  raw.innovations = fit.noise->innovations(fit.minimum.f, raw.innovation_runs);
+  return raw;
 }
 
 /// The meat of the classical covariance, s^2 I.
@@ -223,14 +212,29 @@ std::vector<double> classical(const Fitted& fit, double variance) {
   return M;
 }
 
-/// HC3: the fit multiplies the noise of a residual by 1 - h, with h its leverage (MacKinnon and
-/// White 1985, J. Econometrics 29, 305).
-void correct_for_leverage(const Sources& from, std::size_t q, std::vector<double>& scores) {
+/// The meat that allows for noise that is uneven (HC3 for single records) or correlated.
+std::vector<double> consistent_meat(const Fitted& fit, Errors kind, double variance) {
+  const std::size_t q = fit.system.columns();
+  Sources from = sources_of(fit);
+  // HC3: the fit multiplies the noise of a residual by 1 - h, with h its leverage (MacKinnon and
+  // White 1985, J. Econometrics 29, 305).
+  const bool by_leverage = kind == Errors::uneven && !fit.filters_known();
   for (std::size_t i = 0; i < from.e.size(); ++i) {
-    const double* const row = &from.B[i * q];
-    const double h = std::min(dot(row, row, q), 0.99);
-    for (std::size_t j = 0; j < q; ++j) scores[i * q + j] /= 1 - h;
+    const auto row = std::span(from.B).subspan(i * q, q);
+    const double h = by_leverage ? std::min(dot(row, row), 0.99) : 0;
+    for (double& score : row) score = score * from.e[i] / (1 - h);
   }
+  const auto& scores = from.B;
+  std::vector<double> M =
+      kind == Errors::uneven
+          ? squares_of(scores, q, from.runs)
+          : newey_west(scores, fit.minimum.theta.size() + from.means_taken, from.e, from.runs);
+  if (by_leverage) return M;
+  // The fit has removed part of the noise from the residuals; the ratio of the variances corrects
+  // for that.
+  const double shown = dot(from.e, from.e) / static_cast<double>(from.e.size());
+  for (double& x : M) x *= variance / shown;
+  return M;
 }
 
 /// The estimator that suits the noise; `white` if the noise may be white and even.
@@ -246,7 +250,11 @@ Errors errors_of(std::span<const double> noise, std::span<const std::size_t> run
 
 }  // namespace
 
-double noise_variance(const Fitted& fit) { return variance_of(fit, meat_of(fit)); }
+RawNoise raw_noise_of(const Fitted& fit) {
+  RawNoise raw = raw_noise_of(fit, meat_of(fit));
+  raw.sources = {fit.noise->explain(fit.minimum.f), fit.noise->sources(), {}, fit.means_taken()};
+  return raw;
+}
 
 Uncertainty uncertainty_of(const Fitted& fit) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -254,47 +262,22 @@ Uncertainty uncertainty_of(const Fitted& fit) {
                     q = fit.system.columns();
   const auto& R = fit.minimum.R;
   if (n <= p) return {Errors::none, nan, nan, {R, std::vector<double>(R.size(), nan), q}};
-  const bool known = filters_known(fit);
-  double whiteness = 1;
-  Errors kind =
-      known ? Errors::filters : (fit.noise_inferred ? Errors::differences : Errors::classical);
-  const auto test = [&](std::span<const double> noise, std::span<const std::size_t> runs) {
-    whiteness = ljung_box(noise, p, runs);
-    if (n >= 30) kind = errors_of(noise, runs, whiteness, kind);
-  };
-  if (!known) {
-    test(fit.minimum.f, fit.system.runs);
-  } else if (fit.raw_noise) {
-    test(fit.raw_noise->innovations, fit.raw_noise->innovation_runs);
-  } else {
-    std::vector<std::size_t> runs;
-    const auto innovations = fit.noise->innovations(fit.minimum.f, runs);
-    test(innovations, runs);
-  }
-
-  const double plain = fit.minimum.rss / static_cast<double>(n - p);
-  if (kind == Errors::classical || kind == Errors::differences)
-    return {kind, whiteness, plain, {R, classical(fit, plain), q}};
   std::vector<double> M;
-  if (known) M = meat_of(fit);
-  const double variance = known ? variance_of(fit, M) : plain;
-  if (kind == Errors::filters) {
+  std::optional<RawNoise> raw;
+  if (fit.filters_known()) M = meat_of(fit), raw = raw_noise_of(fit, M);
+  const auto& noise = raw ? raw->innovations : fit.minimum.f;
+  const auto& runs = raw ? raw->innovation_runs : fit.system.runs;
+  const double variance = raw ? raw->variance : fit.minimum.rss / static_cast<double>(n - p),
+               whiteness = ljung_box(noise, p, runs);
+  Errors kind = raw                     ? Errors::filters
+                : fit.noise->inferred() ? Errors::differences
+                                        : Errors::classical;
+  if (n >= 30) kind = errors_of(noise, runs, whiteness, kind);
+  if (kind == Errors::classical || kind == Errors::differences)
+    return {kind, whiteness, variance, {R, classical(fit, variance), q}};
+  if (kind == Errors::filters)
     for (double& x : M) x *= variance;
-  } else {
-    const Sources from = sources_of(fit);
-    std::vector<double> scores = from.B;
-    for (std::size_t i = 0; i < scores.size(); ++i) scores[i] *= from.e[i / q];
-    const bool by_leverage = kind == Errors::uneven && !known;
-    if (by_leverage) correct_for_leverage(from, q, scores);
-    M = kind == Errors::uneven ? squares_of(scores, q, from.runs)
-                               : newey_west(scores, p + from.means_taken, from.e, from.runs);
-    // The fit has removed part of the noise from the residuals; the ratio of the variances corrects
-    // for that.
-    const auto sources = static_cast<double>(from.e.size());
-    const double shown = dot(from.e, from.e) / sources;
-    if (!by_leverage)
-      for (double& x : M) x *= variance / shown;
-  }
+  else M = consistent_meat(fit, kind, variance);
   add_shared(M, q, fit.system.shared);
   return {kind, whiteness, variance, {R, std::move(M), q}};
 }
@@ -305,18 +288,17 @@ NoiseErrors noise_errors(const Fitted& fit, const Uncertainty& by) {
         std::all_of(x.gradient.begin(), x.gradient.end(), [](double slope) { return slope == 0; });
     return fixed ? 0 : std::sqrt(by.covariance(x.gradient, x.gradient, run));
   };
-  NoiseErrors errors{by.kind, by.whiteness, sigma(fit.a), sigma(fit.b), 0};
-  if (errors.a != 0 && errors.b != 0)
-    errors.together = by.covariance(fit.a.gradient, fit.b.gradient);
-  if (fit.slope) errors.slope = sigma(*fit.slope);
-  for (std::size_t r = 0; r < fit.v0.size(); ++r) errors.v0.push_back(sigma(fit.v0[r], r));
-  return errors;
+  ErrorShare share{"noise", sigma(fit.a), sigma(fit.b)};
+  if (share.a != 0 && share.b != 0) share.together = by.covariance(fit.a.gradient, fit.b.gradient);
+  if (fit.slope) share.slope = sigma(*fit.slope);
+  for (std::size_t r = 0; r < fit.v0.size(); ++r) share.v0.push_back(sigma(fit.v0[r], r));
+  return {by.kind, by.whiteness, std::move(share)};
 }
 
 void NoiseErrors::multiply(double factor) {
-  for (double* error : {&a, &b, &slope}) *error *= factor;
-  together *= factor * factor;
-  for (double& error : v0) error *= factor;
+  for (double* error : {&share.a, &share.b, &share.slope}) *error *= factor;
+  share.together *= factor * factor;
+  for (double& error : share.v0) error *= factor;
 }
 
 namespace {
@@ -354,18 +336,18 @@ Fitted fit_with(Route route, std::vector<FitRun> runs, const FitOptions& options
 
 }  // namespace
 
-std::vector<Moved> moved_by_given(Route route, const std::vector<FitRun>& runs,
-                                  const FitOptions& options, const Fitted& fit) {
+std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& runs,
+                                        const FitOptions& options, const Fitted& fit) {
   FitOptions warm = options;
   warm.start_a = fit.a.value;
   warm.start_b = fit.b.value;
-  std::vector<Moved> all;
+  std::vector<ErrorShare> all;
   for (const UncertainNumber& number : uncertain_numbers) {
     std::vector<Estimate> values;
     for (const FitRun& run : runs) {
       const Estimate value = given(route, run, number);
-      if (value.sigma > 0 && std::none_of(values.begin(), values.end(),
-                                          [&](const Estimate& x) { return same(x, value); }))
+      if (value.sigma > 0 &&
+          std::ranges::none_of(values, [&](const Estimate& x) { return same(x, value); }))
         values.push_back(value);
     }
     for (const Estimate& value : values) {
@@ -377,13 +359,13 @@ std::vector<Moved> moved_by_given(Route route, const std::vector<FitRun>& runs,
       const auto change = [&](const Quantity& high, const Quantity& low) {
         return (high.value - low.value) / 2 * value.sigma / step;
       };
-      Moved& moved = all.emplace_back();
-      moved.by = values.size() == 1 ? number.name : fmt::format("{} {}", number.name, value.value);
-      moved.a = change(above.a, below.a);
-      moved.b = change(above.b, below.b);
-      moved.slope = fit.slope ? change(*above.slope, *below.slope) : 0;
+      ErrorShare& share = all.emplace_back();
+      share.of = values.size() == 1 ? number.name : fmt::format("{} {}", number.name, value.value);
+      const double a = change(above.a, below.a), b = change(above.b, below.b);
+      share.a = std::abs(a), share.b = std::abs(b), share.together = a * b;
+      share.slope = fit.slope ? change(*above.slope, *below.slope) : 0;
       for (std::size_t r = 0; r < fit.v0.size(); ++r)
-        moved.v0.push_back(change(above.v0[r], below.v0[r]));
+        share.v0.push_back(change(above.v0[r], below.v0[r]));
     }
   }
   return all;

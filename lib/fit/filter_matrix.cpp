@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "fit/dot.h"
 
 namespace rolling {
 
@@ -136,6 +137,11 @@ std::vector<double> FilterMatrix::transposed_times(std::span<const double> X,
       for (std::size_t c = 0; c < columns; ++c)
         all[k * columns + c] += (*border_)[k] * X[band_rows() * columns + c];
   return all;
+}
+
+double dot(const FilterMatrix::Row& x, const FilterMatrix::Row& y) {
+  const std::size_t from = std::max(x.first, y.first), to = std::min(x.end(), y.end());
+  return from < to ? dot(&x.values[from - x.first], &y.values[from - y.first], to - from) : 0;
 }
 
 FilterPass::FilterPass(const FilterMatrix& H, std::size_t columns,

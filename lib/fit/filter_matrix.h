@@ -93,6 +93,9 @@ class FilterMatrix {
   std::shared_ptr<const std::vector<double>> border_;
 };
 
+/// The inner product of two rows.
+double dot(const FilterMatrix::Row&, const FilterMatrix::Row&);
+
 /// Multiplies a filter matrix by a matrix of `columns` columns, row by row: neither the factors are
 /// multiplied out nor is the product stored.
 class FilterPass {

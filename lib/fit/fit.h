@@ -82,12 +82,16 @@ struct Agreement {
   bool agree() const { return significance > 0.01; }
 };
 
-/// The contribution of one source of error to the standard errors of a and b, which are the root
-/// sums of squares of the contributions.
+/// The contribution of one source of error to the standard errors, which are the root sums of
+/// squares of the contributions. That of a given number is the change of the result when the number
+/// changes by one standard uncertainty.
 struct ErrorShare {
   /// "noise"; the name of a given number, "K", or "K 0.5" where the runs have several; or "bias"
   std::string of;
-  double a, b;
+  double a = 0, b = 0;  ///< not negative
+  double together = 0;  ///< contribution to the covariance of a and b
+  double slope = 0;
+  std::vector<double> v0 = {};  ///< one for each run, if the model is a roll
 };
 
 struct FitResult {

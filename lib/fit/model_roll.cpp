@@ -58,27 +58,29 @@ double acceleration_of(const ShiftOf& by, double D) {
   return -body.g * (D * cos + body.R * sin) / ((body.K + 1) * body.R);
 }
 
-Making making_of(Route route, const std::vector<FitRun>& all) {
-  Making making;
+std::vector<Response> responses_of(Route route, const std::vector<FitRun>& all) {
+  std::vector<Response> responses;
   for (const FitRun& run : all) {
     if (run.filters.empty()) return {};
     try {
-      making.responses.push_back(response_of(run.filters, run.t));
+      responses.push_back(response_of(run.filters, run.t));
     } catch (const Error&) {  // the chain does not suit the run
       return {};
     }
-    const Response& r = making.responses.back();
+    const Response& r = responses.back();
     const bool roll = r.source == "x" || (r.source == "v" && route != Route::position);
     if (!roll || !r.of.contains(column_of(route)) ||
         (route == Route::shift && !(run.shift_of && r.of.contains("v"))))
       return {};
   }
-  return making;
+  return responses;
 }
 
 std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
-                                 const std::vector<Rows>& rows, const Making& making,
+                                 const std::vector<Rows>& rows,
+                                 const std::vector<Response>& responses,
                                  const FitOptions& options) {
+  const bool known = !responses.empty();
   std::vector<ObservedRun> runs;
   for (std::size_t r = 0; r < all.size(); ++r) {
     const FitRun& run = all[r];
@@ -88,7 +90,7 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     ObservedRun seen;
     seen.body = run.body;
     seen.geometry = options.geometry;
-    seen.origin = making.known() ? making.responses[r].t.front() : first_fitted;
+    seen.origin = known ? responses[r].t.front() : first_fitted;
     seen.start = held ? 0 : first_fitted - seen.origin;
     if (held && seen.origin < run.t[0])
       fail(
@@ -114,11 +116,10 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
       seen.body.R *= 1e6;
       seen.body.g *= 1e6;
     }
-    seen.raw_is_position =
-        making.known() ? making.responses[r].source == "x" : route == Route::position;
-    if (making.known()) {
-      seen.t = making.responses[r].t;
-      seen.H = filters_of_rows(making.responses[r], route, rows[r]);
+    seen.raw_is_position = known ? responses[r].source == "x" : route == Route::position;
+    if (known) {
+      seen.t = responses[r].t;
+      seen.H = filters_of_rows(responses[r], route, rows[r]);
     } else {
       seen.t = taken(run.t, rows[r]);
     }
@@ -128,11 +129,12 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
   return runs;
 }
 
-std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>& runs, double share) {
+std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>& runs, double share,
+                                      bool inferred) {
   if (!runs.front().H) return std::make_shared<const Noise>();
   std::vector<FilterMatrix> all;
   for (const ObservedRun& run : runs) all.push_back(*run.H);
-  return std::make_shared<const Noise>(std::move(all), share);
+  return std::make_shared<const Noise>(std::move(all), share, inferred);
 }
 
 Trajectory RollModel::trajectory(const std::vector<double>& theta, std::size_t run) const {
@@ -186,8 +188,7 @@ void evaluate(const ObservedRun& run, std::size_t number, std::size_t parameters
     return;
   }
   std::optional<Whitener::Pass> whitener;
-  if (noise.weighted())
-    whitener.emplace(noise.whitener(number), FilterPass::stride(parameters + 1));
+  if (noise.known()) whitener.emplace(noise.whitener(number), FilterPass::stride(parameters + 1));
   FilterPass filters(*run.H, parameters + 1, [&](double* row) {
     row[0] -= run.y[done + k];
     if (whitener) whitener->push(row);

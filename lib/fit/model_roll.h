@@ -41,24 +41,18 @@ struct ObservedRun {
   std::size_t records() const { return y.size() - (H && H->bordered()); }
 };
 
-/// The response of each run, which derives its columns from the raw one; empty if it is not known.
-struct Making {
-  std::vector<Response> responses;
-  bool known() const { return !responses.empty(); }
-};
-/// The responses of all runs, if the chain of each run leads from positions or speeds to the column
-/// that the route fits (for shift also to v, with a known shift_of). Otherwise the result is not
-/// known().
-Making making_of(Route, const std::vector<FitRun>&);
+/// The response of each run, if the chain of each run leads from positions or speeds to the column
+/// that the route fits (for shift also to v, with a known shift_of); otherwise empty.
+std::vector<Response> responses_of(Route, const std::vector<FitRun>&);
 
 /// The runs in the form that the model needs, with the chosen rows alone. Throws Error for a run
 /// without a row, or if v0 or x0 is held and the filters reach back to records before the first
 /// one.
 std::vector<ObservedRun> observe(Route, const std::vector<FitRun>&, const std::vector<Rows>&,
-                                 const Making&, const FitOptions&);
+                                 const std::vector<Response>&, const FitOptions&);
 
-/// The noise of these runs, weighted as Noise describes; unknown if the runs have no H.
-std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>&, double share);
+/// The noise of these runs; unknown if they have no H. For the other arguments see Noise.
+std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>&, double share, bool inferred);
 
 /// The model of the raw column of one run: returns the value at time t from the origin, and writes
 /// the derivatives with respect to the parameters of the run, then the shared ones, to `slopes`,

@@ -27,12 +27,6 @@ std::size_t band_of(const FilterMatrix& E) {
   return band;
 }
 
-/// An element of E E^T: the inner product of two rows of E.
-double product(const FilterMatrix::Row& x, const FilterMatrix::Row& y) {
-  const std::size_t from = std::max(x.first, y.first), to = std::min(x.end(), y.end());
-  return from < to ? dot(&x.values[from - x.first], &y.values[from - y.first], to - from) : 0;
-}
-
 }  // namespace
 
 Covariance::Covariance(const FilterMatrix& E)
@@ -42,7 +36,7 @@ Covariance::Covariance(const FilterMatrix& E)
     const FilterMatrix::Row& row = last[i % band];
     E.row(i, last[i % band]);
     for (std::size_t j = i < band ? 0 : i - band + 1; j <= i; ++j)
-      rows[j * band + i - j] = product(row, last[j % band]);
+      rows[j * band + i - j] = dot(row, last[j % band]);
     if (E.bordered() && !row.values.empty())
       border[i] = dot(row.values, E.last_row().subspan(row.first));
   }
