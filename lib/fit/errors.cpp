@@ -311,8 +311,6 @@ Estimate given(Route route, const FitRun& run, const UncertainNumber& number) {
   return {run.shift_of->body.*number.value, run.shift_of->given.*number.sigma};
 }
 
-bool same(const Estimate& x, const Estimate& y) { return x.value == y.value && x.sigma == y.sigma; }
-
 void move(Route route, FitRun& run, const UncertainNumber& number, double by) {
   if (rolls_by_time(route)) {
     run.body.*number.value += by;
@@ -330,7 +328,7 @@ void move(Route route, FitRun& run, const UncertainNumber& number, double by) {
 Fitted fit_with(Route route, std::vector<FitRun> runs, const FitOptions& options,
                 const UncertainNumber& number, const Estimate& value, double by) {
   for (FitRun& run : runs)
-    if (same(given(route, run, number), value)) move(route, run, number, by);
+    if (given(route, run, number) == value) move(route, run, number, by);
   return fit_route(route, runs, options);
 }
 
@@ -346,8 +344,7 @@ std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& 
     std::vector<Estimate> values;
     for (const FitRun& run : runs) {
       const Estimate value = given(route, run, number);
-      if (value.sigma > 0 &&
-          std::ranges::none_of(values, [&](const Estimate& x) { return same(x, value); }))
+      if (value.sigma > 0 && std::ranges::find(values, value) == values.end())
         values.push_back(value);
     }
     for (const Estimate& value : values) {

@@ -158,8 +158,7 @@ std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions
     if (std::isfinite(nearest.rss)) best.push_back(std::move(nearest));
   }
   if (best.empty()) fail("no law a v^b comes near the data: a and b cannot be determined");
-  std::sort(best.begin(), best.end(),
-            [](const Candidate& x, const Candidate& y) { return x.rss < y.rss; });
+  std::ranges::sort(best, {}, &Candidate::rss);
   return best;
 }
 
@@ -204,16 +203,14 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
   if (candidates.size() > 3) candidates.resize(3);
   const auto theta_of = [&](const Candidate& c) { return q.theta(c.law, c.v0, c.x0); };
   std::vector<double> theta = theta_of(candidates.front());
-  double least = std::numeric_limits<double>::infinity();
   if (candidates.size() > 1) {
     const System system = unweighted(std::move(thin_runs), q);
-    for (const Candidate& candidate : candidates) try {
-        Minimum minimum = minimise(system, theta_of(candidate));
-        if (minimum.rss < least) least = minimum.rss, theta = std::move(minimum.theta);
-      } catch (const Error&) {  // the search on all data may still succeed
-      }
+    double least = std::numeric_limits<double>::infinity();
+    for (const Candidate& candidate : candidates)
+      if (Minimum minimum = attempt(system, theta_of(candidate)); minimum.rss < least)
+        least = minimum.rss, theta = std::move(minimum.theta);
   }
-  if (!few.empty()) theta = approach(unweighted(std::move(few), q), std::move(theta));
+  if (!few.empty()) theta = attempt(unweighted(std::move(few), q), theta).theta;
   return {q, std::move(theta)};
 }
 

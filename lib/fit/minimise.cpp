@@ -161,11 +161,11 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
   return {std::move(best.theta), std::move(best.f), best.R.without_f(), best.rss};
 }
 
-std::vector<double> approach(const System& system, std::vector<double> start) {
+Minimum attempt(const System& system, const std::vector<double>& start) {
   try {
-    return minimise(system, start).theta;
+    return minimise(system, start);
   } catch (const Error&) {
-    return start;
+    return {start, {}, {}, std::numeric_limits<double>::infinity()};
   }
 }
 

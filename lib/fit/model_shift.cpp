@@ -83,7 +83,7 @@ Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   const std::size_t n = records.D.size();
   const ShiftRecords few = thinned(records, options.robust ? n : most);
   std::vector<double> theta = power_start(few, options, unit);
-  if (few.D.size() < n) theta = approach(power_system(few, height, unit), std::move(theta));
+  if (few.D.size() < n) theta = attempt(power_system(few, height, unit), theta).theta;
 
   const System system = power_system(records, height, unit);
   Minimum minimum = solve(system, theta, options, false);

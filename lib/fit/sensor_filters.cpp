@@ -132,10 +132,7 @@ std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const FitO
     const auto head = [n](const std::vector<double>& x) {
       return std::vector(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n));
     };
-    FitRun& run = heads.emplace_back();
-    run.t = head(all[r].t);
-    run.v = head(all[r].v);
-    run.body = all[r].body;
+    heads.push_back({head(all[r].t), {}, head(all[r].v), {}, all[r].body, {}});
   }
   std::vector<Rows> head_rows = usable(Route::velocity, heads);
   try {
