@@ -53,6 +53,7 @@ Without without_first(std::size_t k, std::size_t q, std::span<const double> Q,
 std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitRun>& runs,
                                              const FitOptions& options) {
   constexpr double decisive = 0.001, white = 0.005;
+  if (options.robust) return {};
   for (const FitRun& run : runs)
     if (!run.filters.empty()) return {};
   silence_gsl();

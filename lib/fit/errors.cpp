@@ -303,16 +303,14 @@ void NoiseErrors::multiply(double factor) {
 
 namespace {
 
-bool rolls_by_time(Route route) { return route == Route::velocity || route == Route::position; }
-
 Estimate given(Route route, const FitRun& run, const UncertainNumber& number) {
-  if (rolls_by_time(route)) return {run.body.*number.value, run.given.*number.sigma};
+  if (is_trajectory(route)) return {run.body.*number.value, run.given.*number.sigma};
   if (!run.shift_of) return {};
   return {run.shift_of->body.*number.value, run.shift_of->given.*number.sigma};
 }
 
 void move(Route route, FitRun& run, const UncertainNumber& number, double by) {
-  if (rolls_by_time(route)) {
+  if (is_trajectory(route)) {
     run.body.*number.value += by;
     return;
   }

@@ -199,30 +199,21 @@ std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
   return rows;
 }
 
-namespace {
-
-Fitted fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOptions& options) {
-  std::vector<Response> responses = responses_of(route, all);
-  const bool known = !responses.empty();
-  Fitted fit = fit_rolls(route, all, usable(route, all), std::move(responses), options);
-  if (route == Route::velocity && !known && !options.robust && !options.possible_filters.empty() &&
-      fit.minimum.f.size() >= 30)
-    if (auto differences = fit_differences(all, options, fit)) return *std::move(differences);
-  return fit;
-}
-
-}  // namespace
-
 Fitted fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   if (options.a && !(*options.a > 0))
     fail("a = {} cannot be held: it must be positive", *options.a);
-  const bool roll = route == Route::velocity || route == Route::position ||
-                    (route == Route::shift && !responses_of(route, runs).empty());
-  if (options.fit_slope && !roll)
+  std::vector<Response> responses;
+  if (route != Route::loglog) responses = responses_of(route, runs);
+  const bool known = !responses.empty();
+  if (options.fit_slope && !known && !is_trajectory(route))
     fail("the slope shows in a roll alone: on this route `##` lines must tell how D was made");
   if (route == Route::loglog) return fit_log_log(runs, options);
-  if (!roll) return fit_shift(runs, options);
-  return fit_trajectory(route, runs, options);
+  if (!known && route == Route::shift) return fit_shift(runs, options);
+  Fitted fit = fit_rolls(route, runs, usable(route, runs), std::move(responses), options);
+  if (route == Route::velocity && !known && !options.robust && !options.possible_filters.empty() &&
+      fit.minimum.f.size() >= 30)
+    if (auto differences = fit_differences(runs, options, fit)) return *std::move(differences);
+  return fit;
 }
 
 namespace {
@@ -297,7 +288,7 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
     shares.push_back(
         {"bias", std::abs(found.bias_a), std::abs(found.bias_b), found.bias_a * found.bias_b});
   FitResult result = result_of(found, noise, std::move(shares));
-  if (route != Route::velocity && route != Route::position) result.v0 = result.sigma_v0 = {};
+  if (!is_trajectory(route)) result.v0 = result.sigma_v0 = {};
   result.agreement = agreement;
   result.eccentricity = eccentricity;
   return result;

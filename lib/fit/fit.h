@@ -37,6 +37,10 @@ struct FitRun {
 };
 
 enum class Route { loglog, shift, velocity, position };
+/// True if the route fits v or x as a function of t; the others fit D(v).
+inline bool is_trajectory(Route route) {
+  return route == Route::velocity || route == Route::position;
+}
 
 struct FitOptions {
   Geometry geometry = Geometry::approximate;

@@ -36,22 +36,12 @@ std::vector<double> row_norms(const FilterMatrix& E) {
 Noise::Noise(std::vector<FilterMatrix> E, double share, bool inferred)
     : E_(std::move(E)), share_(share), inferred_(inferred) {
   for (const FilterMatrix& E_of_run : E_) {
+    rows_.push_back(E_of_run.rows());
+    sources_.push_back(E_of_run.columns());
     Covariance covariance(E_of_run);
     const double floor = share * covariance.median_norm();
     whiteners_.emplace_back(std::move(covariance), floor);
   }
-}
-
-std::vector<std::size_t> Noise::rows() const {
-  std::vector<std::size_t> all;
-  for (const FilterMatrix& E : E_) all.push_back(E.rows());
-  return all;
-}
-
-std::vector<std::size_t> Noise::sources() const {
-  std::vector<std::size_t> all;
-  for (const FilterMatrix& E : E_) all.push_back(E.columns());
-  return all;
 }
 
 double Noise::trace() const {
@@ -61,19 +51,18 @@ double Noise::trace() const {
 }
 
 std::vector<double> Noise::without_weights(const std::vector<double>& f) const {
-  return each(by_run(f, rows()),
-              [&](std::size_t r, auto f_of) { return whiteners_[r].undo(f_of); });
+  return each(by_run(f, rows_), [&](std::size_t r, auto f_of) { return whiteners_[r].undo(f_of); });
 }
 
 std::vector<double> Noise::through(std::vector<double> Q, std::size_t p) const {
-  return each(by_run(Q, rows(), p), [&](std::size_t r, auto Q_of) {
+  return each(by_run(Q, rows_, p), [&](std::size_t r, auto Q_of) {
     whiteners_[r].apply_transposed(Q_of, p);
     return E_[r].transposed_times(Q_of, p);
   });
 }
 
 std::vector<double> Noise::meat(std::vector<double> Q, std::size_t p) const {
-  return each(by_run(Q, rows(), p),
+  return each(by_run(Q, rows_, p),
               [&](std::size_t r, auto Q_of) { return whiteners_[r].meat(Q_of, p); });
 }
 
@@ -81,7 +70,7 @@ std::vector<double> Noise::explain(std::vector<double> f) const { return through
 
 std::vector<double> Noise::innovations(const std::vector<double>& f,
                                        std::vector<std::size_t>& runs) const {
-  return each(by_run(f, rows()), [&](std::size_t r, auto f_of) {
+  return each(by_run(f, rows_), [&](std::size_t r, auto f_of) {
     std::vector<double> few;
     few.reserve(f_of.size());
     for (std::size_t i = 0; i < f_of.size(); ++i)

@@ -51,13 +51,12 @@ class Noise {
   std::vector<double> innovations(const std::vector<double>& f,
                                   std::vector<std::size_t>& runs) const;
   /// The number of sources of each run.
-  std::vector<std::size_t> sources() const;
+  const std::vector<std::size_t>& sources() const { return sources_; }
 
  private:
-  std::vector<std::size_t> rows() const;
-
   std::vector<FilterMatrix> E_;
   std::vector<Whitener> whiteners_;
+  std::vector<std::size_t> rows_, sources_;  // numbers of each run
   double share_ = floor_share;
   bool inferred_ = false;
 };
