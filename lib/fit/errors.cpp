@@ -163,8 +163,8 @@ std::vector<double> newey_west(std::span<const double> scores, std::size_t p,
 namespace {
 
 /// The sum of u u^T over the rows of each run (q numbers in each row), row by row, run by run.
-std::vector<double> squares_of(std::span<const double> u, std::size_t q,
-                               std::span<const std::size_t> runs) {
+std::vector<double> outer_products(std::span<const double> u, std::size_t q,
+                                   std::span<const std::size_t> runs) {
   std::vector<double> all;
   for (const auto run : by_run(u, runs, q)) {
     std::vector<double> S(q * q);
@@ -187,7 +187,7 @@ Sources sources_of(const Fitted& fit) {
 std::vector<double> meat_of(const Fitted& fit) {
   const std::size_t q = fit.system.columns();
   if (!fit.raw_noise) return fit.noise->meat(orthonormal(fit.system, fit.minimum), q);
-  return squares_of(fit.raw_noise->sources.B, q, fit.raw_noise->sources.runs);
+  return outer_products(fit.raw_noise->sources.B, q, fit.raw_noise->sources.runs);
 }
 
 /// The raw noise without its sources. The expectation of f f^T is the variance times A A^T, A = W
@@ -227,7 +227,7 @@ std::vector<double> consistent_meat(const Fitted& fit, Errors kind, double varia
   const auto& scores = from.B;
   std::vector<double> M =
       kind == Errors::uneven
-          ? squares_of(scores, q, from.runs)
+          ? outer_products(scores, q, from.runs)
           : newey_west(scores, fit.minimum.theta.size() + from.means_taken, from.e, from.runs);
   if (by_leverage) return M;
   // The fit has removed part of the noise from the residuals; the ratio of the variances corrects

@@ -57,16 +57,16 @@ FilterMatrix::FilterMatrix(BandMatrix L) : columns_(L.columns()) {
   factors_.push_back(std::make_shared<const BandMatrix>(std::move(L)));
 }
 
-FilterMatrix FilterMatrix::identity(std::size_t n) { return FilterMatrix(n); }
+FilterMatrix FilterMatrix::identity(std::size_t n) { return BandMatrix::identity(n); }
 
 FilterMatrix FilterMatrix::then(BandMatrix L) const {
   FilterMatrix product = *this;
+  if (factors_.size() == 1 && factors_[0]->is_identity()) product.factors_.clear();
   product.factors_.push_back(std::make_shared<const BandMatrix>(std::move(L)));
   return product;
 }
 
 FilterMatrix FilterMatrix::of_rows(std::span<const std::size_t> rows) const {
-  if (factors_.empty()) return then(BandMatrix::identity(columns_).of_rows(rows));
   FilterMatrix few = *this;
   few.factors_.back() = std::make_shared<const BandMatrix>(factors_.back()->of_rows(rows));
   return few;
@@ -79,11 +79,6 @@ FilterMatrix FilterMatrix::with_last_row(std::vector<double> row) const {
 }
 
 void FilterMatrix::row(std::size_t i, Row& to) const {
-  if (factors_.empty()) {
-    to.first = i;
-    to.values.assign(1, 1);
-    return;
-  }
   const auto last = factors_.back()->row(i);
   to.first = factors_.back()->first(i);
   to.values.assign(last.begin(), last.end());

@@ -64,7 +64,7 @@ class FilterMatrix {
   std::size_t rows() const { return band_rows() + bordered(); }
   std::size_t columns() const { return columns_; }
   /// The number of rows without the border.
-  std::size_t band_rows() const { return factors_.empty() ? columns_ : factors_.back()->rows(); }
+  std::size_t band_rows() const { return factors_.back()->rows(); }
   bool bordered() const { return border_ != nullptr; }
   std::span<const double> last_row() const { return *border_; }
 
@@ -86,8 +86,6 @@ class FilterMatrix {
 
  private:
   friend class FilterPass;
-  explicit FilterMatrix(std::size_t columns) : columns_(columns) {}
-
   std::size_t columns_;
   std::vector<std::shared_ptr<const BandMatrix>> factors_;  // in the order of application
   std::shared_ptr<const std::vector<double>> border_;

@@ -23,14 +23,8 @@ void require_records(std::size_t n, std::size_t p) {
   if (n < p) fail("{} record{} cannot determine {} parameters", n, n == 1 ? "" : "s", p);
 }
 
-Minimum solve(const System& system, const std::vector<double>& start, const FitOptions& options,
-              bool filters_known) {
-  if (!options.robust) return minimise(system, start);
-  if (filters_known)
-    fail(
-        "robust fits judge single records, but filters have spread each outlier over many: fit the "
-        "raw column");
-  return minimise_robust(system, start);
+Minimum solve(const System& system, const std::vector<double>& start, const FitOptions& options) {
+  return options.robust ? minimise_robust(system, start) : minimise(system, start);
 }
 
 namespace {
@@ -113,7 +107,7 @@ Fitted minimum_of(std::vector<ObservedRun> runs, const FirstGuess& start, const 
   auto noise = noise_of(runs, share, inferred);
   auto rolls = std::make_shared<const RollModel>(std::move(runs), start.parameters);
   System system = system_of(rolls, noise);
-  Minimum minimum = solve(system, start.theta, options, noise->known());
+  Minimum minimum = solve(system, start.theta, options);
   return {.system = std::move(system),
           .minimum = std::move(minimum),
           .noise = std::move(noise),
@@ -140,7 +134,7 @@ void allow_for_rounding(Fitted& fit, const FitOptions& options) {
       most_likely_share(fit.rolls, fit.minimum.theta, floor_share, 1, floor_share);
   fit.noise = noise_of(fit.rolls->runs(), found.decisive() ? found.share : floor_share, false);
   fit.system = system_of(fit.rolls, fit.noise);
-  if (found.decisive()) fit.minimum = solve(fit.system, fit.minimum.theta, options, true);
+  if (found.decisive()) fit.minimum = solve(fit.system, fit.minimum.theta, options);
 }
 
 }  // namespace
@@ -202,12 +196,15 @@ std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
 Fitted fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   if (options.a && !(*options.a > 0))
     fail("a = {} cannot be held: it must be positive", *options.a);
-  std::vector<Response> responses;
-  if (route != Route::loglog) responses = responses_of(route, runs);
+  std::vector<Response> responses = responses_of(route, runs);
   const bool known = !responses.empty();
-  if (options.fit_slope && !known && !is_trajectory(route))
+  if (options.fit_slope && (route == Route::loglog || (route == Route::shift && !known)))
     fail("the slope shows in a roll alone: on this route `##` lines must tell how D was made");
-  if (route == Route::loglog) return fit_log_log(runs, options);
+  if (options.robust && known)
+    fail(
+        "robust fits judge single records, but filters have spread each outlier over many: fit the "
+        "raw column");
+  if (route == Route::loglog) return fit_log_log(runs, options, std::move(responses));
   if (!known && route == Route::shift) return fit_shift(runs, options);
   Fitted fit = fit_rolls(route, runs, usable(route, runs), std::move(responses), options);
   if (route == Route::velocity && !known && !options.robust && !options.possible_filters.empty() &&

@@ -53,10 +53,8 @@ struct Fitted {
   bool filters_known() const { return raw_noise || (noise->known() && !noise->inferred()); }
 };
 
-/// Minimises by the loss that the options name. Throws Error for the robust loss with known
-/// filters, because filters spread an outlier over many records.
-Minimum solve(const System&, const std::vector<double>& start, const FitOptions&,
-              bool filters_known);
+/// Minimises by the loss that the options name.
+Minimum solve(const System&, const std::vector<double>& start, const FitOptions&);
 
 /// Throws Error if n records are too few for p parameters, or if p = 0.
 void require_records(std::size_t n, std::size_t p);

@@ -127,12 +127,10 @@ std::vector<double> scaled(std::span<const double> Q, const std::vector<double>&
   return result;
 }
 
-/// Adds the noise and the bias of ln D - b ln v to a line if the filters are known: those of the
-/// best-fitting roll, observed through the filters.
+/// Adds the noise and the bias of ln D - b ln v to a line: those of the best-fitting roll, observed
+/// through the known filters.
 void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<FitRun>& all,
-                 const FitOptions& options) {
-  const std::vector<Response> responses = responses_of(Route::shift, all);
-  if (responses.empty()) return;
+                 const FitOptions& options, const std::vector<Response>& responses) {
   Fitted roll;
   try {
     // The roll is fitted to all records; a selection of those with D > 0 would select by their
@@ -179,7 +177,8 @@ void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<
 
 }  // namespace
 
-Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) {
+Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
+                   const std::vector<Response>& responses) {
   ShiftRecords records = shift_records(all, options, true);
   const Height height{options.a, options.b, records.log_v_ref};
   const std::vector<Rows> rows = std::move(records.rows);
@@ -187,13 +186,12 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) {
   line.records = records.D.size();
   line.left_out = records.left_out;
   line.system = line_system(std::move(records), height);
-  line.minimum = solve(line.system, std::vector<double>(height.count(), 0), options,
-                       options.robust && !responses_of(Route::shift, all).empty());
+  line.minimum = solve(line.system, std::vector<double>(height.count(), 0), options);
   line.rss = line.minimum.rss;
   const double b = height.exponent(line.minimum.theta),
                a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * height.log_v_ref);
   height.report(line, a, a);
-  if (!options.robust) carry_noise(line, rows, all, options);
+  if (!responses.empty()) carry_noise(line, rows, all, options, responses);
   return line;
 }
 

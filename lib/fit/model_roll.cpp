@@ -70,7 +70,7 @@ std::vector<Response> responses_of(Route route, const std::vector<FitRun>& all) 
     const Response& r = responses.back();
     const bool roll = r.source == "x" || (r.source == "v" && route != Route::position);
     if (!roll || !r.of.contains(column_of(route)) ||
-        (route == Route::shift && !(run.shift_of && r.of.contains("v"))))
+        (!is_trajectory(route) && !(run.shift_of && r.of.contains("v"))))
       return {};
   }
   return responses;

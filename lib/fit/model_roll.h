@@ -42,7 +42,7 @@ struct ObservedRun {
 };
 
 /// The response of each run, if the chain of each run leads from positions or speeds to the column
-/// that the route fits (for shift also to v, with a known shift_of); otherwise empty.
+/// that the route fits (for D also to v, with a known shift_of); otherwise empty.
 std::vector<Response> responses_of(Route, const std::vector<FitRun>&);
 
 /// The runs in the form that the model needs, with the chosen rows alone. Throws Error for a run

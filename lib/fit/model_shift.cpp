@@ -86,7 +86,7 @@ Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   if (few.D.size() < n) theta = attempt(power_system(few, height, unit), theta).theta;
 
   const System system = power_system(records, height, unit);
-  Minimum minimum = solve(system, theta, options, false);
+  Minimum minimum = solve(system, theta, options);
   const double b = height.exponent(minimum.theta), scale = std::exp(-b * records.log_v_ref),
                a = options.a ? *options.a : minimum.theta[0] * unit * scale;
   Fitted result{.system = system, .minimum = std::move(minimum)};
