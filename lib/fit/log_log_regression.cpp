@@ -119,9 +119,9 @@ Points points_of(const FilterMatrix& D, const FilterMatrix& v, std::span<const d
   return points;
 }
 
-/// The rows of Q, each multiplied by its factor.
-std::vector<double> scaled(std::span<const double> Q, const std::vector<double>& factors) {
-  const std::size_t p = Q.size() / factors.size();
+/// The rows of Q, of p numbers each, multiplied by their factors.
+std::vector<double> scaled(std::span<const double> Q, std::size_t p,
+                           const std::vector<double>& factors) {
   std::vector<double> result(Q.begin(), Q.end());
   for (std::size_t i = 0; i < result.size(); ++i) result[i] *= factors[i / p];
   return result;
@@ -130,12 +130,15 @@ std::vector<double> scaled(std::span<const double> Q, const std::vector<double>&
 /// Adds the noise and the bias of ln D - b ln v to a line: those of the best-fitting roll, observed
 /// through the known filters.
 void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<FitRun>& all,
-                 const FitOptions& options, const std::vector<Response>& responses) {
+                 const FitOptions& options, std::vector<Response> responses) {
+  std::vector<FilterMatrix> D, v;
+  for (const Response& response : responses)
+    D.push_back(response.of.at("D")), v.push_back(response.of.at("v"));
   Fitted roll;
   try {
     // The roll is fitted to all records; a selection of those with D > 0 would select by their
     // noise.
-    roll = fit_rolls(Route::shift, all, usable(Route::shift, all), responses, options);
+    roll = fit_rolls(Route::shift, all, usable(Route::shift, all), std::move(responses), options);
   } catch (const Error&) {  // no roll fits: the line keeps its classical errors
     return;
   }
@@ -154,12 +157,11 @@ void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<
     const auto shift = [&, by = *all[r].shift_of](double a) {
       return run.way * shift_from_acceleration(by.body, by.geometry, run.way * a);
     };
-    const FilterMatrix D = responses[r].of.at("D").of_rows(rows[r]),
-                       v = responses[r].of.at("v").of_rows(rows[r]);
-    const Points points =
-        points_of(D, v, raw, {roll.a.value, roll.b.value}, shift, std::sqrt(raw_noise.variance));
-    std::vector<double> B = D.transposed_times(scaled(Q_of[r], points.by_D), p);
-    const std::vector<double> B_of_v = v.transposed_times(scaled(Q_of[r], points.by_v), p);
+    const FilterMatrix D_of = D[r].of_rows(rows[r]), v_of = v[r].of_rows(rows[r]);
+    const Points points = points_of(D_of, v_of, raw, {roll.a.value, roll.b.value}, shift,
+                                    std::sqrt(raw_noise.variance));
+    std::vector<double> B = D_of.transposed_times(scaled(Q_of[r], p, points.by_D), p);
+    const std::vector<double> B_of_v = v_of.transposed_times(scaled(Q_of[r], p, points.by_v), p);
     std::transform(B.begin(), B.end(), B_of_v.begin(), B.begin(), std::plus());
     raw_noise.sources.B.insert(raw_noise.sources.B.end(), B.begin(), B.end());
     for (std::size_t i = 0; i < Q_of[r].size(); ++i)
@@ -178,7 +180,7 @@ void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<
 }  // namespace
 
 Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
-                   const std::vector<Response>& responses) {
+                   std::vector<Response> responses) {
   ShiftRecords records = shift_records(all, options, true);
   const Height height{options.a, options.b, records.log_v_ref};
   const std::vector<Rows> rows = std::move(records.rows);
@@ -191,7 +193,7 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
   const double b = height.exponent(line.minimum.theta),
                a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * height.log_v_ref);
   height.report(line, a, a);
-  if (!responses.empty()) carry_noise(line, rows, all, options, responses);
+  if (!responses.empty()) carry_noise(line, rows, all, options, std::move(responses));
   return line;
 }
 

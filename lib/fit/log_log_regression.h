@@ -10,7 +10,6 @@ namespace rolling {
 /// are those of the noise of the raw column, propagated through the filters and the logarithms, and
 /// the expected bias of the line is reported. Throws Error if the records do not determine the
 /// parameters.
-Fitted fit_log_log(const std::vector<FitRun>&, const FitOptions&,
-                   const std::vector<Response>& responses);
+Fitted fit_log_log(const std::vector<FitRun>&, const FitOptions&, std::vector<Response> responses);
 
 }  // namespace rolling

@@ -99,7 +99,7 @@ void Whitener::Pass::push(double* row) {
 }
 
 void Whitener::apply(std::span<double> X) const {
-  const std::size_t n = rows(), columns = X.size() / n, stride = (columns + 1) / 2 * 2;
+  const std::size_t n = rows(), columns = X.size() / n, stride = FilterPass::stride(columns);
   Pass pass(*this, stride);
   std::vector<double> row(stride);
   for (std::size_t i = 0; i < n; ++i) {
