@@ -1,6 +1,7 @@
 // energy-ledger - append where the energy goes (Eqs. 1 to 23); see energy-ledger(1)
 #include <cmath>
 
+#include "cli/history.h"
 #include "cli/law_file.h"
 #include "cli/quantities.h"
 #include "cli/tool.h"
@@ -78,6 +79,23 @@ bool differenced_from_v(const std::vector<std::string>& history) {
   return D_of_v;
 }
 
+/// "K 0.6 (here 0.5)": the numbers of the body that D was computed with, by the `##` line of
+/// shift-from-accel, where the balance has others.
+std::string other_body(const std::vector<std::string>& history, const Body& body) {
+  std::string others;
+  const auto compare = [&](const char* name, double then, double now) {
+    if (then != now)
+      others += fmt::format("{}{} {} (here {})", others.empty() ? "" : ", ", name, then, now);
+  };
+  if (const auto shift_of = history_of(history, {}).shift_of) {
+    compare("K", shift_of->body.K, body.K);
+    compare("R", shift_of->body.R, body.R);
+    compare("g", shift_of->body.g, body.g);
+    compare("slope", shift_of->body.slope, body.slope);
+  }
+  return others;
+}
+
 /// What is printed: the records with their energies, or --summary.
 enum class Form { records, summary };
 
@@ -93,6 +111,9 @@ class Accounts {
   /// Begins the balance of a run.
   Balance open() {
     tests_nothing_ |= balance_is_shown_ && !law_ && differenced_from_v(in_.history());
+    if (const auto others = law_ ? "" : other_body(in_.history(), body_);
+        !others.empty() && other_body_.empty())
+      other_body_ = fmt::format("run {}: D was computed with {}", in_.run_name(), others);
     return Balance(body_);
   }
 
@@ -115,7 +136,8 @@ class Accounts {
       beyond += fmt::format("{}imbalance {:.4g} at t = {:.6g} s", beyond.empty() ? "" : ", ",
                             balance.imbalance(), balance.time_of_imbalance());
     if (!beyond.empty())
-      tool_.check_failed(fmt::format("the check does not hold: {}: beyond {}", beyond, tolerance_));
+      tool_.check_failed(fmt::format("run {}: the check does not hold: {}: beyond {}",
+                                     in_.run_name(), beyond, tolerance_));
   }
 
   /// Prints the warnings about all runs.
@@ -123,10 +145,11 @@ class Accounts {
     if (beyond_ > 0)
       tool_.warn(fmt::format("{} shift{} beyond the radius {} m", beyond_,
                              beyond_ == 1 ? " is" : "s are", body_.R));
+    if (!other_body_.empty()) tool_.warn(other_body_);
     if (tests_nothing_)
       tool_.warn(
-          "D was computed from the derivative of the same v: the balance holds for any v and tests "
-          "nothing; give a law with --law, or with -a and -b");
+          "D was computed from the derivative of the same v: the balance compares v with itself "
+          "and tests no law; give one with --law, or with -a and -b");
   }
 
  private:
@@ -139,6 +162,7 @@ class Accounts {
   bool balance_is_shown_;  // by --summary or --check
   std::size_t t_, v_, D_, beyond_ = 0;
   bool tests_nothing_ = false;
+  std::string other_body_ = {};  // the first warning of other numbers of the body
 };
 
 /// Writes the table of --summary: a row for each run.
@@ -192,7 +216,8 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     const auto row = chosen(columns, quantities);
     for (const auto& quantity : row)
-      if (quantity.column.name == "Pi_S") tool.need({"temperature"});
+      if (quantity.column.name == "Pi_S" && std::isnan(temperature))
+        fail("Pi_S needs --temperature");
     if (!law_file.empty()) {
       LawFile read = read_law(tool, law_file);
       law = {read.law_or(law.power), std::move(read.table)};

@@ -1,6 +1,7 @@
 // fitpower - fit the power law D = a v^b to columns; see fitpower(1)
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <span>
 
 #include "cli/fit_report.h"
@@ -28,9 +29,15 @@ void set_parameters(const std::string& option, const std::vector<std::string>& s
   }
 }
 
-/// Warns of readings that a logger held: the fit counts each repetition as a new reading.
-void warn_of_held(Tool& tool, const std::string& name, Route route, const FitRun& run) {
+/// Warns of readings that a logger held: the fit counts each repetition as a new reading. Speeds
+/// that a `##` line calls the differences of positions are none.
+void warn_of_held(Tool& tool, const std::string& name, Route route, const FitRun& run,
+                  const std::vector<std::string>& history) {
   const bool position = route == Route::position;
+  const auto of_positions = [](const std::string& line) {
+    return line.starts_with("differentiate x ");
+  };
+  if (!position && std::any_of(history.begin(), history.end(), of_positions)) return;
   const double held = records_held(position ? run.x : run.v);
   if (held > 1)
     tool.warn(fmt::format(
@@ -46,6 +53,29 @@ struct Runs {
 
 /// The columns that are read: those that the route fits, or those of the other routes too.
 enum class Columns { of_route, of_all_routes };
+
+/// Warns of a record that was given twice: in a joint fit it makes the errors too small. Fewer than
+/// ten readings may be equal by chance.
+void warn_of_copies(Tool& tool, Route route, const Runs& all) {
+  const auto y = route == Route::position   ? &FitRun::x
+                 : route == Route::velocity ? &FitRun::v
+                                            : &FitRun::D;
+  const auto less = [&](std::size_t i, std::size_t j) { return all.runs[i].*y < all.runs[j].*y; };
+  std::set<std::size_t, decltype(less)> different(less);
+  std::string copy;
+  std::size_t copies = 0;
+  for (std::size_t i = 0; i < all.runs.size(); ++i) {
+    if ((all.runs[i].*y).size() < 10) continue;
+    const auto [same, inserted] = different.insert(i);
+    if (!inserted && ++copies == 1)
+      copy =
+          fmt::format("run {}: its readings are those of run {}", all.names[i], all.names[*same]);
+  }
+  if (copies > 0)
+    tool.warn(
+        fmt::format("{}{}: leave copies out, for each counts as one more roll", copy,
+                    copies > 1 ? fmt::format(", the first of {} copies", copies) : std::string()));
+}
 
 Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns columns) {
   const bool all_columns = columns == Columns::of_all_routes;
@@ -82,7 +112,7 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns co
     for (const auto& [slot, column] : needed) (run.*column).reserve(room);
     while (in.next())
       for (const auto& [slot, column] : needed) (run.*column).push_back(in[slot]);
-    warn_of_held(tool, all.names.back(), route, run);
+    warn_of_held(tool, all.names.back(), route, run, in.history());
     History history = history_of(in.history(), run.t);
     if (in.renames() && !history.filters.empty())
       history = {{}, {}, "--use takes other columns than its `##` lines speak of"};
@@ -99,6 +129,7 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns co
                       "records at the cut are left out, since their windows are not known",
                       all.names.back(), history.left_out));
   }
+  warn_of_copies(tool, route, all);
   return all;
 }
 
@@ -287,6 +318,7 @@ int main(int argc, char** argv) {
       if (!with_report && !with_check) continue;
       std::optional<LawComparison> laws;  // AICc needs sums of squares
       if (!options.robust) laws = compare_laws(route, fits[i], options);
+      if (with_report && each) tool.say(fmt::format("run {}, the report:", run_names[i]));
       if (with_report) report(tool, fits[i], options, laws);
       if (with_check)
         check(tool, *results[i], laws, disturbed_beginning(route, fits[i], options), of_fit);

@@ -69,11 +69,13 @@ void report_route(Tool& tool, const std::string& name, Route route, const std::v
   const auto begin = std::chrono::steady_clock::now();
   const FitResult r = fit(route, runs, options);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
-  tool.say(fmt::format(
-      "{}: a {:.5g} +- {:.2g}, b {:.5g} +- {:.2g}, rms {:.3g}, n {}, errors {}{}, {:.2g} ms", name,
-      r.a, r.sigma_a, r.b, r.sigma_b, r.rms, r.n, kinds.at(r.errors),
-      std::isnan(r.whiteness) ? "" : fmt::format(" (Ljung-Box p {:.2g})", r.whiteness),
-      time.count()));
+  const auto known = [](const char* text, double value) {  // as many parameters as records: NaN
+    return std::isnan(value) ? "" : fmt::format(fmt::runtime(text), value);
+  };
+  tool.say(fmt::format("{}: a {:.5g}{}, b {:.5g}{}{}, n {}, errors {}{}, {:.2g} ms", name, r.a,
+                       known(" +- {:.2g}", r.sigma_a), r.b, known(" +- {:.2g}", r.sigma_b),
+                       known(", rms {:.3g}", r.rms), r.n, kinds.at(r.errors),
+                       known(" (Ljung-Box p {:.2g})", r.whiteness), time.count()));
   if (r.shares.size() > 1) tool.say(budget(r));
 }
 
@@ -120,22 +122,28 @@ std::string disagreement(const FitResult& r, std::span<const std::string> names)
   return line;
 }
 
+/// What a message about the fit of one run begins with.
+std::string of_run(std::span<const std::string> names) {
+  return names.size() == 1 ? fmt::format("run {}: ", names[0]) : "";
+}
+
 }  // namespace
 
 void warn_of(Tool& tool, Route route, const FitResult& r, std::span<const std::string> names,
              bool check_comes) {
   if (exact(r)) return;
+  const std::string run = of_run(names);
   if (noise_is_correlated(r))
-    tool.warn(fmt::format(
-        "the noise is correlated from record to record (Ljung-Box p {:.2g}), or the law is not the "
-        "right one: the errors allow for the correlation; see --report",
-        r.whiteness));
-  if (route == Route::loglog && logarithms_too_low(r))
     tool.warn(
-        "the noise of D makes its logarithms too low, by more than the standard error of the line: "
-        "use --route shift");
+        fmt::format("{}the noise is correlated from record to record (Ljung-Box p {:.2g}), or the "
+                    "law is not the right one: the errors allow for the correlation; see --report",
+                    run, r.whiteness));
+  if (route == Route::loglog && logarithms_too_low(r))
+    tool.warn(run +
+              "the noise of D makes its logarithms too low, by more than the standard error of the "
+              "line: use --route shift");
   if (r.errors == Errors::uneven)
-    tool.warn("the noise is not of one size along the run: the errors allow for that");
+    tool.warn(run + "the noise is not of one size along the run: the errors allow for that");
   if (r.agreement && !r.agreement->agree() && !check_comes)
     tool.warn(disagreement(r, names) + "; the errors allow for that");
   if (const auto& found = r.eccentricity)
@@ -166,7 +174,7 @@ void check(Tool& tool, const FitResult& r, const std::optional<LawComparison>& l
   // The difference in AICc at which the other law has essentially no support (Burnham and
   // Anderson 2002, section 2.6).
   constexpr double better = 10;
-  const std::string run = names.size() == 1 ? fmt::format("run {}: ", names[0]) : "";
+  const std::string run = of_run(names);
   // check_failed() prints the first reason in full. Therefore a reason that no warning has
   // reported, or that would cause the others, comes first.
   if (r.agreement && !r.agreement->agree())

@@ -41,13 +41,16 @@ LawFile read_law(Tool& tool, const std::string& file) {
     if (in.find("slope")) slope_slot = need_number(in, "slope");
     std::optional<RowColumn> v0;
     if (tool.has("v0") && in.find("v0")) v0.emplace(in, "v0", "v");
-    if (!in.next_run() || !in.next()) fail("{}: no row of fitpower", shown(file));
+    if (!in.next_run() || !in.next()) fail<InputError>("{}: no row of fitpower", shown(file));
     LawFile law;
     if (!tool.on_command_line("coefficient")) law.a = a.value();
     if (law.a && !(*law.a > 0)) fail("a = {} must be greater than 0", *law.a);
     if (!tool.on_command_line("exponent")) law.b = in[b];
     if (slope_slot && !tool.on_command_line("slope")) law.slope = in[*slope_slot];
     if (v0 && !tool.on_command_line("v0")) law.v0 = v0->value();
+    if (law.v0 && *law.v0 < 0)
+      fail("v0 = {}: that body rolled towards falling x; say --v0 {}, and turn the sign of a slope",
+           *law.v0, -*law.v0);
     if (in.next() || in.next_run()) fail("more than one row: a law is one row of fitpower");
     return law;
   }

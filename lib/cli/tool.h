@@ -30,12 +30,12 @@ struct Range {
 inline constexpr Range any_number{"a number", [](double) { return true; }};
 inline constexpr Range positive{"greater than 0", [](double x) { return x > 0; }};
 inline constexpr Range not_negative{"0 or more", [](double x) { return x >= 0; }};
-inline constexpr Range whole{"a whole number greater than 0", [](double x) {
+inline constexpr Range whole{"a whole number from 1 to 1e9", [](double x) {
                                return x >= 1 && x <= 1e9 &&
                                       x == static_cast<double>(static_cast<std::int64_t>(x));
                              }};
 
-inline constexpr Range odd{"an odd whole number", [](double x) {
+inline constexpr Range odd{"an odd whole number from 1 to 1e9", [](double x) {
                              return whole.holds(x) && static_cast<std::int64_t>(x) % 2 == 1;
                            }};
 

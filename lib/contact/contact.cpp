@@ -32,13 +32,14 @@ double shift_from_acceleration(const Body& c, Geometry geometry, double a) {
   if (geometry == Geometry::approximate) return ((1 + K) * c.R * s - c.R * sin) / cos;
   // Eq. 12 is s (K + A) = cos D/R + sin A with s = -a/g. At |D| = R, where A = 0, this is
   // K |s| = cos. For larger |s| the root below belongs to A < 0, and its |D| is less than R again,
-  // so a test of |D| would not detect it. The margin accepts the rounded acceleration of D = R.
+  // so a test of |D| would not detect it; on a steep slope, tan > 1/K, two roots may have A > 0.
+  // The margin accepts the rounded acceleration of D = R.
   constexpr double eps = std::numeric_limits<double>::epsilon();
   if (!(K * std::abs(s) <= (1 + 4 * eps) * cos))
     fail(
-        "no shift D within the radius {:.6g} m gives the acceleration {:.6g} m/s^2: the largest is "
-        "{:.6g} m/s^2",
-        c.R, a, c.g * cos / K);
+        "the acceleration {:.6g} m/s^2 determines no shift D within the radius {:.6g} m: the "
+        "largest that does is {:.6g} m/s^2",
+        a, c.R, c.g * cos / K);
   // s^2 may overflow, which needs a K close to 0.
   if (K * std::abs(s) >= cos || std::abs(s) > 1e100) return std::copysign(c.R, s);
   // Squared, K s - cos D/R = A (sin - s) is quadratic in D/R, and A >= 0 chooses its root.

@@ -17,7 +17,6 @@ namespace rolling {
 namespace {
 
 System line_system(ShiftRecords records, Height height) {
-  for (double& D : records.D) D = std::log(D);
   const std::size_t p = height.count();
   std::vector<std::size_t> runs = records.runs;
   return {std::move(runs), 0, p,
@@ -28,7 +27,7 @@ System line_system(ShiftRecords records, Height height) {
     hand_over(records->runs, p, take,
               [&](std::size_t i, std::span<double> J, std::size_t k, std::size_t n) {
       height.put(J, k, n, 1, records->log_u[i], 1);
-      return h + b * records->log_u[i] - records->D[i];
+      return h + b * records->log_u[i] - records->y[i];
     });
           }};
 }
@@ -129,8 +128,8 @@ std::vector<double> scaled(std::span<const double> Q, std::size_t p,
 
 /// Adds the noise and the bias of ln D - b ln v to a line: those of the best-fitting roll, observed
 /// through the known filters.
-void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<FitRun>& all,
-                 const FitOptions& options, std::vector<Response> responses) {
+void carry_noise(Fitted& line, const std::vector<FitRun>& all, const FitOptions& options,
+                 std::vector<Response> responses) {
   std::vector<FilterMatrix> D, v;
   for (const Response& response : responses)
     D.push_back(response.of.at("D")), v.push_back(response.of.at("v"));
@@ -157,7 +156,8 @@ void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<
     const auto shift = [&, by = *all[r].shift_of](double a) {
       return run.way * shift_from_acceleration(by.body, by.geometry, run.way * a);
     };
-    const FilterMatrix D_of = D[r].of_rows(rows[r]), v_of = v[r].of_rows(rows[r]);
+    const Rows rows = shift_rows(all[r], options, true);
+    const FilterMatrix D_of = D[r].of_rows(rows), v_of = v[r].of_rows(rows);
     const Points points = points_of(D_of, v_of, raw, {roll.a.value, roll.b.value}, shift,
                                     std::sqrt(raw_noise.variance));
     std::vector<double> B = D_of.transposed_times(scaled(Q_of[r], p, points.by_D), p);
@@ -183,9 +183,8 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
                    std::vector<Response> responses) {
   ShiftRecords records = shift_records(all, options, true);
   const Height height{options.a, options.b, records.log_v_ref};
-  const std::vector<Rows> rows = std::move(records.rows);
   Fitted line{.system = {}, .minimum = {}};
-  line.records = records.D.size();
+  line.records = records.y.size();
   line.left_out = records.left_out;
   line.system = line_system(std::move(records), height);
   line.minimum = solve(line.system, std::vector<double>(height.count(), 0), options);
@@ -193,7 +192,7 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
   const double b = height.exponent(line.minimum.theta),
                a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * height.log_v_ref);
   height.report(line, a, a);
-  if (!responses.empty()) carry_noise(line, rows, all, options, std::move(responses));
+  if (!responses.empty()) carry_noise(line, all, options, std::move(responses));
   return line;
 }
 

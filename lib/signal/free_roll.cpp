@@ -139,7 +139,8 @@ class Search {
   Search(std::span<const Sample> run, bool positions)
       : positions_(positions), view_(best_view(run, positions)),
         sign_(view_.speeds[view_.peak] < 0 ? -1 : 1) {
-    if (!(view_.fastest > 8 * view_.noise)) fail("nothing moves in this run: it has no free roll");
+    if (!(view_.fastest > 8 * view_.noise))
+      fail("no motion stands out of the noise: there is no free roll");
     const auto moves = [&](std::size_t i) { return speed(i) > 2 * view_.noise; };
     first_ = end_ = view_.peak;
     while (first_ > 0 && moves(first_ - 1)) --first_;

@@ -221,6 +221,7 @@ bool Reader::next_run() {
 bool Reader::find_run() {
   remarks_.clear();
   comments_.clear();
+  place_.clear();
   while (state_ != State::ended && next_head()) {
     const bool wanted = asked_for(side_);
     ++run_;
@@ -329,7 +330,11 @@ void Reader::begin_run() {
     side_dialect_ = Dialect::of_output();
     dialect_ = &side_dialect_;
   }
-  if (run_is_named()) comments_.push_back("## run " + run_name());
+  place_ = lines_->name();
+  if (run_is_named()) {
+    place_ = "run " + run_name();
+    comments_.push_back("## " + place_);
+  }
   for (const std::string& comment : head_.comments)
     if (side_ == 0 || comment.starts_with("##")) comments_.push_back(comment);
   resolve();
@@ -362,7 +367,6 @@ bool Reader::next_line() {
     return false;
   }
   state_ = State::between;
-  if (next_file_ == options_.files.size()) line_number_ = 0;
   return false;
 }
 
@@ -534,6 +538,9 @@ std::string Reader::head_here() const {
   return run_in_file_ > 1 ? fmt::format("{}:{}", lines_->name(), head_.line) : lines_->name();
 }
 
-std::string Reader::where() const { return line_number_ > 0 ? here() : std::string(); }
+std::string Reader::where() const {
+  if (state_ == State::between) return place_;
+  return line_number_ > 0 ? here() : std::string();
+}
 
 }  // namespace rolling

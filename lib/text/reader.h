@@ -98,8 +98,9 @@ class Reader {
   /// those up to the end of the run.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
-  /// `file:line` of the present record; empty before the first one of a file, and when all input
-  /// has been read.
+  /// `file:line` of the present record. Behind the last record of a run, what its refusal begins
+  /// with: `run NAME`, or the file where there is one run. Empty before the first record of a file,
+  /// and when next_run() has found no other run.
   std::string where() const;
   /// Number of records that were left out because a needed reading was missing.
   std::size_t left_out() const { return left_out_; }
@@ -173,6 +174,7 @@ class Reader {
   std::vector<Column> columns_;
   std::vector<std::string> comments_, remarks_;
   std::size_t run_in_file_ = 0;  // number of the run in the file
+  std::string place_;            // where() behind its last record
   std::string labels_;           // the numbers that runs before it carry, where one is asked for
   bool run_found_ = false, file_open_ = false;
 

@@ -6,7 +6,8 @@
 #
 # K (0.5) is the shape factor, one for all files or one for each; R (0.04) the radius in metres. A
 # file has the columns t and x (Time, Position), or t and v (Time, Velocity). Of each record the
-# free roll is taken. `make figures/fig4.svg` draws the experiments.
+# free roll is taken; of one towards falling x the signs are turned. `make figures/fig4.svg` draws
+# the experiments.
 . "$(dirname "$0")/draw.sh"
 
 # D against v of record $1 with the shape factor $2, and the row of the law.
@@ -21,7 +22,10 @@ shifts() {
   # The picture has the rows of whole windows alone; fitpower knows the noise of all of them.
   whole_windows <"shift$1" | awk -F'\t' '
     /^# t/ { for (i = 1; i <= NF; i++) { if ($i ~ /^v\[/) v = i; if ($i ~ /^D\[/) D = i } next }
-    /^[^#]/ { print $v "\t" 1e3 * $D }' >"points$1"
+    /^[^#]/ {
+      if (!way) way = $v < 0 ? -1 : 1
+      print (way < 0 ? sprintf("%.17g", -$v) : $v) "\t" way * 1e3 * $D
+    }' >"points$1"
 }
 
 own=$#

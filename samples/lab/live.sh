@@ -62,7 +62,7 @@ pictures() {
       [0-9.-]*)
         points+="${field[v]} ${field[D]}"$'\n'
         [ "$terminal" != dumb ] || echo 'print "\033[H\033[J"'
-        printf 'plot "-" using 1:(1e3*$2) with points ls 1 notitle\n%se\n' "$points" ;;
+        printf 'plot "-" using (abs($1)):(($1<0?-1e3:1e3)*$2) with points ls 1 notitle\n%se\n' "$points" ;;
     esac
   done
 }

@@ -60,12 +60,13 @@ while IFS='|' read -r arguments says; do
   attempt $arguments
   refused "$arguments" "$says"
 done <<'END'
-smooth -w 0 @|'0' must be an odd whole number
-smooth -w 2 @|'2' must be an odd whole number
-smooth -w -3 @|'-3' must be an odd whole number
-smooth -w 2.5 @|'2.5' must be an odd whole number
-smooth -w 1e10 @|'1e10' must be an odd whole number
-smooth -w 010 @|'010' must be an odd whole number
+smooth -w 0 @|'0' must be an odd whole number from 1 to 1e9
+smooth -w 2 @|'2' must be an odd whole number from 1 to 1e9
+smooth -w -3 @|'-3' must be an odd whole number from 1 to 1e9
+smooth -w 2.5 @|'2.5' must be an odd whole number from 1 to 1e9
+smooth -w 1e10 @|'1e10' must be an odd whole number from 1 to 1e9
+simulate --seed 1e10|'1e10' must be a whole number from 1 to 1e9
+smooth -w 010 @|'010' must be an odd whole number from 1 to 1e9
 smooth --seconds 0 @|'0' must be greater than 0
 smooth --seconds -1 @|'-1' must be greater than 0
 smooth -w 3 --seconds 1 @|--width and --seconds
@@ -73,7 +74,7 @@ smooth -w auto --seconds 1 @|--width and --seconds
 smooth --outliers 0 @|'0' must be greater than 0
 smooth --order 2 @|--order goes with --method savgol
 smooth -M savgol -w 3 --order 3 @|order
-smooth -M savgol --order 0 @|'0' must be a whole number greater than 0
+smooth -M savgol --order 0 @|'0' must be a whole number from 1 to 1e9
 smooth -M nothing @|'nothing' is not one of
 smooth -c w @|there is no column 'w' among
 smooth -c 5 @|there is no column '5' among
@@ -90,7 +91,7 @@ smooth --run 2 @|there is no run 2
 smooth --digits 0 @|from 1 to 17
 smooth --digits 18 @|from 1 to 17
 smooth --digits 1.5 @|from 1 to 17
-differentiate -w 4 -M savgol @|'4' must be an odd whole number
+differentiate -w 4 -M savgol @|'4' must be an odd whole number from 1 to 1e9
 differentiate -w 5 @|go with --method savgol
 differentiate -w 3 --order 3 -M savgol @|order
 differentiate -M mean @|'mean' is not one of

@@ -53,7 +53,7 @@ done
 # 4. D differenced from the same v: the integral is the difference of the energies by construction,
 # which energy-ledger says; not where a law stands in for that D.
 differentiate "$scratch/roll" | shift-from-accel -K 0.5 -R 0.04 >"$scratch/D"
-nothing="*D was computed from the derivative of the same v: the balance holds for any v and tests nothing*"
+nothing="*D was computed from the derivative of the same v: the balance compares v with itself*"
 check 0 "$nothing" -m 1.375 -K 0.5 -R 0.04 "$scratch/D"
 awk '/^#/ { print; next } { $2 *= 1 + 0.2 * sin(5 * $1); print }' "$scratch/roll" |
   differentiate | shift-from-accel -K 0.5 -R 0.04 >"$scratch/any"

@@ -185,6 +185,14 @@ sed 's/Time (s),.*/Time (s),Velocity (km\/h)/; 2,$s/,.*,\(.*\)/,\1/' samples/CR.
     { print }' >"$scratch/my_'run'; set label.1.csv"
 (cd "$scratch" && "$OLDPWD/samples/figures/fig4.sh" -K 0.5 -R 0.04 "my_'run'; set label.1.csv") \
   >"$scratch/own.svg" || complain "fig4 of an own record: exit $?"
+# A roll towards falling x has the picture of its mirror image.
+mkdir "$scratch/mirrored"
+awk -F, -v OFS=, 'NR > 1 && $2 != "" { $2 = -$2 } { print $1, $2 }' samples/CR.csv \
+  >"$scratch/mirrored/CR.csv"
+cut -d , -f 1,2 samples/CR.csv >"$scratch/CR.csv"
+samples/figures/fig4.sh "$scratch/CR.csv" >"$scratch/towards-growing-x.svg"
+samples/figures/fig4.sh "$scratch/mirrored/CR.csv" |
+  cmp - "$scratch/towards-growing-x.svg" || complain "fig4 of a roll towards falling x"
 smooth -q --coast -c v -w 11 "$scratch/my_'run'; set label.1.csv" | differentiate -c v |
   shift-from-accel -q -K 0.5 -R 0.04 | fitpower -q | tail -n 1 >"$scratch/law"
 sed -n 's/.*>\(my_.*\)<.text>.*/\1/p' "$scratch/own.svg" |

@@ -507,16 +507,29 @@ TEST_CASE("reader: a record says where a column's text stands", "[text]") {
   CHECK(in.where() == file.name() + ":1");
 }
 
-TEST_CASE("reader: where() is empty before the first record is taken and after the last",
+TEST_CASE("reader: where() is a record, behind the last one its run, and nothing around them",
           "[text]") {
-  const TemporaryFile file("# t v\n0 1\n");
-  Reader in({{file.name()}, {}, {}, false}, {});
+  const TemporaryFile file("# t v\n0 1\n"), two("# t v\n0 1\n\n0 2\n");
+  Reader in({{file.name(), two.name()}, {}, {}, false}, {});
   CHECK(in.where().empty());
-  REQUIRE(in.next_run());
-  REQUIRE(in.next());
-  CHECK(in.where() == file.name() + ":2");
-  CHECK_FALSE(in.next());
+  const auto base = [](const std::string& path) { return path.substr(path.rfind('/') + 1); };
+  const std::string places[][2] = {{file.name() + ":2", "run " + base(file.name())},
+                                   {two.name() + ":2", "run " + base(two.name()) + " 1"},
+                                   {two.name() + ":4", "run " + base(two.name()) + " 2"}};
+  for (const auto& [record, run] : places) {
+    REQUIRE(in.next_run());
+    REQUIRE(in.next());
+    CHECK(in.where() == record);
+    CHECK_FALSE(in.next());
+    CHECK(in.where() == run);
+  }
+  CHECK_FALSE(in.next_run());
   CHECK(in.where().empty());
+
+  Reader one({{file.name()}, {}, {}, false}, {});
+  REQUIRE(one.next_run());
+  while (one.next()) continue;
+  CHECK(one.where() == file.name());
 }
 
 TEST_CASE("reader: a needed column that displaces another of its name", "[text]") {
