@@ -83,10 +83,10 @@ Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   const std::size_t n = records.y.size();
   const ShiftRecords few = thinned(records, options.robust ? n : most);
   std::vector<double> theta = power_start(few, options, unit);
-  if (few.y.size() < n) theta = approach(power_system(few, height, unit), std::move(theta));
+  if (few.y.size() < n) theta = attempt(power_system(few, height, unit), theta).theta;
 
   const System system = power_system(records, height, unit);
-  Minimum minimum = solve(system, theta, options, false);
+  Minimum minimum = solve(system, theta, options);
   const double b = height.exponent(minimum.theta), scale = std::exp(-b * records.log_v_ref),
                a = options.a ? *options.a : minimum.theta[0] * unit * scale;
   Fitted result{.system = system, .minimum = std::move(minimum)};
