@@ -12,12 +12,3 @@ TEST_CASE("fit report: each route has a name and its columns", "[fit]") {
     CHECK((columns[0] == "t") == (name == "velocity" || name == "position"));
   }
 }
-
-TEST_CASE("fit report: a robust fit is not compared with other laws", "[fit]") {
-  FitRun run{};
-  for (int i = 1; i <= 12; ++i) run.v.push_back(i), run.D.push_back(0.1 * i + 0.01 * (i * i % 5));
-  FitOptions options;
-  CHECK(compare_if_possible(Route::shift, {run}, options));
-  options.robust = true;
-  CHECK_FALSE(compare_if_possible(Route::shift, {run}, options));
-}
