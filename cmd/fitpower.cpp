@@ -129,7 +129,6 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns co
                       "records at the cut are left out, since their windows are not known",
                       all.names.back(), history.left_out));
   }
-  warn_of_copies(tool, route, all);
   return all;
 }
 
@@ -291,15 +290,17 @@ int main(int argc, char** argv) {
     options.possible_filters = filters_of_sensors();
     options.fit_slope = slope_text == "fit";
     if (!options.fit_slope) set_slope(slope_text, body, uncertainty);
-    const bool trajectory = route == Route::velocity || route == Route::position;
+    const bool trajectory = is_trajectory(route);
     if (trajectory) tool.need({"radius", "shape-factor"});
     if (options.v0 && !trajectory) fail("--fix: this route has no v0");
     if (options.x0 && route != Route::position) fail("--fix: this route has no x0");
 
-    auto [runs, run_names] =
+    Runs all =
         read_runs(tool, in, route, body, with_report ? Columns::of_all_routes : Columns::of_route);
-    set_bodies(runs, shape_factors, uncertainty);
-    const auto fits = grouped(std::move(runs), each);
+    if (!each) warn_of_copies(tool, route, all);
+    set_bodies(all.runs, shape_factors, uncertainty);
+    const std::vector<std::string>& run_names = all.names;
+    const auto fits = grouped(std::move(all.runs), each);
     const Table table{tool.out, trajectory && fits.front().size() == 1, options.fit_slope, each};
     const auto results = fit_all(tool, route, fits, options, each ? &run_names : nullptr);
     const auto fitted = [](const auto& result) { return result.has_value(); };
@@ -316,11 +317,12 @@ int main(int argc, char** argv) {
       const auto of_fit = each ? std::span(run_names).subspan(i, 1) : std::span(run_names);
       warn_of(tool, route, *results[i], of_fit, with_check);
       if (!with_report && !with_check) continue;
-      const auto laws = compare_if_possible(route, fits[i], options);
+      std::optional<LawComparison> laws;  // AICc needs sums of squares
+      if (!options.robust) laws = compare_laws(route, fits[i], options);
       if (with_report && each) tool.say(fmt::format("run {}, the report:", run_names[i]));
       if (with_report) report(tool, fits[i], options, laws);
       if (with_check)
-        check(tool, *results[i], laws, beginning_if_possible(route, fits[i], options), of_fit);
+        check(tool, *results[i], laws, disturbed_beginning(route, fits[i], options), of_fit);
     }
     tool.count_left_out(left_out, "this route cannot use them");
     return std::all_of(results.begin(), results.end(), fitted) ? 0 : 2;

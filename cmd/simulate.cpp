@@ -1,5 +1,7 @@
 // simulate - roll a body under a law D(v); see simulate(1)
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "cli/law_file.h"
 #include "cli/quantities.h"
@@ -167,12 +169,23 @@ void add_options(Tool& tool, SonarOptions& sonar) {
               "share of lost echoes (0.01)");
 }
 
-/// Writes the rows of a roll: these quantities at each time.
+/// Writes the rows of a roll: these quantities at each time. They are formatted 32 at a time: the
+/// computations of different rows overlap in the processor, the steps of one wait for each other.
 class Rows {
  public:
   Rows(Output& out, const Task& task, const std::string& columns)
       : out_(out), task_(task), row_(chosen(columns, quantities)),
-        only_t_(row_.size() == 1 && row_[0].column.name == "t") {}
+        only_t_(row_.size() == 1 && row_[0].column.name == "t"),
+        numbers_(row_.size() * (out.unbuffered ? 1 : 32)) {}
+  /// If an Error ends the work early, writes the rows that are complete.
+  ~Rows() {
+    try {
+      format();
+    } catch (const Error&) {  // the error that ended the work is reported, not this one
+    }
+  }
+  Rows(const Rows&) = delete;
+  Rows& operator=(const Rows&) = delete;
 
   void write_header() const {
     const auto& [body, geometry, law, table, bulge, v0, x0] = task_.roll;
@@ -183,14 +196,23 @@ class Rows {
     out_.names(columns_of(row_));
   }
 
-  void write(double t, Motion& motion) const {
+  void write(double t, Motion& motion) {
     if (!only_t_) motion.seek(t);
-    for (const auto& quantity : row_) out_.cell(quantity.of(t, motion));
-    out_.end_line();
+    std::size_t end = count_;
+    for (const auto& quantity : row_) require_finite(numbers_[end++] = quantity.of(t, motion));
+    count_ = end;
+    if (count_ == numbers_.size()) format();
+  }
+
+  /// Writes the rows that wait.
+  void format() {
+    const std::span rows(numbers_.data(), std::exchange(count_, 0));
+    for (std::size_t i = 0; i < rows.size(); i += row_.size())
+      out_.row(rows.subspan(i, row_.size()));
   }
 
   /// At the times in the column t of a file; each run of the file starts the roll anew.
-  void write_at(Reader& in) const {
+  void write_at(Reader& in) {
     const auto t = in.need_time();
     for (bool first = true; in.next_run(); first = false) {
       if (!first) out_.end_line();
@@ -202,11 +224,12 @@ class Rows {
         if (in[t] < 0) fail("t = {} is before the roll, which begins at 0", in[t]);
         write(in[t], *motion);
       }
+      format();
     }
   }
 
   /// Every dt up to `until`; if that is not given, up to the stop, which is the last row.
-  void write_every(double dt, double until) const {
+  void write_every(double dt, double until) {
     const auto motion = task_.start();
     const bool to_the_stop = std::isnan(until);
     const double end = to_the_stop ? motion->stop_time() : until;
@@ -218,6 +241,7 @@ class Rows {
     write_header();
     for (double k = 0; k <= steps; ++k) write(clock.at(k), *motion);
     if (to_the_stop) write(end, *motion);
+    format();
   }
 
  private:
@@ -225,6 +249,8 @@ class Rows {
   const Task& task_;
   std::vector<Quantity<double (*)(double t, Motion&)>> row_;
   bool only_t_;
+  std::vector<double> numbers_;  // the rows that wait, and space for more
+  std::size_t count_ = 0;        // numbers that wait
 };
 
 }  // namespace
@@ -259,7 +285,7 @@ int main(int argc, char** argv) {
       write_record(tool.out, *task.start(), sonar);
       return 0;
     }
-    const Rows rows(tool.out, task, columns);
+    Rows rows(tool.out, task, columns);
     if (!times_file.empty()) rows.write_at(tool.read_file(times_file, {"t"}));
     else rows.write_every(dt, until);
     return 0;

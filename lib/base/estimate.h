@@ -7,6 +7,8 @@ namespace rolling {
 struct Estimate {
   double value = 0;
   double sigma = 0;  ///< 0: none was given
+
+  bool operator==(const Estimate&) const = default;
 };
 
 }  // namespace rolling

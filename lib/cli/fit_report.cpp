@@ -155,18 +155,6 @@ void warn_of(Tool& tool, Route route, const FitResult& r, std::span<const std::s
         std::fmod(found->phase * 180 / std::numbers::pi + 360, 360)));
 }
 
-std::optional<LawComparison> compare_if_possible(Route route, const std::vector<FitRun>& runs,
-                                                 const FitOptions& options) {
-  if (options.robust) return {};
-  return compare_laws(route, runs, options);
-}
-
-std::optional<Beginning> beginning_if_possible(Route route, const std::vector<FitRun>& runs,
-                                               const FitOptions& options) {
-  if (options.robust) return {};
-  return disturbed_beginning(route, runs, options);
-}
-
 void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& options,
             const std::optional<LawComparison>& laws) {
   for (const auto& [name, route] : fit_routes()) try {

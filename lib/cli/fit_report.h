@@ -24,15 +24,6 @@ std::vector<std::string> columns_of(Route);
 /// those of the runs of the fit.
 void warn_of(Tool&, Route, const FitResult&, std::span<const std::string> names, bool check_comes);
 
-/// The comparison of the laws on the records of one fit. None for a robust fit, because AICc needs
-/// sums of squares.
-std::optional<LawComparison> compare_if_possible(Route, const std::vector<FitRun>&,
-                                                 const FitOptions&);
-
-/// The disturbed beginning of a run, if there is one. None for a robust fit.
-std::optional<Beginning> beginning_if_possible(Route, const std::vector<FitRun>&,
-                                               const FitOptions&);
-
 /// Reports the result and the computing time of each route, the coefficients of the laws, and
 /// whether a v^b is adequate.
 void report(Tool&, const std::vector<FitRun>&, const FitOptions&,

@@ -2,6 +2,9 @@
 // dissipates, at every moment and at the end.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "contact/integral.h"
 #include "contact/ledger.h"
 
@@ -12,7 +15,18 @@ class Balance {
   explicit Balance(const Body& body) : inclined_(body.slope != 0) {}
 
   /// Adds the next record of the run: its time [s] and its quantities.
-  void push(double t, const Ledger&);
+  void push(double t, const Ledger& now) {
+    end_ = now.E_trans() + now.E_rot();
+    if (!begun_) start_ = end_, worst_time_ = t;
+    begun_ = true;
+    dissipated_ = outflow_.push(t, now.P_diss());
+    if (inclined_) lifted_ = lift_.push(t, now.P_g());
+    const double off = std::abs(start_ - end_ - lifted_ - dissipated_);
+    // There is no branch, which the processor would often predict wrongly: noise decides.
+    const double times[] = {worst_time_, t};
+    worst_time_ = times[off > worst_];
+    worst_ = std::max(worst_, off);
+  }
 
   double start() const { return start_; }  ///< E_trans + E_rot at the first record [J]
   double end() const { return end_; }      ///< and at the last [J]

@@ -1,6 +1,8 @@
 // The running integral of a column over time.
 #pragma once
 
+#include "base/double_double.h"
+
 namespace rolling {
 
 /// Each step is integrated under the parabola through its two samples and the one before (the
@@ -12,12 +14,25 @@ class Integral {
  public:
   /// Adds the next sample (times increase) and returns the integral from the first sample to this
   /// one. The sum is compensated (Neumaier), so rounding errors do not accumulate in long runs.
-  double push(double t, double y);
+  double push(double t, double y) {
+    if (begun_) {
+      const double h = t - t_, k = last_step_, rise = y - y_;
+      double part = 0.5 * h * (y + y_);
+      if (h <= 2 * k && y != 0 && y_ != 0)
+        part -= h * h / (6 * (h + k) * k) * (rise * k - last_rise_ * h);
+      const DoubleDouble sum = two_sum(sum_, part);
+      sum_ = sum.hi, error_ += sum.lo;
+      last_step_ = h, last_rise_ = rise;
+    }
+    begun_ = true;
+    t_ = t, y_ = y;
+    return sum_ + error_;
+  }
 
  private:
-  int samples_ = 0;  // so far, up to 2
+  bool begun_ = false;
   double t_ = 0, y_ = 0;
-  double last_step_ = 0, last_rise_ = 0;  // of t and of y over the step before
+  double last_step_ = 0, last_rise_ = 0;  // of t and of y; 0 before the first step
   double sum_ = 0, error_ = 0;
 };
 

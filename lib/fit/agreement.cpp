@@ -223,6 +223,7 @@ Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitte
   Fitted fit = joint;
   fit.minimum.f.clear();
   RawNoise raw{};
+  if (joint.raw_noise) raw.sources.B = joint.raw_noise->sources.B;
   double rss = 0;
   std::size_t p = 0;
   const auto append = [](auto& to, const auto& more) {
@@ -235,21 +236,21 @@ Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitte
     p += one->minimum.theta.size();
     if (!one->raw_noise) continue;
     raw.variance += one->raw_noise->variance / static_cast<double>(own.size());
-    raw.means_taken += one->raw_noise->means_taken;
-    append(raw.sources, one->raw_noise->sources);
-    append(raw.source_runs, one->raw_noise->source_runs);
+    raw.sources.means_taken += one->raw_noise->sources.means_taken;
+    append(raw.sources.e, one->raw_noise->sources.e);
+    append(raw.sources.runs, one->raw_noise->sources.runs);
     append(raw.innovations, one->raw_noise->innovations);
     append(raw.innovation_runs, one->raw_noise->innovation_runs);
   }
   const std::size_t n = joint.minimum.f.size();
-  const bool same_noise = !joint.raw_noise || raw.source_runs == joint.raw_noise->source_runs;
+  const bool same_noise = !joint.raw_noise || raw.sources.runs == joint.raw_noise->sources.runs;
   if (fit.minimum.f.size() != n || n <= p || !same_noise) return joint;
   // The runs' own fits have more parameters in all than the joint one, p instead of its own number,
   // and leave smaller residuals: rss/(n - p) is the variance. Whoever takes the joint fit divides
   // by its own degrees of freedom, and HC3 takes the residuals themselves.
   const double more =
       static_cast<double>(n - joint.minimum.theta.size()) / static_cast<double>(n - p);
-  for (auto* of_noise : {&fit.minimum.f, &raw.sources})
+  for (auto* of_noise : {&fit.minimum.f, &raw.sources.e})
     for (double& x : *of_noise) x *= std::sqrt(more);
   fit.minimum.rss = rss * more;
   if (fit.raw_noise) fit.raw_noise = std::move(raw);
@@ -288,7 +289,7 @@ BySlope take_slope(std::vector<OwnLaw>& laws, double freedom, NoiseErrors& error
   }
   const Line line = scattered_line(log_D, by_slope, freedom);
   joint.slope->value += line.slope;
-  errors.slope = student(freedom) * std::sqrt(line.chi2 / freedom / line.spread);
+  errors.share.slope = student(freedom) * std::sqrt(line.chi2 / freedom / line.spread);
   BySlope result;
   for (std::size_t i = 0; i < laws.size(); ++i) {
     const Pair lost{by_slope[i] * (1 + exponent * log_v), -by_slope[i] * exponent};
@@ -314,10 +315,10 @@ void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, F
   }
   if (a.free) joint.a.value = std::exp(a.value);
   if (b.free) joint.b.value = b.value;
-  const double by_slope_a = lost.a * errors.slope, by_slope_b = lost.b * errors.slope;
-  errors.a = joint.a.value * std::hypot(a.error(), by_slope_a);
-  errors.b = std::hypot(b.error(), by_slope_b);
-  errors.together = joint.a.value * (products + by_slope_a * by_slope_b);
+  const double by_slope_a = lost.a * errors.share.slope, by_slope_b = lost.b * errors.share.slope;
+  errors.share.a = joint.a.value * std::hypot(a.error(), by_slope_a);
+  errors.share.b = std::hypot(b.error(), by_slope_b);
+  errors.share.together = joint.a.value * (products + by_slope_a * by_slope_b);
 }
 
 }  // namespace

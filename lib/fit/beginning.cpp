@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/gsl.h"
+#include "fit/by_run.h"
 #include "fit/dot.h"
 #include "fit/errors.h"
 #include "fit/fitted.h"
@@ -25,17 +26,16 @@ struct Without {
 /// f_S are the first k residuals, Q_S their rows of the orthonormal Q. A = I - Q_S^T Q_S is the
 /// normal matrix of the other records. Then c = A^-1 Q_S^T f_S, and the reduction is |f_S|^2 +
 /// f_S^T Q_S c.
-Without without_first(std::size_t k, std::size_t q, const double* Q, const double* f) {
+Without without_first(std::size_t k, std::size_t q, std::span<const double> Q,
+                      std::span<const double> f) {
   std::vector<double> A(q * q, 0), g(q, 0);
   double squares = 0;
   for (std::size_t i = 0; i < q; ++i) A[i * q + i] = 1;
   for (std::size_t s = 0; s < k; ++s) {
-    const double* const row = Q + s * q;
+    const auto row = Q.subspan(s * q, q);
     squares += f[s] * f[s];
-    for (std::size_t i = 0; i < q; ++i) {
-      g[i] += row[i] * f[s];
-      for (std::size_t j = 0; j < q; ++j) A[i * q + j] -= row[i] * row[j];
-    }
+    for (std::size_t i = 0; i < q; ++i) g[i] += row[i] * f[s];
+    add_outer(A, -1, row, row);
   }
   Without result{squares, g};
   gsl_matrix_view normal = gsl_matrix_view_array(A.data(), q, q);
@@ -44,7 +44,7 @@ Without without_first(std::size_t k, std::size_t q, const double* Q, const doubl
   if (gsl_linalg_cholesky_decomp1(&normal.matrix) != GSL_SUCCESS ||
       gsl_linalg_cholesky_svx(&normal.matrix, &c.vector) != GSL_SUCCESS)
     return {0, std::vector<double>(q, 0)};
-  result.reduction += dot(g.data(), result.c.data(), q);
+  result.reduction += dot(g, result.c);
   return result;
 }
 
@@ -53,6 +53,7 @@ Without without_first(std::size_t k, std::size_t q, const double* Q, const doubl
 std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitRun>& runs,
                                              const FitOptions& options) {
   constexpr double decisive = 0.001, white = 0.005;
+  if (options.robust) return {};
   for (const FitRun& run : runs)
     if (!run.filters.empty()) return {};
   silence_gsl();
@@ -65,21 +66,21 @@ std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitR
   std::optional<Beginning> found;
   std::vector<double> rest;
   double tests = 0;
-  for (std::size_t r = 0, first = 0; r < runs.size(); first += fit.system.runs[r++]) {
-    const std::size_t records = std::min(fit.system.runs[r], rows[r].size());
+  const auto f_of = by_run(fit.minimum.f, fit.system.runs), Q_of = by_run(Q, fit.system.runs, q);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const std::size_t records = std::min(f_of[r].size(), rows[r].size());
     for (std::size_t k = 3, next = 5; 4 * k <= records; k = std::exchange(next, k + next)) {
       ++tests;
-      const Without without = without_first(k, q, &Q[first * q], &fit.minimum.f[first]);
+      const Without without = without_first(k, q, Q_of[r], f_of[r]);
       const double gone = static_cast<double>(k), left = static_cast<double>(n - p - k),
                    others = fit.minimum.rss - without.reduction,
                    chance = gsl_cdf_fdist_Q(without.reduction / gone / (others / left), gone, left);
       if (found && chance >= found->significance) continue;
       const auto& t = runs[r].t;
       found = Beginning{r, k, t[rows[r][k]] - t[rows[r][0]], chance};
-      rest.assign(fit.minimum.f.begin() + static_cast<std::ptrdiff_t>(first + k),
-                  fit.minimum.f.begin() + static_cast<std::ptrdiff_t>(first + fit.system.runs[r]));
-      for (std::size_t i = 0; i < rest.size(); ++i)
-        rest[i] += dot(&Q[(first + k + i) * q], without.c.data(), q);
+      rest.clear();
+      for (std::size_t i = k; i < f_of[r].size(); ++i)
+        rest.push_back(f_of[r][i] + dot(without.c, Q_of[r].subspan(i * q)));
     }
   }
   if (!found) return {};

@@ -23,9 +23,9 @@ struct Beginning {
 /// correction and the other residuals of that run are white: noise of long memory would deviate
 /// everywhere.
 ///
-/// The result is empty for a fit that is not a roll, for fewer than 20 records more than
-/// parameters, and for filtered columns: filters spread a disturbance over all residuals, which
-/// then are not white. Throws Error if the fit itself is not possible.
+/// The result is empty for a robust fit and one that is not a roll, for fewer than 20 records more
+/// than parameters, and for filtered columns: filters spread a disturbance over all residuals,
+/// which then are not white. Throws Error if the fit itself is not possible.
 std::optional<Beginning> disturbed_beginning(Route, const std::vector<FitRun>&, const FitOptions&);
 
 }  // namespace rolling

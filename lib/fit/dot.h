@@ -1,11 +1,13 @@
-// The inner product in four independent partial sums: in a single sum each addition would wait for
-// the one before it.
+// Inner and outer products of rows of numbers.
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 namespace rolling {
 
+/// The inner product in four independent partial sums: in a single sum each addition would wait for
+/// the one before it.
 inline double dot(const double* x, const double* y, std::size_t n) {
   double a = 0, b = 0, c = 0, d = 0;
   std::size_t i = 0;
@@ -17,6 +19,17 @@ inline double dot(const double* x, const double* y, std::size_t n) {
   }
   for (; i < n; ++i) a += x[i] * y[i];
   return (a + b) + (c + d);
+}
+/// The inner product of two rows of the length of x.
+inline double dot(std::span<const double> x, std::span<const double> y) {
+  return dot(x.data(), y.data(), x.size());
+}
+
+/// Adds by x y^T to the square matrix M, which is stored row by row.
+inline void add_outer(std::span<double> M, double by, std::span<const double> x,
+                      std::span<const double> y) {
+  for (std::size_t j = 0; j < x.size(); ++j)
+    for (std::size_t k = 0; k < y.size(); ++k) M[j * y.size() + k] += by * x[j] * y[k];
 }
 
 }  // namespace rolling

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "contact/contact.h"
+#include "fit/by_run.h"
 #include "fit/triangles.h"
 
 namespace rolling {
@@ -60,10 +61,10 @@ class Wobble {
     if (i == t_.size()) return of_t_.back();
     if (i == 0 || t_[i] == t) return of_t_[i];
     const double share = (t - t_[i - 1]) / (t_[i] - t_[i - 1]);
-    std::array<double, 2> between;
-    for (std::size_t k = 0; k < 2; ++k)
-      between[k] = of_t_[i - 1][k] + share * (of_t_[i][k] - of_t_[i - 1][k]);
-    return between;
+    const auto between = [&](std::size_t k) {
+      return of_t_[i - 1][k] + share * (of_t_[i][k] - of_t_[i - 1][k]);
+    };
+    return {between(0), between(1)};
   }
   double fastest() const { return fastest_; }
   double way() const { return way_; }
@@ -77,10 +78,10 @@ class Wobble {
 /// The periodogram of one run of a fit.
 class Periodogram {
  public:
+  /// R is the radius of the body, `variance` that of the noise.
   Periodogram(const Fitted& fit, std::size_t run, double R, double variance,
               std::span<const double> f)
-      : fit_(fit), run_(run), R_(R), variance_(variance), seen_(fit.rolls->runs()[run]),
-        roll_(fit.rolls->trajectory(fit.minimum.theta, run)), f_(f), ends_(thinned()) {
+      : fit_(fit), run_(run), R_(R), variance_(variance), f_(f) {
     for (std::size_t end : ends_) times_.push_back(seen_.t[end - 1]);
   }
 
@@ -99,10 +100,9 @@ class Periodogram {
     // The QR decomposition of J with the two columns of the response behind it: the last 2 x 2
     // block of R belongs to these columns after projection orthogonal to J, and theta holds their
     // coefficients.
-    const std::size_t q = fit_.system.columns() + 2;
+    const std::size_t q = q_ + 2;
     Triangles all(System{{f_.size()}, 0, q, {}});
-    if (seen_.H) fold_filtered(wobble, all);
-    else fold_means(wobble, all);
+    seen_.H ? fold_filtered(wobble, all) : fold_means(wobble, all);
     all.join();
     const Column R = all.without_f(), theta = all.solve();
     const double cc = R[(q - 2) * q + q - 2], cs = R[(q - 2) * q + q - 1], ss = R[q * q - 1],
@@ -142,15 +142,13 @@ class Periodogram {
 
   /// For white noise, block means keep the information about everything that varies slowly.
   void fold_means(const Wobble& wobble, Triangles& all) const {
-    const RawModel model = fit_.rolls->raw(fit_.minimum.theta, run_);
-    const std::size_t q = fit_.system.columns();
-    Column J(q + 2);
+    Column J(q_ + 2);
     std::size_t first = 0;
     for (std::size_t end : ends_) {
       const double n = static_cast<double>(end - first);
       double t = 0, f = 0;
       for (; first < end; ++first) t += seen_.t[first] / n, f += f_[first];
-      model(t, J.data(), 1);
+      model_(t, J.data(), 1);
       const auto by_e = wobble.at(t);
       std::copy(by_e.begin(), by_e.end(), J.end() - 2);
       for (double& x : J) x *= std::sqrt(n);
@@ -160,30 +158,27 @@ class Periodogram {
   }
 
   void fold_filtered(const Wobble& wobble, Triangles& all) const {
-    const RawModel model = fit_.rolls->raw(fit_.minimum.theta, run_);
-    const std::size_t q = fit_.system.columns();
     const double* f = f_.data();
     const TakeRows take = [&](std::size_t, std::span<double> of_rows, std::span<double> J) {
       std::copy_n(std::exchange(f, f + of_rows.size()), of_rows.size(), of_rows.begin());
       all.add(0, of_rows, J);
     };
-    Residuals residuals(seen_, run_, q + 2, *fit_.noise, take);
-    for (double t : seen_.t) {
-      const auto to = residuals.place();
-      *to.raw = model(t, to.slopes, to.stride);
+    const RawModel with_wobble = [&](double t, double* slopes, std::size_t stride) {
       const auto by_e = wobble.at(t);
-      for (std::size_t k = 0; k < 2; ++k) to.slopes[(q + k) * to.stride] = by_e[k];
-      residuals.push();
-    }
+      for (std::size_t k = 0; k < 2; ++k) slopes[(q_ + k) * stride] = by_e[k];
+      return model_(t, slopes, stride);
+    };
+    evaluate(seen_, run_, q_ + 2, *fit_.noise, with_wobble, take);
   }
 
   const Fitted& fit_;
-  std::size_t run_;
+  std::size_t run_, q_ = fit_.system.columns();
   double R_, variance_;
-  const ObservedRun& seen_;
-  Trajectory roll_;
   std::span<const double> f_;
-  std::vector<std::size_t> ends_;
+  const ObservedRun& seen_ = fit_.rolls->runs()[run_];
+  Trajectory roll_ = fit_.rolls->trajectory(fit_.minimum.theta, run_);
+  RawModel model_ = fit_.rolls->raw(fit_.minimum.theta, run_);
+  std::vector<std::size_t> ends_ = thinned();
   Column times_;
 };
 
@@ -194,11 +189,10 @@ std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRu
   constexpr double decisive = 0.01;
   if (!fit.rolls || fit.minimum.f.size() < fit.minimum.theta.size() + 10) return {};
   std::optional<Eccentricity> found;
-  std::size_t first = 0;
-  for (std::size_t r = 0; r < runs.size(); first += fit.system.runs[r++]) {
+  const auto f_of = by_run(fit.minimum.f, fit.system.runs);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
     const double R = route == Route::shift ? runs[r].shift_of->body.R : runs[r].body.R;
-    const Periodogram spectrum(fit, r, R, variance,
-                               std::span(fit.minimum.f).subspan(first, fit.system.runs[r]));
+    const Periodogram spectrum(fit, r, R, variance, f_of[r]);
     if (!spectrum.worth()) continue;
     Eccentricity once_a_turn = spectrum.at(1);
     once_a_turn.significance *= static_cast<double>(runs.size());

@@ -10,40 +10,37 @@
 #include "base/error.h"
 #include "contact/contact.h"
 #include "contact/uncertain_number.h"
+#include "fit/by_run.h"
 #include "fit/dot.h"
 
 namespace rolling {
 
-std::vector<double> Spread::solve_transposed(std::vector<double> g, std::size_t run) const {
-  const double* const R = &R_[run * q_ * q_];
-  for (std::size_t j = 0; j < q_; ++j) {
-    for (std::size_t k = 0; k < j; ++k) g[j] -= R[k * q_ + j] * g[k];
-    g[j] /= R[j * q_ + j];
+void solve_transposed(const double* R, std::span<double> g) {
+  const std::size_t q = g.size();
+  for (std::size_t j = 0; j < q; ++j) {
+    for (std::size_t k = 0; k < j; ++k) g[j] -= R[k * q + j] * g[k];
+    g[j] /= R[j * q + j];
   }
-  return g;
 }
 
-double Spread::operator()(const std::vector<double>& g, const std::vector<double>& h,
-                          std::size_t run) const {
-  const auto left = solve_transposed(g, run), right = solve_transposed(h, run);
+double Spread::operator()(std::vector<double> g, std::vector<double> h, std::size_t run) const {
+  const std::size_t first = run * q_ * q_;
+  solve_transposed(&R_[first], g), solve_transposed(&R_[first], h);
   double sum = 0;
   for (std::size_t i = 0; i < q_; ++i)
-    for (std::size_t j = 0; j < q_; ++j) sum += left[i] * M_[(run * q_ + i) * q_ + j] * right[j];
+    for (std::size_t j = 0; j < q_; ++j) sum += g[i] * M_[first + i * q_ + j] * h[j];
   return sum;
 }
 
 std::vector<double> orthonormal(const System& system, const Minimum& m) {
   const std::size_t q = system.columns();
-  std::vector<double> Q;
-  Q.reserve(m.f.size() * q);
+  std::vector<double> Q(m.f.size() * q);
+  double* row = Q.data();
   system.evaluate(m.theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
-    const double* const R = &m.R[run * q * q];
-    for (std::size_t i = 0; i < f.size(); ++i)
-      for (std::size_t j = 0; j < q; ++j) {
-        double x = J[j * f.size() + i];
-        for (std::size_t k = 0; k < j; ++k) x -= Q[Q.size() - j + k] * R[k * q + j];
-        Q.push_back(x / R[j * q + j]);
-      }
+    for (std::size_t i = 0; i < f.size(); ++i, row += q) {
+      for (std::size_t j = 0; j < q; ++j) row[j] = J[j * f.size() + i];
+      solve_transposed(&m.R[run * q * q], {row, q});
+    }
   });
   return Q;
 }
@@ -60,11 +57,8 @@ void add_shared(std::vector<double>& M, std::size_t columns, std::size_t shared)
 
 double lagged(std::span<const double> r, std::span<const std::size_t> runs, std::size_t lag) {
   double sum = 0;
-  std::size_t start = 0;
-  for (std::size_t n : runs) {
-    if (n > lag) sum += dot(&r[start], &r[start + lag], n - lag);
-    start += n;
-  }
+  for (const auto run : by_run(r, runs))
+    if (run.size() > lag) sum += dot(run.first(run.size() - lag), run.subspan(lag));
   return sum;
 }
 
@@ -88,20 +82,16 @@ double breusch_pagan(std::span<const double> residuals, std::span<const std::siz
   const double n = static_cast<double>(residuals.size());
   const double mean = lagged(residuals, runs, 0) / n;
   double P1 = 0, P2 = 0, along1 = 0, along2 = 0, all = 0;
-  std::size_t start = 0;
-  for (std::size_t m : runs) {
-    for (std::size_t i = 0; i < m; ++i) {
-      const double u = (2 * static_cast<double>(i) + 1) / static_cast<double>(m) - 1,
-                   p2 = (3 * u * u - 1) / 2,
-                   square = residuals[start + i] * residuals[start + i] - mean;
+  for (const auto run : by_run(residuals, runs))
+    for (std::size_t i = 0; i < run.size(); ++i) {
+      const double u = (2 * static_cast<double>(i) + 1) / static_cast<double>(run.size()) - 1,
+                   p2 = (3 * u * u - 1) / 2, square = run[i] * run[i] - mean;
       P1 += u * u;
       P2 += p2 * p2;
       along1 += u * square;
       along2 += p2 * square;
       all += square * square;
     }
-    start += m;
-  }
   if (!(all > 0) || !(P1 > 0) || !(P2 > 0)) return 1;
   return gsl_cdf_chisq_Q(n * (along1 * along1 / P1 + along2 * along2 / P2) / all, 2);
 }
@@ -113,11 +103,9 @@ namespace {
 std::vector<double> prewhitened(std::span<const double> x, std::size_t p,
                                 std::span<const std::size_t> runs, double rho) {
   std::vector<double> e(x.begin(), x.end());
-  std::size_t start = 0;
-  for (std::size_t m : runs) {
-    for (std::size_t i = start * p; i < (start + m) * p; ++i)
-      e[i] = i < (start + 1) * p ? std::sqrt(1 - rho * rho) * x[i] : x[i] - rho * x[i - p];
-    start += m;
+  for (const auto run : by_run(e, runs, p)) {
+    for (std::size_t i = run.size(); i-- > p;) run[i] -= rho * run[i - p];
+    for (std::size_t i = 0; i < std::min(p, run.size()); ++i) run[i] *= std::sqrt(1 - rho * rho);
   }
   return e;
 }
@@ -134,18 +122,19 @@ std::vector<double> bartlett(std::span<const double> u, std::size_t q, std::size
   const std::size_t m = u.size() / q, most = std::min({width, m / 2, m - 1});
   std::vector<double> P((m + 1) * q), S(q * q, 0), sum(q);  // P: cumulative sums
   for (std::size_t i = 0; i < m * q; ++i) P[i + q] = P[i] + u[i];
-  const auto add = [&](const double* x, std::size_t from, std::size_t to, double by) {
+  const auto sum_over = [&](std::size_t from, std::size_t to) {
     for (std::size_t j = 0; j < q; ++j) sum[j] = P[to * q + j] - P[from * q + j];
-    if (!x) x = sum.data();
-    for (std::size_t j = 0; j < q; ++j)
-      for (std::size_t k = 0; k < q; ++k) S[j * q + k] += by * x[j] * sum[k];
   };
   const double triangle = 1 / static_cast<double>(width + 1),
                box = 1 - static_cast<double>(most + 1) * triangle;
-  for (std::size_t end = 1; end <= m + most; ++end)
-    add(nullptr, end > most + 1 ? end - most - 1 : 0, std::min(end, m), triangle);
-  for (std::size_t i = 0; box > 0 && i < m; ++i)
-    add(&u[i * q], i > most ? i - most : 0, std::min(i + most + 1, m), box);
+  for (std::size_t end = 1; end <= m + most; ++end) {
+    sum_over(end > most + 1 ? end - most - 1 : 0, std::min(end, m));
+    add_outer(S, triangle, sum, sum);
+  }
+  for (std::size_t i = 0; box > 0 && i < m; ++i) {
+    sum_over(i > most ? i - most : 0, std::min(i + most + 1, m));
+    add_outer(S, box, u.subspan(i * q, q), sum);
+  }
   return S;
 }
 
@@ -166,69 +155,52 @@ std::vector<double> newey_west(std::span<const double> scores, std::size_t p,
   const double alpha = 4 * rho * rho / ((1 - rho * rho) * (1 - rho * rho));
   const auto width = static_cast<std::size_t>(std::ceil(1.1447 * std::cbrt(alpha * n)));
   std::vector<double> all;
-  std::size_t start = 0;
-  for (std::size_t m : runs) {
-    const auto S = bartlett(std::span(u).subspan(start * q, m * q), q, width);
-    for (double x : S) all.push_back(x / ((1 - AR) * (1 - AR)));
-    start += m;
-  }
+  for (const auto run : by_run(u, runs, q))
+    for (double x : bartlett(run, q, width)) all.push_back(x / ((1 - AR) * (1 - AR)));
   return all;
 }
 
 namespace {
 
 /// The sum of u u^T over the rows of each run (q numbers in each row), row by row, run by run.
-std::vector<double> squares_of(std::span<const double> u, std::size_t q,
-                               std::span<const std::size_t> runs) {
+std::vector<double> outer_products(std::span<const double> u, std::size_t q,
+                                   std::span<const std::size_t> runs) {
   std::vector<double> all;
-  const double* row = u.data();
-  for (std::size_t m : runs) {
-    std::vector<double> S(q * q, 0);
-    for (std::size_t i = 0; i < m; ++i, row += q)
-      for (std::size_t j = 0; j < q; ++j)
-        for (std::size_t k = 0; k < q; ++k) S[j * q + k] += row[j] * row[k];
+  for (const auto run : by_run(u, runs, q)) {
+    std::vector<double> S(q * q);
+    for (std::size_t i = 0; i < run.size(); i += q)
+      add_outer(S, 1, run.subspan(i, q), run.subspan(i, q));
     all.insert(all.end(), S.begin(), S.end());
   }
   return all;
 }
 
-/// The independent sources of noise: theta - truth = -R^-1 sum B(s) e(s) over the sources s.
-struct Sources {
-  std::vector<double> e;  // estimated noise of each source
-  std::vector<std::size_t> runs;
-  std::vector<double> B;        // one row of q numbers for each source
-  std::size_t means_taken = 0;  // see RollModel::means_taken()
-};
-
-bool filters_known(const Fitted& fit) { return fit.noise->known() && !fit.noise_inferred; }
-
 Sources sources_of(const Fitted& fit) {
+  if (fit.raw_noise) return fit.raw_noise->sources;
   std::vector<double> Q = orthonormal(fit.system, fit.minimum);
-  if (!filters_known(fit)) return {fit.minimum.f, fit.system.runs, std::move(Q)};
-  auto B = fit.noise->through(std::move(Q), fit.system.columns());
-  if (const auto& raw = fit.raw_noise)
-    return {raw->sources, raw->source_runs, std::move(B), raw->means_taken};
-  return {fit.noise->explain(fit.minimum.f), fit.noise->sources(), std::move(B),
-          fit.rolls->means_taken()};
+  if (!fit.filters_known()) return {fit.minimum.f, fit.system.runs, std::move(Q)};
+  return {fit.noise->explain(fit.minimum.f), fit.noise->sources(),
+          fit.noise->through(std::move(Q), fit.system.columns()), fit.means_taken()};
 }
 
-/// The meat B^T B of each run for sources of variance one.
+/// The meat B^T B of each run, for sources of variance one and known filters.
 std::vector<double> meat_of(const Fitted& fit) {
   const std::size_t q = fit.system.columns();
-  if (fit.noise->weighted()) return fit.noise->meat(orthonormal(fit.system, fit.minimum), q);
-  const Sources from = sources_of(fit);
-  return squares_of(from.B, q, from.runs);
+  if (!fit.raw_noise) return fit.noise->meat(orthonormal(fit.system, fit.minimum), q);
+  return outer_products(fit.raw_noise->sources.B, q, fit.raw_noise->sources.runs);
 }
 
-/// The variance of the sources. The expectation of f f^T is the variance times A A^T, A = W E,
-/// before the fit, and the fit removes the component along Q. Hence the expectation of |f|^2 is the
-/// variance times tr((I - Q Q^T) A A^T) = tr A A^T - |B|^2.
-double variance_of(const Fitted& fit, const std::vector<double>& meat) {
-  if (fit.raw_noise) return fit.raw_noise->variance;
+/// The raw noise without its sources. The expectation of f f^T is the variance times A A^T, A = W
+/// E, before the fit, and the fit removes the component along Q. Hence the expectation of |f|^2 is
+/// the variance times tr((I - Q Q^T) A A^T) = tr A A^T - |B|^2.
+RawNoise raw_noise_of(const Fitted& fit, const std::vector<double>& meat) {
+  if (fit.raw_noise) return *fit.raw_noise;
   const std::size_t q = fit.system.columns();
   double taken = 0;
   for (std::size_t i = 0; i < meat.size(); ++i) taken += i % (q * q) % (q + 1) == 0 ? meat[i] : 0;
-  return fit.minimum.rss / (fit.noise->trace() - taken);
+  RawNoise raw{fit.minimum.rss / (fit.noise->trace() - taken), {}, {}};
+  raw.innovations = fit.noise->innovations(fit.minimum.f, raw.innovation_runs);
+  return raw;
 }
 
 /// The meat of the classical covariance, s^2 I.
@@ -240,14 +212,29 @@ std::vector<double> classical(const Fitted& fit, double variance) {
   return M;
 }
 
-/// HC3: the fit multiplies the noise of a residual by 1 - h, with h its leverage (MacKinnon and
-/// White 1985, J. Econometrics 29, 305).
-void correct_for_leverage(const Sources& from, std::size_t q, std::vector<double>& scores) {
+/// The meat that allows for noise that is uneven (HC3 for single records) or correlated.
+std::vector<double> consistent_meat(const Fitted& fit, Errors kind, double variance) {
+  const std::size_t q = fit.system.columns();
+  Sources from = sources_of(fit);
+  // HC3: the fit multiplies the noise of a residual by 1 - h, with h its leverage (MacKinnon and
+  // White 1985, J. Econometrics 29, 305).
+  const bool by_leverage = kind == Errors::uneven && !fit.filters_known();
   for (std::size_t i = 0; i < from.e.size(); ++i) {
-    const double* const row = &from.B[i * q];
-    const double h = std::min(dot(row, row, q), 0.99);
-    for (std::size_t j = 0; j < q; ++j) scores[i * q + j] /= 1 - h;
+    const auto row = std::span(from.B).subspan(i * q, q);
+    const double h = by_leverage ? std::min(dot(row, row), 0.99) : 0;
+    for (double& score : row) score = score * from.e[i] / (1 - h);
   }
+  const auto& scores = from.B;
+  std::vector<double> M =
+      kind == Errors::uneven
+          ? outer_products(scores, q, from.runs)
+          : newey_west(scores, fit.minimum.theta.size() + from.means_taken, from.e, from.runs);
+  if (by_leverage) return M;
+  // The fit has removed part of the noise from the residuals; the ratio of the variances corrects
+  // for that.
+  const double shown = dot(from.e, from.e) / static_cast<double>(from.e.size());
+  for (double& x : M) x *= variance / shown;
+  return M;
 }
 
 /// The estimator that suits the noise; `white` if the noise may be white and even.
@@ -263,7 +250,11 @@ Errors errors_of(std::span<const double> noise, std::span<const std::size_t> run
 
 }  // namespace
 
-double noise_variance(const Fitted& fit) { return variance_of(fit, meat_of(fit)); }
+RawNoise raw_noise_of(const Fitted& fit) {
+  RawNoise raw = raw_noise_of(fit, meat_of(fit));
+  raw.sources = {fit.noise->explain(fit.minimum.f), fit.noise->sources(), {}, fit.means_taken()};
+  return raw;
+}
 
 Uncertainty uncertainty_of(const Fitted& fit) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -271,47 +262,22 @@ Uncertainty uncertainty_of(const Fitted& fit) {
                     q = fit.system.columns();
   const auto& R = fit.minimum.R;
   if (n <= p) return {Errors::none, nan, nan, {R, std::vector<double>(R.size(), nan), q}};
-  const bool known = filters_known(fit);
-  double whiteness = 1;
-  Errors kind =
-      known ? Errors::filters : (fit.noise_inferred ? Errors::differences : Errors::classical);
-  const auto test = [&](std::span<const double> noise, std::span<const std::size_t> runs) {
-    whiteness = ljung_box(noise, p, runs);
-    if (n >= 30) kind = errors_of(noise, runs, whiteness, kind);
-  };
-  if (!known) {
-    test(fit.minimum.f, fit.system.runs);
-  } else if (fit.raw_noise) {
-    test(fit.raw_noise->innovations, fit.raw_noise->innovation_runs);
-  } else {
-    std::vector<std::size_t> runs;
-    const auto innovations = fit.noise->innovations(fit.minimum.f, runs);
-    test(innovations, runs);
-  }
-
-  const double plain = fit.minimum.rss / static_cast<double>(n - p);
-  if (kind == Errors::classical || kind == Errors::differences)
-    return {kind, whiteness, plain, {R, classical(fit, plain), q}};
   std::vector<double> M;
-  if (known) M = meat_of(fit);
-  const double variance = known ? variance_of(fit, M) : plain;
-  if (kind == Errors::filters) {
+  std::optional<RawNoise> raw;
+  if (fit.filters_known()) M = meat_of(fit), raw = raw_noise_of(fit, M);
+  const auto& noise = raw ? raw->innovations : fit.minimum.f;
+  const auto& runs = raw ? raw->innovation_runs : fit.system.runs;
+  const double variance = raw ? raw->variance : fit.minimum.rss / static_cast<double>(n - p),
+               whiteness = ljung_box(noise, p, runs);
+  Errors kind = raw                     ? Errors::filters
+                : fit.noise->inferred() ? Errors::differences
+                                        : Errors::classical;
+  if (n >= 30) kind = errors_of(noise, runs, whiteness, kind);
+  if (kind == Errors::classical || kind == Errors::differences)
+    return {kind, whiteness, variance, {R, classical(fit, variance), q}};
+  if (kind == Errors::filters)
     for (double& x : M) x *= variance;
-  } else {
-    const Sources from = sources_of(fit);
-    std::vector<double> scores = from.B;
-    for (std::size_t i = 0; i < scores.size(); ++i) scores[i] *= from.e[i / q];
-    const bool by_leverage = kind == Errors::uneven && !known;
-    if (by_leverage) correct_for_leverage(from, q, scores);
-    M = kind == Errors::uneven ? squares_of(scores, q, from.runs)
-                               : newey_west(scores, p + from.means_taken, from.e, from.runs);
-    // The fit has removed part of the noise from the residuals; the ratio of the variances corrects
-    // for that.
-    const auto sources = static_cast<double>(from.e.size());
-    const double shown = dot(from.e.data(), from.e.data(), from.e.size()) / sources;
-    if (!by_leverage)
-      for (double& x : M) x *= variance / shown;
-  }
+  else M = consistent_meat(fit, kind, variance);
   add_shared(M, q, fit.system.shared);
   return {kind, whiteness, variance, {R, std::move(M), q}};
 }
@@ -322,34 +288,29 @@ NoiseErrors noise_errors(const Fitted& fit, const Uncertainty& by) {
         std::all_of(x.gradient.begin(), x.gradient.end(), [](double slope) { return slope == 0; });
     return fixed ? 0 : std::sqrt(by.covariance(x.gradient, x.gradient, run));
   };
-  NoiseErrors errors{by.kind, by.whiteness, sigma(fit.a), sigma(fit.b), 0};
-  if (errors.a != 0 && errors.b != 0)
-    errors.together = by.covariance(fit.a.gradient, fit.b.gradient);
-  if (fit.slope) errors.slope = sigma(*fit.slope);
-  for (std::size_t r = 0; r < fit.v0.size(); ++r) errors.v0.push_back(sigma(fit.v0[r], r));
-  return errors;
+  ErrorShare share{"noise", sigma(fit.a), sigma(fit.b)};
+  if (share.a != 0 && share.b != 0) share.together = by.covariance(fit.a.gradient, fit.b.gradient);
+  if (fit.slope) share.slope = sigma(*fit.slope);
+  for (std::size_t r = 0; r < fit.v0.size(); ++r) share.v0.push_back(sigma(fit.v0[r], r));
+  return {by.kind, by.whiteness, std::move(share)};
 }
 
 void NoiseErrors::multiply(double factor) {
-  for (double* error : {&a, &b, &slope}) *error *= factor;
-  together *= factor * factor;
-  for (double& error : v0) error *= factor;
+  for (double* error : {&share.a, &share.b, &share.slope}) *error *= factor;
+  share.together *= factor * factor;
+  for (double& error : share.v0) error *= factor;
 }
 
 namespace {
 
-bool rolls_by_time(Route route) { return route == Route::velocity || route == Route::position; }
-
 Estimate given(Route route, const FitRun& run, const UncertainNumber& number) {
-  if (rolls_by_time(route)) return {run.body.*number.value, run.given.*number.sigma};
+  if (is_trajectory(route)) return {run.body.*number.value, run.given.*number.sigma};
   if (!run.shift_of) return {};
   return {run.shift_of->body.*number.value, run.shift_of->given.*number.sigma};
 }
 
-bool same(const Estimate& x, const Estimate& y) { return x.value == y.value && x.sigma == y.sigma; }
-
 void move(Route route, FitRun& run, const UncertainNumber& number, double by) {
-  if (rolls_by_time(route)) {
+  if (is_trajectory(route)) {
     run.body.*number.value += by;
     return;
   }
@@ -365,24 +326,23 @@ void move(Route route, FitRun& run, const UncertainNumber& number, double by) {
 Fitted fit_with(Route route, std::vector<FitRun> runs, const FitOptions& options,
                 const UncertainNumber& number, const Estimate& value, double by) {
   for (FitRun& run : runs)
-    if (same(given(route, run, number), value)) move(route, run, number, by);
+    if (given(route, run, number) == value) move(route, run, number, by);
   return fit_route(route, runs, options);
 }
 
 }  // namespace
 
-std::vector<Moved> moved_by_given(Route route, const std::vector<FitRun>& runs,
-                                  const FitOptions& options, const Fitted& fit) {
+std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& runs,
+                                        const FitOptions& options, const Fitted& fit) {
   FitOptions warm = options;
   warm.start_a = fit.a.value;
   warm.start_b = fit.b.value;
-  std::vector<Moved> all;
+  std::vector<ErrorShare> all;
   for (const UncertainNumber& number : uncertain_numbers) {
     std::vector<Estimate> values;
     for (const FitRun& run : runs) {
       const Estimate value = given(route, run, number);
-      if (value.sigma > 0 && std::none_of(values.begin(), values.end(),
-                                          [&](const Estimate& x) { return same(x, value); }))
+      if (value.sigma > 0 && std::ranges::find(values, value) == values.end())
         values.push_back(value);
     }
     for (const Estimate& value : values) {
@@ -394,13 +354,13 @@ std::vector<Moved> moved_by_given(Route route, const std::vector<FitRun>& runs,
       const auto change = [&](const Quantity& high, const Quantity& low) {
         return (high.value - low.value) / 2 * value.sigma / step;
       };
-      Moved& moved = all.emplace_back();
-      moved.by = values.size() == 1 ? number.name : fmt::format("{} {}", number.name, value.value);
-      moved.a = change(above.a, below.a);
-      moved.b = change(above.b, below.b);
-      moved.slope = fit.slope ? change(*above.slope, *below.slope) : 0;
+      ErrorShare& share = all.emplace_back();
+      share.of = values.size() == 1 ? number.name : fmt::format("{} {}", number.name, value.value);
+      const double a = change(above.a, below.a), b = change(above.b, below.b);
+      share.a = std::abs(a), share.b = std::abs(b), share.together = a * b;
+      share.slope = fit.slope ? change(*above.slope, *below.slope) : 0;
       for (std::size_t r = 0; r < fit.v0.size(); ++r)
-        moved.v0.push_back(change(above.v0[r], below.v0[r]));
+        share.v0.push_back(change(above.v0[r], below.v0[r]));
     }
   }
   return all;

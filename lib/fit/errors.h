@@ -12,11 +12,9 @@ class Spread {
   Spread(std::vector<double> R, std::vector<double> M, std::size_t columns)
       : R_(std::move(R)), M_(std::move(M)), q_(columns) {}
   /// The covariance of two functions of the parameters of a run, given by their gradients.
-  double operator()(const std::vector<double>& g, const std::vector<double>& h,
-                    std::size_t run = 0) const;
+  double operator()(std::vector<double> g, std::vector<double> h, std::size_t run = 0) const;
 
  private:
-  std::vector<double> solve_transposed(std::vector<double> g, std::size_t run) const;
   std::vector<double> R_, M_;
   std::size_t q_;
 };
@@ -39,32 +37,26 @@ Uncertainty uncertainty_of(const Fitted&);
 struct NoiseErrors {
   Errors kind;
   double whiteness;
-  double a, b, together;  ///< standard errors, and the covariance of a and b
-  double slope = 0;
-  std::vector<double> v0 = {};  ///< of each run
+  ErrorShare share;
 
   /// Multiplies all standard errors by a factor.
   void multiply(double factor);
 };
 NoiseErrors noise_errors(const Fitted&, const Uncertainty&);
 
-/// The change of each result when a given number changes by one standard uncertainty.
-struct Moved {
-  std::string by;  ///< the name of the number: "K", or "K 0.5" where the runs have several values
-  double a, b, slope;
-  std::vector<double> v0;  ///< one for each run
-};
+/// The contribution of each given number with an uncertainty. Runs with the same value and
+/// uncertainty have the same body; they change together. The derivative is a central difference of
+/// two fits, with the number one standard uncertainty (or a tenth of the number, if that is less)
+/// above and below its value. On the routes that read D, which was computed with these numbers, D
+/// is computed again from the same accelerations. Throws Error if the fit itself is not possible.
+std::vector<ErrorShare> shares_of_given(Route, const std::vector<FitRun>&, const FitOptions&,
+                                        const Fitted&);
 
-/// The changes for each given number with an uncertainty. Runs with the same value and uncertainty
-/// have the same body; they change together. The derivative is a central difference of two fits,
-/// with the number one standard uncertainty (or a tenth of the number, if that is less) above and
-/// below its value. On the routes that read D, which was computed with these numbers, D is computed
-/// again from the same accelerations. Throws Error if the fit itself is not possible.
-std::vector<Moved> moved_by_given(Route, const std::vector<FitRun>&, const FitOptions&,
-                                  const Fitted&);
+/// The noise of the raw column of a fit with known filters; without the B of its sources.
+RawNoise raw_noise_of(const Fitted&);
 
-/// The variance of the noise of the raw column. The filters must be known.
-double noise_variance(const Fitted&);
+/// Replaces g by R^-T g, for the upper triangle R of a Minimum (row by row, as many as g has).
+void solve_transposed(const double* R, std::span<double> g);
 
 /// Q = J R^-1, one row for each residual. The meat M of the covariance R^-1 M R^-T is a quadratic
 /// form of the rows of Q.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "fit/dot.h"
 
 namespace rolling {
 
@@ -56,16 +57,16 @@ FilterMatrix::FilterMatrix(BandMatrix L) : columns_(L.columns()) {
   factors_.push_back(std::make_shared<const BandMatrix>(std::move(L)));
 }
 
-FilterMatrix FilterMatrix::identity(std::size_t n) { return FilterMatrix(n); }
+FilterMatrix FilterMatrix::identity(std::size_t n) { return BandMatrix::identity(n); }
 
 FilterMatrix FilterMatrix::then(BandMatrix L) const {
   FilterMatrix product = *this;
+  if (factors_.size() == 1 && factors_[0]->is_identity()) product.factors_.clear();
   product.factors_.push_back(std::make_shared<const BandMatrix>(std::move(L)));
   return product;
 }
 
 FilterMatrix FilterMatrix::of_rows(std::span<const std::size_t> rows) const {
-  if (factors_.empty()) return then(BandMatrix::identity(columns_).of_rows(rows));
   FilterMatrix few = *this;
   few.factors_.back() = std::make_shared<const BandMatrix>(factors_.back()->of_rows(rows));
   return few;
@@ -78,11 +79,6 @@ FilterMatrix FilterMatrix::with_last_row(std::vector<double> row) const {
 }
 
 void FilterMatrix::row(std::size_t i, Row& to) const {
-  if (factors_.empty()) {
-    to.first = i;
-    to.values.assign(1, 1);
-    return;
-  }
   const auto last = factors_.back()->row(i);
   to.first = factors_.back()->first(i);
   to.values.assign(last.begin(), last.end());
@@ -107,13 +103,12 @@ void FilterMatrix::row(std::size_t i, Row& to) const {
 }
 
 std::vector<double> FilterMatrix::times(std::span<const double> x) const {
-  FilterPass pass(*this, 1);
   std::vector<double> all;
   all.reserve(rows());
+  FilterPass pass(*this, 1, [&](const double* row) { all.push_back(*row); });
   for (double value : x) {
     *pass.place() = value;
     pass.push();
-    while (const double* row = pass.next()) all.push_back(*row);
   }
   return all;
 }
@@ -139,46 +134,44 @@ std::vector<double> FilterMatrix::transposed_times(std::span<const double> X,
   return all;
 }
 
-FilterPass::FilterPass(const FilterMatrix& H, std::size_t columns)
-    : H_(H), stride_((columns + 1) / 2 * 2), raw_(stride_), last_(stride_) {
+double dot(const FilterMatrix::Row& x, const FilterMatrix::Row& y) {
+  const std::size_t from = std::max(x.first, y.first), to = std::min(x.end(), y.end());
+  return from < to ? dot(&x.values[from - x.first], &y.values[from - y.first], to - from) : 0;
+}
+
+FilterPass::FilterPass(const FilterMatrix& H, std::size_t columns,
+                       std::function<void(double* row)> take)
+    : H_(H), stride_(stride(columns)), raw_(stride_), last_(stride_), take_(std::move(take)) {
   constexpr std::size_t room = 256;  // rows between two moves of the kept rows to the front
-  for (const auto& L : H.factors_) {
-    stages_.push_back({L.get(), {}, 0, 0, 0, std::vector<double>(stride_)});
-    stages_.back().in.resize((L->window() + room) * stride_);
-  }
+  for (const auto& L : H.factors_)
+    stages_.push_back({L.get(), std::vector<double>((L->window() + room) * stride_),
+                       std::vector<double>(stride_)});
 }
 
 void FilterPass::push() {
-  fresh_ = true;
-  if (H_.bordered()) {
-    const double by = (*H_.border_)[pushed_];
-    for (std::size_t c = 0; c < stride_; ++c) last_[c] += by * raw_[c];
-  }
-  ++pushed_;
+  if (H_.bordered())
+    for (std::size_t c = 0; c < stride_; ++c) last_[c] += (*H_.border_)[pushed_] * raw_[c];
+  push(raw_.data(), 0);
+  if (++pushed_ == H_.columns() && H_.bordered()) take_(last_.data());
 }
 
-double* FilterPass::next() {
-  if (double* const row = next_of(stages_.size())) return row;
-  if (!H_.bordered() || pushed_ < H_.columns() || std::exchange(last_given_, true)) return nullptr;
-  return last_.data();
+void FilterPass::push(double* row, std::size_t stage) {
+  if (stage == stages_.size()) return take_(row);
+  Stage& s = stages_[stage];
+  if ((s.count - s.base + 1) * stride_ > s.in.size()) {
+    const std::size_t kept = std::min(s.L->window(), s.count - s.base);
+    const auto end = s.in.begin() + static_cast<std::ptrdiff_t>((s.count - s.base) * stride_);
+    std::copy(end - static_cast<std::ptrdiff_t>(kept * stride_), end, s.in.begin());
+    s.base = s.count - kept;
+  }
+  std::copy_n(row, stride_, &s.in[(s.count++ - s.base) * stride_]);
+  for (; s.row < s.L->rows() && s.L->end(s.row) <= s.count; ++s.row) {
+    multiply(s);
+    push(s.out.data(), stage + 1);
+  }
 }
 
-double* FilterPass::next_of(std::size_t stage) {
-  if (stage == 0) return std::exchange(fresh_, false) ? raw_.data() : nullptr;
-  Stage& s = stages_[stage - 1];
-  if (s.row == s.L->rows()) return nullptr;
-  while (s.count < s.L->end(s.row)) {
-    const double* const in = next_of(stage - 1);
-    if (!in) return nullptr;
-    if ((s.count - s.base + 1) * stride_ > s.in.size()) {
-      const std::size_t kept = std::min(s.L->window(), s.count - s.base);
-      const auto end = s.in.begin() + static_cast<std::ptrdiff_t>((s.count - s.base) * stride_);
-      std::copy(end - static_cast<std::ptrdiff_t>(kept * stride_), end, s.in.begin());
-      s.base = s.count - kept;
-    }
-    std::copy_n(in, stride_, &s.in[(s.count - s.base) * stride_]);
-    ++s.count;
-  }
+void FilterPass::multiply(Stage& s) const {
   const auto row = s.L->row(s.row);
   const std::size_t from = row.empty() ? 0 : s.L->first(s.row) - s.base;
   for (std::size_t c = 0; c < stride_; c += 2) {  // two columns fill one vector register
@@ -193,8 +186,6 @@ double* FilterPass::next_of(std::size_t stage) {
     s.out[c] = sum[0] + sum[2];
     s.out[c + 1] = sum[1] + sum[3];
   }
-  ++s.row;
-  return s.out.data();
 }
 
 }  // namespace rolling

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -63,7 +64,7 @@ class FilterMatrix {
   std::size_t rows() const { return band_rows() + bordered(); }
   std::size_t columns() const { return columns_; }
   /// The number of rows without the border.
-  std::size_t band_rows() const { return factors_.empty() ? columns_ : factors_.back()->rows(); }
+  std::size_t band_rows() const { return factors_.back()->rows(); }
   bool bordered() const { return border_ != nullptr; }
   std::span<const double> last_row() const { return *border_; }
 
@@ -85,40 +86,41 @@ class FilterMatrix {
 
  private:
   friend class FilterPass;
-  explicit FilterMatrix(std::size_t columns) : columns_(columns) {}
-
   std::size_t columns_;
   std::vector<std::shared_ptr<const BandMatrix>> factors_;  // in the order of application
   std::shared_ptr<const std::vector<double>> border_;
 };
 
+/// The inner product of two rows.
+double dot(const FilterMatrix::Row&, const FilterMatrix::Row&);
+
 /// Multiplies a filter matrix by a matrix of `columns` columns, row by row: neither the factors are
 /// multiplied out nor is the product stored.
 class FilterPass {
  public:
-  FilterPass(const FilterMatrix&, std::size_t columns);
-  /// The number of elements that a row occupies: `columns`, rounded up to an even number.
-  std::size_t stride() const { return stride_; }
+  /// The callback receives the rows of the product in order; it may overwrite them.
+  FilterPass(const FilterMatrix&, std::size_t columns, std::function<void(double* row)> take);
   /// The memory for the next row of the input; push() reads the row from there.
   double* place() { return raw_.data(); }
+  /// Passes the rows of the product that need no further input to the callback.
   void push();
-  /// The next row of the product; null if it needs further input. Valid until the next call.
-  double* next();
+  /// The number of elements that a row needs: `columns`, rounded up to an even number.
+  static std::size_t stride(std::size_t columns) { return (columns + 1) / 2 * 2; }
 
  private:
   struct Stage {
     const BandMatrix* L;
-    std::vector<double> in;  // the input rows base .. count - 1
-    std::size_t base, count, row;
-    std::vector<double> out;
+    std::vector<double> in, out;  // the input rows base .. count - 1, and the last row of output
+    std::size_t base = 0, count = 0, row = 0;
   };
-  double* next_of(std::size_t stage);
+  void push(double* row, std::size_t stage);
+  void multiply(Stage&) const;
 
   const FilterMatrix& H_;
   std::size_t stride_, pushed_ = 0;
   std::vector<double> raw_, last_;
-  bool fresh_ = false, last_given_ = false;
   std::vector<Stage> stages_;
+  std::function<void(double* row)> take_;
 };
 
 }  // namespace rolling

@@ -50,7 +50,7 @@ struct Thinned {
 
 /// Estimates v0 from the time of half the distance. v0 times that time is 0.59 of the whole
 /// distance for uniform deceleration to the stop (b = 0) and 0.69 for exponential decay (b = 1).
-/// For larger b there is no such constant; v0 is then only the unit in which try_shape() finds the
+/// For larger b there is no such constant; v0 is then only the unit in which add_run() finds the
 /// best value.
 Thinned thinned(const ObservedRun& run, const FitOptions& options) {
   const std::size_t n = run.t.size();
@@ -83,17 +83,20 @@ Thinned thinned(const ObservedRun& run, const FitOptions& options) {
   return {means(run, edges), v0};
 }
 
-/// The sum of squares of a thinned run under the law (a, b), with v0 (a factor) and x0 at their
-/// least-squares values.
-struct Trial {
-  double rss, factor, x0;
+/// A law with the v0 and x0 of each run, and the sum of squares of the thinned runs.
+struct Candidate {
+  double rss;
+  PowerLaw law;
+  std::vector<double> v0, x0;
 };
-Trial try_shape(const Thinned& of, const FitOptions& options, PowerLaw law) {
+
+/// Adds a run to a candidate, with v0 (a factor) and x0 at their least-squares values.
+void add_run(Candidate& candidate, const Thinned& of, const FitOptions& options) {
   const ObservedRun& thin = of.run;
   const bool position = thin.raw_is_position;
   Body level = thin.body;
   level.slope = 0;
-  const Trajectory trajectory(level, thin.geometry, law, of.v0);
+  const Trajectory trajectory(level, thin.geometry, candidate.law, of.v0);
   double mm = 0, my = 0, m_mean = 0, y_mean = 0;
   std::vector<double> m, y;
   for (std::size_t i = 0; i < thin.t.size(); ++i) {
@@ -109,31 +112,16 @@ Trial try_shape(const Thinned& of, const FitOptions& options, PowerLaw law) {
   }
   for (std::size_t i = 0; i < m.size(); ++i)
     mm += (m[i] - m_mean) * (m[i] - m_mean), my += (m[i] - m_mean) * (y[i] - y_mean);
-  Trial trial{0, options.v0 ? 1 : my / mm, 0};
-  trial.x0 = options.x0.value_or(y_mean - trial.factor * m_mean);
+  const double factor = options.v0 ? 1 : my / mm;
+  if (!(factor > 0)) fail("rolls the wrong way");
+  double rss = 0;
   for (std::size_t i = 0; i < m.size(); ++i) {
-    const double f = trial.factor * (m[i] - m_mean) - (y[i] - y_mean);
-    trial.rss += f * f;
+    const double f = factor * (m[i] - m_mean) - (y[i] - y_mean);
+    rss += f * f;
   }
-  return trial;
-}
-
-struct Candidate {
-  double rss;
-  PowerLaw law;
-  std::vector<double> v0, x0;
-};
-
-Candidate try_law(const std::vector<Thinned>& thin, const FitOptions& options, PowerLaw law) {
-  Candidate candidate{0, law, {}, {}};
-  for (const Thinned& run : thin) {
-    const Trial trial = try_shape(run, options, law);
-    if (!(trial.factor > 0)) fail("rolls the wrong way");
-    candidate.rss += trial.rss;
-    candidate.v0.push_back(trial.factor * run.v0);
-    candidate.x0.push_back(trial.x0);
-  }
-  return candidate;
+  candidate.rss += rss;
+  candidate.v0.push_back(factor * of.v0);
+  candidate.x0.push_back(options.x0.value_or(y_mean - factor * m_mean));
 }
 
 /// Starting points, best first: for each b of a grid, the best a of a grid. The grid of a is
@@ -153,15 +141,15 @@ std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions
         as.push_back(x / duration * std::pow(v0, 1 - b) * (body.K + 1) * body.R / body.g);
     Candidate nearest{std::numeric_limits<double>::infinity(), {}, {}, {}};
     for (double a : as) try {
-        Candidate candidate = try_law(thin, options, {a, b});
+        Candidate candidate{0, {a, b}, {}, {}};
+        for (const Thinned& run : thin) add_run(candidate, run, options);
         if (candidate.rss < nearest.rss) nearest = std::move(candidate);
       } catch (const Error&) {  // no roll has this law and these data
       }
     if (std::isfinite(nearest.rss)) best.push_back(std::move(nearest));
   }
   if (best.empty()) fail("no law a v^b comes near the data: a and b cannot be determined");
-  std::sort(best.begin(), best.end(),
-            [](const Candidate& x, const Candidate& y) { return x.rss < y.rss; });
+  std::ranges::sort(best, {}, &Candidate::rss);
   return best;
 }
 
@@ -235,16 +223,14 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
   if (auto start = of_constant_acceleration(thin)) candidates.push_back(std::move(*start));
   const auto theta_of = [&](const Candidate& c) { return q.theta(c.law, c.v0, c.x0); };
   std::vector<double> theta = theta_of(candidates.front());
-  double least = std::numeric_limits<double>::infinity();
   if (candidates.size() > 1) {
     const System system = unweighted(std::move(thin_runs), q);
-    for (const Candidate& candidate : candidates) try {
-        Minimum minimum = minimise(system, theta_of(candidate));
-        if (minimum.rss < least) least = minimum.rss, theta = std::move(minimum.theta);
-      } catch (const Error&) {  // the search on all data may still succeed
-      }
+    double least = std::numeric_limits<double>::infinity();
+    for (const Candidate& candidate : candidates)
+      if (Minimum minimum = attempt(system, theta_of(candidate)); minimum.rss < least)
+        least = minimum.rss, theta = std::move(minimum.theta);
   }
-  if (!few.empty()) theta = approach(unweighted(std::move(few), q), std::move(theta));
+  if (!few.empty()) theta = attempt(unweighted(std::move(few), q), theta).theta;
   return {q, std::move(theta)};
 }
 

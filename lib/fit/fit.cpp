@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "base/error.h"
 #include "fit/eccentricity.h"
 #include "fit/agreement.h"
+#include "fit/by_run.h"
 #include "fit/dot.h"
 #include "fit/errors.h"
 #include "fit/first_guess.h"
@@ -23,14 +23,8 @@ void require_records(std::size_t n, std::size_t p) {
   if (n < p) fail("{} record{} cannot determine {} parameters", n, n == 1 ? "" : "s", p);
 }
 
-Minimum solve(const System& system, const std::vector<double>& start, const FitOptions& options,
-              bool filters_known) {
-  if (!options.robust) return minimise(system, start);
-  if (filters_known)
-    fail(
-        "robust fits judge single records, but filters have spread each outlier over many: fit the "
-        "raw column");
-  return minimise_robust(system, start);
+Minimum solve(const System& system, const std::vector<double>& start, const FitOptions& options) {
+  return options.robust ? minimise_robust(system, start) : minimise(system, start);
 }
 
 namespace {
@@ -70,8 +64,23 @@ bool leave_out_slow(const RollModel& model, const std::vector<double>& theta,
   return slow > 0;
 }
 
-/// Writes a, b, the slope and v0 with their gradients, and the number of records, into the fit.
-void report(Fitted& fit, const std::vector<double>& theta) {
+/// The sum of squares of the unweighted residuals, in the unit of the fitted column.
+double squares_of(const Fitted& fit) {
+  if (!fit.noise->known()) return fit.minimum.rss;
+  double sum = 0;
+  const auto plain = fit.noise->without_weights(fit.minimum.f);
+  const auto f_of = by_run(plain, fit.system.runs);
+  for (std::size_t r = 0; r < f_of.size(); ++r) {
+    const ObservedRun& run = fit.rolls->runs()[r];
+    sum += dot(f_of[r].first(run.records()), f_of[r]) * run.unit * run.unit;
+  }
+  return sum;
+}
+
+/// Writes a, b, the slope and v0 with their gradients, the number of records and their sum of
+/// squares into the fit.
+void report(Fitted& fit) {
+  const std::vector<double>& theta = fit.minimum.theta;
   const Parameters& q = fit.rolls->parameters();
   const PowerLaw law = q.law(theta);
   const auto quantity = [&](double value, const Parameters::Derivatives& by) {
@@ -89,39 +98,31 @@ void report(Fitted& fit, const std::vector<double>& theta) {
     fit.v0.push_back(quantity(way * s.v, {way * s.v_a, way * s.v_b, way * s.v_v0, 0, s.v_S}));
     fit.records += runs[r].records();
   }
+  fit.rss = squares_of(fit);
 }
 
-/// The sum of squares of the unweighted residuals, in the unit of the fitted column.
-double squares_of(const Fitted& fit) {
-  if (!fit.noise->known()) return fit.minimum.rss;
-  double sum = 0;
-  const auto plain = fit.noise->without_weights(fit.minimum.f);
-  const double* f = plain.data();
-  for (const ObservedRun& run : fit.rolls->runs()) {
-    sum += dot(f, f, run.records()) * run.unit * run.unit;
-    f += run.y.size();
-  }
-  return sum;
-}
-
-void find_minimum(Fitted& fit, std::vector<ObservedRun> runs, const FirstGuess& start,
-                  const FitOptions& options) {
-  const bool filters_known = runs.front().H.has_value();
-  fit.noise = noise_of(runs, fit.white_share);
-  fit.rolls = std::make_shared<const RollModel>(std::move(runs), start.parameters);
-  fit.system = system_of(fit.rolls, fit.noise);
-  fit.minimum = solve(fit.system, start.theta, options, filters_known);
+/// The minimum over these runs with these weights; the results are not yet reported.
+Fitted minimum_of(std::vector<ObservedRun> runs, const FirstGuess& start, const FitOptions& options,
+                  double share, bool inferred) {
+  auto noise = noise_of(runs, share, inferred);
+  auto rolls = std::make_shared<const RollModel>(std::move(runs), start.parameters);
+  System system = system_of(rolls, noise);
+  Minimum minimum = solve(system, start.theta, options);
+  return {.system = std::move(system),
+          .minimum = std::move(minimum),
+          .noise = std::move(noise),
+          .rolls = std::move(rolls)};
 }
 
 /// True if the weighted sum of squares is more than four times what the unweighted residuals and
 /// the filters predict, that is, if the columns hold noise that did not pass the filters.
 bool rounded(const Fitted& fit) {
-  if (!fit.noise->known() || fit.noise_inferred) return false;
-  double all = 0, norms = 0;
-  for (const double f : fit.noise->without_weights(fit.minimum.f)) all += f * f;
+  if (!fit.filters_known()) return false;
+  double norms = 0;
+  const auto plain = fit.noise->without_weights(fit.minimum.f);
   for (const ObservedRun& run : fit.rolls->runs())
     for (const double norm : row_norms(*run.H)) norms += norm * norm;
-  return fit.minimum.rss * norms > 4 * all * static_cast<double>(fit.minimum.f.size());
+  return fit.minimum.rss * norms > 4 * dot(plain, plain) * static_cast<double>(plain.size());
 }
 
 /// Columns that were rounded after a filter hold additional white noise. Its share is estimated by
@@ -131,10 +132,9 @@ void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   fit.system = {}, fit.noise = {};  // frees memory: these are large, and the search needs as much
   const WhiteShare found =
       most_likely_share(fit.rolls, fit.minimum.theta, floor_share, 1, floor_share);
-  if (found.decisive()) fit.white_share = found.share;
-  fit.noise = noise_of(fit.rolls->runs(), fit.white_share);
+  fit.noise = noise_of(fit.rolls->runs(), found.decisive() ? found.share : floor_share, false);
   fit.system = system_of(fit.rolls, fit.noise);
-  if (found.decisive()) fit.minimum = solve(fit.system, fit.minimum.theta, options, true);
+  if (found.decisive()) fit.minimum = solve(fit.system, fit.minimum.theta, options);
 }
 
 }  // namespace
@@ -144,43 +144,37 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   const Parameters& all = joint.rolls->parameters();
   ObservedRun run = joint.rolls->runs()[r];
   run.body.slope = all.slope(theta, run.body.slope);
-  Fitted fit{};
-  fit.noise_inferred = joint.noise_inferred;
-  fit.white_share = joint.white_share;
-  find_minimum(fit, {std::move(run)}, {all.of_one_run(), all.theta_of_run(theta, r)}, options);
-  report(fit, fit.minimum.theta);
-  fit.rss = squares_of(fit);
+  Fitted fit = minimum_of({std::move(run)}, {all.of_one_run(), all.theta_of_run(theta, r)}, options,
+                          joint.noise->share(), joint.noise->inferred());
+  report(fit);
   return fit;
 }
 
-Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows, Making making,
-                 const FitOptions& options, std::optional<double> white_share) {
-  Fitted fit{};
-  fit.noise_inferred = white_share.has_value();
-  fit.white_share = white_share.value_or(floor_share);
+Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows,
+                 std::vector<Response> responses, const FitOptions& options,
+                 std::optional<double> inferred_share) {
   std::optional<FirstGuess> guess;
+  Fitted fit{};
   for (int round = 0; round < 4; ++round) {  // each round removes the slow records of the last fit
-    auto runs = observe(route, all, rows, making, options);
-    const std::size_t n =
-        std::accumulate(rows.begin(), rows.end(), std::size_t{0},
-                        [](std::size_t sum, const Rows& of_run) { return sum + of_run.size(); });
+    auto runs = observe(route, all, rows, responses, options);
     if (!guess) {
-      require_records(n + runs.size() * (route == Route::shift),
-                      runs.size() * (!options.v0 + (route == Route::position && !options.x0)) +
-                          !options.a + !options.b + options.fit_slope);
-      guess = making.known() ? first_guess(without_filters(route, runs, all, rows), options)
-                             : first_guess(runs, options);
+      std::size_t n = 0;
+      for (const ObservedRun& run : runs) n += run.y.size();
+      require_records(n, Parameters(options, route == Route::position, runs.size(), 1, 1).count());
+      guess = responses.empty() ? first_guess(runs, options)
+                                : first_guess(without_filters(route, runs, all, rows), options);
     }
-    if (options.min_speed <= 0) making = {}, rows.clear();  // frees memory: no round follows
-    find_minimum(fit, std::move(runs), *guess, options);
+    if (options.min_speed <= 0) responses = {}, rows.clear();  // frees memory: no round follows
+    fit = {};                                                  // frees memory
+    fit = minimum_of(std::move(runs), *guess, options, inferred_share.value_or(floor_share),
+                     inferred_share.has_value());
     guess->theta = fit.minimum.theta;
     if (options.min_speed <= 0 ||
         !leave_out_slow(*fit.rolls, guess->theta, all, rows, options.min_speed))
       break;
   }
   allow_for_rounding(fit, options);
-  report(fit, fit.minimum.theta);
-  fit.rss = squares_of(fit);
+  report(fit);
   for (const FitRun& run : all) fit.left_out += run.t.size();
   fit.left_out -= fit.records;
   return fit;
@@ -199,50 +193,39 @@ std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
   return rows;
 }
 
-namespace {
-
-Fitted fit_trajectory(Route route, const std::vector<FitRun>& all, const FitOptions& options) {
-  Making making = making_of(route, all);
-  const bool known = making.known();
-  Fitted fit = fit_rolls(route, all, usable(route, all), std::move(making), options);
-  if (route == Route::velocity && !known && !options.robust && !options.possible_filters.empty() &&
-      fit.minimum.f.size() >= 30)
-    if (auto differences = fit_differences(all, options, fit)) return *std::move(differences);
-  return fit;
-}
-
-}  // namespace
-
 Fitted fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   if (options.a && !(*options.a > 0))
     fail("a = {} cannot be held: it must be positive", *options.a);
-  const bool roll = route == Route::velocity || route == Route::position ||
-                    (route == Route::shift && making_of(route, runs).known());
-  if (options.fit_slope && !roll)
+  std::vector<Response> responses = responses_of(route, runs);
+  const bool known = !responses.empty();
+  if (options.fit_slope && (route == Route::loglog || (route == Route::shift && !known)))
     fail("the slope shows in a roll alone: on this route `##` lines must tell how D was made");
-  if (route == Route::loglog) return fit_log_log(runs, options);
-  if (!roll) return fit_shift(runs, options);
-  return fit_trajectory(route, runs, options);
+  if (options.robust && known)
+    fail(
+        "robust fits judge single records, but filters have spread each outlier over many: fit the "
+        "raw column");
+  if (route == Route::loglog) return fit_log_log(runs, options, std::move(responses));
+  if (!known && route == Route::shift) return fit_shift(runs, options);
+  Fitted fit = fit_rolls(route, runs, usable(route, runs), std::move(responses), options);
+  if (route == Route::velocity && !known && !options.robust && !options.possible_filters.empty() &&
+      fit.minimum.f.size() >= 30)
+    if (auto differences = fit_differences(runs, options, fit)) return *std::move(differences);
+  return fit;
 }
 
 namespace {
 
-/// The root sum of squares of the error from noise and of the contributions part(moved) of the
-/// given numbers.
-double total(double noise, const std::vector<Moved>& moved, auto&& part) {
-  double square = noise * noise;
-  for (const Moved& by : moved) square += part(by) * part(by);
-  return std::sqrt(square);
-}
-
-/// The result, with standard errors that combine the noise and the given numbers.
-FitResult result_of(const Fitted& found, const NoiseErrors& noise,
-                    const std::vector<Moved>& moved) {
-  const std::size_t n = found.minimum.f.size(), p = found.minimum.theta.size();
+/// The result, with standard errors that combine the contributions.
+FitResult result_of(const Fitted& found, const NoiseErrors& noise, std::vector<ErrorShare> shares) {
+  const auto total = [&](auto&& part) {
+    double square = 0;
+    for (const ErrorShare& share : shares) square += part(share) * part(share);
+    return std::sqrt(square);
+  };
   FitResult result{.a = found.a.value,
-                   .sigma_a = total(noise.a, moved, [](const Moved& by) { return by.a; }),
+                   .sigma_a = total([](const ErrorShare& of) { return of.a; }),
                    .b = found.b.value,
-                   .sigma_b = total(noise.b, moved, [](const Moved& by) { return by.b; }),
+                   .sigma_b = total([](const ErrorShare& of) { return of.b; }),
                    .corr = 0,
                    .rms = std::numeric_limits<double>::quiet_NaN(),
                    .n = found.records,
@@ -251,22 +234,20 @@ FitResult result_of(const Fitted& found, const NoiseErrors& noise,
                    .v0 = {},
                    .sigma_v0 = {},
                    .errors = noise.kind};
+  const std::size_t n = found.minimum.f.size(), p = found.minimum.theta.size();
   if (n > p) result.rms = std::sqrt(found.rss / static_cast<double>(n - p));
-  double together = noise.together;
-  result.shares.push_back({"noise", noise.a, noise.b});
-  for (const Moved& by : moved) {
-    result.shares.push_back({by.by, std::abs(by.a), std::abs(by.b)});
-    together += by.a * by.b;
-  }
+  double together = 0;
+  for (const ErrorShare& share : shares) together += share.together;
   if (together != 0) result.corr = together / (result.sigma_a * result.sigma_b);
   for (std::size_t r = 0; r < found.v0.size(); ++r) {
     result.v0.push_back(found.v0[r].value);
-    result.sigma_v0.push_back(total(noise.v0[r], moved, [r](const Moved& by) { return by.v0[r]; }));
+    result.sigma_v0.push_back(total([r](const ErrorShare& of) { return of.v0[r]; }));
   }
   if (found.slope) {
     result.slope = found.slope->value;
-    result.sigma_slope = total(noise.slope, moved, [](const Moved& by) { return by.slope; });
+    result.sigma_slope = total([](const ErrorShare& of) { return of.slope; });
   }
+  result.shares = std::move(shares);
   return result;
 }
 
@@ -296,12 +277,15 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
   NoiseErrors noise = noise_errors(found, uncertainty);
   const auto eccentricity = eccentricity_of(route, runs, found, uncertainty.variance);
   const auto agreement = agreement_of(route, runs, options, noise, found);
-  require_determined(result_of(found, noise, {}), options.fit_slope);
-  auto moved = moved_by_given(route, runs, options, found);
+  std::vector<ErrorShare> shares{noise.share};
+  require_determined(result_of(found, noise, shares), options.fit_slope);
+  for (ErrorShare& share : shares_of_given(route, runs, options, found))
+    shares.push_back(std::move(share));
   if (found.bias_a != 0 || found.bias_b != 0)
-    moved.push_back({"bias", found.bias_a, found.bias_b, 0, {}});
-  FitResult result = result_of(found, noise, moved);
-  if (route != Route::velocity && route != Route::position) result.v0 = result.sigma_v0 = {};
+    shares.push_back(
+        {"bias", std::abs(found.bias_a), std::abs(found.bias_b), found.bias_a * found.bias_b});
+  FitResult result = result_of(found, noise, std::move(shares));
+  if (!is_trajectory(route)) result.v0 = result.sigma_v0 = {};
   result.agreement = agreement;
   result.eccentricity = eccentricity;
   return result;

@@ -37,6 +37,10 @@ struct FitRun {
 };
 
 enum class Route { loglog, shift, velocity, position };
+/// True if the route fits v or x as a function of t; the others fit D(v).
+inline bool is_trajectory(Route route) {
+  return route == Route::velocity || route == Route::position;
+}
 
 struct FitOptions {
   Geometry geometry = Geometry::approximate;
@@ -82,12 +86,16 @@ struct Agreement {
   bool agree() const { return significance > 0.01; }
 };
 
-/// The contribution of one source of error to the standard errors of a and b, which are the root
-/// sums of squares of the contributions.
+/// The contribution of one source of error to the standard errors, which are the root sums of
+/// squares of the contributions. That of a given number is the change of the result when the number
+/// changes by one standard uncertainty.
 struct ErrorShare {
   /// "noise"; the name of a given number, "K", or "K 0.5" where the runs have several; or "bias"
   std::string of;
-  double a, b;
+  double a = 0, b = 0;  ///< not negative
+  double together = 0;  ///< contribution to the covariance of a and b
+  double slope = 0;
+  std::vector<double> v0 = {};  ///< one for each run, if the model is a roll
 };
 
 struct FitResult {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "fit/by_run.h"
 #include "fit/errors.h"
 #include "fit/first_guess.h"
 #include "motion/law_roll.h"
@@ -43,45 +44,47 @@ class Records {
   }
 
   System system(const Law& law) const {
+    if (power_.rolls) return rolls(law, power_.rolls->runs());
     return {power_.system.runs, own(), shared(law),
             [this, &law](const std::vector<double>& theta, const TakeRows& take) {
-      for (std::size_t r = 0, first = 0; r < power_.system.runs.size(); ++r) {
-        if (power_.rolls) roll(law, power_.rolls->runs()[r], r, theta, take);
-        else shifts(law, r, first, theta, take);
-        first += power_.system.runs[r];
-      }
+      const auto v_of = by_run(power_.v, power_.system.runs),
+                 f_of = by_run(power_.minimum.f, power_.system.runs);
+      for (std::size_t r = 0; r < v_of.size(); ++r) shifts(law, r, v_of[r], f_of[r], theta, take);
             }};
   }
 
   bool are_many() const { return !means_.empty(); }
   /// The same problem on block means if there are many records, for a fast search.
   System system_of_few(const Law& law) const {
-    if (!are_many()) return system(law);
-    std::vector<std::size_t> sizes;
-    for (const ObservedRun& run : means_) sizes.push_back(run.t.size());
-    return {std::move(sizes), own(), shared(law),
-            [this, &law](const std::vector<double>& theta, const TakeRows& take) {
-      for (std::size_t r = 0; r < means_.size(); ++r) roll(law, means_[r], r, theta, take);
-            }};
+    return are_many() ? rolls(law, means_) : system(law);
   }
 
  private:
   bool fits_slope() const { return power_.slope.has_value(); }
 
-  /// The residuals of a law D(v): its difference from the power law plus the residuals of the power
-  /// law.
-  void shifts(const Law& law, std::size_t r, std::size_t first, const std::vector<double>& theta,
-              const TakeRows& take) const {
+  /// The residuals of a law D(v): its difference from the power law plus the residuals f of the
+  /// power law.
+  void shifts(const Law& law, std::size_t r, std::span<const double> v, std::span<const double> old,
+              const std::vector<double>& theta, const TakeRows& take) const {
     const LawInUnits D = in_units(law);
-    const std::size_t n = power_.system.runs[r];
+    const std::size_t n = v.size();
     std::vector<double> f(n), J(n * D.size());
     for (std::size_t i = 0; i < n; ++i) {
       double by_c[Law::most];
-      const double v = power_.v[first + i], old = law_(v), now = D(theta.data(), v, by_c);
-      f[i] = now - old + power_.minimum.f[first + i];
+      f[i] = D(theta.data(), v[i], by_c) - law_(v[i]) + old[i];
       for (std::size_t j = 0; j < D.size(); ++j) J[j * n + i] = by_c[j];
     }
     take(r, f, J);
+  }
+
+  /// The rolls of these runs under a law, which are the records or their block means.
+  System rolls(const Law& law, const std::vector<ObservedRun>& runs) const {
+    std::vector<std::size_t> sizes;
+    for (const ObservedRun& run : runs) sizes.push_back(run.y.size());
+    return {std::move(sizes), own(), shared(law),
+            [this, &law, &runs](const std::vector<double>& theta, const TakeRows& take) {
+      for (std::size_t r = 0; r < runs.size(); ++r) roll(law, runs[r], r, theta, take);
+            }};
   }
 
   void roll(const Law& law, const ObservedRun& run, std::size_t r, const std::vector<double>& theta,
@@ -92,19 +95,16 @@ class Records {
     LawRoll roll(body, run.geometry, in_units(law), &theta[theta.size() - shared(law)],
                  q.v0(theta, r));
     const std::size_t coefficients = law.coefficients.size();
-    Residuals residuals(run, r, own() + shared(law), *power_.noise, take);
-    for (double t : run.t) {
+    const bool x = run.raw_is_position;
+    const RawModel raw = [&](double t, double* to, std::size_t stride) {
       const LawRoll::Point p = roll.at(t);
-      const bool x = run.raw_is_position;
-      const auto place = residuals.place();
-      *place.raw = x ? q.x0(theta, r) + run.way * p.x : run.way * p.v;
-      double* to = q.chain_own(place.slopes, place.stride, run.way * (x ? p.x_v0 : p.v_v0), 1);
-      const auto put = [&](double value) { *std::exchange(to, to + place.stride) = value; };
-      for (std::size_t j = 0; j < coefficients; ++j) put(run.way * (x ? p.x_c[j] : p.v_c[j]));
-      if (fits_slope())
-        put(Parameters::slope_unit * (x ? p.x_c[coefficients] : p.v_c[coefficients]));
-      residuals.push();
-    }
+      const auto& by_c = x ? p.x_c : p.v_c;
+      to = q.chain_own(to, stride, run.way * (x ? p.x_v0 : p.v_v0), 1);
+      for (std::size_t j = 0; j < coefficients; ++j, to += stride) *to = run.way * by_c[j];
+      if (fits_slope()) *to = Parameters::slope_unit * by_c[coefficients];
+      return x ? q.x0(theta, r) + run.way * p.x : run.way * p.v;
+    };
+    evaluate(run, r, own() + shared(law), *power_.noise, raw, take);
   }
 
   Fitted power_;
@@ -116,8 +116,10 @@ class Records {
 /// The fit of one law.
 struct Candidate {
   const Law* law;
-  Minimum minimum;  // theta is empty if there is no minimum
+  Minimum minimum;
   std::vector<double> c;
+
+  bool found() const { return std::isfinite(minimum.rss); }
 };
 
 /// The coefficients that bring a law closest to another one, by least squares over the speeds, from
@@ -139,19 +141,8 @@ std::vector<std::vector<double>> closest(const Law& law, const Candidate& other)
     take(0, f, J);
                      }};
   std::vector<std::vector<double>> all;
-  for (const auto& start : law.starts) all.push_back(approach(curve, start));
+  for (const auto& start : law.starts) all.push_back(attempt(curve, start).theta);
   return all;
-}
-
-/// The value for a law without a minimum.
-const Minimum none{{}, {}, {}, infinity};
-
-Minimum minimum_or_none(const System& system, const std::vector<double>& start) {
-  try {
-    return minimise(system, start);
-  } catch (const Error&) {
-    return none;
-  }
 }
 
 /// The smallest minimum of a law over several starting points. The search starts where the law is
@@ -163,7 +154,7 @@ Candidate fit_law(const Records& records, const Law& law, const std::vector<Cand
   const System system = records.system_of_few(law);
   std::vector<std::pair<double, std::vector<double>>> starts;
   for (const Candidate& other : before) {
-    if (other.minimum.theta.empty()) continue;
+    if (!other.found()) continue;
     for (const auto& c : closest(law, other)) {
       // v0 and x0 come from the fit of the law that is approximated.
       std::vector<double> theta = records.theta(c);
@@ -180,23 +171,22 @@ Candidate fit_law(const Records& records, const Law& law, const std::vector<Cand
       if (std::isfinite(rss)) starts.emplace_back(rss, std::move(theta));
     }
   }
-  std::sort(starts.begin(), starts.end());
+  std::ranges::sort(starts);
   const auto same = [](const auto& x, const auto& y) {
     return y.first - x.first <= 1e-9 * x.first;
   };
   starts.erase(std::unique(starts.begin(), starts.end(), same), starts.end());
-  Candidate best{&law, none, {}};
+  Candidate best{&law, {{}, {}, {}, infinity}, {}};
   const auto try_from = [&](const std::vector<double>& theta) {
-    if (Minimum m = minimum_or_none(system, theta); m.rss < best.minimum.rss)
-      best.minimum = std::move(m);
+    if (Minimum m = attempt(system, theta); m.rss < best.minimum.rss) best.minimum = std::move(m);
   };
-  for (auto start = starts.begin(); start != starts.end() && best.minimum.theta.empty(); ++start)
+  for (auto start = starts.begin(); start != starts.end() && !best.found(); ++start)
     try_from(start->second);
   if (law.starts.size() > 1)
     for (const auto& start : law.starts) try_from(records.theta(start));
-  if (records.are_many() && !best.minimum.theta.empty())
-    best.minimum = minimum_or_none(records.system(law), best.minimum.theta);
-  if (best.minimum.theta.empty()) return best;
+  if (records.are_many() && best.found())
+    best.minimum = attempt(records.system(law), best.minimum.theta);
+  if (!best.found()) return best;
   const auto shared = best.minimum.theta.end() - static_cast<std::ptrdiff_t>(system.shared);
   best.c.assign(shared, shared + static_cast<std::ptrdiff_t>(law.coefficients.size()));
   return best;
@@ -207,8 +197,9 @@ double independent_records(const std::vector<Candidate>& all,
                            const std::vector<std::size_t>& runs) {
   const double n = static_cast<double>(all.front().minimum.f.size());
   double r = 1;
-  for (const auto& [law, m, c] : all)
-    if (m.rss > 0 && std::isfinite(m.rss)) r = std::min(r, lagged(m.f, runs, 1) / m.rss);
+  for (const Candidate& law : all)
+    if (const Minimum& m = law.minimum; m.rss > 0 && law.found())
+      r = std::min(r, lagged(m.f, runs, 1) / m.rss);
   return r > 0 && r < 1 ? n * (1 - r) / (1 + r) : n;
 }
 
@@ -242,11 +233,7 @@ void report_coefficients(LawFit& result, const Records& records, const Candidate
 
 }  // namespace
 
-double LawComparison::least() const {
-  return std::min_element(fits.begin(), fits.end(),
-                          [](const auto& x, const auto& y) { return x.aicc < y.aicc; })
-      ->aicc;
-}
+double LawComparison::least() const { return std::ranges::min(fits, {}, &LawFit::aicc).aicc; }
 
 const LawFit& LawComparison::best_other() const {
   return *std::ranges::min_element(
@@ -280,8 +267,8 @@ LawComparison compare_laws(Route route, const std::vector<FitRun>& runs,
         independent * std::log(std::max(m.rss, std::numeric_limits<double>::min()) / n) + 2 * k +
         2 * k * (k + 1) / (independent - k - 1);
     LawFit& of_law = result.fits.emplace_back(
-        LawFit{found.law, !m.theta.empty() && independent > k + 1 ? aicc : infinity, {}, {}});
-    if (!m.theta.empty()) report_coefficients(of_law, records, found);
+        LawFit{found.law, found.found() && independent > k + 1 ? aicc : infinity, {}, {}});
+    if (found.found()) report_coefficients(of_law, records, found);
   }
   return result;
 }

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "contact/contact.h"
 #include "contact/power_law.h"
+#include "fit/by_run.h"
 #include "fit/dot.h"
 #include "fit/errors.h"
 #include "fit/shift_records.h"
@@ -16,7 +17,6 @@ namespace rolling {
 namespace {
 
 System line_system(ShiftRecords records, Height height) {
-  for (double& D : records.D) D = std::log(D);
   const std::size_t p = height.count();
   std::vector<std::size_t> runs = records.runs;
   return {std::move(runs), 0, p,
@@ -27,7 +27,7 @@ System line_system(ShiftRecords records, Height height) {
     hand_over(records->runs, p, take,
               [&](std::size_t i, std::span<double> J, std::size_t k, std::size_t n) {
       height.put(J, k, n, 1, records->log_u[i], 1);
-      return h + b * records->log_u[i] - records->D[i];
+      return h + b * records->log_u[i] - records->y[i];
     });
           }};
 }
@@ -78,98 +78,75 @@ class LogarithmOfNoise {
       std::vector<Estimate>(static_cast<std::size_t>((most - least) * places) + 1);
 };
 
-/// The noise and the bias of the points (ln v, ln D) of a run.
-struct Logarithms {
-  FilterMatrix noise;  ///< matrix that maps raw noise of variance one to the noise of ln D - b ln v
-  std::vector<double> bias;  ///< expectation of ln D - b ln v minus ln a, for each point
+/// The noise and the bias of the points (ln v, ln D) of a run. The noise of ln D - b ln v is
+/// by_D D e + by_v v e for each point, with raw noise e of variance one and the rows of D and v.
+struct Points {
+  std::vector<double> by_D, by_v;
+  std::vector<double> bias;  ///< expectation of ln D - b ln v minus ln a
 };
 
-/// Writes x X + y Y to `sum`.
-void add(double x, const FilterMatrix::Row& X, double y, const FilterMatrix::Row& Y,
-         FilterMatrix::Row& sum) {
-  sum.first = std::min(X.first, Y.first);
-  sum.values.assign(std::max(X.end(), Y.end()) - sum.first, 0);
-  for (std::size_t j = X.first; j < X.end(); ++j)
-    sum.values[j - sum.first] += x * X.values[j - X.first];
-  for (std::size_t j = Y.first; j < Y.end(); ++j)
-    sum.values[j - sum.first] += y * Y.values[j - Y.first];
-}
-
 /// The noise and bias of the logarithms for a roll under the law. D and v are the matrices that
-/// compute the accelerations and speeds from the raw column (along the direction of motion),
-/// shift() converts an acceleration to D, and sigma is the standard deviation of the raw noise. The
-/// bias has two causes: smoothing bends the curve D(v), and the logarithm of a noisy number is too
-/// low on average. Its noise is also smaller than the relative noise of D.
-Logarithms logarithms_of(const FilterMatrix& D, const FilterMatrix& v,
-                         const std::vector<double>& raw, const Rows& rows, PowerLaw law,
-                         const std::function<double(double)>& shift, double sigma) {
-  const auto accelerations = D.times(raw), speeds = v.times(raw);
-  FilterMatrix::Row D_row, v_row, log_row;
-  if (!rows.empty()) D.row(rows[rows.size() / 2], D_row);
-  BandMatrix E;
-  E.reserve(rows.size(), rows.size() * D_row.values.size());
-  std::vector<double> bias;
-  bias.reserve(rows.size());
+/// compute the accelerations and speeds of the points from the raw column (along the direction of
+/// motion), shift() converts an acceleration to D, and sigma is the standard deviation of the raw
+/// noise. The bias has two causes: smoothing bends the curve D(v), and the logarithm of a noisy
+/// number is too low on average. Its noise is also smaller than the relative noise of D.
+Points points_of(const FilterMatrix& D, const FilterMatrix& v, std::span<const double> raw,
+                 PowerLaw law, const std::function<double(double)>& shift, double sigma) {
+  const std::vector<double> accelerations = D.times(raw), speeds = v.times(raw);
+  Points points;
+  FilterMatrix::Row D_row, v_row;
   LogarithmOfNoise logarithm;
-  for (std::size_t i : rows) {
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
     constexpr double step = 1e-4;
     const double a_i = accelerations[i], v_i = speeds[i], D_i = shift(a_i);
     D.row(i, D_row), v.row(i, v_row);
     // Minus the derivative of ln D - b ln v by the raw column; that of ln D is a difference
     // quotient. Where D of the roll is not positive, its relative noise is infinite; 1e100 stands
     // for that.
-    add(D_i > 0 ? (shift((1 - step) * a_i) / D_i - 1) / (step * a_i) : 1e100, D_row,
-        v_i > 0 ? law.b / v_i : 0, v_row, log_row);
-    const double s =
-        sigma * std::sqrt(dot(log_row.values.data(), log_row.values.data(), log_row.values.size()));
+    const double by_D = D_i > 0 ? (shift((1 - step) * a_i) / D_i - 1) / (step * a_i) : 1e100,
+                 by_v = v_i > 0 ? law.b / v_i : 0,
+                 s = sigma * std::sqrt(by_D * by_D * dot(D_row, D_row) +
+                                       2 * by_D * by_v * dot(D_row, v_row) +
+                                       by_v * by_v * dot(v_row, v_row));
     const Estimate log_noise = s > 0 && std::isfinite(s) ? logarithm(s) : Estimate{};
-    for (double& x : log_row.values) x *= log_noise.sigma > 0 ? log_noise.sigma / s : 0;
-    E.append(log_row.first, log_row.values);
-    bias.push_back(D_i > 0 && v_i > 0 ? std::log(D_i / law(v_i)) : 0);
-    if (D_i > 0) bias.back() += log_noise.value;
+    const double factor = log_noise.sigma > 0 ? log_noise.sigma / s : 0;
+    points.by_D.push_back(by_D * factor);
+    points.by_v.push_back(by_v * factor);
+    points.bias.push_back(D_i > 0 && v_i > 0 ? std::log(D_i / law(v_i)) : 0);
+    if (D_i > 0) points.bias.back() += log_noise.value;
   }
-  return {FilterMatrix::identity(raw.size()).then(std::move(E)), std::move(bias)};
+  return points;
 }
 
-/// The bias of a and b of the line that follows from the biases of its points: theta = R^-1 Q^T
-/// bias.
-void bias_line(Fitted& line, const std::vector<double>& bias) {
-  const std::size_t p = line.system.columns();
-  const std::vector<double> Q = orthonormal(line.system, line.minimum), &R = line.minimum.R;
-  std::vector<double> theta(p, 0.0);
-  for (std::size_t i = 0; i < Q.size(); ++i) theta[i % p] += Q[i] * bias[i / p];
-  for (std::size_t j = p; j-- > 0; theta[j] /= R[j * p + j])
-    for (std::size_t k = j + 1; k < p; ++k) theta[j] -= R[j * p + k] * theta[k];
-  line.bias_a = dot(line.a.gradient.data(), theta.data(), p);
-  line.bias_b = dot(line.b.gradient.data(), theta.data(), p);
+/// The rows of Q, of p numbers each, multiplied by their factors.
+std::vector<double> scaled(std::span<const double> Q, std::size_t p,
+                           const std::vector<double>& factors) {
+  std::vector<double> result(Q.begin(), Q.end());
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] *= factors[i / p];
+  return result;
 }
 
-/// Adds the noise and the bias of ln D - b ln v to a line if the filters are known: those of the
-/// best-fitting roll, observed through the filters.
-void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<FitRun>& all,
-                 const FitOptions& options) {
-  Making making = making_of(Route::shift, all);
-  if (!making.known()) return;
+/// Adds the noise and the bias of ln D - b ln v to a line: those of the best-fitting roll, observed
+/// through the known filters.
+void carry_noise(Fitted& line, const std::vector<FitRun>& all, const FitOptions& options,
+                 std::vector<Response> responses) {
   std::vector<FilterMatrix> D, v;
-  for (const Response& response : making.responses)
+  for (const Response& response : responses)
     D.push_back(response.of.at("D")), v.push_back(response.of.at("v"));
   Fitted roll;
   try {
     // The roll is fitted to all records; a selection of those with D > 0 would select by their
     // noise.
-    roll = fit_rolls(Route::shift, all, usable(Route::shift, all), std::move(making), options);
+    roll = fit_rolls(Route::shift, all, usable(Route::shift, all), std::move(responses), options);
   } catch (const Error&) {  // no roll fits: the line keeps its classical errors
     return;
   }
-  RawNoise& raw_noise = line.raw_noise.emplace();
-  raw_noise.variance = noise_variance(roll);
-  raw_noise.sources = roll.noise->explain(roll.minimum.f);
-  raw_noise.source_runs = roll.noise->sources();
-  raw_noise.innovations = roll.noise->innovations(roll.minimum.f, raw_noise.innovation_runs);
-  raw_noise.means_taken = roll.rolls->means_taken();
+  RawNoise raw_noise = raw_noise_of(roll);
   roll.system = {}, roll.noise = {};  // frees memory: the weights are large
-  std::vector<FilterMatrix> noise;
-  std::vector<double> bias;
+  const std::size_t p = line.system.columns();
+  const std::vector<double> Q = orthonormal(line.system, line.minimum);
+  const auto Q_of = by_run(Q, line.system.runs, p);
+  std::vector<double> along(p);  // Q^T bias
   for (std::size_t r = 0; r < all.size(); ++r) {
     const ObservedRun& run = roll.rolls->runs()[r];
     const Trajectory trajectory = roll.rolls->trajectory(roll.minimum.theta, r);
@@ -179,32 +156,43 @@ void carry_noise(Fitted& line, const std::vector<Rows>& rows, const std::vector<
     const auto shift = [&, by = *all[r].shift_of](double a) {
       return run.way * shift_from_acceleration(by.body, by.geometry, run.way * a);
     };
-    Logarithms logarithms = logarithms_of(D[r], v[r], raw, rows[r], {roll.a.value, roll.b.value},
-                                          shift, std::sqrt(raw_noise.variance));
-    noise.push_back(std::move(logarithms.noise));
-    bias.insert(bias.end(), logarithms.bias.begin(), logarithms.bias.end());
+    const Rows rows = shift_rows(all[r], options, true);
+    const FilterMatrix D_of = D[r].of_rows(rows), v_of = v[r].of_rows(rows);
+    const Points points = points_of(D_of, v_of, raw, {roll.a.value, roll.b.value}, shift,
+                                    std::sqrt(raw_noise.variance));
+    std::vector<double> B = D_of.transposed_times(scaled(Q_of[r], p, points.by_D), p);
+    const std::vector<double> B_of_v = v_of.transposed_times(scaled(Q_of[r], p, points.by_v), p);
+    std::transform(B.begin(), B.end(), B_of_v.begin(), B.begin(), std::plus());
+    raw_noise.sources.B.insert(raw_noise.sources.B.end(), B.begin(), B.end());
+    for (std::size_t i = 0; i < Q_of[r].size(); ++i)
+      along[i % p] += Q_of[r][i] * points.bias[i / p];
   }
-  line.noise = std::make_shared<const Noise>(std::move(noise), std::nullopt);
-  bias_line(line, bias);
+  line.raw_noise = std::move(raw_noise);
+  // The bias of theta is R^-1 Q^T bias.
+  const auto bias_of = [&](std::vector<double> gradient) {
+    solve_transposed(line.minimum.R.data(), gradient);
+    return dot(gradient, along);
+  };
+  line.bias_a = bias_of(line.a.gradient);
+  line.bias_b = bias_of(line.b.gradient);
 }
 
 }  // namespace
 
-Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options) {
+Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
+                   std::vector<Response> responses) {
   ShiftRecords records = shift_records(all, options, true);
   const Height height{options.a, options.b, records.log_v_ref};
-  const std::vector<Rows> rows = std::move(records.rows);
   Fitted line{.system = {}, .minimum = {}};
-  line.records = records.D.size();
+  line.records = records.y.size();
   line.left_out = records.left_out;
   line.system = line_system(std::move(records), height);
-  line.minimum = solve(line.system, std::vector<double>(height.count(), 0), options,
-                       options.robust && making_of(Route::shift, all).known());
+  line.minimum = solve(line.system, std::vector<double>(height.count(), 0), options);
   line.rss = line.minimum.rss;
   const double b = height.exponent(line.minimum.theta),
                a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * height.log_v_ref);
   height.report(line, a, a);
-  if (!options.robust) carry_noise(line, rows, all, options);
+  if (!responses.empty()) carry_noise(line, all, options, std::move(responses));
   return line;
 }
 

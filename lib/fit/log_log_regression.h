@@ -6,9 +6,10 @@
 namespace rolling {
 
 /// The log-log regression line of ln D on ln v through all records with v > 0 and D > 0, with equal
-/// weights, as one would draw it through a plot. If the filters are known, the errors are those of
-/// the noise of the raw column, propagated through the filters and the logarithms, and the expected
-/// bias of the line is reported. Throws Error if the records do not determine the parameters.
-Fitted fit_log_log(const std::vector<FitRun>&, const FitOptions&);
+/// weights, as one would draw it through a plot. If the filters are known (`responses`), the errors
+/// are those of the noise of the raw column, propagated through the filters and the logarithms, and
+/// the expected bias of the line is reported. Throws Error if the records do not determine the
+/// parameters.
+Fitted fit_log_log(const std::vector<FitRun>&, const FitOptions&, std::vector<Response> responses);
 
 }  // namespace rolling

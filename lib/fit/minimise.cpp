@@ -17,8 +17,6 @@ constexpr double undetermined = 1e-10;  // sine between a column of J and those 
 constexpr double round_off = 1e-15;     // relative size of a step that is rounding alone
 constexpr double unseen = 1e-10;        // relative change of the residuals that is negligible
 
-double square(const std::vector<double>& f) { return dot(f.data(), f.data(), f.size()); }
-
 /// The residuals at one theta and the Gauss-Newton step from there. The step comes from the QR
 /// decomposition of J, because the condition number of the normal equations is the square of that
 /// of J.
@@ -43,7 +41,7 @@ bool evaluate_at(const System& system, Point& at, std::vector<double> theta) {
   try {
     system.evaluate(at.theta, [&at](std::size_t run, std::span<double> f, std::span<double> J) {
       at.f.insert(at.f.end(), f.begin(), f.end());
-      at.rss += dot(f.data(), f.data(), f.size());
+      at.rss += dot(f, f);
       at.R.add(run, f, J);
     });
   } catch (const Error&) {
@@ -57,7 +55,7 @@ bool evaluate_at(const System& system, Point& at, std::vector<double> theta) {
   at.size = 0;
   for (std::size_t j = 0; j < at.theta.size(); ++j)
     at.size = std::max(at.size, std::abs(at.step[j]) / std::max(1.0, std::abs(at.theta[j])));
-  return std::isfinite(at.rss) && std::isfinite(square(at.lengths));
+  return std::isfinite(at.rss) && std::isfinite(dot(at.lengths, at.lengths));
 }
 
 std::vector<double> moved(std::vector<double> theta, const std::vector<double>& step) {
@@ -163,11 +161,11 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
   return {std::move(best.theta), std::move(best.f), best.R.without_f(), best.rss};
 }
 
-std::vector<double> approach(const System& system, std::vector<double> start) {
+Minimum attempt(const System& system, const std::vector<double>& start) {
   try {
-    return minimise(system, start).theta;
+    return minimise(system, start);
   } catch (const Error&) {
-    return start;
+    return {start, {}, {}, std::numeric_limits<double>::infinity()};
   }
 }
 
@@ -245,7 +243,7 @@ Minimum minimise_robust(const System& system, const std::vector<double>& start) 
   const double correction =
       1 + static_cast<double>(p) / n * (squares - mean * mean) / (mean * mean);
   for (double& r : at.f) r *= bisquare(r / scale).weight * correction / mean;
-  const double rss = square(at.f);
+  const double rss = dot(at.f, at.f);
   return {std::move(at.theta), std::move(at.f), at.R.without_f(), rss};
 }
 

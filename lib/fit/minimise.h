@@ -18,9 +18,9 @@ struct Minimum {
 /// if the Jacobian is rank-deficient.
 Minimum minimise(const System&, const std::vector<double>& start);
 
-/// The minimum of a smaller system that approximates the one to be solved, as a starting point for
-/// that one; `start` itself if the smaller one has no minimum.
-std::vector<double> approach(const System&, std::vector<double> start);
+/// The same for one start of several, or for a smaller system that approximates the one to be
+/// solved: if the search finds no minimum, theta is `start`, rss is infinite and the rest is empty.
+Minimum attempt(const System&, const std::vector<double>& start);
 
 /// Minimises Tukey's bisquare loss (constant 4.685: 95 % efficiency for normal noise) by
 /// iteratively reweighted least squares, starting from the minimum of Huber's loss (1.345, the same

@@ -58,27 +58,29 @@ double acceleration_of(const ShiftOf& by, double D) {
   return -body.g * (D * cos + body.R * sin) / ((body.K + 1) * body.R);
 }
 
-Making making_of(Route route, const std::vector<FitRun>& all) {
-  Making making;
+std::vector<Response> responses_of(Route route, const std::vector<FitRun>& all) {
+  std::vector<Response> responses;
   for (const FitRun& run : all) {
     if (run.filters.empty()) return {};
     try {
-      making.responses.push_back(response_of(run.filters, run.t));
+      responses.push_back(response_of(run.filters, run.t));
     } catch (const Error&) {  // the chain does not suit the run
       return {};
     }
-    const Response& r = making.responses.back();
+    const Response& r = responses.back();
     const bool roll = r.source == "x" || (r.source == "v" && route != Route::position);
     if (!roll || !r.of.contains(column_of(route)) ||
-        (route == Route::shift && !(run.shift_of && r.of.contains("v"))))
+        (!is_trajectory(route) && !(run.shift_of && r.of.contains("v"))))
       return {};
   }
-  return making;
+  return responses;
 }
 
 std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
-                                 const std::vector<Rows>& rows, const Making& making,
+                                 const std::vector<Rows>& rows,
+                                 const std::vector<Response>& responses,
                                  const FitOptions& options) {
+  const bool known = !responses.empty();
   std::vector<ObservedRun> runs;
   for (std::size_t r = 0; r < all.size(); ++r) {
     const FitRun& run = all[r];
@@ -88,7 +90,7 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     ObservedRun seen;
     seen.body = run.body;
     seen.geometry = options.geometry;
-    seen.origin = making.known() ? making.responses[r].t.front() : first_fitted;
+    seen.origin = known ? responses[r].t.front() : first_fitted;
     seen.start = held ? 0 : first_fitted - seen.origin;
     if (held && seen.origin < run.t[0])
       fail(
@@ -114,11 +116,10 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
       seen.body.R *= 1e6;
       seen.body.g *= 1e6;
     }
-    seen.raw_is_position =
-        making.known() ? making.responses[r].source == "x" : route == Route::position;
-    if (making.known()) {
-      seen.t = making.responses[r].t;
-      seen.H = filters_of_rows(making.responses[r], route, rows[r]);
+    seen.raw_is_position = known ? responses[r].source == "x" : route == Route::position;
+    if (known) {
+      seen.t = responses[r].t;
+      seen.H = filters_of_rows(responses[r], route, rows[r]);
     } else {
       seen.t = taken(run.t, rows[r]);
     }
@@ -128,11 +129,12 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
   return runs;
 }
 
-std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>& runs, double share) {
+std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>& runs, double share,
+                                      bool inferred) {
   if (!runs.front().H) return std::make_shared<const Noise>();
   std::vector<FilterMatrix> all;
   for (const ObservedRun& run : runs) all.push_back(*run.H);
-  return std::make_shared<const Noise>(std::move(all), share);
+  return std::make_shared<const Noise>(std::move(all), share, inferred);
 }
 
 Trajectory RollModel::trajectory(const std::vector<double>& theta, std::size_t run) const {
@@ -147,70 +149,58 @@ double RollModel::slope(const std::vector<double>& theta, std::size_t run) const
   return runs_[run].way * parameters_.slope(theta, runs_[run].body.slope);
 }
 
-RawModel::RawModel(const ObservedRun& run, const Parameters& parameters,
-                   const std::vector<double>& theta, std::size_t number, Trajectory roll)
-    : run_(run), parameters_(parameters), a_(parameters.law(theta).a),
-      x0_(parameters.x0(theta, number)), roll_(std::move(roll)) {}
-
-double RawModel::operator()(double t, double* slopes, std::size_t stride) const {
-  const double way = run_.way;
-  if (run_.raw_is_position) {
-    const auto s = roll_.at(t);
-    parameters_.chain(slopes, stride, a_, {way * s.x_a, way * s.x_b, way * s.x_v0, 1, s.x_S});
-    return x0_ + way * s.x;
-  }
-  const auto s = roll_.speed_at(t);
-  parameters_.chain(slopes, stride, a_, {way * s.v_a, way * s.v_b, way * s.v_v0, 0, s.v_S});
-  return way * s.v;
-}
-
-void RollModel::evaluate(const std::vector<double>& theta, const Noise& noise,
-                         const TakeRows& take) const {
-  for (std::size_t r = 0; r < runs_.size(); ++r) {
-    const RawModel model = raw(theta, r);
-    Residuals residuals(runs_[r], r, parameters_.columns(), noise, take);
-    for (double t : runs_[r].t) {
-      const auto to = residuals.place();
-      *to.raw = model(t, to.slopes, to.stride);
-      residuals.push();
+RawModel RollModel::raw(const std::vector<double>& theta, std::size_t r) const {
+  const ObservedRun& run = runs_[r];
+  return [&q = parameters_, roll = trajectory(theta, r), a = parameters_.law(theta).a,
+          x0 = parameters_.x0(theta, r), way = run.way,
+          position = run.raw_is_position](double t, double* slopes, std::size_t stride) {
+    if (position) {
+      const auto s = roll.at(t);
+      q.chain(slopes, stride, a, {way * s.x_a, way * s.x_b, way * s.x_v0, 1, s.x_S});
+      return x0 + way * s.x;
     }
-  }
+    const auto s = roll.speed_at(t);
+    q.chain(slopes, stride, a, {way * s.v_a, way * s.v_b, way * s.v_v0, 0, s.v_S});
+    return way * s.v;
+  };
 }
 
-Residuals::Residuals(const ObservedRun& run, std::size_t number, std::size_t parameters,
-                     const Noise& noise, const TakeRows& take)
-    : run_(run), number_(number), parameters_(parameters), take_(take) {
-  if (run.H) filters_.emplace(*run.H, parameters + 1);
-  if (noise.weighted()) whitener_.emplace(noise.whitener(number), filters_->stride());
-  begin_rows();
-}
-
-void Residuals::push() {
-  if (!filters_) {
-    f_[k_] -= run_.y[done_ + k_];
-    if (++k_ == f_.size()) hand_over();
+void evaluate(const ObservedRun& run, std::size_t number, std::size_t parameters,
+              const Noise& noise, const RawModel& raw, const TakeRows& take) {
+  std::vector<double> f, J;
+  std::size_t done = 0, k = 0;
+  const auto begin_block = [&] {
+    done += std::exchange(k, 0);
+    f.resize(std::min<std::size_t>(run.y.size() - done, 256));
+    J.resize(f.size() * parameters);
+  };
+  const auto end_row = [&] {
+    if (++k < f.size()) return;
+    take(number, f, J);
+    begin_block();
+  };
+  begin_block();
+  if (!run.H) {
+    for (double t : run.t) {
+      f[k] = raw(t, &J[k], f.size()) - run.y[done + k];
+      end_row();
+    }
     return;
   }
-  filters_->push();
-  while (double* const row = filters_->next()) {
-    row[0] -= run_.y[done_ + k_];
-    if (whitener_) whitener_->push(row);
-    f_[k_] = row[0];
-    for (std::size_t j = 0; j < parameters_; ++j) J_[j * f_.size() + k_] = row[1 + j];
-    if (++k_ == f_.size()) hand_over();
+  std::optional<Whitener::Pass> whitener;
+  if (noise.known()) whitener.emplace(noise.whitener(number), FilterPass::stride(parameters + 1));
+  FilterPass filters(*run.H, parameters + 1, [&](double* row) {
+    row[0] -= run.y[done + k];
+    if (whitener) whitener->push(row);
+    f[k] = row[0];
+    for (std::size_t j = 0; j < parameters; ++j) J[j * f.size() + k] = row[1 + j];
+    end_row();
+  });
+  for (double t : run.t) {
+    double* const row = filters.place();
+    row[0] = raw(t, row + 1, 1);
+    filters.push();
   }
-}
-
-void Residuals::hand_over() {
-  take_(number_, f_, J_);
-  done_ += k_;
-  begin_rows();
-}
-
-void Residuals::begin_rows() {
-  k_ = 0;
-  f_.resize(std::min<std::size_t>(run_.y.size() - done_, 256));
-  J_.resize(f_.size() * parameters_);
 }
 
 System system_of(std::shared_ptr<const RollModel> model, std::shared_ptr<const Noise> noise) {
@@ -220,7 +210,9 @@ System system_of(std::shared_ptr<const RollModel> model, std::shared_ptr<const N
   return {std::move(runs), q.own(), q.shared(),
           [model = std::move(model), noise = std::move(noise)](const std::vector<double>& theta,
                                                                const TakeRows& take) {
-    model->evaluate(theta, *noise, take);
+    for (std::size_t r = 0; r < model->runs().size(); ++r)
+      evaluate(model->runs()[r], r, model->parameters().columns(), *noise, model->raw(theta, r),
+               take);
           }};
 }
 

@@ -41,40 +41,29 @@ struct ObservedRun {
   std::size_t records() const { return y.size() - (H && H->bordered()); }
 };
 
-/// The response of each run, which derives its columns from the raw one; empty if it is not known.
-struct Making {
-  std::vector<Response> responses;
-  bool known() const { return !responses.empty(); }
-};
-/// The responses of all runs, if the chain of each run leads from positions or speeds to the column
-/// that the route fits (for shift also to v, with a known shift_of). Otherwise the result is not
-/// known().
-Making making_of(Route, const std::vector<FitRun>&);
+/// The response of each run, if the chain of each run leads from positions or speeds to the column
+/// that the route fits (for D also to v, with a known shift_of); otherwise empty.
+std::vector<Response> responses_of(Route, const std::vector<FitRun>&);
 
 /// The runs in the form that the model needs, with the chosen rows alone. Throws Error for a run
 /// without a row, or if v0 or x0 is held and the filters reach back to records before the first
 /// one.
 std::vector<ObservedRun> observe(Route, const std::vector<FitRun>&, const std::vector<Rows>&,
-                                 const Making&, const FitOptions&);
+                                 const std::vector<Response>&, const FitOptions&);
 
-/// The noise of these runs, weighted as Noise describes; unknown if the runs have no H.
-std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>&, double share);
+/// The noise of these runs; unknown if they have no H. For the other arguments see Noise.
+std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>&, double share, bool inferred);
 
-/// The raw column of one run for one theta, and its derivatives.
-class RawModel {
- public:
-  RawModel(const ObservedRun& run, const Parameters& parameters, const std::vector<double>& theta,
-           std::size_t number, Trajectory);
-  /// The value at time t from the origin. The derivatives with respect to the parameters of the
-  /// run, then the shared ones, are written to `slopes`, `stride` apart.
-  double operator()(double t, double* slopes, std::size_t stride) const;
+/// The model of the raw column of one run: returns the value at time t from the origin, and writes
+/// the derivatives with respect to the parameters of the run, then the shared ones, to `slopes`,
+/// `stride` apart.
+using RawModel = std::function<double(double t, double* slopes, std::size_t stride)>;
 
- private:
-  const ObservedRun& run_;
-  const Parameters& parameters_;
-  double a_, x0_;
-  Trajectory roll_;
-};
+/// Passes the residuals H raw - y of one run and their derivatives, whitened if the noise is known,
+/// to the callback, in blocks of at most 256 records, which fit into the cache. `number` is the
+/// index of the run, `parameters` the number of columns of J.
+void evaluate(const ObservedRun& run, std::size_t number, std::size_t parameters, const Noise&,
+              const RawModel& raw, const TakeRows&);
 
 /// The rolls of all runs under one law.
 class RollModel {
@@ -85,9 +74,8 @@ class RollModel {
   const std::vector<ObservedRun>& runs() const { return runs_; }
   const Parameters& parameters() const { return parameters_; }
   Trajectory trajectory(const std::vector<double>& theta, std::size_t run) const;
-  RawModel raw(const std::vector<double>& theta, std::size_t run) const {
-    return {runs_[run], parameters_, theta, run, trajectory(theta, run)};
-  }
+  /// Refers to this object.
+  RawModel raw(const std::vector<double>& theta, std::size_t run) const;
   /// The number of runs of positions whose mean the filters remove, so that x0 is not a parameter;
   /// each such run loses one degree of freedom.
   std::size_t means_taken() const {
@@ -97,47 +85,10 @@ class RollModel {
   }
   /// The slope of the mat along the direction of motion of a run.
   double slope(const std::vector<double>& theta, std::size_t run) const;
-  /// Passes the residuals model - data of each run to the callback, whitened if the noise is
-  /// weighted.
-  void evaluate(const std::vector<double>& theta, const Noise&, const TakeRows&) const;
 
  private:
   std::vector<ObservedRun> runs_;
   Parameters parameters_;
-};
-
-/// Computes the residuals H raw - y of one run and their derivatives, whitened if the noise is
-/// weighted, from the rows of the raw column, which are pushed one by one. The callback receives
-/// blocks of at most 256 records, which fit into the cache.
-class Residuals {
- public:
-  /// `number` is the index of the run, `parameters` the number of columns of J.
-  Residuals(const ObservedRun& run, std::size_t number, std::size_t parameters, const Noise&,
-            const TakeRows&);
-  /// The memory for the next value of the raw column and for its derivatives, `stride` apart.
-  struct Place {
-    double* raw;
-    double* slopes;
-    std::size_t stride;
-  };
-  Place place() {
-    if (!filters_) return {&f_[k_], &J_[k_], f_.size()};
-    return {filters_->place(), filters_->place() + 1, 1};
-  }
-  /// Processes the values that were written to place().
-  void push();
-
- private:
-  void begin_rows();
-  void hand_over();
-
-  const ObservedRun& run_;
-  std::size_t number_, parameters_;
-  const TakeRows& take_;
-  std::optional<FilterPass> filters_;
-  std::optional<Whitener::Pass> whitener_;
-  std::size_t done_ = 0, k_ = 0;
-  std::vector<double> f_, J_;
 };
 
 /// The weighted least-squares problem of a model and its noise.

@@ -23,7 +23,7 @@ System power_system(ShiftRecords records, Height height, double unit) {
               [&](std::size_t i, std::span<double> J, std::size_t k, std::size_t n) {
       const double power = std::exp(b * records->log_u[i]);
       height.put(J, k, n, unit * power, h * power * records->log_u[i], h * power);
-      return h * power - records->D[i];
+      return h * power - records->y[i];
     });
           }};
 }
@@ -32,12 +32,12 @@ System power_system(ShiftRecords records, Height height, double unit) {
 ShiftRecords thinned(const ShiftRecords& records, std::size_t most) {
   ShiftRecords few;
   few.log_v_ref = records.log_v_ref;
-  const std::size_t n = records.D.size();
+  const std::size_t n = records.y.size();
   for (std::size_t i = 0, step = (n + most - 1) / most; i < n; i += step) {
-    few.D.push_back(records.D[i]);
+    few.y.push_back(records.y[i]);
     few.log_u.push_back(records.log_u[i]);
   }
-  few.runs = {few.D.size()};
+  few.runs = {few.y.size()};
   return few;
 }
 
@@ -52,14 +52,14 @@ std::vector<double> power_start(const ShiftRecords& few, const FitOptions& optio
   double least = std::numeric_limits<double>::infinity(), best_b = exponents.front(), best_h = 0;
   for (double b : exponents) {
     double mm = 0, mD = 0, rss = 0;
-    for (std::size_t i = 0; i < few.D.size(); ++i) {
+    for (std::size_t i = 0; i < few.y.size(); ++i) {
       const double m = std::exp(b * few.log_u[i]);
       mm += m * m;
-      mD += m * few.D[i];
+      mD += m * few.y[i];
     }
     const double h = held ? *held * std::exp(b * few.log_v_ref) : mD / mm;
-    for (std::size_t i = 0; i < few.D.size(); ++i) {
-      const double f = h * std::exp(b * few.log_u[i]) - few.D[i];
+    for (std::size_t i = 0; i < few.y.size(); ++i) {
+      const double f = h * std::exp(b * few.log_u[i]) - few.y[i];
       rss += f * f;
     }
     if (rss < least || exponents.size() == 1) least = rss, best_b = b, best_h = h;
@@ -76,17 +76,17 @@ Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   const ShiftRecords records = shift_records(all, options, false);
   const Height height{options.a, options.b, records.log_v_ref};
   double unit = 0;
-  for (double D : records.D) unit = std::max(unit, std::abs(D));
+  for (double D : records.y) unit = std::max(unit, std::abs(D));
   if (unit == 0) fail("all shifts are 0: b cannot be determined");
   // For many records, a few thousand of them give a starting point close to the minimum.
   constexpr std::size_t most = 4096;
-  const std::size_t n = records.D.size();
+  const std::size_t n = records.y.size();
   const ShiftRecords few = thinned(records, options.robust ? n : most);
   std::vector<double> theta = power_start(few, options, unit);
-  if (few.D.size() < n) theta = approach(power_system(few, height, unit), std::move(theta));
+  if (few.y.size() < n) theta = attempt(power_system(few, height, unit), theta).theta;
 
   const System system = power_system(records, height, unit);
-  Minimum minimum = solve(system, theta, options, false);
+  Minimum minimum = solve(system, theta, options);
   const double b = height.exponent(minimum.theta), scale = std::exp(-b * records.log_v_ref),
                a = options.a ? *options.a : minimum.theta[0] * unit * scale;
   Fitted result{.system = system, .minimum = std::move(minimum)};

@@ -10,7 +10,7 @@ namespace rolling {
 namespace {
 
 /// The columns of each row, in a filter with this reach, that may be different from 0.
-struct Rows {
+struct Band {
   std::size_t n, reach;
 
   std::size_t most() const { return std::min(2 * reach, n); }  // reach of a row at an end
@@ -40,7 +40,7 @@ BandMatrix repeated(LinearFilter filter, std::span<const double> t) {
 BandMatrix probe(const LinearFilter& filter, std::span<const double> t) {
   // A row reaches at most 2 * reach to either side (that far only at the ends of the run), so that
   // it responds to only one of several impulses at a distance of 4 * reach + 1.
-  const Rows rows{t.size(), filter.reach};
+  const Band rows{t.size(), filter.reach};
   const std::size_t n = t.size(), spacing = std::min(4 * filter.reach + 1, n);
   if (filter.shift_invariant && n > 3 * (2 * filter.reach + 1)) return repeated(filter, t);
   std::vector<std::size_t> start{0};

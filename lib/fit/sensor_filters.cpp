@@ -67,10 +67,10 @@ WhiteShare most_likely_share(const std::shared_ptr<const RollModel>& model,
 
 namespace {
 
-Making making_by(const LinearFilter& filter, const std::vector<FitRun>& all) {
-  Making making;
-  for (const auto& run : all) making.responses.push_back(response_of({filter}, run.t));
-  return making;
+std::vector<Response> responses_by(const LinearFilter& filter, const std::vector<FitRun>& all) {
+  std::vector<Response> responses;
+  for (const auto& run : all) responses.push_back(response_of({filter}, run.t));
+  return responses;
 }
 
 /// A filter and the share of white noise in its output.
@@ -87,7 +87,7 @@ Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
   Maker best;
   for (const LinearFilter& filter : options.possible_filters) {
     const auto model = std::make_shared<const RollModel>(
-        observe(Route::velocity, all, rows, making_by(filter, all), options),
+        observe(Route::velocity, all, rows, responses_by(filter, all), options),
         plain.rolls->parameters());
     const WhiteShare found = most_likely_share(model, plain.minimum.theta, least, white, white);
     if (found.decisive() && found.gain > best.white.gain) best = {&filter, found};
@@ -132,10 +132,7 @@ std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const FitO
     const auto head = [n](const std::vector<double>& x) {
       return std::vector(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n));
     };
-    FitRun& run = heads.emplace_back();
-    run.t = head(all[r].t);
-    run.v = head(all[r].v);
-    run.body = all[r].body;
+    heads.push_back({head(all[r].t), {}, head(all[r].v), {}, all[r].body, {}});
   }
   std::vector<Rows> head_rows = usable(Route::velocity, heads);
   try {
@@ -144,8 +141,8 @@ std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const FitO
     if (!maker.filter || maker.filter->from == "v") return {};
     std::vector<Rows> regular = usable(Route::velocity, all);
     if (!leave_out_irregular(all, regular, reach)) return {};
-    Fitted fit = fit_rolls(Route::velocity, all, std::move(regular), making_by(*maker.filter, all),
-                           options, maker.white.share);
+    Fitted fit = fit_rolls(Route::velocity, all, std::move(regular),
+                           responses_by(*maker.filter, all), options, maker.white.share);
     const Uncertainty found = uncertainty_of(fit);
     if (found.whiteness > not_white && found.kind != Errors::uneven) return fit;
   } catch (const Error&) {  // too few records, or no minimum

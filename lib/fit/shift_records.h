@@ -13,10 +13,9 @@ namespace rolling {
 /// The records that the routes loglog and shift use, all runs in sequence. A body that rolls
 /// towards falling x has v < 0 and D < 0; both are taken positive along its direction of motion.
 struct ShiftRecords {
-  std::vector<double> D;
+  std::vector<double> y;          ///< D, or ln D for the route loglog
   std::vector<double> log_u;      ///< ln v - log_v_ref
   std::vector<std::size_t> runs;  ///< number of records of each run
-  std::vector<Rows> rows;         ///< indices of the records of each run
   std::size_t left_out = 0;
   /// ln of the geometric mean of v, where the estimates of ln D and b are uncorrelated.
   double log_v_ref = 0;
@@ -25,6 +24,9 @@ struct ShiftRecords {
 /// The records with finite v > 0 of at least options.min_speed, and with D > 0 if `logarithms`.
 /// Throws Error if they do not determine the parameters.
 ShiftRecords shift_records(const std::vector<FitRun>&, const FitOptions&, bool logarithms);
+
+/// The indices of the records of a run that are among these.
+Rows shift_rows(const FitRun&, const FitOptions&, bool logarithms);
 
 /// The law in nearly uncorrelated parameters: the height and b. The height is D(v_ref) in some unit
 /// for a power law and ln D(v_ref) for a line. Parameters that are held fixed have no element in

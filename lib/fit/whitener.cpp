@@ -27,12 +27,6 @@ std::size_t band_of(const FilterMatrix& E) {
   return band;
 }
 
-/// An element of E E^T: the inner product of two rows of E.
-double product(const FilterMatrix::Row& x, const FilterMatrix::Row& y) {
-  const std::size_t from = std::max(x.first, y.first), to = std::min(x.end(), y.end());
-  return from < to ? dot(&x.values[from - x.first], &y.values[from - y.first], to - from) : 0;
-}
-
 }  // namespace
 
 Covariance::Covariance(const FilterMatrix& E)
@@ -42,11 +36,11 @@ Covariance::Covariance(const FilterMatrix& E)
     const FilterMatrix::Row& row = last[i % band];
     E.row(i, last[i % band]);
     for (std::size_t j = i < band ? 0 : i - band + 1; j <= i; ++j)
-      rows[j * band + i - j] = product(row, last[j % band]);
+      rows[j * band + i - j] = dot(row, last[j % band]);
     if (E.bordered() && !row.values.empty())
-      border[i] = dot(row.values.data(), &E.last_row()[row.first], row.values.size());
+      border[i] = dot(row.values, E.last_row().subspan(row.first));
   }
-  if (E.bordered()) corner = dot(E.last_row().data(), E.last_row().data(), E.columns());
+  if (E.bordered()) corner = dot(E.last_row(), E.last_row());
 }
 
 double Covariance::median_norm() const {
@@ -70,7 +64,7 @@ Whitener::Whitener(Covariance of_E, double floor)
   if (of_E.border.empty()) return;
   apply(of_E.border);
   border_ = std::move(of_E.border);
-  const double rest = of_E.corner - dot(border_.data(), border_.data(), n_);
+  const double rest = of_E.corner - dot(border_, border_);
   if (!(rest > 0)) fail("the filters leave a column without noise");
   corner_ = std::sqrt(rest);
 }
@@ -105,7 +99,7 @@ void Whitener::Pass::push(double* row) {
 }
 
 void Whitener::apply(std::span<double> X) const {
-  const std::size_t n = rows(), columns = X.size() / n, stride = (columns + 1) / 2 * 2;
+  const std::size_t n = rows(), columns = X.size() / n, stride = FilterPass::stride(columns);
   Pass pass(*this, stride);
   std::vector<double> row(stride);
   for (std::size_t i = 0; i < n; ++i) {
@@ -136,7 +130,7 @@ std::vector<double> Whitener::undo(std::span<const double> f) const {
   for (std::size_t k = 0; k < n_; ++k)
     for (std::size_t j = 0; j < std::min(band_, n_ - k); ++j)
       all[k + j] += R_[k * band_ + j] * f[k];
-  if (corner_ > 0) all[n_] = dot(border_.data(), f.data(), n_) + corner_ * f[n_];
+  if (corner_ > 0) all[n_] = dot(border_, f) + corner_ * f[n_];
   return all;
 }
 
@@ -183,10 +177,8 @@ double Whitener::trace() const {
 std::vector<double> Whitener::meat(std::span<double> Q, std::size_t columns) const {
   std::vector<double> M(columns * columns);
   const auto add_squares = [&](std::size_t n, double by) {
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < columns; ++j)
-        for (std::size_t k = 0; k < columns; ++k)
-          M[j * columns + k] += by * Q[i * columns + j] * Q[i * columns + k];
+    for (std::size_t i = 0; i < n * columns; i += columns)
+      add_outer(M, by, Q.subspan(i, columns), Q.subspan(i, columns));
   };
   add_squares(rows(), 1);
   apply_transposed(Q, columns);

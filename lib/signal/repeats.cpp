@@ -23,13 +23,11 @@ double records_held(std::span<const double> readings) {
   for (const double y : readings) largest = std::max(largest, std::abs(y));
   const double rounding = 1e-9 * largest;  // error of a program that computed the readings
   const auto step = [&](std::size_t i) { return std::abs(readings[i] - readings[i - 1]); };
-  std::size_t steps = 0, changes = 0;
-  for (std::size_t i = 1; i < readings.size(); ++i) {
-    if (readings[i] == 0 && readings[i - 1] == 0) continue;
-    changes += step(i) > rounding;
-    ++steps;
-  }
-  if (changes == 0 || 4 * changes >= 3 * steps) return 1;
+  std::size_t changes = 0, repeats = 0;  // two readings of 0 are neither
+  for (std::size_t i = 1; i < readings.size(); ++i)
+    if (step(i) > rounding) ++changes;
+    else if (readings[i] != 0 || readings[i - 1] != 0) ++repeats;
+  if (changes == 0 || changes >= 3 * repeats) return 1;
   std::vector<double> jumps;
   jumps.reserve(changes);
   for (std::size_t i = 1; i < readings.size(); ++i)
@@ -47,7 +45,7 @@ double records_held(std::span<const double> readings) {
   };
   // The first test nearly always decides, and it needs no decimal place.
   if (mostly_units(0) || mostly_units(last_place(readings, rounding) + rounding)) return 1;
-  return static_cast<double>(steps + 1) / static_cast<double>(jumps.size() + 1);
+  return static_cast<double>(changes + repeats + 1) / static_cast<double>(changes + 1);
 }
 
 }  // namespace rolling

@@ -139,7 +139,26 @@ std::span<const Field> Dialect::split(std::string_view line) {
 }
 
 const char* Dialect::split_plain(std::string_view text, std::span<const Field>& fields) {
-  if (separator_ == '\0' || foreign()) return nullptr;
+  if (separator_ == '\0' || (foreign_numbers_ && decimal_mark_ == '\0')) return nullptr;
+  return decimal_mark_ == ',' ? split_with_commas(text, fields) : split_with_points(text, fields);
+}
+
+/// Splits a copy of the line with decimal points.
+const char* Dialect::split_with_commas(std::string_view text, std::span<const Field>& fields) {
+  made_ = text.substr(0, text.find('\n') + 1);
+  if (made_.find('.') != npos) return nullptr;
+  std::replace(made_.begin(), made_.end(), ',', '.');
+  const char* const end = split_with_points(made_, fields);
+  as_it_stands_ = false;
+  // A comma in a text is not a decimal one.
+  const auto is_changed_text = [](const Field& field) {
+    return !field.wanted && field.text.find('.') != npos && !is_number(field.text);
+  };
+  if (!end || std::any_of(fields.begin(), fields.end(), is_changed_text)) return nullptr;
+  return text.data() + (end - made_.data());
+}
+
+const char* Dialect::split_with_points(std::string_view text, std::span<const Field>& fields) {
   const char *at = text.data(), *const end = at + text.size();
   as_it_stands_ = separator_ == '\t';
   may_need_quotes_ = false;

@@ -58,6 +58,8 @@ class Dialect {
     if (count_ == fields_.size()) fields_.emplace_back();
     return fields_[count_++];
   }
+  const char* split_with_commas(std::string_view text, std::span<const Field>& fields);
+  const char* split_with_points(std::string_view text, std::span<const Field>& fields);
   void split_blanks(const char* at, const char* end);
   const char* take_text(const char* at, const char* end, Field&);
   std::string_view take_quoted(const char*& at, const char* end);

@@ -169,3 +169,24 @@ TEST_CASE("loglog: the errors allow for the bias of the logarithms of noise", "[
   CHECK(std::abs(expected - off) < 0.15 * sd);
   CHECK(covered > by_noise + 10);
 }
+
+// The second run gains speed, so that none of its D has a logarithm.
+TEST_CASE("loglog: a run without a logarithm leaves the line to the others", "[fit]") {
+  const Body body{1, 0.04, 0.5};
+  const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.5);
+  simulated::Noise noise(4);
+  std::vector<double> t, slower, faster;
+  for (std::size_t i = 0; i < 60; ++i) {
+    t.push_back(0.04 * static_cast<double>(i));
+    slower.push_back(truth.v(t.back()) + noise(1e-3));
+    faster.push_back(0.3 + 0.2 * t.back());
+  }
+  const auto run = simulated::shifts(body, t, slower, 5);
+  const auto both = fit(Route::loglog, {run, simulated::shifts(body, t, faster, 5)}, {}),
+             alone = fit(Route::loglog, {run}, {});
+  CHECK(both.left_out == alone.left_out + 60);
+  CHECK(both.a == alone.a);
+  CHECK(both.b == alone.b);
+  CHECK(std::isfinite(both.sigma_a));
+  CHECK(std::isfinite(both.sigma_b));
+}

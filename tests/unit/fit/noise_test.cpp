@@ -35,7 +35,7 @@ System line(const std::vector<double>& data, std::shared_ptr<const Noise> noise)
 // line is R^-1 B^T B R^-T.
 TEST_CASE("noise: its variance and the covariance of the parameters, whatever the floor", "[fit]") {
   for (const double share : {1e-3, 0.1, 1.0, 30.0}) {
-    const auto noise = std::make_shared<const Noise>(std::vector<FilterMatrix>{E}, share);
+    const auto noise = std::make_shared<const Noise>(std::vector<FilterMatrix>{E}, share, false);
     simulated::Noise random(7);
     double variances = 0, squares = 0, covariance = 0;
     constexpr int runs = 2000;
@@ -46,7 +46,7 @@ TEST_CASE("noise: its variance and the covariance of the parameters, whatever th
       Fitted fit{.system = line(data, noise), .minimum = {}};
       fit.minimum = minimise(fit.system, {0, 0});
       fit.noise = noise;
-      variances += noise_variance(fit) / runs;
+      variances += raw_noise_of(fit).variance / runs;
       squares += (fit.minimum.theta[1] - 0.5) * (fit.minimum.theta[1] - 0.5) / runs;
       if (k > 0) continue;
       const auto Q = orthonormal(fit.system, fit.minimum);
@@ -68,7 +68,7 @@ TEST_CASE("noise: its variance and the covariance of the parameters, whatever th
 }
 
 TEST_CASE("noise: the least sources that explain residuals give them back", "[fit]") {
-  const Noise noise({E}, 1e-4);
+  const Noise noise({E}, 1e-4, false);
   simulated::Noise random(3);
   std::vector<double> e;
   for (std::size_t i = 0; i < n; ++i) e.push_back(random(1));

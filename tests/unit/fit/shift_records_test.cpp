@@ -26,8 +26,9 @@ TEST_CASE("shift records: along the motion, v finite and positive, D positive fo
   const std::vector<FitRun> runs{run_of({0.4, missing, 0.1, 0, 0.2}, {3, 2, -1, 1, missing}),
                                  run_of({-0.4, -0.1, 0.05}, {-3, -1, -1})};
   const ShiftRecords all = shift_records(runs, {}, false);
-  CHECK(all.D == std::vector<double>{3, -1, 3, 1});
-  CHECK(all.rows == std::vector<Rows>{{0, 2}, {0, 1}});
+  CHECK(all.y == std::vector<double>{3, -1, 3, 1});
+  CHECK(shift_rows(runs[0], {}, false) == Rows{0, 2});
+  CHECK(shift_rows(runs[1], {}, true) == Rows{0, 1});
   CHECK(all.runs == std::vector<std::size_t>{2, 2});
   CHECK(all.left_out == 4);
   // The geometric mean of 0.4 and 0.1, twice.
@@ -36,13 +37,14 @@ TEST_CASE("shift records: along the motion, v finite and positive, D positive fo
     CHECK(std::abs(all.log_u[i] - (i % 2 ? -1 : 1) * std::log(2)) < 1e-15);
 
   const ShiftRecords positive = shift_records(runs, {}, true);
-  CHECK(positive.D == std::vector<double>{3, 3, 1});
+  CHECK(positive.y == std::vector<double>{std::log(3), std::log(3), 0});
+  CHECK(shift_rows(runs[0], {}, true) == Rows{0});
   CHECK(positive.left_out == 5);
 
   FitOptions fast;
   fast.min_speed = 0.3;
   fast.b = 1;  // with one speed alone b has to be held
-  CHECK(shift_records(runs, fast, false).D == std::vector<double>{3, 3});
+  CHECK(shift_records(runs, fast, false).y == std::vector<double>{3, 3});
   fast.b.reset();
   CHECK_THROWS_AS(shift_records(runs, fast, false), Error);
 }

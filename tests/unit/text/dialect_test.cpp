@@ -201,28 +201,44 @@ TEST_CASE("dialect: what is split before its end is known is split alike after i
   const auto draw = [&](std::size_t count) {
     return (state = state * 1664525 + 1013904223) / 65536 % count;
   };
-  const std::string_view alphabet = "0123456789019..-+eE\t\t\t;, \"#x";
-  int taken = 0;
-  for (int i = 0; i < 100000; ++i) {
-    std::string line;
-    for (std::size_t size = 1 + draw(12); line.size() < size;)
-      line += alphabet[draw(alphabet.size())];
-    const auto dialect_of = [&] {
-      Dialect dialect;
-      dialect.choose("0.5\t1.5");
-      dialect.want(0);
-      dialect.want(2);
-      return dialect;
-    };
-    Dialect one = dialect_of(), other = dialect_of();
-    const std::string plain = plain_fields(one, line + "\n", line.size());
-    if (plain == "?") continue;
-    ++taken;
-    std::string all;
-    for (const Field& field : other.split(line))
-      all += fmt::format("<{}|{}>", field.text, field.number);
-    CHECK(plain == all);
-    CHECK(one.as_it_stands() == other.as_it_stands());
+  const std::string_view alphabet = "0123456789019..,,-+eE\t\t\t;;; \"#x";
+  for (const std::string first : {"0.5\t1.5", "0,5\t1,5", "0,5;1,5"}) {
+    const bool points = first.find('.') != std::string::npos;
+    int taken = 0;
+    for (int i = 0; i < 100000; ++i) {
+      std::string line;
+      for (std::size_t size = 1 + draw(12); line.size() < size;)
+        line += alphabet[draw(alphabet.size())];
+      const auto dialect_of = [&] {
+        Dialect dialect;
+        dialect.choose(first);
+        dialect.want(0);
+        dialect.want(2);
+        return dialect;
+      };
+      Dialect one = dialect_of(), other = dialect_of();
+      const std::string plain = plain_fields(one, line + "\n", line.size());
+      if (plain == "?") continue;
+      ++taken;
+      std::string all;
+      for (const Field& field : other.split(line))
+        all += fmt::format("<{}|{}>", field.text, field.number);
+      INFO(first << ' ' << line);
+      CHECK(plain == all);
+      CHECK(one.as_it_stands() == (points && other.as_it_stands()));
+    }
+    CHECK(taken > 1000);
   }
-  CHECK(taken > 1000);
+}
+
+TEST_CASE("dialect: a line of numbers with decimal commas is split before its end is known",
+          "[text]") {
+  Dialect dialect;
+  REQUIRE(dialect.choose("0,5;1;x"));
+  dialect.want(0);
+  CHECK(plain_fields(dialect, "1,5;2,5e3;x\r\n4,5", 11) == "<1.5|1.5><2.5e3|nan><x|nan>");
+  CHECK(plain_fields(dialect, "\"1,5\";3;\"x\"\n", 11) == "<1.5|1.5><3|nan><x|nan>");
+  CHECK_FALSE(dialect.as_it_stands());
+  for (const char* odd : {"1.5;2;x\n", "1,5;2,5;x,y\n", "1,2,5;2;x\n", "1,5;2;x"})
+    CHECK(plain_fields(dialect, odd, 0) == "?");
 }
