@@ -2,11 +2,13 @@
 
 #include "base/error.h"
 #include "base/median.h"
+#include "contact/contact.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace rolling {
@@ -151,6 +153,34 @@ std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions
   return best;
 }
 
+/// The start where a body speeds up on its slope, which no roll on a level mat resembles: the
+/// constant acceleration between the means of the thirds of each run, and so b = 0.
+std::optional<Candidate> of_constant_acceleration(const std::vector<Thinned>& thin) {
+  Candidate start{0, {0, 0}, {}, {}};
+  bool speeds_up = false;
+  for (const auto& [run, v0_scale] : thin) {
+    const std::size_t n = run.t.size();
+    if (n < 6 || run.body.slope == 0) return {};
+    const ObservedRun third = means(run, {0, n / 3, 2 * n / 3, n});
+    const auto& t = third.t;
+    const auto& y = third.y;
+    const bool position = run.raw_is_position;
+    const double rise = run.way * (y[1] - y[0]) / (t[1] - t[0]),
+                 next = run.way * (y[2] - y[1]) / (t[2] - t[1]),
+                 a = position ? 2 * (next - rise) / (t[2] - t[0]) : (rise + next) / 2,
+                 v0 = position ? rise - a * (t[0] + t[1]) / 2 : run.way * y[0] - a * t[0];
+    Body body = run.body;
+    body.slope *= run.way;
+    const double least = 1e-3 * body.R * std::abs(body.slope),
+                 D = shift_from_acceleration(body, Geometry::approximate, a);
+    start.law.a += std::max(D, least) / static_cast<double>(thin.size());
+    start.v0.push_back(std::max(v0, 0.05 * v0_scale));
+    start.x0.push_back(position ? y[0] - run.way * (v0 + a * t[0] / 2) * t[0] : 0);
+    speeds_up |= a > 0;
+  }
+  return speeds_up ? std::optional(std::move(start)) : std::nullopt;
+}
+
 System unweighted(std::vector<ObservedRun> runs, const Parameters& q) {
   return system_of(std::make_shared<const RollModel>(std::move(runs), q),
                    std::make_shared<const Noise>());
@@ -190,6 +220,7 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
   // The three best starting points lead to minima of the thinned runs; the best of these is taken.
   auto candidates = starts(thin, options);
   if (candidates.size() > 3) candidates.resize(3);
+  if (auto start = of_constant_acceleration(thin)) candidates.push_back(std::move(*start));
   const auto theta_of = [&](const Candidate& c) { return q.theta(c.law, c.v0, c.x0); };
   std::vector<double> theta = theta_of(candidates.front());
   if (candidates.size() > 1) {
