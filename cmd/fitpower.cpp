@@ -30,14 +30,11 @@ void set_parameters(const std::string& option, const std::vector<std::string>& s
 }
 
 /// Warns of readings that a logger held: the fit counts each repetition as a new reading. Speeds
-/// that a `##` line calls the differences of positions are none.
+/// that were made of positions are no readings.
 void warn_of_held(Tool& tool, const std::string& name, Route route, const FitRun& run,
                   const std::vector<std::string>& history) {
   const bool position = route == Route::position;
-  const auto of_positions = [](const std::string& line) {
-    return line.starts_with("differentiate x ");
-  };
-  if (!position && std::any_of(history.begin(), history.end(), of_positions)) return;
+  if (!position && speeds_of_positions(history)) return;
   const double held = records_held(position ? run.x : run.v);
   if (held > 1)
     tool.warn(fmt::format(

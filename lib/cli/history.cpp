@@ -177,6 +177,13 @@ History history_of(const std::vector<std::string>& lines, std::span<const double
   return history;
 }
 
+bool speeds_of_positions(const std::vector<std::string>& lines) {
+  return std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
+    const auto words = split_names(line, '\0');
+    return words.size() > 1 && words[0] == "differentiate" && words[1] == "x";
+  });
+}
+
 namespace {
 
 /// The column of a run that corresponds to a column of the chain; for D, the acceleration from

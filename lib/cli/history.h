@@ -25,6 +25,9 @@ struct History {
 /// the tool writes is not trusted.
 History history_of(const std::vector<std::string>& lines, std::span<const double> t);
 
+/// True if one of the lines says that the speeds are differences of positions.
+bool speeds_of_positions(const std::vector<std::string>& lines);
+
 /// Compares the output of the last filter with the columns of the run, if the run has both its
 /// input and its output. If they differ only at an end, records were removed there after the
 /// filters; the records whose windows may have reached beyond that end are then left out, too. If

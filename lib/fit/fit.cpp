@@ -252,21 +252,22 @@ FitResult result_of(const Fitted& found, const NoiseErrors& noise, std::vector<E
 }
 
 /// Throws Error if the data do not determine a, b or the slope.
-void require_determined(const FitResult& result, bool with_slope) {
+void require_determined(const FitResult& result, const FitOptions& options) {
   for (double x : {result.a, result.b})
     if (!std::isfinite(x)) fail("the fit gives no finite a and b");
   if (result.errors != Errors::none)
     for (double x : {result.sigma_a, result.sigma_b, result.corr, result.rms})
       if (!std::isfinite(x)) fail("the fit gives no finite errors of a and b");
   // Large errors of a nonlinear fit are not reliable themselves; hence these limits on them.
-  if (with_slope && (!(result.sigma_a < result.a / 10) || !(result.sigma_b < 0.1)))
+  if (options.fit_slope && (!(result.sigma_a < result.a / 10) || !(result.sigma_b < 0.1)))
     fail(
-        "a slope of the mat and its law slow the body down alike, and these runs do not tell "
-        "them "
+        "a slope of the mat and its law slow the body down alike, and these runs do not tell them "
         "apart (a comes out as {:.3g} +- {:.2g}): add runs in the other direction",
         result.a, result.sigma_a);
   if (result.sigma_b > 3)
     fail("the data do not determine b: it comes out as {:.3g} +- {:.2g}", result.b, result.sigma_b);
+  if (result.errors == Errors::none && !options.b && std::abs(result.b) > 10)
+    fail("as many parameters as records do not determine b: it comes out as {:.3g}", result.b);
 }
 
 }  // namespace
@@ -278,7 +279,7 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
   const auto eccentricity = eccentricity_of(route, runs, found, uncertainty.variance);
   const auto agreement = agreement_of(route, runs, options, noise, found);
   std::vector<ErrorShare> shares{noise.share};
-  require_determined(result_of(found, noise, shares), options.fit_slope);
+  require_determined(result_of(found, noise, shares), options);
   for (ErrorShare& share : shares_of_given(route, runs, options, found))
     shares.push_back(std::move(share));
   if (found.bias_a != 0 || found.bias_b != 0)

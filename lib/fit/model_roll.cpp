@@ -30,7 +30,6 @@ FilterMatrix filters_of_rows(const Response& response, Route route, const Rows& 
 /// The direction of motion, +1 or -1. All records (x or v) contribute, so that a few false echoes
 /// do not decide.
 double way_of(bool position, const std::vector<double>& records, const FitOptions& options) {
-  if (options.v0) return *options.v0 < 0 ? -1 : 1;
   const auto sum = [](auto begin, auto end) { return std::accumulate(begin, end, 0.0); };
   const double all = sum(records.begin(), records.end());
   if (!position) return all < 0 ? -1 : 1;
@@ -99,6 +98,9 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
           r + 1);
     seen.y = taken(route == Route::position ? run.x : run.v, rows[r]);
     seen.way = way_of(route == Route::position, seen.y, options);
+    if (options.v0 && seen.way * *options.v0 < 0)
+      fail("v0 = {} cannot be held: run {} rolls towards {} x", *options.v0, r + 1,
+           seen.way > 0 ? "growing" : "falling");
     if (route == Route::shift) {
       const ShiftOf& by = *run.shift_of;
       seen.body = by.body;
