@@ -81,10 +81,10 @@ class Records {
   System rolls(const Law& law, const std::vector<ObservedRun>& runs) const {
     std::vector<std::size_t> sizes;
     for (const ObservedRun& run : runs) sizes.push_back(run.y.size());
-    return {std::move(sizes), own(), shared(law),
-            [this, &law, &runs](const std::vector<double>& theta, const TakeRows& take) {
+    const auto all = [this, &law, &runs](const std::vector<double>& theta, const TakeRows& take) {
       for (std::size_t r = 0; r < runs.size(); ++r) roll(law, runs[r], r, theta, take);
-            }};
+    };
+    return {std::move(sizes), own(), shared(law), all};
   }
 
   void roll(const Law& law, const ObservedRun& run, std::size_t r, const std::vector<double>& theta,
@@ -96,7 +96,7 @@ class Records {
                  q.v0(theta, r));
     const std::size_t coefficients = law.coefficients.size();
     const bool x = run.raw_is_position;
-    const RawModel raw = [&](double t, double* to, std::size_t stride) {
+    const auto raw = [&](double t, double* to, std::size_t stride) {
       const LawRoll::Point p = roll.at(t);
       const auto& by_c = x ? p.x_c : p.v_c;
       to = q.chain_own(to, stride, run.way * (x ? p.x_v0 : p.v_v0), 1);
