@@ -6,7 +6,7 @@
 #include "cli/quantities.h"
 #include "cli/tool.h"
 #include "contact/balance.h"
-#include "signal/smoother.h"
+#include "contact/uncertain_number.h"
 #include "text/filter.h"
 
 using namespace rolling;
@@ -64,34 +64,17 @@ struct Law {
   std::string words() const { return table ? "table" : fmt::format("a {} b {}", power.a, power.b); }
 };
 
-/// True if, by the `##` lines, D was computed from the derivative of the v in the file: the balance
-/// then compares v with itself.
-bool differenced_from_v(const std::vector<std::string>& history) {
-  constexpr std::string_view smoothed = "smooth v ";
-  bool a_of_v = false, D_of_v = false;
-  for (const std::string& line : history) {
-    if (line.starts_with("differentiate v ")) a_of_v = true;
-    if (line.starts_with("shift-from-accel ")) D_of_v = a_of_v;
-    if (line.starts_with(smoothed) &&
-        signal_options(smoothing_methods, line.substr(smoothed.size())))
-      a_of_v = D_of_v = false;  // v has been replaced since
-  }
-  return D_of_v;
-}
-
 /// "K 0.6 (here 0.5)": the numbers of the body that D was computed with, by the `##` line of
 /// shift-from-accel, where the balance has others.
 std::string other_body(const std::vector<std::string>& history, const Body& body) {
   std::string others;
-  const auto compare = [&](const char* name, double then, double now) {
+  const auto shift_of = history_of(history, {}).shift_of;
+  if (!shift_of) return others;
+  for (const UncertainNumber& number : uncertain_numbers) {
+    const double then = shift_of->body.*number.value, now = body.*number.value;
     if (then != now)
-      others += fmt::format("{}{} {} (here {})", others.empty() ? "" : ", ", name, then, now);
-  };
-  if (const auto shift_of = history_of(history, {}).shift_of) {
-    compare("K", shift_of->body.K, body.K);
-    compare("R", shift_of->body.R, body.R);
-    compare("g", shift_of->body.g, body.g);
-    compare("slope", shift_of->body.slope, body.slope);
+      others +=
+          fmt::format("{}{} {} (here {})", others.empty() ? "" : ", ", number.name, then, now);
   }
   return others;
 }
@@ -110,7 +93,7 @@ class Accounts {
 
   /// Begins the balance of a run.
   Balance open() {
-    tests_nothing_ |= balance_is_shown_ && !law_ && differenced_from_v(in_.history());
+    tests_nothing_ |= balance_is_shown_ && !law_ && shifts_of_speeds(in_.history());
     if (const auto others = law_ ? "" : other_body(in_.history(), body_);
         !others.empty() && other_body_.empty())
       other_body_ = fmt::format("run {}: D was computed with {}", in_.run_name(), others);

@@ -51,12 +51,14 @@ struct Runs {
 /// The columns that are read: those that the route fits, or those of the other routes too.
 enum class Columns { of_route, of_all_routes };
 
+std::vector<double> FitRun::*column_of(std::string_view name) {
+  return name == "x" ? &FitRun::x : name == "v" ? &FitRun::v : &FitRun::D;
+}
+
 /// Warns of a record that was given twice: in a joint fit it makes the errors too small. Fewer than
 /// ten readings may be equal by chance.
 void warn_of_copies(Tool& tool, Route route, const Runs& all) {
-  const auto y = route == Route::position   ? &FitRun::x
-                 : route == Route::velocity ? &FitRun::v
-                                            : &FitRun::D;
+  const auto y = column_of(columns_of(route).back());
   const auto less = [&](std::size_t i, std::size_t j) { return all.runs[i].*y < all.runs[j].*y; };
   std::set<std::size_t, decltype(less)> different(less);
   std::string copy;
@@ -81,13 +83,10 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns co
     std::vector<double> FitRun::*column;
   };
   std::vector<Needed> needed;
-  const auto column_of = [](std::string_view name) {
-    return name == "x" ? &FitRun::x : name == "v" ? &FitRun::v : &FitRun::D;
-  };
   const auto names = columns_of(route);
   for (const std::string& name : names)
     if (name != "t") needed.push_back({in.need(name), column_of(name)});
-  bool timed = names.front() == "t" || (all_columns && in.find("t"));
+  bool timed = is_trajectory(route) || (all_columns && in.find("t"));
   if (timed) needed.push_back({in.need_time(), &FitRun::t});
   // The columns of the other routes; and x, with which the speeds are compared if a `##` line says
   // that they are differences.

@@ -62,10 +62,8 @@ void report_route(Tool& tool, const std::string& name, Route route, const std::v
   for (const FitRun& run : runs)
     for (const std::string& needed : columns_of(route))
       if (column(run, needed).empty()) fail("there is no column {}", needed);
-  if (columns_of(route).front() == "t" && std::isnan(runs.front().body.R))
-    fail("--radius is not given");
-  if (columns_of(route).front() == "t" && std::isnan(runs.front().body.K))
-    fail("--shape-factor is not given");
+  if (is_trajectory(route) && std::isnan(runs.front().body.R)) fail("--radius is not given");
+  if (is_trajectory(route) && std::isnan(runs.front().body.K)) fail("--shape-factor is not given");
   const auto begin = std::chrono::steady_clock::now();
   const FitResult r = fit(route, runs, options);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;

@@ -178,10 +178,21 @@ History history_of(const std::vector<std::string>& lines, std::span<const double
 }
 
 bool speeds_of_positions(const std::vector<std::string>& lines) {
-  return std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
-    const auto words = split_names(line, '\0');
-    return words.size() > 1 && words[0] == "differentiate" && words[1] == "x";
-  });
+  return std::ranges::any_of(
+      lines, [](const std::string& line) { return line.starts_with("differentiate x "); });
+}
+
+bool shifts_of_speeds(const std::vector<std::string>& lines) {
+  constexpr std::string_view smoothed = "smooth v ";
+  bool a_of_v = false, D_of_v = false;
+  for (const std::string& line : lines) {
+    if (line.starts_with("differentiate v ")) a_of_v = true;
+    if (line.starts_with("shift-from-accel ")) D_of_v = a_of_v;
+    if (line.starts_with(smoothed) &&
+        signal_options(smoothing_methods, line.substr(smoothed.size())))
+      a_of_v = D_of_v = false;  // v has been replaced since
+  }
+  return D_of_v;
 }
 
 namespace {

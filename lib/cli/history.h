@@ -28,6 +28,9 @@ History history_of(const std::vector<std::string>& lines, std::span<const double
 /// True if one of the lines says that the speeds are differences of positions.
 bool speeds_of_positions(const std::vector<std::string>& lines);
 
+/// True if, by the lines, D was computed from the derivative of the speeds in the file.
+bool shifts_of_speeds(const std::vector<std::string>& lines);
+
 /// Compares the output of the last filter with the columns of the run, if the run has both its
 /// input and its output. If they differ only at an end, records were removed there after the
 /// filters; the records whose windows may have reached beyond that end are then left out, too. If
