@@ -10,8 +10,8 @@
 #include "base/error.h"
 #include "contact/contact.h"
 #include "contact/uncertain_number.h"
-#include "fit/by_run.h"
-#include "fit/dot.h"
+#include "base/by_run.h"
+#include "base/dot.h"
 
 namespace rolling {
 

@@ -3,7 +3,7 @@
 
 #include "base/estimate.h"
 #include "contact/body.h"
-#include "fit/filter.h"
+#include "noise/filter.h"
 
 #include <optional>
 #include <string>

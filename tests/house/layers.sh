@@ -11,9 +11,11 @@ declare -A may=(
   [ode]='base'
   [contact]='base'
   [motion]='base ode contact'
-  [fit]='base contact motion'
+  [noise]='base'
+  [least_squares]='base'
+  [fit]='base contact motion noise least_squares'
   [sensor]='base motion'
-  [cli]='base text contact signal fit'  # signal and fit: what a `##` line says becomes a filter of the fit
+  [cli]='base text contact signal noise fit'  # signal and noise: what a `##` line says becomes a filter of the noise
 )
 wrong=0 files=0
 complain() { echo "$*" && wrong=1; }
