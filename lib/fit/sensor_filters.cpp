@@ -15,7 +15,6 @@ namespace {
 /// The unweighted residuals of a run, their Jacobian, and the covariance of their noise.
 struct Linear {
   Covariance noise;
-  double norm;                  // norm of the median row of H
   std::vector<double> columns;  // f of the whole run, then the columns of J
 };
 
@@ -24,10 +23,8 @@ std::vector<Linear> linear_around(const std::vector<double>& theta, const System
   std::vector<Linear> runs;
   std::vector<double*> next;  // place of the next f of each run
   for (const ObservedRun& run : model.runs()) {
-    Covariance noise(*run.H);
-    const double norm = noise.median_norm();
     runs.push_back(
-        {std::move(noise), norm, std::vector<double>(run.y.size() * (1 + system.columns()))});
+        {Covariance(*run.H), std::vector<double>(run.y.size() * (1 + system.columns()))});
     next.push_back(runs.back().columns.data());
   }
   system.evaluate(theta, [&](std::size_t r, std::span<double> f, std::span<double> J) {
@@ -50,7 +47,7 @@ WhiteShare most_likely_share(const std::shared_ptr<const RollModel>& model,
     double log_size = 0;
     system.evaluate = [&](const std::vector<double>&, const TakeRows& take) {
       for (std::size_t r = 0; r < runs.size(); ++r) {
-        const Whitener whitener(runs[r].noise, std::exp(log_share) * runs[r].norm);
+        const Whitener whitener(runs[r].noise, std::exp(log_share));
         log_size += whitener.log_size();
         std::vector<double> columns = runs[r].columns;
         whitener.apply(columns);

@@ -221,18 +221,21 @@ TEST_CASE("history: records cut off the ends after the filters are noticed by th
   CHECK((begin.filters[3].cut_begin && !begin.filters[3].cut_end));
   CHECK(begin.left_out == 3);
   CHECK(head.t == std::vector(whole.t.begin() + 8, whole.t.end()));
-  FitRun hole = whole, other = whole;
+  FitRun hole = whole, other = whole, scaled = whole;
   for (auto column : {&FitRun::t, &FitRun::v, &FitRun::D})
     (hole.*column).erase((hole.*column).begin() + 20, (hole.*column).begin() + 25);
   for (double& D : other.D) D *= 1.2;
-  for (FitRun run : {hole, other}) {
+  for (double& D : scaled.D) D *= 1.0001;
+  for (FitRun run : {hole, other, scaled}) {
     const History history = compared(claimed(run), run);
     CHECK(history.filters.empty());
     CHECK(history.doubt == "the columns are not what the `##` lines say");
   }
-  FitRun rounded = whole;
-  for (double& D : rounded.D) D = 1e-6 * std::round(1e6 * D);
-  CHECK(compared(claimed(rounded), rounded).filters.size() == 3);
+  for (const double unit : {1e-7, 1e-6, 1e-5}) {
+    FitRun rounded = whole;
+    for (double& D : rounded.D) D = unit * std::round(D / unit);
+    CHECK(compared(claimed(rounded), rounded).filters.size() == 3);
+  }
 }
 
 // What must never happen is a crash or a run without end: whatever the lines say, a fit answers or
