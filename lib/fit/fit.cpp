@@ -29,25 +29,39 @@ Minimum solve(const System& system, const std::vector<double>& start, const FitO
 
 namespace {
 
-/// The runs without filters, for a first guess: positions for the position route, speeds for the
-/// velocity and shift routes.
-std::vector<ObservedRun> without_filters(Route route, std::vector<ObservedRun> runs,
-                                         const std::vector<FitRun>& all,
-                                         const std::vector<Rows>& rows) {
-  const bool position = route == Route::position;
+/// The first guess for filtered runs is that for the same columns without filters. Speeds that were
+/// made of positions are integrated, since their noise cancels in the integral.
+FirstGuess guess_without_filters(Route route, std::vector<ObservedRun> runs,
+                                 const std::vector<FitRun>& all, const std::vector<Rows>& rows,
+                                 FitOptions options) {
+  const bool integrated =
+      route != Route::position && std::ranges::all_of(runs, &ObservedRun::raw_is_position);
+  if (integrated) options.x0 = {};
   for (std::size_t r = 0; r < runs.size(); ++r) {
     ObservedRun& run = runs[r];
     run.H.reset();
     run.shifts.reset();
-    run.raw_is_position = position;
+    run.raw_is_position = route == Route::position || integrated;
     run.t.clear();
-    run.y.clear();
-    for (std::size_t i : rows[r]) {
-      run.t.push_back(all[r].t[i] - run.origin);
-      run.y.push_back(position ? all[r].x[i] : all[r].v[i]);
+    for (std::size_t i : rows[r]) run.t.push_back(all[r].t[i] - run.origin);
+    if (!integrated) continue;
+    double x = 0, before = run.y[0];
+    for (std::size_t i = 0; i < run.y.size(); ++i) {
+      const double v = run.y[i];
+      if (i > 0) x += (before + v) / 2 * (run.t[i] - run.t[i - 1]);
+      before = v;
+      run.y[i] = x;
     }
   }
-  return runs;
+  FirstGuess guess = first_guess(runs, options);
+  if (!integrated) return guess;
+  const Parameters& q = guess.parameters;
+  std::vector<double> v0;
+  for (std::size_t r = 0; r < runs.size(); ++r) v0.push_back(q.v0(guess.theta, r));
+  FirstGuess of_speeds{q.without_x0(), {}};
+  of_speeds.theta = of_speeds.parameters.theta(q.law(guess.theta), v0, {});
+  if (options.fit_slope) of_speeds.theta.back() = guess.theta.back();
+  return of_speeds;
 }
 
 /// Removes from `rows` the records whose fitted speed is below the limit; returns whether there
@@ -139,14 +153,17 @@ bool rounded(const Fitted& fit) {
 }
 
 /// Columns that were rounded after a filter hold additional white noise. Its share is estimated by
-/// restricted likelihood, and the fit is repeated with the new weights.
+/// restricted likelihood, and the fit is repeated with the new weights. In few records the
+/// residuals may be large by chance: there the likelihood decides.
 void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   if (!rounded(fit)) return;
+  const bool many = std::ranges::max(fit.system.runs) > searched_for_white_noise;
   fit.system = {}, fit.noise = {};  // frees memory: these are large, and the search needs as much
   const WhiteShare found = most_likely_share(fit.rolls, fit.minimum.theta, 1e-7, 1, 0);
-  fit.noise = noise_of(fit.rolls->runs(), found.decisive() ? found.share : 0, false);
+  const bool adopted = many || found.decisive();
+  fit.noise = noise_of(fit.rolls->runs(), adopted ? found.share : 0, false);
   fit.system = system_of(fit.rolls, fit.noise);
-  if (found.decisive()) fit.minimum = solve(fit.system, fit.minimum.theta, options);
+  if (adopted) fit.minimum = solve(fit.system, fit.minimum.theta, options);
 }
 
 }  // namespace
@@ -174,7 +191,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       for (const ObservedRun& run : runs) n += run.y.size();
       require_records(n, Parameters(options, route == Route::position, runs.size(), 1, 1).count());
       guess = responses.empty() ? first_guess(runs, options)
-                                : first_guess(without_filters(route, runs, all, rows), options);
+                                : guess_without_filters(route, runs, all, rows, options);
     }
     if (options.min_speed <= 0) responses = {}, rows.clear();  // frees memory: no round follows
     fit = {};                                                  // frees memory
