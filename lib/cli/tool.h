@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -109,6 +110,10 @@ class Tool {
   bool has(const std::string& option) const { return options_.contains(option); }
   /// True if the option with this long name is on the command line (not only in the scene).
   bool on_command_line(std::string_view option) const { return command_line_.given(option); }
+  /// True if it has a value from the command line or from the scene.
+  bool given(const std::string& option) const {
+    return on_command_line(option) || in_scene_.contains(option);
+  }
 
   Output out;
   Progress progress;  ///< Readers update it; a tool does for longer computations of its own
@@ -138,6 +143,7 @@ class Tool {
   CommandLine command_line_;
   std::map<std::string, Option> options_;  // by long name
   ReaderOptions input_;
+  std::set<std::string> in_scene_;  // the keys of the scene that are options of this tool
   std::string scene_file_;
   bool quiet_ = false;
   bool standard_input_taken_ = false;  // a Reader reads it; a second one cannot

@@ -270,9 +270,7 @@ void require_determined(const FitResult& result, const FitOptions& options) {
     fail("as many parameters as records do not determine b: it comes out as {:.3g}", result.b);
 }
 
-}  // namespace
-
-FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   Fitted found = fit_route(route, runs, options);
   const Uncertainty uncertainty = uncertainty_of(found);
   NoiseErrors noise = noise_errors(found, uncertainty);
@@ -290,6 +288,20 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
   result.agreement = agreement;
   result.eccentricity = eccentricity;
   return result;
+}
+
+}  // namespace
+
+FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+  if (!options.start_a && !options.start_b) return fit_from_start(route, runs, options);
+  try {
+    return fit_from_start(route, runs, options);
+  } catch (const Error&) {  // of the data, or of the start alone
+    FitOptions free = options;
+    free.start_a = free.start_b = {};
+    fit_from_start(route, runs, free);
+    fail("the search does not find the fit from the start that is given, but it does without it");
+  }
 }
 
 bool noise_is_correlated(const FitResult& r) {

@@ -34,6 +34,7 @@ struct FitRun {
   std::optional<ShiftOf> shift_of = {};
   BodyUncertainty given = {};  ///< the standard uncertainties of `body`; runs that give the same
                                ///< number with the same uncertainty share its error
+  std::string name = {};       ///< for messages
 };
 
 enum class Route { loglog, shift, velocity, position };

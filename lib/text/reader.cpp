@@ -48,13 +48,25 @@ Reader::~Reader() = default;
 
 std::optional<std::size_t> Reader::find(std::string_view name) const {
   const auto use = use_.find(read_column(name).name);
-  if (use == use_.end()) return find_column(name);
+  if (use == use_.end()) {
+    const auto at = find_column(name);
+    const bool known = !si_unit(read_column(name).name).empty();
+    if (!at || !known || quantity_of(*at) == layout().columns[*at].name) return at;
+    return {};
+  }
   const std::string& column = use->second.column;
   const auto at = find_column(column);
   if (!at)
     fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", head_here(), use->first,
                      shown(column), shown(column), column_list());
   return at;
+}
+
+/// What a column serves as: by --use, else its own name.
+const std::string& Reader::quantity_of(std::size_t column) const {
+  for (const auto& [quantity, use] : use_)
+    if (find_column(use.column) == column) return quantity;
+  return layout().columns[column].name;
 }
 
 std::optional<std::size_t> Reader::find_column(std::string_view name) const {
@@ -88,7 +100,10 @@ std::string Reader::column_list() const {
 }
 
 std::size_t Reader::require(std::string_view name) const {
-  const auto column = find(name);
+  const auto column = find(name), of_name = column ? column : find_column(name);
+  if (!column && of_name)
+    fail<InputError>("{}: column {} cannot serve as both {} and {}", head_here(), *of_name + 1,
+                     quantity_of(*of_name), name);
   if (!column)
     fail<InputError>("{}: there is no column '{}' among {}{}", head_here(), shown(name),
                      column_list(),
@@ -120,7 +135,7 @@ void Reader::resolve(Needed& needed) {
   const bool first = needed.quantity.empty();
   const Column read = column_as_read(*found, needed.quantity);
   // A column that is requested by its number serves as the quantity of its own name.
-  const std::string quantity = is_column_number(needed.name) ? read.name
+  const std::string quantity = is_column_number(needed.name) ? quantity_of(*found)
                                : needed.kind == Kind::as_is  ? needed.name
                                                              : read_column(needed.name).name;
   if (first) needed.quantity = quantity, needed.unit = read.unit;
@@ -142,6 +157,12 @@ void Reader::resolve(Needed& needed) {
 
 /// Finds all needed columns in the present run.
 void Reader::resolve() {
+  for (auto one = use_.begin(); one != use_.end(); ++one)
+    for (auto other = use_.begin(); other != one; ++other)
+      if (const auto at = find_column(one->second.column);
+          at && at == find_column(other->second.column))
+        fail<InputError>("{}: --use: column {} cannot serve as both {} and {}", head_here(),
+                         *at + 1, other->first, one->first);
   converts_ = false;
   dialect_->want_none();
   for (Needed& needed : needed_) resolve(needed);

@@ -128,6 +128,7 @@ class Reader {
   void resolve(Needed&);
   void name_columns();
   std::optional<std::size_t> find_column(std::string_view name) const;
+  const std::string& quantity_of(std::size_t column) const;
   std::size_t require(std::string_view name) const;
   Column column_as_read(std::size_t column, const std::string& quantity) const;
   std::string column_list() const;
