@@ -6,7 +6,6 @@
 #include "cli/quantities.h"
 #include "cli/tool.h"
 #include "contact/balance.h"
-#include "contact/uncertain_number.h"
 #include "text/filter.h"
 
 using namespace rolling;
@@ -64,21 +63,6 @@ struct Law {
   std::string words() const { return table ? "table" : fmt::format("a {} b {}", power.a, power.b); }
 };
 
-/// "K 0.6 (here 0.5)": the numbers of the body that D was computed with, by the `##` line of
-/// shift-from-accel, where the balance has others.
-std::string other_body(const std::vector<std::string>& history, const Body& body) {
-  std::string others;
-  const auto shift_of = history_of(history, {}).shift_of;
-  if (!shift_of) return others;
-  for (const UncertainNumber& number : uncertain_numbers) {
-    const double then = shift_of->body.*number.value, now = body.*number.value;
-    if (then != now)
-      others +=
-          fmt::format("{}{} {} (here {})", others.empty() ? "" : ", ", number.name, then, now);
-  }
-  return others;
-}
-
 /// What is printed: the records with their energies, or --summary.
 enum class Form { records, summary };
 
@@ -94,7 +78,8 @@ class Accounts {
   /// Begins the balance of a run.
   Balance open() {
     tests_nothing_ |= balance_is_shown_ && !law_ && shifts_of_speeds(in_.history());
-    if (const auto others = law_ ? "" : other_body(in_.history(), body_);
+    const auto shift_of = history_of(in_.history(), {}).shift_of;
+    if (const auto others = law_ ? "" : other_body(shift_of, body_);
         !others.empty() && other_body_.empty())
       other_body_ = fmt::format("run {}: D was computed with {}", in_.run_name(), others);
     return Balance(body_);

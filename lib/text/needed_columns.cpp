@@ -59,13 +59,25 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, std::stri
 
 std::optional<std::size_t> NeededColumns::find(std::string_view name) const {
   const auto use = use_.find(read_column(name).name);
-  if (use == use_.end()) return find_column(name);
+  if (use == use_.end()) {
+    const auto at = find_column(name);
+    const bool known = !si_unit(read_column(name).name).empty();
+    if (!at || !known || quantity_of(*at) == as_read_[*at].name) return at;
+    return {};
+  }
   const std::string& column = use->second.column;
   const auto at = find_column(column);
   if (!at)
     fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", place_, use->first,
                      shown(column), shown(column), list());
   return at;
+}
+
+/// What a column serves as: by --use, else its own name.
+const std::string& NeededColumns::quantity_of(std::size_t column) const {
+  for (const auto& [quantity, use] : use_)
+    if (find_column(use.column) == column) return quantity;
+  return as_read_[column].name;
 }
 
 std::optional<std::size_t> NeededColumns::find_column(std::string_view name) const {
@@ -97,7 +109,10 @@ std::string NeededColumns::list() const {
 }
 
 std::size_t NeededColumns::require(std::string_view name) const {
-  const auto column = find(name);
+  const auto column = find(name), of_name = column ? column : find_column(name);
+  if (!column && of_name)
+    fail<InputError>("{}: column {} cannot serve as both {} and {}", place_, *of_name + 1,
+                     quantity_of(*of_name), name);
   if (!column)
     fail<InputError>("{}: there is no column '{}' among {}{}", place_, shown(name), list(),
                      has_use_ && !si_unit(read_column(name).name).empty()
@@ -127,7 +142,7 @@ void NeededColumns::resolve(Needed& needed) const {
   const bool first = needed.quantity.empty();
   const Column read = with_unit(*found, needed.quantity);
   // A column that is requested by its number serves as the quantity of its own name.
-  const std::string quantity = is_column_number(needed.name) ? read.name
+  const std::string quantity = is_column_number(needed.name) ? quantity_of(*found)
                                : needed.kind == Kind::as_is  ? needed.name
                                                              : read_column(needed.name).name;
   if (first) needed.quantity = quantity, needed.unit = read.unit;
@@ -148,6 +163,12 @@ void NeededColumns::resolve(Needed& needed) const {
 }
 
 void NeededColumns::resolve() {
+  for (auto one = use_.begin(); one != use_.end(); ++one)
+    for (auto other = use_.begin(); other != one; ++other)
+      if (const auto at = find_column(one->second.column);
+          at && at == find_column(other->second.column))
+        fail<InputError>("{}: --use: column {} cannot serve as both {} and {}", place_, *at + 1,
+                         other->first, one->first);
   converts_ = false;
   for (Needed& needed : needed_) resolve(needed);
   for (const Needed& needed : needed_) {

@@ -62,6 +62,7 @@ class NeededColumns {
     std::string column, unit;
   };
   std::optional<std::size_t> find_column(std::string_view name) const;
+  const std::string& quantity_of(std::size_t column) const;
   std::size_t require(std::string_view name) const;
   Column with_unit(std::size_t column, const std::string& quantity) const;
   std::string list() const;
