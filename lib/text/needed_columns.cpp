@@ -54,30 +54,31 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, std::stri
   as_read_ = std::move(as_read);
   named_ = named;
   place_ = std::move(place);
+  quantities_.clear();
+  for (const Column& column : as_read_) quantities_.push_back(column.name);
+  for (const auto& [quantity, use] : use_)
+    if (const auto at = find_column(use.column)) quantities_[*at] = quantity;
+  for (const auto& [quantity, use] : use_)
+    if (const auto at = find_column(use.column); at && quantities_[*at] != quantity)
+      fail<InputError>("{}: --use: column {} cannot serve as both {} and {}", place_, *at + 1,
+                       quantity, quantities_[*at]);
   resolve();
 }
 
 std::optional<std::size_t> NeededColumns::find(std::string_view name) const {
-  const auto use = use_.find(read_column(name).name);
-  if (use == use_.end()) {
-    const auto at = find_column(name);
-    const bool known = !si_unit(read_column(name).name).empty();
-    if (!at || !known || quantity_of(*at) == as_read_[*at].name) return at;
-    return {};
+  const std::string quantity = read_column(name).name;
+  if (const auto use = use_.find(quantity); use != use_.end()) {
+    const std::string& column = use->second.column;
+    const auto at = find_column(column);
+    if (!at)
+      fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", place_, quantity,
+                       shown(column), shown(column), list());
+    return at;
   }
-  const std::string& column = use->second.column;
-  const auto at = find_column(column);
-  if (!at)
-    fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", place_, use->first,
-                     shown(column), shown(column), list());
+  const auto at = find_column(name);
+  // The column of this name serves as another quantity.
+  if (at && !si_unit(quantity).empty() && quantities_[*at] != quantity) return {};
   return at;
-}
-
-/// What a column serves as: by --use, else its own name.
-const std::string& NeededColumns::quantity_of(std::size_t column) const {
-  for (const auto& [quantity, use] : use_)
-    if (find_column(use.column) == column) return quantity;
-  return as_read_[column].name;
 }
 
 std::optional<std::size_t> NeededColumns::find_column(std::string_view name) const {
@@ -112,7 +113,7 @@ std::size_t NeededColumns::require(std::string_view name) const {
   const auto column = find(name), of_name = column ? column : find_column(name);
   if (!column && of_name)
     fail<InputError>("{}: column {} cannot serve as both {} and {}", place_, *of_name + 1,
-                     quantity_of(*of_name), name);
+                     quantities_[*of_name], name);
   if (!column)
     fail<InputError>("{}: there is no column '{}' among {}{}", place_, shown(name), list(),
                      has_use_ && !si_unit(read_column(name).name).empty()
@@ -141,10 +142,7 @@ void NeededColumns::resolve(Needed& needed) const {
   if (!found) return;
   const bool first = needed.quantity.empty();
   const Column read = with_unit(*found, needed.quantity);
-  // A column that is requested by its number serves as the quantity of its own name.
-  const std::string quantity = is_column_number(needed.name) ? quantity_of(*found)
-                               : needed.kind == Kind::as_is  ? needed.name
-                                                             : read_column(needed.name).name;
+  const std::string& quantity = quantities_[*found];
   if (first) needed.quantity = quantity, needed.unit = read.unit;
   if (quantity != needed.quantity)
     fail<InputError>("{}: column {} is {}, and {} in the runs before", place_, *found + 1,
@@ -163,21 +161,10 @@ void NeededColumns::resolve(Needed& needed) const {
 }
 
 void NeededColumns::resolve() {
-  for (auto one = use_.begin(); one != use_.end(); ++one)
-    for (auto other = use_.begin(); other != one; ++other)
-      if (const auto at = find_column(one->second.column);
-          at && at == find_column(other->second.column))
-        fail<InputError>("{}: --use: column {} cannot serve as both {} and {}", place_, *at + 1,
-                         other->first, one->first);
   converts_ = false;
-  for (Needed& needed : needed_) resolve(needed);
-  for (const Needed& needed : needed_) {
+  for (Needed& needed : needed_) {
+    resolve(needed);
     converts_ |= needed.to_si.changes();
-    if (needed.column == no_column) continue;
-    for (const Needed& other : needed_)
-      if (&other != &needed && other.column == needed.column && other.quantity != needed.quantity)
-        fail<InputError>("{}: column {} cannot serve as both {} and {}", place_, needed.column + 1,
-                         other.quantity, needed.quantity);
   }
   name_columns();
 }

@@ -62,7 +62,6 @@ class NeededColumns {
     std::string column, unit;
   };
   std::optional<std::size_t> find_column(std::string_view name) const;
-  const std::string& quantity_of(std::size_t column) const;
   std::size_t require(std::string_view name) const;
   Column with_unit(std::size_t column, const std::string& quantity) const;
   std::string list() const;
@@ -77,6 +76,7 @@ class NeededColumns {
 
   // The run.
   std::vector<Column> as_read_, in_output_;
+  std::vector<std::string> quantities_;  // what each column serves as: by --use, else its own name
   bool named_ = false;
   std::string place_;
 };
