@@ -5,6 +5,7 @@
 
 #include "cli/fit_report.h"
 #include "cli/history.h"
+#include "fit/fit.h"
 #include "signal/repeats.h"
 #include "text/estimate.h"
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "fit/fit.h"
+
 namespace rolling {
 
 std::map<std::string, std::optional<Route>> fit_routes() {

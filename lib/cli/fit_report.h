@@ -8,6 +8,7 @@
 #include "cli/tool.h"
 #include "fit/beginning.h"
 #include "fit/laws.h"
+#include "fit/result.h"
 
 namespace rolling {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/fit.h"
+#include "fit/input.h"
 
 namespace rolling {
 

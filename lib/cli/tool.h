@@ -1,80 +1,25 @@
-// The frame of every command: options, scene file, input and output, messages, exit status.
+// The frame of every command: its options, input and output, messages, exit status.
 #pragma once
 
-#include <cstdint>
 #include <functional>
-#include <initializer_list>
-#include <limits>
-#include <map>
 #include <memory>
-#include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "base/error.h"
-#include "base/estimate.h"
-#include "cli/command_line.h"
+#include "cli/options.h"
 #include "cli/progress.h"
-#include "contact/body.h"
-#include "contact/power_law.h"
 #include "text/output.h"
 #include "text/reader.h"
 
 namespace rolling {
 
-/// The values that a numeric option accepts.
-struct Range {
-  const char* text;  ///< in the message "must be ...": "greater than 0"
-  bool (*holds)(double);
-};
-inline constexpr Range any_number{"a number", [](double) { return true; }};
-inline constexpr Range positive{"greater than 0", [](double x) { return x > 0; }};
-inline constexpr Range not_negative{"0 or more", [](double x) { return x >= 0; }};
-inline constexpr Range whole{"a whole number from 1 to 1e9", [](double x) {
-                               return x >= 1 && x <= 1e9 &&
-                                      x == static_cast<double>(static_cast<std::int64_t>(x));
-                             }};
-
-inline constexpr Range odd{"an odd whole number from 1 to 1e9", [](double x) {
-                             return whole.holds(x) && static_cast<std::int64_t>(x) % 2 == 1;
-                           }};
-
-inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
-
-/// The options that describe a body; see Tool::body().
-enum class BodyOption { mass, radius, shape_factor, gravity, slope };
-
-class Tool {
+class Tool : public Options {
  public:
   Tool(std::string name, const std::string& purpose);
   ~Tool();
 
-  // Options of one tool. `names` in the notation of CLI11: "-w,--width". Each option may be given
-  // once. Its value must be a number in the syntax of rolling-columns(5) and within the range.
-  void flag(const std::string& names, bool& value, const std::string& help);
-  void number(const std::string& names, double& value, const Range&, const std::string& help);
-  void count(const std::string& names, std::size_t& value, const Range&, const std::string& help);
-  /// One number or several, separated by commas; each may have an uncertainty: 0.5+-0.005,0.83
-  void numbers(const std::string& names, std::vector<Estimate>& values, const Range&,
-               const std::string& help);
-  void text(const std::string& names, std::string& value, const std::string& type,
-            const std::string& help);
-  void list(const std::string& names, std::vector<std::string>& values, const std::string& type,
-            const std::string& help);  ///< may be repeated
-  template <typename T>
-  void choice(const std::string& names, T& value, const std::map<std::string, T>& choices,
-              const std::string& help);
-
-  // Options that tools share.
-  /// The named ones of -m -R -K -g --slope. Before they are read, Body has not_given, 9.81 for g,
-  /// and 0 for the slope. R, K, g and the slope may have an uncertainty (0.5+-0.005), which is
-  /// stored in `uncertainty`, or ignored if that is null.
-  void body(Body&, std::initializer_list<BodyOption>, BodyUncertainty* uncertainty = nullptr);
-  void law(PowerLaw&);       ///< -a -b
-  void geometry(Geometry&);  ///< --exact
-  void scene();              ///< --scene, whose keys are listed in scene.cpp
-  void input();              ///< operands, --use --run --strict
+  // Options of the input and the output.
+  void input();  ///< operands, --use --run --strict
   /// Whether --use says which column this quantity is.
   bool used(const std::string& quantity) const;
   void output();  ///< --digits -u
@@ -103,62 +48,21 @@ class Tool {
   /// alone.
   void check_failed(const std::string& text);
 
-  /// Throws one Error that lists those of these options (long names of number(), numbers(), body()
-  /// and law()) which have a value neither on the command line nor in the scene.
-  void need(const std::vector<std::string>& options) const;
-  /// True if this tool has an option with this long name, given or not.
-  bool has(const std::string& option) const { return options_.contains(option); }
-  /// True if the option with this long name is on the command line (not only in the scene).
-  bool on_command_line(std::string_view option) const { return command_line_.given(option); }
-  /// True if it has a value from the command line or from the scene.
-  bool given(const std::string& option) const {
-    return on_command_line(option) || in_scene_.contains(option);
-  }
-
   Output out;
   Progress progress;  ///< Readers update it; a tool does for longer computations of its own
 
  private:
-  using Set = CommandLine::Set;
-  struct Option {
-    Set set;                        // from text; its error messages do not name the option
-    std::function<bool()> missing;  // for need(); empty for options that have a default
-  };
-
-  void add(const std::string& names, const std::string& type, const std::string& help, Set,
-           std::function<bool()> missing = {});
-  void add_flag(const std::string& names, const std::string& help,
-                const std::function<void(bool)>& set);
-  void estimate(const std::string& names, double& value, double* sigma, const Range&,
-                const std::string& help);
-  void one_of(const std::string& names, const std::vector<std::string>& choices,
-              const std::string& help, const Set& set);
   Reader& open(ReaderOptions, std::vector<std::string> order);
-  void take_scene();
-  void handle_signals();
   int finish(int status);
   int print(const std::string& text);
 
   std::string name_, error_line_;
-  CommandLine command_line_;
-  std::map<std::string, Option> options_;  // by long name
   ReaderOptions input_;
-  std::set<std::string> in_scene_;  // the keys of the scene that are options of this tool
-  std::string scene_file_;
   bool quiet_ = false;
   bool standard_input_taken_ = false;  // a Reader reads it; a second one cannot
   std::string failed_check_;
   std::size_t failed_checks_ = 0;
   std::vector<std::unique_ptr<Reader>> readers_;
 };
-
-template <typename T>
-void Tool::choice(const std::string& names, T& value, const std::map<std::string, T>& choices,
-                  const std::string& help) {
-  std::vector<std::string> all;
-  for (const auto& choice : choices) all.push_back(choice.first);
-  one_of(names, all, help,
-         [&value, choices](const std::string& text) { value = choices.at(text); });
-}
 
 }  // namespace rolling

@@ -8,10 +8,11 @@
 #include <utility>
 
 #include "base/gsl.h"
-#include "fit/by_run.h"
-#include "fit/dot.h"
+#include "base/by_run.h"
+#include "base/dot.h"
 #include "fit/errors.h"
 #include "fit/fitted.h"
+#include "statistics/residuals.h"
 
 namespace rolling {
 namespace {

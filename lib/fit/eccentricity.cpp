@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "contact/contact.h"
-#include "fit/by_run.h"
-#include "fit/triangles.h"
+#include "base/by_run.h"
+#include "least_squares/triangles.h"
 
 namespace rolling {
 namespace {

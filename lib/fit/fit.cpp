@@ -7,8 +7,8 @@
 #include "base/error.h"
 #include "fit/eccentricity.h"
 #include "fit/agreement.h"
-#include "fit/by_run.h"
-#include "fit/dot.h"
+#include "base/by_run.h"
+#include "base/dot.h"
 #include "fit/errors.h"
 #include "fit/first_guess.h"
 #include "fit/log_log_regression.h"
@@ -302,14 +302,6 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
     fit_from_start(route, runs, free);
     fail("the search does not find the fit from the start that is given, but it does without it");
   }
-}
-
-bool noise_is_correlated(const FitResult& r) {
-  return r.errors == Errors::autocorrelation && r.whiteness <= not_white;
-}
-
-bool logarithms_too_low(const FitResult& r) {
-  return r.rms * r.rms / 2 > r.sigma_a / r.a * std::sqrt(1 - r.corr * r.corr) && r.sigma_a > 0;
 }
 
 }  // namespace rolling

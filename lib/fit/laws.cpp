@@ -6,10 +6,11 @@
 #include <utility>
 
 #include "base/error.h"
-#include "fit/by_run.h"
+#include "base/by_run.h"
 #include "fit/errors.h"
 #include "fit/first_guess.h"
 #include "motion/law_roll.h"
+#include "statistics/residuals.h"
 
 namespace rolling {
 namespace {

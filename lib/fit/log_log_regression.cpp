@@ -8,8 +8,8 @@
 #include "base/error.h"
 #include "contact/contact.h"
 #include "contact/power_law.h"
-#include "fit/by_run.h"
-#include "fit/dot.h"
+#include "base/by_run.h"
+#include "base/dot.h"
 #include "fit/errors.h"
 #include "fit/shift_records.h"
 

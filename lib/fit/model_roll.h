@@ -9,10 +9,10 @@
 // smooth the model exactly as they smooth the data.
 #pragma once
 
-#include "fit/minimise.h"
-#include "fit/noise.h"
+#include "least_squares/minimise.h"
+#include "noise/noise.h"
 #include "fit/parameters.h"
-#include "fit/response.h"
+#include "noise/response.h"
 #include "motion/trajectory.h"
 
 #include <algorithm>

@@ -9,215 +9,15 @@
 #include "text/number.h"
 
 namespace rolling {
-namespace {
-
-bool is_column_number(std::string_view name) {
-  return name.find_first_not_of("0123456789") == std::string_view::npos;
-}
-
-}  // namespace
 
 Reader::Reader(ReaderOptions options, std::vector<std::string> order)
-    : options_(std::move(options)), order_(std::move(order)) {
+    : options_(std::move(options)), needed_(options_.use, options_.has_use),
+      order_(needed_.names_without_use(std::move(order))) {
   if (options_.files.empty()) options_.files = {"-"};
-  for (const std::string& use : options_.use) {
-    const auto equals = use.find('=');
-    if (equals == 0 || equals == std::string::npos || equals + 1 == use.size())
-      fail("--use: '{}' is not NAME=COLUMN", shown(use));
-    const auto [quantity, unit, label] = read_column(use.substr(0, equals));
-    if (!unit.empty() || !label.empty())
-      fail("--use: '{}': a unit goes behind the column: {}=COLUMN[{}]", shown(use), quantity,
-           shown(unit));
-    if (si_unit(quantity).empty()) fail("--use: '{}' is not about t, x, v, a or D", shown(use));
-    const Column column = read_column(use.substr(equals + 1));
-    if (!use_.emplace(quantity, Use{column.name, column.unit}).second)
-      fail("--use: '{}' comes after another for {}", shown(use), quantity);
-  }
-  // Once --use assigns a column to another place, the order of those behind it is unknown.
-  for (std::size_t i = 0; i < order_.size(); ++i)
-    if (const auto use = use_.find(order_[i]);
-        use != use_.end() && use->second.column != fmt::format("{}", i + 1))
-      order_.resize(i);
   find_run();
 }
 
 Reader::~Reader() = default;
-
-// ----------------------------------------------------------------------------------------
-// columns
-
-std::optional<std::size_t> Reader::find(std::string_view name) const {
-  const auto use = use_.find(read_column(name).name);
-  if (use == use_.end()) {
-    const auto at = find_column(name);
-    const bool known = !si_unit(read_column(name).name).empty();
-    if (!at || !known || quantity_of(*at) == layout().columns[*at].name) return at;
-    return {};
-  }
-  const std::string& column = use->second.column;
-  const auto at = find_column(column);
-  if (!at)
-    fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", head_here(), use->first,
-                     shown(column), shown(column), column_list());
-  return at;
-}
-
-/// What a column serves as: by --use, else its own name.
-const std::string& Reader::quantity_of(std::size_t column) const {
-  for (const auto& [quantity, use] : use_)
-    if (find_column(use.column) == column) return quantity;
-  return layout().columns[column].name;
-}
-
-std::optional<std::size_t> Reader::find_column(std::string_view name) const {
-  const std::vector<Column>& columns = layout().columns;
-  if (double number; is_column_number(name) && parse_number(name, number))
-    return number >= 1 && number <= static_cast<double>(columns.size())
-               ? std::optional(static_cast<std::size_t>(number) - 1)
-               : std::nullopt;
-  const std::string plain = read_column(name).name;
-  std::optional<std::size_t> found;
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    if (columns[i].name == plain) {
-      if (found)
-        fail<InputError>("{}: columns {} and {} are both {}; say --use {}=N", head_here(),
-                         *found + 1, i + 1, plain, plain);
-      found = i;
-    }
-  return found;
-}
-
-std::string Reader::column_list() const {
-  const std::vector<Column>& columns = layout().columns;
-  if (!head_.named) return fmt::format("{} without names", columns.size());
-  std::string list;
-  for (const Column& column : columns) {
-    if (!list.empty()) list += ", ";
-    list += shown(to_text(column));
-    if (list.size() > 200) return list + ", ...";
-  }
-  return list;
-}
-
-std::size_t Reader::require(std::string_view name) const {
-  const auto column = find(name), of_name = column ? column : find_column(name);
-  if (!column && of_name)
-    fail<InputError>("{}: column {} cannot serve as both {} and {}", head_here(), *of_name + 1,
-                     quantity_of(*of_name), name);
-  if (!column)
-    fail<InputError>("{}: there is no column '{}' among {}{}", head_here(), shown(name),
-                     column_list(),
-                     options_.has_use && !si_unit(read_column(name).name).empty()
-                         ? fmt::format("; say --use {}=COLUMN", name)
-                         : "");
-  return *column;
-}
-
-/// A column with the unit of its name, or with the unit that --use gives.
-Column Reader::column_as_read(std::size_t column, const std::string& quantity) const {
-  Column read = layout().columns[column];
-  if (!head_.named) read.unit.clear();  // Layout has the SI unit of the tool's order
-  const auto use = use_.find(quantity);
-  if (use == use_.end() || use->second.unit.empty()) return read;
-  if (head_.named && !read.unit.empty() && read.unit != use->second.unit)
-    fail<InputError>("{}: --use {} says {}, but the column's name {}", head_here(), quantity,
-                     shown(use->second.unit), shown(to_text(read)));
-  read.unit = use->second.unit;
-  return read;
-}
-
-/// Finds a needed column in the present run.
-void Reader::resolve(Needed& needed) {
-  const auto found = needed.kind == Kind::wanted ? find(needed.name) : require(needed.name);
-  needed.column = found.value_or(no_column);
-  needed.to_si = {};
-  if (!found) return;
-  const bool first = needed.quantity.empty();
-  const Column read = column_as_read(*found, needed.quantity);
-  // A column that is requested by its number serves as the quantity of its own name.
-  const std::string quantity = is_column_number(needed.name) ? quantity_of(*found)
-                               : needed.kind == Kind::as_is  ? needed.name
-                                                             : read_column(needed.name).name;
-  if (first) needed.quantity = quantity, needed.unit = read.unit;
-  if (quantity != needed.quantity)
-    fail<InputError>("{}: column {} is {}, and {} in the runs before", head_here(), *found + 1,
-                     shown(quantity), shown(needed.quantity));
-  if (needed.kind == Kind::as_is) return;
-  if (si_unit(quantity).empty() && read.unit != needed.unit)
-    fail<InputError>("{}: column {} is in {}, and in {} in the runs before", head_here(),
-                     shown(quantity), read.unit.empty() ? "no unit" : shown(read.unit),
-                     needed.unit.empty() ? "no unit" : shown(needed.unit));
-  const Column meant = column_as_read(*found, quantity);
-  try {
-    needed.to_si = conversion_to_si(quantity, meant);
-  } catch (const Error& error) {
-    fail<InputError>("{}: {}", head_here(), error.what());
-  }
-}
-
-/// Finds all needed columns in the present run.
-void Reader::resolve() {
-  for (auto one = use_.begin(); one != use_.end(); ++one)
-    for (auto other = use_.begin(); other != one; ++other)
-      if (const auto at = find_column(one->second.column);
-          at && at == find_column(other->second.column))
-        fail<InputError>("{}: --use: column {} cannot serve as both {} and {}", head_here(),
-                         *at + 1, other->first, one->first);
-  converts_ = false;
-  dialect_->want_none();
-  for (Needed& needed : needed_) resolve(needed);
-  for (const Needed& needed : needed_) {
-    converts_ |= needed.to_si.changes();
-    if (needed.column == no_column) continue;
-    dialect_->want(needed.column);
-    for (const Needed& other : needed_)
-      if (&other != &needed && other.column == needed.column && other.quantity != needed.quantity)
-        fail<InputError>("{}: column {} cannot serve as both {} and {}", head_here(),
-                         needed.column + 1, other.quantity, needed.quantity);
-  }
-  name_columns();
-}
-
-/// A column that serves as a quantity gets the name and the unit of the quantity; another column of
-/// that name is renamed.
-void Reader::name_columns() {
-  columns_ = layout().columns;
-  for (const Needed& needed : needed_) {
-    if (needed.column == no_column || needed.kind == Kind::as_is) continue;
-    for (std::size_t i = 0; i < columns_.size(); ++i)
-      if (i != needed.column && layout().columns[i].name == needed.quantity)
-        columns_[i].name = free_name(columns_, needed.quantity);
-  }
-  for (const Needed& needed : needed_) {
-    if (needed.column == no_column || needed.kind == Kind::as_is) continue;
-    Column& column = columns_[needed.column];
-    column.name = needed.quantity;
-    if (const auto unit = si_unit(needed.quantity); !unit.empty()) column.unit = unit;
-  }
-}
-
-bool Reader::renames() const {
-  return std::any_of(needed_.begin(), needed_.end(), [&](const Needed& needed) {
-    return needed.column != no_column && needed.kind != Kind::as_is &&
-           layout().columns[needed.column].name != needed.quantity;
-  });
-}
-
-std::size_t Reader::add(std::string_view name, Kind kind) {
-  Needed asked{std::string(name), {}, kind};
-  resolve(asked);
-  for (std::size_t slot = 0; slot < needed_.size(); ++slot)
-    if (Needed& known = needed_[slot]; known.column == asked.column &&
-                                       known.quantity == asked.quantity &&
-                                       known.column != no_column) {
-      if (known.kind == Kind::wanted) known.kind = kind;
-      return slot;
-    }
-  needed_.push_back(std::move(asked));
-  values_.push_back(0);
-  resolve();
-  return needed_.size() - 1;
-}
 
 // ----------------------------------------------------------------------------------------
 // runs
@@ -271,9 +71,7 @@ bool Reader::next_head() {
     return true;
   }
   // Column numbers in --use count the fields of a line: the line is then one record.
-  const bool by_number = std::any_of(use_.begin(), use_.end(),
-                                     [](const auto& use) { return is_number(use.second.column); });
-  const Sides sides = by_number ? Sides::one : Sides::by_names;
+  const Sides sides = needed_.use_has_numbers() ? Sides::one : Sides::by_names;
   while (file_open_ || next_file()) {
     const bool first = run_in_file_ == 0;
     Head head = read_head(*lines_, file_dialect_, first ? nullptr : &head_, order_, sides);
@@ -357,7 +155,24 @@ void Reader::begin_run() {
   }
   for (const std::string& comment : head_.comments)
     if (side_ == 0 || comment.starts_with("##")) comments_.push_back(comment);
-  resolve();
+  needed_.begin_run(
+      layout().columns, head_.named,
+      run_in_file_ > 1 ? fmt::format("{}:{}", lines_->name(), head_.line) : lines_->name());
+  read_needed();
+}
+
+std::size_t Reader::add(std::string_view name, NeededColumns::Kind kind) {
+  const std::size_t slot = needed_.add(name, kind);
+  read_needed();
+  return slot;
+}
+
+/// Declares to the dialect the fields whose numbers are read.
+void Reader::read_needed() {
+  values_.resize(needed_.all().size());
+  dialect_->want_none();
+  for (const NeededColumns::Needed& needed : needed_.all())
+    if (needed.column != no_column) dialect_->want(needed.column);
 }
 
 // ----------------------------------------------------------------------------------------
@@ -404,15 +219,15 @@ bool Reader::next_side_line() {
 
 /// Refuses a comment among the records that names all of the needed columns: it may change units.
 void Reader::refuse_names(std::string_view comment) const {
-  if (state_ != State::in_run || needed_.empty()) return;
+  if (state_ != State::in_run || needed_.all().empty()) return;
   const auto names = names_in_comment(comment, layout().columns.size(), layout().columns).names;
-  const auto has = [&](const Needed& needed) {
+  const auto has = [&](const NeededColumns::Needed& needed) {
     return needed.column != no_column &&
            std::any_of(names.begin(), names.end(), [&](const std::string& name) {
              return read_column(name).name == layout().columns[needed.column].name;
            });
   };
-  if (std::all_of(needed_.begin(), needed_.end(), has))
+  if (std::all_of(needed_.all().begin(), needed_.all().end(), has))
     fail<InputError>(
         "{}:{}: names among the records; where another run begins, put a blank line before it",
         lines_->name(), lines_->number());
@@ -472,21 +287,22 @@ void Reader::change_fields() {
 /// Reads the needed numbers of the record; false if one is missing.
 bool Reader::take_record() {
   fields_changed_ = false;
-  if (fields_.size() != columns_.size()) change_fields();
+  if (fields_.size() != columns().size()) change_fields();
   double* to = values_.data();
-  for (const Needed& needed : needed_) {
+  const bool converts = needed_.converts();
+  for (const NeededColumns::Needed& needed : needed_.all()) {
     double value = std::numeric_limits<double>::quiet_NaN();
     if (needed.column != no_column) value = fields_[needed.column].number;
     if (std::isnan(value)) {
       if (needed.column != no_column && !is_missing(fields_[needed.column].text))
         reject(needed.column, "is not a number" + way_out(needed.column));
-      if (needed.kind != Kind::wanted) {
+      if (needed.kind != NeededColumns::Kind::wanted) {
         if (options_.strict)
           fail<InputError>("{}: field {} ({}): a reading is missing", here(),
                            layout().fields[needed.column] + 1, shown(needed.quantity));
         return false;
       }
-    } else if (converts_) {
+    } else if (converts) {
       value = needed.to_si(value);
       if (!std::isfinite(value))
         reject(needed.column, "is beyond the range of a double in SI units");
@@ -500,7 +316,7 @@ bool Reader::take_record() {
 inline void Reader::check_time() {
   const double t = values_[time_slot_];
   if (t <= last_time_)
-    reject(needed_[time_slot_].column, fmt::format("does not come after {}", last_time_));
+    reject(column_of(time_slot_), fmt::format("does not come after {}", last_time_));
   // The roundings of two times, 2^-53 t each, are then more than 2^-13 of the step between them.
   coarse_time_ |= t - last_time_ < 0x1p-39 * std::abs(t);
   last_time_ = t;
@@ -509,18 +325,19 @@ inline void Reader::check_time() {
 /// append_text() of a record that is not written as it was read.
 Reader::Part Reader::append_made(Bytes& to, std::size_t column) {
   Part part;
+  const std::vector<NeededColumns::Needed>& needed = needed_.all();
   const std::size_t begin = to.size();
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     if (i) to.append('\t');
     const std::size_t from = to.size();
-    const auto converted = !converts_
-                               ? needed_.end()
-                               : std::find_if(needed_.begin(), needed_.end(), [i](const Needed& n) {
-                                   return n.column == i && n.to_si.changes();
-                                 });
-    if (converted != needed_.end() && !std::isnan(fields_[i].number))
+    const auto converted = !needed_.converts() ? needed.end()
+                                               : std::find_if(needed.begin(), needed.end(),
+                                                              [i](const NeededColumns::Needed& n) {
+      return n.column == i && n.to_si.changes();
+                                                 });
+    if (converted != needed.end() && !std::isnan(fields_[i].number))
       to.set_end(write_number(to.reserve(longest_number),
-                              values_[static_cast<std::size_t>(converted - needed_.begin())]));
+                              values_[static_cast<std::size_t>(converted - needed.begin())]));
     else if (dialect_->may_need_quotes()) append_field(to, fields_[i].text);
     else to.append(fields_[i].text);
     if (i == column) part = {from - begin, to.size() - begin};
@@ -530,7 +347,7 @@ Reader::Part Reader::append_made(Bytes& to, std::size_t column) {
 
 void Reader::reject(std::size_t column, std::string_view why) const {
   fail<InputError>("{}: field {} ({}): '{}' {}", here(), layout().fields[column] + 1,
-                   shown(columns_[column].name), shown(fields_[column].text), why);
+                   shown(columns()[column].name), shown(fields_[column].text), why);
 }
 
 /// What to do about a field that is not a number, where its text shows the likely reason: a decimal
@@ -556,11 +373,6 @@ std::string Reader::way_out(std::size_t column) const {
 }
 
 std::string Reader::here() const { return fmt::format("{}:{}", lines_->name(), line_number_); }
-
-/// The place of the names of the present run: the file, and after its first run the line.
-std::string Reader::head_here() const {
-  return run_in_file_ > 1 ? fmt::format("{}:{}", lines_->name(), head_.line) : lines_->name();
-}
 
 std::string Reader::where() const {
   if (state_ == State::between) return place_;

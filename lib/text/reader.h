@@ -2,7 +2,6 @@
 // names in each head, converts them to SI units, and passes all other text through.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,10 +11,10 @@
 
 #include "base/error.h"
 #include "text/bytes.h"
-#include "text/column.h"
 #include "text/dialect.h"
 #include "text/head.h"
 #include "text/lines.h"
+#include "text/needed_columns.h"
 #include "text/side_by_side.h"
 
 namespace rolling {
@@ -40,10 +39,10 @@ class Reader {
 
   // The head of the present run; before next_run(), of the first run.
   /// Its columns, with the names and units of the output.
-  const std::vector<Column>& columns() const { return columns_; }
+  const std::vector<Column>& columns() const { return needed_.in_output(); }
   /// Index of the column that serves as `name` (a name, a 1-based number, or what --use says), if
   /// there is one.
-  std::optional<std::size_t> find(std::string_view name) const;
+  std::optional<std::size_t> find(std::string_view name) const { return needed_.find(name); }
   /// Its comments in the output; the history and the line `## run NAME` are among them.
   const std::vector<std::string>& comments() const { return comments_; }
   /// The `##` lines of this run, without the marks.
@@ -55,19 +54,19 @@ class Reader {
   /// Declares that a column is needed: its numbers are read and converted to SI, and records
   /// without one are left out. Returns its slot for operator[]. Throws Error if the column does not
   /// exist, in this run or in a later one.
-  std::size_t need(std::string_view name) { return add(name, Kind::needed); }
+  std::size_t need(std::string_view name) { return add(name, NeededColumns::Kind::needed); }
   /// The same for a column with missing readings, which are NaN. It may be absent from later runs.
-  std::size_t want(std::string_view name) { return add(name, Kind::wanted); }
+  std::size_t want(std::string_view name) { return add(name, NeededColumns::Kind::wanted); }
   /// The same as need(), without conversion, for a column whose name means something else than the
   /// known quantity (a is the coefficient in a row of fitpower, not an acceleration).
-  std::size_t need_as_is(std::string_view name) { return add(name, Kind::as_is); }
+  std::size_t need_as_is(std::string_view name) { return add(name, NeededColumns::Kind::as_is); }
   /// Needs t, and refuses times that do not increase within a run.
   std::size_t need_time() { return time_slot_ = need("t"); }
   /// The index of a needed column in the records of the present run.
-  std::size_t column_of(std::size_t slot) const { return needed_[slot].column; }
+  std::size_t column_of(std::size_t slot) const { return needed_.all()[slot].column; }
   /// A needed column of this run has another name in the file: what the history says of the name
   /// that it serves under is not about it.
-  bool renames() const;
+  bool renames() const { return needed_.renames(); }
 
   // The records.
   /// Goes to the next run; false when there is none.
@@ -80,14 +79,15 @@ class Reader {
   /// The number in a needed column [SI].
   double operator[](std::size_t slot) const { return values_[slot]; }
 
-  static constexpr std::size_t no_column = static_cast<std::size_t>(-1);
+  static constexpr std::size_t no_column = NeededColumns::no_column;
   /// A part of a text: [first, last).
   struct Part {
     std::size_t first = 0, last = 0;
   };
   /// Appends the present record as it goes out, tab-separated; returns where in it a column is.
   Part append_text(Bytes& to, std::size_t column = no_column) {
-    if (!dialect_->as_it_stands() || converts_ || fields_changed_) return append_made(to, column);
+    if (!dialect_->as_it_stands() || needed_.converts() || fields_changed_)
+      return append_made(to, column);
     to.append(line_);
     if (column >= fields_.size()) return {};
     const std::string_view field = fields_[column].text;
@@ -109,29 +109,10 @@ class Reader {
   bool coarse_time() const { return coarse_time_; }
 
  private:
-  enum class Kind { needed, wanted, as_is };
-  struct Needed {
-    std::string name, quantity;  // the name in the call of need(); the quantity it serves as
-    Kind kind;
-    std::string unit{};  // of a quantity that is not known; it may not change between runs
-    std::size_t column = no_column;
-    Conversion to_si{};
-  };
-  struct Use {
-    std::string column, unit;
-  };
   enum class State { found, in_run, between, ended };
 
-  // Columns.
-  std::size_t add(std::string_view name, Kind);
-  void resolve();
-  void resolve(Needed&);
-  void name_columns();
-  std::optional<std::size_t> find_column(std::string_view name) const;
-  const std::string& quantity_of(std::size_t column) const;
-  std::size_t require(std::string_view name) const;
-  Column column_as_read(std::size_t column, const std::string& quantity) const;
-  std::string column_list() const;
+  std::size_t add(std::string_view name, NeededColumns::Kind);
+  void read_needed();
   const Layout::Run& layout() const { return head_.layout.runs[side_]; }
 
   // Runs.
@@ -156,10 +137,9 @@ class Reader {
   [[noreturn]] void reject(std::size_t column, std::string_view why) const;
   std::string way_out(std::size_t column) const;
   std::string here() const;
-  std::string head_here() const;
 
   ReaderOptions options_;
-  std::map<std::string, Use> use_;  // by quantity
+  NeededColumns needed_;
   std::vector<std::string> order_;
   std::unique_ptr<Lines> lines_;
   std::size_t next_file_ = 0;
@@ -172,19 +152,14 @@ class Reader {
   std::vector<Side> sides_;  // runs side by side; else empty
   std::size_t side_line_ = 0;
   Dialect file_dialect_, side_dialect_, *dialect_ = &file_dialect_;
-  std::vector<Column> columns_;
   std::vector<std::string> comments_, remarks_;
   std::size_t run_in_file_ = 0;  // number of the run in the file
   std::string place_;            // where() behind its last record
   std::string labels_;           // the numbers that runs before it carry, where one is asked for
   bool run_found_ = false, file_open_ = false;
 
-  // Its columns.
-  std::vector<Needed> needed_;
-  bool converts_ = false;
-  std::vector<double> values_;
-
   // The present record.
+  std::vector<double> values_;  // of the needed columns, by slot
   std::string_view line_;
   std::size_t line_number_ = 0;  // 0: there is none
   std::span<const Field> fields_;

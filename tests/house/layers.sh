@@ -11,9 +11,12 @@ declare -A may=(
   [ode]='base'
   [contact]='base'
   [motion]='base ode contact'
-  [fit]='base contact motion'
+  [noise]='base'
+  [least_squares]='base'
+  [statistics]='base'
+  [fit]='base contact motion noise least_squares statistics'
   [sensor]='base motion'
-  [cli]='base text contact signal fit'  # signal and fit: what a `##` line says becomes a filter of the fit
+  [cli]='base text contact signal noise fit'  # signal and noise: what a `##` line says becomes a filter of the noise
 )
 wrong=0 files=0
 complain() { echo "$*" && wrong=1; }
@@ -40,7 +43,7 @@ for room in lib/*/; do
         complain "$file: only lib/text and lib/cli see files" ;;
     esac
     case $room in
-      base | ode | fit | sensor | contact | motion) ;;
+      base | ode | fit | sensor | contact | motion | statistics) ;;
       *) grep -qE '# *include (<gsl/|"base/gsl\.h")' "$file" &&
         complain "$file: $room does without GSL" ;;
     esac

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "unit/text/files.h"
@@ -235,39 +234,7 @@ TEST_CASE("reader: --use says which column serves, by name or number", "[text]")
   CHECK(records({"1 2 3 40\n"}, use({"t=4"})) ==
         "FILE: there is no column 'v' among 4 without names; say --use v=COLUMN");
   CHECK(records({"# t w[km/h]\n0 72\n"}, use({"v=w"})) == "0 20");
-  CHECK(records({"# t w\n0 1\n"}, use({"v=4"})) ==
-        "FILE: --use v=4: there is no column '4' among t, w");
-  CHECK(records({"# t w\n0 1\n"}, use({"v=0"})) ==
-        "FILE: --use v=0: there is no column '0' among t, w");
-  CHECK(records({"# t w\n0 1\n"}, use({"v=1.5"})) ==
-        "FILE: --use v=1.5: there is no column '1.5' among t, w");
-  CHECK(records({"0 1\n"}, use({"v"})) == "--use: 'v' is not NAME=COLUMN");
-  CHECK(records({"0 1\n"}, use({"=2"})) == "--use: '=2' is not NAME=COLUMN");
-  CHECK(records({"0 1\n"}, use({"v="})) == "--use: 'v=' is not NAME=COLUMN");
-}
-
-TEST_CASE("reader: a --use that says nothing, or two things, is refused", "[text]") {
-  CHECK(records({"0 1 2\n"}, use({"w=3"})) == "--use: 'w=3' is not about t, x, v, a or D");
-  CHECK(records({"0 1 2\n"}, use({"V=3"})) == "--use: 'V=3' is not about t, x, v, a or D");
-  CHECK(records({"0 1 2\n"}, use({"v=2", "v=3"})) == "--use: 'v=3' comes after another for v");
-  CHECK(records({"0 1\n"}, use({"v=1"})) == "FILE: column 1 cannot serve as both v and t");
   CHECK(records({"0 1 2\n"}, use({"Velocity=3"})) == "0 2");  // the long name is the same quantity
-}
-
-TEST_CASE("reader: of two columns of one name, --use says which", "[text]") {
-  CHECK(records({"# t v v\n0 1 2\n"}) == "FILE: columns 2 and 3 are both v; say --use v=N");
-  CHECK(records({"# t v Velocity (m/s)\n0 1 2\n"}, use({"v=2"})) == "0 1");
-  CHECK(records({"# t v v\n0 1 2\n"}, {}, {"t"}) == "0");  // nobody asks for v
-}
-
-TEST_CASE("reader: there is no such column", "[text]") {
-  CHECK(records({"# t[s] w[rad/s]\n0 1\n"}) ==
-        "FILE: there is no column 'v' among t[s], w[rad/s]; say --use v=COLUMN");
-  CHECK(records({"0\n"}) ==
-        "FILE: there is no column 'v' among 1 without names; say --use v=COLUMN");
-  CHECK(records({"# T V\n0 1\n"}) ==
-        "FILE: there is no column 't' among T, V; say --use t=COLUMN");  // case matters in short
-                                                                         // names
 }
 
 TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]") {
@@ -532,27 +499,6 @@ TEST_CASE("reader: where() is a record, behind the last one its run, and nothing
   REQUIRE(one.next_run());
   while (one.next()) continue;
   CHECK(one.where() == file.name());
-}
-
-TEST_CASE("reader: a needed column that displaces another of its name", "[text]") {
-  const TemporaryFile file("# t[s] v[m/s] w[cm/s]\n0 1 2\n");
-  Reader in({{file.name()}, {"v=w"}, {}, false}, {});
-  in.need("v");
-  std::string all;
-  for (const Column& column : in.columns()) all += to_text(column) + ' ';
-  CHECK(all == "t[s] v_in[m/s] v[m/s] ");
-}
-
-TEST_CASE("reader: in whichever order columns are asked for, they have the same names", "[text]") {
-  const TemporaryFile file("# t[s] v w[cm/s] x v_in\n0 1 2 3 4\n");
-  std::vector<std::string> order = {"v", "x", "t"};
-  do {
-    Reader in({{file.name()}, {"v=w", "x=2"}, {}, false}, {});
-    for (const std::string& name : order) in.need(name);
-    std::string all;
-    for (const Column& column : in.columns()) all += to_text(column) + ' ';
-    CHECK(all == "t[s] x[m] v[m/s] x_in v_in ");
-  } while (std::next_permutation(order.begin(), order.end()));
 }
 
 TEST_CASE(

@@ -1,8 +1,8 @@
 // The columns of a run as linear functions of the one raw column that the sensor recorded.
 #pragma once
 
-#include "fit/filter.h"
-#include "fit/filter_matrix.h"
+#include "noise/filter.h"
+#include "noise/filter_matrix.h"
 
 #include <map>
 #include <string>

@@ -1,9 +1,9 @@
-#include "fit/minimise.h"
+#include "least_squares/minimise.h"
 
 #include "base/error.h"
 #include "base/median.h"
-#include "fit/dot.h"
-#include "fit/triangles.h"
+#include "base/dot.h"
+#include "least_squares/triangles.h"
 
 #include <algorithm>
 #include <cmath>

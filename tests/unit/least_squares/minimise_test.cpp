@@ -1,4 +1,4 @@
-#include "fit/minimise.h"
+#include "least_squares/minimise.h"
 
 #include "base/error.h"
 #include "fit/errors.h"

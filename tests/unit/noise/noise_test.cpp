@@ -1,8 +1,8 @@
-#include "fit/noise.h"
+#include "noise/noise.h"
 
-#include "fit/minimise.h"
+#include "least_squares/minimise.h"
 #include "fit/errors.h"
-#include "fit/response.h"
+#include "noise/response.h"
 #include "unit/fit/simulated.h"
 #include "unit/catch.h"
 

@@ -2,7 +2,7 @@
 // steps. Each step comes from a QR decomposition of the Jacobian.
 #pragma once
 
-#include "fit/system.h"
+#include "least_squares/system.h"
 
 namespace rolling {
 

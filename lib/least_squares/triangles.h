@@ -1,7 +1,7 @@
 // The QR decomposition of a Jacobian of several runs that share some of their parameters.
 #pragma once
 
-#include "fit/system.h"
+#include "least_squares/system.h"
 
 namespace rolling {
 

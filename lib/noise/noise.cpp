@@ -1,7 +1,7 @@
-#include "fit/noise.h"
+#include "noise/noise.h"
 
-#include "fit/by_run.h"
-#include "fit/dot.h"
+#include "base/by_run.h"
+#include "base/dot.h"
 
 #include <cmath>
 #include <utility>

@@ -1,6 +1,6 @@
-#include "fit/triangles.h"
+#include "least_squares/triangles.h"
 
-#include "fit/dot.h"
+#include "base/dot.h"
 
 #include <algorithm>
 #include <cmath>

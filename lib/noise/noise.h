@@ -2,7 +2,7 @@
 // from it.
 #pragma once
 
-#include "fit/whitener.h"
+#include "noise/whitener.h"
 
 #include <memory>
 

@@ -1,7 +1,7 @@
-#include "fit/response.h"
+#include "noise/response.h"
 
 #include "base/error.h"
-#include "unit/fit/dense.h"
+#include "unit/noise/dense.h"
 #include "unit/fit/simulated.h"
 #include "unit/catch.h"
 

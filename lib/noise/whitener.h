@@ -1,7 +1,7 @@
 // Whitening: a linear map that makes correlated noise white.
 #pragma once
 
-#include "fit/filter_matrix.h"
+#include "noise/filter_matrix.h"
 
 namespace rolling {
 

@@ -1,6 +1,6 @@
-#include "fit/filter_matrix.h"
+#include "noise/filter_matrix.h"
 
-#include "unit/fit/dense.h"
+#include "unit/noise/dense.h"
 #include "unit/catch.h"
 
 using namespace rolling;

@@ -1,8 +1,8 @@
-#include "fit/whitener.h"
+#include "noise/whitener.h"
 
 #include "base/error.h"
 #include "base/median.h"
-#include "fit/dot.h"
+#include "base/dot.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "fit/whitener.h"
+#include "noise/whitener.h"
 
 #include "base/error.h"
-#include "fit/noise.h"
-#include "fit/response.h"
+#include "noise/noise.h"
+#include "noise/response.h"
 #include "unit/fit/simulated.h"
-#include "unit/fit/dense.h"
+#include "unit/noise/dense.h"
 #include "unit/catch.h"
 
 using namespace rolling;

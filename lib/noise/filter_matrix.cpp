@@ -1,10 +1,10 @@
-#include "fit/filter_matrix.h"
+#include "noise/filter_matrix.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "base/error.h"
-#include "fit/dot.h"
+#include "base/dot.h"
 
 namespace rolling {
 

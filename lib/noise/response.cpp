@@ -1,4 +1,4 @@
-#include "fit/response.h"
+#include "noise/response.h"
 
 #include "base/error.h"
 

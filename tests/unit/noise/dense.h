@@ -1,7 +1,7 @@
 // A band matrix with its zeros, row by row.
 #pragma once
 
-#include "fit/filter_matrix.h"
+#include "noise/filter_matrix.h"
 
 namespace rolling {
 

@@ -1,0 +1,209 @@
+#include "cli/options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cli/scene.h"
+#include "text/column.h"
+#include "text/estimate.h"
+#include "text/input.h"
+#include "text/number.h"
+
+namespace rolling {
+namespace {
+
+void require(const Range& range, double value, std::string_view text) {
+  if (!range.holds(value)) fail("'{}' must be {}", shown(text), range.text);
+}
+
+Estimate to_estimate(const std::string& text, const Range& range) {
+  Estimate estimate;
+  if (!parse_estimate(text, estimate)) fail("'{}' is not a number", shown(text));
+  require(range, estimate.value, text);
+  return estimate;
+}
+
+/// "a, b and c"
+std::string enumeration(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
+  return text;
+}
+
+std::string long_name(const std::string& names) {
+  const auto at = names.find("--");
+  return at == std::string::npos ? std::string() : names.substr(at + 2);
+}
+
+}  // namespace
+
+double to_number(const std::string& text, const Range& range) {
+  double value;
+  if (!parse_number(text, value)) fail("'{}' is not a number", shown(text));
+  require(range, value, text);
+  return value;
+}
+
+Options::Options(const std::string& name, const std::string& purpose)
+    : command_line_(name, purpose) {}
+
+void Options::add(const std::string& names, const std::string& type, const std::string& help,
+                  Set set, std::function<bool()> missing) {
+  command_line_.option(names, type, help, [names, set](const std::string& text) {
+    try {
+      set(text);
+    } catch (const Error& error) {
+      fail("{}: {}", names, error.what());
+    }
+  });
+  options_[long_name(names)] = {std::move(set), std::move(missing)};
+}
+
+void Options::add_flag(const std::string& names, const std::string& help,
+                       const std::function<void(bool)>& set) {
+  command_line_.flag(names, help, [set] { set(true); });
+  const auto set_from_text = [set](const std::string& text) {
+    if (text != "true" && text != "false") fail("'{}' is neither true nor false", shown(text));
+    set(text == "true");
+  };
+  options_[long_name(names)] = {set_from_text, {}};
+}
+
+void Options::flag(const std::string& names, bool& value, const std::string& help) {
+  add_flag(names, help, [&value](bool on) { value = on; });
+}
+
+void Options::number(const std::string& names, double& value, const Range& range,
+                     const std::string& help) {
+  add(
+      names, "NUMBER", help,
+      [&value, range](const std::string& text) { value = to_number(text, range); },
+      [&value] { return std::isnan(value); });
+}
+
+void Options::count(const std::string& names, std::size_t& value, const Range& range,
+                    const std::string& help) {
+  add(names, "N", help, [&value, range](const std::string& text) {
+    value = static_cast<std::size_t>(to_number(text, range));
+  });
+}
+
+void Options::estimate(const std::string& names, double& value, double* sigma, const Range& range,
+                       const std::string& help) {
+  add(
+      names, "NUMBER", help,
+      [&value, sigma, range](const std::string& text) {
+    const Estimate estimate = to_estimate(text, range);
+    value = estimate.value;
+    if (sigma) *sigma = estimate.sigma;
+      },
+      [&value] { return std::isnan(value); });
+}
+
+void Options::numbers(const std::string& names, std::vector<Estimate>& values, const Range& range,
+                      const std::string& help) {
+  add(
+      names, "NUMBER,...", help,
+      [&values, range](const std::string& text) {
+    values.clear();
+    for (const std::string& part : split_names(text, ','))
+      values.push_back(to_estimate(part, range));
+      },
+      [&values] { return values.empty(); });
+}
+
+void Options::text(const std::string& names, std::string& value, const std::string& type,
+                   const std::string& help) {
+  add(names, type, help, [&value](const std::string& text) {
+    if (text.empty()) fail("'' is no value");
+    value = text;
+  });
+}
+
+void Options::list(const std::string& names, std::vector<std::string>& values,
+                   const std::string& type, const std::string& help) {
+  command_line_.list(names, type, help, values);
+}
+
+void Options::one_of(const std::string& names, const std::vector<std::string>& choices,
+                     const std::string& help, const Set& set) {
+  std::string all, type;
+  for (const std::string& choice : choices) {
+    all += (all.empty() ? "" : ", ") + choice;
+    type += (type.empty() ? "" : ",") + choice;
+  }
+  add(names, '{' + type + '}', help, [choices, all, set](const std::string& text) {
+    if (std::find(choices.begin(), choices.end(), text) == choices.end())
+      fail("'{}' is not one of {}", shown(text), all);
+    set(text);
+  });
+}
+
+void Options::body(Body& body, std::initializer_list<BodyOption> options,
+                   BodyUncertainty* uncertainty) {
+  body = {not_given, not_given, not_given};
+  BodyUncertainty* const u = uncertainty;
+  for (const BodyOption option : options) switch (option) {
+      case BodyOption::mass:
+        number("-m,--mass", body.m, positive, "mass m [kg]");
+        break;
+      case BodyOption::radius:
+        estimate("-R,--radius", body.R, u ? &u->R : nullptr, positive, "radius R [m]");
+        break;
+      case BodyOption::shape_factor:
+        estimate("-K,--shape-factor", body.K, u ? &u->K : nullptr, not_negative,
+                 "shape factor K of J = K m R^2");
+        break;
+      case BodyOption::gravity:
+        estimate("-g,--gravity", body.g, u ? &u->g : nullptr, positive, "gravity g [m/s^2] (9.81)");
+        break;
+      case BodyOption::slope:
+        estimate("--slope", body.slope, u ? &u->slope : nullptr, any_number,
+                 "rise of the mat in metres per metre of growing x (0)");
+        break;
+    }
+}
+
+void Options::law(PowerLaw& law) {
+  law = {not_given, not_given};
+  number("-a,--coefficient", law.a, positive, "coefficient a of the law D = a v^b [m (s/m)^b]");
+  number("-b,--exponent", law.b, any_number, "exponent b of the law");
+}
+
+void Options::geometry(Geometry& geometry) {
+  geometry = Geometry::approximate;
+  add_flag("--exact", "keep A = sqrt(1 - D^2/R^2) (the paper sets A = 1)",
+           [&geometry](bool on) { geometry = on ? Geometry::exact : Geometry::approximate; });
+}
+
+void Options::scene() {
+  text("--scene", scene_file_, "FILE",
+       "TOML file with the long names of a scene's options; the command line wins");
+}
+
+void Options::take_scene() {
+  if (scene_file_.empty()) return;
+  refuse_output(scene_file_);
+  for (const SceneValue& scene : read_scene(scene_file_)) {
+    const auto option = options_.find(scene.key);
+    if (option == options_.end() || on_command_line(scene.key)) continue;
+    try {
+      option->second.set(scene.value);
+      in_scene_.insert(scene.key);
+    } catch (const Error& error) {
+      fail("{}:{}: {}: {}", scene_file_, scene.line, scene.key, error.what());
+    }
+  }
+}
+
+void Options::need(const std::vector<std::string>& options) const {
+  std::vector<std::string> missing;
+  for (const std::string& option : options)
+    if (options_.at(option).missing()) missing.push_back("--" + option);
+  if (missing.size() == 1) fail("{} is not given, nor is it in a scene", missing.front());
+  if (missing.size() > 1) fail("{} are not given, nor are they in a scene", enumeration(missing));
+}
+
+}  // namespace rolling

@@ -1,0 +1,84 @@
+// The columns that a tool needs: which columns of a run they are, and how they become SI units.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "text/column.h"
+
+namespace rolling {
+
+class NeededColumns {
+ public:
+  static constexpr std::size_t no_column = static_cast<std::size_t>(-1);
+  enum class Kind {
+    needed,  ///< of a quantity: converted to SI, and a record without it is left out
+    wanted,  ///< the same, but it may be absent, and its readings may be missing
+    as_is    ///< under this name and without conversion
+  };
+  struct Needed {
+    std::string name, quantity;  ///< the name in the call of add(); the quantity it serves as
+    Kind kind;
+    std::string unit{};  ///< of a quantity that is not known; it may not change between runs
+    std::size_t column = no_column;
+    Conversion to_si{};
+  };
+
+  /// `use`: texts of the form NAME=COLUMN or NAME=COLUMN[UNIT]. `has_use`: messages may name the
+  /// option --use. Throws Error for another form, and for two columns of one quantity.
+  NeededColumns(const std::vector<std::string>& use, bool has_use);
+  /// The names that a file without names has: `order` up to the first one that --use assigns to
+  /// another place, because the order of those behind it is then unknown.
+  std::vector<std::string> names_without_use(std::vector<std::string> order) const;
+  /// --use assigns a column by its number, which counts the fields of a line.
+  bool use_has_numbers() const;
+
+  /// Finds the columns again among those of the next run. `named`: the file names them. `place`
+  /// begins the messages. Throws InputError if one is absent, or has another quantity or unit than
+  /// in the runs before.
+  void begin_run(std::vector<Column> as_read, bool named, std::string place);
+  /// Declares a column; returns its slot, its index in all(). Throws InputError like begin_run().
+  std::size_t add(std::string_view name, Kind);
+  const std::vector<Needed>& all() const { return needed_; }
+  /// A column of this run must be converted.
+  bool converts() const { return converts_; }
+
+  /// Index of the column that serves as `name` (a name, a 1-based number, or what --use says), if
+  /// there is one.
+  std::optional<std::size_t> find(std::string_view name) const;
+  const std::vector<Column>& as_read() const { return as_read_; }
+  /// The columns of this run with the names and units of the output: a column that serves as a
+  /// quantity has its name and unit; another column of that name is renamed.
+  const std::vector<Column>& in_output() const { return in_output_; }
+  /// A needed column of this run has another name in the file.
+  bool renames() const;
+
+ private:
+  struct Use {
+    std::string column, unit;
+  };
+  std::optional<std::size_t> find_column(std::string_view name) const;
+  std::size_t require(std::string_view name) const;
+  Column with_unit(std::size_t column, const std::string& quantity) const;
+  std::string list() const;
+  void resolve();
+  void resolve(Needed&) const;
+  void name_columns();
+
+  std::map<std::string, Use> use_;  // by quantity
+  bool has_use_;
+  std::vector<Needed> needed_;
+  bool converts_ = false;
+
+  // The run.
+  std::vector<Column> as_read_, in_output_;
+  std::vector<std::string> quantities_;  // what each column serves as: by --use, else its own name
+  bool named_ = false;
+  std::string place_;
+};
+
+}  // namespace rolling

@@ -1,0 +1,137 @@
+#include "text/needed_columns.h"
+
+#include <algorithm>
+
+#include "text/layout.h"
+#include "unit/text/files.h"
+#include "unit/catch.h"
+
+using namespace rolling;
+using Kind = NeededColumns::Kind;
+
+namespace {
+
+using Texts = std::vector<std::string>;
+
+std::vector<Column> columns(const Texts& names) {
+  std::vector<Column> all;
+  for (const std::string& name : names) all.push_back(read_column(name));
+  return all;
+}
+
+/// The names and units of the output when `wanted` are needed of a file with these columns, or the
+/// message that refuses them.
+std::string output(const Texts& names, const Texts& use = {}, const Texts& wanted = {"t", "v"}) {
+  std::string all;
+  const std::string message = refusal([&] {
+    NeededColumns needed(use, true);
+    needed.begin_run(columns(names), true, "FILE");
+    for (const std::string& name : wanted) needed.add(name, Kind::needed);
+    for (const Column& column : needed.in_output())
+      all += (all.empty() ? "" : " ") + to_text(column);
+  });
+  return message.empty() ? all : message;
+}
+
+}  // namespace
+
+TEST_CASE("needed columns: a --use that says nothing, or two things, is refused", "[text]") {
+  const Texts file = {"t", "w", "v"};
+  CHECK(output(file, {"v"}) == "--use: 'v' is not NAME=COLUMN");
+  CHECK(output(file, {"=2"}) == "--use: '=2' is not NAME=COLUMN");
+  CHECK(output(file, {"v="}) == "--use: 'v=' is not NAME=COLUMN");
+  CHECK(output(file, {"w=3"}) == "--use: 'w=3' is not about t, x, v, a or D");
+  CHECK(output(file, {"V=3"}) == "--use: 'V=3' is not about t, x, v, a or D");
+  CHECK(output(file, {"v=2", "v=3"}) == "--use: 'v=3' comes after another for v");
+  CHECK(output(file, {"v=2", "Velocity=3"}) == "--use: 'Velocity=3' comes after another for v");
+  CHECK(output(file, {"v=w", "x=2"}) == "FILE: --use: column 2 cannot serve as both v and x");
+  CHECK(output(file, {"v=1"}) == "FILE: column 1 cannot serve as both v and t");
+}
+
+TEST_CASE("needed columns: --use says which, by name or by number", "[text]") {
+  const Texts file = {"t", "v", "v"};
+  CHECK(output(file) == "FILE: columns 2 and 3 are both v; say --use v=N");
+  CHECK(output(file, {"v=2"}) == "t[s] v[m/s] v_in");
+  CHECK(output(file, {"v=3"}) == "t[s] v_in v[m/s]");
+  CHECK(output(file, {}, {"t"}) == "t[s] v v");  // v is not needed
+  // However a column is asked for, it serves as one quantity.
+  CHECK(output({"t", "w"}, {"v=w"}, {"w", "2", "v"}) == "t v[m/s]");
+  CHECK(output({"t", "v"}, {"x=v"}, {"2"}) == "t x[m]");
+  CHECK(output({"t", "v"}, {"x=v"}, {"v"}) == "FILE: column 2 cannot serve as both x and v");
+  CHECK(output({"t", "w"}, {"v=4"}) == "FILE: --use v=4: there is no column '4' among t, w");
+  CHECK(output({"t", "w"}, {"v=0"}) == "FILE: --use v=0: there is no column '0' among t, w");
+  CHECK(output({"t", "w"}, {"v=1.5"}) == "FILE: --use v=1.5: there is no column '1.5' among t, w");
+}
+
+TEST_CASE("needed columns: a column that is absent", "[text]") {
+  CHECK(output({"t[s]", "w[rad/s]"}) ==
+        "FILE: there is no column 'v' among t[s], w[rad/s]; say --use v=COLUMN");
+  // The case of letters matters in short names.
+  CHECK(output({"T", "V"}) == "FILE: there is no column 't' among T, V; say --use t=COLUMN");
+  CHECK(output({"t"}, {}, {"n"}) == "FILE: there is no column 'n' among t");
+  NeededColumns needed({}, true);
+  needed.begin_run(columns({"t"}), false, "FILE");
+  CHECK(refusal([&] { needed.add("v", Kind::needed); }) ==
+        "FILE: there is no column 'v' among 1 without names; say --use v=COLUMN");
+  CHECK(needed.add("x", Kind::wanted) == 0);  // may be absent
+  CHECK(needed.all()[0].column == NeededColumns::no_column);
+}
+
+TEST_CASE("needed columns: one that displaces another of its name", "[text]") {
+  CHECK(output({"t[s]", "v[m/s]", "w[cm/s]"}, {"v=w"}, {"v"}) == "t[s] v_in[m/s] v[m/s]");
+}
+
+TEST_CASE("needed columns: the order of the calls does not change the names", "[text]") {
+  Texts order = {"t", "v", "x"};
+  do
+    CHECK(output({"t[s]", "v", "w[cm/s]", "x", "v_in"}, {"v=w", "x=2"}, order) ==
+          "t[s] x[m] v[m/s] x_in v_in");
+  while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST_CASE("needed columns: the next run may have other places and units", "[text]") {
+  NeededColumns needed({}, true);
+  needed.begin_run(columns({"t", "v[km/h]", "n[pebble]"}), true, "FILE");
+  const auto v = needed.add("v", Kind::needed), n = needed.add("n", Kind::needed);
+  CHECK(needed.all()[v].to_si(72) == 20);
+  CHECK(needed.converts());
+  needed.begin_run(columns({"v", "n[pebble]", "t"}), true, "FILE:9");
+  CHECK(needed.all()[v].column == 0);
+  CHECK(needed.all()[n].column == 1);
+  CHECK_FALSE(needed.converts());
+  needed.begin_run(columns({"v[km/h]", "n[pebble]"}), true, "FILE:5");
+  CHECK(needed.converts());
+  CHECK(refusal([&] {
+          needed.begin_run(columns({"v", "n[stone]"}), true, "FILE:9");
+        }) == "FILE:9: column n is in stone, and in pebble in the runs before");
+  CHECK(refusal([&] { needed.begin_run(columns({"v"}), true, "FILE:9"); }) ==
+        "FILE:9: there is no column 'n' among v");
+}
+
+TEST_CASE("needed columns: a column as it is has no unit of its quantity", "[text]") {
+  NeededColumns needed({}, true);
+  needed.begin_run(columns({"a[m s^-1]", "v[km/h]"}), true, "FILE");
+  const auto a = needed.add("a", Kind::as_is);
+  CHECK_FALSE(needed.all()[a].to_si.changes());
+  CHECK(to_text(needed.in_output()[0]) == "a[m s^-1]");
+  CHECK_FALSE(needed.renames());
+}
+
+TEST_CASE("needed columns: the names of a file without names end where --use says another place",
+          "[text]") {
+  CHECK(NeededColumns({"v=2"}, true).names_without_use({"t", "v", "x"}) == Texts{"t", "v", "x"});
+  CHECK(NeededColumns({"v=3"}, true).names_without_use({"t", "v", "x"}) == Texts{"t"});
+  CHECK(NeededColumns({"v=3"}, true).use_has_numbers());
+  CHECK_FALSE(NeededColumns({"v=w"}, true).use_has_numbers());
+}
+
+TEST_CASE("needed columns: one that is wanted, and absent from a later run, converts nothing",
+          "[text]") {
+  NeededColumns needed({}, true);
+  needed.begin_run(columns({"t", "x[cm]"}), true, "FILE");
+  needed.add("x", Kind::wanted);
+  CHECK(needed.converts());
+  needed.begin_run(columns({"t"}), true, "FILE:5");
+  CHECK_FALSE(needed.converts());
+  CHECK(to_text(needed.in_output()[0]) == "t");
+}
