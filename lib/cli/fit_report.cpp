@@ -131,8 +131,24 @@ std::string of_run(const std::vector<FitRun>& runs) {
 
 void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
              bool check_comes) {
+  for (std::size_t i = 0; i < r.v0.size(); ++i)
+    if (const double D = r.a * std::pow(std::abs(r.v0[i]), r.b); D > runs[i].body.R) {
+      tool.warn(fmt::format(
+          "run {}: no body rolls so: at its first speed, {:.3g} m/s, D is {:.3g} m, beyond the "
+          "radius {} m; are the units of the columns right?",
+          runs[i].name, r.v0[i], D, runs[i].body.R));
+      break;
+    }
   if (exact(r)) return;
   const std::string run = of_run(runs);
+  // Where sigma_a is half of a, a +- 1.96 sigma_a holds the truth in 91 % only, and seldom tells by
+  // how much it is missed: ln a has the normal distribution.
+  if (r.sigma_a > r.a / 2)
+    tool.warn(
+        fmt::format("{}sigma_a is {:.2g} times a: take it as the error of ln a, for a +- sigma_a "
+                    "is no interval "
+                    "of so uncertain an a",
+                    run, r.sigma_a / r.a));
   if (noise_is_correlated(r))
     tool.warn(
         fmt::format("{}the noise is correlated from record to record (Ljung-Box p {:.2g}), or the "

@@ -20,7 +20,8 @@ std::map<std::string, std::optional<Route>> fit_routes();
 std::vector<std::string> columns_of(Route);
 
 /// Warns the user: of errors that are not those of white noise, of runs that disagree (unless
-/// check() follows, which reports it), of the bias of logarithms, of an eccentric body.
+/// check() follows, which reports it), of the bias of logarithms, of an eccentric body, of a shift
+/// beyond the radius, of an a whose error is not that of a normal distribution.
 void warn_of(Tool&, Route, const FitResult&, const std::vector<FitRun>&, bool check_comes);
 
 /// Reports the result and the computing time of each route, the coefficients of the laws, and

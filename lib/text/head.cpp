@@ -295,8 +295,9 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
   }
   head_.layout = sides == Sides::one ? Layout::one(columns) : Layout::of(columns);
   if (head_.named && (head_.layout.side_by_side() ? width > names.size() : width != names.size()))
-    fail<InputError>("{}:{}: {} field{} under a line of {} names{}", lines_.name(), lines_.number(),
-                     width, width == 1 ? "" : "s", names.size(),
+    fail<InputError>("{}:{}: {} field{} under a line of {} name{}{}", lines_.name(),
+                     lines_.number(), width, width == 1 ? "" : "s", names.size(),
+                     names.size() == 1 ? "" : "s",
                      dialect_.separator() == ','
                          ? "; if some of its commas are decimal ones, make them points first"
                          : "");
