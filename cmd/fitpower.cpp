@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <span>
 
 #include "cli/fit_report.h"
 #include "cli/history.h"
+#include "fit/fit.h"
 #include "signal/repeats.h"
 #include "text/estimate.h"
 
@@ -31,7 +31,7 @@ void set_parameters(const std::string& option, const std::vector<std::string>& s
 
 /// Warns of readings that a logger held: the fit counts each repetition as a new reading. Speeds
 /// that were made of positions are no readings.
-void warn_of_held(Tool& tool, const std::string& name, Route route, const FitRun& run,
+void warn_of_held(Tool& tool, Route route, const FitRun& run,
                   const std::vector<std::string>& history) {
   const bool position = route == Route::position;
   if (!position && speeds_of_positions(history)) return;
@@ -40,13 +40,8 @@ void warn_of_held(Tool& tool, const std::string& name, Route route, const FitRun
     tool.warn(fmt::format(
         "run {}: {} repeat: each stands in {:.2g} records on average; keep only the record "
         "in which a new one comes",
-        name, position ? "positions" : "speeds", held));
+        run.name, position ? "positions" : "speeds", held));
 }
-
-struct Runs {
-  std::vector<FitRun> runs;
-  std::vector<std::string> names;
-};
 
 /// The columns that are read: those that the route fits, or those of the other routes too.
 enum class Columns { of_route, of_all_routes };
@@ -57,18 +52,18 @@ std::vector<double> FitRun::*column_of(std::string_view name) {
 
 /// Warns of a record that was given twice: in a joint fit it makes the errors too small. Fewer than
 /// ten readings may be equal by chance.
-void warn_of_copies(Tool& tool, Route route, const Runs& all) {
+void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
   const auto y = column_of(columns_of(route).back());
-  const auto less = [&](std::size_t i, std::size_t j) { return all.runs[i].*y < all.runs[j].*y; };
+  const auto less = [&](std::size_t i, std::size_t j) { return runs[i].*y < runs[j].*y; };
   std::set<std::size_t, decltype(less)> different(less);
   std::string copy;
   std::size_t copies = 0;
-  for (std::size_t i = 0; i < all.runs.size(); ++i) {
-    if ((all.runs[i].*y).size() < 10) continue;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if ((runs[i].*y).size() < 10) continue;
     const auto [same, inserted] = different.insert(i);
     if (!inserted && ++copies == 1)
       copy =
-          fmt::format("run {}: its readings are those of run {}", all.names[i], all.names[*same]);
+          fmt::format("run {}: its readings are those of run {}", runs[i].name, runs[*same].name);
   }
   if (copies > 0)
     tool.warn(
@@ -76,7 +71,8 @@ void warn_of_copies(Tool& tool, Route route, const Runs& all) {
                     copies > 1 ? fmt::format(", the first of {} copies", copies) : std::string()));
 }
 
-Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns columns) {
+std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, const Body& body,
+                              Columns columns) {
   const bool all_columns = columns == Columns::of_all_routes;
   struct Needed {
     std::size_t slot;
@@ -94,11 +90,10 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns co
     if ((all_columns || (*name == 'x' && route == Route::velocity && !in.history().empty())) &&
         in.find(name) && std::find(names.begin(), names.end(), name) == names.end())
       needed.push_back({in.want(name), column_of(name)});
-  Runs all;
-  auto& runs = all.runs;
+  std::vector<FitRun> runs;
   while (in.next_run()) {
     FitRun& run = runs.emplace_back();
-    all.names.push_back(in.run_name());
+    run.name = in.run_name();
     run.body = body;
     if (!timed && !in.history().empty() && in.find("t")) {  // the filters act on these times
       needed.push_back({in.need_time(), &FitRun::t});
@@ -108,7 +103,7 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns co
     for (const auto& [slot, column] : needed) (run.*column).reserve(room);
     while (in.next())
       for (const auto& [slot, column] : needed) (run.*column).push_back(in[slot]);
-    warn_of_held(tool, all.names.back(), route, run, in.history());
+    warn_of_held(tool, route, run, in.history());
     History history = history_of(in.history(), run.t);
     if (in.renames() && !history.filters.empty())
       history = {{}, {}, "--use takes other columns than its `##` lines speak of"};
@@ -117,15 +112,15 @@ Runs read_runs(Tool& tool, Reader& in, Route route, const Body& body, Columns co
     run.filters = std::move(history.filters);
     run.shift_of = history.shift_of;
     if (!history.doubt.empty())
-      tool.warn(fmt::format("run {}: {}: the fit goes on as if no filter were known",
-                            all.names.back(), history.doubt));
+      tool.warn(fmt::format("run {}: {}: the fit goes on as if no filter were known", run.name,
+                            history.doubt));
     if (history.left_out > 0)
       tool.warn(
           fmt::format("run {}: it was cut after the filters that its `##` lines name: {} more "
                       "records at the cut are left out, since their windows are not known",
-                      all.names.back(), history.left_out));
+                      run.name, history.left_out));
   }
-  return all;
+  return runs;
 }
 
 /// The values of --fix and --start.
@@ -165,6 +160,20 @@ void set_bodies(std::vector<FitRun>& runs, const std::vector<Estimate>& shape_fa
   }
 }
 
+/// Warns of numbers of the body that the fit does not use, because D was computed with others.
+void warn_of_other_body(Tool& tool, const std::vector<FitRun>& runs) {
+  for (const FitRun& run : runs) {
+    Body given = run.body;
+    if (!tool.given("gravity")) given.g = not_given;
+    if (!tool.given("slope")) given.slope = not_given;
+    const std::string others = other_body(run.shift_of, given, run.given);
+    if (others.empty()) continue;
+    tool.warn(fmt::format("run {}: D was computed with {}: the fit uses the numbers of D", run.name,
+                          others));
+    return;
+  }
+}
+
 /// The groups of runs that are fitted together: one group of all runs, or one for each run.
 std::vector<std::vector<FitRun>> grouped(std::vector<FitRun> runs, bool each) {
   std::vector<std::vector<FitRun>> groups;
@@ -174,12 +183,11 @@ std::vector<std::vector<FitRun>> grouped(std::vector<FitRun> runs, bool each) {
   return groups;
 }
 
-/// Fits each group of runs. With `names` a group is one run: if it cannot be fitted, a message
-/// names it and the others are fitted all the same.
+/// Fits each group of runs. With `each` a group is one run: if it cannot be fitted, a message names
+/// it and the others are fitted all the same.
 std::vector<std::optional<FitResult>> fit_all(Tool& tool, Route route,
                                               const std::vector<std::vector<FitRun>>& fits,
-                                              const FitOptions& options,
-                                              const std::vector<std::string>* names) {
+                                              const FitOptions& options, bool each) {
   std::vector<std::optional<FitResult>> results;
   for (const auto& runs : fits) {
     const double done = static_cast<double>(results.size()) / static_cast<double>(fits.size());
@@ -187,8 +195,8 @@ std::vector<std::optional<FitResult>> fit_all(Tool& tool, Route route,
     try {
       results.emplace_back(fit(route, runs, options));
     } catch (const Error& error) {
-      if (!names) throw;
-      tool.say(fmt::format("run {}: {}", (*names)[results.size()], error.what()));
+      if (!each) throw;
+      tool.say(fmt::format("run {}: {}", runs.front().name, error.what()));
       results.emplace_back();
     }
   }
@@ -291,34 +299,33 @@ int main(int argc, char** argv) {
     if (options.v0 && !trajectory) fail("--fix: this route has no v0");
     if (options.x0 && route != Route::position) fail("--fix: this route has no x0");
 
-    Runs all =
+    auto runs =
         read_runs(tool, in, route, body, with_report ? Columns::of_all_routes : Columns::of_route);
-    if (!each) warn_of_copies(tool, route, all);
-    set_bodies(all.runs, shape_factors, uncertainty);
-    const std::vector<std::string>& run_names = all.names;
-    const auto fits = grouped(std::move(all.runs), each);
+    if (!each) warn_of_copies(tool, route, runs);
+    set_bodies(runs, shape_factors, uncertainty);
+    if (!trajectory && !options.fit_slope) warn_of_other_body(tool, runs);
+    const auto fits = grouped(std::move(runs), each);
     const Table table{tool.out, trajectory && fits.front().size() == 1, options.fit_slope, each};
-    const auto results = fit_all(tool, route, fits, options, each ? &run_names : nullptr);
+    const auto results = fit_all(tool, route, fits, options, each);
     const auto fitted = [](const auto& result) { return result.has_value(); };
     if (std::none_of(results.begin(), results.end(), fitted)) return 2;
 
     table.write_names();
     std::size_t left_out = 0;
     for (std::size_t i = 0; i < results.size(); ++i) {
-      table.write(results[i], run_names[i]);
+      table.write(results[i], fits[i].front().name);
       if (results[i]) left_out += results[i]->left_out;
     }
     for (std::size_t i = 0; i < fits.size(); ++i) {
       if (!results[i]) continue;
-      const auto of_fit = each ? std::span(run_names).subspan(i, 1) : std::span(run_names);
-      warn_of(tool, route, *results[i], of_fit, with_check);
+      warn_of(tool, route, *results[i], fits[i], with_check);
       if (!with_report && !with_check) continue;
       std::optional<LawComparison> laws;  // AICc needs sums of squares
       if (!options.robust) laws = compare_laws(route, fits[i], options);
-      if (with_report && each) tool.say(fmt::format("run {}, the report:", run_names[i]));
+      if (with_report && each) tool.say(fmt::format("run {}, the report:", fits[i].front().name));
       if (with_report) report(tool, fits[i], options, laws);
       if (with_check)
-        check(tool, *results[i], laws, disturbed_beginning(route, fits[i], options), of_fit);
+        check(tool, *results[i], laws, disturbed_beginning(route, fits[i], options), fits[i]);
     }
     tool.count_left_out(left_out, "this route cannot use them");
     return std::all_of(results.begin(), results.end(), fitted) ? 0 : 2;

@@ -72,11 +72,17 @@ LITERAL = re.compile(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'')
 TOOLS = {
     "contact": ["energy-ledger", "shift-from-accel"],
     "fit": ["fitpower"],
+    "least_squares": ["fitpower"],
     "motion": ["simulate"],
+    "noise": ["fitpower"],
     "ode": ["simulate"],
     "sensor": ["simulate"],
     "signal": ["smooth", "differentiate"],
+    "statistics": ["fitpower"],
 }
+
+# The room whose unit tests show most of what another room does for it.
+USER = {"least_squares": "fit", "noise": "fit", "statistics": "fit"}
 
 
 def places(text):
@@ -143,6 +149,9 @@ def stages(tree, path, near):
         first = [(unit, [unit, "--abort"])]
         if (tree / "tests/unit" / room / f"{own}.cpp").exists():
             first.insert(0, (unit, [unit, "--abort", "--filenames-as-tags", f"[#{own}]"]))
+        if near and room in USER:
+            user = f"build/unit-{USER[room]}"
+            first.append((user, [user, "--abort"]))
         tools = TOOLS.get(room, [])
         if near and tools:
             bins = " ".join(f"bin/{tool}" for tool in tools)

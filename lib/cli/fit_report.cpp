@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "fit/fit.h"
+
 namespace rolling {
 
 std::map<std::string, std::optional<Route>> fit_routes() {
@@ -97,13 +99,13 @@ std::string described(const LawFit& fit, double least) {
 
 /// "the runs disagree ...: run 3 stands out, its D(0.21 m/s) is 4.1 +- 0.4 % less than the others'
 /// and its b 0.012 +- 0.004 more"
-std::string disagreement(const FitResult& r, std::span<const std::string> names) {
+std::string disagreement(const FitResult& r, const std::vector<FitRun>& runs) {
   const Agreement& found = *r.agreement;
   const auto more = [](double x) { return x < 0 ? "less" : "more"; };
   std::string line = fmt::format(
       "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees of freedom, chance "
       "{:.1g}): run {} stands out",
-      found.chi2, found.dof, found.significance, names[found.run]);
+      found.chi2, found.dof, found.significance, runs[found.run].name);
   if (found.log_D.sigma > 0)
     line +=
         fmt::format(", its D({:.2g} m/s) is {:.2g} +- {:.1g} % {} than that of the other{}",
@@ -121,16 +123,32 @@ std::string disagreement(const FitResult& r, std::span<const std::string> names)
 }
 
 /// What a message about the fit of one run begins with.
-std::string of_run(std::span<const std::string> names) {
-  return names.size() == 1 ? fmt::format("run {}: ", names[0]) : "";
+std::string of_run(const std::vector<FitRun>& runs) {
+  return runs.size() == 1 ? fmt::format("run {}: ", runs[0].name) : "";
 }
 
 }  // namespace
 
-void warn_of(Tool& tool, Route route, const FitResult& r, std::span<const std::string> names,
+void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
              bool check_comes) {
+  for (std::size_t i = 0; i < r.v0.size(); ++i)
+    if (const double D = r.a * std::pow(std::abs(r.v0[i]), r.b); D > runs[i].body.R) {
+      tool.warn(fmt::format(
+          "run {}: no body rolls so: at its first speed, {:.3g} m/s, D is {:.3g} m, beyond the "
+          "radius {} m; are the units of the columns right?",
+          runs[i].name, r.v0[i], D, runs[i].body.R));
+      break;
+    }
   if (exact(r)) return;
-  const std::string run = of_run(names);
+  const std::string run = of_run(runs);
+  // Where sigma_a is half of a, a +- 1.96 sigma_a holds the truth in 91 % only, and seldom tells by
+  // how much it is missed: ln a has the normal distribution.
+  if (r.sigma_a > r.a / 2)
+    tool.warn(
+        fmt::format("{}sigma_a is {:.2g} times a: take it as the error of ln a, for a +- sigma_a "
+                    "is no interval "
+                    "of so uncertain an a",
+                    run, r.sigma_a / r.a));
   if (noise_is_correlated(r))
     tool.warn(
         fmt::format("{}the noise is correlated from record to record (Ljung-Box p {:.2g}), or the "
@@ -143,13 +161,13 @@ void warn_of(Tool& tool, Route route, const FitResult& r, std::span<const std::s
   if (r.errors == Errors::uneven)
     tool.warn(run + "the noise is not of one size along the run: the errors allow for that");
   if (r.agreement && !r.agreement->agree() && !check_comes)
-    tool.warn(disagreement(r, names) + "; the errors allow for that");
+    tool.warn(disagreement(r, runs) + "; the errors allow for that");
   if (const auto& found = r.eccentricity)
     tool.warn(fmt::format(
         "run {}: the speed changes once a turn (significance {:.1g}), as if the centre of mass lay "
         "{:.2g} +- {:.1g} mm off the axis, most ahead of it at {:.0f} degrees: a and b are further "
         "off than their errors say; balance the body",
-        names[found->run], found->significance, 1e3 * found->e, 1e3 * found->sigma,
+        runs[found->run].name, found->significance, 1e3 * found->e, 1e3 * found->sigma,
         std::fmod(found->phase * 180 / std::numbers::pi + 360, 360)));
 }
 
@@ -168,20 +186,20 @@ void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& optio
 }
 
 void check(Tool& tool, const FitResult& r, const std::optional<LawComparison>& laws,
-           const std::optional<Beginning>& beginning, std::span<const std::string> names) {
+           const std::optional<Beginning>& beginning, const std::vector<FitRun>& runs) {
   // The difference in AICc at which the other law has essentially no support (Burnham and
   // Anderson 2002, section 2.6).
   constexpr double better = 10;
-  const std::string run = of_run(names);
+  const std::string run = of_run(runs);
   // check_failed() prints the first reason in full. Therefore a reason that no warning has
   // reported, or that would cause the others, comes first.
   if (r.agreement && !r.agreement->agree())
-    tool.check_failed(disagreement(r, names) + "; the errors allow for that");
+    tool.check_failed(disagreement(r, runs) + "; the errors allow for that");
   if (!exact(r) && beginning)
     tool.check_failed(fmt::format(
         "run {}: the first {} records do not go on as the others (chance {:.1g}), as if a hand "
         "were still on: cut off {:.2g} s",
-        names[beginning->run], beginning->records, beginning->significance, beginning->time));
+        runs[beginning->run].name, beginning->records, beginning->significance, beginning->time));
   if (laws && laws->against_power() >= better)
     tool.check_failed(fmt::format("{}D = {} is better than a v^b by {:.1f} in AICc; see --report",
                                   run, laws->best_other().law->formula, laws->against_power()));

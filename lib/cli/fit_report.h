@@ -3,12 +3,12 @@
 
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "cli/tool.h"
 #include "fit/beginning.h"
 #include "fit/laws.h"
+#include "fit/result.h"
 
 namespace rolling {
 
@@ -20,9 +20,9 @@ std::map<std::string, std::optional<Route>> fit_routes();
 std::vector<std::string> columns_of(Route);
 
 /// Warns the user: of errors that are not those of white noise, of runs that disagree (unless
-/// check() follows, which reports it), of the bias of logarithms, of an eccentric body. `names` are
-/// those of the runs of the fit.
-void warn_of(Tool&, Route, const FitResult&, std::span<const std::string> names, bool check_comes);
+/// check() follows, which reports it), of the bias of logarithms, of an eccentric body, of a shift
+/// beyond the radius, of an a whose error is not that of a normal distribution.
+void warn_of(Tool&, Route, const FitResult&, const std::vector<FitRun>&, bool check_comes);
 
 /// Reports the result and the computing time of each route, the coefficients of the laws, and
 /// whether a v^b is adequate.
@@ -32,6 +32,6 @@ void report(Tool&, const std::vector<FitRun>&, const FitOptions&,
 /// Reports a failed check if the runs of a joint fit disagree, another law is better by 10 in AICc,
 /// the beginning of a run is disturbed, or the residuals are not white.
 void check(Tool&, const FitResult&, const std::optional<LawComparison>&,
-           const std::optional<Beginning>&, std::span<const std::string> names);
+           const std::optional<Beginning>&, const std::vector<FitRun>&);
 
 }  // namespace rolling

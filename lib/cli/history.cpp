@@ -177,6 +177,22 @@ History history_of(const std::vector<std::string>& lines, std::span<const double
   return history;
 }
 
+std::string other_body(const std::optional<ShiftOf>& shift_of, const Body& body,
+                       const BodyUncertainty& given) {
+  std::string others;
+  if (!shift_of) return others;
+  for (const UncertainNumber& number : uncertain_numbers) {
+    const Estimate then{shift_of->body.*number.value, shift_of->given.*number.sigma},
+        now{body.*number.value, given.*number.sigma};
+    if (std::isnan(now.value) ||
+        (then.value == now.value && (then.sigma == now.sigma || now.sigma == 0)))
+      continue;
+    others += fmt::format("{}{} {} (here {})", others.empty() ? "" : ", ", number.name,
+                          to_text(then), to_text(now));
+  }
+  return others;
+}
+
 bool speeds_of_positions(const std::vector<std::string>& lines) {
   return std::ranges::any_of(
       lines, [](const std::string& line) { return line.starts_with("differentiate x "); });

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/fit.h"
+#include "fit/input.h"
 
 namespace rolling {
 
@@ -24,6 +24,11 @@ struct History {
 /// if a filter is not linear. A line that names one of these tools but is not, word by word, what
 /// the tool writes is not trusted.
 History history_of(const std::vector<std::string>& lines, std::span<const double> t);
+
+/// "K 0.6 (here 0.5)": the numbers that D was computed with, where those of the body are others, or
+/// have an uncertainty that D's do not have; empty if there are none. A number of the body that is
+/// NaN is not known.
+std::string other_body(const std::optional<ShiftOf>&, const Body&, const BodyUncertainty& = {});
 
 /// True if one of the lines says that the speeds are differences of positions.
 bool speeds_of_positions(const std::vector<std::string>& lines);

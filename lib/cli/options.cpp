@@ -191,6 +191,7 @@ void Options::take_scene() {
     if (option == options_.end() || on_command_line(scene.key)) continue;
     try {
       option->second.set(scene.value);
+      in_scene_.insert(scene.key);
     } catch (const Error& error) {
       fail("{}:{}: {}: {}", scene_file_, scene.line, scene.key, error.what());
     }

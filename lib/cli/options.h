@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -79,6 +80,10 @@ class Options {
   bool has(const std::string& option) const { return options_.contains(option); }
   /// True if the option with this long name is on the command line (not only in the scene).
   bool on_command_line(std::string_view option) const { return command_line_.given(option); }
+  /// True if it has a value from the command line or from the scene.
+  bool given(const std::string& option) const {
+    return on_command_line(option) || in_scene_.contains(option);
+  }
 
  protected:
   using Set = CommandLine::Set;
@@ -107,6 +112,7 @@ class Options {
               const std::string& help, const Set& set);
 
   std::map<std::string, Option> options_;  // by long name
+  std::set<std::string> in_scene_;         // the keys of the scene that are options of this tool
   std::string scene_file_;
 };
 

@@ -13,7 +13,9 @@ void check_shift(const Body& c, double D) {
 }
 
 double arm_factor(const Body& c, Geometry geometry, double D) {
-  return geometry == Geometry::approximate ? 1 : std::sqrt((1 - D / c.R) * (1 + D / c.R));
+  if (geometry == Geometry::approximate) return 1;
+  D = std::abs(D);
+  return std::sqrt((c.R - D) / c.R * (1 + D / c.R));  // R - D is exact where D is near R
 }
 
 // Both functions below write 0 - x instead of -x: for x = 0 the result is then +0, and no table

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "statistics/random_effects.h"
 
 namespace rolling {
 namespace {
@@ -83,108 +84,6 @@ void stand_out(Agreement& result, const OwnLaw& one, Pair others, Symmetric C, d
   result.speed = std::exp(log_v);
   result.log_D = log_D_of(d, C, log_v);
   result.b = {d.b, std::sqrt(C.bb)};
-}
-
-/// The line x = mean + slope (g - its mean) through numbers x of the runs with standard errors
-/// sigma, which scatter by tau from run to run beside them: least squares with the weights
-/// 1/(sigma^2 + tau^2). If g is the same in all runs, the slope is 0.
-struct Line {
-  double tau_square = 0;
-  double mean = 0, mean_g = 0, slope = 0;
-  double weight = 0, spread = 0;  ///< sum of w, and of w (g - mean_g)^2
-  double chi2 = 0;                ///< sum of w r^2 of the residuals r
-  double fall = 0;                ///< -d chi2/d tau^2
-
-  double weight_of(const Estimate& x) const { return 1 / (x.sigma * x.sigma + tau_square); }
-};
-
-Line line_through(const std::vector<Estimate>& x, const std::vector<double>& g, double tau_square) {
-  Line line;
-  line.tau_square = tau_square;
-  const auto w = [&](std::size_t i) { return line.weight_of(x[i]); };
-  for (std::size_t i = 0; i < x.size(); ++i) line.weight += w(i);
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    line.mean += w(i) / line.weight * x[i].value;
-    line.mean_g += w(i) / line.weight * g[i];
-  }
-  double together = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double off = g[i] - line.mean_g;
-    line.spread += w(i) * off * off;
-    together += w(i) * off * (x[i].value - line.mean);
-  }
-  if (line.spread > 0) line.slope = together / line.spread;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double r = x[i].value - line.mean - line.slope * (g[i] - line.mean_g);
-    line.chi2 += w(i) * r * r;
-    line.fall += w(i) * w(i) * r * r;
-  }
-  return line;
-}
-
-/// The line whose tau makes chi^2 what it is on average, `freedom`, or 0 where chi^2 is not above
-/// that (Mandel and Paule 1970, Anal. Chem. 42, 1194). Newton's method on 1/chi^2, which is linear
-/// in tau^2 where all errors are equal.
-Line scattered_line(const std::vector<Estimate>& x, const std::vector<double>& g, double freedom) {
-  double tau_square = 0;
-  Line line = line_through(x, g, 0);
-  for (int i = 0; i < 100 && line.chi2 > 0 && std::isfinite(line.weight); ++i) {
-    const double step = (line.chi2 / freedom - 1) * line.chi2 / line.fall,
-                 next = std::max(0.0, tau_square + step);
-    const bool done = std::abs(next - tau_square) <= 1e-12 * next;
-    tau_square = next;
-    line = line_through(x, g, tau_square);
-    if (done) break;
-  }
-  return line;
-}
-
-/// An error with so few degrees of freedom is multiplied by this factor, so that 1.96 errors hold
-/// the truth in 95 %.
-double student(double freedom) { return gsl_cdf_tdist_Pinv(0.975, freedom) / 1.96; }
-
-/// The weighted mean of numbers of the runs, and its error from the distances of the runs to each
-/// other: a run with the share h of the weights and the residual r brings h r/sqrt(1 - h), and the
-/// error is the root of the sum of their squares. The degrees of freedom of that sum are those of
-/// Satterthwaite for numbers that scatter as the weights say: N - 1 if the weights are equal, and
-/// down to 1 if one run has them all (Bell and McCaffrey 2002, Survey Methodology 28, 169).
-struct Mean {
-  bool free;  ///< the number is not held fixed; else all others are 0
-  double value;
-  std::vector<double> shares, parts;  ///< of the weights; of the error, times student()
-
-  double error() const {
-    double squares = 0;
-    for (double part : parts) squares += part * part;
-    return std::sqrt(squares);
-  }
-};
-
-Mean mean_of(const std::vector<Estimate>& x, double freedom) {
-  const std::size_t n = x.size();
-  const Line line = scattered_line(x, std::vector<double>(n, 0), freedom);
-  Mean mean{std::isfinite(line.weight), line.mean, std::vector<double>(n, 0),
-            std::vector<double>(n, 0)};
-  if (!mean.free) return mean;
-  std::vector<double> k(n);
-  for (std::size_t i = 0; i < n; ++i) mean.shares[i] = line.weight_of(x[i]) / line.weight;
-  for (std::size_t i = 0; i < n; ++i) {
-    double rest = 0, sum = 0;  // rest = 1 - h, also where that rounds to 0
-    for (std::size_t j = 0; j < n; ++j)
-      if (j != i) rest += mean.shares[j], sum += mean.shares[j] * x[j].value;
-    const double h = mean.shares[i];
-    mean.parts[i] = h * std::sqrt(rest) * (x[i].value - sum / rest);  // r/(1 - h) = x - sum/rest
-    k[i] = h * h / rest;
-  }
-  double inverse = 0;  // of the degrees of freedom
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j)
-      inverse += i == j ? mean.shares[i] * mean.shares[i] : k[i] * k[j];
-  // The slope, where it was fitted, has taken one of the N - 1.
-  const double left = freedom / static_cast<double>(n - 1),
-               factor = student(left / inverse) / std::sqrt(left);
-  for (double& part : mean.parts) part *= factor;
-  return mean;
 }
 
 Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, bool slope) {
@@ -287,7 +186,7 @@ BySlope take_slope(std::vector<OwnLaw>& laws, double freedom, NoiseErrors& error
     const ObservedRun& run = joint.rolls->runs()[one.run];
     by_slope.push_back(run.way * run.body.R / std::exp(mean));
   }
-  const Line line = scattered_line(log_D, by_slope, freedom);
+  const RandomEffectsLine line = random_effects_line(log_D, by_slope, freedom);
   joint.slope->value += line.slope;
   errors.share.slope = student(freedom) * std::sqrt(line.chi2 / freedom / line.spread);
   BySlope result;
@@ -306,7 +205,8 @@ void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, F
   if (joint.slope) by_slope = take_slope(laws, freedom, errors, joint);
   std::vector<Estimate> as, bs;
   for (const OwnLaw& one : laws) as.push_back(one.log_D(0)), bs.push_back(one.b());
-  const Mean a = mean_of(as, freedom), b = mean_of(bs, freedom);
+  const RandomEffectsMean a = random_effects_mean(as, freedom),
+                          b = random_effects_mean(bs, freedom);
   Pair lost{};
   double products = 0;
   for (std::size_t i = 0; i < laws.size(); ++i) {

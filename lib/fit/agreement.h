@@ -12,17 +12,8 @@ namespace rolling {
 ///
 /// `errors` are those of the joint fit. Where the runs agree, `errors` and `joint` stay as they
 /// are. Where they disagree, a and b of `joint` become the means of ln a and of b of the runs: one
-/// common law would bend between them, and 2 % of scatter in a would shift b by its error. ln a and
-/// b are each taken to scatter from run to run with a variance tau^2 beside that of the runs'
-/// errors. tau^2 is chosen so that chi^2 equals its degrees of freedom (Mandel and Paule 1970,
-/// Anal. Chem. 42, 1194), and the weights are 1/(sigma^2 + tau^2).
-///
-/// The errors of the means come from the distances of the runs to each other alone, each corrected
-/// for its weight (HC2). They are multiplied by t/1.96, t Student's quantile of 0.975 for the
-/// degrees of freedom of Bell and McCaffrey (2002, Survey Methodology 28, 169; Imbens and Kolesar
-/// 2016, Rev. Econ. Stat. 98, 701), so that 1.96 standard errors hold the truth in 95 %. The root
-/// of 1/sum(weights) would not do: where one run is more precise than the others, few runs tell
-/// tau too roughly.
+/// common law would bend between them, and 2 % of scatter in a would shift b by its error. Values
+/// and errors are those of statistics/random_effects.h.
 ///
 /// A fitted slope of the mat becomes the one at which the runs of both directions agree best in
 /// ln D, by the same weights, and takes a degree of freedom. Two runs then have none left, and runs

@@ -12,6 +12,7 @@
 #include "base/dot.h"
 #include "fit/errors.h"
 #include "fit/fitted.h"
+#include "statistics/residuals.h"
 
 namespace rolling {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "fit/fit.h"
+#include "fit/input.h"
 
 namespace rolling {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fit/fitted.h"
+#include "fit/result.h"
 
 namespace rolling {
 

@@ -1,7 +1,6 @@
 #include "fit/errors.h"
 
 #include <fmt/core.h>
-#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "contact/uncertain_number.h"
 #include "base/by_run.h"
 #include "base/dot.h"
+#include "statistics/residuals.h"
 
 namespace rolling {
 
@@ -53,111 +53,6 @@ void add_shared(std::vector<double>& M, std::size_t columns, std::size_t shared)
       for (std::size_t at = i * columns + j; at < M.size(); at += square) sum += M[at];
       for (std::size_t at = i * columns + j; at < M.size(); at += square) M[at] = sum;
     }
-}
-
-double lagged(std::span<const double> r, std::span<const std::size_t> runs, std::size_t lag) {
-  double sum = 0;
-  for (const auto run : by_run(r, runs))
-    if (run.size() > lag) sum += dot(run.first(run.size() - lag), run.subspan(lag));
-  return sum;
-}
-
-double ljung_box(std::span<const double> r, std::size_t p, std::span<const std::size_t> runs) {
-  const double n = static_cast<double>(r.size()), all = lagged(r, runs, 0);
-  if (!(all > 0)) return 1;
-  const std::size_t lags = std::clamp<std::size_t>(r.size() / 10, 1, 10);
-  double Q = 0, least = 1;
-  for (std::size_t k = 1; k <= lags; ++k) {
-    const double rho = lagged(r, runs, k) / all + static_cast<double>(p) / n;
-    Q += n * (n + 2) * rho * rho / (n - static_cast<double>(k));
-    if (k == 1 || k == lags) least = std::min(least, gsl_cdf_chisq_Q(Q, static_cast<double>(k)));
-  }
-  return least;
-}
-
-double breusch_pagan(std::span<const double> residuals, std::span<const std::size_t> runs) {
-  // n R^2 of the regression of the squared residuals on the first two Legendre polynomials of the
-  // position u in the run (orthogonal up to 1/n^2) has a chi-square distribution with two degrees
-  // of freedom.
-  const double n = static_cast<double>(residuals.size());
-  const double mean = lagged(residuals, runs, 0) / n;
-  double P1 = 0, P2 = 0, along1 = 0, along2 = 0, all = 0;
-  for (const auto run : by_run(residuals, runs))
-    for (std::size_t i = 0; i < run.size(); ++i) {
-      const double u = (2 * static_cast<double>(i) + 1) / static_cast<double>(run.size()) - 1,
-                   p2 = (3 * u * u - 1) / 2, square = run[i] * run[i] - mean;
-      P1 += u * u;
-      P2 += p2 * p2;
-      along1 += u * square;
-      along2 += p2 * square;
-      all += square * square;
-    }
-  if (!(all > 0) || !(P1 > 0) || !(P2 > 0)) return 1;
-  return gsl_cdf_chisq_Q(n * (along1 * along1 / P1 + along2 * along2 / P2) / all, 2);
-}
-
-namespace {
-
-/// x[i] - rho x[i - 1] for rows of p numbers. The first row of each run is multiplied by sqrt(1 -
-/// rho^2), so that its variance is the same.
-std::vector<double> prewhitened(std::span<const double> x, std::size_t p,
-                                std::span<const std::size_t> runs, double rho) {
-  std::vector<double> e(x.begin(), x.end());
-  for (const auto run : by_run(e, runs, p)) {
-    for (std::size_t i = run.size(); i-- > p;) run[i] -= rho * run[i - p];
-    for (std::size_t i = 0; i < std::min(p, run.size()); ++i) run[i] *= std::sqrt(1 - rho * rho);
-  }
-  return e;
-}
-
-double correlation_of_neighbours(std::span<const double> r, std::span<const std::size_t> runs) {
-  return std::clamp(lagged(r, runs, 1) / lagged(r, runs, 0), -0.97, 0.97);
-}
-
-/// The sum of w(|i - j|) u_i u_j^T over the rows of one run, with w(l) = 1 - l/(width + 1) up to
-/// lags of half the run. The triangular weights are the autocorrelation of a box, so that the sum
-/// is a sum of squares of moving sums, at a cost that does not depend on the width. Where the limit
-/// of half the run cuts the triangle off, the remaining part is a box.
-std::vector<double> bartlett(std::span<const double> u, std::size_t q, std::size_t width) {
-  const std::size_t m = u.size() / q, most = std::min({width, m / 2, m - 1});
-  std::vector<double> P((m + 1) * q), S(q * q, 0), sum(q);  // P: cumulative sums
-  for (std::size_t i = 0; i < m * q; ++i) P[i + q] = P[i] + u[i];
-  const auto sum_over = [&](std::size_t from, std::size_t to) {
-    for (std::size_t j = 0; j < q; ++j) sum[j] = P[to * q + j] - P[from * q + j];
-  };
-  const double triangle = 1 / static_cast<double>(width + 1),
-               box = 1 - static_cast<double>(most + 1) * triangle;
-  for (std::size_t end = 1; end <= m + most; ++end) {
-    sum_over(end > most + 1 ? end - most - 1 : 0, std::min(end, m));
-    add_outer(S, triangle, sum, sum);
-  }
-  for (std::size_t i = 0; box > 0 && i < m; ++i) {
-    sum_over(i > most ? i - most : 0, std::min(i + most + 1, m));
-    add_outer(S, box, u.subspan(i * q, q), sum);
-  }
-  return S;
-}
-
-}  // namespace
-
-std::vector<double> newey_west(std::span<const double> scores, std::size_t p,
-                               std::span<const double> residuals,
-                               std::span<const std::size_t> runs) {
-  const double n = static_cast<double>(residuals.size()), fitted = static_cast<double>(p);
-  const std::size_t q = scores.size() / residuals.size();
-  // A fit of p smooth terms lowers the lag-1 correlation of its residuals by (p (1 + AR) + 2 AR)/n
-  // (Kendall 1954, Biometrika 41, 403, for p = 1).
-  const double AR = std::clamp(
-      (n * correlation_of_neighbours(residuals, runs) + fitted) / std::max(n - fitted - 2, 1.0),
-      -0.97, 0.97);
-  const auto u = prewhitened(scores, q, runs, AR);
-  const double rho = correlation_of_neighbours(prewhitened(residuals, 1, runs, AR), runs);
-  const double alpha = 4 * rho * rho / ((1 - rho * rho) * (1 - rho * rho));
-  const auto width = static_cast<std::size_t>(std::ceil(1.1447 * std::cbrt(alpha * n)));
-  std::vector<double> all;
-  for (const auto run : by_run(u, runs, q))
-    for (double x : bartlett(run, q, width)) all.push_back(x / ((1 - AR) * (1 - AR)));
-  return all;
 }
 
 namespace {

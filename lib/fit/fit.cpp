@@ -299,9 +299,7 @@ void require_determined(const FitResult& result, const FitOptions& options) {
     fail("as many parameters as records do not determine b: it comes out as {:.3g}", result.b);
 }
 
-}  // namespace
-
-FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   Fitted found = fit_route(route, runs, options);
   const Uncertainty uncertainty = uncertainty_of(found);
   NoiseErrors noise = noise_errors(found, uncertainty);
@@ -321,12 +319,18 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
   return result;
 }
 
-bool noise_is_correlated(const FitResult& r) {
-  return r.errors == Errors::autocorrelation && r.whiteness <= not_white;
-}
+}  // namespace
 
-bool logarithms_too_low(const FitResult& r) {
-  return r.rms * r.rms / 2 > r.sigma_a / r.a * std::sqrt(1 - r.corr * r.corr) && r.sigma_a > 0;
+FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+  if (!options.start_a && !options.start_b) return fit_from_start(route, runs, options);
+  try {
+    return fit_from_start(route, runs, options);
+  } catch (const Error&) {  // of the data, or of the start alone
+    FitOptions free = options;
+    free.start_a = free.start_b = {};
+    fit_from_start(route, runs, free);
+    fail("the search does not find the fit from the start that is given, but it does without it");
+  }
 }
 
 }  // namespace rolling

@@ -10,6 +10,7 @@
 #include "fit/errors.h"
 #include "fit/first_guess.h"
 #include "motion/law_roll.h"
+#include "statistics/residuals.h"
 
 namespace rolling {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/estimate.h"
 #include "contact/law.h"
-#include "fit/fit.h"
+#include "fit/input.h"
 
 namespace rolling {
 

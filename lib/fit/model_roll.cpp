@@ -72,7 +72,8 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
   std::vector<ObservedRun> runs;
   for (std::size_t r = 0; r < all.size(); ++r) {
     const FitRun& run = all[r];
-    if (rows[r].empty()) fail("run {} has no record that can be fitted", r + 1);
+    const std::string of_run = all.size() > 1 ? fmt::format("run {}: ", run.name) : "";
+    if (rows[r].empty()) fail("{}no record can be fitted", of_run);
     const double first_fitted = run.t[rows[r].front()];
     const bool held = options.v0 || options.x0;
     ObservedRun seen;
@@ -82,13 +83,13 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     seen.start = held ? 0 : first_fitted - seen.origin;
     if (held && seen.origin < run.t[0])
       fail(
-          "v0 and x0 cannot be held: filters have reached back to what was cut away before run {} "
-          "begins",
-          r + 1);
+          "{}v0 and x0 cannot be held: filters have reached back to what was cut away before the "
+          "run begins",
+          of_run);
     seen.y = taken(route == Route::position ? run.x : run.v, rows[r]);
     seen.way = way_of(route == Route::position, seen.y, options);
     if (options.v0 && seen.way * *options.v0 < 0)
-      fail("v0 = {} cannot be held: run {} rolls towards {} x", *options.v0, r + 1,
+      fail("{}v0 = {} cannot be held: the body rolls towards {} x", of_run, *options.v0,
            seen.way > 0 ? "growing" : "falling");
     if (route == Route::shift) {
       const ShiftOf& by = *run.shift_of;

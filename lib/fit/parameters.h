@@ -3,7 +3,7 @@
 #pragma once
 
 #include "contact/power_law.h"
-#include "fit/fit.h"
+#include "fit/input.h"
 
 #include <cmath>
 #include <utility>

@@ -140,7 +140,9 @@ class Search {
       : positions_(positions), view_(best_view(run, positions)),
         sign_(view_.speeds[view_.peak] < 0 ? -1 : 1) {
     if (!(view_.fastest > 8 * view_.noise))
-      fail("no motion stands out of the noise: there is no free roll");
+      fail(
+          "no motion stands out of the noise, or too few records show it: if there is a free roll, "
+          "choose it by its times (--from, --to)");
     const auto moves = [&](std::size_t i) { return speed(i) > 2 * view_.noise; };
     first_ = end_ = view_.peak;
     while (first_ > 0 && moves(first_ - 1)) --first_;

@@ -30,6 +30,8 @@ class HeadReader {
   void check_bytes() const;
   bool is_record(std::string_view line);
   bool is_missing_record(std::string_view line);
+  void take_units();
+  void add_unit(Column& column, std::string_view unit) const;
   std::vector<std::string> take_names(std::size_t width);
   enum class Proof { known, known_or_tabs, none };
   std::vector<std::string> take_commented_names(std::size_t width, Proof);
@@ -48,6 +50,7 @@ class HeadReader {
   Head head_;
   std::vector<std::size_t> numbers_;  // of the lines of the comments
   std::vector<Line> preamble_;        // lines that are neither comments nor records
+  std::vector<std::string> units_;    // of the line between names and records, if there is one
 };
 
 std::vector<Column> HeadReader::known_columns() const {
@@ -194,8 +197,36 @@ void HeadReader::refuse_units(const std::vector<std::string>& fields, std::size_
                      lines_.name(), line);
 }
 
-/// Refuses a separate line of units, which the tools do not read: columns are not taken as SI if a
-/// line says otherwise.
+/// Takes the line of units below the line of names: of two lines of equal width the upper one has a
+/// known name, and the lower one, above the records, has none.
+void HeadReader::take_units() {
+  if (preamble_.size() < 2) return;
+  const auto known = [](const std::string& name) {
+    return !si_unit(read_column(name).name).empty();
+  };
+  const auto names = names_in(preamble_[preamble_.size() - 2].text, dialect_);
+  auto units = names_in(preamble_.back().text, dialect_);
+  if (names.size() != units.size() || std::ranges::none_of(names, known) ||
+      std::ranges::any_of(units, known))
+    return;
+  units_ = std::move(units);
+  preamble_.pop_back();
+}
+
+/// Gives a column its unit from that line.
+void HeadReader::add_unit(Column& column, std::string_view unit) const {
+  if (unit.size() > 2 && (unit.front() == '[' || unit.front() == '('))
+    unit = trim(unit.substr(1, unit.size() - 2));
+  if (unit.empty()) return;
+  const std::string below = read_column(fmt::format("{}[{}]", column.name, unit)).unit;
+  if (!column.unit.empty() && column.unit != below)
+    fail<InputError>("{}:{}: the column '{}' has another unit in the line below, '{}'",
+                     lines_.name(), head_.line, shown(to_text(column)), shown(unit));
+  column.unit = below;
+}
+
+/// Refuses other lines of units, which the tools do not read: columns are not taken as SI if a line
+/// says otherwise.
 void HeadReader::refuse_lines_of_units(std::size_t width) const {
   if (width < 2) return;
   for (std::size_t i = 0; i < head_.comments.size(); ++i)
@@ -241,6 +272,7 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
   const auto fields = dialect_.split(lines_.text());
   const std::size_t width = fields.size();
   const bool blank_field = fields.back().text.empty();
+  take_units();
   refuse_lines_of_units(width);
   const auto names = take_names(width);
   if (names.empty() && before_) {
@@ -258,12 +290,14 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
     else if (i < order.size() && !head_.named)
       columns.push_back({order[i], std::string(si_unit(order[i]))});
     else columns.emplace_back();
+    if (i < units_.size()) add_unit(columns.back(), units_[i]);
     if (columns.back().name.empty()) columns.back().name = fmt::format("c{}", i + 1);
   }
   head_.layout = sides == Sides::one ? Layout::one(columns) : Layout::of(columns);
   if (head_.named && (head_.layout.side_by_side() ? width > names.size() : width != names.size()))
-    fail<InputError>("{}:{}: {} field{} under a line of {} names{}", lines_.name(), lines_.number(),
-                     width, width == 1 ? "" : "s", names.size(),
+    fail<InputError>("{}:{}: {} field{} under a line of {} name{}{}", lines_.name(),
+                     lines_.number(), width, width == 1 ? "" : "s", names.size(),
+                     names.size() == 1 ? "" : "s",
                      dialect_.separator() == ','
                          ? "; if some of its commas are decimal ones, make them points first"
                          : "");

@@ -54,17 +54,30 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, std::stri
   as_read_ = std::move(as_read);
   named_ = named;
   place_ = std::move(place);
+  quantities_.clear();
+  for (const Column& column : as_read_) quantities_.push_back(column.name);
+  for (const auto& [quantity, use] : use_)
+    if (const auto at = find_column(use.column)) quantities_[*at] = quantity;
+  for (const auto& [quantity, use] : use_)
+    if (const auto at = find_column(use.column); at && quantities_[*at] != quantity)
+      fail<InputError>("{}: --use: column {} cannot serve as both {} and {}", place_, *at + 1,
+                       quantity, quantities_[*at]);
   resolve();
 }
 
 std::optional<std::size_t> NeededColumns::find(std::string_view name) const {
-  const auto use = use_.find(read_column(name).name);
-  if (use == use_.end()) return find_column(name);
-  const std::string& column = use->second.column;
-  const auto at = find_column(column);
-  if (!at)
-    fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", place_, use->first,
-                     shown(column), shown(column), list());
+  const std::string quantity = read_column(name).name;
+  if (const auto use = use_.find(quantity); use != use_.end()) {
+    const std::string& column = use->second.column;
+    const auto at = find_column(column);
+    if (!at)
+      fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", place_, quantity,
+                       shown(column), shown(column), list());
+    return at;
+  }
+  const auto at = find_column(name);
+  // The column of this name serves as another quantity.
+  if (at && !si_unit(quantity).empty() && quantities_[*at] != quantity) return {};
   return at;
 }
 
@@ -97,7 +110,10 @@ std::string NeededColumns::list() const {
 }
 
 std::size_t NeededColumns::require(std::string_view name) const {
-  const auto column = find(name);
+  const auto column = find(name), of_name = column ? column : find_column(name);
+  if (!column && of_name)
+    fail<InputError>("{}: column {} cannot serve as both {} and {}", place_, *of_name + 1,
+                     quantities_[*of_name], name);
   if (!column)
     fail<InputError>("{}: there is no column '{}' among {}{}", place_, shown(name), list(),
                      has_use_ && !si_unit(read_column(name).name).empty()
@@ -126,10 +142,7 @@ void NeededColumns::resolve(Needed& needed) const {
   if (!found) return;
   const bool first = needed.quantity.empty();
   const Column read = with_unit(*found, needed.quantity);
-  // A column that is requested by its number serves as the quantity of its own name.
-  const std::string quantity = is_column_number(needed.name) ? read.name
-                               : needed.kind == Kind::as_is  ? needed.name
-                                                             : read_column(needed.name).name;
+  const std::string& quantity = quantities_[*found];
   if (first) needed.quantity = quantity, needed.unit = read.unit;
   if (quantity != needed.quantity)
     fail<InputError>("{}: column {} is {}, and {} in the runs before", place_, *found + 1,
@@ -149,14 +162,9 @@ void NeededColumns::resolve(Needed& needed) const {
 
 void NeededColumns::resolve() {
   converts_ = false;
-  for (Needed& needed : needed_) resolve(needed);
-  for (const Needed& needed : needed_) {
+  for (Needed& needed : needed_) {
+    resolve(needed);
     converts_ |= needed.to_si.changes();
-    if (needed.column == no_column) continue;
-    for (const Needed& other : needed_)
-      if (&other != &needed && other.column == needed.column && other.quantity != needed.quantity)
-        fail<InputError>("{}: column {} cannot serve as both {} and {}", place_, needed.column + 1,
-                         other.quantity, needed.quantity);
   }
   name_columns();
 }

@@ -76,6 +76,7 @@ class NeededColumns {
 
   // The run.
   std::vector<Column> as_read_, in_output_;
+  std::vector<std::string> quantities_;  // what each column serves as: by --use, else its own name
   bool named_ = false;
   std::string place_;
 };

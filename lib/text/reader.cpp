@@ -90,7 +90,7 @@ bool Reader::next_file() {
   if (next_file_ == options_.files.size()) return false;
   line_number_ = 0;
   run_in_file_ = 0;
-  lines_ = std::make_unique<Lines>(options_.files[next_file_++], options_.on_block);
+  lines_.emplace(options_.files[next_file_++], options_.on_block);
   return file_open_ = true;
 }
 
@@ -103,7 +103,6 @@ void Reader::take_head(Head head) {
                        other_width
                            ? fmt::format("{}, not {}", head.layout.width, head_.layout.width)
                            : "those have names");
-    first_record_ = lines_->number();
   }
   head_ = std::move(head);
   side_ = 0;
@@ -296,7 +295,7 @@ bool Reader::take_record() {
     if (needed.column != no_column) value = fields_[needed.column].number;
     if (std::isnan(value)) {
       if (needed.column != no_column && !is_missing(fields_[needed.column].text))
-        reject(needed.column, "is not a number" + way_out(fields_[needed.column].text));
+        reject(needed.column, "is not a number" + way_out(needed.column));
       if (needed.kind != NeededColumns::Kind::wanted) {
         if (options_.strict)
           fail<InputError>("{}: field {} ({}): a reading is missing", here(),
@@ -352,21 +351,25 @@ void Reader::reject(std::size_t column, std::string_view why) const {
 }
 
 /// What to do about a field that is not a number, where its text shows the likely reason: a decimal
-/// comma, a typographic minus sign, an error value of a spreadsheet, a line of text.
-std::string Reader::way_out(std::string_view field) const {
+/// comma, a typographic minus sign, an error value of a spreadsheet, a time of day, the names of
+/// another run, a line of text.
+std::string Reader::way_out(std::size_t column) const {
+  const std::string_view field = fields_[column].text;
   const bool in_field =
       std::count(field.begin(), field.end(), ',') == 1 && field.find('.') == std::string_view::npos;
-  const bool beside = file_dialect_.separator() == ',' &&
-                      field.find(' ') != std::string_view::npos &&
-                      is_number(field.substr(0, field.find(' ')));
+  const auto blank = field.find(' ');
+  const bool beside = file_dialect_.separator() == ',' && blank < field.size() &&
+                      is_number(field.substr(0, blank)) && is_number(trim(field.substr(blank)));
+  const bool word = !field.empty() &&
+                    std::string_view("+-.0123456789").find(field.front()) == std::string_view::npos;
+  if (!word && field.find(':') < field.size()) return "; make it one number of seconds first";
   if (in_field || beside) return "; if a comma here is a decimal one, make it a point first";
   if (field.starts_with("\xE2\x88\x92")) return "; make its minus sign (U+2212) a hyphen first";
   if (field.starts_with('#')) return "; write NaN for a missing reading";
-  const bool word = !field.empty() &&
-                    std::string_view("+-.0123456789").find(field.front()) == std::string_view::npos;
-  return word && !head_.named && line_number_ == first_record_
-             ? "; if this line is not a record, begin it with #"
-             : "";
+  if (!word) return "";
+  if (head_.named && read_column(field).name == layout().columns[column].name)
+    return "; put a blank line before the names of another run";
+  return column == 0 ? "; if this line is not a record, begin it with #" : "";
 }
 
 std::string Reader::here() const { return fmt::format("{}:{}", lines_->name(), line_number_); }

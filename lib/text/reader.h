@@ -2,7 +2,6 @@
 // names in each head, converts them to SI units, and passes all other text through.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -135,13 +134,13 @@ class Reader {
   void check_time();
   Part append_made(Bytes& to, std::size_t column);
   [[noreturn]] void reject(std::size_t column, std::string_view why) const;
-  std::string way_out(std::string_view field) const;
+  std::string way_out(std::size_t column) const;
   std::string here() const;
 
   ReaderOptions options_;
   NeededColumns needed_;
   std::vector<std::string> order_;
-  std::unique_ptr<Lines> lines_;
+  std::optional<Lines> lines_;
   std::size_t next_file_ = 0;
 
   // The run.
@@ -165,7 +164,6 @@ class Reader {
   std::span<const Field> fields_;
   std::vector<Field> changed_fields_;
   bool fields_changed_ = false, coarse_time_ = false;
-  std::size_t first_record_ = 0;
   std::size_t time_slot_ = no_column;
   double last_time_ = 0;  // NaN before the first record of a run
   std::size_t left_out_ = 0;

@@ -13,7 +13,8 @@ declare -A may=(
   [motion]='base ode contact'
   [noise]='base'
   [least_squares]='base'
-  [fit]='base contact motion noise least_squares'
+  [statistics]='base'
+  [fit]='base contact motion noise least_squares statistics'
   [sensor]='base motion'
   [cli]='base text contact signal noise fit'  # signal and noise: what a `##` line says becomes a filter of the noise
 )
@@ -42,7 +43,7 @@ for room in lib/*/; do
         complain "$file: only lib/text and lib/cli see files" ;;
     esac
     case $room in
-      base | ode | fit | sensor | contact | motion) ;;
+      base | ode | fit | sensor | contact | motion | statistics) ;;
       *) grep -qE '# *include (<gsl/|"base/gsl\.h")' "$file" &&
         complain "$file: $room does without GSL" ;;
     esac

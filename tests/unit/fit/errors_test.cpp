@@ -5,48 +5,6 @@
 
 using namespace rolling;
 
-TEST_CASE("errors: Ljung-Box tells white residuals from correlated ones", "[fit]") {
-  simulated::Noise noise(3);
-  std::vector<double> white, smooth;
-  for (int i = 0; i < 200; ++i) white.push_back(noise(1));
-  smooth = simulated::mean(white, 5);
-  const std::size_t one[] = {200}, two[] = {100, 100};
-  CHECK(ljung_box(white, 1, one) > 0.01);
-  CHECK(ljung_box(white, 1, two) > 0.01);
-  CHECK(ljung_box(smooth, 1, one) < 1e-6);
-}
-
-TEST_CASE("errors: Newey-West by hand", "[fit]") {
-  // r = -1/4 and AR = (4 r + 1)/(4 - 1 - 2) = 0: nothing to whiten. rho = -1/4, alpha = 64/225,
-  // width = ceil(1.1447 cbrt(4 alpha)) = 2; products one apart sum to -1, two apart to 0: 4 + 2
-  // (2/3) (-1).
-  const std::size_t four[] = {4}, five[] = {5};
-  const std::vector<double> u{1, 1, -1, 1};
-  CHECK(std::abs(newey_west(u, 1, u, four)[0] - 8.0 / 3) < 1e-12);
-  // r = 0, AR = 1/2: whitened sqrt(3)/2, 1/2, -3/2, -1/2, 3/2 with squares 23/4, products sqrt(3)/4
-  // - 3/4, width 1.
-  const std::vector<double> w{1, 1, -1, -1, 1};
-  CHECK(std::abs(newey_west(w, 1, w, five)[0] - 4 * (23.0 / 4 + std::sqrt(3) / 4 - 3.0 / 4)) <
-        1e-12);
-}
-
-TEST_CASE("errors: Breusch-Pagan notices noise that grows, and 1 % of even noise", "[fit]") {
-  simulated::Noise noise(3);
-  int even = 0, growing = 0;
-  for (int k = 0; k < 1000; ++k) {
-    std::vector<double> e, g;
-    for (int i = 0; i < 100; ++i) {
-      e.push_back(noise(1));
-      g.push_back(noise(1 + 0.06 * i));
-    }
-    const std::size_t runs[] = {60, 40}, one[] = {100};
-    even += breusch_pagan(e, runs) <= 0.01;
-    growing += breusch_pagan(g, one) <= 0.01;
-  }
-  CHECK(even <= 22);  // more of 1000 at 1 % by chance in 0.04 %
-  CHECK(growing >= 950);
-}
-
 // sum of squares of the records of each group over its square: HC3 of means is known by hand.
 TEST_CASE("errors: HC3 of a mean of uneven noise is the sum of squares over (n - 1)^2", "[fit]") {
   simulated::Noise noise(9);
@@ -66,38 +24,4 @@ TEST_CASE("errors: HC3 of a mean of uneven noise is the sum of squares over (n -
   for (double D : run.D) squares += (D - sum / n) * (D - sum / n);
   CHECK(std::abs(r.a / (sum / n) - 1) < 1e-13);
   CHECK(std::abs(r.sigma_a / (std::sqrt(squares) / (n - 1)) - 1) < 1e-10);
-}
-
-// In a run that is shorter than twice the bandwidth the weights 1 - lag/(width + 1) are cut off at
-// half the run. By the definition, the sum over all pairs.
-TEST_CASE("errors: Newey-West of a run that is shorter than twice the bandwidth", "[fit]") {
-  constexpr std::size_t runs[] = {60, 9};
-  std::vector<double> r;
-  for (std::size_t i = 0; i < 69; ++i) {
-    const double x = static_cast<double>(i);
-    r.push_back(std::sin(x / 2) + 0.1 * std::sin(x * x));
-  }
-  const auto lag1 = [&](const std::vector<double>& x) {
-    double products = 0, squares = 0;
-    for (std::size_t i = 0; i < 69; ++i) {
-      squares += x[i] * x[i];
-      if (i != 59 && i != 68) products += x[i] * x[i + 1];
-    }
-    return products / squares;
-  };
-  constexpr double n = 69, p = 2;
-  const double AR = (n * lag1(r) + p) / (n - p - 2);
-  std::vector<double> u = r;
-  for (std::size_t i = 0; i < 69; ++i)
-    u[i] = i == 0 || i == 60 ? std::sqrt(1 - AR * AR) * r[i] : r[i] - AR * r[i - 1];
-  const double rho = lag1(u),
-               width = std::ceil(1.1447 * std::cbrt(4 * std::pow(rho / (1 - rho * rho), 2) * n));
-  REQUIRE(width > 4);
-  double sum = 0;
-  for (int i = 60; i < 69; ++i)
-    for (int j = 60; j < 69; ++j)
-      if (const int lag = std::abs(i - j); lag <= 4)
-        sum += (1 - lag / (width + 1)) * u[static_cast<std::size_t>(i)] *
-               u[static_cast<std::size_t>(j)];
-  CHECK(newey_west(r, 2, r, runs)[1] == Approx(sum / ((1 - AR) * (1 - AR))).epsilon(1e-12));
 }

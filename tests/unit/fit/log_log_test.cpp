@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "fit/errors.h"
 #include "unit/fit/simulated.h"
+#include "statistics/residuals.h"
 #include "unit/catch.h"
 
 using namespace rolling;

@@ -44,6 +44,7 @@ TEST_CASE("needed columns: a --use that says nothing, or two things, is refused"
   CHECK(output(file, {"V=3"}) == "--use: 'V=3' is not about t, x, v, a or D");
   CHECK(output(file, {"v=2", "v=3"}) == "--use: 'v=3' comes after another for v");
   CHECK(output(file, {"v=2", "Velocity=3"}) == "--use: 'Velocity=3' comes after another for v");
+  CHECK(output(file, {"v=w", "x=2"}) == "FILE: --use: column 2 cannot serve as both v and x");
   CHECK(output(file, {"v=1"}) == "FILE: column 1 cannot serve as both v and t");
 }
 
@@ -53,6 +54,10 @@ TEST_CASE("needed columns: --use says which, by name or by number", "[text]") {
   CHECK(output(file, {"v=2"}) == "t[s] v[m/s] v_in");
   CHECK(output(file, {"v=3"}) == "t[s] v_in v[m/s]");
   CHECK(output(file, {}, {"t"}) == "t[s] v v");  // v is not needed
+  // However a column is asked for, it serves as one quantity.
+  CHECK(output({"t", "w"}, {"v=w"}, {"w", "2", "v"}) == "t v[m/s]");
+  CHECK(output({"t", "v"}, {"x=v"}, {"2"}) == "t x[m]");
+  CHECK(output({"t", "v"}, {"x=v"}, {"v"}) == "FILE: column 2 cannot serve as both x and v");
   CHECK(output({"t", "w"}, {"v=4"}) == "FILE: --use v=4: there is no column '4' among t, w");
   CHECK(output({"t", "w"}, {"v=0"}) == "FILE: --use v=0: there is no column '0' among t, w");
   CHECK(output({"t", "w"}, {"v=1.5"}) == "FILE: --use v=1.5: there is no column '1.5' among t, w");
@@ -94,6 +99,8 @@ TEST_CASE("needed columns: the next run may have other places and units", "[text
   CHECK(needed.all()[v].column == 0);
   CHECK(needed.all()[n].column == 1);
   CHECK_FALSE(needed.converts());
+  needed.begin_run(columns({"v[km/h]", "n[pebble]"}), true, "FILE:5");
+  CHECK(needed.converts());
   CHECK(refusal([&] {
           needed.begin_run(columns({"v", "n[stone]"}), true, "FILE:9");
         }) == "FILE:9: column n is in stone, and in pebble in the runs before");
@@ -116,4 +123,15 @@ TEST_CASE("needed columns: the names of a file without names end where --use say
   CHECK(NeededColumns({"v=3"}, true).names_without_use({"t", "v", "x"}) == Texts{"t"});
   CHECK(NeededColumns({"v=3"}, true).use_has_numbers());
   CHECK_FALSE(NeededColumns({"v=w"}, true).use_has_numbers());
+}
+
+TEST_CASE("needed columns: one that is wanted, and absent from a later run, converts nothing",
+          "[text]") {
+  NeededColumns needed({}, true);
+  needed.begin_run(columns({"t", "x[cm]"}), true, "FILE");
+  needed.add("x", Kind::wanted);
+  CHECK(needed.converts());
+  needed.begin_run(columns({"t"}), true, "FILE:5");
+  CHECK_FALSE(needed.converts());
+  CHECK(to_text(needed.in_output()[0]) == "t");
 }

@@ -1,0 +1,57 @@
+// The input of a fit of the power law D(v) = a v^b: the records of the runs, and what is fitted.
+#pragma once
+
+#include "base/estimate.h"
+#include "contact/body.h"
+#include "noise/filter.h"
+
+#include <optional>
+#include <vector>
+
+namespace rolling {
+
+/// How a column D was computed from accelerations: by Eq. 11 or by the exact root of Eq. 9, for
+/// this body.
+struct ShiftOf {
+  Body body;
+  Geometry geometry = Geometry::approximate;
+  BodyUncertainty given = {};  ///< the standard uncertainties of K, R, g and the slope
+};
+/// The acceleration [m/s^2] from which the shift D [m] was computed. For A = 1 the relation is
+/// linear and holds for any D.
+double acceleration_of(const ShiftOf&, double D);
+
+/// The data of one run in SI units: t [s], x [m], v [m/s], D [m], one element for each record. The
+/// routes loglog and shift read v and D (and t, where the filters are known); velocity reads t and
+/// v; position reads t and x. Columns that the route does not read are empty.
+struct FitRun {
+  std::vector<double> t, x, v, D;
+  Body body;            ///< the body and its mat: K, R, g and slope (trajectory routes only)
+  FilterChain filters;  ///< the filters that produced these columns, in order; empty if they are
+                        ///< unknown. In the chain, the column D stands for the acceleration from
+                        ///< which shift_of computed D.
+  std::optional<ShiftOf> shift_of = {};
+  BodyUncertainty given = {};  ///< the standard uncertainties of `body`; runs that give the same
+                               ///< number with the same uncertainty share its error
+  std::string name = {};       ///< for messages
+};
+
+enum class Route { loglog, shift, velocity, position };
+/// True if the route fits v or x as a function of t; the others fit D(v).
+inline bool is_trajectory(Route route) {
+  return route == Route::velocity || route == Route::position;
+}
+
+struct FitOptions {
+  Geometry geometry = Geometry::approximate;
+  std::optional<double> a, b, v0, x0;      ///< parameters that are held fixed
+  std::optional<double> start_a, start_b;  ///< starting values; without them they are estimated
+  bool fit_slope = false;  ///< the slope of the mat is a further parameter, common to all runs
+  double min_speed = 0;    ///< records slower than this are not fitted [m/s]
+  /// Filters that the software of a sensor may have applied to the speeds (velocity route, 30 or
+  /// more records, no known filter): differences of x, and for comparison means of v.
+  std::vector<LinearFilter> possible_filters;
+  bool robust = false;  ///< bisquare loss instead of squares; not for filtered columns
+};
+
+}  // namespace rolling

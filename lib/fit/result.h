@@ -1,0 +1,89 @@
+// The result of a fit: the numbers, their errors, and what the runs show beside the law.
+#pragma once
+
+#include "base/estimate.h"
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rolling {
+
+/// The estimator of the standard errors. none: there are as many parameters as records, and the
+/// errors and rms are NaN. classical: independent noise of equal variance. filters: the covariance
+/// of the known filters. differences: the covariance of a difference filter that was inferred from
+/// the residuals. uneven: consistent for noise of unequal variance (HC3). autocorrelation:
+/// consistent for autocorrelated noise (Newey and West).
+enum class Errors { none, classical, filters, differences, uneven, autocorrelation };
+
+/// An eccentric body: the centre of mass lies a distance e from the axis. Its weight then has a
+/// torque of period one turn, as if the shift were D + e cos(x/R - phase), with x = 0 at the
+/// beginning of the run.
+struct Eccentricity {
+  std::size_t run;      ///< the number of the run, from 0
+  double significance;  ///< the probability that noise alone gives a signal as large
+  double e, sigma;      ///< the eccentricity and its standard error [m]
+  double phase;         ///< [rad]
+};
+
+/// The comparison of the runs of a joint fit, each fitted by its own law, and the run that differs
+/// most from the others.
+struct Agreement {
+  double chi2 = 0;  ///< chi-square of the differences of the laws; its expected value is dof
+  std::size_t dof = 0;
+  double significance = 1;  ///< the probability that noise alone makes the runs differ as much
+  std::size_t runs = 0;     ///< the number of runs that determine a law
+  std::size_t run = 0;      ///< the run that differs most from the others, from 0
+  double speed = 1;         ///< the speed at which D of that run is known best [m/s]
+  Estimate log_D = {};      ///< ln D of that run minus ln D of the others at that speed
+  Estimate b = {};          ///< the exponent of that run minus the exponent of the others
+
+  bool agree() const { return significance > 0.01; }
+};
+
+/// The contribution of one source of error to the standard errors, which are the root sums of
+/// squares of the contributions. That of a given number is the change of the result when the number
+/// changes by one standard uncertainty.
+struct ErrorShare {
+  /// "noise"; the name of a given number, "K", or "K 0.5" where the runs have several; or "bias"
+  std::string of;
+  double a = 0, b = 0;  ///< not negative
+  double together = 0;  ///< contribution to the covariance of a and b
+  double slope = 0;
+  std::vector<double> v0 = {};  ///< one for each run, if the model is a roll
+};
+
+struct FitResult {
+  double a, sigma_a, b, sigma_b;  ///< a [m (s/m)^b]
+  double corr;                    ///< correlation of a and b; 0 where one of them is fixed
+  double rms;     ///< sqrt(RSS / (n - p)) in the unit of the fitted column (of ln D for loglog)
+  std::size_t n;  ///< number of fitted records
+  std::size_t left_out;  ///< number of records that the route could not use
+  double whiteness;      ///< significance of the autocorrelation of the noise (Ljung and Box); NaN
+                         ///< where it is not tested
+  std::vector<double> v0, sigma_v0;  ///< initial speeds [m/s], one for each run (trajectory routes)
+  double slope = 0, sigma_slope = 0;  ///< the slope of the mat, if it was fitted
+  Errors errors;
+  std::optional<Eccentricity> eccentricity = {};  ///< of the run with the most significant signal
+  std::optional<Agreement> agreement = {};        ///< for two or more runs
+  std::vector<ErrorShare> shares = {};            ///< the noise first
+};
+
+/// At or below this significance of the Ljung-Box test the noise is taken as not white. The test is
+/// made at two numbers of lags, so that about 0.6 % of the records with white noise fall below it.
+inline constexpr double not_white = 0.003;
+/// True if the noise is significantly autocorrelated and the standard errors allow for that.
+inline bool noise_is_correlated(const FitResult& r) {
+  return r.errors == Errors::autocorrelation && r.whiteness <= not_white;
+}
+
+/// For a fit by loglog. Noise makes the logarithms of D too low, by rms^2 / 2 on average (to second
+/// order). The function is true if this is more than the standard error of the line at the speed
+/// where the line is known best, sigma_a / a sqrt(1 - corr^2).
+inline bool logarithms_too_low(const FitResult& r) {
+  return r.rms * r.rms / 2 > r.sigma_a / r.a * std::sqrt(1 - r.corr * r.corr) && r.sigma_a > 0;
+}
+
+}  // namespace rolling

@@ -1,0 +1,89 @@
+#include "statistics/random_effects.h"
+
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rolling {
+namespace {
+
+RandomEffectsLine line_through(const std::vector<Estimate>& x, const std::vector<double>& g,
+                               double tau_square) {
+  RandomEffectsLine line;
+  line.tau_square = tau_square;
+  const auto w = [&](std::size_t i) { return line.weight_of(x[i]); };
+  for (std::size_t i = 0; i < x.size(); ++i) line.weight += w(i);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    line.mean += w(i) / line.weight * x[i].value;
+    line.mean_g += w(i) / line.weight * g[i];
+  }
+  double together = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double off = g[i] - line.mean_g;
+    line.spread += w(i) * off * off;
+    together += w(i) * off * (x[i].value - line.mean);
+  }
+  if (line.spread > 0) line.slope = together / line.spread;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double r = x[i].value - line.mean - line.slope * (g[i] - line.mean_g);
+    line.chi2 += w(i) * r * r;
+    line.fall += w(i) * w(i) * r * r;
+  }
+  return line;
+}
+
+}  // namespace
+
+// Newton's method on 1/chi^2, which is linear in tau^2 where all errors are equal.
+RandomEffectsLine random_effects_line(const std::vector<Estimate>& x, const std::vector<double>& g,
+                                      double freedom) {
+  double tau_square = 0;
+  RandomEffectsLine line = line_through(x, g, 0);
+  for (int i = 0; i < 100 && line.chi2 > 0 && std::isfinite(line.weight); ++i) {
+    const double step = (line.chi2 / freedom - 1) * line.chi2 / line.fall,
+                 next = std::max(0.0, tau_square + step);
+    const bool done = std::abs(next - tau_square) <= 1e-12 * next;
+    tau_square = next;
+    line = line_through(x, g, tau_square);
+    if (done) break;
+  }
+  return line;
+}
+
+double student(double freedom) { return gsl_cdf_tdist_Pinv(0.975, freedom) / 1.96; }
+
+double RandomEffectsMean::error() const {
+  double squares = 0;
+  for (double part : parts) squares += part * part;
+  return std::sqrt(squares);
+}
+
+RandomEffectsMean random_effects_mean(const std::vector<Estimate>& x, double freedom) {
+  const std::size_t n = x.size();
+  const RandomEffectsLine line = random_effects_line(x, std::vector<double>(n, 0), freedom);
+  RandomEffectsMean mean{std::isfinite(line.weight), line.mean, std::vector<double>(n, 0),
+                         std::vector<double>(n, 0)};
+  if (!mean.free) return mean;
+  std::vector<double> k(n);
+  for (std::size_t i = 0; i < n; ++i) mean.shares[i] = line.weight_of(x[i]) / line.weight;
+  for (std::size_t i = 0; i < n; ++i) {
+    double rest = 0, sum = 0;  // rest = 1 - h, also where that rounds to 0
+    for (std::size_t j = 0; j < n; ++j)
+      if (j != i) rest += mean.shares[j], sum += mean.shares[j] * x[j].value;
+    const double h = mean.shares[i];
+    mean.parts[i] = h * std::sqrt(rest) * (x[i].value - sum / rest);  // r/(1 - h) = x - sum/rest
+    k[i] = h * h / rest;
+  }
+  double inverse = 0;  // of the degrees of freedom
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      inverse += i == j ? mean.shares[i] * mean.shares[i] : k[i] * k[j];
+  // The slope, where it was fitted, has taken one of the N - 1.
+  const double left = freedom / static_cast<double>(n - 1),
+               factor = student(left / inverse) / std::sqrt(left);
+  for (double& part : mean.parts) part *= factor;
+  return mean;
+}
+
+}  // namespace rolling

@@ -1,0 +1,36 @@
+// Are the residuals of several runs white and even, and what do they add up to if they are not?
+// The residuals of all runs follow each other; `runs` holds the number of each run.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace rolling {
+
+/// Significance of the autocorrelation of the residuals of a fit of p parameters, after Ljung and
+/// Box (1978, Biometrika 65, 297): the smaller of the values for one lag and for n/10 lags (at
+/// least 1, at most 10). The fit lowers each correlation by about p/n; this is corrected.
+double ljung_box(std::span<const double> residuals, std::size_t p,
+                 std::span<const std::size_t> runs);
+
+/// Significance of a trend of the variance along the runs, linear and quadratic in the record
+/// number: the studentised test of Breusch and Pagan (Koenker 1981, J. Econometrics 17, 107).
+double breusch_pagan(std::span<const double> residuals, std::span<const std::size_t> runs);
+
+/// The sum of the products of residuals that are `lag` records apart within a run.
+double lagged(std::span<const double> residuals, std::span<const std::size_t> runs,
+              std::size_t lag);
+
+/// The meat of the sandwich, the sum of w(|i-j|) u_i u_j^T over each run, row by row, run by run.
+/// `scores` holds the rows u_i of n scores, in the columns of each run; p is the number of degrees
+/// of freedom that the fit and the filters have taken from the noise. The weights w are Bartlett's
+/// (Newey and West 1987, Econometrica 55, 703) with the bandwidth of Andrews' AR(1) rule (1991,
+/// Econometrica 59, 817), after prewhitening by the AR(1) of the residuals (Andrews and Monahan
+/// 1992, Econometrica 60, 953). The AR(1) coefficient is corrected for the bias of the fit. Short
+/// records need both, prewhitening and correction.
+std::vector<double> newey_west(std::span<const double> scores, std::size_t p,
+                               std::span<const double> residuals,
+                               std::span<const std::size_t> runs);
+
+}  // namespace rolling
