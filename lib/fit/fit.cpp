@@ -43,7 +43,8 @@ FirstGuess guess_without_filters(Route route, std::vector<ObservedRun> runs,
     run.shifts.reset();
     run.raw_is_position = route == Route::position || integrated;
     run.t.clear();
-    for (std::size_t i : rows[r]) run.t.push_back(all[r].t[i] - run.origin);
+    for (std::size_t i : rows_of_speeds(route, all[r], rows[r]))
+      run.t.push_back(all[r].t[i] - run.origin);
     if (!integrated) continue;
     double x = 0, before = run.y[0];
     for (std::size_t i = 0; i < run.y.size(); ++i) {
@@ -123,7 +124,7 @@ void report(Fitted& fit) {
     const double way = runs[r].way;
     const auto s = fit.rolls->trajectory(theta, r).speed_at(runs[r].start);
     fit.v0.push_back(quantity(way * s.v, {way * s.v_a, way * s.v_b, way * s.v_v0, 0, s.v_S}));
-    fit.records += runs[r].y.size();
+    fit.records += runs[r].shifts ? runs[r].shifts->accelerations.size() : runs[r].y.size();
   }
   fit.rss = squares_of(fit);
 }

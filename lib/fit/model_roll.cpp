@@ -64,6 +64,22 @@ std::vector<Response> responses_of(Route route, const std::vector<FitRun>& all) 
   return responses;
 }
 
+Rows rows_of_speeds(Route route, const FitRun& run, Rows rows) {
+  const std::size_t n = run.t.size();
+  if (route != Route::shift || rows.size() == n) return rows;
+  std::size_t reach = 0;
+  for (const LinearFilter& filter : run.filters)
+    if (filter.from == "v" && filter.to != "v") reach = filter.reach;
+  std::vector<bool> read(n);
+  for (const std::size_t i : rows)
+    for (std::size_t k = i - std::min(i, reach); k < std::min(n, i + reach + 1); ++k)
+      read[k] = std::isfinite(run.v[k]);
+  rows.clear();
+  for (std::size_t k = 0; k < n; ++k)
+    if (read[k]) rows.push_back(k);
+  return rows;
+}
+
 std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
                                  const std::vector<Rows>& rows,
                                  const std::vector<Response>& responses,
@@ -86,7 +102,8 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
           "{}v0 and x0 cannot be held: filters have reached back to what was cut away before the "
           "run begins",
           of_run);
-    seen.y = taken(route == Route::position ? run.x : run.v, rows[r]);
+    const Rows fitted = rows_of_speeds(route, run, rows[r]);
+    seen.y = taken(route == Route::position ? run.x : run.v, fitted);
     seen.way = way_of(route == Route::position, seen.y, options);
     if (options.v0 && seen.way * *options.v0 < 0)
       fail("{}v0 = {} cannot be held: the body rolls towards {} x", of_run, *options.v0,
@@ -109,7 +126,7 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     seen.raw_is_position = known ? responses[r].source == "x" : route == Route::position;
     if (known) {
       seen.t = responses[r].t;
-      seen.H = filters_of_rows(responses[r], route == Route::position ? "x" : "v", rows[r]);
+      seen.H = filters_of_rows(responses[r], route == Route::position ? "x" : "v", fitted);
     } else {
       seen.t = taken(run.t, rows[r]);
     }
