@@ -36,11 +36,11 @@ TEST_CASE("white share: that of white noise on differences is found", "[fit]") {
   simulated::Noise noise(11);
   for (const double share : {0.1, 0.2, 0.5}) {
     double sum = 0;
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < 100; ++i) {
       const WhiteShare found = found_share(share, noise);
       INFO(share << ": found " << found.share << ", gain " << found.gain);
       CHECK(found.decisive());
-      sum += std::log(found.share / share) / 20;
+      sum += std::log(found.share / share) / 100;
     }
     INFO(share << ": " << std::exp(sum));
     CHECK(std::abs(sum) < 0.1);
