@@ -29,24 +29,39 @@ Minimum solve(const System& system, const std::vector<double>& start, const FitO
 
 namespace {
 
-/// The runs without filters, for a first guess: positions for the position route, speeds for the
-/// velocity and shift routes.
-std::vector<ObservedRun> without_filters(Route route, std::vector<ObservedRun> runs,
-                                         const std::vector<FitRun>& all,
-                                         const std::vector<Rows>& rows) {
-  const bool position = route == Route::position;
+/// The first guess for filtered runs is that for the same columns without filters. Speeds that were
+/// made of positions are integrated, since their noise cancels in the integral.
+FirstGuess guess_without_filters(Route route, std::vector<ObservedRun> runs,
+                                 const std::vector<FitRun>& all, const std::vector<Rows>& rows,
+                                 FitOptions options) {
+  const bool integrated =
+      route != Route::position && std::ranges::all_of(runs, &ObservedRun::raw_is_position);
+  if (integrated) options.x0 = {};
   for (std::size_t r = 0; r < runs.size(); ++r) {
     ObservedRun& run = runs[r];
     run.H.reset();
-    run.raw_is_position = position;
+    run.shifts.reset();
+    run.raw_is_position = route == Route::position || integrated;
     run.t.clear();
-    run.y.clear();
-    for (std::size_t i : rows[r]) {
-      run.t.push_back(all[r].t[i] - run.origin);
-      run.y.push_back(position ? all[r].x[i] : all[r].v[i]);
+    for (std::size_t i : rows[r]) run.t.push_back(all[r].t[i] - run.origin);
+    if (!integrated) continue;
+    double x = 0, before = run.y[0];
+    for (std::size_t i = 0; i < run.y.size(); ++i) {
+      const double v = run.y[i];
+      if (i > 0) x += (before + v) / 2 * (run.t[i] - run.t[i - 1]);
+      before = v;
+      run.y[i] = x;
     }
   }
-  return runs;
+  FirstGuess guess = first_guess(runs, options);
+  if (!integrated) return guess;
+  const Parameters& q = guess.parameters;
+  std::vector<double> v0;
+  for (std::size_t r = 0; r < runs.size(); ++r) v0.push_back(q.v0(guess.theta, r));
+  FirstGuess of_speeds{q.without_x0(), {}};
+  of_speeds.theta = of_speeds.parameters.theta(q.law(guess.theta), v0, {});
+  if (options.fit_slope) of_speeds.theta.back() = guess.theta.back();
+  return of_speeds;
 }
 
 /// Removes from `rows` the records whose fitted speed is below the limit; returns whether there
@@ -64,16 +79,28 @@ bool leave_out_slow(const RollModel& model, const std::vector<double>& theta,
   return slow > 0;
 }
 
-/// The sum of squares of the unweighted residuals, in the unit of the fitted column.
+/// The sum of squares of model - data for the shifts of a run.
+double squares_of_shifts(const RollModel& rolls, const std::vector<double>& theta, std::size_t r) {
+  const ObservedRun& run = rolls.runs()[r];
+  const RawModel model = rolls.raw(theta, r);
+  std::vector<double> f, slopes(rolls.parameters().columns());
+  f.reserve(run.t.size());
+  for (double t : run.t) f.push_back(model(t, slopes.data(), 1));
+  f = run.shifts->H.times(f);
+  for (std::size_t i = 0; i < f.size(); ++i) f[i] -= run.shifts->accelerations[i];
+  return dot(f, f) * run.shifts->unit * run.shifts->unit;
+}
+
+/// The sum of squares of model - data in the column of the route, without weights.
 double squares_of(const Fitted& fit) {
   if (!fit.noise->known()) return fit.minimum.rss;
-  double sum = 0;
-  const auto plain = fit.noise->without_weights(fit.minimum.f);
-  const auto f_of = by_run(plain, fit.system.runs);
-  for (std::size_t r = 0; r < f_of.size(); ++r) {
-    const ObservedRun& run = fit.rolls->runs()[r];
-    sum += dot(f_of[r].first(run.records()), f_of[r]) * run.unit * run.unit;
+  if (!fit.rolls->runs().front().shifts) {
+    const auto plain = fit.noise->without_weights(fit.minimum.f);
+    return dot(plain, plain);
   }
+  double sum = 0;
+  for (std::size_t r = 0; r < fit.system.runs.size(); ++r)
+    sum += squares_of_shifts(*fit.rolls, fit.minimum.theta, r);
   return sum;
 }
 
@@ -96,7 +123,7 @@ void report(Fitted& fit) {
     const double way = runs[r].way;
     const auto s = fit.rolls->trajectory(theta, r).speed_at(runs[r].start);
     fit.v0.push_back(quantity(way * s.v, {way * s.v_a, way * s.v_b, way * s.v_v0, 0, s.v_S}));
-    fit.records += runs[r].records();
+    fit.records += runs[r].y.size();
   }
   fit.rss = squares_of(fit);
 }
@@ -118,23 +145,25 @@ Fitted minimum_of(std::vector<ObservedRun> runs, const FirstGuess& start, const 
 /// the filters predict, that is, if the columns hold noise that did not pass the filters.
 bool rounded(const Fitted& fit) {
   if (!fit.filters_known()) return false;
-  double norms = 0;
+  double variances = 0;
   const auto plain = fit.noise->without_weights(fit.minimum.f);
-  for (const ObservedRun& run : fit.rolls->runs())
-    for (const double norm : row_norms(*run.H)) norms += norm * norm;
-  return fit.minimum.rss * norms > 4 * dot(plain, plain) * static_cast<double>(plain.size());
+  for (std::size_t r = 0; r < fit.system.runs.size(); ++r)
+    for (const double variance : fit.noise->whitener(r).variances()) variances += variance;
+  return fit.minimum.rss * variances > 4 * dot(plain, plain) * static_cast<double>(plain.size());
 }
 
 /// Columns that were rounded after a filter hold additional white noise. Its share is estimated by
-/// restricted likelihood, and the fit is repeated with the new weights.
+/// restricted likelihood, and the fit is repeated with the new weights. In few records the
+/// residuals may be large by chance: there the likelihood decides.
 void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   if (!rounded(fit)) return;
+  const bool many = std::ranges::max(fit.system.runs) > searched_for_white_noise;
   fit.system = {}, fit.noise = {};  // frees memory: these are large, and the search needs as much
-  const WhiteShare found =
-      most_likely_share(fit.rolls, fit.minimum.theta, floor_share, 1, floor_share);
-  fit.noise = noise_of(fit.rolls->runs(), found.decisive() ? found.share : floor_share, false);
+  const WhiteShare found = most_likely_share(fit.rolls, fit.minimum.theta, 1e-7, 1, 0);
+  const bool adopted = many || found.decisive();
+  fit.noise = noise_of(fit.rolls->runs(), adopted ? found.share : 0, false);
   fit.system = system_of(fit.rolls, fit.noise);
-  if (found.decisive()) fit.minimum = solve(fit.system, fit.minimum.theta, options);
+  if (adopted) fit.minimum = solve(fit.system, fit.minimum.theta, options);
 }
 
 }  // namespace
@@ -162,11 +191,11 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       for (const ObservedRun& run : runs) n += run.y.size();
       require_records(n, Parameters(options, route == Route::position, runs.size(), 1, 1).count());
       guess = responses.empty() ? first_guess(runs, options)
-                                : first_guess(without_filters(route, runs, all, rows), options);
+                                : guess_without_filters(route, runs, all, rows, options);
     }
     if (options.min_speed <= 0) responses = {}, rows.clear();  // frees memory: no round follows
     fit = {};                                                  // frees memory
-    fit = minimum_of(std::move(runs), *guess, options, inferred_share.value_or(floor_share),
+    fit = minimum_of(std::move(runs), *guess, options, inferred_share.value_or(0),
                      inferred_share.has_value());
     guess->theta = fit.minimum.theta;
     if (options.min_speed <= 0 ||

@@ -12,29 +12,26 @@
 namespace rolling {
 namespace {
 
-/// The unweighted residuals of a run, their Jacobian, and the covariance of their noise.
+/// The unweighted residuals at the beginning of a run, their Jacobian, and the covariance of their
+/// noise.
 struct Linear {
   Covariance noise;
-  double norm;                  // norm of the median row of H
-  std::vector<double> columns;  // f of the whole run, then the columns of J
+  std::vector<double> columns;  // f, then the columns of J
 };
 
+/// Takes as many residuals of each run as the system has.
 std::vector<Linear> linear_around(const std::vector<double>& theta, const System& system,
                                   const RollModel& model) {
   std::vector<Linear> runs;
-  std::vector<double*> next;  // place of the next f of each run
-  for (const ObservedRun& run : model.runs()) {
-    Covariance noise(*run.H);
-    const double norm = noise.median_norm();
-    runs.push_back(
-        {std::move(noise), norm, std::vector<double>(run.y.size() * (1 + system.columns()))});
-    next.push_back(runs.back().columns.data());
-  }
+  for (std::size_t r = 0; r < system.runs.size(); ++r)
+    runs.push_back({Covariance(*model.runs()[r].H, system.runs[r]),
+                    std::vector<double>(system.runs[r] * (1 + system.columns()))});
+  std::vector<std::size_t> done(runs.size());
   system.evaluate(theta, [&](std::size_t r, std::span<double> f, std::span<double> J) {
-    double* to = std::exchange(next[r], next[r] + f.size());
-    std::copy(f.begin(), f.end(), to);
-    for (std::size_t j = 0; j < J.size(); j += f.size())
-      std::copy_n(&J[j], f.size(), to += system.runs[r]);
+    const std::size_t n = system.runs[r], few = std::min(f.size(), n - done[r]);
+    double* to = runs[r].columns.data() + std::exchange(done[r], done[r] + few);
+    std::copy_n(f.begin(), few, to);
+    for (std::size_t j = 0; j < J.size(); j += f.size()) std::copy_n(&J[j], few, to += n);
   });
   return runs;
 }
@@ -45,12 +42,13 @@ WhiteShare most_likely_share(const std::shared_ptr<const RollModel>& model,
                              const std::vector<double>& theta, double least, double most,
                              double other) {
   System system = system_of(model, std::make_shared<const Noise>());
+  for (std::size_t& records : system.runs) records = std::min(records, searched_for_white_noise);
   const std::vector<Linear> runs = linear_around(theta, system, *model);
   const auto likelihood = [&](double log_share) {
     double log_size = 0;
     system.evaluate = [&](const std::vector<double>&, const TakeRows& take) {
       for (std::size_t r = 0; r < runs.size(); ++r) {
-        const Whitener whitener(runs[r].noise, std::exp(log_share) * runs[r].norm);
+        const Whitener whitener(runs[r].noise, std::exp(log_share));
         log_size += whitener.log_size();
         std::vector<double> columns = runs[r].columns;
         whitener.apply(columns);

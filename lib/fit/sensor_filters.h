@@ -15,6 +15,11 @@ struct WhiteShare {
   bool decisive() const { return gain >= 3; }
 };
 
+/// The search for the share of white noise uses at most this many records from the beginning of
+/// each run. They show a share that is larger than the noise which the filters leave of their
+/// slowest motion, about 1e-4 of the noise of a record.
+inline constexpr std::size_t searched_for_white_noise = 100'000;
+
 /// The share between `least` and `most` with the largest restricted likelihood of the residuals,
 /// with the model linear around theta, compared with the share `other`. H of every run must be
 /// known.
