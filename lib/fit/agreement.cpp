@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "fit/roll_fit.h"
+#include "fit/route.h"
 #include "statistics/random_effects.h"
 
 namespace rolling {

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <utility>
 
-#include "contact/contact.h"
 #include "base/by_run.h"
+#include "contact/contact.h"
 #include "least_squares/triangles.h"
 
 namespace rolling {

@@ -15,11 +15,11 @@
 // one, in the covariance n^4 times.
 #pragma once
 
-#include "least_squares/minimise.h"
-#include "noise/noise.h"
 #include "fit/parameters.h"
-#include "noise/response.h"
+#include "least_squares/minimise.h"
 #include "motion/trajectory.h"
+#include "noise/noise.h"
+#include "noise/response.h"
 
 #include <algorithm>
 #include <memory>

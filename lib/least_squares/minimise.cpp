@@ -1,8 +1,8 @@
 #include "least_squares/minimise.h"
 
+#include "base/dot.h"
 #include "base/error.h"
 #include "base/median.h"
-#include "base/dot.h"
 #include "least_squares/triangles.h"
 
 #include <algorithm>

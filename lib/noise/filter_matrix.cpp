@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/error.h"
 #include "base/dot.h"
+#include "base/error.h"
 
 namespace rolling {
 

@@ -1,7 +1,7 @@
 #include "noise/whitener.h"
 
-#include "base/error.h"
 #include "base/dot.h"
+#include "base/error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -60,8 +60,10 @@ std::vector<Column> HeadReader::known_columns() const {
 void HeadReader::check_bytes() const {
   const std::string_view line = lines_.text();
   if (line.find('\0') != npos)
-    fail<InputError>("{}:{}: a NUL byte; UTF-16 must be made UTF-8 first (iconv -f UTF-16)",
-                     lines_.name(), lines_.number());
+    fail<InputError>(
+        "{}:{}: a NUL byte: this is no text of columns; export a spreadsheet as CSV, unpack what "
+        "is packed, make UTF-16 UTF-8 (iconv -f UTF-16)",
+        lines_.name(), lines_.number());
   if (line.find('\r') != npos)
     fail<InputError>(
         "{}:{}: a carriage return within the line; make the line ends LF first (tr '\\r' '\\n')",

@@ -66,7 +66,8 @@ TEST_CASE("head: no columns are refused, with the line", "[text]") {
         "points first");
   CHECK(head("t v\n0\n") == "2: 1 field under a line of 2 names");
   CHECK(head(std::string_view("t\0v\n", 4)) ==
-        "1: a NUL byte; UTF-16 must be made UTF-8 first (iconv -f UTF-16)");
+        "1: a NUL byte: this is no text of columns; export a spreadsheet as CSV, unpack what is "
+        "packed, make UTF-16 UTF-8 (iconv -f UTF-16)");
   CHECK(head("t v\r0 1\r") ==
         "1: a carriage return within the line; make the line ends LF first (tr '\\r' '\\n')");
   std::string words;
