@@ -90,13 +90,8 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     ObservedRun seen;
     seen.body = run.body;
     seen.geometry = options.geometry;
-    seen.origin = known ? responses[r].t.front() : first_fitted;
+    seen.origin = known ? run.t.front() : first_fitted;
     seen.start = held ? 0 : first_fitted - seen.origin;
-    if (held && seen.origin < run.t[0])
-      fail(
-          "{}v0 and x0 cannot be held: filters have reached back to what was cut away before the "
-          "run begins",
-          of_run);
     seen.y = taken(route == Route::position ? run.x : run.v, rows[r]);
     seen.way = way_of(route == Route::position, seen.y, options);
     if (options.v0 && seen.way * *options.v0 < 0)
@@ -121,7 +116,7 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     }
     seen.raw_is_position = known ? responses[r].source == "x" : route == Route::position;
     if (known) {
-      seen.t = responses[r].t;
+      seen.t = run.t;
       seen.H = filters_of_rows(responses[r], route, rows[r]);
     } else {
       seen.t = taken(run.t, rows[r]);
