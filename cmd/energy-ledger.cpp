@@ -19,32 +19,32 @@ struct Moment {
   double temperature;
 };
 
-const std::vector<Quantity<double (*)(const Moment&)>> quantities = {
-    {{"omega", "rad/s"}, [](const Moment& m) { return m.now.omega(); }},
-    {{"p", "N s"}, [](const Moment& m) { return m.now.p(); }},
-    {{"L", "N m s"}, [](const Moment& m) { return m.now.L(); }},
-    {{"A", ""}, [](const Moment& m) { return m.now.A(); }},
-    {{"D", "m"}, [](const Moment& m) { return m.now.D(); }},
-    {{"F_N", "N"}, [](const Moment& m) { return m.now.F_N(); }},
-    {{"F_H", "N"}, [](const Moment& m) { return m.now.F_H(); }},
-    {{"tau_N", "N m"}, [](const Moment& m) { return m.now.tau_N(); }},
-    {{"tau_H", "N m"}, [](const Moment& m) { return m.now.tau_H(); }},
-    {{"vP_H", "m/s"}, [](const Moment& m) { return m.now.vP_H(); }},
-    {{"vP_V", "m/s"}, [](const Moment& m) { return m.now.vP_V(); }},
-    {{"E_trans", "J"}, [](const Moment& m) { return m.now.E_trans(); }},
-    {{"E_rot", "J"}, [](const Moment& m) { return m.now.E_rot(); }},
-    {{"I_E1", "W"}, [](const Moment& m) { return m.now.I_E1(); }},
-    {{"I_E2", "W"}, [](const Moment& m) { return m.now.I_E2(); }},
-    {{"P_T1", "W"}, [](const Moment& m) { return m.now.P_T1(); }},
-    {{"P_R1", "W"}, [](const Moment& m) { return m.now.P_R1(); }},
-    {{"P_R2", "W"}, [](const Moment& m) { return m.now.P_R2(); }},
-    {{"P_T2", "W"}, [](const Moment& m) { return m.now.P_T2(); }},
-    {{"P_T3", "W"}, [](const Moment& m) { return m.now.P_T3(); }},
-    {{"P_T4", "W"}, [](const Moment& m) { return m.now.P_T4(); }},
-    {{"P_diss", "W"}, [](const Moment& m) { return m.now.P_diss(); }},
-    {{"E_diss", "J"}, [](const Moment& m) { return m.balance.dissipated(); }},
-    {{"W_g", "J"}, [](const Moment& m) { return m.balance.lifted(); }},
-    {{"Pi_S", "W/K"}, [](const Moment& m) { return m.now.P_diss() / m.temperature; }},
+constexpr Quantity<double (*)(const Moment&)> quantities[] = {
+    {"omega", "rad/s", [](const Moment& m) { return m.now.omega(); }},
+    {"p", "N s", [](const Moment& m) { return m.now.p(); }},
+    {"L", "N m s", [](const Moment& m) { return m.now.L(); }},
+    {"A", "", [](const Moment& m) { return m.now.A(); }},
+    {"D", "m", [](const Moment& m) { return m.now.D(); }},
+    {"F_N", "N", [](const Moment& m) { return m.now.F_N(); }},
+    {"F_H", "N", [](const Moment& m) { return m.now.F_H(); }},
+    {"tau_N", "N m", [](const Moment& m) { return m.now.tau_N(); }},
+    {"tau_H", "N m", [](const Moment& m) { return m.now.tau_H(); }},
+    {"vP_H", "m/s", [](const Moment& m) { return m.now.vP_H(); }},
+    {"vP_V", "m/s", [](const Moment& m) { return m.now.vP_V(); }},
+    {"E_trans", "J", [](const Moment& m) { return m.now.E_trans(); }},
+    {"E_rot", "J", [](const Moment& m) { return m.now.E_rot(); }},
+    {"I_E1", "W", [](const Moment& m) { return m.now.I_E1(); }},
+    {"I_E2", "W", [](const Moment& m) { return m.now.I_E2(); }},
+    {"P_T1", "W", [](const Moment& m) { return m.now.P_T1(); }},
+    {"P_R1", "W", [](const Moment& m) { return m.now.P_R1(); }},
+    {"P_R2", "W", [](const Moment& m) { return m.now.P_R2(); }},
+    {"P_T2", "W", [](const Moment& m) { return m.now.P_T2(); }},
+    {"P_T3", "W", [](const Moment& m) { return m.now.P_T3(); }},
+    {"P_T4", "W", [](const Moment& m) { return m.now.P_T4(); }},
+    {"P_diss", "W", [](const Moment& m) { return m.now.P_diss(); }},
+    {"E_diss", "J", [](const Moment& m) { return m.balance.dissipated(); }},
+    {"W_g", "J", [](const Moment& m) { return m.balance.lifted(); }},
+    {"Pi_S", "W/K", [](const Moment& m) { return m.now.P_diss() / m.temperature; }},
 };
 
 /// The law D(v) that replaces the column D. It is odd in v, as the mat is the same in both
@@ -184,8 +184,7 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     const auto row = chosen(columns, quantities);
     for (const auto& quantity : row)
-      if (quantity.column.name == "Pi_S" && std::isnan(temperature))
-        fail("Pi_S needs --temperature");
+      if (quantity.name == "Pi_S" && std::isnan(temperature)) fail("Pi_S needs --temperature");
     if (!law_file.empty()) {
       LawFile read = read_law(tool, law_file);
       law = {read.law_or(law.power), std::move(read.table)};
@@ -208,7 +207,7 @@ int main(int argc, char** argv) {
     Filter filter(in, tool.out,
                   fmt::format("energy-ledger {}{}", use_law ? law.words() : "D",
                               body.slope == 0 ? "" : fmt::format(" slope {}", body.slope)));
-    for (const auto& quantity : row) filter.append(quantity.column);
+    for (const auto& quantity : row) filter.append(quantity.column());
     while (filter.next_run()) {
       Balance balance = accounts.open();
       while (filter.next()) {

@@ -30,12 +30,12 @@ const std::map<std::string, Method> methods = {
     {"msbdf", {Method::solver, Stepper::msbdf}},
 };
 
-const std::vector<Quantity<double (*)(double t, Motion&)>> quantities = {
-    {{"t", "s"}, [](double t, Motion&) { return t; }},
-    {{"x", "m"}, [](double, Motion& motion) { return motion.position(); }},
-    {{"v", "m/s"}, [](double, Motion& motion) { return motion.velocity(); }},
-    {{"a", "m/s^2"}, [](double, Motion& motion) { return motion.acceleration(); }},
-    {{"D", "m"}, [](double, Motion& motion) { return motion.shift(); }},
+constexpr Quantity<double (*)(double t, Motion&)> quantities[] = {
+    {"t", "s", [](double t, Motion&) { return t; }},
+    {"x", "m", [](double, Motion& motion) { return motion.position(); }},
+    {"v", "m/s", [](double, Motion& motion) { return motion.velocity(); }},
+    {"a", "m/s^2", [](double, Motion& motion) { return motion.acceleration(); }},
+    {"D", "m", [](double, Motion& motion) { return motion.shift(); }},
 };
 
 /// The times 0, dt, 2 dt, ... If 1/dt is a whole number (25 Hz), each is the double nearest to
@@ -175,7 +175,7 @@ class Rows {
  public:
   Rows(Output& out, const Task& task, const std::string& columns)
       : out_(out), task_(task), row_(chosen(columns, quantities)),
-        only_t_(row_.size() == 1 && row_[0].column.name == "t"),
+        only_t_(row_.size() == 1 && row_[0].name == "t"),
         numbers_(row_.size() * (out.unbuffered ? 1 : 32)) {}
   /// If an Error ends the work early, writes the rows that are complete.
   ~Rows() {

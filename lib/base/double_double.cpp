@@ -61,15 +61,17 @@ constexpr auto log_table = [] {
   return table;
 }();
 
-// e^x = 2^(n/128) e^r. hi of each power keeps 26 bits; lo is the remainder.
+// e^x = 2^(n/128) e^r. hi of each power keeps 26 bits; lo is the remainder. The products that lead
+// from one power to the next add up to a relative error below 2^-95.
 constexpr int exp_bits = 7, exp_size = 1 << exp_bits;
 constexpr auto exp_table = [] {
   std::array<DoubleDouble, exp_size> table{};
-  for (std::size_t i = 0; i < exp_size; ++i) {
-    const DoubleDouble power = exp_series(ln2 * static_cast<double>(i) / (2 * exp_size)),
-                       square = power * power;
-    const double hi = split(square.hi).hi;  // 26 bits: its products with 26 bits are exact
-    table[i] = {hi, (square.hi - hi) + square.lo};
+  const DoubleDouble ratio = exp_series(ln2 / exp_size);
+  DoubleDouble power = 1;
+  for (auto& entry : table) {
+    const double hi = split(power.hi).hi;  // 26 bits: its products with 26 bits are exact
+    entry = {hi, (power.hi - hi) + power.lo};
+    power = power * ratio;
   }
   return table;
 }();

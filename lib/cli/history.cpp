@@ -230,21 +230,30 @@ History compared(History history, const FitRun& run) {
   const std::size_t n = run.t.size(), reach = last->reach;
   if (off.size() != n || size.size() != n || n < 2 * reach + 3) return history;
   off = last->apply(run.t, off);
+  double along = 0, given2 = 0, off2 = 0;  // sums of products inside the run
   for (std::size_t i = 0; i < n; ++i) {
-    off[i] = std::abs(off[i] - size[i]);
+    const double given = off[i], difference = given - size[i];
+    if (!std::isfinite(difference)) return history;  // readings are missing
+    if (i >= reach && i + reach < n)
+      along += given * difference, given2 += given * given, off2 += difference * difference;
+    off[i] = std::abs(difference);
     size[i] = std::abs(size[i]);
-    if (!std::isfinite(off[i])) return history;  // readings are missing
   }
   // Columns that were rounded to 3 digits differ by a hundredth, others by much less.
-  auto sorted = off;
-  const double large = nth_smallest(size, n / 2), typical = nth_smallest(sorted, n / 2);
+  auto sorted = size;
+  const double large = nth_smallest(sorted, n / 2);
+  sorted = off;
+  const double typical = nth_smallest(sorted, n / 2);
   const double most = std::max(20 * typical, 1e-6 * large);
-  bool inside = !(typical <= 0.05 * large);
-  for (std::size_t i = reach; i + reach < n; ++i) inside = inside || off[i] > most;
+  // Differences that are proportional to the column are a factor, not rounding.
+  const bool factor = std::abs(along) > 1e-6 * given2 && along * along > 0.99 * given2 * off2;
+  bool inside = factor || !(typical <= 0.05 * large);
+  const auto differs = [&](std::size_t i) { return off[i] > most && off[i] > 0.01 * size[i]; };
+  for (std::size_t i = reach; i + reach < n; ++i) inside = inside || differs(i);
   if (inside) return {{}, {}, "the columns are not what the `##` lines say"};
   for (std::size_t i = 0; i < reach; ++i) {
-    history.cut_begin = history.cut_begin || off[i] > most;
-    history.cut_end = history.cut_end || off[n - 1 - i] > most;
+    history.cut_begin = history.cut_begin || differs(i);
+    history.cut_end = history.cut_end || differs(n - 1 - i);
   }
   return history;
 }

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
@@ -14,22 +16,24 @@ namespace rolling {
 
 template <typename Function>
 struct Quantity {
-  Column column;
+  std::string_view name, unit;
   Function of;
+
+  Column column() const { return {std::string(name), std::string(unit)}; }
 };
 
 /// The quantities of a list like `t,x,v`, in its order. Throws Error for an unknown name and for a
 /// name that occurs twice.
-template <typename Function>
+template <typename Function, std::size_t count>
 std::vector<Quantity<Function>> chosen(const std::string& list,
-                                       const std::vector<Quantity<Function>>& all) {
+                                       const Quantity<Function> (&all)[count]) {
   std::vector<Quantity<Function>> chosen;
   for (const std::string& name : split_names(list, ',')) {
-    const auto same = [&](const auto& quantity) { return quantity.column.name == name; };
-    const auto found = std::find_if(all.begin(), all.end(), same);
-    if (found == all.end()) {
+    const auto same = [&](const auto& quantity) { return quantity.name == name; };
+    const auto found = std::find_if(all, all + count, same);
+    if (found == all + count) {
       std::string names;
-      for (const auto& [column, of] : all) (names += names.empty() ? "" : ", ") += column.name;
+      for (const auto& quantity : all) (names += names.empty() ? "" : ", ") += quantity.name;
       fail("--columns: '{}' is none of {}", shown(name), names);
     }
     if (std::any_of(chosen.begin(), chosen.end(), same)) fail("--columns: {} is there twice", name);
@@ -42,7 +46,7 @@ std::vector<Quantity<Function>> chosen(const std::string& list,
 template <typename Function>
 std::vector<Column> columns_of(const std::vector<Quantity<Function>>& quantities) {
   std::vector<Column> columns;
-  for (const auto& quantity : quantities) columns.push_back(quantity.column);
+  for (const auto& quantity : quantities) columns.push_back(quantity.column());
   return columns;
 }
 

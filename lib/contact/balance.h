@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "contact/integral.h"
 #include "contact/ledger.h"
 
@@ -37,14 +38,20 @@ class Balance {
 
   /// dissipated / (start - end - lifted) - 1: 0 if shift and velocity agree over the whole run.
   /// Throws Error if the denominator, the energy that is missing at the end, is 0.
-  double closure() const;
+  double closure() const { return dissipated_ / missing() - 1; }
   /// The largest |start - E(t) - lifted(t) - dissipated(t)| of the run, divided by the energy that
   /// is missing at its end: 0 if shift and velocity agree at every moment. Throws as closure().
-  double imbalance() const;
+  double imbalance() const { return worst_ / std::abs(missing()); }
   double time_of_imbalance() const { return worst_time_; }  ///< the time of that moment [s]
 
  private:
-  double missing() const;
+  double missing() const {
+    const double energy = start_ - end_ - lifted_;
+    if (energy == 0)
+      fail(
+          "the body has as much energy at the end of the run as at its start: there is no closure");
+    return energy;
+  }
 
   Integral outflow_, lift_;
   bool inclined_, begun_ = false;

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "fit/roll_fit.h"
+#include "fit/route.h"
 #include "statistics/random_effects.h"
 
 namespace rolling {
@@ -241,6 +243,12 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
   if (found.agree()) return found;
   const Fitted around_own = with_own_noise(joint, own);
   errors = noise_errors(around_own, uncertainty_of(around_own));
+  // The bias of logarithms comes from the noise too.
+  joint.bias_a = joint.bias_b = 0;
+  for (const OwnLaw& one : laws) {
+    joint.bias_a += own[one.run]->bias_a / static_cast<double>(laws.size());
+    joint.bias_b += own[one.run]->bias_b / static_cast<double>(laws.size());
+  }
   const double freedom = static_cast<double>(laws.size()) - 1 - options.fit_slope;
   const bool by_means =
       freedom >= 1 && !(options.fit_slope && (options.a || of_one_way(laws, joint)));

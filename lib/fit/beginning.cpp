@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/gsl.h"
 #include "base/by_run.h"
 #include "base/dot.h"
+#include "base/gsl.h"
 #include "fit/errors.h"
 #include "fit/fitted.h"
+#include "fit/roll_fit.h"
+#include "fit/route.h"
 #include "statistics/residuals.h"
 
 namespace rolling {

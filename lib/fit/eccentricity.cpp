@@ -8,8 +8,8 @@
 #include <numbers>
 #include <utility>
 
-#include "contact/contact.h"
 #include "base/by_run.h"
+#include "contact/contact.h"
 #include "least_squares/triangles.h"
 
 namespace rolling {
@@ -78,7 +78,9 @@ class Wobble {
 /// The periodogram of one run of a fit.
 class Periodogram {
  public:
-  /// R is the radius of the body, `variance` that of the noise.
+  /// R is the radius of the body, `variance` that of the noise, and f the residuals; if the filters
+  /// are known, f is the noise of the raw column that explains the residuals. For residuals H e
+  /// this f is e without what the filters remove, which of positions is their mean.
   Periodogram(const Fitted& fit, std::size_t run, double R, double variance,
               std::span<const double> f)
       : fit_(fit), run_(run), R_(R), variance_(variance), f_(f) {
@@ -100,9 +102,10 @@ class Periodogram {
     // The QR decomposition of J with the two columns of the response behind it: the last 2 x 2
     // block of R belongs to these columns after projection orthogonal to J, and theta holds their
     // coefficients.
-    const std::size_t q = q_ + 2;
+    const bool mean_removed = fit_.filters_known() && fit_.means_taken() > 0;
+    const std::size_t q = q_ + mean_removed + 2;
     Triangles all(System{{f_.size()}, 0, q, {}});
-    seen_.H ? fold_filtered(wobble, all) : fold_means(wobble, all);
+    fit_.noise->inferred() ? fold_filtered(wobble, all) : fold_means(wobble, mean_removed, all);
     all.join();
     const Column R = all.without_f(), theta = all.solve();
     const double cc = R[(q - 2) * q + q - 2], cs = R[(q - 2) * q + q - 1], ss = R[q * q - 1],
@@ -141,14 +144,15 @@ class Periodogram {
   }
 
   /// For white noise, block means keep the information about everything that varies slowly.
-  void fold_means(const Wobble& wobble, Triangles& all) const {
-    Column J(q_ + 2);
+  void fold_means(const Wobble& wobble, bool mean_removed, Triangles& all) const {
+    Column J(q_ + mean_removed + 2);
     std::size_t first = 0;
     for (std::size_t end : ends_) {
       const double n = static_cast<double>(end - first);
       double t = 0, f = 0;
       for (; first < end; ++first) t += seen_.t[first] / n, f += f_[first];
       model_(t, J.data(), 1);
+      if (mean_removed) J[q_] = 1;
       const auto by_e = wobble.at(t);
       std::copy(by_e.begin(), by_e.end(), J.end() - 2);
       for (double& x : J) x *= std::sqrt(n);
@@ -189,7 +193,9 @@ std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRu
   constexpr double decisive = 0.01;
   if (!fit.rolls || fit.minimum.f.size() < fit.minimum.theta.size() + 10) return {};
   std::optional<Eccentricity> found;
-  const auto f_of = by_run(fit.minimum.f, fit.system.runs);
+  const bool known = fit.filters_known();
+  const Column f = known ? fit.noise->explain(fit.minimum.f) : fit.minimum.f;
+  const auto f_of = by_run(f, known ? fit.noise->sources() : fit.system.runs);
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const double R = route == Route::shift ? runs[r].shift_of->body.R : runs[r].body.R;
     const Periodogram spectrum(fit, r, R, variance, f_of[r]);

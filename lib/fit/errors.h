@@ -45,14 +45,6 @@ struct NoiseErrors {
 };
 NoiseErrors noise_errors(const Fitted&, const Uncertainty&);
 
-/// The contribution of each given number with an uncertainty. Runs with the same value and
-/// uncertainty have the same body; they change together. The derivative is a central difference of
-/// two fits, with the number one standard uncertainty (or a tenth of the number, if that is less)
-/// above and below its value. On the routes that read D, which was computed with these numbers, D
-/// is computed again from the same accelerations. Throws Error if the fit itself is not possible.
-std::vector<ErrorShare> shares_of_given(Route, const std::vector<FitRun>&, const FitOptions&,
-                                        const Fitted&);
-
 /// The noise of the raw column of a fit with known filters; without the B of its sources.
 RawNoise raw_noise_of(const Fitted&);
 

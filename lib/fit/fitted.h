@@ -59,21 +59,4 @@ Minimum solve(const System&, const std::vector<double>& start, const FitOptions&
 /// Throws Error if n records are too few for p parameters, or if p = 0.
 void require_records(std::size_t n, std::size_t p);
 
-/// Fits by one route, without the errors. Throws Error as fit() does, except for the limits on the
-/// standard errors.
-Fitted fit_route(Route, const std::vector<FitRun>&, const FitOptions&);
-
-/// The records of each run that can be fitted to a roll: those with finite values. For shift, a
-/// record with v <= 0 counts too: to select by noisy speeds would be to select by their noise.
-std::vector<Rows> usable(Route, const std::vector<FitRun>&);
-
-/// Fits a roll: position, velocity, and shift with known filters (`responses`). `inferred_share` is
-/// given if the filters were inferred from the residuals; it is then the share of Noise.
-Fitted fit_rolls(Route, const std::vector<FitRun>&, std::vector<Rows>, std::vector<Response>,
-                 const FitOptions&, std::optional<double> inferred_share = {});
-
-/// Fits one run of a joint fit of rolls separately: the same records and weights, the slope of the
-/// mat held at the joint value.
-Fitted fit_of_run(const Fitted& joint, std::size_t run, const FitOptions&);
-
 }  // namespace rolling

@@ -5,10 +5,11 @@
 #include <limits>
 #include <utility>
 
-#include "base/error.h"
 #include "base/by_run.h"
+#include "base/error.h"
 #include "fit/errors.h"
 #include "fit/first_guess.h"
+#include "fit/route.h"
 #include "motion/law_roll.h"
 #include "statistics/residuals.h"
 

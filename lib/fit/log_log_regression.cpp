@@ -5,12 +5,13 @@
 #include <functional>
 #include <utility>
 
+#include "base/by_run.h"
+#include "base/dot.h"
 #include "base/error.h"
 #include "contact/contact.h"
 #include "contact/power_law.h"
-#include "base/by_run.h"
-#include "base/dot.h"
 #include "fit/errors.h"
+#include "fit/roll_fit.h"
 #include "fit/shift_records.h"
 
 namespace rolling {

@@ -11,20 +11,10 @@
 namespace rolling {
 namespace {
 
-const char* column_of(Route route) {
-  return route == Route::position ? "x" : route == Route::velocity ? "v" : "D";
-}
-
-/// The rows of H for the fitted records. For shift a last row gives the mean of their speeds,
-/// because D alone hardly depends on v0.
-FilterMatrix filters_of_rows(const Response& response, Route route, const Rows& rows) {
-  FilterMatrix H = response.of.at(column_of(route));
-  if (rows.size() != H.rows()) H = H.of_rows(rows);
-  if (route != Route::shift) return H;
-  const FilterMatrix& of_v = response.of.at("v");
-  std::vector<double> chosen(of_v.rows());
-  for (std::size_t i : rows) chosen[i] = 1 / static_cast<double>(rows.size());
-  return H.with_last_row(of_v.transposed_times(chosen));
+/// The rows of the matrix of a column for the fitted records.
+FilterMatrix filters_of_rows(const Response& response, const char* column, const Rows& rows) {
+  const FilterMatrix& H = response.of.at(column);
+  return rows.size() == H.rows() ? H : H.of_rows(rows);
 }
 
 /// The direction of motion, +1 or -1. All records (x or v) contribute, so that a few false echoes
@@ -40,10 +30,9 @@ double way_of(bool position, const std::vector<double>& records, const FitOption
              : 1;
 }
 
-/// The chosen records, with memory reserved for one more number.
 std::vector<double> taken(const std::vector<double>& column, const Rows& rows) {
   std::vector<double> few;
-  few.reserve(rows.size() + 1);
+  few.reserve(rows.size());
   for (std::size_t i : rows) few.push_back(column[i]);
   return few;
 }
@@ -68,8 +57,8 @@ std::vector<Response> responses_of(Route route, const std::vector<FitRun>& all) 
     }
     const Response& r = responses.back();
     const bool roll = r.source == "x" || (r.source == "v" && route != Route::position);
-    if (!roll || !r.of.contains(column_of(route)) ||
-        (!is_trajectory(route) && !(run.shift_of && r.of.contains("v"))))
+    if (!roll || !r.of.contains(route == Route::position ? "x" : "v") ||
+        (!is_trajectory(route) && !(run.shift_of && r.of.contains("D"))))
       return {};
   }
   return responses;
@@ -101,12 +90,10 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
       const ShiftOf& by = *run.shift_of;
       seen.body = by.body;
       seen.geometry = by.geometry;
-      seen.unit = (by.body.K + 1) * by.body.R / by.body.g;
-      double mean = 0;
-      for (double v : seen.y) mean += v / static_cast<double>(seen.y.size());
-      seen.y = taken(run.D, rows[r]);
-      for (double& y : seen.y) y = acceleration_of(by, y);
-      seen.y.push_back(mean);
+      std::vector<double> accelerations = taken(run.D, rows[r]);
+      for (double& y : accelerations) y = acceleration_of(by, y);
+      seen.shifts = {filters_of_rows(responses[r], "D", rows[r]), std::move(accelerations),
+                     (by.body.K + 1) * by.body.R / by.body.g};
     }
     // With A = 1 on a level mat the motion depends on g/((K + 1) R) alone (Eq. 12), and D may
     // exceed R. R and g are multiplied by the same large factor, so that D/R stays small.
@@ -117,7 +104,7 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     seen.raw_is_position = known ? responses[r].source == "x" : route == Route::position;
     if (known) {
       seen.t = run.t;
-      seen.H = filters_of_rows(responses[r], route, rows[r]);
+      seen.H = filters_of_rows(responses[r], route == Route::position ? "x" : "v", rows[r]);
     } else {
       seen.t = taken(run.t, rows[r]);
     }

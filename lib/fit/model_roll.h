@@ -4,16 +4,22 @@
 //   y = H r(t; a, b, v0, x0) + H e
 //
 // r is the raw column (positions or speeds of the roll), H the matrix of the filters, and e white
-// noise of one unknown variance. Positions, speeds and accelerations (for shifts) differ in H
-// alone. The covariance H H^T of the noise does not depend on the parameters, and the filters
-// smooth the model exactly as they smooth the data.
+// noise of one unknown variance. Positions and speeds differ in H alone. The covariance H H^T of
+// the noise does not depend on the parameters, and the filters smooth the model exactly as they
+// smooth the data.
+//
+// Shifts whose filters are known are derivatives of the speeds beside them: they are a linear
+// function of the speeds, without noise of their own. The weighted squares of v and D together are
+// therefore those of v alone, and y is v. The noise of a second derivative could not be whitened in
+// double precision: in n records, that of a slow motion is n^2 times smaller than that of a fast
+// one, in the covariance n^4 times.
 #pragma once
 
-#include "least_squares/minimise.h"
-#include "noise/noise.h"
 #include "fit/parameters.h"
-#include "noise/response.h"
+#include "least_squares/minimise.h"
 #include "motion/trajectory.h"
+#include "noise/noise.h"
+#include "noise/response.h"
 
 #include <algorithm>
 #include <memory>
@@ -34,15 +40,19 @@ struct ObservedRun {
   bool raw_is_position = false;
   std::vector<double> t;          ///< times of the raw column, at which the model is evaluated [s]
   std::optional<FilterMatrix> H;  ///< y = H raw; without H, y is the raw column itself
-  /// The fitted records; for shift their accelerations, followed by their mean speed.
-  std::vector<double> y;
-  double unit = 1;  ///< one unit of y in units of the fitted column
-
-  std::size_t records() const { return y.size() - (H && H->bordered()); }
+  std::vector<double> y;          ///< the fitted records
+  /// For shift: the accelerations of the shifts of these records are H raw, and a shift is `unit`
+  /// times an acceleration.
+  struct Shifts {
+    FilterMatrix H;
+    std::vector<double> accelerations;
+    double unit;
+  };
+  std::optional<Shifts> shifts = {};
 };
 
-/// The response of each run, if the chain of each run leads from positions or speeds to the column
-/// that the route fits (for D also to v, with a known shift_of); otherwise empty.
+/// The response of each run, if the chain of each run leads from positions or speeds to the columns
+/// that the route reads (for v and D with a known shift_of); otherwise empty.
 std::vector<Response> responses_of(Route, const std::vector<FitRun>&);
 
 /// The runs in the form that the model needs, with the chosen rows alone. Throws Error for a run

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "fit/roll_fit.h"
 
 namespace rolling {
 

@@ -1,8 +1,8 @@
 #include "least_squares/minimise.h"
 
+#include "base/dot.h"
 #include "base/error.h"
 #include "base/median.h"
-#include "base/dot.h"
 #include "least_squares/triangles.h"
 
 #include <algorithm>
@@ -108,8 +108,7 @@ Point polish(const System& system, std::vector<double> theta, double share) {
     fail("the fit cannot start: the law has no finite values at the starting point");
   for (int i = 0; i < 100 && best.angle > undetermined; ++i) {
     // A step this small is taken without evaluating the residuals again.
-    if (best.size < round_off ||
-        (best.size < unseen / 100 && best.reduction < unseen * unseen * best.rss)) {
+    if (best.size < round_off || best.reduction < unseen * unseen * best.rss) {
       best.theta = moved(best.theta, best.step);
       break;
     }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/error.h"
 #include "base/dot.h"
+#include "base/error.h"
 
 namespace rolling {
 
@@ -72,12 +72,6 @@ FilterMatrix FilterMatrix::of_rows(std::span<const std::size_t> rows) const {
   return few;
 }
 
-FilterMatrix FilterMatrix::with_last_row(std::vector<double> row) const {
-  FilterMatrix bordered = *this;
-  bordered.border_ = std::make_shared<const std::vector<double>>(std::move(row));
-  return bordered;
-}
-
 void FilterMatrix::row(std::size_t i, Row& to) const {
   const auto last = factors_.back()->row(i);
   to.first = factors_.back()->first(i);
@@ -115,8 +109,7 @@ std::vector<double> FilterMatrix::times(std::span<const double> x) const {
 
 std::vector<double> FilterMatrix::transposed_times(std::span<const double> X,
                                                    std::size_t columns) const {
-  std::vector<double> all(X.begin(),
-                          X.begin() + static_cast<std::ptrdiff_t>(band_rows() * columns));
+  std::vector<double> all(X.begin(), X.end());
   for (std::size_t f = factors_.size(); f-- > 0;) {
     const BandMatrix& L = *factors_[f];
     std::vector<double> next((f > 0 ? factors_[f - 1]->rows() : columns_) * columns);
@@ -127,10 +120,6 @@ std::vector<double> FilterMatrix::transposed_times(std::span<const double> X,
     }
     all.swap(next);
   }
-  if (bordered())
-    for (std::size_t k = 0; k < columns_; ++k)
-      for (std::size_t c = 0; c < columns; ++c)
-        all[k * columns + c] += (*border_)[k] * X[band_rows() * columns + c];
   return all;
 }
 
@@ -141,18 +130,11 @@ double dot(const FilterMatrix::Row& x, const FilterMatrix::Row& y) {
 
 FilterPass::FilterPass(const FilterMatrix& H, std::size_t columns,
                        std::function<void(double* row)> take)
-    : H_(H), stride_(stride(columns)), raw_(stride_), last_(stride_), take_(std::move(take)) {
+    : stride_(stride(columns)), raw_(stride_), take_(std::move(take)) {
   constexpr std::size_t room = 256;  // rows between two moves of the kept rows to the front
   for (const auto& L : H.factors_)
     stages_.push_back({L.get(), std::vector<double>((L->window() + room) * stride_),
                        std::vector<double>(stride_)});
-}
-
-void FilterPass::push() {
-  if (H_.bordered())
-    for (std::size_t c = 0; c < stride_; ++c) last_[c] += (*H_.border_)[pushed_] * raw_[c];
-  push(raw_.data(), 0);
-  if (++pushed_ == H_.columns() && H_.bordered()) take_(last_.data());
 }
 
 void FilterPass::push(double* row, std::size_t stage) {

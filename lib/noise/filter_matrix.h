@@ -48,8 +48,7 @@ class BandMatrix {
 };
 
 /// A product of band matrices, the first filter rightmost. The product is not multiplied out,
-/// because each factor is narrower than the product. An additional last row (the "border") may
-/// reach over the whole run; it holds the mean of a column.
+/// because each factor is narrower than the product.
 class FilterMatrix {
  public:
   FilterMatrix(BandMatrix);
@@ -58,17 +57,11 @@ class FilterMatrix {
   FilterMatrix then(BandMatrix L) const;
   /// The matrix of these rows alone.
   FilterMatrix of_rows(std::span<const std::size_t> rows) const;
-  /// This matrix with the border `row` (one element for each column) below it.
-  FilterMatrix with_last_row(std::vector<double> row) const;
 
-  std::size_t rows() const { return band_rows() + bordered(); }
+  std::size_t rows() const { return factors_.back()->rows(); }
   std::size_t columns() const { return columns_; }
-  /// The number of rows without the border.
-  std::size_t band_rows() const { return factors_.back()->rows(); }
-  bool bordered() const { return border_ != nullptr; }
-  std::span<const double> last_row() const { return *border_; }
 
-  /// One row of the product without the border, from its first nonzero column.
+  /// One row of the product, from its first nonzero column.
   struct Row {
     std::size_t first = 0;
     std::vector<double> values, spare;
@@ -88,7 +81,6 @@ class FilterMatrix {
   friend class FilterPass;
   std::size_t columns_;
   std::vector<std::shared_ptr<const BandMatrix>> factors_;  // in the order of application
-  std::shared_ptr<const std::vector<double>> border_;
 };
 
 /// The inner product of two rows.
@@ -103,7 +95,7 @@ class FilterPass {
   /// The memory for the next row of the input; push() reads the row from there.
   double* place() { return raw_.data(); }
   /// Passes the rows of the product that need no further input to the callback.
-  void push();
+  void push() { push(raw_.data(), 0); }
   /// The number of elements that a row needs: `columns`, rounded up to an even number.
   static std::size_t stride(std::size_t columns) { return (columns + 1) / 2 * 2; }
 
@@ -116,9 +108,8 @@ class FilterPass {
   void push(double* row, std::size_t stage);
   void multiply(Stage&) const;
 
-  const FilterMatrix& H_;
-  std::size_t stride_, pushed_ = 0;
-  std::vector<double> raw_, last_;
+  std::size_t stride_;
+  std::vector<double> raw_;
   std::vector<Stage> stages_;
   std::function<void(double* row)> take_;
 };

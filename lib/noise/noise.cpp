@@ -22,25 +22,12 @@ std::vector<double> each(const auto& parts, auto&& function) {
 
 }  // namespace
 
-std::vector<double> row_norms(const FilterMatrix& E) {
-  std::vector<double> norms;
-  norms.reserve(E.band_rows());
-  FilterMatrix::Row row;
-  for (std::size_t i = 0; i < E.band_rows(); ++i) {
-    E.row(i, row);
-    norms.push_back(std::sqrt(dot(row, row)));
-  }
-  return norms;
-}
-
 Noise::Noise(std::vector<FilterMatrix> E, double share, bool inferred)
     : E_(std::move(E)), share_(share), inferred_(inferred) {
   for (const FilterMatrix& E_of_run : E_) {
     rows_.push_back(E_of_run.rows());
     sources_.push_back(E_of_run.columns());
-    Covariance covariance(E_of_run);
-    const double floor = share * covariance.median_norm();
-    whiteners_.emplace_back(std::move(covariance), floor);
+    whiteners_.emplace_back(Covariance(E_of_run), share);
   }
 }
 

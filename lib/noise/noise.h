@@ -8,13 +8,6 @@
 
 namespace rolling {
 
-/// The standard deviation of the white noise that the weights assume in addition to the filtered
-/// noise, relative to that of the median record. The model passes through the same filters as the
-/// data, so that the residuals are noise in every direction; the white noise covers the rounding of
-/// the columns. In simulations a larger value loses precision where echoes are lost: 0.1 triples
-/// the scatter of b when 20 % are lost.
-inline constexpr double floor_share = 1e-4;
-
 /// The noise of the residuals of each run is E times white noise of one unknown variance. The
 /// elements of that white noise are called sources; for known filters they are the noise of the raw
 /// records.
@@ -22,10 +15,10 @@ class Noise {
  public:
   /// An unknown covariance: the residuals have no weights.
   Noise() = default;
-  /// The weight matrix is the inverse of E E^T + (share s)^2 I, with s the norm of the median row
-  /// of E. The second term bounds the weight of directions in which the filters leave almost no
-  /// noise, where otherwise a small misfit of the model would dominate. `inferred`: E and the share
-  /// were inferred from residuals, and the weights are the inverse of the covariance.
+  /// The weight matrix is the inverse of E E^T + F, where F is the covariance of white noise that
+  /// rounding has added to the columns: its standard deviation is this share of that of each
+  /// residual (see Whitener). `inferred`: E and the share were inferred from residuals, and the
+  /// weights are the inverse of the covariance.
   Noise(std::vector<FilterMatrix> E, double share, bool inferred);
 
   bool known() const { return !E_.empty(); }
@@ -57,11 +50,8 @@ class Noise {
   std::vector<FilterMatrix> E_;
   std::vector<Whitener> whiteners_;
   std::vector<std::size_t> rows_, sources_;  // numbers of each run
-  double share_ = floor_share;
+  double share_ = 0;
   bool inferred_ = false;
 };
-
-/// The Euclidean norm of each row without the border.
-std::vector<double> row_norms(const FilterMatrix&);
 
 }  // namespace rolling

@@ -1,23 +1,23 @@
 #include "noise/whitener.h"
 
-#include "base/error.h"
-#include "base/median.h"
 #include "base/dot.h"
+#include "base/error.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace rolling {
 namespace {
 
-/// The width of the upper band of E E^T: one more than the largest distance between two rows of E
-/// with a common column.
-std::size_t band_of(const FilterMatrix& E) {
+/// The width of the upper band of E E^T: one more than the largest distance between two of the
+/// first n rows of E with a common column.
+std::size_t band_of(const FilterMatrix& E, std::size_t n) {
   std::vector<std::uint32_t> first_row(E.columns(), UINT32_MAX);  // of each column
   std::size_t band = 1;
   FilterMatrix::Row row;
-  for (std::size_t i = 0; i < E.band_rows(); ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     E.row(i, row);
     for (std::size_t j = row.first; j < row.end(); ++j) {
       first_row[j] = std::min(first_row[j], static_cast<std::uint32_t>(i));
@@ -29,30 +29,26 @@ std::size_t band_of(const FilterMatrix& E) {
 
 }  // namespace
 
-Covariance::Covariance(const FilterMatrix& E)
-    : n(E.band_rows()), band(band_of(E)), rows(n * band), border(E.bordered() ? n : 0) {
+Covariance::Covariance(const FilterMatrix& E, std::size_t n_rows)
+    : n(n_rows), band(band_of(E, n)), rows(n * band) {
   std::vector<FilterMatrix::Row> last(band);  // a ring of rows of E
   for (std::size_t i = 0; i < n; ++i) {
     const FilterMatrix::Row& row = last[i % band];
     E.row(i, last[i % band]);
     for (std::size_t j = i < band ? 0 : i - band + 1; j <= i; ++j)
       rows[j * band + i - j] = dot(row, last[j % band]);
-    if (E.bordered() && !row.values.empty())
-      border[i] = dot(row.values, E.last_row().subspan(row.first));
   }
-  if (E.bordered()) corner = dot(E.last_row(), E.last_row());
 }
 
-double Covariance::median_norm() const {
-  if (n == 0) fail("a run has no record that can be fitted");
-  std::vector<double> squares(n);
-  for (std::size_t i = 0; i < n; ++i) squares[i] = rows[i * band];
-  return std::sqrt(nth_smallest(squares, n / 2));
-}
-
-Whitener::Whitener(Covariance of_E, double floor)
-    : n_(of_E.n), band_(of_E.band), floor_(floor), R_(std::move(of_E.rows)) {
-  for (std::size_t k = 0; k < n_; ++k) R_[k * band_] += floor * floor;
+Whitener::Whitener(Covariance of_E, double share)
+    : n_(of_E.n), band_(of_E.band), R_(std::move(of_E.rows)) {
+  const double width = static_cast<double>(band_);
+  white_ = share * share + width * width * std::numeric_limits<double>::epsilon();
+  variances_.reserve(n_);
+  for (std::size_t k = 0; k < n_; ++k) {
+    variances_.push_back(R_[k * band_]);
+    R_[k * band_] *= 1 + white_;
+  }
   for (std::size_t k = 0; k < n_; ++k) {
     double* const R = &R_[k * band_];
     if (!(R[0] > 0)) fail("the filters leave a column without noise");
@@ -61,22 +57,12 @@ Whitener::Whitener(Covariance of_E, double floor)
     for (std::size_t i = 1; i < std::min(band_, n_ - k); ++i)
       for (std::size_t j = i; j < band_; ++j) R[i * band_ + j - i] -= R[i] * R[j];
   }
-  if (of_E.border.empty()) return;
-  apply(of_E.border);
-  border_ = std::move(of_E.border);
-  const double rest = of_E.corner - dot(border_, border_);
-  if (!(rest > 0)) fail("the filters leave a column without noise");
-  corner_ = std::sqrt(rest);
 }
 
 Whitener::Pass::Pass(const Whitener& by, std::size_t stride)
-    : by_(by), stride_(stride), later_((by.band_ + 256) * stride), along_border_(stride) {}
+    : by_(by), stride_(stride), later_((by.band_ + 256) * stride) {}
 
 void Whitener::Pass::push(double* row) {
-  if (k_ == by_.n_) {
-    for (std::size_t c = 0; c < stride_; ++c) row[c] = (row[c] - along_border_[c]) / by_.corner_;
-    return;
-  }
   const std::size_t band = by_.band_, end = std::min(band, by_.n_ - k_);
   if ((k_ - base_ + band) * stride_ > later_.size()) {
     const auto first = later_.begin() + static_cast<std::ptrdiff_t>((k_ - base_) * stride_);
@@ -93,28 +79,21 @@ void Whitener::Pass::push(double* row) {
       to[1] += R[j] * y;
     }
   }
-  if (by_.corner_ > 0)
-    for (std::size_t c = 0; c < stride_; ++c) along_border_[c] += by_.border_[k_] * row[c];
   ++k_;
 }
 
 void Whitener::apply(std::span<double> X) const {
-  const std::size_t n = rows(), columns = X.size() / n, stride = FilterPass::stride(columns);
+  const std::size_t columns = X.size() / n_, stride = FilterPass::stride(columns);
   Pass pass(*this, stride);
   std::vector<double> row(stride);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t c = 0; c < columns; ++c) row[c] = X[c * n + i];
+  for (std::size_t i = 0; i < n_; ++i) {
+    for (std::size_t c = 0; c < columns; ++c) row[c] = X[c * n_ + i];
     pass.push(row.data());
-    for (std::size_t c = 0; c < columns; ++c) X[c * n + i] = row[c];
+    for (std::size_t c = 0; c < columns; ++c) X[c * n_ + i] = row[c];
   }
 }
 
 void Whitener::apply_transposed(std::span<double> X, std::size_t columns) const {
-  if (corner_ > 0)
-    for (std::size_t c = 0; c < columns; ++c) {
-      const double x = X[n_ * columns + c] /= corner_;
-      for (std::size_t i = 0; i < n_; ++i) X[i * columns + c] -= border_[i] * x;
-    }
   for (std::size_t k = n_; k-- > 0;) {
     const double* const R = &R_[k * band_];
     const std::size_t end = std::min(band_, n_ - k);
@@ -126,29 +105,28 @@ void Whitener::apply_transposed(std::span<double> X, std::size_t columns) const 
 }
 
 std::vector<double> Whitener::undo(std::span<const double> f) const {
-  std::vector<double> all(rows());
+  std::vector<double> all(n_);
   for (std::size_t k = 0; k < n_; ++k)
     for (std::size_t j = 0; j < std::min(band_, n_ - k); ++j)
       all[k + j] += R_[k * band_ + j] * f[k];
-  if (corner_ > 0) all[n_] = dot(border_, f) + corner_ * f[n_];
   return all;
 }
 
 double Whitener::log_size() const {
-  double sum = corner_ > 0 ? std::log(corner_) : 0;
+  double sum = 0;
   for (std::size_t k = 0; k < n_; ++k) sum += std::log(R_[k * band_]);
   return sum;
 }
 
-/// The elements of Z = (R^T R)^-1 within the band follow from the last row upwards (Erisman and
-/// Tinney 1975, Commun. ACM 18, 177), because R Z = R^-T is 0 above the diagonal and 1/R(k,k) on
-/// it.
-double Whitener::trace_of_inverse() const {
+/// R^-T E E^T R^-1 = I - R^-T F R^-1, and tr R^-T F R^-1 = tr F Z with Z = (R^T R)^-1. The elements
+/// of Z within the band follow from the last row upwards (Erisman and Tinney 1975, Commun. ACM 18,
+/// 177), because R Z = R^-T is 0 above the diagonal and 1/R(k,k) on it.
+double Whitener::trace() const {
   const std::size_t w = band_;
   // Z(i, j) is stored in row i mod w at place w + j - i, for columns on both sides of the diagonal.
   std::vector<double> Z(w * 2 * w);
   std::vector<double*> rows(w);  // rows k, k + 1, ... of Z
-  double trace = 0;
+  double of_F = 0;
   for (std::size_t k = n_; k-- > 0;) {
     const double* const R = &R_[k * w];
     const std::size_t end = std::min(w, n_ - k);
@@ -157,32 +135,20 @@ double Whitener::trace_of_inverse() const {
     for (std::size_t j = end; j-- > 1;)
       rows[0][j] = *(rows[j] - j) = -dot(R + 1, rows[j] - j + 1, end - 1) / R[0];
     rows[0][0] = (1 / R[0] - dot(R + 1, rows[0] + 1, end - 1)) / R[0];
-    trace += rows[0][0];
+    of_F += white_ * variances_[k] * rows[0][0];
   }
-  return trace;
+  return static_cast<double>(n_) - of_F;
 }
 
-double Whitener::trace() const {
-  double of_inverse = trace_of_inverse();
-  if (corner_ > 0) {  // the border adds u u^T / corner^2 to the inverse, with R u = border
-    std::vector<double> u = border_;
-    u.push_back(0);
-    apply_transposed(u);
-    of_inverse += dot(u.data(), u.data(), n_) / (corner_ * corner_);
-  }
-  return static_cast<double>(rows()) - floor_ * floor_ * of_inverse;
-}
-
-// R^-T E E^T R^-1 = I - floor^2 R^-T F R^-1, where F = I except for the border, which has no floor.
 std::vector<double> Whitener::meat(std::span<double> Q, std::size_t columns) const {
   std::vector<double> M(columns * columns);
-  const auto add_squares = [&](std::size_t n, double by) {
-    for (std::size_t i = 0; i < n * columns; i += columns)
-      add_outer(M, by, Q.subspan(i, columns), Q.subspan(i, columns));
+  const auto add_squares = [&](auto&& by) {
+    for (std::size_t i = 0; i < n_; ++i)
+      add_outer(M, by(i), Q.subspan(i * columns, columns), Q.subspan(i * columns, columns));
   };
-  add_squares(rows(), 1);
+  add_squares([](std::size_t) { return 1.0; });
   apply_transposed(Q, columns);
-  add_squares(n_, -floor_ * floor_);
+  add_squares([this](std::size_t i) { return -white_ * variances_[i]; });
   return M;
 }
 

@@ -5,26 +5,28 @@
 
 namespace rolling {
 
-/// The covariance E E^T of the noise that E makes from white noise of variance one: a band matrix,
-/// with an additional last row and column (the border) if E has one.
+/// The covariance E E^T of the noise that E makes from white noise of variance one: a band matrix.
 struct Covariance {
-  explicit Covariance(const FilterMatrix& E);
-  /// The median norm of the rows of E without the border. Throws Error if there are none.
-  double median_norm() const;
+  /// The covariance of the first `rows` residuals.
+  Covariance(const FilterMatrix& E, std::size_t rows);
+  explicit Covariance(const FilterMatrix& E) : Covariance(E, E.rows()) {}
 
-  std::size_t n, band;         // number of rows without the border, and width of the upper band
-  std::vector<double> rows;    // row k holds columns k .. k + band - 1
-  std::vector<double> border;  // the border above its corner; empty if there is none
-  double corner = 0;
+  std::size_t n, band;       // number of rows, and width of the upper band
+  std::vector<double> rows;  // row k holds columns k .. k + band - 1
 };
 
-/// The Cholesky factor R of C = E E^T + floor^2 I = R^T R, computed in O(n band^2) operations. The
-/// floor is not added to the border. The whitened residuals are R^-T x.
+/// The Cholesky factor R of C = E E^T + F = R^T R, computed in O(n band^2) operations. The whitened
+/// residuals are R^-T x. F is the covariance of white noise in addition to that of E: it is
+/// diagonal, and its standard deviation is a share of that of each residual.
+///
+/// A share of band * sqrt(epsilon) is always there. Rounding changes C by up to band * epsilon
+/// times the standard deviations of the two residuals in each of the elements of a row (Higham
+/// 2002, Accuracy and Stability of Numerical Algorithms, theorem 10.3), so that smaller noise is
+/// not known.
 class Whitener {
  public:
-  /// floor > 0. Relative to the largest row of E, floor^2 must be above the rounding error. Throws
-  /// Error if C is not positive definite.
-  Whitener(Covariance of_E, double floor);
+  /// Throws Error for a residual without noise.
+  Whitener(Covariance of_E, double share);
   /// Replaces X by R^-T X row by row, for rows that come one after another.
   class Pass;
   /// Replaces X by R^-T X; X holds its columns one after another.
@@ -34,25 +36,26 @@ class Whitener {
   /// The vector R^T f, from which apply() made f.
   std::vector<double> undo(std::span<const double> f) const;
   /// True if residual i has noise of its own: its standard deviation, given the residuals before
-  /// it, is above 30 floors. If it is not, the residual is a linear combination of those before it.
-  bool informative(std::size_t i) const { return i >= n_ || R_[i * band_] > 30 * floor_; }
+  /// it, is above 30 times that of F. If it is not, the residual is a linear combination of those
+  /// before it.
+  bool informative(std::size_t i) const {
+    return R_[i * band_] * R_[i * band_] > 900 * white_ * variances_[i];
+  }
+  /// The diagonal of E E^T.
+  std::span<const double> variances() const { return variances_; }
   /// ln det R.
   double log_size() const;
-  /// tr R^-T E E^T R^-1: the number of residuals minus the contribution of the floor.
+  /// tr R^-T E E^T R^-1: the number of residuals minus the contribution of F.
   double trace() const;
   /// Q^T R^-T E E^T R^-1 Q, for Q stored row by row with `columns` numbers in each row; overwrites
   /// Q.
   std::vector<double> meat(std::span<double> Q, std::size_t columns) const;
 
  private:
-  double trace_of_inverse() const;
-  std::size_t rows() const { return n_ + (corner_ > 0); }
-
   std::size_t n_, band_;  // as in Covariance
-  double floor_;
-  std::vector<double> R_;       // row k holds columns k .. k + band - 1
-  std::vector<double> border_;  // the last column of R above the corner
-  double corner_ = 0;           // 0 if there is no border
+  double white_;          // F is white_ times the diagonal of E E^T
+  std::vector<double> variances_;
+  std::vector<double> R_;  // row k holds columns k .. k + band - 1
 };
 
 class Whitener::Pass {
@@ -65,7 +68,6 @@ class Whitener::Pass {
   const Whitener& by_;
   std::size_t stride_, k_ = 0, base_ = 0;
   std::vector<double> later_;  // contributions of the rows so far to rows base_ and later
-  std::vector<double> along_border_;
 };
 
 }  // namespace rolling

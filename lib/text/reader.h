@@ -2,7 +2,6 @@
 // names in each head, converts them to SI units, and passes all other text through.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -141,7 +140,7 @@ class Reader {
   ReaderOptions options_;
   NeededColumns needed_;
   std::vector<std::string> order_;
-  std::unique_ptr<Lines> lines_;
+  std::optional<Lines> lines_;
   std::size_t next_file_ = 0;
 
   // The run.

@@ -8,12 +8,13 @@
 // decides.
 #include "text/shortest.h"
 
-#include <fmt/compile.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <string_view>
 
@@ -131,9 +132,12 @@ void write_eight(char* to, std::uint64_t digits) {
 char* write_shortest(char* to, double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
   const Decimal decimal = shortest_decimal(bits);
-  if (decimal.digits == 0) return fmt::format_to(to, FMT_COMPILE("{}"), value);
   *to = '-';
   to += bits >> 63;
+  if (decimal.digits == 0) {
+    if (value == 0) return *to = '0', to + 1;
+    return fmt::format_to(to, "{}", std::abs(value));
+  }
   const std::uint64_t nine = decimal.digits / 100000000, first = nine / 100000000,
                       middle = eight_digits(nine - 100000000 * first),
                       last = eight_digits(decimal.digits - 100000000 * nine);
@@ -152,11 +156,16 @@ char* write_shortest(char* to, double value) {
   std::memmove(to, digits, static_cast<std::size_t>(before));
   to[before] = '.';
   to += count > before ? count + 1 : before;
-  return scientific ? fmt::format_to(to, FMT_COMPILE("e{:+03}"), point - 1) : to;
+  if (!scientific) return to;
+  const int exponent = std::abs(point - 1);
+  *to++ = 'e';
+  *to++ = point < 1 ? '-' : '+';
+  if (exponent < 10) *to++ = '0';
+  return std::to_chars(to, to + 3, exponent).ptr;
 }
 
 char* write_digits(char* to, double value, int digits) {
-  return fmt::format_to(to, FMT_COMPILE("{:.{}g}"), value, digits);
+  return std::to_chars(to, to + 32, value, std::chars_format::general, digits).ptr;
 }
 
 }  // namespace rolling

@@ -49,6 +49,7 @@ struct Case {
   bool record = false;     ///< the free roll is sought in the whole record of a sensor
   rolling::Bulge bulge{};  ///< of whole records
   bool bound = false;      ///< white noise on the fitted column: the Cramer-Rao bound holds
+  int finer = 1;           ///< so many times as many records a second
 };
 
 constexpr double dt = 0.04, noise_x = 3e-4,
@@ -157,7 +158,8 @@ class Simulation {
  public:
   Simulation(const Case& c, const rolling::Trajectory& truth, const Scene& scene, unsigned seed)
       : c_(c), truth_(truth), scene_(scene),
-        n_(static_cast<std::size_t>(truth.stop_time() / dt) + 1), noise_(seed), random_(seed + 1) {}
+        n_(static_cast<std::size_t>(truth.stop_time() / dt * c.finer) + 1), noise_(seed),
+        random_(seed + 1) {}
   std::size_t records() const { return n_; }
 
   /// The run of this number in a joint fit.
@@ -197,7 +199,7 @@ class Simulation {
     Column raw;
     double error = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      const double t = dt * static_cast<double>(i), share = t / truth.stop_time();
+      const double t = dt * static_cast<double>(i) / c_.finer, share = t / truth.stop_time();
       const auto s = truth.at(t);
       const double size =
           (c_.raw == Case::x ? noise_x : noise_v) * times_the_noise_ * (1 + c_.growth * share);
@@ -385,6 +387,11 @@ inline std::vector<Case> cases() {
   all.push_back({.name = "x, noise grows", .route = Route::position, .growth = 10});
   all.push_back({.name = "x, 10 % lost", .route = Route::position, .lost = 0.1});
   all.push_back({.name = "v, AR(1) 0.8", .route = Route::velocity, .raw = Case::v, .AR = 0.8});
+  all.push_back({.name = "x, 4 kHz", .route = Route::position, .finer = 160});
+  shift("D from x, 4 kHz", to_shift(Case::x, 11));
+  all.back().finer = 160;
+  shift("D from x, 4 kHz, 1 % lost", to_shift(Case::x, 11), 0.01);
+  all.back().finer = 160;
   constexpr rolling::Bulge mat{5e-4, 0.02};
   for (const bool memory : {false, true}) {
     all.push_back({.name = memory ? "whole record with memory, x" : "whole record, x",

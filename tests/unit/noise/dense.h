@@ -8,13 +8,11 @@ namespace rolling {
 inline std::vector<double> dense(const FilterMatrix& M, std::size_t columns) {
   std::vector<double> all(M.rows() * columns, 0);
   FilterMatrix::Row row;
-  for (std::size_t i = 0; i < M.band_rows(); ++i) {
+  for (std::size_t i = 0; i < M.rows(); ++i) {
     M.row(i, row);
     for (std::size_t j = 0; j < row.values.size(); ++j)
       all[i * columns + row.first + j] = row.values[j];
   }
-  if (M.bordered())
-    for (std::size_t j = 0; j < columns; ++j) all[M.band_rows() * columns + j] = M.last_row()[j];
   return all;
 }
 

@@ -15,7 +15,8 @@ const std::vector<double> t = simulated::times(n);
 const FilterMatrix E = FilterMatrix(probe(simulated::smooth_v(5), t))
                            .then(probe(simulated::differentiate("v", "a"), t));
 
-/// A straight line through data whose noise is E times white noise, with a floor in the weights.
+/// A straight line through data whose noise is E times white noise, with a share of white noise in
+/// the weights.
 System line(const std::vector<double>& data, std::shared_ptr<const Noise> noise) {
   return {{n}, 0, 2, [=](const std::vector<double>& c, const TakeRows& take) {
             std::vector<double> f(n), J(2 * n);
@@ -33,7 +34,7 @@ System line(const std::vector<double>& data, std::shared_ptr<const Noise> noise)
 
 // The expectation of the sum of squares is exact, whatever the weights; and the covariance of the
 // line is R^-1 B^T B R^-T.
-TEST_CASE("noise: its variance and the covariance of the parameters, whatever the floor", "[fit]") {
+TEST_CASE("noise: its variance and the covariance of the parameters, whatever the share", "[fit]") {
   for (const double share : {1e-3, 0.1, 1.0, 30.0}) {
     const auto noise = std::make_shared<const Noise>(std::vector<FilterMatrix>{E}, share, false);
     simulated::Noise random(7);
@@ -68,7 +69,7 @@ TEST_CASE("noise: its variance and the covariance of the parameters, whatever th
 }
 
 TEST_CASE("noise: the least sources that explain residuals give them back", "[fit]") {
-  const Noise noise({E}, 1e-4, false);
+  const Noise noise({E}, 0, false);
   simulated::Noise random(3);
   std::vector<double> e;
   for (std::size_t i = 0; i < n; ++i) e.push_back(random(1));

@@ -48,12 +48,11 @@ TEST_CASE("response: a pass through the filters is the product with their matrix
   const FilterMatrix H = FilterMatrix::identity(n)
                              .then(probe(simulated::smooth_v(9), t))
                              .then(probe(simulated::differentiate("v", "a"), t))
-                             .of_rows(std::vector<std::size_t>{0, 1, 5, 300, 301, 598, 599})
-                             .with_last_row(std::vector<double>(n, 2));
+                             .of_rows(std::vector<std::size_t>{0, 1, 5, 300, 301, 598, 599});
   std::vector<double> x, y;
   for (std::size_t i = 0; i < n; ++i) x.push_back(std::sin(0.3 * static_cast<double>(i * i)));
   const auto Hx = H.times(x), matrix = dense(H, n);
-  REQUIRE(Hx.size() == 8);
+  REQUIRE(Hx.size() == 7);
   for (std::size_t i = 0; i < Hx.size(); ++i) {
     double sum = 0;
     for (std::size_t k = 0; k < n; ++k) sum += matrix[i * n + k] * x[k];

@@ -1,0 +1,17 @@
+#include "fit/fitted.h"
+
+#include "base/error.h"
+
+namespace rolling {
+
+void require_records(std::size_t n, std::size_t p) {
+  if (n == 0) fail("no record can be fitted");
+  if (p == 0) fail("a and b are both held: nothing is left to fit");
+  if (n < p) fail("{} record{} cannot determine {} parameters", n, n == 1 ? "" : "s", p);
+}
+
+Minimum solve(const System& system, const std::vector<double>& start, const FitOptions& options) {
+  return options.robust ? minimise_robust(system, start) : minimise(system, start);
+}
+
+}  // namespace rolling

@@ -1,0 +1,207 @@
+#include "fit/roll_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/dot.h"
+#include "fit/first_guess.h"
+#include "fit/white_share.h"
+
+namespace rolling {
+
+namespace {
+
+/// The first guess for filtered runs is that for the same columns without filters. Speeds that were
+/// made of positions are integrated, since their noise cancels in the integral.
+FirstGuess guess_without_filters(Route route, std::vector<ObservedRun> runs,
+                                 const std::vector<FitRun>& all, const std::vector<Rows>& rows,
+                                 FitOptions options) {
+  const bool integrated =
+      route != Route::position && std::ranges::all_of(runs, &ObservedRun::raw_is_position);
+  if (integrated) options.x0 = {};
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    ObservedRun& run = runs[r];
+    run.H.reset();
+    run.shifts.reset();
+    run.raw_is_position = route == Route::position || integrated;
+    run.t.clear();
+    for (std::size_t i : rows[r]) run.t.push_back(all[r].t[i] - run.origin);
+    if (!integrated) continue;
+    double x = 0, before = run.y[0];
+    for (std::size_t i = 0; i < run.y.size(); ++i) {
+      const double v = run.y[i];
+      if (i > 0) x += (before + v) / 2 * (run.t[i] - run.t[i - 1]);
+      before = v;
+      run.y[i] = x;
+    }
+  }
+  FirstGuess guess = first_guess(runs, options);
+  if (!integrated) return guess;
+  const Parameters& q = guess.parameters;
+  std::vector<double> v0;
+  for (std::size_t r = 0; r < runs.size(); ++r) v0.push_back(q.v0(guess.theta, r));
+  FirstGuess of_speeds{q.without_x0(), {}};
+  of_speeds.theta = of_speeds.parameters.theta(q.law(guess.theta), v0, {});
+  if (options.fit_slope) of_speeds.theta.back() = guess.theta.back();
+  return of_speeds;
+}
+
+/// Removes from `rows` the records whose fitted speed is below the limit; returns whether there
+/// were any. The fitted speed decides, because a threshold on noisy speeds would select records by
+/// their noise.
+bool leave_out_slow(const RollModel& model, const std::vector<double>& theta,
+                    const std::vector<FitRun>& all, std::vector<Rows>& rows, double limit) {
+  std::size_t slow = 0;
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    const Trajectory fitted = model.trajectory(theta, r);
+    slow += std::erase_if(rows[r], [&](std::size_t i) {
+      return fitted.speed_at(all[r].t[i] - model.runs()[r].origin).v < limit;
+    });
+  }
+  return slow > 0;
+}
+
+/// The sum of squares of model - data for the shifts of a run.
+double squares_of_shifts(const RollModel& rolls, const std::vector<double>& theta, std::size_t r) {
+  const ObservedRun& run = rolls.runs()[r];
+  const RawModel model = rolls.raw(theta, r);
+  std::vector<double> f, slopes(rolls.parameters().columns());
+  f.reserve(run.t.size());
+  for (double t : run.t) f.push_back(model(t, slopes.data(), 1));
+  f = run.shifts->H.times(f);
+  for (std::size_t i = 0; i < f.size(); ++i) f[i] -= run.shifts->accelerations[i];
+  return dot(f, f) * run.shifts->unit * run.shifts->unit;
+}
+
+/// The sum of squares of model - data in the column of the route, without weights.
+double squares_of(const Fitted& fit) {
+  if (!fit.noise->known()) return fit.minimum.rss;
+  if (!fit.rolls->runs().front().shifts) {
+    const auto plain = fit.noise->without_weights(fit.minimum.f);
+    return dot(plain, plain);
+  }
+  double sum = 0;
+  for (std::size_t r = 0; r < fit.system.runs.size(); ++r)
+    sum += squares_of_shifts(*fit.rolls, fit.minimum.theta, r);
+  return sum;
+}
+
+/// Writes a, b, the slope and v0 with their gradients, the number of records and their sum of
+/// squares into the fit.
+void report(Fitted& fit) {
+  const std::vector<double>& theta = fit.minimum.theta;
+  const Parameters& q = fit.rolls->parameters();
+  const PowerLaw law = q.law(theta);
+  const auto quantity = [&](double value, const Parameters::Derivatives& by) {
+    Quantity result{value, std::vector<double>(q.columns())};
+    q.chain(result.gradient.data(), 1, law.a, by);
+    return result;
+  };
+  fit.a = quantity(law.a, {1, 0});
+  fit.b = quantity(law.b, {0, 1});
+  if (q.fits_slope()) fit.slope = quantity(q.slope(theta, 0), {0, 0, 0, 0, 1});
+  const auto& runs = fit.rolls->runs();
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const double way = runs[r].way;
+    const auto s = fit.rolls->trajectory(theta, r).speed_at(runs[r].start);
+    fit.v0.push_back(quantity(way * s.v, {way * s.v_a, way * s.v_b, way * s.v_v0, 0, s.v_S}));
+    fit.records += runs[r].y.size();
+  }
+  fit.rss = squares_of(fit);
+}
+
+/// The minimum over these runs with these weights; the results are not yet reported.
+Fitted minimum_of(std::vector<ObservedRun> runs, const FirstGuess& start, const FitOptions& options,
+                  double share, bool inferred) {
+  auto noise = noise_of(runs, share, inferred);
+  auto rolls = std::make_shared<const RollModel>(std::move(runs), start.parameters);
+  System system = system_of(rolls, noise);
+  Minimum minimum = solve(system, start.theta, options);
+  return {.system = std::move(system),
+          .minimum = std::move(minimum),
+          .noise = std::move(noise),
+          .rolls = std::move(rolls)};
+}
+
+/// True if the weighted sum of squares is more than four times what the unweighted residuals and
+/// the filters predict, that is, if the columns hold noise that did not pass the filters.
+bool rounded(const Fitted& fit) {
+  if (!fit.filters_known()) return false;
+  double variances = 0;
+  const auto plain = fit.noise->without_weights(fit.minimum.f);
+  for (std::size_t r = 0; r < fit.system.runs.size(); ++r)
+    for (const double variance : fit.noise->whitener(r).variances()) variances += variance;
+  return fit.minimum.rss * variances > 4 * dot(plain, plain) * static_cast<double>(plain.size());
+}
+
+/// Columns that were rounded after a filter hold additional white noise. Its share is estimated by
+/// restricted likelihood, and the fit is repeated with the new weights. In few records the
+/// residuals may be large by chance: there the likelihood decides.
+void allow_for_rounding(Fitted& fit, const FitOptions& options) {
+  if (!rounded(fit)) return;
+  const bool many = std::ranges::max(fit.system.runs) > searched_for_white_noise;
+  fit.system = {}, fit.noise = {};  // frees memory: these are large, and the search needs as much
+  const WhiteShare found = most_likely_share(fit.rolls, fit.minimum.theta, 1e-7, 1, 0);
+  const bool adopted = many || found.decisive();
+  fit.noise = noise_of(fit.rolls->runs(), adopted ? found.share : 0, false);
+  fit.system = system_of(fit.rolls, fit.noise);
+  if (adopted) fit.minimum = solve(fit.system, fit.minimum.theta, options);
+}
+
+}  // namespace
+
+Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options) {
+  const auto& theta = joint.minimum.theta;
+  const Parameters& all = joint.rolls->parameters();
+  ObservedRun run = joint.rolls->runs()[r];
+  run.body.slope = all.slope(theta, run.body.slope);
+  Fitted fit = minimum_of({std::move(run)}, {all.of_one_run(), all.theta_of_run(theta, r)}, options,
+                          joint.noise->share(), joint.noise->inferred());
+  report(fit);
+  return fit;
+}
+
+Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows,
+                 std::vector<Response> responses, const FitOptions& options,
+                 std::optional<double> inferred_share) {
+  std::optional<FirstGuess> guess;
+  Fitted fit{};
+  for (int round = 0; round < 4; ++round) {  // each round removes the slow records of the last fit
+    auto runs = observe(route, all, rows, responses, options);
+    if (!guess) {
+      std::size_t n = 0;
+      for (const ObservedRun& run : runs) n += run.y.size();
+      require_records(n, Parameters(options, route == Route::position, runs.size(), 1, 1).count());
+      guess = responses.empty() ? first_guess(runs, options)
+                                : guess_without_filters(route, runs, all, rows, options);
+    }
+    if (options.min_speed <= 0) responses = {}, rows.clear();  // frees memory: no round follows
+    fit = {};                                                  // frees memory
+    fit = minimum_of(std::move(runs), *guess, options, inferred_share.value_or(0),
+                     inferred_share.has_value());
+    guess->theta = fit.minimum.theta;
+    if (options.min_speed <= 0 ||
+        !leave_out_slow(*fit.rolls, guess->theta, all, rows, options.min_speed))
+      break;
+  }
+  allow_for_rounding(fit, options);
+  report(fit);
+  for (const Rows& of_run : usable(route, all)) fit.left_out += of_run.size();
+  fit.left_out -= fit.records;
+  return fit;
+}
+
+std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
+  std::vector<Rows> rows;
+  for (const FitRun& run : all) {
+    const auto& y = route == Route::position ? run.x : run.v;
+    Rows& of_run = rows.emplace_back();
+    of_run.reserve(y.size());
+    for (std::size_t i = 0; i < y.size(); ++i)
+      if (std::isfinite(y[i]) && (route != Route::shift || std::isfinite(run.D[i])))
+        of_run.push_back(i);
+  }
+  return rows;
+}
+
+}  // namespace rolling

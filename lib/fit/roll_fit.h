@@ -1,0 +1,21 @@
+// Fits of rolls: positions, speeds, and shifts whose filters are known.
+#pragma once
+
+#include "fit/fitted.h"
+
+namespace rolling {
+
+/// The records of each run that can be fitted to a roll: those with finite values. For shift, a
+/// record with v <= 0 counts too: to select by noisy speeds would be to select by their noise.
+std::vector<Rows> usable(Route, const std::vector<FitRun>&);
+
+/// Fits a roll: position, velocity, and shift with known filters (`responses`). `inferred_share` is
+/// given if the filters were inferred from the residuals; it is then the share of Noise.
+Fitted fit_rolls(Route, const std::vector<FitRun>&, std::vector<Rows>, std::vector<Response>,
+                 const FitOptions&, std::optional<double> inferred_share = {});
+
+/// Fits one run of a joint fit of rolls separately: the same records and weights, the slope of the
+/// mat held at the joint value.
+Fitted fit_of_run(const Fitted& joint, std::size_t run, const FitOptions&);
+
+}  // namespace rolling

@@ -1,0 +1,31 @@
+#include "fit/route.h"
+
+#include "base/error.h"
+#include "fit/log_log_regression.h"
+#include "fit/model_shift.h"
+#include "fit/roll_fit.h"
+#include "fit/sensor_filters.h"
+
+namespace rolling {
+
+Fitted fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+  if (options.a && !(*options.a > 0))
+    fail("a = {} cannot be held: it must be positive", *options.a);
+  std::vector<Response> responses = responses_of(route, runs);
+  const bool known = !responses.empty();
+  if (options.fit_slope && (route == Route::loglog || (route == Route::shift && !known)))
+    fail("the slope shows in a roll alone: on this route `##` lines must tell how D was made");
+  if (options.robust && known)
+    fail(
+        "robust fits judge single records, but filters have spread each outlier over many: fit the "
+        "raw column");
+  if (route == Route::loglog) return fit_log_log(runs, options, std::move(responses));
+  if (!known && route == Route::shift) return fit_shift(runs, options);
+  Fitted fit = fit_rolls(route, runs, usable(route, runs), std::move(responses), options);
+  if (route == Route::velocity && !known && !options.robust && !options.possible_filters.empty() &&
+      fit.minimum.f.size() >= 30)
+    if (auto differences = fit_differences(runs, options, fit)) return *std::move(differences);
+  return fit;
+}
+
+}  // namespace rolling
