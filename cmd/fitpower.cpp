@@ -119,10 +119,10 @@ std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, const Body& b
       tool.warn(fmt::format("run {}: {}: the fit goes on as if no filter were known", run.name,
                             history.doubt));
     if (history.left_out > 0)
-      tool.warn(
-          fmt::format("run {}: it was cut after the filters that its `##` lines name: {} more "
-                      "records at the cut are left out, since their windows are not known; cut first",
-                      run.name, history.left_out));
+      tool.warn(fmt::format(
+          "run {}: it was cut after the filters that its `##` lines name: {} more "
+          "records at the cut are left out, since their windows are not known; cut first",
+          run.name, history.left_out));
   }
   return runs;
 }
