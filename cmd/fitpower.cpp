@@ -1,5 +1,6 @@
 // fitpower - fit the power law D = a v^b to columns; see fitpower(1)
 #include <algorithm>
+#include <compare>
 #include <cmath>
 #include <set>
 
@@ -54,7 +55,10 @@ std::vector<double> FitRun::*column_of(std::string_view name) {
 /// ten readings may be equal by chance.
 void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
   const auto y = column_of(columns_of(route).back());
-  const auto less = [&](std::size_t i, std::size_t j) { return runs[i].*y < runs[j].*y; };
+  const auto less = [&](std::size_t i, std::size_t j) {  // of all doubles, NaN too
+    return std::ranges::lexicographical_compare(
+        runs[i].*y, runs[j].*y, [](double a, double b) { return std::strong_order(a, b) < 0; });
+  };
   std::set<std::size_t, decltype(less)> different(less);
   std::string copy;
   std::size_t copies = 0;
@@ -108,17 +112,17 @@ std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, const Body& b
     if (in.renames() && !history.filters.empty())
       history = {{}, {}, "--use takes other columns than its `##` lines speak of"};
     run.shift_of = history.shift_of;
-    history = compared(std::move(history), run);
+    history = known_windows(compared(std::move(history), run), run);
     run.filters = std::move(history.filters);
     run.shift_of = history.shift_of;
     if (!history.doubt.empty())
       tool.warn(fmt::format("run {}: {}: the fit goes on as if no filter were known", run.name,
                             history.doubt));
     if (history.left_out > 0)
-      tool.warn(
-          fmt::format("run {}: it was cut after the filters that its `##` lines name: {} more "
-                      "records at the cut are left out, since their windows are not known",
-                      run.name, history.left_out));
+      tool.warn(fmt::format(
+          "run {}: it was cut after the filters that its `##` lines name: {} more "
+          "records at the cut are left out, since their windows are not known; cut first",
+          run.name, history.left_out));
   }
   return runs;
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
-#include <utility>
 
 #include "base/error.h"
 #include "base/median.h"
@@ -118,11 +118,7 @@ class Chain {
     history_ = {};
     return false;
   }
-  void append(LinearFilter filter) {
-    filter.cut_begin = std::exchange(cut_begin_, false);
-    filter.cut_end = std::exchange(cut_end_, false);
-    history_.filters.push_back(std::move(filter));
-  }
+  void append(LinearFilter filter) { history_.filters.push_back(std::move(filter)); }
   bool smooth(const std::string& line, std::span<const std::string> words) {
     if (words.size() < 2) return doubt(line);
     const std::string& method = words[1];
@@ -131,8 +127,8 @@ class Chain {
       if (words.size() != (method == "coast" ? 2U : 3U) ||
           (words.size() == 3 && !parse_number(words[2], number)))
         return doubt(line);
-      cut_begin_ = cut_begin_ || method != "to";
-      cut_end_ = cut_end_ || method != "from";
+      history_.cut_begin |= reach_ > 0 && method != "to";
+      history_.cut_end |= reach_ > 0 && method != "from";
       return true;
     }
     if (method == "outliers")  // the records that it leaves out depend on the readings: not linear
@@ -157,7 +153,6 @@ class Chain {
 
   std::span<const double> t_;
   History history_;
-  bool cut_begin_ = false, cut_end_ = false;
   std::size_t reach_ = 0;
 };
 
@@ -226,7 +221,7 @@ std::vector<double> standing_for(const FitRun& run, const std::string& column) {
 
 }  // namespace
 
-History compared(History history, FitRun& run) {
+History compared(History history, const FitRun& run) {
   // The last filter that changes numbers (reach > 0); no later one has changed its output.
   auto last = history.filters.rbegin();
   while (last != history.filters.rend() && last->reach == 0) ++last;
@@ -255,26 +250,32 @@ History compared(History history, FitRun& run) {
   bool inside = factor || !(typical <= 0.05 * large);
   const auto differs = [&](std::size_t i) { return off[i] > most && off[i] > 0.01 * size[i]; };
   for (std::size_t i = reach; i + reach < n; ++i) inside = inside || differs(i);
-  LinearFilter cut = identity(history.filters.back().to, history.filters.back().to);
+  if (inside) return {{}, {}, "the columns are not what the `##` lines say"};
   for (std::size_t i = 0; i < reach; ++i) {
-    cut.cut_begin = cut.cut_begin || differs(i);
-    cut.cut_end = cut.cut_end || differs(n - 1 - i);
+    history.cut_begin = history.cut_begin || differs(i);
+    history.cut_end = history.cut_end || differs(n - 1 - i);
   }
-  if (!inside && !cut.cut_begin && !cut.cut_end) return history;
-  // The number of removed records is not known, and thus not the width of the windows at the former
-  // end. Further inside, the windows were complete.
+  return history;
+}
+
+// How many records were removed is not known, nor at which times, and thus not the windows at the
+// former end. Further inside, they are those of the times of the run.
+History known_windows(History history, FitRun& run) {
   std::size_t windows = 0;
   for (const LinearFilter& filter : history.filters) windows += filter.reach;
-  history.left_out = windows * (std::size_t{cut.cut_begin} + cut.cut_end);
-  if (inside || n < history.left_out + 10)
-    return {{}, {}, "the columns are not what the `##` lines say"};
-  for (std::vector<double>* column : {&run.t, &run.x, &run.v, &run.D}) {
+  history.left_out = windows * (std::size_t{history.cut_begin} + history.cut_end);
+  if (history.left_out == 0) return history;
+  if (run.t.size() < history.left_out + 10)
+    return {{},
+            history.shift_of,
+            "it was cut after the filters that its `##` lines name, and fewer than 10 records are "
+            "far enough from the cut"};
+  for (std::vector<double>* column : {&run.x, &run.v, &run.D}) {
     if (column->empty()) continue;
-    if (cut.cut_end) column->resize(n - windows);
-    if (cut.cut_begin)
-      column->erase(column->begin(), column->begin() + static_cast<std::ptrdiff_t>(windows));
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    if (history.cut_begin) std::fill_n(column->begin(), windows, nan);
+    if (history.cut_end) std::fill_n(column->rbegin(), windows, nan);
   }
-  history.filters.push_back(std::move(cut));
   return history;
 }
 

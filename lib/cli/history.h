@@ -15,8 +15,9 @@ namespace rolling {
 struct History {
   FilterChain filters;  ///< empty if the filters are not known
   std::optional<ShiftOf> shift_of = {};
-  std::string doubt = {};    ///< the reason why the lines are not trusted; otherwise empty
-  std::size_t left_out = 0;  ///< number of records that compared() left out
+  std::string doubt = {};  ///< the reason why the lines are not trusted; otherwise empty
+  bool cut_begin = false, cut_end = false;  ///< records were removed there after a filter
+  std::size_t left_out = 0;                 ///< number of records that known_windows() left out
 };
 
 /// The filters in the `##` lines of a run (smooth, differentiate, shift-from-accel), for records at
@@ -38,9 +39,12 @@ bool shifts_of_speeds(const std::vector<std::string>& lines);
 
 /// Compares the output of the last filter with the columns of the run, if the run has both its
 /// input and its output. If they differ only at an end, records were removed there after the
-/// filters; the records whose windows may have reached beyond that end are then left out, too. If
-/// they differ elsewhere, or fewer than 10 records remain, the lines are not trusted.
-History compared(History, FitRun&);
+/// filters, as the lines may tell, too. If they differ elsewhere, the lines are not trusted.
+History compared(History, const FitRun&);
+
+/// Leaves out the records whose windows may have reached to records that were removed: x, v and D
+/// become NaN. The filters are unknown if fewer than 10 records remain.
+History known_windows(History, FitRun&);
 
 /// The filters that the software of sensors may apply to speeds: the central difference of
 /// positions and the differences of Vernier's and PASCO's programs; and means of 2, 3 or 5 speeds,

@@ -95,13 +95,8 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     ObservedRun seen;
     seen.body = run.body;
     seen.geometry = options.geometry;
-    seen.origin = known ? responses[r].t.front() : first_fitted;
+    seen.origin = known ? run.t.front() : first_fitted;
     seen.start = held ? 0 : first_fitted - seen.origin;
-    if (held && seen.origin < run.t[0])
-      fail(
-          "{}v0 and x0 cannot be held: filters have reached back to what was cut away before the "
-          "run begins",
-          of_run);
     const Rows fitted = rows_of_speeds(route, run, rows[r]);
     seen.y = taken(route == Route::position ? run.x : run.v, fitted);
     seen.way = way_of(route == Route::position, seen.y, options);
@@ -125,7 +120,7 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     }
     seen.raw_is_position = known ? responses[r].source == "x" : route == Route::position;
     if (known) {
-      seen.t = responses[r].t;
+      seen.t = run.t;
       seen.H = filters_of_rows(responses[r], route == Route::position ? "x" : "v", fitted);
     } else {
       seen.t = taken(run.t, rows[r]);

@@ -60,7 +60,7 @@ struct FitResult {
   double corr;                    ///< correlation of a and b; 0 where one of them is fixed
   double rms;     ///< sqrt(RSS / (n - p)) in the unit of the fitted column (of ln D for loglog)
   std::size_t n;  ///< number of fitted records
-  std::size_t left_out;  ///< number of records that the route could not use
+  std::size_t left_out;  ///< number of records, but for missing ones, that the route did not use
   double whiteness;      ///< significance of the autocorrelation of the noise (Ljung and Box); NaN
                          ///< where it is not tested
   std::vector<double> v0, sigma_v0;  ///< initial speeds [m/s], one for each run (trajectory routes)

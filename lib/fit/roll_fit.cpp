@@ -187,7 +187,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
   }
   allow_for_rounding(fit, options);
   report(fit);
-  for (const FitRun& run : all) fit.left_out += run.t.size();
+  for (const Rows& of_run : usable(route, all)) fit.left_out += of_run.size();
   fit.left_out -= fit.records;
   return fit;
 }

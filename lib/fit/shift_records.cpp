@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "fit/roll_fit.h"
 
 namespace rolling {
 
@@ -38,7 +39,7 @@ ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& opt
   ShiftRecords records;
   auto &y = records.y, &log_u = records.log_u;
   std::size_t most = 0;
-  for (const auto& run : all) most += run.v.size();
+  for (const Rows& of_run : usable(Route::shift, all)) most += of_run.size();
   y.reserve(most), log_u.reserve(most);
   double sum = 0;
   for (const auto& run : all) {

@@ -19,8 +19,6 @@ struct LinearFilter {
   std::function<std::vector<double>(std::span<const double> t, std::span<const double> y)> apply;
   /// L[i][j] depends on i - j alone, except in the 2 reach + 1 rows at either end.
   bool shift_invariant = false;
-  /// Records were removed there before this filter was applied.
-  bool cut_begin = false, cut_end = false;
 };
 
 /// The filters in the order in which they were applied; the first one reads the raw column.

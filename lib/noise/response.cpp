@@ -3,7 +3,6 @@
 #include "base/error.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace rolling {
 
@@ -69,45 +68,16 @@ BandMatrix probe(const LinearFilter& filter, std::span<const double> t) {
 Response response_of(const FilterChain& chain, std::span<const double> t) {
   Response response;
   if (chain.empty()) return response;
-  std::size_t reach = 0, before = 0,
-              after =
-                  0;  // how far the filters before the last cut reach beyond either end of the run
-  for (const auto& filter : chain) {
-    if (filter.cut_begin) before = reach;
-    if (filter.cut_end) after = reach;
-    reach += filter.reach;
-  }
-  const std::size_t n = t.size();
-  for (std::size_t k = before; k > 0 && n > 1; --k)
-    response.t.push_back(t[0] - static_cast<double>(k) * (t[1] - t[0]));
-  response.t.insert(response.t.end(), t.begin(), t.end());
-  for (std::size_t k = 1; k <= after && n > 1; ++k)
-    response.t.push_back(t[n - 1] + static_cast<double>(k) * (t[n - 1] - t[n - 2]));
-
-  std::span<const double> present = response.t;
-  std::size_t still_before = before, still_after = after;
-  reach = 0;
   response.source = chain.front().from;
-  response.of.emplace(response.source, FilterMatrix::identity(present.size()));
+  response.of.emplace(response.source, FilterMatrix::identity(t.size()));
   for (const auto& filter : chain) {
     const auto input = response.of.find(filter.from);
     if (input == response.of.end())
       fail("the filters start from two columns, {} and {}: their noises are not known together",
            response.source, filter.from);
-    const std::size_t first = filter.cut_begin && n > 1 ? still_before - (before - reach) : 0,
-                      last = filter.cut_end && n > 1 ? still_after - (after - reach) : 0;
-    if (first + last > 0) {
-      std::vector<std::size_t> kept(present.size() - first - last);
-      std::iota(kept.begin(), kept.end(), first);
-      for (auto& [name, matrix] : response.of) matrix = matrix.of_rows(kept);
-      present = present.subspan(first, present.size() - first - last);
-      still_before -= first;
-      still_after -= last;
-    }
-    BandMatrix L = probe(filter, present);
+    BandMatrix L = probe(filter, t);
     response.of.insert_or_assign(
         filter.to, L.is_identity() ? input->second : input->second.then(std::move(L)));
-    reach += filter.reach;
   }
   return response;
 }

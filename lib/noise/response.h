@@ -15,16 +15,13 @@ BandMatrix probe(const LinearFilter&, std::span<const double> t);
 
 /// The response of a chain of filters to its raw column.
 struct Response {
-  std::string source;     ///< name of the raw column, whose noise is assumed white
-  std::vector<double> t;  ///< times of the raw records: those of the run, and those of records that
-                          ///< were removed after a filter had used them
+  std::string source;  ///< name of the raw column, whose noise is assumed white
   /// The matrix of each column, the raw one included: one row for each record of the run.
   std::map<std::string, FilterMatrix> of;
 };
 
-/// The response of a chain on the times t of a run. Removed records are assumed to be spaced like
-/// the first or last two records of the run. Throws Error for a chain that starts from more than
-/// one raw column.
+/// The response of a chain on the times t of a run. Throws Error for a chain that starts from more
+/// than one raw column.
 Response response_of(const FilterChain&, std::span<const double> t);
 
 }  // namespace rolling

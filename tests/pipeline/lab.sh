@@ -34,6 +34,25 @@ awk '!/^#/ {
       ($11 - P)^2 < 4e-4 * P^2) }' results/joint.txt || complain "joint: $(cat results/joint.txt)"
 make check >said 2>&1 || complain "make check: $(cat said)"
 
+# No records, or a path that make would take apart: one line says so, and clean needs none.
+for folder in /nonexistent "$scratch/of two words"; do
+  mkdir -p "$scratch/of two words" && cp records/0001.csv "$scratch/of two words"
+  make records="$folder" >said 2>&1 && complain "make took the records of $folder"
+  grep -q "no \*.csv in '$folder': say records=FOLDER" said && [ "$(wc -l <said)" = 1 ] ||
+    complain "$folder: $(cat said)"
+done
+make -n clean records=/nonexistent >said 2>&1 || complain "make clean: $(cat said)"
+
+# Another K on the command line: a is larger by 1.83/1.5, b the same; and back.
+law() { awk '!/^#/ { print $1, $3 }' results/joint.txt; }
+before=$(law)
+make -s K=0.83 >said 2>&1 || complain "make K=0.83: $(cat said)"
+awk '{ exit !(($3 / $1 * 1.5 / 1.83 - 1)^2 < 1e-6 && ($4 - $2)^2 < 1e-6) }' <<<"$before $(law)" ||
+  complain "with K = 0.83 the law is $(law), with 0.5 $before"
+make -s >said 2>&1 || complain "make: $(cat said)"
+[ "$(law)" = "$before" ] || complain "with K = 0.5 again the law is $(law), before $before"
+make check >said 2>&1 || complain "make check: $(cat said)"
+
 # Only what has changed: of five records one, the table, the joint law, the figure.
 [ "$(make -n | grep -vc '^awk')" = 0 ] || complain "make would do again: $(make -n)"
 touch -d '+2 seconds' records/0003.csv

@@ -82,15 +82,16 @@ TEST_CASE("history: the filters of a chain stand in its order, lines of others s
   CHECK(filters_in({}, times).empty());
 }
 
-TEST_CASE("history: records that a line cuts away are missing to the next filter", "[cli]") {
-  const FilterChain chain =
-      filters_in({"smooth t from 1", "differentiate x central", "smooth t to 5",
-                  "smooth v mean width 3", "smooth v coast", "smooth v mean width 1"},
-                 times);
-  REQUIRE(chain.size() == 3);
-  CHECK((chain[0].cut_begin && !chain[0].cut_end));
-  CHECK((!chain[1].cut_begin && chain[1].cut_end));
-  CHECK((chain[2].cut_begin && chain[2].cut_end));
+TEST_CASE("history: a line that cuts records away is a cut if a filter stands above it", "[cli]") {
+  const auto cuts = [](const std::vector<std::string>& lines) {
+    const History history = history_of(lines, times);
+    return std::pair(history.cut_begin, history.cut_end);
+  };
+  const std::string derivative = "differentiate x central", mean = "smooth v mean width 3";
+  CHECK(cuts({"smooth x coast", "smooth t from 1", derivative, mean}) == std::pair(false, false));
+  CHECK(cuts({"smooth t to 5", derivative, "smooth t from 1", mean}) == std::pair(true, false));
+  CHECK(cuts({derivative, mean, "smooth t to 5"}) == std::pair(false, true));
+  CHECK(cuts({derivative, "smooth v coast", mean}) == std::pair(true, true));
 }
 
 TEST_CASE(
@@ -209,26 +210,23 @@ FitRun cut(const FitRun& run, std::size_t first, std::size_t last) {
 
 TEST_CASE("history: records cut off the ends after the filters are noticed by the columns",
           "[cli]") {
-  FitRun whole = shifts(40);
-  CHECK(compared(claimed(whole), whole).filters.size() == 3);
-  FitRun ends = cut(whole, 5, 35), head = cut(whole, 5, 40);
-  const History both = compared(claimed(ends), ends), begin = compared(claimed(head), head);
-  REQUIRE(both.filters.size() == 4);
-  CHECK((both.filters[3].cut_begin && both.filters[3].cut_end));
-  // A mean of 5 and a central difference reach 3 records to either side.
-  CHECK(both.left_out == 6);
-  CHECK(ends.t == std::vector(whole.t.begin() + 8, whole.t.begin() + 32));
-  CHECK(ends.D == std::vector(whole.D.begin() + 8, whole.D.begin() + 32));
-  REQUIRE(begin.filters.size() == 4);
-  CHECK((begin.filters[3].cut_begin && !begin.filters[3].cut_end));
-  CHECK(begin.left_out == 3);
-  CHECK(head.t == std::vector(whole.t.begin() + 8, whole.t.end()));
+  const FitRun whole = shifts(40);
+  const auto cuts = [&](std::size_t first, std::size_t last) {
+    const FitRun run = cut(whole, first, last);
+    const History history = compared(claimed(run), run);
+    CHECK(history.filters.size() == 3);
+    return std::pair(history.cut_begin, history.cut_end);
+  };
+  CHECK(cuts(0, 40) == std::pair(false, false));
+  CHECK(cuts(5, 40) == std::pair(true, false));
+  CHECK(cuts(0, 35) == std::pair(false, true));
+  CHECK(cuts(5, 35) == std::pair(true, true));
   FitRun hole = whole, other = whole, scaled = whole;
   for (auto column : {&FitRun::t, &FitRun::v, &FitRun::D})
     (hole.*column).erase((hole.*column).begin() + 20, (hole.*column).begin() + 25);
   for (double& D : other.D) D *= 1.2;
   for (double& D : scaled.D) D *= 1.0001;
-  for (FitRun run : {hole, other, scaled}) {
+  for (const FitRun& run : {hole, other, scaled}) {
     const History history = compared(claimed(run), run);
     CHECK(history.filters.empty());
     CHECK(history.doubt == "the columns are not what the `##` lines say");
@@ -245,6 +243,32 @@ TEST_CASE("history: records cut off the ends after the filters are noticed by th
     for (double& D : rounded.D) D = unit * std::round(D / unit);
     CHECK(compared(claimed(rounded), rounded).filters.size() == 3);
   }
+}
+
+TEST_CASE("history: the readings beside a cut are left out, their times are not", "[cli]") {
+  for (const auto& [begin, end] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
+    FitRun run = shifts(40);
+    const FitRun whole = run;
+    History history = claimed(run);
+    history.cut_begin = begin == 1, history.cut_end = end == 1;
+    history = known_windows(std::move(history), run);
+    CHECK(history.filters.size() == 3);
+    CHECK(run.t == whole.t);
+    // A mean of 5 and a central difference reach 3 records to either side.
+    CHECK(history.left_out == 3U * static_cast<std::size_t>(begin + end));
+    for (std::size_t i = 0; i < 40; ++i) {
+      const bool left_out = (begin == 1 && i < 3) || (end == 1 && i >= 37);
+      CHECK((left_out ? std::isnan(run.D[i]) : run.D[i] == whole.D[i]));
+      CHECK((left_out ? std::isnan(run.v[i]) : run.v[i] == whole.v[i]));
+    }
+  }
+  FitRun few = shifts(15);
+  History history = claimed(few);
+  history.cut_begin = history.cut_end = true;
+  history = known_windows(std::move(history), few);
+  CHECK(history.filters.empty());
+  CHECK(history.doubt.ends_with("fewer than 10 records are far enough from the cut"));
+  CHECK(std::isfinite(few.D.front()));
 }
 
 // What must never happen is a crash or a run without end: whatever the lines say, a fit answers or
@@ -290,7 +314,7 @@ TEST_CASE("history: damaged at random, it gives a fit or a refusal", "[cli][fit]
         History history = history_of(lines, run.t);
         run.filters = history.filters;
         run.shift_of = history.shift_of;
-        history = compared(std::move(history), run);
+        history = known_windows(compared(std::move(history), run), run);
         run.filters = history.filters;
         run.shift_of = history.shift_of;
         const FitResult r = fit(route, {run}, {});

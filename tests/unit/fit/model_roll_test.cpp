@@ -233,32 +233,33 @@ TEST_CASE("velocity: differences of x with their filter known are as good as x",
 }
 
 TEST_CASE(
-    "velocity: differences and means that reach beyond a cut are known there too; v0 is that of "
-    "the first record left",
+    "velocity: beside a cut nothing is fitted, on uneven times neither; v0 is that of the first "
+    "record left, a held one that of the first record",
     "[fit]") {
   const auto truth = simulated::roll(cylinder, 1.87e-3, 0.215, 0.5);
   std::vector<double> t, x;
-  for (int i = 0; i < 75; ++i) t.push_back(0.04 * i), x.push_back(truth.x(0.04 * i));
-  FilterChain chain{simulated::differentiate("x", "v"), simulated::smooth_v(7),
-                    simulated::smooth_v(1)};
+  for (int i = 0; i < 90; ++i)
+    if (i % 7 != 3) t.push_back(0.03 * i), x.push_back(truth.x(t.back()));
+  const FilterChain chain{simulated::differentiate("x", "v"), simulated::smooth_v(7)};
   const auto v = chain[1].apply(t, chain[0].apply(t, x));
-  chain[2].cut_begin = chain[2].cut_end = true;
   FitRun run{};
   run.body = cylinder;
   run.t.assign(t.begin() + 10, t.begin() + 57);
   run.v.assign(v.begin() + 10, v.begin() + 57);
   run.filters = chain;
-  const auto r = fit(Route::velocity, {run}, {});
-  CHECK(std::abs(r.a / 1.87e-3 - 1) < 1e-9);
-  CHECK(std::abs(r.b - 0.215) < 1e-9);
-  CHECK(std::abs(r.v0.at(0) - truth.v(0.4)) < 1e-9);
-  run.filters[2].cut_begin = run.filters[2].cut_end =
-      false;  // as if the ends were shrunken windows
-  CHECK(std::abs(fit(Route::velocity, {run}, {}).b - 0.215) > 1e-5);
-  run.filters = chain;
+  CHECK(std::abs(fit(Route::velocity, {run}, {}).b - 0.215) > 1e-5);  // ends of other windows
+  for (std::size_t i = 0; i < 4; ++i)
+    run.v[i] = run.v[46 - i] = std::numeric_limits<double>::quiet_NaN();
   FitOptions options;
-  options.v0 = 0.5;
-  CHECK_THROWS_AS(fit(Route::velocity, {run}, options), Error);  // of which time would that be?
+  for (const bool held : {false, true}) {
+    if (held) options.v0 = truth.v(run.t[0]);
+    const auto r = fit(Route::velocity, {run}, options);
+    CHECK(std::abs(r.a / 1.87e-3 - 1) < 1e-9);
+    CHECK(std::abs(r.b - 0.215) < 1e-9);
+    CHECK(std::abs(r.v0.at(0) - truth.v(run.t[held ? 0 : 4])) < 1e-9);
+    CHECK(r.n == 39);
+    CHECK(r.left_out == 0);
+  }
 }
 
 TEST_CASE("trajectory: white noise, intervals that hold and no bias", "[fit]") {

@@ -33,43 +33,6 @@ TEST_CASE("response: noise from two raw columns is refused", "[fit]") {
                   Error);
 }
 
-TEST_CASE(
-    "response: of records that were cut after a filter, the first and the last are interior ones",
-    "[fit]") {
-  const auto t = simulated::times(40);
-  simulated::Noise noise(2);
-  std::vector<double> x;
-  for (std::size_t i = 0; i < t.size(); ++i) x.push_back(noise(1));
-  FilterChain chain{simulated::smooth_v(5), simulated::differentiate("v", "a"),
-                    simulated::smooth_v(3)};
-  chain[2].from = chain[2].to = "a";
-  chain[0].from = "v";
-  chain[1].cut_begin = chain[2].cut_begin = chain[2].cut_end = true;
-  // What the chain does with records 10 to 29, the second cut after a first one at 8.
-  const auto v = chain[0].apply(t, x);
-  const auto from8 = [](const std::vector<double>& y) {
-    return std::vector<double>(y.begin() + 8, y.end());
-  };
-  const auto a = chain[1].apply(from8(t), from8(v));
-  const std::vector<double> a_cut(a.begin() + 2, a.begin() + 22),
-      t_cut(t.begin() + 10, t.begin() + 30);
-  const auto smooth = chain[2].apply(t_cut, a_cut);
-
-  const auto response = response_of(chain, t_cut);
-  REQUIRE(response.t.size() == 26);  // both filters before the last cut reach 2 + 1 records further
-  for (std::size_t i = 0; i < 26; ++i) CHECK(std::abs(response.t[i] - t[i + 7]) < 1e-12);
-  const std::vector<double> raw(x.begin() + 7, x.begin() + 33);
-  REQUIRE(response.of.at("a").rows() == 20);
-  for (std::size_t i = 0; i < 20; ++i)
-    CHECK(std::abs(response.of.at("a").times(raw)[i] - smooth[i]) < 1e-12);
-  for (std::size_t i = 0; i < 20; ++i)
-    CHECK(std::abs(response.of.at("v").times(raw)[i] - v[i + 10]) < 1e-12);
-  // Two records are enough to tell the times of those that were cut away.
-  const auto brief = response_of(chain, simulated::times(2));
-  CHECK(brief.t.size() == 8);
-  CHECK(brief.of.at("a").rows() == 2);
-}
-
 TEST_CASE("response: a filter that does the same everywhere is probed in a short run", "[fit]") {
   LinearFilter mean = simulated::smooth_v(5);
   mean.shift_invariant = true;
