@@ -60,8 +60,7 @@ std::vector<Response> responses_of(Route, const std::vector<FitRun>&);
 Rows rows_of_speeds(Route, const FitRun&, Rows);
 
 /// The runs in the form that the model needs, with the chosen rows alone. Throws Error for a run
-/// without a row, or if v0 or x0 is held and the filters reach back to records before the first
-/// one.
+/// without a row, and if a v0 that is held has the other sign than the motion.
 std::vector<ObservedRun> observe(Route, const std::vector<FitRun>&, const std::vector<Rows>&,
                                  const std::vector<Response>&, const FitOptions&);
 
