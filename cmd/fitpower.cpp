@@ -112,7 +112,7 @@ std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, const Body& b
     if (in.renames() && !history.filters.empty())
       history = {{}, {}, "--use takes other columns than its `##` lines speak of"};
     run.shift_of = history.shift_of;
-    history = known_windows(compared(std::move(history), run), run);
+    history = known_windows(compared(std::move(history), run), run, columns_of(route).back());
     run.filters = std::move(history.filters);
     run.shift_of = history.shift_of;
     if (!history.doubt.empty())

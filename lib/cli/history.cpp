@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "base/error.h"
@@ -260,21 +261,25 @@ History compared(History history, const FitRun& run) {
 
 // How many records were removed is not known, nor at which times, and thus not the windows at the
 // former end. Further inside, they are those of the times of the run.
-History known_windows(History history, FitRun& run) {
-  std::size_t windows = 0;
-  for (const LinearFilter& filter : history.filters) windows += filter.reach;
-  history.left_out = windows * (std::size_t{history.cut_begin} + history.cut_end);
-  if (history.left_out == 0) return history;
-  if (run.t.size() < history.left_out + 10)
+History known_windows(History history, FitRun& run, const std::string& column) {
+  if (!history.cut_begin && !history.cut_end) return history;
+  std::map<std::string, std::size_t> windows;  // the records on either side that a column has read
+  for (const LinearFilter& filter : history.filters)
+    windows[filter.to] = windows[filter.from] + filter.reach;
+  history.left_out = windows[column] * (std::size_t{history.cut_begin} + history.cut_end);
+  if (history.left_out > 0 && run.t.size() < history.left_out + 10)
     return {{},
             history.shift_of,
             "it was cut after the filters that its `##` lines name, and fewer than 10 records are "
             "far enough from the cut"};
-  for (std::vector<double>* column : {&run.x, &run.v, &run.D}) {
-    if (column->empty()) continue;
+  const std::pair<const char*, std::vector<double>*> columns[] = {
+      {"x", &run.x}, {"v", &run.v}, {"D", &run.D}};
+  for (const auto& [name, readings] : columns) {
+    if (readings->empty()) continue;
+    const std::size_t n = std::min(windows[name], readings->size());
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    if (history.cut_begin) std::fill_n(column->begin(), windows, nan);
-    if (history.cut_end) std::fill_n(column->rbegin(), windows, nan);
+    if (history.cut_begin) std::fill_n(readings->begin(), n, nan);
+    if (history.cut_end) std::fill_n(readings->rbegin(), n, nan);
   }
   return history;
 }

@@ -42,9 +42,10 @@ bool shifts_of_speeds(const std::vector<std::string>& lines);
 /// filters, as the lines may tell, too. If they differ elsewhere, the lines are not trusted.
 History compared(History, const FitRun&);
 
-/// Leaves out the records whose windows may have reached to records that were removed: x, v and D
-/// become NaN. The filters are unknown if fewer than 10 records remain.
-History known_windows(History, FitRun&);
+/// Leaves out the readings whose windows may have reached to records that were removed: they become
+/// NaN in x, v and D. `column` is the one that is fitted, whose readings left_out counts; the
+/// filters are unknown if fewer than 10 of them remain.
+History known_windows(History, FitRun&, const std::string& column);
 
 /// The filters that the software of sensors may apply to speeds: the central difference of
 /// positions and the differences of Vernier's and PASCO's programs; and means of 2, 3 or 5 speeds,
