@@ -144,11 +144,10 @@ void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitR
   // ln a has the normal distribution. Where sigma_a is 0.3 a, a +- 1.96 sigma_a holds the truth in
   // 93.6 % still, but misses it by more than 3 sigma_a six times too often, and then worse.
   if (r.sigma_a > 0.3 * r.a)
-    tool.warn(
-        fmt::format("{}sigma_a is {:.2g} times a: take it as the error of ln a, for a +- sigma_a "
-                    "is no interval "
-                    "of so uncertain an a",
-                    run, r.sigma_a / r.a));
+    tool.warn(fmt::format(
+        "{}sigma_a is {:.2g} times a: this ratio is the standard error of ln a, and a is "
+        "too uncertain for the interval a +- sigma_a",
+        run, r.sigma_a / r.a));
   if (noise_is_correlated(r))
     tool.warn(
         fmt::format("{}the noise is correlated from record to record (Ljung-Box p {:.2g}), or the "
