@@ -13,10 +13,14 @@ namespace rolling {
 
 namespace {
 
-Estimate given(Route route, const FitRun& run, const UncertainNumber& number) {
-  if (is_trajectory(route)) return {run.body.*number.value, run.given.*number.sigma};
-  if (!run.shift_of) return {};
-  return {run.shift_of->body.*number.value, run.shift_of->given.*number.sigma};
+/// The body of a run, with the uncertainties of its numbers, and the geometry of the route.
+ShiftOf body_of(Route route, const FitRun& run, const FitOptions& options) {
+  if (is_trajectory(route)) return {run.body, options.geometry, run.given};
+  return run.shift_of.value_or(ShiftOf{});
+}
+
+Estimate given(const ShiftOf& by, const UncertainNumber& number) {
+  return {by.body.*number.value, by.given.*number.sigma};
 }
 
 void move(Route route, FitRun& run, const UncertainNumber& number, double by) {
@@ -36,8 +40,20 @@ void move(Route route, FitRun& run, const UncertainNumber& number, double by) {
 Fitted fit_with(Route route, std::vector<FitRun> runs, const FitOptions& options,
                 const UncertainNumber& number, const Estimate& value, double by) {
   for (FitRun& run : runs)
-    if (given(route, run, number) == value) move(route, run, number, by);
+    if (given(body_of(route, run, options), number) == value) move(route, run, number, by);
   return fit_route(route, runs, options);
+}
+
+/// True if all runs have this value, and a alone depends on it, in proportion to (K + 1) R/g. With
+/// A = 1 on a level mat v and x depend on a g/((K + 1) R) (Eq. 12), and D is (K + 1) R/g times the
+/// deceleration (Eq. 11).
+bool scales_a(Route route, const std::vector<FitRun>& runs, const FitOptions& options,
+              const UncertainNumber& number, const Estimate& value) {
+  if (options.a || options.fit_slope || number.value == &Body::slope) return false;
+  return std::ranges::all_of(runs, [&](const FitRun& run) {
+    const ShiftOf by = body_of(route, run, options);
+    return given(by, number) == value && by.geometry == Geometry::approximate && by.body.slope == 0;
+  });
 }
 
 }  // namespace
@@ -51,7 +67,7 @@ std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& 
   for (const UncertainNumber& number : uncertain_numbers) {
     std::vector<Estimate> values;
     for (const FitRun& run : runs) {
-      const Estimate value = given(route, run, number);
+      const Estimate value = given(body_of(route, run, options), number);
       if (value.sigma > 0 && std::ranges::find(values, value) == values.end())
         values.push_back(value);
     }
@@ -59,18 +75,29 @@ std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& 
       const double step = value.value == 0 || number.value == &Body::slope
                               ? value.sigma
                               : std::min(value.sigma, 0.1 * std::abs(value.value));
-      const Fitted above = fit_with(route, runs, warm, number, value, step),
-                   below = fit_with(route, runs, warm, number, value, -step);
-      const auto change = [&](const Quantity& high, const Quantity& low) {
-        return (high.value - low.value) / 2 * value.sigma / step;
-      };
       ErrorShare& share = all.emplace_back();
       share.of = values.size() == 1 ? number.name : fmt::format("{} {}", number.name, value.value);
-      const double a = change(above.a, below.a), b = change(above.b, below.b);
+      const auto change = [&](double high, double low) {
+        return (high - low) / 2 * value.sigma / step;
+      };
+      if (scales_a(route, runs, options, number, value)) {
+        const auto unit = [&](double by) {
+          Body body = body_of(route, runs.front(), options).body;
+          body.*number.value += by;
+          return (body.K + 1) * body.R / body.g;
+        };
+        share.a = fit.a.value * std::abs(change(unit(step), unit(-step))) / unit(0);
+        share.v0.assign(fit.v0.size(), 0);
+        continue;
+      }
+      const Fitted above = fit_with(route, runs, warm, number, value, step),
+                   below = fit_with(route, runs, warm, number, value, -step);
+      const double a = change(above.a.value, below.a.value),
+                   b = change(above.b.value, below.b.value);
       share.a = std::abs(a), share.b = std::abs(b), share.together = a * b;
-      share.slope = fit.slope ? change(*above.slope, *below.slope) : 0;
+      share.slope = fit.slope ? change(above.slope->value, below.slope->value) : 0;
       for (std::size_t r = 0; r < fit.v0.size(); ++r)
-        share.v0.push_back(change(above.v0[r], below.v0[r]));
+        share.v0.push_back(change(above.v0[r].value, below.v0[r].value));
     }
   }
   return all;

@@ -63,6 +63,26 @@ TEST_CASE("given numbers: ln a moves by dK/(1 + K), dR/R and dg/g, b does not", 
     }
 }
 
+TEST_CASE("given numbers: on a level mat the shares are those of fits with other numbers",
+          "[fit]") {
+  for (Route route : {Route::loglog, Route::shift, Route::velocity, Route::position}) {
+    FitRun run = record(route, 3);
+    const auto level = fit(route, {run}, {});
+    // A slope that changes nothing, but lets the numbers be moved and the records fitted again.
+    run.body.slope = 1e-12;
+    if (run.shift_of) run.shift_of->body.slope = 1e-12;
+    const auto all_but_level = fit(route, {run}, {});
+    CAPTURE(static_cast<int>(route));
+    REQUIRE(level.shares.size() == all_but_level.shares.size());
+    for (const char* of : {"K", "R", "g"}) {
+      const double moved = share(all_but_level, of, &ErrorShare::a);
+      CHECK(std::abs(share(level, of, &ErrorShare::a) / moved - 1) < 1e-5);
+    }
+    for (std::size_t i = 0; i < level.shares.size(); ++i)
+      CHECK(level.shares[i].v0.size() == all_but_level.shares[i].v0.size());
+  }
+}
+
 TEST_CASE("given numbers: runs of one body move together, those of two each by itself", "[fit]") {
   std::vector<FitRun> runs{record(Route::position, 3), record(Route::position, 4)};
   for (FitRun& run : runs) run.given = {.K = 0.005};
