@@ -3,6 +3,7 @@
 #include "base/error.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rolling {
 
@@ -21,27 +22,40 @@ struct Band {
   std::size_t end(std::size_t i) const { return std::min(n, i + (inside(i) ? reach : most()) + 1); }
 };
 
-/// The matrix of a shift-invariant filter, constructed from its matrix on a short run.
-BandMatrix repeated(LinearFilter filter, std::span<const double> t) {
+/// Steps of time that differ by less than this share are equal: times are rounded. (At 500 kHz and
+/// times of a few seconds the rounding is 2e-10 of a step.)
+constexpr double rounding = 1e-9;
+
+/// True for each record whose row is that of the record before it, moved by one column: the windows
+/// of both lie within a stretch of equal steps. The first 2 (2 reach + 1) records of a stretch and
+/// its last 2 reach + 1 are not marked, so that the other rows depend on them alone.
+std::vector<bool> repetitions(const LinearFilter& filter, std::span<const double> t) {
   const std::size_t n = t.size(), end = 2 * filter.reach + 1;
-  filter.shift_invariant = false;
-  const BandMatrix few = probe(filter, t.first(3 * end));
-  BandMatrix L;
-  L.reserve(n, 0);
-  for (std::size_t i = 0; i < end; ++i) L.append(few.first(i), few.row(i));
-  for (std::size_t i = end; i + end < n; ++i) L.append(few.first(end) + i - end, few.row(end));
-  for (std::size_t i = 2 * end; i < 3 * end; ++i) L.append(few.first(i) + n - 3 * end, few.row(i));
-  return L;
+  std::vector<bool> repeated(n);
+  for (std::size_t first = 0, i = 1; i <= n; ++i) {
+    const double step = i < n ? t[first + 1] - t[first] : 0;
+    if (i < n && (filter.shift_invariant || std::abs(t[i] - t[i - 1] - step) <= rounding * step))
+      continue;
+    for (std::size_t k = first + 2 * end; k + end < i; ++k) repeated[k] = true;
+    first = i - 1;
+  }
+  return repeated;
 }
 
 }  // namespace
 
-BandMatrix probe(const LinearFilter& filter, std::span<const double> t) {
+BandMatrix probe(const LinearFilter& filter, std::span<const double> all_times) {
+  // A filter depends on differences of times alone, so that repeated rows need not be probed.
+  const std::vector<bool> repeated = repetitions(filter, all_times);
+  std::vector<double> t;
+  double left_out = 0;
+  for (std::size_t i = 0; i < all_times.size(); ++i)
+    if (repeated[i]) left_out += all_times[i] - all_times[i - 1];
+    else t.push_back(all_times[i] - left_out);
   // A row reaches at most 2 * reach to either side (that far only at the ends of the run), so that
   // it responds to only one of several impulses at a distance of 4 * reach + 1.
   const Band rows{t.size(), filter.reach};
   const std::size_t n = t.size(), spacing = std::min(4 * filter.reach + 1, n);
-  if (filter.shift_invariant && n > 3 * (2 * filter.reach + 1)) return repeated(filter, t);
   std::vector<std::size_t> start{0};
   start.reserve(n + 1);
   for (std::size_t i = 0; i < n; ++i) start.push_back(start.back() + rows.end(i) - rows.first(i));
@@ -59,9 +73,12 @@ BandMatrix probe(const LinearFilter& filter, std::span<const double> t) {
     }
   }
   BandMatrix L;
-  L.reserve(n, all.size());
-  for (std::size_t i = 0; i < n; ++i)
-    L.append(rows.first(i), std::span(all).subspan(start[i], start[i + 1] - start[i]));
+  L.reserve(all_times.size(), all.size());
+  for (std::size_t i = 0, next = 0; i < all_times.size(); ++i) {
+    if (!repeated[i]) ++next;
+    const std::size_t k = next - 1;  // the probed row
+    L.append(rows.first(k) + i - k, std::span(all).subspan(start[k], start[k + 1] - start[k]));
+  }
   return L;
 }
 

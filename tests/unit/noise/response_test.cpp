@@ -42,6 +42,34 @@ TEST_CASE("response: a filter that does the same everywhere is probed in a short
   }
 }
 
+TEST_CASE("response: between equal steps few rows are probed; lost records change theirs",
+          "[fit]") {
+  std::size_t probed = 0;
+  const LinearFilter slopes{"x", "v", 1, [&](std::span<const double> t, std::span<const double> x) {
+                              probed = t.size();
+                              std::vector<double> v(x.size());
+                              for (std::size_t i = 0; i < x.size(); ++i) {
+                                const std::size_t k = std::min(i + 1, x.size() - 1),
+                                                  j = std::max<std::size_t>(i, 1) - 1;
+                                v[i] = (x[k] - x[j]) / (t[k] - t[j]);
+                              }
+                              return v;
+                            }};
+  std::vector<double> t, x;
+  for (int i = 0; i < 400; ++i) {
+    if (i % 97 == 50 || i == 148 || i == 160 || i == 170) continue;           // lost
+    t.push_back(i < 300 ? 7 + i / 25.0 : 7 + 300 / 25.0 + (i - 300) / 40.0);  // another rate
+    x.push_back(std::sin(3.7 * i * i));
+  }
+  const auto v = slopes.apply(t, x), product = FilterMatrix(probe(slopes, t)).times(x);
+  CHECK(probed < t.size() / 3);
+  REQUIRE(product.size() == t.size());
+  for (std::size_t i = 0; i < t.size(); ++i) CHECK(std::abs(product[i] - v[i]) < 1e-9);
+  for (std::size_t i = 0; i < t.size(); i += 2) t[i] += 1e-9;  // more than rounding
+  probe(slopes, t);
+  CHECK(probed == t.size());
+}
+
 TEST_CASE("response: a pass through the filters is the product with their matrix", "[fit]") {
   constexpr std::size_t n = 600;
   const auto t = simulated::times(n);
