@@ -87,8 +87,10 @@ class Periodogram {
     for (std::size_t end : ends_) times_.push_back(seen_.t[end - 1]);
   }
 
-  bool worth() const {
-    const Wobble wobble(seen_, roll_, times_, R_);
+  /// The response at the period 2 pi R times `stretch`.
+  Wobble wobble(double stretch) const { return {seen_, roll_, times_, stretch * R_}; }
+
+  bool worth(const Wobble& wobble) const {
     if (f_.size() < 30 || !(wobble.way() >= 2 * std::numbers::pi * R_)) return false;
     double longest = 0;
     for (std::size_t i = 1; i < seen_.t.size(); ++i)
@@ -96,9 +98,8 @@ class Periodogram {
     return wobble.fastest() * longest < std::numbers::pi * R_;
   }
 
-  /// The amplitude and its significance at the period 2 pi R times `stretch`.
-  Eccentricity at(double stretch) const {
-    const Wobble wobble(seen_, roll_, times_, stretch * R_);
+  /// The amplitude of this response and its significance.
+  Eccentricity of(const Wobble& wobble) const {
     // The QR decomposition of J with the two columns of the response behind it: the last 2 x 2
     // block of R belongs to these columns after projection orthogonal to J, and theta holds their
     // coefficients.
@@ -199,13 +200,15 @@ std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRu
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const double R = route == Route::shift ? runs[r].shift_of->body.R : runs[r].body.R;
     const Periodogram spectrum(fit, r, R, variance, f_of[r]);
-    if (!spectrum.worth()) continue;
-    Eccentricity once_a_turn = spectrum.at(1);
+    const Wobble turns = spectrum.wobble(1);
+    if (!spectrum.worth(turns)) continue;
+    Eccentricity once_a_turn = spectrum.of(turns);
     once_a_turn.significance *= static_cast<double>(runs.size());
     if (once_a_turn.significance > decisive ||
         (found && found->significance < once_a_turn.significance))
       continue;
-    const double near = std::min(spectrum.at(0.7).significance, spectrum.at(1.4).significance);
+    const double near = std::min(spectrum.of(spectrum.wobble(0.7)).significance,
+                                 spectrum.of(spectrum.wobble(1.4)).significance);
     if (once_a_turn.significance < near) found = once_a_turn;
   }
   return found;
