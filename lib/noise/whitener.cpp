@@ -32,11 +32,15 @@ std::size_t band_of(const FilterMatrix& E, std::size_t n) {
 Covariance::Covariance(const FilterMatrix& E, std::size_t n_rows)
     : n(n_rows), band(band_of(E, n)), rows(n * band) {
   std::vector<FilterMatrix::Row> last(band);  // a ring of rows of E
+  std::size_t same = 0;  // number of rows up to this one that are the row before, moved by a column
   for (std::size_t i = 0; i < n; ++i) {
-    const FilterMatrix::Row& row = last[i % band];
-    E.row(i, last[i % band]);
+    FilterMatrix::Row& row = last[i % band];
+    E.row(i, row);
+    const FilterMatrix::Row& before = last[(i + band - 1) % band];
+    same = row.first == before.first + 1 && row.values == before.values ? same + 1 : 0;
     for (std::size_t j = i < band ? 0 : i - band + 1; j <= i; ++j)
-      rows[j * band + i - j] = dot(row, last[j % band]);
+      rows[j * band + i - j] =
+          i - j < same ? rows[(j - 1) * band + i - j] : dot(row, last[j % band]);
   }
 }
 
@@ -60,24 +64,30 @@ Whitener::Whitener(Covariance of_E, double share)
 }
 
 Whitener::Pass::Pass(const Whitener& by, std::size_t stride)
-    : by_(by), stride_(stride), later_((by.band_ + 256) * stride) {}
+    : by_(by), stride_(stride), done_((by.band_ + 256) * stride) {}
 
 void Whitener::Pass::push(double* row) {
-  const std::size_t band = by_.band_, end = std::min(band, by_.n_ - k_);
-  if ((k_ - base_ + band) * stride_ > later_.size()) {
-    const auto first = later_.begin() + static_cast<std::ptrdiff_t>((k_ - base_) * stride_);
-    std::fill(std::copy(first, later_.end(), later_.begin()), later_.end(), 0.0);
-    base_ = k_;
+  const std::size_t band = by_.band_;
+  if ((k_ - base_ + 1) * stride_ > done_.size()) {
+    const std::size_t kept = band - 1;
+    std::copy_n(done_.end() - static_cast<std::ptrdiff_t>(kept * stride_), kept * stride_,
+                done_.begin());
+    base_ = k_ - kept;
   }
   const double* const R = &by_.R_[k_ * band];
+  double* const last = &done_[(k_ - base_) * stride_];
   for (std::size_t c = 0; c < stride_; c += 2) {  // two columns fill one vector register
-    double* to = &later_[(k_ - base_) * stride_ + c];
-    const double x = row[c] = (row[c] - to[0]) / R[0], y = row[c + 1] = (row[c + 1] - to[1]) / R[0];
-    for (std::size_t j = 1; j < end; ++j) {
-      to += stride_;
-      to[0] += R[j] * x;
-      to[1] += R[j] * y;
+    double x = row[c], y = row[c + 1];
+    const double* above = R;  // up the column of R
+    const double* of = last + c;
+    for (std::size_t j = std::min(k_ + 1, band); j-- > 1;) {
+      above -= band - 1;
+      of -= stride_;
+      x -= *above * of[0];
+      y -= *above * of[1];
     }
+    last[c] = row[c] = x / R[0];
+    last[c + 1] = row[c + 1] = y / R[0];
   }
   ++k_;
 }
@@ -98,9 +108,11 @@ void Whitener::apply_transposed(std::span<double> X, std::size_t columns) const 
     const double* const R = &R_[k * band_];
     const std::size_t end = std::min(band_, n_ - k);
     double* const x = &X[k * columns];
-    for (std::size_t j = 1; j < end; ++j)
-      for (std::size_t c = 0; c < columns; ++c) x[c] -= R[j] * x[j * columns + c];
-    for (std::size_t c = 0; c < columns; ++c) x[c] /= R[0];
+    for (std::size_t c = 0; c < columns; ++c) {
+      double sum = x[c];
+      for (std::size_t j = 1; j < end; ++j) sum -= R[j] * x[j * columns + c];
+      x[c] = sum / R[0];
+    }
   }
 }
 

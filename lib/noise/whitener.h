@@ -67,7 +67,7 @@ class Whitener::Pass {
  private:
   const Whitener& by_;
   std::size_t stride_, k_ = 0, base_ = 0;
-  std::vector<double> later_;  // contributions of the rows so far to rows base_ and later
+  std::vector<double> done_;  // the whitened rows base_ .. k_ - 1
 };
 
 }  // namespace rolling
