@@ -22,36 +22,61 @@ struct Band {
   std::size_t end(std::size_t i) const { return std::min(n, i + (inside(i) ? reach : most()) + 1); }
 };
 
+/// A record whose rows stand for all rows of a longer one: row i of that has the elements of row
+/// `row[i]` of this, as many columns further on as i is beyond row[i].
+struct Short {
+  std::vector<double> t;
+  std::vector<std::size_t> row;
+};
+
 /// Steps of time that differ by less than this share are equal: times are rounded. (At 500 kHz and
 /// times of a few seconds the rounding is 2e-10 of a step.)
 constexpr double rounding = 1e-9;
 
-/// True for each record whose row is that of the record before it, moved by one column: the windows
-/// of both lie within a stretch of equal steps. The first 2 (2 reach + 1) records of a stretch and
-/// its last 2 reach + 1 are not marked, so that the other rows depend on them alone.
-std::vector<bool> repetitions(const LinearFilter& filter, std::span<const double> t) {
-  const std::size_t n = t.size(), end = 2 * filter.reach + 1;
-  std::vector<bool> repeated(n);
-  for (std::size_t first = 0, i = 1; i <= n; ++i) {
-    const double step = i < n ? t[first + 1] - t[first] : 0;
-    if (i < n && (filter.shift_invariant || std::abs(t[i] - t[i - 1] - step) <= rounding * step))
+/// Leaves out the inner records of each long stretch of equal steps. A filter depends on
+/// differences of times alone, so that these records have the same row. The steps of the stretch
+/// become its mean step: the rounding of two times would be an error of all of these rows.
+Short shortened(const LinearFilter& filter, std::span<const double> t) {
+  const std::size_t n = t.size(), end = 2 * filter.reach + 1, most = 3 * end;
+  Short few;
+  if (n == 0) return few;
+  few.row.reserve(n);
+  double origin = t[0];
+  for (std::size_t first = 0, last; first + 1 < n; first = last) {
+    const double step = t[first + 1] - t[first];
+    const auto even = [&](std::size_t i) {
+      return filter.shift_invariant || std::abs(t[i] - t[i - 1] - step) <= rounding * step;
+    };
+    for (last = first + 1; last + 1 < n && even(last + 1);) ++last;
+    const std::size_t before = few.t.size(), count = last + 1 - first;
+    if (count <= most) {
+      for (std::size_t i = first; i < last; ++i) {
+        few.row.push_back(few.t.size());
+        few.t.push_back(t[i] - origin);
+      }
       continue;
-    for (std::size_t k = first + 2 * end; k + end < i; ++k) repeated[k] = true;
-    first = i - 1;
+    }
+    const double begin = t[first] - origin;
+    double mean = (t[last] - t[first]) / static_cast<double>(last - first);
+    // Six bits less: small multiples of the step are exact, and the weights of a derivative sum to
+    // 0.
+    mean = (mean + 64 * mean) - 64 * mean;
+    for (std::size_t k = 0; k + 1 < most; ++k)
+      few.t.push_back(begin + static_cast<double>(k) * mean);
+    for (std::size_t k = 0; k + 1 < count; ++k)
+      few.row.push_back(before + (k < 2 * end ? k : k + end < count ? end : k + most - count));
+    origin = t[last] - (begin + static_cast<double>(most - 1) * mean);
   }
-  return repeated;
+  few.row.push_back(few.t.size());
+  few.t.push_back(t[n - 1] - origin);
+  return few;
 }
 
 }  // namespace
 
-BandMatrix probe(const LinearFilter& filter, std::span<const double> all_times) {
-  // A filter depends on differences of times alone, so that repeated rows need not be probed.
-  const std::vector<bool> repeated = repetitions(filter, all_times);
-  std::vector<double> t;
-  double left_out = 0;
-  for (std::size_t i = 0; i < all_times.size(); ++i)
-    if (repeated[i]) left_out += all_times[i] - all_times[i - 1];
-    else t.push_back(all_times[i] - left_out);
+BandMatrix probe(const LinearFilter& filter, std::span<const double> times) {
+  const Short few = shortened(filter, times);
+  const std::vector<double>& t = few.t;
   // A row reaches at most 2 * reach to either side (that far only at the ends of the run), so that
   // it responds to only one of several impulses at a distance of 4 * reach + 1.
   const Band rows{t.size(), filter.reach};
@@ -73,10 +98,9 @@ BandMatrix probe(const LinearFilter& filter, std::span<const double> all_times) 
     }
   }
   BandMatrix L;
-  L.reserve(all_times.size(), all.size());
-  for (std::size_t i = 0, next = 0; i < all_times.size(); ++i) {
-    if (!repeated[i]) ++next;
-    const std::size_t k = next - 1;  // the probed row
+  L.reserve(times.size(), all.size());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const std::size_t k = few.row[i];
     L.append(rows.first(k) + i - k, std::span(all).subspan(start[k], start[k + 1] - start[k]));
   }
   return L;
