@@ -59,9 +59,9 @@ double power_moment_series(double s, double lambda) {
 
 }  // namespace
 
-double power_moment(double s, double lambda) {
+double power_moment(double s, double lambda, double integral) {
   if (s == 0 || std::abs(s * lambda) <= 1) return power_moment_series(s, lambda);
-  return power_moment(s, lambda, power_integral(s, lambda), std::exp(-s * lambda));
+  return power_moment(s, lambda, integral, std::exp(-s * lambda));
 }
 
 double power_moment(double s, double lambda, double integral, double decay) {
@@ -70,7 +70,8 @@ double power_moment(double s, double lambda, double integral, double decay) {
                                                 : (integral - lambda * decay) / s;
 }
 
-HeadwayIntegrals headway_integrals(double s, double lambda) {
+HeadwayIntegrals headway_integrals(double s, double lambda, double integral, double moment,
+                                   double next) {
   const double x = -lambda, y = -(s + 1) * lambda;
   if (std::max(std::abs(x), std::abs(y)) <= 1) {
     double power = 1, h2 = 1, h3 = 1;  // x^k, h_k(x, y), h_k(x, y, y)
@@ -85,9 +86,9 @@ HeadwayIntegrals headway_integrals(double s, double lambda) {
     return {lambda * lambda * sum2, lambda * lambda * lambda * sum3};
   }
   const double rho = std::exp(-lambda);
-  if (rho == 0) return {power_integral(s + 1, lambda), power_moment(s + 1, lambda)};
-  return {power_integral(s + 1, lambda) - rho * power_integral(s, lambda),
-          power_moment(s + 1, lambda) - rho * power_moment(s, lambda)};
+  const double next_moment = power_moment(s + 1, lambda, next);
+  if (rho == 0) return {next, next_moment};
+  return {next - rho * integral, next_moment - rho * moment};
 }
 
 }  // namespace rolling

@@ -12,15 +12,18 @@ double power_integral(double s, double lambda);
 
 /// int_0^lambda y e^(-s y) dy, which is -d/ds of power_integral:
 ///   dP/ds = int_v^v0 ln(u) u^(s-1) du = v0^s (ln(v0) power_integral - power_moment).
-double power_moment(double s, double lambda);
-/// The same within 4 ulp, for a caller who knows power_integral and decay = e^(-s lambda).
+/// `integral` is power_integral(s, lambda).
+double power_moment(double s, double lambda, double integral);
+/// The same within 4 ulp, for a caller who also knows decay = e^(-s lambda).
 double power_moment(double s, double lambda, double integral, double decay);
 
 /// int_0^lambda (e^(-y) - e^(-lambda)) e^(-s y) dy, and the same with a factor y under the
 /// integral. As differences of the above they would lose all their digits for small lambda.
+/// `integral` and `moment` are the above for s, `next` is power_integral(s + 1, lambda).
 struct HeadwayIntegrals {
   double integral, moment;
 };
-HeadwayIntegrals headway_integrals(double s, double lambda);
+HeadwayIntegrals headway_integrals(double s, double lambda, double integral, double moment,
+                                   double next);
 
 }  // namespace rolling

@@ -68,13 +68,14 @@ double SpeedSeries::distance(double y) const {
 
 SpeedGradient SpeedSeries::gradient(double y, Wanted wanted) const {
   SpeedGradient sum;
-  for (const Term& term : terms_)
-    sum.h0 += term.h * power_integral(term.s, y), sum.h1 += term.h * power_moment(term.s, y);
-  if (wanted == Wanted::speed) return sum;
-  sum.distance = distance(y);
   for (const Term& term : terms_) {
-    const auto [integral, moment] = headway_integrals(term.s, y);
-    sum.g0 += term.h * integral, sum.g1 += term.h * moment;
+    const double integral = power_integral(term.s, y), moment = power_moment(term.s, y, integral);
+    sum.h0 += term.h * integral, sum.h1 += term.h * moment;
+    if (wanted == Wanted::speed) continue;
+    const double next = power_integral(term.s + 1, y);
+    const auto headway = headway_integrals(term.s, y, integral, moment, next);
+    sum.distance += term.f * next;
+    sum.g0 += term.h * headway.integral, sum.g1 += term.h * headway.moment;
   }
   return sum;
 }
