@@ -96,6 +96,17 @@ void FilterMatrix::row(std::size_t i, Row& to) const {
   }
 }
 
+bool FilterMatrix::repeats(std::size_t i) const {
+  std::size_t first = i, end = i + 1;  // the rows of a factor that row i of the product needs
+  for (std::size_t f = factors_.size(); f-- > 0;) {
+    const BandMatrix& L = *factors_[f];
+    for (std::size_t k = first; k < end; ++k)
+      if (!L.repeats(k)) return false;
+    first = L.first(first), end = L.end(end - 1);
+  }
+  return true;
+}
+
 std::vector<double> FilterMatrix::times(std::span<const double> x) const {
   std::vector<double> all;
   all.reserve(rows());

@@ -31,6 +31,11 @@ class BandMatrix {
   std::span<const double> row(std::size_t i) const {
     return {values_.data() + rows_[i].start, rows_[i].size};
   }
+  /// True if row i has the elements of row i - 1, one column further on.
+  bool repeats(std::size_t i) const {
+    return i > 0 && rows_[i].start == rows_[i - 1].start && rows_[i].size == rows_[i - 1].size &&
+           rows_[i].first == rows_[i - 1].first + 1;
+  }
   /// The largest distance, over the rows, from the first column of a row to the end of the columns
   /// that this row or an earlier one reaches: the number of input samples that must be kept when
   /// rows are computed in order.
@@ -71,6 +76,8 @@ class FilterMatrix {
   /// Writes row i. A caller that reads row after row passes the same Row again, so that its memory
   /// is reused.
   void row(std::size_t i, Row& to) const;
+  /// True if row i is known to have the elements of row i - 1, one column further on.
+  bool repeats(std::size_t i) const;
   /// The product with a vector of columns() elements.
   std::vector<double> times(std::span<const double> x) const;
   /// The product of the transposed matrix with X, which is stored row by row with `columns`

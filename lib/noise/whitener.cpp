@@ -18,7 +18,8 @@ std::size_t band_of(const FilterMatrix& E, std::size_t n) {
   std::size_t band = 1;
   FilterMatrix::Row row;
   for (std::size_t i = 0; i < n; ++i) {
-    E.row(i, row);
+    if (E.repeats(i)) ++row.first;
+    else E.row(i, row);
     for (std::size_t j = row.first; j < row.end(); ++j) {
       first_row[j] = std::min(first_row[j], static_cast<std::uint32_t>(i));
       band = std::max(band, i - first_row[j] + 1);
@@ -32,12 +33,16 @@ std::size_t band_of(const FilterMatrix& E, std::size_t n) {
 Covariance::Covariance(const FilterMatrix& E, std::size_t n_rows)
     : n(n_rows), band(band_of(E, n)), rows(n * band) {
   std::vector<FilterMatrix::Row> last(band);  // a ring of rows of E
-  std::size_t same = 0;  // number of rows up to this one that are the row before, moved by a column
+  std::size_t same = 0;  // number of rows up to this one that repeat the row before
   for (std::size_t i = 0; i < n; ++i) {
     FilterMatrix::Row& row = last[i % band];
-    E.row(i, row);
-    const FilterMatrix::Row& before = last[(i + band - 1) % band];
-    same = row.first == before.first + 1 && row.values == before.values ? same + 1 : 0;
+    if (E.repeats(i)) {
+      row = last[(i - 1) % band];
+      ++row.first, ++same;
+    } else {
+      E.row(i, row);
+      same = 0;
+    }
     for (std::size_t j = i < band ? 0 : i - band + 1; j <= i; ++j)
       rows[j * band + i - j] =
           i - j < same ? rows[(j - 1) * band + i - j] : dot(row, last[j % band]);

@@ -65,6 +65,17 @@ TEST_CASE("response: between equal steps few rows are probed; lost records chang
   CHECK(probed < t.size() / 3);
   REQUIRE(product.size() == t.size());
   for (std::size_t i = 0; i < t.size(); ++i) CHECK(std::abs(product[i] - v[i]) < 1e-9);
+  const FilterMatrix H = FilterMatrix(probe(slopes, t)).then(probe(simulated::smooth_v(5), t));
+  FilterMatrix::Row before, row;
+  std::size_t repeated = 0;
+  for (std::size_t i = 0; i < H.rows(); ++i, std::swap(before, row)) {
+    H.row(i, row);
+    if (!H.repeats(i)) continue;
+    ++repeated;
+    CHECK(row.first == before.first + 1);
+    CHECK(row.values == before.values);
+  }
+  CHECK(repeated > t.size() / 2);
   for (std::size_t i = 0; i < t.size(); i += 2) t[i] += 1e-9;  // more than rounding
   probe(slopes, t);
   CHECK(probed == t.size());
