@@ -49,6 +49,11 @@ std::string_view si_unit(std::string_view quantity);
 /// Error for a unit that is not one of this quantity.
 Conversion conversion_to_si(std::string_view quantity, const Column&);
 
+/// A unit of `quantity` other than the SI one that a name has without brackets, as `t_ms`, `x/mm`
+/// and `Weg_in_cm` do; empty if there is none. `in` is not looked for: it is a word, and ends the
+/// names that free_name() makes.
+std::string unit_in_name(std::string_view quantity, std::string_view name);
+
 /// The names in a line, one for each field. With `separator` 0 blanks separate the names; a unit in
 /// brackets, which may contain blanks, then belongs to the name before it.
 std::vector<std::string> split_names(std::string_view line, char separator);

@@ -35,7 +35,9 @@ class HeadReader {
   std::vector<std::string> take_names(std::size_t width);
   enum class Proof { known, known_or_tabs, none };
   std::vector<std::string> take_commented_names(std::size_t width, Proof);
+  static std::vector<Column> units_in(const std::string& comment);
   void refuse_other_names(std::size_t width) const;
+  void refuse_other_units(const std::vector<Column>& columns) const;
   void refuse_units(const std::vector<std::string>& fields, std::size_t line) const;
   void refuse_lines_of_units(std::size_t width) const;
   std::vector<Column> known_columns() const;
@@ -166,25 +168,44 @@ std::vector<std::string> HeadReader::take_commented_names(std::size_t width, Pro
   return names;
 }
 
+/// The known quantities with their units in a comment, `t [ms]: time, x [cm]`.
+std::vector<Column> HeadReader::units_in(const std::string& comment) {
+  std::vector<Column> all;
+  if (comment.starts_with("##")) return all;
+  for (std::string& name : split_names(trim(std::string_view(comment).substr(1)),
+                                       comment.find('\t') == npos ? '\0' : '\t')) {
+    name.erase(name.find_last_not_of(",;:=") + 1);
+    const Column column = read_column(name);
+    if (!si_unit(column.name).empty() && !column.unit.empty()) all.push_back(column);
+  }
+  return all;
+}
+
 /// Refuses a comment that contains units but not as many names as there are columns: columns
 /// without names are read in SI units, which would contradict it.
 void HeadReader::refuse_other_names(std::size_t width) const {
   for (std::size_t i = 0; i < head_.comments.size(); ++i) {
-    const std::string& comment = head_.comments[i];
-    if (comment.starts_with("##")) continue;
-    const auto names = split_names(trim(std::string_view(comment).substr(1)),
-                                   comment.find('\t') == npos ? '\0' : '\t');
-    std::size_t units = 0, others = 0;
-    for (const std::string& name : names) {
-      const Column column = read_column(name);
-      const bool known = !si_unit(column.name).empty() && !column.unit.empty();
-      units += known;
-      others += known && column.unit != si_unit(column.name);
-    }
-    if (units > 1 || others > 0)
+    const auto units = units_in(head_.comments[i]);
+    if (units.size() > 1 || std::ranges::any_of(units, [](const Column& column) {
+          return column.unit != si_unit(column.name);
+        }))
       fail<InputError>("{}:{}: a comment with units, but not the names of {} column{}",
                        lines_.name(), numbers_[i], width, width == 1 ? "" : "s");
   }
+}
+
+/// Refuses a comment that gives a column without a unit one other than SI.
+void HeadReader::refuse_other_units(const std::vector<Column>& columns) const {
+  for (std::size_t i = 0; i < head_.comments.size(); ++i)
+    for (const Column& said : units_in(head_.comments[i]))
+      if (unit_kind(said.unit) == UnitKind::other &&
+          std::ranges::any_of(columns, [&](const Column& column) {
+            return column.name == said.name && column.unit.empty();
+          }))
+        fail<InputError>(
+            "{}:{}: a comment with the unit of a column whose name has none: put it there, as in "
+            "{}",
+            lines_.name(), numbers_[i], shown(to_text(said)));
 }
 
 void HeadReader::refuse_units(const std::vector<std::string>& fields, std::size_t line) const {
@@ -199,17 +220,19 @@ void HeadReader::refuse_units(const std::vector<std::string>& fields, std::size_
                      lines_.name(), line);
 }
 
-/// Takes the line of units below the line of names: of two lines of equal width the upper one has a
-/// known name, and the lower one, above the records, has none.
+/// Takes the line of units below the line of names: of two lines of equal width the lower one,
+/// above the records, has no known name, and the upper one has or the lower one has two known
+/// units.
 void HeadReader::take_units() {
   if (preamble_.size() < 2) return;
   const auto known = [](const std::string& name) {
     return !si_unit(read_column(name).name).empty();
   };
+  const auto is_unit = [](const std::string& text) { return unit_kind(text) != UnitKind::none; };
   const auto names = names_in(preamble_[preamble_.size() - 2].text, dialect_);
   auto units = names_in(preamble_.back().text, dialect_);
-  if (names.size() != units.size() || std::ranges::none_of(names, known) ||
-      std::ranges::any_of(units, known))
+  if (names.size() != units.size() || std::ranges::any_of(units, known) ||
+      (std::ranges::none_of(names, known) && std::ranges::count_if(units, is_unit) < 2))
     return;
   units_ = std::move(units);
   preamble_.pop_back();
@@ -295,6 +318,7 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
     if (i < units_.size()) add_unit(columns.back(), units_[i]);
     if (columns.back().name.empty()) columns.back().name = fmt::format("c{}", i + 1);
   }
+  refuse_other_units(columns);
   head_.layout = sides == Sides::one ? Layout::one(columns) : Layout::of(columns);
   if (head_.named && (head_.layout.side_by_side() ? width > names.size() : width != names.size()))
     fail<InputError>("{}:{}: {} field{} under a line of {} name{}{}", lines_.name(),

@@ -128,7 +128,8 @@ Column NeededColumns::with_unit(std::size_t column, const std::string& quantity)
   if (!named_) read.unit.clear();  // Layout has the SI unit of the tool's order
   const auto use = use_.find(quantity);
   if (use == use_.end() || use->second.unit.empty()) return read;
-  if (named_ && !read.unit.empty() && read.unit != use->second.unit)
+  // The unit that --use gives stands for one that no tool knows.
+  if (named_ && unit_kind(read.unit) != UnitKind::none && read.unit != use->second.unit)
     fail<InputError>("{}: --use {} says {}, but the column's name {}", place_, quantity,
                      shown(use->second.unit), shown(to_text(read)));
   read.unit = use->second.unit;
@@ -153,10 +154,17 @@ void NeededColumns::resolve(Needed& needed) const {
                      shown(quantity), read.unit.empty() ? "no unit" : shown(read.unit),
                      needed.unit.empty() ? "no unit" : shown(needed.unit));
   const Column meant = with_unit(*found, quantity);
+  const std::string way_out =
+      has_use_ ? fmt::format(" or say --use {}={}[UNIT]", quantity, *found + 1) : "";
+  if (const std::string unit = unit_in_name(quantity, meant.name);
+      meant.unit.empty() && !unit.empty())
+    fail<InputError>(
+        "{}: column '{}' cannot serve as {}: is it in {}? Write the unit in brackets{}", place_,
+        shown(meant.name), quantity, unit, way_out);
   try {
     needed.to_si = conversion_to_si(quantity, meant);
   } catch (const Error& error) {
-    fail<InputError>("{}: {}", place_, error.what());
+    fail<InputError>("{}: {}{}", place_, error.what(), way_out);
   }
 }
 

@@ -58,6 +58,24 @@ TEST_CASE("head: what ends a line of names alone is no column; what ends the rec
   CHECK(head("t,v,\n0,1,\n") == " t v c3 in 1 of 3; 2: 0,1,");
 }
 
+TEST_CASE("head: units in a line of their own belong to the names above it", "[text]") {
+  CHECK(head("t x\n[s] [cm]\n0 1\n") == " t[s] x[cm] in 1 of 2; 3: 0 1");
+  CHECK(head("Zeit,Weg,Kraft\ns,cm,N\n0,1,2\n") == " Zeit[s] Weg[cm] Kraft[N] in 1 of 3; 3: 0,1,2");
+  CHECK(head("Anna,Ben\nZeit,s\n0,1\n") == "# Anna,Ben| Zeit s in 1 of 2; 3: 0,1");
+}
+
+TEST_CASE("head: a comment that gives a column another unit than SI is refused", "[text]") {
+  for (const char* comment : {"# [s] [cm]", "# t [ms]: time", "# by hand, x [cm]; t [s]"}) {
+    const std::string message = head(std::string(comment) + "\n# t x\n0 1\n");
+    INFO(message);
+    CHECK(message.starts_with("1: a "));
+    CHECK(message.find(", as in ") != std::string::npos);
+  }
+  CHECK(head("# t [s], x [m]\n# t x\n0 1\n") == "# t [s], x [m]| t x in 1 of 2; 3: 0 1");
+  CHECK(head("# x [cm] on the screen\n# t x[m]\n0 1\n") ==
+        "# x [cm] on the screen| t x[m] in 1 of 2; 3: 0 1");
+}
+
 TEST_CASE("head: no columns are refused, with the line", "[text]") {
   CHECK(head("") == " no records");
   CHECK(head("# t v\n") == " no records");

@@ -225,7 +225,7 @@ TEST_CASE("reader: --use says which column serves, by name or number", "[text]")
   CHECK(records({"# t v\n0 1\n"}, use({"t=v", "v=t"})) == "1 0");
   CHECK(records({"# t w[rpm]\n0 1\n"}, use({"v=w"})) ==
         "FILE: column 'w[rpm]' cannot serve as v: its unit 'rpm' is not one of those known (m/s, "
-        "mm/s, cm/s, km/h, mph, ft/s); convert it first");
+        "mm/s, cm/s, km/h, mph, ft/s); convert it first or say --use v=2[UNIT]");
   CHECK(records({"0 1 72\n"}, use({"v=3[km/h]"})) == "0 20");
   CHECK(records({"# t w\n0 72\n"}, use({"v=w[MPH]"})) == "0 32.18688");
   CHECK(records({"# t w[m/s]\n0 72\n"}, use({"v=w[km/h]"})) ==
@@ -257,7 +257,7 @@ TEST_CASE("reader: units are converted, and go out converted", "[text]") {
   CHECK(
       records({"# t[parsec] v\n0 1\n"}) ==
       "FILE: column 't[parsec]' cannot serve as t: its unit 'parsec' is not one of those known (s, "
-      "sec, ms, us, min, h); convert it first");
+      "sec, ms, us, min, h); convert it first or say --use t=1[UNIT]");
   CHECK(records({"# t[h] v\n1e308 1\n"}) ==
         "FILE:2: field 1 (t): '1e308' is beyond the range of a double in SI units");
 }
@@ -383,7 +383,7 @@ TEST_CASE("reader: names and units hold until others come", "[text]") {
         "FILE:4: there is no column 'v' among t[s], x[m]; say --use v=COLUMN");
   CHECK(records({first + "# t[s]\tv[furlong/s]\n1\t2\n"}) ==
         "FILE:4: column 'v[furlong/s]' cannot serve as v: its unit 'furlong/s' is not one of those "
-        "known (m/s, mm/s, cm/s, km/h, mph, ft/s); convert it first");
+        "known (m/s, mm/s, cm/s, km/h, mph, ft/s); convert it first or say --use v=2[UNIT]");
   CHECK(records({"# t w[rpm]\n0 1\n\n# t w[rad/s]\n0 2\n"}, {}, {"t", "w"}) ==
         "FILE:4: column w is in rad/s, and in rpm in the runs before");
   CHECK(records({"# t w\n0 1\n\n# t u\n0 2\n"}, {}, {"t", "2"}) ==
