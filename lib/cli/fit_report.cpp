@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cli/fit_runs.h"
 #include "fit/fit.h"
 
 namespace rolling {
@@ -15,17 +16,6 @@ std::map<std::string, std::optional<Route>> fit_routes() {
                                                              {"velocity", Route::velocity},
                                                              {"position", Route::position}};
   return {std::begin(routes), std::end(routes)};
-}
-
-std::vector<std::string> columns_of(Route route) {
-  switch (route) {
-    case Route::velocity:
-      return {"t", "v"};
-    case Route::position:
-      return {"t", "x"};
-    default:
-      return {"v", "D"};
-  }
 }
 
 namespace {
@@ -39,10 +29,6 @@ const std::map<Errors, const char*> kinds{{Errors::none, "none"},
                                           {Errors::differences, "of differences of positions"},
                                           {Errors::uneven, "of noise of uneven size"},
                                           {Errors::autocorrelation, "of the autocorrelation"}};
-
-const std::vector<double>& column(const FitRun& run, std::string_view name) {
-  return name == "t" ? run.t : name == "x" ? run.x : name == "v" ? run.v : run.D;
-}
 
 /// "sigma_a 1.9e-05: noise 1.2e-05, K 6.2e-06; sigma_b 0.0086: noise 0.0086, K 0"
 std::string budget(const FitResult& r) {
@@ -63,7 +49,7 @@ void report_route(Tool& tool, const std::string& name, Route route, const std::v
                   const FitOptions& options) {
   for (const FitRun& run : runs)
     for (const std::string& needed : columns_of(route))
-      if (column(run, needed).empty()) fail("there is no column {}", needed);
+      if ((run.*column_of(needed)).empty()) fail("there is no column {}", needed);
   if (is_trajectory(route) && std::isnan(runs.front().body.R)) fail("--radius is not given");
   if (is_trajectory(route) && std::isnan(runs.front().body.K)) fail("--shape-factor is not given");
   const auto begin = std::chrono::steady_clock::now();

@@ -16,9 +16,6 @@ namespace rolling {
 /// has no route.
 std::map<std::string, std::optional<Route>> fit_routes();
 
-/// The columns that a route fits, by their short names.
-std::vector<std::string> columns_of(Route);
-
 /// Warns the user: of errors that are not those of white noise, of runs that disagree (unless
 /// check() follows, which reports it), of the bias of logarithms, of an eccentric body, of a shift
 /// beyond the radius, of an a whose error is not that of a normal distribution.
