@@ -1,6 +1,7 @@
 #include "cli/fit_runs.h"
 
 #include <algorithm>
+#include <array>
 #include <compare>
 #include <set>
 
@@ -70,6 +71,10 @@ void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
   History history = history_of(in.history(), run.t);
   if (in.renames() && !history.filters.empty())
     history = {{}, {}, "--use takes other columns than its `##` lines speak of"};
+  const auto of_times = [](const LinearFilter& filter) { return filter.reach > 0; };
+  if (run.t.empty() &&
+      std::ranges::any_of(history_of(in.history(), std::array{0.0}).filters, of_times))
+    history.doubt = "it has no times, without which its `##` lines tell nothing";
   run.shift_of = history.shift_of;
   history = known_windows(compared(std::move(history), run), run, columns_of(route).back());
   run.filters = std::move(history.filters);
