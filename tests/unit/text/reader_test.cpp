@@ -292,7 +292,10 @@ TEST_CASE("reader: what is neither number nor missing is refused, and says where
 
 TEST_CASE("reader: time increases within a run, and starts anew in the next", "[text]") {
   CHECK(records({"0 1\n0 2\n"}) == "FILE:2: field 1 (t): '0' does not come after 0");
-  CHECK(records({"1 1\n0.5 2\n"}) == "FILE:2: field 1 (t): '0.5' does not come after 1");
+  CHECK(records({"1 1\n0.5 2\n"}) ==
+        "FILE:2: field 1 (t): '0.5' does not come after 1; put a blank line before another run");
+  CHECK(records({"# t[ms] v\n500 1\n500 2\n"}) ==
+        "FILE:3: field 1 (t): '500' does not come after 0.5 s");
   CHECK(records({"5 1\n\n4 2\n"}) == "5 1 || 4 2");
   CHECK(records({"-1e308 1\n1e308 2\n"}) == "-1e+308 1 | 1e+308 2");
   CHECK(records({"0 1\n0 2\n"}, {}, {"v"}) == "1 | 2");  // who does not need t does not judge it
