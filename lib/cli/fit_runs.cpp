@@ -66,14 +66,16 @@ void warn_of_held(Tool& tool, Route route, const FitRun& run,
         run.name, position ? "positions" : "speeds", held));
 }
 
+bool change_numbers(const std::vector<LinearFilter>& filters) {
+  return std::ranges::any_of(filters, [](const LinearFilter& filter) { return filter.reach > 0; });
+}
+
 /// Gives a run the filters that its `##` lines name, as far as they are trusted.
 void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
   History history = history_of(in.history(), run.t);
   if (in.renames() && !history.filters.empty())
     history = {{}, {}, "--use takes other columns than its `##` lines speak of"};
-  const auto of_times = [](const LinearFilter& filter) { return filter.reach > 0; };
-  if (run.t.empty() &&
-      std::ranges::any_of(history_of(in.history(), std::array{0.0}).filters, of_times))
+  if (run.t.empty() && change_numbers(history_of(in.history(), std::array{0.0}).filters))
     history.doubt = "it has no times, without which its `##` lines tell nothing";
   run.shift_of = history.shift_of;
   history = known_windows(compared(std::move(history), run), run, columns_of(route).back());
@@ -109,16 +111,36 @@ std::vector<double> FitRun::*column_of(std::string_view name) {
                        : &FitRun::D;
 }
 
+namespace {
+
+/// Warns of a run without history beside one with filters: a run break takes the `##` lines away.
+void warn_of_lost_history(Tool& tool, const std::vector<FitRun>& runs,
+                          const std::vector<bool>& has_history) {
+  const auto first =
+      std::ranges::find_if(runs, [](const FitRun& run) { return change_numbers(run.filters); });
+  const auto without = std::ranges::find(has_history, false);
+  if (first != runs.end() && without != has_history.end())
+    tool.warn(fmt::format(
+        "run {}: no `##` lines tell how it was made, as those of run {} do: it is fitted as if no "
+        "filter were known",
+        runs[static_cast<std::size_t>(without - has_history.begin())].name, first->name));
+}
+
+}  // namespace
+
 std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, Columns columns) {
   Slots slots(in, route, columns);
   std::vector<FitRun> runs;
+  std::vector<bool> has_history;
   while (in.next_run()) {
     FitRun& run = runs.emplace_back();
+    has_history.push_back(!in.history().empty());
     run.name = in.run_name();
     slots.read(run, runs.size() == 1);
     warn_of_held(tool, route, run, in.history());
     set_filters(tool, in, route, run);
   }
+  warn_of_lost_history(tool, runs, has_history);
   return runs;
 }
 

@@ -15,6 +15,11 @@ constexpr std::size_t longest_preamble =
     100;  // lines without a number; more means that the file has no columns
 constexpr std::string_view ended_with_an_error = ": ended with an error";
 
+/// A `##` line without the separators with which a spreadsheet fills it up.
+std::string_view history_line(std::string_view line) {
+  return trim(line.substr(0, line.find_last_not_of("\t;, ") + 1));
+}
+
 /// The comments and other lines in front of the first record.
 class HeadReader {
  public:
@@ -74,7 +79,7 @@ void HeadReader::check_bytes() const {
 
 void HeadReader::take_history() {
   refuse_error_line(lines_);
-  const std::string_view line = trim(lines_.text()), text = trim(line.substr(2));
+  const std::string_view line = history_line(lines_.text()), text = trim(line.substr(2));
   if (text.starts_with("run ")) {
     head_.run = trim(text.substr(4));
     forget_history();
@@ -370,7 +375,7 @@ Head read_head(Lines& lines, Dialect& dialect, const Head* before,
 }
 
 void refuse_error_line(const Lines& lines) {
-  const std::string_view text = trim(trim(lines.text()).substr(2));
+  const std::string_view text = trim(history_line(lines.text()).substr(2));
   if (text.ends_with(ended_with_an_error) && text.find(' ') == text.find(':') + 1)
     fail<InputError>("{}:{}: {} ended with an error: the records are not complete", lines.name(),
                      lines.number(), shown(text.substr(0, text.find(':'))));

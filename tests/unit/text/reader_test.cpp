@@ -440,8 +440,8 @@ TEST_CASE("reader: a run's name", "[text]") {
 TEST_CASE("reader: a tool that ended with an error is refused, wherever it says so", "[text]") {
   for (const std::string text :
        {"## smooth: ended with an error\n", "0 1\n## smooth: ended with an error\n",
-        "0 1\n\n## smooth: ended with an error\n",
-        "# t v\n## smooth: ended with an error\n0 1\n"}) {
+        "0 1\n\n## smooth: ended with an error\n", "# t v\n## smooth: ended with an error\n0 1\n",
+        "t,v\n0,1\n## smooth: ended with an error,\n"}) {
     INFO(text);
     const std::string message = records({text});
     CHECK(message.substr(message.find(": ")) ==
