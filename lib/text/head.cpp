@@ -329,7 +329,8 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
     fail<InputError>("{}:{}: {} field{} under a line of {} name{}{}", lines_.name(),
                      lines_.number(), width, width == 1 ? "" : "s", names.size(),
                      names.size() == 1 ? "" : "s",
-                     dialect_.separator() == ','
+                     before_ ? fmt::format("; if line {} is a heading, begin it with #", head_.line)
+                     : dialect_.separator() == ','
                          ? "; if some of its commas are decimal ones, make them points first"
                          : "");
   return std::move(head_);
