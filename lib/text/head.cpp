@@ -20,6 +20,10 @@ std::string_view history_line(std::string_view line) {
   return trim(line.substr(0, line.find_last_not_of("\t;, ") + 1));
 }
 
+std::string name_of(char separator) {
+  return separator == '\0' ? "blanks" : separator == '\t' ? "tabs" : fmt::format("'{}'", separator);
+}
+
 /// The comments and other lines in front of the first record.
 class HeadReader {
  public:
@@ -35,6 +39,7 @@ class HeadReader {
   void check_bytes() const;
   bool is_record(std::string_view line);
   bool is_missing_record(std::string_view line);
+  void refuse_other_separator() const;
   void take_units();
   void add_unit(Column& column, std::string_view unit) const;
   std::vector<std::string> take_names(std::size_t width);
@@ -132,6 +137,20 @@ bool HeadReader::is_record(std::string_view line) {
   return (before_ ? dialect_.holds_number(line) : dialect_.choose(line)) || is_missing_record(line);
 }
 
+/// Refuses a line of numbers between other separators than those of the file: it is no heading, and
+/// the run would be lost.
+void HeadReader::refuse_other_separator() const {
+  Dialect other;
+  if (!other.choose(lines_.text())) return;
+  const auto fields = other.split(lines_.text());
+  if (std::ranges::all_of(fields, [](const Field& field) {
+        return is_number(field.text) || is_missing(field.text);
+      }))
+    fail<InputError>("{}:{}: '{}' is separated by {}, and the records before by {}", lines_.name(),
+                     lines_.number(), shown(lines_.text()), name_of(other.separator()),
+                     name_of(dialect_.separator()));
+}
+
 /// Goes to the first record; false if there is none.
 bool HeadReader::find_record() {
   while (lines_.next()) {
@@ -148,6 +167,7 @@ bool HeadReader::find_record() {
         break;
       case LineKind::record:
         if (is_record(lines_.text())) return true;
+        if (before_) refuse_other_separator();
         preamble_.push_back({std::string(lines_.text()), lines_.number()});
         if (preamble_.size() > longest_preamble)
           fail<InputError>("{}: no numbers in the first {} lines", lines_.name(), longest_preamble);

@@ -111,6 +111,13 @@ TEST_CASE("reader: names in a first line that is not numeric", "[text]") {
   CHECK(records({"t v a\n0 5\n"}) == "FILE:2: 2 fields under a line of 3 names");
   CHECK(records({"t v\n0\n"}) == "FILE:2: 1 field under a line of 2 names");
   CHECK(records({"t v\r\n0 5\r\n\x1A"}) == "0 5");
+  CHECK(records({"# t\tv\n0\t5\n\n# t v\n0 7\n"}) ==
+        "FILE:5: '0 7' is separated by blanks, and the records before by tabs");
+  CHECK(records({"t v\n0 5\n\nt;v\n0,5;7\n"}) ==
+        "FILE:5: '0,5;7' is separated by ';', and the records before by blanks");
+  CHECK(records({"t,v\n0,5\n\n0;\n"}) ==
+        "FILE:4: '0;' is separated by ';', and the records before by ','");
+  CHECK(records({"t,v\n0,5\n\nRun 2\n\nThe end of 3 runs\n"}) == "0 5");
   CHECK(records({"t,v\n0,5\n\nSecond\n0,5\n"}) ==
         "FILE:5: 2 fields under a line of 1 name; if line 4 is a heading, begin it with #");
   CHECK(records({"\"Velocity (m/s)\",\"Time (s)\"\n5,0\n"}) == "0 5");
