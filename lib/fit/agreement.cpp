@@ -53,6 +53,12 @@ struct OwnLaw {
   Estimate b() const { return {law.b, std::sqrt(covariance.bb)}; }
 };
 
+/// The variance of ln a or b that rounding leaves in records without noise; 0 if it is held fixed.
+double rounding_of(const std::vector<double>& gradient) {
+  const bool held = std::ranges::all_of(gradient, [](double slope) { return slope == 0; });
+  return held ? 0 : 1e-26;
+}
+
 std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own) {
   std::vector<OwnLaw> laws;
   for (std::size_t r = 0; r < own.size(); ++r) {
@@ -61,8 +67,9 @@ std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own) {
     const Spread covariance = uncertainty_of(fit).covariance;
     auto by_log_a = fit.a.gradient;
     for (double& slope : by_log_a) slope /= fit.a.value;
-    const Symmetric C{covariance(by_log_a, by_log_a), covariance(by_log_a, fit.b.gradient),
-                      covariance(fit.b.gradient, fit.b.gradient)};
+    const Symmetric C{covariance(by_log_a, by_log_a) + rounding_of(by_log_a),
+                      covariance(by_log_a, fit.b.gradient),
+                      covariance(fit.b.gradient, fit.b.gradient) + rounding_of(fit.b.gradient)};
     const Symmetric W = C.inverse();
     if (std::isfinite(W.aa) && std::isfinite(W.ab) && std::isfinite(W.bb))
       laws.push_back({r,
