@@ -47,7 +47,7 @@ class HeadReader {
   std::vector<std::string> take_commented_names(std::size_t width, Proof);
   static std::vector<Column> units_in(const std::string& comment);
   void refuse_other_names(std::size_t width) const;
-  void refuse_other_units(const std::vector<Column>& columns) const;
+  void note_other_units(std::vector<Column>& columns) const;
   void refuse_units(const std::vector<std::string>& fields, std::size_t line) const;
   void refuse_lines_of_units(std::size_t width) const;
   std::vector<Column> known_columns() const;
@@ -219,18 +219,14 @@ void HeadReader::refuse_other_names(std::size_t width) const {
   }
 }
 
-/// Refuses a comment that gives a column without a unit one other than SI.
-void HeadReader::refuse_other_units(const std::vector<Column>& columns) const {
-  for (std::size_t i = 0; i < head_.comments.size(); ++i)
-    for (const Column& said : units_in(head_.comments[i]))
-      if (unit_kind(said.unit) == UnitKind::other &&
-          std::ranges::any_of(columns, [&](const Column& column) {
-            return column.name == said.name && column.unit.empty();
-          }))
-        fail<InputError>(
-            "{}:{}: a comment with the unit of a column whose name has none: put it there, as in "
-            "{}",
-            lines_.name(), numbers_[i], shown(to_text(said)));
+/// Notes the units other than SI that comments give to columns whose names have none.
+void HeadReader::note_other_units(std::vector<Column>& columns) const {
+  for (const std::string& comment : head_.comments)
+    for (const Column& said : units_in(comment))
+      for (Column& column : columns)
+        if (column.name == said.name && column.unit.empty() &&
+            unit_kind(said.unit) == UnitKind::other)
+          column.elsewhere = said.unit;
 }
 
 void HeadReader::refuse_units(const std::vector<std::string>& fields, std::size_t line) const {
@@ -343,7 +339,7 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
     if (i < units_.size()) add_unit(columns.back(), units_[i]);
     if (columns.back().name.empty()) columns.back().name = fmt::format("c{}", i + 1);
   }
-  refuse_other_units(columns);
+  note_other_units(columns);
   head_.layout = sides == Sides::one ? Layout::one(columns) : Layout::of(columns);
   if (head_.named && (head_.layout.side_by_side() ? width > names.size() : width != names.size()))
     fail<InputError>("{}:{}: {} field{} under a line of {} name{}{}", lines_.name(),

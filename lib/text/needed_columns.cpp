@@ -26,8 +26,9 @@ NeededColumns::NeededColumns(const std::vector<std::string>& use, bool has_use)
     const auto equals = text.find('=');
     if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
       fail("--use: '{}' is not NAME=COLUMN", shown(text));
-    const auto [quantity, unit, label] = read_column(text.substr(0, equals));
-    if (!unit.empty() || !label.empty())
+    const Column of = read_column(text.substr(0, equals));
+    const std::string &quantity = of.name, &unit = of.unit;
+    if (!unit.empty() || !of.run.empty())
       fail("--use: '{}': a unit goes behind the column: {}=COLUMN[{}]", shown(text), quantity,
            shown(unit));
     if (si_unit(quantity).empty()) fail("--use: '{}' is not about t, x, v, a or D", shown(text));
@@ -156,8 +157,9 @@ void NeededColumns::resolve(Needed& needed) const {
   const Column meant = with_unit(*found, quantity);
   const std::string way_out =
       has_use_ ? fmt::format(" or say --use {}={}[UNIT]", quantity, *found + 1) : "";
-  if (const std::string unit = unit_in_name(quantity, meant.name);
-      meant.unit.empty() && !unit.empty())
+  std::string unit = unit_in_name(quantity, meant.name);
+  if (unit.empty()) unit = meant.elsewhere;
+  if (meant.unit.empty() && !unit.empty())
     fail<InputError>(
         "{}: column '{}' cannot serve as {}: is it in {}? Write the unit in brackets{}", place_,
         shown(meant.name), quantity, unit, way_out);

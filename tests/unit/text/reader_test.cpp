@@ -260,6 +260,17 @@ TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]
   CHECK(records({"t,v,t,v\n0,1,0,2\n", "t,v,t,v\n0,3,0,4\n"}, run(3)) == "0 3");
 }
 
+TEST_CASE("reader: a unit that only a comment gives is not passed over", "[text]") {
+  const std::string refused =
+      "FILE: column 'v' cannot serve as v: is it in km/h? Write the unit in brackets or say "
+      "--use v=2[UNIT]";
+  CHECK(records({"# v [km/h]: by a GPS\n# t v\n0 36\n"}) == refused);
+  CHECK(records({"t [s], v [km/h] and a remark\n\nt,v\n0,36\n"}) == refused);
+  CHECK(records({"# v [km/h]: by a GPS\n# t v\n0 36\n"}, use({"v=v[km/h]"})) == "0 10");
+  CHECK(records({"# v [km/h]: by a GPS\n# t v[m/s]\n0 36\n"}) == "0 36");
+  CHECK(records({"# v [m/s]: by a GPS\n# x [cm]\n# t v\n0 36\n"}) == "0 36");
+}
+
 TEST_CASE("reader: units are converted, and go out converted", "[text]") {
   CHECK(records({"# t[ms] v[km/h]\n0 72\n40 36\n"}) == "0 20 | 0.04 10");
   CHECK(copies("# t[ms] v[km/h] x[mm]\n40 36 007\n") ==
