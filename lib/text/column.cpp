@@ -125,7 +125,7 @@ std::string take_run(std::string_view& name) {
 
 Column read_column(std::string_view text) {
   Column column;
-  std::string line(text);
+  std::string line = replace_all(std::string(text), "\xC2\xA0", " ");  // no-break spaces
   std::replace(line.begin(), line.end(), '\n', ' ');  // a quoted name may go over two lines
   std::string_view name = trim(line);
   column.run = take_run(name);

@@ -25,6 +25,7 @@ TEST_CASE("column: a name says its quantity and its unit", "[text]") {
       {"Time(s)", {"t", "s", ""}},
       {"TIME", {"t", "", ""}},
       {"Time\n(s)", {"t", "s", ""}},
+      {"Time\xC2\xA0(\xC2\xA0s\xC2\xA0)", {"t", "s", ""}},
       {"Position (m)", {"x", "m", ""}},
       {"Acceleration (m/s^2)", {"a", "m/s^2", ""}},
       {"Acceleration (m/s2)", {"a", "m/s^2", ""}},
