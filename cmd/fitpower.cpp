@@ -202,7 +202,8 @@ int main(int argc, char** argv) {
       if (with_report && each) tool.say(fmt::format("run {}, the report:", fits[i].front().name));
       if (with_report) report(tool, fits[i], options, laws);
       if (with_check)
-        check(tool, *results[i], laws, disturbed_beginning(route, fits[i], options), fits[i]);
+        check(tool, route, *results[i], fits[i], laws,
+              disturbed_beginning(route, fits[i], options));
     }
     tool.count_left_out(left_out, "this route cannot use them");
     return std::all_of(results.begin(), results.end(), fitted) ? 0 : 2;
