@@ -19,9 +19,10 @@ void set_parameters(const std::string& option, const std::vector<std::string>& s
     const auto equals = setting.find('=');
     const auto parameter = parameters.find(setting.substr(0, equals));
     double value;
-    if (equals == std::string::npos || parameter == parameters.end() ||
-        !parse_number(std::string_view(setting).substr(equals + 1), value))
+    if (equals == std::string::npos || parameter == parameters.end())
       fail("{}: '{}' is not NAME=VALUE with a name that it knows", option, shown(setting));
+    if (!parse_number(std::string_view(setting).substr(equals + 1), value))
+      fail("{}: the value in '{}' is not a number", option, shown(setting));
     if (*parameter->second)
       fail("{}: '{}' comes after another for {}", option, shown(setting), parameter->first);
     *parameter->second = value;
