@@ -60,19 +60,15 @@ build/%.o: %.cpp
 # The headers that most sources include are parsed once, which saves a third of the time of a build.
 # Each source includes them all the same: a compiler that is named, CXX=clang++, parses them there.
 ifeq ($(origin CXX),default)
-common    := $(patsubst %,<%>,algorithm array cmath cstddef functional limits map memory numeric \
-               optional span string string_view utility vector fmt/core.h)
-of_tool   := $(call object,$(filter-out %/command_line.cpp,$(source)) $(wildcard cmd/*.cpp))
-$(of_tool):                 private CPPFLAGS += -include build/parsed/tool.h
-$(of_tool):                 | build/parsed/tool.h.gch
-$(call object,$(test)):     private CPPFLAGS += -include build/parsed/test.h
-$(call object,$(test)):     | build/parsed/test.h.gch
-build/parsed/test.h: common += "unit/catch.h"
-build/parsed/%.h:
+common  := $(patsubst %,<%>,algorithm array cmath cstddef functional limits map memory numeric \
+             optional span string string_view utility vector fmt/core.h)
+of_tool := $(call object,$(filter-out %/command_line.cpp,$(source)) $(wildcard cmd/*.cpp))
+$(of_tool): private CPPFLAGS += -include build/common.h
+$(of_tool): | build/common.h.gch
+build/common.h.gch:
 	@mkdir -p $(@D)
-	printf '#include %s\n' $(common:%='%') >$@
-build/parsed/%.gch: build/parsed/%
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -x c++-header -o $@ $<
+	printf '#include %s\n' $(common:%='%') >build/common.h
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -x c++-header -o $@ build/common.h
 endif
 
 # Catch2 brings its own main: version 3 as a library, version 2 as a header.

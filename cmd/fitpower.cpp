@@ -19,9 +19,10 @@ void set_parameters(const std::string& option, const std::vector<std::string>& s
     const auto equals = setting.find('=');
     const auto parameter = parameters.find(setting.substr(0, equals));
     double value;
-    if (equals == std::string::npos || parameter == parameters.end() ||
-        !parse_number(std::string_view(setting).substr(equals + 1), value))
+    if (equals == std::string::npos || parameter == parameters.end())
       fail("{}: '{}' is not NAME=VALUE with a name that it knows", option, shown(setting));
+    if (!parse_number(std::string_view(setting).substr(equals + 1), value))
+      fail("{}: the value in '{}' is not a number", option, shown(setting));
     if (*parameter->second)
       fail("{}: '{}' comes after another for {}", option, shown(setting), parameter->first);
     *parameter->second = value;
@@ -202,7 +203,8 @@ int main(int argc, char** argv) {
       if (with_report && each) tool.say(fmt::format("run {}, the report:", fits[i].front().name));
       if (with_report) report(tool, fits[i], options, laws);
       if (with_check)
-        check(tool, *results[i], laws, disturbed_beginning(route, fits[i], options), fits[i]);
+        check(tool, route, *results[i], fits[i], laws,
+              disturbed_beginning(route, fits[i], options));
     }
     tool.count_left_out(left_out, "this route cannot use them");
     return std::all_of(results.begin(), results.end(), fitted) ? 0 : 2;

@@ -28,7 +28,7 @@ void report(Tool&, const std::vector<FitRun>&, const FitOptions&,
 
 /// Reports a failed check if the runs of a joint fit disagree, another law is better by 10 in AICc,
 /// the beginning of a run is disturbed, or the residuals are not white.
-void check(Tool&, const FitResult&, const std::optional<LawComparison>&,
-           const std::optional<Beginning>&, const std::vector<FitRun>&);
+void check(Tool&, Route, const FitResult&, const std::vector<FitRun>&,
+           const std::optional<LawComparison>&, const std::optional<Beginning>&);
 
 }  // namespace rolling
