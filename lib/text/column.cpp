@@ -188,7 +188,7 @@ Conversion conversion_to_si(std::string_view quantity, const Column& column) {
 
 std::string unit_in_name(std::string_view quantity, std::string_view name) {
   const KnownQuantity* q = known(quantity);
-  if (!q) return {};
+  if (!q || name == quantity) return {};
   std::string found;
   std::string words = plain_unit(std::string(name));
   std::replace_if(

@@ -155,18 +155,21 @@ void NeededColumns::resolve(Needed& needed) const {
                      shown(quantity), read.unit.empty() ? "no unit" : shown(read.unit),
                      needed.unit.empty() ? "no unit" : shown(needed.unit));
   const Column meant = with_unit(*found, quantity);
-  const std::string way_out =
-      has_use_ ? fmt::format(" or say --use {}={}[UNIT]", quantity, *found + 1) : "";
-  std::string unit = unit_in_name(quantity, meant.name);
-  if (unit.empty()) unit = meant.elsewhere;
-  if (meant.unit.empty() && !unit.empty())
-    fail<InputError>(
-        "{}: column '{}' cannot serve as {}: is it in {}? Write the unit in brackets{}", place_,
-        shown(meant.name), quantity, unit, way_out);
+  const auto way_out = [&] {
+    return has_use_ ? fmt::format(" or say --use {}={}[UNIT]", quantity, *found + 1) : "";
+  };
+  if (meant.unit.empty()) {
+    std::string unit = unit_in_name(quantity, meant.name);
+    if (unit.empty()) unit = meant.elsewhere;
+    if (!unit.empty())
+      fail<InputError>(
+          "{}: column '{}' cannot serve as {}: is it in {}? Write the unit in brackets{}", place_,
+          shown(meant.name), quantity, unit, way_out());
+  }
   try {
     needed.to_si = conversion_to_si(quantity, meant);
   } catch (const Error& error) {
-    fail<InputError>("{}: {}{}", place_, error.what(), way_out);
+    fail<InputError>("{}: {}{}", place_, error.what(), way_out());
   }
 }
 
