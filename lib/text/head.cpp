@@ -137,18 +137,21 @@ bool HeadReader::is_record(std::string_view line) {
   return (before_ ? dialect_.holds_number(line) : dialect_.choose(line)) || is_missing_record(line);
 }
 
-/// Refuses a line of numbers between other separators than those of the file: it is no heading, and
-/// the run would be lost.
+/// Refuses a line that begins with a number and has another one, between other separators than
+/// those of the file: it is no heading, and the run would be lost.
 void HeadReader::refuse_other_separator() const {
   Dialect other;
   if (!other.choose(lines_.text())) return;
   const auto fields = other.split(lines_.text());
-  if (std::ranges::all_of(fields, [](const Field& field) {
-        return is_number(field.text) || is_missing(field.text);
-      }))
-    fail<InputError>("{}:{}: '{}' is separated by {}, and the records before by {}", lines_.name(),
-                     lines_.number(), shown(lines_.text()), name_of(other.separator()),
-                     name_of(dialect_.separator()));
+  const auto is_reading = [](const Field& field) {
+    return is_number(field.text) || is_missing(field.text);
+  };
+  if (is_reading(fields.front()) && std::ranges::count_if(fields, is_reading) > 1)
+    fail<InputError>(
+        "{}:{}: '{}' is separated by {}, and the records before by {}; if it is a heading, begin "
+        "it with #",
+        lines_.name(), lines_.number(), shown(lines_.text()), name_of(other.separator()),
+        name_of(dialect_.separator()));
 }
 
 /// Goes to the first record; false if there is none.

@@ -112,12 +112,25 @@ TEST_CASE("reader: names in a first line that is not numeric", "[text]") {
   CHECK(records({"t v\n0\n"}) == "FILE:2: 1 field under a line of 2 names");
   CHECK(records({"t v\r\n0 5\r\n\x1A"}) == "0 5");
   CHECK(records({"# t\tv\n0\t5\n\n# t v\n0 7\n"}) ==
-        "FILE:5: '0 7' is separated by blanks, and the records before by tabs");
+        "FILE:5: '0 7' is separated by blanks, and the records before by tabs; if it is a heading, "
+        "begin it with #");
   CHECK(records({"t v\n0 5\n\nt;v\n0,5;7\n"}) ==
-        "FILE:5: '0,5;7' is separated by ';', and the records before by blanks");
+        "FILE:5: '0,5;7' is separated by ';', and the records before by blanks; if it is a "
+        "heading, begin it with #");
   CHECK(records({"t,v\n0,5\n\n0;\n"}) ==
-        "FILE:4: '0;' is separated by ';', and the records before by ','");
-  CHECK(records({"t,v\n0,5\n\nRun 2\n\nThe end of 3 runs\n"}) == "0 5");
+        "FILE:4: '0;' is separated by ';', and the records before by ','; if it is a heading, "
+        "begin it with #");
+  CHECK(records({"# t\tv\n0\t5\n\n0;7;note\n"}) ==
+        "FILE:4: '0;7;note' is separated by ';', and the records before by tabs; if it is a "
+        "heading, begin it with #");
+  CHECK(records({"t,v\n0,5\n\nRun 2\n\nThe end of 3 runs\n\n1. try\n"}) == "0 5");
+  const std::string hint = "; if this line is not a record, begin it with #";
+  // Quotes that are none in this file do not make a record a line of names, or a remark.
+  CHECK(records({"# t v\n\"0\" \"5\"\n1 6\n"}, use({"t=1", "v=2"})) ==
+        "FILE:2: field 1 (t): '\"0\"' is not a number" + hint);
+  CHECK(records({"t,v\n'0','5'\n1,6\n"}) == "FILE:2: field 1 (t): ''0'' is not a number" + hint);
+  CHECK(records({"t v\n0 5\n\n\"1\" \"6\"\n"}) ==
+        "FILE:4: field 1 (t): '\"1\"' is not a number" + hint);
   CHECK(records({"t,v\n0,5\n\nSecond\n0,5\n"}) ==
         "FILE:5: 2 fields under a line of 1 name; if line 4 is a heading, begin it with #");
   CHECK(records({"\"Velocity (m/s)\",\"Time (s)\"\n5,0\n"}) == "0 5");
