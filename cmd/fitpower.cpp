@@ -1,13 +1,11 @@
 // fitpower - fit the power law D = a v^b to columns; see fitpower(1)
 #include <algorithm>
-#include <compare>
 #include <cmath>
-#include <set>
 
 #include "cli/fit_report.h"
+#include "cli/fit_runs.h"
 #include "cli/history.h"
 #include "fit/fit.h"
-#include "signal/repeats.h"
 #include "text/estimate.h"
 
 using namespace rolling;
@@ -21,110 +19,14 @@ void set_parameters(const std::string& option, const std::vector<std::string>& s
     const auto equals = setting.find('=');
     const auto parameter = parameters.find(setting.substr(0, equals));
     double value;
-    if (equals == std::string::npos || parameter == parameters.end() ||
-        !parse_number(std::string_view(setting).substr(equals + 1), value))
+    if (equals == std::string::npos || parameter == parameters.end())
       fail("{}: '{}' is not NAME=VALUE with a name that it knows", option, shown(setting));
+    if (!parse_number(std::string_view(setting).substr(equals + 1), value))
+      fail("{}: the value in '{}' is not a number", option, shown(setting));
     if (*parameter->second)
       fail("{}: '{}' comes after another for {}", option, shown(setting), parameter->first);
     *parameter->second = value;
   }
-}
-
-/// Warns of readings that a logger held: the fit counts each repetition as a new reading. Speeds
-/// that were made of positions are no readings.
-void warn_of_held(Tool& tool, Route route, const FitRun& run,
-                  const std::vector<std::string>& history) {
-  const bool position = route == Route::position;
-  if (!position && speeds_of_positions(history)) return;
-  const double held = records_held(position ? run.x : run.v);
-  if (held > 1)
-    tool.warn(fmt::format(
-        "run {}: {} repeat: each stands in {:.2g} records on average; keep only the record "
-        "in which a new one comes",
-        run.name, position ? "positions" : "speeds", held));
-}
-
-/// The columns that are read: those that the route fits, or those of the other routes too.
-enum class Columns { of_route, of_all_routes };
-
-std::vector<double> FitRun::*column_of(std::string_view name) {
-  return name == "x" ? &FitRun::x : name == "v" ? &FitRun::v : &FitRun::D;
-}
-
-/// Warns of a record that was given twice: in a joint fit it makes the errors too small. Fewer than
-/// ten readings may be equal by chance.
-void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
-  const auto y = column_of(columns_of(route).back());
-  const auto less = [&](std::size_t i, std::size_t j) {  // of all doubles, NaN too
-    return std::ranges::lexicographical_compare(
-        runs[i].*y, runs[j].*y, [](double a, double b) { return std::strong_order(a, b) < 0; });
-  };
-  std::set<std::size_t, decltype(less)> different(less);
-  std::string copy;
-  std::size_t copies = 0;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if ((runs[i].*y).size() < 10) continue;
-    const auto [same, inserted] = different.insert(i);
-    if (!inserted && ++copies == 1)
-      copy =
-          fmt::format("run {}: its readings are those of run {}", runs[i].name, runs[*same].name);
-  }
-  if (copies > 0)
-    tool.warn(
-        fmt::format("{}{}: leave copies out, for each counts as one more roll", copy,
-                    copies > 1 ? fmt::format(", the first of {} copies", copies) : std::string()));
-}
-
-std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, const Body& body,
-                              Columns columns) {
-  const bool all_columns = columns == Columns::of_all_routes;
-  struct Needed {
-    std::size_t slot;
-    std::vector<double> FitRun::*column;
-  };
-  std::vector<Needed> needed;
-  const auto names = columns_of(route);
-  for (const std::string& name : names)
-    if (name != "t") needed.push_back({in.need(name), column_of(name)});
-  bool timed = is_trajectory(route) || (all_columns && in.find("t"));
-  if (timed) needed.push_back({in.need_time(), &FitRun::t});
-  // The columns of the other routes; and x, with which the speeds are compared if a `##` line says
-  // that they are differences.
-  for (const char* name : {"x", "v", "D"})
-    if ((all_columns || (*name == 'x' && route == Route::velocity && !in.history().empty())) &&
-        in.find(name) && std::find(names.begin(), names.end(), name) == names.end())
-      needed.push_back({in.want(name), column_of(name)});
-  std::vector<FitRun> runs;
-  while (in.next_run()) {
-    FitRun& run = runs.emplace_back();
-    run.name = in.run_name();
-    run.body = body;
-    if (!timed && !in.history().empty() && in.find("t")) {  // the filters act on these times
-      needed.push_back({in.need_time(), &FitRun::t});
-      timed = true;
-    }
-    const std::size_t room = runs.size() == 1 ? in.records_ahead() : 0;  // most files are one run
-    for (const auto& [slot, column] : needed) (run.*column).reserve(room);
-    while (in.next())
-      for (const auto& [slot, column] : needed) (run.*column).push_back(in[slot]);
-    warn_of_held(tool, route, run, in.history());
-    History history = history_of(in.history(), run.t);
-    if (in.renames() && !history.filters.empty())
-      history = {{}, {}, "--use takes other columns than its `##` lines speak of"};
-    run.shift_of = history.shift_of;
-    history = known_windows(compared(std::move(history), run), run, columns_of(route).back());
-    run.filters = std::move(history.filters);
-    run.shift_of = history.shift_of;
-    if (!history.doubt.empty())
-      tool.warn(fmt::format("run {}: {}: the fit goes on as if no filter were known", run.name,
-                            history.doubt));
-    if (history.left_out > 0)
-      tool.warn(fmt::format(
-          "run {}: it was cut after the filters that its `##` lines name: {} more "
-          "records at the cut are left out, since their windows are not known; cut first",
-          run.name, history.left_out));
-  }
-  return runs;
 }
 
 /// The values of --fix and --start.
@@ -148,34 +50,6 @@ void add_options(Tool& tool, FitOptions& options) {
   tool.number("--min-speed", options.min_speed, not_negative, "leave slower records out [m/s]");
   tool.flag("--robust", options.robust,
             "let outliers count little: bisquare loss instead of squares");
-}
-
-/// The shape factor of each run, and the uncertainties of the numbers of its body.
-void set_bodies(std::vector<FitRun>& runs, const std::vector<Estimate>& shape_factors,
-                const BodyUncertainty& uncertainty) {
-  if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
-    fail("--shape-factor gives {} values, but runs are {}", shape_factors.size(), runs.size());
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const Estimate K = shape_factors.empty() ? Estimate{not_given}
-                                             : shape_factors[shape_factors.size() > 1 ? i : 0];
-    runs[i].body.K = K.value;
-    runs[i].given = uncertainty;
-    runs[i].given.K = K.sigma;
-  }
-}
-
-/// Warns of numbers of the body that the fit does not use, because D was computed with others.
-void warn_of_other_body(Tool& tool, const std::vector<FitRun>& runs) {
-  for (const FitRun& run : runs) {
-    Body given = run.body;
-    if (!tool.given("gravity")) given.g = not_given;
-    if (!tool.given("slope")) given.slope = not_given;
-    const std::string others = other_body(run.shift_of, given, run.given);
-    if (others.empty()) continue;
-    tool.warn(fmt::format("run {}: D was computed with {}: the fit uses the numbers of D", run.name,
-                          others));
-    return;
-  }
 }
 
 /// The groups of runs that are fitted together: one group of all runs, or one for each run.
@@ -304,9 +178,9 @@ int main(int argc, char** argv) {
     if (options.x0 && route != Route::position) fail("--fix: this route has no x0");
 
     auto runs =
-        read_runs(tool, in, route, body, with_report ? Columns::of_all_routes : Columns::of_route);
+        read_runs(tool, in, route, with_report ? Columns::of_all_routes : Columns::of_route);
     if (!each) warn_of_copies(tool, route, runs);
-    set_bodies(runs, shape_factors, uncertainty);
+    set_bodies(runs, body, shape_factors, uncertainty);
     if (!trajectory && !options.fit_slope) warn_of_other_body(tool, runs);
     const auto fits = grouped(std::move(runs), each);
     const Table table{tool.out, trajectory && fits.front().size() == 1, options.fit_slope, each};
@@ -329,7 +203,8 @@ int main(int argc, char** argv) {
       if (with_report && each) tool.say(fmt::format("run {}, the report:", fits[i].front().name));
       if (with_report) report(tool, fits[i], options, laws);
       if (with_check)
-        check(tool, *results[i], laws, disturbed_beginning(route, fits[i], options), fits[i]);
+        check(tool, route, *results[i], fits[i], laws,
+              disturbed_beginning(route, fits[i], options));
     }
     tool.count_left_out(left_out, "this route cannot use them");
     return std::all_of(results.begin(), results.end(), fitted) ? 0 : 2;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cli/fit_runs.h"
 #include "fit/fit.h"
 
 namespace rolling {
@@ -17,21 +18,16 @@ std::map<std::string, std::optional<Route>> fit_routes() {
   return {std::begin(routes), std::end(routes)};
 }
 
-std::vector<std::string> columns_of(Route route) {
-  switch (route) {
-    case Route::velocity:
-      return {"t", "v"};
-    case Route::position:
-      return {"t", "x"};
-    default:
-      return {"v", "D"};
-  }
-}
-
 namespace {
 
 /// True if the residuals are rounding errors, to which no test of noise applies.
-bool exact(const FitResult& r) { return r.sigma_a < 1e-9 * r.a; }
+bool exact(Route route, const FitResult& r, const std::vector<FitRun>& runs) {
+  const double scale = route == Route::loglog     ? 1
+                       : route == Route::shift    ? r.a
+                       : route == Route::velocity ? std::abs(r.v0.front())
+                                                  : runs.front().body.R;
+  return r.rms < 1e-9 * scale;
+}
 
 const std::map<Errors, const char*> kinds{{Errors::none, "none"},
                                           {Errors::classical, "classical"},
@@ -39,10 +35,6 @@ const std::map<Errors, const char*> kinds{{Errors::none, "none"},
                                           {Errors::differences, "of differences of positions"},
                                           {Errors::uneven, "of noise of uneven size"},
                                           {Errors::autocorrelation, "of the autocorrelation"}};
-
-const std::vector<double>& column(const FitRun& run, std::string_view name) {
-  return name == "t" ? run.t : name == "x" ? run.x : name == "v" ? run.v : run.D;
-}
 
 /// "sigma_a 1.9e-05: noise 1.2e-05, K 6.2e-06; sigma_b 0.0086: noise 0.0086, K 0"
 std::string budget(const FitResult& r) {
@@ -63,7 +55,7 @@ void report_route(Tool& tool, const std::string& name, Route route, const std::v
                   const FitOptions& options) {
   for (const FitRun& run : runs)
     for (const std::string& needed : columns_of(route))
-      if (column(run, needed).empty()) fail("there is no column {}", needed);
+      if ((run.*column_of(needed)).empty()) fail("there is no column {}", needed);
   if (is_trajectory(route) && std::isnan(runs.front().body.R)) fail("--radius is not given");
   if (is_trajectory(route) && std::isnan(runs.front().body.K)) fail("--shape-factor is not given");
   const auto begin = std::chrono::steady_clock::now();
@@ -139,7 +131,7 @@ void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitR
           runs[i].name, r.v0[i], D, runs[i].body.R));
       break;
     }
-  if (exact(r)) return;
+  if (exact(route, r, runs)) return;
   const std::string run = of_run(runs);
   // ln a has the normal distribution. Where sigma_a is 0.3 a, a +- 1.96 sigma_a holds the truth in
   // 93.6 % still, but misses it by more than 3 sigma_a six times too often, and then worse.
@@ -184,8 +176,8 @@ void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& optio
   tool.say(laws->against_power() <= 2 ? "D = a v^b is adequate" : "D = a v^b is not adequate");
 }
 
-void check(Tool& tool, const FitResult& r, const std::optional<LawComparison>& laws,
-           const std::optional<Beginning>& beginning, const std::vector<FitRun>& runs) {
+void check(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
+           const std::optional<LawComparison>& laws, const std::optional<Beginning>& beginning) {
   // The difference in AICc at which the other law has essentially no support (Burnham and
   // Anderson 2002, section 2.6).
   constexpr double better = 10;
@@ -194,7 +186,7 @@ void check(Tool& tool, const FitResult& r, const std::optional<LawComparison>& l
   // reported, or that would cause the others, comes first.
   if (r.agreement && !r.agreement->agree())
     tool.check_failed(disagreement(r, runs) + "; the errors allow for that");
-  if (!exact(r) && beginning)
+  if (!exact(route, r, runs) && beginning)
     tool.check_failed(fmt::format(
         "run {}: the first {} records do not go on as the others (chance {:.1g}), as if a hand "
         "were still on: cut off {:.2g} s",
@@ -202,7 +194,7 @@ void check(Tool& tool, const FitResult& r, const std::optional<LawComparison>& l
   if (laws && laws->against_power() >= better)
     tool.check_failed(fmt::format("{}D = {} is better than a v^b by {:.1f} in AICc; see --report",
                                   run, laws->best_other().law->formula, laws->against_power()));
-  if (!exact(r) && r.whiteness <= not_white)
+  if (!exact(route, r, runs) && r.whiteness <= not_white)
     tool.check_failed(
         fmt::format("{}the residuals are not white (Ljung-Box p {:.2g}): the law, or what is "
                     "known of the noise, is not right",

@@ -16,9 +16,6 @@ namespace rolling {
 /// has no route.
 std::map<std::string, std::optional<Route>> fit_routes();
 
-/// The columns that a route fits, by their short names.
-std::vector<std::string> columns_of(Route);
-
 /// Warns the user: of errors that are not those of white noise, of runs that disagree (unless
 /// check() follows, which reports it), of the bias of logarithms, of an eccentric body, of a shift
 /// beyond the radius, of an a whose error is not that of a normal distribution.
@@ -31,7 +28,7 @@ void report(Tool&, const std::vector<FitRun>&, const FitOptions&,
 
 /// Reports a failed check if the runs of a joint fit disagree, another law is better by 10 in AICc,
 /// the beginning of a run is disturbed, or the residuals are not white.
-void check(Tool&, const FitResult&, const std::optional<LawComparison>&,
-           const std::optional<Beginning>&, const std::vector<FitRun>&);
+void check(Tool&, Route, const FitResult&, const std::vector<FitRun>&,
+           const std::optional<LawComparison>&, const std::optional<Beginning>&);
 
 }  // namespace rolling

@@ -149,7 +149,12 @@ class Chain {
     reach_ += history_.filters.back().reach;
     // The matrices of wider filters would not fit into memory.
     constexpr std::size_t most = 50'000'000;
-    return reach_ * t_.size() <= most && history_.filters.size() <= 100 ? true : unknown();
+    if (reach_ * t_.size() <= most && history_.filters.size() <= 100) return true;
+    history_ = {{},
+                {},
+                fmt::format("the filters in its `##` lines are too wide or too many for {} records",
+                            t_.size())};
+    return false;
   }
 
   std::span<const double> t_;

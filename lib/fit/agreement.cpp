@@ -53,6 +53,12 @@ struct OwnLaw {
   Estimate b() const { return {law.b, std::sqrt(covariance.bb)}; }
 };
 
+/// The variance of ln a or b that rounding leaves in records without noise; 0 if it is held fixed.
+double rounding_of(const std::vector<double>& gradient) {
+  const bool held = std::ranges::all_of(gradient, [](double slope) { return slope == 0; });
+  return held ? 0 : 1e-26;
+}
+
 std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own) {
   std::vector<OwnLaw> laws;
   for (std::size_t r = 0; r < own.size(); ++r) {
@@ -61,8 +67,9 @@ std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own) {
     const Spread covariance = uncertainty_of(fit).covariance;
     auto by_log_a = fit.a.gradient;
     for (double& slope : by_log_a) slope /= fit.a.value;
-    const Symmetric C{covariance(by_log_a, by_log_a), covariance(by_log_a, fit.b.gradient),
-                      covariance(fit.b.gradient, fit.b.gradient)};
+    const Symmetric C{covariance(by_log_a, by_log_a) + rounding_of(by_log_a),
+                      covariance(by_log_a, fit.b.gradient),
+                      covariance(fit.b.gradient, fit.b.gradient) + rounding_of(fit.b.gradient)};
     const Symmetric W = C.inverse();
     if (std::isfinite(W.aa) && std::isfinite(W.ab) && std::isfinite(W.bb))
       laws.push_back({r,
@@ -119,12 +126,11 @@ Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, bool 
 
 /// The joint fit with the residuals that the runs have around their own laws. The residuals around
 /// the common law contain the disagreement of the runs too, and would be taken for correlated or
-/// uneven noise.
+/// uneven noise. For loglog only the innovations matter: its errors are then those of the means.
 Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitted>>& own) {
   Fitted fit = joint;
   fit.minimum.f.clear();
-  RawNoise raw{};
-  if (joint.raw_noise) raw.sources.B = joint.raw_noise->sources.B;
+  if (fit.raw_noise) fit.raw_noise->innovations.clear(), fit.raw_noise->innovation_runs.clear();
   double rss = 0;
   std::size_t p = 0;
   const auto append = [](auto& to, const auto& more) {
@@ -136,25 +142,18 @@ Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitte
     rss += one->minimum.rss;
     p += one->minimum.theta.size();
     if (!one->raw_noise) continue;
-    raw.variance += one->raw_noise->variance / static_cast<double>(own.size());
-    raw.sources.means_taken += one->raw_noise->sources.means_taken;
-    append(raw.sources.e, one->raw_noise->sources.e);
-    append(raw.sources.runs, one->raw_noise->sources.runs);
-    append(raw.innovations, one->raw_noise->innovations);
-    append(raw.innovation_runs, one->raw_noise->innovation_runs);
+    append(fit.raw_noise->innovations, one->raw_noise->innovations);
+    append(fit.raw_noise->innovation_runs, one->raw_noise->innovation_runs);
   }
   const std::size_t n = joint.minimum.f.size();
-  const bool same_noise = !joint.raw_noise || raw.sources.runs == joint.raw_noise->sources.runs;
-  if (fit.minimum.f.size() != n || n <= p || !same_noise) return joint;
+  if (fit.minimum.f.size() != n || n <= p) return joint;
   // The runs' own fits have more parameters in all than the joint one, p instead of its own number,
   // and leave smaller residuals: rss/(n - p) is the variance. Whoever takes the joint fit divides
   // by its own degrees of freedom, and HC3 takes the residuals themselves.
   const double more =
       static_cast<double>(n - joint.minimum.theta.size()) / static_cast<double>(n - p);
-  for (auto* of_noise : {&fit.minimum.f, &raw.sources.e})
-    for (double& x : *of_noise) x *= std::sqrt(more);
+  for (double& x : fit.minimum.f) x *= std::sqrt(more);
   fit.minimum.rss = rss * more;
-  if (fit.raw_noise) fit.raw_noise = std::move(raw);
   return fit;
 }
 

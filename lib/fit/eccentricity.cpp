@@ -132,14 +132,11 @@ class Periodogram {
     constexpr double turned = 0.1, shares = 512;
     const Column& t = seen_.t;
     std::vector<std::size_t> ends;
-    double begin = t.front(), most = 0;
-    for (std::size_t i = 0; i < t.size(); ++i) {
-      if (i > 0 && i + 1 < t.size() && t[i + 1] - begin <= most) continue;
-      ends.push_back(i + 1);
-      begin = t[i];
-      const double v = roll_.speed_at(begin).v;
-      most = (t.back() - t.front()) / shares;
-      if (v > 0) most = std::min(most, turned * R_ / v);
+    for (auto first = t.begin(); first != t.end();) {
+      const double v = roll_.speed_at(*first).v, share = (t.back() - t.front()) / shares,
+                   longest = v > 0 ? std::min(share, turned * R_ / v) : share;
+      first = std::upper_bound(first, t.end(), *first + longest);
+      ends.push_back(static_cast<std::size_t>(first - t.begin()));
     }
     return ends;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "base/error.h"
@@ -59,7 +60,11 @@ void require_determined(const FitResult& result, const FitOptions& options) {
     for (double x : {result.sigma_a, result.sigma_b, result.corr, result.rms})
       if (!std::isfinite(x)) fail("the fit gives no finite errors of a and b");
   // Large errors of a nonlinear fit are not reliable themselves; hence these limits on them.
-  if (options.fit_slope && (!(result.sigma_a < result.a / 10) || !(result.sigma_b < 0.1)))
+  const auto sign = [](double v0) { return v0 < 0; };
+  const bool one_way =
+      std::ranges::adjacent_find(result.v0, std::ranges::not_equal_to(), sign) == result.v0.end();
+  if (options.fit_slope && one_way &&
+      (!(result.sigma_a < result.a / 10) || !(result.sigma_b < 0.1)))
     fail(
         "a slope of the mat and its law slow the body down alike, and these runs do not tell them "
         "apart (a comes out as {:.3g} +- {:.2g}): add runs in the other direction",

@@ -70,14 +70,12 @@ Rows rows_of_speeds(Route route, const FitRun& run, Rows rows) {
   std::size_t reach = 0;
   for (const LinearFilter& filter : run.filters)
     if (filter.from == "v" && filter.to != "v") reach = filter.reach;
-  std::vector<bool> read(n);
+  Rows read;
+  std::size_t next = 0;
   for (const std::size_t i : rows)
-    for (std::size_t k = i - std::min(i, reach); k < std::min(n, i + reach + 1); ++k)
-      read[k] = std::isfinite(run.v[k]);
-  rows.clear();
-  for (std::size_t k = 0; k < n; ++k)
-    if (read[k]) rows.push_back(k);
-  return rows;
+    for (next = std::max(next, i - std::min(i, reach)); next < std::min(n, i + reach + 1); ++next)
+      if (std::isfinite(run.v[next])) read.push_back(next);
+  return read;
 }
 
 std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,

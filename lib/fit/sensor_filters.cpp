@@ -90,7 +90,9 @@ std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const FitO
     Fitted fit = fit_rolls(Route::velocity, all, std::move(regular),
                            responses_by(*maker.filter, all), options, maker.white.share);
     const Uncertainty found = uncertainty_of(fit);
-    if (found.whiteness > not_white && found.kind != Errors::uneven) return fit;
+    // Differences round off the stop: what fits far worse with them was not made by them.
+    if (found.whiteness > not_white && found.kind != Errors::uneven && fit.rss < 2 * plain.rss)
+      return fit;
   } catch (const Error&) {  // too few records, or no minimum
   }
   return {};

@@ -64,15 +64,16 @@ bool Windows::by_time(std::size_t i) {
   double middle = sample(i).t;
   if (ends_ == Ends::stay) middle = std::max(middle, start_ + half);
   double from = middle - half, to = middle + half;
-  if (finished_ && ends_ == Ends::stay && to > newest) from = newest - width_.seconds;
   const auto step = [this](std::size_t j) { return sample(j + 1).t - sample(j).t; };
-  while (left_ < i && sample(left_).t + late * step(left_) < from) ++left_;
   right_ = std::max(right_, i + 1);
   while (right_ < count_ && sample(right_).t - late * step(right_ - 1) <= to) ++right_;
   const bool complete = right_ < count_ || finished_;
+  if (!complete && ends_ == Ends::stay) return false;  // the window may yet reach further back
+  if (finished_ && ends_ == Ends::stay && to > newest) from = newest - width_.seconds;
+  while (left_ < i && sample(left_).t + late * step(left_) < from) ++left_;
   begin_ = left_;
   end_ = right_;
-  if (ends_ == Ends::stay) return complete;
+  if (ends_ == Ends::stay) return true;
   if (ends_ == Ends::cut) {
     begin_ = std::min(begin_, i - std::min(i, width_.least / 2));
     end_ = std::min(std::max(end_, i + width_.least / 2 + 1), count_);

@@ -79,6 +79,7 @@ std::string lower(std::string_view text) {
 /// The spelling of a unit in the lists above: a product of powers becomes a quotient (`m s^-1` and
 /// `m*s-1` become m/s), kph and kmh become km/h, and the case of km/h and mph does not matter.
 std::string listed_unit(std::string unit) {
+  unit = replace_all(std::move(unit), " / ", "/");
   for (const std::string_view times : {"\xC2\xB7", "\xE2\x8B\x85", "*", " "})
     unit = replace_all(std::move(unit), times, ".");
   for (const auto& [from, to] :
@@ -124,7 +125,7 @@ std::string take_run(std::string_view& name) {
 
 Column read_column(std::string_view text) {
   Column column;
-  std::string line(text);
+  std::string line = replace_all(std::string(text), "\xC2\xA0", " ");  // no-break spaces
   std::replace(line.begin(), line.end(), '\n', ' ');  // a quoted name may go over two lines
   std::string_view name = trim(line);
   column.run = take_run(name);
@@ -185,6 +186,22 @@ Conversion conversion_to_si(std::string_view quantity, const Column& column) {
       shown(to_text(column)), quantity, shown(column.unit), all);
 }
 
+std::string unit_in_name(std::string_view quantity, std::string_view name) {
+  const KnownQuantity* q = known(quantity);
+  if (!q || name == quantity) return {};
+  std::string found;
+  std::string words = plain_unit(std::string(name));
+  std::replace_if(
+      words.begin(), words.end(),
+      [](unsigned char c) { return !std::isalnum(c) && c != '/' && c != '^'; }, ' ');
+  for (const std::string& word : split_names(words, '\0'))
+    for (const std::string& text : {word, word.substr(word.find('/') + 1)})
+      for (const Unit& unit : q->units)
+        if (unit.name == listed_unit(text) && text != "in")
+          found = unit.to_si.changes() ? unit.name : "";
+  return found;
+}
+
 std::vector<std::string> split_names(std::string_view line, char separator) {
   std::vector<std::string> names;
   if (separator) {
@@ -203,8 +220,10 @@ std::vector<std::string> split_names(std::string_view line, char separator) {
   for (std::size_t at = 0; (at = line.find_first_not_of(" \t", at)) != std::string_view::npos;) {
     const auto end = std::min(line.find_first_of(" \t", at), line.size());
     const std::string_view word = line.substr(at, end - at);
+    const bool opens = word.front() == '(' || word.front() == '[';
+    // Behind a name that is a bracket itself, as in a line of units, another name begins.
     if (!names.empty() &&
-        (word.front() == '(' || word.front() == '[' ||
+        ((opens && names.back().find_first_of("([") != 0) ||
          (open_bracket(names.back()) && line.find_first_of(")]", at) != std::string_view::npos)))
       names.back().append(" ").append(word);
     else names.emplace_back(word);

@@ -14,6 +14,8 @@ struct Column {
   std::string unit{};
   /// The number in `Run #2` or `Data Set 1:`, the word in `Latest:`; empty if the name has neither.
   std::string run{};
+  /// The unit that a comment gives to a column whose name has none.
+  std::string elsewhere{};
 
   bool operator==(const Column&) const = default;
 };
@@ -48,6 +50,11 @@ std::string_view si_unit(std::string_view quantity);
 /// programs spell them: `MPH`, `Km/h`, `m s^-1`. A column without a unit is in SI units. Throws
 /// Error for a unit that is not one of this quantity.
 Conversion conversion_to_si(std::string_view quantity, const Column&);
+
+/// A unit of `quantity` other than the SI one that a name has without brackets, as `t_ms`, `x/mm`
+/// and `Weg_in_cm` do; empty if there is none. `in` is not looked for: it is a word, and ends the
+/// names that free_name() makes.
+std::string unit_in_name(std::string_view quantity, std::string_view name);
 
 /// The names in a line, one for each field. With `separator` 0 blanks separate the names; a unit in
 /// brackets, which may contain blanks, then belongs to the name before it.

@@ -95,9 +95,13 @@ bool Dialect::holds_number(std::string_view line) {
   const auto fields = split(line);
   // A decimal comma counts here even between commas: the line is then refused as a record, with a
   // message that says what to do, and not taken for a line of names.
+  // So does a number in quotes that are none here.
   return std::any_of(fields.begin(), fields.end(), [](const Field& field) {
+    std::string_view bare = field.text;
+    while (!bare.empty() && (bare.front() == quote || bare.front() == '\'')) bare.remove_prefix(1);
+    while (!bare.empty() && (bare.back() == quote || bare.back() == '\'')) bare.remove_suffix(1);
     std::string text;
-    return is_number(append_plain(text, field.text, marks_in(field.text)));
+    return is_number(append_plain(text, bare, marks_in(bare)));
   });
 }
 

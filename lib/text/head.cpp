@@ -15,6 +15,15 @@ constexpr std::size_t longest_preamble =
     100;  // lines without a number; more means that the file has no columns
 constexpr std::string_view ended_with_an_error = ": ended with an error";
 
+/// A `##` line without the separators with which a spreadsheet fills it up.
+std::string_view history_line(std::string_view line) {
+  return trim(line.substr(0, line.find_last_not_of("\t;, ") + 1));
+}
+
+std::string name_of(char separator) {
+  return separator == '\0' ? "blanks" : separator == '\t' ? "tabs" : fmt::format("'{}'", separator);
+}
+
 /// The comments and other lines in front of the first record.
 class HeadReader {
  public:
@@ -30,12 +39,15 @@ class HeadReader {
   void check_bytes() const;
   bool is_record(std::string_view line);
   bool is_missing_record(std::string_view line);
+  void refuse_other_separator() const;
   void take_units();
   void add_unit(Column& column, std::string_view unit) const;
   std::vector<std::string> take_names(std::size_t width);
   enum class Proof { known, known_or_tabs, none };
   std::vector<std::string> take_commented_names(std::size_t width, Proof);
+  static std::vector<Column> units_in(const std::string& comment);
   void refuse_other_names(std::size_t width) const;
+  void note_other_units(std::vector<Column>& columns) const;
   void refuse_units(const std::vector<std::string>& fields, std::size_t line) const;
   void refuse_lines_of_units(std::size_t width) const;
   std::vector<Column> known_columns() const;
@@ -72,7 +84,7 @@ void HeadReader::check_bytes() const {
 
 void HeadReader::take_history() {
   refuse_error_line(lines_);
-  const std::string_view line = trim(lines_.text()), text = trim(line.substr(2));
+  const std::string_view line = history_line(lines_.text()), text = trim(line.substr(2));
   if (text.starts_with("run ")) {
     head_.run = trim(text.substr(4));
     forget_history();
@@ -125,6 +137,23 @@ bool HeadReader::is_record(std::string_view line) {
   return (before_ ? dialect_.holds_number(line) : dialect_.choose(line)) || is_missing_record(line);
 }
 
+/// Refuses a line that begins with a number and has another one, between other separators than
+/// those of the file: it is no heading, and the run would be lost.
+void HeadReader::refuse_other_separator() const {
+  Dialect other;
+  if (!other.choose(lines_.text())) return;
+  const auto fields = other.split(lines_.text());
+  const auto is_reading = [](const Field& field) {
+    return is_number(field.text) || is_missing(field.text);
+  };
+  if (is_reading(fields.front()) && std::ranges::count_if(fields, is_reading) > 1)
+    fail<InputError>(
+        "{}:{}: '{}' is separated by {}, and the records before by {}; if it is a heading, begin "
+        "it with #",
+        lines_.name(), lines_.number(), shown(lines_.text()), name_of(other.separator()),
+        name_of(dialect_.separator()));
+}
+
 /// Goes to the first record; false if there is none.
 bool HeadReader::find_record() {
   while (lines_.next()) {
@@ -141,6 +170,7 @@ bool HeadReader::find_record() {
         break;
       case LineKind::record:
         if (is_record(lines_.text())) return true;
+        if (before_) refuse_other_separator();
         preamble_.push_back({std::string(lines_.text()), lines_.number()});
         if (preamble_.size() > longest_preamble)
           fail<InputError>("{}: no numbers in the first {} lines", lines_.name(), longest_preamble);
@@ -166,25 +196,40 @@ std::vector<std::string> HeadReader::take_commented_names(std::size_t width, Pro
   return names;
 }
 
+/// The known quantities with their units in a comment, `t [ms]: time, x [cm]`.
+std::vector<Column> HeadReader::units_in(const std::string& comment) {
+  std::vector<Column> all;
+  if (comment.starts_with("##")) return all;
+  for (std::string& name : split_names(trim(std::string_view(comment).substr(1)),
+                                       comment.find('\t') == npos ? '\0' : '\t')) {
+    name.erase(name.find_last_not_of(",;:=") + 1);
+    const Column column = read_column(name);
+    if (!si_unit(column.name).empty() && !column.unit.empty()) all.push_back(column);
+  }
+  return all;
+}
+
 /// Refuses a comment that contains units but not as many names as there are columns: columns
 /// without names are read in SI units, which would contradict it.
 void HeadReader::refuse_other_names(std::size_t width) const {
   for (std::size_t i = 0; i < head_.comments.size(); ++i) {
-    const std::string& comment = head_.comments[i];
-    if (comment.starts_with("##")) continue;
-    const auto names = split_names(trim(std::string_view(comment).substr(1)),
-                                   comment.find('\t') == npos ? '\0' : '\t');
-    std::size_t units = 0, others = 0;
-    for (const std::string& name : names) {
-      const Column column = read_column(name);
-      const bool known = !si_unit(column.name).empty() && !column.unit.empty();
-      units += known;
-      others += known && column.unit != si_unit(column.name);
-    }
-    if (units > 1 || others > 0)
+    const auto units = units_in(head_.comments[i]);
+    if (units.size() > 1 || std::ranges::any_of(units, [](const Column& column) {
+          return column.unit != si_unit(column.name);
+        }))
       fail<InputError>("{}:{}: a comment with units, but not the names of {} column{}",
                        lines_.name(), numbers_[i], width, width == 1 ? "" : "s");
   }
+}
+
+/// Notes the units other than SI that comments give to columns whose names have none.
+void HeadReader::note_other_units(std::vector<Column>& columns) const {
+  for (const std::string& comment : head_.comments)
+    for (const Column& said : units_in(comment))
+      for (Column& column : columns)
+        if (column.name == said.name && column.unit.empty() &&
+            unit_kind(said.unit) == UnitKind::other)
+          column.elsewhere = said.unit;
 }
 
 void HeadReader::refuse_units(const std::vector<std::string>& fields, std::size_t line) const {
@@ -199,17 +244,19 @@ void HeadReader::refuse_units(const std::vector<std::string>& fields, std::size_
                      lines_.name(), line);
 }
 
-/// Takes the line of units below the line of names: of two lines of equal width the upper one has a
-/// known name, and the lower one, above the records, has none.
+/// Takes the line of units below the line of names: of two lines of equal width the lower one,
+/// above the records, has no known name, and the upper one has or the lower one has two known
+/// units.
 void HeadReader::take_units() {
   if (preamble_.size() < 2) return;
   const auto known = [](const std::string& name) {
     return !si_unit(read_column(name).name).empty();
   };
+  const auto is_unit = [](const std::string& text) { return unit_kind(text) != UnitKind::none; };
   const auto names = names_in(preamble_[preamble_.size() - 2].text, dialect_);
   auto units = names_in(preamble_.back().text, dialect_);
-  if (names.size() != units.size() || std::ranges::none_of(names, known) ||
-      std::ranges::any_of(units, known))
+  if (names.size() != units.size() || std::ranges::any_of(units, known) ||
+      (std::ranges::none_of(names, known) && std::ranges::count_if(units, is_unit) < 2))
     return;
   units_ = std::move(units);
   preamble_.pop_back();
@@ -295,12 +342,14 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
     if (i < units_.size()) add_unit(columns.back(), units_[i]);
     if (columns.back().name.empty()) columns.back().name = fmt::format("c{}", i + 1);
   }
+  note_other_units(columns);
   head_.layout = sides == Sides::one ? Layout::one(columns) : Layout::of(columns);
   if (head_.named && (head_.layout.side_by_side() ? width > names.size() : width != names.size()))
     fail<InputError>("{}:{}: {} field{} under a line of {} name{}{}", lines_.name(),
                      lines_.number(), width, width == 1 ? "" : "s", names.size(),
                      names.size() == 1 ? "" : "s",
-                     dialect_.separator() == ','
+                     before_ ? fmt::format("; if line {} is a heading, begin it with #", head_.line)
+                     : dialect_.separator() == ','
                          ? "; if some of its commas are decimal ones, make them points first"
                          : "");
   return std::move(head_);
@@ -346,7 +395,7 @@ Head read_head(Lines& lines, Dialect& dialect, const Head* before,
 }
 
 void refuse_error_line(const Lines& lines) {
-  const std::string_view text = trim(trim(lines.text()).substr(2));
+  const std::string_view text = trim(history_line(lines.text()).substr(2));
   if (text.ends_with(ended_with_an_error) && text.find(' ') == text.find(':') + 1)
     fail<InputError>("{}:{}: {} ended with an error: the records are not complete", lines.name(),
                      lines.number(), shown(text.substr(0, text.find(':'))));

@@ -12,7 +12,8 @@ namespace {
 void add(Layout& layout, const std::vector<Column>& line, std::size_t field, std::size_t r) {
   const auto put = [&](Layout::Run& run) {
     run.fields.push_back(field);
-    run.columns.push_back({line[field].name, line[field].unit, ""});
+    run.columns.push_back(line[field]);
+    run.columns.back().run.clear();
   };
   layout.shared[field] = r == layout.runs.size();
   if (!layout.shared[field]) put(layout.runs[r]);

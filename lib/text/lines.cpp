@@ -25,7 +25,7 @@ bool begins_with_error_value(std::string_view line) {
 
 LineKind kind_of(std::string_view line) {
   const std::size_t first = line.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return LineKind::blank;
+  if (first == std::string_view::npos || line == "\x1A") return LineKind::blank;
   if (line[first] != '#') return LineKind::record;
   line.remove_prefix(first);
   if (line.starts_with("##")) return LineKind::history;

@@ -13,8 +13,9 @@ namespace rolling {
 
 enum class LineKind { blank, comment, history, record };
 
-/// A blank line contains blanks and tabs only. A comment begins with #, a history line with ##. A
-/// line that begins with an error value of a spreadsheet (#N/A) is a record.
+/// A blank line contains blanks and tabs only, or the Ctrl-Z that ends a file of DOS. A comment
+/// begins with #, a history line with ##. A line that begins with an error value of a spreadsheet
+/// (#N/A) is a record.
 LineKind kind_of(std::string_view line);
 
 class Lines {

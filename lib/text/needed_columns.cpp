@@ -26,8 +26,9 @@ NeededColumns::NeededColumns(const std::vector<std::string>& use, bool has_use)
     const auto equals = text.find('=');
     if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
       fail("--use: '{}' is not NAME=COLUMN", shown(text));
-    const auto [quantity, unit, label] = read_column(text.substr(0, equals));
-    if (!unit.empty() || !label.empty())
+    const Column of = read_column(text.substr(0, equals));
+    const std::string &quantity = of.name, &unit = of.unit;
+    if (!unit.empty() || !of.run.empty())
       fail("--use: '{}': a unit goes behind the column: {}=COLUMN[{}]", shown(text), quantity,
            shown(unit));
     if (si_unit(quantity).empty()) fail("--use: '{}' is not about t, x, v, a or D", shown(text));
@@ -128,7 +129,8 @@ Column NeededColumns::with_unit(std::size_t column, const std::string& quantity)
   if (!named_) read.unit.clear();  // Layout has the SI unit of the tool's order
   const auto use = use_.find(quantity);
   if (use == use_.end() || use->second.unit.empty()) return read;
-  if (named_ && !read.unit.empty() && read.unit != use->second.unit)
+  // The unit that --use gives stands for one that no tool knows.
+  if (named_ && unit_kind(read.unit) != UnitKind::none && read.unit != use->second.unit)
     fail<InputError>("{}: --use {} says {}, but the column's name {}", place_, quantity,
                      shown(use->second.unit), shown(to_text(read)));
   read.unit = use->second.unit;
@@ -153,10 +155,21 @@ void NeededColumns::resolve(Needed& needed) const {
                      shown(quantity), read.unit.empty() ? "no unit" : shown(read.unit),
                      needed.unit.empty() ? "no unit" : shown(needed.unit));
   const Column meant = with_unit(*found, quantity);
+  const auto way_out = [&] {
+    return has_use_ ? fmt::format(" or say --use {}={}[UNIT]", quantity, *found + 1) : "";
+  };
+  if (meant.unit.empty()) {
+    std::string unit = unit_in_name(quantity, meant.name);
+    if (unit.empty()) unit = meant.elsewhere;
+    if (!unit.empty())
+      fail<InputError>(
+          "{}: column '{}' cannot serve as {}: is it in {}? Write the unit in brackets{}", place_,
+          shown(meant.name), quantity, unit, way_out());
+  }
   try {
     needed.to_si = conversion_to_si(quantity, meant);
   } catch (const Error& error) {
-    fail<InputError>("{}: {}", place_, error.what());
+    fail<InputError>("{}: {}{}", place_, error.what(), way_out());
   }
 }
 

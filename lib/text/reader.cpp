@@ -316,7 +316,10 @@ bool Reader::take_record() {
 inline void Reader::check_time() {
   const double t = values_[time_slot_];
   if (t <= last_time_)
-    reject(column_of(time_slot_), fmt::format("does not come after {}", last_time_));
+    reject(column_of(time_slot_),
+           fmt::format("does not come after {}{}{}", last_time_,
+                       needed_.all()[time_slot_].to_si.changes() ? " s" : "",
+                       t < last_time_ ? "; put a blank line before another run" : ""));
   // The roundings of two times, 2^-53 t each, are then more than 2^-13 of the step between them.
   coarse_time_ |= t - last_time_ < 0x1p-39 * std::abs(t);
   last_time_ = t;

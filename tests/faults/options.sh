@@ -111,9 +111,9 @@ fitpower --route velocity -K 0.5 -R 0 @|'0' must be greater than 0
 fitpower --fix a=1 --fix a=2 @|--fix: 'a=2' comes after another
 fitpower --start b=1 --start b=2 @|--start: 'b=2' comes after another
 fitpower --fix a @|'a' is not NAME=VALUE
-fitpower --fix a= @|'a=' is not NAME=VALUE
-fitpower --fix a=1e400 @|'a=1e400' is not NAME=VALUE
-fitpower --fix a=0x1 @|'a=0x1' is not NAME=VALUE
+fitpower --fix a= @|the value in 'a=' is not a number
+fitpower --fix a=1e400 @|the value in 'a=1e400' is not a number
+fitpower --fix a=0x1 @|the value in 'a=0x1' is not a number
 fitpower --fix c=1 @|'c=1' is not NAME=VALUE
 fitpower --min-speed -1 @|'-1' must be 0 or more
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --dt 0|'0' must be greater than 0

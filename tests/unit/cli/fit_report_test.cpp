@@ -1,4 +1,5 @@
 #include "cli/fit_report.h"
+#include "cli/fit_runs.h"
 
 #include "unit/catch.h"
 

@@ -166,12 +166,18 @@ TEST_CASE("history: uncertainties and the slope of shift-from-accel are read bac
   CHECK(history.shift_of->body.slope == -0.001);
 }
 
-TEST_CASE("history: filters whose matrices would not fit into memory are not known", "[cli]") {
+TEST_CASE(
+    "history: filters whose matrices would not fit into memory are not known, and that is told",
+    "[cli]") {
   Series many(100'000);
   std::iota(many.begin(), many.end(), 0);
   CHECK(!history_of({"smooth v mean width 101"}, many).filters.empty());
-  CHECK(history_of({"smooth v mean width 10001"}, many).filters.empty());
-  CHECK(history_of(Lines(200, "smooth v mean width 1"), times).filters.empty());
+  CHECK(history_of({"smooth v mean width 101"}, many).doubt.empty());
+  for (const History& h : {history_of({"smooth v mean width 10001"}, many),
+                           history_of(Lines(200, "smooth v mean width 1"), times)}) {
+    CHECK(h.filters.empty());
+    CHECK(h.doubt.find("too wide or too many") != std::string::npos);
+  }
 }
 
 namespace {

@@ -40,6 +40,26 @@ TEST_CASE("first guess: near the law of exact runs, whatever the exponent, from 
     }
 }
 
+TEST_CASE("first guess: the means of many records are those of all of them, each once", "[fit]") {
+  ObservedRun run{};
+  for (int i = 0; i < 10000; ++i) run.t.push_back(i), run.y.push_back(i * i % 97);
+  const auto few = means_of_many({run});
+  REQUIRE(few.size() == 1);
+  const auto& t = few[0].t;
+  REQUIRE(t.size() == 4096);
+  // A block from t = first to t = last has its mean half way and its number of records between its
+  // neighbours': the blocks end where the next ones begin.
+  double end = 0, sum = 0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double records = 2 * (t[i] - end) + 1;
+    CHECK((records == 2 || records == 3));
+    sum += few[0].y[i] * records;
+    end += records;
+  }
+  CHECK(end == 10000);
+  CHECK(sum == Approx(std::accumulate(run.y.begin(), run.y.end(), 0.0)).epsilon(1e-12));
+}
+
 TEST_CASE("first guess: of a long run all records count, where means of them come near", "[fit]") {
   const double v0 = 0.5, a = 1.87e-3, b = 0.215;
   constexpr std::size_t n = 10000;

@@ -88,6 +88,20 @@ TEST_CASE("windows: by seconds, at every offset of the times", "[signal]") {
     }
 }
 
+TEST_CASE("windows: of reversed times they are the reverse", "[signal]") {
+  for (const Width width : {Width{7, 0}, Width{0, 0.37}, Width{0, 2}})
+    for (const auto ends : {shrink, cut, stay})
+      for (std::size_t n = 1; n < 60; ++n) {
+        const Series t = uneven_times(n);
+        Series back;
+        for (std::size_t i = n; i-- > 0;) back.push_back(-t[i]);
+        std::vector<Window> all = windows(back, width, ends), forth(all.rbegin(), all.rend());
+        for (Window& window : forth) window = {n - 1 - window.at, n - window.end, n - window.begin};
+        INFO(n << " records, width " << width.samples << " or " << width.seconds << " s");
+        CHECK(windows(t, width, ends) == forth);
+      }
+}
+
 TEST_CASE("windows: a sample that is late by a sixteenth of its step is within", "[signal]") {
   const Series t = {0, 1, 2, 3, 4.0625, 5.125, 6.25};
   CHECK(windows(t, {0, 2}, cut) ==

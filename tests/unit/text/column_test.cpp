@@ -25,6 +25,7 @@ TEST_CASE("column: a name says its quantity and its unit", "[text]") {
       {"Time(s)", {"t", "s", ""}},
       {"TIME", {"t", "", ""}},
       {"Time\n(s)", {"t", "s", ""}},
+      {"Time\xC2\xA0(\xC2\xA0s\xC2\xA0)", {"t", "s", ""}},
       {"Position (m)", {"x", "m", ""}},
       {"Acceleration (m/s^2)", {"a", "m/s^2", ""}},
       {"Acceleration (m/s2)", {"a", "m/s^2", ""}},
@@ -77,18 +78,18 @@ TEST_CASE("column: each unit against its exact size", "[text]") {
     double value, si;
   };
   const Case cases[] = {
-      {"t", "s", 0.3, 0.3},       {"t", "sec", 0.3, 0.3},     {"t", "ms", 40, 0.04},
-      {"t", "us", 5, 5e-6},       {"t", "min", 1.5, 90},      {"t", "h", 0.5, 1800},
-      {"x", "m", 0.7, 0.7},       {"x", "mm", 1, 0.001},      {"x", "cm", 7, 0.07},
-      {"x", "dm", 3, 0.3},        {"x", "um", 3, 3e-6},       {"x", "km", 0.25, 250},
-      {"x", "in", 1, 0.0254},     {"x", "ft", 1, 0.3048},     {"v", "m/s", 0.1, 0.1},
-      {"v", "mm/s", 1, 0.001},    {"v", "cm/s", 7, 0.07},     {"v", "km/h", 72, 20},
-      {"v", "km/h", 3.6, 1},      {"v", "mph", 1, 0.44704},   {"v", "ft/s", 1, 0.3048},
-      {"v", "MPH", 1, 0.44704},   {"v", "Km/h", 72, 20},      {"v", "kph", 72, 20},
-      {"v", "m s^-1", 2, 2},      {"v", "cm*s-1", 7, 0.07},   {"a", "m s^-2", 2, 2},
-      {"a", "m/s^2", 9.81, 9.81}, {"a", "m/s/s", 9.81, 9.81}, {"a", "mm/s^2", 1, 0.001},
-      {"a", "cm/s^2", 981, 9.81}, {"D", "m", 1e-3, 1e-3},     {"D", "mm", 1.5, 0.0015},
-      {"D", "um", 1500, 0.0015},
+      {"t", "s", 0.3, 0.3},      {"t", "sec", 0.3, 0.3},     {"t", "ms", 40, 0.04},
+      {"t", "us", 5, 5e-6},      {"t", "min", 1.5, 90},      {"t", "h", 0.5, 1800},
+      {"x", "m", 0.7, 0.7},      {"x", "mm", 1, 0.001},      {"x", "cm", 7, 0.07},
+      {"x", "dm", 3, 0.3},       {"x", "um", 3, 3e-6},       {"x", "km", 0.25, 250},
+      {"x", "in", 1, 0.0254},    {"x", "ft", 1, 0.3048},     {"v", "m/s", 0.1, 0.1},
+      {"v", "mm/s", 1, 0.001},   {"v", "cm/s", 7, 0.07},     {"v", "km/h", 72, 20},
+      {"v", "km/h", 3.6, 1},     {"v", "mph", 1, 0.44704},   {"v", "ft/s", 1, 0.3048},
+      {"v", "MPH", 1, 0.44704},  {"v", "Km/h", 72, 20},      {"v", "kph", 72, 20},
+      {"v", "m s^-1", 2, 2},     {"v", "cm / s", 7, 0.07},   {"v", "cm*s-1", 7, 0.07},
+      {"a", "m s^-2", 2, 2},     {"a", "m/s^2", 9.81, 9.81}, {"a", "m/s/s", 9.81, 9.81},
+      {"a", "mm/s^2", 1, 0.001}, {"a", "cm/s^2", 981, 9.81}, {"D", "m", 1e-3, 1e-3},
+      {"D", "mm", 1.5, 0.0015},  {"D", "um", 1500, 0.0015},
   };
   for (const Case& c : cases) {
     INFO(c.quantity << " in " << c.unit);
@@ -131,6 +132,35 @@ TEST_CASE("column: a unit that the quantity cannot have is refused", "[text]") {
         "(s, sec, ms, us, min, h); convert it first");
 }
 
+TEST_CASE("column: a unit in a name without brackets", "[text]") {
+  struct Case {
+    const char *quantity, *name, *unit;
+  };
+  const Case cases[] = {
+      {"t", "t_ms", "ms"},
+      {"t", "t/ms", "ms"},
+      {"t", "Zeit_in_ms", "ms"},
+      {"t", "Zeit_/_ms_(raw)", "ms"},
+      {"t", "\xE6\x97\xB6\xE9\x97\xB4\xEF\xBC\x88\xC2\xB5s\xEF\xBC\x89", "us"},
+      {"x", "cm", "cm"},
+      {"x", "Weg_{mm}", "mm"},
+      {"v", "v_km/h", "km/h"},
+      {"v", "v/km/h", "km/h"},
+      {"v", "Tempo_kmh", "km/h"},
+      {"a", "a_cm/s\xC2\xB2", "cm/s^2"},
+      {"t", "t_in_s", ""},
+      {"t", "times", ""},
+      {"x", "x_in", ""},
+      {"x", "x_in_m", ""},
+      {"x", "x_s", ""},
+      {"w", "w_ms", ""},
+  };
+  for (const Case& c : cases) {
+    INFO(c.quantity << " of " << c.name);
+    CHECK(unit_in_name(c.quantity, c.name) == c.unit);
+  }
+}
+
 TEST_CASE("column: the SI unit of each quantity", "[text]") {
   CHECK(si_unit("t") == "s");
   CHECK(si_unit("x") == "m");
@@ -148,5 +178,6 @@ TEST_CASE("column: a names line is one name a field", "[text]") {
   CHECK(split_names("t v  a", '\0') == Names{"t", "v", "a"});
   CHECK(split_names("Time (s)  Velocity (m/s)", '\0') == Names{"Time (s)", "Velocity (m/s)"});
   CHECK(split_names("Time [s]\tv", '\0') == Names{"Time [s]", "v"});
+  CHECK(split_names("[s] [m / s] (cm)", '\0') == Names{"[s]", "[m / s]", "(cm)"});
   CHECK(split_names("", '\0').empty());
 }

@@ -58,6 +58,17 @@ TEST_CASE("head: what ends a line of names alone is no column; what ends the rec
   CHECK(head("t,v,\n0,1,\n") == " t v c3 in 1 of 3; 2: 0,1,");
 }
 
+TEST_CASE("head: units in a line of their own belong to the names above it", "[text]") {
+  CHECK(head("t x\n[s] [cm]\n0 1\n") == " t[s] x[cm] in 1 of 2; 3: 0 1");
+  CHECK(head("Zeit,Weg,Kraft\ns,cm,N\n0,1,2\n") == " Zeit[s] Weg[cm] Kraft[N] in 1 of 3; 3: 0,1,2");
+  CHECK(head("Anna,Ben\nZeit,s\n0,1\n") == "# Anna,Ben| Zeit s in 1 of 2; 3: 0,1");
+}
+
+TEST_CASE("head: units in a comment of their own are refused", "[text]") {
+  CHECK(head("# [s] [cm]\n# t x\n0 1\n") ==
+        "1: a line of units: put each behind the name of its column, as in t[ms]");
+}
+
 TEST_CASE("head: no columns are refused, with the line", "[text]") {
   CHECK(head("") == " no records");
   CHECK(head("# t v\n") == " no records");

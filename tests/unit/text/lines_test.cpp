@@ -79,6 +79,7 @@ TEST_CASE("lines: a line that is put back comes once more", "[text]") {
 TEST_CASE("lines: what a line is", "[text]") {
   CHECK(kind_of(" \t ") == LineKind::blank);
   CHECK(kind_of("") == LineKind::blank);
+  CHECK(kind_of("\x1A") == LineKind::blank);
   CHECK(kind_of(" # a") == LineKind::comment);
   CHECK(kind_of("#N/Atlantic") == LineKind::comment);
   CHECK(kind_of("\t## a") == LineKind::history);

@@ -110,6 +110,29 @@ TEST_CASE("reader: names in a first line that is not numeric", "[text]") {
   CHECK(records({"A preamble of words\nv t\n5 0\n"}) == "0 5");
   CHECK(records({"t v a\n0 5\n"}) == "FILE:2: 2 fields under a line of 3 names");
   CHECK(records({"t v\n0\n"}) == "FILE:2: 1 field under a line of 2 names");
+  CHECK(records({"t v\r\n0 5\r\n\x1A"}) == "0 5");
+  CHECK(records({"# t\tv\n0\t5\n\n# t v\n0 7\n"}) ==
+        "FILE:5: '0 7' is separated by blanks, and the records before by tabs; if it is a heading, "
+        "begin it with #");
+  CHECK(records({"t v\n0 5\n\nt;v\n0,5;7\n"}) ==
+        "FILE:5: '0,5;7' is separated by ';', and the records before by blanks; if it is a "
+        "heading, begin it with #");
+  CHECK(records({"t,v\n0,5\n\n0;\n"}) ==
+        "FILE:4: '0;' is separated by ';', and the records before by ','; if it is a heading, "
+        "begin it with #");
+  CHECK(records({"# t\tv\n0\t5\n\n0;7;note\n"}) ==
+        "FILE:4: '0;7;note' is separated by ';', and the records before by tabs; if it is a "
+        "heading, begin it with #");
+  CHECK(records({"t,v\n0,5\n\nRun 2\n\nThe end of 3 runs\n\n1. try\n"}) == "0 5");
+  const std::string hint = "; if this line is not a record, begin it with #";
+  // Quotes that are none in this file do not make a record a line of names, or a remark.
+  CHECK(records({"# t v\n\"0\" \"5\"\n1 6\n"}, use({"t=1", "v=2"})) ==
+        "FILE:2: field 1 (t): '\"0\"' is not a number" + hint);
+  CHECK(records({"t,v\n'0','5'\n1,6\n"}) == "FILE:2: field 1 (t): ''0'' is not a number" + hint);
+  CHECK(records({"t v\n0 5\n\n\"1\" \"6\"\n"}) ==
+        "FILE:4: field 1 (t): '\"1\"' is not a number" + hint);
+  CHECK(records({"t,v\n0,5\n\nSecond\n0,5\n"}) ==
+        "FILE:5: 2 fields under a line of 1 name; if line 4 is a heading, begin it with #");
   CHECK(records({"\"Velocity (m/s)\",\"Time (s)\"\n5,0\n"}) == "0 5");
 }
 
@@ -225,7 +248,7 @@ TEST_CASE("reader: --use says which column serves, by name or number", "[text]")
   CHECK(records({"# t v\n0 1\n"}, use({"t=v", "v=t"})) == "1 0");
   CHECK(records({"# t w[rpm]\n0 1\n"}, use({"v=w"})) ==
         "FILE: column 'w[rpm]' cannot serve as v: its unit 'rpm' is not one of those known (m/s, "
-        "mm/s, cm/s, km/h, mph, ft/s); convert it first");
+        "mm/s, cm/s, km/h, mph, ft/s); convert it first or say --use v=2[UNIT]");
   CHECK(records({"0 1 72\n"}, use({"v=3[km/h]"})) == "0 20");
   CHECK(records({"# t w\n0 72\n"}, use({"v=w[MPH]"})) == "0 32.18688");
   CHECK(records({"# t w[m/s]\n0 72\n"}, use({"v=w[km/h]"})) ==
@@ -250,6 +273,17 @@ TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]
   CHECK(records({"t,v,t,v\n0,1,0,2\n", "t,v,t,v\n0,3,0,4\n"}, run(3)) == "0 3");
 }
 
+TEST_CASE("reader: a unit that only a comment gives is not passed over", "[text]") {
+  const std::string refused =
+      "FILE: column 'v' cannot serve as v: is it in km/h? Write the unit in brackets or say "
+      "--use v=2[UNIT]";
+  CHECK(records({"# v [km/h]: by a GPS\n# t v\n0 36\n"}) == refused);
+  CHECK(records({"t [s], v [km/h] and a remark\n\nt,v\n0,36\n"}) == refused);
+  CHECK(records({"# v [km/h]: by a GPS\n# t v\n0 36\n"}, use({"v=v[km/h]"})) == "0 10");
+  CHECK(records({"# v [km/h]: by a GPS\n# t v[m/s]\n0 36\n"}) == "0 36");
+  CHECK(records({"# v [m/s]: by a GPS\n# x [cm]\n# t v\n0 36\n"}) == "0 36");
+}
+
 TEST_CASE("reader: units are converted, and go out converted", "[text]") {
   CHECK(records({"# t[ms] v[km/h]\n0 72\n40 36\n"}) == "0 20 | 0.04 10");
   CHECK(copies("# t[ms] v[km/h] x[mm]\n40 36 007\n") ==
@@ -257,7 +291,7 @@ TEST_CASE("reader: units are converted, and go out converted", "[text]") {
   CHECK(
       records({"# t[parsec] v\n0 1\n"}) ==
       "FILE: column 't[parsec]' cannot serve as t: its unit 'parsec' is not one of those known (s, "
-      "sec, ms, us, min, h); convert it first");
+      "sec, ms, us, min, h); convert it first or say --use t=1[UNIT]");
   CHECK(records({"# t[h] v\n1e308 1\n"}) ==
         "FILE:2: field 1 (t): '1e308' is beyond the range of a double in SI units");
 }
@@ -292,7 +326,10 @@ TEST_CASE("reader: what is neither number nor missing is refused, and says where
 
 TEST_CASE("reader: time increases within a run, and starts anew in the next", "[text]") {
   CHECK(records({"0 1\n0 2\n"}) == "FILE:2: field 1 (t): '0' does not come after 0");
-  CHECK(records({"1 1\n0.5 2\n"}) == "FILE:2: field 1 (t): '0.5' does not come after 1");
+  CHECK(records({"1 1\n0.5 2\n"}) ==
+        "FILE:2: field 1 (t): '0.5' does not come after 1; put a blank line before another run");
+  CHECK(records({"# t[ms] v\n500 1\n500 2\n"}) ==
+        "FILE:3: field 1 (t): '500' does not come after 0.5 s");
   CHECK(records({"5 1\n\n4 2\n"}) == "5 1 || 4 2");
   CHECK(records({"-1e308 1\n1e308 2\n"}) == "-1e+308 1 | 1e+308 2");
   CHECK(records({"0 1\n0 2\n"}, {}, {"v"}) == "1 | 2");  // who does not need t does not judge it
@@ -383,7 +420,7 @@ TEST_CASE("reader: names and units hold until others come", "[text]") {
         "FILE:4: there is no column 'v' among t[s], x[m]; say --use v=COLUMN");
   CHECK(records({first + "# t[s]\tv[furlong/s]\n1\t2\n"}) ==
         "FILE:4: column 'v[furlong/s]' cannot serve as v: its unit 'furlong/s' is not one of those "
-        "known (m/s, mm/s, cm/s, km/h, mph, ft/s); convert it first");
+        "known (m/s, mm/s, cm/s, km/h, mph, ft/s); convert it first or say --use v=2[UNIT]");
   CHECK(records({"# t w[rpm]\n0 1\n\n# t w[rad/s]\n0 2\n"}, {}, {"t", "w"}) ==
         "FILE:4: column w is in rad/s, and in rpm in the runs before");
   CHECK(records({"# t w\n0 1\n\n# t u\n0 2\n"}, {}, {"t", "2"}) ==
@@ -437,8 +474,8 @@ TEST_CASE("reader: a run's name", "[text]") {
 TEST_CASE("reader: a tool that ended with an error is refused, wherever it says so", "[text]") {
   for (const std::string text :
        {"## smooth: ended with an error\n", "0 1\n## smooth: ended with an error\n",
-        "0 1\n\n## smooth: ended with an error\n",
-        "# t v\n## smooth: ended with an error\n0 1\n"}) {
+        "0 1\n\n## smooth: ended with an error\n", "# t v\n## smooth: ended with an error\n0 1\n",
+        "t,v\n0,1\n## smooth: ended with an error,\n"}) {
     INFO(text);
     const std::string message = records({text});
     CHECK(message.substr(message.find(": ")) ==

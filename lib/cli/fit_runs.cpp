@@ -1,0 +1,196 @@
+#include "cli/fit_runs.h"
+
+#include <algorithm>
+#include <array>
+#include <compare>
+#include <set>
+
+#include "cli/history.h"
+#include "signal/repeats.h"
+
+namespace rolling {
+namespace {
+
+/// The slots of the reader and the columns of a run that they fill.
+class Slots {
+ public:
+  Slots(Reader& in, Route route, Columns columns) : in_(in) {
+    const bool all = columns == Columns::of_all_routes;
+    for (const std::string& name : columns_of(route))
+      if (name != "t") add(in.need(name), name);
+    if (is_trajectory(route) || (all && in.find("t"))) add_time();
+    // The columns of the other routes; and x, with which the speeds are compared if a `##` line
+    // says that they are differences.
+    for (const char* name : {"x", "v", "D"})
+      if ((all || (*name == 'x' && route == Route::velocity && !in.history().empty())) &&
+          in.find(name) && !has(column_of(name)))
+        add(in.want(name), name);
+  }
+
+  /// Reads the records of the present run. Its filters act on the times, if the file has them.
+  void read(FitRun& run, bool first) {
+    if (!has(&FitRun::t) && !in_.history().empty() && in_.find("t")) add_time();
+    const std::size_t room = first ? in_.records_ahead() : 0;  // most files are one run
+    for (const auto& [slot, column] : all_) (run.*column).reserve(room);
+    while (in_.next())
+      for (const auto& [slot, column] : all_) (run.*column).push_back(in_[slot]);
+  }
+
+ private:
+  struct Slot {
+    std::size_t number;
+    std::vector<double> FitRun::*column;
+  };
+
+  void add(std::size_t number, std::string_view name) { all_.push_back({number, column_of(name)}); }
+  void add_time() { add(in_.need_time(), "t"); }
+  bool has(std::vector<double> FitRun::*column) const {
+    return std::ranges::find(all_, column, &Slot::column) != all_.end();
+  }
+
+  Reader& in_;
+  std::vector<Slot> all_;
+};
+
+/// Warns of readings that a logger held: the fit counts each repetition as a new reading. Speeds
+/// that were made of positions are no readings.
+void warn_of_held(Tool& tool, Route route, const FitRun& run,
+                  const std::vector<std::string>& history) {
+  const bool position = route == Route::position;
+  if (!position && speeds_of_positions(history)) return;
+  const double held = records_held(position ? run.x : run.v);
+  if (held > 1)
+    tool.warn(fmt::format(
+        "run {}: {} repeat: each stands in {:.2g} records on average; keep only the record "
+        "in which a new one comes",
+        run.name, position ? "positions" : "speeds", held));
+}
+
+bool change_numbers(const std::vector<LinearFilter>& filters) {
+  return std::ranges::any_of(filters, [](const LinearFilter& filter) { return filter.reach > 0; });
+}
+
+/// Gives a run the filters that its `##` lines name, as far as they are trusted.
+void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
+  History history = history_of(in.history(), run.t);
+  if (in.renames() && !history.filters.empty())
+    history = {{}, {}, "--use takes other columns than its `##` lines speak of"};
+  if (run.t.empty() && change_numbers(history_of(in.history(), std::array{0.0}).filters))
+    history.doubt = "it has no times, without which its `##` lines tell nothing";
+  run.shift_of = history.shift_of;
+  history = known_windows(compared(std::move(history), run), run, columns_of(route).back());
+  run.filters = std::move(history.filters);
+  run.shift_of = history.shift_of;
+  if (!history.doubt.empty())
+    tool.warn(fmt::format("run {}: {}: the fit goes on as if no filter were known", run.name,
+                          history.doubt));
+  if (history.left_out > 0)
+    tool.warn(
+        fmt::format("run {}: it was cut after the filters that its `##` lines name: {} more "
+                    "records at the cut are left out, since their windows are not known; cut first",
+                    run.name, history.left_out));
+}
+
+}  // namespace
+
+std::vector<std::string> columns_of(Route route) {
+  switch (route) {
+    case Route::velocity:
+      return {"t", "v"};
+    case Route::position:
+      return {"t", "x"};
+    default:
+      return {"v", "D"};
+  }
+}
+
+std::vector<double> FitRun::*column_of(std::string_view name) {
+  return name == "t"   ? &FitRun::t
+         : name == "x" ? &FitRun::x
+         : name == "v" ? &FitRun::v
+                       : &FitRun::D;
+}
+
+namespace {
+
+/// Warns of a run without history beside one with filters: a run break takes the `##` lines away.
+void warn_of_lost_history(Tool& tool, const std::vector<FitRun>& runs,
+                          const std::vector<bool>& has_history) {
+  const auto first =
+      std::ranges::find_if(runs, [](const FitRun& run) { return change_numbers(run.filters); });
+  const auto without = std::ranges::find(has_history, false);
+  if (first != runs.end() && without != has_history.end())
+    tool.warn(fmt::format(
+        "run {}: no `##` lines tell how it was made, as those of run {} do: it is fitted as if no "
+        "filter were known",
+        runs[static_cast<std::size_t>(without - has_history.begin())].name, first->name));
+}
+
+}  // namespace
+
+std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, Columns columns) {
+  Slots slots(in, route, columns);
+  std::vector<FitRun> runs;
+  std::vector<bool> has_history;
+  while (in.next_run()) {
+    FitRun& run = runs.emplace_back();
+    has_history.push_back(!in.history().empty());
+    run.name = in.run_name();
+    slots.read(run, runs.size() == 1);
+    warn_of_held(tool, route, run, in.history());
+    set_filters(tool, in, route, run);
+  }
+  warn_of_lost_history(tool, runs, has_history);
+  return runs;
+}
+
+void set_bodies(std::vector<FitRun>& runs, const Body& body,
+                const std::vector<Estimate>& shape_factors, const BodyUncertainty& uncertainty) {
+  if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
+    fail("--shape-factor gives {} values, but runs are {}", shape_factors.size(), runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Estimate K = shape_factors.empty() ? Estimate{not_given}
+                                             : shape_factors[shape_factors.size() > 1 ? i : 0];
+    runs[i].body = body;
+    runs[i].body.K = K.value;
+    runs[i].given = uncertainty;
+    runs[i].given.K = K.sigma;
+  }
+}
+
+void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
+  const auto y = column_of(columns_of(route).back());
+  const auto less = [&](std::size_t i, std::size_t j) {  // of all doubles, NaN too
+    return std::ranges::lexicographical_compare(
+        runs[i].*y, runs[j].*y, [](double a, double b) { return std::strong_order(a, b) < 0; });
+  };
+  std::set<std::size_t, decltype(less)> different(less);
+  std::string copy;
+  std::size_t copies = 0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if ((runs[i].*y).size() < 10) continue;
+    const auto [same, inserted] = different.insert(i);
+    if (!inserted && ++copies == 1)
+      copy =
+          fmt::format("run {}: its readings are those of run {}", runs[i].name, runs[*same].name);
+  }
+  if (copies > 0)
+    tool.warn(
+        fmt::format("{}{}: leave copies out, for each counts as one more roll", copy,
+                    copies > 1 ? fmt::format(", the first of {} copies", copies) : std::string()));
+}
+
+void warn_of_other_body(Tool& tool, const std::vector<FitRun>& runs) {
+  for (const FitRun& run : runs) {
+    Body given = run.body;
+    if (!tool.given("gravity")) given.g = not_given;
+    if (!tool.given("slope")) given.slope = not_given;
+    const std::string others = other_body(run.shift_of, given, run.given);
+    if (others.empty()) continue;
+    tool.warn(fmt::format("run {}: D was computed with {}: the fit uses the numbers of D", run.name,
+                          others));
+    return;
+  }
+}
+
+}  // namespace rolling

@@ -1,0 +1,38 @@
+// The runs of a fit, read from columns and their `##` lines.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/tool.h"
+#include "fit/input.h"
+
+namespace rolling {
+
+/// The columns that a route fits, by their short names.
+std::vector<std::string> columns_of(Route);
+
+/// The column of a run with this short name: t, x, v or D.
+std::vector<double> FitRun::*column_of(std::string_view name);
+
+/// The columns that are read: those that the route fits, or those of the other routes too.
+enum class Columns { of_route, of_all_routes };
+
+/// Reads all runs with their names and their filters, but without the numbers of the body. Warns
+/// of readings that a logger held, of `##` lines that are not trusted, and of records that are left
+/// out because their windows are not known.
+std::vector<FitRun> read_runs(Tool&, Reader&, Route, Columns);
+
+/// Gives the runs their bodies. There is one shape factor, or one for each run, or none.
+void set_bodies(std::vector<FitRun>&, const Body&, const std::vector<Estimate>& shape_factors,
+                const BodyUncertainty&);
+
+/// Warns of a record that was given twice: in a joint fit it makes the errors too small. Fewer than
+/// ten readings may be equal by chance.
+void warn_of_copies(Tool&, Route, const std::vector<FitRun>&);
+
+/// Warns of numbers of the body that the fit does not use, because D was computed with others.
+void warn_of_other_body(Tool&, const std::vector<FitRun>&);
+
+}  // namespace rolling
