@@ -72,10 +72,11 @@ std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own) {
                       covariance(fit.b.gradient, fit.b.gradient) + rounding_of(fit.b.gradient)};
     const Symmetric W = C.inverse();
     if (std::isfinite(W.aa) && std::isfinite(W.ab) && std::isfinite(W.bb))
-      laws.push_back({r,
-                      {std::log(fit.a.value), fit.b.value},
-                      C,
-                      static_cast<double>(fit.minimum.f.size() - fit.minimum.theta.size())});
+      laws.push_back(
+          {r,
+           {std::log(fit.a.value), fit.b.value},
+           C,
+           static_cast<double>(fit.minimum.f.size()) - static_cast<double>(fit.degrees_taken())});
   }
   return laws;
 }
@@ -140,7 +141,7 @@ Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitte
     if (!one || one->raw_noise.has_value() != joint.raw_noise.has_value()) return joint;
     append(fit.minimum.f, one->minimum.f);
     rss += one->minimum.rss;
-    p += one->minimum.theta.size();
+    p += one->degrees_taken();
     if (!one->raw_noise) continue;
     append(fit.raw_noise->innovations, one->raw_noise->innovations);
     append(fit.raw_noise->innovation_runs, one->raw_noise->innovation_runs);
@@ -150,8 +151,7 @@ Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitte
   // The runs' own fits have more parameters in all than the joint one, p instead of its own number,
   // and leave smaller residuals: rss/(n - p) is the variance. Whoever takes the joint fit divides
   // by its own degrees of freedom, and HC3 takes the residuals themselves.
-  const double more =
-      static_cast<double>(n - joint.minimum.theta.size()) / static_cast<double>(n - p);
+  const double more = static_cast<double>(n - joint.degrees_taken()) / static_cast<double>(n - p);
   for (double& x : fit.minimum.f) x *= std::sqrt(more);
   fit.minimum.rss = rss * more;
   return fit;

@@ -152,7 +152,8 @@ Uncertainty uncertainty_of(const Fitted& fit) {
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
                     q = fit.system.columns();
   const auto& R = fit.minimum.R;
-  if (n <= p) return {Errors::none, nan, nan, {R, std::vector<double>(R.size(), nan), q}};
+  if (n <= fit.degrees_taken())
+    return {Errors::none, nan, nan, {R, std::vector<double>(R.size(), nan), q}};
   std::vector<double> M;
   std::optional<RawNoise> raw;
   if (fit.filters_known()) M = meat_of(fit), raw = raw_noise_of(fit, M);

@@ -36,7 +36,7 @@ FitResult result_of(const Fitted& found, const NoiseErrors& noise, std::vector<E
                    .sigma_v0 = {},
                    .errors = noise.kind};
   const std::size_t n = found.minimum.f.size(), p = found.minimum.theta.size();
-  if (n > p) result.rms = std::sqrt(found.rss / static_cast<double>(n - p));
+  if (n > found.degrees_taken()) result.rms = std::sqrt(found.rss / static_cast<double>(n - p));
   double together = 0;
   for (const ErrorShare& share : shares) together += share.together;
   if (together != 0) result.corr = together / (result.sigma_a * result.sigma_b);

@@ -4,9 +4,10 @@
 
 namespace rolling {
 
-void require_records(std::size_t n, std::size_t p) {
+void require_records(std::size_t n, std::size_t p, std::size_t means) {
   if (n == 0) fail("no record can be fitted");
   if (p == 0) fail("a and b are both held: nothing is left to fit");
+  p += means;
   if (n < p) fail("{} record{} cannot determine {} parameters", n, n == 1 ? "" : "s", p);
 }
 

@@ -19,7 +19,7 @@ struct Sources {
   std::vector<double> e;          ///< estimated noise of each source
   std::vector<std::size_t> runs;  ///< number of sources of each run
   std::vector<double> B;          ///< one row for each source, of as many numbers as R has columns
-  std::size_t means_taken = 0;    ///< see RollModel::means_taken()
+  std::size_t means_taken = 0;    ///< see means_taken() of model_roll.h
 };
 
 /// The noise of the raw column, as estimated from the residuals of a fit with known filters.
@@ -48,7 +48,11 @@ struct Fitted {
   std::shared_ptr<const RollModel> rolls = {};  ///< the model, if it is a roll
   std::vector<double> v = {};  ///< speeds of the fitted records [m/s], if the model is a law D(v)
 
-  std::size_t means_taken() const { return rolls ? rolls->means_taken() : 0; }
+  std::size_t means_taken() const {
+    return rolls ? rolling::means_taken(rolls->runs(), rolls->parameters()) : 0;
+  }
+  /// The number of degrees of freedom that the fit and the filters take from the records.
+  std::size_t degrees_taken() const { return minimum.theta.size() + means_taken(); }
   /// True if the covariance of the noise follows from filters that the data name.
   bool filters_known() const { return raw_noise || (noise->known() && !noise->inferred()); }
 };
@@ -56,7 +60,8 @@ struct Fitted {
 /// Minimises by the loss that the options name.
 Minimum solve(const System&, const std::vector<double>& start, const FitOptions&);
 
-/// Throws Error if n records are too few for p parameters, or if p = 0.
-void require_records(std::size_t n, std::size_t p);
+/// Throws Error if n records are too few for p parameters and as many means as the filters have
+/// removed, or if p = 0.
+void require_records(std::size_t n, std::size_t p, std::size_t means = 0);
 
 }  // namespace rolling

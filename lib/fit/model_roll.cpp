@@ -129,6 +129,11 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
   return runs;
 }
 
+std::size_t means_taken(const std::vector<ObservedRun>& runs, const Parameters& parameters) {
+  if (parameters.has_x0()) return 0;
+  return static_cast<std::size_t>(std::ranges::count_if(runs, &ObservedRun::raw_is_position));
+}
+
 std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>& runs, double share,
                                       bool inferred) {
   if (!runs.front().H) return std::make_shared<const Noise>();

@@ -21,7 +21,6 @@
 #include "noise/noise.h"
 #include "noise/response.h"
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -64,6 +63,10 @@ Rows rows_of_speeds(Route, const FitRun&, Rows);
 std::vector<ObservedRun> observe(Route, const std::vector<FitRun>&, const std::vector<Rows>&,
                                  const std::vector<Response>&, const FitOptions&);
 
+/// The number of runs of positions whose mean the filters remove; each such run loses one degree of
+/// freedom. Where x0 is a parameter, the filters keep the mean.
+std::size_t means_taken(const std::vector<ObservedRun>&, const Parameters&);
+
 /// The noise of these runs; unknown if they have no H. For the other arguments see Noise.
 std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>&, double share, bool inferred);
 
@@ -89,13 +92,6 @@ class RollModel {
   Trajectory trajectory(const std::vector<double>& theta, std::size_t run) const;
   /// Refers to this object.
   RawModel raw(const std::vector<double>& theta, std::size_t run) const;
-  /// The number of runs of positions whose mean the filters remove, so that x0 is not a parameter;
-  /// each such run loses one degree of freedom.
-  std::size_t means_taken() const {
-    return parameters_.has_x0() ? 0
-                                : static_cast<std::size_t>(std::ranges::count_if(
-                                      runs_, [](const auto& run) { return run.raw_is_position; }));
-  }
   /// The slope of the mat along the direction of motion of a run.
   double slope(const std::vector<double>& theta, std::size_t run) const;
 

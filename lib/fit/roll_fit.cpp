@@ -172,7 +172,8 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
     if (!guess) {
       std::size_t n = 0;
       for (const ObservedRun& run : runs) n += run.y.size();
-      require_records(n, Parameters(options, route == Route::position, runs.size(), 1, 1).count());
+      const Parameters q(options, route == Route::position, runs.size(), 1, 1);
+      require_records(n, q.count(), means_taken(runs, q));
       guess = responses.empty() ? first_guess(runs, options)
                                 : guess_without_filters(route, runs, all, rows, options);
     }
