@@ -91,6 +91,19 @@ void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
                     run.name, history.left_out));
 }
 
+/// Warns of a run without history beside one with filters: a run break takes the `##` lines away.
+void warn_of_lost_history(Tool& tool, const std::vector<FitRun>& runs,
+                          const std::vector<bool>& has_history) {
+  const auto first =
+      std::ranges::find_if(runs, [](const FitRun& run) { return change_numbers(run.filters); });
+  const auto without = std::ranges::find(has_history, false);
+  if (first != runs.end() && without != has_history.end())
+    tool.warn(fmt::format(
+        "run {}: no `##` lines tell how it was made, as those of run {} do: it is fitted as if no "
+        "filter were known",
+        runs[static_cast<std::size_t>(without - has_history.begin())].name, first->name));
+}
+
 }  // namespace
 
 std::vector<std::string> columns_of(Route route) {
@@ -110,23 +123,6 @@ std::vector<double> FitRun::*column_of(std::string_view name) {
          : name == "v" ? &FitRun::v
                        : &FitRun::D;
 }
-
-namespace {
-
-/// Warns of a run without history beside one with filters: a run break takes the `##` lines away.
-void warn_of_lost_history(Tool& tool, const std::vector<FitRun>& runs,
-                          const std::vector<bool>& has_history) {
-  const auto first =
-      std::ranges::find_if(runs, [](const FitRun& run) { return change_numbers(run.filters); });
-  const auto without = std::ranges::find(has_history, false);
-  if (first != runs.end() && without != has_history.end())
-    tool.warn(fmt::format(
-        "run {}: no `##` lines tell how it was made, as those of run {} do: it is fitted as if no "
-        "filter were known",
-        runs[static_cast<std::size_t>(without - has_history.begin())].name, first->name));
-}
-
-}  // namespace
 
 std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, Columns columns) {
   Slots slots(in, route, columns);

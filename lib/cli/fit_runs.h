@@ -20,8 +20,8 @@ std::vector<double> FitRun::*column_of(std::string_view name);
 enum class Columns { of_route, of_all_routes };
 
 /// Reads all runs with their names and their filters, but without the numbers of the body. Warns
-/// of readings that a logger held, of `##` lines that are not trusted, and of records that are left
-/// out because their windows are not known.
+/// of readings that a logger held, of `##` lines that are not trusted or that one run lacks, and of
+/// records that are left out because their windows are not known.
 std::vector<FitRun> read_runs(Tool&, Reader&, Route, Columns);
 
 /// Gives the runs their bodies. There is one shape factor, or one for each run, or none.

@@ -60,9 +60,9 @@ void require_determined(const FitResult& result, const FitOptions& options) {
     for (double x : {result.sigma_a, result.sigma_b, result.corr, result.rms})
       if (!std::isfinite(x)) fail("the fit gives no finite errors of a and b");
   // Large errors of a nonlinear fit are not reliable themselves; hence these limits on them.
-  const auto sign = [](double v0) { return v0 < 0; };
-  const bool one_way =
-      std::ranges::adjacent_find(result.v0, std::ranges::not_equal_to(), sign) == result.v0.end();
+  const auto backwards = [](double v0) { return v0 < 0; };
+  const bool one_way = std::ranges::adjacent_find(result.v0, std::ranges::not_equal_to(),
+                                                  backwards) == result.v0.end();
   if (options.fit_slope && one_way &&
       (!(result.sigma_a < result.a / 10) || !(result.sigma_b < 0.1)))
     fail(

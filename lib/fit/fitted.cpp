@@ -7,8 +7,9 @@ namespace rolling {
 void require_records(std::size_t n, std::size_t p, std::size_t means) {
   if (n == 0) fail("no record can be fitted");
   if (p == 0) fail("a and b are both held: nothing is left to fit");
-  p += means;
-  if (n < p) fail("{} record{} cannot determine {} parameters", n, n == 1 ? "" : "s", p);
+  if (n < p + means)
+    fail("{} record{} cannot determine {} parameters{}", n, n == 1 ? "" : "s", p,
+         means > 0 ? ", for their derivatives have lost the mean position" : "");
 }
 
 Minimum solve(const System& system, const std::vector<double>& start, const FitOptions& options) {
