@@ -15,7 +15,7 @@ namespace {
 
 constexpr double undetermined = 1e-10;  // sine between a column of J and those before it
 constexpr double round_off = 1e-15;     // relative size of a step that is rounding alone
-constexpr double unseen = 1e-10;        // relative change of the residuals that is negligible
+constexpr double unseen = 1e-11;        // relative rounding error of a residual
 
 /// The residuals at one theta and the Gauss-Newton step from there. The step comes from the QR
 /// decomposition of J, because the condition number of the normal equations is the square of that
@@ -30,6 +30,13 @@ struct Point {
   double size = 0;                    // largest relative change of a parameter in that step
   double reduction = 0;               // of the sum of squares, predicted by the linear model
   double angle = 1;                   // smallest sine between a column of J and those before it
+
+  /// True if the next step is below rounding, or changes the residuals by less than rounding errors
+  /// of this relative size in each of them may.
+  bool negligible() const {
+    const double n = static_cast<double>(f.size());
+    return size < round_off || reduction < unseen * unseen * n * rss;
+  }
 };
 
 /// Evaluates the system at theta; false if theta is not allowed or the residuals are not finite.
@@ -66,7 +73,7 @@ std::vector<double> moved(std::vector<double> theta, const std::vector<double>& 
 /// Levenberg-Marquardt steps, scaled after More (1978, Lecture Notes in Mathematics 630, 105) and
 /// damped after Nielsen (1999, IMM-REP-1999-05), until they make no further progress. The caller
 /// tests whether the result is a minimum.
-std::vector<double> descend(const System& system, Point at) {
+Point descend(const System& system, Point at) {
   Point next(system);
   double mu = 1e-3, growth = 2;
   std::vector<double> D = at.lengths;
@@ -90,25 +97,26 @@ std::vector<double> descend(const System& system, Point at) {
     refused = 0;
     ++accepted;
     std::swap(at, next);
-    bool still = true;
-    for (std::size_t j = 0; j < D.size(); ++j) {
-      D[j] = std::max(D[j], at.lengths[j]);
-      still = still && std::abs(step[j]) < 1e-9 * (std::abs(at.theta[j]) + 1e-9);
-    }
-    if (still) break;
+    for (std::size_t j = 0; j < D.size(); ++j) D[j] = std::max(D[j], at.lengths[j]);
+    if (at.negligible()) break;
   }
-  return at.theta;
+  return at;
+}
+
+/// Evaluates the system at a start; throws Error where it has no finite values.
+Point at_start(const System& system, std::vector<double> theta) {
+  Point start(system);
+  if (!evaluate_at(system, start, std::move(theta)))
+    fail("the fit cannot start: the law has no finite values at the starting point");
+  return start;
 }
 
 /// Gauss-Newton steps down to the limit of rounding, as long as each step reduces the sum of
 /// squares by at least the fraction `share` of the reduction that the linear model predicts.
-Point polish(const System& system, std::vector<double> theta, double share) {
-  Point best(system), next(system);
-  if (!evaluate_at(system, best, std::move(theta)))
-    fail("the fit cannot start: the law has no finite values at the starting point");
+Point polish(const System& system, Point best, double share) {
+  Point next(system);
   for (int i = 0; i < 100 && best.angle > undetermined; ++i) {
-    // A step this small is taken without evaluating the residuals again.
-    if (best.size < round_off || best.reduction < unseen * unseen * best.rss) {
+    if (best.negligible()) {  // the step is taken without evaluating the residuals again
       best.theta = moved(best.theta, best.step);
       break;
     }
@@ -126,7 +134,7 @@ Point polish(const System& system, std::vector<double> theta, double share) {
 Minimum minimise(const System& system, const std::vector<double>& start) {
   // If the residuals are linear or nearly linear between the start and the minimum, Gauss-Newton
   // steps are sufficient.
-  Point best = polish(system, start, 0.9);
+  Point best = polish(system, at_start(system, start), 0.9);
   // Convergence after Bates and Watts (1981, Technometrics 23, 179): the component of the residuals
   // in the tangent plane is small relative to the orthogonal component. An exact fit has no
   // orthogonal component; there the step itself must vanish.
@@ -195,12 +203,7 @@ double median_scale(std::vector<double> f, std::size_t p) {
 }  // namespace
 
 Minimum minimise_robust(const System& system, const std::vector<double>& start) {
-  Point at(system);
-  const auto evaluate = [&](const std::vector<double>& theta) {
-    if (!evaluate_at(system, at, theta))
-      fail("the fit cannot start: the law has no finite values at the starting point");
-  };
-  evaluate(start);
+  Point at = at_start(system, start);
   const std::size_t p = system.parameters();
   double scale = 0;
   for (const auto influence : {huber, bisquare}) {
@@ -227,7 +230,7 @@ Minimum minimise_robust(const System& system, const std::vector<double>& start) 
       for (std::size_t j = 0; j < p; ++j)
         change =
             std::max(change, std::abs(next[j] - at.theta[j]) / std::max(1.0, std::abs(next[j])));
-      evaluate(next);
+      at = at_start(system, next);
       if (influence == huber && change < 1e-3) break;  // precise enough for a start
     }
   }
