@@ -66,12 +66,18 @@ std::vector<double> outer_products(std::span<const double> u, std::size_t q,
   return all;
 }
 
+/// For known filters, e of the sources.
+Sources estimated(const Fitted& fit) {
+  return {fit.noise->explain(fit.minimum.f), fit.noise->sources(), {}, fit.means_taken()};
+}
+
 Sources sources_of(const Fitted& fit) {
   if (fit.raw_noise) return fit.raw_noise->sources;
   std::vector<double> Q = orthonormal(fit.system, fit.minimum);
   if (!fit.filters_known()) return {fit.minimum.f, fit.system.runs, std::move(Q)};
-  return {fit.noise->explain(fit.minimum.f), fit.noise->sources(),
-          fit.noise->through(std::move(Q), fit.system.columns()), fit.means_taken()};
+  Sources all = estimated(fit);
+  all.B = fit.noise->through(std::move(Q), fit.system.columns());
+  return all;
 }
 
 /// The meat B^T B of each run, for sources of variance one and known filters.
@@ -81,17 +87,15 @@ std::vector<double> meat_of(const Fitted& fit) {
   return outer_products(fit.raw_noise->sources.B, q, fit.raw_noise->sources.runs);
 }
 
-/// The raw noise without its sources. The expectation of f f^T is the variance times A A^T, A = W
-/// E, before the fit, and the fit removes the component along Q. Hence the expectation of |f|^2 is
-/// the variance times tr((I - Q Q^T) A A^T) = tr A A^T - |B|^2.
-RawNoise raw_noise_of(const Fitted& fit, const std::vector<double>& meat) {
-  if (fit.raw_noise) return *fit.raw_noise;
+/// The variance of the sources of known filters. The expectation of f f^T is the variance times A
+/// A^T, A = W E, before the fit, and the fit removes the component along Q. Hence the expectation
+/// of |f|^2 is the variance times tr((I - Q Q^T) A A^T) = tr A A^T - |B|^2.
+double variance_of(const Fitted& fit, const std::vector<double>& meat) {
+  if (fit.raw_noise) return fit.raw_noise->variance;
   const std::size_t q = fit.system.columns();
   double taken = 0;
   for (std::size_t i = 0; i < meat.size(); ++i) taken += i % (q * q) % (q + 1) == 0 ? meat[i] : 0;
-  RawNoise raw{fit.minimum.rss / (fit.noise->trace() - taken), {}, {}};
-  raw.innovations = fit.noise->innovations(fit.minimum.f, raw.innovation_runs);
-  return raw;
+  return fit.minimum.rss / (fit.noise->trace() - taken);
 }
 
 /// The meat of the classical covariance, s^2 I.
@@ -104,9 +108,8 @@ std::vector<double> classical(const Fitted& fit, double variance) {
 }
 
 /// The meat that allows for noise that is uneven (HC3 for single records) or correlated.
-std::vector<double> consistent_meat(const Fitted& fit, Errors kind, double variance) {
+std::vector<double> consistent_meat(const Fitted& fit, Sources from, Errors kind, double variance) {
   const std::size_t q = fit.system.columns();
-  Sources from = sources_of(fit);
   // HC3: the fit multiplies the noise of a residual by 1 - h, with h its leverage (MacKinnon and
   // White 1985, J. Econometrics 29, 305).
   const bool by_leverage = kind == Errors::uneven && !fit.filters_known();
@@ -128,22 +131,40 @@ std::vector<double> consistent_meat(const Fitted& fit, Errors kind, double varia
   return M;
 }
 
-/// The estimator that suits the noise; `white` if the noise may be white and even.
-Errors errors_of(std::span<const double> noise, std::span<const std::size_t> runs, double whiteness,
-                 Errors white) {
-  if (whiteness <= not_white) return Errors::autocorrelation;
-  if (breusch_pagan(noise, runs) <= 0.01) return Errors::uneven;
+/// Which estimator suits the noise, and the p-value of its whiteness.
+struct Tested {
+  double whiteness;
+  Errors kind;
+};
+
+Tested tested(std::span<const double> noise, std::span<const std::size_t> runs, const Fitted& fit) {
+  const Errors white = fit.filters_known()     ? Errors::filters
+                       : fit.noise->inferred() ? Errors::differences
+                                               : Errors::classical;
+  const double whiteness = ljung_box(noise, fit.minimum.theta.size(), runs);
+  if (fit.minimum.f.size() < 30) return {whiteness, white};
+  if (whiteness <= not_white) return {whiteness, Errors::autocorrelation};
+  if (breusch_pagan(noise, runs) <= 0.01) return {whiteness, Errors::uneven};
   // With 60 records the test often misses an autocorrelation of 0.5, although the classical errors
   // are then only half as large as they should be. This limit gives Newey-West errors to one in ten
   // records with white noise, at a cost of 1 to 2 % in their size.
-  return whiteness <= 0.1 && lagged(noise, runs, 1) > 0 ? Errors::autocorrelation : white;
+  const bool near = whiteness <= 0.1 && lagged(noise, runs, 1) > 0;
+  return {whiteness, near ? Errors::autocorrelation : white};
+}
+
+Tested tested(const Fitted& fit) {
+  if (fit.raw_noise) return tested(fit.raw_noise->innovations, fit.raw_noise->innovation_runs, fit);
+  if (!fit.filters_known()) return tested(fit.minimum.f, fit.system.runs, fit);
+  std::vector<std::size_t> runs;
+  const std::vector<double> innovations = fit.noise->innovations(fit.minimum.f, runs);
+  return tested(innovations, runs, fit);
 }
 
 }  // namespace
 
 RawNoise raw_noise_of(const Fitted& fit) {
-  RawNoise raw = raw_noise_of(fit, meat_of(fit));
-  raw.sources = {fit.noise->explain(fit.minimum.f), fit.noise->sources(), {}, fit.means_taken()};
+  RawNoise raw{variance_of(fit, meat_of(fit)), {}, {}, estimated(fit)};
+  raw.innovations = fit.noise->innovations(fit.minimum.f, raw.innovation_runs);
   return raw;
 }
 
@@ -154,22 +175,19 @@ Uncertainty uncertainty_of(const Fitted& fit) {
   const auto& R = fit.minimum.R;
   if (n <= fit.degrees_taken())
     return {Errors::none, nan, nan, {R, std::vector<double>(R.size(), nan), q}};
+  const bool known = fit.filters_known();
+  const auto [whiteness, kind] = tested(fit);
+  const bool consistent = kind == Errors::autocorrelation || kind == Errors::uneven;
+  Sources sources;
+  if (consistent) sources = sources_of(fit);
   std::vector<double> M;
-  std::optional<RawNoise> raw;
-  if (fit.filters_known()) M = meat_of(fit), raw = raw_noise_of(fit, M);
-  const auto& noise = raw ? raw->innovations : fit.minimum.f;
-  const auto& runs = raw ? raw->innovation_runs : fit.system.runs;
-  const double variance = raw ? raw->variance : fit.minimum.rss / static_cast<double>(n - p),
-               whiteness = ljung_box(noise, p, runs);
-  Errors kind = raw                     ? Errors::filters
-                : fit.noise->inferred() ? Errors::differences
-                                        : Errors::classical;
-  if (n >= 30) kind = errors_of(noise, runs, whiteness, kind);
-  if (kind == Errors::classical || kind == Errors::differences)
-    return {kind, whiteness, variance, {R, classical(fit, variance), q}};
-  if (kind == Errors::filters)
+  if (known) M = consistent ? outer_products(sources.B, q, sources.runs) : meat_of(fit);
+  const double variance =
+      known ? variance_of(fit, M) : fit.minimum.rss / static_cast<double>(n - p);
+  if (consistent) M = consistent_meat(fit, std::move(sources), kind, variance);
+  else if (known)
     for (double& x : M) x *= variance;
-  else M = consistent_meat(fit, kind, variance);
+  else return {kind, whiteness, variance, {R, classical(fit, variance), q}};
   add_shared(M, q, fit.system.shared);
   return {kind, whiteness, variance, {R, std::move(M), q}};
 }
