@@ -54,22 +54,22 @@ Estimate logarithm_of_noise(double s) {
   return {mean, std::sqrt(squares / weight - mean * mean)};
 }
 
-/// The same by linear interpolation in a table over ln s, whose entries are computed on demand.
+/// The same by linear interpolation in a table over ln s, whose entries are computed on demand, and
+/// by the limits beyond its ends.
 class LogarithmOfNoise {
  public:
   Estimate operator()(double s) {
     const double place = (std::log(s) - least) * places;
-    if (!(place >= 0 && place + 1 < static_cast<double>(table_.size())))
-      return logarithm_of_noise(s);
-    const auto i = static_cast<std::size_t>(place);
-    const double share = place - static_cast<double>(i);
+    if (place < 0) return {-s * s / 2, s};
+    const std::size_t i = std::min(static_cast<std::size_t>(place), table_.size() - 2);
+    const double share = place - static_cast<double>(i);  // above 1 for large s
     const Estimate low = at(i), high = at(i + 1);
     return {std::lerp(low.value, high.value, share), std::lerp(low.sigma, high.sigma, share)};
   }
 
  private:
   // The range of ln s, and the number of entries for each unit of ln s.
-  static constexpr double least = -7, most = 7, places = 32;
+  static constexpr double least = -7, most = 16, places = 32;
   Estimate at(std::size_t i) {
     if (table_[i].sigma == 0)
       table_[i] = logarithm_of_noise(std::exp(least + static_cast<double>(i) / places));
