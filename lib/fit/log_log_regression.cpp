@@ -13,6 +13,7 @@
 #include "fit/errors.h"
 #include "fit/roll_fit.h"
 #include "fit/shift_records.h"
+#include "statistics/logarithm_of_noise.h"
 
 namespace rolling {
 namespace {
@@ -32,52 +33,6 @@ System line_system(ShiftRecords records, Height height) {
     });
           }};
 }
-
-/// The mean and the standard deviation of ln(1 + e) for normal e of standard deviation s,
-/// conditional on 1 + e > 0, where the logarithm exists. For small s they are -s^2/2 and s; for
-/// large s the standard deviation tends to a constant and the mean grows like ln s.
-Estimate logarithm_of_noise(double s) {
-  // The substitution z = u^2 + least makes the integrands smooth at the pole of the logarithm. The
-  // midpoint rule with this number of steps then has an error below 5e-4.
-  constexpr int steps = 200;
-  constexpr double range = 6;
-  const double least = std::max(-range, -1 / s), length = std::sqrt(range - least);
-  double weight = 0, sum = 0, squares = 0;
-  for (int i = 0; i < steps; ++i) {
-    const double u = (i + 0.5) / steps * length, z = least + u * u, w = u * std::exp(-z * z / 2);
-    const double log = least > -range ? std::log(s * u * u) : std::log1p(s * z);
-    weight += w;
-    sum += w * log;
-    squares += w * log * log;
-  }
-  const double mean = sum / weight;
-  return {mean, std::sqrt(squares / weight - mean * mean)};
-}
-
-/// The same by linear interpolation in a table over ln s, whose entries are computed on demand, and
-/// by the limits beyond its ends.
-class LogarithmOfNoise {
- public:
-  Estimate operator()(double s) {
-    const double place = (std::log(s) - least) * places;
-    if (place < 0) return {-s * s / 2, s};
-    const std::size_t i = std::min(static_cast<std::size_t>(place), table_.size() - 2);
-    const double share = place - static_cast<double>(i);  // above 1 for large s
-    const Estimate low = at(i), high = at(i + 1);
-    return {std::lerp(low.value, high.value, share), std::lerp(low.sigma, high.sigma, share)};
-  }
-
- private:
-  // The range of ln s, and the number of entries for each unit of ln s.
-  static constexpr double least = -7, most = 16, places = 32;
-  Estimate at(std::size_t i) {
-    if (table_[i].sigma == 0)
-      table_[i] = logarithm_of_noise(std::exp(least + static_cast<double>(i) / places));
-    return table_[i];
-  }
-  std::vector<Estimate> table_ =
-      std::vector<Estimate>(static_cast<std::size_t>((most - least) * places) + 1);
-};
 
 /// The noise and the bias of the points (ln v, ln D) of a run. The noise of ln D - b ln v is
 /// by_D D e + by_v v e for each point, with raw noise e of variance one and the rows of D and v.
@@ -150,10 +105,8 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& all, const FitOptions&
   std::vector<double> along(p);  // Q^T bias
   for (std::size_t r = 0; r < all.size(); ++r) {
     const ObservedRun& run = roll.rolls->runs()[r];
-    const Trajectory trajectory = roll.rolls->trajectory(roll.minimum.theta, r);
-    std::vector<double> raw;
-    for (double t : run.t)
-      raw.push_back(run.raw_is_position ? trajectory.at(t).x : trajectory.speed_at(t).v);
+    std::vector<double> raw = roll.rolls->raw_column(roll.minimum.theta, r);
+    for (double& value : raw) value *= run.way;  // along the motion
     const auto shift = [&, by = *all[r].shift_of](double a) {
       return run.way * shift_from_acceleration(by.body, by.geometry, run.way * a);
     };

@@ -170,6 +170,18 @@ RawModel RollModel::raw(const std::vector<double>& theta, std::size_t r) const {
   };
 }
 
+std::vector<double> RollModel::raw_column(const std::vector<double>& theta, std::size_t r) const {
+  const ObservedRun& run = runs_[r];
+  const Trajectory roll = trajectory(theta, r);
+  const double x0 = parameters_.x0(theta, r);
+  std::vector<double> column;
+  column.reserve(run.t.size());
+  for (double t : run.t)
+    column.push_back(run.raw_is_position ? x0 + run.way * roll.distance_at(t)
+                                         : run.way * roll.speed_at(t).v);
+  return column;
+}
+
 void evaluate(const ObservedRun& run, std::size_t number, std::size_t parameters,
               const Noise& noise, const RawModel& raw, const TakeRows& take) {
   std::vector<double> f, J;

@@ -92,6 +92,8 @@ class RollModel {
   Trajectory trajectory(const std::vector<double>& theta, std::size_t run) const;
   /// Refers to this object.
   RawModel raw(const std::vector<double>& theta, std::size_t run) const;
+  /// The raw column of a run without derivatives: x or v at its times.
+  std::vector<double> raw_column(const std::vector<double>& theta, std::size_t run) const;
   /// The slope of the mat along the direction of motion of a run.
   double slope(const std::vector<double>& theta, std::size_t run) const;
 

@@ -65,11 +65,7 @@ bool leave_out_slow(const RollModel& model, const std::vector<double>& theta,
 /// The sum of squares of model - data for the shifts of a run.
 double squares_of_shifts(const RollModel& rolls, const std::vector<double>& theta, std::size_t r) {
   const ObservedRun& run = rolls.runs()[r];
-  const RawModel model = rolls.raw(theta, r);
-  std::vector<double> f, slopes(rolls.parameters().columns());
-  f.reserve(run.t.size());
-  for (double t : run.t) f.push_back(model(t, slopes.data(), 1));
-  f = run.shifts->H.times(f);
+  std::vector<double> f = run.shifts->H.times(rolls.raw_column(theta, r));
   for (std::size_t i = 0; i < f.size(); ++i) f[i] -= run.shifts->accelerations[i];
   return dot(f, f) * run.shifts->unit * run.shifts->unit;
 }

@@ -64,6 +64,8 @@ class Trajectory {
   /// The same without x and its derivatives, which are left 0, in half the time; for A = 1 in
   /// closed form, in a quarter of it.
   Point speed_at(double t) const;
+  /// x alone, in less than half the time where the mat is level.
+  double distance_at(double t) const { return incline_ ? at(t).x : position(t, log_ratio(t)); }
 
   // For level mats alone:
   /// ln(v0 / v) at time t >= 0; infinity from the stop on.

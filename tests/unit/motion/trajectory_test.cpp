@@ -48,6 +48,7 @@ TEST_CASE("Trajectory: speed, distance and derivatives against quadrature with 4
                   << " t " << r.t);
     CHECK(close(s.v, r.v, r.v));
     CHECK(close(s.x, r.x, r.x));
+    CHECK(close(roll(r).distance_at(r.t), r.x, r.x));
     CHECK(close(s.v_a, r.v_a, std::abs(r.v_a)));
     CHECK(close(s.v_v0, r.v_v0, std::abs(r.v_v0)));
     CHECK(close(s.x_a, r.x_a, std::abs(r.x_a)));
@@ -76,7 +77,7 @@ TEST_CASE("Trajectory: after the stop the speed is 0, and the place is where the
         const auto s = trajectory.at(t);
         CHECK(s.v == 0);
         CHECK((s.v_a == 0 && s.v_b == 0 && s.v_v0 == 0));
-        CHECK(trajectory.position(t, trajectory.log_ratio(t)) == s.x);
+        CHECK(trajectory.distance_at(t) == s.x);
       }
       const auto stopped = trajectory.at(2 * T), rolling = trajectory.at(T * (1 - 1e-12));
       CHECK(rolling.v > 0);
