@@ -62,6 +62,18 @@ TEST_CASE("head: units in a line of their own belong to the names above it", "[t
   CHECK(head("t x\n[s] [cm]\n0 1\n") == " t[s] x[cm] in 1 of 2; 3: 0 1");
   CHECK(head("Zeit,Weg,Kraft\ns,cm,N\n0,1,2\n") == " Zeit[s] Weg[cm] Kraft[N] in 1 of 3; 3: 0,1,2");
   CHECK(head("Anna,Ben\nZeit,s\n0,1\n") == "# Anna,Ben| Zeit s in 1 of 2; 3: 0,1");
+  CHECK(head("t,\ns,cm\n0,1\n") == " t[s] c2[cm] in 1 of 2; 3: 0,1");
+}
+
+TEST_CASE("head: text behind the last run becomes comments of one line each", "[text]") {
+  const TemporaryFile file("t,v\n0,1\n\n\"the\nend\",x\n");
+  Lines lines(file.name());
+  Dialect dialect;
+  const Head first = read_head(lines, dialect, nullptr, {}, Sides::by_names);
+  REQUIRE(lines.next());
+  const Head last = read_head(lines, dialect, &first, {}, Sides::by_names);
+  CHECK(last.layout.runs.empty());
+  CHECK(last.comments == std::vector<std::string>{"# \"the end\",x"});
 }
 
 TEST_CASE("head: units in a comment of their own are refused", "[text]") {
