@@ -166,7 +166,7 @@ std::string_view si_unit(std::string_view quantity) {
 }
 
 std::string bare_unit(std::string_view text) {
-  if (text.size() > 2 && (text.front() == '[' || text.front() == '('))
+  if (text.size() > 1 && (text.front() == '[' || text.front() == '('))
     text = text.substr(1, text.size() - 2);
   return std::string(trim(plain_unit(std::string(text))));
 }

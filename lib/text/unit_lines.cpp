@@ -23,13 +23,19 @@ std::vector<Column> units_in(const std::string& comment) {
   return all;
 }
 
+bool is_known_name(const std::string& text) { return is_known(read_column(text)); }
+
+/// Two known units are no accident, one may be a word of a sentence.
+bool has_two_units(const std::vector<std::string>& fields) {
+  const auto is_unit = [](const std::string& text) { return unit_kind(text) != UnitKind::none; };
+  return std::ranges::count_if(fields, is_unit) > 1;
+}
+
 }  // namespace
 
 bool are_units_of(const std::vector<std::string>& names, const std::vector<std::string>& fields) {
-  const auto is_name = [](const std::string& text) { return is_known(read_column(text)); };
-  const auto is_unit = [](const std::string& text) { return unit_kind(text) != UnitKind::none; };
-  return names.size() == fields.size() && std::ranges::none_of(fields, is_name) &&
-         (std::ranges::any_of(names, is_name) || std::ranges::count_if(fields, is_unit) > 1);
+  return names.size() == fields.size() && std::ranges::none_of(fields, is_known_name) &&
+         (std::ranges::any_of(names, is_known_name) || has_two_units(fields));
 }
 
 void add_unit(Column& column, std::string_view unit, std::string_view place) {
@@ -42,11 +48,16 @@ void add_unit(Column& column, std::string_view unit, std::string_view place) {
 }
 
 void note_other_units(const std::string& comment, std::vector<Column>& columns) {
+  const auto note = [](Column& column, const std::string& unit) {
+    if (column.unit.empty() && unit_kind(unit) == UnitKind::other)
+      column.elsewhere = bare_unit(unit);
+  };
   for (const Column& said : units_in(comment))
     for (Column& column : columns)
-      if (column.name == said.name && column.unit.empty() &&
-          unit_kind(said.unit) == UnitKind::other)
-        column.elsewhere = said.unit;
+      if (column.name == said.name) note(column, said.unit);
+  const auto fields = names_in_comment(comment, columns.size(), {}).names;
+  if (has_two_units(fields) && std::ranges::none_of(fields, is_known_name))
+    for (std::size_t i = 0; i < columns.size(); ++i) note(columns[i], fields[i]);
 }
 
 void refuse_units_of_others(const std::string& comment, std::size_t width, std::string_view place) {

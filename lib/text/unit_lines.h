@@ -18,7 +18,8 @@ bool are_units_of(const std::vector<std::string>& names, const std::vector<std::
 /// Gives a column the unit that stands below its name. Refuses one other than that of the name.
 void add_unit(Column&, std::string_view unit, std::string_view place);
 
-/// Notes the units other than SI that a comment gives to columns whose names have none.
+/// Notes the units other than SI that a comment gives to columns whose names have none: behind the
+/// names of known quantities, or in the order of the columns, two known units or more of them.
 void note_other_units(const std::string& comment, std::vector<Column>&);
 
 /// Refuses a comment with units that does not name the `width` columns of the records: columns

@@ -29,6 +29,8 @@ TEST_CASE("unit lines: a column gets the unit below its name", "[text]") {
   CHECK(with_unit("x", "[cm]") == "x[cm]");
   CHECK(with_unit("a", "(\xC2\xA0m/s\xC2\xB2)") == "a[m/s^2]");
   CHECK(with_unit("x", "") == "x");
+  CHECK(with_unit("x", "[]") == "x");
+  CHECK(with_unit("x", "(") == "x[(]");
   CHECK(with_unit("x[cm]", "") == "x[cm]");
   CHECK(with_unit("x[cm]", "(cm)") == "x[cm]");
   CHECK(with_unit("x[cm]", "mm") ==
@@ -51,6 +53,21 @@ TEST_CASE("unit lines: a comment notes the unit of a column whose name has none"
   CHECK(noted("# t[s] v[m/s]") == "||");
   CHECK(noted("# t[fortnight] w[cm]") == "||");
   CHECK(noted("## t[ms]") == "||");
+}
+
+TEST_CASE("unit lines: a comment with the units of some columns notes them by place", "[text]") {
+  const auto noted = [](const std::string& comment) {
+    std::vector<Column> columns = {{"t"}, {"v"}, {"F"}, {"x", "m"}};
+    note_other_units(comment, columns);
+    return columns[0].elsewhere + '|' + columns[1].elsewhere + '|' + columns[3].elsewhere;
+  };
+  CHECK(noted("# s cm/s N mm") == "|cm/s|");
+  CHECK(noted("# [ms] [cm/s] [N] [m]") == "ms|cm/s|");
+  CHECK(noted("# s,,N,mm") == "||");
+  CHECK(noted("# taken 40 ms apart") == "||");  // one unit alone may be a word of a sentence
+  CHECK(noted("# ms cm/s N") == "||");          // not as many as columns
+  CHECK(noted("# ms cm/s t v") == "||");        // names
+  CHECK(noted("## ms cm/s N m") == "||");
 }
 
 TEST_CASE("unit lines: a comment with units that does not name the columns is refused", "[text]") {
