@@ -239,6 +239,8 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
     head_.named = before_->named;
     head_.blank_end = before_->blank_end;
     head_.layout = before_->layout;
+    for (const Line& comment : comments_)
+      note_other_units(comment.text, head_.layout.runs.front().columns);
     return finish();
   }
   head_.named = !names.empty();
