@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "cli/messages.h"
-#include "text/head.h"
+#include "text/lines.h"
 
 namespace rolling {
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "text/delimiters.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -64,7 +65,9 @@ std::string plain_unit(std::string unit) {
                                  {"\xB2", "^2"},
                                  {"\xC2\xB5", "u"},
                                  {"\xCE\xBC", "u"},
-                                 {"\xB5", "u"}})
+                                 {"\xB5", "u"},
+                                 {"\xC2\xA0", " "},
+                                 {"\n", " "}})
     unit = replace_all(std::move(unit), from, to);
   return replace_all(std::move(unit), "s2", "s^2");
 }
@@ -162,10 +165,14 @@ std::string_view si_unit(std::string_view quantity) {
   return q ? q->units.front().name : std::string_view();
 }
 
+std::string bare_unit(std::string_view text) {
+  if (text.size() > 1 && (text.front() == '[' || text.front() == '('))
+    text = text.substr(1, text.size() - 2);
+  return std::string(trim(plain_unit(std::string(text))));
+}
+
 UnitKind unit_kind(std::string_view text) {
-  if (text.size() > 2 && (text.front() == '[' || text.front() == '('))
-    text = trim(text.substr(1, text.size() - 2));
-  const std::string listed = listed_unit(plain_unit(std::string(text)));
+  const std::string listed = listed_unit(bare_unit(text));
   for (const KnownQuantity& q : quantities)
     for (const Unit& unit : q.units)
       if (unit.name == listed) return unit.to_si.changes() ? UnitKind::other : UnitKind::si;
@@ -230,6 +237,23 @@ std::vector<std::string> split_names(std::string_view line, char separator) {
     at = end;
   }
   return names;
+}
+
+CommentedNames names_in_comment(std::string_view comment, std::size_t width,
+                                const std::vector<Column>& known) {
+  if (comment.starts_with("##")) return {};
+  const std::string_view text = comment.substr(1);
+  const auto in_force = [&](const std::string& name) {
+    const std::string plain = read_column(name).name;
+    return !si_unit(plain).empty() || std::ranges::count(known, plain, &Column::name) > 0;
+  };
+  for (const char separator : std::string(separators) + '\0')
+    for (const std::string_view words : {text, trim(text)}) {  // a tab at an end may be a separator
+      auto names = split_names(words, separator);
+      if (names.size() != width) continue;
+      return {names, separator == '\t' && width > 1, std::ranges::any_of(names, in_force)};
+    }
+  return {};
 }
 
 }  // namespace rolling

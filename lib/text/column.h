@@ -39,6 +39,9 @@ std::string to_text(const Column&);
 /// on if that name exists too.
 std::string free_name(const std::vector<Column>&, std::string name);
 
+/// A unit without the brackets around it, in ASCII: with ^2 for a superscript.
+std::string bare_unit(std::string_view text);
+
 /// Whether a text is a unit, perhaps in brackets, in which t, x, v, a or D can be read.
 enum class UnitKind { none, si, other };
 UnitKind unit_kind(std::string_view text);
@@ -59,5 +62,14 @@ std::string unit_in_name(std::string_view quantity, std::string_view name);
 /// The names in a line, one for each field. With `separator` 0 blanks separate the names; a unit in
 /// brackets, which may contain blanks, then belongs to the name before it.
 std::vector<std::string> split_names(std::string_view line, char separator);
+
+/// The names of `width` columns in a comment.
+struct CommentedNames {
+  std::vector<std::string> names;  ///< empty if the comment has another number of words
+  bool tabs = false;               ///< tabs separate them
+  bool known = false;              ///< one of them is t, x, v, a, D or in `known`
+};
+CommentedNames names_in_comment(std::string_view comment, std::size_t width,
+                                const std::vector<Column>& known);
 
 }  // namespace rolling

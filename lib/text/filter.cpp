@@ -79,7 +79,7 @@ bool Filter::next_run() {
     take_head();
     return true;
   }
-  if (!any_row_ && any_dropped_) fail("no records are left");
+  if (!any_row_ && records_ > 0) fail("no records are left");
   if (!any_row_) fail("no records: a needed reading is missing in every one");
   take_remarks(in_.comments());
   if (head_) out_.text(remarks_of(head_->comments));
@@ -102,7 +102,6 @@ bool Filter::next() {
 
 void Filter::drop(std::size_t i) {
   dropped_.push(run_begins_ + i);
-  any_dropped_ = true;
   write_rows();
 }
 

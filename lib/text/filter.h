@@ -95,7 +95,7 @@ class Filter {
   // Counts of the records of all runs: read; read before this run; written or left out.
   std::size_t records_ = 0, run_begins_ = 0, done_ = 0;
   std::optional<Head> head_;  // of a run none of whose rows has been written
-  bool any_row_ = false, any_dropped_ = false;
+  bool any_row_ = false;
   bool writing_ = false;  // true for good when a write has failed
 };
 

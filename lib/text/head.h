@@ -33,22 +33,4 @@ enum class Sides { by_names, one };
 /// Throws InputError, also for the line that a tool writes when it ends with an error.
 Head read_head(Lines&, Dialect&, const Head* before, const std::vector<std::string>& order, Sides);
 
-/// The names in a line that is not a comment.
-std::vector<std::string> names_in(std::string_view line, Dialect&);
-
-/// The names of `width` columns in a comment.
-struct CommentedNames {
-  std::vector<std::string> names;  ///< empty if the comment has another number of words
-  bool tabs = false;               ///< tabs separate them
-  bool known = false;              ///< one of them is t, x, v, a, D or in `known`
-};
-CommentedNames names_in_comment(std::string_view comment, std::size_t width,
-                                const std::vector<Column>& known);
-
-/// The last line of the output of a tool that ends with an error after it has begun to print.
-std::string error_line(std::string_view tool);
-
-/// Throws InputError if the present line, which begins with ##, is such a line.
-void refuse_error_line(const Lines&);
-
 }  // namespace rolling

@@ -14,6 +14,8 @@ namespace {
 constexpr std::array<std::string_view, 8> error_values = {
     "#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!", "#SPILL!"};
 
+constexpr std::string_view ended_with_an_error = ": ended with an error";
+
 bool begins_with_error_value(std::string_view line) {
   return std::any_of(error_values.begin(), error_values.end(), [line](std::string_view value) {
     return line.starts_with(value) && (line.size() == value.size() || line[value.size()] == ' ' ||
@@ -32,6 +34,10 @@ LineKind kind_of(std::string_view line) {
   return begins_with_error_value(line) ? LineKind::record : LineKind::comment;
 }
 
+std::string_view history_line(std::string_view line) {
+  return trim(line.substr(0, line.find_last_not_of("\t;, ") + 1));
+}
+
 void Lines::join_quoted() {
   if (text_.find(quote) == std::string_view::npos || kind_of(text_) != LineKind::record ||
       !outside_quotes(text_, separators_).ends_within)
@@ -45,6 +51,17 @@ void Lines::join_quoted() {
     open = close == end || behind_quote({close + 1, end}, separators_).ends_within;
   }
   text_ = joined_;
+}
+
+void refuse_error_line(const Lines& lines) {
+  const std::string_view text = trim(history_line(lines.text()).substr(2));
+  if (text.ends_with(ended_with_an_error) && text.find(' ') == text.find(':') + 1)
+    fail<InputError>("{}:{}: {} ended with an error: the records are not complete", lines.name(),
+                     lines.number(), shown(text.substr(0, text.find(':'))));
+}
+
+std::string error_line(std::string_view tool) {
+  return fmt::format("## {}{}", tool, ended_with_an_error);
 }
 
 }  // namespace rolling

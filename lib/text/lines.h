@@ -18,6 +18,9 @@ enum class LineKind { blank, comment, history, record };
 /// (#N/A) is a record.
 LineKind kind_of(std::string_view line);
 
+/// A `##` line without the separators with which a spreadsheet fills it up.
+std::string_view history_line(std::string_view line);
+
 class Lines {
  public:
   /// Opens the file, see Input.
@@ -67,5 +70,11 @@ class Lines {
   bool again_ = false;
   std::string joined_, separators_{separators};
 };
+
+/// The last line of the output of a tool that ends with an error after it has begun to print.
+std::string error_line(std::string_view tool);
+
+/// Throws InputError if the present line, which begins with ##, is such a line.
+void refuse_error_line(const Lines&);
 
 }  // namespace rolling

@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "text/delimiters.h"
-#include "text/head.h"
 
 namespace rolling {
 

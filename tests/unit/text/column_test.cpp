@@ -181,3 +181,20 @@ TEST_CASE("column: a names line is one name a field", "[text]") {
   CHECK(split_names("[s] [m / s] (cm)", '\0') == Names{"[s]", "[m / s]", "(cm)"});
   CHECK(split_names("", '\0').empty());
 }
+
+TEST_CASE("column: the names in a comment, and what proves that they are some", "[text]") {
+  const auto names = [](std::string_view comment, std::size_t width) {
+    const auto [all, tabs, known] = names_in_comment(comment, width, {{"w"}});
+    std::string text = fmt::format("{}{}", tabs ? "tabs " : "", known ? "known " : "");
+    for (const std::string& name : all) text += '<' + name + '>';
+    return text;
+  };
+  CHECK(names("# p\tq", 2) == "tabs <p><q>");
+  CHECK(names("# p q", 2) == "<p><q>");
+  CHECK(names("# p, w[m]", 2) == "known <p><w[m]>");
+  CHECK(names("#t (s)\tp q", 2) == "tabs known <t (s)><p q>");
+  CHECK(names("#\tp", 2) == "tabs <><p>");
+  CHECK(names("#\tp", 1) == "<p>");  // one column has no tabs between columns
+  CHECK(names("# a b", 3).empty());
+  CHECK(names("## a b", 2).empty());
+}

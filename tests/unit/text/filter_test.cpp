@@ -185,6 +185,21 @@ TEST_CASE("filter: rows left out before the first run with a history", "[text]")
         })) == "# between\n## run FILE 2\n## test it\n# t[s]\tv[m/s]\n0\t30\n2\t50\n");
 }
 
+TEST_CASE("filter: no record left is an error of its own", "[text]") {
+  const TemporaryFile file("0 1\n1 2\n");
+  std::string message;
+  printed([&] {
+    Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
+    Output out;
+    Filter filter(in, out);
+    message = refusal([&] {
+      while (filter.next_run())
+        for (std::size_t i = 0; filter.next(); ++i) filter.drop(i);
+    });
+  });
+  CHECK(message == "no records are left");
+}
+
 TEST_CASE("filter: no record with all its readings is an error", "[text]") {
   const TemporaryFile file("# t v\n0 NaN\n\n1 NaN\n");
   std::string message;

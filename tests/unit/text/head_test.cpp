@@ -62,11 +62,28 @@ TEST_CASE("head: units in a line of their own belong to the names above it", "[t
   CHECK(head("t x\n[s] [cm]\n0 1\n") == " t[s] x[cm] in 1 of 2; 3: 0 1");
   CHECK(head("Zeit,Weg,Kraft\ns,cm,N\n0,1,2\n") == " Zeit[s] Weg[cm] Kraft[N] in 1 of 3; 3: 0,1,2");
   CHECK(head("Anna,Ben\nZeit,s\n0,1\n") == "# Anna,Ben| Zeit s in 1 of 2; 3: 0,1");
+  CHECK(head("t,\ns,cm\n0,1\n") == " t[s] c2[cm] in 1 of 2; 3: 0,1");
+  CHECK(head("t,F\nms,N\n0,1\n") == " t[ms] F[N] in 1 of 2; 3: 0,1");
 }
 
-TEST_CASE("head: units in a comment of their own are refused", "[text]") {
-  CHECK(head("# [s] [cm]\n# t x\n0 1\n") ==
-        "1: a line of units: put each behind the name of its column, as in t[ms]");
+TEST_CASE("head: text behind the last run becomes comments of one line each", "[text]") {
+  const TemporaryFile file("t,v\n0,1\n\n\"the\nend\",x\n");
+  Lines lines(file.name());
+  Dialect dialect;
+  const Head first = read_head(lines, dialect, nullptr, {}, Sides::by_names);
+  REQUIRE(lines.next());
+  const Head last = read_head(lines, dialect, &first, {}, Sides::by_names);
+  CHECK(last.layout.runs.empty());
+  CHECK(last.comments == std::vector<std::string>{"# \"the end\",x"});
+}
+
+TEST_CASE("head: other lines of units are refused", "[text]") {
+  const std::string refused =
+      "1: a line of units: put each behind the name of its column, as in t[ms]";
+  CHECK(head("# [s] [cm]\n# t x\n0 1\n") == refused);
+  CHECK(head("s,cm\nt,x\n0,1\n") == refused);
+  CHECK(head("My cart\ns,cm\n0,1\n") == "2" + refused.substr(1));
+  CHECK(head("ms\nt,x\n0,1\n") == "# ms| t x in 1 of 2; 3: 0,1");  // one word of text
 }
 
 TEST_CASE("head: no columns are refused, with the line", "[text]") {

@@ -1,5 +1,7 @@
 #include "text/input.h"
 
+#include <unistd.h>
+
 #include "unit/text/files.h"
 #include "unit/catch.h"
 
@@ -82,6 +84,21 @@ TEST_CASE("input: - is standard input", "[text]") {
   CHECK(line == "a");
   REQUIRE(input.next(line));
   CHECK_FALSE(input.next(line));
+}
+
+TEST_CASE("input: a pipe may give one byte at a time", "[text]") {
+  int ends[2];
+  REQUIRE(::pipe(ends) == 0);
+  Input input("/dev/fd/" + std::to_string(ends[0]));
+  std::string_view line;
+  for (const std::string text : {"\n", "b\n"}) {
+    REQUIRE(::write(ends[1], text.data(), text.size()) == static_cast<ssize_t>(text.size()));
+    REQUIRE(input.next(line));
+    CHECK(line == text.substr(0, text.size() - 1));
+  }
+  ::close(ends[1]);
+  CHECK_FALSE(input.next(line));
+  ::close(ends[0]);
 }
 
 TEST_CASE(

@@ -186,6 +186,26 @@ TEST_CASE("reader: a line of tabs is a blank line, in a file delimited by tabs t
   CHECK(records({"t,v\n0,1\n,\n1,2\n"}) == "0 1 | 1 2");
 }
 
+TEST_CASE("reader: a separator at the ends of lines may be left out in the second run too",
+          "[text]") {
+  CHECK(records({"t,v,\n0,1,\n1,2\n\n2,3,\n3,4\n"}) == "0 1 | 1 2 || 2 3 | 3 4");
+}
+
+TEST_CASE("reader: units that a comment gives to the columns of the second run alone", "[text]") {
+  CHECK(records({"# t v F\n0 1 2\n\n# s cm/s N\n2 3 4\n"}) ==
+        "FILE:5: column 'v' cannot serve as v: is it in cm/s? Write the unit in brackets or "
+        "say --use v=2[UNIT]");
+}
+
+TEST_CASE("reader: what is no number is refused with what to do about it", "[text]") {
+  CHECK(records({"t,v\n0,1\n10:15:00.5,2\n"}) ==
+        "FILE:3: field 1 (t): '10:15:00.5' is not a number; make it one number of seconds first");
+  CHECK(records({"t,v\n0,1\n1 5,2\n"}) ==
+        "FILE:3: field 1 (t): '1 5' is not a number; if a comma here is a decimal one, make it a "
+        "point first");
+  CHECK(records({"t,v\n0,1\n1 x,2\n"}) == "FILE:3: field 1 (t): '1 x' is not a number");
+}
+
 TEST_CASE("reader: two decimal marks in one file are refused", "[text]") {
   CHECK(records({"t;v\n0,5;1\n1.5;2\n"}) ==
         "FILE:3: field 1: the decimal mark of '1.5' is not that of the numbers before it");
