@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/by_run.h"
 #include "base/dot.h"
@@ -118,15 +119,15 @@ std::vector<double> consistent_meat(const Fitted& fit, Sources from, Errors kind
     const double h = by_leverage ? std::min(dot(row, row), 0.99) : 0;
     for (double& score : row) score = score * from.e[i] / (1 - h);
   }
-  const auto& scores = from.B;
+  const double shown = dot(from.e, from.e) / static_cast<double>(from.e.size());
   std::vector<double> M =
       kind == Errors::uneven
-          ? outer_products(scores, q, from.runs)
-          : newey_west(scores, fit.minimum.theta.size() + from.means_taken, from.e, from.runs);
+          ? outer_products(from.B, q, from.runs)
+          : newey_west(std::move(from.B), fit.minimum.theta.size() + from.means_taken,
+                       std::move(from.e), from.runs);
   if (by_leverage) return M;
   // The fit has removed part of the noise from the residuals; the ratio of the variances corrects
   // for that.
-  const double shown = dot(from.e, from.e) / static_cast<double>(from.e.size());
   for (double& x : M) x *= variance / shown;
   return M;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <utility>
 
 #include "base/by_run.h"
@@ -140,8 +141,12 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
   Fitted line{.system = {}, .minimum = {}};
   line.records = records.y.size();
   line.left_out = records.left_out;
+  std::vector<double> start(height.count(), 0);
+  if (start.size() == 2)  // the line itself, since the mean of log_u is 0
+    start = {std::reduce(records.y.begin(), records.y.end()) / static_cast<double>(line.records),
+             dot(records.log_u, records.y) / dot(records.log_u, records.log_u)};
   line.system = line_system(std::move(records), height);
-  line.minimum = solve(line.system, std::vector<double>(height.count(), 0), options);
+  line.minimum = solve(line.system, start, options);
   line.rss = line.minimum.rss;
   const double b = height.exponent(line.minimum.theta),
                a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * height.log_v_ref);

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "fit/roll_fit.h"
 
 namespace rolling {
 
@@ -39,7 +38,7 @@ ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& opt
   ShiftRecords records;
   auto &y = records.y, &log_u = records.log_u;
   std::size_t most = 0;
-  for (const Rows& of_run : usable(Route::shift, all)) most += of_run.size();
+  for (const auto& run : all) most += run.v.size();
   y.reserve(most), log_u.reserve(most);
   double sum = 0;
   for (const auto& run : all) {
@@ -47,7 +46,10 @@ ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& opt
     const double way = way_of(run);
     for (std::size_t i = 0; i < run.v.size(); ++i) {
       const double v = way * run.v[i], D = way * run.D[i];
-      if (!is_used(v, D, options, logarithms)) continue;
+      if (!is_used(v, D, options, logarithms)) {
+        records.left_out += std::isfinite(v) && std::isfinite(D);
+        continue;
+      }
       log_u.push_back(std::log(v));
       sum += log_u.back();
       y.push_back(logarithms ? std::log(D) : D);
@@ -55,8 +57,7 @@ ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& opt
     records.runs.push_back(y.size() - before);
   }
   const std::size_t n = y.size();
-  records.left_out = most - n;
-  if (n == 0 && logarithms && most > 0)
+  if (n == 0 && logarithms && records.left_out > 0)
     fail("no record has v > 0 and D > 0: there is no logarithm to fit");
   require_records(n, !options.a + !options.b);
   if (!options.b &&

@@ -18,12 +18,18 @@ double lagged(std::span<const double> r, std::span<const std::size_t> runs, std:
 }
 
 double ljung_box(std::span<const double> r, std::size_t p, std::span<const std::size_t> runs) {
-  const double n = static_cast<double>(r.size()), all = lagged(r, runs, 0);
-  if (!(all > 0)) return 1;
+  constexpr std::size_t block = 1024;  // stays in the cache for all lags
   const std::size_t lags = std::clamp<std::size_t>(r.size() / 10, 1, 10);
+  std::vector<double> sums(lags + 1);
+  for (const auto run : by_run(r, runs))
+    for (std::size_t i = 0; i < run.size(); i += block)
+      for (std::size_t k = 0; k <= lags && i + k < run.size(); ++k)
+        sums[k] += dot(&run[i], &run[i + k], std::min(block, run.size() - i - k));
+  if (!(sums[0] > 0)) return 1;
+  const double n = static_cast<double>(r.size());
   double Q = 0, least = 1;
   for (std::size_t k = 1; k <= lags; ++k) {
-    const double rho = lagged(r, runs, k) / all + static_cast<double>(p) / n;
+    const double rho = sums[k] / sums[0] + static_cast<double>(p) / n;
     Q += n * (n + 2) * rho * rho / (n - static_cast<double>(k));
     if (k == 1 || k == lags) least = std::min(least, gsl_cdf_chisq_Q(Q, static_cast<double>(k)));
   }
@@ -53,16 +59,14 @@ double breusch_pagan(std::span<const double> residuals, std::span<const std::siz
 
 namespace {
 
-/// x[i] - rho x[i - 1] for rows of p numbers. The first row of each run is multiplied by sqrt(1 -
-/// rho^2), so that its variance is the same.
-std::vector<double> prewhitened(std::span<const double> x, std::size_t p,
-                                std::span<const std::size_t> runs, double rho) {
-  std::vector<double> e(x.begin(), x.end());
-  for (const auto run : by_run(e, runs, p)) {
+/// Replaces x[i] by x[i] - rho x[i - 1], for rows of p numbers. The first row of each run is
+/// multiplied by sqrt(1 - rho^2), so that its variance is the same.
+void prewhiten(std::vector<double>& x, std::size_t p, std::span<const std::size_t> runs,
+               double rho) {
+  for (const auto run : by_run(x, runs, p)) {
     for (std::size_t i = run.size(); i-- > p;) run[i] -= rho * run[i - p];
     for (std::size_t i = 0; i < std::min(p, run.size()); ++i) run[i] *= std::sqrt(1 - rho * rho);
   }
-  return e;
 }
 
 double correlation_of_neighbours(std::span<const double> r, std::span<const std::size_t> runs) {
@@ -95,9 +99,8 @@ std::vector<double> bartlett(std::span<const double> u, std::size_t q, std::size
 
 }  // namespace
 
-std::vector<double> newey_west(std::span<const double> scores, std::size_t p,
-                               std::span<const double> residuals,
-                               std::span<const std::size_t> runs) {
+std::vector<double> newey_west(std::vector<double> scores, std::size_t p,
+                               std::vector<double> residuals, std::span<const std::size_t> runs) {
   const double n = static_cast<double>(residuals.size()), fitted = static_cast<double>(p);
   const std::size_t q = scores.size() / residuals.size();
   // A fit of p smooth terms lowers the lag-1 correlation of its residuals by (p (1 + AR) + 2 AR)/n
@@ -105,12 +108,12 @@ std::vector<double> newey_west(std::span<const double> scores, std::size_t p,
   const double AR = std::clamp(
       (n * correlation_of_neighbours(residuals, runs) + fitted) / std::max(n - fitted - 2, 1.0),
       -0.97, 0.97);
-  const auto u = prewhitened(scores, q, runs, AR);
-  const double rho = correlation_of_neighbours(prewhitened(residuals, 1, runs, AR), runs);
+  prewhiten(scores, q, runs, AR), prewhiten(residuals, 1, runs, AR);
+  const double rho = correlation_of_neighbours(residuals, runs);
   const double alpha = 4 * rho * rho / ((1 - rho * rho) * (1 - rho * rho));
   const auto width = static_cast<std::size_t>(std::ceil(1.1447 * std::cbrt(alpha * n)));
   std::vector<double> all;
-  for (const auto run : by_run(u, runs, q))
+  for (const auto run : by_run(scores, runs, q))
     for (double x : bartlett(run, q, width)) all.push_back(x / ((1 - AR) * (1 - AR)));
   return all;
 }

@@ -29,8 +29,7 @@ double lagged(std::span<const double> residuals, std::span<const std::size_t> ru
 /// Econometrica 59, 817), after prewhitening by the AR(1) of the residuals (Andrews and Monahan
 /// 1992, Econometrica 60, 953). The AR(1) coefficient is corrected for the bias of the fit. Short
 /// records need both, prewhitening and correction.
-std::vector<double> newey_west(std::span<const double> scores, std::size_t p,
-                               std::span<const double> residuals,
-                               std::span<const std::size_t> runs);
+std::vector<double> newey_west(std::vector<double> scores, std::size_t p,
+                               std::vector<double> residuals, std::span<const std::size_t> runs);
 
 }  // namespace rolling
