@@ -15,7 +15,7 @@ namespace {
 
 constexpr double undetermined = 1e-10;  // sine between a column of J and those before it
 constexpr double round_off = 1e-15;     // relative size of a step that is rounding alone
-constexpr double unseen = 1e-11;        // relative rounding error of a residual
+constexpr double unseen = 1e-11;        // negligible step / (standard deviation * residuals)
 
 /// The residuals at one theta and the Gauss-Newton step from there. The step comes from the QR
 /// decomposition of J, because the condition number of the normal equations is the square of that
@@ -31,8 +31,8 @@ struct Point {
   double reduction = 0;               // of the sum of squares, predicted by the linear model
   double angle = 1;                   // smallest sine between a column of J and those before it
 
-  /// True if the next step is below rounding, or changes the residuals by less than rounding errors
-  /// of this relative size in each of them may.
+  /// True if the next step is below rounding, relative to theta or to the standard deviations:
+  /// the rounding errors of sums over the residuals grow with their number n.
   bool negligible() const {
     const double n = static_cast<double>(f.size());
     return size < round_off || reduction < unseen * unseen * n * rss;

@@ -5,6 +5,7 @@
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <tuple>
@@ -36,6 +37,19 @@ TEST_CASE("minimise: Rosenbrock's valley, from the usual start", "[fit]") {
   const auto m = minimise(valley, {-1.2, 1});
   CHECK(std::abs(m.theta[0] - 1) < 1e-14);
   CHECK(std::abs(m.theta[1] - 1) < 1e-14);
+}
+
+TEST_CASE("minimise: no point is evaluated twice in succession", "[fit]") {
+  std::vector<std::vector<double>> points;
+  const System valley = one_run(
+      2, 2, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+        points.push_back(x);
+        f = {10 * (x[1] - x[0] * x[0]), 1 - x[0]};
+        J = {-20 * x[0], -1, 10, 0};
+      });
+  minimise(valley, {-1.2, 1});
+  CHECK(points.size() > 3);
+  CHECK(std::ranges::adjacent_find(points) == points.end());
 }
 
 TEST_CASE("minimise: as many records as parameters: the root, to round-off of its size", "[fit]") {
