@@ -151,7 +151,7 @@ void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitR
               "the noise of D makes its logarithms too low, by more than the standard error of the "
               "line: use --route shift");
   if (r.errors == Errors::uneven)
-    tool.warn(run + "the noise is not of one size along the run: the errors allow for that");
+    tool.warn(run + "the noise is not of one size: the errors allow for that");
   if (r.agreement && !r.agreement->agree() && !check_comes)
     tool.warn(disagreement(r, runs) + "; the errors allow for that");
   if (const auto& found = r.eccentricity)

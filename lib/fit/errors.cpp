@@ -145,7 +145,8 @@ Tested tested(std::span<const double> noise, std::span<const std::size_t> runs, 
   const double whiteness = ljung_box(noise, fit.minimum.theta.size(), runs);
   if (fit.minimum.f.size() < 30) return {whiteness, white};
   if (whiteness <= not_white) return {whiteness, Errors::autocorrelation};
-  if (breusch_pagan(noise, runs) <= 0.01) return {whiteness, Errors::uneven};
+  const double uneven = std::min(breusch_pagan(noise, runs), unequal_runs(noise, runs));
+  if (uneven <= (runs.size() > 1 ? 0.005 : 0.01)) return {whiteness, Errors::uneven};
   // With 60 records the test often misses an autocorrelation of 0.5, although the classical errors
   // are then only half as large as they should be. This limit gives Newey-West errors to one in ten
   // records with white noise, at a cost of 1 to 2 % in their size.

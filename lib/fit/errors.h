@@ -31,7 +31,7 @@ struct Uncertainty {
 /// (J^T J)^-1. With 30 or more records the noise is tested (for known filters the noise of the raw
 /// column). If it is not white (Ljung and Box), the covariance is that of Newey and West, already
 /// at 10 % if neighbouring residuals are positively correlated; otherwise, if the variance is
-/// uneven at 1 %, it is HC3.
+/// uneven at 1 %, along the runs or between them, it is HC3.
 Uncertainty uncertainty_of(const Fitted&);
 
 /// The standard errors of the reported numbers that are due to the noise.

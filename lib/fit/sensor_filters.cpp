@@ -9,6 +9,7 @@
 #include "fit/errors.h"
 #include "fit/roll_fit.h"
 #include "fit/white_share.h"
+#include "statistics/residuals.h"
 
 namespace rolling {
 namespace {
@@ -91,7 +92,8 @@ std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const FitO
                            responses_by(*maker.filter, all), options, maker.white.share);
     const Uncertainty found = uncertainty_of(fit);
     // Differences round off the stop: what fits far worse with them was not made by them.
-    if (found.whiteness > not_white && found.kind != Errors::uneven && fit.rss < 2 * plain.rss)
+    if (found.whiteness > not_white && breusch_pagan(fit.minimum.f, fit.system.runs) > 0.01 &&
+        fit.rss < 2 * plain.rss)
       return fit;
   } catch (const Error&) {  // too few records, or no minimum
   }

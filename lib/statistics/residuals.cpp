@@ -57,6 +57,19 @@ double breusch_pagan(std::span<const double> residuals, std::span<const std::siz
   return gsl_cdf_chisq_Q(n * (along1 * along1 / P1 + along2 * along2 / P2) / all, 2);
 }
 
+double unequal_runs(std::span<const double> residuals, std::span<const std::size_t> runs) {
+  if (runs.size() < 2) return 1;
+  const double n = static_cast<double>(residuals.size());
+  const double mean = lagged(residuals, runs, 0) / n;
+  double between = 0, all = 0;
+  for (const auto run : by_run(residuals, runs)) {
+    double sum = 0;
+    for (const double r : run) sum += r * r - mean, all += (r * r - mean) * (r * r - mean);
+    if (!run.empty()) between += sum * sum / static_cast<double>(run.size());
+  }
+  return all > 0 ? gsl_cdf_chisq_Q(n * between / all, static_cast<double>(runs.size() - 1)) : 1;
+}
+
 namespace {
 
 /// Replaces x[i] by x[i] - rho x[i - 1], for rows of p numbers. The first row of each run is

@@ -18,6 +18,9 @@ double ljung_box(std::span<const double> residuals, std::size_t p,
 /// number: the studentised test of Breusch and Pagan (Koenker 1981, J. Econometrics 17, 107).
 double breusch_pagan(std::span<const double> residuals, std::span<const std::size_t> runs);
 
+/// Significance of a difference of the variance between the runs, by the same test; 1 for one run.
+double unequal_runs(std::span<const double> residuals, std::span<const std::size_t> runs);
+
 /// The sum of the products of residuals that are `lag` records apart within a run.
 double lagged(std::span<const double> residuals, std::span<const std::size_t> runs,
               std::size_t lag);

@@ -32,10 +32,12 @@ TEST_CASE("residuals: Newey-West by hand", "[statistics]") {
         1e-12);
 }
 
-TEST_CASE("residuals: Breusch-Pagan notices noise that grows, and 1 % of even noise",
-          "[statistics]") {
+TEST_CASE(
+    "residuals: Breusch-Pagan notices noise that grows, or differs between runs, and 1 % of even "
+    "noise",
+    "[statistics]") {
   simulated::Noise noise(3);
-  int even = 0, growing = 0;
+  int even = 0, growing = 0, equal = 0, equal_ten = 0, differing = 0;
   for (int k = 0; k < 1000; ++k) {
     std::vector<double> e, g;
     for (int i = 0; i < 100; ++i) {
@@ -43,11 +45,20 @@ TEST_CASE("residuals: Breusch-Pagan notices noise that grows, and 1 % of even no
       g.push_back(noise(1 + 0.06 * i));
     }
     const std::size_t runs[] = {60, 40}, one[] = {100};
+    const std::vector<std::size_t> ten(10, 10);
     even += breusch_pagan(e, runs) <= 0.01;
+    equal += unequal_runs(e, runs) <= 0.01;
+    equal_ten += unequal_runs(e, ten) <= 0.01;
     growing += breusch_pagan(g, one) <= 0.01;
+    for (std::size_t i = 60; i < 100; ++i) e[i] *= 3;
+    differing += unequal_runs(e, runs) <= 0.01;
   }
   CHECK(even <= 22);  // more of 1000 at 1 % by chance in 0.04 %
+  CHECK(equal <= 22);
+  CHECK(equal_ten <= 22);
   CHECK(growing >= 950);
+  CHECK(differing >= 950);
+  CHECK(unequal_runs(std::vector<double>{1, 2, 3}, std::vector<std::size_t>{3}) == 1);
 }
 
 // In a run that is shorter than twice the bandwidth the weights 1 - lag/(width + 1) are cut off at
