@@ -150,12 +150,12 @@ bool HeadReader::find_record() {
 /// that they are names.
 std::vector<std::string> HeadReader::take_commented_names(std::size_t width, Proof proof) {
   const auto known = before_ ? before_->layout.runs.front().columns : std::vector<Column>();
-  for (auto comment = comments_.end(); comment-- != comments_.begin();) {
-    auto [names, tabs, is_known] = names_in_comment(comment->text, width, known);
+  for (std::size_t i = comments_.size(); i-- > 0;) {
+    auto [names, tabs, is_known] = names_in_comment(comments_[i].text, width, known);
     const bool proven = is_known || (tabs && proof != Proof::known) || proof == Proof::none;
     if (names.empty() || !proven) continue;
-    head_.line = comment->number;
-    comments_.erase(comment);
+    head_.line = comments_[i].number;
+    comments_.erase(comments_.begin() + static_cast<std::ptrdiff_t>(i));
     return names;
   }
   return {};
