@@ -6,7 +6,7 @@
 namespace rolling {
 namespace {
 
-/// The same by an integral.
+/// The mean and the standard deviation of the logarithm, each by an integral.
 Estimate logarithm_of_noise(double s) {
   // The substitution z = u^2 + least makes the integrands smooth at the pole of the logarithm. The
   // midpoint rule with this number of steps then has an error below 5e-4.
