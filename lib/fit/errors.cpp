@@ -8,17 +8,10 @@
 #include "base/by_run.h"
 #include "base/dot.h"
 #include "base/error.h"
+#include "least_squares/triangles.h"
 #include "statistics/residuals.h"
 
 namespace rolling {
-
-void solve_transposed(const double* R, std::span<double> g) {
-  const std::size_t q = g.size();
-  for (std::size_t j = 0; j < q; ++j) {
-    for (std::size_t k = 0; k < j; ++k) g[j] -= R[k * q + j] * g[k];
-    g[j] /= R[j * q + j];
-  }
-}
 
 double Spread::operator()(std::vector<double> g, std::vector<double> h, std::size_t run) const {
   const std::size_t first = run * q_ * q_;
@@ -27,19 +20,6 @@ double Spread::operator()(std::vector<double> g, std::vector<double> h, std::siz
   for (std::size_t i = 0; i < q_; ++i)
     for (std::size_t j = 0; j < q_; ++j) sum += g[i] * M_[first + i * q_ + j] * h[j];
   return sum;
-}
-
-std::vector<double> orthonormal(const System& system, const Minimum& m) {
-  const std::size_t q = system.columns();
-  std::vector<double> Q(m.f.size() * q);
-  double* row = Q.data();
-  system.evaluate(m.theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
-    for (std::size_t i = 0; i < f.size(); ++i, row += q) {
-      for (std::size_t j = 0; j < q; ++j) row[j] = J[j * f.size() + i];
-      solve_transposed(&m.R[run * q * q], {row, q});
-    }
-  });
-  return Q;
 }
 
 void add_shared(std::vector<double>& M, std::size_t columns, std::size_t shared) {
@@ -74,17 +54,16 @@ Sources estimated(const Fitted& fit) {
 
 Sources sources_of(const Fitted& fit) {
   if (fit.raw_noise) return fit.raw_noise->sources;
-  std::vector<double> Q = orthonormal(fit.system, fit.minimum);
-  if (!fit.filters_known()) return {fit.minimum.f, fit.system.runs, std::move(Q)};
+  if (!fit.filters_known()) return {fit.minimum.f, fit.system.runs, fit.minimum.Q};
   Sources all = estimated(fit);
-  all.B = fit.noise->through(std::move(Q), fit.system.columns());
+  all.B = fit.noise->through(fit.minimum.Q, fit.system.columns());
   return all;
 }
 
 /// The meat B^T B of each run, for sources of variance one and known filters.
 std::vector<double> meat_of(const Fitted& fit) {
   const std::size_t q = fit.system.columns();
-  if (!fit.raw_noise) return fit.noise->meat(orthonormal(fit.system, fit.minimum), q);
+  if (!fit.raw_noise) return fit.noise->meat(fit.minimum.Q, q);
   return outer_products(fit.raw_noise->sources.B, q, fit.raw_noise->sources.runs);
 }
 

@@ -48,13 +48,6 @@ NoiseErrors noise_errors(const Fitted&, const Uncertainty&);
 /// The noise of the raw column of a fit with known filters; without the B of its sources.
 RawNoise raw_noise_of(const Fitted&);
 
-/// Replaces g by R^-T g, for the upper triangle R of a Minimum (row by row, as many as g has).
-void solve_transposed(const double* R, std::span<double> g);
-
-/// Q = J R^-1, one row for each residual. The meat M of the covariance R^-1 M R^-T is a quadratic
-/// form of the rows of Q.
-std::vector<double> orthonormal(const System&, const Minimum&);
-
 /// Adds, over the runs, the block of the shared parameters of each run's matrix in M, and writes
 /// the sum to every run's block.
 void add_shared(std::vector<double>& M, std::size_t columns, std::size_t shared);

@@ -178,7 +178,7 @@ Candidate fit_law(const Records& records, const Law& law, const std::vector<Cand
     return y.first - x.first <= 1e-9 * x.first;
   };
   starts.erase(std::unique(starts.begin(), starts.end(), same), starts.end());
-  Candidate best{&law, {{}, {}, {}, infinity}, {}};
+  Candidate best{&law, {{}, {}, {}, {}, infinity}, {}};
   const auto try_from = [&](const std::vector<double>& theta) {
     if (Minimum m = attempt(system, theta); m.rss < best.minimum.rss) best.minimum = std::move(m);
   };

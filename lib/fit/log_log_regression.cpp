@@ -14,6 +14,7 @@
 #include "fit/errors.h"
 #include "fit/roll_fit.h"
 #include "fit/shift_records.h"
+#include "least_squares/triangles.h"
 #include "statistics/logarithm_of_noise.h"
 
 namespace rolling {
@@ -101,8 +102,7 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& all, const FitOptions&
   RawNoise raw_noise = raw_noise_of(roll);
   roll.system = {}, roll.noise = {};  // frees memory: the weights are large
   const std::size_t p = line.system.columns();
-  const std::vector<double> Q = orthonormal(line.system, line.minimum);
-  const auto Q_of = by_run(Q, line.system.runs, p);
+  const auto Q_of = by_run(line.minimum.Q, line.system.runs, p);
   std::vector<double> along(p);  // Q^T bias
   for (std::size_t r = 0; r < all.size(); ++r) {
     const ObservedRun& run = roll.rolls->runs()[r];

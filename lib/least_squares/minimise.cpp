@@ -1,5 +1,6 @@
 #include "least_squares/minimise.h"
 
+#include "base/by_run.h"
 #include "base/dot.h"
 #include "base/error.h"
 #include "base/median.h"
@@ -21,9 +22,12 @@ constexpr double unseen = 1e-11;        // negligible step / (standard deviation
 /// decomposition of J, because the condition number of the normal equations is the square of that
 /// of J.
 struct Point {
-  explicit Point(const System& system) : R(system) { f.reserve(system.residuals()); }
+  explicit Point(const System& system) : R(system) {
+    f.reserve(system.residuals());
+    J.reserve(system.residuals() * system.columns());
+  }
 
-  std::vector<double> theta, f;
+  std::vector<double> theta, f, J;  // J row by row
   Triangles R;
   double rss = 0;
   std::vector<double> step, lengths;  // lengths: norms of the columns of J
@@ -43,11 +47,14 @@ struct Point {
 bool evaluate_at(const System& system, Point& at, std::vector<double> theta) {
   at.theta = std::move(theta);
   at.f.clear();
+  at.J.clear();
   at.R = Triangles(system);
   at.rss = 0;
   try {
     system.evaluate(at.theta, [&at](std::size_t run, std::span<double> f, std::span<double> J) {
       at.f.insert(at.f.end(), f.begin(), f.end());
+      for (std::size_t i = 0; i < f.size(); ++i)
+        for (std::size_t k = i; k < J.size(); k += f.size()) at.J.push_back(J[k]);
       at.rss += dot(f, f);
       at.R.add(run, f, J);
     });
@@ -101,6 +108,17 @@ Point descend(const System& system, Point at) {
     if (at.negligible()) break;
   }
   return at;
+}
+
+/// J of this point becomes Q, in place.
+Minimum minimum_at(const System& system, Point at) {
+  const std::size_t q = system.columns();
+  Minimum minimum{std::move(at.theta), std::move(at.f), std::move(at.J), at.R.without_f(), at.rss};
+  const auto parts = by_run(minimum.Q, system.runs, q);
+  for (std::size_t run = 0; run < parts.size(); ++run)
+    for (std::size_t i = 0; i < parts[run].size(); i += q)
+      solve_transposed(&minimum.R[run * q * q], parts[run].subspan(i, q));
+  return minimum;
 }
 
 /// Evaluates the system at a start; throws Error where it has no finite values.
@@ -165,14 +183,14 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
           "the fit does not converge: are all of these records of the free roll (smooth --coast)?");
   }
   if (!determined()) fail("the data do not determine the parameters: they cannot be told apart");
-  return {std::move(best.theta), std::move(best.f), best.R.without_f(), best.rss};
+  return minimum_at(system, std::move(best));
 }
 
 Minimum attempt(const System& system, const std::vector<double>& start) {
   try {
     return minimise(system, start);
   } catch (const Error&) {
-    return {start, {}, {}, std::numeric_limits<double>::infinity()};
+    return {start, {}, {}, {}, std::numeric_limits<double>::infinity()};
   }
 }
 
@@ -245,8 +263,8 @@ Minimum minimise_robust(const System& system, const std::vector<double>& start) 
   const double correction =
       1 + static_cast<double>(p) / n * (squares - mean * mean) / (mean * mean);
   for (double& r : at.f) r *= bisquare(r / scale).weight * correction / mean;
-  const double rss = dot(at.f, at.f);
-  return {std::move(at.theta), std::move(at.f), at.R.without_f(), rss};
+  at.rss = dot(at.f, at.f);
+  return minimum_at(system, std::move(at));
 }
 
 double restricted_likelihood(const System& system, const std::vector<double>& theta) {

@@ -8,9 +8,9 @@ namespace rolling {
 
 struct Minimum {
   std::vector<double> theta, f;
-  /// J = Q R for the columns of each run: one upper triangle for each run, row by row. The rows of
-  /// the shared parameters are the same in all triangles.
-  std::vector<double> R;
+  /// J = Q R for the columns of each run. Q has one row for each residual; R is one upper triangle
+  /// for each run, row by row. The rows of the shared parameters are the same in all triangles.
+  std::vector<double> Q, R;
   double rss;  ///< |f|^2
 };
 

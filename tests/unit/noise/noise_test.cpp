@@ -50,7 +50,7 @@ TEST_CASE("noise: its variance and the covariance of the parameters, whatever th
       variances += raw_noise_of(fit).variance / runs;
       squares += (fit.minimum.theta[1] - 0.5) * (fit.minimum.theta[1] - 0.5) / runs;
       if (k > 0) continue;
-      const auto Q = orthonormal(fit.system, fit.minimum);
+      const auto& Q = fit.minimum.Q;
       const auto B = noise->through(Q, 2), M = noise->meat(Q, 2);
       const auto& R = fit.minimum.R;  // of which the slope needs the last element alone
       for (std::size_t s = 0; s < noise->sources()[0]; ++s)
