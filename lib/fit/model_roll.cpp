@@ -1,9 +1,11 @@
 #include "fit/model_roll.h"
 
+#include "base/chebyshev.h"
 #include "base/error.h"
 #include "contact/contact.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -156,29 +158,34 @@ double RollModel::slope(const std::vector<double>& theta, std::size_t run) const
 
 RawModel RollModel::raw(const std::vector<double>& theta, std::size_t r) const {
   const ObservedRun& run = runs_[r];
-  return [&q = parameters_, roll = trajectory(theta, r), a = parameters_.law(theta).a,
-          x0 = parameters_.x0(theta, r), way = run.way,
-          position = run.raw_is_position](double t, double* slopes, std::size_t stride) {
-    if (position) {
-      const auto s = roll.at(t);
-      q.chain(slopes, stride, a, {way * s.x_a, way * s.x_b, way * s.x_v0, 1, s.x_S});
-      return x0 + way * s.x;
-    }
-    const auto s = roll.speed_at(t);
-    q.chain(slopes, stride, a, {way * s.v_a, way * s.v_b, way * s.v_v0, 0, s.v_S});
-    return way * s.v;
+  const Trajectory roll = trajectory(theta, r);
+  const bool position = run.raw_is_position;
+  const auto direct = [roll, position](double t) -> std::array<double, 5> {
+    const auto s = position ? roll.at(t) : roll.speed_at(t);
+    if (position) return {s.x, s.x_a, s.x_b, s.x_v0, s.x_S};
+    return {s.v, s.v_a, s.v_b, s.v_v0, s.v_S};
   };
+  return
+      [&q = parameters_, a = parameters_.law(theta).a, x0 = parameters_.x0(theta, r), way = run.way,
+       panels = ChebyshevPanels<5, decltype(direct)>(run.t, roll.stop_time(), direct)](
+          double t, double* slopes, std::size_t stride) mutable {
+    const auto [s, by_a, by_b, by_v0, by_S] = panels(t);
+    q.chain(slopes, stride, a, {way * by_a, way * by_b, way * by_v0, 1, by_S});
+    return x0 + way * s;
+      };
 }
 
 std::vector<double> RollModel::raw_column(const std::vector<double>& theta, std::size_t r) const {
   const ObservedRun& run = runs_[r];
   const Trajectory roll = trajectory(theta, r);
+  const auto direct = [&](double t) {
+    return std::array{run.raw_is_position ? roll.distance_at(t) : roll.speed_at(t).v};
+  };
+  ChebyshevPanels<1, decltype(direct)> panels(run.t, roll.stop_time(), direct);
   const double x0 = parameters_.x0(theta, r);
   std::vector<double> column;
   column.reserve(run.t.size());
-  for (double t : run.t)
-    column.push_back(run.raw_is_position ? x0 + run.way * roll.distance_at(t)
-                                         : run.way * roll.speed_at(t).v);
+  for (double t : run.t) column.push_back(x0 + run.way * panels(t)[0]);
   return column;
 }
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
-#include <utility>
 
 #include "base/error.h"
 #include "contact/contact.h"
@@ -127,8 +125,10 @@ LawRoll::Point LawRoll::at(double t) {
     for (std::size_t j = 0; j <= law_.size(); ++j) p.x_c[j] += p.v_c[j] * since;
     return p;
   }
-  if (++asked_ == worth_a_series) take_series();
-  return asked_ < worth_a_series ? integrated(since) : by_series(since);
+  if (++asked_ == worth_a_series)
+    series_ = {0, panel_.after.time - panel_.before.time,
+               [this](double at) { return std::bit_cast<Series::Values>(integrated(at)); }};
+  return asked_ < worth_a_series ? integrated(since) : std::bit_cast<Point>(series_(since));
 }
 
 LawRoll::Point LawRoll::integrated(double since) const {
@@ -143,30 +143,6 @@ LawRoll::Point LawRoll::integrated(double since) const {
   add(sums, panel_.u, width);
   const double v = panel_.u * std::exp(-width);
   return point(sums, v, rate(v).q);
-}
-
-void LawRoll::take_series() {
-  const double duration = panel_.after.time - panel_.before.time;
-  series_ = {};
-  for (std::size_t k = 0; k < terms; ++k) {
-    const double angle = std::numbers::pi * (static_cast<double>(k) + 0.5) / terms;
-    const auto y = std::bit_cast<Numbers>(integrated(duration * (1 + std::cos(angle)) / 2));
-    for (std::size_t j = 0; j < terms; ++j) {
-      const double weight = (j == 0 ? 1 : 2) * std::cos(static_cast<double>(j) * angle) / terms;
-      for (std::size_t i = 0; i < y.size(); ++i) series_[j][i] += weight * y[i];
-    }
-  }
-}
-
-// Clenshaw's recurrence (1955, Math. Tables Aids Comput. 9, 118).
-LawRoll::Point LawRoll::by_series(double since) const {
-  const double s = 2 * since / (panel_.after.time - panel_.before.time) - 1;
-  Numbers sum{}, next{};
-  for (std::size_t j = terms - 1; j > 0; --j)
-    for (std::size_t i = 0; i < sum.size(); ++i)
-      next[i] = std::exchange(sum[i], 2 * s * sum[i] - next[i] + series_[j][i]);
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = s * sum[i] - next[i] + series_[0][i];
-  return std::bit_cast<Point>(sum);
 }
 
 }  // namespace rolling

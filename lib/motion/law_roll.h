@@ -2,6 +2,7 @@
 // the comparison of laws. For the law a v^b alone, Trajectory has smaller errors.
 #pragma once
 
+#include "base/chebyshev.h"
 #include "contact/body.h"
 #include "contact/law.h"
 
@@ -54,8 +55,6 @@ class LawRoll {
   Panel panel_from(double u, double q, const Sums& before) const;
   Point point(const Sums&, double v, double q) const;
   Point integrated(double since) const;  // `since` counts from the beginning of the panel
-  void take_series();
-  Point by_series(double since) const;
 
   Body body_;
   Geometry geometry_;
@@ -64,10 +63,9 @@ class LawRoll {
   double v0_, q0_;
   Panel panel_{};
   int panels_ = 0;
-  // The Chebyshev coefficients of all numbers of a Point as functions of time over the panel.
   static constexpr std::size_t terms = 16, worth_a_series = 4 * terms;
-  using Numbers = std::array<double, sizeof(Point) / sizeof(double)>;
-  std::array<Numbers, terms> series_;
+  using Series = ChebyshevSeries<sizeof(Point) / sizeof(double), terms>;
+  Series series_;          // all numbers of a Point as functions of time over the panel
   std::size_t asked_ = 0;  // number of calls of at() in the panel
 };
 
