@@ -52,18 +52,18 @@ Sources estimated(const Fitted& fit) {
   return {fit.noise->explain(fit.minimum.f), fit.noise->sources(), {}, fit.means_taken()};
 }
 
-Sources sources_of(const Fitted& fit) {
+Sources sources_of(const Fitted& fit, std::vector<double> Q) {
   if (fit.raw_noise) return fit.raw_noise->sources;
-  if (!fit.filters_known()) return {fit.minimum.f, fit.system.runs, fit.minimum.Q};
+  if (!fit.filters_known()) return {fit.minimum.f, fit.system.runs, std::move(Q)};
   Sources all = estimated(fit);
-  all.B = fit.noise->through(fit.minimum.Q, fit.system.columns());
+  all.B = fit.noise->through(std::move(Q), fit.system.columns());
   return all;
 }
 
 /// The meat B^T B of each run, for sources of variance one and known filters.
-std::vector<double> meat_of(const Fitted& fit) {
+std::vector<double> meat_of(const Fitted& fit, std::vector<double> Q) {
   const std::size_t q = fit.system.columns();
-  if (!fit.raw_noise) return fit.noise->meat(fit.minimum.Q, q);
+  if (!fit.raw_noise) return fit.noise->meat(std::move(Q), q);
   return outer_products(fit.raw_noise->sources.B, q, fit.raw_noise->sources.runs);
 }
 
@@ -143,13 +143,13 @@ Tested tested(const Fitted& fit) {
 
 }  // namespace
 
-RawNoise raw_noise_of(const Fitted& fit) {
-  RawNoise raw{variance_of(fit, meat_of(fit)), {}, {}, estimated(fit)};
+RawNoise raw_noise_of(const Fitted& fit, std::vector<double> Q) {
+  RawNoise raw{variance_of(fit, meat_of(fit, std::move(Q))), {}, {}, estimated(fit)};
   raw.innovations = fit.noise->innovations(fit.minimum.f, raw.innovation_runs);
   return raw;
 }
 
-Uncertainty uncertainty_of(const Fitted& fit) {
+Uncertainty uncertainty_of(const Fitted& fit, std::vector<double> Q) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
                     q = fit.system.columns();
@@ -160,9 +160,10 @@ Uncertainty uncertainty_of(const Fitted& fit) {
   const auto [whiteness, kind] = tested(fit);
   const bool consistent = kind == Errors::autocorrelation || kind == Errors::uneven;
   Sources sources;
-  if (consistent) sources = sources_of(fit);
+  if (consistent) sources = sources_of(fit, std::move(Q));
   std::vector<double> M;
-  if (known) M = consistent ? outer_products(sources.B, q, sources.runs) : meat_of(fit);
+  if (known)
+    M = consistent ? outer_products(sources.B, q, sources.runs) : meat_of(fit, std::move(Q));
   const double variance =
       known ? variance_of(fit, M) : fit.minimum.rss / static_cast<double>(n - p);
   if (consistent) M = consistent_meat(fit, std::move(sources), kind, variance);

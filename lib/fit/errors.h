@@ -31,8 +31,9 @@ struct Uncertainty {
 /// (J^T J)^-1. With 30 or more records the noise is tested (for known filters the noise of the raw
 /// column). If it is not white (Ljung and Box), the covariance is that of Newey and West, already
 /// at 10 % if neighbouring residuals are positively correlated; otherwise, if the variance is
-/// uneven at 1 %, along the runs or between them, it is HC3.
-Uncertainty uncertainty_of(const Fitted&);
+/// uneven at 1 %, along the runs or between them, it is HC3. Q is that of the minimum; it is large,
+/// and its memory is used.
+Uncertainty uncertainty_of(const Fitted&, std::vector<double> Q);
 
 /// The standard errors of the reported numbers that are due to the noise.
 struct NoiseErrors {
@@ -45,8 +46,9 @@ struct NoiseErrors {
 };
 NoiseErrors noise_errors(const Fitted&, const Uncertainty&);
 
-/// The noise of the raw column of a fit with known filters; without the B of its sources.
-RawNoise raw_noise_of(const Fitted&);
+/// The noise of the raw column of a fit with known filters; without the B of its sources. Q as
+/// above.
+RawNoise raw_noise_of(const Fitted&, std::vector<double> Q);
 
 /// Adds, over the runs, the block of the shared parameters of each run's matrix in M, and writes
 /// the sum to every run's block.

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/by_column.h"
 #include "base/by_run.h"
 #include "base/dot.h"
 #include "base/error.h"
@@ -99,7 +100,7 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& all, const FitOptions&
   } catch (const Error&) {  // no roll fits: the line keeps its classical errors
     return;
   }
-  RawNoise raw_noise = raw_noise_of(roll);
+  RawNoise raw_noise = raw_noise_of(roll, std::move(roll.minimum.Q));
   roll.system = {}, roll.noise = {};  // frees memory: the weights are large
   const std::size_t p = line.system.columns();
   const auto Q_of = by_run(line.minimum.Q, line.system.runs, p);
@@ -115,8 +116,12 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& all, const FitOptions&
     const FilterMatrix D_of = D[r].of_rows(rows), v_of = v[r].of_rows(rows);
     const Points points = points_of(D_of, v_of, raw, {roll.a.value, roll.b.value}, shift,
                                     std::sqrt(raw_noise.variance));
-    std::vector<double> B = D_of.transposed_times(scaled(Q_of[r], p, points.by_D), p);
-    const std::vector<double> B_of_v = v_of.transposed_times(scaled(Q_of[r], p, points.by_v), p);
+    const auto through = [&](const FilterMatrix& H, const std::vector<double>& factors) {
+      return by_column(scaled(Q_of[r], p, factors), p,
+                       [&H](std::vector<double> x) { return H.transposed_times(std::move(x)); });
+    };
+    std::vector<double> B = through(D_of, points.by_D);
+    const std::vector<double> B_of_v = through(v_of, points.by_v);
     std::transform(B.begin(), B.end(), B_of_v.begin(), B.begin(), std::plus());
     raw_noise.sources.B.insert(raw_noise.sources.B.end(), B.begin(), B.end());
     for (std::size_t i = 0; i < Q_of[r].size(); ++i)

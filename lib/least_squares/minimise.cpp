@@ -22,12 +22,10 @@ constexpr double unseen = 1e-11;        // negligible step / (standard deviation
 /// decomposition of J, because the condition number of the normal equations is the square of that
 /// of J.
 struct Point {
-  explicit Point(const System& system) : R(system) {
-    f.reserve(system.residuals());
-    J.reserve(system.residuals() * system.columns());
-  }
+  explicit Point(const System& system) : R(system) { f.reserve(system.residuals()); }
 
-  std::vector<double> theta, f, J;  // J row by row
+  std::vector<double> theta, f;
+  std::vector<double> J;  // row by row; empty if the next point has taken its memory
   Triangles R;
   double rss = 0;
   std::vector<double> step, lengths;  // lengths: norms of the columns of J
@@ -48,6 +46,7 @@ bool evaluate_at(const System& system, Point& at, std::vector<double> theta) {
   at.theta = std::move(theta);
   at.f.clear();
   at.J.clear();
+  at.J.reserve(system.residuals() * system.columns());
   at.R = Triangles(system);
   at.rss = 0;
   try {
@@ -77,6 +76,12 @@ std::vector<double> moved(std::vector<double> theta, const std::vector<double>& 
   return theta;
 }
 
+/// Evaluates the system one step further. J is large; the next point takes its memory.
+bool evaluate_next(const System& system, Point& at, const std::vector<double>& step, Point& next) {
+  next.J.swap(at.J);
+  return evaluate_at(system, next, moved(at.theta, step));
+}
+
 /// Levenberg-Marquardt steps, scaled after More (1978, Lecture Notes in Mathematics 630, 105) and
 /// damped after Nielsen (1999, IMM-REP-1999-05), until they make no further progress. The caller
 /// tests whether the result is a minimum.
@@ -91,7 +96,7 @@ Point descend(const System& system, Point at) {
     const auto step = damped.solve();
     double scaled = 0;
     for (std::size_t j = 0; j < D.size(); ++j) scaled += D[j] * step[j] * D[j] * step[j];
-    const bool allowed = evaluate_at(system, next, moved(at.theta, step));
+    const bool allowed = evaluate_next(system, at, step, next);
     if (!allowed || !(next.rss < at.rss)) {
       mu *= growth;
       growth *= 2;
@@ -112,6 +117,7 @@ Point descend(const System& system, Point at) {
 
 /// J of this point becomes Q, in place.
 Minimum minimum_at(const System& system, Point at) {
+  if (at.J.empty()) evaluate_at(system, at, std::vector(at.theta));
   const std::size_t q = system.columns();
   Minimum minimum{std::move(at.theta), std::move(at.f), std::move(at.J), at.R.without_f(), at.rss};
   const auto parts = by_run(minimum.Q, system.runs, q);
@@ -138,7 +144,7 @@ Point polish(const System& system, Point best, double share) {
       best.theta = moved(best.theta, best.step);
       break;
     }
-    if (!evaluate_at(system, next, moved(best.theta, best.step)) ||
+    if (!evaluate_next(system, best, best.step, next) ||
         !(next.rss <= best.rss * (1 + 1e-10) - share * best.reduction))
       break;
     if (best.size < 1e-9 && !(next.size < best.size)) break;  // round-off

@@ -30,18 +30,17 @@ void BandMatrix::reserve(std::size_t rows, std::size_t numbers) {
 void BandMatrix::append(std::size_t first, std::span<const double> values) {
   while (!values.empty() && values.back() == 0) values = values.first(values.size() - 1);
   while (!values.empty() && values.front() == 0) values = values.subspan(1), ++first;
-  if (values.empty()) {
-    rows_.push_back({0, 0, 0});
-    return;
-  }
-  const auto before = rows_.empty() ? std::span<const double>() : row(rows() - 1);
-  const std::size_t start =
-      std::ranges::equal(before, values) ? rows_.back().start : values_.size();
-  if (first + values.size() > UINT32_MAX || start + values.size() > UINT32_MAX)
+  if (values.empty()) first = 0;
+  if (std::max({rows() + 1, first + values.size(), values_.size() + values.size()}) > UINT32_MAX)
     fail("a filter of more than {} numbers", UINT32_MAX);  // GCOVR_EXCL_LINE: takes 32 GB
-  if (start == values_.size()) values_.insert(values_.end(), values.begin(), values.end());
-  rows_.push_back({static_cast<std::uint32_t>(start), static_cast<std::uint32_t>(first),
-                   static_cast<std::uint32_t>(values.size())});
+  const bool same = !rows_.empty() && std::ranges::equal(row(rows() - 1), values);
+  const auto before = static_cast<std::uint32_t>(rows() - first);
+  if (!same || shapes_.back().before != before) {
+    const auto start = same ? shapes_.back().start : static_cast<std::uint32_t>(values_.size());
+    if (!same) values_.insert(values_.end(), values.begin(), values.end());
+    shapes_.push_back({before, start, static_cast<std::uint32_t>(values.size())});
+  }
+  rows_.push_back(static_cast<std::uint32_t>(shapes_.size() - 1));
   columns_ = std::max(columns_, first + values.size());
   window_ = std::max(window_, columns_ - first);
 }
@@ -118,20 +117,18 @@ std::vector<double> FilterMatrix::times(std::span<const double> x) const {
   return all;
 }
 
-std::vector<double> FilterMatrix::transposed_times(std::span<const double> X,
-                                                   std::size_t columns) const {
-  std::vector<double> all(X.begin(), X.end());
+std::vector<double> FilterMatrix::transposed_times(std::vector<double> x) const {
   for (std::size_t f = factors_.size(); f-- > 0;) {
     const BandMatrix& L = *factors_[f];
-    std::vector<double> next((f > 0 ? factors_[f - 1]->rows() : columns_) * columns);
+    std::vector<double> next(f > 0 ? factors_[f - 1]->rows() : columns_);
     for (std::size_t i = 0; i < L.rows(); ++i) {
-      double* to = &next[L.first(i) * columns];
-      for (const double by : L.row(i))
-        for (std::size_t c = 0; c < columns; ++c) *to++ += by * all[i * columns + c];
+      const auto row = L.row(i);
+      double* const to = &next[L.first(i)];
+      for (std::size_t k = 0; k < row.size(); ++k) to[k] += row[k] * x[i];
     }
-    all.swap(next);
+    x.swap(next);
   }
-  return all;
+  return x;
 }
 
 double dot(const FilterMatrix::Row& x, const FilterMatrix::Row& y) {

@@ -26,16 +26,16 @@ class BandMatrix {
   std::size_t rows() const { return rows_.size(); }
   /// One more than the last column with an element.
   std::size_t columns() const { return columns_; }
-  std::size_t first(std::size_t i) const { return rows_[i].first; }
-  std::size_t end(std::size_t i) const { return rows_[i].first + rows_[i].size; }
+  std::size_t first(std::size_t i) const {
+    return static_cast<std::uint32_t>(i) - shapes_[rows_[i]].before;
+  }
+  std::size_t end(std::size_t i) const { return first(i) + shapes_[rows_[i]].size; }
   std::span<const double> row(std::size_t i) const {
-    return {values_.data() + rows_[i].start, rows_[i].size};
+    const Shape& shape = shapes_[rows_[i]];
+    return {values_.data() + shape.start, shape.size};
   }
   /// True if row i has the elements of row i - 1, one column further on.
-  bool repeats(std::size_t i) const {
-    return i > 0 && rows_[i].start == rows_[i - 1].start && rows_[i].size == rows_[i - 1].size &&
-           rows_[i].first == rows_[i - 1].first + 1;
-  }
+  bool repeats(std::size_t i) const { return i > 0 && rows_[i] == rows_[i - 1]; }
   /// The largest distance, over the rows, from the first column of a row to the end of the columns
   /// that this row or an earlier one reaches: the number of input samples that must be kept when
   /// rows are computed in order.
@@ -44,10 +44,13 @@ class BandMatrix {
   BandMatrix of_rows(std::span<const std::size_t> rows) const;
 
  private:
-  struct Row {
-    std::uint32_t start, first, size;  // start: index into values_
+  /// What the rows of a stretch have in common.
+  struct Shape {
+    std::uint32_t before, start, size;  // before: row number minus first column, modulo 2^32;
+                                        // start: index into values_
   };
-  std::vector<Row> rows_;
+  std::vector<Shape> shapes_;
+  std::vector<std::uint32_t> rows_;  // indices into shapes_
   std::vector<double> values_;
   std::size_t columns_ = 0, window_ = 0;
 };
@@ -80,9 +83,8 @@ class FilterMatrix {
   bool repeats(std::size_t i) const;
   /// The product with a vector of columns() elements.
   std::vector<double> times(std::span<const double> x) const;
-  /// The product of the transposed matrix with X, which is stored row by row with `columns`
-  /// elements in each of its rows() rows.
-  std::vector<double> transposed_times(std::span<const double> X, std::size_t columns = 1) const;
+  /// The product of the transposed matrix with a vector of rows() elements.
+  std::vector<double> transposed_times(std::vector<double> x) const;
 
  private:
   friend class FilterPass;

@@ -1,5 +1,6 @@
 #include "noise/noise.h"
 
+#include "base/by_column.h"
 #include "base/by_run.h"
 #include "base/dot.h"
 
@@ -42,9 +43,11 @@ std::vector<double> Noise::without_weights(const std::vector<double>& f) const {
 }
 
 std::vector<double> Noise::through(std::vector<double> Q, std::size_t p) const {
-  return each(by_run(Q, rows_, p), [&](std::size_t r, auto Q_of) {
-    whiteners_[r].apply_transposed(Q_of, p);
-    return E_[r].transposed_times(Q_of, p);
+  return by_column(std::move(Q), p, [this](std::vector<double> column) {
+    return each(by_run(column, rows_), [&](std::size_t r, auto of_run) {
+      whiteners_[r].apply_transposed(of_run);
+      return E_[r].transposed_times({of_run.begin(), of_run.end()});
+    });
   });
 }
 

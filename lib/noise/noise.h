@@ -30,7 +30,7 @@ class Noise {
 
   /// B = (W E)^T Q for Q = J R^-1 of a fit with these weights (one row of `columns` numbers for
   /// each residual): one row for each source, run by run. The error of the parameters is -R^-1 B^T
-  /// e, with e the noise of the sources, whatever the weights are.
+  /// e, with e the noise of the sources, whatever the weights are. B takes the memory of Q.
   std::vector<double> through(std::vector<double> Q, std::size_t columns) const;
   /// The meat B^T B of the sandwich covariance of each run, run after run.
   std::vector<double> meat(std::vector<double> Q, std::size_t columns) const;
