@@ -127,7 +127,8 @@ bool rounded(const Fitted& fit) {
   double variances = 0;
   const auto plain = fit.noise->without_weights(fit.minimum.f);
   for (std::size_t r = 0; r < fit.system.runs.size(); ++r)
-    for (const double variance : fit.noise->whitener(r).variances()) variances += variance;
+    for (std::size_t i = 0; i < fit.system.runs[r]; ++i)
+      variances += fit.noise->whitener(r).variance(i);
   return fit.minimum.rss * variances > 4 * dot(plain, plain) * static_cast<double>(plain.size());
 }
 

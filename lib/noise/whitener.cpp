@@ -53,11 +53,7 @@ Whitener::Whitener(Covariance of_E, double share)
     : n_(of_E.n), band_(of_E.band), R_(std::move(of_E.rows)) {
   const double width = static_cast<double>(band_);
   white_ = share * share + width * width * std::numeric_limits<double>::epsilon();
-  variances_.reserve(n_);
-  for (std::size_t k = 0; k < n_; ++k) {
-    variances_.push_back(R_[k * band_]);
-    R_[k * band_] *= 1 + white_;
-  }
+  for (std::size_t k = 0; k < n_; ++k) R_[k * band_] *= 1 + white_;
   for (std::size_t k = 0; k < n_; ++k) {
     double* const R = &R_[k * band_];
     if (!(R[0] > 0)) fail("the filters leave a column without noise");
@@ -66,6 +62,13 @@ Whitener::Whitener(Covariance of_E, double share)
     for (std::size_t i = 1; i < std::min(band_, n_ - k); ++i)
       for (std::size_t j = i; j < band_; ++j) R[i * band_ + j - i] -= R[i] * R[j];
   }
+}
+
+double Whitener::variance(std::size_t i) const {
+  double sum = 0;  // of the squares in column i of R
+  for (std::size_t j = 0; j < std::min(i + 1, band_); ++j)
+    sum += R_[(i - j) * band_ + j] * R_[(i - j) * band_ + j];
+  return sum / (1 + white_);
 }
 
 Whitener::Pass::Pass(const Whitener& by, std::size_t stride)
@@ -152,7 +155,7 @@ double Whitener::trace() const {
     for (std::size_t j = end; j-- > 1;)
       rows[0][j] = *(rows[j] - j) = -dot(R + 1, rows[j] - j + 1, end - 1) / R[0];
     rows[0][0] = (1 / R[0] - dot(R + 1, rows[0] + 1, end - 1)) / R[0];
-    of_F += white_ * variances_[k] * rows[0][0];
+    of_F += white_ * variance(k) * rows[0][0];
   }
   return static_cast<double>(n_) - of_F;
 }
@@ -165,7 +168,7 @@ std::vector<double> Whitener::meat(std::span<double> Q, std::size_t columns) con
   };
   add_squares([](std::size_t) { return 1.0; });
   apply_transposed(Q, columns);
-  add_squares([this](std::size_t i) { return -white_ * variances_[i]; });
+  add_squares([this](std::size_t i) { return -white_ * variance(i); });
   return M;
 }
 

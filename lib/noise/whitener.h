@@ -39,10 +39,10 @@ class Whitener {
   /// it, is above 30 times that of F. If it is not, the residual is a linear combination of those
   /// before it.
   bool informative(std::size_t i) const {
-    return R_[i * band_] * R_[i * band_] > 900 * white_ * variances_[i];
+    return R_[i * band_] * R_[i * band_] > 900 * white_ * variance(i);
   }
-  /// The diagonal of E E^T.
-  std::span<const double> variances() const { return variances_; }
+  /// Element i of the diagonal of E E^T.
+  double variance(std::size_t i) const;
   /// ln det R.
   double log_size() const;
   /// tr R^-T E E^T R^-1: the number of residuals minus the contribution of F.
@@ -54,7 +54,6 @@ class Whitener {
  private:
   std::size_t n_, band_;  // as in Covariance
   double white_;          // F is white_ times the diagonal of E E^T
-  std::vector<double> variances_;
   std::vector<double> R_;  // row k holds columns k .. k + band - 1
 };
 
