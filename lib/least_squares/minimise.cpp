@@ -115,7 +115,8 @@ Point descend(const System& system, Point at) {
   return at;
 }
 
-/// J of this point becomes Q, in place.
+/// J of this point becomes Q, in place. It is evaluated again if the search ended with a step that
+/// was refused.
 Minimum minimum_at(const System& system, Point at) {
   if (at.J.empty()) evaluate_at(system, at, std::vector(at.theta));
   const std::size_t q = system.columns();
@@ -139,11 +140,7 @@ Point at_start(const System& system, std::vector<double> theta) {
 /// squares by at least the fraction `share` of the reduction that the linear model predicts.
 Point polish(const System& system, Point best, double share) {
   Point next(system);
-  for (int i = 0; i < 100 && best.angle > undetermined; ++i) {
-    if (best.negligible()) {  // the step is taken without evaluating the residuals again
-      best.theta = moved(best.theta, best.step);
-      break;
-    }
+  for (int i = 0; i < 100 && best.angle > undetermined && !best.negligible(); ++i) {
     if (!evaluate_next(system, best, best.step, next) ||
         !(next.rss <= best.rss * (1 + 1e-10) - share * best.reduction))
       break;
@@ -189,7 +186,11 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
           "the fit does not converge: are all of these records of the free roll (smooth --coast)?");
   }
   if (!determined()) fail("the data do not determine the parameters: they cannot be told apart");
-  return minimum_at(system, std::move(best));
+  // A negligible step is taken without evaluating the residuals again.
+  std::vector<double> theta = best.negligible() ? moved(best.theta, best.step) : best.theta;
+  Minimum minimum = minimum_at(system, std::move(best));
+  minimum.theta = std::move(theta);
+  return minimum;
 }
 
 Minimum attempt(const System& system, const std::vector<double>& start) {

@@ -1,3 +1,7 @@
+#include "fit/model_roll.h"
+
+#include <array>
+
 #include "base/error.h"
 #include "unit/fit/simulated.h"
 #include "unit/catch.h"
@@ -290,4 +294,43 @@ TEST_CASE("trajectory: white noise, intervals that hold and no bias", "[fit]") {
     CHECK(covered_b <= 198);
     CHECK(std::abs(sum / runs) < 3.3 * std::sqrt(squares) / runs);
   }
+}
+
+TEST_CASE("model: at dense times the roll is that of single times", "[fit]") {
+  const PowerLaw law{1.87e-3, 0.215}, fast{1.87e-3, 1.4};
+  for (const auto& [of, v0] : {std::pair(law, 0.5), std::pair(fast, 2.0)})
+    for (const auto geometry : {Geometry::approximate, Geometry::exact})
+      for (const bool position : {true, false})
+        for (const bool inclined : {false, true}) {
+          FitOptions options;
+          options.geometry = geometry;
+          options.fit_slope = inclined;
+          const Parameters q(options, position, 1, 1, 1);
+          ObservedRun run;
+          run.body = cylinder, run.geometry = geometry, run.raw_is_position = position;
+          for (int i = 0; i < 60000; ++i)
+            run.t.push_back(5e-5 * i);  // the first law stops at 2.4 s
+          const auto theta = q.theta(of, {v0}, {0.3});
+          const RollModel model({run}, q);
+          const RawModel dense = model.raw(theta, 0);
+          const auto column = model.raw_column(theta, 0);
+          const Trajectory roll = model.trajectory(theta, 0);
+          // The largest deviation of each number, and the number itself at its largest.
+          std::array<double, 6> off{}, size{};
+          for (std::size_t i = 0; i < run.t.size(); ++i) {
+            const auto p = position ? roll.at(run.t[i]) : roll.speed_at(run.t[i]);
+            std::array<double, 6> single{position ? 0.3 + p.x : p.v}, slopes{};
+            q.chain(&single[1], 1, of.a,
+                    position ? Parameters::Derivatives{p.x_a, p.x_b, p.x_v0, 1, p.x_S}
+                             : Parameters::Derivatives{p.v_a, p.v_b, p.v_v0, 1, p.v_S});
+            const double value = dense(run.t[i], slopes.data(), 1);
+            off[0] =
+                std::max({off[0], std::abs(value - single[0]), std::abs(column[i] - single[0])});
+            for (std::size_t j = 0; j < q.columns(); ++j)
+              off[1 + j] = std::max(off[1 + j], std::abs(slopes[j] - single[1 + j]));
+            for (std::size_t j = 0; j < 6; ++j) size[j] = std::max(size[j], std::abs(single[j]));
+          }
+          CAPTURE(of.b, position, inclined, geometry == Geometry::exact);
+          for (std::size_t j = 0; j < 6; ++j) CHECK(off[j] <= 1e-14 * size[j]);
+        }
 }
