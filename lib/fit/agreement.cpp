@@ -64,7 +64,7 @@ std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own) {
   for (std::size_t r = 0; r < own.size(); ++r) {
     if (!own[r]) continue;
     const Fitted& fit = *own[r];
-    const Spread covariance = uncertainty_of(fit, fit.minimum.Q).covariance;
+    const Spread covariance = uncertainty_of(fit, fit.minimum.J).covariance;
     auto by_log_a = fit.a.gradient;
     for (double& slope : by_log_a) slope /= fit.a.value;
     const Symmetric C{covariance(by_log_a, by_log_a) + rounding_of(by_log_a),
@@ -241,7 +241,7 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
   const Agreement found = compare(laws, parameters, options.fit_slope);
   if (found.agree()) return found;
   const Fitted around_own = with_own_noise(joint, own);
-  errors = noise_errors(around_own, uncertainty_of(around_own, around_own.minimum.Q));
+  errors = noise_errors(around_own, uncertainty_of(around_own, around_own.minimum.J));
   // The bias of logarithms comes from the noise too.
   joint.bias_a = joint.bias_b = 0;
   for (const OwnLaw& one : laws) {

@@ -64,11 +64,12 @@ std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitR
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
                     q = fit.system.columns();
   if (!fit.rolls || fit.noise->known() || n < p + 20 || !(fit.minimum.rss > 0)) return {};
+  const auto Q = orthonormal(fit, fit.minimum.J);
   const auto rows = usable(route, runs);
   std::optional<Beginning> found;
   std::vector<double> rest;
   double tests = 0;
-  const auto f_of = by_run(fit.minimum.f, fit.system.runs), Q_of = by_run(fit.minimum.Q, fit.system.runs, q);
+  const auto f_of = by_run(fit.minimum.f, fit.system.runs), Q_of = by_run(Q, fit.system.runs, q);
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const std::size_t records = std::min(f_of[r].size(), rows[r].size());
     for (std::size_t k = 3, next = 5; 4 * k <= records; k = std::exchange(next, k + next)) {

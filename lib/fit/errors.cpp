@@ -8,10 +8,17 @@
 #include "base/by_run.h"
 #include "base/dot.h"
 #include "base/error.h"
-#include "least_squares/triangles.h"
 #include "statistics/residuals.h"
 
 namespace rolling {
+
+void solve_transposed(const double* R, std::span<double> g) {
+  const std::size_t q = g.size();
+  for (std::size_t j = 0; j < q; ++j) {
+    for (std::size_t k = 0; k < j; ++k) g[j] -= R[k * q + j] * g[k];
+    g[j] /= R[j * q + j];
+  }
+}
 
 double Spread::operator()(std::vector<double> g, std::vector<double> h, std::size_t run) const {
   const std::size_t first = run * q_ * q_;
@@ -20,6 +27,15 @@ double Spread::operator()(std::vector<double> g, std::vector<double> h, std::siz
   for (std::size_t i = 0; i < q_; ++i)
     for (std::size_t j = 0; j < q_; ++j) sum += g[i] * M_[first + i * q_ + j] * h[j];
   return sum;
+}
+
+std::vector<double> orthonormal(const Fitted& fit, std::vector<double> J) {
+  const std::size_t q = fit.system.columns();
+  const auto parts = by_run(J, fit.system.runs, q);
+  for (std::size_t run = 0; run < parts.size(); ++run)
+    for (std::size_t i = 0; i < parts[run].size(); i += q)
+      solve_transposed(&fit.minimum.R[run * q * q], parts[run].subspan(i, q));
+  return J;
 }
 
 void add_shared(std::vector<double>& M, std::size_t columns, std::size_t shared) {
@@ -52,18 +68,18 @@ Sources estimated(const Fitted& fit) {
   return {fit.noise->explain(fit.minimum.f), fit.noise->sources(), {}, fit.means_taken()};
 }
 
-Sources sources_of(const Fitted& fit, std::vector<double> Q) {
+Sources sources_of(const Fitted& fit, std::vector<double> J) {
   if (fit.raw_noise) return fit.raw_noise->sources;
-  if (!fit.filters_known()) return {fit.minimum.f, fit.system.runs, std::move(Q)};
+  if (!fit.filters_known()) return {fit.minimum.f, fit.system.runs, orthonormal(fit, std::move(J))};
   Sources all = estimated(fit);
-  all.B = fit.noise->through(std::move(Q), fit.system.columns());
+  all.B = fit.noise->through(orthonormal(fit, std::move(J)), fit.system.columns());
   return all;
 }
 
 /// The meat B^T B of each run, for sources of variance one and known filters.
-std::vector<double> meat_of(const Fitted& fit, std::vector<double> Q) {
+std::vector<double> meat_of(const Fitted& fit, std::vector<double> J) {
   const std::size_t q = fit.system.columns();
-  if (!fit.raw_noise) return fit.noise->meat(std::move(Q), q);
+  if (!fit.raw_noise) return fit.noise->meat(orthonormal(fit, std::move(J)), q);
   return outer_products(fit.raw_noise->sources.B, q, fit.raw_noise->sources.runs);
 }
 
@@ -143,13 +159,13 @@ Tested tested(const Fitted& fit) {
 
 }  // namespace
 
-RawNoise raw_noise_of(const Fitted& fit, std::vector<double> Q) {
-  RawNoise raw{variance_of(fit, meat_of(fit, std::move(Q))), {}, {}, estimated(fit)};
+RawNoise raw_noise_of(const Fitted& fit, std::vector<double> J) {
+  RawNoise raw{variance_of(fit, meat_of(fit, std::move(J))), {}, {}, estimated(fit)};
   raw.innovations = fit.noise->innovations(fit.minimum.f, raw.innovation_runs);
   return raw;
 }
 
-Uncertainty uncertainty_of(const Fitted& fit, std::vector<double> Q) {
+Uncertainty uncertainty_of(const Fitted& fit, std::vector<double> J) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
                     q = fit.system.columns();
@@ -160,10 +176,10 @@ Uncertainty uncertainty_of(const Fitted& fit, std::vector<double> Q) {
   const auto [whiteness, kind] = tested(fit);
   const bool consistent = kind == Errors::autocorrelation || kind == Errors::uneven;
   Sources sources;
-  if (consistent) sources = sources_of(fit, std::move(Q));
+  if (consistent) sources = sources_of(fit, std::move(J));
   std::vector<double> M;
   if (known)
-    M = consistent ? outer_products(sources.B, q, sources.runs) : meat_of(fit, std::move(Q));
+    M = consistent ? outer_products(sources.B, q, sources.runs) : meat_of(fit, std::move(J));
   const double variance =
       known ? variance_of(fit, M) : fit.minimum.rss / static_cast<double>(n - p);
   if (consistent) M = consistent_meat(fit, std::move(sources), kind, variance);

@@ -77,9 +77,9 @@ void require_determined(const FitResult& result, const FitOptions& options) {
 
 FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   Fitted found = fit_route(route, runs, options);
-  // Q is large; only the comparison of several runs needs it again.
-  std::vector<double>& Q = found.minimum.Q;
-  const Uncertainty uncertainty = uncertainty_of(found, runs.size() > 1 ? Q : std::move(Q));
+  // J is large; only the comparison of several runs needs it again.
+  std::vector<double>& J = found.minimum.J;
+  const Uncertainty uncertainty = uncertainty_of(found, runs.size() > 1 ? J : std::move(J));
   NoiseErrors noise = noise_errors(found, uncertainty);
   const auto eccentricity = eccentricity_of(route, runs, found, uncertainty.variance);
   const auto agreement = agreement_of(route, runs, options, noise, found);

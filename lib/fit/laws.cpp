@@ -222,7 +222,7 @@ void report_coefficients(LawFit& result, const Records& records, const Candidate
       values.push_back(std::move(q));
     }
   }
-  const Uncertainty errors = uncertainty_of(fit, std::move(fit.minimum.Q));
+  const Uncertainty errors = uncertainty_of(fit, std::move(fit.minimum.J));
   for (const Quantity& x : values)
     result.coefficients.push_back({x.value, std::sqrt(errors.covariance(x.gradient, x.gradient))});
   for (std::size_t i = 0; i < values.size(); ++i)

@@ -15,7 +15,6 @@
 #include "fit/errors.h"
 #include "fit/roll_fit.h"
 #include "fit/shift_records.h"
-#include "least_squares/triangles.h"
 #include "statistics/logarithm_of_noise.h"
 
 namespace rolling {
@@ -100,10 +99,11 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& all, const FitOptions&
   } catch (const Error&) {  // no roll fits: the line keeps its classical errors
     return;
   }
-  RawNoise raw_noise = raw_noise_of(roll, std::move(roll.minimum.Q));
+  RawNoise raw_noise = raw_noise_of(roll, std::move(roll.minimum.J));
   roll.system = {}, roll.noise = {};  // frees memory: the weights are large
   const std::size_t p = line.system.columns();
-  const auto Q_of = by_run(line.minimum.Q, line.system.runs, p);
+  const std::vector<double> Q = orthonormal(line, std::move(line.minimum.J));
+  const auto Q_of = by_run(Q, line.system.runs, p);
   std::vector<double> along(p);  // Q^T bias
   for (std::size_t r = 0; r < all.size(); ++r) {
     const ObservedRun& run = roll.rolls->runs()[r];

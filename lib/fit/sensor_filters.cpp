@@ -90,7 +90,7 @@ std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const FitO
     if (!leave_out_irregular(all, regular, reach)) return {};
     Fitted fit = fit_rolls(Route::velocity, all, std::move(regular),
                            responses_by(*maker.filter, all), options, maker.white.share);
-    const Uncertainty found = uncertainty_of(fit, fit.minimum.Q);
+    const Uncertainty found = uncertainty_of(fit, fit.minimum.J);
     // Differences round off the stop: what fits far worse with them was not made by them.
     if (found.whiteness > not_white && breusch_pagan(fit.minimum.f, fit.system.runs) > 0.01 &&
         fit.rss < 2 * plain.rss)

@@ -1,6 +1,5 @@
 #include "least_squares/minimise.h"
 
-#include "base/by_run.h"
 #include "base/dot.h"
 #include "base/error.h"
 #include "base/median.h"
@@ -50,10 +49,13 @@ bool evaluate_at(const System& system, Point& at, std::vector<double> theta) {
   at.R = Triangles(system);
   at.rss = 0;
   try {
-    system.evaluate(at.theta, [&at](std::size_t run, std::span<double> f, std::span<double> J) {
+    const std::size_t q = system.columns();
+    system.evaluate(at.theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
       at.f.insert(at.f.end(), f.begin(), f.end());
-      for (std::size_t i = 0; i < f.size(); ++i)
-        for (std::size_t k = i; k < J.size(); k += f.size()) at.J.push_back(J[k]);
+      const std::size_t done = at.J.size();
+      at.J.resize(done + J.size());
+      for (std::size_t j = 0; j < q; ++j)
+        for (std::size_t i = 0; i < f.size(); ++i) at.J[done + i * q + j] = J[j * f.size() + i];
       at.rss += dot(f, f);
       at.R.add(run, f, J);
     });
@@ -115,17 +117,10 @@ Point descend(const System& system, Point at) {
   return at;
 }
 
-/// J of this point becomes Q, in place. It is evaluated again if the search ended with a step that
-/// was refused.
+/// The result at this point. J is evaluated again if the search ended with a refused step.
 Minimum minimum_at(const System& system, Point at) {
   if (at.J.empty()) evaluate_at(system, at, std::vector(at.theta));
-  const std::size_t q = system.columns();
-  Minimum minimum{std::move(at.theta), std::move(at.f), std::move(at.J), at.R.without_f(), at.rss};
-  const auto parts = by_run(minimum.Q, system.runs, q);
-  for (std::size_t run = 0; run < parts.size(); ++run)
-    for (std::size_t i = 0; i < parts[run].size(); i += q)
-      solve_transposed(&minimum.R[run * q * q], parts[run].subspan(i, q));
-  return minimum;
+  return {std::move(at.theta), std::move(at.f), std::move(at.J), at.R.without_f(), at.rss};
 }
 
 /// Evaluates the system at a start; throws Error where it has no finite values.

@@ -8,9 +8,10 @@ namespace rolling {
 
 struct Minimum {
   std::vector<double> theta, f;
-  /// J = Q R for the columns of each run. Q has one row for each residual; R is one upper triangle
-  /// for each run, row by row. The rows of the shared parameters are the same in all triangles.
-  std::vector<double> Q, R;
+  std::vector<double> J;  ///< one row for each residual, of the columns of its run
+  /// J = Q R for the columns of each run: one upper triangle for each run, row by row. The rows of
+  /// the shared parameters are the same in all triangles.
+  std::vector<double> R;
   double rss;  ///< |f|^2
 };
 

@@ -133,12 +133,4 @@ std::vector<double> Triangles::without_f() const {
   return all;
 }
 
-void solve_transposed(const double* R, std::span<double> g) {
-  const std::size_t q = g.size();
-  for (std::size_t j = 0; j < q; ++j) {
-    for (std::size_t k = 0; k < j; ++k) g[j] -= R[k * q + j] * g[k];
-    g[j] /= R[j * q + j];
-  }
-}
-
 }  // namespace rolling

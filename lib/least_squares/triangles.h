@@ -50,7 +50,4 @@ class Triangles {
   std::vector<double> R_;  // triangles of all runs, row by row, f last in each row
 };
 
-/// Replaces g by R^-T g, for an upper triangle R that is stored row by row (as many as g has).
-void solve_transposed(const double* R, std::span<double> g);
-
 }  // namespace rolling

@@ -52,8 +52,8 @@ class Whitener {
   std::vector<double> meat(std::span<double> Q, std::size_t columns) const;
 
  private:
-  std::size_t n_, band_;  // as in Covariance
-  double white_;          // F is white_ times the diagonal of E E^T
+  std::size_t n_, band_;   // as in Covariance
+  double white_;           // F is white_ times the diagonal of E E^T
   std::vector<double> R_;  // row k holds columns k .. k + band - 1
 };
 
