@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
+#include <new>
 #include <string_view>
 
 namespace rolling {
@@ -11,10 +13,11 @@ namespace rolling {
 class Bytes {
  public:
   Bytes() = default;
-  ~Bytes() { delete[] data_; }
+  ~Bytes() { std::free(data_); }
   Bytes(const Bytes&) = delete;
   Bytes& operator=(const Bytes&) = delete;
 
+  char* data() { return data_; }
   const char* data() const { return data_; }
   std::size_t size() const { return static_cast<std::size_t>(end_ - data_); }
   bool empty() const { return end_ == data_; }
@@ -38,12 +41,13 @@ class Bytes {
 
  private:
   [[gnu::noinline]] void grow(std::size_t count) {
-    const std::size_t capacity = 2 * (size() + count);
-    char* const larger = new char[capacity];
-    end_ = std::copy(data_, end_, larger);
-    limit_ = larger + capacity;
-    delete[] data_;
+    const std::size_t held = size(), capacity = 2 * (held + count);
+    // realloc moves a large buffer without a copy.
+    char* const larger = static_cast<char*>(std::realloc(data_, capacity));
+    if (!larger) throw std::bad_alloc();
     data_ = larger;
+    end_ = larger + held;
+    limit_ = larger + capacity;
   }
 
   char *data_ = nullptr, *end_ = nullptr, *limit_ = nullptr;

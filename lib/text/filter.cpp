@@ -1,6 +1,7 @@
 #include "text/filter.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "base/error.h"
@@ -60,15 +61,18 @@ void Filter::take_head() {
   if (in_.renames() && !in_.history().empty())
     head.comments += fmt::format("## {}\n", columns_renamed);
   head.names = names_line(columns());
-  rows_.push_back({Kind::head, 0, 0, 0});
+  wait({Kind::head, 0, 0, 0});
   if (replaced_ != Reader::no_column) cut_ = in_.column_of(replaced_);
 }
 
+void Filter::wait(Row row, std::string_view text) {
+  rows_.append({reinterpret_cast<const char*>(&row), sizeof row});
+  rows_.append(text);
+}
+
 void Filter::take_remarks(const std::vector<std::string>& remarks) {
-  for (const std::string& remark : remarks) {
-    held_.append(remark);
-    rows_.push_back({Kind::remark, static_cast<std::uint32_t>(remark.size()), 0, 0});
-  }
+  for (const std::string& remark : remarks)
+    wait({Kind::remark, static_cast<std::uint32_t>(remark.size()), 0, 0}, remark);
   if (!remarks.empty()) write_rows();
 }
 
@@ -90,12 +94,15 @@ bool Filter::next() {
   const bool more = in_.next();
   if (!in_.remarks().empty()) take_remarks(in_.remarks());
   if (!more) return false;
-  const std::size_t begin = held_.size();
-  const Reader::Part cut = in_.append_text(held_, cut_);
+  const std::size_t row = rows_.size(), text = row + sizeof(Row);
+  wait({});  // what it is follows from its text
+  const Reader::Part cut = in_.append_text(rows_, cut_);
   const auto at = [](std::size_t place) { return static_cast<std::uint32_t>(place); };
-  const std::uint32_t size = at(held_.size() - begin);
-  if (cut_ == Reader::no_column) rows_.push_back({Kind::record, size, size, size});
-  else rows_.push_back({Kind::record, size, at(cut.first), at(cut.last)});
+  const std::uint32_t size = at(rows_.size() - text);
+  const Row record = cut_ == Reader::no_column
+                         ? Row{Kind::record, size, size, size}
+                         : Row{Kind::record, size, at(cut.first), at(cut.last)};
+  std::memcpy(rows_.data() + row, &record, sizeof record);
   ++records_;
   return true;
 }
@@ -122,9 +129,9 @@ void Filter::write_rows() {
   writing_ = true;
   const auto each = static_cast<std::ptrdiff_t>(std::max<std::size_t>(appended_.size(), 1));
   auto number = numbers_.cbegin();
-  for (; front_ < rows_.size(); front_begin_ += rows_[front_++].size) {
-    const Row& row = rows_[front_];
-    const std::string_view text(held_.data() + front_begin_, row.size);
+  for (Row row; front_ < rows_.size(); front_ += sizeof row + row.size) {
+    std::memcpy(&row, rows_.data() + front_, sizeof row);
+    const std::string_view text(rows_.data() + front_ + sizeof row, row.size);
     if (row.kind == Kind::record && !dropped_.empty() && dropped_.front() == done_) {
       dropped_.pop(), ++done_;
     } else if (row.kind == Kind::record) {
@@ -151,15 +158,9 @@ void Filter::write_rows() {
     }
   }
   numbers_.erase(numbers_.cbegin(), number);
-  if (front_ == rows_.size() || (front_ >= 1024 && 2 * front_ > rows_.size())) forget_rows();
+  // Amortised, each row is moved at most once.
+  if (2 * front_ >= rows_.size()) rows_.erase_front(std::exchange(front_, 0));
   writing_ = false;
-}
-
-/// Removes the rows that have been written; amortised, each row is moved at most once.
-void Filter::forget_rows() {
-  rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(front_));
-  held_.erase_front(front_begin_);
-  front_ = front_begin_ = 0;
 }
 
 }  // namespace rolling

@@ -61,7 +61,8 @@ class Filter {
 
  private:
   enum class Kind : std::uint8_t { record, remark, head };
-  /// Many rows may wait (smooth --coast): they are kept small. No line is as long as 2^32.
+  /// What waits, followed by its text. Many rows may wait (smooth --coast): they are kept small, in
+  /// one buffer. No line is as long as 2^32.
   struct Row {
     Kind kind;
     std::uint32_t size;         // of its text; a head has it elsewhere
@@ -77,7 +78,7 @@ class Filter {
   void take_remarks(const std::vector<std::string>&);
   void write_rows();
   void write_head();
-  void forget_rows();
+  void wait(Row, std::string_view text = {});
 
   Reader& in_;
   Output& out_;
@@ -85,13 +86,12 @@ class Filter {
   std::vector<Column> appended_;
   std::size_t replaced_ = Reader::no_column;  // a slot
   std::size_t cut_ = Reader::no_column;       // its column in this run
-  std::vector<Row> rows_;                     // rows from front_ on are not written yet
-  Bytes held_;                                // the texts of these rows, in sequence
-  std::queue<Head> heads_;                    // heads of the runs that begin among these rows
-  std::queue<std::size_t> dropped_;           // indices of the records among rows_ to leave out
-  std::vector<double> numbers_;               // of these rows, in order
-  std::size_t enough_;                        // put() writes rows at this count of numbers
-  std::size_t front_ = 0, front_begin_ = 0;   // the front row, and where its text begins
+  Bytes rows_;                                // from front_ on: rows that are not written yet
+  std::size_t front_ = 0;
+  std::queue<Head> heads_;           // heads of the runs that begin among these rows
+  std::queue<std::size_t> dropped_;  // indices of the records among rows_ to leave out
+  std::vector<double> numbers_;      // of these rows, in order
+  std::size_t enough_;               // put() writes rows at this count of numbers
   // Counts of the records of all runs: read; read before this run; written or left out.
   std::size_t records_ = 0, run_begins_ = 0, done_ = 0;
   std::optional<Head> head_;  // of a run none of whose rows has been written
