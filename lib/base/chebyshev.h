@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <numbers>
 #include <span>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
 namespace rolling {
@@ -39,38 +41,43 @@ class ChebyshevSeries {
   Values operator()(double t) const {
     const double x = 2 * (t - from_) / (to_ - from_) - 1;
     double T = 1, next = x;  // the polynomials T_j and T_j+1
-    Values sum = terms_[0];
+    Pairs sum = terms_[0];
     for (std::size_t j = 1; j < terms; ++j) {
       T = std::exchange(next, 2 * x * next - T);
-      for (std::size_t i = 0; i < N; ++i) sum[i] += T * terms_[j][i];
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += T * terms_[j][i];
     }
-    return sum;
+    Values y;
+    std::copy_n(sum.begin(), N, y.begin());
+    return y;
   }
-  /// True if the last term of each value is at most `tolerance` times its largest term.
+  /// True if the last two terms of each value are at most `tolerance` times its largest term; of an
+  /// even or odd function, every second term is 0.
   bool converges(double tolerance) const {
     for (std::size_t i = 0; i < N; ++i) {
       double largest = 0;
-      for (const Values& term : terms_) largest = std::max(largest, std::abs(term[i]));
-      if (!(std::abs(terms_[terms - 1][i]) <= tolerance * largest)) return false;
+      for (const Pairs& term : terms_) largest = std::max(largest, std::abs(term[i]));
+      for (const std::size_t last : {terms - 2, terms - 1})
+        if (!(std::abs(terms_[last][i]) <= tolerance * largest)) return false;
     }
     return true;
   }
 
  private:
+  using Pairs = std::array<double, N + N % 2>;  // two values fill one vector register
+
   double from_ = 0, to_ = -1;
-  std::array<Values, terms> terms_{};
+  std::array<Pairs, terms> terms_{};
 };
 
-/// A function of time with N values, at times that are dense: a Chebyshev series takes the place of
-/// the function wherever it holds for 64 times or more to within rounding. At other times the
-/// function itself is called.
-template <std::size_t N, typename Function>
+/// A function of time, with an array of values, at times that are dense: a Chebyshev series takes
+/// the place of the function wherever it holds for 80 times or more to within rounding. At other
+/// times the function itself is called.
+template <typename Function>
 class ChebyshevPanels {
  public:
-  using Values = std::array<double, N>;
+  using Values = std::invoke_result_t<Function, double>;
 
-  /// `times` must not decrease, and must exist as long as this object. f has N values and is smooth
-  /// before `end`.
+  /// `times` must not decrease, and must exist as long as this object. f is smooth before `end`.
   ChebyshevPanels(std::span<const double> times, double end, Function f)
       : times_(times), end_(end), f_(std::move(f)) {}
 
@@ -81,7 +88,7 @@ class ChebyshevPanels {
   }
 
  private:
-  static constexpr std::size_t terms = 8, least = 8 * terms;
+  static constexpr std::size_t terms = 10, least = 8 * terms;
 
   bool begin_panel(double t) {
     const auto rest = times_.subspan(
@@ -99,7 +106,7 @@ class ChebyshevPanels {
   std::span<const double> times_;
   double end_;
   Function f_;
-  ChebyshevSeries<N, terms> panel_;
+  ChebyshevSeries<std::tuple_size_v<Values>, terms> panel_;
   std::size_t size_ = least;   // number of times in the panel
   std::ptrdiff_t direct_ = 0;  // number of calls before the next panel is tried
 };

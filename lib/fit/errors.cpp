@@ -176,10 +176,13 @@ Uncertainty uncertainty_of(const Fitted& fit, std::vector<double> J) {
   const auto [whiteness, kind] = tested(fit);
   const bool consistent = kind == Errors::autocorrelation || kind == Errors::uneven;
   Sources sources;
-  if (consistent) sources = sources_of(fit, std::move(J));
   std::vector<double> M;
-  if (known)
-    M = consistent ? outer_products(sources.B, q, sources.runs) : meat_of(fit, std::move(J));
+  if (consistent) {
+    sources = sources_of(fit, std::move(J));
+    if (known) M = outer_products(sources.B, q, sources.runs);
+  } else if (known) {
+    M = meat_of(fit, std::move(J));
+  }
   const double variance =
       known ? variance_of(fit, M) : fit.minimum.rss / static_cast<double>(n - p);
   if (consistent) M = consistent_meat(fit, std::move(sources), kind, variance);

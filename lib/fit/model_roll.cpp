@@ -165,14 +165,13 @@ RawModel RollModel::raw(const std::vector<double>& theta, std::size_t r) const {
     if (position) return {s.x, s.x_a, s.x_b, s.x_v0, s.x_S};
     return {s.v, s.v_a, s.v_b, s.v_v0, s.v_S};
   };
-  return
-      [&q = parameters_, a = parameters_.law(theta).a, x0 = parameters_.x0(theta, r), way = run.way,
-       panels = ChebyshevPanels<5, decltype(direct)>(run.t, roll.stop_time(), direct)](
-          double t, double* slopes, std::size_t stride) mutable {
-    const auto [s, by_a, by_b, by_v0, by_S] = panels(t);
+  ChebyshevPanels rolled(run.t, roll.stop_time(), direct);
+  return [&q = parameters_, a = parameters_.law(theta).a, x0 = parameters_.x0(theta, r),
+          way = run.way, rolled](double t, double* slopes, std::size_t stride) mutable {
+    const auto [s, by_a, by_b, by_v0, by_S] = rolled(t);
     q.chain(slopes, stride, a, {way * by_a, way * by_b, way * by_v0, 1, by_S});
     return x0 + way * s;
-      };
+  };
 }
 
 std::vector<double> RollModel::raw_column(const std::vector<double>& theta, std::size_t r) const {
@@ -181,11 +180,11 @@ std::vector<double> RollModel::raw_column(const std::vector<double>& theta, std:
   const auto direct = [&](double t) {
     return std::array{run.raw_is_position ? roll.distance_at(t) : roll.speed_at(t).v};
   };
-  ChebyshevPanels<1, decltype(direct)> panels(run.t, roll.stop_time(), direct);
+  ChebyshevPanels rolled(run.t, roll.stop_time(), direct);
   const double x0 = parameters_.x0(theta, r);
   std::vector<double> column;
   column.reserve(run.t.size());
-  for (double t : run.t) column.push_back(x0 + run.way * panels(t)[0]);
+  for (double t : run.t) column.push_back(x0 + run.way * rolled(t)[0]);
   return column;
 }
 

@@ -48,8 +48,8 @@ bool evaluate_at(const System& system, Point& at, std::vector<double> theta) {
   at.J.reserve(system.residuals() * system.columns());
   at.R = Triangles(system);
   at.rss = 0;
+  const std::size_t q = system.columns();
   try {
-    const std::size_t q = system.columns();
     system.evaluate(at.theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
       at.f.insert(at.f.end(), f.begin(), f.end());
       const std::size_t done = at.J.size();
