@@ -61,7 +61,7 @@ void Filter::take_head() {
   if (in_.renames() && !in_.history().empty())
     head.comments += fmt::format("## {}\n", columns_renamed);
   head.names = names_line(columns());
-  wait({Kind::head, 0, 0, 0});
+  wait({Kind::head, 0, 0});
   if (replaced_ != Reader::no_column) cut_ = in_.column_of(replaced_);
 }
 
@@ -72,7 +72,7 @@ void Filter::wait(Row row, std::string_view text) {
 
 void Filter::take_remarks(const std::vector<std::string>& remarks) {
   for (const std::string& remark : remarks)
-    wait({Kind::remark, static_cast<std::uint32_t>(remark.size()), 0, 0}, remark);
+    wait({Kind::remark, static_cast<std::uint32_t>(remark.size()), 0}, remark);
   if (!remarks.empty()) write_rows();
 }
 
@@ -95,13 +95,9 @@ bool Filter::next() {
   if (!in_.remarks().empty()) take_remarks(in_.remarks());
   if (!more) return false;
   const std::size_t row = rows_.size(), text = row + sizeof(Row);
-  wait({});  // what it is follows from its text
-  const Reader::Part cut = in_.append_text(rows_, cut_);
-  const auto at = [](std::size_t place) { return static_cast<std::uint32_t>(place); };
-  const std::uint32_t size = at(rows_.size() - text);
-  const Row record = cut_ == Reader::no_column
-                         ? Row{Kind::record, size, size, size}
-                         : Row{Kind::record, size, at(cut.first), at(cut.last)};
+  rows_.set_end(rows_.reserve(sizeof(Row)) + sizeof(Row));
+  const auto place = static_cast<std::uint32_t>(in_.append_text(rows_, cut_));
+  const Row record{Kind::record, static_cast<std::uint32_t>(rows_.size() - text), place};
   std::memcpy(rows_.data() + row, &record, sizeof record);
   ++records_;
   return true;
@@ -137,12 +133,12 @@ void Filter::write_rows() {
     } else if (row.kind == Kind::record) {
       if (numbers_.cend() - number < each) break;
       write_head();
-      out_.text(text.substr(0, row.first));
+      out_.text(text.substr(0, row.place));
       for (const auto end = number + each; number != end; ++number) {
         if (!appended_.empty()) out_.text('\t');
         out_.number(*number);
       }
-      if (row.last < row.size) out_.text(text.substr(row.last));
+      if (row.place < row.size) out_.text(text.substr(row.place));
       out_.end_line();
       any_row_ = true;
       ++done_;

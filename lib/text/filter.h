@@ -65,8 +65,8 @@ class Filter {
   /// one buffer. No line is as long as 2^32.
   struct Row {
     Kind kind;
-    std::uint32_t size;         // of its text; a head has it elsewhere
-    std::uint32_t first, last;  // the numbers of a record replace [first, last)
+    std::uint32_t size;   // of its text; a head has it elsewhere
+    std::uint32_t place;  // of the numbers of a record in its text
   };
   struct Head {
     std::string comments, names;

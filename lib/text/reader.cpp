@@ -326,13 +326,16 @@ inline void Reader::check_time() {
 }
 
 /// append_text() of a record that is not written as it was read.
-Reader::Part Reader::append_made(Bytes& to, std::size_t column) {
-  Part part;
+std::size_t Reader::append_made(Bytes& to, std::size_t column) {
   const std::vector<NeededColumns::Needed>& needed = needed_.all();
   const std::size_t begin = to.size();
+  std::size_t place = no_column;
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     if (i) to.append('\t');
-    const std::size_t from = to.size();
+    if (i == column) {
+      place = to.size() - begin;
+      continue;
+    }
     const auto converted = !needed_.converts() ? needed.end()
                                                : std::find_if(needed.begin(), needed.end(),
                                                               [i](const NeededColumns::Needed& n) {
@@ -343,9 +346,8 @@ Reader::Part Reader::append_made(Bytes& to, std::size_t column) {
                               values_[static_cast<std::size_t>(converted - needed.begin())]));
     else if (dialect_->may_need_quotes()) append_field(to, fields_[i].text);
     else to.append(fields_[i].text);
-    if (i == column) part = {from - begin, to.size() - begin};
   }
-  return part;
+  return std::min(place, to.size() - begin);
 }
 
 void Reader::reject(std::size_t column, std::string_view why) const {

@@ -79,19 +79,17 @@ class Reader {
   double operator[](std::size_t slot) const { return values_[slot]; }
 
   static constexpr std::size_t no_column = NeededColumns::no_column;
-  /// A part of a text: [first, last).
-  struct Part {
-    std::size_t first = 0, last = 0;
-  };
-  /// Appends the present record as it goes out, tab-separated; returns where in it a column is.
-  Part append_text(Bytes& to, std::size_t column = no_column) {
+  /// Appends the present record as it goes out, tab-separated, without the text of a column;
+  /// returns where in it that column stands, or its length if there is none.
+  std::size_t append_text(Bytes& to, std::size_t column = no_column) {
     if (!dialect_->as_it_stands() || needed_.converts() || fields_changed_)
       return append_made(to, column);
-    to.append(line_);
-    if (column >= fields_.size()) return {};
+    if (column >= fields_.size()) return to.append(line_), line_.size();
     const std::string_view field = fields_[column].text;
     const auto first = static_cast<std::size_t>(field.data() - line_.data());
-    return {first, first + field.size()};
+    to.append(line_.substr(0, first));
+    if (column + 1 < fields_.size()) to.append(line_.substr(first + field.size()));
+    return first;
   }
   /// The comments between the previous record and the present one; after the last record of a run,
   /// those up to the end of the run.
@@ -132,7 +130,7 @@ class Reader {
   void change_fields();
   bool take_record();
   void check_time();
-  Part append_made(Bytes& to, std::size_t column);
+  std::size_t append_made(Bytes& to, std::size_t column);
   [[noreturn]] void reject(std::size_t column, std::string_view why) const;
   std::string way_out(std::size_t column) const;
   std::string here() const;
