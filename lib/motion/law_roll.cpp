@@ -125,9 +125,10 @@ LawRoll::Point LawRoll::at(double t) {
     for (std::size_t j = 0; j <= law_.size(); ++j) p.x_c[j] += p.v_c[j] * since;
     return p;
   }
-  if (++asked_ == worth_a_series)
-    series_ = {0, panel_.after.time - panel_.before.time,
-               [this](double at) { return std::bit_cast<Series::Values>(integrated(at)); }};
+  if (++asked_ == worth_a_series) {
+    const auto f = [this](double at) { return std::bit_cast<Series::Values>(integrated(at)); };
+    series_ = Series(0, panel_.after.time - panel_.before.time, f);
+  }
   return asked_ < worth_a_series ? integrated(since) : std::bit_cast<Point>(series_(since));
 }
 
