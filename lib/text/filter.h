@@ -61,8 +61,8 @@ class Filter {
 
  private:
   enum class Kind : std::uint8_t { record, remark, head };
-  /// What waits, followed by its text. Many rows may wait (smooth --coast): they are kept small, in
-  /// one buffer. No line is as long as 2^32.
+  /// A row that waits to be written; its text follows it in the buffer. Many rows may wait (smooth
+  /// --coast): they are kept small. No line is as long as 2^32.
   struct Row {
     Kind kind;
     std::uint32_t size;   // of its text; a head has it elsewhere
@@ -78,7 +78,7 @@ class Filter {
   void take_remarks(const std::vector<std::string>&);
   void write_rows();
   void write_head();
-  void wait(Row, std::string_view text = {});
+  void wait(Row, std::string_view text = {});  // appends both to the buffer
 
   Reader& in_;
   Output& out_;
