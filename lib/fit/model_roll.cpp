@@ -169,6 +169,7 @@ RawModel RollModel::raw(const std::vector<double>& theta, std::size_t r) const {
   return [&q = parameters_, a = parameters_.law(theta).a, x0 = parameters_.x0(theta, r),
           way = run.way, rolled](double t, double* slopes, std::size_t stride) mutable {
     const auto [s, by_a, by_b, by_v0, by_S] = rolled(t);
+    // 1 is the derivative by x0; where speeds are fitted, x0 is 0 and no parameter.
     q.chain(slopes, stride, a, {way * by_a, way * by_b, way * by_v0, 1, by_S});
     return x0 + way * s;
   };
