@@ -5,8 +5,9 @@
 
 namespace rolling {
 
-Selection::Selection(const SelectionOptions& options) : options_(options) {
+Selection::Selection(const SelectionOptions& options, std::size_t expected) : options_(options) {
   if (options_.outliers > 0) hampel_.emplace(options_.width, options_.outliers);
+  if (options_.coast) run_.reserve(expected);
 }
 
 void Selection::take(std::span<const Judged> samples) {

@@ -26,7 +26,8 @@ struct SelectionOptions {
 
 class Selection {
  public:
-  explicit Selection(const SelectionOptions&);
+  /// `expected` samples are the most that the run is likely to have.
+  explicit Selection(const SelectionOptions&, std::size_t expected = 0);
 
   /// The samples for which the decision is now known, in order. Valid until the next call.
   std::span<const Judged> push(double t, double y);
