@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -107,9 +108,9 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
       const ShiftOf& by = *run.shift_of;
       seen.body = by.body;
       seen.geometry = by.geometry;
-      std::vector<double> accelerations = taken(run.D, rows[r]);
-      for (double& y : accelerations) y = acceleration_of(by, y);
-      seen.shifts = {filters_of_rows(responses[r], "D", rows[r]), std::move(accelerations),
+      std::vector<double> accelerations(run.D.size(), std::numeric_limits<double>::quiet_NaN());
+      for (std::size_t i : rows[r]) accelerations[i] = acceleration_of(by, run.D[i]);
+      seen.shifts = {responses[r].of.at("D"), std::move(accelerations), rows[r].size(),
                      (by.body.K + 1) * by.body.R / by.body.g};
     }
     // With A = 1 on a level mat the motion depends on g/((K + 1) R) alone (Eq. 12), and D may

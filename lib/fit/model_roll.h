@@ -40,11 +40,12 @@ struct ObservedRun {
   std::vector<double> t;          ///< times of the raw column, at which the model is evaluated [s]
   std::optional<FilterMatrix> H;  ///< y = H raw; without H, y is the raw column itself
   std::vector<double> y;          ///< the fitted records
-  /// For shift: the accelerations of the shifts of these records are H raw, and a shift is `unit`
-  /// times an acceleration.
+  /// For shift: the accelerations of the shifts of all records are H raw; those that are not fitted
+  /// are NaN. A shift is `unit` times an acceleration.
   struct Shifts {
     FilterMatrix H;
     std::vector<double> accelerations;
+    std::size_t fitted;  ///< number of shifts that are fitted
     double unit;
   };
   std::optional<Shifts> shifts = {};

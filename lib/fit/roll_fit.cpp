@@ -65,8 +65,10 @@ bool leave_out_slow(const RollModel& model, const std::vector<double>& theta,
 /// The sum of squares of model - data for the shifts of a run.
 double squares_of_shifts(const RollModel& rolls, const std::vector<double>& theta, std::size_t r) {
   const ObservedRun& run = rolls.runs()[r];
+  const std::vector<double>& accelerations = run.shifts->accelerations;
   std::vector<double> f = run.shifts->H.times(rolls.raw_column(theta, r));
-  for (std::size_t i = 0; i < f.size(); ++i) f[i] -= run.shifts->accelerations[i];
+  for (std::size_t i = 0; i < f.size(); ++i)
+    f[i] = std::isnan(accelerations[i]) ? 0 : f[i] - accelerations[i];
   return dot(f, f) * run.shifts->unit * run.shifts->unit;
 }
 
@@ -102,7 +104,7 @@ void report(Fitted& fit) {
     const double way = runs[r].way;
     const auto s = fit.rolls->trajectory(theta, r).speed_at(runs[r].start);
     fit.v0.push_back(quantity(way * s.v, {way * s.v_a, way * s.v_b, way * s.v_v0, 0, s.v_S}));
-    fit.records += runs[r].shifts ? runs[r].shifts->accelerations.size() : runs[r].y.size();
+    fit.records += runs[r].shifts ? runs[r].shifts->fitted : runs[r].y.size();
   }
   fit.rss = squares_of(fit);
 }

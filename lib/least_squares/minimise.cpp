@@ -78,9 +78,10 @@ std::vector<double> moved(std::vector<double> theta, const std::vector<double>& 
   return theta;
 }
 
-/// Evaluates the system one step further. J is large; the next point takes its memory.
+/// Evaluates the system one step further. J is large; the next point takes its memory, unless it
+/// has done so before.
 bool evaluate_next(const System& system, Point& at, const std::vector<double>& step, Point& next) {
-  next.J.swap(at.J);
+  if (!at.J.empty()) next.J.swap(at.J);
   return evaluate_at(system, next, moved(at.theta, step));
 }
 
@@ -164,7 +165,7 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
   const auto converged = [&] { return determined() && (best.size < 1e-7 || offset() < 1e-3); };
   for (int round = 0; !converged(); ++round) {
     const double before = best.rss, size = best.size;
-    best = polish(system, descend(system, best), 0);
+    best = polish(system, descend(system, std::move(best)), 0);
     if (converged()) break;
     const double gain = 1 - best.rss / before;
     // The minimum of a trajectory fit may lie on a kink, where the time of the stop coincides with
