@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/by_run.h"
 #include "base/error.h"
 #include "base/median.h"
 #include "fit/errors.h"
@@ -67,10 +68,24 @@ bool leave_out_irregular(const std::vector<FitRun>& all, std::vector<Rows>& rows
 /// hundred records usually give a likelihood ratio of e^3.
 constexpr std::size_t searched = 2000;
 
+/// False if the search would find nothing: differences leave a correlation that this many residuals
+/// show. In fewer residuals the likelihood tells more than this test does.
+bool may_be_differences(const Fitted& plain) {
+  std::vector<double> f;
+  std::vector<std::size_t> runs;
+  for (const auto of_run : by_run(plain.minimum.f, plain.system.runs)) {
+    const auto head = of_run.first(std::min(of_run.size(), searched));
+    runs.push_back(head.size());
+    f.insert(f.end(), head.begin(), head.end());
+  }
+  return f.size() < searched || ljung_box(f, plain.system.columns(), runs) < 0.1;
+}
+
 }  // namespace
 
 std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const FitOptions& options,
                                       const Fitted& plain) {
+  if (!may_be_differences(plain)) return {};
   std::size_t reach = 0;
   for (const auto& filter : options.possible_filters) reach = std::max(reach, filter.reach);
   std::vector<FitRun> heads;

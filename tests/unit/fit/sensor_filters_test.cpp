@@ -74,4 +74,6 @@ TEST_CASE(
   CHECK(r.errors == Errors::differences);
   CHECK(r.n == 4998);
   CHECK(std::abs(r.b - 0.1) < 4 * r.sigma_b);
+  for (double& v : run.v) v += noise(2e-3);  // as large as the noise of the differences
+  CHECK(fit(Route::velocity, {run}, options).errors == Errors::differences);
 }
