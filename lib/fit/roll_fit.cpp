@@ -65,11 +65,17 @@ bool leave_out_slow(const RollModel& model, const std::vector<double>& theta,
 /// The sum of squares of model - data for the shifts of a run.
 double squares_of_shifts(const RollModel& rolls, const std::vector<double>& theta, std::size_t r) {
   const ObservedRun& run = rolls.runs()[r];
-  const std::vector<double>& accelerations = run.shifts->accelerations;
-  std::vector<double> f = run.shifts->H.times(rolls.raw_column(theta, r));
-  for (std::size_t i = 0; i < f.size(); ++i)
-    f[i] = std::isnan(accelerations[i]) ? 0 : f[i] - accelerations[i];
-  return dot(f, f) * run.shifts->unit * run.shifts->unit;
+  auto measured = run.shifts->accelerations.begin();
+  double sum = 0;
+  FilterPass accelerations(run.shifts->H, 1, [&](const double* fitted) {
+    const double residual = *fitted - *measured++;
+    if (!std::isnan(residual)) sum += residual * residual;
+  });
+  for (const double raw : rolls.raw_column(theta, r)) {
+    *accelerations.place() = raw;
+    accelerations.push();
+  }
+  return sum * run.shifts->unit * run.shifts->unit;
 }
 
 /// The sum of squares of model - data in the column of the route, without weights.

@@ -42,12 +42,14 @@ class BandMatrix {
   std::size_t window() const { return window_; }
   /// The matrix of these rows alone.
   BandMatrix of_rows(std::span<const std::size_t> rows) const;
+  bool operator==(const BandMatrix&) const = default;
 
  private:
   /// What the rows of a stretch have in common.
   struct Shape {
     std::uint32_t before, start, size;  // before: row number minus first column, modulo 2^32;
                                         // start: index into values_
+    bool operator==(const Shape&) const = default;
   };
   std::vector<Shape> shapes_;
   std::vector<std::uint32_t> rows_;  // indices into shapes_
@@ -61,7 +63,7 @@ class FilterMatrix {
  public:
   FilterMatrix(BandMatrix);
   static FilterMatrix identity(std::size_t n);
-  /// The product of L and this matrix.
+  /// The product of L and this matrix. If L is equal to one of its factors, it is stored once.
   FilterMatrix then(BandMatrix L) const;
   /// The matrix of these rows alone.
   FilterMatrix of_rows(std::span<const std::size_t> rows) const;
