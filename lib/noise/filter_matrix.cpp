@@ -73,6 +73,25 @@ FilterMatrix FilterMatrix::of_rows(std::span<const std::size_t> rows) const {
   return few;
 }
 
+namespace {
+
+/// The columns of L in which one of these rows has an element.
+FilterMatrix::Range columns_of_rows(const BandMatrix& L, FilterMatrix::Range rows) {
+  FilterMatrix::Range columns{SIZE_MAX, 0};
+  for (std::size_t k = rows.first; k < rows.end; ++k)
+    if (!L.row(k).empty())
+      columns = {std::min(columns.first, L.first(k)), std::max(columns.end, L.end(k))};
+  return {std::min(columns.first, columns.end), columns.end};
+}
+
+}  // namespace
+
+FilterMatrix::Range FilterMatrix::columns_of(std::size_t i) const {
+  Range range{i, i + 1};
+  for (std::size_t f = factors_.size(); f-- > 0;) range = columns_of_rows(*factors_[f], range);
+  return range;
+}
+
 void FilterMatrix::row(std::size_t i, Row& to) const {
   const auto last = factors_.back()->row(i);
   to.first = factors_.back()->first(i);
@@ -80,10 +99,7 @@ void FilterMatrix::row(std::size_t i, Row& to) const {
   std::vector<double>& sum = to.spare;
   for (std::size_t f = factors_.size() - 1; f-- > 0;) {
     const BandMatrix& L = *factors_[f];
-    std::size_t first = SIZE_MAX, end = 0;
-    for (std::size_t k = to.first; k < to.end(); ++k)
-      if (!L.row(k).empty()) first = std::min(first, L.first(k)), end = std::max(end, L.end(k));
-    if (first > end) first = end;
+    const auto [first, end] = columns_of_rows(L, {to.first, to.end()});
     sum.assign(end - first, 0);
     for (std::size_t k = to.first; k < to.end(); ++k) {
       const auto row = L.row(k);

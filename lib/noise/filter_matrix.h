@@ -71,6 +71,12 @@ class FilterMatrix {
   std::size_t rows() const { return factors_.back()->rows(); }
   std::size_t columns() const { return columns_; }
 
+  /// A range of columns, or of rows.
+  struct Range {
+    std::size_t first, end;
+  };
+  /// The columns in which row i of the product may have an element; cheaper than the row.
+  Range columns_of(std::size_t i) const;
   /// One row of the product, from its first nonzero column.
   struct Row {
     std::size_t first = 0;

@@ -16,11 +16,11 @@ namespace {
 std::size_t band_of(const FilterMatrix& E, std::size_t n) {
   std::vector<std::uint32_t> first_row(E.columns(), UINT32_MAX);  // of each column
   std::size_t band = 1;
-  FilterMatrix::Row row;
+  FilterMatrix::Range columns{};
   for (std::size_t i = 0; i < n; ++i) {
-    if (E.repeats(i)) ++row.first;
-    else E.row(i, row);
-    for (std::size_t j = row.first; j < row.end(); ++j) {
+    if (E.repeats(i)) ++columns.first, ++columns.end;
+    else columns = E.columns_of(i);
+    for (std::size_t j = columns.first; j < columns.end; ++j) {
       first_row[j] = std::min(first_row[j], static_cast<std::uint32_t>(i));
       band = std::max(band, i - first_row[j] + 1);
     }
