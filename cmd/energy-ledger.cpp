@@ -70,13 +70,19 @@ enum class Form { records, summary };
 class Accounts {
  public:
   Accounts(Tool& tool, Reader& in, const Body& body, Geometry geometry, const Law* law, Form form,
-           double tolerance)
+           double tolerance, bool law_of_scene)
       : tool_(tool), in_(in), body_(body), geometry_(geometry), law_(law), tolerance_(tolerance),
-        balance_is_shown_(form == Form::summary || !std::isnan(tolerance)), t_(in.need_time()),
+        balance_is_shown_(form == Form::summary || !std::isnan(tolerance)),
+        law_of_scene_(law_of_scene), t_(in.need_time()),
         v_(in.need("v")), D_(law ? v_ : in.need("D")) {}
 
   /// Begins the balance of a run.
   Balance open() {
+    if (law_of_scene_ && in_.find("D"))
+      fail<InputError>(
+          "run {} has a column D, and the runs before it have none: choose the law by -a and -b, or "
+          "give the runs one by one",
+          in_.run_name());
     tests_nothing_ |= balance_is_shown_ && !law_ && shifts_of_speeds(in_.history());
     const auto shift_of = history_of(in_.history(), {}).shift_of;
     if (const auto others = law_ ? "" : other_body(shift_of, body_);
@@ -128,6 +134,7 @@ class Accounts {
   const Law* law_;         // null: use the column D
   double tolerance_;       // NaN without --check
   bool balance_is_shown_;  // by --summary or --check
+  bool law_of_scene_;      // it is used because the first run has no column D
   std::size_t t_, v_, D_, beyond_ = 0;
   bool tests_nothing_ = false;
   std::string other_body_ = {};  // the first warning of other numbers of the body
@@ -193,12 +200,12 @@ int main(int argc, char** argv) {
     tool.need({"mass", "radius", "shape-factor"});
     Reader& in = tool.read({"t", "v", "D"});
     // A law on the command line takes precedence over a column D, the law of a scene does not.
-    const bool use_law = !law_file.empty() || tool.on_command_line("coefficient") ||
-                         tool.on_command_line("exponent") ||
-                         (!std::isnan(law.power.a) && !in.find("D"));
+    const bool law_given = !law_file.empty() || tool.on_command_line("coefficient") ||
+                           tool.on_command_line("exponent"),
+               use_law = law_given || (!std::isnan(law.power.a) && !in.find("D"));
     if (use_law && !law.table) tool.need({"coefficient", "exponent"});
     Accounts accounts(tool, in, body, geometry, use_law ? &law : nullptr,
-                      summary ? Form::summary : Form::records, tolerance);
+                      summary ? Form::summary : Form::records, tolerance, use_law && !law_given);
     if (summary) {
       write_summary(tool.out, in, accounts, body);
       accounts.finish();

@@ -36,7 +36,11 @@ std::string_view append_plain(std::string& to, std::string_view field, Marks mar
 /// True for `1,002`, whose comma may separate thousands: one to three digits, of which the first is
 /// not 0, before the comma, and three behind it.
 bool may_be_thousands(std::string_view field) {
-  if (!field.empty() && (field.front() == '-' || field.front() == '+')) field.remove_prefix(1);
+  for (const std::string_view sign : {minus, std::string_view("-"), std::string_view("+")})
+    if (field.starts_with(sign)) {
+      field.remove_prefix(sign.size());
+      break;
+    }
   const auto comma = field.find(',');
   return comma >= 1 && comma <= 3 && field.size() == comma + 4 && field.front() != '0' &&
          field.find_first_not_of("0123456789,") == npos;
@@ -69,15 +73,16 @@ Dialect Dialect::of_output() {
   return dialect;
 }
 
-bool Dialect::choose(std::string_view line) {
+bool Dialect::choose(std::string_view line, bool tabs) {
   const std::string outside = outside_quotes(line, separators).text;
   const auto first = std::find_if(separators.begin(), separators.end(),
                                   [&](char separator) { return outside.find(separator) != npos; });
   separator_ = first == separators.end() ? '\0' : *first;
   foreign_numbers_ = separator_ == '\t' || separator_ == ';';
   decimal_mark_ = '\0';
+  passed_thousands_ = false;
   fields_.clear();
-  if (separator_ == '\t') {
+  if (separator_ == '\t' && !tabs) {
     const auto fields = split(line);
     const bool has_blanks = std::any_of(fields.begin(), fields.end(), [](const Field& field) {
       return field.text.find(' ') != npos;
@@ -251,6 +256,7 @@ bool Dialect::rewrite(Field& field) {
           "field {}: '{}' can be read in two ways: if its comma is a decimal one, replace it by a "
           "point, else remove it",
           count_, shown(field.text));
+    passed_thousands_ = true;
     return false;
   }
   const bool is_plain = !other_minus && !comma;
@@ -259,6 +265,11 @@ bool Dialect::rewrite(Field& field) {
   if (!parse_number(text, number)) return false;
   if (comma || point) {
     const char mark = comma ? ',' : '.';
+    if (comma && passed_thousands_)
+      fail(
+          "field {}: '{}' has a decimal comma, and the comma of a number before it could be read "
+          "in two ways: replace each decimal comma by a point, and remove each other comma",
+          count_, shown(field.text));
     if (decimal_mark_ == '\0') decimal_mark_ = mark;
     if (decimal_mark_ != mark)
       fail("field {}: the decimal mark of '{}' is not that of the numbers before it", count_,

@@ -25,8 +25,9 @@ class Dialect {
   static Dialect of_output();
 
   /// Chooses the separator from a line: the first of the separators that the line contains outside
-  /// quotes, else blanks. True if the line contains a number.
-  bool choose(std::string_view line);
+  /// quotes, else blanks; also if blanks and tabs both separate numbers, unless `tabs` says that
+  /// tabs separate the names. True if the line contains a number.
+  bool choose(std::string_view line, bool tabs = false);
   /// True if a line, split by the chosen separator, contains a number.
   bool holds_number(std::string_view line);
   /// From now on the number of this field (counted from 0) is read, until the next choose() or
@@ -68,6 +69,7 @@ class Dialect {
   char separator_ = '\0';
   bool foreign_numbers_ = false;  // the separator allows decimal commas and U+2212
   char decimal_mark_ = '\0';      // of the numbers so far; '\0' if none had one
+  bool passed_thousands_ = false;  // a number whose comma may separate thousands went out as text
   bool as_it_stands_ = false, may_need_quotes_ = false;
   std::vector<Field> fields_;  // as many as the longest line had
   std::size_t count_ = 0;      // fields of this line

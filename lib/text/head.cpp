@@ -27,15 +27,6 @@ std::vector<std::string> names_in(std::string_view line, Dialect& dialect) {
   return names;
 }
 
-void check_bytes(std::string_view line) {
-  if (line.find('\0') < line.size())
-    fail(
-        "a NUL byte: this is no text of columns; export a spreadsheet as CSV, unpack what is "
-        "packed, make UTF-16 UTF-8 (iconv -f UTF-16)");
-  if (line.find('\r') < line.size())
-    fail("a carriage return within the line; make the line ends LF first (tr '\\r' '\\n')");
-}
-
 /// Refuses a line that begins with a number and has another one, between other separators than
 /// those of the file: it is no heading, and the run would be lost.
 void refuse_other_separator(std::string_view line, char separator) {
@@ -59,6 +50,7 @@ class HeadReader {
   Head read(const std::vector<std::string>& order, Sides sides);
 
  private:
+  bool has_tabs_of_names(std::string_view line) const;
   bool find_record();
   void take_history();
   bool is_missing_record(std::string_view line);
@@ -119,12 +111,29 @@ bool HeadReader::is_missing_record(std::string_view line) {
   return names.size() == width && std::ranges::count(names, "") == 0;
 }
 
+/// True if a line or comment above, whose names are separated by tabs and contain no blanks, has as
+/// many tabs as this line.
+bool HeadReader::has_tabs_of_names(std::string_view line) const {
+  const auto tabs = std::ranges::count(line, '\t');
+  const auto agrees = [tabs](const Line& above) {
+    const std::string_view names = trim(std::string_view(above.text).substr(
+        std::min(above.text.find_first_not_of('#'), above.text.size())));
+    return names.find(' ') == std::string_view::npos && std::ranges::count(names, '\t') == tabs;
+  };
+  return tabs > 0 && ((!preamble_.empty() && agrees(preamble_.back())) ||
+                      std::ranges::any_of(comments_, agrees));
+}
+
 /// Goes to the first record; false if there is none.
 bool HeadReader::find_record() {
   while (lines_.next()) {
     const std::string line(lines_.text());
-    check_bytes(line);
-    switch (kind_of(line)) {
+    const LineKind kind = lines_.kind();
+    // Below names between tabs, a tab at the beginning of the line is a blank field.
+    if ((kind == LineKind::comment || kind == LineKind::history) && !before_ &&
+        line.starts_with('\t') && has_tabs_of_names(line) && dialect_.choose(line, true))
+      return true;
+    switch (kind) {
       case LineKind::blank:
         break;
       case LineKind::history:
@@ -134,7 +143,8 @@ bool HeadReader::find_record() {
         comments_.push_back({line.substr(line.find('#')), lines_.number()});
         break;
       case LineKind::record:
-        if ((before_ ? dialect_.holds_number(line) : dialect_.choose(line)) ||
+        if ((before_ ? dialect_.holds_number(line)
+                     : dialect_.choose(line, has_tabs_of_names(line))) ||
             is_missing_record(line))
           return true;
         if (before_) refuse_other_separator(line, dialect_.separator());

@@ -44,7 +44,7 @@ class Input {
   /// the size of the file (for a pipe: of ahead()).
   std::size_t lines_ahead() const;
 
-  /// True for a regular file with a blank line, and something below it, in ahead().
+  /// True for a regular file with a blank line, and a record below it, in ahead().
   bool another_run() const;
 
   const std::string& name() const { return name_; }  ///< as the user gave it

@@ -25,10 +25,12 @@ bool begins_with_error_value(std::string_view line) {
 
 }  // namespace
 
-LineKind kind_of(std::string_view line) {
+LineKind Lines::kind() const {
+  std::string_view line = text_;
   const std::size_t first = line.find_first_not_of(" \t");
   if (first == std::string_view::npos || line == "\x1A") return LineKind::blank;
-  if (line[first] != '#') return LineKind::record;
+  const bool is_field = separators_ == "\t" && line.find('\t') < first;  // a blank one before it
+  if (line[first] != '#' || is_field) return LineKind::record;
   line.remove_prefix(first);
   if (line.starts_with("##")) return LineKind::history;
   return begins_with_error_value(line) ? LineKind::record : LineKind::comment;
@@ -39,7 +41,7 @@ std::string_view history_line(std::string_view line) {
 }
 
 void Lines::join_quoted() {
-  if (text_.find(quote) == std::string_view::npos || kind_of(text_) != LineKind::record ||
+  if (text_.find(quote) == std::string_view::npos || kind() != LineKind::record ||
       !outside_quotes(text_, separators_).ends_within)
     return;
   joined_ = text_;
@@ -51,6 +53,17 @@ void Lines::join_quoted() {
     open = close == end || behind_quote({close + 1, end}, separators_).ends_within;
   }
   text_ = joined_;
+}
+
+void Lines::check_bytes() const {
+  const char* const wrong =
+      text_.find('\0') < text_.size()
+          ? "a NUL byte: this is no text of columns; export a spreadsheet as CSV, unpack what is "
+            "packed, make UTF-16 UTF-8 (iconv -f UTF-16)"
+      : text_.find('\r') < text_.size()
+          ? "a carriage return within the line; make the line ends LF first (tr '\\r' '\\n')"
+          : nullptr;
+  if (wrong) fail<InputError>("{}:{}: {}", name(), number_, wrong);
 }
 
 void refuse_error_line(const Lines& lines) {

@@ -13,11 +13,6 @@ namespace rolling {
 
 enum class LineKind { blank, comment, history, record };
 
-/// A blank line contains blanks and tabs only, or the Ctrl-Z that ends a file of DOS. A comment
-/// begins with #, a history line with ##. A line that begins with an error value of a spreadsheet
-/// (#N/A) is a record.
-LineKind kind_of(std::string_view line);
-
 /// A `##` line without the separators with which a spreadsheet fills it up.
 std::string_view history_line(std::string_view line);
 
@@ -27,12 +22,14 @@ class Lines {
   explicit Lines(std::string name, BlockHook on_block = {})
       : input_(std::move(name), std::move(on_block)) {}
 
-  /// Goes to the next line; false at the end. Throws InputError for a quote that is not closed.
+  /// Goes to the next line; false at the end. Throws InputError for a quote that is not closed, and
+  /// for a NUL or a carriage return within the line.
   bool next() {
     if (std::exchange(again_, false)) return true;
     if (!input_.next(text_)) return false;
     number_ = input_.line_number();
     if (input_.quotes() && !separators_.empty()) join_quoted();
+    check_bytes();
     return true;
   }
   /// From now on only this character separates fields, and a quote opens a field behind it. With 0,
@@ -44,6 +41,10 @@ class Lines {
   void put_back() { again_ = true; }
   /// The present line, valid until the next one.
   std::string_view text() const { return text_; }
+  /// A blank line contains blanks and tabs only, or the Ctrl-Z that ends a file of DOS. A comment
+  /// begins with #, a history line with ##; blanks may stand before it, and tabs where they are not
+  /// the separator. A line that begins with an error value of a spreadsheet (#N/A) is a record.
+  LineKind kind() const;
   std::size_t number() const { return number_; }  ///< of its first line in the file, from 1
   const std::string& name() const { return input_.name(); }
 
@@ -63,6 +64,7 @@ class Lines {
 
  private:
   void join_quoted();
+  void check_bytes() const;
 
   Input input_;
   std::string_view text_;

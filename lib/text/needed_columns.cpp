@@ -58,7 +58,11 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, std::stri
   quantities_.clear();
   for (const Column& column : as_read_) quantities_.push_back(column.name);
   for (const auto& [quantity, use] : use_)
-    if (const auto at = find_column(use.column)) quantities_[*at] = quantity;
+    if (const auto at = find_column(use.column)) {
+      for (std::string& other : quantities_)
+        if (other == quantity) other = free_name(as_read_, quantity);
+      quantities_[*at] = quantity;
+    }
   for (const auto& [quantity, use] : use_)
     if (const auto at = find_column(use.column); at && quantities_[*at] != quantity)
       fail<InputError>("{}: --use: column {} cannot serve as both {} and {}", place_, *at + 1,

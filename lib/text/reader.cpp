@@ -25,9 +25,11 @@ Reader::~Reader() = default;
 /// True if the run on this side is to be read.
 bool Reader::asked_for(std::size_t side) const {
   if (!options_.run) return true;
-  const std::string& label = head_.layout.runs[side].label;
-  return is_number(label) ? label == fmt::format("{}", *options_.run)
-                          : run_ + static_cast<int>(side - side_) + 1 == *options_.run;
+  const auto has_number = [](const Layout::Run& run) { return is_number(run.label); };
+  const std::vector<Layout::Run>& runs = head_.layout.runs;
+  return std::ranges::any_of(runs, has_number)
+             ? runs[side].label == fmt::format("{}", *options_.run)
+             : run_ + static_cast<int>(side - side_) + 1 == *options_.run;
 }
 
 bool Reader::next_run() {
@@ -49,6 +51,9 @@ bool Reader::find_run() {
     ++run_in_file_;
     if (const std::string& label = layout().label; options_.run && is_number(label))
       labels_ += (labels_.empty() ? "" : ", ") + label;
+    if (wanted && options_.run && run_found_)
+      fail<InputError>("{}:{}: another run {}; give the file of one of them alone", lines_->name(),
+                       head_.line, *options_.run);
     if (wanted) {
       begin_run();
       return true;
@@ -183,7 +188,7 @@ bool Reader::next_line() {
   if (!sides_.empty()) return next_side_line();
   while (lines_->next()) {
     line_ = lines_->text();
-    const LineKind kind = kind_of(line_);
+    const LineKind kind = lines_->kind();
     if (kind == LineKind::record) {
       line_number_ = lines_->number();
       return true;

@@ -22,7 +22,7 @@ std::vector<Side> take_apart(Lines& lines, Dialect& dialect, const Layout& layou
                              const std::vector<bool>& wanted) {
   std::vector<Side> sides(layout.runs.size());
   while (lines.next()) {
-    const LineKind kind = kind_of(lines.text());
+    const LineKind kind = lines.kind();
     if (kind == LineKind::blank) break;
     if (kind == LineKind::history) {
       refuse_error_line(lines);

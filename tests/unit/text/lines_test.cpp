@@ -77,6 +77,13 @@ TEST_CASE("lines: a line that is put back comes once more", "[text]") {
 }
 
 TEST_CASE("lines: what a line is", "[text]") {
+  const auto kind_of = [](std::string_view line, char separator = '\0') {
+    const TemporaryFile file(std::string(line) + "\n");
+    Lines all(file.name());
+    if (separator != '\0') all.separate_by(separator);
+    REQUIRE(all.next());
+    return all.kind();
+  };
   CHECK(kind_of(" \t ") == LineKind::blank);
   CHECK(kind_of("") == LineKind::blank);
   CHECK(kind_of("\x1A") == LineKind::blank);
@@ -86,4 +93,9 @@ TEST_CASE("lines: what a line is", "[text]") {
   CHECK(kind_of("#N/A\t1") == LineKind::record);
   CHECK(kind_of("#REF!") == LineKind::record);
   CHECK(kind_of("a # b") == LineKind::record);
+  CHECK(kind_of("\t#2\t1", '\t') == LineKind::record);  // the first field is blank
+  CHECK(kind_of(" \t## 2\t1", '\t') == LineKind::record);
+  CHECK(kind_of(" #2\t1", '\t') == LineKind::comment);
+  CHECK(kind_of("\t#2\t1", ';') == LineKind::comment);
+  CHECK(kind_of("\t\t", '\t') == LineKind::blank);
 }

@@ -293,6 +293,59 @@ TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]
   CHECK(records({"t,v,t,v\n0,1,0,2\n", "t,v,t,v\n0,3,0,4\n"}, run(3)) == "0 3");
 }
 
+TEST_CASE("reader: --run picks one run and no other", "[text]") {
+  const std::string second = ": another run 1; give the file of one of them alone";
+  // Where names carry numbers, places do not count beside them.
+  CHECK(records({"Latest: t,Latest: v,Run 1: t,Run 1: v\n0,1,0,5\n"}, run(1)) == "0 5");
+  // The number of one run and the place of another, in blocks of a file and in two files.
+  CHECK(records({"t,v\n0,1\n\nt Run #1,v Run #1\n0,7\n"}, run(1)) == "FILE:4" + second);
+  CHECK(records({"t,v\n0,1\n", "t Run #1,v Run #1\n0,7\n"}, run(1)) == "FILE:1" + second);
+  // The same number twice.
+  CHECK(records({"t Run #1,v Run #1\n0,1\n\n0,7\n"}, run(1)) == "FILE:4" + second);
+  CHECK(records({"t Run 1,v Run 1,t Run 2,v Run 2\n0,1,0,2\n\n0,3,0,4\n"}, run(1)) ==
+        "FILE:4" + second);
+}
+
+TEST_CASE("reader: a comma that may separate thousands is refused, whatever minus stands before it",
+          "[text]") {
+  const std::string two_ways =
+      "can be read in two ways: if its comma is a decimal one, replace it by a point, else remove "
+      "it";
+  CHECK(records({"t\tv\n0\t-1,002\n"}) == "FILE:2: field 2: '-1,002' " + two_ways);
+  CHECK(records({"t\tv\n0\t\xE2\x88\x92""1,002\n"}) == "FILE:2: field 2: '???1,002' " + two_ways);
+  // In a column that is not needed it is text, but then no decimal comma may follow.
+  CHECK(records({"x\tt\tv\n1,002\t0\t1\n3\t1\t2\n"}) == "0 1 | 1 2");
+  CHECK(records({"x\tt\tv\n1,002\t0\t1\n3,5\t1\t2\n"}) ==
+        "FILE:3: field 1: '3,5' has a decimal comma, and the comma of a number before it could be "
+        "read in two ways: replace each decimal comma by a point, and remove each other comma");
+}
+
+TEST_CASE("reader: in a file separated by tabs, a tab in front is a blank field", "[text]") {
+  CHECK(records({"note\ttag\tt\tv\nx\t#1\t0\t1\n\t#2\t1\t2\n\t## 3\t2\t3\n"}) ==
+        "0 1 | 1 2 | 2 3");
+  CHECK(records({"note\ttag\tt\tv\n\t#1\t0\t1\n\t## 2\t1\t2\n"}) == "0 1 | 1 2");
+  CHECK(records({"# note\ttag\tt\tv\n\t#1\t0\t1\n\t## 2\t1\t2\n"}) == "0 1 | 1 2");
+  CHECK(records({"note\tt\tv\n\t# remark\nx\t0\t1\n"}) == "0 1");
+  CHECK(records({"t,v\n\t# remark\n0,1\n"}) == "0 1");
+}
+
+TEST_CASE("reader: tabs between names separate the fields, though blanks stand between numbers",
+          "[text]") {
+  CHECK(records({"# t\tv\tnote\n0\t1\t1 2\n1\t2\t3\n"}) == "0 1 | 1 2");
+  CHECK(records({"t\tv\tnote\n0\t1\t1 2\n1\t2\t3\n"}) == "0 1 | 1 2");
+  CHECK(records({"# t\tv x\n0\t1 2\n1\t2 3\n"}) == "0 1 | 1 2");
+}
+
+TEST_CASE("reader: a carriage return or a NUL within a line is refused wherever it stands",
+          "[text]") {
+  const std::string refused =
+      "FILE:2: a carriage return within the line; make the line ends LF first (tr '\\r' '\\n')";
+  CHECK(records({"0 1 a\n1 2 b\rc\n"}) == refused);
+  CHECK(records({"0 1 a\n# b\rc\n1 2 a\n"}) == refused);
+  CHECK(records({"0,1,a\n1,2,\"b\rc\"\n"}) == refused);
+  CHECK(records({std::string("0 1 a\n1 2 \0\n", 14)}).starts_with("FILE:2: a NUL byte"));
+}
+
 TEST_CASE("reader: a unit that only a comment gives is not passed over", "[text]") {
   const std::string refused =
       "FILE: column 'v' cannot serve as v: is it in km/h? Write the unit in brackets or say "
