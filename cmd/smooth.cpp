@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
     std::size_t outliers = 0;
     while (filter.next_run()) {
       if (!choose && !select.coast) tell();  // else the first run may still be refused
-      Selection selection(select, in.records_ahead());
+      Selection selection(select);
       std::unique_ptr<Signal> smoother =
           choose ? std::make_unique<AutoSmoother>(options) : make_signal(options);
       std::size_t record = 0, kept = 0;

@@ -5,9 +5,8 @@
 
 namespace rolling {
 
-Selection::Selection(const SelectionOptions& options, std::size_t expected) : options_(options) {
+Selection::Selection(const SelectionOptions& options) : options_(options) {
   if (options_.outliers > 0) hampel_.emplace(options_.width, options_.outliers);
-  if (options_.coast) run_.reserve(expected);
 }
 
 void Selection::take(std::span<const Judged> samples) {
@@ -19,7 +18,7 @@ void Selection::take(std::span<const Judged> samples) {
 void Selection::wait(const Judged& s) {
   if (!options_.coast) return decided_.push_back(s);
   in_run_.push_back(s.kept);
-  if (s.kept) run_.push_back({s.t, s.y});
+  if (s.kept) run_.append({s.t, s.y});
 }
 
 std::span<const Judged> Selection::push(double t, double y) {
@@ -35,7 +34,7 @@ void Selection::finish() {
   decided_.clear();
   if (hampel_) take(hampel_->finish());
   if (!options_.coast) return;
-  roll_ = free_roll(run_, options_.positions);
+  roll_ = free_roll({run_.data(), run_.size()}, options_.positions);
   if (roll_.other) doubt_ = {run_[roll_.begin].t, run_[*roll_.other].t};
 }
 

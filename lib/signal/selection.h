@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/growing.h"
 #include "signal/free_roll.h"
 #include "signal/hampel.h"
 
@@ -26,8 +27,7 @@ struct SelectionOptions {
 
 class Selection {
  public:
-  /// `expected` samples are the most that the run is likely to have.
-  explicit Selection(const SelectionOptions&, std::size_t expected = 0);
+  explicit Selection(const SelectionOptions&);
 
   /// The samples for which the decision is now known, in order. Valid until the next call.
   std::span<const Judged> push(double t, double y);
@@ -54,7 +54,7 @@ class Selection {
   std::size_t outliers_ = 0;
   // For coast: run_ holds the samples of the run that are between the two times and not outliers;
   // in_run_ says for each sample whether it is one of them.
-  std::vector<Sample> run_;
+  Growing<Sample> run_;
   std::vector<bool> in_run_;
   Stretch roll_{0, 0};
   std::size_t out_ = 0, out_of_run_ = 0;  // by rest()
