@@ -62,7 +62,7 @@ double rounding_of(const std::vector<double>& gradient) {
 std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own) {
   std::vector<OwnLaw> laws;
   for (std::size_t r = 0; r < own.size(); ++r) {
-    if (!own[r]) continue;
+    if (!own[r] || own[r]->degrees_left() == 0) continue;
     const Fitted& fit = *own[r];
     const Spread covariance = uncertainty_of(fit, fit.minimum.J).covariance;
     auto by_log_a = fit.a.gradient;
@@ -72,11 +72,10 @@ std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own) {
                       covariance(fit.b.gradient, fit.b.gradient) + rounding_of(fit.b.gradient)};
     const Symmetric W = C.inverse();
     if (std::isfinite(W.aa) && std::isfinite(W.ab) && std::isfinite(W.bb))
-      laws.push_back(
-          {r,
-           {std::log(fit.a.value), fit.b.value},
-           C,
-           static_cast<double>(fit.minimum.f.size()) - static_cast<double>(fit.degrees_taken())});
+      laws.push_back({r,
+                      {std::log(fit.a.value), fit.b.value},
+                      C,
+                      static_cast<double>(fit.degrees_left())});
   }
   return laws;
 }
@@ -132,8 +131,9 @@ Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitte
   Fitted fit = joint;
   fit.minimum.f.clear();
   if (fit.raw_noise) fit.raw_noise->innovations.clear(), fit.raw_noise->innovation_runs.clear();
+  fit.taken.emplace();
   double rss = 0;
-  std::size_t p = 0;
+  std::size_t left = 0;
   const auto append = [](auto& to, const auto& more) {
     to.insert(to.end(), more.begin(), more.end());
   };
@@ -141,17 +141,18 @@ Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitte
     if (!one || one->raw_noise.has_value() != joint.raw_noise.has_value()) return joint;
     append(fit.minimum.f, one->minimum.f);
     rss += one->minimum.rss;
-    p += one->degrees_taken();
+    left += one->degrees_left();
+    const Taken taken = taken_of(*one, one->minimum.J);
+    std::transform(taken.begin(), taken.end(), fit.taken->begin(), fit.taken->begin(), std::plus());
     if (!one->raw_noise) continue;
     append(fit.raw_noise->innovations, one->raw_noise->innovations);
     append(fit.raw_noise->innovation_runs, one->raw_noise->innovation_runs);
   }
-  const std::size_t n = joint.minimum.f.size();
-  if (fit.minimum.f.size() != n || n <= p) return joint;
-  // The runs' own fits have more parameters in all than the joint one, p instead of its own number,
-  // and leave smaller residuals: rss/(n - p) is the variance. Whoever takes the joint fit divides
-  // by its own degrees of freedom, and HC3 takes the residuals themselves.
-  const double more = static_cast<double>(n - joint.degrees_taken()) / static_cast<double>(n - p);
+  if (fit.minimum.f.size() != joint.minimum.f.size() || left == 0) return joint;
+  // The runs' own fits have more parameters in all than the joint one, and leave smaller residuals:
+  // rss/left is the variance. Whoever takes the joint fit divides by its own degrees of freedom,
+  // and HC3 takes the residuals themselves.
+  const double more = static_cast<double>(joint.degrees_left()) / static_cast<double>(left);
   for (double& x : fit.minimum.f) x *= std::sqrt(more);
   fit.minimum.rss = rss * more;
   return fit;

@@ -89,7 +89,7 @@ std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitR
   if (!found) return {};
   found->significance = std::min(1.0, found->significance * tests);
   const std::size_t size[] = {rest.size()};
-  if (found->significance > decisive || ljung_box(rest, q, size) <= white) return {};
+  if (found->significance > decisive || ljung_box(rest, taken_by_few(q), size) <= white) return {};
   return found;
 }
 

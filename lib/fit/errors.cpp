@@ -48,6 +48,19 @@ void add_shared(std::vector<double>& M, std::size_t columns, std::size_t shared)
     }
 }
 
+Taken taken_of(const Fitted& fit, const std::vector<double>& J) {
+  constexpr std::size_t long_run = 1000;  // there the limit holds to a few hundredths of its value
+  if (fit.taken) return *fit.taken;
+  if (fit.raw_noise) return fit.raw_noise->taken;
+  const std::size_t n = fit.minimum.f.size(), q = fit.system.columns();
+  if (n > long_run * fit.system.runs.size()) return taken_by_few(fit.minimum.theta.size());
+  const std::vector<double> Q = orthonormal(fit, J);
+  if (!fit.filters_known()) return taken_by(Q, q, fit.system.runs);
+  std::vector<std::size_t> runs;
+  const std::vector<double> informative = fit.noise->innovations(Q, runs, q);
+  return taken_by(informative, q, runs);
+}
+
 namespace {
 
 /// The sum of u u^T over the rows of each run (q numbers in each row), row by row, run by run.
@@ -133,11 +146,12 @@ struct Tested {
   Errors kind;
 };
 
-Tested tested(std::span<const double> noise, std::span<const std::size_t> runs, const Fitted& fit) {
+Tested tested(std::span<const double> noise, std::span<const std::size_t> runs, const Taken& taken,
+              const Fitted& fit) {
   const Errors white = fit.filters_known()     ? Errors::filters
                        : fit.noise->inferred() ? Errors::differences
                                                : Errors::classical;
-  const double whiteness = ljung_box(noise, fit.minimum.theta.size(), runs);
+  const double whiteness = ljung_box(noise, taken, runs);
   if (fit.minimum.f.size() < 30) return {whiteness, white};
   if (whiteness <= not_white) return {whiteness, Errors::autocorrelation};
   const double uneven = std::min(breusch_pagan(noise, runs), unequal_runs(noise, runs));
@@ -149,18 +163,21 @@ Tested tested(std::span<const double> noise, std::span<const std::size_t> runs, 
   return {whiteness, near ? Errors::autocorrelation : white};
 }
 
-Tested tested(const Fitted& fit) {
-  if (fit.raw_noise) return tested(fit.raw_noise->innovations, fit.raw_noise->innovation_runs, fit);
-  if (!fit.filters_known()) return tested(fit.minimum.f, fit.system.runs, fit);
+Tested tested(const Fitted& fit, const std::vector<double>& J) {
+  const Taken taken = taken_of(fit, J);
+  if (fit.raw_noise)
+    return tested(fit.raw_noise->innovations, fit.raw_noise->innovation_runs, taken, fit);
+  if (!fit.filters_known()) return tested(fit.minimum.f, fit.system.runs, taken, fit);
   std::vector<std::size_t> runs;
   const std::vector<double> innovations = fit.noise->innovations(fit.minimum.f, runs);
-  return tested(innovations, runs, fit);
+  return tested(innovations, runs, taken, fit);
 }
 
 }  // namespace
 
 RawNoise raw_noise_of(const Fitted& fit, std::vector<double> J) {
-  RawNoise raw{variance_of(fit, meat_of(fit, std::move(J))), {}, {}, estimated(fit)};
+  const Taken taken = taken_of(fit, J);
+  RawNoise raw{variance_of(fit, meat_of(fit, std::move(J))), {}, {}, taken, estimated(fit)};
   raw.innovations = fit.noise->innovations(fit.minimum.f, raw.innovation_runs);
   return raw;
 }
@@ -173,7 +190,7 @@ Uncertainty uncertainty_of(const Fitted& fit, std::vector<double> J) {
   if (n <= fit.degrees_taken())
     return {Errors::none, nan, nan, {R, std::vector<double>(R.size(), nan), q}};
   const bool known = fit.filters_known();
-  const auto [whiteness, kind] = tested(fit);
+  const auto [whiteness, kind] = tested(fit, J);
   const bool consistent = kind == Errors::autocorrelation || kind == Errors::uneven;
   Sources sources;
   std::vector<double> M;

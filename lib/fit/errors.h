@@ -35,6 +35,10 @@ struct Uncertainty {
 /// and its memory is used.
 Uncertainty uncertainty_of(const Fitted&, std::vector<double> J);
 
+/// What the fit has taken of the innovations, or of the residuals if no filters are known. J as
+/// above.
+Taken taken_of(const Fitted&, const std::vector<double>& J);
+
 /// The standard errors of the reported numbers that are due to the noise.
 struct NoiseErrors {
   Errors kind;

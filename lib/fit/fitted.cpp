@@ -12,6 +12,13 @@ void require_records(std::size_t n, std::size_t p, std::size_t means) {
          means > 0 ? ", for their derivatives have lost the mean position" : "");
 }
 
+std::size_t Fitted::degrees_left() const {
+  const std::size_t p = minimum.theta.size(),
+                    n = filters_known() && !raw_noise ? noise->informative()
+                                                      : minimum.f.size() - means_taken();
+  return n > p ? n - p : 0;
+}
+
 Minimum solve(const System& system, const std::vector<double>& start, const FitOptions& options) {
   return options.robust ? minimise_robust(system, start) : minimise(system, start);
 }

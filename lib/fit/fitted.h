@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fit/model_roll.h"
+#include "statistics/residuals.h"
 
 namespace rolling {
 
@@ -29,6 +30,7 @@ struct RawNoise {
   /// Noise::innovations()); they are white if the noise of the raw column is white.
   std::vector<double> innovations;
   std::vector<std::size_t> innovation_runs;
+  Taken taken;  ///< of the innovations, by the fit
   Sources sources = {};
 };
 
@@ -46,6 +48,7 @@ struct Fitted {
   std::optional<Quantity> slope = {};  ///< if it is a parameter
   std::vector<Quantity> v0 = {};       ///< one for each run, if the model is a roll
   std::shared_ptr<const RollModel> rolls = {};  ///< the model, if it is a roll
+  std::optional<Taken> taken = {};  ///< see taken_of(); if other fits have left these residuals
   std::vector<double> v = {};  ///< speeds of the fitted records [m/s], if the model is a law D(v)
 
   std::size_t means_taken() const {
@@ -53,6 +56,9 @@ struct Fitted {
   }
   /// The number of degrees of freedom that the fit and the filters take from the records.
   std::size_t degrees_taken() const { return minimum.theta.size() + means_taken(); }
+  /// The number of degrees of freedom that are left for the size of the noise. Filters at the ends
+  /// of a short run may leave fewer than its records less the mean.
+  std::size_t degrees_left() const;
   /// True if the covariance of the noise follows from filters that the data name.
   bool filters_known() const { return raw_noise || (noise->known() && !noise->inferred()); }
 };

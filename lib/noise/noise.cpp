@@ -58,14 +58,24 @@ std::vector<double> Noise::meat(std::vector<double> Q, std::size_t p) const {
 
 std::vector<double> Noise::explain(std::vector<double> f) const { return through(std::move(f), 1); }
 
-std::vector<double> Noise::innovations(const std::vector<double>& f,
-                                       std::vector<std::size_t>& runs) const {
-  return each(by_run(f, rows_), [&](std::size_t r, auto f_of) {
+std::size_t Noise::informative() const {
+  std::size_t count = 0;
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    for (std::size_t i = 0; i < rows_[r]; ++i) count += whiteners_[r].informative(i);
+  return count;
+}
+
+std::vector<double> Noise::innovations(const std::vector<double>& f, std::vector<std::size_t>& runs,
+                                       std::size_t columns) const {
+  runs.clear();
+  return each(by_run(f, rows_, columns), [&](std::size_t r, auto f_of) {
     std::vector<double> few;
     few.reserve(f_of.size());
-    for (std::size_t i = 0; i < f_of.size(); ++i)
-      if (whiteners_[r].informative(i)) few.push_back(f_of[i]);
-    runs.push_back(few.size());
+    for (std::size_t i = 0; i < rows_[r]; ++i) {
+      const auto row = f_of.subspan(i * columns, columns);
+      if (whiteners_[r].informative(i)) few.insert(few.end(), row.begin(), row.end());
+    }
+    runs.push_back(few.size() / columns);
     return few;
   });
 }

@@ -40,9 +40,12 @@ class Noise {
   /// The noise of the sources of least norm that explains the weighted residuals f of all runs.
   std::vector<double> explain(std::vector<double> f) const;
   /// The innovations: the weighted residuals that the residuals before them do not determine (see
-  /// Whitener::informative()), and in `runs` their number in each run.
-  std::vector<double> innovations(const std::vector<double>& f,
-                                  std::vector<std::size_t>& runs) const;
+  /// Whitener::informative()), and in `runs` their number in each run. Also for rows of `columns`
+  /// numbers each.
+  std::vector<double> innovations(const std::vector<double>& f, std::vector<std::size_t>& runs,
+                                  std::size_t columns = 1) const;
+  /// The number of innovations of all runs.
+  std::size_t informative() const;
   /// The number of sources of each run.
   const std::vector<std::size_t>& sources() const { return sources_; }
 

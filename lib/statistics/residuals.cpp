@@ -17,9 +17,24 @@ double lagged(std::span<const double> r, std::span<const std::size_t> runs, std:
   return sum;
 }
 
-double ljung_box(std::span<const double> r, std::size_t p, std::span<const std::size_t> runs) {
+Taken taken_by(std::span<const double> Q, std::size_t columns, std::span<const std::size_t> runs) {
+  Taken taken{};
+  for (const auto run : by_run(Q, runs, columns))
+    for (std::size_t k = 0; k < taken.size() && k * columns < run.size(); ++k)
+      taken[k] += dot(run.first(run.size() - k * columns), run.subspan(k * columns));
+  return taken;
+}
+
+Taken taken_by_few(std::size_t p) {
+  Taken taken;
+  taken.fill(static_cast<double>(p));
+  return taken;
+}
+
+double ljung_box(std::span<const double> r, const Taken& taken,
+                 std::span<const std::size_t> runs) {
   constexpr std::size_t block = 1024;  // stays in the cache for all lags
-  const std::size_t lags = std::clamp<std::size_t>(r.size() / 10, 1, 10);
+  const std::size_t lags = std::clamp<std::size_t>(r.size() / 10, 1, taken.size() - 1);
   std::vector<double> sums(lags + 1);
   for (const auto run : by_run(r, runs))
     for (std::size_t i = 0; i < run.size(); i += block)
@@ -29,7 +44,7 @@ double ljung_box(std::span<const double> r, std::size_t p, std::span<const std::
   const double n = static_cast<double>(r.size());
   double Q = 0, least = 1;
   for (std::size_t k = 1; k <= lags; ++k) {
-    const double rho = sums[k] / sums[0] + static_cast<double>(p) / n;
+    const double rho = sums[k] / sums[0] + taken[k] / (n - taken[0]);
     Q += n * (n + 2) * rho * rho / (n - static_cast<double>(k));
     if (k == 1 || k == lags) least = std::min(least, gsl_cdf_chisq_Q(Q, static_cast<double>(k)));
   }

@@ -2,16 +2,28 @@
 // The residuals of all runs follow each other; `runs` holds the number of each run.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 namespace rolling {
 
-/// Significance of the autocorrelation of the residuals of a fit of p parameters, after Ljung and
-/// Box (1978, Biometrika 65, 297): the smaller of the values for one lag and for n/10 lags (at
-/// least 1, at most 10). The fit lowers each correlation by about p/n; this is corrected.
-double ljung_box(std::span<const double> residuals, std::size_t p,
+/// What a fit takes of the sums of the products of residuals that are 0, 1, 2, ... records apart,
+/// in units of their variance.
+using Taken = std::array<double, 11>;
+
+/// Those sums for residuals (I - Q Q^T) e of white noise e: the sums of the products of the rows of
+/// Q. Q has orthonormal columns and is stored row by row, `columns` numbers in each row: those that
+/// belong to the parameters of its run and to the shared ones.
+Taken taken_by(std::span<const double> Q, std::size_t columns, std::span<const std::size_t> runs);
+/// The limit for runs that are much longer than the lags, of p parameters in all.
+Taken taken_by_few(std::size_t p);
+
+/// Significance of the autocorrelation of the residuals of a fit, after Ljung and Box (1978,
+/// Biometrika 65, 297): the smaller of the values for one lag and for n/10 lags (at least 1, at
+/// most 10). Corrected for what the fit has taken.
+double ljung_box(std::span<const double> residuals, const Taken&,
                  std::span<const std::size_t> runs);
 
 /// Significance of a trend of the variance along the runs, linear and quadratic in the record

@@ -92,3 +92,18 @@ TEST_CASE("noise: the least sources that explain residuals give them back", "[fi
   CHECK(innovations.size() == runs[0]);
   CHECK(runs[0] < n);  // differences know nothing of a constant
 }
+
+// The ranks are those of the singular values of these matrices.
+TEST_CASE("noise: as many innovations as the filters leave degrees of freedom", "[noise]") {
+  const auto innovations = [](std::size_t n, std::size_t width) {
+    const std::vector<double> t = simulated::times(n);
+    const FilterMatrix H = FilterMatrix(probe(simulated::differentiate("x", "v"), t))
+                               .then(probe(simulated::smooth_v(width), t));
+    return Noise({H, H}, 0, false).informative();
+  };
+  CHECK(innovations(7, 3) == 2 * 5);
+  CHECK(innovations(8, 3) == 2 * 7);
+  CHECK(innovations(10, 11) == 2 * 6);
+  CHECK(innovations(12, 11) == 2 * 7);
+  CHECK(innovations(14, 11) == 2 * 10);
+}
