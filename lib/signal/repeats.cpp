@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <vector>
+#include <limits>
 
 namespace rolling {
 namespace {
@@ -23,29 +23,33 @@ double records_held(std::span<const double> readings) {
   for (const double y : readings) largest = std::max(largest, std::abs(y));
   const double rounding = 1e-9 * largest;  // error of a program that computed the readings
   const auto step = [&](std::size_t i) { return std::abs(readings[i] - readings[i - 1]); };
-  std::size_t changes = 0, repeats = 0;  // two readings of 0 are neither
+  std::size_t changes = 0, repeats = 0;
+  double unit = std::numeric_limits<double>::infinity();  // the smallest step
   for (std::size_t i = 1; i < readings.size(); ++i)
-    if (step(i) > rounding) ++changes;
-    else if (readings[i] != 0 || readings[i - 1] != 0) ++repeats;
+    if (step(i) > rounding) ++changes, unit = std::min(unit, step(i));
+    else ++repeats;
   if (changes == 0 || changes >= 3 * repeats) return 1;
-  std::vector<double> jumps;
-  jumps.reserve(changes);
-  for (std::size_t i = 1; i < readings.size(); ++i)
-    if (step(i) > rounding) jumps.push_back(step(i));
-  const double unit = *std::min_element(jumps.begin(), jumps.end());
-  const auto mostly_units = [&](double place) {
-    return 2 * std::count_if(
-                   jumps.begin(), jumps.end(),
-                   [&](double jump) {
-      const double units = jump < 1.5 * unit ? 1 : 2;
-      return jump < 2.5 * unit &&
-             std::abs(jump - units * unit) <= std::max(0.02 * jump, units * place);
-                   }) >=
-        std::ssize(jumps);
+  const double place = last_place(readings, rounding) + rounding;
+  const auto is_units = [&](double jump) {
+    const double units = jump < 1.5 * unit ? 1 : 2;
+    return jump < 2.5 * unit &&
+           std::abs(jump - units * unit) <= std::max(0.02 * jump, units * place);
   };
-  // The first test nearly always decides, and it needs no decimal place.
-  if (mostly_units(0) || mostly_units(last_place(readings, rounding) + rounding)) return 1;
-  return static_cast<double>(changes + repeats + 1) / static_cast<double>(changes + 1);
+  std::size_t jumps = 0, waiting = 0, held = 0, stretches = 0;  // held between two jumps
+  bool after_jump = false;
+  for (std::size_t i = 1; i < readings.size(); ++i) {
+    if (step(i) <= rounding) {
+      ++waiting;
+      continue;
+    }
+    const bool jump = !is_units(step(i));
+    if (jump && after_jump) held += waiting, ++stretches;
+    jumps += jump;
+    after_jump = jump;
+    waiting = 0;
+  }
+  if (jumps >= 3 * held) return 1;
+  return 1 + static_cast<double>(held) / static_cast<double>(stretches);
 }
 
 }  // namespace rolling
