@@ -73,15 +73,15 @@ class Accounts {
            double tolerance, bool law_of_scene)
       : tool_(tool), in_(in), body_(body), geometry_(geometry), law_(law), tolerance_(tolerance),
         balance_is_shown_(form == Form::summary || !std::isnan(tolerance)),
-        law_of_scene_(law_of_scene), t_(in.need_time()),
-        v_(in.need("v")), D_(law ? v_ : in.need("D")) {}
+        law_of_scene_(law_of_scene), t_(in.need_time()), v_(in.need("v")),
+        D_(law ? v_ : in.need("D")) {}
 
   /// Begins the balance of a run.
   Balance open() {
     if (law_of_scene_ && in_.find("D"))
       fail<InputError>(
-          "run {} has a column D, and the runs before it have none: choose the law by -a and -b, or "
-          "give the runs one by one",
+          "run {} has a column D, and the runs before it have none: choose the law by -a and -b, "
+          "or give the runs one by one",
           in_.run_name());
     tests_nothing_ |= balance_is_shown_ && !law_ && shifts_of_speeds(in_.history());
     const auto shift_of = history_of(in_.history(), {}).shift_of;

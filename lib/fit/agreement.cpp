@@ -72,10 +72,8 @@ std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own) {
                       covariance(fit.b.gradient, fit.b.gradient) + rounding_of(fit.b.gradient)};
     const Symmetric W = C.inverse();
     if (std::isfinite(W.aa) && std::isfinite(W.ab) && std::isfinite(W.bb))
-      laws.push_back({r,
-                      {std::log(fit.a.value), fit.b.value},
-                      C,
-                      static_cast<double>(fit.degrees_left())});
+      laws.push_back(
+          {r, {std::log(fit.a.value), fit.b.value}, C, static_cast<double>(fit.degrees_left())});
   }
   return laws;
 }

@@ -13,9 +13,9 @@ void require_records(std::size_t n, std::size_t p, std::size_t means) {
 }
 
 std::size_t Fitted::degrees_left() const {
-  const std::size_t p = minimum.theta.size(),
-                    n = filters_known() && !raw_noise ? noise->informative()
-                                                      : minimum.f.size() - means_taken();
+  const bool by_filters = filters_known() && !raw_noise;
+  const std::size_t n = by_filters ? noise->informative() : minimum.f.size() - means_taken(),
+                    p = minimum.theta.size();
   return n > p ? n - p : 0;
 }
 

@@ -78,8 +78,7 @@ bool may_be_differences(const Fitted& plain) {
     runs.push_back(head.size());
     f.insert(f.end(), head.begin(), head.end());
   }
-  return f.size() < searched ||
-         ljung_box(f, taken_by_few(plain.minimum.theta.size()), runs) < 0.1;
+  return f.size() < searched || ljung_box(f, taken_by_few(plain.minimum.theta.size()), runs) < 0.1;
 }
 
 }  // namespace

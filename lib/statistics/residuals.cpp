@@ -31,8 +31,7 @@ Taken taken_by_few(std::size_t p) {
   return taken;
 }
 
-double ljung_box(std::span<const double> r, const Taken& taken,
-                 std::span<const std::size_t> runs) {
+double ljung_box(std::span<const double> r, const Taken& taken, std::span<const std::size_t> runs) {
   constexpr std::size_t block = 1024;  // stays in the cache for all lags
   const std::size_t lags = std::clamp<std::size_t>(r.size() / 10, 1, taken.size() - 1);
   std::vector<double> sums(lags + 1);
@@ -40,8 +39,8 @@ double ljung_box(std::span<const double> r, const Taken& taken,
     for (std::size_t i = 0; i < run.size(); i += block)
       for (std::size_t k = 0; k <= lags && i + k < run.size(); ++k)
         sums[k] += dot(&run[i], &run[i + k], std::min(block, run.size() - i - k));
-  if (!(sums[0] > 0)) return 1;
   const double n = static_cast<double>(r.size());
+  if (!(sums[0] > 0 && n > taken[0])) return 1;
   double Q = 0, least = 1;
   for (std::size_t k = 1; k <= lags; ++k) {
     const double rho = sums[k] / sums[0] + taken[k] / (n - taken[0]);

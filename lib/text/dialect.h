@@ -67,8 +67,8 @@ class Dialect {
   bool rewrite(Field&);
 
   char separator_ = '\0';
-  bool foreign_numbers_ = false;  // the separator allows decimal commas and U+2212
-  char decimal_mark_ = '\0';      // of the numbers so far; '\0' if none had one
+  bool foreign_numbers_ = false;   // the separator allows decimal commas and U+2212
+  char decimal_mark_ = '\0';       // of the numbers so far; '\0' if none had one
   bool passed_thousands_ = false;  // a number whose comma may separate thousands went out as text
   bool as_it_stands_ = false, may_need_quotes_ = false;
   std::vector<Field> fields_;  // as many as the longest line had

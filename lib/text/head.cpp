@@ -116,8 +116,9 @@ bool HeadReader::is_missing_record(std::string_view line) {
 bool HeadReader::has_tabs_of_names(std::string_view line) const {
   const auto tabs = std::ranges::count(line, '\t');
   const auto agrees = [tabs](const Line& above) {
-    const std::string_view names = trim(std::string_view(above.text).substr(
-        std::min(above.text.find_first_not_of('#'), above.text.size())));
+    const std::string_view names =
+        trim(std::string_view(above.text)
+                 .substr(std::min(above.text.find_first_not_of('#'), above.text.size())));
     return names.find(' ') == std::string_view::npos && std::ranges::count(names, '\t') == tabs;
   };
   return tabs > 0 && ((!preamble_.empty() && agrees(preamble_.back())) ||

@@ -106,7 +106,8 @@ bool Input::another_run() const {
   bool blank = false;
   for (std::size_t at = 0; at < ahead.size();) {
     const auto mark = std::min(ahead.find_first_not_of(" \t\r", at), ahead.size() - 1);
-    if (blank && std::string_view("\n#\x1A").find(ahead[mark]) == std::string_view::npos) return true;
+    constexpr std::string_view no_record = "\n#\x1A";
+    if (blank && no_record.find(ahead[mark]) == std::string_view::npos) return true;
     blank = blank || ahead[mark] == '\n';
     at = std::min(ahead.find('\n', mark), ahead.size() - 1) + 1;
   }

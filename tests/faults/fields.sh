@@ -33,8 +33,6 @@ e5	e5
 ٣	??
 ½	??
 −1	???1
-1\\0	1?
-\\0	?
 1\\f	1?
 1\\v2	1?2
 \\e[31m1	?[31m1
@@ -89,6 +87,9 @@ lines that end in CR	-:1: a carriage return	0 .5 -.1 1e-3 1\r1 .4 -.1 1e-3 1\r77
 names and lines that end in CR	-:1: a carriage return	t,v,a,D\r0,.5,-.1,1e-3\r1,.4,-.1,1e-3\r77,.7,.7,7\r
 an HTML page	-:5: 3 fields under a line of 2 names	<!DOCTYPE html>\n<html>\n<body>\n<table border=7><tr><td>7</td></tr></table>\n<p>About 77 pages</p>\n</body></html>\n
 a packed file, such as a workbook of a spreadsheet	-:1: a NUL byte: this is no text of columns; export a spreadsheet as CSV	PK\003\004\024\0\010\0a\n0 1\n
+a NUL in a field	-:2: a NUL byte	0 .5 -.1 1e-3 1\n77 .7\0 -.7 7 1\n
+a NUL in a comment	-:2: a NUL byte	0 .5 -.1 1e-3 1\n# a\0\n77 .7 -.7 7 1\n
+a carriage return in a text	-:2: a carriage return	0 .5 -.1 1e-3 a\n77 .7 -.7 7 a\rb\n
 a UTF-16 file	-:1: a NUL byte	\xff\xfe#\0 \0t\0 \0v\0 \0a\0 \0D\0\n\0001\0 \0002\0 \0003\0 \0004\0\n\0
 a UTF-16 file of the other order	-:1: a NUL byte	\xfe\xff\0#\0 \0t\0 \0v\0 \0a\0 \0D\0\n\0001\0 \0002\0 \0003\0 \0004\0\n
 a quote that is not closed	a quote that is not closed	t,v,a,D\n0,.5,-.1,1e-3\n1,.4,-.1,1e-3\n"77,.7,.7,7\n

@@ -312,7 +312,8 @@ TEST_CASE("reader: a comma that may separate thousands is refused, whatever minu
       "can be read in two ways: if its comma is a decimal one, replace it by a point, else remove "
       "it";
   CHECK(records({"t\tv\n0\t-1,002\n"}) == "FILE:2: field 2: '-1,002' " + two_ways);
-  CHECK(records({"t\tv\n0\t\xE2\x88\x92""1,002\n"}) == "FILE:2: field 2: '???1,002' " + two_ways);
+  CHECK(records({"t\tv\n0\t\xE2\x88\x92"
+                 "1,002\n"}) == "FILE:2: field 2: '???1,002' " + two_ways);
   // In a column that is not needed it is text, but then no decimal comma may follow.
   CHECK(records({"x\tt\tv\n1,002\t0\t1\n3\t1\t2\n"}) == "0 1 | 1 2");
   CHECK(records({"x\tt\tv\n1,002\t0\t1\n3,5\t1\t2\n"}) ==
@@ -321,8 +322,7 @@ TEST_CASE("reader: a comma that may separate thousands is refused, whatever minu
 }
 
 TEST_CASE("reader: in a file separated by tabs, a tab in front is a blank field", "[text]") {
-  CHECK(records({"note\ttag\tt\tv\nx\t#1\t0\t1\n\t#2\t1\t2\n\t## 3\t2\t3\n"}) ==
-        "0 1 | 1 2 | 2 3");
+  CHECK(records({"note\ttag\tt\tv\nx\t#1\t0\t1\n\t#2\t1\t2\n\t## 3\t2\t3\n"}) == "0 1 | 1 2 | 2 3");
   CHECK(records({"note\ttag\tt\tv\n\t#1\t0\t1\n\t## 2\t1\t2\n"}) == "0 1 | 1 2");
   CHECK(records({"# note\ttag\tt\tv\n\t#1\t0\t1\n\t## 2\t1\t2\n"}) == "0 1 | 1 2");
   CHECK(records({"note\tt\tv\n\t# remark\nx\t0\t1\n"}) == "0 1");
