@@ -39,7 +39,7 @@ double records_held(std::span<const double> readings) {
   bool after_jump = false;
   for (std::size_t i = 1; i < readings.size(); ++i) {
     if (step(i) <= rounding) {
-      ++waiting;
+      waiting += readings[i] != 0;
       continue;
     }
     const bool jump = !is_units(step(i));

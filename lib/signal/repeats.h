@@ -13,7 +13,7 @@ namespace rolling {
 /// normally distributed steps are mostly larger than that, at most one in six is 0. Readings
 /// therefore count as held if the repetitions between jumps are more than a third of the jumps.
 /// Held readings that fall in equal steps cannot be distinguished from rounded ones and do not
-/// count.
+/// count; nor does rest (readings of 0).
 double records_held(std::span<const double> readings);
 
 }  // namespace rolling

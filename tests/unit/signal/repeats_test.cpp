@@ -58,6 +58,11 @@ TEST_CASE("repeats: readings that are merely rounded, at rest or few are not hel
       }
       CHECK(records_held(x) == 1);
     }
+  Series stopped;  // speeds with a rest between two pushes
+  for (int i = 0; i < 40; ++i) stopped.push_back(std::round(1e3 * (0.5 - 0.0111 * i)) / 1e3);
+  stopped.insert(stopped.end(), 100, 0);
+  for (int i = 0; i < 40; ++i) stopped.push_back(std::round(1e3 * (0.5 - 0.0117 * i)) / 1e3);
+  CHECK(records_held(stopped) == 1);
   CHECK(records_held({}) == 1);
   CHECK(records_held(Series{1}) == 1);
   CHECK(records_held(Series{1, 1}) == 1);
