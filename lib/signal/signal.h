@@ -2,8 +2,8 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
+#include "base/growing.h"
 #include "signal/windows.h"
 
 namespace rolling {
@@ -36,13 +36,13 @@ class WindowedSignal : public Signal {
 
  private:
   std::span<const double> known() {
-    known_.clear();
-    while (windows_.next()) known_.push_back(static_cast<Of*>(this)->value(windows_));
-    return known_;
+    known_.truncate(0);
+    while (windows_.next()) known_.append(static_cast<Of*>(this)->value(windows_));
+    return {known_.data(), known_.size()};
   }
 
   Windows windows_;
-  std::vector<double> known_;
+  Growing<double> known_;
 };
 
 }  // namespace rolling

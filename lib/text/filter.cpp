@@ -119,27 +119,35 @@ void Filter::write_head() {
   head_.reset();
 }
 
+/// Writes a record with its numbers, which are finite, at this place of its text.
+inline void Filter::write_record(std::string_view text, std::size_t place,
+                                 std::span<const double> numbers) {
+  char* to = out_.reserve(text.size() + numbers.size() * (1 + longest_number));
+  to = std::copy_n(text.begin(), place, to);
+  for (const double number : numbers) {
+    if (!appended_.empty()) *to++ = '\t';
+    to = write_number(to, number, out_.digits);
+  }
+  out_.set_end(std::copy(text.begin() + static_cast<std::ptrdiff_t>(place), text.end(), to));
+  out_.end_line();
+}
+
 /// Writes all rows before the first one that lacks a number.
 void Filter::write_rows() {
   if (!history_) return;
   writing_ = true;
-  const auto each = static_cast<std::ptrdiff_t>(std::max<std::size_t>(appended_.size(), 1));
-  auto number = numbers_.cbegin();
+  const std::size_t each = std::max<std::size_t>(appended_.size(), 1);
+  std::span<const double> numbers(numbers_.data(), numbers_.size());
   for (Row row; front_ < rows_.size(); front_ += sizeof row + row.size) {
     std::memcpy(&row, rows_.data() + front_, sizeof row);
     const std::string_view text(rows_.data() + front_ + sizeof row, row.size);
     if (row.kind == Kind::record && !dropped_.empty() && dropped_.front() == done_) {
       dropped_.pop(), ++done_;
     } else if (row.kind == Kind::record) {
-      if (numbers_.cend() - number < each) break;
+      if (numbers.size() < each) break;
       write_head();
-      out_.text(text.substr(0, row.place));
-      for (const auto end = number + each; number != end; ++number) {
-        if (!appended_.empty()) out_.text('\t');
-        out_.number(*number);
-      }
-      if (row.place < row.size) out_.text(text.substr(row.place));
-      out_.end_line();
+      write_record(text, row.place, numbers.first(each));
+      numbers = numbers.subspan(each);
       any_row_ = true;
       ++done_;
     } else if (row.kind == Kind::head) {
@@ -153,7 +161,7 @@ void Filter::write_rows() {
       out_.text(text), out_.end_line();
     }
   }
-  numbers_.erase(numbers_.cbegin(), number);
+  numbers_.erase_front(numbers_.size() - numbers.size());
   // Amortised, each row is moved at most once.
   if (2 * front_ >= rows_.size()) rows_.erase_front(std::exchange(front_, 0));
   writing_ = false;

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "base/growing.h"
 #include "text/bytes.h"
 #include "text/output.h"
 #include "text/reader.h"
@@ -49,7 +50,7 @@ class Filter {
   /// Gives the next number to the oldest record that lacks one. Throws Error if it is not finite.
   void put(double value) {
     require_finite(value);
-    numbers_.push_back(value);
+    numbers_.append(value);
     if (numbers_.size() >= enough_) write_rows();
   }
   void put(std::span<const double> values) {
@@ -78,6 +79,7 @@ class Filter {
   void take_remarks(const std::vector<std::string>&);
   void write_rows();
   void write_head();
+  void write_record(std::string_view text, std::size_t place, std::span<const double> numbers);
   void wait(Row, std::string_view text = {});  // appends both to the buffer
 
   Reader& in_;
@@ -90,7 +92,7 @@ class Filter {
   std::size_t front_ = 0;
   std::queue<Head> heads_;           // heads of the runs that begin among these rows
   std::queue<std::size_t> dropped_;  // indices of the records among rows_ to leave out
-  std::vector<double> numbers_;      // of these rows, in order
+  Growing<double> numbers_;          // of these rows, in order
   std::size_t enough_;               // put() writes rows at this count of numbers
   // Counts of the records of all runs: read; read before this run; written or left out.
   std::size_t records_ = 0, run_begins_ = 0, done_ = 0;

@@ -37,6 +37,9 @@ class Output {
   // These append to the current line.
   void text(std::string_view text) { buffer_.append(text); }
   void text(char c) { buffer_.append(c); }
+  /// Space for `size` characters; what is written there ends at the argument of set_end().
+  char* reserve(std::size_t size) { return buffer_.reserve(size); }
+  void set_end(char* end) { buffer_.set_end(end); }
   /// Throws Error for a number that is not finite.
   void number(double value) {
     require_finite(value);
