@@ -44,7 +44,7 @@ Unquoted behind_quote(std::string_view text, std::string_view between) {
 
 bool needs_quotes(std::string_view field) {
   return field.starts_with('#') || std::any_of(field.begin(), field.end(), [](char c) {
-           return c == quote || c == '\t' || c == '\n' || c == '\r';
+           return c == quote || c == '\t' || c == '\n';
          });
 }
 
