@@ -12,6 +12,7 @@
 #include "signal/corner.h"
 #include "signal/moving_median.h"
 #include "signal/release.h"
+#include "signal/rounding.h"
 
 namespace rolling {
 namespace {
@@ -104,7 +105,8 @@ double smallest_step(std::span<const Sample> readings) {
   double largest = 0, step = std::numeric_limits<double>::infinity();
   for (const Sample& s : readings) largest = std::max(largest, std::abs(s.y));
   for (std::size_t i = 1; i < readings.size(); ++i)
-    if (const double here = std::abs(readings[i].y - readings[i - 1].y); here > 1e-9 * largest)
+    if (const double here = std::abs(readings[i].y - readings[i - 1].y);
+        here > program_rounding * largest)
       step = std::min(step, here);
   return step;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "signal/rounding.h"
+
 namespace rolling {
 
 namespace {
@@ -21,8 +23,11 @@ Hampel::Hampel(Width width, double threshold)
     : windows_(at_least_11(width), Windows::Ends::cut), threshold_(threshold) {}
 
 std::span<const Judged> Hampel::push(double t, double y) {
-  const double step = std::abs(y - last_);
-  if (std::exchange(begun_, true) && step > 0) step_ = step_ > 0 ? std::min(step_, step) : step;
+  if (std::exchange(begun_, true)) {
+    large_ = std::max(large_, std::min(std::abs(y), std::abs(last_)));
+    const double step = std::abs(y - last_), least = program_rounding * large_;
+    if (step > least && (step < step_ || step_ <= least)) step_ = step;
+  }
   last_ = y;
   windows_.push(t, y);
   return judge();
@@ -40,7 +45,8 @@ std::span<const Judged> Hampel::judge() {
         begin_, end_, [this](const Sample& s) { sorted_.insert(s.y); },
         [this](const Sample& s) { sorted_.erase(s.y); });
     const double centre = sorted_.median();
-    const double scale = std::max(1.4826 * sorted_.median_distance(centre), step_);
+    const double scale =
+        std::max({1.4826 * sorted_.median_distance(centre), step_, program_rounding * large_});
     const Sample& s = windows_.sample(windows_.at());
     judged_.push_back({s.t, s.y, std::abs(s.y - centre) <= threshold_ * scale});
   }

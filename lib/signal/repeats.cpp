@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "signal/rounding.h"
+
 namespace rolling {
 namespace {
 
@@ -21,7 +23,7 @@ double last_place(std::span<const double> readings, double rounding) {
 double records_held(std::span<const double> readings) {
   double largest = 0;
   for (const double y : readings) largest = std::max(largest, std::abs(y));
-  const double rounding = 1e-9 * largest;  // error of a program that computed the readings
+  const double rounding = program_rounding * largest;
   const auto step = [&](std::size_t i) { return std::abs(readings[i] - readings[i - 1]); };
   std::size_t changes = 0, repeats = 0;
   double unit = std::numeric_limits<double>::infinity();  // the smallest step

@@ -71,18 +71,22 @@ bool Windows::by_time(std::size_t i) {
   if (!complete && ends_ == Ends::stay) return false;  // the window may yet reach further back
   if (finished_ && ends_ == Ends::stay && to > newest) from = newest - width_.seconds;
   while (left_ < i && sample(left_).t + late * step(left_) < from) ++left_;
-  begin_ = left_;
-  end_ = right_;
-  if (ends_ == Ends::stay) return true;
+  std::size_t begin = left_, end = right_;
+  bool known = complete;
   if (ends_ == Ends::cut) {
-    begin_ = std::min(begin_, i - std::min(i, width_.least / 2));
-    end_ = std::min(std::max(end_, i + width_.least / 2 + 1), count_);
-    return complete && (i + width_.least / 2 < count_ || finished_);
+    begin = std::min(begin, i - std::min(i, width_.least / 2));
+    end = std::min(std::max(end, i + width_.least / 2 + 1), count_);
+    known &= i + width_.least / 2 < count_ || finished_;
+  } else if (ends_ == Ends::shrink) {
+    const std::size_t k = std::min(i - left_, right_ - 1 - i);
+    begin = i - k;
+    end = i + k + 1;
+    known |= k == i - left_;
   }
-  const std::size_t k = std::min(i - left_, right_ - 1 - i);
-  begin_ = i - k;
-  end_ = i + k + 1;
-  return complete || k == i - left_;
+  if (!known) return false;  // the samples of the last window are still needed
+  begin_ = begin;
+  end_ = end;
+  return true;
 }
 
 }  // namespace rolling

@@ -43,7 +43,8 @@ class Windows {
     ring_[count_++ & mask_] = {t, y};
   }
   void finish() { finished_ = true; }
-  /// Moves to the next sample whose window is complete; false if there is none yet.
+  /// Moves to the next sample whose window is complete; false if there is none yet: the window, and
+  /// the samples in it, then remain.
   bool next() {
     if (next_ < half_ || finished_) return next_ < count_ && near_end();
     if (next_ + half_ >= count_) return false;

@@ -1,5 +1,10 @@
 #include "signal/windows.h"
 
+#include <algorithm>
+#include <random>
+#include <set>
+#include <span>
+
 #include "base/error.h"
 #include "unit/catch.h"
 #include "unit/signal/through.h"
@@ -13,15 +18,21 @@ struct Window {
   bool operator==(const Window&) const = default;
 };
 
-/// The windows of a run, and with each how many samples had come when it was known.
+/// The windows of a run, and with each how many samples had come when it was known. What slide()
+/// adds and removes on the way to each window are the samples of the run.
 std::vector<Window> windows(const Series& t, Width width, Windows::Ends ends,
                             std::vector<std::size_t>* known = nullptr) {
   Windows all(width, ends);
   std::vector<Window> out;
+  std::size_t from = 0, to = 0;
+  std::multiset<double> held;
   const auto take = [&](std::size_t count) {
     while (all.next()) {
       out.push_back({all.at(), all.begin(), all.end()});
-      for (std::size_t i = all.begin(); i < all.end(); ++i) CHECK(all.sample(i).t == t[i]);
+      all.slide(
+          from, to, [&](const Sample& s) { held.insert(s.t); },
+          [&](const Sample& s) { CHECK(held.erase(s.t) == 1); });
+      CHECK(std::ranges::equal(held, std::span(t).subspan(all.begin(), all.size())));
       if (known) known->push_back(count);
     }
   };
@@ -86,6 +97,20 @@ TEST_CASE("windows: by seconds, at every offset of the times", "[signal]") {
       for (const double time : t) later.push_back(offset + time);
       CHECK(windows(later, {0, 0.37}, ends) == windows(t, {0, 0.37}, ends));
     }
+}
+
+TEST_CASE("windows: by seconds, each has all of its samples, whatever is lost", "[signal]") {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int run = 0; run < 300; ++run) {
+    const double lost = uniform(random), seconds = 40 * uniform(random) * uniform(random);
+    Series t;
+    for (int i = 0; i < 150; ++i)
+      if (uniform(random) > lost) t.push_back(i + 0.3 * uniform(random));
+    for (const std::size_t least : {1u, 11u})
+      for (const auto ends : {shrink, cut, stay})
+        CHECK(windows(t, {0, seconds, least}, ends).size() == t.size());
+  }
 }
 
 TEST_CASE("windows: of reversed times they are the reverse", "[signal]") {
