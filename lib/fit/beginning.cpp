@@ -5,6 +5,7 @@
 #include <gsl/gsl_linalg.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/by_run.h"
@@ -51,6 +52,13 @@ Without without_first(std::size_t k, std::size_t q, std::span<const double> Q,
   return result;
 }
 
+/// The variance of white noise from its second differences, which a smooth deviation hardly has.
+double local_variance(std::span<const double> f) {
+  double squares = 0;
+  for (std::size_t i = 2; i < f.size(); ++i) squares += std::pow(f[i] - 2 * f[i - 1] + f[i - 2], 2);
+  return squares / (6 * static_cast<double>(f.size() - 2));
+}
+
 }  // namespace
 
 std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitRun>& runs,
@@ -72,18 +80,25 @@ std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitR
   const auto f_of = by_run(fit.minimum.f, fit.system.runs), Q_of = by_run(Q, fit.system.runs, q);
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const std::size_t records = std::min(f_of[r].size(), rows[r].size());
+    const double taken = dot(Q_of[r], Q_of[r]);
     for (std::size_t k = 3, next = 5; 4 * k <= records; k = std::exchange(next, k + next)) {
       ++tests;
       const Without without = without_first(k, q, Q_of[r], f_of[r]);
-      const double gone = static_cast<double>(k), left = static_cast<double>(n - p - k),
-                   others = fit.minimum.rss - without.reduction,
-                   chance = gsl_cdf_fdist_Q(without.reduction / gone / (others / left), gone, left);
+      std::vector<double> f(f_of[r].begin(), f_of[r].end());
+      for (std::size_t i = 0; i < f.size(); ++i) f[i] += dot(without.c, Q_of[r].subspan(i * q));
+      const auto others = std::span(f).subspan(k);
+      const double gone = static_cast<double>(k), squares = dot(others, others),
+                   left = static_cast<double>(f.size()) - taken - gone;
+      // Where the removed records alone determine a parameter, nothing but rounding may remain: the
+      // squares of this run are then more than those of all runs.
+      if (!(left > 0 && squares > 0 && squares < 1.01 * (fit.minimum.rss - without.reduction)))
+        continue;
+      const double noise = std::max(squares / left, local_variance(std::span(f).first(k + 5))),
+                   chance = gsl_cdf_fdist_Q(without.reduction / gone / noise, gone, left);
       if (found && chance >= found->significance) continue;
       const auto& t = runs[r].t;
       found = Beginning{r, k, t[rows[r][k]] - t[rows[r][0]], chance};
-      rest.clear();
-      for (std::size_t i = k; i < f_of[r].size(); ++i)
-        rest.push_back(f_of[r][i] + dot(without.c, Q_of[r].subspan(i * q)));
+      rest.assign(others.begin(), others.end());
     }
   }
   if (!found) return {};

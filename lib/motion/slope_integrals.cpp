@@ -164,8 +164,8 @@ void SlopeIntegrals::quadrature(const Panel& p, double width, Integrand&& integr
   if (width <= 0) return;
   const auto at = [&](double local, double A, double dr, double dr_by_A) {
     const double r = p.r + local, d = depth_at(r);
-    integrand(Node{r, local, std::exp(-way_ * (1 - b_) * r) / depth_, d, A,
-                   net(d, A, p.left - local), dr, dr_by_A});
+    const double n = net(d, A, p.left - local);
+    integrand(Node{r, local, E_by_net(r, d, n), d, A, n, dr, dr_by_A});
   };
   if (!p.deep) {
     for (const GaussNode& node : gauss_legendre)
@@ -187,17 +187,24 @@ void SlopeIntegrals::quadrature(const Panel& p, double width, Integrand&& integr
     }
 }
 
-/// E (K + A)/|net| at r from the beginning of the panel; E/d in one power, for either may
-/// underflow.
+/// E/|net| at r: by E/d, which is one power, since both may underflow; but where E/d grows beyond
+/// all bounds, d has vanished beside the slope's part.
+double SlopeIntegrals::E_by_net(double r, double d, double net) const {
+  const double E_by_d = std::exp(-way_ * (1 - b_) * r) / depth_;
+  if (slope_ == 0) return E_by_d;
+  return E_by_d < 1e200 ? E_by_d * (d / net) : std::exp(-way_ * r) / net;
+}
+
+/// E (K + A)/|net| at r from the beginning of the panel.
 double SlopeIntegrals::time_per_r(const Panel& p, double r) const {
-  const double at = p.r + r, A = arm(at), d = depth_at(at), n = net(d, A, p.left - r);
-  return std::exp(-way_ * (1 - b_) * at) / depth_ * (d / n) * (K_ + A);
+  const double at = p.r + r, A = arm(at), d = depth_at(at);
+  return E_by_net(at, d, net(d, A, p.left - r)) * (K_ + A);
 }
 
 /// The time over the first `r` of the panel.
 double SlopeIntegrals::local_time(const Panel& p, double r) const {
   double sum = 0;
-  quadrature(p, r, [&](const Node& n) { sum += n.by_d * (n.d / n.net) * (K_ + n.A) * n.dr; });
+  quadrature(p, r, [&](const Node& n) { sum += n.E_by_net * (K_ + n.A) * n.dr; });
   return sum;
 }
 
@@ -205,9 +212,8 @@ double SlopeIntegrals::local_time(const Panel& p, double r) const {
 SlopeIntegrals::Sums SlopeIntegrals::local(const Panel& p, double width, Wanted wanted) const {
   Sums sum;
   quadrature(p, width, [&](const Node& n) {
-    const double part = n.d / n.net, E_by_net = n.by_d * part;  // E/d is by_d: E may be 0, d too
-    const double dt = E_by_net * (K_ + n.A) * n.dr;
-    const double h = E_by_net * part *
+    const double part = slope_ == 0 ? 1 : n.d / n.net, dt = n.E_by_net * (K_ + n.A) * n.dr;
+    const double h = n.E_by_net * part *
                      (exact_ ? (K_ * n.A + 1 - slope_ * K_ * n.d) * n.dr_by_A : (K_ + 1) * n.dr);
     const double k = dt * n.A / n.net;
     sum.time += dt;

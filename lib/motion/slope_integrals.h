@@ -87,7 +87,7 @@ class SlopeIntegrals {
   };
   struct Node {
     double r, local;  // from v0, and from the beginning of the panel
-    double by_d;      // E/d
+    double E_by_net;  // E/|net|
     double d, A, net;
     double dr, dr_by_A;  // with the weight
   };
@@ -95,6 +95,7 @@ class SlopeIntegrals {
   double depth_at(double r) const { return depth_ * std::exp(-beta_ * r); }
   double arm(double r) const;
   double net(double d, double A, double left) const;
+  double E_by_net(double r, double d, double net) const;
   double width(double r, double left) const;
   double horizon() const;
   void add_panels(double last, double left);

@@ -106,15 +106,26 @@ void Integrator::step(double t) {
         max_steps_, t_);
   --steps_left_;
   const double before = t_;
+  before_ = y_;
   const gsl_odeiv2_driver& driver = *problem_->driver;
-  const int status =
-      gsl_odeiv2_evolve_apply(driver.e, driver.c, driver.s, &problem_->gsl, &t_, t, &h_, y_.data());
-  if (problem_->thrown) std::rethrow_exception(std::exchange(problem_->thrown, nullptr));
-  if (status != GSL_SUCCESS)
-    fail("the integration fails at t = {:.6g} s: {}", t_, gsl_strerror(status));
-  // GSL accepts a step whose error estimate is NaN.
-  if (!std::all_of(y_.begin(), y_.end(), [](double y) { return std::isfinite(y); }))
-    fail("the state is no longer finite after t = {:.6g} s", before);
+  const auto finite = [this] {
+    return std::isfinite(t_) &&
+           std::all_of(y_.begin(), y_.end(), [](double y) { return std::isfinite(y); });
+  };
+  for (;;) {
+    const int status = gsl_odeiv2_evolve_apply(driver.e, driver.c, driver.s, &problem_->gsl, &t_, t,
+                                               &h_, y_.data());
+    if (problem_->thrown) std::rethrow_exception(std::exchange(problem_->thrown, nullptr));
+    if (status != GSL_SUCCESS)
+      fail("the integration fails at t = {:.6g} s: {}", t_, gsl_strerror(status));
+    if (finite()) break;
+    // GSL accepts a step whose error estimate is NaN, and steps grow without bound where the
+    // estimate is 0.
+    h_ = std::min(t_ - before, std::numeric_limits<double>::max()) / 10;
+    if (!(before + h_ > before)) fail("the state is no longer finite after t = {:.6g} s", before);
+    t_ = before;
+    restart(before_);
+  }
   if (t_ == before)
     fail("the integration cannot go on at t = {:.6g} s: its step is below the rounding of t", t_);
 }

@@ -58,7 +58,7 @@ class Integrator {
   std::shared_ptr<Problem> problem_;
   unsigned long max_steps_, steps_left_ = 0;
   double t_;
-  std::vector<double> y_;
+  std::vector<double> y_, before_;  // before_: at the beginning of a step
   double h_ = 1e-6;  // a first guess; the error control corrects it within a few steps
 };
 

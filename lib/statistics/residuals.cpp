@@ -34,17 +34,24 @@ Taken taken_by_few(std::size_t p) {
 double ljung_box(std::span<const double> r, const Taken& taken, std::span<const std::size_t> runs) {
   constexpr std::size_t block = 1024;  // stays in the cache for all lags
   const std::size_t lags = std::clamp<std::size_t>(r.size() / 10, 1, taken.size() - 1);
-  std::vector<double> sums(lags + 1);
-  for (const auto run : by_run(r, runs))
+  std::vector<double> all(lags + 1), sums(lags + 1), variances(lags + 1);
+  for (const auto run : by_run(r, runs)) {
+    std::ranges::fill(sums, 0);
     for (std::size_t i = 0; i < run.size(); i += block)
       for (std::size_t k = 0; k <= lags && i + k < run.size(); ++k)
         sums[k] += dot(&run[i], &run[i + k], std::min(block, run.size() - i - k));
+    const double n = static_cast<double>(run.size()), square = sums[0] * sums[0];
+    for (std::size_t k = 0; k <= lags; ++k) {
+      all[k] += sums[k];
+      if (k < run.size()) variances[k] += (n - static_cast<double>(k)) / (n * (n + 2)) * square;
+    }
+  }
   const double n = static_cast<double>(r.size());
-  if (!(sums[0] > 0 && n > taken[0])) return 1;
+  if (!(all[0] > 0 && n > taken[0])) return 1;
   double Q = 0, least = 1;
   for (std::size_t k = 1; k <= lags; ++k) {
-    const double rho = sums[k] / sums[0] + taken[k] / (n - taken[0]);
-    Q += n * (n + 2) * rho * rho / (n - static_cast<double>(k));
+    const double sum = all[k] + taken[k] * all[0] / (n - taken[0]);
+    if (variances[k] > 0) Q += sum * sum / variances[k];
     if (k == 1 || k == lags) least = std::min(least, gsl_cdf_chisq_Q(Q, static_cast<double>(k)));
   }
   return least;

@@ -22,7 +22,7 @@ Taken taken_by_few(std::size_t p);
 
 /// Significance of the autocorrelation of the residuals of a fit, after Ljung and Box (1978,
 /// Biometrika 65, 297): the smaller of the values for one lag and for n/10 lags (at least 1, at
-/// most 10). Corrected for what the fit has taken.
+/// most 10). Corrected for what the fit has taken. The noise of each run has its own variance.
 double ljung_box(std::span<const double> residuals, const Taken&,
                  std::span<const std::size_t> runs);
 

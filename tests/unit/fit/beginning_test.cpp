@@ -3,6 +3,7 @@
 #include <gsl/gsl_cdf.h>
 
 #include <cmath>
+#include <functional>
 
 #include "fit/route.h"
 #include "base/error.h"
@@ -38,7 +39,9 @@ FitRun without_first(FitRun run, std::size_t k) {
 
 }  // namespace
 
-// The squares that go with the first records are those of two fits, with and without them.
+// The squares that go with the first records are those of two fits, with and without them. The
+// noise is that of the others or, where it is larger, that in the second differences of the first
+// k + 5 records, without those of a free roll.
 TEST_CASE("beginning: the chance is that of Chow's F of two fits", "[fit]") {
   simulated::Noise noise(4);
   for (int i = 0; i < 5; ++i) {
@@ -51,8 +54,14 @@ TEST_CASE("beginning: the chance is that of Chow's F of two fits", "[fit]") {
     const double all = fit_route(Route::position, {run}, {}).minimum.rss,
                  rest = fit_route(Route::position, {without_first(run, found->records)}, {})
                             .minimum.rss;
+    const std::size_t near = found->records + 5;
+    const double of_roll = -0.04 * 0.04 * 5.75e-4 * std::pow(0.5, 0.0244) * 9.81 / (1.5 * 0.04);
+    double local = 0;
+    for (std::size_t j = 2; j < near; ++j)
+      local += std::pow(run.x[j] - 2 * run.x[j - 1] + run.x[j - 2] - of_roll, 2);
+    const double variance = std::max(rest / left, local / (6 * static_cast<double>(near - 2)));
     constexpr double tests = 5;  // the first 3, 5, 8, 13 and 21 records
-    const double chance = tests * gsl_cdf_fdist_Q((all - rest) / rest * left / k, k, left);
+    const double chance = tests * gsl_cdf_fdist_Q((all - rest) / variance / k, k, left);
     CHECK(std::log(found->significance) == Approx(std::log(chance)).epsilon(0.01));
   }
 }
@@ -63,6 +72,28 @@ TEST_CASE("beginning: in joint fits the run that shows it is named", "[fit]") {
   const auto found = disturbed_beginning(Route::position, runs, {});
   REQUIRE(found);
   CHECK(found->run == 1);
+}
+
+// Of 200 with a chance of 0.1 %, 4 or more come in 1 of 17,000.
+TEST_CASE("beginning: noise that is larger at first, or in one run, is no hand", "[fit]") {
+  simulated::Noise noise(9), silent(9);
+  const auto with = [&](const std::function<double(int)>& sigma) {
+    FitRun run = held(0, silent, 0);
+    for (std::size_t i = 0; i < run.x.size(); ++i) run.x[i] += noise(sigma(static_cast<int>(i)));
+    return run;
+  };
+  const auto even = [&](double sigma) { return with([=](int) { return sigma; }); };
+  int at_first = 0, falling = 0, in_one = 0;
+  for (int i = 0; i < 200; ++i) {
+    const FitRun first = with([](int k) { return k < 26 ? 1e-3 : 0; }),
+                 less = with([](int k) { return 3e-3 * (1 - k / 130.0); });
+    at_first += disturbed_beginning(Route::position, {first}, {}).has_value();
+    falling += disturbed_beginning(Route::position, {less}, {}).has_value();
+    in_one += disturbed_beginning(Route::position, {even(0), even(0), even(1e-3)}, {}).has_value();
+  }
+  CHECK(at_first <= 3);
+  CHECK(falling <= 3);
+  CHECK(in_one <= 3);
 }
 
 // Of 300 with a chance of 0.1 %, 4 or more come in 1 of 3000.

@@ -89,6 +89,22 @@ TEST_CASE("MemoryRoll: every stepper that is fit for it finds the same rest", "[
     }
 }
 
+// The bulge stays as it is while the body rolls forwards, and the steps grow until one of them
+// leaves the finite numbers.
+TEST_CASE("MemoryRoll: under a constant shift too", "[rolling]") {
+  for (const double damping : {1e-4, 1e-3, 3e-3}) {
+    const auto stop = [&](Stepper stepper) {
+      const Bulge bulge{1e-4, damping};
+      return MemoryRoll(cylinder, Geometry::approximate, {1.87e-3, 0}, bulge, 0.5, 0, stepper,
+                        1e-10)
+          .stop_time();
+    };
+    const double by_rkf45 = stop(Stepper::rkf45);
+    CHECK(std::abs(stop(Stepper::rk8pd) - by_rkf45) < 1e-8);
+    CHECK(std::abs(stop(Stepper::rk4imp) - by_rkf45) < 1e-8);
+  }
+}
+
 TEST_CASE("MemoryRoll: stiff lengths take an implicit solver, with few evaluations and damping too",
           "[rolling]") {
   CHECK(memory_stepper(cylinder, rubber, {1e-3}, 0.5) == Stepper::rk8pd);

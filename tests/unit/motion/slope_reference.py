@@ -60,7 +60,7 @@ def targets(exact, a, b, v0, S):
 
 print("// Made by slope_reference.py: exact, K, a, b, v0, S, t, v, x, v_a, v_b, v_v0, v_S, x_a, x_b, x_v0, x_S")
 for exact in (0, 1):
-    for b in (-0.5, 0.0, 0.0244, 0.215, 1.0, 1.5, 3.0):
+    for b in (-5.0, -2.0, -0.5, 0.0, 0.0244, 0.215, 1.0, 1.5, 3.0, 20.0):
         for K, v0, depth, S in ((0.5, 0.5, 0.04, 1e-3), (0.5, 0.5, 0.04, -1e-3), (0.83, 0.5, 0.0145, -5e-3), (0.5, 2.0, 0.45, 0.1), (0.83, 0.1, 0.9, -0.3),
                                 (0.5, 0.3, 0.01, -0.02), (0.5, 0.3, 0.01, -1.5), (0.0, 1.3, 0.3, 2.0)):
             a = float(depth * 0.04 * v0 ** -b)
@@ -72,7 +72,7 @@ for exact in (0, 1):
                 v, x = roll(mpf(t), y, *law)
                 slopes = []
                 for i in (2, 3, 4, 5):
-                    h = mpf(10) ** -12 * max(abs(law[i]), mpf("0.01")) * (mpf("1e-3") if i == 5 else 1)
+                    h = mpf(10) ** -12 * (law[i] if i == 2 else max(abs(law[i]), mpf("0.01"))) * (mpf("1e-3") if i == 5 else 1)
                     ends = []
                     for sign in (1, -1):
                         p = list(law)

@@ -147,6 +147,8 @@ TEST_CASE("Slope: random rolls are finite and monotone, uphill, downhill and for
               << (geometry == exact) << " v0 " << v0);
     const Trajectory roll(body, geometry, law, v0);
     const double unit = v0 * 0.04 / (9.81 * law(v0));
+    REQUIRE(roll.stop_time() >= 0);
+    if (S > 0 && !(geometry == exact && b < 0)) REQUIRE(std::isfinite(roll.stop_time()));
     double v = v0, x = -1;
     int way = 0;
     for (double t = 1e-12 * unit; t < 1e6 * unit; t *= 3) {
