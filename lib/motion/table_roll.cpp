@@ -13,10 +13,8 @@ namespace rolling {
 
 namespace {
 
-// The law is a cubic between two points of the table. With a quarter of that interval as a panel,
-// 16 nodes reach 1e-15. On a falling mat panels are halved, down to 2^-30 of their first width.
-constexpr int panels_in_a_piece = 4;
-constexpr int most_halvings = 30;
+constexpr int panels_in_a_piece = 4;  // short ones, in which Newton's method needs few steps
+constexpr int most_halvings = 30;     // of a panel
 
 }  // namespace
 
@@ -53,13 +51,13 @@ TableRoll::TableRoll(const Body& body, Geometry geometry, TableLaw law, double v
   }
 }
 
-/// Adds panels from the last speed down to `to`. On a falling mat the integrand has poles close to
-/// the speeds at which D almost balances the slope; there a panel is halved until the sum of its
-/// halves agrees with the whole.
+/// Adds panels from the last speed down to `to`. The law is a cubic between two points of the
+/// table; the integrand has poles where it is 0, or balances a slope. A panel is halved until the
+/// sum of its halves agrees with the whole.
 void TableRoll::add_panels(double to, int halvings) {
   const Panel last = panels_.back();
   const Integrals whole = integrals(last.v, to);
-  if (body_.slope < 0 && halvings < most_halvings) {
+  if (halvings < most_halvings) {
     const double middle = to + (last.v - to) / 2;
     const double halves = integrals(last.v, middle).time + integrals(middle, to).time;
     if (std::abs(halves - whole.time) > 1e-14 * (last.time + halves)) {

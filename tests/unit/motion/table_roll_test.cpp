@@ -53,6 +53,21 @@ TEST_CASE("TableRoll: D proportional to v + c has a logarithm for its time", "[r
   }
 }
 
+// The interpolated law loses as many digits at its least D as that is smaller than its neighbours.
+TEST_CASE("TableRoll: a law that nearly vanishes, against quadrature with 30 digits", "[rolling]") {
+  const double references[][3] = {{1e-5, 14.493549327408447, 2.8069667462156344},
+                                  {1e-6, 44.198229968571606, 8.7479028744482666},
+                                  {1e-8, 431.57886328443814, 86.224029537621578}};
+  for (const auto& [least, time, distance] : references) {
+    TableRoll motion(cylinder, Geometry::approximate, {{0.1, 0.2, 0.3}, {1e-3, least, 1e-3}}, 0.3,
+                     0);
+    const double tolerance = 1e-15 * (1e-3 / least);
+    CHECK(std::abs(motion.stop_time() / time - 1) < tolerance);
+    motion.seek(motion.stop_time());
+    CHECK(std::abs(motion.position() / distance - 1) < tolerance);
+  }
+}
+
 TEST_CASE("TableRoll: agrees with the solvers on points without a law, in both geometries",
           "[rolling]") {
   for (const Geometry geometry : {Geometry::approximate, Geometry::exact}) {
