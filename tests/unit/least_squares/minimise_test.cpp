@@ -181,6 +181,24 @@ TEST_CASE("minimise_robust: the pseudo-residuals of a short record are corrected
   CHECK(std::abs(top * top * mean / K - 1) < 1e-9);
 }
 
+TEST_CASE("minimise_robust: every start leads to the same numbers", "[fit]") {
+  simulated::Noise noise(18);
+  for (int run = 0; run < 100; ++run) {
+    constexpr std::size_t n = 40;
+    std::vector<double> t, y;
+    for (std::size_t i = 0; i < n; ++i)
+      t.push_back(static_cast<double>(i) / n), y.push_back(t.back() + noise(i % 5 ? 0.1 : 1));
+    const System line = one_run(
+        n, 2, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+          for (std::size_t i = 0; i < n; ++i)
+            f[i] = x[0] + x[1] * t[i] - y[i], J[i] = 1, J[n + i] = t[i];
+        });
+    const auto one = minimise_robust(line, {0, 0}), other = minimise_robust(line, {3, -5});
+    for (std::size_t j = 0; j < 2; ++j) CHECK(std::abs(one.theta[j] - other.theta[j]) < 1e-7);
+    CHECK(std::abs(one.rss / other.rss - 1) < 1e-6);
+  }
+}
+
 TEST_CASE("minimise_robust: without outliers a line with its classical errors, nearly", "[fit]") {
   simulated::Noise noise(17);
   constexpr std::size_t n = 4000;
