@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/by_run.h"
+#include "base/dot.h"
 #include "contact/contact.h"
 #include "least_squares/triangles.h"
 
@@ -75,15 +76,21 @@ class Wobble {
   double first_v_ = 0, fastest_ = 0, way_ = 0;
 };
 
+/// The noise of a run: the sum of squares of its residuals, their degrees of freedom, and the
+/// variance of the noise before the filters.
+struct RunNoise {
+  double squares, freedom, variance;
+};
+
 /// The periodogram of one run of a fit.
 class Periodogram {
  public:
-  /// R is the radius of the body, `variance` that of the noise, and f the residuals; if the filters
-  /// are known, f is the noise of the raw column that explains the residuals. For residuals H e
-  /// this f is e without what the filters remove, which of positions is their mean.
-  Periodogram(const Fitted& fit, std::size_t run, double R, double variance,
+  /// R is the radius of the body, and f the residuals; if the filters are known, f is the noise of
+  /// the raw column that explains the residuals. For residuals H e this f is e without what the
+  /// filters remove, which of positions is their mean.
+  Periodogram(const Fitted& fit, std::size_t run, double R, RunNoise noise,
               std::span<const double> f)
-      : fit_(fit), run_(run), R_(R), variance_(variance), f_(f) {
+      : fit_(fit), run_(run), R_(R), noise_(noise), f_(f) {
     for (std::size_t end : ends_) times_.push_back(seen_.t[end - 1]);
   }
 
@@ -113,11 +120,9 @@ class Periodogram {
                  by_cos = theta[q - 2], by_sin = theta[q - 1];
     if (!(ss * ss > 1e-12 * (cs * cs + ss * ss))) return {run_, 1, 0, 0, 0};
     const double reduction = square(cc * by_cos + cs * by_sin) + square(ss * by_sin),
-                 e = std::hypot(by_cos, by_sin),
-                 freedom = static_cast<double>(fit_.minimum.f.size()) -
-                           static_cast<double>(fit_.minimum.theta.size()) - 2,
+                 e = std::hypot(by_cos, by_sin), freedom = noise_.freedom - 2,
                  variance =
-                     variance_ * (1 - reduction / fit_.minimum.rss) * (freedom + 2) / freedom;
+                     noise_.variance * (1 - reduction / noise_.squares) * noise_.freedom / freedom;
     // The standard error of e is the norm of R^-T (by_cos, by_sin)/e times the standard deviation.
     const double u = by_cos / (e * cc), w = (by_sin / e - u * cs) / ss;
     return {run_, gsl_cdf_fdist_Q(reduction / variance / 2, 2, freedom), e,
@@ -175,7 +180,8 @@ class Periodogram {
 
   const Fitted& fit_;
   std::size_t run_, q_ = fit_.system.columns();
-  double R_, variance_;
+  double R_;
+  RunNoise noise_;
   std::span<const double> f_;
   const ObservedRun& seen_ = fit_.rolls->runs()[run_];
   Trajectory roll_ = fit_.rolls->trajectory(fit_.minimum.theta, run_);
@@ -194,9 +200,17 @@ std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRu
   const bool known = fit.filters_known();
   const Column f = known ? fit.noise->explain(fit.minimum.f) : fit.minimum.f;
   const auto f_of = by_run(f, known ? fit.noise->sources() : fit.system.runs);
+  const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size();
+  const double of_all = fit.minimum.rss / static_cast<double>(n - p);
+  const auto residuals = by_run(fit.minimum.f, fit.system.runs);
   for (std::size_t r = 0; r < runs.size(); ++r) {
+    const double squares = dot(residuals[r], residuals[r]),
+                 freedom = static_cast<double>(residuals[r].size()) -
+                           static_cast<double>(fit.system.columns());
+    if (!(freedom > 2 && squares > 0)) continue;
+    const RunNoise noise{squares, freedom, variance * (squares / freedom) / of_all};
     const double R = route == Route::shift ? runs[r].shift_of->body.R : runs[r].body.R;
-    const Periodogram spectrum(fit, r, R, variance, f_of[r]);
+    const Periodogram spectrum(fit, r, R, noise, f_of[r]);
     const Wobble turns = spectrum.wobble(1);
     if (!spectrum.worth(turns)) continue;
     Eccentricity once_a_turn = spectrum.of(turns);

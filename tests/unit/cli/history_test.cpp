@@ -164,6 +164,10 @@ TEST_CASE("history: uncertainties and the slope of shift-from-accel are read bac
   CHECK(history.shift_of->given.g == 0);
   CHECK(history.shift_of->given.slope == 2e-4);
   CHECK(history.shift_of->body.slope == -0.001);
+  // A body whose mass is all in its axis.
+  const auto point = history_of({"shift-from-accel K 0 R 0.04 g 9.81"}, times);
+  REQUIRE(point.shift_of);
+  CHECK(point.shift_of->body.K == 0);
 }
 
 TEST_CASE(

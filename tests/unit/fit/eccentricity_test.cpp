@@ -130,6 +130,22 @@ TEST_CASE("eccentricity: the run of several that has it is named; less than a tu
   CHECK_FALSE(fitted(brief).eccentricity);
 }
 
+// Of 200 with a chance of 1 %, 9 or more come in 1 of 4000.
+TEST_CASE("eccentricity: the noise of each run is its own", "[fit]") {
+  FitOptions options;
+  options.b = 0;
+  const FitRun quiet = wobbling(0, 1e-6);
+  simulated::Noise noise(10);
+  int found = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    FitRun loud = quiet;
+    for (double& x : loud.x) x += noise(1e-5);
+    found += fit(Route::position, {quiet, quiet, quiet, quiet, quiet, loud}, options)
+                 .eccentricity.has_value();
+  }
+  CHECK(found <= 8);
+}
+
 TEST_CASE("eccentricity: it takes more than one record in each half turn", "[fit]") {
   // A half turn takes pi R/v = 0.25 s.
   CHECK(fitted(wobbling(e, 1e-6, 12, 0.24)).eccentricity);

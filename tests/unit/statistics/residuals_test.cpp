@@ -19,6 +19,19 @@ TEST_CASE("residuals: Ljung-Box tells white residuals from correlated ones", "[s
   CHECK(ljung_box(smooth, taken, one) < 1e-6);
 }
 
+// Of 1000 with a chance of 1 to 2 %, 40 or more come in 1 of 10,000.
+TEST_CASE("residuals: white noise of another size in one run is not correlated", "[statistics]") {
+  simulated::Noise noise(5);
+  const std::size_t runs[] = {60, 60, 60, 60};
+  int correlated = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    std::vector<double> white;
+    for (int i = 0; i < 240; ++i) white.push_back(noise(i < 180 ? 1 : 10));
+    correlated += ljung_box(white, {}, runs) < 0.01;
+  }
+  CHECK(correlated < 40);
+}
+
 TEST_CASE("residuals: Newey-West by hand", "[statistics]") {
   // r = -1/4 and AR = (4 r + 1)/(4 - 1 - 2) = 0: nothing to whiten. rho = -1/4, alpha = 64/225,
   // width = ceil(1.1447 cbrt(4 alpha)) = 2; products one apart sum to -1, two apart to 0: 4 + 2
