@@ -229,12 +229,10 @@ Minimum minimise_robust(const System& system, const std::vector<double>& start) 
   double scale = 0;
   for (const auto influence : {huber, bisquare}) {
     double change = 1;
-    for (int round = 0; change > 1e-9; ++round) {
-      if (round == 100) {
-        // The median may go to and fro between two records that are almost equally far off.
-        if (influence == huber && change < 1e-3) break;
-        fail("the robust fit does not converge");
-      }
+    // The median that is Huber's scale may go to and fro between two records.
+    const auto enough = [&](int round) { return influence == huber && round > 50 ? 1e-3 : 1e-9; };
+    for (int round = 0; change > enough(round); ++round) {
+      if (round == 100) fail("the robust fit does not converge");
       if (influence == huber) scale = median_scale(at.f, p);  // fixed for bisquare
       if (!(scale > 0)) return minimise(system, at.theta);
       std::vector<double> roots;
