@@ -21,9 +21,9 @@ struct Beginning {
 /// statistic is the F ratio of the reduction of the sum of squares that their removal causes to the
 /// variance of the noise: that of the other residuals of the run, or of the first k + 5 by their
 /// second differences where that is larger. (The noise may differ from run to run and along a run;
-/// a hand is smooth.) The result is the run with the smallest significance, if this is below 0.1 %
-/// after Bonferroni's correction and the other residuals of that run are white: noise of long
-/// memory would deviate everywhere.
+/// the deviation that a hand leaves is smooth.) The result is the run with the smallest
+/// significance, if this is below 0.1 % after Bonferroni's correction and the other residuals of
+/// that run are white: noise of long memory would deviate everywhere.
 ///
 /// The result is empty for a robust fit and one that is not a roll, for fewer than 20 records more
 /// than parameters, and for filtered columns: filters spread a disturbance over all residuals,

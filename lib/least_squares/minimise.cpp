@@ -229,7 +229,7 @@ Minimum minimise_robust(const System& system, const std::vector<double>& start) 
   double scale = 0;
   for (const auto influence : {huber, bisquare}) {
     double change = 1;
-    // The median that is Huber's scale may go to and fro between two records.
+    // Huber's scale is a median, which may go to and fro between two records without end.
     const auto enough = [&](int round) { return influence == huber && round > 50 ? 1e-3 : 1e-9; };
     for (int round = 0; change > enough(round); ++round) {
       if (round == 100) fail("the robust fit does not converge");

@@ -187,8 +187,8 @@ void SlopeIntegrals::quadrature(const Panel& p, double width, Integrand&& integr
     }
 }
 
-/// E/|net| at r: by E/d, which is one power, since both may underflow; but where E/d grows beyond
-/// all bounds, d has vanished beside the slope's part.
+/// E/|net| at r, from E/d, which is one power, since E and d may both underflow. Where E/d would
+/// overflow, d is negligible beside the slope's part, and E/|net| is taken directly.
 double SlopeIntegrals::E_by_net(double r, double d, double net) const {
   const double E_by_d = std::exp(-way_ * (1 - b_) * r) / depth_;
   if (slope_ == 0) return E_by_d;

@@ -35,7 +35,7 @@ class Hampel {
   double threshold_;
   bool begun_ = false;
   double last_ = 0;
-  double large_ = 0;  // the largest reading so far, single ones apart
+  double large_ = 0;  // the largest reading so far that a neighbour reaches too
   double step_ = 0;   // the smallest step between neighbours so far
   SortedWindow sorted_;
   std::size_t begin_ = 0, end_ = 0;  // range of the samples in sorted_

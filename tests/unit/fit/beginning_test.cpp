@@ -76,10 +76,10 @@ TEST_CASE("beginning: in joint fits the run that shows it is named", "[fit]") {
 
 // Of 200 with a chance of 0.1 %, 4 or more come in 1 of 17,000.
 TEST_CASE("beginning: noise that is larger at first, or in one run, is no hand", "[fit]") {
-  simulated::Noise noise(9), silent(9);
+  simulated::Noise noise(9), more(10);
   const auto with = [&](const std::function<double(int)>& sigma) {
-    FitRun run = held(0, silent, 0);
-    for (std::size_t i = 0; i < run.x.size(); ++i) run.x[i] += noise(sigma(static_cast<int>(i)));
+    FitRun run = held(0, noise);
+    for (std::size_t i = 0; i < run.x.size(); ++i) run.x[i] += more(sigma(static_cast<int>(i)));
     return run;
   };
   const auto even = [&](double sigma) { return with([=](int) { return sigma; }); };

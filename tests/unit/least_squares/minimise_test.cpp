@@ -26,6 +26,15 @@ System one_run(
           }};
 }
 
+/// A straight line through the points (t, y).
+System line_through(const std::vector<double>& t, const std::vector<double>& y) {
+  const std::size_t n = t.size();
+  return one_run(n, 2,
+                 [=](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+    for (std::size_t i = 0; i < n; ++i) f[i] = x[0] + x[1] * t[i] - y[i], J[i] = 1, J[n + i] = t[i];
+  });
+}
+
 }  // namespace
 
 TEST_CASE("minimise: Rosenbrock's valley, from the usual start", "[fit]") {
@@ -140,11 +149,7 @@ TEST_CASE(
     "[fit]") {
   // The estimating equation, sum_i psi(r_i/s) J_i = 0: it names neither the scale nor the weights
   const std::vector<double> t{0, 1, 2, 3, 4, 5, 6, 7}, y{0, 1.2, 1.9, 3.8, 4.1, 4.2, 6.9, 50};
-  const System line = one_run(
-      8, 2, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
-        for (std::size_t i = 0; i < 8; ++i)
-          f[i] = x[0] + x[1] * t[i] - y[i], J[i] = 1, J[8 + i] = t[i];
-      });
+  const System line = line_through(t, y);
   const auto m = minimise_robust(line, {0, 0});
   const auto weight = [&](std::size_t i) {
     return m.f[i] / (m.theta[0] + m.theta[1] * t[i] - y[i]);
@@ -162,11 +167,7 @@ TEST_CASE(
 TEST_CASE("minimise_robust: the pseudo-residuals of a short record are corrected for p/n",
           "[fit]") {
   const std::vector<double> t{0, 1, 2, 3, 4, 5, 6, 7}, y{0, 1.2, 1.9, 3.8, 4.1, 4.2, 6.9, 50};
-  const System line = one_run(
-      8, 2, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
-        for (std::size_t i = 0; i < 8; ++i)
-          f[i] = x[0] + x[1] * t[i] - y[i], J[i] = 1, J[8 + i] = t[i];
-      });
+  const System line = line_through(t, y);
   const auto m = minimise_robust(line, {0, 0});
   const auto r2 = [&](std::size_t i) { return std::pow(m.theta[0] + m.theta[1] * t[i] - y[i], 2); };
   const auto root = [&](std::size_t i) { return std::sqrt(std::sqrt(m.f[i] * m.f[i] / r2(i))); };
@@ -188,11 +189,7 @@ TEST_CASE("minimise_robust: every start leads to the same numbers", "[fit]") {
     std::vector<double> t, y;
     for (std::size_t i = 0; i < n; ++i)
       t.push_back(static_cast<double>(i) / n), y.push_back(t.back() + noise(i % 5 ? 0.1 : 1));
-    const System line = one_run(
-        n, 2, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
-          for (std::size_t i = 0; i < n; ++i)
-            f[i] = x[0] + x[1] * t[i] - y[i], J[i] = 1, J[n + i] = t[i];
-        });
+    const System line = line_through(t, y);
     const auto one = minimise_robust(line, {0, 0}), other = minimise_robust(line, {3, -5});
     for (std::size_t j = 0; j < 2; ++j) CHECK(std::abs(one.theta[j] - other.theta[j]) < 1e-7);
     CHECK(std::abs(one.rss / other.rss - 1) < 1e-6);
@@ -203,16 +200,9 @@ TEST_CASE("minimise_robust: every start leads to the same numbers", "[fit]") {
 TEST_CASE("minimise_robust: short records converge", "[fit]") {
   for (unsigned seed = 0; seed < 200; ++seed) {
     simulated::Noise noise(seed);
-    std::vector<double> y;
-    for (int i = 0; i < 10; ++i) y.push_back(i + noise(i % 5 ? 0.1 : 1));
-    const System line = one_run(
-        10, 2, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
-          for (std::size_t i = 0; i < 10; ++i) {
-            const auto t = static_cast<double>(i);
-            f[i] = x[0] + x[1] * t - y[i], J[i] = 1, J[10 + i] = t;
-          }
-        });
-    CHECK_NOTHROW(minimise_robust(line, {0, 0}));
+    std::vector<double> t, y;
+    for (int i = 0; i < 10; ++i) t.push_back(i), y.push_back(i + noise(i % 5 ? 0.1 : 1));
+    CHECK_NOTHROW(minimise_robust(line_through(t, y), {0, 0}));
   }
 }
 
@@ -222,11 +212,7 @@ TEST_CASE("minimise_robust: without outliers a line with its classical errors, n
   std::vector<double> t, y;
   for (std::size_t i = 0; i < n; ++i)
     t.push_back(static_cast<double>(i) / n), y.push_back(1 + 2 * t.back() + noise(0.1));
-  const System line = one_run(
-      n, 2, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
-        for (std::size_t i = 0; i < n; ++i)
-          f[i] = x[0] + x[1] * t[i] - y[i], J[i] = 1, J[n + i] = t[i];
-      });
+  const System line = line_through(t, y);
   const auto plain = minimise(line, {0, 0}), robust = minimise_robust(line, {0, 0});
   CHECK(std::abs(robust.theta[1] - 2) < 0.02);
   CHECK(std::abs(robust.rss / plain.rss - 1 / 0.95) <
@@ -241,11 +227,7 @@ TEST_CASE(
   std::vector<double> t, y;
   for (std::size_t i = 0; i < n; ++i)
     t.push_back(static_cast<double>(i) - 499.5), y.push_back(3 - 0.01 * t.back() + noise(0.1));
-  const System line = one_run(
-      n, 2, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
-        for (std::size_t i = 0; i < n; ++i)
-          f[i] = x[0] + x[1] * t[i] - y[i], J[i] = 1, J[n + i] = t[i];
-      });
+  const System line = line_through(t, y);
   const auto m = minimise(line, {0, 0});
   long double mean = 0, ty = 0;
   for (std::size_t i = 0; i < n; ++i) mean += y[i], ty += static_cast<long double>(t[i]) * y[i];
