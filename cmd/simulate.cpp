@@ -235,7 +235,8 @@ class Rows {
     const double end = to_the_stop ? motion->stop_time() : until;
     if (!std::isfinite(end)) fail("{}: say --until when to end", why_endless(task_.roll, *motion));
     // The margin keeps rounding of end / dt from adding a row beside the stop or losing the last.
-    const double steps = std::floor(end / dt + (to_the_stop ? -1e-9 : 1e-9));
+    const double margin = 1e-9 + 1e-15 * (end / dt);
+    const double steps = std::floor(end / dt + (to_the_stop ? -margin : margin));
     if (steps > 1e9) fail("these are {:.3g} rows; the most is 1e9: --dt is too small", steps);
     const Clock clock{dt};
     write_header();
