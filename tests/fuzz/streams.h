@@ -13,7 +13,7 @@
 /// Ends the process, as the fuzzer wants it, where what must hold does not.
 inline void require(bool holds, const char* what, std::string_view shown = "") {
   if (holds) return;
-  std::fprintf(stderr, "%s: '%.*s'\n", what, static_cast<int>(shown.size()), shown.data());
+  std::fprintf(stderr, "%s: '%s'\n", what, std::string(shown).c_str());
   std::abort();
 }
 
