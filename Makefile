@@ -226,6 +226,7 @@ sanitize: all build/unit $(target:%=build/replay/%)
 # The names smooth and simulate are common: PROGRAM_PREFIX=roll- installs roll-smooth,
 # roll-simulate, ... and their pages so. The script reads PREFIX, PROGRAM_PREFIX and DESTDIR from
 # its environment, where no blank and no sign of the shell has a meaning.
+PREFIX ?= /usr/local
 export PREFIX PROGRAM_PREFIX DESTDIR
 install: all
 	@cmd/install/install.sh install

@@ -1,14 +1,14 @@
 #!/bin/bash
 # install.sh install | uninstall: the tools, their pages and completions, and the samples, into
-# PREFIX (/usr/local) below DESTDIR; PROGRAM_PREFIX goes before the name of each tool. The three
-# come from the environment. `uninstall` removes the files that `install` puts there, and the
-# folders of the samples if nothing else is in them.
+# PREFIX below DESTDIR; PROGRAM_PREFIX goes before the name of each tool. The three come from the
+# environment. `uninstall` removes the files that `install` puts there, and the folders of the
+# samples if nothing else is in them.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
 cd "$(dirname "$0")/../.."
 
-root=${DESTDIR-}${PREFIX-/usr/local} prefix=${PROGRAM_PREFIX-}
+root=${DESTDIR-}$PREFIX prefix=${PROGRAM_PREFIX-}
 case $root in -*) root=./$root ;; esac
 [[ $prefix =~ ^([A-Za-z0-9_][A-Za-z0-9._+-]*)?$ ]] || {
   printf "install: PROGRAM_PREFIX is '%s'; it may have letters, digits and . _ + -\n" "$prefix" >&2

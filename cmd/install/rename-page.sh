@@ -17,7 +17,7 @@ s/Xr ($tools) 1/Xr $prefix\\1 1/g
 s/^($tools): /$prefix\\1: /
 /^\\$ /{
   :command
-  s/(^\\$ |^ *|\\| )($tools)( |\$)/\\1$prefix\\2\\3/g
+  s/(^\\$ |^ *|\\| |\\{ |\\()($tools)( |\$)/\\1$prefix\\2\\3/g
   /\\\\e\$/{
     n
     b command

@@ -8,6 +8,7 @@ unset CDPATH
 cd "$(dirname "$0")/../.." || exit 2
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
+PATH=${PATH#"$PWD/bin:"}  # where there are only tools with a prefix
 unset MAKEFLAGS MAKELEVEL DESTDIR PREFIX PROGRAM_PREFIX
 wrong=0
 complain() { echo "${prefix:-no prefix}: $*" && wrong=1; }
@@ -77,6 +78,12 @@ for prefix in '' roll-; do
   [ -e "$stage/a/mine" ] || complain "uninstall deletes a stranger's folder"
   [ ! -e hit ] && [ ! -e "$scratch/hit" ] || { rm -f hit; complain "a name was run as code"; }
 done
+# Without a PREFIX everything goes below /usr/local.
+prefix=''
+make install DESTDIR="$scratch/default" >"$scratch/made" 2>&1 || complain "make install fails"
+[ "$(cd "$scratch/default" && find . -maxdepth 3 -name bin)" = ./usr/local/bin ] &&
+  [ -z "$(find "$scratch/default" -type f ! -path '*/usr/local/*')" ] ||
+  complain "make install goes to $(find "$scratch/default" -name bin)"
 # A name of a program that could be more than a name is refused, before anything is written.
 for prefix in 'r&d-' 'a/b' '-x' 'a b' '$(touch hit)' "'"; do
   if PROGRAM_PREFIX=$prefix PREFIX=/opt DESTDIR=$scratch/none cmd/install/install.sh install \
