@@ -39,7 +39,7 @@ object  = $(patsubst %.cpp,build/%.o,$1)
 
 .PHONY: all table1 samples figures report html check install uninstall deb coverage work-precision \
         work-precision-signal bench lint fuzz sanitize coverage-lines mutate check-long \
-        check-arm64 clean always
+        check-arm64 check-clang clean always
 .SECONDARY:
 all: $(tool:%=bin/%)
 

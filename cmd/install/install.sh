@@ -8,7 +8,7 @@ export LC_ALL=C
 unset CDPATH
 cd "$(dirname "$0")/../.."
 
-root=${DESTDIR-}$PREFIX prefix=${PROGRAM_PREFIX-}
+root=${DESTDIR-}${PREFIX?} prefix=${PROGRAM_PREFIX-}
 case $root in -*) root=./$root ;; esac
 [[ $prefix =~ ^([A-Za-z0-9_][A-Za-z0-9._+-]*)?$ ]] || {
   printf "install: PROGRAM_PREFIX is '%s'; it may have letters, digits and . _ + -\n" "$prefix" >&2

@@ -16,6 +16,7 @@ for goal; do
     *) packages+=(catch2 libboost-dev mandoc gnuplot-nox locales) ;;&  # whatever runs the tests
     sanitize) packages+=(valgrind) ;;
     coverage-lines) packages+=(gcovr) ;;
+    check-clang) packages+=(clang-14) ;;
     check-arm64) packages+=(g++-aarch64-linux-gnu qemu-user) ;;
   esac
 done

@@ -10,12 +10,14 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <string>
 #include <string_view>
 
 namespace rolling {
@@ -136,7 +138,8 @@ char* write_shortest(char* to, double value) {
   to += bits >> 63;
   if (decimal.digits == 0) {
     if (value == 0) return *to = '0', to + 1;
-    return fmt::format_to(to, "{}", std::abs(value));
+    const std::string text = fmt::format("{}", std::abs(value));
+    return std::copy(text.begin(), text.end(), to);
   }
   const std::uint64_t nine = decimal.digits / 100000000, first = nine / 100000000,
                       middle = eight_digits(nine - 100000000 * first),
