@@ -1,9 +1,12 @@
 #include "fit/shift_records.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/error.h"
+#include "base/median.h"
+#include "base/rounding.h"
 
 namespace rolling {
 
@@ -17,19 +20,37 @@ double way_of(const FitRun& run) {
   return sum < 0 ? -1 : 1;
 }
 
-/// True if a record can be fitted; v and D are positive along the motion.
-bool is_used(double v, double D, const FitOptions& options, bool logarithms) {
-  return v > 0 && v >= options.min_speed && std::isfinite(v) && std::isfinite(D) &&
-         (D > 0 || !logarithms);
-}
+/// What v and D along the motion must exceed in a record that is fitted. Where the terms of a sum
+/// cancel, what is left is its rounding, whose logarithm is far from those of the others.
+struct Least {
+  double v = 0, D = -std::numeric_limits<double>::infinity();
+
+  Least(const FitRun& run, bool logarithms) {
+    v = rounding_of(run.v);
+    if (logarithms) D = rounding_of(run.D);
+  }
+  bool allows(double of_v, double of_D, double min_speed) const {
+    return of_v > v && of_v >= min_speed && std::isfinite(of_v) && std::isfinite(of_D) && of_D > D;
+  }
+
+ private:
+  /// A share of the median, which no single reading can shift, of about a thousand readings.
+  static double rounding_of(const std::vector<double>& column) {
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i < column.size(); i += 1 + column.size() / 1000)
+      if (std::isfinite(column[i])) sizes.push_back(std::abs(column[i]));
+    return sizes.empty() ? 0 : program_rounding * median(sizes);
+  }
+};
 
 }  // namespace
 
 Rows shift_rows(const FitRun& run, const FitOptions& options, bool logarithms) {
   const double way = way_of(run);
+  const Least least(run, logarithms);
   Rows rows;
   for (std::size_t i = 0; i < run.v.size(); ++i)
-    if (is_used(way * run.v[i], way * run.D[i], options, logarithms)) rows.push_back(i);
+    if (least.allows(way * run.v[i], way * run.D[i], options.min_speed)) rows.push_back(i);
   return rows;
 }
 
@@ -44,9 +65,10 @@ ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& opt
   for (const auto& run : all) {
     const std::size_t before = y.size();
     const double way = way_of(run);
+    const Least least(run, logarithms);
     for (std::size_t i = 0; i < run.v.size(); ++i) {
       const double v = way * run.v[i], D = way * run.D[i];
-      if (!is_used(v, D, options, logarithms)) {
+      if (!least.allows(v, D, options.min_speed)) {
         records.left_out += std::isfinite(v) && std::isfinite(D);
         continue;
       }

@@ -21,8 +21,9 @@ struct ShiftRecords {
   double log_v_ref = 0;
 };
 
-/// The records with finite v > 0 of at least options.min_speed, and with D > 0 if `logarithms`.
-/// Throws Error if they do not determine the parameters.
+/// The records with finite v > 0 of at least options.min_speed, and with D > 0 if `logarithms`;
+/// what is no more than the rounding of a difference (base/rounding.h) counts as 0. Throws Error if
+/// they do not determine the parameters.
 ShiftRecords shift_records(const std::vector<FitRun>&, const FitOptions&, bool logarithms);
 
 /// The indices of the records of a run that are among these.

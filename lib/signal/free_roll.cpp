@@ -12,7 +12,7 @@
 #include "signal/corner.h"
 #include "signal/moving_median.h"
 #include "signal/release.h"
-#include "signal/rounding.h"
+#include "base/rounding.h"
 
 namespace rolling {
 namespace {

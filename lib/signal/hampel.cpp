@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "signal/rounding.h"
+#include "base/rounding.h"
 
 namespace rolling {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "signal/rounding.h"
+#include "base/rounding.h"
 
 namespace rolling {
 namespace {

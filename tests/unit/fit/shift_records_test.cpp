@@ -49,6 +49,13 @@ TEST_CASE("shift records: along the motion, v finite and positive, D positive fo
   CHECK_THROWS_AS(shift_records(runs, fast, false), Error);
 }
 
+TEST_CASE("shift records: what rounding leaves of a difference is 0", "[fit]") {
+  const std::vector<FitRun> runs{run_of({0.4, 0.3, 0.2, 3e-17, 0.1}, {3, 2e-15, 2, 1, 1e20})};
+  CHECK(shift_rows(runs[0], {}, false) == Rows{0, 1, 2, 4});
+  CHECK(shift_rows(runs[0], {}, true) == Rows{0, 2, 4});  // one large shift leaves the others
+  CHECK(shift_records(runs, {}, true).left_out == 2);
+}
+
 TEST_CASE("shift records: the derivatives of a height are those of differences", "[fit]") {
   constexpr double log_v_ref = -1.5, log_u = 0.7, step = 1e-6;
   // ln D = h + b log_u, where h = ln a + b log_v_ref moves with b if a is held.
