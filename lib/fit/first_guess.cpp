@@ -16,8 +16,7 @@ namespace {
 
 /// The run whose records are block means, from each edge to the next.
 ObservedRun means(const ObservedRun& run, const std::vector<std::size_t>& edges) {
-  ObservedRun thin{run.body, run.geometry, run.way, run.origin, run.start, run.raw_is_position,
-                   {},       {},           {}};
+  ObservedRun thin{run.body, run.geometry, run.way, run.origin, run.raw_is_position, {}, {}, {}};
   for (auto edge = edges.begin(); edge + 1 != edges.end(); ++edge) {
     const auto mean = [&](const std::vector<double>& x) {
       return std::accumulate(x.begin() + static_cast<std::ptrdiff_t>(edge[0]),

@@ -91,13 +91,10 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     const FitRun& run = all[r];
     const std::string of_run = all.size() > 1 ? fmt::format("run {}: ", run.name) : "";
     if (rows[r].empty()) fail("{}no record can be fitted", of_run);
-    const double first_fitted = run.t[rows[r].front()];
-    const bool held = options.v0 || options.x0;
     ObservedRun seen;
     seen.body = run.body;
     seen.geometry = options.geometry;
-    seen.origin = known ? run.t.front() : first_fitted;
-    seen.start = held ? 0 : first_fitted - seen.origin;
+    seen.origin = run.t.front();
     const Rows fitted = rows_of_speeds(route, run, rows[r]);
     seen.y = taken(route == Route::position ? run.x : run.v, fitted);
     seen.way = way_of(route == Route::position, seen.y, options);

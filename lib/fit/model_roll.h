@@ -34,8 +34,7 @@ struct ObservedRun {
   Body body;  ///< the body and its mat; only what the motion depends on is meaningful
   Geometry geometry = Geometry::approximate;
   double way = 1;     ///< direction of motion: -1 if the body rolls towards falling x (v < 0)
-  double origin = 0;  ///< the time at which v0 and x0 hold [s]; the other times count from it
-  double start = 0;   ///< the time for which v0 is reported [s]
+  double origin = 0;  ///< the time of the first record [s]: v0 and x0 hold there, t counts from it
   bool raw_is_position = false;
   std::vector<double> t;          ///< times of the raw column, at which the model is evaluated [s]
   std::optional<FilterMatrix> H;  ///< y = H raw; without H, y is the raw column itself

@@ -108,8 +108,7 @@ void report(Fitted& fit) {
   const auto& runs = fit.rolls->runs();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const double way = runs[r].way;
-    const auto s = fit.rolls->trajectory(theta, r).speed_at(runs[r].start);
-    fit.v0.push_back(quantity(way * s.v, {way * s.v_a, way * s.v_b, way * s.v_v0, 0, s.v_S}));
+    fit.v0.push_back(quantity(way * q.v0(theta, r), {0, 0, way}));
     fit.records += runs[r].shifts ? runs[r].shifts->fitted : runs[r].y.size();
   }
   fit.rss = squares_of(fit);
