@@ -246,7 +246,9 @@ double LawComparison::against_power() const {
   return possible() ? fits.front().aicc - best_other().aicc : 0;
 }
 
-bool LawComparison::possible() const { return std::isfinite(fits.front().aicc); }
+bool LawComparison::possible() const {
+  return std::isfinite(fits.front().aicc) && std::isfinite(best_other().aicc);
+}
 
 LawComparison compare_laws(Route route, const std::vector<FitRun>& runs,
                            const FitOptions& options) {

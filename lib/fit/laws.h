@@ -30,7 +30,7 @@ struct LawComparison {
   const LawFit& best_other() const;
   /// AICc of a v^b minus AICc of best_other(); 0 if the comparison is not possible().
   double against_power() const;
-  /// False if there are too few independent records for AICc.
+  /// False if there are too few independent records for the AICc of two laws.
   bool possible() const;
 };
 
