@@ -216,6 +216,11 @@ fuzz:
 	  $(target:%=build/fuzzer/%)
 	tests/fuzz/fuzz.sh build/fuzzing/build/fuzzer $(SECONDS) $(target)
 
+# The suite with another compiler.
+check-clang:
+	@$(call copy,build/clang)
+	+$(call check_in,build/clang) CXX=clang++-14
+
 # The whole suite under AddressSanitizer and UndefinedBehaviorSanitizer, then most of it under
 # valgrind.
 sanitize: all build/unit $(target:%=build/replay/%)

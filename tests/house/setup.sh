@@ -35,6 +35,7 @@ needs deb dpkg-dev
 needs lint 'clang-format-14 clang-tidy-14 cppcheck mandoc shellcheck'
 needs check 'catch2 gnuplot-nox libboost-dev locales mandoc'
 needs check-arm64 'catch2 g++-aarch64-linux-gnu gnuplot-nox libboost-dev locales mandoc qemu-user'
+needs check-clang 'catch2 clang-14 gnuplot-nox libboost-dev locales mandoc'
 needs sanitize 'catch2 gnuplot-nox libboost-dev locales mandoc valgrind'
 
 stand_in dpkg-query 'echo install ok installed'
