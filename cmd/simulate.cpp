@@ -61,20 +61,6 @@ void write_record(Output& out, Motion& motion, const SonarOptions& sonar) {
   });
 }
 
-/// Refuses options that a sensor excludes, because it has its own clock, position and columns; and
-/// options of noise without a sensor.
-void check_options(const Tool& tool, bool sensor) {
-  const auto refuse = [&](std::initializer_list<const char*> options, const char* why) {
-    for (const char* option : options)
-      if (tool.on_command_line(option)) fail("--{} {}", option, why);
-  };
-  if (sensor)
-    refuse({"dt", "at", "columns", "x0"},
-           "does not go with --sensor, whose records come at --rate, with its own columns, from "
-           "0.3 m on");
-  else refuse({"seed", "rate", "resolution", "noise", "lost"}, "goes with --sensor");
-}
-
 /// Prints the run times and the errors of the methods on this scene to standard error.
 void report(Tool& tool, const Roll& roll, double rtol, double end) {
   const Reference right = reference(roll, 200, end);
@@ -127,13 +113,36 @@ struct Task {
     std::vector<std::string> needed = {"radius", "shape-factor", "v0"};
     if (!roll.table) needed.insert(needed.end(), {"coefficient", "exponent"});
     tool.need(needed);
-    if (roll.bulge.length == 0 && roll.bulge.damping > 0) fail("--damping goes with --memory");
     if (!tool.on_command_line("method")) method = best_method(roll);
-    if (method.kind != Method::solver && !report && tool.on_command_line("rtol"))
-      fail("--rtol goes with a solver: there is no tolerance here");
   }
   std::unique_ptr<Motion> start() const { return rolling::start(roll, method, rtol); }
 };
+
+/// Refuses every option that has no effect beside another, or without one.
+void check_options(const Tool& tool, const Task& task) {
+  const auto refuse = [&](std::initializer_list<const char*> options, const char* why) {
+    for (const char* option : options)
+      if (tool.on_command_line(option)) fail("--{} {}", option, why);
+  };
+  if (tool.on_command_line("sensor"))
+    refuse({"dt", "at", "columns", "x0"},
+           "does not go with --sensor, whose records come at --rate, with its own columns, from "
+           "0.3 m on");
+  else refuse({"seed", "rate", "resolution", "noise", "lost"}, "goes with --sensor");
+  if (tool.on_command_line("at"))
+    refuse({"dt", "until"}, "does not go with --at, whose file has all times");
+  if (task.method.kind != Method::solver && !task.report)
+    refuse({"rtol"}, "goes with a solver: there is no tolerance here");
+  if (task.roll.bulge.length == 0 && task.roll.bulge.damping > 0)
+    fail("--damping goes with --memory");
+}
+
+/// The time of the last row: `until`, or the stop if that is not given.
+double last_time(const Roll& roll, const Motion& motion, double until) {
+  const double end = std::isnan(until) ? motion.stop_time() : until;
+  if (!std::isfinite(end)) fail("{}: say --until when to end", why_endless(roll, motion));
+  return end;
+}
 
 void add_options(Tool& tool, Task& task) {
   using enum BodyOption;
@@ -228,20 +237,16 @@ class Rows {
     }
   }
 
-  /// Every dt up to `until`; if that is not given, up to the stop, which is the last row.
-  void write_every(double dt, double until) {
-    const auto motion = task_.start();
-    const bool to_the_stop = std::isnan(until);
-    const double end = to_the_stop ? motion->stop_time() : until;
-    if (!std::isfinite(end)) fail("{}: say --until when to end", why_endless(task_.roll, *motion));
+  /// Every dt up to `end`, and there too if it is the stop.
+  void write_every(double dt, Motion& motion, double end, bool to_the_stop) {
     // The margin keeps rounding of end / dt from adding a row beside the stop or losing the last.
     const double margin = 1e-9 + 1e-15 * (end / dt);
     const double steps = std::floor(end / dt + (to_the_stop ? -margin : margin));
     if (steps > 1e9) fail("these are {:.3g} rows; the most is 1e9: --dt is too small", steps);
     const Clock clock{dt};
     write_header();
-    for (double k = 0; k <= steps; ++k) write(clock.at(k), *motion);
-    if (to_the_stop) write(end, *motion);
+    for (double k = 0; k <= steps; ++k) write(clock.at(k), motion);
+    if (to_the_stop) write(end, motion);
     format();
   }
 
@@ -278,17 +283,22 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     task.complete(tool);
-    check_options(tool, sensor);
-    if (task.report) report(tool, task.roll, task.rtol, std::isnan(until) ? 10 : until);
+    check_options(tool, task);
+    // What is refused without a row is refused before the report too.
+    Rows rows(tool.out, task, columns);
+    const auto motion = task.start();
+    const bool to_the_stop = std::isnan(until);
+    const double end = times_file.empty() ? last_time(task.roll, *motion, until) : not_given;
+    if (task.report) report(tool, task.roll, task.rtol, to_the_stop ? 10 : until);
     if (sensor) {
       sonar.seed = seed;
-      if (!std::isnan(until)) sonar.until = until;
-      write_record(tool.out, *task.start(), sonar);
-      return 0;
+      if (!to_the_stop) sonar.until = until;
+      write_record(tool.out, *motion, sonar);
+    } else if (times_file.empty()) {
+      rows.write_every(dt, *motion, end, to_the_stop);
+    } else {
+      rows.write_at(tool.read_file(times_file, {"t"}));
     }
-    Rows rows(tool.out, task, columns);
-    if (!times_file.empty()) rows.write_at(tool.read_file(times_file, {"t"}));
-    else rows.write_every(dt, until);
     return 0;
   });
 }
