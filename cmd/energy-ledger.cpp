@@ -189,6 +189,8 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
+    if (summary && tool.on_command_line("columns"))
+      fail("--columns does not go with --summary, which has its own columns");
     const auto row = chosen(columns, quantities);
     for (const auto& quantity : row)
       if (quantity.name == "Pi_S" && std::isnan(temperature)) fail("Pi_S needs --temperature");
