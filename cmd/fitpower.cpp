@@ -35,6 +35,11 @@ void set_parameters(FitOptions& options, const std::vector<std::string>& fixed,
   set_parameters("--fix", fixed,
                  {{"a", &options.a}, {"b", &options.b}, {"v0", &options.v0}, {"x0", &options.x0}});
   set_parameters("--start", start, {{"a", &options.start_a}, {"b", &options.start_b}});
+  const auto once = [](const char* name, const auto& held, const auto& begin) {
+    if (held && begin) fail("--fix and --start are two values of {}: give one", name);
+  };
+  once("a", options.a, options.start_a);
+  once("b", options.b, options.start_b);
 }
 
 /// A slope that is not `fit`.
@@ -167,15 +172,15 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     set_parameters(options, fixed, start);
+    options.fit_slope = slope_text == "fit";
+    if (!options.fit_slope) set_slope(slope_text, body, uncertainty);
     Reader& in = tool.read(order_without_names(given_route, tool.used("t")));
     const Route route = given_route ? *given_route : default_route(in);
     options.possible_filters = filters_of_sensors();
-    options.fit_slope = slope_text == "fit";
-    if (!options.fit_slope) set_slope(slope_text, body, uncertainty);
     const bool trajectory = is_trajectory(route);
     if (trajectory) tool.need({"radius", "shape-factor"});
-    if (options.v0 && !trajectory) fail("--fix: this route has no v0");
-    if (options.x0 && route != Route::position) fail("--fix: this route has no x0");
+    if (options.v0 && !trajectory) fail<OptionError>("--fix: this route has no v0");
+    if (options.x0 && route != Route::position) fail<OptionError>("--fix: this route has no x0");
 
     auto runs =
         read_runs(tool, in, route, with_report ? Columns::of_all_routes : Columns::of_route);

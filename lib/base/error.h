@@ -18,6 +18,12 @@ class InputError : public Error {
   using Error::Error;
 };
 
+/// An error of the options, which names no record, whatever has been read.
+class OptionError : public Error {
+ public:
+  using Error::Error;
+};
+
 template <typename Kind>
 [[noreturn]] void throw_formatted(fmt::string_view text, fmt::format_args args) {
   throw Kind(fmt::vformat(text, args));

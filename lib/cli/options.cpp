@@ -202,8 +202,10 @@ void Options::need(const std::vector<std::string>& options) const {
   std::vector<std::string> missing;
   for (const std::string& option : options)
     if (options_.at(option).missing()) missing.push_back("--" + option);
-  if (missing.size() == 1) fail("{} is not given, nor is it in a scene", missing.front());
-  if (missing.size() > 1) fail("{} are not given, nor are they in a scene", enumeration(missing));
+  if (missing.size() == 1)
+    fail<OptionError>("{} is not given, nor is it in a scene", missing.front());
+  if (missing.size() > 1)
+    fail<OptionError>("{} are not given, nor are they in a scene", enumeration(missing));
 }
 
 }  // namespace rolling

@@ -135,6 +135,8 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
     return finish(work());
   } catch (const OutputError& error) {
     say(error.what());
+  } catch (const OptionError& error) {
+    say(error.what());
   } catch (const Error& error) {
     const bool located = dynamic_cast<const InputError*>(&error) || readers_.empty() ||
                          readers_.back()->where().empty();
