@@ -284,7 +284,7 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     task.complete(tool);
     check_options(tool, task);
-    // What is refused without a row is refused before the report too.
+    // The columns, the method and the end are checked before the report.
     Rows rows(tool.out, task, columns);
     const auto motion = task.start();
     const bool to_the_stop = std::isnan(until);
