@@ -1,6 +1,7 @@
 #include "fit/agreement.h"
 
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_sf_psi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,9 +31,11 @@ struct Symmetric {
     return {bb / det, -ab / det, aa / det};
   }
 };
+Pair operator+(Pair x, Pair y) { return {x.a + y.a, x.b + y.b}; }
 Pair operator-(Pair x, Pair y) { return {x.a - y.a, x.b - y.b}; }
 Symmetric operator+(Symmetric X, Symmetric Y) { return {X.aa + Y.aa, X.ab + Y.ab, X.bb + Y.bb}; }
 Symmetric operator-(Symmetric X, Symmetric Y) { return {X.aa - Y.aa, X.ab - Y.ab, X.bb - Y.bb}; }
+Symmetric operator*(double s, Symmetric X) { return {s * X.aa, s * X.ab, s * X.bb}; }
 
 /// The logarithm of D at the speed exp(log_v), with its standard error.
 Estimate log_D_of(Pair law, const Symmetric& C, double log_v) {
@@ -93,32 +96,66 @@ void stand_out(Agreement& result, const OwnLaw& one, Pair others, Symmetric C, d
   result.b = {d.b, std::sqrt(C.bb)};
 }
 
-Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, bool slope) {
-  Symmetric W{};
-  Pair sum{};
-  for (const OwnLaw& one : laws) {
-    const Symmetric weight = one.covariance.inverse();
-    const Pair weighted = weight * one.law;
-    W = W + weight;
-    sum = {sum.a + weighted.a, sum.b + weighted.b};
+/// The sums for a weighted mean of laws.
+struct Weighted {
+  Symmetric weights = {};
+  Pair sum = {};
+
+  void add(Symmetric weight, Pair law) {
+    weights = weights + weight;
+    sum = sum + weight * law;
   }
+  Pair mean() const { return weights.inverse() * sum; }
+};
+
+/// -2 ln of the ratio of likelihoods, of one common law to laws of the runs' own, where the noise
+/// of each run has a size of its own that is an estimate: the sum of c ln(1 + d/nu), with the
+/// squared distance d of a run to the common law and its degrees of freedom nu. c is nu times a
+/// factor of Bartlett's (1937, Proc. R. Soc. A 160, 268), so that the mean of each term is
+/// `parameters`. The weighted mean of the laws does not make this sum smallest: it follows a run
+/// whose few records happen to agree well. Iteratively reweighted means do; since the logarithm is
+/// concave, no step makes the sum larger.
+double least_from(Pair common, const std::vector<OwnLaw>& laws, std::size_t parameters) {
+  double least = INFINITY;
+  for (;;) {
+    double sum = 0;
+    Weighted next;
+    for (const OwnLaw& one : laws) {
+      const Symmetric weight = one.covariance.inverse();
+      const double nu = one.freedom, d = weight.square(one.law - common),
+                   c = static_cast<double>(parameters) /
+                       (gsl_sf_psi((nu + static_cast<double>(parameters)) / 2) -
+                        gsl_sf_psi(nu / 2));
+      sum += c * std::log1p(d / nu);
+      next.add(c / (nu + d) * weight, one.law);
+    }
+    if (!(sum < least * (1 - 1e-10))) return std::min(sum, least);
+    least = sum;
+    common = next.mean();
+  }
+}
+
+/// The sum of least_from() may have several minima: `joint`, the law of the joint fit, is the start
+/// that suits runs of equal noise, and the weighted mean one that suits unequal ones.
+Agreement compare(const std::vector<OwnLaw>& laws, Pair joint, std::size_t parameters, bool slope) {
+  Weighted all;
+  for (const OwnLaw& one : laws) all.add(one.covariance.inverse(), one.law);
   Agreement result{};
   result.runs = laws.size();
-  const Pair mean = W.inverse() * sum;
-  double most = -1, likelihood = 0;
+  const Pair mean = all.mean();
+  double most = -1;
   for (const OwnLaw& one : laws) {
     const Symmetric weight = one.covariance.inverse();
-    const double distance = weight.square(one.law - mean);
-    result.chi2 += distance;
-    // The size of the noise of each run is an estimate too: the ratio of likelihoods allows for it.
-    likelihood += one.freedom * std::log1p(distance / one.freedom);
-    const Symmetric rest = (W - weight).inverse();
-    stand_out(result, one, rest * (sum - weight * one.law), rest, most);
+    result.chi2 += weight.square(one.law - mean);
+    const Symmetric rest = (all.weights - weight).inverse();
+    stand_out(result, one, rest * (all.sum - weight * one.law), rest, most);
   }
   result.dof = parameters * (laws.size() - 1);
   if (slope) --result.dof;
   if (result.dof > 0)
-    result.significance = gsl_cdf_chisq_Q(likelihood, static_cast<double>(result.dof));
+    result.significance = gsl_cdf_chisq_Q(
+        std::min(least_from(joint, laws, parameters), least_from(mean, laws, parameters)),
+        static_cast<double>(result.dof));
   return result;
 }
 
@@ -237,7 +274,8 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
     }
   const auto laws = own_laws(own);
   if (laws.size() < 2) return {};
-  const Agreement found = compare(laws, parameters, options.fit_slope);
+  const Pair common{std::log(joint.a.value), joint.b.value};
+  const Agreement found = compare(laws, common, parameters, options.fit_slope);
   if (found.agree()) return found;
   const Fitted around_own = with_own_noise(joint, own);
   errors = noise_errors(around_own, uncertainty_of(around_own, around_own.minimum.J));

@@ -7,8 +7,9 @@ namespace rolling {
 
 /// Compares the runs of a joint fit. Each run is fitted by itself, with a and b of its own (the
 /// slope of the mat is held at that of the joint fit); its law (ln a, b) is compared with the mean
-/// of all, weighted by the inverse covariances of the runs' own errors. Returns nothing where fewer
-/// than two runs determine a law by themselves.
+/// of all, weighted by the inverse covariances of the runs' own errors. The significance is that of
+/// the law with which all agree best. Returns nothing where fewer than two runs determine a law by
+/// themselves.
 ///
 /// `errors` are those of the joint fit. Where the runs agree, `errors` and `joint` stay as they
 /// are. Where they disagree, a and b of `joint` become the means of ln a and of b of the runs: one

@@ -1,5 +1,7 @@
 #include <gsl/gsl_cdf.h>
 
+#include <functional>
+
 #include "base/error.h"
 #include "motion/trajectory.h"
 #include "unit/catch.h"
@@ -26,6 +28,34 @@ FitRun roll(PowerLaw law, double slope, double way, simulated::Noise& noise, dou
 }
 
 constexpr PowerLaw rubber{1.87e-3, 0.215}, felt{5.75e-4, 0.0244};
+
+/// So many rolls on felt of six records each, 0.8 s apart.
+std::vector<FitRun> short_rolls(int count, simulated::Noise& noise) {
+  std::vector<FitRun> runs;
+  for (int k = 0; k < count; ++k) {
+    const FitRun all = roll(felt, 0, 1, noise);
+    FitRun& run = runs.emplace_back();
+    run.body = all.body;
+    for (std::size_t i = 0; i < 120; i += 20) run.t.push_back(all.t[i]), run.x.push_back(all.x[i]);
+  }
+  return runs;
+}
+
+/// The smallest sum over all ln D(0.3 m/s) and b that is found from this start, by steps along
+/// either that become smaller.
+double least(const std::function<double(double, double)>& sum, double log_D, double b) {
+  double found = sum(log_D, b);
+  for (double step = 0.1; step > 1e-10; step /= 2)
+    for (bool lower = true; lower;) {
+      lower = false;
+      for (const auto& [by_D, by_b] :
+           {std::pair(0.01 * step, 0.0), {-0.01 * step, 0.0}, {0.0, step}, {0.0, -step}}) {
+        const double next = sum(log_D + by_D, b + by_b);
+        if (next < found) found = next, log_D += by_D, b += by_b, lower = true;
+      }
+    }
+  return found;
+}
 
 }  // namespace
 
@@ -152,6 +182,51 @@ TEST_CASE("agreement: of 1000 pairs of rolls under one law 1 % are said to disag
   }
   CHECK(alarms >= 2);  // fewer or more by chance in 0.05 % and 0.07 %
   CHECK(alarms <= 21);
+}
+
+// Six records leave two degrees of freedom, or three where b is held.
+TEST_CASE("agreement: the chance is that of the law with which the runs agree best", "[fit]") {
+  simulated::Noise noise(43);
+  const double log_v = std::log(0.3);
+  for (int k = 0; k < 10; ++k) {
+    const auto runs = short_rolls(8, noise);
+    FitOptions options;
+    if (k % 2) options.b = felt.b;
+    // The mean of c ln(1 + d/freedom) is the number of parameters.
+    const double freedom = options.b ? 3 : 2, c = options.b ? 1 / (2 * std::log(2.0) - 1) : 2;
+    std::vector<FitResult> own;
+    for (const FitRun& run : runs) own.push_back(fit(Route::position, {run}, options));
+    const auto sum = [&](double log_D, double b) {
+      double all = 0;
+      for (const FitResult& r : own) {
+        const double off_b = options.b ? 0 : (b - r.b) / r.sigma_b,
+                     off_a = (log_D - (options.b ? *options.b : b) * log_v - std::log(r.a)) /
+                             (r.sigma_a / r.a),
+                     d = (off_a * off_a - 2 * r.corr * off_a * off_b + off_b * off_b) /
+                         (1 - r.corr * r.corr);
+        all += c * std::log1p(d / freedom);
+      }
+      return all;
+    };
+    double smallest = INFINITY;
+    for (const FitResult& r : own)
+      smallest = std::min(smallest, least(sum, std::log(r.a) + r.b * log_v, r.b));
+    const auto r = fit(Route::position, runs, options);
+    CHECK(r.agreement->significance ==
+          Approx(gsl_cdf_chisq_Q(smallest, static_cast<double>(r.agreement->dof))).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("agreement: of 200 times 40 short rolls under one law 1 % are said to disagree",
+          "[fit]") {
+  simulated::Noise noise(44);
+  int alarms = 0;
+  for (int k = 0; k < 200; ++k) {
+    FitOptions options;
+    if (k % 2) options.b = felt.b;
+    alarms += !fit(Route::position, short_rolls(40, noise), options).agreement->agree();
+  }
+  CHECK(alarms <= 7);  // more by chance in 0.1 %
 }
 
 TEST_CASE("agreement: a mat that is 1 mm a metre off level shows in two directions", "[fit]") {
