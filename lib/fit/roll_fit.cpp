@@ -159,8 +159,10 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   const auto& theta = joint.minimum.theta;
   const Parameters& all = joint.rolls->parameters();
   ObservedRun run = joint.rolls->runs()[r];
+  const Parameters own = all.of_one_run();
+  require_records(run.y.size(), own.count());
   run.body.slope = all.slope(theta, run.body.slope);
-  Fitted fit = minimum_of({std::move(run)}, {all.of_one_run(), all.theta_of_run(theta, r)}, options,
+  Fitted fit = minimum_of({std::move(run)}, {own, all.theta_of_run(theta, r)}, options,
                           joint.noise->share(), joint.noise->inferred());
   report(fit);
   return fit;

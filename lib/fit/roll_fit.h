@@ -15,7 +15,8 @@ Fitted fit_rolls(Route, const std::vector<FitRun>&, std::vector<Rows>, std::vect
                  const FitOptions&, std::optional<double> inferred_share = {});
 
 /// Fits one run of a joint fit of rolls separately: the same records and weights, the slope of the
-/// mat held at the joint value.
+/// mat held at the joint value. Throws Error if the run does not determine its parameters, or has
+/// none.
 Fitted fit_of_run(const Fitted& joint, std::size_t run, const FitOptions&);
 
 }  // namespace rolling

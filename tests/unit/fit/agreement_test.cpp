@@ -307,6 +307,18 @@ TEST_CASE("agreement: a run of two records has no say", "[fit]") {
   CHECK(r.agreement->dof == 2);
 }
 
+TEST_CASE("agreement: runs of which only the common slope is unknown have no law to compare",
+          "[fit]") {
+  simulated::Noise noise(45);
+  FitOptions options;
+  options.a = felt.a, options.b = felt.b, options.v0 = 0.5, options.x0 = 0,
+  options.fit_slope = true;
+  const std::vector<FitRun> runs{roll(felt, 1e-3, 1, noise), roll(felt, 1e-3, 1, noise)};
+  const auto r = fit(Route::position, runs, options);
+  CHECK_FALSE(r.agreement);
+  CHECK(std::abs(r.slope - 1e-3) < 4 * r.sigma_slope);
+}
+
 TEST_CASE("agreement: where runs disagree, a and b are correlated as they scatter from run to run",
           "[fit]") {
   // b falls where a grows; the noise of one run would correlate them the other way round.
