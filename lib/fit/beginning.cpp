@@ -8,8 +8,8 @@
 #include <cmath>
 #include <utility>
 
-#include "base/by_run.h"
 #include "base/dot.h"
+#include "base/error.h"
 #include "base/gsl.h"
 #include "fit/errors.h"
 #include "fit/fitted.h"
@@ -59,6 +59,43 @@ double local_variance(std::span<const double> f) {
   return squares / (6 * static_cast<double>(f.size() - 2));
 }
 
+struct Candidate {
+  Beginning beginning;
+  std::vector<double> rest;  // the residuals of the other records of the run
+  std::size_t parameters;    // of its fit
+};
+
+/// The beginnings of all runs that were tested, and the most significant one.
+struct Search {
+  double tests = 0;
+  std::optional<Candidate> found;
+
+  /// `fit` is that of this run by itself.
+  void add(const Fitted& fit, std::size_t run) {
+    const auto& f = fit.minimum.f;
+    const auto& t = fit.rolls->runs().front().t;
+    const std::size_t q = fit.system.columns();
+    const auto Q = orthonormal(fit, fit.minimum.J);
+    for (std::size_t k = 3, next = 5; 4 * k <= f.size(); k = std::exchange(next, k + next)) {
+      ++tests;
+      const Without without = without_first(k, q, Q, f);
+      std::vector<double> changed = f;
+      for (std::size_t i = 0; i < f.size(); ++i)
+        changed[i] += dot(without.c, std::span(Q).subspan(i * q, q));
+      const auto others = std::span(changed).subspan(k), near = std::span(changed).first(k + 5);
+      const double gone = static_cast<double>(k), squares = dot(others, others),
+                   left = static_cast<double>(f.size() - q - k);
+      // Where the removed records alone determine a parameter, nothing but rounding may remain: the
+      // squares are then more than those of a fit.
+      if (!(squares > 0 && squares < 1.01 * (fit.minimum.rss - without.reduction))) continue;
+      const double noise = std::max(squares / left, local_variance(near)),
+                   chance = gsl_cdf_fdist_Q(without.reduction / gone / noise, gone, left);
+      if (found && chance >= found->beginning.significance) continue;
+      found = {{run, k, t[k] - t[0], chance}, {others.begin(), others.end()}, q};
+    }
+  }
+};
+
 }  // namespace
 
 std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitRun>& runs,
@@ -68,43 +105,20 @@ std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitR
   for (const FitRun& run : runs)
     if (!run.filters.empty()) return {};
   silence_gsl();
-  const Fitted fit = fit_route(route, runs, options);
-  const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
-                    q = fit.system.columns();
-  if (!fit.rolls || fit.noise->known() || n < p + 20 || !(fit.minimum.rss > 0)) return {};
-  const auto Q = orthonormal(fit, fit.minimum.J);
-  const auto rows = usable(route, runs);
-  std::optional<Beginning> found;
-  std::vector<double> rest;
-  double tests = 0;
-  const auto f_of = by_run(fit.minimum.f, fit.system.runs), Q_of = by_run(Q, fit.system.runs, q);
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    const std::size_t records = std::min(f_of[r].size(), rows[r].size());
-    const double taken = dot(Q_of[r], Q_of[r]);
-    for (std::size_t k = 3, next = 5; 4 * k <= records; k = std::exchange(next, k + next)) {
-      ++tests;
-      const Without without = without_first(k, q, Q_of[r], f_of[r]);
-      std::vector<double> f(f_of[r].begin(), f_of[r].end());
-      for (std::size_t i = 0; i < f.size(); ++i) f[i] += dot(without.c, Q_of[r].subspan(i * q));
-      const auto others = std::span(f).subspan(k);
-      const double gone = static_cast<double>(k), squares = dot(others, others),
-                   left = static_cast<double>(f.size()) - taken - gone;
-      // Where the removed records alone determine a parameter, nothing but rounding may remain: the
-      // squares of this run are then more than those of all runs.
-      if (!(left > 0 && squares > 0 && squares < 1.01 * (fit.minimum.rss - without.reduction)))
-        continue;
-      const double noise = std::max(squares / left, local_variance(std::span(f).first(k + 5))),
-                   chance = gsl_cdf_fdist_Q(without.reduction / gone / noise, gone, left);
-      if (found && chance >= found->significance) continue;
-      const auto& t = runs[r].t;
-      found = Beginning{r, k, t[rows[r][k]] - t[rows[r][0]], chance};
-      rest.assign(others.begin(), others.end());
+  const Fitted joint = fit_route(route, runs, options);
+  if (!joint.rolls || joint.noise->known()) return {};
+  const std::size_t fewest = 20 + joint.rolls->parameters().of_one_run().count();
+  Search search;
+  for (std::size_t r = 0; r < runs.size(); ++r) try {
+      if (joint.system.runs[r] >= fewest) search.add(fit_of_run(joint, r, options), r);
+    } catch (const Error&) {  // the run does not determine a law by itself
     }
-  }
-  if (!found) return {};
-  found->significance = std::min(1.0, found->significance * tests);
+  if (!search.found) return {};
+  auto& [found, rest, parameters] = *search.found;
+  found.significance = std::min(1.0, found.significance * search.tests);
   const std::size_t size[] = {rest.size()};
-  if (found->significance > decisive || ljung_box(rest, taken_by_few(q), size) <= white) return {};
+  if (found.significance > decisive || ljung_box(rest, taken_by_few(parameters), size) <= white)
+    return {};
   return found;
 }
 

@@ -74,6 +74,33 @@ TEST_CASE("beginning: in joint fits the run that shows it is named", "[fit]") {
   CHECK(found->run == 1);
 }
 
+// The joint law has errors from the noisier run. Each of the two runs has five tests.
+TEST_CASE("beginning: in joint fits a run is judged by its own law", "[fit]") {
+  simulated::Noise noise(11);
+  for (int i = 0; i < 10; ++i) {
+    const FitRun run = held(0.3, noise);
+    FitRun other = held(0, noise);
+    for (double& x : other.x) x += noise(3e-3);
+    const auto alone = disturbed_beginning(Route::position, {run}, {}),
+               found = disturbed_beginning(Route::position, {other, run}, {});
+    REQUIRE(found.has_value() == alone.has_value());
+    if (!alone) continue;  // its other records do not look white
+    CHECK(found->run == 1);
+    CHECK(found->records == alone->records);
+    CHECK(found->time == alone->time);
+    CHECK(found->significance / alone->significance == Approx(2).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("beginning: a run that has no parameters of its own is not tested", "[fit]") {
+  simulated::Noise noise(12);
+  FitOptions options;
+  options.a = 5.75e-4, options.b = 0.0244, options.v0 = 0.5, options.x0 = 0;
+  options.fit_slope = true;
+  const std::vector<FitRun> runs{held(0.3, noise), held(0.3, noise)};
+  CHECK_FALSE(disturbed_beginning(Route::position, runs, options));
+}
+
 // Of 200 with a chance of 0.1 %, 4 or more come in 1 of 17,000.
 TEST_CASE("beginning: noise that is larger at first, or in one run, is no hand", "[fit]") {
   simulated::Noise noise(9), more(10);
