@@ -61,7 +61,8 @@ FilterMatrix FilterMatrix::identity(std::size_t n) { return BandMatrix::identity
 FilterMatrix FilterMatrix::then(BandMatrix L) const {
   FilterMatrix product = *this;
   if (factors_.size() == 1 && factors_[0]->is_identity()) product.factors_.clear();
-  const auto same = std::ranges::find(factors_, L, [](const auto& f) -> auto& { return *f; });
+  const auto same = std::ranges::find(
+      factors_, L, [](const auto& f) -> auto& { return *f; });
   product.factors_.push_back(
       same != factors_.end() ? *same : std::make_shared<const BandMatrix>(std::move(L)));
   return product;

@@ -237,9 +237,8 @@ TEST_CASE("velocity: differences of x with their filter known are as good as x",
 }
 
 TEST_CASE(
-    "velocity: beside a cut nothing is fitted, on uneven times neither; v0, held or not, is that "
-    "of "
-    "the first record, fitted or not",
+    "velocity: beside a cut nothing is fitted, on uneven times neither; v0 is that of the first "
+    "record",
     "[fit]") {
   const auto truth = simulated::roll(cylinder, 1.87e-3, 0.215, 0.5);
   std::vector<double> t, x;
