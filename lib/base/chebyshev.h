@@ -42,13 +42,9 @@ class ChebyshevSeries {
     const double x = 2 * (t - from_) / (to_ - from_) - 1;
     double T = 1, next = x;  // the polynomials T_j and T_j+1
     Pairs sum = terms_[0];
-    // A fold, since -O2 does not unroll a loop: the sums then stay in registers.
-    const auto add = [&]<std::size_t... i>(const Pairs& term, std::index_sequence<i...>) {
-      ((sum[i] += T * term[i]), ...);
-    };
     for (std::size_t j = 1; j < terms; ++j) {
       T = std::exchange(next, 2 * x * next - T);
-      add(terms_[j], std::make_index_sequence<std::tuple_size_v<Pairs>>());
+      add(sum, T, terms_[j], std::make_index_sequence<std::tuple_size_v<Pairs>>());
     }
     Values y;
     std::copy_n(sum.begin(), N, y.begin());
@@ -68,6 +64,12 @@ class ChebyshevSeries {
 
  private:
   using Pairs = std::array<double, N + N % 2>;  // two values fill one vector register
+
+  /// A fold, since -O2 does not unroll a loop: the sums then stay in registers.
+  template <std::size_t... i>
+  static void add(Pairs& sum, double T, const Pairs& term, std::index_sequence<i...>) {
+    ((sum[i] += T * term[i]), ...);
+  }
 
   double from_ = 0, to_ = -1;
   std::array<Pairs, terms> terms_{};
