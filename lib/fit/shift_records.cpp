@@ -23,12 +23,11 @@ double way_of(const FitRun& run) {
 /// What v and D along the motion must exceed in a record that is fitted. Where the terms of a sum
 /// cancel, what is left is its rounding, whose logarithm is far from those of the others.
 struct Least {
-  double v = 0, D = -std::numeric_limits<double>::infinity();
+  double v, D;
 
-  Least(const FitRun& run, bool logarithms) {
-    v = rounding_of(run.v);
-    if (logarithms) D = rounding_of(run.D);
-  }
+  Least(const FitRun& run, bool logarithms)
+      : v(rounding_of(run.v)),
+        D(logarithms ? rounding_of(run.D) : -std::numeric_limits<double>::infinity()) {}
   bool allows(double of_v, double of_D, double min_speed) const {
     return of_v > v && of_v >= min_speed && std::isfinite(of_v) && std::isfinite(of_D) && of_D > D;
   }

@@ -9,10 +9,10 @@
 
 #include "base/error.h"
 #include "base/median.h"
+#include "base/rounding.h"
 #include "signal/corner.h"
 #include "signal/moving_median.h"
 #include "signal/release.h"
-#include "base/rounding.h"
 
 namespace rolling {
 namespace {
