@@ -1,4 +1,6 @@
 // fitpower - fit the power law D = a v^b to columns; see fitpower(1)
+#include <malloc.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +13,15 @@
 using namespace rolling;
 
 namespace {
+
+/// Keeps memory that is freed for the next column. A fit needs columns of the same size many times,
+/// and each page that the system takes away must be given, and filled with zeros, again.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, -1);
+#endif
+}
 
 /// The values of NAME=VALUE, repeated.
 void set_parameters(const std::string& option, const std::vector<std::string>& settings,
@@ -140,6 +151,7 @@ Route default_route(const Reader& in) {
 
 int main(int argc, char** argv) {
   using enum BodyOption;
+  keep_freed_memory();
   Tool tool("fitpower", "Fit the power law D = a v^b to columns.");
   std::optional<Route> given_route;
   std::vector<Estimate> shape_factors;
