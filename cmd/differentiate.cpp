@@ -29,9 +29,7 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    if (!options.method->has_width() &&
-        (tool.on_command_line("width") || tool.on_command_line("order")))
-      fail("--width and --order go with --method savgol");
+    if (!options.method->has_width()) tool.refuse({"width", "order"}, "goes with --method savgol");
     make_signal(options);  // refuses wrong options before anything is read
     Reader& in = tool.read({"t", "v"});
     const auto t = in.need_time();

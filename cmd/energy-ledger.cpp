@@ -189,8 +189,7 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    if (summary && tool.on_command_line("columns"))
-      fail("--columns does not go with --summary, which has its own columns");
+    if (summary) tool.refuse({"columns"}, "does not go with --summary, which has its own columns");
     const auto row = chosen(columns, quantities);
     for (const auto& quantity : row)
       if (quantity.name == "Pi_S" && std::isnan(temperature)) fail("Pi_S needs --temperature");

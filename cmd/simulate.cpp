@@ -120,19 +120,15 @@ struct Task {
 
 /// Refuses every option that has no effect beside another, or without one.
 void check_options(const Tool& tool, const Task& task) {
-  const auto refuse = [&](std::initializer_list<const char*> options, const char* why) {
-    for (const char* option : options)
-      if (tool.on_command_line(option)) fail("--{} {}", option, why);
-  };
   if (tool.on_command_line("sensor"))
-    refuse({"dt", "at", "columns", "x0"},
-           "does not go with --sensor, whose records come at --rate, with its own columns, from "
-           "0.3 m on");
-  else refuse({"seed", "rate", "resolution", "noise", "lost"}, "goes with --sensor");
+    tool.refuse({"dt", "at", "columns", "x0"},
+                "does not go with --sensor, whose records come at --rate, with its own columns, "
+                "from 0.3 m on");
+  else tool.refuse({"seed", "rate", "resolution", "noise", "lost"}, "goes with --sensor");
   if (tool.on_command_line("at"))
-    refuse({"dt", "until"}, "does not go with --at, whose file has all times");
+    tool.refuse({"dt", "until"}, "does not go with --at, whose file has all times");
   if (task.method.kind != Method::solver && !task.report)
-    refuse({"rtol"}, "goes with a solver: there is no tolerance here");
+    tool.refuse({"rtol"}, "goes with a solver: there is no tolerance here");
   if (task.roll.bulge.length == 0 && task.roll.bulge.damping > 0)
     fail("--damping goes with --memory");
 }

@@ -25,10 +25,8 @@ std::string default_column(const Reader& in, std::size_t t) {
 
 /// Refuses options that exclude each other.
 void check(const Tool& tool, const SignalOptions& options) {
-  if (options.width.seconds > 0 && tool.on_command_line("width"))
-    fail("--width and --seconds are two widths: give one");
-  if (!options.method->has_order && tool.on_command_line("order"))
-    fail("--order goes with --method savgol");
+  if (options.width.seconds > 0) tool.refuse({"width"}, "does not go with --seconds: give one");
+  if (!options.method->has_order) tool.refuse({"order"}, "goes with --method savgol");
 }
 
 /// The `##` lines.

@@ -54,8 +54,7 @@ LawFile read_law(Tool& tool, const std::string& file) {
     if (in.next() || in.next_run()) fail("more than one row: a law is one row of fitpower");
     return law;
   }
-  if (tool.on_command_line("coefficient") || tool.on_command_line("exponent"))
-    fail("-a and -b do not go with a table of v D");
+  tool.refuse({"coefficient", "exponent"}, "does not go with a table of v D");
   const auto v = in.need("v"), D = in.need("D");
   std::vector<double> speeds, shifts;
   while (in.next_run())

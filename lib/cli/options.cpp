@@ -208,4 +208,9 @@ void Options::need(const std::vector<std::string>& options) const {
     fail<OptionError>("{} are not given, nor are they in a scene", enumeration(missing));
 }
 
+void Options::refuse(std::initializer_list<const char*> options, std::string_view why) const {
+  for (const char* option : options)
+    if (on_command_line(option)) fail<OptionError>("--{} {}", option, why);
+}
+
 }  // namespace rolling

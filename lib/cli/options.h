@@ -76,6 +76,9 @@ class Options {
   /// Throws one Error that lists those of these options (long names of number(), numbers(), body()
   /// and law()) which have a value neither on the command line nor in the scene.
   void need(const std::vector<std::string>& options) const;
+  /// Throws an OptionError, "--NAME why", for the first of these options (long names) that is on
+  /// the command line. For options without effect beside the other ones.
+  void refuse(std::initializer_list<const char*> options, std::string_view why) const;
   /// True if this tool has an option with this long name, given or not.
   bool has(const std::string& option) const { return options_.contains(option); }
   /// True if the option with this long name is on the command line (not only in the scene).

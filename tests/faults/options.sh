@@ -69,8 +69,8 @@ simulate --seed 1e10|'1e10' must be a whole number from 1 to 1e9
 smooth -w 010 @|'010' must be an odd whole number from 1 to 1e9
 smooth --seconds 0 @|'0' must be greater than 0
 smooth --seconds -1 @|'-1' must be greater than 0
-smooth -w 3 --seconds 1 @|--width and --seconds
-smooth -w auto --seconds 1 @|--width and --seconds
+smooth -w 3 --seconds 1 @|--width does not go with --seconds
+smooth -w auto --seconds 1 @|--width does not go with --seconds
 smooth --outliers 0 @|'0' must be greater than 0
 smooth --order 2 @|--order goes with --method savgol
 smooth -M savgol -w 3 --order 3 @|order
@@ -92,7 +92,7 @@ smooth --digits 0 @|from 1 to 17
 smooth --digits 18 @|from 1 to 17
 smooth --digits 1.5 @|from 1 to 17
 differentiate -w 4 -M savgol @|'4' must be an odd whole number from 1 to 1e9
-differentiate -w 5 @|go with --method savgol
+differentiate -w 5 @|goes with --method savgol
 differentiate -w 3 --order 3 -M savgol @|order
 differentiate -M mean @|'mean' is not one of
 shift-from-accel -R 0 -K 0.5 @|'0' must be greater than 0
