@@ -15,21 +15,16 @@ namespace {
 class Slots {
  public:
   Slots(Reader& in, Route route, Columns columns) : in_(in) {
-    const bool all = columns == Columns::of_all_routes;
     for (const std::string& name : columns_of(route))
       if (name != "t") add(in.need(name), name);
-    if (is_trajectory(route) || (all && in.find("t"))) add_time();
-    // The columns of the other routes; and x, with which the speeds are compared if a `##` line
-    // says that they are differences.
-    for (const char* name : {"x", "v", "D"})
-      if ((all || (*name == 'x' && route == Route::velocity && !in.history().empty())) &&
-          in.find(name) && !has(column_of(name)))
-        add(in.want(name), name);
+    if (is_trajectory(route)) add_time();
+    if (columns == Columns::of_all_routes) add_others();
   }
 
-  /// Reads the records of the present run. Its filters act on the times, if the file has them.
+  /// Reads the records of the present run; with all columns if it has `##` lines, which are
+  /// compared with them.
   void read(FitRun& run, bool first) {
-    if (!has(&FitRun::t) && !in_.history().empty() && in_.find("t")) add_time();
+    if (!in_.history().empty()) add_others();
     const std::size_t room = first ? in_.records_ahead() : 0;  // most files are one run
     for (const auto& [slot, column] : all_) (run.*column).reserve(room);
     while (in_.next())
@@ -44,6 +39,11 @@ class Slots {
 
   void add(std::size_t number, std::string_view name) { all_.push_back({number, column_of(name)}); }
   void add_time() { add(in_.need_time(), "t"); }
+  void add_others() {
+    if (in_.find("t") && !has(&FitRun::t)) add_time();
+    for (const char* name : {"x", "v", "D"})
+      if (in_.find(name) && !has(column_of(name))) add(in_.want(name), name);
+  }
   bool has(std::vector<double> FitRun::*column) const {
     return std::ranges::find(all_, column, &Slot::column) != all_.end();
   }
@@ -91,6 +91,14 @@ void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
                     run.name, history.left_out));
 }
 
+/// Drops the columns that the route does not fit.
+void drop_others(FitRun& run, Route route) {
+  const auto fitted = columns_of(route);
+  for (const char* name : {"x", "v", "D"})
+    if (std::ranges::find(fitted, name) == fitted.end())
+      std::vector<double>().swap(run.*column_of(name));
+}
+
 /// Warns of a run without history beside one with filters: a run break takes the `##` lines away.
 void warn_of_lost_history(Tool& tool, const std::vector<FitRun>& runs,
                           const std::vector<bool>& has_history) {
@@ -135,6 +143,7 @@ std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, Columns colum
     slots.read(run, runs.size() == 1);
     warn_of_held(tool, route, run, in.history());
     set_filters(tool, in, route, run);
+    if (columns == Columns::of_route) drop_others(run, route);
   }
   warn_of_lost_history(tool, runs, has_history);
   return runs;

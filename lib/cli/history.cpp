@@ -5,10 +5,11 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "base/error.h"
-#include "base/median.h"
 #include "contact/uncertain_number.h"
+#include "fit/replay.h"
 #include "signal/derivative.h"
 #include "signal/smoother.h"
 #include "text/column.h"
@@ -119,6 +120,15 @@ class Chain {
     history_ = {};
     return false;
   }
+  /// Removes the filters of a column and of what was made of it: a derivative of the same name has
+  /// taken its place (in the file it has another name since).
+  void forget(const std::string& column) {
+    std::set<std::string> gone{column};
+    std::erase_if(history_.filters, [&](const LinearFilter& filter) {
+      if (gone.contains(filter.from)) gone.insert(filter.to);
+      return gone.contains(filter.to);
+    });
+  }
   void append(LinearFilter filter) { history_.filters.push_back(std::move(filter)); }
   bool smooth(const std::string& line, std::span<const std::string> words) {
     if (words.size() < 2) return doubt(line);
@@ -144,8 +154,9 @@ class Chain {
     const auto options = signal_options(methods, method);
     if (!options) return doubt(line);
     if (!options->method->linear) return unknown();
-    const std::string& column = words[0];
-    append(linear(column, derivative ? derivative_of(column) : column, *options, t_));
+    const std::string &column = words[0], to = derivative ? derivative_of(column) : column;
+    if (derivative) forget(to);
+    append(linear(column, to, *options, t_));
     reach_ += history_.filters.back().reach;
     // The matrices of wider filters would not fit into memory.
     constexpr std::size_t most = 50'000'000;
@@ -212,55 +223,11 @@ bool shifts_of_speeds(const std::vector<std::string>& lines) {
   return D_of_v;
 }
 
-namespace {
-
-/// The column of a run that corresponds to a column of the chain; for D, the acceleration from
-/// which it was computed.
-std::vector<double> standing_for(const FitRun& run, const std::string& column) {
-  if (column == "x") return run.x;
-  if (column == "v") return run.v;
-  if ((column != "D" && column != "a") || !run.shift_of) return {};
-  std::vector<double> a = run.D;
-  for (double& value : a) value = acceleration_of(*run.shift_of, value);
-  return a;
-}
-
-}  // namespace
-
 History compared(History history, const FitRun& run) {
-  // The last filter that changes numbers (reach > 0); no later one has changed its output.
-  auto last = history.filters.rbegin();
-  while (last != history.filters.rend() && last->reach == 0) ++last;
-  if (last == history.filters.rend() || last->from == last->to) return history;
-  auto off = standing_for(run, last->from), size = standing_for(run, last->to);
-  const std::size_t n = run.t.size(), reach = last->reach;
-  if (off.size() != n || size.size() != n || n < 2 * reach + 3) return history;
-  off = last->apply(run.t, off);
-  double along = 0, given2 = 0, off2 = 0;  // sums of products inside the run
-  for (std::size_t i = 0; i < n; ++i) {
-    const double given = off[i], difference = given - size[i];
-    if (!std::isfinite(difference)) return history;  // readings are missing
-    if (i >= reach && i + reach < n)
-      along += given * difference, given2 += given * given, off2 += difference * difference;
-    off[i] = std::abs(difference);
-    size[i] = std::abs(size[i]);
-  }
-  // Columns that were rounded to 3 digits differ by a hundredth, others by much less.
-  auto sorted = size;
-  const double large = nth_smallest(sorted, n / 2);
-  sorted = off;
-  const double typical = nth_smallest(sorted, n / 2);
-  const double most = std::max(20 * typical, 1e-6 * large);
-  // Differences that are proportional to the column are a factor, not rounding.
-  const bool factor = std::abs(along) > 1e-6 * given2 && along * along > 0.99 * given2 * off2;
-  bool inside = factor || !(typical <= 0.05 * large);
-  const auto differs = [&](std::size_t i) { return off[i] > most && off[i] > 0.01 * size[i]; };
-  for (std::size_t i = reach; i + reach < n; ++i) inside = inside || differs(i);
-  if (inside) return {{}, {}, "the columns are not what the `##` lines say"};
-  for (std::size_t i = 0; i < reach; ++i) {
-    history.cut_begin = history.cut_begin || differs(i);
-    history.cut_end = history.cut_end || differs(n - 1 - i);
-  }
+  const Differences found = replayed(history.filters, run);
+  if (found.inside) return {{}, {}, "the columns are not what the `##` lines say"};
+  history.cut_begin |= found.begin;
+  history.cut_end |= found.end;
   return history;
 }
 

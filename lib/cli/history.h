@@ -37,9 +37,9 @@ bool speeds_of_positions(const std::vector<std::string>& lines);
 /// True if, by the lines, D was computed from the derivative of the speeds in the file.
 bool shifts_of_speeds(const std::vector<std::string>& lines);
 
-/// Compares the output of the last filter with the columns of the run, if the run has both its
-/// input and its output. If they differ only at an end, records were removed there after the
-/// filters, as the lines may tell, too. If they differ elsewhere, the lines are not trusted.
+/// Compares the columns of the run with what the filters make of each other. If they differ only at
+/// an end, records were removed there after the filters, as the lines may tell, too. If they differ
+/// elsewhere, the lines are not trusted.
 History compared(History, const FitRun&);
 
 /// Leaves out the readings whose windows may have reached to records that were removed: they become

@@ -82,6 +82,18 @@ TEST_CASE("history: the filters of a chain stand in its order, lines of others s
   CHECK(filters_in({}, times).empty());
 }
 
+TEST_CASE("history: a second column v hides the first, and what was made of that", "[cli]") {
+  const FilterChain chain = filters_in(
+      {"smooth v mean width 5", "differentiate v central", "shift-from-accel K 0.5 R 0.04 g 9.81",
+       "smooth x mean width 3", "differentiate x central", "smooth v mean width 3"},
+      times);
+  REQUIRE(chain.size() == 3);
+  CHECK(chain[0].to == "x");
+  CHECK(chain[1].to == "v");
+  CHECK(chain[2].from == "v");
+  CHECK(chain[2].reach == 1);
+}
+
 TEST_CASE("history: a line that cuts records away is a cut if a filter stands above it", "[cli]") {
   const auto cuts = [](const std::vector<std::string>& lines) {
     const History history = history_of(lines, times);

@@ -1,0 +1,179 @@
+#include "fit/replay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <random>
+#include <utility>
+
+#include "base/median.h"
+#include "base/rounding.h"
+#include "contact/contact.h"
+
+namespace rolling {
+namespace {
+
+/// A column that is computed again, and how many records on either side it has read.
+struct Column {
+  std::vector<double> values;  ///< empty if it is not known
+  std::size_t reach = 0;
+};
+
+/// The column of a run with this name; empty if it has none.
+std::vector<double> column_of_run(const FitRun& run, const std::string& name) {
+  if (name == "x") return run.x;
+  if (name == "v") return run.v;
+  if (name == "D" && run.shift_of) return run.D;
+  return {};
+}
+
+/// The output of a filter. What may have read a missing reading is missing, too.
+Column applied(const LinearFilter& filter, std::span<const double> t, Column input) {
+  std::vector<double>& y = input.values;
+  const std::size_t n = t.size(), reach = 2 * filter.reach;
+  if (y.size() != n || n == 0) return {};
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < n; ++i)
+    if (!std::isfinite(y[i])) missing.push_back(i), y[i] = i > 0 ? y[i - 1] : 0;
+  Column output{filter.apply(t, y), input.reach + filter.reach};
+  for (const std::size_t i : missing)
+    for (std::size_t k = i - std::min(i, reach); k < std::min(i + reach + 1, n); ++k)
+      output.values[k] = std::numeric_limits<double>::quiet_NaN();
+  return output;
+}
+
+/// The median size of the numbers that exist; 0 if there are none.
+double typical_size(std::vector<double> numbers) {
+  std::erase_if(numbers, [](double y) { return !std::isfinite(y); });
+  for (double& y : numbers) y = std::abs(y);
+  return numbers.empty() ? 0 : median(numbers);
+}
+
+/// The third divided differences, which a quadratic function of time does not have, in units of the
+/// standard deviation of white noise that would make them.
+std::vector<double> roughness(std::span<const double> t, std::span<const double> y) {
+  std::vector<double> all;
+  for (std::size_t first = 0; first + 4 <= t.size(); ++first) {
+    double sum = 0, squares = 0;
+    for (std::size_t i = first; i < first + 4; ++i) {
+      double weight = 1;
+      for (std::size_t k = first; k < first + 4; ++k)
+        if (k != i) weight /= t[i] - t[k];
+      sum += weight * y[i];
+      squares += weight * weight;
+    }
+    all.push_back(sum / std::sqrt(squares));
+  }
+  return all;
+}
+
+/// What the filters of a run make of white noise, from which the noise of its columns is known. The
+/// first records are enough for that.
+class WhiteNoise {
+ public:
+  explicit WhiteNoise(std::span<const double> t)
+      : t_(t.first(std::min<std::size_t>(t.size(), 4000))) {}
+
+  void apply(const LinearFilter& filter) {
+    std::vector<double>& input = columns_[filter.from];
+    if (input.empty()) {  // a raw column
+      std::mt19937 random;
+      for (std::size_t i = 0; i < t_.size(); ++i)
+        input.push_back(static_cast<double>(random()) - 0x1p31);
+    }
+    columns_[filter.to] = filter.apply(t_, input);
+  }
+  /// The median size of the noise in a column: its roughness tells how large the white noise was.
+  double noise_in(const Column& column, const std::string& name) const {
+    const std::vector<double>& white = columns_.at(name);
+    const double rough = typical_size(roughness(t_, white));
+    return rough > 0 ? typical_size(roughness(t_, column.values)) / rough * typical_size(white) : 0;
+  }
+
+ private:
+  std::span<const double> t_;
+  std::map<std::string, std::vector<double>> columns_;
+};
+
+/// The last decimal place of a number that is not 0, down to `least`.
+double last_place(double y, double least) {
+  double place = 1;
+  while (place < std::abs(y)) place *= 10;
+  while (place > least && std::abs(y - std::round(y / place) * place) > least) place /= 10;
+  return place;
+}
+
+/// Compares a column that was computed again with that of the run. `noise`: its median size.
+void compare(const Column& computed, const std::vector<double>& given, double noise,
+             Differences& result) {
+  const std::size_t n = given.size(), reach = computed.reach;
+  if (n < 2 * reach + 3) return;
+  std::vector<double> off(n);
+  double along = 0, computed2 = 0, off2 = 0;  // sums of products inside the run
+  double largest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double y = computed.values[i], difference = y - given[i];
+    off[i] = std::abs(difference);
+    if (!std::isfinite(difference)) continue;
+    largest = std::max(largest, std::abs(given[i]));
+    if (i >= reach && i + reach < n)
+      along += y * difference, computed2 += y * y, off2 += difference * difference;
+  }
+  const double large = typical_size(given), typical = typical_size(off);
+  const double unseen = 0.2 * noise;  // what adds 2 % to the noise, or less
+  const auto rounded = [&](std::size_t i) {
+    const double least = program_rounding * largest;
+    return given[i] != 0 && off[i] <= least + last_place(given[i], least) / 2;
+  };
+  if (typical > std::max(1e-5 * large, unseen)) {
+    std::size_t all = 0, by_rounding = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      if (std::isfinite(off[i]) && given[i] != 0) ++all, by_rounding += rounded(i);
+    result.inside |= 4 * by_rounding < 3 * all;
+  }
+  // Differences that are proportional to the column are a factor, not rounding.
+  result.inside |= std::abs(along) > 1e-6 * computed2 && along * along > 0.99 * computed2 * off2;
+  const double most = std::max(20 * typical, 1e-6 * large);
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool differs =
+        off[i] > most && (off[i] > 0.01 * std::abs(given[i]) || (off[i] > unseen && !rounded(i)));
+    if (differs) (i < reach ? result.begin : i + reach >= n ? result.end : result.inside) = true;
+  }
+}
+
+}  // namespace
+
+Differences replayed(const FilterChain& filters, const FitRun& run) {
+  Differences result;
+  std::map<std::string, Column> columns;
+  WhiteNoise white(run.t);
+  for (std::size_t k = 0; k < filters.size(); ++k) {
+    const LinearFilter& filter = filters[k];
+    const auto changed_from = [&](std::size_t first, const std::string& name) {
+      return std::any_of(filters.begin() + static_cast<std::ptrdiff_t>(first), filters.end(),
+                         [&](const LinearFilter& later) { return later.to == name; });
+    };
+    Column input = columns[filter.from];
+    if (!changed_from(k, filter.from))
+      if (auto of_run = column_of_run(run, filter.from); !of_run.empty()) {
+        if (filter.from == "D")
+          for (double& y : of_run) y = acceleration_of(*run.shift_of, y);
+        input = {std::move(of_run)};
+      }
+    white.apply(filter);
+    const Column& output = columns[filter.to] = applied(filter, run.t, std::move(input));
+    const std::vector<double> given = column_of_run(run, filter.to);
+    if (output.reach == 0 || output.values.empty() || given.empty() ||
+        changed_from(k + 1, filter.to))
+      continue;
+    Column computed = output;
+    if (filter.to == "D")  // the filters speak of the acceleration
+      for (double& y : computed.values)
+        y = shift_from_acceleration(run.shift_of->body, run.shift_of->geometry, y);
+    compare(computed, given, white.noise_in(computed, filter.to), result);
+  }
+  return result;
+}
+
+}  // namespace rolling
