@@ -151,11 +151,13 @@ Tested tested(std::span<const double> noise, std::span<const std::size_t> runs, 
   const Errors white = fit.filters_known()     ? Errors::filters
                        : fit.noise->inferred() ? Errors::differences
                                                : Errors::classical;
-  const double whiteness = ljung_box(noise, taken, runs);
+  double whiteness = ljung_box(noise, taken, runs);
   if (fit.minimum.f.size() < 30) return {whiteness, white};
+  const bool uneven = std::min(breusch_pagan(noise, runs), unequal_runs(noise, runs)) <=
+                      (runs.size() > 1 ? 0.005 : 0.01);
+  if (uneven && whiteness <= not_white) whiteness = ljung_box_uneven(noise, taken, runs);
   if (whiteness <= not_white) return {whiteness, Errors::autocorrelation};
-  const double uneven = std::min(breusch_pagan(noise, runs), unequal_runs(noise, runs));
-  if (uneven <= (runs.size() > 1 ? 0.005 : 0.01)) return {whiteness, Errors::uneven};
+  if (uneven) return {whiteness, Errors::uneven};
   // With 60 records the test often misses an autocorrelation of 0.5, although the classical errors
   // are then only half as large as they should be. This limit gives Newey-West errors to one in ten
   // records with white noise, at a cost of 1 to 2 % in their size.

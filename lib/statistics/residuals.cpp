@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <tuple>
 
 #include "base/by_run.h"
 #include "base/dot.h"
@@ -31,30 +33,67 @@ Taken taken_by_few(std::size_t p) {
   return taken;
 }
 
-double ljung_box(std::span<const double> r, const Taken& taken, std::span<const std::size_t> runs) {
+namespace {
+
+constexpr std::size_t most_lags = std::tuple_size_v<Taken> - 1;
+using Sums = std::array<double, most_lags + 1>;  // by lag, from 0
+
+std::size_t lags_of(std::span<const double> r) {
+  return std::clamp<std::size_t>(r.size() / 10, 1, most_lags);
+}
+
+/// The sums of products of the residuals of a run.
+Sums sums_of_products(std::span<const double> run, std::size_t lags) {
   constexpr std::size_t block = 1024;  // stays in the cache for all lags
-  const std::size_t lags = std::clamp<std::size_t>(r.size() / 10, 1, taken.size() - 1);
-  std::vector<double> all(lags + 1), sums(lags + 1), variances(lags + 1);
+  Sums sums{};
+  for (std::size_t i = 0; i < run.size(); i += block)
+    for (std::size_t k = 0; k <= lags && i + k < run.size(); ++k)
+      sums[k] += dot(&run[i], &run[i + k], std::min(block, run.size() - i - k));
+  return sums;
+}
+
+/// The smaller significance, for sums of products of n residuals and their variances.
+double significance(const Sums& sums, const Sums& variances, std::size_t lags, const Taken& taken,
+                    double n) {
+  if (!(sums[0] > 0 && n > taken[0])) return 1;
+  double Q = 0, least = 1;
+  for (std::size_t k = 1; k <= lags; ++k) {
+    const double sum = sums[k] + taken[k] * sums[0] / (n - taken[0]);
+    if (variances[k] > 0) Q += sum * sum / variances[k];
+    if (k == 1 || k == lags) least = std::min(least, gsl_cdf_chisq_Q(Q, static_cast<double>(k)));
+  }
+  return least;
+}
+
+}  // namespace
+
+double ljung_box(std::span<const double> r, const Taken& taken, std::span<const std::size_t> runs) {
+  const std::size_t lags = lags_of(r);
+  Sums all{}, variances{};
   for (const auto run : by_run(r, runs)) {
-    std::ranges::fill(sums, 0);
-    for (std::size_t i = 0; i < run.size(); i += block)
-      for (std::size_t k = 0; k <= lags && i + k < run.size(); ++k)
-        sums[k] += dot(&run[i], &run[i + k], std::min(block, run.size() - i - k));
+    const Sums sums = sums_of_products(run, lags);
     const double n = static_cast<double>(run.size()), square = sums[0] * sums[0];
     for (std::size_t k = 0; k <= lags; ++k) {
       all[k] += sums[k];
       if (k < run.size()) variances[k] += (n - static_cast<double>(k)) / (n * (n + 2)) * square;
     }
   }
-  const double n = static_cast<double>(r.size());
-  if (!(all[0] > 0 && n > taken[0])) return 1;
-  double Q = 0, least = 1;
-  for (std::size_t k = 1; k <= lags; ++k) {
-    const double sum = all[k] + taken[k] * all[0] / (n - taken[0]);
-    if (variances[k] > 0) Q += sum * sum / variances[k];
-    if (k == 1 || k == lags) least = std::min(least, gsl_cdf_chisq_Q(Q, static_cast<double>(k)));
-  }
-  return least;
+  return significance(all, variances, lags, taken, static_cast<double>(r.size()));
+}
+
+double ljung_box_uneven(std::span<const double> r, const Taken& taken,
+                        std::span<const std::size_t> runs) {
+  const std::size_t lags = lags_of(r);
+  std::vector<double> squares(r.begin(), r.end());
+  for (double& x : squares) x *= x;
+  Sums all{}, variances{};
+  const auto add = [lags](Sums& to, std::span<const double> run) {
+    const Sums sums = sums_of_products(run, lags);
+    std::ranges::transform(to, sums, to.begin(), std::plus());
+  };
+  for (const auto run : by_run(r, runs)) add(all, run);
+  for (const auto run : by_run(squares, runs)) add(variances, run);
+  return significance(all, variances, lags, taken, static_cast<double>(r.size()));
 }
 
 double breusch_pagan(std::span<const double> residuals, std::span<const std::size_t> runs) {

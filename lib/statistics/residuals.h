@@ -25,6 +25,11 @@ Taken taken_by_few(std::size_t p);
 /// most 10). Corrected for what the fit has taken. The noise of each run has its own variance.
 double ljung_box(std::span<const double> residuals, const Taken&,
                  std::span<const std::size_t> runs);
+/// The same for residuals of which not even those of one run are of one size: the variance of each
+/// sum of products is the sum of their squares (Lobato, Nankervis and Savin 2001, Int. Econ. Rev.
+/// 42, 187).
+double ljung_box_uneven(std::span<const double> residuals, const Taken&,
+                        std::span<const std::size_t> runs);
 
 /// Significance of a trend of the variance along the runs, linear and quadratic in the record
 /// number: the studentised test of Breusch and Pagan (Koenker 1981, J. Econometrics 17, 107).

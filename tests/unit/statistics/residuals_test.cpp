@@ -32,6 +32,28 @@ TEST_CASE("residuals: white noise of another size in one run is not correlated",
   CHECK(correlated < 40);
 }
 
+TEST_CASE("residuals: white noise that falls along the run is not correlated", "[statistics]") {
+  simulated::Noise noise(7);
+  const std::size_t runs[] = {100};
+  int even = 0, uneven = 0, told = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    std::vector<double> white, correlated;
+    double x = 0;
+    for (int i = 0; i < 100; ++i) {
+      const double size = std::pow(10, -i / 99.0), e = noise(1);
+      x = 0.5 * x + e;
+      white.push_back(size * e);
+      correlated.push_back(size * x);
+    }
+    even += ljung_box(white, {}, runs) < 0.01;
+    uneven += ljung_box_uneven(white, {}, runs) < 0.01;
+    told += ljung_box_uneven(correlated, {}, runs) < 0.01;
+  }
+  CHECK(even > 80);
+  CHECK(uneven < 30);
+  CHECK(told > 600);
+}
+
 TEST_CASE("residuals: Newey-West by hand", "[statistics]") {
   // r = -1/4 and AR = (4 r + 1)/(4 - 1 - 2) = 0: nothing to whiten. rho = -1/4, alpha = 64/225,
   // width = ceil(1.1447 cbrt(4 alpha)) = 2; products one apart sum to -1, two apart to 0: 4 + 2
