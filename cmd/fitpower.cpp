@@ -191,6 +191,10 @@ int main(int argc, char** argv) {
     options.possible_filters = filters_of_sensors();
     const bool trajectory = is_trajectory(route);
     if (trajectory) tool.need({"radius", "shape-factor"});
+    if (!trajectory && !with_report)
+      tool.refuse({"exact"}, "goes with a trajectory: D has been computed");
+    if (route == Route::loglog && !with_report)
+      tool.refuse({"start"}, "goes with a route that searches: loglog is a straight line");
     if (options.v0 && !trajectory) fail<OptionError>("--fix: this route has no v0");
     if (options.x0 && route != Route::position) fail<OptionError>("--fix: this route has no x0");
 
@@ -198,7 +202,7 @@ int main(int argc, char** argv) {
         read_runs(tool, in, route, with_report ? Columns::of_all_routes : Columns::of_route);
     if (!each) warn_of_copies(tool, route, runs);
     set_bodies(runs, body, shape_factors, uncertainty);
-    if (!trajectory && !options.fit_slope) warn_of_other_body(tool, runs);
+    if (!trajectory && !options.fit_slope) warn_of_unused_body(tool, runs);
     const auto fits = grouped(std::move(runs), each);
     const Table table{tool.out, trajectory && fits.front().size() == 1, options.fit_slope, each};
     const auto results = fit_all(tool, route, fits, options, each);
@@ -211,6 +215,11 @@ int main(int argc, char** argv) {
       table.write(results[i], fits[i].front().name);
       if (results[i]) left_out += results[i]->left_out;
     }
+    tool.out.flush();  // the rows stand above the report
+    if (options.robust && (with_report || with_check))
+      tool.warn(
+          "neither other laws nor the beginning are looked at with --robust: this needs sums "
+          "of squares");
     for (std::size_t i = 0; i < fits.size(); ++i) {
       if (!results[i]) continue;
       warn_of(tool, route, *results[i], fits[i], with_check);

@@ -185,8 +185,15 @@ void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
                     copies > 1 ? fmt::format(", the first of {} copies", copies) : std::string()));
 }
 
-void warn_of_other_body(Tool& tool, const std::vector<FitRun>& runs) {
+void warn_of_unused_body(Tool& tool, const std::vector<FitRun>& runs) {
   for (const FitRun& run : runs) {
+    if (!run.shift_of) {
+      for (const char* number : {"shape-factor", "radius", "gravity", "slope"})
+        if (tool.on_command_line(number) && !tool.on_command_line("report"))
+          return tool.warn(fmt::format(
+              "run {}: no `##` line tells how D was computed: --{} is not used", run.name, number));
+      continue;
+    }
     Body given = run.body;
     if (!tool.given("gravity")) given.g = not_given;
     if (!tool.given("slope")) given.slope = not_given;

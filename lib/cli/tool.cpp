@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <csignal>
 #include <exception>
@@ -109,6 +110,8 @@ int Tool::finish(int status) {
 }
 
 int Tool::run(int argc, char** argv, const std::function<int()>& work) {
+  // Denormal numbers are numbers, also where -ffast-math has linked code that makes them 0.
+  std::fesetenv(FE_DFL_ENV);
   if (argc > 0) name_ = argv[0];  // PROGRAM_PREFIX in the Makefile may have renamed the tool
   name_.erase(0, name_.rfind('/') + 1);
   // A write beyond the limit of the file size then fails, which flush() reports.

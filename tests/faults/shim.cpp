@@ -6,6 +6,8 @@
 //                    and all after it; with /N, only every N-th run), and checks that each is
 //                    refused in one line on standard error with 2, whole rows only, all of them
 //                    rows of the run without a fault.
+//   FAULT_DENORMALS=1  denormal numbers are 0 when the tool starts, as -ffast-math has it where it
+//                    links
 // No C++ library here: the shim must not allocate, nor be initialised after anything that does.
 #include <cerrno>
 #include <cstdio>
@@ -113,6 +115,15 @@ __attribute__((constructor)) void every_allocation() {
   dprintf(STDOUT_FILENO, "%s: %ld allocations failed, %ld runs refused\n",
           program_invocation_short_name, tried, refused);
   _exit(wrong || tried == 0);
+}
+
+__attribute__((constructor)) void flush_denormals() {
+  if (!getenv("FAULT_DENORMALS")) return;
+#if defined __x86_64__
+  __builtin_ia32_ldmxcsr(__builtin_ia32_stmxcsr() | 0x8040);
+#elif defined __aarch64__
+  __builtin_aarch64_set_fpcr(__builtin_aarch64_get_fpcr() | 1U << 24);
+#endif
 }
 
 bool interrupted(const char* variable, unsigned& calls) {

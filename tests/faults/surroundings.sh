@@ -65,6 +65,21 @@ where"
   }
 done
 
+# Start-up code that a flag links in may take the denormal numbers away.
+if preloads; then
+  printf '# t[s]\tv[m/s]\ta[m/s^2]\tD[m]\n0\t1e-310\t-1e-310\t1e-312\n1\t2e-310\t-1e-310\t1e-312\n2\t3e-310\t-1e-310\t1e-312\n' >"$scratch/denormal"
+  for tool in smooth differentiate shift-from-accel energy-ledger; do
+    # shellcheck disable=SC2086
+    {
+      attempt ${command[$tool]} "$scratch/denormal"
+      accepted "$tool of denormal numbers"
+      mv "$scratch/out" "$scratch/whole"
+      FAULT_DENORMALS=1 LD_PRELOAD=$top/build/shim.so attempt ${command[$tool]} "$scratch/denormal"
+      same "$tool where denormal numbers were 0"
+    }
+  done
+fi
+
 # More than fits into 64 MB: a tool that streams does not care, one that keeps its runs says so.
 if ! grep -q __asan_init bin/smooth; then
   good 1200000 >"$scratch/large"
