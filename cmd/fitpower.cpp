@@ -191,8 +191,6 @@ int main(int argc, char** argv) {
     options.possible_filters = filters_of_sensors();
     const bool trajectory = is_trajectory(route);
     if (trajectory) tool.need({"radius", "shape-factor"});
-    if (!trajectory && !with_report)
-      tool.refuse({"exact"}, "goes with a trajectory: D has been computed");
     if (route == Route::loglog && !with_report)
       tool.refuse({"start"}, "goes with a route that searches: loglog is a straight line");
     if (options.v0 && !trajectory) fail<OptionError>("--fix: this route has no v0");
@@ -202,7 +200,7 @@ int main(int argc, char** argv) {
         read_runs(tool, in, route, with_report ? Columns::of_all_routes : Columns::of_route);
     if (!each) warn_of_copies(tool, route, runs);
     set_bodies(runs, body, shape_factors, uncertainty);
-    if (!trajectory && !options.fit_slope) warn_of_unused_body(tool, runs);
+    if (!trajectory && !options.fit_slope) warn_of_unused_body(tool, runs, options.geometry);
     const auto fits = grouped(std::move(runs), each);
     const Table table{tool.out, trajectory && fits.front().size() == 1, options.fit_slope, each};
     const auto results = fit_all(tool, route, fits, options, each);

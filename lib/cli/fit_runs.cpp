@@ -185,19 +185,21 @@ void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
                     copies > 1 ? fmt::format(", the first of {} copies", copies) : std::string()));
 }
 
-void warn_of_unused_body(Tool& tool, const std::vector<FitRun>& runs) {
+void warn_of_unused_body(Tool& tool, const std::vector<FitRun>& runs, Geometry geometry) {
   for (const FitRun& run : runs) {
     if (!run.shift_of) {
-      for (const char* number : {"shape-factor", "radius", "gravity", "slope"})
-        if (tool.on_command_line(number) && !tool.on_command_line("report"))
+      for (const char* option : {"shape-factor", "radius", "gravity", "slope", "exact"})
+        if (tool.on_command_line(option) && !tool.on_command_line("report"))
           return tool.warn(fmt::format(
-              "run {}: no `##` line tells how D was computed: --{} is not used", run.name, number));
+              "run {}: no `##` line tells how D was computed: --{} is not used", run.name, option));
       continue;
     }
     Body given = run.body;
     if (!tool.given("gravity")) given.g = not_given;
     if (!tool.given("slope")) given.slope = not_given;
-    const std::string others = other_body(run.shift_of, given, run.given);
+    std::string others = other_body(run.shift_of, given, run.given);
+    if (geometry == Geometry::exact && run.shift_of->geometry != geometry)
+      others += fmt::format("{}A = 1 (here --exact)", others.empty() ? "" : ", ");
     if (others.empty()) continue;
     tool.warn(fmt::format("run {}: D was computed with {}: the fit uses the numbers of D", run.name,
                           others));
