@@ -32,8 +32,8 @@ void set_bodies(std::vector<FitRun>&, const Body&, const std::vector<Estimate>& 
 /// ten readings may be equal by chance.
 void warn_of_copies(Tool&, Route, const std::vector<FitRun>&);
 
-/// Warns of a geometry and of numbers of the body that a fit of D does not use: D was computed with others, or it is
-/// not known with which.
+/// Warns of a geometry and of numbers of the body that a fit of D does not use: D was computed with
+/// others, or it is not known with which.
 void warn_of_unused_body(Tool&, const std::vector<FitRun>&, Geometry);
 
 }  // namespace rolling
