@@ -1,5 +1,4 @@
 // energy-ledger - append where the energy goes (Eqs. 1 to 23); see energy-ledger(1)
-#include <algorithm>
 #include <cmath>
 
 #include "cli/history.h"
@@ -192,10 +191,8 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     if (summary) tool.refuse({"columns"}, "does not go with --summary, which has its own columns");
     const auto row = chosen(columns, quantities);
-    const bool entropy =
-        std::ranges::any_of(row, [](const auto& quantity) { return quantity.name == "Pi_S"; });
-    if (!entropy) tool.refuse({"temperature"}, "goes with Pi_S in --columns");
-    else if (std::isnan(temperature)) fail("Pi_S needs --temperature");
+    for (const auto& quantity : row)
+      if (quantity.name == "Pi_S" && std::isnan(temperature)) fail("Pi_S needs --temperature");
     if (!law_file.empty()) {
       LawFile read = read_law(tool, law_file);
       law = {read.law_or(law.power), std::move(read.table)};
