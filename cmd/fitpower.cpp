@@ -135,6 +135,23 @@ struct Table {
   }
 };
 
+/// What is said about a fit, below its row.
+struct Comments {
+  bool with_report, with_check, with_run;
+
+  void tell(Tool& tool, Route route, const FitResult& result, const std::vector<FitRun>& runs,
+            const FitOptions& options) const {
+    warn_of(tool, route, result, runs, with_check);
+    if (!with_report && !with_check) return;
+    std::optional<LawComparison> laws;  // AICc needs sums of squares
+    if (!options.robust) laws = compare_laws(route, runs, options);
+    if (with_report && with_run) tool.say(fmt::format("run {}, the report:", runs.front().name));
+    if (with_report) report(tool, runs, options, laws);
+    if (with_check)
+      check(tool, route, result, runs, laws, disturbed_beginning(route, runs, options));
+  }
+};
+
 /// The columns of a file without names. If --use says where t is and there is no --route, the route
 /// is a trajectory: no column then counts as v or D by its position.
 std::vector<std::string> order_without_names(std::optional<Route> given, bool times_given) {
@@ -218,18 +235,9 @@ int main(int argc, char** argv) {
       tool.warn(
           "neither other laws nor the beginning are looked at with --robust: this needs sums "
           "of squares");
-    for (std::size_t i = 0; i < fits.size(); ++i) {
-      if (!results[i]) continue;
-      warn_of(tool, route, *results[i], fits[i], with_check);
-      if (!with_report && !with_check) continue;
-      std::optional<LawComparison> laws;  // AICc needs sums of squares
-      if (!options.robust) laws = compare_laws(route, fits[i], options);
-      if (with_report && each) tool.say(fmt::format("run {}, the report:", fits[i].front().name));
-      if (with_report) report(tool, fits[i], options, laws);
-      if (with_check)
-        check(tool, route, *results[i], fits[i], laws,
-              disturbed_beginning(route, fits[i], options));
-    }
+    const Comments comments{with_report, with_check, each};
+    for (std::size_t i = 0; i < fits.size(); ++i)
+      if (results[i]) comments.tell(tool, route, *results[i], fits[i], options);
     tool.count_left_out(left_out, "this route cannot use them");
     return std::all_of(results.begin(), results.end(), fitted) ? 0 : 2;
   });
