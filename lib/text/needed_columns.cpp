@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "text/number.h"
+#include "text/unit_words.h"
 
 namespace rolling {
 namespace {

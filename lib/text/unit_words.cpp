@@ -1,0 +1,103 @@
+#include "text/unit_words.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "text/column.h"
+
+namespace rolling {
+namespace {
+
+/// The words of a name in small letters, and `per` for a slash. A word ends at any other sign, and
+/// before a capital behind a small letter.
+std::vector<std::string> words_of(std::string_view name) {
+  std::string words;
+  bool small = false;
+  for (const char c : plain_unit(std::string(name))) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (small && std::isupper(byte)) words += ' ';
+    if (c == '/') words += " per ";
+    else words += std::isalnum(byte) ? static_cast<char>(std::tolower(byte)) : ' ';
+    small = std::islower(byte);
+  }
+  return split_names(words, '\0');
+}
+
+/// Words in the letters of units: centimeters is cm, msec and millis are ms, feetpersecond is ftps.
+std::string in_letters(std::string text) {
+  constexpr std::pair<std::string_view, std::string_view> spelled[] = {
+      {"seconds", "s"},  {"second", "s"},  {"secs", "s"},    {"sec", "s"},    {"minutes", "min"},
+      {"minute", "min"}, {"mins", "min"},  {"hours", "h"},   {"hour", "h"},   {"hrs", "h"},
+      {"hr", "h"},       {"meters", "m"},  {"metres", "m"},  {"meter", "m"},  {"metre", "m"},
+      {"milli", "m"},    {"centi", "c"},   {"deci", "d"},    {"micro", "u"},  {"nano", "n"},
+      {"kilo", "k"},     {"inches", "in"}, {"inch", "in"},   {"feet", "ft"},  {"miles", "mi"},
+      {"mile", "mi"},    {"yards", "yd"},  {"pixels", "px"}, {"pixel", "px"}, {"degrees", "deg"},
+      {"degree", "deg"}, {"kph", "kmph"},  {"fps", "ftps"},  {"per", "p"}};
+  for (const auto& [word, letters] : spelled) text = replace_all(std::move(text), word, letters);
+  return text;
+}
+
+/// The unit of a velocity or an acceleration whose letters these are: km/h for kmh and kmph,
+/// cm/s^2 for cms2, cmss and cmpsps; empty for any other text.
+std::string quotient(std::string_view text) {
+  for (const std::string_view length :
+       {"m", "mm", "cm", "dm", "um", "km", "in", "ft", "mi", "yd", "px", "deg", "rad"})
+    for (const std::string_view time : {"s", "min", "h"}) {
+      if (!text.starts_with(length)) continue;
+      std::string_view rest = text.substr(length.size());
+      const bool per = rest.starts_with('p');
+      if (per) rest.remove_prefix(1);
+      if (!rest.starts_with(time) || (length == "in" && !per)) continue;  // `t in s` is in seconds
+      rest.remove_prefix(time.size());
+      if (rest.empty()) return fmt::format("{}/{}", length, time);
+      if (per && rest.starts_with('p')) rest.remove_prefix(1);
+      if (rest == "2" || rest == time) return fmt::format("{}/{}^2", length, time);
+    }
+  return {};
+}
+
+/// The unit that a word is, or a run of words without what is between them; empty if it is none.
+std::string unit_of(std::string_view quantity, const std::string& text, bool one_word) {
+  const std::string letters = in_letters(text);
+  if (one_word && text != "in" && is_unit_of(quantity, letters)) return letters;
+  if (std::string unit = quotient(letters); !unit.empty() || !one_word) return unit;
+  constexpr std::array unknown = {"ns", "mi", "yd", "px", "deg", "rpm", "knots", "kn", "kt", "kts"};
+  constexpr std::array words = {"in", "min", "us", "um", "h", "cm"};
+  if (std::ranges::count(unknown, letters) > 0 ||
+      (std::ranges::count(words, text) == 0 && unit_kind(letters) != UnitKind::none))
+    return letters;
+  const auto is_quantity = [&](const std::string& front) {
+    return read_column(front).name == quantity ||
+           (front.size() == 1 && front[0] == std::tolower(quantity[0]));
+  };
+  for (std::size_t n = 1; n + 1 < text.size(); ++n)  // behind the quantity: tms, speedkmh
+    if (is_quantity(text.substr(0, n)))
+      if (std::string unit = unit_of(quantity, text.substr(n), true); is_unit_of(quantity, unit))
+        return unit;
+  return {};
+}
+
+}  // namespace
+
+std::string unit_in_name(std::string_view quantity, std::string_view name) {
+  if (si_unit(quantity).empty() || name == quantity) return {};
+  const std::vector<std::string> words = words_of(name);
+  constexpr std::size_t longest = 5;  // cm per s per s
+  for (std::size_t i = 0; i < words.size(); ++i)
+    for (std::size_t end = std::min(i + longest, words.size()); end > i; --end) {
+      std::string text;
+      for (std::size_t k = i; k < end; ++k) text += words[k];
+      const std::string unit = unit_of(quantity, text, end == i + 1);
+      if (unit.empty()) continue;
+      if (unit_kind(unit) != UnitKind::si) return unit;
+      i = end - 1;
+      break;
+    }
+  return {};
+}
+
+}  // namespace rolling
