@@ -202,7 +202,8 @@ std::vector<std::string> HeadReader::take_names(std::size_t width, bool blank_en
     if (names.empty() && !before_) names = take_commented_names(width, Proof::none);
     if (names.empty())
       for (const Line& comment : comments_)
-        refuse_units_of_others(comment.text, width, place(comment.number));
+        refuse_units_of_others(comment.text, width, before_ && before_->named,
+                               place(comment.number));
     return names;
   }
   auto names = names_in(preamble_.back().text, dialect_);
