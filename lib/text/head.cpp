@@ -59,6 +59,7 @@ class HeadReader {
   enum class Proof { known, known_or_tabs, none };
   std::vector<std::string> take_commented_names(std::size_t width, Proof);
   void refuse_lines_of_units(std::size_t width) const;
+  [[noreturn]] void refuse_without_records(const std::string& what) const;
   void comment_preamble();
   Head finish();
   std::string place(std::size_t line) const { return fmt::format("{}:{}", lines_.name(), line); }
@@ -151,7 +152,7 @@ bool HeadReader::find_record() {
         if (before_) refuse_other_separator(line, dialect_.separator());
         preamble_.push_back({line, lines_.number()});
         if (preamble_.size() > longest_preamble)
-          fail<InputError>("{}: no numbers in the first {} lines", lines_.name(), longest_preamble);
+          refuse_without_records(fmt::format("no numbers in the first {} lines", longest_preamble));
     }
   }
   return false;
@@ -215,6 +216,19 @@ std::vector<std::string> HeadReader::take_names(std::size_t width, bool blank_en
   return names;
 }
 
+/// Says what is wrong in the last line with a digit, which may have been meant as a record.
+void HeadReader::refuse_without_records(const std::string& what) const {
+  const auto has_digit = [](const Line& line) {
+    return line.text.find_first_of("0123456789") != std::string::npos;
+  };
+  const auto last = std::find_if(preamble_.rbegin(), preamble_.rend(), has_digit);
+  if (last == preamble_.rend()) fail<InputError>("{}: {}", lines_.name(), what);
+  Dialect dialect;
+  dialect.choose(last->text);
+  fail<InputError>("{}: {}: '{}' is separated by {}, and no field of it is a number",
+                   place(last->number), what, shown(last->text), name_of(dialect.separator()));
+}
+
 /// Makes comments of the lines that are neither names nor units.
 void HeadReader::comment_preamble() {
   for (Line& line : preamble_) {
@@ -234,7 +248,7 @@ Head HeadReader::finish() {
 
 Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
   if (!find_record()) {
-    if (!before_) fail<InputError>("{}: no records", lines_.name());
+    if (!before_) refuse_without_records("no records");
     comment_preamble();
     return finish();
   }
