@@ -41,6 +41,27 @@ void refuse_other_separator(std::string_view line, char separator) {
         shown(line), name_of(other.separator()), name_of(separator));
 }
 
+/// Refuses a record without names, `1,5, 2,5`, whose commas without a blank behind them may be
+/// decimal ones.
+void refuse_two_readings(const std::string& line) {
+  const std::string other = replace_all(line, ", ", "; ");
+  if (other == line || other.find(',') == std::string::npos) return;
+  Dialect dialect;
+  dialect.choose(other);
+  if (std::ranges::all_of(dialect.split(other), [](const Field& f) { return is_number(f.text); }))
+    fail(
+        "'{}' can be read in two ways: if its commas without a blank are decimal ones, make them "
+        "points first, else take the blanks away",
+        shown(line));
+}
+
+/// A number, a date or a time, which is no name of a column.
+bool is_figure(std::string_view text) {
+  return is_number(text) ||
+         (!text.empty() && text.find_first_not_of("0123456789+-.:/") == std::string_view::npos &&
+          text.find_first_of("0123456789") != std::string_view::npos);
+}
+
 /// The comments and other lines in front of the first record.
 class HeadReader {
  public:
@@ -164,7 +185,8 @@ std::vector<std::string> HeadReader::take_commented_names(std::size_t width, Pro
   const auto known = before_ ? before_->layout.runs.front().columns : std::vector<Column>();
   for (std::size_t i = comments_.size(); i-- > 0;) {
     auto [names, tabs, is_known] = names_in_comment(comments_[i].text, width, known);
-    const bool proven = is_known || (tabs && proof != Proof::known) || proof == Proof::none;
+    const bool proven = is_known || (tabs && proof != Proof::known) ||
+                        (proof == Proof::none && std::ranges::none_of(names, is_figure));
     if (names.empty() || !proven) continue;
     head_.line = comments_[i].number;
     comments_.erase(comments_.begin() + static_cast<std::ptrdiff_t>(i));
@@ -270,6 +292,7 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
     return finish();
   }
   head_.named = !names.empty();
+  if (!head_.named && dialect_.separator() == ',') refuse_two_readings(std::string(lines_.text()));
   head_.blank_end =
       blank_field && width > 1 && (names.size() < width ? !head_.named : names.back().empty());
   std::vector<Column> columns;
