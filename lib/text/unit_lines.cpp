@@ -62,7 +62,8 @@ std::vector<std::string> list_of_units(const std::string& comment) {
   };
   const auto at = std::ranges::adjacent_find(words, are_units);
   if (comment.starts_with("##") || (at != words.begin() && is_number(*(at - 1)))) return {};
-  return {at, words.end()};
+  words.erase(words.begin(), at);
+  return words;
 }
 
 /// The units of the columns in their order.

@@ -60,24 +60,34 @@ std::string quotient(std::string_view text) {
   return {};
 }
 
-/// The unit that a word is, or a run of words without what is between them; empty if it is none.
-std::string unit_of(std::string_view quantity, const std::string& text, bool one_word) {
-  const std::string letters = in_letters(text);
-  if (one_word && text != "in" && is_unit_of(quantity, letters)) return letters;
-  if (std::string unit = quotient(letters); !unit.empty() || !one_word) return unit;
-  constexpr std::array unknown = {"ns", "mi", "yd", "px", "deg", "rpm", "knots", "kn", "kt", "kts"};
-  constexpr std::array words = {"in", "min", "us", "um", "h", "cm"};
-  if (std::ranges::count(unknown, letters) > 0 ||
-      (std::ranges::count(words, text) == 0 && unit_kind(letters) != UnitKind::none))
-    return letters;
+/// Units that no tool converts.
+constexpr std::array unknown = {"ns", "mi", "yd", "px", "deg", "rpm", "knots", "kn", "kt", "kts"};
+/// Units of one quantity that are words or signs in the names of the others; cm is the centre of
+/// mass.
+constexpr std::array ambiguous = {"in", "min", "us", "um", "h", "cm"};
+
+/// The unit that a word of a name is, `letters` in the letters of units; empty if it is none.
+std::string unit_of_word(std::string_view quantity, const std::string& word,
+                         const std::string& letters) {
+  if (word != "in" && is_unit_of(quantity, letters)) return letters;
+  if (std::string unit = quotient(letters); !unit.empty()) return unit;
+  const bool is_other =
+      std::ranges::count(ambiguous, word) == 0 && unit_kind(letters) != UnitKind::none;
+  return is_other || std::ranges::count(unknown, letters) > 0 ? letters : std::string();
+}
+
+/// The unit of `quantity` that stands behind its own name, as in tms and speedkmh.
+std::string unit_behind_quantity(std::string_view quantity, const std::string& word) {
   const auto is_quantity = [&](const std::string& front) {
     return read_column(front).name == quantity ||
            (front.size() == 1 && front[0] == std::tolower(quantity[0]));
   };
-  for (std::size_t n = 1; n + 1 < text.size(); ++n)  // behind the quantity: tms, speedkmh
-    if (is_quantity(text.substr(0, n)))
-      if (std::string unit = unit_of(quantity, text.substr(n), true); is_unit_of(quantity, unit))
-        return unit;
+  for (std::size_t n = 1; n + 1 < word.size(); ++n)
+    if (is_quantity(word.substr(0, n))) {
+      const std::string rest = word.substr(n),
+                        unit = unit_of_word(quantity, rest, in_letters(rest));
+      if (is_unit_of(quantity, unit)) return unit;
+    }
   return {};
 }
 
@@ -86,12 +96,20 @@ std::string unit_of(std::string_view quantity, const std::string& text, bool one
 std::string unit_in_name(std::string_view quantity, std::string_view name) {
   if (si_unit(quantity).empty() || name == quantity) return {};
   const std::vector<std::string> words = words_of(name);
+  std::vector<std::string> letters;
+  for (const std::string& word : words) letters.push_back(in_letters(word));
   constexpr std::size_t longest = 5;  // cm per s per s
   for (std::size_t i = 0; i < words.size(); ++i)
     for (std::size_t end = std::min(i + longest, words.size()); end > i; --end) {
-      std::string text;
-      for (std::size_t k = i; k < end; ++k) text += words[k];
-      const std::string unit = unit_of(quantity, text, end == i + 1);
+      std::string unit;
+      if (end == i + 1) {
+        unit = unit_of_word(quantity, words[i], letters[i]);
+        if (unit.empty()) unit = unit_behind_quantity(quantity, words[i]);
+      } else {
+        std::string run;
+        for (std::size_t k = i; k < end; ++k) run += letters[k];
+        unit = quotient(run);
+      }
       if (unit.empty()) continue;
       if (unit_kind(unit) != UnitKind::si) return unit;
       i = end - 1;
