@@ -18,7 +18,8 @@ bool is_unit_word(const std::string& text) {
 /// The words of a comment, with `in` for an equals sign or a colon, and without other marks.
 std::vector<std::string> plain_words(std::string text) {
   for (const std::string_view is : {"=", ":"}) text = replace_all(std::move(text), is, " in ");
-  for (const std::string_view mark : {",", ";"}) text = replace_all(std::move(text), mark, " ");
+  for (const std::string_view mark : {",", ";", "(", ")", "[", "]"})
+    text = replace_all(std::move(text), mark, " ");
   return split_names(text, '\0');
 }
 

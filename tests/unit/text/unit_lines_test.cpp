@@ -89,7 +89,7 @@ TEST_CASE("unit lines: a comment with units that does not name the columns is re
   CHECK(refused("# w[ms]", 2).empty());
   const std::string units = refused("# t[ms]", 2);
   for (const char* comment : {"# units: ms cm/s", "# units: ms, cm/s, N", "# [ms], [m]",
-                              "# col1: time in ms", "# velocity = cm/s"})
+                              "# Units: [ms] (cm/s)", "# col1: time in ms", "# velocity = cm/s"})
     CHECK(refused(comment, 2) == units);
   for (const char* comment : {"# units: s m/s", "# col1: time in s", "# every 40 ms m by m",
                               "# radius in cm: 4", "# time: s, velocity: m/s"})
