@@ -51,27 +51,6 @@ const std::array<KnownQuantity, 5> quantities = {{
     {"D", "shift", "shift", lengths},
 }};
 
-std::string replace_all(std::string text, std::string_view from, std::string_view to) {
-  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
-}
-
-/// A unit in ASCII: superscripts in UTF-8 or Latin-1 become ^2 and ^-1, micro signs become u.
-std::string plain_unit(std::string unit) {
-  for (const auto& [from, to] : {std::pair{"\xE2\x81\xBB\xC2\xB9", "^-1"},
-                                 {"\xE2\x81\xBB\xC2\xB2", "^-2"},
-                                 {"\xC2\xB2", "^2"},
-                                 {"\xB2", "^2"},
-                                 {"\xC2\xB5", "u"},
-                                 {"\xCE\xBC", "u"},
-                                 {"\xB5", "u"},
-                                 {"\xC2\xA0", " "},
-                                 {"\n", " "}})
-    unit = replace_all(std::move(unit), from, to);
-  return replace_all(std::move(unit), "s2", "s^2");
-}
-
 std::string lower(std::string_view text) {
   std::string out(text);
   std::transform(out.begin(), out.end(), out.begin(),
@@ -126,6 +105,26 @@ std::string take_run(std::string_view& name) {
 
 }  // namespace
 
+std::string replace_all(std::string text, std::string_view from, std::string_view to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+std::string plain_unit(std::string unit) {
+  for (const auto& [from, to] : {std::pair{"\xE2\x81\xBB\xC2\xB9", "^-1"},
+                                 {"\xE2\x81\xBB\xC2\xB2", "^-2"},
+                                 {"\xC2\xB2", "^2"},
+                                 {"\xB2", "^2"},
+                                 {"\xC2\xB5", "u"},
+                                 {"\xCE\xBC", "u"},
+                                 {"\xB5", "u"},
+                                 {"\xC2\xA0", " "},
+                                 {"\n", " "}})
+    unit = replace_all(std::move(unit), from, to);
+  return replace_all(std::move(unit), "s2", "s^2");
+}
+
 Column read_column(std::string_view text) {
   Column column;
   std::string line = replace_all(std::string(text), "\xC2\xA0", " ");  // no-break spaces
@@ -179,6 +178,11 @@ UnitKind unit_kind(std::string_view text) {
   return UnitKind::none;
 }
 
+bool is_unit_of(std::string_view quantity, std::string_view unit) {
+  const KnownQuantity* q = known(quantity);
+  return q && std::ranges::count(q->units, unit, &Unit::name) > 0;
+}
+
 Conversion conversion_to_si(std::string_view quantity, const Column& column) {
   const KnownQuantity* q = known(quantity);
   if (!q || column.unit.empty()) return {};
@@ -191,22 +195,6 @@ Conversion conversion_to_si(std::string_view quantity, const Column& column) {
       "column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); convert it "
       "first",
       shown(to_text(column)), quantity, shown(column.unit), all);
-}
-
-std::string unit_in_name(std::string_view quantity, std::string_view name) {
-  const KnownQuantity* q = known(quantity);
-  if (!q || name == quantity) return {};
-  std::string found;
-  std::string words = plain_unit(std::string(name));
-  std::replace_if(
-      words.begin(), words.end(),
-      [](unsigned char c) { return !std::isalnum(c) && c != '/' && c != '^'; }, ' ');
-  for (const std::string& word : split_names(words, '\0'))
-    for (const std::string& text : {word, word.substr(word.find('/') + 1)})
-      for (const Unit& unit : q->units)
-        if (unit.name == listed_unit(text) && text != "in")
-          found = unit.to_si.changes() ? unit.name : "";
-  return found;
 }
 
 std::vector<std::string> split_names(std::string_view line, char separator) {

@@ -39,7 +39,12 @@ std::string to_text(const Column&);
 /// on if that name exists too.
 std::string free_name(const std::vector<Column>&, std::string name);
 
-/// A unit without the brackets around it, in ASCII: with ^2 for a superscript.
+std::string replace_all(std::string text, std::string_view from, std::string_view to);
+
+/// A unit in ASCII: superscripts in UTF-8 or Latin-1 become ^2 and ^-1, micro signs become u.
+std::string plain_unit(std::string unit);
+
+/// The same without the brackets around it.
 std::string bare_unit(std::string_view text);
 
 /// Whether a text is a unit, perhaps in brackets, in which t, x, v, a or D can be read.
@@ -49,15 +54,14 @@ UnitKind unit_kind(std::string_view text);
 /// The SI unit of a known quantity (t, x, v, a, D); empty for any other name.
 std::string_view si_unit(std::string_view quantity);
 
+/// Whether the tools convert `unit`, spelled as in rolling-columns(5), to the SI unit of
+/// `quantity`.
+bool is_unit_of(std::string_view quantity, std::string_view unit);
+
 /// The conversion to SI of a column that serves as `quantity`. Units may be spelled as common
 /// programs spell them: `MPH`, `Km/h`, `m s^-1`. A column without a unit is in SI units. Throws
 /// Error for a unit that is not one of this quantity.
 Conversion conversion_to_si(std::string_view quantity, const Column&);
-
-/// A unit of `quantity` other than the SI one that a name has without brackets, as `t_ms`, `x/mm`
-/// and `Weg_in_cm` do; empty if there is none. `in` is not looked for: it is a word, and ends the
-/// names that free_name() makes.
-std::string unit_in_name(std::string_view quantity, std::string_view name);
 
 /// The names in a line, one for each field. With `separator` 0 blanks separate the names; a unit in
 /// brackets, which may contain blanks, then belongs to the name before it.

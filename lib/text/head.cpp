@@ -41,6 +41,27 @@ void refuse_other_separator(std::string_view line, char separator) {
         shown(line), name_of(other.separator()), name_of(separator));
 }
 
+/// Refuses a record without names, `1,5, 2,5`, whose commas without a blank behind them may be
+/// decimal ones.
+void refuse_two_readings(const std::string& line) {
+  const std::string other = replace_all(line, ", ", "; ");
+  if (other == line || other.find(',') == std::string::npos) return;
+  Dialect dialect;
+  dialect.choose(other);
+  if (std::ranges::all_of(dialect.split(other), [](const Field& f) { return is_number(f.text); }))
+    fail(
+        "'{}' can be read in two ways: if its commas without a blank are decimal ones, make them "
+        "points first, else take the blanks away",
+        shown(line));
+}
+
+/// A number, a date or a time, which is no name of a column.
+bool is_figure(std::string_view text) {
+  return is_number(text) ||
+         (!text.empty() && text.find_first_not_of("0123456789+-.:/") == std::string_view::npos &&
+          text.find_first_of("0123456789") != std::string_view::npos);
+}
+
 /// The comments and other lines in front of the first record.
 class HeadReader {
  public:
@@ -59,6 +80,7 @@ class HeadReader {
   enum class Proof { known, known_or_tabs, none };
   std::vector<std::string> take_commented_names(std::size_t width, Proof);
   void refuse_lines_of_units(std::size_t width) const;
+  [[noreturn]] void refuse_without_records(const std::string& what) const;
   void comment_preamble();
   Head finish();
   std::string place(std::size_t line) const { return fmt::format("{}:{}", lines_.name(), line); }
@@ -151,7 +173,7 @@ bool HeadReader::find_record() {
         if (before_) refuse_other_separator(line, dialect_.separator());
         preamble_.push_back({line, lines_.number()});
         if (preamble_.size() > longest_preamble)
-          fail<InputError>("{}: no numbers in the first {} lines", lines_.name(), longest_preamble);
+          refuse_without_records(fmt::format("no numbers in the first {} lines", longest_preamble));
     }
   }
   return false;
@@ -163,7 +185,8 @@ std::vector<std::string> HeadReader::take_commented_names(std::size_t width, Pro
   const auto known = before_ ? before_->layout.runs.front().columns : std::vector<Column>();
   for (std::size_t i = comments_.size(); i-- > 0;) {
     auto [names, tabs, is_known] = names_in_comment(comments_[i].text, width, known);
-    const bool proven = is_known || (tabs && proof != Proof::known) || proof == Proof::none;
+    const bool proven = is_known || (tabs && proof != Proof::known) ||
+                        (proof == Proof::none && std::ranges::none_of(names, is_figure));
     if (names.empty() || !proven) continue;
     head_.line = comments_[i].number;
     comments_.erase(comments_.begin() + static_cast<std::ptrdiff_t>(i));
@@ -202,7 +225,8 @@ std::vector<std::string> HeadReader::take_names(std::size_t width, bool blank_en
     if (names.empty() && !before_) names = take_commented_names(width, Proof::none);
     if (names.empty())
       for (const Line& comment : comments_)
-        refuse_units_of_others(comment.text, width, place(comment.number));
+        refuse_units_of_others(comment.text, width, before_ && before_->named,
+                               place(comment.number));
     return names;
   }
   auto names = names_in(preamble_.back().text, dialect_);
@@ -212,6 +236,19 @@ std::vector<std::string> HeadReader::take_names(std::size_t width, bool blank_en
   if (names.size() == width + 1 && names.back().empty()) names.pop_back();
   else if (names.size() + 1 == width && blank_end) names.emplace_back();
   return names;
+}
+
+/// Says what is wrong in the last line with a digit, which may have been meant as a record.
+void HeadReader::refuse_without_records(const std::string& what) const {
+  const auto has_digit = [](const Line& line) {
+    return line.text.find_first_of("0123456789") != std::string::npos;
+  };
+  const auto last = std::find_if(preamble_.rbegin(), preamble_.rend(), has_digit);
+  if (last == preamble_.rend()) fail<InputError>("{}: {}", lines_.name(), what);
+  Dialect dialect;
+  dialect.choose(last->text);
+  fail<InputError>("{}: {}: '{}' is separated by {}, and no field of it is a number",
+                   place(last->number), what, shown(last->text), name_of(dialect.separator()));
 }
 
 /// Makes comments of the lines that are neither names nor units.
@@ -233,7 +270,7 @@ Head HeadReader::finish() {
 
 Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
   if (!find_record()) {
-    if (!before_) fail<InputError>("{}: no records", lines_.name());
+    if (!before_) refuse_without_records("no records");
     comment_preamble();
     return finish();
   }
@@ -255,6 +292,7 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
     return finish();
   }
   head_.named = !names.empty();
+  if (!head_.named && dialect_.separator() == ',') refuse_two_readings(std::string(lines_.text()));
   head_.blank_end =
       blank_field && width > 1 && (names.size() < width ? !head_.named : names.back().empty());
   std::vector<Column> columns;

@@ -121,7 +121,8 @@ bool Input::next(std::string_view& line) {
   line = {at_, feed};
   at_ = feed == end_ ? feed : feed + 1;
   if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-  if (++line_number_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
+  ++line_number_;
+  if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);  // before each of joined files
   return true;
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "text/number.h"
+#include "text/unit_words.h"
 
 namespace rolling {
 namespace {
@@ -57,14 +58,17 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, std::stri
   place_ = std::move(place);
   quantities_.clear();
   for (const Column& column : as_read_) quantities_.push_back(column.name);
+  for (const auto& [quantity, use] : use_) {
+    const auto at = find_column(use.column);
+    if (!at)
+      fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", place_, quantity,
+                       shown(use.column), shown(use.column), list());
+    for (std::string& other : quantities_)
+      if (other == quantity) other = free_name(as_read_, quantity);
+    quantities_[*at] = quantity;
+  }
   for (const auto& [quantity, use] : use_)
-    if (const auto at = find_column(use.column)) {
-      for (std::string& other : quantities_)
-        if (other == quantity) other = free_name(as_read_, quantity);
-      quantities_[*at] = quantity;
-    }
-  for (const auto& [quantity, use] : use_)
-    if (const auto at = find_column(use.column); at && quantities_[*at] != quantity)
+    if (const auto at = find_column(use.column); quantities_[*at] != quantity)
       fail<InputError>("{}: --use: column {} cannot serve as both {} and {}", place_, *at + 1,
                        quantity, quantities_[*at]);
   resolve();
@@ -72,14 +76,8 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, std::stri
 
 std::optional<std::size_t> NeededColumns::find(std::string_view name) const {
   const std::string quantity = read_column(name).name;
-  if (const auto use = use_.find(quantity); use != use_.end()) {
-    const std::string& column = use->second.column;
-    const auto at = find_column(column);
-    if (!at)
-      fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", place_, quantity,
-                       shown(column), shown(column), list());
-    return at;
-  }
+  if (const auto use = use_.find(quantity); use != use_.end())
+    return find_column(use->second.column);
   const auto at = find_column(name);
   // The column of this name serves as another quantity.
   if (at && !si_unit(quantity).empty() && quantities_[*at] != quantity) return {};

@@ -1,5 +1,6 @@
 #include "text/number.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
@@ -114,11 +115,41 @@ char* write_number(char* to, double value, int digits) {
   return digits > 0 ? write_digits(to, value, digits) : write_shortest(to, value);
 }
 
+bool has_groups(std::string_view text) {
+  constexpr std::string_view digits = "0123456789";
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  const auto count = [&] { return std::min(text.find_first_not_of(digits), text.size()); };
+  const std::size_t first = count();
+  if (first < 1 || first > 3 || first == text.size()) return false;
+  text.remove_prefix(first);
+  const char between = text.front();
+  if (std::string_view(" .,'").find(between) == std::string_view::npos) return false;
+  while (text.starts_with(between)) {
+    text.remove_prefix(1);
+    if (count() != 3) return false;
+    text.remove_prefix(3);
+  }
+  if (text.starts_with('.') || text.starts_with(',')) text.remove_prefix(1);
+  return count() == text.size();
+}
+
+std::string with_plain_blanks(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    std::size_t blank = 0;
+    for (const std::string_view wide : {"\xC2\xA0", "\xE2\x80\x89", "\xE2\x80\xAF"})
+      if (text.starts_with(wide)) blank = wide.size();
+    out += blank ? ' ' : text.front();
+    text.remove_prefix(blank ? blank : 1);
+  }
+  return out;
+}
+
 std::string shown(std::string_view text) {
-  std::string out(text.substr(0, 40));
+  std::string out = with_plain_blanks(text);
+  if (out.size() > 40) out.replace(40, std::string::npos, "...");
   for (char& c : out)
     if (c < ' ' || c > '~') c = '?';
-  if (text.size() > 40) out += "...";
   return out;
 }
 

@@ -361,8 +361,8 @@ void Reader::reject(std::size_t column, std::string_view why) const {
 }
 
 /// What to do about a field that is not a number, where its text shows the likely reason: a decimal
-/// comma, a typographic minus sign, an error value of a spreadsheet, a time of day, the names of
-/// another run, a line of text.
+/// comma, thousands set apart, a typographic minus sign, an error value of a spreadsheet, a time of
+/// day, the names of another run, a line of text.
 std::string Reader::way_out(std::size_t column) const {
   const std::string_view field = fields_[column].text;
   const bool in_field =
@@ -373,6 +373,10 @@ std::string Reader::way_out(std::size_t column) const {
   const bool word = !field.empty() &&
                     std::string_view("+-.0123456789").find(field.front()) == std::string_view::npos;
   if (!word && field.find(':') < field.size()) return "; make it one number of seconds first";
+  const std::string plain = with_plain_blanks(field);
+  const bool is_comma = in_field && plain.find_first_of(" '") == std::string::npos;
+  if (!is_comma && has_groups(plain)) return "; remove what separates its thousands";
+  if (plain != field) return "; remove the blanks that are not plain ones";
   if (in_field || beside) return "; if a comma here is a decimal one, make it a point first";
   if (field.starts_with("\xE2\x88\x92")) return "; make its minus sign (U+2212) a hyphen first";
   if (field.starts_with('#')) return "; write NaN for a missing reading";

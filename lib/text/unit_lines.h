@@ -19,12 +19,15 @@ bool are_units_of(const std::vector<std::string>& names, const std::vector<std::
 void add_unit(Column&, std::string_view unit, std::string_view place);
 
 /// Notes the units other than SI that a comment gives to columns whose names have none: behind the
-/// names of known quantities, or in the order of the columns, two known units or more of them.
+/// names of known quantities (`t [ms]`, `time in ms`), or in the order of the columns, two known
+/// units or more of them.
 void note_other_units(const std::string& comment, std::vector<Column>&);
 
 /// Refuses a comment with units that does not name the `width` columns of the records: columns
-/// without names are read in SI units, which would contradict it.
-void refuse_units_of_others(const std::string& comment, std::size_t width, std::string_view place);
+/// without names are read in SI units, which would contradict it. If the columns are `named`
+/// already, units without names do not.
+void refuse_units_of_others(const std::string& comment, std::size_t width, bool named,
+                            std::string_view place);
 
 /// Refuses a line of units that is not read, if they are not all SI.
 void refuse_line_of_units(const std::vector<std::string>& fields, std::string_view place);

@@ -132,35 +132,6 @@ TEST_CASE("column: a unit that the quantity cannot have is refused", "[text]") {
         "(s, sec, ms, us, min, h); convert it first");
 }
 
-TEST_CASE("column: a unit in a name without brackets", "[text]") {
-  struct Case {
-    const char *quantity, *name, *unit;
-  };
-  const Case cases[] = {
-      {"t", "t_ms", "ms"},
-      {"t", "t/ms", "ms"},
-      {"t", "Zeit_in_ms", "ms"},
-      {"t", "Zeit_/_ms_(raw)", "ms"},
-      {"t", "\xE6\x97\xB6\xE9\x97\xB4\xEF\xBC\x88\xC2\xB5s\xEF\xBC\x89", "us"},
-      {"x", "cm", "cm"},
-      {"x", "Weg_{mm}", "mm"},
-      {"v", "v_km/h", "km/h"},
-      {"v", "v/km/h", "km/h"},
-      {"v", "Tempo_kmh", "km/h"},
-      {"a", "a_cm/s\xC2\xB2", "cm/s^2"},
-      {"t", "t_in_s", ""},
-      {"t", "times", ""},
-      {"x", "x_in", ""},
-      {"x", "x_in_m", ""},
-      {"x", "x_s", ""},
-      {"w", "w_ms", ""},
-  };
-  for (const Case& c : cases) {
-    INFO(c.quantity << " of " << c.name);
-    CHECK(unit_in_name(c.quantity, c.name) == c.unit);
-  }
-}
-
 TEST_CASE("column: the SI unit of each quantity", "[text]") {
   CHECK(si_unit("t") == "s");
   CHECK(si_unit("x") == "m");

@@ -39,6 +39,29 @@ TEST_CASE("head: names in the last comment, in a line, or in the order of the to
   CHECK(head("\"two\nlines\" ,\nt,v\n0,1\n") == "# \"two lines\" ,| t v in 1 of 2; 4: 0,1");
 }
 
+TEST_CASE("head: numbers, dates and times in a comment are no names", "[text]") {
+  const std::string order = " no names, t[s] v[m/s] in 1 of 2; 2: 0 1";
+  for (const std::string comment : {"# rows: 3", "# 2026-11-24 10:15", "# 1 2", "# m 1e3"})
+    CHECK(head(comment + "\n0 1\n") == comment + "|" + order);
+  CHECK(head("# p q2\n0 1\n") == " p q2 in 1 of 2; 2: 0 1");
+  CHECK(head("# \xCE\xBE"
+             "1 \xCE\xBE"
+             "2\n0 1\n") ==
+        " \xCE\xBE"
+        "1 \xCE\xBE"
+        "2 in 1 of 2; 2: 0 1");
+  CHECK(head("# t 2\n0 1\n") == " t 2 in 1 of 2; 2: 0 1");
+}
+
+TEST_CASE("head: commas with and without blanks are refused where both may be meant", "[text]") {
+  CHECK(head("1,5, 2,5\n2,5, 3,5\n") ==
+        "1: '1,5, 2,5' can be read in two ways: if its commas without a blank are decimal ones, "
+        "make them points first, else take the blanks away");
+  for (const std::string line : {"1, 2", "1,2", "1.5, 2,3", "1,2,3, 4", "1,2,a, b", "1,2,\"3, 4\""})
+    CHECK(head(line + "\n").ends_with("; 1: " + line));
+  CHECK(head("t, v, x\n1, 2,3\n") == " t v x in 1 of 3; 2: 1, 2,3");
+}
+
 TEST_CASE("head: runs side by side, or one record of all", "[text]") {
   const std::string text = "t Run 1,v Run 1,t Run 2,v Run 2\n0,1,0,2\n";
   CHECK(head(text) == " t v in 2 of 4; 2: 0,1,0,2");
@@ -101,4 +124,20 @@ TEST_CASE("head: no columns are refused, with the line", "[text]") {
   std::string words;
   for (int i = 0; i < 101; ++i) words += "once upon a time\n";
   CHECK(head(words) == " no numbers in the first 100 lines");
+}
+
+TEST_CASE("head: where no line is a record, the last one with a digit is said to be none",
+          "[text]") {
+  CHECK(head("0 1,\n1 2,\n2 3,\n") ==
+        "3: no records: '2 3,' is separated by ',', and no field of it is a number");
+  CHECK(head("Time (ms)|Velocity (cm/s)\n0|1\n1|2\n") ==
+        "3: no records: '1|2' is separated by blanks, and no field of it is a number");
+  CHECK(head("t=0 v=1\nt=1 v=2\nend\n") ==
+        "2: no records: 't=1 v=2' is separated by blanks, and no field of it is a number");
+  std::string bars;
+  for (int i = 0; i < 200; ++i) bars += fmt::format("{}|0\n", i);
+  CHECK(
+      head(bars) ==
+      "101: no numbers in the first 100 lines: '100|0' is separated by blanks, and no field of it "
+      "is a number");
 }

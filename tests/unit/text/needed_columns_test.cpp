@@ -59,6 +59,7 @@ TEST_CASE("needed columns: --use says which, by name or by number", "[text]") {
   CHECK(output({"t", "v"}, {"x=v"}, {"2"}) == "t x[m]");
   CHECK(output({"t", "v"}, {"x=v"}, {"v"}) == "FILE: column 2 cannot serve as both x and v");
   CHECK(output({"t", "w"}, {"v=4"}) == "FILE: --use v=4: there is no column '4' among t, w");
+  CHECK(output({"t", "v"}, {"x=pos"}) == "FILE: --use x=pos: there is no column 'pos' among t, v");
   CHECK(output({"t", "w"}, {"v=0"}) == "FILE: --use v=0: there is no column '0' among t, w");
   CHECK(output({"t", "w"}, {"v=1.5"}) == "FILE: --use v=1.5: there is no column '1.5' among t, w");
 }

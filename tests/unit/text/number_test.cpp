@@ -280,6 +280,16 @@ TEST_CASE("number: a message shows printable ASCII, cut at 40 characters", "[tex
   CHECK(shown("a\tb\x7f\xC2\xB2\n") == "a?b????");
   CHECK(shown(std::string(40, 'x')) == std::string(40, 'x'));
   CHECK(shown(std::string(41, 'x')) == std::string(40, 'x') + "...");
+  CHECK(shown("1\xE2\x80\xAF"
+              "000\xC2\xA0m") == "1 000 m");
+}
+
+TEST_CASE("number: digits in groups of three", "[text]") {
+  for (const char* text : {"1 000", "-12.000,5", "1,234.5", "1'000'000", "1.000.000", "+1,000"})
+    CHECK(has_groups(text));
+  for (const char* text : {"", "-", "1", "1000", "1 00", "1 0000", "1234,567", " 000", "1 000 0",
+                           "1,234.5.6", "1:000", "1 000 m"})
+    CHECK_FALSE(has_groups(text));
 }
 
 TEST_CASE("number: blanks and tabs are trimmed, nothing else", "[text]") {

@@ -149,6 +149,7 @@ TEST_CASE("reader: byte order mark, CR LF, quotes", "[text]") {
                  "v,t\r\n5,0\r\n\r\n6,0\r\n"}) == "0 5 || 0 6");
   CHECK(records({"\xEF\xBB\xBF"
                  "5,0\r\n"}) == "5 0");
+  CHECK(records({"\xEF\xBB\xBFt,v\n0,5\n\n\xEF\xBB\xBFt,v\n0,6\n"}) == "0 5 || 0 6");
   CHECK(records({"\"t\",\"v\"\n\"0\",\"5\"\n\"1\",6\n"}) == "0 5 | 1 6");
   CHECK(copies("t,v,note\n0,5,\"a, \"\"b\"\"\"\n") == "<0\t5\t\"a, \"\"b\"\"\">");
   CHECK(copies("t,v,u\n0,0,\"\"\"\"\n") == "<0\t0\t\"\"\"\">");  // quoted where it has to be
@@ -204,6 +205,15 @@ TEST_CASE("reader: what is no number is refused with what to do about it", "[tex
         "FILE:3: field 1 (t): '1 5' is not a number; if a comma here is a decimal one, make it a "
         "point first");
   CHECK(records({"t,v\n0,1\n1 x,2\n"}) == "FILE:3: field 1 (t): '1 x' is not a number");
+  for (const char* text : {"t,v\n1 000,2\n", "t;v\n1 000;2\n",
+                           "t;v\n1\xE2\x80\xAF"
+                           "000;2\n"})
+    CHECK(records({text}) ==
+          "FILE:2: field 1 (t): '1 000' is not a number; remove what separates its thousands");
+  CHECK(records({"t;v\n1.000,5;2\n"}) ==
+        "FILE:2: field 1 (t): '1.000,5' is not a number; remove what separates its thousands");
+  CHECK(records({"t v\n5\xC2\xA0 2\n"}) ==
+        "FILE:2: field 1 (t): '5 ' is not a number; remove the blanks that are not plain ones");
 }
 
 TEST_CASE("reader: two decimal marks in one file are refused", "[text]") {
@@ -220,8 +230,10 @@ TEST_CASE("reader: two decimal marks in one file are refused", "[text]") {
         "it by "
         "a point, else remove it");
   CHECK(records({"t\tv\n0,0\t1,002\n"}) == "0 1.002");
-  CHECK(records({"t;v\n0;1,234,567\n"}) == "FILE:2: field 2 (v): '1,234,567' is not a number");
-  CHECK(records({"t;v\n0;1,234.5\n"}) == "FILE:2: field 2 (v): '1,234.5' is not a number");
+  CHECK(records({"t;v\n0;1,234,567\n"}) ==
+        "FILE:2: field 2 (v): '1,234,567' is not a number; remove what separates its thousands");
+  CHECK(records({"t;v\n0;1,234.5\n"}) ==
+        "FILE:2: field 2 (v): '1,234.5' is not a number; remove what separates its thousands");
 }
 
 TEST_CASE("reader: blank lines end a run, however many", "[text]") {

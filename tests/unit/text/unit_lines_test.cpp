@@ -53,6 +53,12 @@ TEST_CASE("unit lines: a comment notes the unit of a column whose name has none"
   CHECK(noted("# t[s] v[m/s]") == "||");
   CHECK(noted("# t[fortnight] w[cm]") == "||");
   CHECK(noted("## t[ms]") == "||");
+  CHECK(noted("# time in ms, velocity in cm/s") == "ms||cm/s");
+  CHECK(noted("# t: ms; v = km/h") == "ms||km/h");
+  CHECK(noted("# col1: time in s") == "||");
+  CHECK(noted("# time in min: 5") == "||");  // a value
+  CHECK(noted("# speed: min 0, time: 40 ms") == "||");
+  CHECK(noted("# time: in the morning") == "||");
 }
 
 TEST_CASE("unit lines: a comment with the units of some columns notes them by place", "[text]") {
@@ -68,16 +74,27 @@ TEST_CASE("unit lines: a comment with the units of some columns notes them by pl
   CHECK(noted("# ms cm/s N") == "||");          // not as many as columns
   CHECK(noted("# ms cm/s t v") == "||");        // names
   CHECK(noted("## ms cm/s N m") == "||");
+  CHECK(noted("# units: ms, cm/s, N, m") == "ms|cm/s|");
+  CHECK(noted("# units ms cm/s") == "||");
+  CHECK(noted("# 40 ms cm/s N m") == "||");
 }
 
 TEST_CASE("unit lines: a comment with units that does not name the columns is refused", "[text]") {
   const auto refused = [](const std::string& comment, std::size_t width) {
-    return refusal([&] { refuse_units_of_others(comment, width, "f:2"); });
+    return refusal([&] { refuse_units_of_others(comment, width, false, "f:2"); });
   };
   CHECK(refused("# t[ms]", 2) == "f:2: a comment with units, but not the names of 2 columns");
   CHECK(refused("# t[s] x[m]", 1) == "f:2: a comment with units, but not the names of 1 column");
   CHECK(refused("# t[s] alone", 2).empty());
   CHECK(refused("# w[ms]", 2).empty());
+  const std::string units = refused("# t[ms]", 2);
+  for (const char* comment : {"# units: ms cm/s", "# units: ms, cm/s, N", "# [ms], [m]",
+                              "# Units: [ms] (cm/s)", "# col1: time in ms", "# velocity = cm/s"})
+    CHECK(refused(comment, 2) == units);
+  for (const char* comment : {"# units: s m/s", "# col1: time in s", "# every 40 ms m by m",
+                              "# radius in cm: 4", "# time: s, velocity: m/s"})
+    CHECK(refused(comment, 2).empty());
+  CHECK_NOTHROW(refuse_units_of_others("# ms cm/s", 2, true, "f:2"));
 }
 
 TEST_CASE("unit lines: a line of units only, one of which is not SI, is refused", "[text]") {

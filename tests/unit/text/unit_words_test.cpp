@@ -1,0 +1,113 @@
+#include "text/unit_words.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "unit/catch.h"
+
+using namespace rolling;
+
+TEST_CASE("unit words: a unit in a name without brackets", "[text]") {
+  struct Case {
+    const char *quantity, *name, *unit;
+  };
+  const Case cases[] = {
+      {"t", "t_ms", "ms"},
+      {"t", "t/ms", "ms"},
+      {"t", "Zeit_in_ms", "ms"},
+      {"t", "Zeit_/_ms_(raw)", "ms"},
+      {"t", "\xE6\x97\xB6\xE9\x97\xB4\xEF\xBC\x88\xC2\xB5s\xEF\xBC\x89", "us"},
+      {"x", "cm", "cm"},
+      {"x", "Weg_{mm}", "mm"},
+      {"v", "v_km/h", "km/h"},
+      {"v", "v/km/h", "km/h"},
+      {"v", "Tempo_kmh", "km/h"},
+      {"a", "a_cm/s\xC2\xB2", "cm/s^2"},
+      {"t", "TIME_MS", "ms"},
+      {"t", "T_MS", "ms"},
+      {"t", "timeMs", "ms"},
+      {"t", "tms", "ms"},
+      {"t", "msec", "ms"},
+      {"t", "time_usec", "us"},
+      {"t", "millis", "ms"},
+      {"t", "micros", "us"},
+      {"t", "Time in minutes", "min"},
+      {"x", "dist_CM", "cm"},
+      {"x", "Dist_Cm", "cm"},
+      {"x", "distMM", "mm"},
+      {"x", "xcm", "cm"},
+      {"x", "distance_inch", "in"},
+      {"x", "dist_feet", "ft"},
+      {"x", "dist centimeters", "cm"},
+      {"x", "x_pixels", "px"},
+      {"x", "v_mm/s", "mm/s"},
+      {"D", "Dmm", "mm"},
+      {"v", "speed_cm_s", "cm/s"},
+      {"v", "speed_cm_per_s", "cm/s"},
+      {"v", "speed_ft_per_s", "ft/s"},
+      {"v", "speed km h-1", "km/h"},
+      {"v", "Speed in cm s^-1", "cm/s"},
+      {"v", "Speed cm\xC2\xB7s\xE2\x81\xBB\xC2\xB9", "cm/s"},
+      {"v", "vel_cms", "cm/s"},
+      {"v", "speed_mms", "mm/s"},
+      {"v", "v_fps", "ft/s"},
+      {"v", "v_knots", "knots"},
+      {"v", "Speed_kmph", "km/h"},
+      {"v", "speedKmh", "km/h"},
+      {"v", "speed_m_min", "m/min"},
+      {"v", "v_in/s", "in/s"},
+      {"v", "meters per hour", "m/h"},
+      {"v", "wheel_rpm", "rpm"},
+      {"a", "a_cm_s2", "cm/s^2"},
+      {"a", "accel cm s-2", "cm/s^2"},
+      {"a", "accel in cm\xC2\xB7s\xE2\x81\xBB\xC2\xB2", "cm/s^2"},
+      {"a", "cm per second per second", "cm/s^2"},
+      {"t", "t_in_s", ""},
+      {"t", "times", ""},
+      {"x", "x_in", ""},
+      {"x", "x_in_m", ""},
+      {"x", "x_s", ""},
+      {"w", "w_ms", ""},
+  };
+  for (const Case& c : cases) {
+    INFO(c.quantity << " of " << c.name);
+    CHECK(unit_in_name(c.quantity, c.name) == c.unit);
+  }
+}
+
+TEST_CASE("unit words: SI units, and words that are no units", "[text]") {
+  const std::pair<const char*, std::vector<const char*>> cases[] = {
+      {"t", {"Time_elapsed", "time_sec", "Time in seconds", "times", "Run 1", "in", "stamp"}},
+      {"x",
+       {"x_m", "x2", "Position_1", "distance to motion sensor", "Distance in meters", "rms",
+        "Mass A", "x_s", "x_min", "items", "sum", "radius", "xMax", "frame A"}},
+      {"v",
+       {"v_in",
+        "v_ms",
+        "v_mps",
+        "v_m_s",
+        "v m s^-1",
+        "speedMS",
+        "meters per second",
+        "vms",
+        "min speed",
+        "v_min",
+        "v_h",
+        "v_us",
+        "v_cm",
+        "velocity of the c.m.",
+        "v_smoothed",
+        "percent",
+        "Wheel Speed",
+        "foot speed",
+        "second run",
+        "Speed meter"}},
+      {"a", {"a_ms2", "a_m_s_2", "a m/s/s", "Acceleration y", "a_cm", "acc_without_g"}},
+  };
+  for (const auto& [quantity, names] : cases)
+    for (const char* const name : names) {
+      INFO(quantity << " of " << name);
+      CHECK(unit_in_name(quantity, name).empty());
+    }
+}
