@@ -215,8 +215,7 @@ TEST_CASE("Trajectory: the place of rest is a continuous function of b, through 
                       Trajectory::Derivatives::of_law, Trajectory::AtRadius::stays)
         .at(10);
   };
-  // Steps of 1e-3 in b: the next place is where the derivatives on both sides lead (trapezoid
-  // rule).
+  // A step further is where the derivatives at both ends of the step lead (trapezoid rule).
   for (double b = -0.6; b < 0.1; b += 1e-3) {
     const auto here = rest(b), next = rest(b + 1e-3);
     CAPTURE(b);
