@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/dot.h"
-#include "base/error.h"
 #include "fit/first_guess.h"
 #include "fit/white_share.h"
 
@@ -154,23 +153,6 @@ void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   if (adopted) fit.minimum = solve(fit.system, fit.minimum.theta, options);
 }
 
-/// Throws Error if records follow after D has reached R (exact geometry, b < 0) at a speed that is
-/// not next to rest. There the model lets D be R, which serves the search, but is not the law.
-void require_law(const Fitted& fit, const std::vector<FitRun>& all) {
-  constexpr double rest = 1e-3;  // of v0; below it MemoryRoll, too, counts a body as at rest
-  const auto& runs = fit.rolls->runs();
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    const double v0 = std::abs(fit.v0[r].value);
-    const Trajectory roll = fit.rolls->trajectory(fit.minimum.theta, r);
-    if (roll.radius_speed() > rest * v0 && roll.radius_time() < runs[r].t.back())
-      fail(
-          "{}a = {:.4g} and b = {:.4g} have no meaning below {:.2g} m/s, where D is beyond the "
-          "radius {} m: leave the records out that follow, or fit with A = 1",
-          runs.size() > 1 ? fmt::format("run {}: ", all[r].name) : "", fit.a.value, fit.b.value,
-          roll.radius_speed(), runs[r].body.R);
-  }
-}
-
 }  // namespace
 
 Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options) {
@@ -214,7 +196,6 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
   }
   allow_for_rounding(fit, options);
   report(fit);
-  require_law(fit, all);
   for (const Rows& of_run : usable(route, all)) fit.left_out += of_run.size();
   fit.left_out -= fit.records;
   return fit;
