@@ -41,7 +41,7 @@ class Trajectory {
   enum class AtRadius {
     ends,  ///< the roll ends there: later times throw Error, and stop_time() is infinite
     stays  ///< D stays R, so that A = 0 and v' = -g cos(theta)/K (Eq. 12) down to the stop: for
-           ///< fits, since so every law with b < 1 has a value at every time, continuous in b
+           ///< fits, whose search needs a value at every time, continuous in the law
   };
 
   /// Refuses what check_roll refuses. v0 = 0 is rest for ever.
