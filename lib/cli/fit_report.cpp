@@ -132,11 +132,15 @@ void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitR
           runs[i].name, r.v0[i], D, runs[i].body.R));
       break;
     }
-  if (exact(route, r, runs)) return;
   const std::string run = of_run(runs);
+  if (r.a < 0)
+    tool.warn(run +
+              "a is negative: D has the other sign than v, as if the mat drove the body on, "
+              "which simulate refuses");
+  if (exact(route, r, runs)) return;
   // ln a has the normal distribution. Where sigma_a is 0.3 a, a +- 1.96 sigma_a holds the truth in
   // 93.6 % still, but misses it by more than 3 sigma_a six times too often, and then worse.
-  if (r.sigma_a > 0.3 * r.a)
+  if (r.a > 0 && r.sigma_a > 0.3 * r.a)
     tool.warn(fmt::format(
         "{}sigma_a is {:.2g} times a: this ratio is the standard error of ln a, and a is "
         "too uncertain for the interval a +- sigma_a",

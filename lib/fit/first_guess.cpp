@@ -95,7 +95,8 @@ void add_run(Candidate& candidate, const Thinned& of, const FitOptions& options)
   const bool position = thin.raw_is_position;
   Body level = thin.body;
   level.slope = 0;
-  const Trajectory trajectory(level, thin.geometry, candidate.law, of.v0);
+  const Trajectory trajectory(level, thin.geometry, candidate.law, of.v0,
+                              Trajectory::Derivatives::of_law, Trajectory::AtRadius::stays);
   double mm = 0, my = 0, m_mean = 0, y_mean = 0;
   std::vector<double> m, y;
   for (std::size_t i = 0; i < thin.t.size(); ++i) {

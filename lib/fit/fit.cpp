@@ -75,6 +75,24 @@ void require_determined(const FitResult& result, const FitOptions& options) {
     fail("as many parameters as records do not determine b: it comes out as {:.3g}", result.b);
 }
 
+/// Throws Error if records follow after D has reached R (exact geometry, b < 0) at a speed that is
+/// not next to rest. There the model lets D be R, which serves the search, but is not the law.
+void require_law(const Fitted& found, const std::vector<FitRun>& all) {
+  if (!found.rolls) return;
+  constexpr double rest = 1e-3;  // of v0; below it MemoryRoll, too, counts a body as at rest
+  const auto& runs = found.rolls->runs();
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const Trajectory roll = found.rolls->trajectory(found.minimum.theta, r);
+    if (roll.radius_speed() > rest * std::abs(found.v0[r].value) &&
+        roll.radius_time() < runs[r].t.back())
+      fail(
+          "{}a = {:.4g} and b = {:.4g} have no meaning below {:.2g} m/s, where D is beyond the "
+          "radius {} m: leave the records out that follow, or fit with A = 1",
+          runs.size() > 1 ? fmt::format("run {}: ", all[r].name) : "", found.a.value, found.b.value,
+          roll.radius_speed(), runs[r].body.R);
+  }
+}
+
 FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   Fitted found = fit_route(route, runs, options);
   // J is large; only the comparison of several runs needs it again.
@@ -85,6 +103,7 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   const auto agreement = agreement_of(route, runs, options, noise, found);
   std::vector<ErrorShare> shares{noise.share};
   require_determined(result_of(found, noise, shares), options);
+  require_law(found, runs);
   for (ErrorShare& share : shares_of_given(route, runs, options, found))
     shares.push_back(std::move(share));
   if (found.bias_a != 0 || found.bias_b != 0)

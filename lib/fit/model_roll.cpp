@@ -145,9 +145,13 @@ std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>& runs, doub
 Trajectory RollModel::trajectory(const std::vector<double>& theta, std::size_t run) const {
   Body body = runs_[run].body;
   body.slope = slope(theta, run);
-  return {body, runs_[run].geometry, parameters_.law(theta), parameters_.v0(theta, run),
+  return {body,
+          runs_[run].geometry,
+          parameters_.law(theta),
+          parameters_.v0(theta, run),
           parameters_.fits_slope() ? Trajectory::Derivatives::of_law_and_slope
-                                   : Trajectory::Derivatives::of_law};
+                                   : Trajectory::Derivatives::of_law,
+          Trajectory::AtRadius::stays};
 }
 
 double RollModel::slope(const std::vector<double>& theta, std::size_t run) const {
@@ -163,7 +167,7 @@ RawModel RollModel::raw(const std::vector<double>& theta, std::size_t r) const {
     if (position) return {s.x, s.x_a, s.x_b, s.x_v0, s.x_S};
     return {s.v, s.v_a, s.v_b, s.v_v0, s.v_S};
   };
-  ChebyshevPanels rolled(run.t, roll.stop_time(), direct);
+  ChebyshevPanels rolled(run.t, roll.smooth_until(), direct);
   return [&q = parameters_, a = parameters_.law(theta).a, x0 = parameters_.x0(theta, r),
           way = run.way, rolled](double t, double* slopes, std::size_t stride) mutable {
     const auto [s, by_a, by_b, by_v0, by_S] = rolled(t);
@@ -179,7 +183,7 @@ std::vector<double> RollModel::raw_column(const std::vector<double>& theta, std:
   const auto direct = [&](double t) {
     return std::array{run.raw_is_position ? roll.distance_at(t) : roll.speed_at(t).v};
   };
-  ChebyshevPanels rolled(run.t, roll.stop_time(), direct);
+  ChebyshevPanels rolled(run.t, roll.smooth_until(), direct);
   const double x0 = parameters_.x0(theta, r);
   std::vector<double> column;
   column.reserve(run.t.size());

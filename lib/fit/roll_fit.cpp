@@ -179,7 +179,9 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       std::size_t n = 0;
       for (const ObservedRun& run : runs) n += run.y.size();
       const Parameters q(options, route == Route::position, runs.size(), 1, 1);
-      require_records(n, q.count(), means_taken(runs, q));
+      // Shifts are fitted for what all runs share: the v0 of their rolls is not reported.
+      const bool asked = is_trajectory(route) || q.shared() > 0;
+      require_records(n, asked ? q.count() : 0, means_taken(runs, q));
       guess = responses.empty() ? first_guess(runs, options)
                                 : guess_without_filters(route, runs, all, rows, options);
     }

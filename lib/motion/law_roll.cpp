@@ -41,7 +41,12 @@ LawRoll::LawRoll(const Body& body, Geometry geometry, const LawInUnits& law, con
 
 LawRoll::Rate LawRoll::rate(double u) const {
   Rate r{};
-  const double D = law_(c_.data(), u, r.q_c.data()), R = body_.R;
+  const double R = body_.R;
+  double D = law_(c_.data(), u, r.q_c.data());
+  if (geometry_ == Geometry::exact && D >= R && u < v0_) {
+    r.q = body_.g * incline(body_).cos / body_.K;
+    return r;
+  }
   if (geometry_ == Geometry::exact) check_shift(body_, D);
   const double A = arm_factor(body_, geometry_, D);
   const auto [cos, sin] = incline(body_);

@@ -15,11 +15,13 @@ namespace rolling {
 ///   t = int_v^v0 du/q,   x = int_v^v0 u du/q.
 /// The variable of integration is ln(v0/u). The 4-point Gauss-Legendre rule is applied to short
 /// panels up to the latest requested time. The relative error is about 1e-10. If q = 0 at some
-/// speed, the body approaches that speed and never reaches it.
+/// speed, the body approaches that speed and never reaches it. In the exact geometry a D that grows
+/// to R stays R, as with Trajectory::AtRadius::stays; there 1/A, in the derivatives, has a larger
+/// error.
 class LawRoll {
  public:
   /// `c` holds the coefficients of the law in its units; they are copied. Throws Error if the body
-  /// does not slow down at v0, if v0 <= 0, and in the exact geometry if |D| > R.
+  /// does not slow down at v0, if v0 <= 0, and in the exact geometry if |D| > R at v0.
   LawRoll(const Body&, Geometry, const LawInUnits&, const double* c, double v0);
 
   static constexpr std::size_t most = Law::most + 1;

@@ -31,6 +31,8 @@ class SpeedIntegrals {
   double stop() const { return stop_; }
   /// The time at which D reaches R on the way down (b < 0); infinity if it never does.
   double end() const { return end_; }
+  /// The y where D reaches R, if it does.
+  double last() const { return pieces_.back().y + pieces_.back().width; }
 
   /// lambda with int_0^lambda f e^(-s y) dy = time, for time below stop() and up to end(). `rest`
   /// is stop() - time, from the caller, who may know it without cancellation; infinite when stop()

@@ -37,9 +37,9 @@ SpeedIntegrals integrals_of(const Body& body, Geometry geometry, PowerLaw law, d
 }  // namespace
 
 Trajectory::Trajectory(const Body& body, Geometry geometry, PowerLaw law, double v0,
-                       Derivatives derivatives)
+                       Derivatives derivatives, AtRadius at_radius)
     : body_(body), geometry_(geometry), law_(law), v0_(v0), log_v0_(std::log(v0)),
-      integrals_(integrals_of(body, geometry, law, v0)) {
+      integrals_(integrals_of(body, geometry, law, v0)), stays_(at_radius == AtRadius::stays) {
   if (v0 == 0) return;
   if (body.slope != 0 || derivatives == Derivatives::of_law_and_slope) {
     const Depth depth =
@@ -47,9 +47,15 @@ Trajectory::Trajectory(const Body& body, Geometry geometry, PowerLaw law, double
     incline_.emplace(geometry, law.b, body.K, depth.ratio, depth.arm_square, body.slope);
     unit_ = v0 * std::hypot(1, body.slope) / body.g;
     stop_time_ = unit_ * incline_->stop();
-    last_time_ = unit_ * incline_->end();
-    if (std::isinf(stop_time_)) return;
+    radius_time_ = unit_ * incline_->end();
+    if (radius_time_ < infinity) radius_speed_ = v0 * incline_->speed(incline_->last());
+    if (std::isinf(stop_time_) && !(stays_ && radius_speed_ > 0)) return;
     stopped_ = point_of(incline_->last(), Wanted::speed_and_distance);
+    if (radius_speed_ > 0) {
+      const auto g = incline_->gradient(incline_->last(), Wanted::speed);
+      stop_at_radius({-unit_ * g.h0 / law.a, -unit_ * (log_v0_ * g.h0 - g.h1),
+                      unit_ / v0 / incline_->start_rate(), -unit_ * (g.k0 - fall() * g.time)});
+    }
     stopped_.v = stopped_.v_a = stopped_.v_b = stopped_.v_v0 = stopped_.v_S = 0;
     return;
   }
@@ -57,8 +63,9 @@ Trajectory::Trajectory(const Body& body, Geometry geometry, PowerLaw law, double
   unit_ = (D >= std::numeric_limits<double>::min() ? v0 / D : std::pow(v0, 1 - law.b) / law.a) *
           ((body.K + 1) * body.R / body.g);
   stop_time_ = unit_ * integrals_.stop();
-  last_time_ = unit_ * integrals_.end();
-  if (std::isinf(stop_time_)) return;
+  radius_time_ = unit_ * integrals_.end();
+  if (radius_time_ < infinity) radius_speed_ = velocity(integrals_.last());
+  if (std::isinf(stop_time_) && !(stays_ && radius_speed_ > 0)) return;
   const auto g = integrals_.gradient(infinity);
   const double length = v0 * unit_, x = length * g.distance;
   stopped_ = {0,
@@ -68,7 +75,40 @@ Trajectory::Trajectory(const Body& body, Geometry geometry, PowerLaw law, double
               0,
               -length * g.g0 / law.a,
               -length * (log_v0_ * g.g0 - g.g1),
-              unit_ * integrals_.f(0)};
+              (v0 - radius_speed_) / v0 * unit_ * integrals_.f(0)};
+  if (radius_speed_ > 0)
+    stop_at_radius(
+        {-unit_ * g.h0 / law.a, -unit_ * (log_v0_ * g.h0 - g.h1), unit_ / v0 * integrals_.f(0)});
+}
+
+/// The derivative of ln(1/cos(theta)) by the slope.
+double Trajectory::fall() const { return body_.slope / (1 + body_.slope * body_.slope); }
+
+// With q = -v' while D stays R, which is proportional to cos(theta), the stop is v/q later and
+// v^2/(2 q) further on. At fixed t, dx/dp = dX/dp - v dT/dp, as above.
+void Trajectory::stop_at_radius(const ByParameters& time) {
+  const double v = radius_speed_, T = v * body_.K / (body_.g * incline(body_).cos), x = v * T / 2;
+  stop_time_ = radius_time_ + T;
+  stopped_.x += x;
+  stopped_.x_a += v * time.a, stopped_.x_b += v * time.b, stopped_.x_v0 += v * time.v0;
+  stopped_.x_S += v * time.S + x * fall();
+  stop_time_by_ = time;
+  stop_time_by_.S += T * fall();
+}
+
+Trajectory::Point Trajectory::at_radius(double rest) const {
+  const ByParameters& T = stop_time_by_;
+  const double q = radius_deceleration(), v = q * rest;
+  return {v,
+          stopped_.x - v * rest / 2,
+          q * T.a,
+          q * T.b,
+          q * T.v0,
+          stopped_.x_a - v * T.a,
+          stopped_.x_b - v * T.b,
+          stopped_.x_v0 - v * T.v0,
+          q * (T.S - fall() * rest),
+          stopped_.x_S - v * (T.S - fall() * rest / 2)};
 }
 
 void check_roll(const Body& body, PowerLaw law, double v0) {
@@ -91,36 +131,38 @@ void check_roll(const Body& body, PowerLaw law, double v0) {
 }
 
 void Trajectory::check_time(double t) const {
-  if (t > last_time_)
+  if (t > radius_time_)
     fail(
         "at t = {:.6g} s the shift has grown beyond the radius {:.6g} m (since t = {:.6g} s): b < "
         "0 has no meaning there",
-        t, body_.R, last_time_);
+        t, body_.R, radius_time_);
 }
 
 double Trajectory::log_ratio(double t, double rest) const {
   if (rest <= 0) return infinity;
   if (t == 0) return 0;
+  if (rolls_at_radius(t)) return std::log(v0_ / (radius_deceleration() * rest));
   check_time(t);
-  return integrals_.lambda(t / unit_, rest / unit_);
+  return integrals_.lambda(t / unit_, rest_of_law(rest) / unit_);
 }
 
 double Trajectory::velocity(double lambda) const { return v0_ * std::exp(-lambda); }
 
 double Trajectory::position(double t, double lambda) const {
   if (lambda == infinity) return stopped_.x;
+  if (rolls_at_radius(t)) return at_radius(stop_time_ - t).x;
   return lambda < 1e-17 ? v0_ * t
                         : v0_ * (unit_ * integrals_.distance(lambda));  // unit_ may be infinite
 }
 
 double Trajectory::shift(double v) const {
-  const double D = law_(v);
+  const double D = stays_ ? std::min(law_(v), body_.R) : law_(v);
   check_shift(body_, D);
   return D;
 }
 
 double Trajectory::acceleration(double v) const {
-  return acceleration_from_shift(body_, geometry_, law_(v));
+  return acceleration_from_shift(body_, geometry_, shift(v));
 }
 
 // With T(v; a, b, v0) = t the integral over speed, at fixed t:  dv/dp = -(dT/dp) / (dT/dv) =
@@ -130,6 +172,7 @@ double Trajectory::acceleration(double v) const {
 Trajectory::Point Trajectory::at(double t, Wanted wanted) const {
   if (t == 0) return {v0_, 0, 0, 0, v0_ > 0 ? 1.0 : 0.0, 0, 0, 0};
   if (incline_) return on_slope(t, wanted);
+  if (rolls_at_radius(t)) return at_radius(stop_time_ - t);
   const double lambda = log_ratio(t), a = law_.a, log_v0 = log_v0_;
   if (lambda == infinity) return stopped_;
   // The limit for lambda -> 0, where the speed hardly changes, lambda^2 underflows and unit_ may be
@@ -163,8 +206,9 @@ Trajectory::Point Trajectory::at(double t, Wanted wanted) const {
 Trajectory::Point Trajectory::on_slope(double t, Wanted wanted) const {
   const double rest = stop_time_ - t;
   if (rest <= 0) return stopped_;
+  if (rolls_at_radius(t)) return at_radius(rest);
   check_time(t);
-  return point_of(incline_->place(t / unit_, rest / unit_), wanted);
+  return point_of(incline_->place(t / unit_, rest_of_law(rest) / unit_), wanted);
 }
 
 // With q = g cos(theta) net/(K + A), the deceleration, the time is T = int du/q, and as above, at
@@ -185,12 +229,16 @@ Trajectory::Point Trajectory::point_of(SlopeIntegrals::Place place, Wanted wante
               0,
               -v0_ * g.rate * (g.k0 - fall * g.time)};
   if (wanted == Wanted::speed) return point;
+  point.x = v0_ * (unit_ * g.distance);
+  point.x_a = -length * g.g0 / a;
+  point.x_b = -length * (log_v0_ * g.g0 - sign * g.g1);
+  point.x_v0 = g.change * unit_ / start;
+  point.x_S = -length * (g.j - fall * g.w);
+  if (place.beyond == 0) return point;  // at D = R and K = 0 the derivatives of v have no bound
   const double beyond = place.beyond * unit_;
-  point.x = v0_ * (unit_ * g.distance) + point.v * beyond;
-  point.x_a = -length * g.g0 / a + point.v_a * beyond;
-  point.x_b = -length * (log_v0_ * g.g0 - sign * g.g1) + point.v_b * beyond;
-  point.x_v0 = g.change * unit_ / start + point.v_v0 * beyond;
-  point.x_S = -length * (g.j - fall * g.w) + point.v_S * beyond;
+  point.x += point.v * beyond;
+  point.x_a += point.v_a * beyond, point.x_b += point.v_b * beyond;
+  point.x_v0 += point.v_v0 * beyond, point.x_S += point.v_S * beyond;
   return point;
 }
 

@@ -2,10 +2,12 @@
 // ExactForm and the trajectory fits both use it.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
 #include "contact/body.h"
+#include "contact/contact.h"
 #include "contact/power_law.h"
 #include "motion/slope_integrals.h"
 #include "motion/speed_integrals.h"
@@ -23,9 +25,8 @@ void check_roll(const Body&, PowerLaw, double v0);
 /// by Newton else.
 ///
 /// Exact geometry with b < 0: D grows as the body slows down and reaches R at a speed v_R > 0,
-/// where the law loses its meaning. The roll exists up to that moment; later times throw Error, and
-/// stop_time() is infinite. Where v_R is so small that the time below it does not show in a double
-/// (b near 0), the body stops like any other.
+/// where the law loses its meaning. AtRadius says what follows. Where v_R is so small that the time
+/// below it does not show in a double (b near 0), the body stops like any other.
 ///
 /// A mat that is not level (Body::slope) adds the slope's part of gravity; the same integrals are
 /// then taken by SlopeIntegrals. x and v >= 0 count along the motion, so the slope of the Body is
@@ -36,9 +37,16 @@ class Trajectory {
  public:
   /// By which parameters at() and speed_at() differentiate.
   enum class Derivatives { of_law, of_law_and_slope };
+  /// What follows where D reaches R.
+  enum class AtRadius {
+    ends,  ///< the roll ends there: later times throw Error, and stop_time() is infinite
+    stays  ///< D stays R, so that A = 0 and v' = -g cos(theta)/K (Eq. 12) down to the stop: for
+           ///< fits, whose search needs a value at every time, continuous in the law
+  };
 
   /// Refuses what check_roll refuses. v0 = 0 is rest for ever.
-  Trajectory(const Body&, Geometry, PowerLaw, double v0, Derivatives = Derivatives::of_law);
+  Trajectory(const Body&, Geometry, PowerLaw, double v0, Derivatives = Derivatives::of_law,
+             AtRadius = AtRadius::ends);
 
   /// State at time t, x counted from 0 at t = 0, and the exact partial derivatives at fixed t by a,
   /// b, v0 and the slope S. v_S and x_S are 0 unless they are asked for or the mat is not level.
@@ -57,6 +65,11 @@ class Trajectory {
   double last_speed() const { return incline_ ? v0_ * incline_->last_speed() : 0; }
   /// The speed that counts as rest [m/s]: 0, or that of the moment just named.
   double rest_speed() const { return incline_ ? v0_ * incline_->rest_speed() : 0; }
+  /// When D reaches R (b < 0) [s], infinity if it never does; and v there [m/s], or 0.
+  double radius_time() const { return radius_time_; }
+  double radius_speed() const { return radius_speed_; }
+  /// Up to this time v and x are smooth functions of time [s].
+  double smooth_until() const { return std::min(stop_time_, radius_time_); }
 
   /// t >= 0 [s]. From the stop on: v = 0 with zero derivatives, x the stopping distance with its
   /// derivatives.
@@ -79,15 +92,27 @@ class Trajectory {
   const SpeedIntegrals& integrals() const { return integrals_; }
 
   /// D [m] and dv/dt [m/s^2] at speed v. Throw Error where |D| > R (A = 1 and b < 0, just before
-  /// the stop).
+  /// the stop), unless D stays R.
   double shift(double v) const;
   double acceleration(double v) const;
 
  private:
+  struct ByParameters {
+    double a, b, v0, S = 0;
+  };
   Point at(double t, Wanted) const;
   Point on_slope(double t, Wanted) const;
-  void check_time(double t) const;  // throws Error beyond last_time_
+  void check_time(double t) const;  // throws Error beyond radius_time_
   Point point_of(SlopeIntegrals::Place, Wanted) const;
+  void stop_at_radius(const ByParameters& time);
+  Point at_radius(double rest) const;
+  double radius_deceleration() const { return body_.g * incline(body_).cos / body_.K; }
+  double fall() const;
+  bool rolls_at_radius(double t) const { return t > radius_time_ && t < stop_time_ && stays_; }
+  /// stop_time_ - t for the integrals: infinite where they end at D = R.
+  double rest_of_law(double rest) const {
+    return radius_speed_ > 0 ? std::numeric_limits<double>::infinity() : rest;
+  }
 
   Body body_;
   Geometry geometry_;
@@ -98,8 +123,10 @@ class Trajectory {
   SpeedIntegrals integrals_;
   std::optional<SlopeIntegrals> incline_;  // where the mat is not level, or its slope a parameter
   double stop_time_ = 0;
-  double last_time_ = std::numeric_limits<double>::infinity();  // beyond it the law has no meaning
+  double radius_time_ = std::numeric_limits<double>::infinity(), radius_speed_ = 0;
+  bool stays_;  // AtRadius::stays
   Point stopped_{};
+  ByParameters stop_time_by_{};  // the derivatives of stop_time_, where D stays R
 };
 
 }  // namespace rolling

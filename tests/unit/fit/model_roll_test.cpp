@@ -296,6 +296,36 @@ TEST_CASE("trajectory: white noise, intervals that hold and no bias", "[fit]") {
   }
 }
 
+TEST_CASE("trajectory: in the exact geometry with a rest, no held b is better than the free one",
+          "[fit]") {
+  FitOptions options;
+  options.geometry = Geometry::exact;
+  simulated::Noise noise(17);
+  for (const double b : {-0.3, -0.1, -0.05, 0.05})
+    for (const Route route : {Route::velocity, Route::position}) {
+      const auto truth = simulated::roll(cylinder, 2e-3, b, 0.5);
+      const double stop = std::pow(0.5, 1 - b) / ((1 - b) * truth.a * truth.c);
+      FitRun run{};
+      run.body = cylinder;
+      for (int i = 0; i < 100; ++i) {
+        const double t = 1.1 * stop * i / 99;
+        run.t.push_back(t);
+        if (route == Route::velocity) run.v.push_back(truth.v(t) + noise(2e-3));
+        else run.x.push_back(truth.x(t) + noise(3e-4));
+      }
+      const double parameters = route == Route::velocity ? 3 : 4;
+      const auto rss = [&](std::optional<double> held) {
+        FitOptions of = options;
+        of.b = held;
+        const double rms = fit(route, {run}, of).rms;
+        return rms * rms * (100 - parameters + (held ? 1 : 0));
+      };
+      CAPTURE(b, route == Route::position);
+      const double free = rss({});
+      for (double by = -0.06; by < 0.065; by += 0.01) CHECK(rss(b + by) >= free * (1 - 1e-12));
+    }
+}
+
 TEST_CASE("model: at dense times the roll is that of single times", "[fit]") {
   const PowerLaw law{1.87e-3, 0.215}, fast{1.87e-3, 1.4};
   for (const auto& [of, v0] : {std::pair(law, 0.5), std::pair(fast, 2.0)})

@@ -54,6 +54,31 @@ TEST_CASE("law roll: for a v^b it is the trajectory, derivatives too", "[law]") 
       }
 }
 
+TEST_CASE("law roll: where D of a v^b reaches R it stays there, as in the trajectory", "[law]") {
+  Body body{1.375, 0.04, 0.5};
+  for (const double slope : {0.0, 2e-3, -1e-3})
+    for (const double b : {-0.05, -0.3, -0.5}) {
+      body.slope = slope;
+      const double c[]{2e-3, b};
+      const Trajectory exact(body, Geometry::exact, {c[0], c[1]}, 0.5,
+                             Trajectory::Derivatives::of_law_and_slope,
+                             Trajectory::AtRadius::stays);
+      LawRoll rolled(body, Geometry::exact, {&laws()[0], 1, 1}, c, 0.5);
+      for (const double part : {0.3, 0.9, 0.99, 1.01, 2.0}) {
+        const double t = part * exact.stop_time();
+        const auto p = rolled.at(t);
+        const auto q = exact.at(t);
+        CAPTURE(slope, b, t);
+        CHECK(p.v == Approx(q.v).epsilon(1e-7).margin(1e-12));
+        CHECK(p.x == Approx(q.x).epsilon(1e-8));
+        CHECK(p.x_c[0] == Approx(q.x_a).epsilon(1e-5));
+        CHECK(p.x_c[1] == Approx(q.x_b).epsilon(1e-5));
+        CHECK(p.x_c[2] == Approx(q.x_S).epsilon(1e-5));
+        CHECK(p.x_v0 == Approx(q.x_v0).epsilon(1e-7));
+      }
+    }
+}
+
 TEST_CASE("law roll: closed forms of the other laws", "[law]") {
   const double line[]{0.1, 0.2}, square[]{0.1, 0.4}, below[]{-0.05, 0.2}, peak[]{0, 0.3, 0.4};
   LawRoll by_line = roll(2, line), by_square = roll(4, square), by_below = roll(2, below),

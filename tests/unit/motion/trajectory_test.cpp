@@ -168,6 +168,61 @@ TEST_CASE("Trajectory: exact geometry with b < 0 ends where D reaches R", "[roll
   CHECK_THROWS_AS(approximate.acceleration(1e-4), Error);
 }
 
+TEST_CASE("Trajectory: where D stays R, the roll and its derivatives against quadrature",
+          "[rolling]") {
+  struct {
+    double K, a, b, v0, S, t, radius_time, stop, v, x;
+    double v_a, v_b, v_v0, v_S, x_a, x_b, x_v0, x_S;
+  } const rolls[] = {
+#include "unit/motion/radius_reference.inc"
+  };
+  using Derivatives = Trajectory::Derivatives;
+  for (const auto& r : rolls)
+    for (const auto by : {Derivatives::of_law, Derivatives::of_law_and_slope}) {
+      const Trajectory roll({1, 0.04, r.K, 9.81, r.S}, Geometry::exact, {r.a, r.b}, r.v0, by,
+                            Trajectory::AtRadius::stays);
+      CAPTURE(r.K, r.b, r.S, r.t);
+      const auto p = roll.at(r.t);
+      // v belongs to the time that is left. Where A should be 0 it is some sqrt(2 eps), which is so
+      // much of an integral over dA/b, in units of the time that is left at D = R.
+      const double error = 20 * eps, s = 1 - r.b,
+                   of_v = r.v > 0 ? error * r.stop / (r.stop - r.t) : 0,
+                   of_slopes = error + std::sqrt(2 * eps) / -r.b * s *
+                                           std::pow(roll.radius_speed() / r.v0, s);
+      const double log_u = std::abs(std::log(r.v0)) + std::abs(std::log(roll.radius_speed()));
+      CHECK(roll.radius_time() == Approx(r.radius_time).epsilon(error));
+      CHECK(roll.stop_time() == Approx(r.stop).epsilon(error));
+      CHECK(p.v == Approx(r.v).epsilon(of_v));
+      CHECK(roll.speed_at(r.t).v == p.v);
+      CHECK(p.x == Approx(r.x).epsilon(error));
+      CHECK(roll.distance_at(r.t) == Approx(p.x).epsilon(error));
+      CHECK(p.v_a == Approx(r.v_a).epsilon(of_slopes));
+      CHECK(p.v_b == Approx(r.v_b).epsilon(0).margin(of_slopes * log_u * std::abs(r.a * r.v_a)));
+      CHECK(p.v_v0 == Approx(r.v_v0).epsilon(of_slopes));
+      CHECK(p.x_a == Approx(r.x_a).epsilon(of_slopes));
+      CHECK(p.x_b == Approx(r.x_b).epsilon(0).margin(of_slopes * log_u * std::abs(r.a * r.x_a)));
+      CHECK(p.x_v0 == Approx(r.x_v0).epsilon(of_slopes));
+      if (by == Derivatives::of_law && r.S == 0) continue;
+      CHECK(p.v_S == Approx(r.v_S).epsilon(of_slopes));
+      CHECK(p.x_S == Approx(r.x_S).epsilon(of_slopes));
+    }
+}
+
+TEST_CASE("Trajectory: the place of rest is a continuous function of b, through b = 0",
+          "[rolling]") {
+  const auto rest = [](double b) {
+    return Trajectory({1, 0.04, 0.5}, Geometry::exact, {2e-3, b}, 0.5,
+                      Trajectory::Derivatives::of_law, Trajectory::AtRadius::stays)
+        .at(10);
+  };
+  // A step further is where the derivatives at both ends of the step lead (trapezoid rule).
+  for (double b = -0.6; b < 0.1; b += 1e-3) {
+    const auto here = rest(b), next = rest(b + 1e-3);
+    CAPTURE(b);
+    CHECK(next.x - here.x == Approx((here.x_b + next.x_b) / 2 * 1e-3).epsilon(1e-5));
+  }
+}
+
 TEST_CASE("Trajectory: refusals", "[rolling]") {
   const Body body{1, 0.04, 0.5};
   const PowerLaw law{1e-3, 0.2};
