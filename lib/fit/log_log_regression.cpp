@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "base/by_column.h"
@@ -84,36 +86,74 @@ std::vector<double> scaled(std::span<const double> Q, std::size_t p,
   return result;
 }
 
-/// Adds the noise and the bias of ln D - b ln v to a line: those of the best-fitting roll, observed
-/// through the known filters.
-void carry_noise(Fitted& line, const std::vector<FitRun>& all, const FitOptions& options,
-                 std::vector<Response> responses) {
-  std::vector<FilterMatrix> D, v;
-  for (const Response& response : responses)
-    D.push_back(response.of.at("D")), v.push_back(response.of.at("v"));
-  Fitted roll;
-  try {
-    // The roll is fitted to all records; a selection of those with D > 0 would select by their
-    // noise.
-    roll = fit_rolls(Route::shift, all, usable(Route::shift, all), std::move(responses), options);
-  } catch (const Error&) {  // no roll fits: the line keeps its classical errors
-    return;
+/// The roll that made the records of a line, for known filters.
+struct KnownRoll {
+  std::vector<FitRun> runs;  ///< those of the line; the records in which the roll rests are missing
+  std::vector<Response> responses;
+  Fitted fit;
+};
+
+/// Makes the records missing in which the roll rests: their v and D are noise alone, and where both
+/// happen to be positive their logarithms are far from the line.
+void leave_out_rest(KnownRoll& roll) {
+  for (std::size_t r = 0; r < roll.runs.size(); ++r) {
+    FitRun& run = roll.runs[r];
+    const double stop = roll.fit.rolls->runs()[r].origin +
+                        roll.fit.rolls->trajectory(roll.fit.minimum.theta, r).stop_time();
+    for (std::size_t i = 0; i < run.t.size(); ++i)
+      if (run.t[i] >= stop) run.D[i] = std::numeric_limits<double>::quiet_NaN();
   }
+}
+
+/// The best-fitting roll of the runs that have a logarithm; nothing if the filters are unknown or
+/// no roll fits. It is fitted to all records of these runs; a selection of those with D > 0 would
+/// select by their noise.
+std::optional<KnownRoll> known_roll(const std::vector<FitRun>& all, const FitOptions& options,
+                                    std::vector<Response> responses) {
+  KnownRoll roll;
+  for (std::size_t r = 0; r < responses.size(); ++r)
+    if (!shift_rows(all[r], options, true).empty())
+      roll.runs.push_back(all[r]), roll.responses.push_back(std::move(responses[r]));
+  if (roll.runs.empty()) return {};
+  try {
+    roll.fit = fit_rolls(Route::shift, roll.runs, usable(Route::shift, roll.runs), roll.responses,
+                         options);
+  } catch (const Error&) {
+    return {};
+  }
+  leave_out_rest(roll);
+  return roll;
+}
+
+/// The number of records that are not missing.
+std::size_t readings(const std::vector<FitRun>& all) {
+  std::size_t count = 0;
+  for (const FitRun& run : all)
+    for (std::size_t i = 0; i < run.v.size(); ++i)
+      count += std::isfinite(run.v[i]) && std::isfinite(run.D[i]);
+  return count;
+}
+
+/// Adds the noise and the bias of ln D - b ln v to a line: those of the roll, observed through the
+/// known filters.
+void carry_noise(Fitted& line, KnownRoll known, const FitOptions& options) {
+  Fitted& roll = known.fit;
   RawNoise raw_noise = raw_noise_of(roll, std::move(roll.minimum.J));
   roll.system = {}, roll.noise = {};  // frees memory: the weights are large
   const std::size_t p = line.system.columns();
   const std::vector<double> Q = orthonormal(line, std::move(line.minimum.J));
   const auto Q_of = by_run(Q, line.system.runs, p);
   std::vector<double> along(p);  // Q^T bias
-  for (std::size_t r = 0; r < all.size(); ++r) {
+  for (std::size_t r = 0; r < known.runs.size(); ++r) {
     const ObservedRun& run = roll.rolls->runs()[r];
     std::vector<double> raw = roll.rolls->raw_column(roll.minimum.theta, r);
     for (double& value : raw) value *= run.way;  // along the motion
-    const auto shift = [&, by = *all[r].shift_of](double a) {
+    const auto shift = [&, by = *known.runs[r].shift_of](double a) {
       return run.way * shift_from_acceleration(by.body, by.geometry, run.way * a);
     };
-    const Rows rows = shift_rows(all[r], options, true);
-    const FilterMatrix D_of = D[r].of_rows(rows), v_of = v[r].of_rows(rows);
+    const Rows rows = shift_rows(known.runs[r], options, true);
+    const FilterMatrix D_of = known.responses[r].of.at("D").of_rows(rows),
+                       v_of = known.responses[r].of.at("v").of_rows(rows);
     const Points points = points_of(D_of, v_of, raw, {roll.a.value, roll.b.value}, shift,
                                     std::sqrt(raw_noise.variance));
     const auto through = [&](const FilterMatrix& H, const std::vector<double>& factors) {
@@ -141,11 +181,12 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& all, const FitOptions&
 
 Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
                    std::vector<Response> responses) {
-  ShiftRecords records = shift_records(all, options, true);
+  std::optional<KnownRoll> roll = known_roll(all, options, std::move(responses));
+  ShiftRecords records = shift_records(roll ? roll->runs : all, options, true);
   const Height height{options.a, options.b, records.log_v_ref};
   Fitted line{.system = {}, .minimum = {}};
   line.records = records.y.size();
-  line.left_out = records.left_out;
+  line.left_out = readings(all) - line.records;
   std::vector<double> start(height.count(), 0);
   if (start.size() == 2)  // the line itself, since the mean of log_u is 0
     start = {std::reduce(records.y.begin(), records.y.end()) / static_cast<double>(line.records),
@@ -156,7 +197,7 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
   const double b = height.exponent(line.minimum.theta),
                a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * height.log_v_ref);
   height.report(line, a, a);
-  if (!responses.empty()) carry_noise(line, all, options, std::move(responses));
+  if (roll) carry_noise(line, std::move(*roll), options);
   return line;
 }
 

@@ -1,21 +1,56 @@
 #include "signal/repeats.h"
 
+#include <gsl/gsl_cdf.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <functional>
+#include <vector>
 
+#include "base/median.h"
 #include "base/rounding.h"
 
 namespace rolling {
 namespace {
 
-/// The last decimal place of the readings: the greatest power of ten that divides all of them.
-double last_place(std::span<const double> readings, double rounding) {
-  double place = 1;
-  for (const double y : readings)
-    while (place > rounding && std::abs(y - std::round(y / place) * place) > rounding) place /= 10;
-  return place;
+/// The place of the last digit that the largest reading was written to, if all readings have as
+/// many significant digits, and the rounding.
+double last_place(std::span<const double> readings, double largest, double rounding) {
+  const auto first_place = [](double y) { return std::pow(10, std::floor(std::log10(y))); };
+  double digits = 1;  // the least share of the first place that all readings are multiples of
+  for (const double reading : readings)
+    if (const double y = std::abs(reading); y > rounding)
+      for (double first = first_place(y); first * digits > rounding; digits /= 10)
+        if (std::abs(y - std::round(y / (first * digits)) * first * digits) <= rounding) break;
+  return first_place(largest) * digits + rounding;
+}
+
+/// The unit of a grid on which the readings lie: the largest step of which three in five steps
+/// are whole multiples, to 2 % of the unit or to the place; a step of fewer than 8 places must be
+/// exact. Otherwise the smallest step, but no more than 8 places, since a coarser grid would show.
+/// A few steps may be off the grid, as where a lost reading changes the time between two others.
+double unit_of(std::span<const double> all_steps, double place, double rounding) {
+  constexpr std::size_t enough = 500;  // steps to look at
+  std::vector<double> steps;
+  for (std::size_t i = 0; i < all_steps.size(); i += 1 + all_steps.size() / enough)
+    steps.push_back(all_steps[i]);
+  std::ranges::sort(steps, std::greater());
+  const auto off = [=](double unit) {
+    return unit < 8 * place ? 2 * rounding : std::max(0.02 * unit, place);
+  };
+  for (std::size_t i = 0; i < steps.size();) {
+    // The mean of all steps that are equal but for rounding.
+    const double least = steps[i] - off(steps[i]);
+    double sum = 0, count = 0;
+    for (; i < steps.size() && steps[i] > least; ++i) sum += steps[i], ++count;
+    const double unit = sum / count;
+    const auto multiples = std::ranges::count_if(steps, [&](double step) {
+      return step > unit / 2 && std::abs(step - std::round(step / unit) * unit) <= off(unit);
+    });
+    if (5 * static_cast<std::size_t>(multiples) >= 3 * steps.size()) return unit;
+  }
+  return std::clamp(steps.back(), place, 8 * place);
 }
 
 }  // namespace
@@ -25,32 +60,28 @@ double records_held(std::span<const double> readings) {
   for (const double y : readings) largest = std::max(largest, std::abs(y));
   const double rounding = program_rounding * largest;
   const auto step = [&](std::size_t i) { return std::abs(readings[i] - readings[i - 1]); };
-  std::size_t changes = 0, repeats = 0;
-  double unit = std::numeric_limits<double>::infinity();  // the smallest step
+  std::vector<double> steps;  // other than 0
   for (std::size_t i = 1; i < readings.size(); ++i)
-    if (step(i) > rounding) ++changes, unit = std::min(unit, step(i));
-    else ++repeats;
-  if (changes == 0 || changes >= 3 * repeats) return 1;
-  const double place = last_place(readings, rounding) + rounding;
-  const auto is_units = [&](double jump) {
-    const double units = jump < 1.5 * unit ? 1 : 2;
-    return jump < 2.5 * unit &&
-           std::abs(jump - units * unit) <= std::max(0.02 * jump, units * place);
-  };
-  std::size_t jumps = 0, waiting = 0, held = 0, stretches = 0;  // held between two jumps
+    if (step(i) > rounding) steps.push_back(step(i));
+  if (steps.empty() || 4 * steps.size() >= 3 * readings.size()) return 1;
+  const double unit = unit_of(steps, last_place(readings, largest, rounding), rounding);
+  std::size_t waiting = 0, held = 0, stretches = 0;  // held between two jumps
   bool after_jump = false;
   for (std::size_t i = 1; i < readings.size(); ++i) {
     if (step(i) <= rounding) {
       waiting += readings[i] != 0;
       continue;
     }
-    const bool jump = !is_units(step(i));
+    const bool jump = step(i) > 2.5 * unit;
     if (jump && after_jump) held += waiting, ++stretches;
-    jumps += jump;
     after_jump = jump;
     waiting = 0;
   }
-  if (jumps >= 3 * held) return 1;
+  if (3 * held <= stretches) return 1;
+  // By chance the repetitions of a stretch end, one by one, with the first step that is not 0.
+  const double zero = std::min(unit / (2 * median(steps)), 0.5);
+  const auto count = [](std::size_t n) { return static_cast<unsigned>(n); };
+  if (gsl_cdf_negative_binomial_Q(count(held) - 1, 1 - zero, count(stretches)) > 1e-3) return 1;
   return 1 + static_cast<double>(held) / static_cast<double>(stretches);
 }
 

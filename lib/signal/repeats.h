@@ -7,13 +7,17 @@ namespace rolling {
 
 /// The mean number of records for which a reading was held; 1 if readings were not held.
 ///
-/// Held readings stay constant between two jumps. Rounded readings repeat, too, but between steps
-/// of one or two units, the smallest step (to 2 %, or to the last written digit); or they stay at
-/// the beginning and the end of a record, where the body rests: these repetitions do not count. If
-/// normally distributed steps are mostly larger than that, at most one in six is 0. Readings
-/// therefore count as held if the repetitions between jumps are more than a third of the jumps.
-/// Held readings that fall in equal steps cannot be distinguished from rounded ones and do not
-/// count; nor does rest (readings of 0).
+/// Held readings stay constant between two jumps. Readings on a grid repeat, too: rounded ones, and
+/// differences of rounded ones, whose unit is a multiple of the last digit that is written. They do
+/// so between steps of one or two units, or at the beginning and the end of a record, where the
+/// body rests: these repetitions do not count. By chance they repeat between larger steps as well.
+/// The chance that a step is 0 is at most half the unit over the median size of the other steps: of
+/// normal steps that are large it is 0.27 of that. Readings therefore count as held if there are
+/// more than one repetition for three stretches between jumps, and so many by chance less than once
+/// in a thousand times.
+///
+/// Held readings that fall in equal steps cannot be distinguished from a grid and do not count; nor
+/// does rest (readings of 0).
 double records_held(std::span<const double> readings);
 
 }  // namespace rolling

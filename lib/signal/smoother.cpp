@@ -43,6 +43,11 @@ std::size_t best_width(std::span<const Sample> run, const SignalOptions& options
   constexpr std::size_t records = 2000, widest = 1000;
   const std::size_t n = run.size(), most = std::max(least, std::min(n / 4, widest)),
                     every = std::max<std::size_t>(1, n / records);
+  if (n < 2 * least + 1) return 2 * least + 1;
+  // A mean shrinks at the ends, where it has too few samples for a prediction; savgol keeps its
+  // first and its last whole window.
+  const bool whole = options.method->has_order;
+  const std::size_t first = whole ? 0 : least;
   LocalPolynomial polynomial;
   std::vector<Sample> others;
   double least_sum = std::numeric_limits<double>::infinity();
@@ -52,10 +57,11 @@ std::size_t best_width(std::span<const Sample> run, const SignalOptions& options
   // the squared bias grows as w^4, and the noise falls as 1 / w.
   for (std::size_t half = least; half <= most; half += 1 + half / 8) {
     double sum = 0;
-    for (std::size_t i = least; i + least < n; i += every) {
-      const std::size_t k = std::min({half, i, n - 1 - i});
+    for (std::size_t i = first; i + first < n; i += every) {
+      const std::size_t k = whole ? half : std::min({half, i, n - 1 - i}),
+                        middle = std::clamp(i, k, n - 1 - k);
       others.clear();
-      for (std::size_t j = i - k; j <= i + k; ++j)
+      for (std::size_t j = middle - k; j <= middle + k; ++j)
         if (j + apart < i || j > i + apart) others.push_back(run[j]);
       const double distance =
           run[i].y - polynomial(others, {run[i].t, others.front().y}, order).value;

@@ -14,10 +14,12 @@ extern const std::span<const SignalMethod> smoothing_methods;
 /// The width in samples with the smallest error of prediction (cross-validation). The polynomial of
 /// the method (a straight line for mean and median) is fitted to the window around each sample
 /// without that sample and the two on either side, whose noise may be correlated with it (as after
-/// a central difference); the squared prediction errors are summed.
+/// a central difference); the squared prediction errors are summed. The windows are those of the
+/// method, at the ends of the run too.
 ///
 /// The width is at least 7, or what the order needs in addition to the five samples left out, and
-/// at most half of the run, or 2001. A short run has the smallest width. From 4000 samples on, only
+/// at most half of the run, or 2001; half widths are tried an eighth apart. A short run has the
+/// smallest width. From 4000 samples on, only
 /// every second, third, ... sample is predicted, so that the cost is bounded.
 std::size_t best_width(std::span<const Sample> run, const SignalOptions&);
 

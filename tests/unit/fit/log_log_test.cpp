@@ -188,6 +188,54 @@ TEST_CASE("loglog: a run without a logarithm leaves the line to the others", "[f
   CHECK(both.left_out == alone.left_out + 60);
   CHECK(both.a == alone.a);
   CHECK(both.b == alone.b);
-  CHECK(std::isfinite(both.sigma_a));
-  CHECK(std::isfinite(both.sigma_b));
+  CHECK(both.sigma_a == alone.sigma_a);
+  CHECK(both.sigma_b == alone.sigma_b);
+}
+
+namespace {
+
+/// A line of positions of the roll to 0.1 mm, which are kept up to a time and were written in a
+/// unit of their own.
+FitResult line_of_positions(const Body& body, double until, double unit, unsigned seed) {
+  const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.45);  // it stops at 2.226 s
+  simulated::Noise noise(seed);
+  std::vector<double> t, x;
+  for (int i = 0; 0.04 * i < until; ++i) {
+    t.push_back(0.04 * i);
+    x.push_back(std::round(1e4 * (0.3 + truth.x(t.back()) + noise(3e-4))) / 1e4 / unit * unit);
+  }
+  return fit(Route::loglog, {simulated::shifts(body, t, x, 11, "x")}, {});
+}
+
+}  // namespace
+
+TEST_CASE("loglog: the errors of a record with a rest do not depend on the unit of x", "[fit]") {
+  const Body body{1, 0.04, 0.5};
+  for (const double until : {2.4, 2.8, 3.2})
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+      const auto r = line_of_positions(body, until, 1, seed);
+      for (const double unit : {0.3048, 0.0254, 1e-3}) {
+        INFO("until " << until << " s, unit " << unit << " m, seed " << seed);
+        const auto same = line_of_positions(body, until, unit, seed);
+        CHECK(same.n == r.n);
+        CHECK(std::abs(same.sigma_a / r.sigma_a - 1) < 1e-6);
+        CHECK(std::abs(same.sigma_b / r.sigma_b - 1) < 1e-6);
+      }
+    }
+}
+
+TEST_CASE("loglog: the records of a rest are left out and counted, and the intervals hold",
+          "[fit]") {
+  const Body body{1, 0.04, 0.5};
+  constexpr int runs = 200;
+  int a_held = 0, b_held = 0;
+  for (unsigned seed = 1; seed <= runs; ++seed) {
+    const auto r = line_of_positions(body, 3.2, 1, seed);
+    CHECK(r.n <= 57);  // the roll stops after 56 records
+    CHECK(r.n + r.left_out == 80);
+    a_held += std::abs(std::log(r.a / 1.87e-3)) < 1.96 * r.sigma_a / r.a;
+    b_held += std::abs(r.b - 0.215) < 1.96 * r.sigma_b;
+  }
+  CHECK(a_held >= 178);  // fewer of 95 % by chance in 0.02 %
+  CHECK(b_held >= 178);
 }

@@ -1,6 +1,8 @@
 #include "signal/repeats.h"
 
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "unit/catch.h"
 #include "unit/signal/through.h"
@@ -67,4 +69,58 @@ TEST_CASE("repeats: readings that are merely rounded, at rest or few are not hel
   CHECK(records_held(Series{1}) == 1);
   CHECK(records_held(Series{1, 1}) == 1);
   CHECK(records_held(Series{0, 0, 0, 0, 0, 1, 0.7, 0.3, 0, 0, 0, 0}) == 1);
+}
+
+namespace {
+
+/// A number as a spreadsheet writes it.
+double written(double y, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, y);
+  return std::strtod(text, nullptr);
+}
+
+/// Speeds of a roll from 0.5 m/s to rest: differences of positions that were rounded to a unit,
+/// with noise of 0.3 mm; one position in `lost` is lost.
+Series differences(double rate, double slowing, double unit, std::size_t lost, int digits,
+                   unsigned seed) {
+  const Series e = noise(static_cast<std::size_t>(0.5 / slowing * rate), seed);
+  Series t, x, v;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    if (i % lost == lost / 2) continue;
+    t.push_back(static_cast<double>(i) / rate);
+    x.push_back(
+        std::round((0.5 * t.back() - slowing * t.back() * t.back() / 2 + 3e-4 * e[i]) / unit) *
+        unit);
+  }
+  for (std::size_t i = 1; i + 1 < t.size(); ++i)
+    v.push_back(written((x[i + 1] - x[i - 1]) / (t[i + 1] - t[i - 1]), digits));
+  return v;
+}
+
+}  // namespace
+
+TEST_CASE("repeats: differences of rounded positions are not held", "[signal]") {
+  for (const double rate : {20., 25., 30., 50., 100.})
+    for (const double slowing : {0.085, 0.25})  // on felt, on rubber
+      for (const double unit : {1e-3, 1.1e-3, 2e-3})
+        for (const std::size_t lost : {20u, 50u, 1000u})
+          for (const int digits : {4, 5, 17})
+            for (unsigned seed = 1; seed <= 10; ++seed) {
+              INFO("rate " << rate << ", slowing " << slowing << ", unit " << unit << ", one in "
+                           << lost << " lost, digits " << digits << ", seed " << seed);
+              CHECK(records_held(differences(rate, slowing, unit, lost, digits, seed)) == 1);
+            }
+}
+
+TEST_CASE("repeats: held readings are told on a grid of some units a step", "[signal]") {
+  for (const double unit : {0.004, 0.0125, 1. / 60})
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+      INFO("unit " << unit << ", seed " << seed);
+      const Series now = speeds(1, 5 * unit, unit, 0.1, seed);
+      Series twice;
+      for (std::size_t i = 0; i < 1000; ++i) twice.push_back(written(now[i / 2], 5));
+      CHECK(std::abs(records_held(twice) - 2) < 0.4);
+      CHECK(records_held(now) == 1);
+    }
 }

@@ -1,6 +1,8 @@
 #include "signal/smoother.h"
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "signal/savitzky_golay.h"
@@ -82,6 +84,55 @@ TEST_CASE(
         if (sum < least) least = sum, best = 2 * half + 1;
       }
       CHECK(best_width(run, {methods.at("mean")}) == best);
+    }
+}
+
+namespace {
+
+/// The value at 0 of the parabola through points (u, y) by least squares: Cramer's rule.
+long double parabola_at_0(const std::vector<std::pair<long double, long double>>& points) {
+  long double s[5] = {}, r[3] = {};
+  for (const auto& [u, y] : points) {
+    long double power = 1;
+    for (int k = 0; k < 5; ++k, power *= u) {
+      s[k] += power;
+      if (k < 3) r[k] += power * y;
+    }
+  }
+  const auto determinant = [&](long double a, long double b, long double c) {
+    return a * (s[2] * s[4] - s[3] * s[3]) - s[1] * (b * s[4] - s[3] * c) +
+           s[2] * (b * s[3] - s[2] * c);
+  };
+  return determinant(r[0], r[1], r[2]) / determinant(s[0], s[1], s[2]);
+}
+
+}  // namespace
+
+TEST_CASE("smoother: the best width of savgol is judged in its first and last whole window",
+          "[signal]") {
+  const Series t = uneven_times(35);  // half widths from 4 to 8
+  for (const double curvature : {4.0, 2.0, 0.0})
+    for (unsigned seed = 1; seed <= 12; ++seed) {
+      const Series e = noise(35, seed);
+      std::vector<Sample> run;
+      for (std::size_t i = 0; i < t.size(); ++i)
+        run.push_back({t[i], std::sin(curvature * t[i]) + 0.1 * e[i]});
+      std::size_t best = 0;
+      long double least = INFINITY;
+      for (std::size_t width = 9; width <= 17; width += 2) {
+        long double sum = 0;
+        for (std::size_t i = 0; i < 35; ++i) {
+          const std::size_t from = i < width / 2 ? 0 : std::min(i - width / 2, 35 - width);
+          std::vector<std::pair<long double, long double>> others;
+          for (std::size_t j = from; j < from + width; ++j)
+            if (std::max(i, j) - std::min(i, j) > 2)
+              others.emplace_back(static_cast<long double>(run[j].t) - run[i].t, run[j].y);
+          sum += std::pow(run[i].y - parabola_at_0(others), 2);
+        }
+        if (sum < least) least = sum, best = width;
+      }
+      INFO("curvature " << curvature << ", seed " << seed);
+      CHECK(best_width(run, {methods.at("savgol")}) == best);
     }
 }
 
