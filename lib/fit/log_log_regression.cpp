@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -88,40 +87,42 @@ std::vector<double> scaled(std::span<const double> Q, std::size_t p,
 
 /// The roll that made the records of a line, for known filters.
 struct KnownRoll {
-  std::vector<FitRun> runs;  ///< those of the line; the records in which the roll rests are missing
   std::vector<Response> responses;
   Fitted fit;
+  /// When it stops, for each run. Behind the stop v and D are noise alone, and where both happen to
+  /// be positive their logarithms are far from the line.
+  std::vector<double> stops;
 };
 
-/// Makes the records missing in which the roll rests: their v and D are noise alone, and where both
-/// happen to be positive their logarithms are far from the line.
-void leave_out_rest(KnownRoll& roll) {
-  for (std::size_t r = 0; r < roll.runs.size(); ++r) {
-    FitRun& run = roll.runs[r];
-    const double stop = roll.fit.rolls->runs()[r].origin +
-                        roll.fit.rolls->trajectory(roll.fit.minimum.theta, r).stop_time();
-    for (std::size_t i = 0; i < run.t.size(); ++i)
-      if (run.t[i] >= stop) run.D[i] = std::numeric_limits<double>::quiet_NaN();
-  }
+/// Copies of the runs that have a logarithm, and their responses; none if all runs have one.
+std::vector<FitRun> with_logarithms(const std::vector<FitRun>& all, const FitOptions& options,
+                                    std::vector<Response>& responses) {
+  std::vector<FitRun> runs;
+  std::vector<Response> theirs;
+  for (std::size_t r = 0; r < responses.size(); ++r)
+    if (has_logarithm(all[r], options)) theirs.push_back(responses[r]);
+  if (theirs.size() == all.size()) return runs;
+  for (const FitRun& run : all)
+    if (has_logarithm(run, options)) runs.push_back(run);
+  responses = std::move(theirs);
+  return runs;
 }
 
-/// The best-fitting roll of the runs that have a logarithm; nothing if the filters are unknown or
-/// no roll fits. It is fitted to all records of these runs; a selection of those with D > 0 would
-/// select by their noise.
-std::optional<KnownRoll> known_roll(const std::vector<FitRun>& all, const FitOptions& options,
+/// The best-fitting roll; nothing if the filters are unknown or no roll fits. It is fitted to all
+/// records; a selection of those with D > 0 would select by their noise.
+std::optional<KnownRoll> known_roll(const std::vector<FitRun>& runs, const FitOptions& options,
                                     std::vector<Response> responses) {
+  if (responses.empty()) return {};
   KnownRoll roll;
-  for (std::size_t r = 0; r < responses.size(); ++r)
-    if (!shift_rows(all[r], options, true).empty())
-      roll.runs.push_back(all[r]), roll.responses.push_back(std::move(responses[r]));
-  if (roll.runs.empty()) return {};
   try {
-    roll.fit = fit_rolls(Route::shift, roll.runs, usable(Route::shift, roll.runs), roll.responses,
-                         options);
+    roll.fit = fit_rolls(Route::shift, runs, usable(Route::shift, runs), responses, options);
   } catch (const Error&) {
     return {};
   }
-  leave_out_rest(roll);
+  roll.responses = std::move(responses);
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    roll.stops.push_back(roll.fit.rolls->runs()[r].origin +
+                         roll.fit.rolls->trajectory(roll.fit.minimum.theta, r).stop_time());
   return roll;
 }
 
@@ -136,7 +137,8 @@ std::size_t readings(const std::vector<FitRun>& all) {
 
 /// Adds the noise and the bias of ln D - b ln v to a line: those of the roll, observed through the
 /// known filters.
-void carry_noise(Fitted& line, KnownRoll known, const FitOptions& options) {
+void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
+                 const FitOptions& options) {
   Fitted& roll = known.fit;
   RawNoise raw_noise = raw_noise_of(roll, std::move(roll.minimum.J));
   roll.system = {}, roll.noise = {};  // frees memory: the weights are large
@@ -144,14 +146,14 @@ void carry_noise(Fitted& line, KnownRoll known, const FitOptions& options) {
   const std::vector<double> Q = orthonormal(line, std::move(line.minimum.J));
   const auto Q_of = by_run(Q, line.system.runs, p);
   std::vector<double> along(p);  // Q^T bias
-  for (std::size_t r = 0; r < known.runs.size(); ++r) {
+  for (std::size_t r = 0; r < runs.size(); ++r) {
     const ObservedRun& run = roll.rolls->runs()[r];
     std::vector<double> raw = roll.rolls->raw_column(roll.minimum.theta, r);
     for (double& value : raw) value *= run.way;  // along the motion
-    const auto shift = [&, by = *known.runs[r].shift_of](double a) {
+    const auto shift = [&, by = *runs[r].shift_of](double a) {
       return run.way * shift_from_acceleration(by.body, by.geometry, run.way * a);
     };
-    const Rows rows = shift_rows(known.runs[r], options, true);
+    const Rows rows = shift_rows(runs[r], options, true, known.stops[r]);
     const FilterMatrix D_of = known.responses[r].of.at("D").of_rows(rows),
                        v_of = known.responses[r].of.at("v").of_rows(rows);
     const Points points = points_of(D_of, v_of, raw, {roll.a.value, roll.b.value}, shift,
@@ -181,8 +183,11 @@ void carry_noise(Fitted& line, KnownRoll known, const FitOptions& options) {
 
 Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
                    std::vector<Response> responses) {
-  std::optional<KnownRoll> roll = known_roll(all, options, std::move(responses));
-  ShiftRecords records = shift_records(roll ? roll->runs : all, options, true);
+  const std::vector<FitRun> some = with_logarithms(all, options, responses);
+  const std::vector<FitRun>& runs = some.empty() ? all : some;
+  std::optional<KnownRoll> roll = known_roll(runs, options, std::move(responses));
+  ShiftRecords records =
+      shift_records(runs, options, true, roll ? roll->stops : std::vector<double>());
   const Height height{options.a, options.b, records.log_v_ref};
   Fitted line{.system = {}, .minimum = {}};
   line.records = records.y.size();
@@ -197,7 +202,7 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
   const double b = height.exponent(line.minimum.theta),
                a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * height.log_v_ref);
   height.report(line, a, a);
-  if (roll) carry_noise(line, std::move(*roll), options);
+  if (roll) carry_noise(line, runs, std::move(*roll), options);
   return line;
 }
 

@@ -12,6 +12,8 @@ namespace rolling {
 
 namespace {
 
+constexpr double never = std::numeric_limits<double>::infinity();
+
 /// The sign of the velocities of a run.
 double way_of(const FitRun& run) {
   double sum = 0;
@@ -20,16 +22,17 @@ double way_of(const FitRun& run) {
   return sum < 0 ? -1 : 1;
 }
 
-/// What v and D along the motion must exceed in a record that is fitted. Where the terms of a sum
-/// cancel, what is left is its rounding, whose logarithm is far from those of the others.
-struct Least {
-  double v, D;
-
-  Least(const FitRun& run, bool logarithms)
-      : v(rounding_of(run.v)),
-        D(logarithms ? rounding_of(run.D) : -std::numeric_limits<double>::infinity()) {}
-  bool allows(double of_v, double of_D, double min_speed) const {
-    return of_v > v && of_v >= min_speed && std::isfinite(of_v) && std::isfinite(of_D) && of_D > D;
+/// Which records of a run are fitted. v and D along the motion must exceed what is left where the
+/// terms of a sum cancel: rounding, whose logarithm is far from those of the others.
+class Used {
+ public:
+  Used(const FitRun& run, const FitOptions& options, bool logarithms, double stop)
+      : t_(run.t), v_(rounding_of(run.v)),
+        D_(logarithms ? rounding_of(run.D) : -std::numeric_limits<double>::infinity()),
+        min_speed_(options.min_speed), stop_(stop) {}
+  bool allows(std::size_t i, double v, double D) const {
+    return v > v_ && v >= min_speed_ && std::isfinite(v) && std::isfinite(D) && D > D_ &&
+           (stop_ == never || t_[i] < stop_);
   }
 
  private:
@@ -40,34 +43,42 @@ struct Least {
       if (std::isfinite(column[i])) sizes.push_back(std::abs(column[i]));
     return sizes.empty() ? 0 : program_rounding * median(sizes);
   }
+
+  const std::vector<double>& t_;
+  double v_, D_, min_speed_, stop_;
 };
 
 }  // namespace
 
-Rows shift_rows(const FitRun& run, const FitOptions& options, bool logarithms) {
+Rows shift_rows(const FitRun& run, const FitOptions& options, bool logarithms, double stop) {
   const double way = way_of(run);
-  const Least least(run, logarithms);
+  const Used used(run, options, logarithms, stop);
   Rows rows;
   for (std::size_t i = 0; i < run.v.size(); ++i)
-    if (least.allows(way * run.v[i], way * run.D[i], options.min_speed)) rows.push_back(i);
+    if (used.allows(i, way * run.v[i], way * run.D[i])) rows.push_back(i);
   return rows;
 }
 
+bool has_logarithm(const FitRun& run, const FitOptions& options) {
+  return !shift_rows(run, options, true, never).empty();
+}
+
 ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& options,
-                           bool logarithms) {
+                           bool logarithms, const std::vector<double>& stops) {
   ShiftRecords records;
   auto &y = records.y, &log_u = records.log_u;
   std::size_t most = 0;
   for (const auto& run : all) most += run.v.size();
   y.reserve(most), log_u.reserve(most);
   double sum = 0;
-  for (const auto& run : all) {
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    const FitRun& run = all[r];
     const std::size_t before = y.size();
     const double way = way_of(run);
-    const Least least(run, logarithms);
+    const Used used(run, options, logarithms, stops.empty() ? never : stops[r]);
     for (std::size_t i = 0; i < run.v.size(); ++i) {
       const double v = way * run.v[i], D = way * run.D[i];
-      if (!least.allows(v, D, options.min_speed)) {
+      if (!used.allows(i, v, D)) {
         records.left_out += std::isfinite(v) && std::isfinite(D);
         continue;
       }

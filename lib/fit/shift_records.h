@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -22,12 +23,18 @@ struct ShiftRecords {
 };
 
 /// The records with finite v > 0 of at least options.min_speed, and with D > 0 if `logarithms`;
-/// what is no more than the rounding of a difference (base/rounding.h) counts as 0. Throws Error if
-/// they do not determine the parameters.
-ShiftRecords shift_records(const std::vector<FitRun>&, const FitOptions&, bool logarithms);
+/// what is no more than the rounding of a difference (base/rounding.h) counts as 0. `stops`, if not
+/// empty, has the time of each run from which on no record is used. Throws Error if the records do
+/// not determine the parameters.
+ShiftRecords shift_records(const std::vector<FitRun>&, const FitOptions&, bool logarithms,
+                           const std::vector<double>& stops = {});
 
 /// The indices of the records of a run that are among these.
-Rows shift_rows(const FitRun&, const FitOptions&, bool logarithms);
+Rows shift_rows(const FitRun&, const FitOptions&, bool logarithms,
+                double stop = std::numeric_limits<double>::infinity());
+
+/// True if a record of the run has v > 0 and D > 0.
+bool has_logarithm(const FitRun&, const FitOptions&);
 
 /// The law in nearly uncorrelated parameters: the height and b. The height is D(v_ref) in some unit
 /// for a power law and ln D(v_ref) for a line. Parameters that are held fixed have no element in
