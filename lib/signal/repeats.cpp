@@ -1,7 +1,5 @@
 #include "signal/repeats.h"
 
-#include <gsl/gsl_cdf.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -78,10 +76,12 @@ double records_held(std::span<const double> readings) {
     waiting = 0;
   }
   if (3 * held <= stretches) return 1;
-  // By chance the repetitions of a stretch end, one by one, with the first step that is not 0.
-  const double zero = std::min(unit / (2 * median(steps)), 0.5);
-  const auto count = [](std::size_t n) { return static_cast<unsigned>(n); };
-  if (gsl_cdf_negative_binomial_Q(count(held) - 1, 1 - zero, count(stretches)) > 1e-3) return 1;
+  // In each stretch one step is not 0. Chernoff's bound for so large a share of zeros by chance.
+  const double zero = std::min(unit / (2 * median(steps)), 0.5),
+               n = static_cast<double>(held + stretches), share = static_cast<double>(held) / n,
+               distance = share * std::log(share / zero) +
+                          (1 - share) * std::log((1 - share) / (1 - zero));
+  if (share <= zero || std::exp(-n * distance) > 0.01) return 1;
   return 1 + static_cast<double>(held) / static_cast<double>(stretches);
 }
 

@@ -14,7 +14,7 @@ namespace rolling {
 /// The chance that a step is 0 is at most half the unit over the median size of the other steps: of
 /// normal steps that are large it is 0.27 of that. Readings therefore count as held if there are
 /// more than one repetition for three stretches between jumps, and so many by chance less than once
-/// in a thousand times.
+/// in a hundred times.
 ///
 /// Held readings that fall in equal steps cannot be distinguished from a grid and do not count; nor
 /// does rest (readings of 0).
