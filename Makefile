@@ -87,7 +87,7 @@ build/catch_main.o:
 	fi | $(CXX) $(CXXFLAGS) -x c++ -c -o $@ -
 
 -include $(patsubst %.o,%.d,$(call object,$(source) $(test) \
-           $(wildcard cmd/*.cpp tests/bench/*.cpp tests/fuzz/*.cpp)))
+           $(wildcard cmd/*.cpp tests/bench/*.cpp tests/fuzz/*.cpp tests/fused/*.cpp)))
 
 table1: all
 	@PATH="$$PWD/bin:$$PATH" samples/table1.sh
@@ -155,7 +155,8 @@ has_fma := $(shell grep -qw avx2 /proc/cpuinfo 2>/dev/null && grep -qw fma /proc
 build/fused/obj/%.o: %.cpp
 	@mkdir -p $(@D)
 	$(CXX) $(CPPFLAGS) -O3 -march=x86-64-v3 -ffp-contract=fast $(filter-out -O%,$(CXXFLAGS)) \
-	  -c -o $@ $<
+	  -MMD -MP -c -o $@ $<
+-include $(wildcard build/fused/obj/*/*/*.d)
 build/fused/fused: $(exact_source:%.cpp=build/fused/obj/%.o)
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
 build/fused/plain: $(exact_source:%.cpp=build/%.o)
