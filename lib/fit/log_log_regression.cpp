@@ -94,14 +94,15 @@ struct KnownRoll {
   std::vector<double> stops;
 };
 
-/// Copies of the runs that have a logarithm, and their responses; none if all runs have one.
+/// Copies of the runs that have a logarithm, and their responses; none if all runs have one, or if
+/// the filters are unknown.
 std::vector<FitRun> with_logarithms(const std::vector<FitRun>& all, const FitOptions& options,
                                     std::vector<Response>& responses) {
   std::vector<FitRun> runs;
   std::vector<Response> theirs;
   for (std::size_t r = 0; r < responses.size(); ++r)
     if (has_logarithm(all[r], options)) theirs.push_back(responses[r]);
-  if (theirs.size() == all.size()) return runs;
+  if (theirs.size() == responses.size()) return runs;
   for (const FitRun& run : all)
     if (has_logarithm(run, options)) runs.push_back(run);
   responses = std::move(theirs);
@@ -191,7 +192,8 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
   const Height height{options.a, options.b, records.log_v_ref};
   Fitted line{.system = {}, .minimum = {}};
   line.records = records.y.size();
-  line.left_out = readings(all) - line.records;
+  line.left_out = records.left_out;
+  if (!some.empty()) line.left_out += readings(all) - readings(some);
   std::vector<double> start(height.count(), 0);
   if (start.size() == 2)  // the line itself, since the mean of log_u is 0
     start = {std::reduce(records.y.begin(), records.y.end()) / static_cast<double>(line.records),

@@ -60,7 +60,11 @@ Rows shift_rows(const FitRun& run, const FitOptions& options, bool logarithms, d
 }
 
 bool has_logarithm(const FitRun& run, const FitOptions& options) {
-  return !shift_rows(run, options, true, never).empty();
+  const double way = way_of(run);
+  const Used used(run, options, true, never);
+  for (std::size_t i = 0; i < run.v.size(); ++i)
+    if (used.allows(i, way * run.v[i], way * run.D[i])) return true;
+  return false;
 }
 
 ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& options,
