@@ -84,8 +84,8 @@ std::string unit_behind_quantity(std::string_view quantity, const std::string& w
   };
   for (std::size_t n = 1; n + 1 < word.size(); ++n)
     if (is_quantity(word.substr(0, n))) {
-      const std::string rest = word.substr(n),
-                        unit = unit_of_word(quantity, rest, in_letters(rest));
+      const std::string rest = word.substr(n);
+      std::string unit = unit_of_word(quantity, rest, in_letters(rest));
       if (is_unit_of(quantity, unit)) return unit;
     }
   return {};
