@@ -55,16 +55,25 @@ TEST_CASE("smoother: the best width has nearly the least error that any width ha
     }
 }
 
+namespace {
+
+std::vector<Sample> noisy_sine(const Series& t, double curvature, unsigned seed) {
+  const Series e = noise(t.size(), seed);
+  std::vector<Sample> run;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    run.push_back({t[i], std::sin(curvature * t[i]) + 0.1 * e[i]});
+  return run;
+}
+
+}  // namespace
+
 TEST_CASE(
     "smoother: the best width is that of all the lines through the others, where there are few",
     "[signal]") {
   const Series t = uneven_times(35);  // half widths from 3 to 8
   for (const double curvature : {2.0, 0.0})
     for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u}) {
-      const Series e = noise(35, seed);
-      std::vector<Sample> run;
-      for (std::size_t i = 0; i < t.size(); ++i)
-        run.push_back({t[i], std::sin(curvature * t[i]) + 0.1 * e[i]});
+      const std::vector<Sample> run = noisy_sine(t, curvature, seed);
       std::size_t best = 0;
       long double least = INFINITY;
       for (std::size_t half = 3; half <= 8; ++half) {
@@ -113,10 +122,7 @@ TEST_CASE("smoother: the best width of savgol is judged in its first and last wh
   const Series t = uneven_times(35);  // half widths from 4 to 8
   for (const double curvature : {4.0, 2.0, 0.0})
     for (unsigned seed = 1; seed <= 12; ++seed) {
-      const Series e = noise(35, seed);
-      std::vector<Sample> run;
-      for (std::size_t i = 0; i < t.size(); ++i)
-        run.push_back({t[i], std::sin(curvature * t[i]) + 0.1 * e[i]});
+      const std::vector<Sample> run = noisy_sine(t, curvature, seed);
       std::size_t best = 0;
       long double least = INFINITY;
       for (std::size_t width = 9; width <= 17; width += 2) {
