@@ -19,8 +19,8 @@ extern const std::span<const SignalMethod> smoothing_methods;
 ///
 /// The width is at least 7, or what the order needs in addition to the five samples left out, and
 /// at most half of the run, or 2001; half widths are tried an eighth apart. A short run has the
-/// smallest width. From 4000 samples on, only
-/// every second, third, ... sample is predicted, so that the cost is bounded.
+/// smallest width. From 4000 samples on, only every second, third, ... sample is predicted, so that
+/// the cost is bounded.
 std::size_t best_width(std::span<const Sample> run, const SignalOptions&);
 
 /// Smooths with the best width of the run, which is computed when the run is complete.
