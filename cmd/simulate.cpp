@@ -204,7 +204,7 @@ class Rows {
   void write(double t, Motion& motion) {
     if (!only_t_) motion.seek(t);
     std::size_t end = count_;
-    for (const auto& quantity : row_) require_finite(numbers_[end++] = quantity.of(t, motion));
+    for (const auto& quantity : row_) numbers_[end++] = quantity.of(t, motion);
     count_ = end;
     if (count_ == numbers_.size()) format();
   }

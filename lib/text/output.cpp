@@ -42,7 +42,13 @@ void Output::names(const std::vector<Column>& columns) {
 }
 
 void Output::row(std::span<const double> values) {
-  for (const double value : values) cell(value);
+  char* to = buffer_.reserve(values.size() * (longest_number + 1));
+  for (const double value : values) {
+    require_finite(value);
+    to = write_number(to, value, digits);
+    *to++ = '\t';
+  }
+  buffer_.set_end(to - 1);
   end_line();
 }
 
