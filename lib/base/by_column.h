@@ -12,6 +12,7 @@ namespace rolling {
 /// have the same length, which may differ from that of the columns. In place: beside X there is
 /// memory for single columns alone.
 std::vector<double> by_column(std::vector<double> X, std::size_t columns, auto&& function) {
+  if (columns == 1) return function(std::move(X));
   const std::size_t rows = X.size() / columns;
   for (std::size_t c = 0; c < columns; ++c) {
     std::vector<double> column(rows);
