@@ -14,7 +14,8 @@
 namespace rolling {
 namespace {
 
-/// ln a and b of a law, or a difference of two laws.
+/// ln a and b of a law, or a difference of two laws. In another unit of speed ln a is ln D at that
+/// speed.
 struct Pair {
   double a, b;
 };
@@ -199,22 +200,28 @@ bool of_one_way(const std::vector<OwnLaw>& laws, const Fitted& joint) {
                      [&](const OwnLaw& one) { return way(one) == way(laws.front()); });
 }
 
-/// What a run's ln a and b lose where the slope of the mat grows, to first order.
+/// The mean over the runs of the logarithm of the speed at which the D of each is known best.
+double common_speed(const std::vector<OwnLaw>& laws) {
+  double log_v = 0;
+  for (const OwnLaw& one : laws)
+    log_v += best_known(one.covariance) / static_cast<double>(laws.size());
+  return log_v;
+}
+
+/// What a run's ln D and b lose where the slope of the mat grows, to first order.
 using BySlope = std::vector<Pair>;
 
 /// Finds the slope S of the mat at which the runs of both directions agree best, and moves the laws
-/// to that slope. R S acts like a shift along the way: ln D(v) changes by -way R S/D(v), and its
-/// derivative by ln v, the exponent, by b times as much the other way. A run that is alone in its
-/// direction has no residual; so the error comes from the residuals of all runs together, each
+/// (ln D and b) to that slope. R S acts like a shift along the way: ln D changes by -way R S/D, and
+/// its derivative by ln v, the exponent, by b times as much the other way. A run that is alone in
+/// its direction has no residual; so the error comes from the residuals of all runs together, each
 /// expected to be as large as its weight says.
 BySlope take_slope(std::vector<OwnLaw>& laws, double freedom, NoiseErrors& errors, Fitted& joint) {
   const auto n = static_cast<double>(laws.size());
-  double log_v = 0;  // the mean of the speeds at which the D of the runs are known best
-  for (const OwnLaw& one : laws) log_v += best_known(one.covariance) / n;
   std::vector<Estimate> log_D;
   double mean = 0, exponent = 0;
   for (const OwnLaw& one : laws) {
-    log_D.push_back(one.log_D(log_v));
+    log_D.push_back(one.log_D(0));
     mean += log_D.back().value / n;
     exponent += one.covariance.bb > 0 ? one.law.b / n : 0;  // one that is held stays
   }
@@ -226,36 +233,48 @@ BySlope take_slope(std::vector<OwnLaw>& laws, double freedom, NoiseErrors& error
   const RandomEffectsLine line = random_effects_line(log_D, by_slope, freedom);
   joint.slope->value += line.slope;
   errors.share.slope = student(freedom) * std::sqrt(line.chi2 / freedom / line.spread);
-  BySlope result;
+  BySlope lost;
   for (std::size_t i = 0; i < laws.size(); ++i) {
-    const Pair lost{by_slope[i] * (1 + exponent * log_v), -by_slope[i] * exponent};
-    laws[i].law = laws[i].law - Pair{lost.a * line.slope, lost.b * line.slope};
-    result.push_back(lost);
+    lost.push_back({by_slope[i], -by_slope[i] * exponent});
+    laws[i].law = laws[i].law - Pair{lost[i].a * line.slope, lost[i].b * line.slope};
   }
-  return result;
+  return lost;
 }
 
-/// a and b become the means of those of the runs; where the slope is fitted, they are those at the
-/// slope at which the runs agree best.
+/// The law becomes that of the mean of b and of the mean of ln D at the common speed, where both
+/// scatter independently; where the slope is fitted, they are those at the slope at which the runs
+/// agree best. The scatter of a itself, which is D at 1 m/s, is that of b if the runs are slower,
+/// and would depend on the unit of speed.
 void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, Fitted& joint) {
+  const double log_v = common_speed(laws);
+  for (OwnLaw& one : laws) {  // ln D in the place of ln a: the unit of speed is the common one
+    const Symmetric& C = one.covariance;
+    const Estimate D = one.log_D(log_v);
+    one = {
+        one.run, {D.value, one.law.b}, {D.sigma * D.sigma, C.ab + log_v * C.bb, C.bb}, one.freedom};
+  }
   BySlope by_slope(laws.size());
   if (joint.slope) by_slope = take_slope(laws, freedom, errors, joint);
-  std::vector<Estimate> as, bs;
-  for (const OwnLaw& one : laws) as.push_back(one.log_D(0)), bs.push_back(one.b());
-  const RandomEffectsMean a = random_effects_mean(as, freedom),
+  std::vector<Estimate> Ds, bs;
+  for (const OwnLaw& one : laws) Ds.push_back(one.log_D(0)), bs.push_back(one.b());
+  const RandomEffectsMean D = random_effects_mean(Ds, freedom),
                           b = random_effects_mean(bs, freedom);
+  Symmetric C{};  // of ln a and b
+  const auto add = [&](double log_D, double exponent) {
+    const double log_a = log_D - log_v * exponent;
+    C = C + Symmetric{log_a * log_a, log_a * exponent, exponent * exponent};
+  };
   Pair lost{};
-  double products = 0;
   for (std::size_t i = 0; i < laws.size(); ++i) {
-    lost.a += a.shares[i] * by_slope[i].a, lost.b += b.shares[i] * by_slope[i].b;
-    products += a.parts[i] * b.parts[i];
+    lost = lost + Pair{D.shares[i] * by_slope[i].a, b.shares[i] * by_slope[i].b};
+    add(D.parts[i], b.parts[i]);
   }
-  if (a.free) joint.a.value = std::exp(a.value);
+  add(lost.a * errors.share.slope, lost.b * errors.share.slope);
   if (b.free) joint.b.value = b.value;
-  const double by_slope_a = lost.a * errors.share.slope, by_slope_b = lost.b * errors.share.slope;
-  errors.share.a = joint.a.value * std::hypot(a.error(), by_slope_a);
-  errors.share.b = std::hypot(b.error(), by_slope_b);
-  errors.share.together = joint.a.value * (products + by_slope_a * by_slope_b);
+  if (D.free) joint.a.value = std::exp(D.value - log_v * joint.b.value);
+  const double a = joint.a.value;
+  errors.share.a = a * std::sqrt(C.aa), errors.share.b = std::sqrt(C.bb);
+  errors.share.together = a * C.ab;
 }
 
 }  // namespace

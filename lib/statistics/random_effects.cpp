@@ -53,12 +53,6 @@ RandomEffectsLine random_effects_line(const std::vector<Estimate>& x, const std:
 
 double student(double freedom) { return gsl_cdf_tdist_Pinv(0.975, freedom) / 1.96; }
 
-double RandomEffectsMean::error() const {
-  double squares = 0;
-  for (double part : parts) squares += part * part;
-  return std::sqrt(squares);
-}
-
 RandomEffectsMean random_effects_mean(const std::vector<Estimate>& x, double freedom) {
   const std::size_t n = x.size();
   const RandomEffectsLine line = random_effects_line(x, std::vector<double>(n, 0), freedom);

@@ -43,9 +43,8 @@ struct RandomEffectsMean {
   bool free;  ///< not all numbers are equal without errors, as those of a parameter that is held
               ///< fixed are; else all others are 0
   double value;
-  std::vector<double> shares, parts;  ///< of the weights; of the error
-
-  double error() const;
+  std::vector<double> shares;  ///< of the runs in the weights
+  std::vector<double> parts;   ///< of the runs in the error, with their signs
 };
 /// Two or more numbers; `freedom` as in random_effects_line().
 RandomEffectsMean random_effects_mean(const std::vector<Estimate>& x, double freedom);

@@ -293,6 +293,36 @@ TEST_CASE("agreement: the errors allow for scatter of runs that are not equally 
   }
 }
 
+// Slow rolls of unequal noise: a is D at a speed that none of them has.
+TEST_CASE("agreement: where runs disagree, the law and its errors do not depend on the units",
+          "[fit]") {
+  simulated::Noise noise(43);
+  for (int k = 0; k < 10; ++k) {
+    std::vector<FitRun> runs;
+    for (const double size : {1e-4, 1e-3, 3e-3, 1e-4})
+      runs.push_back(roll({rubber.a * (1 + noise(0.05)), rubber.b}, 0, 1, noise, size));
+    const auto r = fit(Route::position, runs, {});
+    REQUIRE_FALSE(r.agreement->agree());
+    for (const auto& [length, time] : {std::pair(20.0, 1.0), {1e3, 1e3}, {0.03, 10.0}}) {
+      std::vector<FitRun> same = runs;
+      for (FitRun& run : same) {
+        run.body.R *= length, run.body.g *= length / (time * time);
+        for (double& x : run.x) x *= length;
+        for (double& t : run.t) t *= time;
+      }
+      const auto other = fit(Route::position, same, {});
+      const double log_v = std::log(length / time), relative = r.sigma_a / r.a;
+      CHECK(other.b == Approx(r.b).epsilon(1e-9));
+      CHECK(other.sigma_b == Approx(r.sigma_b).epsilon(1e-7));
+      CHECK(other.a / (r.a * length * std::exp(-log_v * r.b)) == Approx(1).epsilon(1e-9));
+      CHECK(std::pow(other.sigma_a / other.a, 2) ==
+            Approx(relative * relative - 2 * log_v * r.corr * relative * r.sigma_b +
+                   log_v * log_v * r.sigma_b * r.sigma_b)
+                .epsilon(1e-6));
+    }
+  }
+}
+
 // What a run cannot tell by itself, it does not tell of agreement either.
 TEST_CASE("agreement: a run of two records has no say", "[fit]") {
   simulated::Noise noise(34);
