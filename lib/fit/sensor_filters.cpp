@@ -24,21 +24,31 @@ std::vector<Response> responses_by(const LinearFilter& filter, const std::vector
 /// A filter and the share of white noise in its output.
 struct Maker {
   const LinearFilter* filter = nullptr;
-  WhiteShare white = {0, 0};
+  double share = 0;
+  double gain = 0;  // ln of the likelihood ratio to white noise beside a roll without a filter
 };
 
 /// The filter and the share with the largest restricted likelihood; no filter if white noise alone
-/// is nearly as likely.
+/// is nearly as likely. A filter rounds off the stop, and what its roll leaves there looks like
+/// correlated noise: so the roll without a filter is the one to compare with.
 Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
                   const FitOptions& options, const Fitted& plain) {
   const double least = std::exp(-12), white = std::exp(4);
+  const std::vector<double>& theta = plain.minimum.theta;
+  const auto model_of = [&](const std::vector<Response>& responses) {
+    return std::make_shared<const RollModel>(
+        observe(Route::velocity, all, rows, responses, options), plain.rolls->parameters());
+  };
+  const auto with_white_noise = [&](const std::shared_ptr<const RollModel>& model) {
+    return restricted_likelihood(system_of(model, std::make_shared<const Noise>()), theta);
+  };
+  const double of_plain = with_white_noise(model_of({}));
   Maker best;
   for (const LinearFilter& filter : options.possible_filters) {
-    const auto model = std::make_shared<const RollModel>(
-        observe(Route::velocity, all, rows, responses_by(filter, all), options),
-        plain.rolls->parameters());
-    const WhiteShare found = most_likely_share(model, plain.minimum.theta, least, white, white);
-    if (found.decisive() && found.gain > best.white.gain) best = {&filter, found};
+    const auto model = model_of(responses_by(filter, all));
+    const WhiteShare found = most_likely_share(model, theta, least, white, white);
+    const double gain = found.gain + with_white_noise(model) - of_plain;
+    if (gain >= 3 && gain > best.gain) best = {&filter, found.share, gain};
   }
   return best;
 }
@@ -104,11 +114,9 @@ std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const FitO
     std::vector<Rows> regular = usable(Route::velocity, all);
     if (!leave_out_irregular(all, regular, reach)) return {};
     Fitted fit = fit_rolls(Route::velocity, all, std::move(regular),
-                           responses_by(*maker.filter, all), options, maker.white.share);
+                           responses_by(*maker.filter, all), options, maker.share);
     const Uncertainty found = uncertainty_of(fit, fit.minimum.J);
-    // Differences round off the stop: what fits far worse with them was not made by them.
-    if (found.whiteness > not_white && breusch_pagan(fit.minimum.f, fit.system.runs) > 0.01 &&
-        fit.rss < 2 * plain.rss)
+    if (found.whiteness > not_white && breusch_pagan(fit.minimum.f, fit.system.runs) > 0.01)
       return fit;
   } catch (const Error&) {  // too few records, or no minimum
   }

@@ -8,8 +8,7 @@ namespace rolling {
 /// The velocity fit with the difference filter of options.possible_filters, and the share of white
 /// noise, that have the largest restricted likelihood; the likelihood is computed around `plain`, a
 /// fit without a filter. None if white noise alone, or a mean of speeds, is nearly as likely or
-/// more likely, or if the residuals of the new fit are not white, are uneven along the runs, or are
-/// much larger.
+/// more likely, or if the residuals of the new fit are not white or are uneven along the runs.
 std::optional<Fitted> fit_differences(const std::vector<FitRun>&, const FitOptions&,
                                       const Fitted& plain);
 
