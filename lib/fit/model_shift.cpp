@@ -42,13 +42,17 @@ ShiftRecords thinned(const ShiftRecords& records, std::size_t most) {
 }
 
 /// A starting point: the exponent of a coarse grid with the smallest sum of squares (the height
-/// follows by linear least squares), or the values that the user gives.
+/// follows by linear least squares), or the values that the user gives. From one exponent of the
+/// grid to the next no D changes by more than a factor e^(1/2) relative to D at the mean of ln v.
 std::vector<double> power_start(const ShiftRecords& few, const FitOptions& options, double unit) {
   const auto held = options.a ? options.a : options.start_a;
   std::vector<double> exponents;
   if (options.b || options.start_b) exponents = {options.b ? *options.b : *options.start_b};
-  else
-    for (double b = -4; b <= 8; b += 0.25) exponents.push_back(b);
+  else {
+    double widest = 2;
+    for (const double log_u : few.log_u) widest = std::max(widest, std::abs(log_u));
+    for (double b = -4; b <= 8; b += 0.5 / widest) exponents.push_back(b);
+  }
   double least = std::numeric_limits<double>::infinity(), best_b = exponents.front(), best_h = 0;
   for (double b : exponents) {
     double mm = 0, mD = 0, rss = 0;

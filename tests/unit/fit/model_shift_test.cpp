@@ -46,6 +46,27 @@ TEST_CASE("shift: DanWood to 12 digits, from NIST's starts and from none", "[fit
   }
 }
 
+// A record that is a thousand times slower than the others makes a narrow minimum beside a wide
+// one.
+TEST_CASE("shift: no exponent that is held fits better than the one that is found", "[fit]") {
+  simulated::Noise noise(45);
+  for (int k = 0; k < 20; ++k) {
+    FitRun run{};
+    run.v = {1e-4}, run.D = {7e-4 + noise(1e-5)};
+    for (int i = 0; i < 10; ++i) {
+      run.v.push_back(0.04 * (i + 1) * (1 + noise(0.1)));
+      run.D.push_back(1e-3 * run.v.back() * (1 + noise(0.01)));
+    }
+    const double free = fit(Route::shift, {run}, {}).rms * std::sqrt(9.0);
+    for (double b = -1; b < 2; b += 0.02) {
+      FitOptions held;
+      held.b = b;
+      CAPTURE(k, b);
+      CHECK(fit(Route::shift, {run}, held).rms * std::sqrt(10.0) > free * (1 - 1e-9));
+    }
+  }
+}
+
 TEST_CASE("shift: against c v, a is divided by c^b and b stays; D in other units scales a",
           "[fit]") {
   const auto one = fit(Route::shift, {danwood()}, {});
