@@ -50,12 +50,12 @@ TEST_CASE("shift: DanWood to 12 digits, from NIST's starts and from none", "[fit
 // one.
 TEST_CASE("shift: no exponent that is held fits better than the one that is found", "[fit]") {
   simulated::Noise noise(45);
-  for (int k = 0; k < 20; ++k) {
+  for (int k = 0; k < 40; ++k) {
     FitRun run{};
-    run.v = {1e-4}, run.D = {7e-4 + noise(1e-5)};
-    for (int i = 0; i < 10; ++i) {
-      run.v.push_back(0.04 * (i + 1) * (1 + noise(0.1)));
-      run.D.push_back(1e-3 * run.v.back() * (1 + noise(0.01)));
+    run.v = {1e-4}, run.D = {7e-4 * (1 + noise(0.2))};
+    for (const double v : {0.044, 0.065, 0.04, 0.46, 0.58, 0.1, 0.23, 0.27, 0.48, 0.22}) {
+      run.v.push_back(v);
+      run.D.push_back(1e-3 * std::pow(v, 0.97) * (1 + noise(0.01)));
     }
     const double free = fit(Route::shift, {run}, {}).rms * std::sqrt(9.0);
     for (double b = -1; b < 2; b += 0.02) {
