@@ -12,9 +12,9 @@ namespace rolling {
 /// themselves.
 ///
 /// `errors` are those of the joint fit. Where the runs agree, `errors` and `joint` stay as they
-/// are. Where they disagree, the law of `joint` becomes that of the mean of b and of the mean of ln D
-/// at the speed at which the runs know D best: one common law would bend between them, and 2 % of
-/// scatter in a would shift b by its error. Values and errors are those of
+/// are. Where they disagree, the law of `joint` becomes that of the mean of b and of the mean of
+/// ln D at the speed at which the runs know D best: one common law would bend between them, and 2 %
+/// of scatter in a would shift b by its error. Values and errors are those of
 /// statistics/random_effects.h. The law does not depend on the units.
 ///
 /// A fitted slope of the mat becomes the one at which the runs of both directions agree best in
