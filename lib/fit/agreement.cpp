@@ -68,7 +68,7 @@ std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own) {
   for (std::size_t r = 0; r < own.size(); ++r) {
     if (!own[r] || own[r]->degrees_left() == 0) continue;
     const Fitted& fit = *own[r];
-    const Spread covariance = uncertainty_of(fit, fit.minimum.J).covariance;
+    const Spread covariance = uncertainty_of(fit).covariance;
     auto by_log_a = fit.a.gradient;
     for (double& slope : by_log_a) slope /= fit.a.value;
     const Symmetric C{covariance(by_log_a, by_log_a) + rounding_of(by_log_a),
@@ -178,7 +178,7 @@ Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitte
     append(fit.minimum.f, one->minimum.f);
     rss += one->minimum.rss;
     left += one->degrees_left();
-    const Taken taken = taken_of(*one, one->minimum.J);
+    const Taken taken = taken_of(*one);
     std::transform(taken.begin(), taken.end(), fit.taken->begin(), fit.taken->begin(), std::plus());
     if (!one->raw_noise) continue;
     append(fit.raw_noise->innovations, one->raw_noise->innovations);
@@ -297,7 +297,7 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
   const Agreement found = compare(laws, common, parameters, options.fit_slope);
   if (found.agree()) return found;
   const Fitted around_own = with_own_noise(joint, own);
-  errors = noise_errors(around_own, uncertainty_of(around_own, around_own.minimum.J));
+  errors = noise_errors(around_own, uncertainty_of(around_own));
   // The bias of logarithms comes from the noise too.
   joint.bias_a = joint.bias_b = 0;
   for (const OwnLaw& one : laws) {

@@ -75,7 +75,7 @@ struct Search {
     const auto& f = fit.minimum.f;
     const auto& t = fit.rolls->runs().front().t;
     const std::size_t q = fit.system.columns();
-    const auto Q = orthonormal(fit, fit.minimum.J);
+    const auto Q = orthonormal(fit);
     for (std::size_t k = 3, next = 5; 4 * k <= f.size(); k = std::exchange(next, k + next)) {
       ++tests;
       const Without without = without_first(k, q, Q, f);

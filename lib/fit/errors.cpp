@@ -29,13 +29,14 @@ double Spread::operator()(std::vector<double> g, std::vector<double> h, std::siz
   return sum;
 }
 
-std::vector<double> orthonormal(const Fitted& fit, std::vector<double> J) {
+std::vector<double> orthonormal(const Fitted& fit) {
   const std::size_t q = fit.system.columns();
-  const auto parts = by_run(J, fit.system.runs, q);
+  std::vector<double> Q = jacobian(fit.system, fit.minimum.theta);
+  const auto parts = by_run(Q, fit.system.runs, q);
   for (std::size_t run = 0; run < parts.size(); ++run)
     for (std::size_t i = 0; i < parts[run].size(); i += q)
       solve_transposed(&fit.minimum.R[run * q * q], parts[run].subspan(i, q));
-  return J;
+  return Q;
 }
 
 void add_shared(std::vector<double>& M, std::size_t columns, std::size_t shared) {
@@ -48,13 +49,13 @@ void add_shared(std::vector<double>& M, std::size_t columns, std::size_t shared)
     }
 }
 
-Taken taken_of(const Fitted& fit, const std::vector<double>& J) {
+Taken taken_of(const Fitted& fit) {
   constexpr std::size_t long_run = 1000;  // there the limit holds to a few hundredths of its value
   if (fit.taken) return *fit.taken;
   if (fit.raw_noise) return fit.raw_noise->taken;
   const std::size_t n = fit.minimum.f.size(), q = fit.system.columns();
   if (n > long_run * fit.system.runs.size()) return taken_by_few(fit.minimum.theta.size());
-  const std::vector<double> Q = orthonormal(fit, J);
+  const std::vector<double> Q = orthonormal(fit);
   if (!fit.filters_known()) return taken_by(Q, q, fit.system.runs);
   std::vector<std::size_t> runs;
   const std::vector<double> informative = fit.noise->innovations(Q, runs, q);
@@ -81,18 +82,18 @@ Sources estimated(const Fitted& fit) {
   return {fit.noise->explain(fit.minimum.f), fit.noise->sources(), {}, fit.means_taken()};
 }
 
-Sources sources_of(const Fitted& fit, std::vector<double> J) {
+Sources sources_of(const Fitted& fit) {
   if (fit.raw_noise) return fit.raw_noise->sources;
-  if (!fit.filters_known()) return {fit.minimum.f, fit.system.runs, orthonormal(fit, std::move(J))};
+  if (!fit.filters_known()) return {fit.minimum.f, fit.system.runs, orthonormal(fit)};
   Sources all = estimated(fit);
-  all.B = fit.noise->through(orthonormal(fit, std::move(J)), fit.system.columns());
+  all.B = fit.noise->through(orthonormal(fit), fit.system.columns());
   return all;
 }
 
 /// The meat B^T B of each run, for sources of variance one and known filters.
-std::vector<double> meat_of(const Fitted& fit, std::vector<double> J) {
+std::vector<double> meat_of(const Fitted& fit) {
   const std::size_t q = fit.system.columns();
-  if (!fit.raw_noise) return fit.noise->meat(orthonormal(fit, std::move(J)), q);
+  if (!fit.raw_noise) return fit.noise->meat(orthonormal(fit), q);
   return outer_products(fit.raw_noise->sources.B, q, fit.raw_noise->sources.runs);
 }
 
@@ -165,8 +166,8 @@ Tested tested(std::span<const double> noise, std::span<const std::size_t> runs, 
   return {whiteness, near ? Errors::autocorrelation : white};
 }
 
-Tested tested(const Fitted& fit, const std::vector<double>& J) {
-  const Taken taken = taken_of(fit, J);
+Tested tested(const Fitted& fit) {
+  const Taken taken = taken_of(fit);
   if (fit.raw_noise)
     return tested(fit.raw_noise->innovations, fit.raw_noise->innovation_runs, taken, fit);
   if (!fit.filters_known()) return tested(fit.minimum.f, fit.system.runs, taken, fit);
@@ -177,14 +178,13 @@ Tested tested(const Fitted& fit, const std::vector<double>& J) {
 
 }  // namespace
 
-RawNoise raw_noise_of(const Fitted& fit, std::vector<double> J) {
-  const Taken taken = taken_of(fit, J);
-  RawNoise raw{variance_of(fit, meat_of(fit, std::move(J))), {}, {}, taken, estimated(fit)};
+RawNoise raw_noise_of(const Fitted& fit) {
+  RawNoise raw{variance_of(fit, meat_of(fit)), {}, {}, taken_of(fit), estimated(fit)};
   raw.innovations = fit.noise->innovations(fit.minimum.f, raw.innovation_runs);
   return raw;
 }
 
-Uncertainty uncertainty_of(const Fitted& fit, std::vector<double> J) {
+Uncertainty uncertainty_of(const Fitted& fit) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
                     q = fit.system.columns();
@@ -192,15 +192,15 @@ Uncertainty uncertainty_of(const Fitted& fit, std::vector<double> J) {
   if (n <= fit.degrees_taken())
     return {Errors::none, nan, nan, {R, std::vector<double>(R.size(), nan), q}};
   const bool known = fit.filters_known();
-  const auto [whiteness, kind] = tested(fit, J);
+  const auto [whiteness, kind] = tested(fit);
   const bool consistent = kind == Errors::autocorrelation || kind == Errors::uneven;
   Sources sources;
   std::vector<double> M;
   if (consistent) {
-    sources = sources_of(fit, std::move(J));
+    sources = sources_of(fit);
     if (known) M = outer_products(sources.B, q, sources.runs);
   } else if (known) {
-    M = meat_of(fit, std::move(J));
+    M = meat_of(fit);
   }
   const double variance =
       known ? variance_of(fit, M) : fit.minimum.rss / static_cast<double>(n - p);

@@ -31,13 +31,11 @@ struct Uncertainty {
 /// (J^T J)^-1. With 30 or more records the noise is tested (for known filters the noise of the raw
 /// column). If it is not white (Ljung and Box), the covariance is that of Newey and West, already
 /// at 10 % if neighbouring residuals are positively correlated; otherwise, if the variance is
-/// uneven at 1 %, along the runs or between them, it is HC3. J is that of the minimum; it is large,
-/// and its memory is used.
-Uncertainty uncertainty_of(const Fitted&, std::vector<double> J);
+/// uneven at 1 %, along the runs or between them, it is HC3.
+Uncertainty uncertainty_of(const Fitted&);
 
-/// What the fit has taken of the innovations, or of the residuals if no filters are known. J as
-/// above.
-Taken taken_of(const Fitted&, const std::vector<double>& J);
+/// What the fit has taken of the innovations, or of the residuals if no filters are known.
+Taken taken_of(const Fitted&);
 
 /// The standard errors of the reported numbers that are due to the noise.
 struct NoiseErrors {
@@ -50,16 +48,15 @@ struct NoiseErrors {
 };
 NoiseErrors noise_errors(const Fitted&, const Uncertainty&);
 
-/// The noise of the raw column of a fit with known filters; without the B of its sources. J as
-/// above.
-RawNoise raw_noise_of(const Fitted&, std::vector<double> J);
+/// The noise of the raw column of a fit with known filters; without the B of its sources.
+RawNoise raw_noise_of(const Fitted&);
 
 /// Replaces g by R^-T g, for the upper triangle R of a Minimum (row by row, as many as g has).
 void solve_transposed(const double* R, std::span<double> g);
 
-/// Q = J R^-1 for the J of this minimum, in its memory. The meat M of the covariance R^-1 M R^-T is
-/// a quadratic form of the rows of Q.
-std::vector<double> orthonormal(const Fitted&, std::vector<double> J);
+/// Q = J R^-1 at the minimum, row by row. The meat M of the covariance R^-1 M R^-T is a quadratic
+/// form of the rows of Q.
+std::vector<double> orthonormal(const Fitted&);
 
 /// Adds, over the runs, the block of the shared parameters of each run's matrix in M, and writes
 /// the sum to every run's block.

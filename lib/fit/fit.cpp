@@ -95,9 +95,7 @@ void require_law(const Fitted& found, const std::vector<FitRun>& all) {
 
 FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   Fitted found = fit_route(route, runs, options);
-  // J is large; only the comparison of several runs needs it again.
-  std::vector<double>& J = found.minimum.J;
-  const Uncertainty uncertainty = uncertainty_of(found, runs.size() > 1 ? J : std::move(J));
+  const Uncertainty uncertainty = uncertainty_of(found);
   NoiseErrors noise = noise_errors(found, uncertainty);
   const auto eccentricity = eccentricity_of(route, runs, found, uncertainty.variance);
   const auto agreement = agreement_of(route, runs, options, noise, found);

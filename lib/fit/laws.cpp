@@ -178,7 +178,7 @@ Candidate fit_law(const Records& records, const Law& law, const std::vector<Cand
     return y.first - x.first <= 1e-9 * x.first;
   };
   starts.erase(std::unique(starts.begin(), starts.end(), same), starts.end());
-  Candidate best{&law, {{}, {}, {}, {}, infinity}, {}};
+  Candidate best{&law, {{}, {}, {}, infinity}, {}};
   const auto try_from = [&](const std::vector<double>& theta) {
     if (Minimum m = attempt(system, theta); m.rss < best.minimum.rss) best.minimum = std::move(m);
   };
@@ -222,7 +222,7 @@ void report_coefficients(LawFit& result, const Records& records, const Candidate
       values.push_back(std::move(q));
     }
   }
-  const Uncertainty errors = uncertainty_of(fit, std::move(fit.minimum.J));
+  const Uncertainty errors = uncertainty_of(fit);
   for (const Quantity& x : values)
     result.coefficients.push_back({x.value, std::sqrt(errors.covariance(x.gradient, x.gradient))});
   for (std::size_t i = 0; i < values.size(); ++i)

@@ -141,10 +141,10 @@ std::size_t readings(const std::vector<FitRun>& all) {
 void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
                  const FitOptions& options) {
   Fitted& roll = known.fit;
-  RawNoise raw_noise = raw_noise_of(roll, std::move(roll.minimum.J));
+  RawNoise raw_noise = raw_noise_of(roll);
   roll.system = {}, roll.noise = {};  // frees memory: the weights are large
   const std::size_t p = line.system.columns();
-  const std::vector<double> Q = orthonormal(line, std::move(line.minimum.J));
+  const std::vector<double> Q = orthonormal(line);
   const auto Q_of = by_run(Q, line.system.runs, p);
   std::vector<double> along(p);  // Q^T bias
   for (std::size_t r = 0; r < runs.size(); ++r) {

@@ -24,7 +24,6 @@ struct Point {
   explicit Point(const System& system) : R(system) { f.reserve(system.residuals()); }
 
   std::vector<double> theta, f;
-  std::vector<double> J;  // row by row; empty if the next point has taken its memory
   Triangles R;
   double rss = 0;
   std::vector<double> step, lengths;  // lengths: norms of the columns of J
@@ -44,18 +43,11 @@ struct Point {
 bool evaluate_at(const System& system, Point& at, std::vector<double> theta) {
   at.theta = std::move(theta);
   at.f.clear();
-  at.J.clear();
-  at.J.reserve(system.residuals() * system.columns());
   at.R = Triangles(system);
   at.rss = 0;
-  const std::size_t q = system.columns();
   try {
     system.evaluate(at.theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
       at.f.insert(at.f.end(), f.begin(), f.end());
-      const std::size_t done = at.J.size();
-      at.J.resize(done + J.size());
-      for (std::size_t j = 0; j < q; ++j)
-        for (std::size_t i = 0; i < f.size(); ++i) at.J[done + i * q + j] = J[j * f.size() + i];
       at.rss += dot(f, f);
       at.R.add(run, f, J);
     });
@@ -78,13 +70,6 @@ std::vector<double> moved(std::vector<double> theta, const std::vector<double>& 
   return theta;
 }
 
-/// Evaluates the system one step further. J is large; the next point takes its memory, unless it
-/// has done so before.
-bool evaluate_next(const System& system, Point& at, const std::vector<double>& step, Point& next) {
-  if (!at.J.empty()) next.J.swap(at.J);
-  return evaluate_at(system, next, moved(at.theta, step));
-}
-
 /// Levenberg-Marquardt steps, scaled after More (1978, Lecture Notes in Mathematics 630, 105) and
 /// damped after Nielsen (1999, IMM-REP-1999-05), until they make no further progress. The caller
 /// tests whether the result is a minimum.
@@ -99,7 +84,7 @@ Point descend(const System& system, Point at) {
     const auto step = damped.solve();
     double scaled = 0;
     for (std::size_t j = 0; j < D.size(); ++j) scaled += D[j] * step[j] * D[j] * step[j];
-    const bool allowed = evaluate_next(system, at, step, next);
+    const bool allowed = evaluate_at(system, next, moved(at.theta, step));
     if (!allowed || !(next.rss < at.rss)) {
       mu *= growth;
       growth *= 2;
@@ -118,10 +103,8 @@ Point descend(const System& system, Point at) {
   return at;
 }
 
-/// The result at this point. J is evaluated again if the search ended with a refused step.
-Minimum minimum_at(const System& system, Point at) {
-  if (at.J.empty()) evaluate_at(system, at, std::vector(at.theta));
-  return {std::move(at.theta), std::move(at.f), std::move(at.J), at.R.without_f(), at.rss};
+Minimum minimum_at(Point at) {
+  return {std::move(at.theta), std::move(at.f), at.R.without_f(), at.rss};
 }
 
 /// Evaluates the system at a start; throws Error where it has no finite values.
@@ -137,7 +120,7 @@ Point at_start(const System& system, std::vector<double> theta) {
 Point polish(const System& system, Point best, double share) {
   Point next(system);
   for (int i = 0; i < 100 && best.angle > undetermined && !best.negligible(); ++i) {
-    if (!evaluate_next(system, best, best.step, next) ||
+    if (!evaluate_at(system, next, moved(best.theta, best.step)) ||
         !(next.rss <= best.rss * (1 + 1e-10) - share * best.reduction))
       break;
     if (best.size < 1e-9 && !(next.size < best.size)) break;  // round-off
@@ -184,7 +167,7 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
   if (!determined()) fail("the data do not determine the parameters: they cannot be told apart");
   // A negligible step is taken without evaluating the residuals again.
   std::vector<double> theta = best.negligible() ? moved(best.theta, best.step) : best.theta;
-  Minimum minimum = minimum_at(system, std::move(best));
+  Minimum minimum = minimum_at(std::move(best));
   minimum.theta = std::move(theta);
   return minimum;
 }
@@ -193,7 +176,7 @@ Minimum attempt(const System& system, const std::vector<double>& start) {
   try {
     return minimise(system, start);
   } catch (const Error&) {
-    return {start, {}, {}, {}, std::numeric_limits<double>::infinity()};
+    return {start, {}, {}, std::numeric_limits<double>::infinity()};
   }
 }
 
@@ -268,7 +251,7 @@ Minimum minimise_robust(const System& system, const std::vector<double>& start) 
       1 + static_cast<double>(p) / n * (squares - mean * mean) / (mean * mean);
   for (double& r : at.f) r *= bisquare(r / scale).weight * correction / mean;
   at.rss = dot(at.f, at.f);
-  return minimum_at(system, std::move(at));
+  return minimum_at(std::move(at));
 }
 
 double restricted_likelihood(const System& system, const std::vector<double>& theta) {

@@ -8,7 +8,6 @@ namespace rolling {
 
 struct Minimum {
   std::vector<double> theta, f;
-  std::vector<double> J;  ///< one row for each residual, of the columns of its run
   /// J = Q R for the columns of each run: one upper triangle for each run, row by row. The rows of
   /// the shared parameters are the same in all triangles.
   std::vector<double> R;

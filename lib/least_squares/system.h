@@ -30,4 +30,8 @@ struct System {
   }
 };
 
+/// J at theta: one row for each residual, of the columns of its run. It is large, and a search does
+/// not keep it: an evaluation costs less than its memory.
+std::vector<double> jacobian(const System&, const std::vector<double>& theta);
+
 }  // namespace rolling

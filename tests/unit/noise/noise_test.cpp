@@ -47,10 +47,10 @@ TEST_CASE("noise: its variance and the covariance of the parameters, whatever th
       Fitted fit{.system = line(data, noise), .minimum = {}};
       fit.minimum = minimise(fit.system, {0, 0});
       fit.noise = noise;
-      variances += raw_noise_of(fit, fit.minimum.J).variance / runs;
+      variances += raw_noise_of(fit).variance / runs;
       squares += (fit.minimum.theta[1] - 0.5) * (fit.minimum.theta[1] - 0.5) / runs;
       if (k > 0) continue;
-      const auto Q = orthonormal(fit, fit.minimum.J);
+      const auto Q = orthonormal(fit);
       const auto B = noise->through(Q, 2), M = noise->meat(Q, 2);
       const auto& R = fit.minimum.R;  // of which the slope needs the last element alone
       for (std::size_t s = 0; s < noise->sources()[0]; ++s)
