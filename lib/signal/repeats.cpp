@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <numeric>
 #include <vector>
 
 #include "base/median.h"
@@ -54,8 +55,9 @@ double unit_of(std::span<const double> all_steps, double place, double rounding)
 }  // namespace
 
 double records_held(std::span<const double> readings) {
-  double largest = 0;
-  for (const double y : readings) largest = std::max(largest, std::abs(y));
+  const double largest = std::transform_reduce(
+      readings.begin(), readings.end(), 0.0, [](double x, double y) { return std::max(x, y); },
+      [](double y) { return std::abs(y); });
   const double rounding = program_rounding * largest;
   const auto step = [&](std::size_t i) { return std::abs(readings[i] - readings[i - 1]); };
   std::size_t changes = 0;
