@@ -88,7 +88,8 @@ std::vector<double> scaled(std::span<const double> Q, std::size_t p,
 /// The roll that made the records of a line, for known filters.
 struct KnownRoll {
   std::vector<Response> responses;
-  Fitted fit;
+  Fitted fit;  ///< without its system and weights, which are large
+  RawNoise raw_noise;
   /// When it stops, for each run. Behind the stop v and D are noise alone, and where both happen to
   /// be positive their logarithms are far from the line.
   std::vector<double> stops;
@@ -120,6 +121,8 @@ std::optional<KnownRoll> known_roll(const std::vector<FitRun>& runs, const FitOp
   } catch (const Error&) {
     return {};
   }
+  roll.raw_noise = raw_noise_of(roll.fit);
+  roll.fit.system = {}, roll.fit.noise = {};
   roll.responses = std::move(responses);
   for (std::size_t r = 0; r < runs.size(); ++r)
     roll.stops.push_back(roll.fit.rolls->runs()[r].origin +
@@ -140,9 +143,7 @@ std::size_t readings(const std::vector<FitRun>& all) {
 /// known filters.
 void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
                  const FitOptions& options) {
-  Fitted& roll = known.fit;
-  RawNoise raw_noise = raw_noise_of(roll);
-  roll.system = {}, roll.noise = {};  // frees memory: the weights are large
+  const Fitted& roll = known.fit;
   const std::size_t p = line.system.columns();
   const std::vector<double> Q = orthonormal(line);
   const auto Q_of = by_run(Q, line.system.runs, p);
@@ -158,7 +159,7 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
     const FilterMatrix D_of = known.responses[r].of.at("D").of_rows(rows),
                        v_of = known.responses[r].of.at("v").of_rows(rows);
     const Points points = points_of(D_of, v_of, raw, {roll.a.value, roll.b.value}, shift,
-                                    std::sqrt(raw_noise.variance));
+                                    std::sqrt(known.raw_noise.variance));
     const auto through = [&](const FilterMatrix& H, const std::vector<double>& factors) {
       return by_column(scaled(Q_of[r], p, factors), p,
                        [&H](std::vector<double> x) { return H.transposed_times(std::move(x)); });
@@ -166,11 +167,12 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
     std::vector<double> B = through(D_of, points.by_D);
     const std::vector<double> B_of_v = through(v_of, points.by_v);
     std::transform(B.begin(), B.end(), B_of_v.begin(), B.begin(), std::plus());
-    raw_noise.sources.B.insert(raw_noise.sources.B.end(), B.begin(), B.end());
+    auto& all = known.raw_noise.sources.B;
+    all.insert(all.end(), B.begin(), B.end());
     for (std::size_t i = 0; i < Q_of[r].size(); ++i)
       along[i % p] += Q_of[r][i] * points.bias[i / p];
   }
-  line.raw_noise = std::move(raw_noise);
+  line.raw_noise = std::move(known.raw_noise);
   // The bias of theta is R^-1 Q^T bias.
   const auto bias_of = [&](std::vector<double> gradient) {
     solve_transposed(line.minimum.R.data(), gradient);
