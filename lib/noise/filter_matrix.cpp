@@ -157,15 +157,15 @@ double dot(const FilterMatrix::Row& x, const FilterMatrix::Row& y) {
 
 FilterPass::FilterPass(const FilterMatrix& H, std::size_t columns,
                        std::function<void(double* row)> take)
-    : stride_(stride(columns)), raw_(stride_), take_(std::move(take)) {
+    : stride_(stride(columns)), product_(stride_), take_(std::move(take)) {
   constexpr std::size_t room = 256;  // rows between two moves of the kept rows to the front
   for (const auto& L : H.factors_)
-    stages_.push_back({L.get(), std::vector<double>((L->window() + room) * stride_),
-                       std::vector<double>(stride_)});
+    stages_.push_back({L.get(), std::vector<double>((L->window() + room) * stride_)});
 }
 
-void FilterPass::push(double* row, std::size_t stage) {
-  if (stage == stages_.size()) return take_(row);
+/// The memory for the next input row of a stage; behind the last one, for a row of the product.
+double* FilterPass::place(std::size_t stage) {
+  if (stage == stages_.size()) return product_.data();
   Stage& s = stages_[stage];
   if ((s.count - s.base + 1) * stride_ > s.in.size()) {
     const std::size_t kept = std::min(s.L->window(), s.count - s.base);
@@ -173,14 +173,20 @@ void FilterPass::push(double* row, std::size_t stage) {
     std::copy(end - static_cast<std::ptrdiff_t>(kept * stride_), end, s.in.begin());
     s.base = s.count - kept;
   }
-  std::copy_n(row, stride_, &s.in[(s.count++ - s.base) * stride_]);
+  return &s.in[(s.count - s.base) * stride_];
+}
+
+void FilterPass::push(std::size_t stage) {
+  if (stage == stages_.size()) return take_(product_.data());
+  Stage& s = stages_[stage];
+  ++s.count;
   for (; s.row < s.L->rows() && s.L->end(s.row) <= s.count; ++s.row) {
-    multiply(s);
-    push(s.out.data(), stage + 1);
+    multiply(s, place(stage + 1));
+    push(stage + 1);
   }
 }
 
-void FilterPass::multiply(Stage& s) const {
+void FilterPass::multiply(const Stage& s, double* out) const {
   const auto row = s.L->row(s.row);
   const std::size_t from = row.empty() ? 0 : s.L->first(s.row) - s.base;
   for (std::size_t c = 0; c < stride_; c += 2) {  // two columns fill one vector register
@@ -192,8 +198,8 @@ void FilterPass::multiply(Stage& s) const {
       sum[2] += row[k + 1] * x[stride_], sum[3] += row[k + 1] * x[stride_ + 1];
     }
     if (k < row.size()) sum[0] += row[k] * x[0], sum[1] += row[k] * x[1];
-    s.out[c] = sum[0] + sum[2];
-    s.out[c + 1] = sum[1] + sum[3];
+    out[c] = sum[0] + sum[2];
+    out[c + 1] = sum[1] + sum[3];
   }
 }
 

@@ -110,24 +110,25 @@ class FilterPass {
   /// The callback receives the rows of the product in order; it may overwrite them.
   FilterPass(const FilterMatrix&, std::size_t columns, std::function<void(double* row)> take);
   /// The memory for the next row of the input; push() reads the row from there.
-  double* place() { return raw_.data(); }
+  double* place() { return place(0); }
   /// Passes the rows of the product that need no further input to the callback.
-  void push() { push(raw_.data(), 0); }
+  void push() { push(0); }
   /// The number of elements that a row needs: `columns`, rounded up to an even number.
   static std::size_t stride(std::size_t columns) { return (columns + 1) / 2 * 2; }
 
  private:
   struct Stage {
     const BandMatrix* L;
-    std::vector<double> in, out;  // the input rows base .. count - 1, and the last row of output
+    std::vector<double> in;  // the input rows base .. count - 1
     std::size_t base = 0, count = 0, row = 0;
   };
-  void push(double* row, std::size_t stage);
-  void multiply(Stage&) const;
+  double* place(std::size_t stage);
+  void push(std::size_t stage);
+  void multiply(const Stage&, double* out) const;
 
   std::size_t stride_;
-  std::vector<double> raw_;
   std::vector<Stage> stages_;
+  std::vector<double> product_;  // the last row
   std::function<void(double* row)> take_;
 };
 
