@@ -91,7 +91,7 @@ bool has_cusps(const RollModel& rolls, const std::vector<double>& theta, std::si
 }  // namespace
 
 Minimum beyond_cusps(const RollModel& rolls, const System& system, Minimum best) {
-  if (system.residuals() * system.runs.size() > 4096) return best;
+  if (system.residuals() * system.runs.size() > 2048) return best;
   for (double before = INFINITY; best.rss < before * (1 - 1e-6);) {
     before = best.rss;
     for (std::size_t r = 0; r < system.runs.size(); ++r) try {

@@ -13,7 +13,7 @@ namespace rolling {
 /// order, until no such start leads to a smaller sum. Positions are smoother by one order, and
 /// nothing is done.
 ///
-/// The minima differ the less the more records there are: above 4096 records times runs nothing is
+/// The minima differ the less the more records there are: above 2048 records times runs nothing is
 /// done.
 Minimum beyond_cusps(const RollModel&, const System&, Minimum);
 
