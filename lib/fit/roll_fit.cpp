@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/dot.h"
+#include "fit/cusps.h"
 #include "fit/first_guess.h"
 #include "fit/white_share.h"
 
@@ -114,13 +115,20 @@ void report(Fitted& fit) {
   fit.rss = squares_of(fit);
 }
 
+/// The minimum of the system of these rolls. The robust loss ignores what the cusps make.
+Minimum search(const RollModel& rolls, const System& system, const std::vector<double>& start,
+               const FitOptions& options) {
+  if (options.robust) return solve(system, start, options);
+  return beyond_cusps(rolls, system, solve(system, start, options));
+}
+
 /// The minimum over these runs with these weights; the results are not yet reported.
 Fitted minimum_of(std::vector<ObservedRun> runs, const FirstGuess& start, const FitOptions& options,
                   double share, bool inferred) {
   auto noise = noise_of(runs, share, inferred);
   auto rolls = std::make_shared<const RollModel>(std::move(runs), start.parameters);
   System system = system_of(rolls, noise);
-  Minimum minimum = solve(system, start.theta, options);
+  Minimum minimum = search(*rolls, system, start.theta, options);
   return {.system = std::move(system),
           .minimum = std::move(minimum),
           .noise = std::move(noise),
@@ -150,7 +158,7 @@ void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   const bool adopted = many || found.decisive();
   fit.noise = noise_of(fit.rolls->runs(), adopted ? found.share : 0, false);
   fit.system = system_of(fit.rolls, fit.noise);
-  if (adopted) fit.minimum = solve(fit.system, fit.minimum.theta, options);
+  if (adopted) fit.minimum = search(*fit.rolls, fit.system, fit.minimum.theta, options);
 }
 
 }  // namespace

@@ -153,9 +153,10 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
     const double gain = 1 - best.rss / before;
     // The minimum of a trajectory fit may lie on a kink, where the time of the stop coincides with
     // a record: no step reduces the sum of squares noticeably, but the gradient on either side is
-    // not zero. The search ends there; the remaining step is at most a fraction of a standard
-    // deviation.
-    if (!determined() || (gain < std::max(1e-8, 1e-3 / freedom) && offset() < 1)) break;
+    // not zero. The search ends there, unless the remaining step is more than a standard deviation
+    // and changes a parameter by more than its own size.
+    const bool near = offset() < 1 || best.size < 1;
+    if (!determined() || (gain < std::max(1e-8, 1e-3 / freedom) && near)) break;
     // If all steps of a round reduce the sum of squares by less than one standard deviation would,
     // and yet the next step changes a parameter by more than its own size, and by more than in the
     // round before, the minimum lies at infinity.

@@ -82,6 +82,14 @@ TEST_CASE("minimise: a kink at the minimum is a minimum", "[fit]") {
         J = {x[0] > 0 ? 0.25 : -0.25, -1.0 / 6};
       });
   CHECK(std::abs(minimise(kink, {0.7}).theta[0]) < 1e-6);
+  // The step on either side of a steep one is more than a standard deviation.
+  const System steep = one_run(
+      4, 1, [](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+        const double rise = 1 + 2 * std::abs(x[0]), slope = x[0] > 0 ? 2 : -2;
+        f = {rise, rise, rise, 1 - x[0] / 6};
+        J = {slope, slope, slope, -1.0 / 6};
+      });
+  CHECK(std::abs(minimise(steep, {0.7}).theta[0]) < 1e-6);
 }
 
 TEST_CASE("minimise: refuses what does not converge and what cannot be told apart", "[fit]") {

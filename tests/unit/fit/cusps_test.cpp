@@ -1,0 +1,78 @@
+#include "fit/cusps.h"
+
+#include "base/error.h"
+#include "fit/errors.h"
+#include "fit/route.h"
+#include "unit/catch.h"
+#include "unit/fit/simulated.h"
+
+using namespace rolling;
+
+namespace {
+
+const Body cylinder{1.375, 0.04, 0.5};
+
+/// The largest amount, in variances of a residual, by which a law with another exponent, held
+/// within two standard errors of the one that was found, lowers the sum of squares.
+double lower_by_another_exponent(Route route, const FitRun& run) {
+  const Fitted found = fit_route(route, {run}, {});
+  const auto n = static_cast<double>(found.minimum.f.size() - found.minimum.theta.size());
+  const double sigma = noise_errors(found, uncertainty_of(found, found.minimum.J)).share.b;
+  double most = 0;
+  for (double step = -2; step <= 2; step += 0.25) {
+    FitOptions held;
+    held.b = found.b.value + step * sigma;
+    const double rss = fit_route(route, {run}, held).minimum.rss;
+    most = std::max(most, (1 - rss / found.minimum.rss) * n);
+  }
+  return most;
+}
+
+FitRun speeds(double b, simulated::Noise& noise, double size) {
+  const auto truth = simulated::roll(cylinder, 1e-3, b, 0.5);
+  FitRun run{};
+  run.body = cylinder;
+  for (double t = 0; t < 3 || truth.v(t - 0.3) > 0; t += 0.05) {
+    run.t.push_back(t);
+    run.v.push_back(truth.v(t) + noise(size));
+  }
+  return run;
+}
+
+}  // namespace
+
+// The speed of the last record before the stop changes without bound as the stop passes it.
+TEST_CASE("cusps: no exponent that is held fits speeds better than the one that is found",
+          "[fit]") {
+  simulated::Noise noise(46);
+  for (const double b : {-0.6, -0.3, -0.05, 0.0, 0.2})
+    for (int k = 0; k < 40; ++k) {
+      const FitRun run = speeds(b, noise, k % 2 ? 5e-3 : 2e-2);
+      CAPTURE(b, k);
+      CHECK(lower_by_another_exponent(Route::velocity, run) < 0.1);
+      if (k < 10) {
+        FitRun shifts = simulated::shifts(cylinder, run.t, run.v, 5);
+        shifts.body = cylinder;
+        CHECK(lower_by_another_exponent(Route::shift, shifts) < 0.1);
+      }
+    }
+}
+
+// The stop of each run of a joint fit is searched for, and that of a body on a slope.
+TEST_CASE("cusps: of runs in both directions on a slope as well", "[fit]") {
+  simulated::Noise noise(47);
+  FitOptions options;
+  options.fit_slope = true;
+  for (int k = 0; k < 20; ++k) {
+    FitRun up = speeds(-0.3, noise, 5e-3), down = speeds(-0.3, noise, 5e-3);
+    for (double& v : down.v) v = -v;
+    const Fitted found = fit_route(Route::velocity, {up, down}, options);
+    for (const double b : {-0.34, -0.32, -0.3, -0.28, -0.26}) {
+      FitOptions held = options;
+      held.b = b;
+      const double rss = fit_route(Route::velocity, {up, down}, held).minimum.rss;
+      CAPTURE(k, b);
+      CHECK(rss > found.minimum.rss * (1 - 0.1 / static_cast<double>(found.minimum.f.size())));
+    }
+  }
+}
