@@ -52,9 +52,11 @@ bool NeededColumns::use_has_numbers() const {
                      [](const auto& use) { return is_number(use.second.column); });
 }
 
-void NeededColumns::begin_run(std::vector<Column> as_read, bool named, std::string place) {
+void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits said,
+                              std::string place) {
   as_read_ = std::move(as_read);
   named_ = named;
+  said_ = std::move(said);
   place_ = std::move(place);
   quantities_.clear();
   for (const Column& column : as_read_) quantities_.push_back(column.name);
@@ -161,12 +163,13 @@ void NeededColumns::resolve(Needed& needed) const {
     return has_use_ ? fmt::format(" or say --use {}={}[UNIT]", quantity, *found + 1) : "";
   };
   if (meant.unit.empty()) {
-    std::string unit = unit_in_name(quantity, meant.name);
-    if (unit.empty()) unit = meant.elsewhere;
+    std::string unit = unit_in_name(quantity, meant.name), by;
+    if (const auto said = said_.find(quantity); unit.empty() && said != said_.end())
+      unit = said->second.unit, by = fmt::format(", as line {} says", said->second.line);
     if (!unit.empty())
       fail<InputError>(
-          "{}: column '{}' cannot serve as {}: is it in {}? Write the unit in brackets{}", place_,
-          shown(meant.name), quantity, unit, way_out());
+          "{}: column '{}' cannot serve as {}: is it in {}{}? Write the unit in brackets{}", place_,
+          shown(meant.name), quantity, unit, by, way_out());
   }
   try {
     needed.to_si = conversion_to_si(quantity, meant);

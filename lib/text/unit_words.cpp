@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "text/column.h"
+#include "text/number.h"
 
 namespace rolling {
 namespace {
@@ -76,18 +77,50 @@ std::string unit_of_word(std::string_view quantity, const std::string& word,
   return is_other || std::ranges::count(unknown, letters) > 0 ? letters : std::string();
 }
 
-/// The unit of `quantity` that stands behind its own name, as in tms and speedkmh.
-std::string unit_behind_quantity(std::string_view quantity, const std::string& word) {
+/// Units that no word of a name or a sentence ends in by accident (`sum`, `left`, `status` end in
+/// others).
+bool is_sure(std::string_view unit) {
+  constexpr std::array sure = {"ms", "mm", "cm", "km", "mph"};
+  return std::ranges::count(sure, unit) > 0 || unit.find('/') != std::string_view::npos;
+}
+
+/// The unit of `quantity` at the end of a word: behind its name any, as in tus and speedfps, behind
+/// other letters one that is sure, as in posmm.
+std::string glued_unit(std::string_view quantity, const std::string& word) {
   const auto is_quantity = [&](const std::string& front) {
     return read_column(front).name == quantity ||
            (front.size() == 1 && front[0] == std::tolower(quantity[0]));
   };
-  for (std::size_t n = 1; n + 1 < word.size(); ++n)
-    if (is_quantity(word.substr(0, n))) {
-      const std::string rest = word.substr(n);
-      std::string unit = unit_of_word(quantity, rest, in_letters(rest));
-      if (is_unit_of(quantity, unit)) return unit;
-    }
+  for (std::size_t n = 1; n + 1 < word.size(); ++n) {
+    const std::string rest = word.substr(n), unit = unit_of_word(quantity, rest, in_letters(rest));
+    if (is_unit_of(quantity, unit) && (is_sure(unit) || is_quantity(word.substr(0, n))))
+      return unit;
+  }
+  return {};
+}
+
+/// The words of a comment, with their capitals: a quotient is one word (cm/s^2), and `in` stands
+/// for an equals sign or a colon.
+std::vector<std::string> words_of_comment(std::string_view comment) {
+  std::string text = plain_unit(std::string(comment));
+  constexpr std::pair<std::string_view, std::string_view> spelled[] = {
+      {" per ", "/"},  {" / ", "/"},   {" s^-", "/s^"}, {" s-", "/s^"}, {"/s^1", "/s"},
+      {" h^-1", "/h"}, {" h-1", "/h"}, {"=", " in "},   {":", " in "}};
+  for (const auto& [from, to] : spelled) text = replace_all(std::move(text), from, to);
+  std::replace_if(
+      text.begin(), text.end(),
+      [](unsigned char c) { return !std::isalnum(c) && c != '/' && c != '^'; }, ' ');
+  return split_names(text, '\0');
+}
+
+/// The unit of `quantity` that a word of a comment is; capitals are those of a short word.
+std::string unit_of_quantity(std::string_view quantity, const std::string& word) {
+  std::string small = word;
+  if (word.size() > 2)
+    for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string letters = in_letters(small);
+  for (const std::string& unit : {small, letters, quotient(letters)})
+    if (word != "in" && is_unit_of(quantity, unit)) return unit;
   return {};
 }
 
@@ -104,7 +137,7 @@ std::string unit_in_name(std::string_view quantity, std::string_view name) {
       std::string unit;
       if (end == i + 1) {
         unit = unit_of_word(quantity, words[i], letters[i]);
-        if (unit.empty()) unit = unit_behind_quantity(quantity, words[i]);
+        if (unit.empty()) unit = glued_unit(quantity, words[i]);
       } else {
         std::string run;
         for (std::size_t k = i; k < end; ++k) run += letters[k];
@@ -115,6 +148,34 @@ std::string unit_in_name(std::string_view quantity, std::string_view name) {
       i = end - 1;
       break;
     }
+  return {};
+}
+
+std::string unit_in_comment(std::string_view quantity, std::string_view comment) {
+  if (comment.starts_with("##")) return {};
+  const std::vector<std::string> words = words_of_comment(comment.substr(1));
+  const auto is_value = [&](std::size_t i) { return i < words.size() && is_number(words[i]); };
+  const auto is_in = [&](std::size_t i) { return i < words.size() && words[i] == "in"; };
+  std::string of, before;  // the known quantity that was named last; the word before `in`
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool behind_in = i > 0 && is_in(i - 1);
+    before = i > 1 && behind_in ? read_column(words[i - 2]).name : "";
+    std::string word = words[i];
+    const auto slash = word.find('/');
+    const std::string front = read_column(word.substr(0, slash)).name;
+    if (!si_unit(front).empty()) {
+      of = front;
+      if (slash == std::string::npos) continue;
+      word.erase(0, slash + 1);  // t/ms
+    }
+    if ((i > 0 && is_value(i - 1)) || is_value(i + 1) || (is_in(i + 1) && is_value(i + 2)))
+      continue;
+    std::string unit = unit_of_quantity(quantity, word);
+    if (unit.empty() && before == quantity) unit = unit_in_name(quantity, word);
+    if (unit.empty() || unit_kind(unit) == UnitKind::si) continue;
+    const bool of_another = of != quantity && is_unit_of(of, unit);
+    if ((behind_in || is_sure(unit)) && !of_another) return unit;
+  }
   return {};
 }
 

@@ -100,15 +100,6 @@ TEST_CASE("head: text behind the last run becomes comments of one line each", "[
   CHECK(last.comments == std::vector<std::string>{"# \"the end\",x"});
 }
 
-TEST_CASE("head: other lines of units are refused", "[text]") {
-  const std::string refused =
-      "1: a line of units: put each behind the name of its column, as in t[ms]";
-  CHECK(head("# [s] [cm]\n# t x\n0 1\n") == refused);
-  CHECK(head("s,cm\nt,x\n0,1\n") == refused);
-  CHECK(head("My cart\ns,cm\n0,1\n") == "2" + refused.substr(1));
-  CHECK(head("ms\nt,x\n0,1\n") == "# ms| t x in 1 of 2; 3: 0,1");  // one word of text
-}
-
 TEST_CASE("head: no columns are refused, with the line", "[text]") {
   CHECK(head("") == " no records");
   CHECK(head("# t v\n") == " no records");

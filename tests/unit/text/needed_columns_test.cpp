@@ -25,7 +25,7 @@ std::string output(const Texts& names, const Texts& use = {}, const Texts& wante
   std::string all;
   const std::string message = refusal([&] {
     NeededColumns needed(use, true);
-    needed.begin_run(columns(names), true, "FILE");
+    needed.begin_run(columns(names), true, {}, "FILE");
     for (const std::string& name : wanted) needed.add(name, Kind::needed);
     for (const Column& column : needed.in_output())
       all += (all.empty() ? "" : " ") + to_text(column);
@@ -71,7 +71,7 @@ TEST_CASE("needed columns: a column that is absent", "[text]") {
   CHECK(output({"T", "V"}) == "FILE: there is no column 't' among T, V; say --use t=COLUMN");
   CHECK(output({"t"}, {}, {"n"}) == "FILE: there is no column 'n' among t");
   NeededColumns needed({}, true);
-  needed.begin_run(columns({"t"}), false, "FILE");
+  needed.begin_run(columns({"t"}), false, {}, "FILE");
   CHECK(refusal([&] { needed.add("v", Kind::needed); }) ==
         "FILE: there is no column 'v' among 1 without names; say --use v=COLUMN");
   CHECK(needed.add("x", Kind::wanted) == 0);  // may be absent
@@ -105,26 +105,26 @@ TEST_CASE("needed columns: the order of the calls does not change the names", "[
 
 TEST_CASE("needed columns: the next run may have other places and units", "[text]") {
   NeededColumns needed({}, true);
-  needed.begin_run(columns({"t", "v[km/h]", "n[pebble]"}), true, "FILE");
+  needed.begin_run(columns({"t", "v[km/h]", "n[pebble]"}), true, {}, "FILE");
   const auto v = needed.add("v", Kind::needed), n = needed.add("n", Kind::needed);
   CHECK(needed.all()[v].to_si(72) == 20);
   CHECK(needed.converts());
-  needed.begin_run(columns({"v", "n[pebble]", "t"}), true, "FILE:9");
+  needed.begin_run(columns({"v", "n[pebble]", "t"}), true, {}, "FILE:9");
   CHECK(needed.all()[v].column == 0);
   CHECK(needed.all()[n].column == 1);
   CHECK_FALSE(needed.converts());
-  needed.begin_run(columns({"v[km/h]", "n[pebble]"}), true, "FILE:5");
+  needed.begin_run(columns({"v[km/h]", "n[pebble]"}), true, {}, "FILE:5");
   CHECK(needed.converts());
   CHECK(refusal([&] {
-          needed.begin_run(columns({"v", "n[stone]"}), true, "FILE:9");
+          needed.begin_run(columns({"v", "n[stone]"}), true, {}, "FILE:9");
         }) == "FILE:9: column n is in stone, and in pebble in the runs before");
-  CHECK(refusal([&] { needed.begin_run(columns({"v"}), true, "FILE:9"); }) ==
+  CHECK(refusal([&] { needed.begin_run(columns({"v"}), true, {}, "FILE:9"); }) ==
         "FILE:9: there is no column 'n' among v");
 }
 
 TEST_CASE("needed columns: a column as it is has no unit of its quantity", "[text]") {
   NeededColumns needed({}, true);
-  needed.begin_run(columns({"a[m s^-1]", "v[km/h]"}), true, "FILE");
+  needed.begin_run(columns({"a[m s^-1]", "v[km/h]"}), true, {}, "FILE");
   const auto a = needed.add("a", Kind::as_is);
   CHECK_FALSE(needed.all()[a].to_si.changes());
   CHECK(to_text(needed.in_output()[0]) == "a[m s^-1]");
@@ -142,10 +142,10 @@ TEST_CASE("needed columns: the names of a file without names end where --use say
 TEST_CASE("needed columns: one that is wanted, and absent from a later run, converts nothing",
           "[text]") {
   NeededColumns needed({}, true);
-  needed.begin_run(columns({"t", "x[cm]"}), true, "FILE");
+  needed.begin_run(columns({"t", "x[cm]"}), true, {}, "FILE");
   needed.add("x", Kind::wanted);
   CHECK(needed.converts());
-  needed.begin_run(columns({"t"}), true, "FILE:5");
+  needed.begin_run(columns({"t"}), true, {}, "FILE:5");
   CHECK_FALSE(needed.converts());
   CHECK(to_text(needed.in_output()[0]) == "t");
 }
