@@ -78,6 +78,7 @@ class HeadReader {
   std::vector<std::string> take_names(std::size_t width, bool blank_end);
   enum class Proof { known, known_or_tabs, none };
   std::vector<std::string> take_commented_names(std::size_t width, Proof);
+  void note_sorted_history(std::size_t names);
   [[noreturn]] void refuse_without_records(const std::string& what) const;
   void comment_preamble();
   Head finish();
@@ -187,10 +188,22 @@ std::vector<std::string> HeadReader::take_commented_names(std::size_t width, Pro
                         (proof == Proof::none && std::ranges::none_of(names, is_figure));
     if (names.empty() || !proven) continue;
     head_.line = comments_[i].number;
+    note_sorted_history(i);
     comments_.erase(comments_.begin() + static_cast<std::ptrdiff_t>(i));
     return names;
   }
   return {};
+}
+
+/// Notes that several `##` lines were sorted, if one stands below the comment with the names: the
+/// tools write the names last, and what sorts records by a column puts `# t` before `##`.
+void HeadReader::note_sorted_history(std::size_t names) {
+  const auto count = [&](std::size_t from) {
+    return std::count_if(comments_.begin() + static_cast<std::ptrdiff_t>(from), comments_.end(),
+                         [](const Line& comment) { return is_history(comment.text); });
+  };
+  if (count(names) > 0 && count(0) > 1)
+    comments_.push_back({fmt::format("## {}", lines_sorted), comments_.back().number});
 }
 
 /// The units in the line below the line of names; empty if there is none.

@@ -26,6 +26,9 @@ struct Head {
   Layout layout;                     ///< without runs if the file has no further record
 };
 
+/// The `##` line that stands at the end of a history whose lines have been put in another order.
+inline constexpr std::string_view lines_sorted = "lines sorted";
+
 /// Whether the names may tell several runs side by side, or each line is one record.
 enum class Sides { by_names, one };
 
