@@ -65,8 +65,7 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits
     if (!at)
       fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", place_, quantity,
                        shown(use.column), shown(use.column), list());
-    for (std::string& other : quantities_)
-      if (other == quantity) other = free_name(as_read_, quantity);
+    std::ranges::replace(quantities_, quantity, free_name(as_read_, quantity));
     quantities_[*at] = quantity;
   }
   for (const auto& [quantity, use] : use_)

@@ -48,9 +48,7 @@ void add_unit(Column& column, std::string_view unit, std::string_view place) {
 }
 
 void note_units(const std::string& comment, std::size_t line, SaidUnits& said) {
-  for (const char* quantity : {"t", "x", "v", "a", "D"})
-    if (std::string unit = unit_in_comment(quantity, comment); !unit.empty())
-      said[quantity] = {std::move(unit), line};
+  for (auto& [quantity, unit] : units_in_comment(comment)) said[quantity] = {unit, line};
 }
 
 void refuse_names_of_others(const std::string& comment, std::size_t width, std::string_view place) {

@@ -13,6 +13,8 @@
 namespace rolling {
 namespace {
 
+constexpr std::size_t longest_unit = 32;  // in words
+
 /// The words of a name in small letters, and `per` for a slash. A word ends at any other sign, and
 /// before a capital behind a small letter.
 std::vector<std::string> words_of(std::string_view name) {
@@ -91,7 +93,8 @@ std::string glued_unit(std::string_view quantity, const std::string& word) {
     return read_column(front).name == quantity ||
            (front.size() == 1 && front[0] == std::tolower(quantity[0]));
   };
-  for (std::size_t n = 1; n + 1 < word.size(); ++n) {
+  for (std::size_t n = std::max(word.size(), longest_unit + 1) - longest_unit; n + 1 < word.size();
+       ++n) {
     const std::string rest = word.substr(n), unit = unit_of_word(quantity, rest, in_letters(rest));
     if (is_unit_of(quantity, unit) && (is_sure(unit) || is_quantity(word.substr(0, n))))
       return unit;
@@ -113,15 +116,13 @@ std::vector<std::string> words_of_comment(std::string_view comment) {
   return split_names(text, '\0');
 }
 
-/// The unit of `quantity` that a word of a comment is; capitals are those of a short word.
-std::string unit_of_quantity(std::string_view quantity, const std::string& word) {
-  std::string small = word;
+/// The units that a word of a comment may be; capitals are those of a short word.
+std::array<std::string, 3> as_units(std::string word) {
+  if (word == "in" || word.size() > longest_unit) return {};
   if (word.size() > 2)
-    for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const std::string letters = in_letters(small);
-  for (const std::string& unit : {small, letters, quotient(letters)})
-    if (word != "in" && is_unit_of(quantity, unit)) return unit;
-  return {};
+    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string letters = in_letters(word);
+  return {word, letters, quotient(letters)};
 }
 
 }  // namespace
@@ -151,32 +152,40 @@ std::string unit_in_name(std::string_view quantity, std::string_view name) {
   return {};
 }
 
-std::string unit_in_comment(std::string_view quantity, std::string_view comment) {
-  if (comment.starts_with("##")) return {};
+UnitsOf units_in_comment(std::string_view comment) {
+  UnitsOf said;
+  if (comment.starts_with("##")) return said;
   const std::vector<std::string> words = words_of_comment(comment.substr(1));
   const auto is_value = [&](std::size_t i) { return i < words.size() && is_number(words[i]); };
   const auto is_in = [&](std::size_t i) { return i < words.size() && words[i] == "in"; };
-  std::string of, before;  // the known quantity that was named last; the word before `in`
+  std::string of;  // the known quantity that was named last
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool behind_in = i > 0 && is_in(i - 1);
-    before = i > 1 && behind_in ? read_column(words[i - 2]).name : "";
     std::string word = words[i];
     const auto slash = word.find('/');
-    const std::string front = read_column(word.substr(0, slash)).name;
-    if (!si_unit(front).empty()) {
+    if (const std::string front = read_column(word.substr(0, slash)).name;
+        !si_unit(front).empty()) {
       of = front;
       if (slash == std::string::npos) continue;
       word.erase(0, slash + 1);  // t/ms
     }
     if ((i > 0 && is_value(i - 1)) || is_value(i + 1) || (is_in(i + 1) && is_value(i + 2)))
       continue;
-    std::string unit = unit_of_quantity(quantity, word);
-    if (unit.empty() && before == quantity) unit = unit_in_name(quantity, word);
-    if (unit.empty() || unit_kind(unit) == UnitKind::si) continue;
-    const bool of_another = of != quantity && is_unit_of(of, unit);
-    if ((behind_in || is_sure(unit)) && !of_another) return unit;
+    const bool behind_in = i > 0 && is_in(i - 1);
+    const std::string before = i > 1 && behind_in ? read_column(words[i - 2]).name : "";
+    const auto units = as_units(word);
+    for (const char* const quantity : {"t", "x", "v", "a", "D"}) {
+      const auto found = std::ranges::find_if(
+          units, [&](const std::string& unit) { return is_unit_of(quantity, unit); });
+      const std::string unit = found != units.end() ? *found
+                               : before == quantity ? unit_in_name(quantity, word)
+                                                    : "";
+      const bool of_another = of != quantity && is_unit_of(of, unit);
+      if (!unit.empty() && unit_kind(unit) != UnitKind::si && !of_another &&
+          (behind_in || is_sure(unit)))
+        said.emplace(quantity, unit);
+    }
   }
-  return {};
+  return said;
 }
 
 }  // namespace rolling

@@ -1,6 +1,7 @@
 // Units that words say: the name of a column without brackets, or a comment.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -12,10 +13,11 @@ namespace rolling {
 /// `v_min`, `v_cm`. `in` never does; it ends the names that free_name() makes.
 std::string unit_in_name(std::string_view quantity, std::string_view name);
 
-/// A unit of `quantity` other than SI in the words of a comment, as in `# times are in ms` and
-/// `# units: ms cm/s`; empty if there is none. A number before or behind it makes a value of it,
-/// and what is a word too counts only behind `in`, an equals sign or a colon: `time: min`. A length
-/// belongs to the one of x and D that the comment has named last, if any.
-std::string unit_in_comment(std::string_view quantity, std::string_view comment);
+/// The units other than SI in the words of a comment, as in `# times are in ms` and `# units: ms
+/// cm/s`, for each known quantity the first that it may be in. A number before or behind it makes a
+/// value of it, and what is a word too counts only behind `in`, an equals sign or a colon: `time:
+/// min`. A length belongs to the one of x and D that the comment has named last, if any.
+using UnitsOf = std::map<std::string, std::string>;  // by quantity
+UnitsOf units_in_comment(std::string_view comment);
 
 }  // namespace rolling
