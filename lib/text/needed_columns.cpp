@@ -33,8 +33,9 @@ NeededColumns::NeededColumns(const std::vector<std::string>& use, bool has_use)
       fail("--use: '{}': a unit goes behind the column: {}=COLUMN[{}]", shown(text), quantity,
            shown(unit));
     if (si_unit(quantity).empty()) fail("--use: '{}' is not about t, x, v, a or D", shown(text));
-    const Column column = read_column(text.substr(equals + 1));
-    if (!use_.emplace(quantity, Use{column.name, column.unit}).second)
+    const std::string whole = text.substr(equals + 1);
+    const Column column = read_column(whole);
+    if (!use_.emplace(quantity, Use{column.run.empty() ? column.name : whole, column.unit}).second)
       fail("--use: '{}' comes after another for {}", shown(text), quantity);
   }
 }
@@ -90,15 +91,23 @@ std::optional<std::size_t> NeededColumns::find_column(std::string_view name) con
     return number >= 1 && number <= static_cast<double>(as_read_.size())
                ? std::optional(static_cast<std::size_t>(number) - 1)
                : std::nullopt;
-  const std::string plain = read_column(name).name;
+  const Column asked = read_column(name);
   std::optional<std::size_t> found;
+  bool of_another_run = false;
   for (std::size_t i = 0; i < as_read_.size(); ++i)
-    if (as_read_[i].name == plain) {
+    if (as_read_[i].name == asked.name) {
+      if (!asked.run.empty() && asked.run != as_read_[i].run) {
+        of_another_run = true;
+        continue;
+      }
       if (found)
         fail<InputError>("{}: columns {} and {} are both {}; say --use {}=N", place_, *found + 1,
-                         i + 1, plain, plain);
+                         i + 1, asked.name, asked.name);
       found = i;
     }
+  if (of_another_run && !found)
+    fail<InputError>("{}: '{}' is a column of another run: choose that with --run", place_,
+                     shown(name));
   return found;
 }
 
@@ -158,6 +167,10 @@ void NeededColumns::resolve(Needed& needed) const {
                      shown(quantity), read.unit.empty() ? "no unit" : shown(read.unit),
                      needed.unit.empty() ? "no unit" : shown(needed.unit));
   const Column meant = with_unit(*found, quantity);
+  if (const std::string asked = read_column(needed.name).unit;
+      first && !asked.empty() && asked != meant.unit && asked != si_unit(quantity))
+    fail<InputError>("{}: '{}' is asked for, but column {} is '{}'", place_, shown(needed.name),
+                     *found + 1, shown(to_text(meant)));
   const auto way_out = [&] {
     return has_use_ ? fmt::format(" or say --use {}={}[UNIT]", quantity, *found + 1) : "";
   };

@@ -48,6 +48,21 @@ TEST_CASE("needed columns: a --use that says nothing, or two things, is refused"
   CHECK(output(file, {"v=1"}) == "FILE: column 1 cannot serve as both v and t");
 }
 
+TEST_CASE("needed columns: a unit or a run in what is asked for is that of the column", "[text]") {
+  const Texts file = {"t", "v[km/h]", "F[N] Run #2", "w"};
+  for (const char* asked : {"v", "v[km/h]", "Velocity (m/s)", "F", "F[N]", "F Run 2", "2: F", "w"})
+    CHECK(output(file, {}, {"t", asked}).starts_with("t[s] v["));
+  CHECK(output(file, {}, {"v[cm/s]"}) == "FILE: 'v[cm/s]' is asked for, but column 2 is 'v[km/h]'");
+  CHECK(output(file, {}, {"F[kN]"}) == "FILE: 'F[kN]' is asked for, but column 3 is 'F[N]'");
+  CHECK(output(file, {}, {"w[N]"}) == "FILE: 'w[N]' is asked for, but column 4 is 'w'");
+  CHECK(output(file, {"v=w[cm/s]"}, {"v[cm/s]"}) == "t v_in[km/h] F[N] v[m/s]");
+  const std::string other = "' is a column of another run: choose that with --run";
+  for (const char* asked : {"F Run #3", "v Run 2", "Latest: F"}) {
+    CHECK(output(file, {}, {asked}) == "FILE: '" + std::string(asked) + other);
+    CHECK(output(file, {std::string("x=") + asked}) == "FILE: '" + std::string(asked) + other);
+  }
+}
+
 TEST_CASE("needed columns: --use says which, by name or by number", "[text]") {
   const Texts file = {"t", "v", "v"};
   CHECK(output(file) == "FILE: columns 2 and 3 are both v; say --use v=N");
