@@ -64,7 +64,8 @@ std::string quotient(std::string_view text) {
 }
 
 /// Units that no tool converts.
-constexpr std::array unknown = {"ns", "mi", "yd", "px", "deg", "rpm", "knots", "kn", "kt", "kts"};
+constexpr std::array unknown = {"ns",    "mi", "yd", "px",  "deg",  "rpm",
+                                "knots", "kn", "kt", "kts", "days", "ticks"};
 /// Units of one quantity that are words or signs in the names of the others; cm is the centre of
 /// mass.
 constexpr std::array ambiguous = {"in", "min", "us", "um", "h", "cm"};
@@ -116,6 +117,17 @@ std::vector<std::string> words_of_comment(std::string_view comment) {
   return split_names(text, '\0');
 }
 
+/// The known quantity of which a word tells, one or several: time, times, velocities; else empty.
+std::string quantity_of(std::string word) {
+  const auto known = [](const std::string& text) {
+    const std::string name = read_column(text).name;
+    return si_unit(name).empty() ? "" : name;
+  };
+  if (word.size() < 4 || !word.ends_with('s')) return known(word);
+  if (word.ends_with("ies")) return known(word.substr(0, word.size() - 3) + 'y');
+  return known(word.substr(0, word.size() - 1));
+}
+
 /// The units that a word of a comment may be; capitals are those of a short word.
 std::array<std::string, 3> as_units(std::string word) {
   if (word == "in" || word.size() > longest_unit) return {};
@@ -162,8 +174,7 @@ UnitsOf units_in_comment(std::string_view comment) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     std::string word = words[i];
     const auto slash = word.find('/');
-    if (const std::string front = read_column(word.substr(0, slash)).name;
-        !si_unit(front).empty()) {
+    if (const std::string front = quantity_of(word.substr(0, slash)); !front.empty()) {
       of = front;
       if (slash == std::string::npos) continue;
       word.erase(0, slash + 1);  // t/ms
@@ -171,14 +182,15 @@ UnitsOf units_in_comment(std::string_view comment) {
     if ((i > 0 && is_value(i - 1)) || is_value(i + 1) || (is_in(i + 1) && is_value(i + 2)))
       continue;
     const bool behind_in = i > 0 && is_in(i - 1);
-    const std::string before = i > 1 && behind_in ? read_column(words[i - 2]).name : "";
+    const std::string before = i > 1 && behind_in ? quantity_of(words[i - 2]) : "";
     const auto units = as_units(word);
     for (const char* const quantity : {"t", "x", "v", "a", "D"}) {
       const auto found = std::ranges::find_if(
           units, [&](const std::string& unit) { return is_unit_of(quantity, unit); });
-      const std::string unit = found != units.end() ? *found
-                               : before == quantity ? unit_in_name(quantity, word)
-                                                    : "";
+      const std::string unit = found != units.end()           ? *found
+                               : before != quantity           ? ""
+                               : before == "a" && word == "g" ? "g"
+                                                              : unit_in_name(quantity, word);
       const bool of_another = of != quantity && is_unit_of(of, unit);
       if (!unit.empty() && unit_kind(unit) != UnitKind::si && !of_another &&
           (behind_in || is_sure(unit)))

@@ -40,6 +40,7 @@ TEST_CASE("unit words: a unit in a name without brackets", "[text]") {
       {"x", "posmm", "mm"},
       {"x", "distance_rawcm", "cm"},
       {"t", "clockms", "ms"},
+      {"t", "time_days", "days"},
       {"v", "velKmh", "km/h"},
       {"v", "velcms", "cm/s"},
       {"x", "distance_inch", "in"},
@@ -148,7 +149,11 @@ TEST_CASE("unit words: a unit in a comment", "[text]") {
       {"v", "# v in cm s^-1", "cm/s"},
       {"v", "# speed in knots", "knots"},
       {"v", "# times are in ms", ""},
+      {"v", "# all velocities in knots", "knots"},
       {"a", "# a in cm/s\xC2\xB2", "cm/s^2"},
+      {"a", "# accelerations in g", "g"},
+      {"t", "# times in days", "days"},
+      {"x", "# positions: pixels", "px"},
   };
   for (const Case& c : cases) {
     INFO(c.quantity << " of " << c.comment);
@@ -162,7 +167,7 @@ TEST_CASE("unit words: values, and words that are no units, in a comment", "[tex
         "# time in min: 5", "# speed: min 0, time: 40 ms", "# time: in the morning",
         "# Ms. Smith, MS Excel", "# t min, t max, x min", "# us, them; in a min or an h",
         "# a shell in felt", "# t: s; v = m/s, x in m", "# time in s, speed in m s^-1",
-        "## smooth t from 1 ms", "## times in ms", "# g = 981 cm/s^2", "# every 40 ms m by m",
-        "# the sum of two forms is a status", "#"})
+        "## smooth t from 1 ms", "## times in ms", "# g = 981 cm/s^2", "# mass in g",
+        "# every 40 ms m by m", "# the sum of two forms is a status", "#"})
     CHECK(units_in_comment(comment) == UnitsOf());
 }
