@@ -188,11 +188,13 @@ void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
 void warn_of_unused_body(Tool& tool, const std::vector<FitRun>& runs, Geometry geometry) {
   for (const FitRun& run : runs) {
     if (!run.shift_of) {
+      std::string unused;
       for (const char* option : {"shape-factor", "radius", "gravity", "slope", "exact"})
         if (tool.on_command_line(option) && !tool.on_command_line("report"))
-          return tool.warn(fmt::format(
-              "run {}: no `##` line tells how D was computed: --{} is not used", run.name, option));
-      continue;
+          unused += fmt::format("{}--{}", unused.empty() ? "" : ", ", option);
+      if (unused.empty()) continue;
+      return tool.warn(fmt::format(
+          "run {}: no `##` line tells how D was computed, and so not used: {}", run.name, unused));
     }
     Body given = run.body;
     if (!tool.given("gravity")) given.g = not_given;

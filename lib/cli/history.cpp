@@ -15,6 +15,7 @@
 #include "text/column.h"
 #include "text/estimate.h"
 #include "text/filter.h"
+#include "text/head.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -101,6 +102,7 @@ class Chain {
     if (words.size() < 2) return true;
     const std::span<const std::string> rest = std::span(words).subspan(1);
     if (line == columns_renamed) return unknown();
+    if (line == lines_sorted) return sorted();
     if (words[0] == "smooth") return smooth(line, rest);
     if (words[0] == "differentiate") return filter(line, derivative_methods, rest, true);
     if (words[0] == "shift-from-accel") {
@@ -118,6 +120,10 @@ class Chain {
   }
   bool unknown() {
     history_ = {};
+    return false;
+  }
+  bool sorted() {
+    history_ = {{}, {}, "its `##` lines were sorted, so that their order tells nothing"};
     return false;
   }
   /// Removes the filters of a column and of what was made of it: a derivative of the same name has
@@ -212,11 +218,12 @@ bool speeds_of_positions(const std::vector<std::string>& lines) {
 
 bool shifts_of_speeds(const std::vector<std::string>& lines) {
   constexpr std::string_view smoothed = "smooth v ";
+  const bool sorted = std::ranges::count(lines, lines_sorted) > 0;  // `smooth v` may be the first
   bool a_of_v = false, D_of_v = false;
   for (const std::string& line : lines) {
     if (line.starts_with("differentiate v ")) a_of_v = true;
     if (line.starts_with("shift-from-accel ")) D_of_v = a_of_v;
-    if (line.starts_with(smoothed) &&
+    if (!sorted && line.starts_with(smoothed) &&
         signal_options(smoothing_methods, line.substr(smoothed.size())))
       a_of_v = D_of_v = false;  // v has been replaced since
   }

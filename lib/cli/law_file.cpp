@@ -51,6 +51,8 @@ LawFile read_law(Tool& tool, const std::string& file) {
     if (law.v0 && *law.v0 < 0)
       fail("v0 = {}: that body rolled towards falling x; say --v0 {}, and turn the sign of a slope",
            *law.v0, -*law.v0);
+    if (!law.a && !law.b && !law.slope && !law.v0)
+      fail<OptionError>("--law tells nothing that is not on the command line: leave it out");
     if (in.next() || in.next_run()) fail("more than one row: a law is one row of fitpower");
     return law;
   }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "cli/messages.h"
+#include "text/column.h"
 #include "text/lines.h"
 
 namespace rolling {
@@ -44,8 +45,9 @@ void Tool::output() {
 }
 
 bool Tool::used(const std::string& quantity) const {
-  return std::any_of(input_.use.begin(), input_.use.end(),
-                     [&](const std::string& use) { return use.starts_with(quantity + '='); });
+  return std::ranges::any_of(input_.use, [&](const std::string& use) {
+    return read_column(use.substr(0, use.find('='))).name == quantity;
+  });
 }
 
 Reader& Tool::read(std::vector<std::string> order) {

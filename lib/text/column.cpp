@@ -106,9 +106,14 @@ std::string take_run(std::string_view& name) {
 }  // namespace
 
 std::string replace_all(std::string text, std::string_view from, std::string_view to) {
-  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
+  std::size_t begin = 0, at = text.find(from);
+  if (at == std::string::npos) return text;
+  std::string replaced;
+  for (; at != std::string::npos; at = text.find(from, begin)) {
+    replaced.append(text, begin, at - begin).append(to);
+    begin = at + from.size();
+  }
+  return replaced.append(text, begin, std::string::npos);
 }
 
 std::string plain_unit(std::string unit) {

@@ -14,8 +14,6 @@ struct Column {
   std::string unit{};
   /// The number in `Run #2` or `Data Set 1:`, the word in `Latest:`; empty if the name has neither.
   std::string run{};
-  /// The unit that a comment gives to a column whose name has none.
-  std::string elsewhere{};
 
   bool operator==(const Column&) const = default;
 };

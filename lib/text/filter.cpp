@@ -28,7 +28,7 @@ Filter::Filter(Reader& in, Output& out, std::string history)
 
 Filter::~Filter() {
   try {
-    if (!writing_) write_rows();
+    if (!changing_) write_rows();
   } catch (...) {  // the error that ended the work is reported, not this one
   }
 }
@@ -66,8 +66,10 @@ void Filter::take_head() {
 }
 
 void Filter::wait(Row row, std::string_view text) {
+  changing_ = true;
   rows_.append({reinterpret_cast<const char*>(&row), sizeof row});
   rows_.append(text);
+  changing_ = false;
 }
 
 void Filter::take_remarks(const std::vector<std::string>& remarks) {
@@ -95,10 +97,12 @@ bool Filter::next() {
   if (!in_.remarks().empty()) take_remarks(in_.remarks());
   if (!more) return false;
   const std::size_t row = rows_.size(), text = row + sizeof(Row);
+  changing_ = true;  // should memory run out, the destructor does not look at half a row
   rows_.set_end(rows_.reserve(sizeof(Row)) + sizeof(Row));
   const auto place = static_cast<std::uint32_t>(in_.append_text(rows_, cut_));
   const Row record{Kind::record, static_cast<std::uint32_t>(rows_.size() - text), place};
   std::memcpy(rows_.data() + row, &record, sizeof record);
+  changing_ = false;
   ++records_;
   return true;
 }
@@ -135,7 +139,7 @@ inline void Filter::write_record(std::string_view text, std::size_t place,
 /// Writes all rows before the first one that lacks a number.
 void Filter::write_rows() {
   if (!history_) return;
-  writing_ = true;
+  changing_ = true;
   const std::size_t each = std::max<std::size_t>(appended_.size(), 1);
   std::span<const double> numbers(numbers_.data(), numbers_.size());
   for (Row row; front_ < rows_.size(); front_ += sizeof row + row.size) {
@@ -164,7 +168,7 @@ void Filter::write_rows() {
   numbers_.erase_front(numbers_.size() - numbers.size());
   // Amortised, each row is moved at most once.
   if (2 * front_ >= rows_.size()) rows_.erase_front(std::exchange(front_, 0));
-  writing_ = false;
+  changing_ = false;
 }
 
 }  // namespace rolling

@@ -98,7 +98,7 @@ class Filter {
   std::size_t records_ = 0, run_begins_ = 0, done_ = 0;
   std::optional<Head> head_;  // of a run none of whose rows has been written
   bool any_row_ = false;
-  bool writing_ = false;  // true for good when a write has failed
+  bool changing_ = false;  // the rows; true for good when that has failed
 };
 
 }  // namespace rolling

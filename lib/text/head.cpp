@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "text/number.h"
-#include "text/unit_lines.h"
 
 namespace rolling {
 namespace {
@@ -79,7 +78,7 @@ class HeadReader {
   std::vector<std::string> take_names(std::size_t width, bool blank_end);
   enum class Proof { known, known_or_tabs, none };
   std::vector<std::string> take_commented_names(std::size_t width, Proof);
-  void refuse_lines_of_units(std::size_t width) const;
+  void note_sorted_history(std::size_t names);
   [[noreturn]] void refuse_without_records(const std::string& what) const;
   void comment_preamble();
   Head finish();
@@ -189,10 +188,22 @@ std::vector<std::string> HeadReader::take_commented_names(std::size_t width, Pro
                         (proof == Proof::none && std::ranges::none_of(names, is_figure));
     if (names.empty() || !proven) continue;
     head_.line = comments_[i].number;
+    note_sorted_history(i);
     comments_.erase(comments_.begin() + static_cast<std::ptrdiff_t>(i));
     return names;
   }
   return {};
+}
+
+/// Notes that several `##` lines were sorted, if one stands below the comment with the names: the
+/// tools write the names last, and what sorts records by a column puts `# t` before `##`.
+void HeadReader::note_sorted_history(std::size_t names) {
+  const auto count = [&](std::size_t from) {
+    return std::count_if(comments_.begin() + static_cast<std::ptrdiff_t>(from), comments_.end(),
+                         [](const Line& comment) { return is_history(comment.text); });
+  };
+  if (count(names) > 0 && count(0) > 1)
+    comments_.push_back({fmt::format("## {}", lines_sorted), comments_.back().number});
 }
 
 /// The units in the line below the line of names; empty if there is none.
@@ -202,17 +213,6 @@ std::vector<std::string> HeadReader::take_units() {
   if (!are_units_of(names_in(preamble_[preamble_.size() - 2].text, dialect_), units)) return {};
   preamble_.pop_back();
   return units;
-}
-
-/// Refuses other lines of units, which the tools do not read: columns are not taken as SI if a line
-/// says otherwise.
-void HeadReader::refuse_lines_of_units(std::size_t width) const {
-  if (width < 2) return;
-  for (const Line& comment : comments_)
-    refuse_line_of_units(names_in_comment(comment.text, width, {}).names, place(comment.number));
-  for (const Line& line : preamble_)
-    if (const auto fields = names_in(line.text, dialect_); fields.size() == width)
-      refuse_line_of_units(fields, place(line.number));
 }
 
 /// The names of `width` columns, empty if there are none here. `blank_end`: the record ends blank.
@@ -225,8 +225,7 @@ std::vector<std::string> HeadReader::take_names(std::size_t width, bool blank_en
     if (names.empty() && !before_) names = take_commented_names(width, Proof::none);
     if (names.empty())
       for (const Line& comment : comments_)
-        refuse_units_of_others(comment.text, width, before_ && before_->named,
-                               place(comment.number));
+        refuse_names_of_others(comment.text, width, place(comment.number));
     return names;
   }
   auto names = names_in(preamble_.back().text, dialect_);
@@ -281,14 +280,13 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
   const std::size_t width = fields.size();
   const bool blank_field = fields.back().text.empty();
   const auto units = take_units();
-  refuse_lines_of_units(width);
   const auto names = take_names(width, blank_field);
+  if (names.empty() && before_) head_.said = before_->said;
+  for (const Line& comment : comments_) note_units(comment.text, comment.number, head_.said);
   if (names.empty() && before_) {
     head_.named = before_->named;
     head_.blank_end = before_->blank_end;
     head_.layout = before_->layout;
-    for (const Line& comment : comments_)
-      note_other_units(comment.text, head_.layout.runs.front().columns);
     return finish();
   }
   head_.named = !names.empty();
@@ -304,7 +302,6 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
     if (columns.back().name.empty()) columns.back().name = fmt::format("c{}", i + 1);
     if (i < units.size()) add_unit(columns.back(), units[i], place(head_.line));
   }
-  for (const Line& comment : comments_) note_other_units(comment.text, columns);
   head_.layout = sides == Sides::one ? Layout::one(columns) : Layout::of(columns);
   if (head_.named && (head_.layout.side_by_side() ? width > names.size() : width != names.size()))
     fail("{} field{} under a line of {} name{}{}", width, width == 1 ? "" : "s", names.size(),

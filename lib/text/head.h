@@ -9,6 +9,7 @@
 #include "text/dialect.h"
 #include "text/layout.h"
 #include "text/lines.h"
+#include "text/unit_lines.h"
 
 namespace rolling {
 
@@ -21,8 +22,12 @@ struct Head {
   std::size_t line = 0;              ///< number of the line of names, else of the first record
   bool named = false;                ///< the columns have names, from this head or an earlier one
   bool blank_end = false;            ///< the lines end with a separator, behind the last column
+  SaidUnits said;                    ///< by comments, since the names
   Layout layout;                     ///< without runs if the file has no further record
 };
+
+/// The `##` line that stands at the end of a history whose lines have been put in another order.
+inline constexpr std::string_view lines_sorted = "lines sorted";
 
 /// Whether the names may tell several runs side by side, or each line is one record.
 enum class Sides { by_names, one };

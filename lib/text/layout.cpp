@@ -13,7 +13,6 @@ void add(Layout& layout, const std::vector<Column>& line, std::size_t field, std
   const auto put = [&](Layout::Run& run) {
     run.fields.push_back(field);
     run.columns.push_back(line[field]);
-    run.columns.back().run.clear();
   };
   layout.shared[field] = r == layout.runs.size();
   if (!layout.shared[field]) put(layout.runs[r]);

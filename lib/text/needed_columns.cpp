@@ -33,8 +33,9 @@ NeededColumns::NeededColumns(const std::vector<std::string>& use, bool has_use)
       fail("--use: '{}': a unit goes behind the column: {}=COLUMN[{}]", shown(text), quantity,
            shown(unit));
     if (si_unit(quantity).empty()) fail("--use: '{}' is not about t, x, v, a or D", shown(text));
-    const Column column = read_column(text.substr(equals + 1));
-    if (!use_.emplace(quantity, Use{column.name, column.unit}).second)
+    const std::string whole = text.substr(equals + 1);
+    const Column column = read_column(whole);
+    if (!use_.emplace(quantity, Use{column.run.empty() ? column.name : whole, column.unit}).second)
       fail("--use: '{}' comes after another for {}", shown(text), quantity);
   }
 }
@@ -52,9 +53,11 @@ bool NeededColumns::use_has_numbers() const {
                      [](const auto& use) { return is_number(use.second.column); });
 }
 
-void NeededColumns::begin_run(std::vector<Column> as_read, bool named, std::string place) {
+void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits said,
+                              std::string place) {
   as_read_ = std::move(as_read);
   named_ = named;
+  said_ = std::move(said);
   place_ = std::move(place);
   quantities_.clear();
   for (const Column& column : as_read_) quantities_.push_back(column.name);
@@ -63,8 +66,7 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, std::stri
     if (!at)
       fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", place_, quantity,
                        shown(use.column), shown(use.column), list());
-    for (std::string& other : quantities_)
-      if (other == quantity) other = free_name(as_read_, quantity);
+    std::ranges::replace(quantities_, quantity, free_name(as_read_, quantity));
     quantities_[*at] = quantity;
   }
   for (const auto& [quantity, use] : use_)
@@ -89,15 +91,23 @@ std::optional<std::size_t> NeededColumns::find_column(std::string_view name) con
     return number >= 1 && number <= static_cast<double>(as_read_.size())
                ? std::optional(static_cast<std::size_t>(number) - 1)
                : std::nullopt;
-  const std::string plain = read_column(name).name;
+  const Column asked = read_column(name);
   std::optional<std::size_t> found;
+  bool of_another_run = false;
   for (std::size_t i = 0; i < as_read_.size(); ++i)
-    if (as_read_[i].name == plain) {
+    if (as_read_[i].name == asked.name) {
+      if (!asked.run.empty() && asked.run != as_read_[i].run) {
+        of_another_run = true;
+        continue;
+      }
       if (found)
         fail<InputError>("{}: columns {} and {} are both {}; say --use {}=N", place_, *found + 1,
-                         i + 1, plain, plain);
+                         i + 1, asked.name, asked.name);
       found = i;
     }
+  if (of_another_run && !found)
+    fail<InputError>("{}: '{}' is a column of another run: choose that with --run", place_,
+                     shown(name));
   return found;
 }
 
@@ -157,16 +167,21 @@ void NeededColumns::resolve(Needed& needed) const {
                      shown(quantity), read.unit.empty() ? "no unit" : shown(read.unit),
                      needed.unit.empty() ? "no unit" : shown(needed.unit));
   const Column meant = with_unit(*found, quantity);
+  if (const std::string asked = read_column(needed.name).unit;
+      first && !asked.empty() && asked != meant.unit && asked != si_unit(quantity))
+    fail<InputError>("{}: '{}' is asked for, but column {} is '{}'", place_, shown(needed.name),
+                     *found + 1, shown(to_text(meant)));
   const auto way_out = [&] {
     return has_use_ ? fmt::format(" or say --use {}={}[UNIT]", quantity, *found + 1) : "";
   };
   if (meant.unit.empty()) {
-    std::string unit = unit_in_name(quantity, meant.name);
-    if (unit.empty()) unit = meant.elsewhere;
+    std::string unit = unit_in_name(quantity, meant.name), by;
+    if (const auto said = said_.find(quantity); unit.empty() && said != said_.end())
+      unit = said->second.unit, by = fmt::format(", as line {} says", said->second.line);
     if (!unit.empty())
       fail<InputError>(
-          "{}: column '{}' cannot serve as {}: is it in {}? Write the unit in brackets{}", place_,
-          shown(meant.name), quantity, unit, way_out());
+          "{}: column '{}' cannot serve as {}: is it in {}{}? Write the unit in brackets{}", place_,
+          shown(meant.name), quantity, unit, by, way_out());
   }
   try {
     needed.to_si = conversion_to_si(quantity, meant);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "text/column.h"
+#include "text/unit_lines.h"
 
 namespace rolling {
 
@@ -37,10 +38,10 @@ class NeededColumns {
   /// --use assigns a column by its number, which counts the fields of a line.
   bool use_has_numbers() const;
 
-  /// Finds the columns again among those of the next run. `named`: the file names them. `place`
-  /// begins the messages. Throws InputError if one is absent, or has another quantity or unit than
-  /// in the runs before.
-  void begin_run(std::vector<Column> as_read, bool named, std::string place);
+  /// Finds the columns again among those of the next run. `named`: the file names them. `said`: the
+  /// units in its comments, which a column without one is refused for. `place` begins the messages.
+  /// Throws InputError if one is absent, or has another quantity or unit than in the runs before.
+  void begin_run(std::vector<Column> as_read, bool named, SaidUnits said, std::string place);
   /// Declares a column; returns its slot, its index in all(). Throws InputError like begin_run().
   std::size_t add(std::string_view name, Kind);
   const std::vector<Needed>& all() const { return needed_; }
@@ -59,7 +60,7 @@ class NeededColumns {
 
  private:
   struct Use {
-    std::string column, unit;
+    std::string column, unit;  // the column by its number or name, with the run that it carries
   };
   std::optional<std::size_t> find_column(std::string_view name) const;
   std::size_t require(std::string_view name) const;
@@ -78,6 +79,7 @@ class NeededColumns {
   std::vector<Column> as_read_, in_output_;
   std::vector<std::string> quantities_;  // what each column serves as: by --use, else its own name
   bool named_ = false;
+  SaidUnits said_;
   std::string place_;
 };
 

@@ -161,7 +161,7 @@ void Reader::begin_run() {
   for (const std::string& comment : head_.comments)
     if (side_ == 0 || comment.starts_with("##")) comments_.push_back(comment);
   needed_.begin_run(
-      layout().columns, head_.named,
+      layout().columns, head_.named, head_.said,
       run_in_file_ > 1 ? fmt::format("{}:{}", lines_->name(), head_.line) : lines_->name());
   read_needed();
 }

@@ -2,6 +2,7 @@
 // A `place` is the FILE:LINE of an InputError.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,18 +19,19 @@ bool are_units_of(const std::vector<std::string>& names, const std::vector<std::
 /// Gives a column the unit that stands below its name. Refuses one other than that of the name.
 void add_unit(Column&, std::string_view unit, std::string_view place);
 
-/// Notes the units other than SI that a comment gives to columns whose names have none: behind the
-/// names of known quantities (`t [ms]`, `time in ms`), or in the order of the columns, two known
-/// units or more of them.
-void note_other_units(const std::string& comment, std::vector<Column>&);
+/// The units other than SI that comments say, by the quantity that may have them: its columns are
+/// not read in SI units if their names have none.
+struct SaidUnit {
+  std::string unit;
+  std::size_t line;  ///< the number of the line that says it
+};
+using SaidUnits = std::map<std::string, SaidUnit>;
 
-/// Refuses a comment with units that does not name the `width` columns of the records: columns
-/// without names are read in SI units, which would contradict it. If the columns are `named`
-/// already, units without names do not.
-void refuse_units_of_others(const std::string& comment, std::size_t width, bool named,
-                            std::string_view place);
+/// Adds those of a comment.
+void note_units(const std::string& comment, std::size_t line, SaidUnits&);
 
-/// Refuses a line of units that is not read, if they are not all SI.
-void refuse_line_of_units(const std::vector<std::string>& fields, std::string_view place);
+/// Refuses a comment with names and units, `t [s], v [m/s]`, that are not those of the `width`
+/// columns of the records.
+void refuse_names_of_others(const std::string& comment, std::size_t width, std::string_view place);
 
 }  // namespace rolling

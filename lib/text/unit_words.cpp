@@ -8,9 +8,12 @@
 
 #include "base/error.h"
 #include "text/column.h"
+#include "text/number.h"
 
 namespace rolling {
 namespace {
+
+constexpr std::size_t longest_unit = 32;  // in words
 
 /// The words of a name in small letters, and `per` for a slash. A word ends at any other sign, and
 /// before a capital behind a small letter.
@@ -61,7 +64,8 @@ std::string quotient(std::string_view text) {
 }
 
 /// Units that no tool converts.
-constexpr std::array unknown = {"ns", "mi", "yd", "px", "deg", "rpm", "knots", "kn", "kt", "kts"};
+constexpr std::array unknown = {"ns",    "mi", "yd", "px",  "deg",  "rpm",
+                                "knots", "kn", "kt", "kts", "days", "ticks"};
 /// Units of one quantity that are words or signs in the names of the others; cm is the centre of
 /// mass.
 constexpr std::array ambiguous = {"in", "min", "us", "um", "h", "cm"};
@@ -76,19 +80,61 @@ std::string unit_of_word(std::string_view quantity, const std::string& word,
   return is_other || std::ranges::count(unknown, letters) > 0 ? letters : std::string();
 }
 
-/// The unit of `quantity` that stands behind its own name, as in tms and speedkmh.
-std::string unit_behind_quantity(std::string_view quantity, const std::string& word) {
+/// Units that no word of a name or a sentence ends in by accident (`sum`, `left`, `status` end in
+/// others).
+bool is_sure(std::string_view unit) {
+  constexpr std::array sure = {"ms", "mm", "cm", "km", "mph"};
+  return std::ranges::count(sure, unit) > 0 || unit.find('/') != std::string_view::npos;
+}
+
+/// The unit of `quantity` at the end of a word: behind its name any, as in tus and speedfps, behind
+/// other letters one that is sure, as in posmm.
+std::string glued_unit(std::string_view quantity, const std::string& word) {
   const auto is_quantity = [&](const std::string& front) {
     return read_column(front).name == quantity ||
            (front.size() == 1 && front[0] == std::tolower(quantity[0]));
   };
-  for (std::size_t n = 1; n + 1 < word.size(); ++n)
-    if (is_quantity(word.substr(0, n))) {
-      const std::string rest = word.substr(n);
-      std::string unit = unit_of_word(quantity, rest, in_letters(rest));
-      if (is_unit_of(quantity, unit)) return unit;
-    }
+  for (std::size_t n = std::max(word.size(), longest_unit + 1) - longest_unit; n + 1 < word.size();
+       ++n) {
+    const std::string rest = word.substr(n), unit = unit_of_word(quantity, rest, in_letters(rest));
+    if (is_unit_of(quantity, unit) && (is_sure(unit) || is_quantity(word.substr(0, n))))
+      return unit;
+  }
   return {};
+}
+
+/// The words of a comment, with their capitals: a quotient is one word (cm/s^2), and `in` stands
+/// for an equals sign or a colon.
+std::vector<std::string> words_of_comment(std::string_view comment) {
+  std::string text = plain_unit(std::string(comment));
+  constexpr std::pair<std::string_view, std::string_view> spelled[] = {
+      {" per ", "/"},  {" / ", "/"},   {" s^-", "/s^"}, {" s-", "/s^"}, {"/s^1", "/s"},
+      {" h^-1", "/h"}, {" h-1", "/h"}, {"=", " in "},   {":", " in "}};
+  for (const auto& [from, to] : spelled) text = replace_all(std::move(text), from, to);
+  std::replace_if(
+      text.begin(), text.end(),
+      [](unsigned char c) { return !std::isalnum(c) && c != '/' && c != '^'; }, ' ');
+  return split_names(text, '\0');
+}
+
+/// The known quantity of which a word tells, one or several: time, times, velocities; else empty.
+std::string quantity_of(std::string word) {
+  const auto known = [](const std::string& text) {
+    const std::string name = read_column(text).name;
+    return si_unit(name).empty() ? "" : name;
+  };
+  if (word.size() < 4 || !word.ends_with('s')) return known(word);
+  if (word.ends_with("ies")) return known(word.substr(0, word.size() - 3) + 'y');
+  return known(word.substr(0, word.size() - 1));
+}
+
+/// The units that a word of a comment may be; capitals are those of a short word.
+std::array<std::string, 3> as_units(std::string word) {
+  if (word == "in" || word.size() > longest_unit) return {};
+  if (word.size() > 2)
+    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string letters = in_letters(word);
+  return {word, letters, quotient(letters)};
 }
 
 }  // namespace
@@ -104,7 +150,7 @@ std::string unit_in_name(std::string_view quantity, std::string_view name) {
       std::string unit;
       if (end == i + 1) {
         unit = unit_of_word(quantity, words[i], letters[i]);
-        if (unit.empty()) unit = unit_behind_quantity(quantity, words[i]);
+        if (unit.empty()) unit = glued_unit(quantity, words[i]);
       } else {
         std::string run;
         for (std::size_t k = i; k < end; ++k) run += letters[k];
@@ -116,6 +162,42 @@ std::string unit_in_name(std::string_view quantity, std::string_view name) {
       break;
     }
   return {};
+}
+
+UnitsOf units_in_comment(std::string_view comment) {
+  UnitsOf said;
+  if (comment.starts_with("##")) return said;
+  const std::vector<std::string> words = words_of_comment(comment.substr(1));
+  const auto is_value = [&](std::size_t i) { return i < words.size() && is_number(words[i]); };
+  const auto is_in = [&](std::size_t i) { return i < words.size() && words[i] == "in"; };
+  std::string of;  // the known quantity that was named last
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    std::string word = words[i];
+    const auto slash = word.find('/');
+    if (const std::string front = quantity_of(word.substr(0, slash)); !front.empty()) {
+      of = front;
+      if (slash == std::string::npos) continue;
+      word.erase(0, slash + 1);  // t/ms
+    }
+    if ((i > 0 && is_value(i - 1)) || is_value(i + 1) || (is_in(i + 1) && is_value(i + 2)))
+      continue;
+    const bool behind_in = i > 0 && is_in(i - 1);
+    const std::string before = i > 1 && behind_in ? quantity_of(words[i - 2]) : "";
+    const auto units = as_units(word);
+    for (const char* const quantity : {"t", "x", "v", "a", "D"}) {
+      const auto found = std::ranges::find_if(
+          units, [&](const std::string& unit) { return is_unit_of(quantity, unit); });
+      const std::string unit = found != units.end()           ? *found
+                               : before != quantity           ? ""
+                               : before == "a" && word == "g" ? "g"
+                                                              : unit_in_name(quantity, word);
+      const bool of_another = of != quantity && is_unit_of(of, unit);
+      if (!unit.empty() && unit_kind(unit) != UnitKind::si && !of_another &&
+          (behind_in || is_sure(unit)))
+        said.emplace(quantity, unit);
+    }
+  }
+  return said;
 }
 
 }  // namespace rolling

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 using namespace rolling;
@@ -128,6 +129,16 @@ TEST_CASE("history: of a filter that is not linear nothing can be said", "[cli]"
     CHECK(history.doubt.empty());
   }
   CHECK(history_of({"smooth v mean width 3"}, {}).filters.empty());  // filters act on times
+}
+
+TEST_CASE("history: of lines that were sorted none is believed, wherever this is said", "[cli]") {
+  Lines lines = {"differentiate v central", "lines sorted", "smooth v mean width 3"};
+  std::ranges::sort(lines);
+  do {
+    const History history = history_of(lines, times);
+    CHECK(history.filters.empty());
+    CHECK(history.doubt == "its `##` lines were sorted, so that their order tells nothing");
+  } while (std::ranges::next_permutation(lines).found);
 }
 
 TEST_CASE("history: a line that is not what its tool writes is not believed", "[cli]") {

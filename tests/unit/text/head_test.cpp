@@ -34,9 +34,23 @@ TEST_CASE("head: names in the last comment, in a line, or in the order of the to
   CHECK(head("0 1 2\n") == " no names, t[s] v[m/s] c3 in 1 of 3; 1: 0 1 2");
   CHECK(head("# about three words\n0 1\n") ==
         "# about three words| no names, t[s] v[m/s] in 1 of 2; 2: 0 1");
-  CHECK(head("## smooth v mean\n# t v\n## differentiate v central\n0 1\n") ==
-        "## smooth v mean|## differentiate v central| t v in 1 of 2; 4: 0 1");
   CHECK(head("\"two\nlines\" ,\nt,v\n0,1\n") == "# \"two lines\" ,| t v in 1 of 2; 4: 0,1");
+}
+
+TEST_CASE("head: several history lines, one of them below the names, were sorted", "[text]") {
+  const std::string one = "## smooth v mean width 3\n", other = "## differentiate v central\n",
+                    names = "# t\tv\n", sorted = "## lines sorted|";
+  const auto is_sorted = [&](const std::string& lines) {
+    return head(lines + "0\t1\n").find(sorted) != std::string::npos;
+  };
+  for (const std::string& lines : {names + one + other, names + other + one, one + names + other})
+    CHECK(is_sorted(lines));
+  for (const std::string& lines :
+       {one + other + names, names + one, one + names, names + "## run 2\n" + one})
+    CHECK_FALSE(is_sorted(lines));
+  CHECK(head(names + other + one + "0\t1\n") ==
+        "## differentiate v central|## smooth v mean width 3|## lines sorted| t v in 1 of 2; 4: "
+        "0\t1");
 }
 
 TEST_CASE("head: numbers, dates and times in a comment are no names", "[text]") {
@@ -98,15 +112,6 @@ TEST_CASE("head: text behind the last run becomes comments of one line each", "[
   const Head last = read_head(lines, dialect, &first, {}, Sides::by_names);
   CHECK(last.layout.runs.empty());
   CHECK(last.comments == std::vector<std::string>{"# \"the end\",x"});
-}
-
-TEST_CASE("head: other lines of units are refused", "[text]") {
-  const std::string refused =
-      "1: a line of units: put each behind the name of its column, as in t[ms]";
-  CHECK(head("# [s] [cm]\n# t x\n0 1\n") == refused);
-  CHECK(head("s,cm\nt,x\n0,1\n") == refused);
-  CHECK(head("My cart\ns,cm\n0,1\n") == "2" + refused.substr(1));
-  CHECK(head("ms\nt,x\n0,1\n") == "# ms| t x in 1 of 2; 3: 0,1");  // one word of text
 }
 
 TEST_CASE("head: no columns are refused, with the line", "[text]") {

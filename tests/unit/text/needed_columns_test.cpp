@@ -25,7 +25,7 @@ std::string output(const Texts& names, const Texts& use = {}, const Texts& wante
   std::string all;
   const std::string message = refusal([&] {
     NeededColumns needed(use, true);
-    needed.begin_run(columns(names), true, "FILE");
+    needed.begin_run(columns(names), true, {}, "FILE");
     for (const std::string& name : wanted) needed.add(name, Kind::needed);
     for (const Column& column : needed.in_output())
       all += (all.empty() ? "" : " ") + to_text(column);
@@ -46,6 +46,21 @@ TEST_CASE("needed columns: a --use that says nothing, or two things, is refused"
   CHECK(output(file, {"v=2", "Velocity=3"}) == "--use: 'Velocity=3' comes after another for v");
   CHECK(output(file, {"v=w", "x=2"}) == "FILE: --use: column 2 cannot serve as both v and x");
   CHECK(output(file, {"v=1"}) == "FILE: column 1 cannot serve as both v and t");
+}
+
+TEST_CASE("needed columns: a unit or a run in what is asked for is that of the column", "[text]") {
+  const Texts file = {"t", "v[km/h]", "F[N] Run #2", "w"};
+  for (const char* asked : {"v", "v[km/h]", "Velocity (m/s)", "F", "F[N]", "F Run 2", "2: F", "w"})
+    CHECK(output(file, {}, {"t", asked}).starts_with("t[s] v["));
+  CHECK(output(file, {}, {"v[cm/s]"}) == "FILE: 'v[cm/s]' is asked for, but column 2 is 'v[km/h]'");
+  CHECK(output(file, {}, {"F[kN]"}) == "FILE: 'F[kN]' is asked for, but column 3 is 'F[N]'");
+  CHECK(output(file, {}, {"w[N]"}) == "FILE: 'w[N]' is asked for, but column 4 is 'w'");
+  CHECK(output(file, {"v=w[cm/s]"}, {"v[cm/s]"}) == "t v_in[km/h] F[N] v[m/s]");
+  const std::string other = "' is a column of another run: choose that with --run";
+  for (const char* asked : {"F Run #3", "v Run 2", "Latest: F"}) {
+    CHECK(output(file, {}, {asked}) == "FILE: '" + std::string(asked) + other);
+    CHECK(output(file, {std::string("x=") + asked}) == "FILE: '" + std::string(asked) + other);
+  }
 }
 
 TEST_CASE("needed columns: --use says which, by name or by number", "[text]") {
@@ -71,7 +86,7 @@ TEST_CASE("needed columns: a column that is absent", "[text]") {
   CHECK(output({"T", "V"}) == "FILE: there is no column 't' among T, V; say --use t=COLUMN");
   CHECK(output({"t"}, {}, {"n"}) == "FILE: there is no column 'n' among t");
   NeededColumns needed({}, true);
-  needed.begin_run(columns({"t"}), false, "FILE");
+  needed.begin_run(columns({"t"}), false, {}, "FILE");
   CHECK(refusal([&] { needed.add("v", Kind::needed); }) ==
         "FILE: there is no column 'v' among 1 without names; say --use v=COLUMN");
   CHECK(needed.add("x", Kind::wanted) == 0);  // may be absent
@@ -105,26 +120,26 @@ TEST_CASE("needed columns: the order of the calls does not change the names", "[
 
 TEST_CASE("needed columns: the next run may have other places and units", "[text]") {
   NeededColumns needed({}, true);
-  needed.begin_run(columns({"t", "v[km/h]", "n[pebble]"}), true, "FILE");
+  needed.begin_run(columns({"t", "v[km/h]", "n[pebble]"}), true, {}, "FILE");
   const auto v = needed.add("v", Kind::needed), n = needed.add("n", Kind::needed);
   CHECK(needed.all()[v].to_si(72) == 20);
   CHECK(needed.converts());
-  needed.begin_run(columns({"v", "n[pebble]", "t"}), true, "FILE:9");
+  needed.begin_run(columns({"v", "n[pebble]", "t"}), true, {}, "FILE:9");
   CHECK(needed.all()[v].column == 0);
   CHECK(needed.all()[n].column == 1);
   CHECK_FALSE(needed.converts());
-  needed.begin_run(columns({"v[km/h]", "n[pebble]"}), true, "FILE:5");
+  needed.begin_run(columns({"v[km/h]", "n[pebble]"}), true, {}, "FILE:5");
   CHECK(needed.converts());
   CHECK(refusal([&] {
-          needed.begin_run(columns({"v", "n[stone]"}), true, "FILE:9");
+          needed.begin_run(columns({"v", "n[stone]"}), true, {}, "FILE:9");
         }) == "FILE:9: column n is in stone, and in pebble in the runs before");
-  CHECK(refusal([&] { needed.begin_run(columns({"v"}), true, "FILE:9"); }) ==
+  CHECK(refusal([&] { needed.begin_run(columns({"v"}), true, {}, "FILE:9"); }) ==
         "FILE:9: there is no column 'n' among v");
 }
 
 TEST_CASE("needed columns: a column as it is has no unit of its quantity", "[text]") {
   NeededColumns needed({}, true);
-  needed.begin_run(columns({"a[m s^-1]", "v[km/h]"}), true, "FILE");
+  needed.begin_run(columns({"a[m s^-1]", "v[km/h]"}), true, {}, "FILE");
   const auto a = needed.add("a", Kind::as_is);
   CHECK_FALSE(needed.all()[a].to_si.changes());
   CHECK(to_text(needed.in_output()[0]) == "a[m s^-1]");
@@ -142,10 +157,10 @@ TEST_CASE("needed columns: the names of a file without names end where --use say
 TEST_CASE("needed columns: one that is wanted, and absent from a later run, converts nothing",
           "[text]") {
   NeededColumns needed({}, true);
-  needed.begin_run(columns({"t", "x[cm]"}), true, "FILE");
+  needed.begin_run(columns({"t", "x[cm]"}), true, {}, "FILE");
   needed.add("x", Kind::wanted);
   CHECK(needed.converts());
-  needed.begin_run(columns({"t"}), true, "FILE:5");
+  needed.begin_run(columns({"t"}), true, {}, "FILE:5");
   CHECK_FALSE(needed.converts());
   CHECK(to_text(needed.in_output()[0]) == "t");
 }

@@ -194,8 +194,8 @@ TEST_CASE("reader: a separator at the ends of lines may be left out in the secon
 
 TEST_CASE("reader: units that a comment gives to the columns of the second run alone", "[text]") {
   CHECK(records({"# t v F\n0 1 2\n\n# s cm/s N\n2 3 4\n"}) ==
-        "FILE:5: column 'v' cannot serve as v: is it in cm/s? Write the unit in brackets or "
-        "say --use v=2[UNIT]");
+        "FILE:5: column 'v' cannot serve as v: is it in cm/s, as line 4 says? Write the unit in "
+        "brackets or say --use v=2[UNIT]");
 }
 
 TEST_CASE("reader: what is no number is refused with what to do about it", "[text]") {
@@ -360,13 +360,45 @@ TEST_CASE("reader: a carriage return or a NUL within a line is refused wherever 
 
 TEST_CASE("reader: a unit that only a comment gives is not passed over", "[text]") {
   const std::string refused =
-      "FILE: column 'v' cannot serve as v: is it in km/h? Write the unit in brackets or say "
-      "--use v=2[UNIT]";
+      "FILE: column 'v' cannot serve as v: is it in km/h, as line 1 says? Write the unit in "
+      "brackets or say --use v=2[UNIT]";
   CHECK(records({"# v [km/h]: by a GPS\n# t v\n0 36\n"}) == refused);
   CHECK(records({"t [s], v [km/h] and a remark\n\nt,v\n0,36\n"}) == refused);
   CHECK(records({"# v [km/h]: by a GPS\n# t v\n0 36\n"}, use({"v=v[km/h]"})) == "0 10");
   CHECK(records({"# v [km/h]: by a GPS\n# t v[m/s]\n0 36\n"}) == "0 36");
   CHECK(records({"# v [m/s]: by a GPS\n# x [cm]\n# t v\n0 36\n"}) == "0 36");
+}
+
+TEST_CASE("reader: no words about units are passed over, whatever names the columns", "[text]") {
+  struct Form {
+    std::string before, behind;  // what stands around the words
+    std::vector<std::string> use;
+  };
+  const std::vector<std::string> by_name = {"t=A", "v=B"}, by_number = {"t=1", "v=2"};
+  const Form forms[] = {
+      {"# ", "\n0\t1\n", {}},
+      {"# ", "\n# t\tv\n0\t1\n", {}},
+      {"# t\tv\n# ", "\n0\t1\n", {}},
+      {"# ", "\nt,v\n0,1\n", {}},
+      {"", "\nt,v\n0,1\n", {}},
+      {"# ", "\n# A\tB\n0\t1\n", by_name},
+      {"", "\nA;B\n0;1\n", by_name},
+      {"# ", "\n0 1\n", by_number},
+      {"t,v\n0,1\n\n# ", "\n2,3\n", {}},
+  };
+  for (const auto& [before, behind, use_columns] : forms) {
+    for (const char* words :
+         {"times are in ms", "speed: km/h", "Units: ms and cm/s",
+          "all speeds in kilometres per hour", "time unit: min", "speed in knots",
+          "Velocity (cm/s) from a camera", "t/ms, v/cm s^-1"}) {
+      INFO(before << words << behind);
+      CHECK(records({before + words + behind}, use(use_columns)).starts_with("FILE"));
+    }
+    for (const char* words : {"times are in s", "speed is in m/s", "x and D in mm"}) {
+      INFO(before << words << behind);
+      CHECK(records({before + words + behind}, use(use_columns)).starts_with("0 1"));
+    }
+  }
 }
 
 TEST_CASE("reader: units are converted, and go out converted", "[text]") {
@@ -522,7 +554,8 @@ TEST_CASE("reader: the names are the last comment with as many fields as the rec
   CHECK(records({"# t[ms] v[km/h] x[m]\n0 36\n"}) ==
         "FILE:1: a comment with units, but not the names of 2 columns");
   CHECK(records({"# Speed (km/h) from GPS\n0 36\n"}) ==
-        "FILE:1: a comment with units, but not the names of 2 columns");
+        "FILE: column 'v' cannot serve as v: is it in km/h, as line 1 says? Write the unit in "
+        "brackets or say --use v=2[UNIT]");
   CHECK(records({"# t[s] v[m/s]\n0 1\n# t[ms] v[km/h]\n1000 36\n"}) ==
         "FILE:3: names among the records; where another run begins, put a blank line before it");
 }

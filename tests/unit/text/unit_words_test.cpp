@@ -37,6 +37,12 @@ TEST_CASE("unit words: a unit in a name without brackets", "[text]") {
       {"x", "Dist_Cm", "cm"},
       {"x", "distMM", "mm"},
       {"x", "xcm", "cm"},
+      {"x", "posmm", "mm"},
+      {"x", "distance_rawcm", "cm"},
+      {"t", "clockms", "ms"},
+      {"t", "time_days", "days"},
+      {"v", "velKmh", "km/h"},
+      {"v", "velcms", "cm/s"},
       {"x", "distance_inch", "in"},
       {"x", "dist_feet", "ft"},
       {"x", "dist centimeters", "cm"},
@@ -81,7 +87,7 @@ TEST_CASE("unit words: SI units, and words that are no units", "[text]") {
       {"t", {"Time_elapsed", "time_sec", "Time in seconds", "times", "Run 1", "in", "stamp"}},
       {"x",
        {"x_m", "x2", "Position_1", "distance to motion sensor", "Distance in meters", "rms",
-        "Mass A", "x_s", "x_min", "items", "sum", "radius", "xMax", "frame A"}},
+        "Mass A", "x_s", "x_min", "items", "sum", "left", "origin", "radius", "xMax", "frame A"}},
       {"v",
        {"v_in",
         "v_ms",
@@ -110,4 +116,58 @@ TEST_CASE("unit words: SI units, and words that are no units", "[text]") {
       INFO(quantity << " of " << name);
       CHECK(unit_in_name(quantity, name).empty());
     }
+}
+
+TEST_CASE("unit words: a unit in a comment", "[text]") {
+  struct Case {
+    const char *quantity, *comment, *unit;
+  };
+  const Case cases[] = {
+      {"t", "# times are in ms", "ms"},
+      {"t", "# the times are milliseconds", "ms"},
+      {"t", "# Milliseconds since the start", "ms"},
+      {"t", "# time unit: ms", "ms"},
+      {"t", "# t is ms", "ms"},
+      {"t", "# t [ms]: time, x [cm]", "ms"},
+      {"t", "# t/ms x/cm", "ms"},
+      {"t", "# Time ms Velocity cm/s", "ms"},
+      {"t", "# t and v: ms and cm/s", "ms"},
+      {"t", "# units: ms cm/s", "ms"},
+      {"t", "# [ms] [cm/s] [N] [m]", "ms"},
+      {"t", "# duration in min", "min"},
+      {"t", "# time = fortnight, in days", ""},
+      {"x", "# position: centimetres", "cm"},
+      {"x", "# 3 marks, all in feet", "ft"},
+      {"x", "# x in px", "px"},
+      {"x", "# time in ms, x in mm", "mm"},
+      {"x", "# D in mm", ""},
+      {"D", "# D in mm", "mm"},
+      {"D", "# x, D: mm", "mm"},
+      {"v", "# all speeds in km/h", "km/h"},
+      {"v", "# all speeds in kilometres per hour", "km/h"},
+      {"v", "# speed in MPH", "mph"},
+      {"v", "# v in cm s^-1", "cm/s"},
+      {"v", "# speed in knots", "knots"},
+      {"v", "# times are in ms", ""},
+      {"v", "# all velocities in knots", "knots"},
+      {"a", "# a in cm/s\xC2\xB2", "cm/s^2"},
+      {"a", "# accelerations in g", "g"},
+      {"t", "# times in days", "days"},
+      {"x", "# positions: pixels", "px"},
+  };
+  for (const Case& c : cases) {
+    INFO(c.quantity << " of " << c.comment);
+    CHECK(units_in_comment(c.comment)[c.quantity] == c.unit);
+  }
+}
+
+TEST_CASE("unit words: values, and words that are no units, in a comment", "[text]") {
+  for (const char* comment :
+       {"# every 40 ms, 3 cm apart, at 5 km/h", "# exposure (ms): 20", "# radius in cm: 4",
+        "# time in min: 5", "# speed: min 0, time: 40 ms", "# time: in the morning",
+        "# Ms. Smith, MS Excel", "# t min, t max, x min", "# us, them; in a min or an h",
+        "# a shell in felt", "# t: s; v = m/s, x in m", "# time in s, speed in m s^-1",
+        "## smooth t from 1 ms", "## times in ms", "# g = 981 cm/s^2", "# mass in g",
+        "# every 40 ms m by m", "# the sum of two forms is a status", "#"})
+    CHECK(units_in_comment(comment) == UnitsOf());
 }
