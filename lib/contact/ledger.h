@@ -23,18 +23,18 @@ class Ledger {
     F_H_ = 0 - (D * incline_.cos - c.K * c.R * incline_.sin) * c.m * c.g / ((c.K + A_) * c.R);
   }
 
-  // 0 - x instead of -x: at rest the result is then +0, not "-0".
-  double omega() const { return omega_; }                          ///< [rad/s] (Eq. 1)
-  double p() const { return body_.m * v_; }                        ///< momentum [N s]
-  double L() const { return body_.K * body_.m * body_.R * v_; }    ///< J omega [N m s] (Eqs. 2, 3)
-  double A() const { return A_; }                                  ///< arm factor (Eq. 8)
-  double D() const { return D_; }                                  ///< shift [m]
-  double F_N() const { return body_.m * body_.g * incline_.cos; }  ///< normal force [N]
+  // 0 - x instead of -x, and 0 + x where a factor may be 0: the result is then +0, not "-0".
+  double omega() const { return omega_; }                            ///< [rad/s] (Eq. 1)
+  double p() const { return body_.m * v_; }                          ///< momentum [N s]
+  double L() const { return 0 + body_.K * body_.m * body_.R * v_; }  ///< [N m s] (Eqs. 2, 3)
+  double A() const { return A_; }                                    ///< arm factor (Eq. 8)
+  double D() const { return D_; }                                    ///< shift [m]
+  double F_N() const { return body_.m * body_.g * incline_.cos; }    ///< normal force [N]
   double F_H() const { return F_H_; }              ///< force of the mat along it [N] (Eq. 9)
   double tau_N() const { return 0 - D_ * F_N(); }  ///< torque of F_N [N m] (Eq. 7)
   double tau_H() const { return 0 - A_ * body_.R * F_H_; }  ///< torque of F_H [N m] (Eq. 6)
-  double vP_H() const { return one_minus_A_ * v_; }  ///< velocity of P along the mat (Eq. 16)
-  double vP_V() const { return 0 - D_ * omega_; }    ///< and across it [m/s] (Eq. 20)
+  double vP_H() const { return 0 + one_minus_A_ * v_; }  ///< velocity of P along the mat (Eq. 16)
+  double vP_V() const { return 0 - D_ * omega_; }        ///< and across it [m/s] (Eq. 20)
   double E_trans() const { return body_.m * v_ * v_ / 2; }          ///< translational energy [J]
   double E_rot() const { return body_.K * body_.m * v_ * v_ / 2; }  ///< rotational energy [J]
   double I_E1() const { return 0 - vP_H() * F_H_; }     ///< outflow with p_x [W] (Eq. 17)

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double gain = 1e-9;        // relative growth of v that rounding explains
+constexpr double unseen = 1e-28;     // of v0: the rest of the roll does not show in a double
 constexpr double least_part = 1e-8;  // of v0; for much lower v, rounding of t exceeds a step
 
 /// The speed at which the solver ends; 0 if the body never stops.
@@ -72,14 +73,20 @@ Integrator::Event IntegratedRoll::floor_event() const {
 }
 
 IntegratedRoll::Tail IntegratedRoll::tail(const Integrator& ode) const {
-  const double v = std::max(0.0, ode.state()[1]), D = law_.shift(v);
-  if (geometry_ == Geometry::exact && D >= body_.R * (1 - 1e-9))
-    fail("at t = {:.6g} s the shift has grown to the radius {:.6g} m", ode.time(), body_.R);
-  // The event locates the floor up to rounding, so that v may be above or below it.
-  if (law_.rest == floor_) return {ode.time(), 0, v, 0};
-  const double a = trial_acceleration(body_, geometry_, D),
-               q = v * trial_acceleration_slope(body_, geometry_, D) * law_.slope(v) / a;
-  return {ode.time(), v / ((1 - q) * -a), v, q};
+  const double t = ode.time(), v = std::max(0.0, ode.state()[1]), D = law_.shift(v), R = body_.R;
+  // The event is that of the closer limit: the rounding of t moves it away from the state a little,
+  // so that v may be above or below the floor.
+  bool grows_to_R = geometry_ == Geometry::exact && (R - D) * floor_ < std::abs(v - floor_) * R;
+  Tail tail{t, 0, v, 0};
+  if (!grows_to_R && law_.rest != floor_) {
+    const double a = trial_acceleration(body_, geometry_, D), power = v * law_.slope(v) / D;
+    tail.q = D * trial_acceleration_slope(body_, geometry_, D) * power / a;
+    tail.duration = v / ((1 - tail.q) * -a);
+    grows_to_R = geometry_ == Geometry::exact && power < 0 &&
+                 v * std::pow(D / R, -1 / power) > unseen * v0();
+  }
+  if (grows_to_R) fail("at t = {:.6g} s the shift has grown to the radius {:.6g} m", t, R);
+  return tail;
 }
 
 double IntegratedRoll::stop_time() const {

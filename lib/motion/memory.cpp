@@ -114,26 +114,37 @@ double MemoryRoll::expected_evaluations(double t) const {
   return 300 * work.swings + 4 * (options_.stepper < Stepper::rk1imp ? work.relaxations : 0);
 }
 
-bool MemoryRoll::advance(Integrator& ode, bool& backwards, double t) const {
+double MemoryRoll::fastest(const std::vector<double>& y) const {
+  const double z = y[2], c = body_.g / ((body_.K + arm_factor(body_, geometry_, z)) * body_.R),
+               power = 2 + law_.b;
+  return std::pow(
+      std::pow(std::abs(y[1]), power) + power * bulge_.length * c * z * z / (2 * law_.a),
+      1 / power);
+}
+
+bool MemoryRoll::advance(Integrator& ode, double& crept, double t) const {
   const double most = ode.time() < t ? spare_evaluations_ + 10 * expected_evaluations(t) : 0;
   const unsigned long before = ode.evaluations();
+  const bool rests = law_.b < 2 && body_.slope == 0;
   // The right-hand side has a kink at v = 0; therefore each zero is located, and the integration
-  // restarts from v = 0 exactly.
-  while (ode.advance(t, [](const std::vector<double>& y) { return y[1]; })) {
+  // restarts from v = 0 exactly. The bulge pushes the body away from there, against z.
+  for (;;) {
+    const double v = ode.state()[1], way = v > 0 || (v == 0 && ode.state()[2] < 0) ? 1 : -1;
+    if (!ode.advance(t, [&](const std::vector<double>& y) {
+          return std::min(way * y[1], crept > 0 ? fastest(y) - crept : infinity);
+        }))
+      return false;
     std::vector<double> y = ode.state();
+    if (crept > 0 && fastest(y) - crept <= way * y[1]) return true;
     y[1] = 0;
-    const double z = y[2], c = body_.g / ((body_.K + arm_factor(body_, geometry_, z)) * body_.R);
-    const double fastest = std::pow((2 + law_.b) * bulge_.length * c * z * z / (2 * law_.a),
-                                    1 / (2 + law_.b));  // E at v = 0
     ode.restart(y);
-    if (law_.b < 2 && body_.slope == 0 && backwards && fastest <= rest_fraction * v0()) return true;
-    backwards = true;
+    if (rests && crept > 0 && fastest(y) <= rest_fraction * v0()) return true;
+    if (rests && crept == 0) crept = rest_fraction * fastest(y);
     const unsigned long taken = ode.evaluations() - before;
     if (static_cast<double>(taken) > most)
       fail("the bulge still rings at t = {:.6g} s, after {} evaluations of its equation",
            ode.time(), taken);
   }
-  return false;
 }
 
 double MemoryRoll::stop_time() const {
@@ -141,8 +152,8 @@ double MemoryRoll::stop_time() const {
   if (law_.b >= 2 || body_.slope != 0) return std::numeric_limits<double>::infinity();
   if (!stop_time_) {
     Integrator ode = from_start();
-    bool backwards = false;
-    advance(ode, backwards, std::numeric_limits<double>::infinity());
+    double crept = 0;
+    advance(ode, crept, std::numeric_limits<double>::infinity());
     stop_time_ = ode.time();
   }
   return *stop_time_;
@@ -153,7 +164,7 @@ void MemoryRoll::seek(double t) {
   // The computed time of rest depends, within rounding, on the steps. The first value that was
   // returned remains valid.
   const double stop = stop_time_.value_or(std::numeric_limits<double>::infinity());
-  at_rest_ = advance(ode_, backwards_, std::min(t, stop)) || t >= stop;
+  at_rest_ = advance(ode_, crept_, std::min(t, stop)) || t >= stop;
   if (at_rest_ && !stop_time_) stop_time_ = ode_.time();
 }
 

@@ -36,10 +36,11 @@ MemoryWork memory_work(const Body&, PowerLaw, Bulge, double v0, double t);
 /// Rest: with c = g / ((K + A) R),  E = c z^2 / 2 + a |v|^(2+b) / ((2+b) length)  never grows
 /// (while damping |v| < 4 length), so it bounds every later speed. The ringing dies out only like a
 /// power of time; rest is declared at the first zero of v after the roll backwards after which E
-/// keeps |v| below v0 / 1000. From there on v and D are exactly 0. So the roll backwards is there
-/// for every length. For b >= 2 the shift fades too fast to stop the body:
-/// stop_time() is infinite. So it is on a slope: at rest the bulge would relax, and the body creeps
-/// down.
+/// keeps |v| below v0 / 1000. A strongly damped bulge creeps back without another zero of v: rest
+/// is also where the bound has fallen to a thousandth of what it was at the first zero. From rest
+/// on v and D are exactly 0. So the roll backwards is there for every length. For b >= 2 the shift
+/// fades too fast to stop the body: stop_time() is infinite. So it is on a slope: at rest the bulge
+/// would relax, and the body creeps down.
 class MemoryRoll final : public SolvedRoll {
  public:
   /// Throws Error as check_roll does, and for b < 0 (no finite shift at rest), length <= 0 or
@@ -59,15 +60,17 @@ class MemoryRoll final : public SolvedRoll {
 
  private:
   bool at_rest() override { return at_rest_; }
-  double expected_evaluations(double t) const;  // throws Error if the work is too much
-  /// Integrates to t or to the rest, whichever is earlier, and returns true at rest. `backwards` is
-  /// true after the first zero of v.
-  bool advance(Integrator&, bool& backwards, double t) const;
+  double expected_evaluations(double t) const;         // throws Error if the work is too much
+  double fastest(const std::vector<double>& y) const;  // the bound of |v| from this state on
+  /// Integrates to t or to the rest, whichever is earlier, and returns true at rest. `crept` is the
+  /// bound of |v| at which creep counts as rest; 0 up to the first zero of v.
+  bool advance(Integrator&, double& crept, double t) const;
 
   PowerLaw law_;
   Bulge bulge_;
   double spare_evaluations_;  // of one call, in addition to ten times the expected number
-  bool backwards_ = false, at_rest_ = false;
+  double crept_ = 0;
+  bool at_rest_ = false;
   mutable std::optional<double> stop_time_;
 };
 

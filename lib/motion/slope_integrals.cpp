@@ -21,6 +21,7 @@ constexpr double fastest = 300;  // speeds above v0 e^300 are refused
 // the other term.
 constexpr double least_b = 1e-19, least_slope = 1e-200;
 constexpr double least_net = 1e-100, least_depth = 1e-290;
+constexpr double least_pole = 1e-6;   // the time in which A grows to it is 1e-12 of the whole
 constexpr double least_part = 1e-17;  // the panels towards a last speed end at this part of the way
 constexpr double negligible = 1e-6;   // last speeds below it, as a part of v0, count as rest:
 constexpr double rest_left = std::numbers::ln2;  // the stop is at twice the last speed
@@ -121,9 +122,20 @@ double SlopeIntegrals::width(double r, double left) const {
   }
   if (!exact_) return limit;
   // Where A is the variable, z = d^2 changes by at most a factor 2 = e^(2/3): see SpeedPanel.
-  if (beta_ > 0 ? r < deep_end_ : r >= deep_end_) return std::min(limit / 2, 1 / (3 * size));
+  if (beta_ > 0 ? r < deep_end_ : r >= deep_end_)
+    return std::min({limit / 2, 1 / (3 * size), width_by_arm(r)});
   const double root = std::log(depth_) / beta_;  // A = 0
   return std::min(limit, root > r ? ahead * (root - r) : behind * (r - root));
+}
+
+/// The largest length of a panel with A as the variable on a rising mat: net = 0 at A =
+/// -cos(theta), which on a steep mat is close to A = 0.
+double SlopeIntegrals::width_by_arm(double r) const {
+  if (slope_ <= 0) return infinity;
+  const double A = arm(r), gap = A + std::max(1 / std::hypot(1, slope_), least_pole),
+               end = beta_ > 0 ? A + behind * gap : A - ahead * gap;
+  if (end < 0 || end >= 1) return infinity;
+  return std::log1p((A - end) * (A + end) / (1 - A * A)) / (-2 * beta_);
 }
 
 double SlopeIntegrals::arm(double r) const {

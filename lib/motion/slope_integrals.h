@@ -97,6 +97,7 @@ class SlopeIntegrals {
   double net(double d, double A, double left) const;
   double E_by_net(double r, double d, double net) const;
   double width(double r, double left) const;
+  double width_by_arm(double r) const;
   double horizon() const;
   void add_panels(double last, double left);
   void add_panel(double r, double left, double width);

@@ -24,13 +24,18 @@ class SolvedRoll : public Motion {
   unsigned long evaluations() const override { return ode_.evaluations(); }
 
  protected:
-  /// `start` is the state at t = 0. Throws Error if its x is not finite, and the errors of
-  /// Integrator.
+  /// A part of it, times a tolerance, is still a number with all digits.
+  static constexpr double least_speed = 1e-280;
+  /// `start` is the state at t = 0. Throws Error if its x is not finite or its v is positive and
+  /// below least_speed, and the errors of Integrator.
   SolvedRoll(const Body& body, Geometry geometry, OdeSystem equations, const OdeOptions& options,
              std::vector<double> start)
       : body_(body), geometry_(geometry), equations_(std::move(equations)), options_(options),
         start_(std::move(start)), ode_(equations_, options_, 0, start_) {
     if (!std::isfinite(start_[0])) fail("the initial position x0 = {} must be finite", start_[0]);
+    if (v0() > 0 && v0() < least_speed)
+      fail("the initial velocity v0 = {} is too small for a solver: the least is {:g} m/s", v0(),
+           least_speed);
   }
   /// True if the body has come to rest: then dv/dt is exactly 0.
   virtual bool at_rest() = 0;

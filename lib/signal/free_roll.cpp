@@ -51,7 +51,7 @@ struct View {
   std::vector<double> speeds;
   double fastest, noise;
 
-  View(std::span<const Sample> run, bool positions, std::size_t half) : k(half) {
+  View(std::span<const Sample> run, bool positions, double step, std::size_t half) : k(half) {
     const std::size_t n = run.size();
     const auto from_first = [&](std::size_t j) { return Sample{run[j].t - run[0].t, run[j].y}; };
     speeds.reserve(n);
@@ -67,6 +67,10 @@ struct View {
     }
     fastest = std::abs(speeds[peak]);
     noise = noise_from(peak, fastest / 5);
+    // Positions that only their rounding disturbs have errors that follow each other.
+    const double window =
+        (run[n - 1].t - run[0].t) / static_cast<double>(n - 1) * static_cast<double>(2 * k + 1);
+    if (positions) noise = std::max(noise, step / window / 2);
   }
 
   /// The noise of the speeds, from second differences of windows that do not overlap, after sample
@@ -86,14 +90,15 @@ constexpr double enough = 0.02;  // noise relative to the greatest speed that is
 
 /// The narrowest windows whose noise is below 2 % of the greatest speed, if there are any;
 /// otherwise those with the smallest relative noise.
-View best_view(std::span<const Sample> run, bool positions) {
-  View view(run, positions, 2);
+View best_view(std::span<const Sample> run, bool positions, double step) {
+  View view(run, positions, step, 2);
   for (std::size_t k = view.k; view.noise > enough * view.fastest;) {
     // The noise of slopes falls as the width to the power of -3/2; that of means falls more slowly.
     const double excess = std::pow(view.noise / (enough * view.fastest), 2.0 / 3);
     k = 1 + static_cast<std::size_t>(static_cast<double>(k) * std::clamp(excess, 1.25, 4.0));
     if (20 * k >= run.size()) break;
-    if (View wider(run, positions, k); wider.noise * view.fastest < view.noise * wider.fastest)
+    if (View wider(run, positions, step, k);
+        wider.noise * view.fastest < view.noise * wider.fastest)
       view = std::move(wider);
   }
   return view;
@@ -113,8 +118,9 @@ double smallest_step(std::span<const Sample> readings) {
 
 /// Replaces outliers by the moving median of five, so that one or two of them make no corner. An
 /// outlier is further from the median than 6 standard deviations of these distances (for samples
-/// from `first` on, while the body moves) and than 3 times the smallest step between neighbours.
-std::vector<Sample> without_spikes(std::span<const Sample> readings, std::size_t first) {
+/// from `first` on, while the body moves) and than 3 times `step`.
+std::vector<Sample> without_spikes(std::span<const Sample> readings, std::size_t first,
+                                   double step) {
   MovingMedian median_of_five({5, 0});
   std::vector<double> medians, distances;
   std::vector<Sample> kept(readings.begin(), readings.end());
@@ -126,7 +132,7 @@ std::vector<Sample> without_spikes(std::span<const Sample> readings, std::size_t
   take(median_of_five.finish());
   for (std::size_t i = first; i < kept.size(); ++i)
     distances.push_back(std::abs(kept[i].y - medians[i]));
-  const double most = std::max(6 * deviation(distances), 3 * smallest_step(readings));
+  const double most = std::max(6 * deviation(distances), 3 * step);
   for (std::size_t i = 0; i < kept.size(); ++i)
     if (std::abs(kept[i].y - medians[i]) > most) kept[i].y = medians[i];
   return kept;
@@ -135,11 +141,12 @@ std::vector<Sample> without_spikes(std::span<const Sample> readings, std::size_t
 constexpr const char* not_found =
     "no free roll is found after the last push: choose it by its times (--from, --to)";
 
-/// A run with the quantities that the search for its roll needs.
+/// A run with the quantities that the search for its roll needs. `step` is the resolution of its
+/// readings.
 class Search {
  public:
-  Search(std::span<const Sample> run, bool positions)
-      : positions_(positions), view_(best_view(run, positions)),
+  Search(std::span<const Sample> run, bool positions, double step)
+      : positions_(positions), step_(step), view_(best_view(run, positions, step)),
         sign_(view_.speeds[view_.peak] < 0 ? -1 : 1) {
     if (!(view_.fastest > 8 * view_.noise))
       fail(
@@ -155,7 +162,7 @@ class Search {
       end_ -= std::min(view_.k + 1, end_);
     }
     if (end_ < least_samples) fail("{}", not_found);
-    samples_ = without_spikes(run.subspan(0, end_), first_);
+    samples_ = without_spikes(run.subspan(0, end_), first_, step);
   }
   std::size_t end() const { return end_; }
 
@@ -190,14 +197,14 @@ class Search {
 
   std::size_t corner_of(double significance) const {
     constexpr double least = 0.05;  // relative to the greatest speed
-    const double step = smallest_step(samples_),
-                 dt = (samples_[end_ - 1].t - samples_[0].t) / static_cast<double>(end_ - 1);
+    const double dt = (samples_[end_ - 1].t - samples_[0].t) / static_cast<double>(end_ - 1);
     // The rounding error of a reading has the standard deviation step / sqrt(12). The bend in
-    // corner.cpp has sqrt(6) times that for means of positions and twice that for means of white
-    // speeds. Speeds that a sensor computed from four positions are twice as noisy as their step
-    // suggests.
-    const RoundedSpeeds coarse = positions_ ? RoundedSpeeds{step / std::sqrt(2) / dt, 1.5}
-                                            : RoundedSpeeds{4 * step / std::sqrt(12), 0.5};
+    // corner.cpp has sqrt(6) times that for positions, and twice that for means of white speeds.
+    // The errors of positions follow each other where a reading moves by less than a step: means do
+    // not reduce them. Speeds that a sensor computed from four positions are twice as noisy as
+    // their step suggests.
+    const RoundedSpeeds coarse = positions_ ? RoundedSpeeds{step_ / std::sqrt(2) / dt, 1}
+                                            : RoundedSpeeds{4 * step_ / std::sqrt(12), 0.5};
     std::size_t size = 1;  // smaller blocks than those of the view contain only noise
     while (4 * size <= view_.k) size *= 2;
     return last_corner(way_of(samples_, positions_, sign_),
@@ -224,6 +231,7 @@ class Search {
   }
 
   bool positions_;
+  double step_;
   View view_;
   double sign_;
   std::size_t first_, end_;
@@ -234,9 +242,9 @@ class Search {
 constexpr std::size_t at_once = 20000;
 
 /// The roll in a run of at most at_once samples.
-Stretch roll_of(std::span<const Sample> run, bool positions) {
+Stretch roll_of(std::span<const Sample> run, bool positions, double step) {
   constexpr double clear = 5, faint = 3.5;  // standard deviations
-  const Search search(run, positions);
+  const Search search(run, positions, step);
   Stretch roll{search.begin(clear), search.end(), {}};
   if (roll.begin + 3 > roll.end) fail("{}", not_found);
   const std::size_t other = std::min(search.begin(faint), roll.end - 1);
@@ -249,9 +257,12 @@ Stretch roll_of(std::span<const Sample> run, bool positions) {
 
 Stretch free_roll(std::span<const Sample> run, bool positions) {
   if (run.size() < 10) fail("a run of {} records is too short to find its free roll", run.size());
-  if (run.size() <= at_once) return roll_of(run, positions);
+  if (run.size() <= at_once) return roll_of(run, positions, smallest_step(run));
   const std::size_t size = 2 * run.size() / at_once, n = run.size();
-  Stretch roll = roll_of(means(run, size), positions);
+  // The rounding errors of speeds are independent, those of positions follow each other.
+  const double step = smallest_step(run),
+               step_of_means = positions ? step : step / std::sqrt(static_cast<double>(size));
+  Stretch roll = roll_of(means(run, size), positions, step_of_means);
   roll.begin *= size, roll.end = std::min(roll.end * size, n);
   if (roll.other) *roll.other *= size;
   // A range as long as the roll on either side shows its beginning and its end. If that is more

@@ -15,9 +15,9 @@ namespace rolling {
 /// The end. The roll ends where the body, after its greatest speed in the run, comes to rest:
 /// before the last window of 2k + 1 samples whose speed is above twice its noise. k is 2, or larger
 /// so that the noise falls below 2 % of the greatest speed, or as low as windows of up to a tenth
-/// of the run allow. The search for that window goes backwards, from 2k + 1 samples behind the
-/// first slower one. No sample that is kept has decided, so that no sample is selected by its
-/// noise.
+/// of the run allow. The noise of positions is at least that of their rounding. The search for that
+/// window goes backwards, from 2k + 1 samples behind the first slower one. No sample that is kept
+/// has decided, so that no sample is selected by its noise.
 ///
 /// The beginning. The roll begins after the last corner of the speed (signal/corner.h) that exceeds
 /// 5 standard deviations of the noise and adds 5 % of the greatest speed in a window; one or two

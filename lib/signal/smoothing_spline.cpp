@@ -109,18 +109,18 @@ std::span<const double> SplineDerivative::finish() {
 
   const auto bend = [&](std::size_t i) { return i >= 1 && i <= m ? bend_[i - 1] : 0; };
   const auto over = [&](double rise, std::size_t i) { return i < h_.size() ? rise / h_[i] : 0; };
-  const auto value = [&](std::size_t i) {
-    double Qg = over(bend(i + 1) - bend(i), i);
-    if (i > 0) Qg -= over(bend(i) - bend(i - 1), i - 1);
-    return y_[i] - alpha * Qg;
+  const auto Qg = [&](std::size_t i) {
+    const double sum = over(bend(i + 1) - bend(i), i);
+    return i > 0 ? sum - over(bend(i) - bend(i - 1), i - 1) : sum;
+  };
+  // A difference of readings, unlike one of values, loses no digits to what they have in common.
+  const auto rise = [&](std::size_t i) {
+    return (y_[i + 1] - y_[i] - alpha * (Qg(i + 1) - Qg(i))) / h_[i];
   };
   slopes_.reserve(n);
   for (std::size_t i = 0; i + 1 < n; ++i)
-    slopes_.push_back(
-        ((value(i + 1) - value(i)) / h_[i] - h_[i] * (2 * bend(i) + bend(i + 1)) / 6) / unit);
-  slopes_.push_back(((value(n - 1) - value(n - 2)) / h_[n - 2] +
-                     h_[n - 2] * (bend(n - 2) + 2 * bend(n - 1)) / 6) /
-                    unit);
+    slopes_.push_back((rise(i) - h_[i] * (2 * bend(i) + bend(i + 1)) / 6) / unit);
+  slopes_.push_back((rise(n - 2) + h_[n - 2] * (bend(n - 2) + 2 * bend(n - 1)) / 6) / unit);
   for (double& slope : slopes_) slope = std::ldexp(slope, scale);
   return slopes_;
 }

@@ -106,6 +106,10 @@ TEST_CASE("ledger: rolling backwards the mat gives energy back, and rest has no 
   const Ledger level(body, Geometry::exact, 0.5, 0);
   for (const double force : {level.F_H(), level.tau_N(), level.tau_H()})
     CHECK((force == 0 && !std::signbit(force)));
+  const Body ring{1.375, 0.04, 0};
+  const Ledger back(ring, Geometry::approximate, -0.5, 1e-3);
+  for (const double entry : {back.L(), back.vP_H(), back.E_rot(), back.I_E1()})
+    CHECK((entry == 0 && !std::signbit(entry)));
 }
 
 TEST_CASE("ledger: a shift beyond the radius has a meaning only where A = 1", "[contact]") {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "motion/roll.h"
+#include "motion/trajectory.h"
 #include "unit/catch.h"
 
 using namespace rolling;
@@ -118,6 +119,28 @@ TEST_CASE("IntegratedRoll: close to the stop, speed and way left follow the law 
       CHECK(std::abs(end - motion->position() - way) < 1e-2 * way + 2e-16);
     }
   }
+}
+
+// The speed there may be so small that it changes by more than a digit within a rounding of t, or
+// below the one at which a solver ends.
+TEST_CASE("IntegratedRoll: no stepper goes on where D has reached R, whatever it was asked before",
+          "[rolling]") {
+  for (const double b : {-1e-9, -0.02, -0.1, -0.13, -0.25, -0.41, -0.46})
+    for (const double depth : {0.3, 0.03, 1e-3, 1e-4}) {
+      const Roll roll = scene(depth * cylinder.R * std::pow(0.5, -b), b, Geometry::exact);
+      const Trajectory exact(roll.body, roll.geometry, roll.law, roll.v0);
+      const bool stops = std::isfinite(exact.stop_time());
+      const double end = std::min(exact.stop_time(), exact.radius_time());
+      for (const Stepper stepper : {Stepper::rk2, Stepper::rkf45, Stepper::rk8pd, Stepper::rk4imp})
+        for (const double part : {0.0, 0.5, 0.9, 0.99, 0.9999}) {
+          INFO("b " << b << " depth " << depth << " stepper " << static_cast<int>(stepper)
+                    << " part " << part);
+          const auto motion = start(roll, {Method::solver, stepper}, 1e-10);
+          motion->seek(part * end);
+          if (stops) CHECK_NOTHROW(motion->seek(1.3 * end));
+          else CHECK_THROWS_AS(motion->seek(1.3 * end), Error);
+        }
+    }
 }
 
 TEST_CASE("IntegratedRoll: rest, and what is refused", "[rolling]") {

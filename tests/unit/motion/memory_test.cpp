@@ -105,6 +105,28 @@ TEST_CASE("MemoryRoll: under a constant shift too", "[rolling]") {
   }
 }
 
+// Behind the first zero of v a strongly damped bulge under a constant shift has no other: D = z + s
+// z' is about 0, so z falls to a thousandth of a within s ln(1000).
+TEST_CASE("MemoryRoll: every stepper finds the same rest of a bulge that creeps back",
+          "[rolling]") {
+  for (const double b : {0.0, 0.1, 0.215})
+    for (const double damping : {0.05, 0.1, 0.13, 0.5, 5.0}) {
+      const auto stop = [&](Stepper stepper) {
+        return MemoryRoll(cylinder, Geometry::approximate, {1.87e-3, b}, {1e-3, damping}, 0.5, 0,
+                          stepper, 1e-10)
+            .stop_time();
+      };
+      const double by_rk8pd = stop(Stepper::rk8pd);
+      INFO("b " << b << " damping " << damping);
+      for (const Stepper stepper : {Stepper::rkf45, Stepper::rk4imp, Stepper::bsimp})
+        CHECK(std::abs(stop(stepper) / by_rk8pd - 1) < 1e-7);
+      if (b == 0 && damping >= 0.5) {
+        const double rolled = 0.5 / (9.81 * 1.87e-3 / (1.5 * 0.04));
+        CHECK(std::abs(by_rk8pd - rolled - damping * std::log(1000)) < 0.04);
+      }
+    }
+}
+
 TEST_CASE("MemoryRoll: stiff lengths take an implicit solver, with few evaluations and damping too",
           "[rolling]") {
   CHECK(memory_stepper(cylinder, rubber, {1e-3}, 0.5) == Stepper::rk8pd);

@@ -267,3 +267,24 @@ TEST_CASE("Slope: panels that begin at D = R lose nothing", "[rolling]") {
     CHECK(std::abs(integrals.gradient(place, Wanted::speed).h0 - artanh) < 40 * eps * artanh);
   }
 }
+
+// Rising, b = 1, K = 0, from D = R: d = cos(phi), A = sin(phi), and with psi = phi - theta the time
+// is cos(theta) int sin(phi)^2/cos(psi) dphi, which is elementary. The pole at psi = -pi/2 is the
+// closer to the beginning, psi = -theta, the steeper the mat is.
+TEST_CASE("Slope: the steepest mats take no digit", "[rolling]") {
+  for (const double S : {0.01, 1.0, 5.0, 20.0, 80.0, 650.0, 4e4, 1e6, 1e9})
+    for (const double phi : {0.01, 0.1, 0.3, 0.7, 1.2}) {
+      const long double c = 1 / std::hypot(1.0L, S), s = S * c;
+      const auto antiderivative = [&](long double sine, long double cosine) {
+        return c * c * (std::asinh(sine / cosine) - sine) - 2 * c * s * cosine + s * s * sine;
+      };
+      const long double sin_phi = std::sin(1.0L * phi), cos_phi = std::cos(1.0L * phi);
+      const auto time = static_cast<double>(
+          c * (antiderivative(sin_phi * c - cos_phi * s, cos_phi * c + sin_phi * s) -
+               antiderivative(-s, c)));
+      const SlopeIntegrals integrals(exact, 1, 0, 1, 0, S);
+      INFO("S " << S << " phi " << phi);
+      CHECK(std::abs(integrals.speed(integrals.place(time, infinity)) / std::cos(phi) - 1) <
+            40 * eps);
+    }
+}

@@ -207,3 +207,17 @@ TEST_CASE("derivative: vernier and pasco are exact on a parabola inside, on even
     for (std::size_t i = 3; i + 3 < t.size(); ++i) CHECK(std::abs(d[i] - (-2 + 8 * t[i])) < 1e-12);
   }
 }
+
+TEST_CASE("derivative: what all readings have in common changes no bit, whatever the method",
+          "[signal]") {
+  std::mt19937_64 random(2);
+  std::vector<double> t{0}, y, higher;
+  while (t.size() < 60) t.push_back(t.back() + 0.25 * static_cast<double>(1 + random() % 4));
+  for (const double time : t)
+    y.push_back(std::round(time * time / 4) + static_cast<double>(random() % 5));
+  for (const double reading : y) higher.push_back(reading + 0x1p51);  // exact
+  for (const SignalMethod& method : derivative_methods) {
+    INFO(method.name);
+    CHECK(by(method.name, t, higher) == by(method.name, t, y));
+  }
+}

@@ -312,6 +312,32 @@ TEST_CASE("free_roll: pushes, holds, noise and rounding: right, or told to be in
   CHECK(50 * told_of_good <= good);
 }
 
+// A reading then stays the same for many records, so that its rounding errors follow each other.
+TEST_CASE("free_roll: fast sensors whose noise is below their resolution", "[signal]") {
+  unsigned seed = 1;
+  for (const double rate : {1000.0, 5000.0})
+    for (const double resolution : {1e-3, 1e-4})
+      for (const double noise : {0.0, 3e-5})
+        for (const auto& [b, roll] :
+             {std::pair{0.0244, 10.0}, {0.0244, 6.8}, {0.215, 2.4}, {0.255, 3.4}})
+          for (const bool positions : {true, false}) {
+            Made made{.b = b,
+                      .roll = roll,
+                      .rate = rate,
+                      .noise = noise,
+                      .resolution = resolution,
+                      .positions = positions};
+            made.make(++seed);
+            const Stretch kept = free_roll(made.run, positions);
+            INFO("rate " << rate << " resolution " << resolution << " noise " << noise << " b " << b
+                         << " positions " << positions << ": from "
+                         << made.run[kept.begin].t - made.release << " s to "
+                         << made.run[kept.end - 1].t - made.stop << " s");
+            CHECK(made.right(kept));
+            CHECK(made.run[kept.end - 1].t > made.stop - 0.25 * roll);
+          }
+}
+
 TEST_CASE("free_roll: a long record keeps what a short one keeps", "[signal]") {
   // 4e5 records of 10 kHz; those of 25 Hz of the same motion begin and end within two of theirs.
   Made fine{.hold = 1, .b = 0.5, .roll = 36, .rate = 10000, .noise = 1e-3, .resolution = 0};
