@@ -21,7 +21,7 @@ printf 'gravity = 9.8\nslope = 1e-4\n' >scene
 # be given whatever is printed. The error of a solver is below the resolution of a sensor.
 excused='--sensor pasco --method rkf45|--use D=x --scene scene'
 scene='-g 9.7|--slope 0.001|--exact|--scene scene'
-input='--run 2|--strict|--digits 16'
+input='--run 2|--strict|--digits 5'
 declare -A begin=(
   [smooth]='smooth roll'
   [differentiate]='differentiate roll'
