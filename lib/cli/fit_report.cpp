@@ -150,10 +150,10 @@ void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitR
         fmt::format("{}the noise is correlated from record to record (Ljung-Box p {:.2g}), or the "
                     "law is not the right one: the errors allow for the correlation; see --report",
                     run, r.whiteness));
-  if (route == Route::loglog && logarithms_too_low(r))
+  if (route == Route::loglog && logarithms_biased(r))
     tool.warn(run +
-              "the noise of D makes its logarithms too low, by more than the standard error of the "
-              "line: use --route shift");
+              "the noise of D biases its logarithms by more than the standard error of the line: "
+              "use --route shift");
   if (r.errors == Errors::uneven)
     tool.warn(run + "the noise is not of one size: the errors allow for that");
   if (r.agreement && !r.agreement->agree() && !check_comes)

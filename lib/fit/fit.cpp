@@ -31,6 +31,7 @@ FitResult result_of(const Fitted& found, const NoiseErrors& noise, std::vector<E
                    .rms = std::numeric_limits<double>::quiet_NaN(),
                    .n = found.records,
                    .left_out = found.left_out,
+                   .negative = found.negative,
                    .whiteness = noise.whiteness,
                    .v0 = {},
                    .sigma_v0 = {},

@@ -43,6 +43,7 @@ struct Fitted {
   std::optional<RawNoise> raw_noise = {};  ///< if another fit has estimated it (loglog)
   double rss = 0;  ///< sum of squares of model - data in the unit of the fitted column
   std::size_t records = 0, left_out = 0;
+  std::size_t negative = 0;  ///< see FitResult
   Quantity a = {}, b = {};
   double bias_a = 0, bias_b = 0;       ///< the expected bias of a and b; 0 where it is not known
   std::optional<Quantity> slope = {};  ///< if it is a parameter

@@ -195,6 +195,7 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
   Fitted line{.system = {}, .minimum = {}};
   line.records = records.y.size();
   line.left_out = records.left_out;
+  if (!roll) line.negative = records.negative;
   if (!some.empty()) line.left_out += readings(all) - readings(some);
   std::vector<double> start(height.count(), 0);
   if (start.size() == 2)  // the line itself, since the mean of log_u is 0

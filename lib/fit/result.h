@@ -61,6 +61,7 @@ struct FitResult {
   double rms;     ///< sqrt(RSS / (n - p)) in the unit of the fitted column (of ln D for loglog)
   std::size_t n;  ///< number of fitted records
   std::size_t left_out;  ///< number of records, but for missing ones, that the route did not use
+  std::size_t negative;  ///< of these, those with D <= 0 whose noise loglog does not know
   double whiteness;      ///< significance of the autocorrelation of the noise (Ljung and Box); NaN
                          ///< where it is not tested
   std::vector<double> v0, sigma_v0;  ///< initial speeds [m/s], one for each run (trajectory routes)
@@ -81,9 +82,12 @@ inline bool noise_is_correlated(const FitResult& r) {
 
 /// For a fit by loglog. Noise makes the logarithms of D too low, by rms^2 / 2 on average (to second
 /// order). The function is true if this is more than the standard error of the line at the speed
-/// where the line is known best, sigma_a / a sqrt(1 - corr^2).
-inline bool logarithms_too_low(const FitResult& r) {
-  return r.rms * r.rms / 2 > r.sigma_a / r.a * std::sqrt(1 - r.corr * r.corr) && r.sigma_a > 0;
+/// where the line is known best, sigma_a / a sqrt(1 - corr^2). It is also true if more than one
+/// record in a hundred has D <= 0: the standard deviation of D is then 0.43 D or more, and the
+/// logarithms of the others are too low by 0.1, or too high where many are left out.
+inline bool logarithms_biased(const FitResult& r) {
+  return 100 * r.negative > r.n + r.negative ||
+         (r.rms * r.rms / 2 > r.sigma_a / r.a * std::sqrt(1 - r.corr * r.corr) && r.sigma_a > 0);
 }
 
 }  // namespace rolling

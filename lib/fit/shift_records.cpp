@@ -79,11 +79,13 @@ ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& opt
     const FitRun& run = all[r];
     const std::size_t before = y.size();
     const double way = way_of(run);
-    const Used used(run, options, logarithms, stops.empty() ? never : stops[r]);
+    const double stop = stops.empty() ? never : stops[r];
+    const Used used(run, options, logarithms, stop), of_any_sign(run, options, false, stop);
     for (std::size_t i = 0; i < run.v.size(); ++i) {
       const double v = way * run.v[i], D = way * run.D[i];
       if (!used.allows(i, v, D)) {
         records.left_out += std::isfinite(v) && std::isfinite(D);
+        records.negative += of_any_sign.allows(i, v, D);
         continue;
       }
       log_u.push_back(std::log(v));

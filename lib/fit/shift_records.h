@@ -18,6 +18,7 @@ struct ShiftRecords {
   std::vector<double> log_u;      ///< ln v - log_v_ref
   std::vector<std::size_t> runs;  ///< number of records of each run
   std::size_t left_out = 0;       ///< number of records that are not missing and not used
+  std::size_t negative = 0;       ///< number of those with D <= 0 alone, if logarithms are taken
   /// ln of the geometric mean of v, where the estimates of ln D and b are uncorrelated.
   double log_v_ref = 0;
 };

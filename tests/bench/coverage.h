@@ -297,7 +297,7 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
       row.cover_slope += c.down > 0 && std::abs(r.slope - slope) < 1.96 * r.sigma_slope;
       row.far += std::abs(b) > 6 || std::abs(a) > 6;
       row.told += rolling::noise_is_correlated(r) || r.errors == rolling::Errors::uneven ||
-                  (c.route == Route::loglog && rolling::logarithms_too_low(r));
+                  (c.route == Route::loglog && rolling::logarithms_biased(r));
       row.differ += r.agreement && !r.agreement->agree();
       row.sigma_a += r.sigma_a * r.sigma_a;
       row.sigma_b += r.sigma_b * r.sigma_b;

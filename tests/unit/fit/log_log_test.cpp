@@ -1,3 +1,5 @@
+#include <random>
+
 #include "base/error.h"
 #include "fit/errors.h"
 #include "unit/fit/simulated.h"
@@ -6,8 +8,7 @@
 
 using namespace rolling;
 
-// Ordinary least squares of (ln x, ln y) of NIST's DanWood, with 25 digits in
-// reference-data/nist/README.md.
+// Ordinary least squares of (ln x, ln y) of NIST's DanWood, computed with 25 digits.
 TEST_CASE("loglog: DanWood's line to 13 digits", "[fit]") {
   FitRun run{};
   run.v = {1.309, 1.471, 1.490, 1.565, 1.611, 1.680};
@@ -33,6 +34,30 @@ TEST_CASE("loglog: records without a logarithm are left out and counted; none le
   CHECK(std::abs(r.b - 1) < 1e-13);
   run.D = {-3, -6, 0, 1, 1, -1};
   CHECK_THROWS_AS(fit(Route::loglog, {run}, {}), Error);
+}
+
+TEST_CASE("loglog: D <= 0 in more than one record of a hundred biases the line, whatever rms says",
+          "[fit]") {
+  std::mt19937 random(17);
+  std::normal_distribution<double> noise;
+  for (const double share : {0.2, 0.5, 1.0, 2.0}) {
+    FitRun run{};
+    std::size_t negative = 0;
+    for (int i = 1; i <= 2000; ++i) {
+      run.v.push_back(0.0005 * i);
+      run.D.push_back(0.5 * std::pow(run.v.back(), 0.2) * (1 + share * noise(random)));
+      negative += run.D.back() <= 0;
+    }
+    const auto r = fit(Route::loglog, {run}, {});
+    CHECK(r.negative == negative);
+    CHECK((negative > 20) == (share > 0.43));  // P(D <= 0) = Phi(-1/share)
+    const bool biased = std::abs(std::log(r.a / 0.5)) > r.sigma_a / r.a;
+    CHECK(logarithms_biased(r) == biased);
+  }
+  FitRun exact{{}, {}, {1, 2, 3, 4, 5, 6}, {3, 6, -1, 12, 15, 18}, {}, {}};
+  CHECK(logarithms_biased(fit(Route::loglog, {exact}, {})));
+  exact.v[2] = -3;  // it comes back: no reading of D at that speed is negative
+  CHECK(!logarithms_biased(fit(Route::loglog, {exact}, {})));
 }
 
 TEST_CASE("loglog: a held exponent leaves the mean of the logarithms", "[fit]") {
