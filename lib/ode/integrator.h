@@ -13,12 +13,13 @@ namespace rolling {
 struct OdeSystem {
   std::size_t dimension;
   std::function<void(double t, const double* y, double* dydt)> derivative;
-  /// df/dy row by row, and df/dt; needed by the implicit steppers rk1imp ... msbdf.
+  /// df/dy row by row, and df/dt; needed by the implicit steppers.
   std::function<void(double t, const double* y, double* dfdy, double* dfdt)> jacobian = {};
 };
 
 /// GSL's names.
 enum class Stepper { rk2, rk4, rkf45, rkck, rk8pd, msadams, rk1imp, rk2imp, rk4imp, bsimp, msbdf };
+inline bool is_explicit(Stepper stepper) { return stepper < Stepper::rk1imp; }
 
 struct OdeOptions {
   Stepper stepper = Stepper::rk8pd;
