@@ -225,7 +225,7 @@ bool shifts_of_speeds(const std::vector<std::string>& lines) {
 }
 
 History compared(History history, const FitRun& run) {
-  const Differences found = replayed(history.filters, run);
+  const Mismatch found = mismatch(history.filters, run);
   if (found.inside) return {.doubt = "the columns are not what the `##` lines say"};
   history.cut_begin |= found.begin;
   history.cut_end |= found.end;
