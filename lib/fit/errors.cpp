@@ -205,7 +205,7 @@ Uncertainty uncertainty_of(const Fitted& fit) {
 }
 
 NoiseErrors noise_errors(const Fitted& fit, const Uncertainty& by) {
-  const auto sigma = [&](const Quantity& x, std::size_t run = 0) {
+  const auto sigma = [&](const FittedNumber& x, std::size_t run = 0) {
     const bool fixed =
         std::all_of(x.gradient.begin(), x.gradient.end(), [](double slope) { return slope == 0; });
     return fixed ? 0 : std::sqrt(by.covariance(x.gradient, x.gradient, run));
