@@ -21,17 +21,6 @@
 namespace rolling {
 namespace {
 
-/// A streaming filter as a function of whole columns.
-std::vector<double> apply(const std::unique_ptr<Signal>& signal, std::span<const double> t,
-                          std::span<const double> y) {
-  std::vector<double> out;
-  out.reserve(t.size());
-  for (std::size_t i = 0; i < t.size(); ++i)
-    for (const double value : signal->push(t[i], y[i])) out.push_back(value);
-  for (const double value : signal->finish()) out.push_back(value);
-  return out;
-}
-
 /// A filter that leaves its column as it is.
 LinearFilter identity(const std::string& from, const std::string& to) {
   return {from, to, 0, [](auto, auto y) { return std::vector<double>(y.begin(), y.end()); }};
@@ -56,10 +45,15 @@ std::optional<ShiftOf> shift_line(std::span<const std::string> words) {
   return of;
 }
 
+/// A streaming filter as one of whole columns.
 LinearFilter linear(const std::string& from, const std::string& to, const SignalOptions& options,
                     std::size_t reach) {
   return {from, to, reach,
-          [options](auto time, auto y) { return apply(make_signal(options), time, y); },
+          [options](auto t, auto y) {
+    return output_of(*make_signal(options), t.size(), [&](std::size_t i) {
+      return Sample{t[i], y[i]};
+    });
+          },
           options.method->shift_invariant && options.width.seconds == 0};
 }
 
