@@ -116,11 +116,6 @@ void Integrator::run(double t) {
   while (t_ < t) step(t);
 }
 
-void Integrator::advance(double t) {
-  steps_left_ = max_steps_;
-  run(t);
-}
-
 bool Integrator::advance(double t, const Event& event) {
   steps_left_ = max_steps_;
   double before = event(y_);

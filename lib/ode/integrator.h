@@ -39,11 +39,9 @@ class Integrator {
   const std::vector<double>& state() const { return y_; }
   unsigned long evaluations() const;  ///< calls of the derivative so far
 
-  /// Integrates to exactly t; does nothing if t is not after time(). Throws Error if GSL fails, if
-  /// the state is no longer finite, or after max_steps.
-  void advance(double t);
-  /// The same, but stops at the first sign change of the event (located to rounding) and then
-  /// returns true. t may be infinite.
+  /// Integrates to exactly t; does nothing if t is not after time(). Stops at the first sign change
+  /// of the event (located to rounding) and then returns true. t may be infinite. Throws Error if
+  /// GSL fails, if the state is no longer finite, or after max_steps.
   bool advance(double t, const Event&);
   /// Continues from another state at the same time: at a kink of the derivative, restart on its
   /// other side.
