@@ -74,7 +74,7 @@ bool change_numbers(const std::vector<LinearFilter>& filters) {
 void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
   History history = history_of(in.history(), run.t);
   if (in.renames() && !history.filters.empty())
-    history = {{}, {}, "--use takes other columns than its `##` lines speak of"};
+    history = {.doubt = "--use takes other columns than its `##` lines speak of"};
   if (run.t.empty() && change_numbers(history_of(in.history(), std::array{0.0}).filters))
     history.doubt = "it has no times, without which its `##` lines tell nothing";
   run.shift_of = history.shift_of;

@@ -21,17 +21,6 @@
 namespace rolling {
 namespace {
 
-/// A streaming filter as a function of whole columns.
-std::vector<double> apply(const std::unique_ptr<Signal>& signal, std::span<const double> t,
-                          std::span<const double> y) {
-  std::vector<double> out;
-  out.reserve(t.size());
-  for (std::size_t i = 0; i < t.size(); ++i)
-    for (const double value : signal->push(t[i], y[i])) out.push_back(value);
-  for (const double value : signal->finish()) out.push_back(value);
-  return out;
-}
-
 /// A filter that leaves its column as it is.
 LinearFilter identity(const std::string& from, const std::string& to) {
   return {from, to, 0, [](auto, auto y) { return std::vector<double>(y.begin(), y.end()); }};
@@ -56,10 +45,15 @@ std::optional<ShiftOf> shift_line(std::span<const std::string> words) {
   return of;
 }
 
+/// A streaming filter as one of whole columns.
 LinearFilter linear(const std::string& from, const std::string& to, const SignalOptions& options,
-                    std::span<const double> t) {
-  return {from, to, reach(options, t),
-          [options](auto time, auto y) { return apply(make_signal(options), time, y); },
+                    std::size_t reach) {
+  return {from, to, reach,
+          [options](auto t, auto y) {
+    return output_of(*make_signal(options), t.size(), [&](std::size_t i) {
+      return Sample{t[i], y[i]};
+    });
+          },
           options.method->shift_invariant && options.width.seconds == 0};
 }
 
@@ -73,9 +67,7 @@ std::vector<LinearFilter> filters_of_sensors() {
   std::vector<LinearFilter> filters;
   for (const char* method : {"central", "vernier", "pasco"}) {
     const SignalOptions options = signal_options(derivative_methods, method).value();
-    filters.push_back({"x", "v", options.method->reach, [options](auto time, auto y) {
-                         return apply(make_signal(options), time, y);
-                       }});
+    filters.push_back(linear("x", "v", options, options.method->reach));
   }
   for (std::size_t width : {2U, 3U, 5U})
     filters.push_back({"v", "v", width / 2, [width](auto, auto y) {
@@ -102,28 +94,27 @@ class Chain {
     if (words.size() < 2) return true;
     const std::span<const std::string> rest = std::span(words).subspan(1);
     if (line == columns_renamed) return unknown();
-    if (line == lines_sorted) return sorted();
+    if (line == lines_sorted)
+      return distrust("its `##` lines were sorted, so that their order tells nothing");
     if (words[0] == "smooth") return smooth(line, rest);
     if (words[0] == "differentiate") return filter(line, derivative_methods, rest, true);
     if (words[0] == "shift-from-accel") {
-      history_.shift_of = shift_line(rest);
-      if (!history_.shift_of) return doubt(line);
+      if (!shift_line(rest)) return doubt(line);
       append(identity("a", "D"));
     }
     return true;
   }
 
  private:
-  bool doubt(const std::string& line) {
-    history_ = {{}, {}, fmt::format("`## {}` is not what its tool writes", shown(line))};
+  bool distrust(std::string why) {
+    history_ = {.doubt = std::move(why)};
     return false;
+  }
+  bool doubt(const std::string& line) {
+    return distrust(fmt::format("`## {}` is not what its tool writes", shown(line)));
   }
   bool unknown() {
     history_ = {};
-    return false;
-  }
-  bool sorted() {
-    history_ = {{}, {}, "its `##` lines were sorted, so that their order tells nothing"};
     return false;
   }
   /// Removes the filters of a column and of what was made of it: a derivative of the same name has
@@ -162,16 +153,13 @@ class Chain {
     if (!options->method->linear) return unknown();
     const std::string &column = words[0], to = derivative ? derivative_of(column) : column;
     if (derivative) forget(to);
-    append(linear(column, to, *options, t_));
+    append(linear(column, to, *options, reach(*options, t_)));
     reach_ += history_.filters.back().reach;
     // The matrices of wider filters would not fit into memory.
     constexpr std::size_t most = 50'000'000;
     if (reach_ * t_.size() <= most && history_.filters.size() <= 100) return true;
-    history_ = {{},
-                {},
-                fmt::format("the filters in its `##` lines are too wide or too many for {} records",
-                            t_.size())};
-    return false;
+    return distrust(fmt::format(
+        "the filters in its `##` lines are too wide or too many for {} records", t_.size()));
   }
 
   std::span<const double> t_;
@@ -231,8 +219,8 @@ bool shifts_of_speeds(const std::vector<std::string>& lines) {
 }
 
 History compared(History history, const FitRun& run) {
-  const Differences found = replayed(history.filters, run);
-  if (found.inside) return {{}, {}, "the columns are not what the `##` lines say"};
+  const Mismatch found = mismatch(history.filters, run);
+  if (found.inside) return {.doubt = "the columns are not what the `##` lines say"};
   history.cut_begin |= found.begin;
   history.cut_end |= found.end;
   return history;
@@ -247,10 +235,10 @@ History known_windows(History history, FitRun& run, const std::string& column) {
     windows[filter.to] = windows[filter.from] + filter.reach;
   history.left_out = windows[column] * (std::size_t{history.cut_begin} + history.cut_end);
   if (history.left_out > 0 && run.t.size() < history.left_out + 10)
-    return {{},
-            history.shift_of,
-            "it was cut after the filters that its `##` lines name, and fewer than 10 records are "
-            "far enough from the cut"};
+    return {.shift_of = history.shift_of,
+            .doubt =
+                "it was cut after the filters that its `##` lines name, and fewer than 10 records "
+                "are far enough from the cut"};
   const std::pair<const char*, std::vector<double>*> columns[] = {
       {"x", &run.x}, {"v", &run.v}, {"D", &run.D}};
   for (const auto& [name, readings] : columns) {

@@ -13,7 +13,7 @@ namespace rolling {
 
 /// The content of the `##` lines of a run.
 struct History {
-  FilterChain filters;  ///< empty if the filters are not known
+  FilterChain filters = {};  ///< empty if the filters are not known
   std::optional<ShiftOf> shift_of = {};
   std::string doubt = {};  ///< the reason why the lines are not trusted; otherwise empty
   bool cut_begin = false, cut_end = false;  ///< records were removed there after a filter

@@ -90,14 +90,14 @@ void Options::count(const std::string& names, std::size_t& value, const Range& r
   });
 }
 
-void Options::estimate(const std::string& names, double& value, double* sigma, const Range& range,
+void Options::estimate(const std::string& names, double& value, double& sigma, const Range& range,
                        const std::string& help) {
   add(
       names, "NUMBER", help,
-      [&value, sigma, range](const std::string& text) {
+      [&value, &sigma, range](const std::string& text) {
     const Estimate estimate = to_estimate(text, range);
     value = estimate.value;
-    if (sigma) *sigma = estimate.sigma;
+    sigma = estimate.sigma;
       },
       [&value] { return std::isnan(value); });
 }
@@ -144,23 +144,22 @@ void Options::one_of(const std::string& names, const std::vector<std::string>& c
 void Options::body(Body& body, std::initializer_list<BodyOption> options,
                    BodyUncertainty* uncertainty) {
   body = {not_given, not_given, not_given};
-  BodyUncertainty* const u = uncertainty;
+  BodyUncertainty& u = uncertainty ? *uncertainty : ignored_;
   for (const BodyOption option : options) switch (option) {
       case BodyOption::mass:
         number("-m,--mass", body.m, positive, "mass m [kg]");
         break;
       case BodyOption::radius:
-        estimate("-R,--radius", body.R, u ? &u->R : nullptr, positive, "radius R [m]");
+        estimate("-R,--radius", body.R, u.R, positive, "radius R [m]");
         break;
       case BodyOption::shape_factor:
-        estimate("-K,--shape-factor", body.K, u ? &u->K : nullptr, not_negative,
-                 "shape factor K of J = K m R^2");
+        estimate("-K,--shape-factor", body.K, u.K, not_negative, "shape factor K of J = K m R^2");
         break;
       case BodyOption::gravity:
-        estimate("-g,--gravity", body.g, u ? &u->g : nullptr, positive, "gravity g [m/s^2] (9.81)");
+        estimate("-g,--gravity", body.g, u.g, positive, "gravity g [m/s^2] (9.81)");
         break;
       case BodyOption::slope:
-        estimate("--slope", body.slope, u ? &u->slope : nullptr, any_number,
+        estimate("--slope", body.slope, u.slope, any_number,
                  "rise of the mat in metres per metre of growing x (0)");
         break;
     }

@@ -109,7 +109,7 @@ class Options {
 
   void add_flag(const std::string& names, const std::string& help,
                 const std::function<void(bool)>& set);
-  void estimate(const std::string& names, double& value, double* sigma, const Range&,
+  void estimate(const std::string& names, double& value, double& sigma, const Range&,
                 const std::string& help);
   void one_of(const std::string& names, const std::vector<std::string>& choices,
               const std::string& help, const Set& set);
@@ -117,6 +117,7 @@ class Options {
   std::map<std::string, Option> options_;  // by long name
   std::set<std::string> in_scene_;         // the keys of the scene that are options of this tool
   std::string scene_file_;
+  BodyUncertainty ignored_;
 };
 
 template <typename T>

@@ -18,6 +18,14 @@ namespace rolling {
 
 constexpr std::string_view version = "1.0.0";
 
+namespace {
+
+bool reads_standard_input(const ReaderOptions& options) {
+  return options.files.empty() || std::ranges::count(options.files, "-") > 0;
+}
+
+}  // namespace
+
 Tool::Tool(std::string name, const std::string& purpose)
     : Options(name, purpose), name_(std::move(name)) {
   flag("-q,--quiet", quiet_, "print no warnings, counts or progress on standard error");
@@ -51,24 +59,18 @@ bool Tool::used(const std::string& quantity) const {
 }
 
 Reader& Tool::read(std::vector<std::string> order) {
-  const bool standard_input =
-      input_.files.empty() ||
-      std::find(input_.files.begin(), input_.files.end(), "-") != input_.files.end();
-  if (standard_input && ::isatty(STDIN_FILENO))
+  if (reads_standard_input(input_) && ::isatty(STDIN_FILENO))
     say("reading columns from the terminal; end with Ctrl-D");
   return open(input_, std::move(order));
 }
 
 Reader& Tool::read_file(const std::string& file, std::vector<std::string> order) {
-  ReaderOptions options{{file}, {}, {}, input_.strict};
-  options.has_use = false;  // --use is about the operands
-  return open(std::move(options), std::move(order));
+  // --use is about the operands
+  return open({.files = {file}, .strict = input_.strict, .has_use = false}, std::move(order));
 }
 
 Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
-  const auto& files = options.files;
-  if ((files.empty() || std::find(files.begin(), files.end(), "-") != files.end()) &&
-      std::exchange(standard_input_taken_, true))
+  if (reads_standard_input(options) && std::exchange(standard_input_taken_, true))
     fail("standard input cannot be read twice: name a file for one of the two");
   options.on_block = [this](const std::string& name, double part) {
     progress.at(name == "-" ? "standard input" : name, part);

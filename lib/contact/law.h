@@ -9,11 +9,12 @@ namespace rolling {
 
 /// A law D(v) for v > 0, with the properties that a fit needs.
 struct Law {
-  /// A coefficient, and its dimension: D^D v^v, or D^D v^-(another coefficient), as a in a v^b.
+  /// A coefficient. Its unit is that of D to the power `D`, times that of v to the power `v`; or,
+  /// as that of a in a v^b, to the power of minus the coefficient number `exponent`.
   struct Coefficient {
     const char* name;
     int D = 1, v = 0;
-    int exponent = -1;  ///< the number of that other coefficient
+    int exponent = -1;  ///< none
   };
   const char* formula;  ///< as a person writes it: "d0 + d1 v"
   std::vector<Coefficient> coefficients;

@@ -44,7 +44,7 @@ Estimate log_D_of(Pair law, const Symmetric& C, double log_v) {
           std::sqrt(std::max(0.0, C.aa + log_v * (2 * C.ab + log_v * C.bb)))};
 }
 /// The logarithm of the speed at which the error of D is least; D and b are uncorrelated there.
-double best_known(const Symmetric& C) { return C.bb > 0 ? -C.ab / C.bb : 0; }
+double best_log_v(const Symmetric& C) { return C.bb > 0 ? -C.ab / C.bb : 0; }
 
 /// The law of one run that is fitted by itself.
 struct OwnLaw {
@@ -90,7 +90,7 @@ void stand_out(Agreement& result, const OwnLaw& one, Pair others, Symmetric C, d
   const double distance = C.inverse().square(d);
   if (!(distance > most * (1 + 1e-9))) return;  // two runs are as far from each other
   most = distance;
-  const double log_v = best_known(C);
+  const double log_v = best_log_v(C);
   result.run = one.run;
   result.speed = std::exp(log_v);
   result.log_D = log_D_of(d, C, log_v);
@@ -138,7 +138,8 @@ double least_from(Pair common, const std::vector<OwnLaw>& laws, std::size_t para
 
 /// The sum of least_from() may have several minima: `joint`, the law of the joint fit, is the start
 /// that suits runs of equal noise, and the weighted mean one that suits unequal ones.
-Agreement compare(const std::vector<OwnLaw>& laws, Pair joint, std::size_t parameters, bool slope) {
+Agreement compare(const std::vector<OwnLaw>& laws, Pair joint, const FitOptions& options) {
+  const std::size_t parameters = !options.a + !options.b;
   Weighted all;
   for (const OwnLaw& one : laws) all.add(one.covariance.inverse(), one.law);
   Agreement result{};
@@ -151,8 +152,7 @@ Agreement compare(const std::vector<OwnLaw>& laws, Pair joint, std::size_t param
     const Symmetric rest = (all.weights - weight).inverse();
     stand_out(result, one, rest * (all.sum - weight * one.law), rest, most);
   }
-  result.dof = parameters * (laws.size() - 1);
-  if (slope) --result.dof;
+  result.dof = parameters * (laws.size() - 1) - options.fit_slope;
   if (result.dof > 0)
     result.significance = gsl_cdf_chisq_Q(
         std::min(least_from(joint, laws, parameters), least_from(mean, laws, parameters)),
@@ -201,10 +201,10 @@ bool of_one_way(const std::vector<OwnLaw>& laws, const Fitted& joint) {
 }
 
 /// The mean over the runs of the logarithm of the speed at which the D of each is known best.
-double common_speed(const std::vector<OwnLaw>& laws) {
+double common_log_v(const std::vector<OwnLaw>& laws) {
   double log_v = 0;
   for (const OwnLaw& one : laws)
-    log_v += best_known(one.covariance) / static_cast<double>(laws.size());
+    log_v += best_log_v(one.covariance) / static_cast<double>(laws.size());
   return log_v;
 }
 
@@ -246,7 +246,7 @@ BySlope take_slope(std::vector<OwnLaw>& laws, double freedom, NoiseErrors& error
 /// agree best. The scatter of a itself, which is D at 1 m/s, is that of b if the runs are slower,
 /// and would depend on the unit of speed.
 void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, Fitted& joint) {
-  const double log_v = common_speed(laws);
+  const double log_v = common_log_v(laws);
   for (OwnLaw& one : laws) {  // ln D in the place of ln a: the unit of speed is the common one
     const Symmetric& C = one.covariance;
     const Estimate D = one.log_D(log_v);
@@ -282,7 +282,6 @@ void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, F
 std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& runs,
                                       const FitOptions& options, NoiseErrors& errors,
                                       Fitted& joint) {
-  const std::size_t parameters = !options.a + !options.b;
   if (runs.size() < 2 || errors.kind == Errors::none) return {};
   std::vector<std::optional<Fitted>> own;
   for (std::size_t r = 0; r < runs.size(); ++r) try {
@@ -294,7 +293,7 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
   const auto laws = own_laws(own);
   if (laws.size() < 2) return {};
   const Pair common{std::log(joint.a.value), joint.b.value};
-  const Agreement found = compare(laws, common, parameters, options.fit_slope);
+  const Agreement found = compare(laws, common, options);
   if (found.agree()) return found;
   const Fitted around_own = with_own_noise(joint, own);
   errors = noise_errors(around_own, uncertainty_of(around_own));
@@ -307,9 +306,8 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
   const double freedom = static_cast<double>(laws.size()) - 1 - options.fit_slope;
   const bool by_means =
       freedom >= 1 && !(options.fit_slope && (options.a || of_one_way(laws, joint)));
-  if (!by_means)
-    errors.multiply(std::max(1.0, std::sqrt(found.chi2 / static_cast<double>(found.dof))));
-  else take_means(laws, freedom, errors, joint);
+  if (by_means) take_means(laws, freedom, errors, joint);
+  else errors.multiply(std::max(1.0, std::sqrt(found.chi2 / static_cast<double>(found.dof))));
   return found;
 }
 

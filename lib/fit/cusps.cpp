@@ -2,7 +2,6 @@
 
 #include "base/dot.h"
 #include "base/error.h"
-#include "fit/errors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +15,7 @@ std::vector<double> slopes_of_stop(const RollModel& rolls, const System& system,
                                    std::vector<double> theta, std::size_t run) {
   std::vector<double> slopes;
   for (std::size_t j = 0; j < system.columns(); ++j) {
-    double& x =
-        theta[j < system.own ? run * system.own + j : (system.runs.size() - 1) * system.own + j];
+    double& x = theta[system.place(run, j)];
     const double at = x, step = 1e-5 * std::max(1.0, std::abs(at));
     const auto stop = [&](double value) {
       x = value;
@@ -33,18 +31,16 @@ std::vector<double> slopes_of_stop(const RollModel& rolls, const System& system,
 /// of squares least: C g/(g C g), with the covariance C and the slopes g of the stop.
 std::vector<double> later_stop(const System& system, const std::vector<double>& R,
                                std::vector<double> g, std::size_t run) {
-  const std::size_t q = system.columns(), own = system.own;
+  const std::size_t q = system.columns();
   solve_transposed(&R[run * q * q], g);
   const double square = dot(g, g);
   std::vector<double> change(system.parameters());
   for (std::size_t r = 0; r < system.runs.size(); ++r) {
     std::vector<double> x = g;
-    if (r != run) std::fill_n(x.begin(), own, 0);
+    if (r != run) std::fill_n(x.begin(), system.own, 0);
     for (double& value : x) value /= square;
     solve_upper(&R[r * q * q], x);
-    std::copy_n(x.begin(), own, &change[r * own]);
-    std::copy(x.begin() + static_cast<std::ptrdiff_t>(own), x.end(),
-              change.end() - static_cast<std::ptrdiff_t>(system.shared));
+    for (std::size_t j = 0; j < q; ++j) change[system.place(r, j)] = x[j];
   }
   return change;
 }

@@ -12,22 +12,6 @@
 
 namespace rolling {
 
-void solve_transposed(const double* R, std::span<double> g) {
-  const std::size_t q = g.size();
-  for (std::size_t j = 0; j < q; ++j) {
-    for (std::size_t k = 0; k < j; ++k) g[j] -= R[k * q + j] * g[k];
-    g[j] /= R[j * q + j];
-  }
-}
-
-void solve_upper(const double* R, std::span<double> w) {
-  const std::size_t q = w.size();
-  for (std::size_t j = q; j-- > 0;) {
-    for (std::size_t k = j + 1; k < q; ++k) w[j] -= R[j * q + k] * w[k];
-    w[j] /= R[j * q + j];
-  }
-}
-
 double Spread::operator()(std::vector<double> g, std::vector<double> h, std::size_t run) const {
   const std::size_t first = run * q_ * q_;
   solve_transposed(&R_[first], g), solve_transposed(&R_[first], h);
@@ -221,7 +205,7 @@ Uncertainty uncertainty_of(const Fitted& fit) {
 }
 
 NoiseErrors noise_errors(const Fitted& fit, const Uncertainty& by) {
-  const auto sigma = [&](const Quantity& x, std::size_t run = 0) {
+  const auto sigma = [&](const FittedNumber& x, std::size_t run = 0) {
     const bool fixed =
         std::all_of(x.gradient.begin(), x.gradient.end(), [](double slope) { return slope == 0; });
     return fixed ? 0 : std::sqrt(by.covariance(x.gradient, x.gradient, run));

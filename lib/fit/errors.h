@@ -51,11 +51,6 @@ NoiseErrors noise_errors(const Fitted&, const Uncertainty&);
 /// The noise of the raw column of a fit with known filters; without the B of its sources.
 RawNoise raw_noise_of(const Fitted&);
 
-/// Replaces g by R^-T g, for the upper triangle R of a Minimum (row by row, as many as g has).
-void solve_transposed(const double* R, std::span<double> g);
-/// Replaces w by R^-1 w.
-void solve_upper(const double* R, std::span<double> w);
-
 /// Q = J R^-1 at the minimum, row by row. The meat M of the covariance R^-1 M R^-T is a quadratic
 /// form of the rows of Q.
 std::vector<double> orthonormal(const Fitted&);

@@ -129,13 +129,13 @@ void add_run(Candidate& candidate, const Thinned& of, const FitOptions& options)
 /// v/|dv/dt|.
 std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions& options) {
   std::vector<double> exponents{-0.5, 0, 0.25, 0.5, 1, 1.5, 2, 3};
-  if (options.b || options.start_b) exponents = {options.b ? *options.b : *options.start_b};
+  if (const auto given = options.given_b()) exponents = {*given};
   const Body& body = thin.front().run.body;
   const double duration = thin.front().run.t.back(), v0 = thin.front().v0;
   std::vector<Candidate> best;
   for (double b : exponents) {
     std::vector<double> as;
-    if (options.a || options.start_a) as = {options.a ? *options.a : *options.start_a};
+    if (const auto given = options.given_a()) as = {*given};
     else
       for (double x = 0.01; x < 1000; x *= 1.3)
         as.push_back(x / duration * std::pow(v0, 1 - b) * (body.K + 1) * body.R / body.g);

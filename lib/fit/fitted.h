@@ -9,7 +9,7 @@ namespace rolling {
 
 /// A reported number and its gradient with respect to the parameters of its run, then the shared
 /// ones (zero for a number that is held fixed).
-struct Quantity {
+struct FittedNumber {
   double value;
   std::vector<double> gradient;
 };
@@ -44,10 +44,10 @@ struct Fitted {
   double rss = 0;  ///< sum of squares of model - data in the unit of the fitted column
   std::size_t records = 0, left_out = 0;
   std::size_t negative = 0;  ///< see FitResult
-  Quantity a = {}, b = {};
-  double bias_a = 0, bias_b = 0;       ///< the expected bias of a and b; 0 where it is not known
-  std::optional<Quantity> slope = {};  ///< if it is a parameter
-  std::vector<Quantity> v0 = {};       ///< one for each run, if the model is a roll
+  FittedNumber a = {}, b = {};
+  double bias_a = 0, bias_b = 0;  ///< the expected bias of a and b; 0 where it is not known
+  std::optional<FittedNumber> slope = {};       ///< if it is a parameter
+  std::vector<FittedNumber> v0 = {};            ///< one for each run, if the model is a roll
   std::shared_ptr<const RollModel> rolls = {};  ///< the model, if it is a roll
   std::optional<Taken> taken = {};  ///< see taken_of(); if other fits have left these residuals
   std::vector<double> v = {};  ///< speeds of the fitted records [m/s], if the model is a law D(v)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/estimate.h"
-#include "contact/body.h"
+#include "contact/contact.h"
 #include "noise/filter.h"
 
 #include <optional>
@@ -19,7 +19,12 @@ struct ShiftOf {
 };
 /// The acceleration [m/s^2] from which the shift D [m] was computed. For A = 1 the relation is
 /// linear and holds for any D.
-double acceleration_of(const ShiftOf&, double D);
+inline double acceleration_of(const ShiftOf& by, double D) {
+  const Body& body = by.body;
+  if (by.geometry == Geometry::exact) return acceleration_from_shift(body, by.geometry, D);
+  const auto [cos, sin] = incline(body);
+  return -body.g * (D * cos + body.R * sin) / ((body.K + 1) * body.R);
+}
 
 /// The data of one run in SI units: t [s], x [m], v [m/s], D [m], one element for each record. The
 /// routes loglog and shift read v and D (and t, where the filters are known); velocity reads t and
@@ -46,6 +51,8 @@ struct FitOptions {
   Geometry geometry = Geometry::approximate;
   std::optional<double> a, b, v0, x0;      ///< parameters that are held fixed
   std::optional<double> start_a, start_b;  ///< starting values; without them they are estimated
+  std::optional<double> given_a() const { return a ? a : start_a; }  ///< held, or where to start
+  std::optional<double> given_b() const { return b ? b : start_b; }
   bool fit_slope = false;  ///< the slope of the mat is a further parameter, common to all runs
   double min_speed = 0;    ///< records slower than this are not fitted [m/s]
   /// Filters that the software of a sensor may have applied to the speeds (velocity route, 30 or

@@ -209,21 +209,21 @@ double independent_records(const std::vector<Candidate>& all,
 /// correlations.
 void report_coefficients(LawFit& result, const Records& records, const Candidate& found) {
   Fitted fit = records.power();
-  std::vector<Quantity> values{fit.a, fit.b};
+  std::vector<FittedNumber> values{fit.a, fit.b};
   if (found.law != &laws().front()) {
     values.clear();
     fit.system = records.system(*found.law);
     fit.minimum = found.minimum;
     const LawInUnits law = records.in_units(*found.law);
     for (std::size_t j = 0; j < law.size(); ++j) {
-      Quantity q{0, std::vector<double>(fit.system.columns())};
+      FittedNumber q{0, std::vector<double>(fit.system.columns())};
       q.value =
           law.in_SI(found.c.data(), j, std::span(q.gradient).subspan(records.own(), law.size()));
       values.push_back(std::move(q));
     }
   }
   const Uncertainty errors = uncertainty_of(fit);
-  for (const Quantity& x : values)
+  for (const FittedNumber& x : values)
     result.coefficients.push_back({x.value, std::sqrt(errors.covariance(x.gradient, x.gradient))});
   for (std::size_t i = 0; i < values.size(); ++i)
     for (std::size_t j = 0; j < values.size(); ++j) {

@@ -42,13 +42,6 @@ std::vector<double> taken(const std::vector<double>& column, const Rows& rows) {
 
 }  // namespace
 
-double acceleration_of(const ShiftOf& by, double D) {
-  const Body& body = by.body;
-  if (by.geometry == Geometry::exact) return acceleration_from_shift(body, by.geometry, D);
-  const auto [cos, sin] = incline(body);
-  return -body.g * (D * cos + body.R * sin) / ((body.K + 1) * body.R);
-}
-
 std::vector<Response> responses_of(Route route, const std::vector<FitRun>& all) {
   std::vector<Response> responses;
   for (const FitRun& run : all) {

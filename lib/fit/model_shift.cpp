@@ -45,9 +45,9 @@ ShiftRecords thinned(const ShiftRecords& records, std::size_t most) {
 /// follows by linear least squares), or the values that the user gives. From one exponent of the
 /// grid to the next no D changes by more than a factor e^(1/2) relative to D at the mean of ln v.
 std::vector<double> power_start(const ShiftRecords& few, const FitOptions& options, double unit) {
-  const auto held = options.a ? options.a : options.start_a;
+  const auto a_given = options.given_a(), b_given = options.given_b();
   std::vector<double> exponents;
-  if (options.b || options.start_b) exponents = {options.b ? *options.b : *options.start_b};
+  if (b_given) exponents = {*b_given};
   else {
     double widest = 2;
     for (const double log_u : few.log_u) widest = std::max(widest, std::abs(log_u));
@@ -61,7 +61,7 @@ std::vector<double> power_start(const ShiftRecords& few, const FitOptions& optio
       mm += m * m;
       mD += m * few.y[i];
     }
-    const double h = held ? *held * std::exp(b * few.log_v_ref) : mD / mm;
+    const double h = a_given ? *a_given * std::exp(b * few.log_v_ref) : mD / mm;
     for (std::size_t i = 0; i < few.y.size(); ++i) {
       const double f = h * std::exp(b * few.log_u[i]) - few.y[i];
       rss += f * f;
@@ -92,7 +92,7 @@ Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   const System system = power_system(records, height, unit);
   Minimum minimum = solve(system, theta, options);
   const double b = height.exponent(minimum.theta), scale = std::exp(-b * records.log_v_ref),
-               a = options.a ? *options.a : minimum.theta[0] * unit * scale;
+               a = minimum.theta.front() * unit * scale;  // if it is not held
   Fitted result{.system = system, .minimum = std::move(minimum)};
   result.rss = result.minimum.rss;
   result.records = n;

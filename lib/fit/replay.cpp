@@ -106,7 +106,7 @@ double last_place(double y, double least) {
 
 /// Compares a column that was computed again with that of the run. `noise`: its median size.
 void compare(const Column& computed, const std::vector<double>& given, double noise,
-             Differences& result) {
+             Mismatch& result) {
   const std::size_t n = given.size(), reach = computed.reach;
   if (n < 2 * reach + 3) return;
   std::vector<double> off(n);
@@ -144,8 +144,8 @@ void compare(const Column& computed, const std::vector<double>& given, double no
 
 }  // namespace
 
-Differences replayed(const FilterChain& filters, const FitRun& run) {
-  Differences result;
+Mismatch mismatch(const FilterChain& filters, const FitRun& run) {
+  Mismatch result;
   std::map<std::string, Column> columns;
   WhiteNoise white(run.t);
   for (std::size_t k = 0; k < filters.size(); ++k) {

@@ -6,7 +6,7 @@
 namespace rolling {
 
 /// How a run differs from its filters.
-struct Differences {
+struct Mismatch {
   bool inside = false;              ///< the columns are not those of these filters
   bool begin = false, end = false;  ///< only there, where a window may reach beyond the run
 };
@@ -15,6 +15,6 @@ struct Differences {
 /// for D the acceleration from which shift_of computed it) and compares each column that they make.
 /// What differs from it by the rounding of the numbers, or by much less than its noise, is the
 /// same. Columns that are missing, and the windows of missing readings, are not compared.
-Differences replayed(const FilterChain&, const FitRun&);
+Mismatch mismatch(const FilterChain&, const FitRun&);
 
 }  // namespace rolling

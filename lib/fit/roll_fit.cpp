@@ -99,7 +99,7 @@ void report(Fitted& fit) {
   const Parameters& q = fit.rolls->parameters();
   const PowerLaw law = q.law(theta);
   const auto quantity = [&](double value, const Parameters::Derivatives& by) {
-    Quantity result{value, std::vector<double>(q.columns())};
+    FittedNumber result{value, std::vector<double>(q.columns())};
     q.chain(result.gradient.data(), 1, law.a, by);
     return result;
   };

@@ -255,6 +255,22 @@ Minimum minimise_robust(const System& system, const std::vector<double>& start) 
   return minimum_at(std::move(at));
 }
 
+void solve_transposed(const double* R, std::span<double> g) {
+  const std::size_t q = g.size();
+  for (std::size_t j = 0; j < q; ++j) {
+    for (std::size_t k = 0; k < j; ++k) g[j] -= R[k * q + j] * g[k];
+    g[j] /= R[j * q + j];
+  }
+}
+
+void solve_upper(const double* R, std::span<double> w) {
+  const std::size_t q = w.size();
+  for (std::size_t j = q; j-- > 0;) {
+    for (std::size_t k = j + 1; k < q; ++k) w[j] -= R[j * q + k] * w[k];
+    w[j] /= R[j * q + j];
+  }
+}
+
 double restricted_likelihood(const System& system, const std::vector<double>& theta) {
   Point at(system);
   evaluate_at(system, at, theta);

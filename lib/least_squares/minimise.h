@@ -30,6 +30,11 @@ Minimum attempt(const System&, const std::vector<double>& start);
 /// The residuals must be those of single records, with independent noise.
 Minimum minimise_robust(const System&, const std::vector<double>& start);
 
+/// Replaces g by R^-T g, for the triangle R of one run of a Minimum, of as many rows as g has.
+void solve_transposed(const double* R, std::span<double> g);
+/// Replaces w by R^-1 w.
+void solve_upper(const double* R, std::span<double> w);
+
 /// ln of the restricted likelihood (Patterson and Thompson 1971, Biometrika 58, 545) of normal
 /// white residuals, up to a constant, with the model linear around theta: -(n - p)/2 ln RSS - ln
 /// |det R|, J = Q R.

@@ -25,6 +25,10 @@ struct System {
 
   std::size_t columns() const { return own + shared; }  ///< columns of J
   std::size_t parameters() const { return runs.size() * own + shared; }
+  /// The place in theta of this column of the J of a run.
+  std::size_t place(std::size_t run, std::size_t column) const {
+    return column < own ? run * own + column : (runs.size() - 1) * own + column;
+  }
   std::size_t residuals() const {
     return std::accumulate(runs.begin(), runs.end(), std::size_t{0});
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include "base/error.h"
@@ -94,7 +93,7 @@ MemoryWork memory_work(const Body& body, PowerLaw law, Bulge bulge, double v0, d
 MemoryRoll::MemoryRoll(const Body& body, Geometry geometry, PowerLaw law, Bulge bulge, double v0,
                        double x0, Stepper stepper, double rtol, unsigned long most_steps)
     : SolvedRoll(body, geometry, equations(body, geometry, law, bulge, v0),
-                 {stepper, rtol, 1e-3 * rtol, most_steps * (stepper < Stepper::rk1imp ? 20 : 1)},
+                 {stepper, rtol, 1e-3 * rtol, most_steps * (is_explicit(stepper) ? 20 : 1)},
                  {x0, v0, law(v0)}),
       law_(law), bulge_(bulge), spare_evaluations_(5.0 * static_cast<double>(most_steps)),
       at_rest_(v0 == 0) {}
@@ -106,12 +105,12 @@ double MemoryRoll::expected_evaluations(double t) const {
         "with a memory over {:.4g} m the body swings about {:.2g} times; the most is {:g}: a "
         "shorter length, an earlier end or a damping",
         bulge_.length, work.swings, most_swings);
-  if (work.relaxations > most_relaxations && options_.stepper < Stepper::rk1imp)
+  if (work.relaxations > most_relaxations && is_explicit(options_.stepper))
     fail(
         "the memory over {:.4g} m is stiff: about {:.2g} relaxations, and the most for an explicit "
         "solver is {:g} (rk4imp is an implicit one)",
         bulge_.length, work.relaxations, most_relaxations);
-  return 300 * work.swings + 4 * (options_.stepper < Stepper::rk1imp ? work.relaxations : 0);
+  return 300 * work.swings + 4 * (is_explicit(options_.stepper) ? work.relaxations : 0);
 }
 
 double MemoryRoll::fastest(const std::vector<double>& y) const {

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "ode/integrator.h"
 #include "contact/body.h"

@@ -180,23 +180,21 @@ void SlopeIntegrals::quadrature(const Panel& p, double width, Integrand&& integr
     integrand(Node{r, local, E_by_net(r, d, n), d, A, n, dr, dr_by_A});
   };
   if (!p.deep) {
-    for (const GaussNode& node : gauss_legendre)
-      for (const double x : {node.x, -node.x}) {
-        const double local = width / 2 * (1 + x), A = exact_ ? arm(p.r + local) : 1,
-                     dr = node.weight / 2 * width;
-        at(local, A, dr, dr / A);
-      }
+    for (const auto& [x, weight] : gauss_legendre) {
+      const double local = width / 2 * (1 + x), A = exact_ ? arm(p.r + local) : 1,
+                   dr = weight / 2 * width;
+      at(local, A, dr, dr / A);
+    }
     return;
   }
   // dA/dr = beta z/A with z = d^2 = 1 - A^2, and r from A by ln(z), both without cancellation.
   const double z = 1 - p.A * p.A, rise = -z * std::expm1(-2 * beta_ * width);
   const double slope = rise / (p.A + std::sqrt(std::max(0.0, p.A * p.A + rise)));
-  for (const GaussNode& node : gauss_legendre)
-    for (const double x : {node.x, -node.x}) {
-      const double dA = slope * (1 + x) / 2, A = p.A + dA, w = dA * (A + p.A) / z;
-      const double dr_by_A = node.weight / 2 * slope / (beta_ * z * (1 - w));
-      at(std::log1p(-w) / (-2 * beta_), A, A * dr_by_A, dr_by_A);
-    }
+  for (const auto& [x, weight] : gauss_legendre) {
+    const double dA = slope * (1 + x) / 2, A = p.A + dA, w = dA * (A + p.A) / z;
+    const double dr_by_A = weight / 2 * slope / (beta_ * z * (1 - w));
+    at(std::log1p(-w) / (-2 * beta_), A, A * dr_by_A, dr_by_A);
+  }
 }
 
 /// E/|net| at r, from E/d, which is one power, since E and d may both underflow. Where E/d would

@@ -15,13 +15,12 @@ void SpeedPanel::quadrature(double y, Integrand&& integrand) const {
   const double b = arm_.b, s = 1 - b;
   const double w_end = -std::expm1(-2 * b * y);  // w = 1 - z/z_, so that A^2 = A_^2 + z_ w
   const double slope = 1 / (A_ + std::sqrt(std::max(0.0, A_ * A_ + z_ * w_end)));
-  for (const GaussNode& node : gauss_legendre)
-    for (const double x : {node.x, -node.x}) {
-      const double dA = slope * z_ * w_end * (1 + x) / 2, A = A_ + dA,
-                   w = slope * w_end * (1 + x) / 2 * (A + A_);
-      const double u = -std::log1p(-w) / (2 * b);
-      integrand(u, A, node.weight / 2 * slope * (w_end / b) / (1 - w) * std::exp(-s * u));
-    }
+  for (const auto& [x, weight] : gauss_legendre) {
+    const double dA = slope * z_ * w_end * (1 + x) / 2, A = A_ + dA,
+                 w = slope * w_end * (1 + x) / 2 * (A + A_);
+    const double u = -std::log1p(-w) / (2 * b);
+    integrand(u, A, weight / 2 * slope * (w_end / b) / (1 - w) * std::exp(-s * u));
+  }
 }
 
 double SpeedPanel::time(double y) const {

@@ -77,12 +77,11 @@ double TableRoll::inverse_acceleration(double v) const {
 TableRoll::Integrals TableRoll::integrals(double from, double to) const {
   const double half = (from - to) / 2, middle = (from + to) / 2;
   Integrals sum{0, 0};
-  for (const GaussNode& node : gauss_legendre)
-    for (const double x : {node.x, -node.x}) {
-      const double u = middle + half * x, dt = node.weight * half * inverse_acceleration(u);
-      sum.time += dt;
-      sum.distance += dt * u;
-    }
+  for (const auto& [x, weight] : gauss_legendre) {
+    const double u = middle + half * x, dt = weight * half * inverse_acceleration(u);
+    sum.time += dt;
+    sum.distance += dt * u;
+  }
   return sum;
 }
 

@@ -4,7 +4,6 @@
 #include "base/by_run.h"
 #include "base/dot.h"
 
-#include <cmath>
 #include <utility>
 
 namespace rolling {

@@ -48,31 +48,13 @@ struct Integrator::Problem {
 namespace {
 
 const gsl_odeiv2_step_type* gsl_type(Stepper stepper) {
-  switch (stepper) {
-    case Stepper::rk2:
-      return gsl_odeiv2_step_rk2;
-    case Stepper::rk4:
-      return gsl_odeiv2_step_rk4;
-    case Stepper::rkf45:
-      return gsl_odeiv2_step_rkf45;
-    case Stepper::rkck:
-      return gsl_odeiv2_step_rkck;
-    case Stepper::rk8pd:
-      return gsl_odeiv2_step_rk8pd;
-    case Stepper::msadams:
-      return gsl_odeiv2_step_msadams;
-    case Stepper::rk1imp:
-      return gsl_odeiv2_step_rk1imp;
-    case Stepper::rk2imp:
-      return gsl_odeiv2_step_rk2imp;
-    case Stepper::rk4imp:
-      return gsl_odeiv2_step_rk4imp;
-    case Stepper::bsimp:
-      return gsl_odeiv2_step_bsimp;
-    case Stepper::msbdf:
-      break;
-  }
-  return gsl_odeiv2_step_msbdf;
+  const gsl_odeiv2_step_type* const types[] = {
+      // in the order of Stepper
+      gsl_odeiv2_step_rk2,    gsl_odeiv2_step_rk4,    gsl_odeiv2_step_rkf45,
+      gsl_odeiv2_step_rkck,   gsl_odeiv2_step_rk8pd,  gsl_odeiv2_step_msadams,
+      gsl_odeiv2_step_rk1imp, gsl_odeiv2_step_rk2imp, gsl_odeiv2_step_rk4imp,
+      gsl_odeiv2_step_bsimp,  gsl_odeiv2_step_msbdf};
+  return types[static_cast<std::size_t>(stepper)];
 }
 
 }  // namespace
@@ -85,7 +67,7 @@ Integrator::Integrator(OdeSystem system, const OdeOptions& options, double t, st
   if (!(options.rtol >= 0 && options.atol >= 0 && options.rtol + options.atol > 0 &&
         std::isfinite(options.rtol + options.atol)))
     fail("the tolerances rtol = {} and atol = {} must be positive", options.rtol, options.atol);
-  if (options.stepper >= Stepper::rk1imp && !system.jacobian)
+  if (!is_explicit(options.stepper) && !system.jacobian)
     fail("an implicit stepper needs the Jacobian");
   problem_->system = std::move(system);
   problem_->gsl = {Problem::derivative, problem_->system.jacobian ? Problem::jacobian : nullptr,
@@ -132,11 +114,6 @@ void Integrator::step(double t) {
 
 void Integrator::run(double t) {
   while (t_ < t) step(t);
-}
-
-void Integrator::advance(double t) {
-  steps_left_ = max_steps_;
-  run(t);
 }
 
 bool Integrator::advance(double t, const Event& event) {

@@ -13,12 +13,13 @@ namespace rolling {
 struct OdeSystem {
   std::size_t dimension;
   std::function<void(double t, const double* y, double* dydt)> derivative;
-  /// df/dy row by row, and df/dt; needed by the implicit steppers rk1imp ... msbdf.
+  /// df/dy row by row, and df/dt; needed by the implicit steppers.
   std::function<void(double t, const double* y, double* dfdy, double* dfdt)> jacobian = {};
 };
 
 /// GSL's names.
 enum class Stepper { rk2, rk4, rkf45, rkck, rk8pd, msadams, rk1imp, rk2imp, rk4imp, bsimp, msbdf };
+inline bool is_explicit(Stepper stepper) { return stepper < Stepper::rk1imp; }
 
 struct OdeOptions {
   Stepper stepper = Stepper::rk8pd;
@@ -38,11 +39,9 @@ class Integrator {
   const std::vector<double>& state() const { return y_; }
   unsigned long evaluations() const;  ///< calls of the derivative so far
 
-  /// Integrates to exactly t; does nothing if t is not after time(). Throws Error if GSL fails, if
-  /// the state is no longer finite, or after max_steps.
-  void advance(double t);
-  /// The same, but stops at the first sign change of the event (located to rounding) and then
-  /// returns true. t may be infinite.
+  /// Integrates to exactly t; does nothing if t is not after time(). Stops at the first sign change
+  /// of the event (located to rounding) and then returns true. t may be infinite. Throws Error if
+  /// GSL fails, if the state is no longer finite, or after max_steps.
   bool advance(double t, const Event&);
   /// Continues from another state at the same time: at a kink of the derivative, restart on its
   /// other side.

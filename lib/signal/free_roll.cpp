@@ -122,14 +122,10 @@ double smallest_step(std::span<const Sample> readings) {
 std::vector<Sample> without_spikes(std::span<const Sample> readings, std::size_t first,
                                    double step) {
   MovingMedian median_of_five({5, 0});
-  std::vector<double> medians, distances;
   std::vector<Sample> kept(readings.begin(), readings.end());
-  medians.reserve(kept.size());
-  const auto take = [&](std::span<const double> values) {
-    medians.insert(medians.end(), values.begin(), values.end());
-  };
-  for (const Sample& s : kept) take(median_of_five.push(s.t, s.y));
-  take(median_of_five.finish());
+  const std::vector<double> medians =
+      output_of(median_of_five, kept.size(), [&](std::size_t i) { return kept[i]; });
+  std::vector<double> distances;
   for (std::size_t i = first; i < kept.size(); ++i)
     distances.push_back(std::abs(kept[i].y - medians[i]));
   const double most = std::max(6 * deviation(distances), 3 * step);

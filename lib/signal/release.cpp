@@ -5,14 +5,12 @@
 #include <numeric>
 #include <vector>
 
+#include "base/dot.h"
+
 namespace rolling {
 namespace {
 
 using Vector = std::vector<double>;
-
-double dot(const Vector& a, const Vector& b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
 
 /// The residual of a vector after regression on a constant and, for positions, on a straight line
 /// in time.

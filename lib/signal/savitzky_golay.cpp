@@ -1,7 +1,6 @@
 #include "signal/savitzky_golay.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "base/error.h"

@@ -1,7 +1,9 @@
 // A filter of a column, which processes sample by sample.
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <vector>
 
 #include "base/growing.h"
 #include "signal/windows.h"
@@ -17,6 +19,18 @@ class Signal {
   /// Ends the run and returns the remaining output values. Valid until the next call.
   virtual std::span<const double> finish() = 0;
 };
+
+/// The output of a filter for a whole run of n samples, sample(0), sample(1), ...
+std::vector<double> output_of(Signal& filter, std::size_t n, auto&& sample) {
+  std::vector<double> output;
+  output.reserve(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Sample s = sample(i);
+    for (const double value : filter.push(s.t, s.y)) output.push_back(value);
+  }
+  for (const double value : filter.finish()) output.push_back(value);
+  return output;
+}
 
 /// A filter whose output depends on a window around each sample: Of::value(window).
 template <typename Of>

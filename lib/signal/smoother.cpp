@@ -79,13 +79,8 @@ std::span<const double> AutoSmoother::push(double t, double y) {
 
 std::span<const double> AutoSmoother::finish() {
   options_.width = {best_width(run_, options_), 0};
-  const auto smoother = make_signal(options_);
-  const auto take = [this](std::span<const double> values) {
-    smooth_.insert(smooth_.end(), values.begin(), values.end());
-  };
-  for (const Sample& s : run_) take(smoother->push(s.t, s.y));
-  take(smoother->finish());
-  return smooth_;
+  return smooth_ = output_of(*make_signal(options_), run_.size(),
+                             [this](std::size_t i) { return run_[i]; });
 }
 
 }  // namespace rolling

@@ -19,12 +19,12 @@
 namespace rolling {
 
 struct ReaderOptions {
-  std::vector<std::string> files;  ///< operands, in order; empty for standard input
-  std::vector<std::string> use;    ///< NAME=COLUMN, or NAME=COLUMN[UNIT]
-  std::optional<int> run;          ///< the only run to be read
-  bool strict = false;             ///< a missing reading is an error
-  BlockHook on_block = {};         ///< is called with the progress of reading a file
-  bool has_use = true;             ///< the option --use applies to these files
+  std::vector<std::string> files = {};  ///< operands, in order; empty for standard input
+  std::vector<std::string> use = {};    ///< NAME=COLUMN, or NAME=COLUMN[UNIT]
+  std::optional<int> run = {};          ///< the only run to be read
+  bool strict = false;                  ///< a missing reading is an error
+  BlockHook on_block = {};              ///< is called with the progress of reading a file
+  bool has_use = true;                  ///< the option --use applies to these files
 };
 
 class Reader {

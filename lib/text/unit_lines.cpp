@@ -1,7 +1,6 @@
 #include "text/unit_lines.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "base/error.h"
 #include "text/number.h"

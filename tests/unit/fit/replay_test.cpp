@@ -63,14 +63,14 @@ FitRun interpolated(const FitRun& run) {
   return more;
 }
 
-bool differs(const FitRun& run) { return replayed(chain, run).inside; }
+bool differs(const FitRun& run) { return mismatch(chain, run).inside; }
 
 }  // namespace
 
 TEST_CASE("replay: columns that the filters made are the same, rounded or not", "[fit]") {
   for (int seed = 1; seed <= 20; ++seed) {
     const FitRun run = filtered(seed);
-    const Differences none = replayed(chain, run);
+    const Mismatch none = mismatch(chain, run);
     CHECK(!none.inside);
     CHECK(!none.begin);
     CHECK(!none.end);
@@ -117,7 +117,7 @@ TEST_CASE("replay: a missing reading hides its windows alone", "[fit]") {
   for (auto column : {&FitRun::x, &FitRun::v, &FitRun::D}) {
     FitRun run = filtered(1);
     (run.*column)[20] = nan;
-    const Differences none = replayed(chain, run);
+    const Mismatch none = mismatch(chain, run);
     CHECK(!none.inside);
     CHECK(!none.begin);
     CHECK(!none.end);
@@ -132,13 +132,13 @@ TEST_CASE("replay: records that were cut off differ at that end alone", "[fit]")
     for (const auto& [first, end] : {std::pair(4, 60), {0, 55}, {9, 50}}) {
       INFO("seed " << seed << ", " << first << " to " << end);
       FitRun some = part(run, first, end);
-      const Differences found = replayed(chain, some);
+      const Mismatch found = mismatch(chain, some);
       CHECK(!found.inside);
       CHECK(found.begin == (first > 0));
       CHECK(found.end == (end < 60));
       some.D.clear();  // the last filter is then a mean of v, of which x tells
-      CHECK(replayed(chain, some).begin == (first > 0));
-      CHECK(replayed(chain, some).end == (end < 60));
+      CHECK(mismatch(chain, some).begin == (first > 0));
+      CHECK(mismatch(chain, some).end == (end < 60));
     }
   }
 }

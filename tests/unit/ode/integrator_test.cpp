@@ -33,6 +33,8 @@ OdeOptions with(Stepper stepper, double rtol) {
   return options;
 }
 
+const Integrator::Event never = [](const std::vector<double>&) { return 1.0; };
+
 const auto all_steppers = {Stepper::rk2,    Stepper::rk4,     Stepper::rkf45,  Stepper::rkck,
                            Stepper::rk8pd,  Stepper::msadams, Stepper::rk1imp, Stepper::rk2imp,
                            Stepper::rk4imp, Stepper::bsimp,   Stepper::msbdf};
@@ -45,7 +47,7 @@ TEST_CASE("Integrator: every stepper comes closer as the tolerance falls", "[ode
     double before = 1;
     for (const double rtol : {1e-4, 1e-6, 1e-8}) {
       Integrator ode(pendulum, with(stepper, rtol), 0, {1, 0});
-      ode.advance(3);
+      ode.advance(3, never);
       const double error = std::hypot(ode.state()[0] - std::cos(3), ode.state()[1] + std::sin(3));
       INFO("stepper " << static_cast<int>(stepper) << " rtol " << rtol << " error " << error);
       CHECK(ode.time() == 3);
@@ -55,7 +57,7 @@ TEST_CASE("Integrator: every stepper comes closer as the tolerance falls", "[ode
     }
   }
   Integrator first_order(pendulum, with(Stepper::rk1imp, 1e-7), 0, {1, 0});
-  first_order.advance(1);
+  first_order.advance(1, never);
   CHECK(std::abs(first_order.state()[0] - std::cos(1)) < 1e-3);
 }
 
@@ -63,13 +65,13 @@ TEST_CASE("Integrator: the given times are met one after the other, the past doe
           "[ode]") {
   Integrator ode(pendulum, with(Stepper::rk8pd, 1e-12), 0, {1, 0});
   for (int i = 1; i <= 100; ++i) {
-    ode.advance(0.1 * i);
+    ode.advance(0.1 * i, never);
     CHECK(ode.time() == 0.1 * i);
     CHECK(std::abs(ode.state()[0] - std::cos(0.1 * i)) < 1e-10);
   }
   const auto evaluations = ode.evaluations();
   CHECK(evaluations > 100);
-  ode.advance(5);
+  ode.advance(5, never);
   CHECK(ode.time() == 0.1 * 100);
   CHECK(ode.evaluations() == evaluations);
 }
@@ -112,7 +114,7 @@ TEST_CASE("Integrator: a stiff system needs few evaluations of an implicit stepp
   }};
   for (const Stepper stepper : {Stepper::bsimp, Stepper::msbdf, Stepper::rk4imp}) {
     Integrator ode(stiff, with(stepper, 1e-8), 0, {1});
-    ode.advance(1);
+    ode.advance(1, never);
     CHECK(std::abs(ode.state()[0] - std::cos(1)) < 2e-6);
     CHECK(ode.evaluations() < 20000);
   }
@@ -124,21 +126,21 @@ TEST_CASE("Integrator: trouble becomes an Error", "[ode]") {
   };
   // y' = y^2 is infinite at t = 1
   Integrator infinite(system([](double, double y) { return y * y; }), {}, 0, {1});
-  CHECK_THROWS_AS(infinite.advance(2), Error);
+  CHECK_THROWS_AS(infinite.advance(2, never), Error);
   Integrator no_number(system([](double t, double) { return t > 0.5 ? std::nan("") : 1.0; }), {}, 0,
                        {1});
-  CHECK_THROWS_AS(no_number.advance(2), Error);
+  CHECK_THROWS_AS(no_number.advance(2, never), Error);
   OdeOptions few;
   few.max_steps = 50;
   Integrator long_way(system([](double t, double) { return std::sin(1000 * t); }), few, 0, {1});
-  CHECK_THROWS_AS(long_way.advance(10), Error);
+  CHECK_THROWS_AS(long_way.advance(10, never), Error);
   Integrator refuses(system([](double t, double) {
                        return t > 0.5 ? throw std::domain_error("beyond 0.5") : 1.0;
                      }),
                      {}, 0, {1});
-  CHECK_THROWS_AS(refuses.advance(2), std::domain_error);
+  CHECK_THROWS_AS(refuses.advance(2, never), std::domain_error);
   Integrator late(system([](double, double) { return 1; }), {}, 1e17, {1});  // doubles 16 s apart
-  CHECK_THROWS_AS(late.advance(1e17 + 1000), Error);
+  CHECK_THROWS_AS(late.advance(1e17 + 1000, never), Error);
 }
 
 TEST_CASE("Integrator: wrong arguments are refused", "[ode]") {

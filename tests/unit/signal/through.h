@@ -10,11 +10,9 @@
 using Series = std::vector<double>;
 
 inline Series through(rolling::Signal& signal, const Series& t, const Series& y) {
-  Series out;
-  for (std::size_t i = 0; i < t.size(); ++i)
-    for (const double value : signal.push(t[i], y[i])) out.push_back(value);
-  for (const double value : signal.finish()) out.push_back(value);
-  return out;
+  return rolling::output_of(signal, t.size(), [&](std::size_t i) {
+    return rolling::Sample{t[i], y[i]};
+  });
 }
 inline Series through(rolling::Signal&& signal, const Series& t, const Series& y) {
   return through(signal, t, y);

@@ -122,7 +122,7 @@ TEST_CASE("filter: a result that is not finite is refused, and its row is not be
   const TemporaryFile file("0 1\n1 2\n");
   std::string message;
   CHECK(printed([&] {
-          Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
+          Reader in({.files = {file.name()}}, {"t", "v"});
           Output out;
           in.need("v");
           message = refusal([&] {
@@ -143,7 +143,7 @@ TEST_CASE("filter: a result that is not finite is refused, and its row is not be
 TEST_CASE("filter: rows that could not be written are not written later", "[text]") {
   const TemporaryFile file("0 1\n1 2\n");
   CHECK(printed([&] {
-          Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
+          Reader in({.files = {file.name()}}, {"t", "v"});
           Output out;
           out.unbuffered = true;
           in.need("v");
@@ -166,7 +166,7 @@ TEST_CASE("filter: rows that could not be written are not written later", "[text
 TEST_CASE("filter: rows left out before the first run with a history", "[text]") {
   const TemporaryFile file("0 1\n1 2\n# between\n\n0 3\n1 4\n2 5\n");
   CHECK(base_names_as_FILE(printed([&] {
-          Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
+          Reader in({.files = {file.name()}}, {"t", "v"});
           Output out;
           const auto v = in.need("v");
           Filter filter(in, out);
@@ -189,7 +189,7 @@ TEST_CASE("filter: no record left is an error of its own", "[text]") {
   const TemporaryFile file("0 1\n1 2\n");
   std::string message;
   printed([&] {
-    Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
+    Reader in({.files = {file.name()}}, {"t", "v"});
     Output out;
     Filter filter(in, out);
     message = refusal([&] {
@@ -204,7 +204,7 @@ TEST_CASE("filter: no record with all its readings is an error", "[text]") {
   const TemporaryFile file("# t v\n0 NaN\n\n1 NaN\n");
   std::string message;
   printed([&] {
-    Reader in({{file.name()}, {}, {}, false}, {});
+    Reader in({.files = {file.name()}}, {});
     Output out;
     in.need("v");
     Filter filter(in, out, "test it");
@@ -232,7 +232,7 @@ TEST_CASE("filter: rows left out behind one that waits", "[text]") {
   for (int i = 0; i < 100; ++i) text += std::to_string(i) + " 1\n";
   const TemporaryFile file("# a\n9 9\n\n" + text);
   const std::string written = printed([&] {
-    Reader in({{file.name()}, {}, {}, false}, {"t", "v"});
+    Reader in({.files = {file.name()}}, {"t", "v"});
     Output out;
     const auto v = in.need("v");
     Filter filter(in, out, "test it");

@@ -1,0 +1,72 @@
+// For tests of the reader: what it gives of files of these texts.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "text/reader.h"
+#include "unit/text/files.h"
+
+namespace rolling {
+
+using Texts = std::vector<std::string>;
+
+/// All that a reader gives of t and v (or `wanted`) in files of these texts: records as "t v", " |
+/// " between them, " || " between runs; or the message that refuses them.
+inline std::string records(const Texts& texts, ReaderOptions options = {},
+                           const std::vector<std::string>& wanted = {"t", "v"}) {
+  std::vector<std::unique_ptr<TemporaryFile>> files;
+  for (const std::string& text : texts) {
+    files.push_back(std::make_unique<TemporaryFile>(text));
+    options.files.push_back(files.back()->name());
+  }
+  std::string all;
+  const std::string message = refusal([&] {
+    Reader in(options, {"t", "v"});
+    std::vector<std::size_t> slots;
+    for (const std::string& name : wanted)
+      slots.push_back(name == "t" ? in.need_time() : in.need(name));
+    for (bool first_run = true; in.next_run(); first_run = false) {
+      if (!first_run) all += " || ";
+      for (bool first = true; in.next(); first = false) {
+        if (!first) all += " | ";
+        for (std::size_t i = 0; i < slots.size(); ++i)
+          all += fmt::format("{}{}", i ? " " : "", in[slots[i]]);
+      }
+    }
+  });
+  return message.empty() ? all : anonymous(message);
+}
+
+/// The records as they would pass through, lines in < >.
+inline std::string copies(const std::string& text, ReaderOptions options = {},
+                          const std::vector<std::string>& wanted = {"t", "v"}) {
+  const TemporaryFile file(text);
+  options.files = {file.name()};
+  Bytes all;
+  Reader in(options, {"t", "v"});
+  for (const std::string& name : wanted) in.need(name);
+  while (in.next_run())
+    while (in.next()) {
+      all.append('<');
+      in.append_text(all);
+      all.append('>');
+    }
+  return {all.data(), all.size()};
+}
+
+/// The columns of the first run.
+inline std::string names(const std::string& text) {
+  const TemporaryFile file(text);
+  Reader in({.files = {file.name()}}, {"t", "v"});
+  std::string all;
+  for (const Column& column : in.columns()) all += (all.empty() ? "" : " ") + to_text(column);
+  return all;
+}
+
+inline ReaderOptions use(const Texts& what) { return {.use = what}; }
+inline ReaderOptions run(int number) { return {.run = number}; }
+inline const ReaderOptions strict{.strict = true};
+
+}  // namespace rolling
