@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
     const std::string name = in.columns()[in.column_of(y)].name;
     select.positions = name == "x";
     if (select.coast && name != "x" && name != "v")
-      fail("--coast needs the column x or v, not {}", shown(name));
+      fail("--coast needs x or v, not {}: say --use v=COLUMN, or --use x=COLUMN -c x", shown(name));
 
     Filter filter(in, tool.out);
     filter.replace(y);

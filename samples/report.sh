@@ -3,7 +3,7 @@
 #   samples/report.sh FIGURES [WORK-PRECISION] >report.html
 # FIGURES is a folder with the SVGs of samples/figures, and with the manual pages in man/, if they
 # are to be linked; WORK-PRECISION is one with the SVGs of `make work-precision`, where that was
-# run. The tools are on PATH. `make report` does it all.
+# run. `make report` does it all.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
@@ -11,6 +11,8 @@ figures=$(cd "$1" && pwd)
 measured=''
 [ $# -lt 2 ] || measured=$(cd "$2" && pwd)
 cd "$(dirname "$0")"
+# The tools of this source, or those on the PATH.
+PATH=$(cd .. && pwd)/bin:$PATH
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 ./table1.sh >"$scratch/table1" ||

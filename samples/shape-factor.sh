@@ -13,6 +13,8 @@ set -euo pipefail
 export LC_ALL=C
 unset CDPATH
 here=$(cd "$(dirname "$0")" && pwd)
+# The tools of this source, or those on the PATH.
+PATH=$(cd "$here/.." && pwd)/bin:$PATH
 
 # What was measured with a balance and a caliper, each with its standard uncertainty; g is known.
 measured='m = 1.375;  u_m = 0.001    # mass of the body [kg]

@@ -1,11 +1,13 @@
 #!/bin/bash
 # Table 1 and the check of the dissipated energy, from the raw records alone: samples/table1.sh
-# (bash, the tools on PATH). Exits with 1 when a recovered value is more than 4 standard errors from
+# (bash). Exits with 1 when a recovered value is more than 4 standard errors from
 # the paper's, or an energy balance is open.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
 cd "$(dirname "$0")"
+# The tools of this source, or those on the PATH.
+PATH=$(cd .. && pwd)/bin:$PATH
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 failed=0

@@ -42,7 +42,7 @@ put() {
       cmd/install/rename-page.sh "$prefix" "$3" "${tools[@]}" ;;
     bash | zsh)
       install -D -m 644 /dev/null "$3"
-      "$2" --help | awk -v shell="$1" -v name="${3##*/}" -f cmd/install/completion.awk >"$3" ;;
+      "$2" --help | awk -v shell="$1" -v name="$prefix${2#bin/}" -f cmd/install/completion.awk >"$3" ;;
     sample)
       if [ -x "$2" ]; then install -D -m 755 "$2" "$3"; else install -D -m 644 "$2" "$3"; fi ;;
   esac

@@ -146,10 +146,12 @@ void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitR
         "too uncertain for the interval a +- sigma_a",
         run, r.sigma_a / r.a));
   if (noise_is_correlated(r))
-    tool.warn(
-        fmt::format("{}the noise is correlated from record to record (Ljung-Box p {:.2g}), or the "
-                    "law is not the right one: the errors allow for the correlation; see --report",
-                    run, r.whiteness));
+    tool.warn(fmt::format(
+        "{}the noise is correlated from record to record (Ljung-Box p {:.2g}), or the "
+        "law is not the right one: the errors allow for the correlation; {}see --report",
+        run, r.whiteness,
+        route == Route::velocity ? "fit the positions, if the file has them (--route position), or "
+                                 : ""));
   if (route == Route::loglog && logarithms_biased(r))
     tool.warn(run +
               "the noise of D biases its logarithms by more than the standard error of the line: "

@@ -152,7 +152,10 @@ std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, Columns colum
 void set_bodies(std::vector<FitRun>& runs, const Body& body,
                 const std::vector<Estimate>& shape_factors, const BodyUncertainty& uncertainty) {
   if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
-    fail("--shape-factor gives {} values, but runs are {}", shape_factors.size(), runs.size());
+    fail(
+        "--shape-factor gives {} values for {} run{}: give one for all, or one for each, with "
+        "decimal points",
+        shape_factors.size(), runs.size(), runs.size() == 1 ? "" : "s");
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Estimate K = shape_factors.empty() ? Estimate{not_given}
                                              : shape_factors[shape_factors.size() > 1 ? i : 0];

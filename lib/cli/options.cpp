@@ -17,9 +17,14 @@ void require(const Range& range, double value, std::string_view text) {
   if (!range.holds(value)) fail("'{}' must be {}", shown(text), range.text);
 }
 
+[[noreturn]] void refuse_number(const std::string& text) {
+  fail("'{}' is not a number{}", shown(text),
+       text.find(',') < text.size() ? "; its decimal mark has to be a point" : "");
+}
+
 Estimate to_estimate(const std::string& text, const Range& range) {
   Estimate estimate;
-  if (!parse_estimate(text, estimate)) fail("'{}' is not a number", shown(text));
+  if (!parse_estimate(text, estimate)) refuse_number(text);
   require(range, estimate.value, text);
   return estimate;
 }
@@ -41,7 +46,7 @@ std::string long_name(const std::string& names) {
 
 double to_number(const std::string& text, const Range& range) {
   double value;
-  if (!parse_number(text, value)) fail("'{}' is not a number", shown(text));
+  if (!parse_number(text, value)) refuse_number(text);
   require(range, value, text);
   return value;
 }

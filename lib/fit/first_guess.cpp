@@ -148,7 +148,10 @@ std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions
       }
     if (std::isfinite(nearest.rss)) best.push_back(std::move(nearest));
   }
-  if (best.empty()) fail("no law a v^b comes near the data: a and b cannot be determined");
+  if (best.empty())
+    fail(
+        "no law a v^b comes near the data: are all of these records of the free roll (smooth "
+        "--coast)?");
   std::ranges::sort(best, {}, &Candidate::rss);
   return best;
 }

@@ -165,7 +165,10 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
       fail(
           "the fit does not converge: are all of these records of the free roll (smooth --coast)?");
   }
-  if (!determined()) fail("the data do not determine the parameters: they cannot be told apart");
+  if (!determined())
+    fail(
+        "the data do not determine the parameters: are all of these records of a free roll that "
+        "slows down (smooth --coast)?");
   // A negligible step is taken without evaluating the residuals again.
   std::vector<double> theta = best.negligible() ? moved(best.theta, best.step) : best.theta;
   Minimum minimum = minimum_at(std::move(best));

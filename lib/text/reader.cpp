@@ -283,8 +283,11 @@ void Reader::change_fields() {
     changed_fields_.emplace_back();
     fields_ = changed_fields_;
   } else {
-    fail<InputError>("{}: {} field{} where the first record has {}", here(), fields_.size(),
-                     fields_.size() == 1 ? "" : "s", width);
+    fail<InputError>("{}: {} field{} where the first record has {}{}", here(), fields_.size(),
+                     fields_.size() == 1 ? "" : "s", width,
+                     fields_.size() > width && file_dialect_.separator() == ','
+                         ? "; if some of its commas are decimal ones, make them points first"
+                         : "");
   }
   fields_changed_ = true;
 }

@@ -3,6 +3,7 @@
 #
 #   -t svg | pngcairo   the terminal of gnuplot (svg); the picture goes to standard output
 #   -K K[,K...] -R R    shape factor and radius, where a figure draws records of your own
+#   -h                  print the comment at the top of the script
 #
 # and leave their operands in "$@". The tools are those of this source, or on the PATH. A script
 # works in a folder of its own with copies of the samples, so that no name of a file or folder gets
@@ -11,12 +12,14 @@ set -euo pipefail
 export LC_ALL=C
 unset CDPATH
 terminal=svg K=0.5 R=0.04
-while getopts t:K:R: option; do
+usage() { sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0"; }
+while getopts ht:K:R: option; do
   case $option in
     t) terminal=$OPTARG ;;
     K) K=$OPTARG ;;
     R) R=$OPTARG ;;
-    *) sed -n '2,3s/^# //p' "$0" >&2; exit 2 ;;
+    h) usage; exit ;;
+    *) usage >&2; exit 2 ;;
   esac
 done
 shift $((OPTIND - 1))

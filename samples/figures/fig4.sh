@@ -10,13 +10,13 @@
 # the experiments.
 . "$(dirname "$0")/draw.sh"
 
-# D against v of record $1 with the shape factor $2, and the row of the law.
+# D against v of record $1, the file $3, with the shape factor $2, and the row of the law.
 shifts() {
   local from=v
-  ! smooth -q -w 1 "record$1" | grep '^# t' | grep -q 'x\[' || from=x
+  ! smooth -q -w 1 "$3" 2>/dev/null | grep '^# t' | grep -q 'x\[' || from=x
   case $from in
-    x) smooth -q --coast -c x -w 1 "record$1" | differentiate -c x | smooth -q -w 11 ;;
-    v) smooth -q --coast -c v -w 11 "record$1" ;;
+    x) smooth -q --coast -c x -w 1 "$3" | differentiate -c x | smooth -q -w 11 ;;
+    v) smooth -q --coast -c v -w 11 "$3" ;;
   esac | differentiate -c v | shift-from-accel -q -K "$2" -R "$R" >"shift$1"
   fitpower -q "shift$1" | grep -v '^#' >>laws
   # The picture has the rows of whole windows alone; fitpower knows the noise of all of them.
@@ -44,8 +44,9 @@ for file; do
     name=${file##*/} && name=${name%.*} && printf '%s\n' "${name//[[:cntrl:]]/?}" >>names
     case $file in /* | -) ;; *) file=$called_from/$file ;; esac
   fi
-  cat -- "$file" >"record$runs"
-  shifts $runs "${shapes[runs - 1]:-${shapes[0]}}"
+  # What is read but once is copied: it is read twice here.
+  [ -f "$file" ] || { cat -- "$file" >"record$runs" && file=record$runs; }
+  shifts $runs "${shapes[runs - 1]:-${shapes[0]}}" "$file"
 done
 
 frame='vmax = 0.5; Dmax = 2.2'

@@ -106,7 +106,7 @@ shift-from-accel -K 0.5 @|--radius is not given
 shift-from-accel -R 1 @|--shape-factor is not given
 fitpower --route velocity -K -1 -R 1 @|'-1' must be 0 or more
 fitpower --route velocity -K 0.5, -R 1 @|'' is not a number
-fitpower --route velocity -K 0.5,0.8 -R 1 @|gives 2 values, but runs are 1
+fitpower --route velocity -K 0.5,0.8 -R 1 @|gives 2 values for 1 run: give one
 fitpower --route velocity -K 0.5 -R 0 @|'0' must be greater than 0
 fitpower --fix a=1 --fix a=2 @|--fix: 'a=2' comes after another
 fitpower --start b=1 --start b=2 @|--start: 'b=2' comes after another

@@ -38,6 +38,10 @@ for prefix in '' roll-; do
     "$root/bin/$tool" --help | grep -q "^Usage: $tool " || complain "$tool --help does not name it"
     [ "$("$root/bin/$tool" --no-such-option 2>&1 | cut -d : -f 1)" = "$tool" ] ||
       complain "$tool does not name itself in a message"
+    [ "$(head -n 1 "$root/share/zsh/site-functions/_$tool")" = "#compdef $tool" ] ||
+      complain "zsh does not complete $tool"
+    grep -q "^complete .* $tool " "$root/share/bash-completion/completions/$tool" ||
+      complain "bash does not complete $tool"
     page=$root/share/man/man1/$tool.1
     [ "$(sed -n 2p "$page")" = ".Dt $(upper "$tool") 1" ] ||
       complain "the title of $page is $(sed -n 2p "$page")"

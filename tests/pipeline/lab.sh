@@ -38,7 +38,7 @@ make check >said 2>&1 || complain "make check: $(cat said)"
 for folder in /nonexistent "$scratch/of two words"; do
   mkdir -p "$scratch/of two words" && cp records/0001.csv "$scratch/of two words"
   make records="$folder" >said 2>&1 && complain "make took the records of $folder"
-  grep -q "no \*.csv in '$folder': say records=FOLDER" said && [ "$(wc -l <said)" = 1 ] ||
+  grep -q "no \*.csv in '$folder': say records=/PATH/OF/THE/FOLDER" said && [ "$(wc -l <said)" = 1 ] ||
     complain "$folder: $(cat said)"
 done
 make -n clean records=/nonexistent >said 2>&1 || complain "make clean: $(cat said)"

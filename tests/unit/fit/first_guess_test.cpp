@@ -112,7 +112,9 @@ TEST_CASE(
     return std::string("not at all");
   };
   CHECK(refused([](int) { return 1.0; }) ==
-        "the data do not determine the parameters: they cannot be told apart");
+        "the data do not determine the parameters: are all of these records of a free roll that "
+        "slows down (smooth --coast)?");
   CHECK(refused([](int i) { return i < 2 ? 1.0 : 0.0; }) ==
-        "the data do not determine the parameters: they cannot be told apart");
+        "the data do not determine the parameters: are all of these records of a free roll that "
+        "slows down (smooth --coast)?");
 }

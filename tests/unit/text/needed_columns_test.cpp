@@ -88,7 +88,7 @@ TEST_CASE("needed columns: a column that is absent", "[text]") {
   NeededColumns needed({}, true);
   needed.begin_run(columns({"t"}), false, {}, "FILE");
   CHECK(refusal([&] { needed.add("v", Kind::needed); }) ==
-        "FILE: there is no column 'v' among 1 without names; say --use v=COLUMN");
+        "FILE: there is no column 'v' among 1 column without names; say --use v=COLUMN");
   CHECK(needed.add("x", Kind::wanted) == 0);  // may be absent
   CHECK(needed.all()[0].column == NeededColumns::no_column);
 }

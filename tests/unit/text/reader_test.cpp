@@ -18,7 +18,9 @@ TEST_CASE("reader: the first record sets the separator, and the others have it",
   CHECK(records({"0,1\n1;2\n"}) == "FILE:2: 1 field where the first record has 2");
   CHECK(records({"0\t1\n1 2\n"}) == "FILE:2: 1 field where the first record has 2");
   CHECK(records({"0 1\n1 2 3\n"}) == "FILE:2: 3 fields where the first record has 2");
-  CHECK(records({"0,1\n1,2,\n"}) == "FILE:2: 3 fields where the first record has 2");
+  CHECK(records({"0,1\n1,2,\n"}) ==
+        "FILE:2: 3 fields where the first record has 2; if some of its commas are decimal ones, "
+        "make them points first");
 }
 
 TEST_CASE("reader: names in the last # line before the data", "[text]") {
@@ -172,7 +174,7 @@ TEST_CASE("reader: --use says which column serves, by name or number", "[text]")
         "FILE: --use v says km/h, but the column's name w[m/s]");
   CHECK(records({"1 2 3 40\n"}, use({"t=4[ms]", "v=2"})) == "0.04 2");
   CHECK(records({"1 2 3 40\n"}, use({"t=4"})) ==
-        "FILE: there is no column 'v' among 4 without names; say --use v=COLUMN");
+        "FILE: there is no column 'v' among 4 columns without names; say --use v=COLUMN");
   CHECK(records({"# t w[km/h]\n0 72\n"}, use({"v=w"})) == "0 20");
   CHECK(records({"0 1 2\n"}, use({"Velocity=3"})) == "0 2");  // the long name is the same quantity
 }
