@@ -205,10 +205,6 @@ int main(int argc, char** argv) {
                            tool.on_command_line("exponent"),
                use_law = law_given || (!std::isnan(law.power.a) && !in.find("D"));
     if (use_law && !law.table) tool.need({"coefficient", "exponent"});
-    if (!use_law && !in.find("D"))
-      fail<InputError>(
-          "there is no column D: let shift-from-accel compute it, give a law by --law or by -a and "
-          "-b, or say --use D=COLUMN");
     Accounts accounts(tool, in, body, geometry, use_law ? &law : nullptr,
                       summary ? Form::summary : Form::records, tolerance, use_law && !law_given);
     if (summary) {

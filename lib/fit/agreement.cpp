@@ -282,7 +282,7 @@ void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, F
 std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& runs,
                                       const FitOptions& options, NoiseErrors& errors,
                                       Fitted& joint) {
-  if (runs.size() < 2 || errors.kind == Errors::none) return {};
+  if (runs.size() < 2 || errors.kind == Errors::none || (options.a && options.b)) return {};
   std::vector<std::optional<Fitted>> own;
   for (std::size_t r = 0; r < runs.size(); ++r) try {
       own.emplace_back(joint.rolls ? fit_of_run(joint, r, options)

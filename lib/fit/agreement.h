@@ -9,7 +9,7 @@ namespace rolling {
 /// slope of the mat is held at that of the joint fit); its law (ln a, b) is compared with the mean
 /// of all, weighted by the inverse covariances of the runs' own errors. The significance is that of
 /// the law with which all agree best. Returns nothing where fewer than two runs determine a law by
-/// themselves.
+/// themselves, or where a and b are held.
 ///
 /// `errors` are those of the joint fit. Where the runs agree, `errors` and `joint` stay as they
 /// are. Where they disagree, the law of `joint` becomes that of the mean of b and of the mean of

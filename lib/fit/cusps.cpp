@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rolling {
 namespace {
@@ -87,12 +88,14 @@ bool has_cusps(const RollModel& rolls, const std::vector<double>& theta, std::si
 }  // namespace
 
 Minimum beyond_cusps(const RollModel& rolls, const System& system, Minimum best) {
-  if (system.residuals() * system.runs.size() > 2048) return best;
-  for (double before = INFINITY; best.rss < before * (1 - 1e-6);) {
+  constexpr std::size_t many = 2048;  // records times runs
+  if (system.residuals() * system.runs.size() > many) return best;
+  for (double before = std::numeric_limits<double>::infinity(); best.rss < before * (1 - 1e-6);) {
     before = best.rss;
     for (std::size_t r = 0; r < system.runs.size(); ++r) try {
         if (has_cusps(rolls, best.theta, r)) search_around(rolls, system, r, best);
-      } catch (const Error&) {}
+      } catch (const Error&) {  // the roll has no stop near this one: its minimum stays
+      }
   }
   return best;
 }

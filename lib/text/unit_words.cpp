@@ -13,7 +13,7 @@
 namespace rolling {
 namespace {
 
-constexpr std::size_t longest_unit = 32;  // in words
+constexpr std::size_t longest_unit = 32;  // letters, where it is spelled in words
 
 /// The words of a name in small letters, and `per` for a slash. A word ends at any other sign, and
 /// before a capital behind a small letter.
