@@ -1,4 +1,4 @@
-// Inner and outer products of rows of numbers.
+// Inner products.
 #pragma once
 
 #include <cstddef>
@@ -23,13 +23,6 @@ inline double dot(const double* x, const double* y, std::size_t n) {
 /// The inner product of two rows of the length of x.
 inline double dot(std::span<const double> x, std::span<const double> y) {
   return dot(x.data(), y.data(), x.size());
-}
-
-/// Adds by x y^T to the square matrix M, which is stored row by row.
-inline void add_outer(std::span<double> M, double by, std::span<const double> x,
-                      std::span<const double> y) {
-  for (std::size_t j = 0; j < x.size(); ++j)
-    for (std::size_t k = 0; k < y.size(); ++k) M[j * y.size() + k] += by * x[j] * y[k];
 }
 
 }  // namespace rolling

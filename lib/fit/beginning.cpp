@@ -30,18 +30,14 @@ struct Without {
 /// f_S are the first k residuals, Q_S their rows of the orthonormal Q. A = I - Q_S^T Q_S is the
 /// normal matrix of the other records. Then c = A^-1 Q_S^T f_S, and the reduction is |f_S|^2 +
 /// f_S^T Q_S c.
-Without without_first(std::size_t k, std::size_t q, std::span<const double> Q,
-                      std::span<const double> f) {
-  std::vector<double> A(q * q, 0), g(q, 0);
-  double squares = 0;
-  for (std::size_t i = 0; i < q; ++i) A[i * q + i] = 1;
-  for (std::size_t s = 0; s < k; ++s) {
-    const auto row = Q.subspan(s * q, q);
-    squares += f[s] * f[s];
-    for (std::size_t i = 0; i < q; ++i) g[i] += row[i] * f[s];
-    add_outer(A, -1, row, row);
+Without without_first(std::size_t k, const Matrix& Q, const std::vector<double>& f) {
+  const std::size_t q = Q.size();
+  std::vector<double> A(q * q), g(q);
+  for (std::size_t i = 0; i < q; ++i) {
+    for (std::size_t j = 0; j < q; ++j) A[i * q + j] = (i == j) - dot(&Q[i][0], &Q[j][0], k);
+    g[i] = dot(&Q[i][0], &f[0], k);
   }
-  Without result{squares, g};
+  Without result{dot(&f[0], &f[0], k), g};
   gsl_matrix_view normal = gsl_matrix_view_array(A.data(), q, q);
   gsl_vector_view c = gsl_vector_view_array(result.c.data(), q);
   // A is not positive definite if the removed records alone determine a parameter.
@@ -74,14 +70,14 @@ struct Search {
   void add(const Fitted& fit, std::size_t run) {
     const auto& f = fit.minimum.f;
     const auto& t = fit.rolls->runs().front().t;
-    const std::size_t q = fit.system.columns();
-    const auto Q = orthonormal(fit);
+    const Matrix Q = orthonormal(fit);
+    const std::size_t q = Q.size();
     for (std::size_t k = 3, next = 5; 4 * k <= f.size(); k = std::exchange(next, k + next)) {
       ++tests;
-      const Without without = without_first(k, q, Q, f);
+      const Without without = without_first(k, Q, f);
       std::vector<double> changed = f;
-      for (std::size_t i = 0; i < f.size(); ++i)
-        changed[i] += dot(without.c, std::span(Q).subspan(i * q, q));
+      for (std::size_t j = 0; j < q; ++j)
+        for (std::size_t i = 0; i < f.size(); ++i) changed[i] += without.c[j] * Q[j][i];
       const auto others = std::span(changed).subspan(k), near = std::span(changed).first(k + 5);
       const double gone = static_cast<double>(k), squares = dot(others, others),
                    left = static_cast<double>(f.size() - q - k);

@@ -198,7 +198,7 @@ std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRu
   if (!fit.rolls || fit.minimum.f.size() < fit.minimum.theta.size() + 10) return {};
   std::optional<Eccentricity> found;
   const bool known = fit.filters_known();
-  const Column f = known ? fit.noise->explain(fit.minimum.f) : fit.minimum.f;
+  const Column f = known ? fit.noise->to_sources(fit.minimum.f) : fit.minimum.f;
   const auto f_of = by_run(f, known ? fit.noise->sources() : fit.system.runs);
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size();
   const double of_all = fit.minimum.rss / static_cast<double>(n - p);

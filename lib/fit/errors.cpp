@@ -21,13 +21,18 @@ double Spread::operator()(std::vector<double> g, std::vector<double> h, std::siz
   return sum;
 }
 
-std::vector<double> orthonormal(const Fitted& fit) {
-  const std::size_t q = fit.system.columns();
-  std::vector<double> Q = jacobian(fit.system, fit.minimum.theta);
-  const auto parts = by_run(Q, fit.system.runs, q);
-  for (std::size_t run = 0; run < parts.size(); ++run)
-    for (std::size_t i = 0; i < parts[run].size(); i += q)
-      solve_transposed(&fit.minimum.R[run * q * q], parts[run].subspan(i, q));
+Matrix orthonormal(const Fitted& fit) {
+  Matrix Q = jacobian(fit.system, fit.minimum.theta);
+  const std::size_t q = Q.size();
+  const double* R = fit.minimum.R.data();
+  for (const auto& run : rows_by_run(Q, fit.system.runs)) {
+    for (std::size_t j = 0; j < q; ++j)
+      for (std::size_t i = 0; i < run[j].size(); ++i) {
+        for (std::size_t k = 0; k < j; ++k) run[j][i] -= R[k * q + j] * run[k][i];
+        run[j][i] /= R[j * q + j];
+      }
+    R += q * q;
+  }
   return Q;
 }
 
@@ -45,48 +50,44 @@ Taken taken_of(const Fitted& fit) {
   constexpr std::size_t long_run = 1000;  // there the limit holds to a few hundredths of its value
   if (fit.taken) return *fit.taken;
   if (fit.raw_noise) return fit.raw_noise->taken;
-  const std::size_t n = fit.minimum.f.size(), q = fit.system.columns();
+  const std::size_t n = fit.minimum.f.size();
   if (n > long_run * fit.system.runs.size()) return taken_by_few(fit.minimum.theta.size());
-  const std::vector<double> Q = orthonormal(fit);
-  if (!fit.filters_known()) return taken_by(Q, q, fit.system.runs);
+  Matrix Q = orthonormal(fit);
+  if (!fit.filters_known()) return taken_by(Q, fit.system.runs);
   std::vector<std::size_t> runs;
-  const std::vector<double> informative = fit.noise->innovations(Q, runs, q);
-  return taken_by(informative, q, runs);
+  for (std::vector<double>& column : Q) column = fit.noise->innovations(column, runs);
+  return taken_by(Q, runs);
 }
 
 namespace {
 
-/// The sum of u u^T over the rows of each run (q numbers in each row), row by row, run by run.
-std::vector<double> outer_products(std::span<const double> u, std::size_t q,
-                                   std::span<const std::size_t> runs) {
+/// The products U^T U of the rows of each run, row by row, run by run.
+std::vector<double> products(const Matrix& U, std::span<const std::size_t> runs) {
   std::vector<double> all;
-  for (const auto run : by_run(u, runs, q)) {
-    std::vector<double> S(q * q);
-    for (std::size_t i = 0; i < run.size(); i += q)
-      add_outer(S, 1, run.subspan(i, q), run.subspan(i, q));
-    all.insert(all.end(), S.begin(), S.end());
-  }
+  for (const auto& run : rows_by_run(U, runs))
+    for (const auto x : run)
+      for (const auto y : run) all.push_back(dot(x, y));
   return all;
 }
 
 /// For known filters, e of the sources.
 Sources estimated(const Fitted& fit) {
-  return {fit.noise->explain(fit.minimum.f), fit.noise->sources(), {}, fit.means_taken()};
+  return {fit.noise->to_sources(fit.minimum.f), fit.noise->sources(), {}, fit.means_taken()};
 }
 
 Sources sources_of(const Fitted& fit) {
   if (fit.raw_noise) return fit.raw_noise->sources;
   if (!fit.filters_known()) return {fit.minimum.f, fit.system.runs, orthonormal(fit)};
   Sources all = estimated(fit);
-  all.B = fit.noise->through(orthonormal(fit), fit.system.columns());
+  all.B = orthonormal(fit);
+  for (std::vector<double>& column : all.B) column = fit.noise->to_sources(std::move(column));
   return all;
 }
 
 /// The meat B^T B of each run, for sources of variance one and known filters.
 std::vector<double> meat_of(const Fitted& fit) {
-  const std::size_t q = fit.system.columns();
-  if (!fit.raw_noise) return fit.noise->meat(orthonormal(fit), q);
-  return outer_products(fit.raw_noise->sources.B, q, fit.raw_noise->sources.runs);
+  if (!fit.raw_noise) return fit.noise->meat(orthonormal(fit));
+  return products(fit.raw_noise->sources.B, fit.raw_noise->sources.runs);
 }
 
 /// The variance of the sources of known filters. The expectation of f f^T is the variance times A
@@ -111,19 +112,18 @@ std::vector<double> classical(const Fitted& fit, double variance) {
 
 /// The meat that allows for noise that is uneven (HC3 for single records) or correlated.
 std::vector<double> consistent_meat(const Fitted& fit, Sources from, Errors kind, double variance) {
-  const std::size_t q = fit.system.columns();
   // HC3: the fit multiplies the noise of a residual by 1 - h, with h its leverage (MacKinnon and
   // White 1985, J. Econometrics 29, 305).
   const bool by_leverage = kind == Errors::uneven && !fit.filters_known();
   for (std::size_t i = 0; i < from.e.size(); ++i) {
-    const auto row = std::span(from.B).subspan(i * q, q);
-    const double h = by_leverage ? std::min(dot(row, row), 0.99) : 0;
-    for (double& score : row) score = score * from.e[i] / (1 - h);
+    double h = 0;  // the leverage
+    for (const auto& column : from.B) h += by_leverage ? column[i] * column[i] : 0;
+    for (auto& column : from.B) column[i] *= from.e[i] / (1 - std::min(h, 0.99));
   }
   const double shown = dot(from.e, from.e) / static_cast<double>(from.e.size());
   std::vector<double> M =
       kind == Errors::uneven
-          ? outer_products(from.B, q, from.runs)
+          ? products(from.B, from.runs)
           : newey_west(std::move(from.B), fit.minimum.theta.size() + from.means_taken,
                        std::move(from.e), from.runs);
   if (by_leverage) return M;
@@ -190,7 +190,7 @@ Uncertainty uncertainty_of(const Fitted& fit) {
   std::vector<double> M;
   if (consistent) {
     sources = sources_of(fit);
-    if (known) M = outer_products(sources.B, q, sources.runs);
+    if (known) M = products(sources.B, sources.runs);
   } else if (known) {
     M = meat_of(fit);
   }

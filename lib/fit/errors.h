@@ -51,9 +51,9 @@ NoiseErrors noise_errors(const Fitted&, const Uncertainty&);
 /// The noise of the raw column of a fit with known filters; without the B of its sources.
 RawNoise raw_noise_of(const Fitted&);
 
-/// Q = J R^-1 at the minimum, row by row. The meat M of the covariance R^-1 M R^-T is a quadratic
-/// form of the rows of Q.
-std::vector<double> orthonormal(const Fitted&);
+/// Q = J R^-1 at the minimum. The meat M of the covariance R^-1 M R^-T is a quadratic form of the
+/// rows of Q.
+Matrix orthonormal(const Fitted&);
 
 /// Adds, over the runs, the block of the shared parameters of each run's matrix in M, and writes
 /// the sum to every run's block.

@@ -19,7 +19,7 @@ struct FittedNumber {
 struct Sources {
   std::vector<double> e;          ///< estimated noise of each source
   std::vector<std::size_t> runs;  ///< number of sources of each run
-  std::vector<double> B;          ///< one row for each source, of as many numbers as R has columns
+  Matrix B;                       ///< one row for each source, as many columns as R
   std::size_t means_taken = 0;    ///< see means_taken() of model_roll.h
 };
 

@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "base/by_column.h"
 #include "base/by_run.h"
 #include "base/dot.h"
 #include "base/error.h"
@@ -77,12 +76,12 @@ Points points_of(const FilterMatrix& D, const FilterMatrix& v, std::span<const d
   return points;
 }
 
-/// The rows of Q, of p numbers each, multiplied by their factors.
-std::vector<double> scaled(std::span<const double> Q, std::size_t p,
-                           const std::vector<double>& factors) {
-  std::vector<double> result(Q.begin(), Q.end());
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] *= factors[i / p];
-  return result;
+/// Adds H^T (x factors) to `to`, where x factors is the product element by element.
+void add_transposed(const FilterMatrix& H, std::span<const double> x,
+                    const std::vector<double>& factors, std::span<double> to) {
+  std::vector<double> scaled(x.begin(), x.end());
+  std::ranges::transform(scaled, factors, scaled.begin(), std::multiplies());
+  std::ranges::transform(H.transposed_times(std::move(scaled)), to, to.begin(), std::plus());
 }
 
 /// The roll that made the records of a line, for known filters.
@@ -144,10 +143,11 @@ std::size_t readings(const std::vector<FitRun>& all) {
 void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
                  const FitOptions& options) {
   const Fitted& roll = known.fit;
-  const std::size_t p = line.system.columns();
-  const std::vector<double> Q = orthonormal(line);
-  const auto Q_of = by_run(Q, line.system.runs, p);
-  std::vector<double> along(p);  // Q^T bias
+  Matrix Q = orthonormal(line);
+  const auto Q_of = rows_by_run(Q, line.system.runs);
+  Matrix& B = known.raw_noise.sources.B;
+  B.resize(Q.size());
+  std::vector<double> along(Q.size());  // Q^T bias
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const ObservedRun& run = roll.rolls->runs()[r];
     std::vector<double> raw = roll.rolls->raw_column(roll.minimum.theta, r);
@@ -160,17 +160,14 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
                        v_of = known.responses[r].of.at("v").of_rows(rows);
     const Points points = points_of(D_of, v_of, raw, {roll.a.value, roll.b.value}, shift,
                                     std::sqrt(known.raw_noise.variance));
-    const auto through = [&](const FilterMatrix& H, const std::vector<double>& factors) {
-      return by_column(scaled(Q_of[r], p, factors), p,
-                       [&H](std::vector<double> x) { return H.transposed_times(std::move(x)); });
-    };
-    std::vector<double> B = through(D_of, points.by_D);
-    const std::vector<double> B_of_v = through(v_of, points.by_v);
-    std::transform(B.begin(), B.end(), B_of_v.begin(), B.begin(), std::plus());
-    auto& all = known.raw_noise.sources.B;
-    all.insert(all.end(), B.begin(), B.end());
-    for (std::size_t i = 0; i < Q_of[r].size(); ++i)
-      along[i % p] += Q_of[r][i] * points.bias[i / p];
+    for (std::size_t j = 0; j < Q.size(); ++j) {
+      const std::size_t first = B[j].size();
+      B[j].resize(first + D_of.columns());
+      const std::span of_run = std::span(B[j]).subspan(first);
+      add_transposed(D_of, Q_of[r][j], points.by_D, of_run);
+      add_transposed(v_of, Q_of[r][j], points.by_v, of_run);
+      along[j] += dot(Q_of[r][j], points.bias);
+    }
   }
   line.raw_noise = std::move(known.raw_noise);
   // The bias of theta is R^-1 Q^T bias.

@@ -2,16 +2,17 @@
 
 namespace rolling {
 
-std::vector<double> jacobian(const System& system, const std::vector<double>& theta) {
-  const std::size_t q = system.columns();
-  std::vector<double> rows(system.residuals() * q);
-  double* block = rows.data();
+Matrix jacobian(const System& system, const std::vector<double>& theta) {
+  Matrix all(system.columns());
+  for (std::vector<double>& column : all) column.reserve(system.residuals());
   system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
-    for (std::size_t j = 0; j < q; ++j)
-      for (std::size_t i = 0; i < f.size(); ++i) block[i * q + j] = J[j * f.size() + i];
-    block += J.size();
+    for (std::vector<double>& column : all) {
+      const auto block = J.first(f.size());
+      column.insert(column.end(), block.begin(), block.end());
+      J = J.subspan(f.size());
+    }
   });
-  return rows;
+  return all;
 }
 
 }  // namespace rolling

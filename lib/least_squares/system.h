@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "base/matrix.h"
+
 namespace rolling {
 
 /// A callback that receives the next residuals f of a run (model - data, weighted; n numbers) and J
@@ -36,6 +38,6 @@ struct System {
 
 /// J at theta: one row for each residual, of the columns of its run. It is large, and a search does
 /// not keep it: an evaluation costs less than its memory.
-std::vector<double> jacobian(const System&, const std::vector<double>& theta);
+Matrix jacobian(const System&, const std::vector<double>& theta);
 
 }  // namespace rolling

@@ -1,6 +1,5 @@
 #include "noise/noise.h"
 
-#include "base/by_column.h"
 #include "base/by_run.h"
 #include "base/dot.h"
 
@@ -41,21 +40,17 @@ std::vector<double> Noise::without_weights(const std::vector<double>& f) const {
   return each(by_run(f, rows_), [&](std::size_t r, auto f_of) { return whiteners_[r].undo(f_of); });
 }
 
-std::vector<double> Noise::through(std::vector<double> Q, std::size_t p) const {
-  return by_column(std::move(Q), p, [this](std::vector<double> column) {
-    return each(by_run(column, rows_), [&](std::size_t r, auto of_run) {
-      whiteners_[r].apply_transposed(of_run);
-      return E_[r].transposed_times({of_run.begin(), of_run.end()});
-    });
+std::vector<double> Noise::to_sources(std::vector<double> x) const {
+  return each(by_run(x, rows_), [&](std::size_t r, auto of_run) {
+    whiteners_[r].apply_transposed(of_run);
+    return E_[r].transposed_times({of_run.begin(), of_run.end()});
   });
 }
 
-std::vector<double> Noise::meat(std::vector<double> Q, std::size_t p) const {
-  return each(by_run(Q, rows_, p),
-              [&](std::size_t r, auto Q_of) { return whiteners_[r].meat(Q_of, p); });
+std::vector<double> Noise::meat(Matrix Q) const {
+  return each(rows_by_run(Q, rows_),
+              [&](std::size_t r, const auto& Q_of) { return whiteners_[r].meat(Q_of); });
 }
-
-std::vector<double> Noise::explain(std::vector<double> f) const { return through(std::move(f), 1); }
 
 std::size_t Noise::informative() const {
   std::size_t count = 0;
@@ -64,17 +59,15 @@ std::size_t Noise::informative() const {
   return count;
 }
 
-std::vector<double> Noise::innovations(const std::vector<double>& f, std::vector<std::size_t>& runs,
-                                       std::size_t columns) const {
+std::vector<double> Noise::innovations(const std::vector<double>& f,
+                                       std::vector<std::size_t>& runs) const {
   runs.clear();
-  return each(by_run(f, rows_, columns), [&](std::size_t r, auto f_of) {
+  return each(by_run(f, rows_), [&](std::size_t r, auto f_of) {
     std::vector<double> few;
     few.reserve(f_of.size());
-    for (std::size_t i = 0; i < rows_[r]; ++i) {
-      const auto row = f_of.subspan(i * columns, columns);
-      if (whiteners_[r].informative(i)) few.insert(few.end(), row.begin(), row.end());
-    }
-    runs.push_back(few.size() / columns);
+    for (std::size_t i = 0; i < rows_[r]; ++i)
+      if (whiteners_[r].informative(i)) few.push_back(f_of[i]);
+    runs.push_back(few.size());
     return few;
   });
 }

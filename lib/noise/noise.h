@@ -2,6 +2,7 @@
 // from it.
 #pragma once
 
+#include "base/matrix.h"
 #include "noise/whitener.h"
 
 #include <memory>
@@ -28,22 +29,20 @@ class Noise {
   /// The unweighted residuals W^-1 f of all runs; W^T W is the weight matrix.
   std::vector<double> without_weights(const std::vector<double>& f) const;
 
-  /// B = (W E)^T Q for Q = J R^-1 of a fit with these weights (one row of `columns` numbers for
-  /// each residual): one row for each source, run by run. The error of the parameters is -R^-1 B^T
-  /// e, with e the noise of the sources, whatever the weights are. B takes the memory of Q.
-  std::vector<double> through(std::vector<double> Q, std::size_t columns) const;
-  /// The meat B^T B of the sandwich covariance of each run, run after run.
-  std::vector<double> meat(std::vector<double> Q, std::size_t columns) const;
+  /// (W E)^T x, one number for each source, run by run, for one number x for each residual. For the
+  /// weighted residuals f these are the sources of least norm that explain f. B consists of these
+  /// columns for Q = J R^-1 of a fit with these weights: the error of the parameters is -R^-1 B^T
+  /// e, with e the noise of the sources, whatever the weights are.
+  std::vector<double> to_sources(std::vector<double> x) const;
+  /// The meat B^T B of the sandwich covariance of each run, run after run, row by row.
+  std::vector<double> meat(Matrix Q) const;
   /// tr W E E^T W^T: the expected weighted sum of squares for sources of variance one without a
   /// fit.
   double trace() const;
-  /// The noise of the sources of least norm that explains the weighted residuals f of all runs.
-  std::vector<double> explain(std::vector<double> f) const;
   /// The innovations: the weighted residuals that the residuals before them do not determine (see
-  /// Whitener::informative()), and in `runs` their number in each run. Also for rows of `columns`
-  /// numbers each.
-  std::vector<double> innovations(const std::vector<double>& f, std::vector<std::size_t>& runs,
-                                  std::size_t columns = 1) const;
+  /// Whitener::informative()), and in `runs` their number in each run.
+  std::vector<double> innovations(const std::vector<double>& f,
+                                  std::vector<std::size_t>& runs) const;
   /// The number of innovations of all runs.
   std::size_t informative() const;
   /// The number of sources of each run.

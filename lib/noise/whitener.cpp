@@ -111,16 +111,12 @@ void Whitener::apply(std::span<double> X) const {
   }
 }
 
-void Whitener::apply_transposed(std::span<double> X, std::size_t columns) const {
+void Whitener::apply_transposed(std::span<double> x) const {
   for (std::size_t k = n_; k-- > 0;) {
     const double* const R = &R_[k * band_];
-    const std::size_t end = std::min(band_, n_ - k);
-    double* const x = &X[k * columns];
-    for (std::size_t c = 0; c < columns; ++c) {
-      double sum = x[c];
-      for (std::size_t j = 1; j < end; ++j) sum -= R[j] * x[j * columns + c];
-      x[c] = sum / R[0];
-    }
+    double sum = x[k];  // from the far end of the row: the sum waits for x[k + 1] last
+    for (std::size_t j = std::min(band_, n_ - k); j-- > 1;) sum -= R[j] * x[k + j];
+    x[k] = sum / R[0];
   }
 }
 
@@ -160,15 +156,18 @@ double Whitener::trace() const {
   return static_cast<double>(n_) - of_F;
 }
 
-std::vector<double> Whitener::meat(std::span<double> Q, std::size_t columns) const {
-  std::vector<double> M(columns * columns);
-  const auto add_squares = [&](auto&& by) {
-    for (std::size_t i = 0; i < n_; ++i)
-      add_outer(M, by(i), Q.subspan(i * columns, columns), Q.subspan(i * columns, columns));
-  };
-  add_squares([](std::size_t) { return 1.0; });
-  apply_transposed(Q, columns);
-  add_squares([this](std::size_t i) { return -white_ * variance(i); });
+std::vector<double> Whitener::meat(const std::vector<std::span<double>>& Q) const {
+  std::vector<double> M;
+  for (const auto x : Q)
+    for (const auto y : Q) M.push_back(dot(x, y));
+  for (const auto x : Q) apply_transposed(x);
+  for (std::size_t i = 0; i < n_; ++i) {
+    const double size = std::sqrt(white_ * variance(i));
+    for (const auto x : Q) x[i] *= size;
+  }
+  auto element = M.begin();
+  for (const auto x : Q)
+    for (const auto y : Q) *element++ -= dot(x, y);
   return M;
 }
 

@@ -31,8 +31,8 @@ class Whitener {
   class Pass;
   /// Replaces X by R^-T X; X holds its columns one after another.
   void apply(std::span<double> X) const;
-  /// Replaces X by R^-1 X; X is stored row by row, `columns` numbers in each row.
-  void apply_transposed(std::span<double> X, std::size_t columns = 1) const;
+  /// Replaces x by R^-1 x.
+  void apply_transposed(std::span<double> x) const;
   /// The vector R^T f, from which apply() made f.
   std::vector<double> undo(std::span<const double> f) const;
   /// True if residual i has noise of its own: its standard deviation, given the residuals before
@@ -47,9 +47,8 @@ class Whitener {
   double log_size() const;
   /// tr R^-T E E^T R^-1: the number of residuals minus the contribution of F.
   double trace() const;
-  /// Q^T R^-T E E^T R^-1 Q, for Q stored row by row with `columns` numbers in each row; overwrites
-  /// Q.
-  std::vector<double> meat(std::span<double> Q, std::size_t columns) const;
+  /// Q^T R^-T E E^T R^-1 Q, row by row, of the columns of Q; overwrites Q.
+  std::vector<double> meat(const std::vector<std::span<double>>& Q) const;
 
  private:
   std::size_t n_, band_;   // as in Covariance

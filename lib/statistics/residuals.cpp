@@ -19,11 +19,10 @@ double lagged(std::span<const double> r, std::span<const std::size_t> runs, std:
   return sum;
 }
 
-Taken taken_by(std::span<const double> Q, std::size_t columns, std::span<const std::size_t> runs) {
+Taken taken_by(const Matrix& Q, std::span<const std::size_t> runs) {
   Taken taken{};
-  for (const auto run : by_run(Q, runs, columns))
-    for (std::size_t k = 0; k < taken.size() && k * columns < run.size(); ++k)
-      taken[k] += dot(run.first(run.size() - k * columns), run.subspan(k * columns));
+  for (const auto& column : Q)
+    for (std::size_t k = 0; k < taken.size(); ++k) taken[k] += lagged(column, runs, k);
   return taken;
 }
 
@@ -132,13 +131,12 @@ double unequal_runs(std::span<const double> residuals, std::span<const std::size
 
 namespace {
 
-/// Replaces x[i] by x[i] - rho x[i - 1], for rows of p numbers. The first row of each run is
-/// multiplied by sqrt(1 - rho^2), so that its variance is the same.
-void prewhiten(std::vector<double>& x, std::size_t p, std::span<const std::size_t> runs,
-               double rho) {
-  for (const auto run : by_run(x, runs, p)) {
-    for (std::size_t i = run.size(); i-- > p;) run[i] -= rho * run[i - p];
-    for (std::size_t i = 0; i < std::min(p, run.size()); ++i) run[i] *= std::sqrt(1 - rho * rho);
+/// Replaces x[i] by x[i] - rho x[i - 1]. The first number of each run is multiplied by
+/// sqrt(1 - rho^2), so that its variance is the same.
+void prewhiten(std::vector<double>& x, std::span<const std::size_t> runs, double rho) {
+  for (const auto run : by_run(x, runs)) {
+    for (std::size_t i = run.size(); i-- > 1;) run[i] -= rho * run[i - 1];
+    if (!run.empty()) run[0] *= std::sqrt(1 - rho * rho);
   }
 }
 
@@ -146,48 +144,57 @@ double correlation_of_neighbours(std::span<const double> r, std::span<const std:
   return std::clamp(lagged(r, runs, 1) / lagged(r, runs, 0), -0.97, 0.97);
 }
 
-/// The sum of w(|i - j|) u_i u_j^T over the rows of one run, with w(l) = 1 - l/(width + 1) up to
-/// lags of half the run. The triangular weights are the autocorrelation of a box, so that the sum
-/// is a sum of squares of moving sums, at a cost that does not depend on the width. Where the limit
-/// of half the run cuts the triangle off, the remaining part is a box.
-std::vector<double> bartlett(std::span<const double> u, std::size_t q, std::size_t width) {
-  const std::size_t m = u.size() / q, most = std::min({width, m / 2, m - 1});
-  std::vector<double> P((m + 1) * q), S(q * q, 0), sum(q);  // P: cumulative sums
-  for (std::size_t i = 0; i < m * q; ++i) P[i + q] = P[i] + u[i];
-  const auto sum_over = [&](std::size_t from, std::size_t to) {
-    for (std::size_t j = 0; j < q; ++j) sum[j] = P[to * q + j] - P[from * q + j];
-  };
+/// The cumulative sums of x, from 0 to that of all.
+std::vector<double> cumulative(std::span<const double> x) {
+  std::vector<double> sums{0};
+  sums.reserve(x.size() + 1);
+  for (const double value : x) sums.push_back(sums.back() + value);
+  return sums;
+}
+
+/// The sum of w(|i - j|) x_i y_j over one run, given the cumulative sums X and Y of both, with
+/// w(l) = 1 - l/(width + 1) up to lags of half the run. The triangular weights are the
+/// autocorrelation of a box, so that the sum is one of products of moving sums, at a cost that does
+/// not depend on the width. Where the limit of half the run cuts the triangle off, the remaining
+/// part is a box.
+double bartlett(std::span<const double> X, std::span<const double> Y, std::size_t width) {
+  const std::size_t m = X.size() - 1, most = std::min({width, m / 2, m - 1});
   const double triangle = 1 / static_cast<double>(width + 1),
                box = 1 - static_cast<double>(most + 1) * triangle;
+  double of_triangle = 0, of_box = 0;
   for (std::size_t end = 1; end <= m + most; ++end) {
-    sum_over(end > most + 1 ? end - most - 1 : 0, std::min(end, m));
-    add_outer(S, triangle, sum, sum);
+    const std::size_t from = end > most + 1 ? end - most - 1 : 0, to = std::min(end, m);
+    of_triangle += (X[to] - X[from]) * (Y[to] - Y[from]);
   }
   for (std::size_t i = 0; box > 0 && i < m; ++i) {
-    sum_over(i > most ? i - most : 0, std::min(i + most + 1, m));
-    add_outer(S, box, u.subspan(i * q, q), sum);
+    const std::size_t from = i > most ? i - most : 0, to = std::min(i + most + 1, m);
+    of_box += (X[i + 1] - X[i]) * (Y[to] - Y[from]);
   }
-  return S;
+  return triangle * of_triangle + std::max(box, 0.0) * of_box;
 }
 
 }  // namespace
 
-std::vector<double> newey_west(std::vector<double> scores, std::size_t p,
-                               std::vector<double> residuals, std::span<const std::size_t> runs) {
+std::vector<double> newey_west(Matrix scores, std::size_t p, std::vector<double> residuals,
+                               std::span<const std::size_t> runs) {
   const double n = static_cast<double>(residuals.size()), fitted = static_cast<double>(p);
-  const std::size_t q = scores.size() / residuals.size();
   // A fit of p smooth terms lowers the lag-1 correlation of its residuals by (p (1 + AR) + 2 AR)/n
   // (Kendall 1954, Biometrika 41, 403, for p = 1).
   const double AR = std::clamp(
       (n * correlation_of_neighbours(residuals, runs) + fitted) / std::max(n - fitted - 2, 1.0),
       -0.97, 0.97);
-  prewhiten(scores, q, runs, AR), prewhiten(residuals, 1, runs, AR);
+  for (std::vector<double>& column : scores) prewhiten(column, runs, AR);
+  prewhiten(residuals, runs, AR);
   const double rho = correlation_of_neighbours(residuals, runs);
   const double alpha = 4 * rho * rho / ((1 - rho * rho) * (1 - rho * rho));
   const auto width = static_cast<std::size_t>(std::ceil(1.1447 * std::cbrt(alpha * n)));
   std::vector<double> all;
-  for (const auto run : by_run(scores, runs, q))
-    for (double x : bartlett(run, q, width)) all.push_back(x / ((1 - AR) * (1 - AR)));
+  for (const auto& run : rows_by_run(scores, runs)) {
+    Matrix sums;
+    for (const auto column : run) sums.push_back(cumulative(column));
+    for (const auto& X : sums)
+      for (const auto& Y : sums) all.push_back(bartlett(X, Y, width) / ((1 - AR) * (1 - AR)));
+  }
   return all;
 }
 

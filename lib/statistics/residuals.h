@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "base/matrix.h"
+
 namespace rolling {
 
 /// What a fit takes of the sums of the products of residuals that are 0, 1, 2, ... records apart,
@@ -14,9 +16,9 @@ namespace rolling {
 using Taken = std::array<double, 11>;
 
 /// Those sums for residuals (I - Q Q^T) e of white noise e: the sums of the products of the rows of
-/// Q. Q has orthonormal columns and is stored row by row, `columns` numbers in each row: those that
-/// belong to the parameters of its run and to the shared ones.
-Taken taken_by(std::span<const double> Q, std::size_t columns, std::span<const std::size_t> runs);
+/// Q. Q has orthonormal columns: those that belong to the parameters of the run of a row and to the
+/// shared ones.
+Taken taken_by(const Matrix& Q, std::span<const std::size_t> runs);
 /// The limit for runs that are much longer than the lags, of p parameters in all.
 Taken taken_by_few(std::size_t p);
 
@@ -43,13 +45,13 @@ double lagged(std::span<const double> residuals, std::span<const std::size_t> ru
               std::size_t lag);
 
 /// The meat of the sandwich, the sum of w(|i-j|) u_i u_j^T over each run, row by row, run by run.
-/// `scores` holds the rows u_i of n scores, in the columns of each run; p is the number of degrees
-/// of freedom that the fit and the filters have taken from the noise. The weights w are Bartlett's
+/// The rows of `scores` are the u_i; p is the number of degrees of freedom that the fit and the
+/// filters have taken from the noise. The weights w are Bartlett's
 /// (Newey and West 1987, Econometrica 55, 703) with the bandwidth of Andrews' AR(1) rule (1991,
 /// Econometrica 59, 817), after prewhitening by the AR(1) of the residuals (Andrews and Monahan
 /// 1992, Econometrica 60, 953). The AR(1) coefficient is corrected for the bias of the fit. Short
 /// records need both, prewhitening and correction.
-std::vector<double> newey_west(std::vector<double> scores, std::size_t p,
-                               std::vector<double> residuals, std::span<const std::size_t> runs);
+std::vector<double> newey_west(Matrix scores, std::size_t p, std::vector<double> residuals,
+                               std::span<const std::size_t> runs);
 
 }  // namespace rolling

@@ -113,7 +113,7 @@ TEST_CASE(
     scores.push_back(residuals.back() * (log_v[i] - x) / std::sqrt(xx));
   }
   const std::size_t each[] = {100, 100};
-  const auto middle = newey_west(scores, 2, residuals, each);
+  const auto middle = newey_west({scores}, 2, residuals, each);
   CHECK(std::abs(r.sigma_b / std::sqrt((middle[0] + middle[1]) * n / (n - 2) / xx) - 1) < 1e-10);
 }
 

@@ -312,7 +312,7 @@ TEST_CASE(
     for (std::size_t j = 0; j < 3; ++j)
       for (std::size_t k = 0; k < 3; ++k) {
         double sum = 0;
-        for (std::size_t i = r * each; i < (r + 1) * each; ++i) sum += Q[3 * i + j] * Q[3 * i + k];
+        for (std::size_t i = r * each; i < (r + 1) * each; ++i) sum += Q[j][i] * Q[k][i];
         QQ.push_back(sum);
       }
   add_shared(QQ, 3, 1);

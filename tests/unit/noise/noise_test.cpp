@@ -51,14 +51,15 @@ TEST_CASE("noise: its variance and the covariance of the parameters, whatever th
       squares += (fit.minimum.theta[1] - 0.5) * (fit.minimum.theta[1] - 0.5) / runs;
       if (k > 0) continue;
       const auto Q = orthonormal(fit);
-      const auto B = noise->through(Q, 2), M = noise->meat(Q, 2);
+      const auto M = noise->meat(Q);
+      const Matrix B{noise->to_sources(Q[0]), noise->to_sources(Q[1])};
       const auto& R = fit.minimum.R;  // of which the slope needs the last element alone
-      for (std::size_t s = 0; s < noise->sources()[0]; ++s)
-        covariance += 4 * B[2 * s + 1] * B[2 * s + 1] / (R[3] * R[3]);
+      REQUIRE(B[1].size() == noise->sources()[0]);
+      for (const double of_slope : B[1]) covariance += 4 * of_slope * of_slope / (R[3] * R[3]);
       for (const std::size_t i : {0U, 1U})
         for (const std::size_t j : {0U, 1U}) {
           double sum = 0;
-          for (std::size_t s = 0; s < B.size(); s += 2) sum += B[s + i] * B[s + j];
+          for (std::size_t s = 0; s < B[i].size(); ++s) sum += B[i][s] * B[j][s];
           CHECK(std::abs(M[2 * i + j] - sum) < 1e-9);
         }
     }
@@ -76,7 +77,7 @@ TEST_CASE("noise: the least sources that explain residuals give them back", "[fi
   const auto f = E.times(e);
   auto weighted = f;
   noise.whitener(0).apply(weighted);
-  const auto again = noise.without_weights(weighted), least = noise.explain(weighted),
+  const auto again = noise.without_weights(weighted), least = noise.to_sources(weighted),
              explained = E.times(least);
   double size = 0, true_size = 0;
   for (std::size_t i = 0; i < n; ++i) {

@@ -60,11 +60,11 @@ TEST_CASE("residuals: Newey-West by hand", "[statistics]") {
   // (2/3) (-1).
   const std::size_t four[] = {4}, five[] = {5};
   const std::vector<double> u{1, 1, -1, 1};
-  CHECK(std::abs(newey_west(u, 1, u, four)[0] - 8.0 / 3) < 1e-12);
+  CHECK(std::abs(newey_west({u}, 1, u, four)[0] - 8.0 / 3) < 1e-12);
   // r = 0, AR = 1/2: whitened sqrt(3)/2, 1/2, -3/2, -1/2, 3/2 with squares 23/4, products sqrt(3)/4
   // - 3/4, width 1.
   const std::vector<double> w{1, 1, -1, -1, 1};
-  CHECK(std::abs(newey_west(w, 1, w, five)[0] - 4 * (23.0 / 4 + std::sqrt(3) / 4 - 3.0 / 4)) <
+  CHECK(std::abs(newey_west({w}, 1, w, five)[0] - 4 * (23.0 / 4 + std::sqrt(3) / 4 - 3.0 / 4)) <
         1e-12);
 }
 
@@ -129,5 +129,5 @@ TEST_CASE("residuals: Newey-West of a run that is shorter than twice the bandwid
       if (const int lag = std::abs(i - j); lag <= 4)
         sum += (1 - lag / (width + 1)) * u[static_cast<std::size_t>(i)] *
                u[static_cast<std::size_t>(j)];
-  CHECK(newey_west(r, 2, r, runs)[1] == Approx(sum / ((1 - AR) * (1 - AR))).epsilon(1e-12));
+  CHECK(newey_west({r}, 2, r, runs)[1] == Approx(sum / ((1 - AR) * (1 - AR))).epsilon(1e-12));
 }
