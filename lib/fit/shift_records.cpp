@@ -101,8 +101,9 @@ ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& opt
   if (!options.b &&
       std::all_of(log_u.begin(), log_u.end(), [&](double x) { return x == log_u[0]; }))
     fail("all speeds are equal: b cannot be determined");
-  records.log_v_ref = sum / static_cast<double>(n);
-  for (double& x : log_u) x -= records.log_v_ref;
+  const double mean = sum / static_cast<double>(n);
+  for (double& x : log_u) x -= mean;
+  records.log_v_ref = mean;
   return records;
 }
 
