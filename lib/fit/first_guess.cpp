@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -222,9 +223,11 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
 
   // The three best starting points lead to minima of the thinned runs; the best of these is taken.
   auto candidates = starts(thin, options);
+  const auto theta_of = [&](const Candidate& c) { return q.theta(c.law, c.v0, c.x0); };
+  std::vector<std::vector<double>> others;
+  if (options.robust) std::ranges::transform(candidates, std::back_inserter(others), theta_of);
   if (candidates.size() > 3) candidates.resize(3);
   if (auto start = of_constant_acceleration(thin)) candidates.push_back(std::move(*start));
-  const auto theta_of = [&](const Candidate& c) { return q.theta(c.law, c.v0, c.x0); };
   std::vector<double> theta = theta_of(candidates.front());
   if (candidates.size() > 1) {
     const System system = unweighted(std::move(thin_runs), q);
@@ -234,7 +237,7 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
         least = minimum.rss, theta = std::move(minimum.theta);
   }
   if (!few.empty()) theta = attempt(unweighted(std::move(few), q), theta).theta;
-  return {q, std::move(theta)};
+  return {q, std::move(theta), std::move(others)};
 }
 
 }  // namespace rolling

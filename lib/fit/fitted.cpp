@@ -1,6 +1,7 @@
 #include "fit/fitted.h"
 
 #include "base/error.h"
+#include "least_squares/robust.h"
 
 namespace rolling {
 
@@ -19,8 +20,9 @@ std::size_t Fitted::degrees_left() const {
   return n > p ? n - p : 0;
 }
 
-Minimum solve(const System& system, const std::vector<double>& start, const FitOptions& options) {
-  return options.robust ? minimise_robust(system, start) : minimise(system, start);
+Minimum solve(const System& system, const std::vector<std::vector<double>>& starts,
+              const FitOptions& options) {
+  return options.robust ? minimise_robust(system, starts) : minimise(system, starts.front());
 }
 
 }  // namespace rolling

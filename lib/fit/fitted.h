@@ -64,8 +64,8 @@ struct Fitted {
   bool filters_known() const { return raw_noise || (noise->known() && !noise->inferred()); }
 };
 
-/// Minimises by the loss that the options name.
-Minimum solve(const System&, const std::vector<double>& start, const FitOptions&);
+/// Minimises by the loss that the options name: squares from the first start.
+Minimum solve(const System&, const std::vector<std::vector<double>>& starts, const FitOptions&);
 
 /// Throws Error if n records are too few for p parameters and as many means as the filters have
 /// removed, or if p = 0.

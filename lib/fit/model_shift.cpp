@@ -90,7 +90,7 @@ Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   if (few.y.size() < n) theta = attempt(power_system(few, height, unit), theta).theta;
 
   const System system = power_system(records, height, unit);
-  Minimum minimum = solve(system, theta, options);
+  Minimum minimum = solve(system, {theta}, options);
   const double b = height.exponent(minimum.theta), scale = std::exp(-b * records.log_v_ref),
                a = minimum.theta.front() * unit * scale;  // if it is not held
   Fitted result{.system = system, .minimum = std::move(minimum)};

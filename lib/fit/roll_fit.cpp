@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/dot.h"
 #include "fit/cusps.h"
@@ -116,10 +117,11 @@ void report(Fitted& fit) {
 }
 
 /// The minimum of the system of these rolls. The robust loss ignores what the cusps make.
-Minimum search(const RollModel& rolls, const System& system, const std::vector<double>& start,
-               const FitOptions& options) {
-  if (options.robust) return solve(system, start, options);
-  return beyond_cusps(rolls, system, solve(system, start, options));
+Minimum search(const RollModel& rolls, const System& system,
+               const std::vector<std::vector<double>>& starts, const FitOptions& options) {
+  Minimum found = solve(system, starts, options);
+  if (options.robust) return found;
+  return beyond_cusps(rolls, system, std::move(found));
 }
 
 /// The minimum over these runs with these weights; the results are not yet reported.
@@ -128,7 +130,9 @@ Fitted minimum_of(std::vector<ObservedRun> runs, const FirstGuess& start, const 
   auto noise = noise_of(runs, share, inferred);
   auto rolls = std::make_shared<const RollModel>(std::move(runs), start.parameters);
   System system = system_of(rolls, noise);
-  Minimum minimum = search(*rolls, system, start.theta, options);
+  std::vector<std::vector<double>> starts = start.others;
+  starts.insert(starts.begin(), start.theta);
+  Minimum minimum = search(*rolls, system, starts, options);
   return {.system = std::move(system),
           .minimum = std::move(minimum),
           .noise = std::move(noise),
@@ -158,7 +162,7 @@ void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   const bool adopted = many || found.decisive();
   fit.noise = noise_of(fit.rolls->runs(), adopted ? found.share : 0, false);
   fit.system = system_of(fit.rolls, fit.noise);
-  if (adopted) fit.minimum = search(*fit.rolls, fit.system, fit.minimum.theta, options);
+  if (adopted) fit.minimum = search(*fit.rolls, fit.system, {fit.minimum.theta}, options);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include "base/dot.h"
 #include "base/error.h"
-#include "base/median.h"
 #include "least_squares/triangles.h"
 
 #include <algorithm>
@@ -184,78 +183,8 @@ Minimum attempt(const System& system, const std::vector<double>& start) {
   }
 }
 
-namespace {
-
-/// psi(u)/u and psi'(u) of a loss with influence function psi.
-struct Influence {
-  double weight, slope;
-};
-Influence huber(double u) {
-  constexpr double c = 1.345;
-  return std::abs(u) <= c ? Influence{1, 1} : Influence{c / std::abs(u), 0};
-}
-Influence bisquare(double u) {
-  constexpr double c = 4.685;
-  const double rest = 1 - u * u / (c * c);
-  return rest > 0 ? Influence{rest * rest, rest * (5 * rest - 4)} : Influence{0, 0};
-}
-
-/// The median absolute residual, divided by that of a standard normal variable (0.6745). The p
-/// smallest residuals are not counted: the p parameters may have made as many residuals vanish.
-double median_scale(std::vector<double> f, std::size_t p) {
-  for (double& x : f) x = std::abs(x);
-  const std::size_t first = std::min(p, f.size() - 1);
-  return nth_smallest(f, first + (f.size() - first) / 2) / 0.6745;
-}
-
-}  // namespace
-
-Minimum minimise_robust(const System& system, const std::vector<double>& start) {
-  Point at = at_start(system, start);
-  const std::size_t p = system.parameters();
-  double scale = 0;
-  for (const auto influence : {huber, bisquare}) {
-    double change = 1;
-    // Huber's scale is a median, which may go to and fro between two records without end.
-    const auto enough = [&](int round) { return influence == huber && round > 50 ? 1e-3 : 1e-9; };
-    for (int round = 0; change > enough(round); ++round) {
-      if (round == 100) fail("the robust fit does not converge");
-      if (influence == huber) scale = median_scale(at.f, p);  // fixed for bisquare
-      if (!(scale > 0)) return minimise(system, at.theta);
-      std::vector<double> roots;
-      for (double r : at.f) roots.push_back(std::sqrt(influence(r / scale).weight));
-      const System weighted{system.runs, system.own, system.shared,
-                            [&](const std::vector<double>& theta, const TakeRows& take) {
-        auto root = roots.begin();
-        system.evaluate(theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
-          for (std::size_t i = 0; i < f.size(); ++i, ++root) {
-            f[i] *= *root;
-            for (std::size_t k = i; k < J.size(); k += f.size()) J[k] *= *root;
-          }
-          take(run, f, J);
-        });
-                            }};
-      const auto next = minimise(weighted, at.theta).theta;
-      change = 0;
-      for (std::size_t j = 0; j < p; ++j)
-        change =
-            std::max(change, std::abs(next[j] - at.theta[j]) / std::max(1.0, std::abs(next[j])));
-      at = at_start(system, next);
-    }
-  }
-  const double n = static_cast<double>(system.residuals());
-  double mean = 0, squares = 0;
-  for (double r : at.f) {
-    const double slope = bisquare(r / scale).slope;
-    mean += slope / n;
-    squares += slope * slope / n;
-  }
-  if (!(mean > 0)) fail("too many outliers: no robust fit");
-  const double correction =
-      1 + static_cast<double>(p) / n * (squares - mean * mean) / (mean * mean);
-  for (double& r : at.f) r *= bisquare(r / scale).weight * correction / mean;
-  at.rss = dot(at.f, at.f);
-  return minimum_at(std::move(at));
+Minimum evaluated(const System& system, std::vector<double> theta) {
+  return minimum_at(at_start(system, std::move(theta)));
 }
 
 void solve_transposed(const double* R, std::span<double> g) {

@@ -22,13 +22,9 @@ Minimum minimise(const System&, const std::vector<double>& start);
 /// solved: if the search finds no minimum, theta is `start`, rss is infinite and the rest is empty.
 Minimum attempt(const System&, const std::vector<double>& start);
 
-/// Minimises Tukey's bisquare loss (constant 4.685: 95 % efficiency for normal noise) by
-/// iteratively reweighted least squares, starting from the minimum of Huber's loss (1.345, the same
-/// efficiency). The scale is the median absolute deviation of the residuals. The f of the result
-/// are pseudo-residuals (Huber 1981, Robust Statistics, section 7.6) and R is unweighted, so that
-/// the least-squares formulas for the errors, applied to them, give the errors of the robust fit.
-/// The residuals must be those of single records, with independent noise.
-Minimum minimise_robust(const System&, const std::vector<double>& start);
+/// f and R at theta, which need not be a minimum. Throws Error where the model has no finite
+/// values.
+Minimum evaluated(const System&, std::vector<double> theta);
 
 /// Replaces g by R^-T g, for the triangle R of one run of a Minimum, of as many rows as g has.
 void solve_transposed(const double* R, std::span<double> g);

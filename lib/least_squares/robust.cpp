@@ -1,0 +1,90 @@
+#include "least_squares/robust.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/dot.h"
+#include "base/error.h"
+#include "least_squares/trimmed.h"
+
+namespace rolling {
+namespace {
+
+/// psi(u)/u and psi'(u) of a loss with influence function psi.
+struct Influence {
+  double weight, slope;
+};
+Influence huber(double u) {
+  constexpr double c = 1.345;
+  return std::abs(u) <= c ? Influence{1, 1} : Influence{c / std::abs(u), 0};
+}
+Influence bisquare(double u) {
+  constexpr double c = 4.685;
+  const double rest = 1 - u * u / (c * c);
+  return rest > 0 ? Influence{rest * rest, rest * (5 * rest - 4)} : Influence{0, 0};
+}
+
+/// The system whose residuals are multiplied by these factors. It refers to both.
+System weighted(const System& system, const std::vector<double>& factors) {
+  return {system.runs, system.own, system.shared,
+          [&](const std::vector<double>& theta, const TakeRows& take) {
+    auto factor = factors.begin();
+    system.evaluate(theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
+      for (std::size_t i = 0; i < f.size(); ++i, ++factor) {
+        f[i] *= *factor;
+        for (std::size_t k = i; k < J.size(); k += f.size()) J[k] *= *factor;
+      }
+      take(run, f, J);
+    });
+          }};
+}
+
+}  // namespace
+
+Minimum minimise_robust(const System& system, const std::vector<std::vector<double>>& starts) {
+  constexpr std::size_t few = 1000, few_parameters = 12;
+  const std::size_t p = system.parameters();
+  const bool trimmed = system.residuals() <= few && p <= few_parameters;
+  std::vector<double> theta = trimmed ? least_trimmed(system, starts) : starts.front(),
+                      f = evaluated(system, theta).f, factors(f.size());
+  double scale = median_scale(f, p);
+  const double far = trimmed ? 30 * scale : std::numeric_limits<double>::infinity();
+  std::vector<bool> outliers;
+  for (const double r : f) outliers.push_back(std::abs(r) > far);
+  for (const auto influence : {huber, bisquare}) {
+    double change = 1;
+    // Huber's scale is a median, which may go to and fro between two records without end.
+    const auto enough = [&](int round) { return influence == huber && round > 50 ? 1e-3 : 1e-9; };
+    for (int round = 0; change > enough(round); ++round) {
+      if (round == 100) fail("the robust fit does not converge");
+      if (influence == huber) scale = median_scale(f, p);  // fixed for bisquare
+      if (!(scale > 0)) return minimise(system, theta);
+      for (std::size_t i = 0; i < f.size(); ++i)
+        factors[i] =
+            influence == huber && outliers[i] ? 0 : std::sqrt(influence(f[i] / scale).weight);
+      const auto next = minimise(weighted(system, factors), theta).theta;
+      change = 0;
+      for (std::size_t j = 0; j < p; ++j)
+        change = std::max(change, std::abs(next[j] - theta[j]) / std::max(1.0, std::abs(next[j])));
+      theta = next;
+      f = evaluated(system, theta).f;
+    }
+  }
+  const double n = static_cast<double>(f.size());
+  double mean = 0, squares = 0;
+  for (double r : f) {
+    const double slope = bisquare(r / scale).slope;
+    mean += slope / n;
+    squares += slope * slope / n;
+  }
+  if (!(mean > 0)) fail("too many outliers: no robust fit");
+  const double correction =
+      1 + static_cast<double>(p) / n * (squares - mean * mean) / (mean * mean);
+  Minimum minimum = evaluated(system, theta);
+  for (double& r : minimum.f) r *= bisquare(r / scale).weight * correction / mean;
+  minimum.rss = dot(minimum.f, minimum.f);
+  return minimum;
+}
+
+}  // namespace rolling
