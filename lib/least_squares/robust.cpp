@@ -40,6 +40,16 @@ System weighted(const System& system, const std::vector<double>& factors) {
           }};
 }
 
+/// The fit from a theta that fits most records exactly: of these records alone.
+Minimum exact_fit(const System& system, const std::vector<double>& theta) {
+  std::vector<double> kept = evaluated(system, theta).f;
+  for (double& x : kept) x = x == 0;
+  Minimum minimum = evaluated(system, minimise(weighted(system, kept), theta).theta);
+  std::ranges::fill(minimum.f, 0);
+  minimum.rss = 0;
+  return minimum;
+}
+
 }  // namespace
 
 Minimum minimise_robust(const System& system, const std::vector<std::vector<double>>& starts) {
@@ -59,7 +69,7 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
     for (int round = 0; change > enough(round); ++round) {
       if (round == 100) fail("the robust fit does not converge");
       if (influence == huber) scale = median_scale(f, p);  // fixed for bisquare
-      if (!(scale > 0)) return minimise(system, theta);
+      if (!(scale > 0)) return exact_fit(system, theta);
       for (std::size_t i = 0; i < f.size(); ++i)
         factors[i] =
             influence == huber && outliers[i] ? 0 : std::sqrt(influence(f[i] / scale).weight);

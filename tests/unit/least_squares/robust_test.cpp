@@ -125,6 +125,14 @@ TEST_CASE("minimise_robust: as many outliers as can be told, at one end, do not 
   }
 }
 
+TEST_CASE("minimise_robust: where most records lie on one line, it is that line", "[fit]") {
+  const std::vector<double> t{0, 1, 2, 3, 4, 5, 6, 7, 8}, y{1, 2, 3, 4, 5, 6, 70, 80, 95};
+  const auto m = minimise_robust(line_through(t, y), {{0, 0}});
+  CHECK(m.theta == std::vector<double>{1, 1});
+  CHECK(m.rss == 0);
+  CHECK(std::abs(m.R[0] * m.R[0] - 9) < 1e-12);  // J is not weighted
+}
+
 TEST_CASE("minimise_robust: a start without finite values is refused, or another one is taken",
           "[fit]") {
   const std::vector<double> t{0, 1, 2, 3, 4}, y{0, 1, 2.1, 3, 4};
