@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "base/dot.h"
@@ -40,13 +41,20 @@ System weighted(const System& system, const std::vector<double>& factors) {
           }};
 }
 
-/// The fit from a theta that fits most records exactly: of these records alone.
+/// The fit from a theta that fits most records exactly: of those alone that it fits to rounding,
+/// since theta is of order one.
 Minimum exact_fit(const System& system, const std::vector<double>& theta) {
-  std::vector<double> kept = evaluated(system, theta).f;
-  for (double& x : kept) x = x == 0;
+  std::vector<double> kept;
+  system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      double size = 0;
+      for (std::size_t k = i; k < J.size(); k += f.size()) size += std::abs(J[k]);
+      kept.push_back(std::abs(f[i]) <= 1e-13 * size);
+    }
+  });
   Minimum minimum = evaluated(system, minimise(weighted(system, kept), theta).theta);
-  std::ranges::fill(minimum.f, 0);
-  minimum.rss = 0;
+  std::ranges::transform(minimum.f, kept, minimum.f.begin(), std::multiplies());
+  minimum.rss = dot(minimum.f, minimum.f);
   return minimum;
 }
 
