@@ -277,19 +277,36 @@ void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, F
   errors.share.together = a * C.ab;
 }
 
+/// Each run fitted by itself; nothing for one that does not determine a law.
+std::vector<std::optional<Fitted>> own_fits(Route route, const std::vector<FitRun>& runs,
+                                            const FitOptions& options, const Fitted& joint) {
+  std::vector<std::optional<Fitted>> own;
+  for (std::size_t r = 0; r < runs.size(); ++r) try {
+      own.emplace_back(joint.rolls ? fit_of_run(joint, r, options)
+                                   : fit_route(route, {runs[r]}, options));
+    } catch (const Error&) {
+      own.emplace_back();
+    }
+  return own;
+}
+
+/// Takes the means of runs that disagree; returns false, and does nothing, where the law stays that
+/// of the joint fit.
+bool follow_means(std::vector<OwnLaw> laws, const FitOptions& options, NoiseErrors& errors,
+                  Fitted& joint) {
+  const double freedom = static_cast<double>(laws.size()) - 1 - options.fit_slope;
+  if (freedom < 1 || (options.fit_slope && (options.a || of_one_way(laws, joint)))) return false;
+  take_means(std::move(laws), freedom, errors, joint);
+  return true;
+}
+
 }  // namespace
 
 std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& runs,
                                       const FitOptions& options, NoiseErrors& errors,
                                       Fitted& joint) {
   if (runs.size() < 2 || errors.kind == Errors::none || (options.a && options.b)) return {};
-  std::vector<std::optional<Fitted>> own;
-  for (std::size_t r = 0; r < runs.size(); ++r) try {
-      own.emplace_back(joint.rolls ? fit_of_run(joint, r, options)
-                                   : fit_route(route, {runs[r]}, options));
-    } catch (const Error&) {  // the run does not determine a law by itself
-      own.emplace_back();
-    }
+  const auto own = own_fits(route, runs, options, joint);
   const auto laws = own_laws(own);
   if (laws.size() < 2) return {};
   const Pair common{std::log(joint.a.value), joint.b.value};
@@ -303,12 +320,16 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
     joint.bias_a += own[one.run]->bias_a / static_cast<double>(laws.size());
     joint.bias_b += own[one.run]->bias_b / static_cast<double>(laws.size());
   }
-  const double freedom = static_cast<double>(laws.size()) - 1 - options.fit_slope;
-  const bool by_means =
-      freedom >= 1 && !(options.fit_slope && (options.a || of_one_way(laws, joint)));
-  if (by_means) take_means(laws, freedom, errors, joint);
-  else errors.multiply(std::max(1.0, std::sqrt(found.chi2 / static_cast<double>(found.dof))));
+  if (!follow_means(laws, options, errors, joint))
+    errors.multiply(std::max(1.0, std::sqrt(found.chi2 / static_cast<double>(found.dof))));
   return found;
+}
+
+Fitted fit_of_disagreeing(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+  Fitted joint = fit_route(route, runs, options);
+  NoiseErrors unused{};
+  follow_means(own_laws(own_fits(route, runs, options, joint)), options, unused, joint);
+  return joint;
 }
 
 }  // namespace rolling
