@@ -200,12 +200,14 @@ bool of_one_way(const std::vector<OwnLaw>& laws, const Fitted& joint) {
                      [&](const OwnLaw& one) { return way(one) == way(laws.front()); });
 }
 
-/// The mean over the runs of the logarithm of the speed at which the D of each is known best.
-double common_log_v(const std::vector<OwnLaw>& laws) {
-  double log_v = 0;
-  for (const OwnLaw& one : laws)
-    log_v += best_log_v(one.covariance) / static_cast<double>(laws.size());
-  return log_v;
+/// The logarithm of the speed to which the ln D of a run belongs: that at which D is known best;
+/// or, where b is held and the error of D is the same at all speeds, the mean speed of the roll, at
+/// which a slope acts like more D.
+double log_v_of(const OwnLaw& one, const Fitted& joint) {
+  if (one.covariance.bb > 0 || !joint.rolls) return best_log_v(one.covariance);
+  const Trajectory roll = joint.rolls->trajectory(joint.minimum.theta, one.run);
+  const double end = std::min(joint.rolls->runs()[one.run].t.back(), roll.stop_time());
+  return std::log(roll.distance_at(end) / end);
 }
 
 /// What a run's ln D and b lose where the slope of the mat grows, to first order.
@@ -246,7 +248,8 @@ BySlope take_slope(std::vector<OwnLaw>& laws, double freedom, NoiseErrors& error
 /// agree best. The scatter of a itself, which is D at 1 m/s, is that of b if the runs are slower,
 /// and would depend on the unit of speed.
 void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, Fitted& joint) {
-  const double log_v = common_log_v(laws);
+  double log_v = 0;
+  for (const OwnLaw& one : laws) log_v += log_v_of(one, joint) / static_cast<double>(laws.size());
   for (OwnLaw& one : laws) {  // ln D in the place of ln a: the unit of speed is the common one
     const Symmetric& C = one.covariance;
     const Estimate D = one.log_D(log_v);
