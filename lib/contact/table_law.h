@@ -6,9 +6,10 @@
 
 namespace rolling {
 
-/// Interpolates by cubics with the slopes of Steffen (1990, Astron. Astrophys. 239, 443): monotone
-/// between two points, with a continuous derivative. Below the lowest point D is constant; above
-/// the highest point the law is not defined.
+/// Interpolates by cubics with the slopes of Steffen (1990, Astron. Astrophys. 239, 443), and at
+/// the first and the last point with that of the line to the next one: monotone between two points,
+/// with a continuous derivative. Below the lowest point D is constant; above the highest point the
+/// law is not defined.
 class TableLaw {
  public:
   /// Points in any order, with v [m/s] >= 0, D [m] > 0 and all v different; else it throws Error.

@@ -200,12 +200,14 @@ bool of_one_way(const std::vector<OwnLaw>& laws, const Fitted& joint) {
                      [&](const OwnLaw& one) { return way(one) == way(laws.front()); });
 }
 
-/// The mean over the runs of the logarithm of the speed at which the D of each is known best.
-double common_log_v(const std::vector<OwnLaw>& laws) {
-  double log_v = 0;
-  for (const OwnLaw& one : laws)
-    log_v += best_log_v(one.covariance) / static_cast<double>(laws.size());
-  return log_v;
+/// The logarithm of the speed to which the ln D of a run belongs: that at which D is known best;
+/// or, where b is held and the error of D is the same at all speeds, the mean speed of the roll, at
+/// which a slope acts like more D.
+double log_v_of(const OwnLaw& one, const Fitted& joint) {
+  if (one.covariance.bb > 0 || !joint.rolls) return best_log_v(one.covariance);
+  const Trajectory roll = joint.rolls->trajectory(joint.minimum.theta, one.run);
+  const double end = std::min(joint.rolls->runs()[one.run].t.back(), roll.stop_time());
+  return std::log(roll.distance_at(end) / end);
 }
 
 /// What a run's ln D and b lose where the slope of the mat grows, to first order.
@@ -246,7 +248,8 @@ BySlope take_slope(std::vector<OwnLaw>& laws, double freedom, NoiseErrors& error
 /// agree best. The scatter of a itself, which is D at 1 m/s, is that of b if the runs are slower,
 /// and would depend on the unit of speed.
 void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, Fitted& joint) {
-  const double log_v = common_log_v(laws);
+  double log_v = 0;
+  for (const OwnLaw& one : laws) log_v += log_v_of(one, joint) / static_cast<double>(laws.size());
   for (OwnLaw& one : laws) {  // ln D in the place of ln a: the unit of speed is the common one
     const Symmetric& C = one.covariance;
     const Estimate D = one.log_D(log_v);
@@ -277,19 +280,36 @@ void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, F
   errors.share.together = a * C.ab;
 }
 
+/// Each run fitted by itself; nothing for one that does not determine a law.
+std::vector<std::optional<Fitted>> own_fits(Route route, const std::vector<FitRun>& runs,
+                                            const FitOptions& options, const Fitted& joint) {
+  std::vector<std::optional<Fitted>> own;
+  for (std::size_t r = 0; r < runs.size(); ++r) try {
+      own.emplace_back(joint.rolls ? fit_of_run(joint, r, options)
+                                   : fit_route(route, {runs[r]}, options));
+    } catch (const Error&) {
+      own.emplace_back();
+    }
+  return own;
+}
+
+/// Takes the means of runs that disagree; returns false, and does nothing, where the law stays that
+/// of the joint fit.
+bool follow_means(std::vector<OwnLaw> laws, const FitOptions& options, NoiseErrors& errors,
+                  Fitted& joint) {
+  const double freedom = static_cast<double>(laws.size()) - 1 - options.fit_slope;
+  if (freedom < 1 || (options.fit_slope && (options.a || of_one_way(laws, joint)))) return false;
+  take_means(std::move(laws), freedom, errors, joint);
+  return true;
+}
+
 }  // namespace
 
 std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& runs,
                                       const FitOptions& options, NoiseErrors& errors,
                                       Fitted& joint) {
   if (runs.size() < 2 || errors.kind == Errors::none || (options.a && options.b)) return {};
-  std::vector<std::optional<Fitted>> own;
-  for (std::size_t r = 0; r < runs.size(); ++r) try {
-      own.emplace_back(joint.rolls ? fit_of_run(joint, r, options)
-                                   : fit_route(route, {runs[r]}, options));
-    } catch (const Error&) {  // the run does not determine a law by itself
-      own.emplace_back();
-    }
+  const auto own = own_fits(route, runs, options, joint);
   const auto laws = own_laws(own);
   if (laws.size() < 2) return {};
   const Pair common{std::log(joint.a.value), joint.b.value};
@@ -303,12 +323,16 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
     joint.bias_a += own[one.run]->bias_a / static_cast<double>(laws.size());
     joint.bias_b += own[one.run]->bias_b / static_cast<double>(laws.size());
   }
-  const double freedom = static_cast<double>(laws.size()) - 1 - options.fit_slope;
-  const bool by_means =
-      freedom >= 1 && !(options.fit_slope && (options.a || of_one_way(laws, joint)));
-  if (by_means) take_means(laws, freedom, errors, joint);
-  else errors.multiply(std::max(1.0, std::sqrt(found.chi2 / static_cast<double>(found.dof))));
+  if (!follow_means(laws, options, errors, joint))
+    errors.multiply(std::max(1.0, std::sqrt(found.chi2 / static_cast<double>(found.dof))));
   return found;
+}
+
+Fitted fit_of_disagreeing(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+  Fitted joint = fit_route(route, runs, options);
+  NoiseErrors unused{};
+  follow_means(own_laws(own_fits(route, runs, options, joint)), options, unused, joint);
+  return joint;
 }
 
 }  // namespace rolling

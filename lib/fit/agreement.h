@@ -24,4 +24,7 @@ namespace rolling {
 std::optional<Agreement> agreement_of(Route, const std::vector<FitRun>&, const FitOptions&,
                                       NoiseErrors& errors, Fitted& joint);
 
+/// The joint fit of runs that are known to disagree, with the values that agreement_of() gives it.
+Fitted fit_of_disagreeing(Route, const std::vector<FitRun>&, const FitOptions&);
+
 }  // namespace rolling

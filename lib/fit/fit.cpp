@@ -103,7 +103,8 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   std::vector<ErrorShare> shares{noise.share};
   require_determined(result_of(found, noise, shares), options);
   require_law(found, runs);
-  for (ErrorShare& share : shares_of_given(route, runs, options, found))
+  for (ErrorShare& share :
+       shares_of_given(route, runs, options, found, !agreement || agreement->agree()))
     shares.push_back(std::move(share));
   if (found.bias_a != 0 || found.bias_b != 0)
     shares.push_back(

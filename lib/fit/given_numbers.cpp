@@ -7,6 +7,7 @@
 
 #include "contact/contact.h"
 #include "contact/uncertain_number.h"
+#include "fit/agreement.h"
 #include "fit/route.h"
 
 namespace rolling {
@@ -37,11 +38,11 @@ void move(Route route, FitRun& run, const UncertainNumber& number, double by) {
 }
 
 /// The fit after the number has changed by `by` in each run that has this value and uncertainty.
-Fitted fit_with(Route route, std::vector<FitRun> runs, const FitOptions& options,
+Fitted fit_with(Route route, std::vector<FitRun> runs, const FitOptions& options, bool agree,
                 const UncertainNumber& number, const Estimate& value, double by) {
   for (FitRun& run : runs)
     if (given(body_of(route, run, options), number) == value) move(route, run, number, by);
-  return fit_route(route, runs, options);
+  return agree ? fit_route(route, runs, options) : fit_of_disagreeing(route, runs, options);
 }
 
 /// True if all runs have this value, and a alone depends on it, in proportion to (K + 1) R/g. With
@@ -59,7 +60,7 @@ bool scales_a(Route route, const std::vector<FitRun>& runs, const FitOptions& op
 }  // namespace
 
 std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& runs,
-                                        const FitOptions& options, const Fitted& fit) {
+                                        const FitOptions& options, const Fitted& fit, bool agree) {
   FitOptions warm = options;
   warm.start_a = fit.a.value;
   warm.start_b = fit.b.value;
@@ -90,8 +91,8 @@ std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& 
         share.v0.assign(fit.v0.size(), 0);
         continue;
       }
-      const Fitted above = fit_with(route, runs, warm, number, value, step),
-                   below = fit_with(route, runs, warm, number, value, -step);
+      const Fitted above = fit_with(route, runs, warm, agree, number, value, step),
+                   below = fit_with(route, runs, warm, agree, number, value, -step);
       const double a = change(above.a.value, below.a.value),
                    b = change(above.b.value, below.b.value);
       share.a = std::abs(a), share.b = std::abs(b), share.together = a * b;

@@ -406,6 +406,25 @@ TEST_CASE("agreement: the exponents of the runs are those at the slope that is f
   CHECK(r.sigma_b < 1.5 * by_slope * r.sigma_slope);
 }
 
+// The error of the slope is that of a difference of two means in ln D, times D/(2 R): 2 rolls up
+// and 2 down leave two degrees of freedom. D is that of the speeds of the rolls, not that of 1 m/s.
+TEST_CASE("agreement: the error of the slope where b is held, by hand", "[fit]") {
+  simulated::Noise noise(47);
+  FitOptions options;
+  options.fit_slope = true;
+  options.b = 0.5;
+  std::vector<FitRun> runs;
+  for (const auto& [by, way] : {std::pair(-0.05, 1), {0.05, 1}, {-0.03, -1}, {0.03, -1}})
+    runs.push_back(roll({rubber.a * std::exp(by), 0.5}, 0, way, noise, 1e-5));
+  const auto r = fit(Route::position, runs, options);
+  REQUIRE_FALSE(r.agreement->agree());
+  const double way_to_stop = runs[0].x.back() - runs[0].x.front(),
+               D = rubber.a * std::sqrt(way_to_stop / runs[0].t.back()),
+               scatter = std::sqrt(2 * (0.05 * 0.05 + 0.03 * 0.03) / 2),
+               student = gsl_cdf_tdist_Pinv(0.975, 2) / gsl_cdf_ugaussian_Pinv(0.975);
+  CHECK(r.sigma_slope == Approx(student * scatter * D / (2 * 0.04)).epsilon(0.05));
+}
+
 // What the runs scatter by is no slope: in one direction it is found by its part of each roll
 // alone.
 TEST_CASE("agreement: the scatter of runs in one direction does not tell a slope", "[fit]") {

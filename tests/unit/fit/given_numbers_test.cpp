@@ -98,6 +98,29 @@ TEST_CASE("given numbers: runs of one body move together, those of two each by i
   CHECK(two.shares[2].a > 0.3 * one.shares[1].a);
 }
 
+// The law of runs that disagree is the mean of theirs, in which runs that scatter by more than
+// their noise have equal weights. K of half of them moves ln a of each by dK/(1 + K), and no b.
+TEST_CASE("given numbers: where runs disagree their shares are those of the mean", "[fit]") {
+  simulated::Noise noise(46);
+  std::vector<FitRun> runs;
+  for (const auto& [by, K] : {std::pair(0.95, 0.5), {1.07, 0.5}, {0.92, 0.83}, {1.04, 0.83}}) {
+    FitRun& run = runs.emplace_back();
+    run.body = cylinder;
+    run.body.K = K;
+    run.given = {.K = K == 0.5 ? 0.0 : 0.05};
+    const double size = K == 0.5 ? 1e-4 : 3e-4;  // one law for all would follow the cylinder
+    const auto truth = simulated::roll(run.body, by * 1.87e-3, 0.215, 0.5);
+    for (double t = 0; t < 2; t += 0.02) {
+      run.t.push_back(t);
+      run.x.push_back(truth.x(t) + noise(size));
+    }
+  }
+  const auto r = fit(Route::position, runs, {});
+  REQUIRE_FALSE(r.agreement->agree());
+  CHECK(share(r, "K", &ErrorShare::a) / r.a == Approx(0.05 / 1.83 / 2).epsilon(0.03));
+  CHECK(share(r, "K", &ErrorShare::b) < 1e-3);
+}
+
 TEST_CASE("given numbers: what is held fixed has no error from them", "[fit]") {
   FitOptions options;
   options.a = 1.87e-3;
