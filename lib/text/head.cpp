@@ -98,12 +98,13 @@ class HeadReader {
 
 void HeadReader::take_history() {
   refuse_error_line(lines_);
-  const std::string_view line = history_line(lines_.text()), text = trim(line.substr(2));
+  const std::string line = history_line(lines_.text());
+  const std::string_view text = trim(std::string_view(line).substr(2));
   if (text.starts_with("run ")) {  // the `##` lines above belong to a run without records
     head_.run = trim(text.substr(4));
     std::erase_if(comments_, [](const Line& comment) { return is_history(comment.text); });
   } else {
-    comments_.push_back({std::string(line), lines_.number()});
+    comments_.push_back({line, lines_.number()});
   }
 }
 

@@ -36,8 +36,10 @@ LineKind Lines::kind() const {
   return begins_with_error_value(line) ? LineKind::record : LineKind::comment;
 }
 
-std::string_view history_line(std::string_view line) {
-  return trim(line.substr(0, line.find_last_not_of("\t;, ") + 1));
+std::string history_line(std::string_view line) {
+  std::string text(trim(line.substr(0, line.find_last_not_of("\t;, ") + 1)));
+  if (text.size() > 2 && is_separator(text[2])) std::ranges::replace(text, char(text[2]), ' ');
+  return text;
 }
 
 void Lines::join_quoted() {
@@ -67,7 +69,8 @@ void Lines::check_bytes() const {
 }
 
 void refuse_error_line(const Lines& lines) {
-  const std::string_view text = trim(history_line(lines.text()).substr(2));
+  const std::string line = history_line(lines.text());
+  const std::string_view text = trim(std::string_view(line).substr(2));
   if (text.ends_with(ended_with_an_error) && text.find(' ') == text.find(':') + 1)
     fail<InputError>("{}:{}: {} ended with an error: the records are not complete", lines.name(),
                      lines.number(), shown(text.substr(0, text.find(':'))));

@@ -13,8 +13,9 @@ namespace rolling {
 
 enum class LineKind { blank, comment, history, record };
 
-/// A `##` line without the separators with which a spreadsheet fills it up.
-std::string_view history_line(std::string_view line);
+/// A `##` line without the separators with which a spreadsheet fills it up, or which it has put in
+/// the place of each blank.
+std::string history_line(std::string_view line);
 
 class Lines {
  public:

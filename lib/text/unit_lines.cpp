@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "text/delimiters.h"
 #include "text/number.h"
 #include "text/unit_words.h"
 
@@ -13,8 +14,9 @@ bool is_known(const Column& column) { return !si_unit(column.name).empty(); }
 
 /// The number of known quantities with units in a comment, `t [ms]: time, x [cm]`.
 std::size_t names_with_units(const std::string& comment) {
-  const std::string text(trim(std::string_view(comment).substr(1)));
-  auto names = split_names(text, comment.find('\t') == std::string::npos ? '\0' : '\t');
+  std::string text = comment.substr(1);
+  for (const char separator : separators) std::ranges::replace(text, separator, ' ');
+  auto names = split_names(text, '\0');
   return static_cast<std::size_t>(std::ranges::count_if(names, [](std::string& name) {
     name.erase(name.find_last_not_of(",;:=") + 1);
     const Column column = read_column(name);

@@ -166,6 +166,11 @@ TEST_CASE("column: the names in a comment, and what proves that they are some", 
   CHECK(names("#t (s)\tp q", 2) == "tabs known <t (s)><p q>");
   CHECK(names("#\tp", 2) == "tabs <><p>");
   CHECK(names("#\tp", 1) == "<p>");  // one column has no tabs between columns
+  CHECK(names("# p q\t", 1) == "<p q>");
+  CHECK(names("# p, w[m],,", 2) == "known <p><w[m]>");
+  CHECK(names("#;p;w[m]", 2) == "known <p><w[m]>");
+  CHECK(names("#;p;w[m]", 3) == "known <><p><w[m]>");
+  CHECK(names("# slow, and gentle,", 2).empty());
   CHECK(names("# a b", 3).empty());
   CHECK(names("## a b", 2).empty());
 }

@@ -99,3 +99,14 @@ TEST_CASE("lines: what a line is", "[text]") {
   CHECK(kind_of("\t#2\t1", ';') == LineKind::comment);
   CHECK(kind_of("\t\t", '\t') == LineKind::blank);
 }
+
+TEST_CASE(
+    "lines: a spreadsheet fills a history line up with separators, or takes it apart at its "
+    "blanks",
+    "[text]") {
+  for (const char* line : {"## smooth v mean", " ## smooth v mean;; ;", "##,smooth,v,mean,,",
+                           "##\tsmooth\tv\tmean", "##;smooth;v;mean"})
+    CHECK(history_line(line) == "## smooth v mean");
+  CHECK(history_line("## run a,b;c") == "## run a,b;c");
+  CHECK(history_line("##,") == "##");
+}

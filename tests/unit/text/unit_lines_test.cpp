@@ -60,6 +60,8 @@ TEST_CASE("unit lines: a comment with names of other columns is refused", "[text
   CHECK(refused("# t[s] x[m]", 1) == "f:2: a comment with units, but not the names of 1 column");
   CHECK(refused("# t [ms]: time, x [cm]", 3) ==
         "f:2: a comment with units, but not the names of 3 columns");
+  for (const char* comment : {"# Time (s); Position (m)", "#,t[s],w,x[m]", "# w[N]\tt[s]; x[m]"})
+    CHECK(refused(comment, 5) == "f:2: a comment with units, but not the names of 5 columns");
   for (const char* comment :
        {"# t[s] alone", "# w[ms] n[cm]", "# t in s, v in m/s", "## t[s] x[m]"})
     CHECK(refused(comment, 3).empty());
