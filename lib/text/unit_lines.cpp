@@ -53,7 +53,16 @@ void note_units(const std::string& comment, std::size_t line, SaidUnits& said) {
 }
 
 void refuse_names_of_others(const std::string& comment, std::size_t width, std::string_view place) {
-  if (!comment.starts_with("##") && names_with_units(comment) > 1)
+  const std::string text =
+      comment.substr(comment.find_last_of('#', comment.find_first_not_of('#')));
+  const bool history = text.size() < comment.size();
+  if (history &&
+      (names_with_units(text) > 1 ||
+       std::ranges::count_if(names_in_comment(text, width, {}).names, is_known_name) > 1))
+    fail<InputError>(
+        "{}: names of columns in a line that begins with ##, as history does; leave one # there",
+        place);
+  if (!history && names_with_units(comment) > 1)
     fail<InputError>("{}: a comment with units, but not the names of {} column{}", place, width,
                      width == 1 ? "" : "s");
 }
