@@ -109,6 +109,12 @@ void drop_blank_ends(std::vector<std::string>& names, std::size_t width) {
   while (names.size() > width && names.front().empty()) names.erase(names.begin());
 }
 
+/// The word is `a` before another word, as in a sentence; behind a symbol it is an acceleration.
+bool is_article(const std::string& word, const std::string& next) {
+  return word == "a" && next.size() > 1 &&
+         std::ranges::all_of(next, [](unsigned char c) { return std::isalpha(c) != 0; });
+}
+
 }  // namespace
 
 std::string replace_all(std::string text, std::string_view from, std::string_view to) {
@@ -250,8 +256,13 @@ CommentedNames names_in_comment(std::string_view comment, std::size_t width,
     auto names = split_names(text, separator);
     const bool tabs = separator == '\t' && width > 1, as_it_is = names.size() == width;
     drop_blank_ends(names, width);
-    const bool is_known = std::ranges::any_of(names, in_force);
-    if (names.size() == width && (as_it_is || tabs || is_known)) return {names, tabs, is_known};
+    const bool article =
+        separator == '\0' && std::ranges::adjacent_find(names, is_article) != names.end();
+    const bool is_known = std::ranges::any_of(names, [&](const std::string& name) {
+      return in_force(name) && !(article && name == "a");
+    });
+    if (names.size() == width && (as_it_is || tabs || is_known))
+      return {names, tabs, is_known, article};
   }
   return {};
 }
