@@ -23,6 +23,7 @@ std::vector<std::string> names_in(std::string_view line, Dialect& dialect) {
   if (dialect.separator() == '\0') return split_names(line, '\0');
   std::vector<std::string> names;
   for (const Field& field : dialect.split(line)) names.emplace_back(field.text);
+  if (names.front().starts_with("# ")) names.front().erase(0, 2);  // of a comment in quotes
   return names;
 }
 

@@ -56,9 +56,10 @@ void refuse_names_of_others(const std::string& comment, std::size_t width, std::
   const std::string text =
       comment.substr(comment.find_last_of('#', comment.find_first_not_of('#')));
   const bool history = text.size() < comment.size();
-  if (history &&
-      (names_with_units(text) > 1 ||
-       std::ranges::count_if(names_in_comment(text, width, {}).names, is_known_name) > 1))
+  const auto known = [&](std::size_t names) {
+    return std::ranges::count_if(names_in_comment(text, names, {}).names, is_known_name);
+  };
+  if (history && (names_with_units(text) > 1 || known(width) > 1 || known(width - 1) > 1))
     fail<InputError>(
         "{}: names of columns in a line that begins with ##, as history does; leave one # there",
         place);

@@ -337,6 +337,7 @@ TEST_CASE("reader: a separator at an end of the commented names begins no name",
   for (const char* names : {"# t[ms];v[km/h];", "#;t[ms];v[km/h]", "#;t[ms];v[km/h];;"})
     CHECK(records({fmt::format("{}\n0;36\n", names)}) == "0 10");
   CHECK(records({"#,v,x,t,\n1,2,3\n"}) == "3 1");
+  CHECK(records({"\"# t (ms)\",\"v (km/h)\"\n0,36\n"}) == "0 10");
 }
 
 TEST_CASE("reader: names behind the records of a file that has none above are refused", "[text]") {

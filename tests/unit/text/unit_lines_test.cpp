@@ -54,11 +54,12 @@ TEST_CASE("unit lines: comments say units other than SI, the last one counts", "
 }
 
 TEST_CASE("unit lines: names of columns in a history line are refused", "[text]") {
-  for (const char* line : {"## t[s] x[cm]", "##Time (s),Position (cm)", "## t x v", "###w;x;v;"})
+  for (const char* line :
+       {"## t[s] x[cm]", "##Time (s),Position (cm)", "## t x v", "###w;x;v;", "## x,v"})
     CHECK(
         refusal([&] { refuse_names_of_others(line, 3, "f:2"); }) ==
         "f:2: names of columns in a line that begins with ##, as history does; leave one # there");
-  CHECK(refusal([&] { refuse_names_of_others("## t x v", 4, "f:2"); }).empty());
+  CHECK(refusal([&] { refuse_names_of_others("## t x v", 5, "f:2"); }).empty());
 }
 
 TEST_CASE("unit lines: a comment with names of other columns is refused", "[text]") {
