@@ -69,7 +69,8 @@ std::vector<std::string> split_names(std::string_view line, char separator);
 struct CommentedNames {
   std::vector<std::string> names;  ///< empty if the comment has another number of words
   bool tabs = false;               ///< tabs separate them
-  bool known = false;              ///< one of them is t, x, v, a, D or in `known`
+  bool known = false;              ///< one of them is t, x, v, a (no article), D or in `known`
+  bool article = false;            ///< one is `a` before a word, as in a sentence
 };
 CommentedNames names_in_comment(std::string_view comment, std::size_t width,
                                 const std::vector<Column>& known);

@@ -23,6 +23,7 @@ std::vector<std::string> names_in(std::string_view line, Dialect& dialect) {
   if (dialect.separator() == '\0') return split_names(line, '\0');
   std::vector<std::string> names;
   for (const Field& field : dialect.split(line)) names.emplace_back(field.text);
+  if (names.front().starts_with("# ")) names.front().erase(0, 2);  // of a comment in quotes
   return names;
 }
 
@@ -98,12 +99,13 @@ class HeadReader {
 
 void HeadReader::take_history() {
   refuse_error_line(lines_);
-  const std::string_view line = history_line(lines_.text()), text = trim(line.substr(2));
+  const std::string line = history_line(lines_.text());
+  const std::string_view text = trim(std::string_view(line).substr(2));
   if (text.starts_with("run ")) {  // the `##` lines above belong to a run without records
     head_.run = trim(text.substr(4));
     std::erase_if(comments_, [](const Line& comment) { return is_history(comment.text); });
   } else {
-    comments_.push_back({std::string(line), lines_.number()});
+    comments_.push_back({line, lines_.number()});
   }
 }
 
@@ -122,10 +124,10 @@ bool HeadReader::is_missing_record(std::string_view line) {
            (width == before_->layout.width && std::any_of(fields.begin(), last, is_blank));
   }
   if (preamble_.empty())  // blanks under the names of a comment; beside text, if these are certain
-    return std::ranges::any_of(fields, is_blank) &&
-           std::ranges::any_of(comments_, [&](const Line& comment) {
-             const auto [names, tabs, is_known] = names_in_comment(comment.text, width, {});
-             return !names.empty() && (all_blank || tabs || is_known);
+    return std::ranges::any_of(fields, is_blank) && std::ranges::any_of(comments_,
+                                                                        [&](const Line& comment) {
+      const auto [names, tabs, is_known, article] = names_in_comment(comment.text, width, {});
+      return !names.empty() && (all_blank || tabs || is_known);
            });
   if (!all_blank) return false;
   const auto names = names_in(preamble_.back().text, dialect_);
@@ -183,10 +185,15 @@ bool HeadReader::find_record() {
 std::vector<std::string> HeadReader::take_commented_names(std::size_t width, Proof proof) {
   const auto known = before_ ? before_->layout.runs.front().columns : std::vector<Column>();
   for (std::size_t i = comments_.size(); i-- > 0;) {
-    auto [names, tabs, is_known] = names_in_comment(comments_[i].text, width, known);
+    auto [names, tabs, is_known, article] = names_in_comment(comments_[i].text, width, known);
     const bool proven = is_known || (tabs && proof != Proof::known) ||
                         (proof == Proof::none && std::ranges::none_of(names, is_figure));
     if (names.empty() || !proven) continue;
+    if (article && !is_known)
+      fail<InputError>(
+          "{}: '{}' can be the names of the columns or a sentence: write a[m/s^2] if it is names, "
+          "else give it another number of words",
+          place(comments_[i].number), shown(comments_[i].text));
     head_.line = comments_[i].number;
     note_sorted_history(i);
     comments_.erase(comments_.begin() + static_cast<std::ptrdiff_t>(i));

@@ -14,6 +14,18 @@ namespace {
 constexpr std::array<std::string_view, 8> error_values = {
     "#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!", "#SPILL!"};
 
+constexpr std::string_view filling = "\t;, ";
+
+/// A line without the separators with which a spreadsheet fills it up, and without the quotes that
+/// some put around each text.
+std::string_view only_cell(std::string_view line) {
+  const std::string_view text = trim(line.substr(0, line.find_last_not_of(filling) + 1));
+  const bool quoted = text.size() > 1 && text.front() == quote &&
+                      closing_quote(text.data() + 1, &text.back()) == &text.back() &&
+                      text.back() == quote;
+  return quoted ? text.substr(1, text.size() - 2) : text;
+}
+
 constexpr std::string_view ended_with_an_error = ": ended with an error";
 
 bool begins_with_error_value(std::string_view line) {
@@ -30,14 +42,18 @@ LineKind Lines::kind() const {
   const std::size_t first = line.find_first_not_of(" \t");
   if (first == std::string_view::npos || line == "\x1A") return LineKind::blank;
   const bool is_field = separators_ == "\t" && line.find('\t') < first;  // a blank one before it
+  if (line[first] == quote && !is_field && only_cell(line).starts_with("##"))
+    return LineKind::history;
   if (line[first] != '#' || is_field) return LineKind::record;
   line.remove_prefix(first);
   if (line.starts_with("##")) return LineKind::history;
   return begins_with_error_value(line) ? LineKind::record : LineKind::comment;
 }
 
-std::string_view history_line(std::string_view line) {
-  return trim(line.substr(0, line.find_last_not_of("\t;, ") + 1));
+std::string history_line(std::string_view line) {
+  std::string text(only_cell(line));
+  if (text.size() > 2 && is_separator(text[2])) std::ranges::replace(text, char(text[2]), ' ');
+  return text;
 }
 
 void Lines::join_quoted() {
@@ -67,7 +83,8 @@ void Lines::check_bytes() const {
 }
 
 void refuse_error_line(const Lines& lines) {
-  const std::string_view text = trim(history_line(lines.text()).substr(2));
+  const std::string line = history_line(lines.text());
+  const std::string_view text = trim(std::string_view(line).substr(2));
   if (text.ends_with(ended_with_an_error) && text.find(' ') == text.find(':') + 1)
     fail<InputError>("{}:{}: {} ended with an error: the records are not complete", lines.name(),
                      lines.number(), shown(text.substr(0, text.find(':'))));

@@ -13,8 +13,9 @@ namespace rolling {
 
 enum class LineKind { blank, comment, history, record };
 
-/// A `##` line without the separators with which a spreadsheet fills it up.
-std::string_view history_line(std::string_view line);
+/// A `##` line without the quotes and separators that a spreadsheet has put around it, and with
+/// blanks where it has separators in their place.
+std::string history_line(std::string_view line);
 
 class Lines {
  public:
@@ -43,7 +44,8 @@ class Lines {
   std::string_view text() const { return text_; }
   /// A blank line contains blanks and tabs only, or the Ctrl-Z that ends a file of DOS. A comment
   /// begins with #, a history line with ##; blanks may stand before it, and tabs where they are not
-  /// the separator. A line that begins with an error value of a spreadsheet (#N/A) is a record.
+  /// the separator. A history line may be in quotes, if the other fields of its line are blank. A
+  /// line that begins with an error value of a spreadsheet (#N/A) is a record.
   LineKind kind() const;
   std::size_t number() const { return number_; }  ///< of its first line in the file, from 1
   const std::string& name() const { return input_.name(); }

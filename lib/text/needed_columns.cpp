@@ -73,6 +73,7 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits
     if (const auto at = find_column(use.column); quantities_[*at] != quantity)
       fail<InputError>("{}: --use: column {} cannot serve as both {} and {}", place_, *at + 1,
                        quantity, quantities_[*at]);
+    else if (!use.unit.empty()) as_read_[*at].unit = with_unit(*at, quantity).unit;
   resolve();
 }
 

@@ -84,8 +84,13 @@ bool Reader::next_head() {
       take_head(std::move(head));
       return true;
     }
-    for (std::string& comment : head.comments)
+    for (std::string& comment : head.comments) {
+      if (!head_.named && are_names(comment))
+        fail<InputError>(
+            "{}: the names of the columns stand behind the last record; put them above the first",
+            lines_->name());
       if (!comment.starts_with("##")) comments_.push_back(std::move(comment));
+    }
     file_open_ = false;
   }
   return false;
@@ -194,7 +199,10 @@ bool Reader::next_line() {
       return true;
     }
     if (kind == LineKind::comment) {
-      refuse_names(line_.substr(line_.find('#')));
+      if (state_ == State::in_run && are_names(line_.substr(line_.find('#'))))
+        fail<InputError>(
+            "{}:{}: names among the records; where another run begins, put a blank line before it",
+            lines_->name(), lines_->number());
       remarks_.emplace_back(line_.substr(line_.find('#')));
       continue;
     }
@@ -222,9 +230,9 @@ bool Reader::next_side_line() {
   return false;
 }
 
-/// Refuses a comment among the records that names all of the needed columns: it may change units.
-void Reader::refuse_names(std::string_view comment) const {
-  if (state_ != State::in_run || needed_.all().empty()) return;
+/// True for a comment that names all of the needed columns.
+bool Reader::are_names(std::string_view comment) const {
+  if (needed_.all().empty()) return false;
   const auto names = names_in_comment(comment, layout().columns.size(), layout().columns).names;
   const auto has = [&](const NeededColumns::Needed& needed) {
     return needed.column != no_column &&
@@ -232,10 +240,7 @@ void Reader::refuse_names(std::string_view comment) const {
              return read_column(name).name == layout().columns[needed.column].name;
            });
   };
-  if (std::all_of(needed_.all().begin(), needed_.all().end(), has))
-    fail<InputError>(
-        "{}:{}: names among the records; where another run begins, put a blank line before it",
-        lines_->name(), lines_->number());
+  return std::all_of(needed_.all().begin(), needed_.all().end(), has);
 }
 
 /// Fast path for most lines: a record of the same form as the one before it in this run is found

@@ -125,7 +125,7 @@ class Reader {
   bool next_line();
   bool next_side_line();
   bool take_plain_line();
-  void refuse_names(std::string_view comment) const;
+  bool are_names(std::string_view comment) const;
   void split_line();
   void change_fields();
   bool take_record();

@@ -31,7 +31,8 @@ using SaidUnits = std::map<std::string, SaidUnit>;
 void note_units(const std::string& comment, std::size_t line, SaidUnits&);
 
 /// Refuses a comment with names and units, `t [s], v [m/s]`, that are not those of the `width`
-/// columns of the records.
+/// columns of the records; and a line that begins with ## and has such names and units, or a name
+/// for each column of which two are known.
 void refuse_names_of_others(const std::string& comment, std::size_t width, std::string_view place);
 
 }  // namespace rolling

@@ -90,6 +90,8 @@ TEST_CASE("lines: what a line is", "[text]") {
   CHECK(kind_of(" # a") == LineKind::comment);
   CHECK(kind_of("#N/Atlantic") == LineKind::comment);
   CHECK(kind_of("\t## a") == LineKind::history);
+  CHECK(kind_of("\"## a\",,") == LineKind::history);
+  CHECK(kind_of("\"## a\",1") == LineKind::record);
   CHECK(kind_of("#N/A\t1") == LineKind::record);
   CHECK(kind_of("#REF!") == LineKind::record);
   CHECK(kind_of("a # b") == LineKind::record);
@@ -98,4 +100,16 @@ TEST_CASE("lines: what a line is", "[text]") {
   CHECK(kind_of(" #2\t1", '\t') == LineKind::comment);
   CHECK(kind_of("\t#2\t1", ';') == LineKind::comment);
   CHECK(kind_of("\t\t", '\t') == LineKind::blank);
+}
+
+TEST_CASE(
+    "lines: a spreadsheet fills a history line up with separators, or takes it apart at its "
+    "blanks",
+    "[text]") {
+  for (const char* line :
+       {"## smooth v mean", " ## smooth v mean;; ;", "##,smooth,v,mean,,", "\"## smooth v mean\"",
+        "\"## smooth v mean\";;", "##\tsmooth\tv\tmean", "##;smooth;v;mean"})
+    CHECK(history_line(line) == "## smooth v mean");
+  CHECK(history_line("## run a,b;c") == "## run a,b;c");
+  CHECK(history_line("##,") == "##");
 }

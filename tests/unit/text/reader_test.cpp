@@ -333,6 +333,21 @@ TEST_CASE("reader: the names are the last comment with as many fields as the rec
         "FILE:3: names among the records; where another run begins, put a blank line before it");
 }
 
+TEST_CASE("reader: a separator at an end of the commented names begins no name", "[text]") {
+  for (const char* names : {"# t[ms];v[km/h];", "#;t[ms];v[km/h]", "#;t[ms];v[km/h];;"})
+    CHECK(records({fmt::format("{}\n0;36\n", names)}) == "0 10");
+  CHECK(records({"#,v,x,t,\n1,2,3\n"}) == "3 1");
+  CHECK(records({"\"# t (ms)\",\"v (km/h)\"\n0,36\n"}) == "0 10");
+}
+
+TEST_CASE("reader: names behind the records of a file that has none above are refused", "[text]") {
+  for (const char* end : {"## p\n# v t\n", "\n# v t\n", "## p\n# v t\n# q\n"})
+    CHECK(records({fmt::format("1 0\n2 1\n{}", end), "2 3\n"}) ==
+          "FILE: the names of the columns stand behind the last record; put them above the first");
+  CHECK(records({"# t v\n1 0\n## p\n# v t\n"}) == "1 0");
+  CHECK(records({"1 0\n\n# made on Tuesday\n"}) == "1 0");
+}
+
 TEST_CASE("reader: a tool that ended with an error is refused, wherever it says so", "[text]") {
   for (const std::string text :
        {"## smooth: ended with an error\n", "0 1\n## smooth: ended with an error\n",
