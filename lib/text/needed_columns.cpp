@@ -113,9 +113,8 @@ std::optional<std::size_t> NeededColumns::find_column(std::string_view name) con
 }
 
 std::string NeededColumns::list() const {
-  if (!named_)
-    return fmt::format("{} column{} without names", as_read_.size(),
-                       as_read_.size() == 1 ? "" : "s");
+  const std::size_t n = as_read_.size();
+  if (!named_) return fmt::format("{} column{} without names", n, n == 1 ? "" : "s");
   std::string list;
   for (const Column& column : as_read_) {
     if (!list.empty()) list += ", ";

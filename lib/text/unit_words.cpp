@@ -96,7 +96,8 @@ std::string glued_unit(std::string_view quantity, const std::string& word) {
   };
   for (std::size_t n = std::max(word.size(), longest_unit + 1) - longest_unit; n + 1 < word.size();
        ++n) {
-    const std::string rest = word.substr(n), unit = unit_of_word(quantity, rest, in_letters(rest));
+    const std::string rest = word.substr(n);
+    std::string unit = unit_of_word(quantity, rest, in_letters(rest));
     if (is_unit_of(quantity, unit) && (is_sure(unit) || is_quantity(word.substr(0, n))))
       return unit;
   }
@@ -118,7 +119,7 @@ std::vector<std::string> words_of_comment(std::string_view comment) {
 }
 
 /// The known quantity of which a word tells, one or several: time, times, velocities; else empty.
-std::string quantity_of(std::string word) {
+std::string quantity_of(const std::string& word) {
   const auto known = [](const std::string& text) {
     const std::string name = read_column(text).name;
     return si_unit(name).empty() ? "" : name;

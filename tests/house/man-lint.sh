@@ -10,6 +10,7 @@ command -v mandoc >/dev/null ||
 mandoc -Tlint -Wwarning man/*.[1-8] || failed=1
 # A Dq or Sq runs to the end of its line: a second one on it stands within the first.
 for page in man/*.[1-8]; do
+  # shellcheck disable=SC1112
   nested=$(mandoc -Tutf8 "$page" | sed 's/.\x08//g' | grep -nE '“[^”]*“|‘[^’]*‘|””|’’')
   [ -z "$nested" ] || { printf '%s: quotes within quotes:\n%s\n' "$page" "$nested"; failed=1; }
 done

@@ -76,3 +76,22 @@ TEST_CASE("cusps: of runs in both directions on a slope as well", "[fit]") {
     }
   }
 }
+
+// The differences by which the stop is followed would begin with a shift beyond the radius. D is
+// constant here, and so is the deceleration.
+TEST_CASE("cusps: a roll whose shift is just within the radius keeps its minimum", "[fit]") {
+  Body body = cylinder;
+  body.slope = 0.01;
+  const double D = body.R * (1 - 1e-7), v0 = 0.5, theta = std::atan(body.slope),
+               rate = body.g * (D / body.R * std::cos(theta) + std::sin(theta)) / (body.K + 1);
+  FitRun run{};
+  run.body = body;
+  for (int i = 0; i < 50; ++i) {
+    run.t.push_back(0.002 * i);
+    run.v.push_back(std::max(0.0, v0 - rate * run.t.back()));
+  }
+  REQUIRE(run.v.back() == 0);
+  const Fitted found = fit_route(Route::velocity, {run}, {});
+  CHECK(found.a.value == Approx(D).epsilon(1e-6));
+  CHECK(std::abs(found.b.value) < 1e-6);
+}

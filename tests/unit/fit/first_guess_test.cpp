@@ -118,3 +118,18 @@ TEST_CASE(
         "the data do not determine the parameters: are all of these records of a free roll that "
         "slows down (smooth --coast)?");
 }
+
+// The one law that is left comes to its stop while the body still rolls the other way.
+TEST_CASE("first guess: speeds that the one law held has against them are refused", "[fit]") {
+  FitRun run{};
+  run.body = cylinder;
+  for (int i = 0; i < 10; ++i) run.t.push_back(i), run.v.push_back(i < 2 ? -0.5 : 1);
+  FitOptions held;
+  held.a = 0.03;
+  held.b = 0;
+  CHECK_THROWS_WITH(fit(Route::velocity, {run}, held),
+                    "no law a v^b comes near the data: are all of these records of the free roll "
+                    "(smooth --coast)?");
+  run.v[0] = 2;  // the body stops at once, as that law has it
+  CHECK(fit(Route::velocity, {run}, held).v0[0] > 0);
+}
