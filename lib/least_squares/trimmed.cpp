@@ -1,7 +1,5 @@
 #include "least_squares/trimmed.h"
 
-#include <gsl/gsl_linalg.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +10,7 @@
 #include "base/error.h"
 #include "base/median.h"
 #include "least_squares/minimise.h"
+#include "least_squares/triangles.h"
 
 namespace rolling {
 
@@ -42,19 +41,15 @@ class Linear {
   }
   /// The delta of the least squares of these rows; not finite if they do not determine it.
   std::vector<double> fit(const std::vector<std::size_t>& rows) const {
-    std::vector<double> A, b, delta(p_), tau(p_), rest(rows.size());
-    for (const std::size_t i : rows) {
-      A.insert(A.end(), &J_[i * p_], &J_[i * p_] + p_);
-      b.push_back(-f_[i]);
+    const std::size_t n = rows.size();
+    std::vector<double> f, J(n * p_);
+    for (std::size_t k = 0; k < n; ++k) {
+      f.push_back(f_[rows[k]]);
+      for (std::size_t j = 0; j < p_; ++j) J[j * n + k] = J_[rows[k] * p_ + j];
     }
-    gsl_matrix_view QR = gsl_matrix_view_array(A.data(), rows.size(), p_);
-    const auto view = [](std::vector<double>& x) {
-      return gsl_vector_view_array(x.data(), x.size());
-    };
-    gsl_vector_view right = view(b), x = view(delta), factors = view(tau), residual = view(rest);
-    gsl_linalg_QR_decomp(&QR.matrix, &factors.vector);
-    gsl_linalg_QR_lssolve(&QR.matrix, &factors.vector, &right.vector, &x.vector, &residual.vector);
-    return delta;
+    Triangles R({{n}, p_, 0, {}});
+    R.add(0, f, J);
+    return R.solve();
   }
 
  private:
