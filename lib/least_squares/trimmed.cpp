@@ -85,11 +85,11 @@ Half best_half(const Linear& model, std::vector<double> delta) {
 std::vector<double> trimmed_step(const Linear& model) {
   constexpr int draws = 100;
   const std::size_t n = model.rows(), p = model.columns();
-  std::mt19937 random;  // begins as the standard says
+  std::mt19937 random;  // with the seed of the standard: the same draws in each run
   Half best = best_half(model, std::vector<double>(p));
   for (int draw = 0; draw < draws; ++draw) {
     std::vector<std::size_t> rows;
-    for (std::size_t j = 0; j < p; ++j) {  // one of each of p parts of the records
+    for (std::size_t j = 0; j < p; ++j) {  // one row of each p-th of the record: far apart
       const std::size_t first = j * n / p, end = (j + 1) * n / p;
       rows.push_back(first + random() % (end - first));
     }

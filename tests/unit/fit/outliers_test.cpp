@@ -18,7 +18,7 @@ TEST_CASE("fit: a robust fit of 20 positions finds the law beside false echoes",
   const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.5);
   const double stop = std::pow(0.5, 1 - 0.215) / ((1 - 0.215) * 1.87e-3 * truth.c);
   simulated::Noise random(31);
-  std::mt19937 echo;  // begins as the standard says
+  std::mt19937 echo;  // with the seed of the standard: the same echoes in each run
   const auto share = [&] { return static_cast<double>(echo()) * 0x1p-32; };
   int found = 0, covered = 0;
   for (int k = 0; k < runs; ++k) {
