@@ -23,7 +23,7 @@ namespace {
 
 /// A filter that leaves its column as it is.
 LinearFilter identity(const std::string& from, const std::string& to) {
-  return {from, to, 0, [](auto, auto y) { return std::vector<double>(y.begin(), y.end()); }};
+  return {from, to, 0, [](auto, auto y) { return std::vector<double>(y.begin(), y.end()); }, true};
 }
 
 /// `[exact] K 0.5 R 0.04 g 9.81 [slope 0.001]`, perhaps with uncertainties.

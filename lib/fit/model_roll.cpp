@@ -20,8 +20,15 @@ FilterMatrix filters_of_rows(const Response& response, const char* column, const
   return rows.size() == H.rows() ? H : H.of_rows(rows);
 }
 
-/// The direction of motion, +1 or -1. All records (x or v) contribute, so that a few false echoes
-/// do not decide.
+std::vector<double> taken(const std::vector<double>& column, const Rows& rows) {
+  std::vector<double> few;
+  few.reserve(rows.size());
+  for (std::size_t i : rows) few.push_back(column[i]);
+  return few;
+}
+
+}  // namespace
+
 double way_of(bool position, const std::vector<double>& records, const FitOptions& options) {
   const auto sum = [](auto begin, auto end) { return std::accumulate(begin, end, 0.0); };
   const double all = sum(records.begin(), records.end());
@@ -32,15 +39,6 @@ double way_of(bool position, const std::vector<double>& records, const FitOption
              ? -1
              : 1;
 }
-
-std::vector<double> taken(const std::vector<double>& column, const Rows& rows) {
-  std::vector<double> few;
-  few.reserve(rows.size());
-  for (std::size_t i : rows) few.push_back(column[i]);
-  return few;
-}
-
-}  // namespace
 
 std::vector<Response> responses_of(Route route, const std::vector<FitRun>& all) {
   std::vector<Response> responses;
@@ -82,8 +80,8 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
   std::vector<ObservedRun> runs;
   for (std::size_t r = 0; r < all.size(); ++r) {
     const FitRun& run = all[r];
-    const std::string of_run = all.size() > 1 ? fmt::format("run {}: ", run.name) : "";
-    if (rows[r].empty()) fail("{}no record can be fitted", of_run);
+    if (rows[r].empty())
+      fail("{}no record can be fitted", all.size() > 1 ? fmt::format("run {}: ", run.name) : "");
     ObservedRun seen;
     seen.body = run.body;
     seen.geometry = options.geometry;
@@ -91,9 +89,6 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     const Rows fitted = rows_of_speeds(route, run, rows[r]);
     seen.y = taken(route == Route::position ? run.x : run.v, fitted);
     seen.way = way_of(route == Route::position, seen.y, options);
-    if (options.v0 && seen.way * *options.v0 < 0)
-      fail("{}v0 = {} cannot be held: the body rolls towards {} x", of_run, *options.v0,
-           seen.way > 0 ? "growing" : "falling");
     if (route == Route::shift) {
       const ShiftOf& by = *run.shift_of;
       seen.body = by.body;

@@ -26,6 +26,10 @@
 
 namespace rolling {
 
+/// The direction of motion, +1 or -1, of positions or speeds. All records contribute, so that a few
+/// false echoes do not decide.
+double way_of(bool position, const std::vector<double>& records, const FitOptions&);
+
 /// The indices of the records of one run that a route fits.
 using Rows = std::vector<std::size_t>;
 
@@ -59,7 +63,7 @@ std::vector<Response> responses_of(Route, const std::vector<FitRun>&);
 Rows rows_of_speeds(Route, const FitRun&, Rows);
 
 /// The runs in the form that the model needs, with the chosen rows alone. Throws Error for a run
-/// without a row, and if a v0 that is held has the other sign than the motion.
+/// without a row.
 std::vector<ObservedRun> observe(Route, const std::vector<FitRun>&, const std::vector<Rows>&,
                                  const std::vector<Response>&, const FitOptions&);
 

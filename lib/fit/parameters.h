@@ -45,12 +45,6 @@ class Parameters {
   }
   bool fits_slope() const { return slope_; }
   bool has_x0() const { return position_; }
-  /// The parameters of the same rolls seen by their speeds alone.
-  Parameters without_x0() const {
-    Parameters speeds = *this;
-    speeds.position_ = false;
-    return speeds;
-  }
   /// The parameters of a single run on a mat whose slope is held.
   Parameters of_one_run() const {
     Parameters one = *this;

@@ -5,48 +5,24 @@
 #include <utility>
 
 #include "base/dot.h"
+#include "base/error.h"
 #include "fit/cusps.h"
 #include "fit/first_guess.h"
+#include "fit/smooth_motion.h"
 #include "fit/white_share.h"
 
 namespace rolling {
 
 namespace {
 
-/// The first guess for filtered runs is that for the same columns without filters. Speeds that were
-/// made of positions are integrated, since their noise cancels in the integral.
-FirstGuess guess_without_filters(Route route, std::vector<ObservedRun> runs,
-                                 const std::vector<FitRun>& all, const std::vector<Rows>& rows,
-                                 FitOptions options) {
-  const bool integrated =
-      route != Route::position && std::ranges::all_of(runs, &ObservedRun::raw_is_position);
-  if (integrated) options.x0 = {};
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    ObservedRun& run = runs[r];
-    run.H.reset();
-    run.shifts.reset();
-    run.raw_is_position = route == Route::position || integrated;
-    run.t.clear();
-    for (std::size_t i : rows_of_speeds(route, all[r], rows[r]))
-      run.t.push_back(all[r].t[i] - run.origin);
-    if (!integrated) continue;
-    double x = 0, before = run.y[0];
-    for (std::size_t i = 0; i < run.y.size(); ++i) {
-      const double v = run.y[i];
-      if (i > 0) x += (before + v) / 2 * (run.t[i] - run.t[i - 1]);
-      before = v;
-      run.y[i] = x;
-    }
-  }
-  FirstGuess guess = first_guess(runs, options);
-  if (!integrated) return guess;
-  const Parameters& q = guess.parameters;
-  std::vector<double> v0;
-  for (std::size_t r = 0; r < runs.size(); ++r) v0.push_back(q.v0(guess.theta, r));
-  FirstGuess of_speeds{q.without_x0(), {}};
-  of_speeds.theta = of_speeds.parameters.theta(q.law(guess.theta), v0, {});
-  if (options.fit_slope) of_speeds.theta.back() = guess.theta.back();
-  return of_speeds;
+/// Throws Error if a v0 that is held has the other sign than the motion of a run.
+void require_ways(const std::vector<ObservedRun>& runs, const std::vector<FitRun>& all,
+                  const FitOptions& options) {
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    if (options.v0 && runs[r].way * *options.v0 < 0)
+      fail("{}v0 = {} cannot be held: the body rolls towards {} x",
+           all.size() > 1 ? fmt::format("run {}: ", all[r].name) : "", *options.v0,
+           runs[r].way > 0 ? "growing" : "falling");
 }
 
 /// Removes from `rows` the records whose fitted speed is below the limit; returns whether there
@@ -125,9 +101,8 @@ Minimum search(const RollModel& rolls, const System& system,
 }
 
 /// The minimum over these runs with these weights; the results are not yet reported.
-Fitted minimum_of(std::vector<ObservedRun> runs, const FirstGuess& start, const FitOptions& options,
-                  double share, bool inferred) {
-  auto noise = noise_of(runs, share, inferred);
+Fitted minimum_of(std::vector<ObservedRun> runs, std::shared_ptr<const Noise> noise,
+                  const FirstGuess& start, const FitOptions& options) {
   auto rolls = std::make_shared<const RollModel>(std::move(runs), start.parameters);
   System system = system_of(rolls, noise);
   std::vector<std::vector<double>> starts = start.others;
@@ -174,8 +149,9 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   const Parameters own = all.of_one_run();
   require_records(run.y.size(), own.count());
   run.body.slope = all.slope(theta, run.body.slope);
-  Fitted fit = minimum_of({std::move(run)}, {own, all.theta_of_run(theta, r)}, options,
-                          joint.noise->share(), joint.noise->inferred());
+  auto noise = noise_of({run}, joint.noise->share(), joint.noise->inferred());
+  Fitted fit =
+      minimum_of({std::move(run)}, std::move(noise), {own, all.theta_of_run(theta, r)}, options);
   report(fit);
   return fit;
 }
@@ -187,6 +163,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
   Fitted fit{};
   for (int round = 0; round < 4; ++round) {  // each round removes the slow records of the last fit
     auto runs = observe(route, all, rows, responses, options);
+    auto noise = noise_of(runs, inferred_share.value_or(0), inferred_share.has_value());
     if (!guess) {
       std::size_t n = 0;
       for (const ObservedRun& run : runs) n += run.y.size();
@@ -194,13 +171,16 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       // Shifts are fitted for what all runs share: the v0 of their rolls is not reported.
       const bool asked = is_trajectory(route) || q.shared() > 0;
       require_records(n, asked ? q.count() : 0, means_taken(runs, q));
-      guess = responses.empty() ? first_guess(runs, options)
-                                : guess_without_filters(route, runs, all, rows, options);
+      std::vector<ObservedRun> smooth;
+      if (noise->known()) smooth = smooth_motion(route, runs, *noise, options);
+      const std::vector<ObservedRun>& plain = noise->known() ? smooth : runs;
+      require_ways(plain, all, options);
+      guess = first_guess(plain, options);
     }
+    for (std::size_t r = 0; r < runs.size(); ++r) runs[r].way = guess->ways[r];
     if (options.min_speed <= 0) responses = {}, rows.clear();  // frees memory: no round follows
     fit = {};                                                  // frees memory
-    fit = minimum_of(std::move(runs), *guess, options, inferred_share.value_or(0),
-                     inferred_share.has_value());
+    fit = minimum_of(std::move(runs), std::move(noise), *guess, options);
     guess->theta = fit.minimum.theta;
     if (options.min_speed <= 0 ||
         !leave_out_slow(*fit.rolls, guess->theta, all, rows, options.min_speed))
