@@ -173,7 +173,7 @@ against 'energy-ledger, 10 columns' 'bare loop (at most)' "$small" '<1.25' "ener
 if have datamash; then
   against 'energy-ledger --summary' 'datamash mean 1-3' "$small" '' "energy-ledger --summary $ledger tvD.txt" "tail -n +2 tvD.txt | datamash mean 1 mean 2 mean 3"
 fi
-if have mawk; then against 'fitpower --route loglog' mawk "$small" 8 'fitpower -q --route loglog vD.txt' "mawk '$loglog' vD.txt"; fi
+if have mawk; then against 'fitpower --route loglog' mawk "$small" '' 'fitpower -q --route loglog vD.txt' "mawk '$loglog' vD.txt"; fi
 "$speed" fit <vD.txt >peer.out && fitpower -q --route loglog vD.txt | cut -f 1-4 >ours.out && same 'fitpower --route loglog' '1e-8 1e-300' peer.out ours.out
 against 'fitpower --route loglog' 'bare loop (at most)' "$small" '<1.5' 'fitpower -q --route loglog vD.txt' "$speed fit <vD.txt" user inverse
 against 'fitpower --route loglog' '  correlated noise' "$small" '' 'fitpower -q --route loglog vD-correlated.txt' "$speed fit <vD-correlated.txt" user inverse
