@@ -103,18 +103,6 @@ std::string take_run(std::string_view& name) {
   return std::string(number_at_end(prefix).empty() ? prefix : number_at_end(prefix));
 }
 
-/// Removes blank names at the ends while there are more than `width`: a separator stands there.
-void drop_blank_ends(std::vector<std::string>& names, std::size_t width) {
-  while (names.size() > width && names.back().empty()) names.pop_back();
-  while (names.size() > width && names.front().empty()) names.erase(names.begin());
-}
-
-/// The word is `a` before another word, as in a sentence; behind a symbol it is an acceleration.
-bool is_article(const std::string& word, const std::string& next) {
-  return word == "a" && next.size() > 1 &&
-         std::ranges::all_of(next, [](unsigned char c) { return std::isalpha(c) != 0; });
-}
-
 }  // namespace
 
 std::string replace_all(std::string text, std::string_view from, std::string_view to) {
@@ -242,29 +230,6 @@ std::vector<std::string> split_names(std::string_view line, char separator) {
     at = end;
   }
   return names;
-}
-
-CommentedNames names_in_comment(std::string_view comment, std::size_t width,
-                                const std::vector<Column>& known) {
-  if (comment.starts_with("##")) return {};
-  const std::string_view text = comment.substr(1);
-  const auto in_force = [&](const std::string& name) {
-    const std::string plain = read_column(name).name;
-    return !si_unit(plain).empty() || std::ranges::count(known, plain, &Column::name) > 0;
-  };
-  for (const char separator : std::string(separators) + '\0') {
-    auto names = split_names(text, separator);
-    const bool tabs = separator == '\t' && width > 1, as_it_is = names.size() == width;
-    drop_blank_ends(names, width);
-    const bool article =
-        separator == '\0' && std::ranges::adjacent_find(names, is_article) != names.end();
-    const bool is_known = std::ranges::any_of(names, [&](const std::string& name) {
-      return in_force(name) && !(article && name == "a");
-    });
-    if (names.size() == width && (as_it_is || tabs || is_known))
-      return {names, tabs, is_known, article};
-  }
-  return {};
 }
 
 }  // namespace rolling

@@ -65,14 +65,4 @@ Conversion conversion_to_si(std::string_view quantity, const Column&);
 /// brackets, which may contain blanks, then belongs to the name before it.
 std::vector<std::string> split_names(std::string_view line, char separator);
 
-/// The names of `width` columns in a comment.
-struct CommentedNames {
-  std::vector<std::string> names;  ///< empty if the comment has another number of words
-  bool tabs = false;               ///< tabs separate them
-  bool known = false;              ///< one of them is t, x, v, a (no article), D or in `known`
-  bool article = false;            ///< one is `a` before a word, as in a sentence
-};
-CommentedNames names_in_comment(std::string_view comment, std::size_t width,
-                                const std::vector<Column>& known);
-
 }  // namespace rolling

@@ -1,9 +1,11 @@
 #include "text/head.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "base/error.h"
+#include "text/commented_names.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -11,8 +13,6 @@ namespace {
 
 /// Lines without a number; more mean that the file has no columns.
 constexpr std::size_t longest_preamble = 100;
-
-bool is_history(const std::string& comment) { return comment.starts_with("##"); }
 
 std::string name_of(char separator) {
   return separator == '\0' ? "blanks" : separator == '\t' ? "tabs" : fmt::format("'{}'", separator);
@@ -55,13 +55,6 @@ void refuse_two_readings(const std::string& line) {
         shown(line));
 }
 
-/// A number, a date or a time, which is no name of a column.
-bool is_figure(std::string_view text) {
-  return is_number(text) ||
-         (!text.empty() && text.find_first_not_of("0123456789+-.:/") == std::string_view::npos &&
-          text.find_first_of("0123456789") != std::string_view::npos);
-}
-
 /// The comments and other lines in front of the first record.
 class HeadReader {
  public:
@@ -77,24 +70,17 @@ class HeadReader {
   bool is_missing_record(std::string_view line);
   std::vector<std::string> take_units();
   std::vector<std::string> take_names(std::size_t width, bool blank_end);
-  enum class Proof { known, known_or_tabs, none };
-  std::vector<std::string> take_commented_names(std::size_t width, Proof);
+  std::vector<std::string> take_commented_names(std::size_t width, bool blank_end);
   void note_sorted_history(std::size_t names);
   [[noreturn]] void refuse_without_records(const std::string& what) const;
   void comment_preamble();
   Head finish();
-  std::string place(std::size_t line) const { return fmt::format("{}:{}", lines_.name(), line); }
-
-  struct Line {
-    std::string text;
-    std::size_t number;
-  };
   Lines& lines_;
   Dialect& dialect_;
   const Head* before_;
   Head head_;
-  std::vector<Line> comments_;
-  std::vector<Line> preamble_;  // lines that are neither comments nor records
+  std::vector<Comment> comments_;
+  std::vector<Comment> preamble_;  // lines that are neither comments nor records
 };
 
 void HeadReader::take_history() {
@@ -103,19 +89,20 @@ void HeadReader::take_history() {
   const std::string_view text = trim(std::string_view(line).substr(2));
   if (text.starts_with("run ")) {  // the `##` lines above belong to a run without records
     head_.run = trim(text.substr(4));
-    std::erase_if(comments_, [](const Line& comment) { return is_history(comment.text); });
+    std::erase_if(comments_, std::mem_fn(&Comment::is_history));
   } else {
     comments_.push_back({line, lines_.number()});
   }
 }
 
 /// True for a first record with missing readings: a field is NaN, which is no name of a column; or
-/// fields are blank below a line of names.
+/// fields are blank below a line of names, and none is a known name itself.
 bool HeadReader::is_missing_record(std::string_view line) {
   const auto fields = dialect_.split(line);
   const auto is_nan = [](const Field& f) { return is_missing(f.text) && !f.text.empty(); };
   const auto is_blank = [](const Field& field) { return field.text.empty(); };
   if (std::ranges::any_of(fields, is_nan)) return true;
+  if (holds_known_name(line)) return false;
   const std::size_t width = fields.size();
   const bool all_blank = std::ranges::all_of(fields, is_blank);
   if (before_) {  // a names line has no blanks where the one before had names
@@ -124,10 +111,11 @@ bool HeadReader::is_missing_record(std::string_view line) {
            (width == before_->layout.width && std::any_of(fields.begin(), last, is_blank));
   }
   if (preamble_.empty())  // blanks under the names of a comment; beside text, if these are certain
-    return std::ranges::any_of(fields, is_blank) && std::ranges::any_of(comments_,
-                                                                        [&](const Line& comment) {
-      const auto [names, tabs, is_known, article] = names_in_comment(comment.text, width, {});
-      return !names.empty() && (all_blank || tabs || is_known);
+    return std::ranges::any_of(fields, is_blank) &&
+           std::ranges::any_of(comments_, [&](const Comment& comment) {
+             const CommentedNames found = names_in_comment(comment.text, {width});
+             return !comment.is_history() && !found.names.empty() &&
+                    (all_blank || found.tabs || found.known > 0);
            });
   if (!all_blank) return false;
   const auto names = names_in(preamble_.back().text, dialect_);
@@ -138,7 +126,7 @@ bool HeadReader::is_missing_record(std::string_view line) {
 /// many tabs as this line.
 bool HeadReader::has_tabs_of_names(std::string_view line) const {
   const auto tabs = std::ranges::count(line, '\t');
-  const auto agrees = [tabs](const Line& above) {
+  const auto agrees = [tabs](const Comment& above) {
     const std::string_view names =
         trim(std::string_view(above.text)
                  .substr(std::min(above.text.find_first_not_of('#'), above.text.size())));
@@ -180,26 +168,14 @@ bool HeadReader::find_record() {
   return false;
 }
 
-/// The names of the last comment that has as many names as there are columns, and as much proof
-/// that they are names.
-std::vector<std::string> HeadReader::take_commented_names(std::size_t width, Proof proof) {
-  const auto known = before_ ? before_->layout.runs.front().columns : std::vector<Column>();
-  for (std::size_t i = comments_.size(); i-- > 0;) {
-    auto [names, tabs, is_known, article] = names_in_comment(comments_[i].text, width, known);
-    const bool proven = is_known || (tabs && proof != Proof::known) ||
-                        (proof == Proof::none && std::ranges::none_of(names, is_figure));
-    if (names.empty() || !proven) continue;
-    if (article && !is_known)
-      fail<InputError>(
-          "{}: '{}' can be the names of the columns or a sentence: write a[m/s^2] if it is names, "
-          "else give it another number of words",
-          place(comments_[i].number), shown(comments_[i].text));
-    head_.line = comments_[i].number;
-    note_sorted_history(i);
-    comments_.erase(comments_.begin() + static_cast<std::ptrdiff_t>(i));
-    return names;
-  }
-  return {};
+std::vector<std::string> HeadReader::take_commented_names(std::size_t width, bool blank_end) {
+  const auto before = before_ ? before_->layout.runs.front().columns : std::vector<Column>();
+  auto chosen = choose_names(comments_, {width, blank_end, before}, !before_, lines_.name());
+  if (!chosen) return {};
+  head_.line = comments_[chosen->place].line;
+  note_sorted_history(chosen->place);
+  comments_.erase(comments_.begin() + static_cast<std::ptrdiff_t>(chosen->place));
+  return std::move(chosen->names);
 }
 
 /// Notes that several `##` lines were sorted, if one stands below the comment with the names: the
@@ -207,10 +183,10 @@ std::vector<std::string> HeadReader::take_commented_names(std::size_t width, Pro
 void HeadReader::note_sorted_history(std::size_t names) {
   const auto count = [&](std::size_t from) {
     return std::count_if(comments_.begin() + static_cast<std::ptrdiff_t>(from), comments_.end(),
-                         [](const Line& comment) { return is_history(comment.text); });
+                         std::mem_fn(&Comment::is_history));
   };
   if (count(names) > 0 && count(0) > 1)
-    comments_.push_back({fmt::format("## {}", lines_sorted), comments_.back().number});
+    comments_.push_back({fmt::format("## {}", lines_sorted), comments_.back().line});
 }
 
 /// The units in the line below the line of names; empty if there is none.
@@ -224,19 +200,9 @@ std::vector<std::string> HeadReader::take_units() {
 
 /// The names of `width` columns, empty if there are none here. `blank_end`: the record ends blank.
 std::vector<std::string> HeadReader::take_names(std::size_t width, bool blank_end) {
-  if (preamble_.empty()) {
-    auto names = take_commented_names(width, Proof::known_or_tabs);
-    if (names.empty() && blank_end &&  // a nameless column stands behind the others
-        !(names = take_commented_names(width - 1, Proof::known)).empty())
-      names.emplace_back();
-    if (names.empty() && !before_) names = take_commented_names(width, Proof::none);
-    if (names.empty())
-      for (const Line& comment : comments_)
-        refuse_names_of_others(comment.text, width, place(comment.number));
-    return names;
-  }
+  if (preamble_.empty()) return take_commented_names(width, blank_end);
   auto names = names_in(preamble_.back().text, dialect_);
-  head_.line = preamble_.back().number;
+  head_.line = preamble_.back().line;
   preamble_.pop_back();
   comment_preamble();
   if (names.size() == width + 1 && names.back().empty()) names.pop_back();
@@ -246,7 +212,7 @@ std::vector<std::string> HeadReader::take_names(std::size_t width, bool blank_en
 
 /// Says what is wrong in the last line with a digit, which may have been meant as a record.
 void HeadReader::refuse_without_records(const std::string& what) const {
-  const auto has_digit = [](const Line& line) {
+  const auto has_digit = [](const Comment& line) {
     return line.text.find_first_of("0123456789") != std::string::npos;
   };
   const auto last = std::find_if(preamble_.rbegin(), preamble_.rend(), has_digit);
@@ -254,20 +220,21 @@ void HeadReader::refuse_without_records(const std::string& what) const {
   Dialect dialect;
   dialect.choose(last->text);
   fail<InputError>("{}: {}: '{}' is separated by {}, and no field of it is a number",
-                   place(last->number), what, shown(last->text), name_of(dialect.separator()));
+                   fmt::format("{}:{}", lines_.name(), last->line), what, shown(last->text),
+                   name_of(dialect.separator()));
 }
 
 /// Makes comments of the lines that are neither names nor units.
 void HeadReader::comment_preamble() {
-  for (Line& line : preamble_) {
+  for (Comment& line : preamble_) {
     std::replace(line.text.begin(), line.text.end(), '\n', ' ');
-    comments_.push_back({"# " + std::move(line.text), line.number});
+    comments_.push_back({"# " + std::move(line.text), line.line});
   }
 }
 
 Head HeadReader::finish() {
-  for (Line& comment : comments_) {
-    if (is_history(comment.text))
+  for (Comment& comment : comments_) {
+    if (comment.is_history())
       head_.history.emplace_back(trim(std::string_view(comment.text).substr(2)));
     head_.comments.push_back(std::move(comment.text));
   }
@@ -289,7 +256,7 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
   const auto units = take_units();
   const auto names = take_names(width, blank_field);
   if (names.empty() && before_) head_.said = before_->said;
-  for (const Line& comment : comments_) note_units(comment.text, comment.number, head_.said);
+  for (const Comment& comment : comments_) note_units(comment.text, comment.line, head_.said);
   if (names.empty() && before_) {
     head_.named = before_->named;
     head_.blank_end = before_->blank_end;
@@ -307,7 +274,8 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
       columns.push_back({order[i], std::string(si_unit(order[i]))});
     else columns.emplace_back();
     if (columns.back().name.empty()) columns.back().name = fmt::format("c{}", i + 1);
-    if (i < units.size()) add_unit(columns.back(), units[i], place(head_.line));
+    if (i < units.size())
+      add_unit(columns.back(), units[i], fmt::format("{}:{}", lines_.name(), head_.line));
   }
   head_.layout = sides == Sides::one ? Layout::one(columns) : Layout::of(columns);
   if (head_.named && (head_.layout.side_by_side() ? width > names.size() : width != names.size()))

@@ -230,13 +230,16 @@ bool Reader::next_side_line() {
   return false;
 }
 
-/// True for a comment that names all of the needed columns.
+/// True for a comment that names all of the needed columns; where they have no names, two known
+/// ones are enough.
 bool Reader::are_names(std::string_view comment) const {
   if (needed_.all().empty()) return false;
-  const auto names = names_in_comment(comment, layout().columns.size(), layout().columns).names;
+  const CommentedNames found =
+      names_in_comment(comment, {layout().columns.size(), head_.blank_end, layout().columns});
+  if (!head_.named && found.known > 1) return true;
   const auto has = [&](const NeededColumns::Needed& needed) {
     return needed.column != no_column &&
-           std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+           std::ranges::any_of(found.names, [&](const std::string& name) {
              return read_column(name).name == layout().columns[needed.column].name;
            });
   };

@@ -30,9 +30,4 @@ using SaidUnits = std::map<std::string, SaidUnit>;
 /// Adds those of a comment.
 void note_units(const std::string& comment, std::size_t line, SaidUnits&);
 
-/// Refuses a comment with names and units, `t [s], v [m/s]`, that are not those of the `width`
-/// columns of the records; and a line that begins with ## and has such names and units, or a name
-/// for each column or for all but one, of which two are known.
-void refuse_names_of_others(const std::string& comment, std::size_t width, std::string_view place);
-
 }  // namespace rolling

@@ -152,32 +152,3 @@ TEST_CASE("column: a names line is one name a field", "[text]") {
   CHECK(split_names("[s] [m / s] (cm)", '\0') == Names{"[s]", "[m / s]", "(cm)"});
   CHECK(split_names("", '\0').empty());
 }
-
-TEST_CASE("column: the names in a comment, and what proves that they are some", "[text]") {
-  const auto names = [](std::string_view comment, std::size_t width) {
-    const auto [all, tabs, known, article] = names_in_comment(comment, width, {{"w"}});
-    std::string text = fmt::format("{}{}{}", tabs ? "tabs " : "", known ? "known " : "",
-                                   article ? "article " : "");
-    for (const std::string& name : all) text += '<' + name + '>';
-    return text;
-  };
-  CHECK(names("# p\tq", 2) == "tabs <p><q>");
-  CHECK(names("# p q", 2) == "<p><q>");
-  CHECK(names("# p, w[m]", 2) == "known <p><w[m]>");
-  CHECK(names("#t (s)\tp q", 2) == "tabs known <t (s)><p q>");
-  CHECK(names("#\tp", 2) == "tabs <><p>");
-  CHECK(names("#\tp", 1) == "<p>");  // one column has no tabs between columns
-  CHECK(names("# p q\t", 1) == "<p q>");
-  CHECK(names("# p, w[m],,", 2) == "known <p><w[m]>");
-  CHECK(names("#;p;w[m]", 2) == "known <p><w[m]>");
-  CHECK(names("#;p;w[m]", 3) == "known <><p><w[m]>");
-  CHECK(names("# slow, and gentle,", 2).empty());
-  CHECK(names("# a second run", 3) == "article <a><second><run>");
-  CHECK(names("# v a second", 3) == "known article <v><a><second>");
-  CHECK(names("# n a", 2) == "known <n><a>");
-  CHECK(names("# a b", 2) == "known <a><b>");
-  CHECK(names("# a sigma_a", 2) == "known <a><sigma_a>");
-  CHECK(names("# a, second", 2) == "known <a><second>");
-  CHECK(names("# a b", 3).empty());
-  CHECK(names("## a b", 2).empty());
-}

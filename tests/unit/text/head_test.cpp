@@ -86,6 +86,8 @@ TEST_CASE("head: a record without readings is one, as wide as the names", "[text
   CHECK(head("t,v\n,\n0,1\n") == " t v in 1 of 2; 2: ,");
   CHECK(head("# t v\nNaN NaN\n") == " t v in 1 of 2; 2: NaN NaN");
   CHECK(head("My cart,\n,\nt,v\n0,1\n") == "# My cart,|# ,| t v in 1 of 2; 4: 0,1");
+  CHECK(head("# x of my cart\nv;t;n;\n0;1;2;\n") ==
+        "# x of my cart| v t n c4 in 1 of 4; 3: 0;1;2;");
 }
 
 TEST_CASE("head: what ends a line of names alone is no column; what ends the record too is one",

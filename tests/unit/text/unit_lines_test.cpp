@@ -52,26 +52,3 @@ TEST_CASE("unit lines: comments say units other than SI, the last one counts", "
     all += fmt::format("{} {} {}, ", quantity, unit.unit, unit.line);
   CHECK(all == "D mm 3, t ms 2, v cm/s 2, ");
 }
-
-TEST_CASE("unit lines: names of columns in a history line are refused", "[text]") {
-  for (const char* line :
-       {"## t[s] x[cm]", "##Time (s),Position (cm)", "## t x v", "###w;x;v;", "## x,v"})
-    CHECK(
-        refusal([&] { refuse_names_of_others(line, 3, "f:2"); }) ==
-        "f:2: names of columns in a line that begins with ##, as history does; leave one # there");
-  CHECK(refusal([&] { refuse_names_of_others("## t x v", 5, "f:2"); }).empty());
-}
-
-TEST_CASE("unit lines: a comment with names of other columns is refused", "[text]") {
-  const auto refused = [](const std::string& comment, std::size_t width) {
-    return refusal([&] { refuse_names_of_others(comment, width, "f:2"); });
-  };
-  CHECK(refused("# t[s] x[m]", 1) == "f:2: a comment with units, but not the names of 1 column");
-  CHECK(refused("# t [ms]: time, x [cm]", 3) ==
-        "f:2: a comment with units, but not the names of 3 columns");
-  for (const char* comment : {"# Time (s); Position (m)", "#,t[s],w,x[m]", "# w[N]\tt[s]; x[m]"})
-    CHECK(refused(comment, 5) == "f:2: a comment with units, but not the names of 5 columns");
-  for (const char* comment :
-       {"# t[s] alone", "# w[ms] n[cm]", "# t in s, v in m/s", "## smooth v coast", "##", "###"})
-    CHECK(refused(comment, 3).empty());
-}

@@ -1,0 +1,126 @@
+#include "text/commented_names.h"
+
+#include <fmt/format.h>
+
+#include "unit/text/files.h"
+
+using namespace rolling;
+
+namespace {
+
+std::string in_brackets(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += '<' + name + '>';
+  return text;
+}
+
+/// The names that are chosen among comments on the lines 1, 2, ..., or what refuses them.
+std::string chosen(const std::vector<std::string>& texts, const UnnamedColumns& columns,
+                   bool first = true) {
+  std::vector<Comment> comments;
+  for (const std::string& text : texts) comments.push_back({text, comments.size() + 1});
+  std::string all;
+  const std::string message = refusal([&] {
+    if (const auto found = choose_names(comments, columns, first, "f"))
+      all = fmt::format("{} {}", found->place + 1, in_brackets(found->names));
+  });
+  return message.empty() ? all : message;
+}
+
+}  // namespace
+
+TEST_CASE("commented names: the names in a comment, and what speaks for them", "[text]") {
+  const auto names = [](std::string_view comment, std::size_t width, bool blank_end = false) {
+    const CommentedNames of = names_in_comment(comment, {width, blank_end, {{"w"}}});
+    return fmt::format("{}{}{}{}", of.tabs ? "tabs " : "",
+                       of.known ? fmt::format("{} ", of.known) : "", of.article ? "article " : "",
+                       in_brackets(of.names));
+  };
+  CHECK(names("# p\tq", 2) == "tabs <p><q>");
+  CHECK(names("# p q", 2) == "<p><q>");
+  CHECK(names("# p, w[m]", 2) == "1 <p><w[m]>");
+  CHECK(names("#t (s)\tp q", 2) == "tabs 1 <t (s)><p q>");
+  CHECK(names("#\tp", 2) == "tabs <><p>");
+  CHECK(names("#\tp", 1) == "<p>");  // one column has no tabs between columns
+  CHECK(names("# p q\t", 1) == "<p q>");
+  CHECK(names("# p, w[m],,", 2) == "1 <p><w[m]>");
+  CHECK(names("#;p;w[m]", 2) == "1 <p><w[m]>");
+  CHECK(names("#;p;w[m]", 3) == "1 <><p><w[m]>");
+  CHECK(names("# slow, and gentle,", 2).empty());
+  CHECK(names("# a second run", 3) == "article <a><second><run>");
+  CHECK(names("# v a second", 3) == "1 article <v><a><second>");
+  CHECK(names("# n a", 2) == "1 <n><a>");
+  CHECK(names("# t b x D", 4) == "3 <t><b><x><D>");
+  CHECK(names("# a sigma_a", 2) == "1 <a><sigma_a>");
+  CHECK(names("# a, second", 2) == "1 <a><second>");
+  CHECK(names("# a b", 3).empty());
+  CHECK(names("## t v", 2) == "2 <t><v>");
+  CHECK(names("# t v", 3, true) == "2 <t><v><>");
+  CHECK(names("# p q", 3, true).empty());
+}
+
+TEST_CASE("commented names: the last comment with known names or tabs, else the last with words",
+          "[text]") {
+  CHECK(chosen({"# t x", "# made by me", "# v t"}, {2}) == "3 <v><t>");
+  CHECK(chosen({"# v t", "# made by me", "# made today"}, {2}) == "1 <v><t>");
+  CHECK(chosen({"# pushed at t", "# n t v"}, {3}) == "2 <n><t><v>");
+  CHECK(chosen({"# p\tq", "# made today"}, {2}) == "1 <p><q>");
+  CHECK(chosen({"# p q", "# 12:30 2"}, {2}) == "1 <p><q>");
+  CHECK(chosen({"# p q"}, {2}, false).empty());
+  CHECK(chosen({"# w q"}, {2, false, {{"w"}}}, false) == "1 <w><q>");
+  CHECK(chosen({"# t v"}, {3, true}) == "1 <t><v><>");
+  CHECK(chosen({}, {2}).empty());
+  CHECK(chosen({"# t,v"}, {2}) == "1 <t><v>");
+  CHECK(chosen({"# t v,"}, {2}) == "1 <t><v>");
+}
+
+TEST_CASE(
+    "commented names: behind a run, words that would move its known columns may be a sentence",
+    "[text]") {
+  const std::vector<Column> before{{"t"}, {"v"}, {"w"}};
+  CHECK(
+      chosen({"# t has v"}, {3, false, before}, false) ==
+      "f:1: '# t has v' can be new names of the columns or a sentence: put tabs between names, or "
+      "give the sentence another number of words");
+  CHECK(chosen({"# was pushed to"}, {3, false, before}, false).empty());
+  CHECK(chosen({"# t v n"}, {3, false, before}, false) == "1 <t><v><n>");
+  CHECK(chosen({"# t, n, v"}, {3, false, before}, false) == "1 <t><n><v>");
+  CHECK(chosen({"# t[s] n v"}, {3, false, before}, false) == "1 <t[s]><n><v>");
+}
+
+TEST_CASE("commented names: a comment with more known names than the chosen one is no remark",
+          "[text]") {
+  CHECK(chosen({"# t x v", "# v before t"}, {3}) ==
+        "f:1: '# t x v' can be the names of the columns, and so can line 2: give one of them "
+        "another number of words");
+  CHECK(chosen({"# t n", "# p\tq"}, {2}) ==
+        "f:1: '# t n' can be the names of the columns, and so can line 2: give one of them another "
+        "number of words");
+  CHECK(chosen({"# a second run"}, {3}) ==
+        "f:1: '# a second run' can be the names of the columns or a sentence: write a[m/s^2] if it "
+        "is names, else give it another number of words");
+}
+
+TEST_CASE("commented names: names of columns in a history line are refused", "[text]") {
+  const std::string refused =
+      "names of columns in a line that begins with ##, as history does; leave one # there";
+  for (const char* line :
+       {"## t[s] x[cm]", "##Time (s),Position (cm)", "## t x v", "###w;x;v;", "## x,v"})
+    CHECK(chosen({"# made by me", line}, {3}) == "f:2: " + refused);
+  CHECK(chosen({"## t[ms] n v[m/s] x", "# v Time Monday test"}, {4}) == "f:1: " + refused);
+  CHECK(chosen({"## t x v"}, {5}).empty());
+  CHECK(chosen({"## smooth v coast", "## smooth v mean width 3"}, {3}).empty());
+  CHECK(chosen({"## t x v", "# v x t"}, {3}) == "f:1: " + refused);
+  CHECK(chosen({"## t x v", "# t x v"}, {3}) == "2 <t><x><v>");
+}
+
+TEST_CASE("commented names: a comment with units and names of other columns is refused", "[text]") {
+  CHECK(chosen({"# made by me", "# t[s] x[m]"}, {1}) ==
+        "f:2: a comment with units, but not the names of 1 column");
+  CHECK(chosen({"# t [ms]: time, x [cm]"}, {3}) ==
+        "f:1: a comment with units, but not the names of 3 columns");
+  for (const char* comment : {"# Time (s); Position (m)", "#,t[s],w,x[m]", "# w[N]\tt[s]; x[m]"})
+    CHECK(chosen({comment}, {5}) == "f:1: a comment with units, but not the names of 5 columns");
+  for (const char* comment : {"# t[s] alone now", "# w[ms] n[cm]", "# t in s, v in m/s", "##"})
+    CHECK(chosen({comment}, {4}, false).empty());
+}
