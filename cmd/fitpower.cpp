@@ -6,7 +6,7 @@
 
 #include "cli/fit_report.h"
 #include "cli/fit_runs.h"
-#include "cli/history.h"
+#include "cli/linear_filters.h"
 #include "fit/fit.h"
 #include "text/estimate.h"
 
@@ -156,7 +156,7 @@ struct Comments {
 /// is a trajectory: no column then counts as v or D by its position.
 std::vector<std::string> order_without_names(std::optional<Route> given, bool times_given) {
   if (!given && times_given) return {};
-  return columns_of(given.value_or(Route::shift));
+  return fitted_columns(given.value_or(Route::shift));
 }
 
 /// The route without --route, by the columns of the input.

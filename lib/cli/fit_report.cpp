@@ -55,7 +55,7 @@ std::string budget(const FitResult& r) {
 void report_route(Tool& tool, const std::string& name, Route route, const std::vector<FitRun>& runs,
                   const FitOptions& options) {
   for (const FitRun& run : runs)
-    for (const std::string& needed : columns_of(route))
+    for (const std::string& needed : fitted_columns(route))
       if ((run.*column_of(needed)).empty()) fail("there is no column {}", needed);
   if (is_trajectory(route) && std::isnan(runs.front().body.R)) fail("--radius is not given");
   if (is_trajectory(route) && std::isnan(runs.front().body.K)) fail("--shape-factor is not given");

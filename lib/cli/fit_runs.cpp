@@ -15,7 +15,7 @@ namespace {
 class Slots {
  public:
   Slots(Reader& in, Route route, Columns columns) : in_(in) {
-    for (const std::string& name : columns_of(route))
+    for (const std::string& name : fitted_columns(route))
       if (name != "t") add(in.need(name), name);
     if (is_trajectory(route)) add_time();
     if (columns == Columns::of_all_routes) add_others();
@@ -78,7 +78,7 @@ void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
   if (run.t.empty() && change_numbers(history_of(in.history(), std::array{0.0}).filters))
     history.doubt = "it has no times, without which its `##` lines tell nothing";
   run.shift_of = history.shift_of;
-  history = known_windows(compared(std::move(history), run), run, columns_of(route).back());
+  history = known_windows(compared(std::move(history), run), run, fitted_columns(route).back());
   run.filters = std::move(history.filters);
   run.shift_of = history.shift_of;
   if (!history.doubt.empty())
@@ -93,7 +93,7 @@ void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
 
 /// Drops the columns that the route does not fit.
 void drop_others(FitRun& run, Route route) {
-  const auto fitted = columns_of(route);
+  const auto fitted = fitted_columns(route);
   for (const char* name : {"x", "v", "D"})
     if (std::ranges::find(fitted, name) == fitted.end())
       std::vector<double>().swap(run.*column_of(name));
@@ -114,7 +114,7 @@ void warn_of_lost_history(Tool& tool, const std::vector<FitRun>& runs,
 
 }  // namespace
 
-std::vector<std::string> columns_of(Route route) {
+std::vector<std::string> fitted_columns(Route route) {
   switch (route) {
     case Route::velocity:
       return {"t", "v"};
@@ -167,7 +167,7 @@ void set_bodies(std::vector<FitRun>& runs, const Body& body,
 }
 
 void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
-  const auto y = column_of(columns_of(route).back());
+  const auto y = column_of(fitted_columns(route).back());
   const auto less = [&](std::size_t i, std::size_t j) {  // of all doubles, NaN too
     return std::ranges::lexicographical_compare(
         runs[i].*y, runs[j].*y, [](double a, double b) { return std::strong_order(a, b) < 0; });

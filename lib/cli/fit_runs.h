@@ -11,7 +11,7 @@
 namespace rolling {
 
 /// The columns that a route fits, by their short names.
-std::vector<std::string> columns_of(Route);
+std::vector<std::string> fitted_columns(Route);
 
 /// The column of a run with this short name: t, x, v or D.
 std::vector<double> FitRun::*column_of(std::string_view name);

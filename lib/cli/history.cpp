@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "base/error.h"
+#include "cli/linear_filters.h"
 #include "contact/uncertain_number.h"
 #include "fit/replay.h"
 #include "signal/derivative.h"
@@ -20,11 +20,6 @@
 
 namespace rolling {
 namespace {
-
-/// A filter that leaves its column as it is.
-LinearFilter identity(const std::string& from, const std::string& to) {
-  return {from, to, 0, [](auto, auto y) { return std::vector<double>(y.begin(), y.end()); }, true};
-}
 
 /// `[exact] K 0.5 R 0.04 g 9.81 [slope 0.001]`, perhaps with uncertainties.
 std::optional<ShiftOf> shift_line(std::span<const std::string> words) {
@@ -45,42 +40,9 @@ std::optional<ShiftOf> shift_line(std::span<const std::string> words) {
   return of;
 }
 
-/// A streaming filter as one of whole columns.
-LinearFilter linear(const std::string& from, const std::string& to, const SignalOptions& options,
-                    std::size_t reach) {
-  return {from, to, reach,
-          [options](auto t, auto y) {
-    return output_of(*make_signal(options), t.size(), [&](std::size_t i) {
-      return Sample{t[i], y[i]};
-    });
-          },
-          options.method->shift_invariant && options.width.seconds == 0};
-}
-
 std::string derivative_of(const std::string& column) {
   return column == "x" ? "v" : column == "v" ? "a" : "d" + column;
 }
-
-}  // namespace
-
-std::vector<LinearFilter> filters_of_sensors() {
-  std::vector<LinearFilter> filters;
-  for (const char* method : {"central", "vernier", "pasco"}) {
-    const SignalOptions options = signal_options(derivative_methods, method).value();
-    filters.push_back(linear("x", "v", options, options.method->reach));
-  }
-  for (std::size_t width : {2U, 3U, 5U})
-    filters.push_back({"v", "v", width / 2, [width](auto, auto y) {
-                         std::vector<double> means(y.size());
-                         for (std::size_t i = 0; i + width <= y.size(); ++i)
-                           means[i + width / 2] = std::accumulate(&y[i], &y[i] + width, 0.0) /
-                                                  static_cast<double>(width);
-                         return means;
-                       }});
-  return filters;
-}
-
-namespace {
 
 /// Builds the chain line by line.
 class Chain {

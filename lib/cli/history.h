@@ -47,9 +47,4 @@ History compared(History, const FitRun&);
 /// filters are unknown if fewer than 10 of them remain.
 History known_windows(History, FitRun&, const std::string& column);
 
-/// The filters that the software of sensors may apply to speeds: the central difference of
-/// positions and the differences of Vernier's and PASCO's programs; and means of 2, 3 or 5 speeds,
-/// whose noise is similar to some of these.
-std::vector<LinearFilter> filters_of_sensors();
-
 }  // namespace rolling

@@ -141,9 +141,9 @@ struct Tested {
 
 Tested tested(std::span<const double> noise, std::span<const std::size_t> runs, const Taken& taken,
               const Fitted& fit) {
-  const Errors white = fit.filters_known()     ? Errors::filters
-                       : fit.noise->inferred() ? Errors::differences
-                                               : Errors::classical;
+  const Errors white = fit.filters_known()           ? Errors::filters
+                       : fit.noise->added().inferred ? Errors::differences
+                                                     : Errors::classical;
   double whiteness = ljung_box(noise, taken, runs);
   if (fit.minimum.f.size() < 30) return {whiteness, white};
   const bool uneven = std::min(breusch_pagan(noise, runs), unequal_runs(noise, runs)) <=

@@ -61,7 +61,7 @@ struct Fitted {
   /// of a short run may leave fewer than its records less the mean.
   std::size_t degrees_left() const;
   /// True if the covariance of the noise follows from filters that the data name.
-  bool filters_known() const { return raw_noise || (noise->known() && !noise->inferred()); }
+  bool filters_known() const { return raw_noise || (noise->known() && !noise->added().inferred); }
 };
 
 /// Minimises by the loss that the options name: squares from the first start.

@@ -122,12 +122,11 @@ std::size_t means_taken(const std::vector<ObservedRun>& runs, const Parameters& 
   return static_cast<std::size_t>(std::ranges::count_if(runs, &ObservedRun::raw_is_position));
 }
 
-std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>& runs, double share,
-                                      bool inferred) {
+std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>& runs, AddedNoise added) {
   if (!runs.front().H) return std::make_shared<const Noise>();
   std::vector<FilterMatrix> all;
   for (const ObservedRun& run : runs) all.push_back(*run.H);
-  return std::make_shared<const Noise>(std::move(all), share, inferred);
+  return std::make_shared<const Noise>(std::move(all), added);
 }
 
 Trajectory RollModel::trajectory(const std::vector<double>& theta, std::size_t run) const {

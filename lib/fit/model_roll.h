@@ -71,8 +71,8 @@ std::vector<ObservedRun> observe(Route, const std::vector<FitRun>&, const std::v
 /// freedom. Where x0 is a parameter, the filters keep the mean.
 std::size_t means_taken(const std::vector<ObservedRun>&, const Parameters&);
 
-/// The noise of these runs; unknown if they have no H. For the other arguments see Noise.
-std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>&, double share, bool inferred);
+/// The noise of these runs; unknown if they have no H.
+std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>&, AddedNoise = {});
 
 /// The model of the raw column of one run: returns the value at time t from the origin, and writes
 /// the derivatives with respect to the parameters of the run, then the shared ones, to `slopes`,

@@ -135,7 +135,7 @@ void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   fit.system = {}, fit.noise = {};  // frees memory: these are large, and the search needs as much
   const WhiteShare found = most_likely_share(fit.rolls, fit.minimum.theta, 1e-7, 1, 0);
   const bool adopted = many || found.decisive();
-  fit.noise = noise_of(fit.rolls->runs(), adopted ? found.share : 0, false);
+  fit.noise = noise_of(fit.rolls->runs(), {adopted ? found.share : 0});
   fit.system = system_of(fit.rolls, fit.noise);
   if (adopted) fit.minimum = search(*fit.rolls, fit.system, {fit.minimum.theta}, options);
 }
@@ -149,7 +149,7 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   const Parameters own = all.of_one_run();
   require_records(run.y.size(), own.count());
   run.body.slope = all.slope(theta, run.body.slope);
-  auto noise = noise_of({run}, joint.noise->share(), joint.noise->inferred());
+  auto noise = noise_of({run}, joint.noise->added());
   Fitted fit =
       minimum_of({std::move(run)}, std::move(noise), {own, all.theta_of_run(theta, r)}, options);
   report(fit);
@@ -157,13 +157,12 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
 }
 
 Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows,
-                 std::vector<Response> responses, const FitOptions& options,
-                 std::optional<double> inferred_share) {
+                 std::vector<Response> responses, const FitOptions& options, AddedNoise added) {
   std::optional<FirstGuess> guess;
   Fitted fit{};
   for (int round = 0; round < 4; ++round) {  // each round removes the slow records of the last fit
     auto runs = observe(route, all, rows, responses, options);
-    auto noise = noise_of(runs, inferred_share.value_or(0), inferred_share.has_value());
+    auto noise = noise_of(runs, added);
     if (!guess) {
       std::size_t n = 0;
       for (const ObservedRun& run : runs) n += run.y.size();

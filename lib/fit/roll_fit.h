@@ -9,10 +9,9 @@ namespace rolling {
 /// record with v <= 0 counts too: to select by noisy speeds would be to select by their noise.
 std::vector<Rows> usable(Route, const std::vector<FitRun>&);
 
-/// Fits a roll: position, velocity, and shift with known filters (`responses`). `inferred_share` is
-/// given if the filters were inferred from the residuals; it is then the share of Noise.
+/// Fits a roll: position, velocity, and shift with known filters (`responses`).
 Fitted fit_rolls(Route, const std::vector<FitRun>&, std::vector<Rows>, std::vector<Response>,
-                 const FitOptions&, std::optional<double> inferred_share = {});
+                 const FitOptions&, AddedNoise = {});
 
 /// Fits one run of a joint fit of rolls separately: the same records and weights, the slope of the
 /// mat held at the joint value. Throws Error if the run does not determine its parameters, or has

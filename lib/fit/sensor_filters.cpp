@@ -114,7 +114,7 @@ std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const FitO
     std::vector<Rows> regular = usable(Route::velocity, all);
     if (!leave_out_irregular(all, regular, reach)) return {};
     Fitted fit = fit_rolls(Route::velocity, all, std::move(regular),
-                           responses_by(*maker.filter, all), options, maker.share);
+                           responses_by(*maker.filter, all), options, {maker.share, true});
     const Uncertainty found = uncertainty_of(fit);
     if (found.whiteness > not_white && breusch_pagan(fit.minimum.f, fit.system.runs) > 0.01)
       return fit;

@@ -21,12 +21,11 @@ std::vector<double> each(const auto& parts, auto&& function) {
 
 }  // namespace
 
-Noise::Noise(std::vector<FilterMatrix> E, double share, bool inferred)
-    : E_(std::move(E)), share_(share), inferred_(inferred) {
+Noise::Noise(std::vector<FilterMatrix> E, AddedNoise added) : E_(std::move(E)), added_(added) {
   for (const FilterMatrix& E_of_run : E_) {
     rows_.push_back(E_of_run.rows());
     sources_.push_back(E_of_run.columns());
-    whiteners_.emplace_back(Covariance(E_of_run), share);
+    whiteners_.emplace_back(Covariance(E_of_run), added.share);
   }
 }
 

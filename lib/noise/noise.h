@@ -9,6 +9,12 @@
 
 namespace rolling {
 
+/// White noise that did not pass the filters of its columns.
+struct AddedNoise {
+  double share = 0;       ///< its standard deviation as a share of that of each residual (Whitener)
+  bool inferred = false;  ///< it and the filters were inferred from residuals
+};
+
 /// The noise of the residuals of each run is E times white noise of one unknown variance. The
 /// elements of that white noise are called sources; for known filters they are the noise of the raw
 /// records.
@@ -16,15 +22,11 @@ class Noise {
  public:
   /// An unknown covariance: the residuals have no weights.
   Noise() = default;
-  /// The weight matrix is the inverse of E E^T + F, where F is the covariance of white noise that
-  /// rounding has added to the columns: its standard deviation is this share of that of each
-  /// residual (see Whitener). `inferred`: E and the share were inferred from residuals, and the
-  /// weights are the inverse of the covariance.
-  Noise(std::vector<FilterMatrix> E, double share, bool inferred);
+  /// The weight matrix is the inverse of E E^T + F, where F is the covariance of the added noise.
+  explicit Noise(std::vector<FilterMatrix> E, AddedNoise added = {});
 
   bool known() const { return !E_.empty(); }
-  double share() const { return share_; }
-  bool inferred() const { return inferred_; }
+  const AddedNoise& added() const { return added_; }
   const Whitener& whitener(std::size_t run) const { return whiteners_[run]; }
   /// The unweighted residuals W^-1 f of all runs; W^T W is the weight matrix.
   std::vector<double> without_weights(const std::vector<double>& f) const;
@@ -52,8 +54,7 @@ class Noise {
   std::vector<FilterMatrix> E_;
   std::vector<Whitener> whiteners_;
   std::vector<std::size_t> rows_, sources_;  // numbers of each run
-  double share_ = 0;
-  bool inferred_ = false;
+  AddedNoise added_;
 };
 
 }  // namespace rolling

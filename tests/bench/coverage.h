@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "cli/history.h"
+#include "cli/linear_filters.h"
 #include "fit/fit.h"
 #include "motion/roll.h"
 #include "motion/trajectory.h"

@@ -8,7 +8,7 @@ using namespace rolling;
 TEST_CASE("fit report: each route has a name and its columns", "[fit]") {
   CHECK(fit_routes().size() == 4);
   for (const auto& [name, route] : fit_routes()) {
-    const auto columns = columns_of(*route);
+    const auto columns = fitted_columns(*route);
     CHECK(columns.size() == 2);
     CHECK((columns[0] == "t") == (name == "velocity" || name == "position"));
   }

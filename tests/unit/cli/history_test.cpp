@@ -1,4 +1,5 @@
 #include "cli/history.h"
+#include "cli/linear_filters.h"
 
 #include "base/error.h"
 #include "unit/catch.h"

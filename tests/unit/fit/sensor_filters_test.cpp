@@ -1,4 +1,4 @@
-#include "cli/history.h"
+#include "cli/linear_filters.h"
 #include "motion/trajectory.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"

@@ -56,7 +56,7 @@ TEST_CASE("smooth motion: a motion that is a polynomial in time comes out of its
         (route == Route::position ? run.x : run.v) = raw;
         const auto runs =
             observe(route, {run}, {all_of(n)}, responses_of(route, {run}), FitOptions{});
-        const auto noise = noise_of(runs, 0, false);
+        const auto noise = noise_of(runs);
         const auto smooth = smooth_motion(route, runs, *noise, {});
         REQUIRE(smooth.size() == 1);
         CAPTURE(route == Route::position, of_positions, n);
@@ -88,8 +88,7 @@ TEST_CASE("smooth motion: a few records are enough, and the direction is that of
       run.v[0] *= 2;
       const auto runs = observe(Route::velocity, {run}, {all_of(n)},
                                 responses_of(Route::velocity, {run}), FitOptions{});
-      const auto smooth =
-          smooth_motion(Route::velocity, runs, *noise_of(runs, 0, false), FitOptions{});
+      const auto smooth = smooth_motion(Route::velocity, runs, *noise_of(runs), FitOptions{});
       CAPTURE(n, way);
       CHECK(smooth[0].way == way);
       CHECK(smooth[0].t.size() == n);

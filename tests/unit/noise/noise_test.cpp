@@ -36,7 +36,8 @@ System line(const std::vector<double>& data, std::shared_ptr<const Noise> noise)
 // line is R^-1 B^T B R^-T.
 TEST_CASE("noise: its variance and the covariance of the parameters, whatever the share", "[fit]") {
   for (const double share : {1e-3, 0.1, 1.0, 30.0}) {
-    const auto noise = std::make_shared<const Noise>(std::vector<FilterMatrix>{E}, share, false);
+    const auto noise =
+        std::make_shared<const Noise>(std::vector<FilterMatrix>{E}, AddedNoise{share});
     simulated::Noise random(7);
     double variances = 0, squares = 0, covariance = 0;
     constexpr int runs = 2000;
@@ -70,7 +71,7 @@ TEST_CASE("noise: its variance and the covariance of the parameters, whatever th
 }
 
 TEST_CASE("noise: the least sources that explain residuals give them back", "[fit]") {
-  const Noise noise({E}, 0, false);
+  const Noise noise({E});
   simulated::Noise random(3);
   std::vector<double> e;
   for (std::size_t i = 0; i < n; ++i) e.push_back(random(1));
@@ -100,7 +101,7 @@ TEST_CASE("noise: as many innovations as the filters leave degrees of freedom", 
     const std::vector<double> at = simulated::times(records);
     const FilterMatrix H = FilterMatrix(probe(simulated::differentiate("x", "v"), at))
                                .then(probe(simulated::smooth_v(width), at));
-    return Noise({H, H}, 0, false).informative();
+    return Noise({H, H}).informative();
   };
   CHECK(innovations(7, 3) == 2 * 5);
   CHECK(innovations(8, 3) == 2 * 7);

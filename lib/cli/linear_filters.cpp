@@ -1,0 +1,41 @@
+#include "cli/linear_filters.h"
+
+#include <numeric>
+
+#include "signal/derivative.h"
+
+namespace rolling {
+
+LinearFilter identity(const std::string& from, const std::string& to) {
+  return {from, to, 0, [](auto, auto y) { return std::vector<double>(y.begin(), y.end()); }, true};
+}
+
+LinearFilter linear(const std::string& from, const std::string& to, const SignalOptions& options,
+                    std::size_t reach) {
+  return {from, to, reach,
+          [options](auto t, auto y) {
+    return output_of(*make_signal(options), t.size(), [&](std::size_t i) {
+      return Sample{t[i], y[i]};
+    });
+          },
+          options.method->shift_invariant && options.width.seconds == 0};
+}
+
+std::vector<LinearFilter> filters_of_sensors() {
+  std::vector<LinearFilter> filters;
+  for (const char* method : {"central", "vernier", "pasco"}) {
+    const SignalOptions options = signal_options(derivative_methods, method).value();
+    filters.push_back(linear("x", "v", options, options.method->reach));
+  }
+  for (std::size_t width : {2U, 3U, 5U})
+    filters.push_back({"v", "v", width / 2, [width](auto, auto y) {
+                         std::vector<double> means(y.size());
+                         for (std::size_t i = 0; i + width <= y.size(); ++i)
+                           means[i + width / 2] = std::accumulate(&y[i], &y[i] + width, 0.0) /
+                                                  static_cast<double>(width);
+                         return means;
+                       }});
+  return filters;
+}
+
+}  // namespace rolling

@@ -1,0 +1,24 @@
+// The filters of the tools, and of the software of sensors, as functions of whole columns.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "noise/filter.h"
+#include "signal/method.h"
+
+namespace rolling {
+
+/// A filter that leaves its column as it is.
+LinearFilter identity(const std::string& from, const std::string& to);
+
+/// A streaming filter as one of whole columns.
+LinearFilter linear(const std::string& from, const std::string& to, const SignalOptions&,
+                    std::size_t reach);
+
+/// The filters that the software of sensors may apply to speeds: the central difference of
+/// positions and the differences of Vernier's and PASCO's programs; and means of 2, 3 or 5 speeds,
+/// whose noise is similar to some of these.
+std::vector<LinearFilter> filters_of_sensors();
+
+}  // namespace rolling
