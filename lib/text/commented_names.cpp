@@ -99,6 +99,18 @@ std::size_t names_with_units(std::string_view comment) {
       [](const Column& word) { return is_known(word) && !word.unit.empty(); }));
 }
 
+/// True if each known quantity is in the same place in both, in the same unit.
+bool agree(const std::vector<std::string>& one, const std::vector<std::string>& other) {
+  const auto same = [](const std::string& x, const std::string& y) {
+    const auto unit = [](const Column& of) {
+      return of.unit.empty() ? std::string(si_unit(of.name)) : of.unit;
+    };
+    const Column a = read_column(x), b = read_column(y);
+    return !(is_known(a) || is_known(b)) || (a.name == b.name && unit(a) == unit(b));
+  };
+  return std::ranges::equal(one, other, same);
+}
+
 /// True if a known quantity is not in the same place in these names and in the columns before.
 bool moves_known(const std::vector<std::string>& names, const std::vector<Column>& before) {
   for (std::size_t i = 0; i < std::min(names.size(), before.size()); ++i) {
@@ -136,14 +148,14 @@ class Choice {
   /// Refuses a comment that may be names as well as the chosen one.
   void refuse_others(std::size_t chosen) const {
     for (std::size_t i = 0; i < all_.size(); ++i) {
-      if (chosen != none && all_[i].names == all_[chosen].names) continue;
+      if (chosen != none && agree(all_[i].names, all_[chosen].names)) continue;
       if (comments_[i].is_history() && names_in_history(i) > 1)
         refuse(i,
                "names of columns in a line that begins with ##, as history does; leave one # "
                "there");
       if (comments_[i].is_history()) continue;
       if (chosen == none && names_with_units(comments_[i].text) > 1) refuse_units(i);
-      if (chosen != none && all_[i].known > 0 && weight(i) + !is_complete(chosen) > weight(chosen))
+      if (chosen != none && all_[i].known > 1 && weight(i) + !is_complete(chosen) > weight(chosen))
         refuse(i,
                "'{}' can be the names of the columns, and so can line {}: give one of them another "
                "number of words",
@@ -162,7 +174,7 @@ class Choice {
              "'{}' can be the names of the columns or a sentence: write a[m/s^2] if it is names, "
              "else give it another number of words",
              shown(comments_[chosen].text));
-    if (of.words && of.units == 0 && moves_known(of.names, columns_.before))
+    if (of.words && of.units == 0 && !is_complete(chosen) && moves_known(of.names, columns_.before))
       refuse(chosen,
              "'{}' can be new names of the columns or a sentence: put tabs between names, or give "
              "the sentence another number of words",

@@ -86,6 +86,7 @@ TEST_CASE(
   CHECK(chosen({"# t v n"}, {3, false, before}, false) == "1 <t><v><n>");
   CHECK(chosen({"# t, n, v"}, {3, false, before}, false) == "1 <t><n><v>");
   CHECK(chosen({"# t[s] n v"}, {3, false, before}, false) == "1 <t[s]><n><v>");
+  CHECK(chosen({"# v t"}, {2, false, {{"t"}, {"v"}}}, false) == "1 <v><t>");
 }
 
 TEST_CASE("commented names: a comment with more known names than the chosen one is no remark",
@@ -93,9 +94,16 @@ TEST_CASE("commented names: a comment with more known names than the chosen one 
   CHECK(chosen({"# t x v", "# v before t"}, {3}) ==
         "f:1: '# t x v' can be the names of the columns, and so can line 2: give one of them "
         "another number of words");
-  CHECK(chosen({"# t n", "# p\tq"}, {2}) ==
-        "f:1: '# t n' can be the names of the columns, and so can line 2: give one of them another "
-        "number of words");
+  CHECK(chosen({"# n t v", "# v or t"}, {3}) ==
+        "f:1: '# n t v' can be the names of the columns, and so can line 2: give one of them "
+        "another number of words");
+  CHECK(
+      chosen({"# Time (ms), v", "# t v"}, {2}) ==
+      "f:1: '# Time (ms), v' can be the names of the columns, and so can line 2: give one of them "
+      "another number of words");
+  CHECK(chosen({"# Time (s), Velocity (m/s)", "# t v"}, {2}) == "2 <t><v>");  // the same
+  CHECK(chosen({"# trial D", "# t angle"}, {2}) == "2 <t><angle>");
+  CHECK(chosen({"# trial D", "# p\tq"}, {2}) == "2 <p><q>");
   CHECK(chosen({"# a second run"}, {3}) ==
         "f:1: '# a second run' can be the names of the columns or a sentence: write a[m/s^2] if it "
         "is names, else give it another number of words");
