@@ -212,21 +212,23 @@ std::vector<std::string> split_names(std::string_view line, char separator) {
     }
     return names;
   }
-  const auto open_bracket = [](std::string_view name) {
-    const auto open = name.find_last_of("([");
-    return open != std::string_view::npos &&
-           name.find_first_of(")]", open) == std::string_view::npos;
-  };
+  const auto closing = line.find_last_of(")]");
+  bool open = false;  // the last name has an open bracket
   for (std::size_t at = 0; (at = line.find_first_not_of(" \t", at)) != std::string_view::npos;) {
     const auto end = std::min(line.find_first_of(" \t", at), line.size());
     const std::string_view word = line.substr(at, end - at);
     const bool opens = word.front() == '(' || word.front() == '[';
     // Behind a name that is a bracket itself, as in a line of units, another name begins.
-    if (!names.empty() &&
-        ((opens && names.back().find_first_of("([") != 0) ||
-         (open_bracket(names.back()) && line.find_first_of(")]", at) != std::string_view::npos)))
+    if (!names.empty() && ((opens && names.back().find_first_of("([") != 0) ||
+                           (open && closing != std::string_view::npos && closing >= at))) {
       names.back().append(" ").append(word);
-    else names.emplace_back(word);
+    } else {
+      names.emplace_back(word);
+      open = false;
+    }
+    if (const auto last = word.find_last_of("(["); last != std::string_view::npos)
+      open = word.find_first_of(")]", last) == std::string_view::npos;
+    else if (word.find_first_of(")]") != std::string_view::npos) open = false;
     at = end;
   }
   return names;

@@ -16,7 +16,10 @@ bool is_known(const Column& column) { return !si_unit(column.name).empty(); }
 /// Removes blank names at the ends while there are more than `width`: a separator stands there.
 void drop_blank_ends(std::vector<std::string>& names, std::size_t width) {
   while (names.size() > width && names.back().empty()) names.pop_back();
-  while (names.size() > width && names.front().empty()) names.erase(names.begin());
+  const auto extra =
+      names.begin() + static_cast<std::ptrdiff_t>(names.size() - std::min(names.size(), width));
+  names.erase(names.begin(), std::find_if(names.begin(), extra,
+                                          [](const std::string& name) { return !name.empty(); }));
 }
 
 /// The word is `a` before another word, as in a sentence; behind a symbol it is an acceleration.

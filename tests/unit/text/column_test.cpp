@@ -152,3 +152,12 @@ TEST_CASE("column: a names line is one name a field", "[text]") {
   CHECK(split_names("[s] [m / s] (cm)", '\0') == Names{"[s]", "[m / s]", "(cm)"});
   CHECK(split_names("", '\0').empty());
 }
+
+// In a time that grows with the line: if it grew with its square, this would take hours.
+TEST_CASE("column: brackets that stay open, and many words in one, are no work", "[text]") {
+  std::string open, words = "[a";
+  for (int i = 0; i < 1000000; ++i) open += "[a ", words += " b";
+  CHECK(split_names(open, '\0').size() == 1000000);
+  CHECK(split_names(words + "]", '\0').size() == 1);
+  CHECK(split_names("[a b) c] d [e", '\0') == std::vector<std::string>{"[a b)", "c]", "d [e"});
+}
