@@ -31,6 +31,9 @@ struct Symmetric {
     const double det = aa * bb - ab * ab;
     return {bb / det, -ab / det, aa / det};
   }
+  bool is_finite() const { return std::isfinite(aa) && std::isfinite(ab) && std::isfinite(bb); }
+  /// True if no variance is negative; a parameter that is held fixed has none.
+  bool is_positive() const { return aa >= 0 && bb >= 0 && aa * bb >= ab * ab; }
 };
 Pair operator+(Pair x, Pair y) { return {x.a + y.a, x.b + y.b}; }
 Pair operator-(Pair x, Pair y) { return {x.a - y.a, x.b - y.b}; }
@@ -74,8 +77,7 @@ std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own) {
     const Symmetric C{covariance(by_log_a, by_log_a) + rounding_of(by_log_a),
                       covariance(by_log_a, fit.b.gradient),
                       covariance(fit.b.gradient, fit.b.gradient) + rounding_of(fit.b.gradient)};
-    const Symmetric W = C.inverse();
-    if (std::isfinite(W.aa) && std::isfinite(W.ab) && std::isfinite(W.bb))
+    if (C.is_positive() && C.inverse().is_finite())
       laws.push_back(
           {r, {std::log(fit.a.value), fit.b.value}, C, static_cast<double>(fit.degrees_left())});
   }
