@@ -23,10 +23,10 @@ void for_each_polynomial(double t, double half, std::size_t end, auto&& put) {
 
 ObservedRun smooth_motion(Route route, const ObservedRun& run, std::size_t number,
                           const Noise& noise, const FitOptions& options) {
-  const std::size_t n = run.y.size(), terms = std::min<std::size_t>(1 + n / 4, 7);
   const bool position = route == Route::position;
   // Filters that turn positions into speeds do not see a constant.
   const bool slopes = run.raw_is_position && !position;
+  const std::size_t n = run.y.size(), terms = std::min<std::size_t>(1 + n / (slopes ? 3 : 2), 7);
   const std::size_t first = slopes ? 1 : 0;
   const double half = std::max(run.t.back() / 2, std::numeric_limits<double>::min());
   Triangles R(System{{n}, terms, 0, {}});

@@ -7,7 +7,7 @@ namespace rolling {
 
 /// Runs without filters that come near to filtered ones: up to 256 positions of each run (for the
 /// route position) or speeds, on that polynomial in time whose filtered values have the least
-/// weighted sum of squares. It has one term for each four records, and up to seven.
+/// weighted sum of squares. It has up to seven terms, fewer for less than 18 records.
 std::vector<ObservedRun> smooth_motion(Route, const std::vector<ObservedRun>&, const Noise&,
                                        const FitOptions&);
 
