@@ -208,8 +208,6 @@ std::vector<ObservedRun> means_of_many(const std::vector<ObservedRun>& runs) {
 }
 
 FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& options) {
-  std::vector<double> ways;
-  for (const ObservedRun& run : runs) ways.push_back(run.way);
   std::vector<Thinned> thin;
   std::vector<ObservedRun> thin_runs,
       few = options.robust ? std::vector<ObservedRun>() : means_of_many(runs);
@@ -239,7 +237,7 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
         least = minimum.rss, theta = std::move(minimum.theta);
   }
   if (!few.empty()) theta = attempt(unweighted(std::move(few), q), theta).theta;
-  return {q, std::move(theta), std::move(ways), std::move(others)};
+  return {q, std::move(theta), std::move(others)};
 }
 
 }  // namespace rolling

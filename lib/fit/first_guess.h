@@ -8,7 +8,6 @@ namespace rolling {
 struct FirstGuess {
   Parameters parameters;  ///< with units v_ref and x_ref that suit the data
   std::vector<double> theta;
-  std::vector<double> ways = {};                 ///< direction of motion of each run, +1 or -1
   std::vector<std::vector<double>> others = {};  ///< where a robust search may start as well
 };
 

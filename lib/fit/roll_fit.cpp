@@ -159,6 +159,7 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
 Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows,
                  std::vector<Response> responses, const FitOptions& options, AddedNoise added) {
   std::optional<FirstGuess> guess;
+  std::vector<double> ways;  // directions of motion, by the first round
   Fitted fit{};
   for (int round = 0; round < 4; ++round) {  // each round removes the slow records of the last fit
     auto runs = observe(route, all, rows, responses, options);
@@ -174,9 +175,10 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       if (noise->known()) smooth = smooth_motion(route, runs, *noise, options);
       const std::vector<ObservedRun>& plain = noise->known() ? smooth : runs;
       require_ways(plain, all, options);
+      for (const ObservedRun& run : plain) ways.push_back(run.way);
       guess = first_guess(plain, options);
     }
-    for (std::size_t r = 0; r < runs.size(); ++r) runs[r].way = guess->ways[r];
+    for (std::size_t r = 0; r < runs.size(); ++r) runs[r].way = ways[r];
     if (options.min_speed <= 0) responses = {}, rows.clear();  // frees memory: no round follows
     fit = {};                                                  // frees memory
     fit = minimum_of(std::move(runs), std::move(noise), *guess, options);

@@ -183,6 +183,8 @@ UnitKind unit_kind(std::string_view text) {
   return UnitKind::none;
 }
 
+bool is_known(const Column& column) { return !si_unit(column.name).empty(); }
+
 bool is_unit_of(std::string_view quantity, std::string_view unit) {
   const KnownQuantity* q = known(quantity);
   return q && std::ranges::count(q->units, unit, &Unit::name) > 0;

@@ -52,6 +52,9 @@ UnitKind unit_kind(std::string_view text);
 /// The SI unit of a known quantity (t, x, v, a, D); empty for any other name.
 std::string_view si_unit(std::string_view quantity);
 
+/// Whether a column is t, x, v, a or D.
+bool is_known(const Column&);
+
 /// Whether the tools convert `unit`, spelled as in rolling-columns(5), to the SI unit of
 /// `quantity`.
 bool is_unit_of(std::string_view quantity, std::string_view unit);

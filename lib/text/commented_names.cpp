@@ -11,8 +11,6 @@
 namespace rolling {
 namespace {
 
-bool is_known(const Column& column) { return !si_unit(column.name).empty(); }
-
 /// Removes blank names at the ends while there are more than `width`: a separator stands there.
 void drop_blank_ends(std::vector<std::string>& names, std::size_t width) {
   while (names.size() > width && names.back().empty()) names.pop_back();
@@ -33,10 +31,6 @@ bool is_figure(std::string_view text) {
   return is_number(text) ||
          (!text.empty() && text.find_first_not_of("0123456789+-.:/") == std::string_view::npos &&
           text.find_first_of("0123456789") != std::string_view::npos);
-}
-
-std::string_view without_marks(std::string_view comment) {
-  return comment.substr(std::min(comment.find_first_not_of('#'), comment.size()));
 }
 
 /// The text without separators at its end.
@@ -214,6 +208,10 @@ class Choice {
 };
 
 }  // namespace
+
+std::string_view without_marks(std::string_view comment) {
+  return comment.substr(std::min(comment.find_first_not_of('#'), comment.size()));
+}
 
 bool holds_known_name(std::string_view line) {
   return std::ranges::any_of(words_of(line), is_known);

@@ -18,6 +18,9 @@ struct Comment {
   bool is_history() const { return text.starts_with("##"); }
 };
 
+/// A comment without the # or ## before it.
+std::string_view without_marks(std::string_view comment);
+
 /// The columns of the records that comments may name.
 struct UnnamedColumns {
   std::size_t count = 0;

@@ -75,6 +75,7 @@ class HeadReader {
   [[noreturn]] void refuse_without_records(const std::string& what) const;
   void comment_preamble();
   Head finish();
+
   Lines& lines_;
   Dialect& dialect_;
   const Head* before_;
@@ -127,9 +128,7 @@ bool HeadReader::is_missing_record(std::string_view line) {
 bool HeadReader::has_tabs_of_names(std::string_view line) const {
   const auto tabs = std::ranges::count(line, '\t');
   const auto agrees = [tabs](const Comment& above) {
-    const std::string_view names =
-        trim(std::string_view(above.text)
-                 .substr(std::min(above.text.find_first_not_of('#'), above.text.size())));
+    const std::string_view names = trim(without_marks(above.text));
     return names.find(' ') == std::string_view::npos && std::ranges::count(names, '\t') == tabs;
   };
   return tabs > 0 && ((!preamble_.empty() && agrees(preamble_.back())) ||

@@ -10,8 +10,6 @@
 namespace rolling {
 namespace {
 
-bool is_known(const Column& column) { return !si_unit(column.name).empty(); }
-
 bool is_known_name(const std::string& text) { return is_known(read_column(text)); }
 
 /// Two known units are no accident, one may be a word of a sentence.

@@ -62,7 +62,7 @@ class RandomFile {
     return {one_of(names), unit.text, unit.size};
   }
 
-  /// The names in one line; `below` are the units if they stand in a line of their own.
+  /// The names in one line, with their units if these do not stand in a line of their own.
   std::string heading(const std::vector<Made>& columns, const std::string& separator, bool units) {
     const std::string left = one_of<std::string>({"[", " [", " (", "("});
     std::string line;
