@@ -10,14 +10,23 @@
 #include "fit/eccentricity.h"
 #include "fit/errors.h"
 #include "fit/given_numbers.h"
+#include "fit/roll_fit.h"
 #include "fit/route.h"
 
 namespace rolling {
 
 namespace {
 
+/// sqrt(RSS / (n - p)); NaN where there are as many parameters as records.
+double rms_of(const Fitted& found) {
+  const std::size_t n = found.minimum.f.size(), p = found.minimum.theta.size();
+  if (n <= found.degrees_taken()) return std::numeric_limits<double>::quiet_NaN();
+  return std::sqrt(sum_of_squares(found) / static_cast<double>(n - p));
+}
+
 /// The result, with standard errors that combine the contributions.
-FitResult result_of(const Fitted& found, const NoiseErrors& noise, std::vector<ErrorShare> shares) {
+FitResult result_of(const Fitted& found, double rms, const NoiseErrors& noise,
+                    std::vector<ErrorShare> shares) {
   const auto total = [&](auto&& part) {
     double square = 0;
     for (const ErrorShare& share : shares) square += part(share) * part(share);
@@ -28,7 +37,7 @@ FitResult result_of(const Fitted& found, const NoiseErrors& noise, std::vector<E
                    .b = found.b.value,
                    .sigma_b = total([](const ErrorShare& of) { return of.b; }),
                    .corr = 0,
-                   .rms = std::numeric_limits<double>::quiet_NaN(),
+                   .rms = rms,
                    .n = found.records,
                    .left_out = found.left_out,
                    .negative = found.negative,
@@ -36,8 +45,6 @@ FitResult result_of(const Fitted& found, const NoiseErrors& noise, std::vector<E
                    .v0 = {},
                    .sigma_v0 = {},
                    .errors = noise.kind};
-  const std::size_t n = found.minimum.f.size(), p = found.minimum.theta.size();
-  if (n > found.degrees_taken()) result.rms = std::sqrt(found.rss / static_cast<double>(n - p));
   double together = 0;
   for (const ErrorShare& share : shares) together += share.together;
   if (together != 0) result.corr = together / (result.sigma_a * result.sigma_b);
@@ -101,7 +108,8 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   const auto eccentricity = eccentricity_of(route, runs, found, uncertainty.variance);
   const auto agreement = agreement_of(route, runs, options, noise, found);
   std::vector<ErrorShare> shares{noise.share};
-  require_determined(result_of(found, noise, shares), options);
+  const double rms = rms_of(found);
+  require_determined(result_of(found, rms, noise, shares), options);
   require_law(found, runs);
   for (ErrorShare& share :
        shares_of_given(route, runs, options, found, !agreement || agreement->agree()))
@@ -109,7 +117,7 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   if (found.bias_a != 0 || found.bias_b != 0)
     shares.push_back(
         {"bias", std::abs(found.bias_a), std::abs(found.bias_b), found.bias_a * found.bias_b});
-  FitResult result = result_of(found, noise, std::move(shares));
+  FitResult result = result_of(found, rms, noise, std::move(shares));
   if (!is_trajectory(route)) result.v0 = result.sigma_v0 = {};
   result.agreement = agreement;
   result.eccentricity = eccentricity;

@@ -41,7 +41,6 @@ struct Fitted {
   Minimum minimum;
   std::shared_ptr<const Noise> noise = std::make_shared<const Noise>();  ///< of the weights
   std::optional<RawNoise> raw_noise = {};  ///< if another fit has estimated it (loglog)
-  double rss = 0;  ///< sum of squares of model - data in the unit of the fitted column
   std::size_t records = 0, left_out = 0;
   std::size_t negative = 0;  ///< see FitResult
   FittedNumber a = {}, b = {};

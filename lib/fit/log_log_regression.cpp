@@ -200,7 +200,6 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
              dot(records.log_u, records.y) / dot(records.log_u, records.log_u)};
   line.system = line_system(std::move(records), height);
   line.minimum = solve(line.system, {start}, options);
-  line.rss = line.minimum.rss;
   const double b = height.exponent(line.minimum.theta),
                a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * height.log_v_ref);
   height.report(line, a, a);

@@ -94,7 +94,6 @@ Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   const double b = height.exponent(minimum.theta), scale = std::exp(-b * records.log_v_ref),
                a = minimum.theta.front() * unit * scale;  // if it is not held
   Fitted result{.system = system, .minimum = std::move(minimum)};
-  result.rss = result.minimum.rss;
   result.records = n;
   result.left_out = records.left_out;
   height.report(result, a, unit * scale);

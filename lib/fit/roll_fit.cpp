@@ -56,21 +56,7 @@ double squares_of_shifts(const RollModel& rolls, const std::vector<double>& thet
   return sum * run.shifts->unit * run.shifts->unit;
 }
 
-/// The sum of squares of model - data in the column of the route, without weights.
-double squares_of(const Fitted& fit) {
-  if (!fit.noise->known()) return fit.minimum.rss;
-  if (!fit.rolls->runs().front().shifts) {
-    const auto plain = fit.noise->without_weights(fit.minimum.f);
-    return dot(plain, plain);
-  }
-  double sum = 0;
-  for (std::size_t r = 0; r < fit.system.runs.size(); ++r)
-    sum += squares_of_shifts(*fit.rolls, fit.minimum.theta, r);
-  return sum;
-}
-
-/// Writes a, b, the slope and v0 with their gradients, the number of records and their sum of
-/// squares into the fit.
+/// Writes a, b, the slope and v0 with their gradients, and the number of records, into the fit.
 void report(Fitted& fit) {
   const std::vector<double>& theta = fit.minimum.theta;
   const Parameters& q = fit.rolls->parameters();
@@ -89,7 +75,6 @@ void report(Fitted& fit) {
     fit.v0.push_back(quantity(way * q.v0(theta, r), {0, 0, way}));
     fit.records += runs[r].shifts ? runs[r].shifts->fitted : runs[r].y.size();
   }
-  fit.rss = squares_of(fit);
 }
 
 /// The minimum of the system of these rolls. The robust loss ignores what the cusps make.
@@ -205,6 +190,18 @@ std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
         of_run.push_back(i);
   }
   return rows;
+}
+
+double sum_of_squares(const Fitted& fit) {
+  if (!fit.noise->known()) return fit.minimum.rss;
+  if (!fit.rolls->runs().front().shifts) {
+    const auto plain = fit.noise->without_weights(fit.minimum.f);
+    return dot(plain, plain);
+  }
+  double sum = 0;
+  for (std::size_t r = 0; r < fit.system.runs.size(); ++r)
+    sum += squares_of_shifts(*fit.rolls, fit.minimum.theta, r);
+  return sum;
 }
 
 }  // namespace rolling

@@ -18,4 +18,7 @@ Fitted fit_rolls(Route, const std::vector<FitRun>&, std::vector<Rows>, std::vect
 /// none.
 Fitted fit_of_run(const Fitted& joint, std::size_t run, const FitOptions&);
 
+/// The sum of squares of model - data in the unit of the fitted column, without weights.
+double sum_of_squares(const Fitted&);
+
 }  // namespace rolling

@@ -77,10 +77,11 @@ Short shortened(const LinearFilter& filter, std::span<const double> t) {
 BandMatrix probe(const LinearFilter& filter, std::span<const double> times) {
   const Short few = shortened(filter, times);
   const std::vector<double>& t = few.t;
-  // A row reaches at most 2 * reach to either side (that far only at the ends of the run), so that
-  // it responds to only one of several impulses at a distance of 4 * reach + 1.
+  // A row inside the run reads 2 * reach + 1 columns, and one of the `reach` rows at either end at
+  // most 3 * reach: it responds to only one of several impulses at this distance.
   const Band rows{t.size(), filter.reach};
-  const std::size_t n = t.size(), spacing = std::min(4 * filter.reach + 1, n);
+  const std::size_t n = t.size(),
+                    spacing = std::min(std::max(2 * filter.reach + 1, 3 * filter.reach), n);
   std::vector<std::size_t> start{0};
   start.reserve(n + 1);
   for (std::size_t i = 0; i < n; ++i) start.push_back(start.back() + rows.end(i) - rows.first(i));

@@ -1,5 +1,6 @@
 #include "noise/response.h"
 
+#include "base/dot.h"
 #include "base/error.h"
 #include "unit/noise/dense.h"
 #include "unit/fit/simulated.h"
@@ -25,6 +26,28 @@ TEST_CASE(
       CHECK(std::abs(response.of.at("a").times(x)[i] - a[i]) < 1e-11);
     }
   }
+}
+
+TEST_CASE("response: every row is found whole, as wide as it may be", "[fit]") {
+  for (std::size_t reach = 0; reach < 5; ++reach)
+    for (std::size_t n = 1; n < 30; ++n) {
+      std::vector<double> matrix(n * n);
+      for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t side = i < reach || i + reach >= n ? 2 * reach : reach;
+        for (std::size_t j = i - std::min(i, side); j < std::min(n, i + side + 1); ++j)
+          matrix[i * n + j] = static_cast<double>(1 + i * n + j);
+      }
+      const LinearFilter filter{"v", "v", reach, [&](auto, auto y) {
+                                  std::vector<double> product;
+                                  for (std::size_t i = 0; i < n; ++i)
+                                    product.push_back(dot(&matrix[i * n], y.data(), n));
+                                  return product;
+                                }};
+      std::vector<double> t;  // uneven steps: the filter is not the same everywhere
+      for (std::size_t i = 0; i < n; ++i) t.push_back(static_cast<double>(i * i));
+      CAPTURE(reach, n);
+      CHECK(dense(probe(filter, t), n) == matrix);
+    }
 }
 
 TEST_CASE("response: noise from two raw columns is refused", "[fit]") {
