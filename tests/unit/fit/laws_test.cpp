@@ -195,7 +195,7 @@ TEST_CASE("laws: of many records, which are searched in their means, all count",
   CHECK(constant_D.aicc < result.least() + 4);
 }
 
-// Filters lose nothing but v0 and x0: see fitpower(1).
+// Filters lose nothing but v0 and x0: see rolling-fits(7).
 TEST_CASE("laws: through known filters the coefficients are as precise as those of the positions",
           "[fit]") {
   for (Made law : {linear, quadratic}) {
