@@ -21,7 +21,7 @@ END
   chmod +x "$copy/$1"
 }
 for program in bin/* build/unit build/replay/*; do under_valgrind "$program"; done
-"$copy/tests/run.sh" "$copy/build/unit" "$copy"/tests/{tools,pipeline/*.sh,faults/{corpus,fields}.sh} >"$copy/says"
+SLOWER=20 "$copy/tests/run.sh" "$copy/build/unit" "$copy"/tests/{tools,pipeline/*.sh,faults/{corpus,fields}.sh} >"$copy/says"
 tail -n 1 "$copy/says"
 runs=$(find "$copy/log" -type f | wc -l)
 findings=$(find "$copy/log" -type f -size +0)

@@ -18,7 +18,7 @@ coverage::Case find(const std::string& name, rolling::Route route) {
 // too small do not pass.
 TEST_CASE(
     "coverage: standard errors are the spread of the estimates, 95 % intervals hold the truth",
-    "[fit]") {
+    "[fit][many]") {
   using rolling::Route;
   const std::pair<const char*, Route> cases[] = {
       {"white x", Route::position},          {"white v", Route::velocity},
@@ -71,7 +71,7 @@ TEST_CASE("coverage: differences that only the residuals show", "[fit]") {
 
 // Fig. 4's columns hold what the raw record held: the way by D is as precise as the trajectory,
 // whatever the rate of the records.
-TEST_CASE("coverage: the way by D is as precise as the positions", "[fit]") {
+TEST_CASE("coverage: the way by D is as precise as the positions", "[fit][many]") {
   using rolling::Route;
   for (const auto& scene : {coverage::CR, coverage::CF})
     for (const bool fast : {false, true}) {

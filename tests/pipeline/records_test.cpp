@@ -17,7 +17,8 @@ constexpr rolling::PowerLaw CR{1.87e-3, 0.215}, CF{5.75e-4, 0.0244};
 }  // namespace
 
 // Of 60 good records, 4 false alarms or more come by chance in 0.3 % where their rate is 1 %.
-TEST_CASE("records: a good one passes the check, a body that runs true is not blamed", "[fit]") {
+TEST_CASE("records: a good one passes the check, a body that runs true is not blamed",
+          "[fit][many]") {
   for (const auto law : {CR, CF}) {
     const auto good = records::judge(find("nothing"), law, 60, 3);
     CAPTURE(law.b);
@@ -28,7 +29,7 @@ TEST_CASE("records: a good one passes the check, a body that runs true is not bl
   }
 }
 
-TEST_CASE("records: an eccentric body, drag and a hand that stays on are caught", "[fit]") {
+TEST_CASE("records: an eccentric body, drag and a hand that stays on are caught", "[fit][many]") {
   const auto eccentric = records::judge(find("eccentricity 30 um"), CF, 30, 3);
   CHECK(eccentric.eccentric > 0.85);
   CHECK(eccentric.e == Approx(3e-5).epsilon(0.1));
@@ -42,7 +43,7 @@ TEST_CASE("records: an eccentric body, drag and a hand that stays on are caught"
 }
 
 TEST_CASE("records: where AICc tells two laws apart, the one that made the record is better",
-          "[fit]") {
+          "[fit][many]") {
   for (const auto& truth : records::truths()) {
     const auto found = records::contest(truth, 12, 3);
     CAPTURE(rolling::laws()[truth.law].formula);

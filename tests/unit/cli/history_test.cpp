@@ -309,7 +309,7 @@ TEST_CASE("history: the readings beside a cut are left out, their times are not"
 
 // What must never happen is a crash or a run without end: whatever the lines say, a fit answers or
 // refuses.
-TEST_CASE("history: damaged at random, it gives a fit or a refusal", "[cli][fit]") {
+TEST_CASE("history: damaged at random, it gives a fit or a refusal", "[cli][fit][many]") {
   std::mt19937 random(20);
   const auto any = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
   const Lines good{"smooth v coast",

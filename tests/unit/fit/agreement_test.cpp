@@ -172,7 +172,8 @@ TEST_CASE("agreement: uneven noise around the runs' own laws, by hand", "[fit]")
   CHECK(r.sigma_v0[0] == Approx(std::sqrt(sum)).epsilon(1e-6));
 }
 
-TEST_CASE("agreement: of 1000 pairs of rolls under one law 1 % are said to disagree", "[fit]") {
+TEST_CASE("agreement: of 1000 pairs of rolls under one law 1 % are said to disagree",
+          "[fit][many]") {
   simulated::Noise noise(31);
   int alarms = 0;
   for (int k = 0; k < 1000; ++k) {
@@ -218,7 +219,7 @@ TEST_CASE("agreement: the chance is that of the law with which the runs agree be
 }
 
 TEST_CASE("agreement: of 200 times 40 short rolls under one law 1 % are said to disagree",
-          "[fit]") {
+          "[fit][many]") {
   simulated::Noise noise(44);
   int alarms = 0;
   for (int k = 0; k < 200; ++k) {
@@ -252,7 +253,7 @@ TEST_CASE("agreement: a mat that is 1 mm a metre off level shows in two directio
   }
 }
 
-TEST_CASE("agreement: the errors allow for 2 % of scatter from run to run", "[fit]") {
+TEST_CASE("agreement: the errors allow for 2 % of scatter from run to run", "[fit][many]") {
   for (const auto& [law, count] : {std::pair(felt, 4), std::pair(rubber, 6)}) {
     simulated::Noise noise(33);
     int a = 0, b = 0, told = 0;
@@ -275,7 +276,8 @@ TEST_CASE("agreement: the errors allow for 2 % of scatter from run to run", "[fi
 }
 
 // The precise runs do not tell more of the scatter than the others.
-TEST_CASE("agreement: the errors allow for scatter of runs that are not equally precise", "[fit]") {
+TEST_CASE("agreement: the errors allow for scatter of runs that are not equally precise",
+          "[fit][many]") {
   simulated::Noise noise(38);
   int a = 0, b = 0;
   for (int k = 0; k < 200; ++k) {
@@ -365,7 +367,7 @@ TEST_CASE("agreement: where runs disagree, a and b are correlated as they scatte
 
 // Of seven rolls up and one down the mean of a hangs on the slope, which is found from their
 // scatter.
-TEST_CASE("agreement: the errors allow for scatter from run to run beside a slope", "[fit]") {
+TEST_CASE("agreement: the errors allow for scatter from run to run beside a slope", "[fit][many]") {
   simulated::Noise noise(36);
   FitOptions options;
   options.fit_slope = true;

@@ -102,7 +102,7 @@ TEST_CASE("beginning: a run that has no parameters of its own is not tested", "[
 }
 
 // Of 200 with a chance of 0.1 %, 4 or more come in 1 of 17,000.
-TEST_CASE("beginning: noise that is larger at first, or in one run, is no hand", "[fit]") {
+TEST_CASE("beginning: noise that is larger at first, or in one run, is no hand", "[fit][many]") {
   simulated::Noise noise(9), more(10);
   const auto with = [&](const std::function<double(int)>& sigma) {
     FitRun run = held(0, noise);

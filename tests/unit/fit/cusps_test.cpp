@@ -43,7 +43,7 @@ FitRun speeds(double b, simulated::Noise& noise, double size) {
 
 // The speed of the last record before the stop changes without bound as the stop passes it.
 TEST_CASE("cusps: no exponent that is held fits speeds better than the one that is found",
-          "[fit]") {
+          "[fit][many]") {
   simulated::Noise noise(46);
   for (const double b : {-0.6, -0.3, -0.05, 0.0, 0.2})
     for (int k = 0; k < 40; ++k) {
@@ -59,7 +59,7 @@ TEST_CASE("cusps: no exponent that is held fits speeds better than the one that 
 }
 
 // The stop of each run of a joint fit is searched for, and that of a body on a slope.
-TEST_CASE("cusps: of runs in both directions on a slope as well", "[fit]") {
+TEST_CASE("cusps: of runs in both directions on a slope as well", "[fit][many]") {
   simulated::Noise noise(47);
   FitOptions options;
   options.fit_slope = true;

@@ -131,7 +131,7 @@ TEST_CASE("given numbers: what is held fixed has no error from them", "[fit]") {
 }
 
 // The records are those of the nominal body; the fits take its numbers from their distributions.
-TEST_CASE("given numbers: errors and correlation are those of Monte Carlo draws", "[fit]") {
+TEST_CASE("given numbers: errors and correlation are those of Monte Carlo draws", "[fit][many]") {
   Body body = cylinder;
   body.slope = 0.002;
   const PowerLaw law{1.87e-3, 0.215};

@@ -297,7 +297,7 @@ TEST_CASE("trajectory: white noise, intervals that hold and no bias", "[fit]") {
 }
 
 TEST_CASE("trajectory: in the exact geometry with a rest, no held b is better than the free one",
-          "[fit]") {
+          "[fit][many]") {
   FitOptions options;
   options.geometry = Geometry::exact;
   simulated::Noise noise(17);

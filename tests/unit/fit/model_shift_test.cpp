@@ -155,7 +155,7 @@ TEST_CASE("shift: two points have a law but no errors; what cannot be determined
 TEST_CASE(
     "shift: smoothed and differentiated columns, the filters known: as good as the raw column, "
     "nothing biased, intervals that hold",
-    "[fit]") {
+    "[fit][many]") {
   const Body body{1.375, 0.04, 0.5};
   struct Case {
     std::size_t width;

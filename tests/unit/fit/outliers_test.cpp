@@ -11,7 +11,7 @@ using namespace rolling;
 
 // False echoes of a sonar, 0.1 to 0.3 m off, one in ten on average. Of fits that begin with Huber's
 // loss alone, 3 of 150 end at the echoes, with an rms of ten times the noise, and 8 find no end.
-TEST_CASE("fit: a robust fit of 20 positions finds the law beside false echoes", "[fit]") {
+TEST_CASE("fit: a robust fit of 20 positions finds the law beside false echoes", "[fit][many]") {
   constexpr double noise = 3e-4;
   constexpr int n = 20, runs = 150;
   const Body body{1, 0.04, 0.5};

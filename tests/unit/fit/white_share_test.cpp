@@ -32,7 +32,7 @@ WhiteShare found_share(double share, simulated::Noise& noise, std::size_t n = 40
 
 }  // namespace
 
-TEST_CASE("white share: that of white noise on differences is found", "[fit]") {
+TEST_CASE("white share: that of white noise on differences is found", "[fit][many]") {
   simulated::Noise noise(11);
   for (const double share : {0.1, 0.2, 0.5}) {
     double sum = 0;

@@ -313,7 +313,7 @@ TEST_CASE("free_roll: pushes, holds, noise and rounding: right, or told to be in
 }
 
 // A reading then stays the same for many records, so that its rounding errors follow each other.
-TEST_CASE("free_roll: fast sensors whose noise is below their resolution", "[signal]") {
+TEST_CASE("free_roll: fast sensors whose noise is below their resolution", "[signal][many]") {
   unsigned seed = 1;
   for (const double rate : {1000.0, 5000.0})
     for (const double resolution : {1e-3, 1e-4})
