@@ -93,7 +93,11 @@ MemoryWork memory_work(const Body& body, PowerLaw law, Bulge bulge, double v0, d
 MemoryRoll::MemoryRoll(const Body& body, Geometry geometry, PowerLaw law, Bulge bulge, double v0,
                        double x0, Stepper stepper, double rtol, unsigned long most_steps)
     : SolvedRoll(body, geometry, equations(body, geometry, law, bulge, v0),
-                 {stepper, rtol, 1e-3 * rtol, most_steps * (is_explicit(stepper) ? 20 : 1)},
+                 {stepper,
+                  rtol,
+                  1e-3 * rtol,
+                  most_steps * (is_explicit(stepper) ? 20 : 1),
+                  {bulge.length, v0, law(v0)}},
                  {x0, v0, law(v0)}),
       law_(law), bulge_(bulge), spare_evaluations_(5.0 * static_cast<double>(most_steps)),
       at_rest_(v0 == 0) {}

@@ -64,6 +64,10 @@ Integrator::Integrator(OdeSystem system, const OdeOptions& options, double t, st
       y_(std::move(y)) {
   if (y_.size() != system.dimension)
     fail("a state of {} numbers for a system of {}", y_.size(), system.dimension);
+  const std::vector<double> units =
+      options.units.empty() ? std::vector<double>(y_.size(), 1) : options.units;
+  if (units.size() != y_.size())
+    fail("{} units for a state of {} numbers", units.size(), y_.size());
   if (!(options.rtol >= 0 && options.atol >= 0 && options.rtol + options.atol > 0 &&
         std::isfinite(options.rtol + options.atol)))
     fail("the tolerances rtol = {} and atol = {} must be positive", options.rtol, options.atol);
@@ -73,9 +77,10 @@ Integrator::Integrator(OdeSystem system, const OdeOptions& options, double t, st
   problem_->gsl = {Problem::derivative, problem_->system.jacobian ? Problem::jacobian : nullptr,
                    y_.size(), problem_.get()};
   silence_gsl();
-  problem_->driver = own(gsl_odeiv2_driver_alloc_y_new(&problem_->gsl, gsl_type(options.stepper),
-                                                       h_, options.atol, options.rtol),
-                         gsl_odeiv2_driver_free);
+  problem_->driver =
+      own(gsl_odeiv2_driver_alloc_scaled_new(&problem_->gsl, gsl_type(options.stepper), h_,
+                                             options.atol, options.rtol, 1, 0, units.data()),
+          gsl_odeiv2_driver_free);
 }
 
 unsigned long Integrator::evaluations() const { return problem_->evaluations; }

@@ -24,8 +24,9 @@ inline bool is_explicit(Stepper stepper) { return stepper < Stepper::rk1imp; }
 struct OdeOptions {
   Stepper stepper = Stepper::rk8pd;
   double rtol = 1e-10;                ///< error of a step relative to y ...
-  double atol = 1e-13;                ///< ... plus this, in the units of y
+  double atol = 1e-13;                ///< ... plus this, in these units of y
   unsigned long max_steps = 300'000;  ///< of one advance(); then it is refused
+  std::vector<double> units = {};     ///< one for each element of y; 1 if it is empty
 };
 
 class Integrator {

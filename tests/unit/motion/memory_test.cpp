@@ -89,6 +89,20 @@ TEST_CASE("MemoryRoll: every stepper that is fit for it finds the same rest", "[
     }
 }
 
+TEST_CASE("MemoryRoll: the rest does not depend on the units of length and time", "[rolling]") {
+  const double stop = roll({1e-3}, Geometry::exact).stop_time();
+  for (const double m : {1e-20, 1e-9, 1e-3, 1.0, 1e9})
+    for (const double s : {1e-20, 1e-9, 1.0, 1e9}) {
+      const Body body{1, 0.04 * m, 0.5, 9.81 * m / (s * s)};
+      const PowerLaw law{1.87e-3 * m * std::pow(s / m, 0.215), 0.215};
+      for (const Stepper stepper : {Stepper::rk8pd, Stepper::rk4imp, Stepper::msbdf}) {
+        MemoryRoll motion(body, Geometry::exact, law, {1e-3 * m}, 0.5 * m / s, 0, stepper, 1e-10);
+        INFO("metre " << m << " second " << s << " stepper " << static_cast<int>(stepper));
+        CHECK(std::abs(motion.stop_time() / (s * stop) - 1) < 1e-6);
+      }
+    }
+}
+
 // The bulge stays as it is while the body rolls forwards, and the steps grow until one of them
 // leaves the finite numbers.
 TEST_CASE("MemoryRoll: under a constant shift too", "[rolling]") {

@@ -150,5 +150,8 @@ TEST_CASE("Integrator: wrong arguments are refused", "[ode]") {
   CHECK_THROWS_AS(Integrator(pendulum, with(Stepper::rkf45, 0), 0, {1, 0}), Error);
   CHECK_THROWS_AS(Integrator({2, pendulum.derivative}, with(Stepper::msbdf, 1e-6), 0, {1, 0}),
                   Error);
+  OdeOptions one_unit;
+  one_unit.units = {1};
+  CHECK_THROWS_AS(Integrator(pendulum, one_unit, 0, {1, 0}), Error);
   CHECK_NOTHROW(Integrator({2, pendulum.derivative}, with(Stepper::msadams, 1e-6), 0, {1, 0}));
 }
