@@ -18,7 +18,7 @@ constexpr double far = 42;  // a relative change e^-42 of a sum is below the rou
 constexpr double fastest = 300;  // speeds above v0 e^300 are refused
 // Numbers below these bounds count as 0 or are raised to the bound, so that no quotient overflows.
 // The effect is below the rounding of a double: v^b is 1 for every speed, or d or net is far below
-// the other term.
+// the other term. On a slope a depth below its bound is continued by fade_.
 constexpr double least_b = 1e-19, least_slope = 1e-200;
 constexpr double least_net = 1e-100, least_depth = 1e-290;
 constexpr double least_pole = 1e-6;   // the time in which A grows to it is 1e-12 of the whole
@@ -34,17 +34,19 @@ constexpr double most_decay = 12, ahead = 0.7, behind = 1.3;
 }  // namespace
 
 SlopeIntegrals::SlopeIntegrals(Geometry geometry, double b, double K, double depth,
-                               double arm_square, double slope)
+                               double arm_square, double slope, double log_depth)
     : exact_(geometry == Geometry::exact), b_(std::abs(b) < least_b ? 0 : b), K_(K),
       depth_(std::max(depth, least_depth)), arm_square_(exact_ ? arm_square : 1),
       slope_(std::abs(slope) < least_slope ? 0 : slope),
       sine_(exact_ ? std::abs(slope_) / std::hypot(1, slope_) : std::abs(slope_)),
-      way_(depth_ + std::sqrt(arm_square_) * slope_ >= 0 ? 1 : -1), beta_(way_ * b_) {
-  crossing_ = b_ == 0 ? infinity : std::log(depth_ / sine_) / beta_;
+      fade_(slope_ == 0 || depth >= least_depth ? 0 : log_depth - std::log(least_depth)),
+      way_(depth_ * std::exp(fade_) + std::sqrt(arm_square_) * slope_ >= 0 ? 1 : -1),
+      beta_(way_ * b_) {
+  crossing_ = b_ == 0 ? infinity : r_of_depth(sine_);
   // For b > 0 the body tends to the speed where net = 0, for b < 0 it leaves that speed: crossing_
   // has the sign of b, also where rounding has moved it to the other side of v0.
   if (b_ != 0 && slope_ < 0) crossing_ = std::copysign(std::max(std::abs(crossing_), 1e-16), b_);
-  deep_end_ = b_ == 0 ? infinity : std::log(2 * depth_) / beta_;
+  deep_end_ = b_ == 0 ? infinity : r_of_depth(0.5);
 
   double last = horizon(), left = slope_ < 0 ? crossing_ : infinity;
   bool stops = way_ > 0 && (slope_ != 0 || b_ < 1);
@@ -54,12 +56,12 @@ SlopeIntegrals::SlopeIntegrals(Geometry geometry, double b, double K, double dep
     last = stops ? std::min(last, crossing_ - rest_left) : infinity;
   } else if (way_ < 0) {
     last_speed_ = infinity;
-  } else if (b_ == 0 && depth_ + arm(0) * slope_ <= least_net) {
+  } else if (b_ == 0 && depth_at(0) + arm(0) * slope_ <= least_net) {
     last_speed_ = 1, stops = false;
   }
   if (stops) rest_speed_ = 2 * std::exchange(last_speed_, 0);
-  if (exact_ && way_ > 0 && b_ < 0 && std::log(depth_) / b_ <= last) {
-    last = std::log(depth_) / b_;  // D = R
+  if (exact_ && way_ > 0 && b_ < 0 && r_of_depth(1) <= last) {
+    last = r_of_depth(1);  // D = R
     stops = false, end_ = 0;
   }
   add_panels(last, left);
@@ -124,7 +126,7 @@ double SlopeIntegrals::width(double r, double left) const {
   // Where A is the variable, z = d^2 changes by at most a factor 2 = e^(2/3): see SpeedPanel.
   if (beta_ > 0 ? r < deep_end_ : r >= deep_end_)
     return std::min({limit / 2, 1 / (3 * size), width_by_arm(r)});
-  const double root = std::log(depth_) / beta_;  // A = 0
+  const double root = r_of_depth(1);  // A = 0
   return std::min(limit, root > r ? ahead * (root - r) : behind * (r - root));
 }
 
@@ -140,8 +142,9 @@ double SlopeIntegrals::width_by_arm(double r) const {
 
 double SlopeIntegrals::arm(double r) const {
   if (!exact_) return 1;
-  const double growth = b_ == 0 ? 0 : std::expm1(-2 * beta_ * r);
-  return std::sqrt(std::max(0.0, arm_square_ - depth_ * depth_ * growth));
+  const double exponent = b_ == 0 ? 0 : -2 * beta_ * r, d = exponent > 0 ? depth_at(r) : depth_;
+  const double growth = d * d * (exponent > 0 ? -std::expm1(-exponent) : std::expm1(exponent));
+  return std::sqrt(std::max(0.0, arm_square_ - growth));
 }
 
 /// |d + A S|. Near its zero from what is left to it, d = sine e^(beta left), without cancellation.
@@ -200,7 +203,7 @@ void SlopeIntegrals::quadrature(const Panel& p, double width, Integrand&& integr
 /// E/|net| at r, from E/d, which is one power, since E and d may both underflow. Where E/d would
 /// overflow, d is negligible beside the slope's part, and E/|net| is taken directly.
 double SlopeIntegrals::E_by_net(double r, double d, double net) const {
-  const double E_by_d = std::exp(-way_ * (1 - b_) * r) / depth_;
+  const double E_by_d = std::exp(-way_ * (1 - b_) * r - fade_) / depth_;
   if (slope_ == 0) return E_by_d;
   return E_by_d < 1e200 ? E_by_d * (d / net) : std::exp(-way_ * r) / net;
 }
@@ -274,7 +277,7 @@ SlopeIntegrals::Place SlopeIntegrals::place(double time, double rest) const {
 }
 
 double SlopeIntegrals::start_rate() const {
-  return net(depth_, arm(0), panels_.front().left) / (K_ + arm(0));
+  return net(depth_at(0), arm(0), panels_.front().left) / (K_ + arm(0));
 }
 
 double SlopeIntegrals::speed(Place at) const {

@@ -27,8 +27,10 @@ namespace rolling {
 class SlopeIntegrals {
  public:
   /// depth = D(v0)/R in 0 .. 1; arm_square = 1 - depth^2, from a caller who knows it without
-  /// cancellation (not used for A = 1). K + A must not be 0.
-  SlopeIntegrals(Geometry, double b, double K, double depth, double arm_square, double slope);
+  /// cancellation (not used for A = 1); log_depth = ln(depth), also where
+  /// depth itself underflows. K + A must not be 0.
+  SlopeIntegrals(Geometry, double b, double K, double depth, double arm_square, double slope,
+                 double log_depth);
 
   /// The time to the stop; infinity if there is none. On a falling mat with b > 0 the speed tends
   /// to the one where net = 0. If that is below 1e-6 v0 it counts as rest, and the stop is the time
@@ -92,7 +94,9 @@ class SlopeIntegrals {
     double dr, dr_by_A;  // with the weight
   };
 
-  double depth_at(double r) const { return depth_ * std::exp(-beta_ * r); }
+  double depth_at(double r) const { return depth_ * std::exp(fade_ - beta_ * r); }
+  /// The r where depth_at(r) is d.
+  double r_of_depth(double d) const { return (std::log(depth_ / d) + fade_) / beta_; }
   double arm(double r) const;
   double net(double d, double A, double left) const;
   double E_by_net(double r, double d, double net) const;
@@ -111,8 +115,9 @@ class SlopeIntegrals {
   bool exact_;
   double b_, K_, depth_, arm_square_, slope_;
   double sine_;      // d where net = 0, as a positive number: |sin(theta)|, or |S| for A = 1
+  double fade_;      // d at v0 is depth e^fade: 0 unless it is near the least double or below it
   double way_ = 1;   // or -1: speeds up
-  double beta_;      // d = depth e^(-beta r)
+  double beta_;      // d = depth e^(fade - beta r)
   double crossing_;  // r where d = sine; complex conjugates of it are there for S > 0
   double deep_end_;  // r where D = R/2
   std::vector<Panel> panels_;

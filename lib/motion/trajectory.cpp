@@ -44,7 +44,8 @@ Trajectory::Trajectory(const Body& body, Geometry geometry, PowerLaw law, double
   if (body.slope != 0 || derivatives == Derivatives::of_law_and_slope) {
     const Depth depth =
         geometry == Geometry::exact ? depth_of(body, law, v0) : Depth{law(v0) / body.R, 1};
-    incline_.emplace(geometry, law.b, body.K, depth.ratio, depth.arm_square, body.slope);
+    incline_.emplace(geometry, law.b, body.K, depth.ratio, depth.arm_square, body.slope,
+                     std::log(law.a) + law.b * log_v0_ - std::log(body.R));
     unit_ = v0 * std::hypot(1, body.slope) / body.g;
     stop_time_ = unit_ * incline_->stop();
     radius_time_ = unit_ * incline_->end();
