@@ -88,17 +88,19 @@ MemoryWork memory_work(const Body& body, PowerLaw law, Bulge bulge, double v0, d
           (path + bulge.damping * lost) / L};
 }
 
-// most_steps limits the steps from one turning point to the next. An explicit solver needs about
-// half a step for each relaxation, of which most_relaxations are allowed.
+// The unit of z is the largest shift on a level mat or, on a slope, one that balances gravity if
+// that is larger. most_steps limits the steps from one turning point to the next. An explicit
+// solver needs about half a step for each relaxation, of which most_relaxations are allowed.
 MemoryRoll::MemoryRoll(const Body& body, Geometry geometry, PowerLaw law, Bulge bulge, double v0,
                        double x0, Stepper stepper, double rtol, unsigned long most_steps)
-    : SolvedRoll(body, geometry, equations(body, geometry, law, bulge, v0),
-                 {stepper,
-                  rtol,
-                  1e-3 * rtol,
-                  most_steps * (is_explicit(stepper) ? 20 : 1),
-                  {bulge.length, v0, law(v0)}},
-                 {x0, v0, law(v0)}),
+    : SolvedRoll(
+          body, geometry, equations(body, geometry, law, bulge, v0),
+          {stepper,
+           rtol,
+           1e-3 * rtol,
+           most_steps * (is_explicit(stepper) ? 20 : 1),
+           {bulge.length, v0, std::max({law(v0), body.R * std::abs(body.slope), least_speed})}},
+          {x0, v0, law(v0)}),
       law_(law), bulge_(bulge), spare_evaluations_(5.0 * static_cast<double>(most_steps)),
       at_rest_(v0 == 0) {}
 
