@@ -36,7 +36,12 @@ struct Integrator::Problem {
   static int derivative(double t, const double* y, double* dydt, void* self) {
     auto& p = *static_cast<Problem*>(self);
     ++p.evaluations;
-    return p.guard([&] { p.system.derivative(t, y, dydt); });
+    const int status = p.guard([&] { p.system.derivative(t, y, dydt); });
+    // A step to a state without a finite derivative is halved. GSL would accept it whatever its
+    // error: the scale of the error is then NaN.
+    const bool finite = std::all_of(dydt, dydt + p.gsl.dimension,
+                                    [](double slope) { return std::isfinite(slope); });
+    return status == GSL_SUCCESS && !finite ? GSL_FAILURE : status;
   }
 
   static int jacobian(double t, const double* y, double* dfdy, double* dfdt, void* self) {
