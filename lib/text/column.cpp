@@ -58,18 +58,12 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-/// The spelling of a unit in the lists above: a product of powers becomes a quotient (`m s^-1` and
-/// `m*s-1` become m/s), kph and kmh become km/h, and the case of km/h and mph does not matter.
+/// The spelling of a unit in the lists above: a quotient instead of a product, km/h for kph and
+/// kmh, and km/h and mph in small letters.
 std::string listed_unit(std::string unit) {
-  unit = replace_all(std::move(unit), " / ", "/");
-  for (const std::string_view times : {"\xC2\xB7", "\xE2\x8B\x85", "*", " "})
-    unit = replace_all(std::move(unit), times, ".");
-  for (const auto& [from, to] :
-       {std::pair{".s^-2", "/s^2"}, {".s-2", "/s^2"}, {".s^-1", "/s"}, {".s-1", "/s"}})
-    if (unit.ends_with(from)) unit.replace(unit.size() - std::string_view(from).size(), 5, to);
+  unit = as_quotients(replace_all(std::move(unit), " / ", "/"));
   const std::string small = lower(unit);
-  if (small == "km/h" || small == "kph" || small == "kmh" || small == "km/hr" || small == "km.h^-1")
-    return "km/h";
+  if (small == "km/h" || small == "kph" || small == "kmh" || small == "km/hr") return "km/h";
   return small == "mph" ? small : unit;
 }
 
@@ -128,6 +122,18 @@ std::string plain_unit(std::string unit) {
                                  {"\n", " "}})
     unit = replace_all(std::move(unit), from, to);
   return replace_all(std::move(unit), "s2", "s^2");
+}
+
+std::string as_quotients(std::string text) {
+  for (const std::string_view times : {"\xC2\xB7", "\xE2\x8B\x85", "*", "."})
+    text = replace_all(std::move(text), times, " ");
+  const auto are_blanks = [](char one, char next) { return one == ' ' && next == ' '; };
+  text.erase(std::unique(text.begin(), text.end(), are_blanks), text.end());
+  for (const std::string_view time : {"s", "min", "h"})
+    for (const auto& [power, per] : {std::pair{"^-1", ""}, {"-1", ""}, {"^-2", "^2"}, {"-2", "^2"}})
+      text = replace_all(std::move(text), fmt::format(" {}{}", time, power),
+                         fmt::format("/{}{}", time, per));
+  return text;
 }
 
 Column read_column(std::string_view text) {

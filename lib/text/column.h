@@ -45,6 +45,10 @@ std::string plain_unit(std::string unit);
 /// The same without the brackets around it.
 std::string bare_unit(std::string_view text);
 
+/// A text in which products are quotients: `cm s^-1`, `cm*s-1`, `cm.s^-1` and the same with a
+/// raised dot become cm/s, and other signs of a product become blanks.
+std::string as_quotients(std::string text);
+
 /// Whether a text is a unit, perhaps in brackets, in which t, x, v, a or D can be read.
 enum class UnitKind { none, si, other };
 UnitKind unit_kind(std::string_view text);

@@ -107,10 +107,9 @@ std::string glued_unit(std::string_view quantity, const std::string& word) {
 /// The words of a comment, with their capitals: a quotient is one word (cm/s^2), and `in` stands
 /// for an equals sign or a colon.
 std::vector<std::string> words_of_comment(std::string_view comment) {
-  std::string text = plain_unit(std::string(comment));
+  std::string text = as_quotients(plain_unit(std::string(comment)));
   constexpr std::pair<std::string_view, std::string_view> spelled[] = {
-      {" per ", "/"},  {" / ", "/"},   {" s^-", "/s^"}, {" s-", "/s^"}, {"/s^1", "/s"},
-      {" h^-1", "/h"}, {" h-1", "/h"}, {"=", " in "},   {":", " in "}};
+      {"_", " "}, {" per ", "/"}, {" / ", "/"}, {"=", " in "}, {":", " in "}};
   for (const auto& [from, to] : spelled) text = replace_all(std::move(text), from, to);
   std::replace_if(
       text.begin(), text.end(),

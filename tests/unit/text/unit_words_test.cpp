@@ -147,10 +147,18 @@ TEST_CASE("unit words: a unit in a comment", "[text]") {
       {"v", "# all speeds in kilometres per hour", "km/h"},
       {"v", "# speed in MPH", "mph"},
       {"v", "# v in cm s^-1", "cm/s"},
+      {"v", "# v in cm\xC2\xB7s\xE2\x81\xBB\xC2\xB9", "cm/s"},
+      {"v", "# units: s, cm\xE2\x8B\x85s^-1", "cm/s"},
+      {"v", "# v [cm*s-1]", "cm/s"},
+      {"v", "# v (cm . s-1)", "cm/s"},
+      {"v", "# v in km\xC2\xB7h\xE2\x81\xBB\xC2\xB9", "km/h"},
+      {"v", "# v in m\xC2\xB7min\xE2\x81\xBB\xC2\xB9", "m/min"},
+      {"v", "# speed_in_cm_per_s", "cm/s"},
       {"v", "# speed in knots", "knots"},
       {"v", "# times are in ms", ""},
       {"v", "# all velocities in knots", "knots"},
       {"a", "# a in cm/s\xC2\xB2", "cm/s^2"},
+      {"a", "# a in cm\xC2\xB7s\xE2\x81\xBB\xC2\xB2", "cm/s^2"},
       {"a", "# accelerations in g", "g"},
       {"t", "# times in days", "days"},
       {"x", "# positions: pixels", "px"},
@@ -162,12 +170,26 @@ TEST_CASE("unit words: a unit in a comment", "[text]") {
 }
 
 TEST_CASE("unit words: values, and words that are no units, in a comment", "[text]") {
-  for (const char* comment :
-       {"# every 40 ms, 3 cm apart, at 5 km/h", "# exposure (ms): 20", "# radius in cm: 4",
-        "# time in min: 5", "# speed: min 0, time: 40 ms", "# time: in the morning",
-        "# Ms. Smith, MS Excel", "# t min, t max, x min", "# us, them; in a min or an h",
-        "# a shell in felt", "# t: s; v = m/s, x in m", "# time in s, speed in m s^-1",
-        "## smooth t from 1 ms", "## times in ms", "# g = 981 cm/s^2", "# mass in g",
-        "# every 40 ms m by m", "# the sum of two forms is a status", "#"})
+  for (const char* comment : {"# every 40 ms, 3 cm apart, at 5 km/h",
+                              "# exposure (ms): 20",
+                              "# radius in cm: 4",
+                              "# time in min: 5",
+                              "# speed: min 0, time: 40 ms",
+                              "# time: in the morning",
+                              "# Ms. Smith, MS Excel",
+                              "# t min, t max, x min",
+                              "# us, them; in a min or an h",
+                              "# a shell in felt",
+                              "# t: s; v = m/s, x in m",
+                              "# time in s, speed in m s^-1",
+                              "# t in s, v in m\xC2\xB7s\xE2\x81\xBB\xC2\xB9, a in m*s-2",
+                              "# every 0.5 ms, at .5 cm.s-1",
+                              "## smooth t from 1 ms",
+                              "## times in ms",
+                              "# g = 981 cm/s^2",
+                              "# mass in g",
+                              "# every 40 ms m by m",
+                              "# the sum of two forms is a status",
+                              "#"})
     CHECK(units_in_comment(comment) == UnitsOf());
 }
