@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
@@ -95,6 +96,21 @@ std::string take_run(std::string_view& name) {
     }
   }
   return std::string(number_at_end(prefix).empty() ? prefix : number_at_end(prefix));
+}
+
+/// The quoted name that begins at `at`, which is moved behind it; nothing if none does, or if other
+/// text stands behind its quote.
+std::optional<std::string> take_quoted(std::string_view line, std::size_t& at, char separator) {
+  const char* const end = line.data() + line.size();
+  if (at == line.size() || line[at] != quote) return {};
+  const char* const close = closing_quote(line.data() + at + 1, end);
+  if (close == end) return {};
+  const char* behind = close + 1;
+  while (separator && behind != end && *behind != separator && is_blank(*behind)) ++behind;
+  if (behind != end && !(separator ? *behind == separator : is_blank(*behind))) return {};
+  const std::string_view inside(line.data() + at + 1, close);
+  at = static_cast<std::size_t>(behind - line.data());
+  return replace_all(std::string(trim(inside)), "\"\"", "\"");
 }
 
 }  // namespace
@@ -214,6 +230,12 @@ std::vector<std::string> split_names(std::string_view line, char separator) {
   std::vector<std::string> names;
   if (separator) {
     for (std::size_t at = 0; at <= line.size();) {
+      while (at < line.size() && line[at] != separator && is_blank(line[at])) ++at;
+      if (auto quoted = take_quoted(line, at, separator)) {
+        names.push_back(std::move(*quoted));
+        ++at;
+        continue;
+      }
       const auto end = std::min(line.find(separator, at), line.size());
       names.emplace_back(trim(line.substr(at, end - at)));
       at = end + 1;
@@ -223,6 +245,10 @@ std::vector<std::string> split_names(std::string_view line, char separator) {
   const auto closing = line.find_last_of(")]");
   bool open = false;  // the last name has an open bracket
   for (std::size_t at = 0; (at = line.find_first_not_of(" \t", at)) != std::string_view::npos;) {
+    if (auto quoted = open ? std::nullopt : take_quoted(line, at, separator)) {
+      names.push_back(std::move(*quoted));
+      continue;
+    }
     const auto end = std::min(line.find_first_of(" \t", at), line.size());
     const std::string_view word = line.substr(at, end - at);
     const bool opens = word.front() == '(' || word.front() == '[';

@@ -68,8 +68,9 @@ bool is_unit_of(std::string_view quantity, std::string_view unit);
 /// Error for a unit that is not one of this quantity.
 Conversion conversion_to_si(std::string_view quantity, const Column&);
 
-/// The names in a line, one for each field. With `separator` 0 blanks separate the names; a unit in
-/// brackets, which may contain blanks, then belongs to the name before it.
+/// The names in a line, one for each field; a name may stand in quotes. With `separator` 0 blanks
+/// separate the names; a unit in brackets, which may contain blanks, then belongs to the name
+/// before it.
 std::vector<std::string> split_names(std::string_view line, char separator);
 
 }  // namespace rolling

@@ -151,6 +151,11 @@ TEST_CASE("column: a names line is one name a field", "[text]") {
   CHECK(split_names("Time [s]\tv", '\0') == Names{"Time [s]", "v"});
   CHECK(split_names("[s] [m / s] (cm)", '\0') == Names{"[s]", "[m / s]", "(cm)"});
   CHECK(split_names("", '\0').empty());
+  CHECK(split_names(" \"Time (s)\" , \"v, of \"\"it\"\"\" ,\"\"", ',') ==
+        Names{"Time (s)", "v, of \"it\"", ""});
+  CHECK(split_names("\"Time (s)\"  \"v\" (m/s) t", '\0') == Names{"Time (s)", "v (m/s)", "t"});
+  CHECK(split_names("\"t\"s,\"v", ',') == Names{"\"t\"s", "\"v"});
+  CHECK(split_names("\"t\"s \"v", '\0') == Names{"\"t\"s", "\"v"});
 }
 
 // In a time that grows with the line: if it grew with its square, this would take hours.

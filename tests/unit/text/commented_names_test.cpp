@@ -53,6 +53,8 @@ TEST_CASE("commented names: the names in a comment, and what speaks for them", "
   CHECK(names("# t b x D", 4) == "3 <t><b><x><D>");
   CHECK(names("# a sigma_a", 2) == "1 <a><sigma_a>");
   CHECK(names("# a, second", 2) == "1 <a><second>");
+  CHECK(names("# \"t (min)\"; \"v\"", 3, true) == "2 <t (min)><v><>");
+  CHECK(names("# \"t, of the clock (s)\",\"v\"", 2) == "1 <t, of the clock (s)><v>");
   CHECK(names("# a b", 3).empty());
   CHECK(names("## t v", 2) == "2 <t><v>");
   CHECK(names("# t v", 3, true) == "2 <t><v><>");
