@@ -70,7 +70,8 @@ class HeadReader {
   bool is_missing_record(std::string_view line);
   std::vector<std::string> take_units();
   std::vector<std::string> take_names(std::size_t width, bool blank_end);
-  std::vector<std::string> take_commented_names(std::size_t width, bool blank_end);
+  bool is_named_below(const UnnamedColumns& columns) const;
+  std::vector<std::string> take_commented_names(const UnnamedColumns& columns);
   void note_sorted_history(std::size_t names);
   [[noreturn]] void refuse_without_records(const std::string& what) const;
   void comment_preamble();
@@ -167,9 +168,18 @@ bool HeadReader::find_record() {
   return false;
 }
 
-std::vector<std::string> HeadReader::take_commented_names(std::size_t width, bool blank_end) {
-  const auto before = before_ ? before_->layout.runs.front().columns : std::vector<Column>();
-  auto chosen = choose_names(comments_, {width, blank_end, before}, !before_, lines_.name());
+/// True if no line of the preamble has a known name, and a comment below it has some.
+bool HeadReader::is_named_below(const UnnamedColumns& columns) const {
+  const auto has_name = [](const Comment& line) { return holds_known_name(line.text); };
+  const auto names_columns = [&](const Comment& comment) {
+    return comment.line > preamble_.back().line && !comment.is_history() &&
+           names_in_comment(comment.text, columns).known > 0;
+  };
+  return std::ranges::none_of(preamble_, has_name) && std::ranges::any_of(comments_, names_columns);
+}
+
+std::vector<std::string> HeadReader::take_commented_names(const UnnamedColumns& columns) {
+  auto chosen = choose_names(comments_, columns, !before_, lines_.name());
   if (!chosen) return {};
   head_.line = comments_[chosen->place].line;
   note_sorted_history(chosen->place);
@@ -199,7 +209,13 @@ std::vector<std::string> HeadReader::take_units() {
 
 /// The names of `width` columns, empty if there are none here. `blank_end`: the record ends blank.
 std::vector<std::string> HeadReader::take_names(std::size_t width, bool blank_end) {
-  if (preamble_.empty()) return take_commented_names(width, blank_end);
+  const UnnamedColumns columns{
+      width, blank_end, before_ ? before_->layout.runs.front().columns : std::vector<Column>()};
+  if (preamble_.empty() || is_named_below(columns)) {
+    auto names = take_commented_names(columns);
+    comment_preamble();
+    return names;
+  }
   auto names = names_in(preamble_.back().text, dialect_);
   head_.line = preamble_.back().line;
   preamble_.pop_back();

@@ -34,6 +34,12 @@ TEST_CASE("head: names in the last comment, in a line, or in the order of the to
   CHECK(head("0 1 2\n") == " no names, t[s] v[m/s] c3 in 1 of 3; 1: 0 1 2");
   CHECK(head("# about three words\n0 1\n") ==
         "# about three words| no names, t[s] v[m/s] in 1 of 2; 2: 0 1");
+  CHECK(head("sep=;\n# t[ms];x[cm]\n0;1\n") == "# sep=;| t[ms] x[cm] in 1 of 2; 3: 0;1");
+  CHECK(head("Hall three\n# t, x, by hand\n# t[ms],x[cm],y\n0,1,2\n") ==
+        "# t, x, by hand|# Hall three| t[ms] x[cm] y in 1 of 3; 4: 0,1,2");
+  CHECK(head("p,q\n# v and t\n0,1\n") == "# v and t| p q in 1 of 2; 3: 0,1");
+  CHECK(head("t,x\n# v,t\n0,1\n") == "# v,t| t x in 1 of 2; 3: 0,1");
+  CHECK(head("# t,x\np,q\n0,1\n") == "# t,x| p q in 1 of 2; 3: 0,1");
   CHECK(head("\"two\nlines\" ,\nt,v\n0,1\n") == "# \"two lines\" ,| t v in 1 of 2; 4: 0,1");
 }
 
