@@ -27,11 +27,7 @@ bool is_article(const std::string& word, const std::string& next) {
 }
 
 /// A number, a date or a time, which is no name of a column.
-bool is_figure(std::string_view text) {
-  return is_number(text) ||
-         (!text.empty() && text.find_first_not_of("0123456789+-.:/") == std::string_view::npos &&
-          text.find_first_of("0123456789") != std::string_view::npos);
-}
+bool is_figure(std::string_view text) { return is_number(text) || is_date(text); }
 
 /// The text without separators at its end.
 std::string_view without_end(std::string_view text) {
@@ -211,6 +207,11 @@ class Choice {
 
 std::string_view without_marks(std::string_view comment) {
   return comment.substr(std::min(comment.find_first_not_of('#'), comment.size()));
+}
+
+bool is_date(std::string_view text) {
+  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) &&
+         text.find_first_not_of("0123456789+-.:/ TZ") == std::string_view::npos;
 }
 
 bool holds_known_name(std::string_view line) {

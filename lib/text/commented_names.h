@@ -40,6 +40,9 @@ struct CommentedNames {
 };
 CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns&);
 
+/// A date or a time of day, in digits: `24/11/2026`, `10:15:00.5`, `2026-11-24T10:15:00Z`.
+bool is_date(std::string_view text);
+
 /// True if t, x, v, a or D is a word of the line, between any separators.
 bool holds_known_name(std::string_view line);
 

@@ -98,7 +98,8 @@ void HeadReader::take_history() {
 }
 
 /// True for a first record with missing readings: a field is NaN, which is no name of a column; or
-/// fields are blank below a line of names, and none is a known name itself.
+/// fields are blank below a line of names, and none is a known name itself. Below known names dates
+/// and times may stand beside the blanks.
 bool HeadReader::is_missing_record(std::string_view line) {
   const auto fields = dialect_.split(line);
   const auto is_nan = [](const Field& f) { return is_missing(f.text) && !f.text.empty(); };
@@ -119,9 +120,12 @@ bool HeadReader::is_missing_record(std::string_view line) {
              return !comment.is_history() && !found.names.empty() &&
                     (all_blank || found.tabs || found.known > 0);
            });
-  if (!all_blank) return false;
-  const auto names = names_in(preamble_.back().text, dialect_);
-  return names.size() == width && std::ranges::count(names, "") == 0;
+  if (!std::ranges::all_of(fields, [&](const Field& f) { return is_blank(f) || is_date(f.text); }))
+    return false;
+  const std::string& above = preamble_.back().text;
+  const auto names = names_in(above, dialect_);
+  return names.size() == width && std::ranges::count(names, "") == 0 &&
+         (all_blank || holds_known_name(above));
 }
 
 /// True if a line or comment above, whose names are separated by tabs and contain no blanks, has as
