@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
@@ -108,6 +109,17 @@ bool parse_number(std::string_view field, double& value) {
 bool is_missing(std::string_view field) {
   return field.empty() || (field.size() == 3 && (field[0] | 32) == 'n' && (field[1] | 32) == 'a' &&
                            (field[2] | 32) == 'n');
+}
+
+bool means_missing(std::string_view field) {
+  if (field.starts_with('#')) return true;
+  std::string letters;
+  for (const unsigned char c : field) {
+    if (std::isdigit(c)) return false;
+    if (std::isalpha(c)) letters += static_cast<char>(std::tolower(c));
+  }
+  constexpr std::array<std::string_view, 6> words = {"", "na", "nan", "nanind", "null", "none"};
+  return std::ranges::count(words, letters) > 0;
 }
 
 char* write_number(char* to, double value, int digits) {

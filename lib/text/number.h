@@ -23,6 +23,10 @@ inline bool is_number(std::string_view field) {
 /// True for a missing reading: an empty field, or NaN in upper or lower case.
 bool is_missing(std::string_view field);
 
+/// True for what other programs write for a missing reading, and the tools refuse: NA, N/A, null,
+/// None, -nan, a sign alone, and the error values of spreadsheets, which begin with #.
+bool means_missing(std::string_view field);
+
 /// Writes the shortest text that reads back to the same double, or `digits` significant digits if
 /// digits > 0. Returns the end of the text, which has at most longest_number characters.
 char* write_number(char* to, double value, int digits = 0);

@@ -371,6 +371,23 @@ TEST_CASE("reader: what spreadsheets write for an error is no comment", "[text]"
   CHECK(records({"0,1\n#1,2\n"}) == "0 1");  // a record that was taken out
 }
 
+TEST_CASE("reader: what other programs write for a missing reading is told from other text",
+          "[text]") {
+  const auto is_told = [](const std::string& field) {
+    const std::string message = records({"t,v\n0," + field + "\n"});
+    return message.ends_with("is not a number; write NaN for a missing reading");
+  };
+  for (const char* field : {"NA", "N/A", "n/a", "<NA>", "null", "NULL", "None", "-", "--", "?",
+                            "-nan", "nan(ind)", "#VALUE!"}) {
+    INFO(field);
+    CHECK(is_told(field));
+  }
+  for (const char* field : {"abc", "nano", "inf", "5-", "-.-1", "1.#QNAN", "off"}) {
+    INFO(field);
+    CHECK_FALSE(is_told(field));
+  }
+}
+
 TEST_CASE("reader: what passes through passes byte for byte, its separator aside", "[text]") {
   CHECK(copies("0.500   +1e0 x_y -0 1E-400\n") == "<0.500\t+1e0\tx_y\t-0\t1E-400>");
   CHECK(copies("t;v;note\n0;1;caf\xC3\xA9 au lait \n") == "<0\t1\tcaf\xC3\xA9 au lait>");
