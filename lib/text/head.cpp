@@ -76,6 +76,7 @@ class HeadReader {
   [[noreturn]] void refuse_without_records(const std::string& what) const;
   void comment_preamble();
   Head finish();
+  std::string way_out(std::size_t width, std::size_t names) const;
 
   Lines& lines_;
   Dialect& dialect_;
@@ -260,6 +261,15 @@ Head HeadReader::finish() {
   return std::move(head_);
 }
 
+/// What to do about a record of another number of fields than there are names.
+std::string HeadReader::way_out(std::size_t width, std::size_t names) const {
+  if (before_) return fmt::format("; if line {} is a heading, begin it with #", head_.line);
+  if (dialect_.separator() == ',')
+    return "; if some of its commas are decimal ones, make them points first";
+  const bool words = dialect_.separator() == '\0' && names > width;
+  return words ? "; if a name has blanks in it, put it in quotes" : "";
+}
+
 Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
   if (!find_record()) {
     if (!before_) refuse_without_records("no records");
@@ -297,13 +307,10 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
       add_unit(columns.back(), units[i], fmt::format("{}:{}", lines_.name(), head_.line));
   }
   head_.layout = sides == Sides::one ? Layout::one(columns) : Layout::of(columns);
-  if (head_.named && (head_.layout.side_by_side() ? width > names.size() : width != names.size()))
+  const bool side_by_side = head_.layout.side_by_side();
+  if (head_.named && (side_by_side ? width > names.size() : width != names.size()))
     fail("{} field{} under a line of {} name{}{}", width, width == 1 ? "" : "s", names.size(),
-         names.size() == 1 ? "" : "s",
-         before_ ? fmt::format("; if line {} is a heading, begin it with #", head_.line)
-         : dialect_.separator() == ','
-             ? "; if some of its commas are decimal ones, make them points first"
-             : "");
+         names.size() == 1 ? "" : "s", way_out(width, names.size()));
   return finish();
 }
 

@@ -43,8 +43,10 @@ TEST_CASE("reader: names in a first line that is not numeric", "[text]") {
   CHECK(records({"Velocity (m/s)\tTime (s)\n5\t0\n"}) == "0 5");
   CHECK(records({"# a comment\n\nv t\n\n5 0\n"}) == "0 5");
   CHECK(records({"A preamble of words\nv t\n5 0\n"}) == "0 5");
-  CHECK(records({"t v a\n0 5\n"}) == "FILE:2: 2 fields under a line of 3 names");
-  CHECK(records({"t v\n0\n"}) == "FILE:2: 1 field under a line of 2 names");
+  CHECK(records({"t v a\n0 5\n"}) ==
+        "FILE:2: 2 fields under a line of 3 names; if a name has blanks in it, put it in quotes");
+  CHECK(records({"t v\n0\n"}) ==
+        "FILE:2: 1 field under a line of 2 names; if a name has blanks in it, put it in quotes");
   CHECK(records({"t v\r\n0 5\r\n\x1A"}) == "0 5");
   CHECK(records({"# t\tv\n0\t5\n\n# t v\n0 7\n"}) ==
         "FILE:5: '0 7' is separated by blanks, and the records before by tabs; if it is a heading, "
