@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "text/delimiters.h"
+
 namespace rolling {
 namespace {
 
@@ -31,7 +33,11 @@ class SignalsWait {
 
 std::string names_line(const std::vector<Column>& columns) {
   std::string line;
-  for (const Column& column : columns) (line += line.empty() ? "# " : "\t") += to_text(column);
+  for (const Column& column : columns) {
+    std::string name = to_text(column);
+    if (name.starts_with(quote)) name = fmt::format("\"{}\"", replace_all(name, "\"", "\"\""));
+    (line += line.empty() ? "# " : "\t") += name;
+  }
   return line;
 }
 

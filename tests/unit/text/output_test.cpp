@@ -8,6 +8,16 @@
 
 using namespace rolling;
 
+TEST_CASE("output: names read back as they are, those that begin with a quote too", "[text]") {
+  const std::vector<Column> columns{{"t", "s"}, {"\"v\""}, {"\"w\"_1", "m"}, {"5\""}, {"\"u"}};
+  const std::string line = names_line(columns);
+  std::vector<Column> read;
+  for (const std::string& name : split_names(std::string_view(line).substr(2), '\t'))
+    read.push_back(read_column(name));
+  CHECK(read == columns);
+  CHECK(names_line({{"t", "s"}, {"5\""}}) == "# t[s]\t5\"");
+}
+
 TEST_CASE("output: names and rows are tab-separated, numbers shortest", "[text]") {
   CHECK(printed([] {
           Output out;
