@@ -94,6 +94,8 @@ TEST_CASE("head: a record without readings is one, as wide as the names", "[text
   for (const std::string time : {"10:15:00.5", "2026-11-24 10:15:00", "2026-11-24T10:15:00.5Z"})
     CHECK(head("t,v\n" + time + ",\n" + time + ",\n0,1\n") == " t v in 1 of 2; 2: " + time + ",");
   CHECK(head("24/11/2026,\nt,v\n0,1\n") == "# 24/11/2026,| t v in 1 of 2; 3: 0,1");
+  CHECK(head("Anna,Ben\n24/11/2026,\nt,v\n0,1\n") ==
+        "# Anna,Ben|# 24/11/2026,| t v in 1 of 2; 4: 0,1");
   CHECK(head("My cart,\n24/11/2026,\nt,v\n0,1\n") ==
         "# My cart,|# 24/11/2026,| t v in 1 of 2; 4: 0,1");
   CHECK(head("My cart,\n,\nt,v\n0,1\n") == "# My cart,|# ,| t v in 1 of 2; 4: 0,1");
