@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "base/by_run.h"
 #include "base/dot.h"
 #include "base/error.h"
 #include "least_squares/trimmed.h"
@@ -24,6 +25,17 @@ Influence bisquare(double u) {
   constexpr double c = 4.685;
   const double rest = 1 - u * u / (c * c);
   return rest > 0 ? Influence{rest * rest, rest * (5 * rest - 4)} : Influence{0, 0};
+}
+
+/// The sizes of residuals in the scales of their runs.
+std::vector<double> sizes_of(const Residuals& at, const std::vector<std::size_t>& runs) {
+  std::vector<double> sizes;
+  auto scale = at.scales.begin();
+  for (const auto f : by_run(at.f, runs)) {
+    for (const double x : f) sizes.push_back(std::abs(x) / *scale);
+    ++scale;
+  }
+  return sizes;
 }
 
 /// The system whose residuals are multiplied by these factors. It refers to both.
@@ -64,35 +76,35 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
   constexpr std::size_t few = 1000, few_parameters = 12;
   const std::size_t p = system.parameters();
   const bool trimmed = system.residuals() <= few && p <= few_parameters;
-  std::vector<double> theta = trimmed ? least_trimmed(system, starts) : starts.front(),
-                      f = evaluated(system, theta).f, factors(f.size());
-  double scale = median_scale(f, p);
-  const double far = trimmed ? 30 * scale : std::numeric_limits<double>::infinity();
+  std::vector<double> theta = trimmed ? least_trimmed(system, starts) : starts.front();
+  Residuals at = residuals_at(system, theta);
+  std::vector<double> u = sizes_of(at, system.runs), factors(u.size());
   std::vector<bool> outliers;
-  for (const double r : f) outliers.push_back(std::abs(r) > far);
+  for (const double size : u) outliers.push_back(trimmed && size > 30);
   for (const auto influence : {huber, bisquare}) {
     double change = 1;
-    // Huber's scale is a median, which may go to and fro between two records without end.
-    const auto enough = [&](int round) { return influence == huber && round > 50 ? 1e-3 : 1e-9; };
-    for (int round = 0; change > enough(round); ++round) {
-      if (round == 100) fail("the robust fit does not converge");
-      if (influence == huber) scale = median_scale(f, p);  // fixed for bisquare
-      if (!(scale > 0)) return exact_fit(system, theta);
-      for (std::size_t i = 0; i < f.size(); ++i)
-        factors[i] =
-            influence == huber && outliers[i] ? 0 : std::sqrt(influence(f[i] / scale).weight);
+    for (int round = 0; change > 1e-9; ++round) {
+      if (round == 200) fail("the robust fit does not converge");
+      if (!(at.scale > 0)) return exact_fit(system, theta);
+      for (std::size_t i = 0; i < u.size(); ++i)
+        factors[i] = influence == huber && outliers[i] ? 0 : std::sqrt(influence(u[i]).weight);
       const auto next = minimise(weighted(system, factors), theta).theta;
       change = 0;
       for (std::size_t j = 0; j < p; ++j)
         change = std::max(change, std::abs(next[j] - theta[j]) / std::max(1.0, std::abs(next[j])));
       theta = next;
-      f = evaluated(system, theta).f;
+      Residuals now = residuals_at(system, theta);
+      // The bisquare loss has fixed scales, and so has Huber's after a while: they are medians,
+      // which may go to and fro between two records without end.
+      if (influence == bisquare || round > 50) now.scales = at.scales, now.scale = at.scale;
+      at = std::move(now);
+      u = sizes_of(at, system.runs);
     }
   }
-  const double n = static_cast<double>(f.size());
+  const double n = static_cast<double>(u.size());
   double mean = 0, squares = 0;
-  for (double r : f) {
-    const double slope = bisquare(r / scale).slope;
+  for (const double size : u) {
+    const double slope = bisquare(size).slope;
     mean += slope / n;
     squares += slope * slope / n;
   }
@@ -100,7 +112,8 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
   const double correction =
       1 + static_cast<double>(p) / n * (squares - mean * mean) / (mean * mean);
   Minimum minimum = evaluated(system, theta);
-  for (double& r : minimum.f) r *= bisquare(r / scale).weight * correction / mean;
+  for (std::size_t i = 0; i < u.size(); ++i)
+    minimum.f[i] *= bisquare(u[i]).weight * correction / mean;
   minimum.rss = dot(minimum.f, minimum.f);
   return minimum;
 }

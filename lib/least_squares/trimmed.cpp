@@ -6,6 +6,7 @@
 #include <random>
 #include <utility>
 
+#include "base/by_run.h"
 #include "base/dot.h"
 #include "base/error.h"
 #include "base/median.h"
@@ -14,10 +15,33 @@
 
 namespace rolling {
 
+namespace {
+
+/// The median size of residuals, divided by that of a standard normal variable. The p smallest are
+/// not counted: the p parameters may have made as many vanish.
 double median_scale(std::vector<double> residuals, std::size_t p) {
   for (double& x : residuals) x = std::abs(x);
   const std::size_t first = std::min(p, residuals.size() - 1);
   return nth_smallest(residuals, first + (residuals.size() - first) / 2) / 0.6745;
+}
+
+}  // namespace
+
+Residuals residuals_at(const System& system, const std::vector<double>& theta) {
+  Residuals at;
+  at.f.reserve(system.residuals());
+  system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double>) {
+    at.f.insert(at.f.end(), f.begin(), f.end());
+  });
+  if (!std::isfinite(dot(at.f, at.f))) fail("the law has no finite values");
+  double squares = 0;
+  for (const auto f : by_run(at.f, system.runs)) {
+    at.scales.push_back(median_scale({f.begin(), f.end()}, system.columns()));
+    squares += static_cast<double>(f.size()) * at.scales.back() * at.scales.back();
+  }
+  at.scale = std::sqrt(squares / static_cast<double>(at.f.size()));
+  std::ranges::replace(at.scales, 0, at.scale);
+  return at;
 }
 
 namespace {
@@ -26,7 +50,7 @@ namespace {
 class Linear {
  public:
   Linear(const System& system, const std::vector<double>& theta)
-      : p_(system.parameters()), J_(system.residuals() * p_) {
+      : runs_(system.runs), own_(system.own), p_(system.parameters()), J_(system.residuals() * p_) {
     system.evaluate(theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
       double* const row = &J_[f_.size() * p_];
       for (std::size_t k = 0; k < J.size(); ++k)
@@ -34,7 +58,9 @@ class Linear {
       f_.insert(f_.end(), f.begin(), f.end());
     });
   }
-  std::size_t rows() const { return f_.size(); }
+  const std::vector<std::size_t>& runs() const { return runs_; }
+  std::size_t own() const { return own_; }
+  std::size_t shared() const { return p_ - runs_.size() * own_; }
   std::size_t columns() const { return p_; }
   double residual(std::size_t i, const std::vector<double>& delta) const {
     return f_[i] + dot(&J_[i * p_], delta.data(), p_);
@@ -53,11 +79,12 @@ class Linear {
   }
 
  private:
-  std::size_t p_;
+  std::vector<std::size_t> runs_;
+  std::size_t own_, p_;
   std::vector<double> f_, J_;
 };
 
-/// The half of the rows that a delta fits best, and the sum of their squares.
+/// The half of the rows of each run that a delta fits best, and the sum of their squares.
 struct Half {
   std::vector<double> delta;
   double squares = 0;
@@ -65,35 +92,51 @@ struct Half {
 };
 
 Half best_half(const Linear& model, std::vector<double> delta) {
-  const std::size_t n = model.rows(), half = (n + model.columns() + 1) / 2;
-  std::vector<std::pair<double, std::size_t>> squares;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double r = model.residual(i, delta);
-    squares.emplace_back(std::isfinite(r) ? r * r : std::numeric_limits<double>::infinity(), i);
-  }
-  std::ranges::sort(squares);
   Half found{std::move(delta)};
-  for (const auto& [square, row] : std::span(squares).first(std::min(n, half))) {
-    found.squares += square;
-    found.rows.push_back(row);
+  std::size_t first = 0;
+  for (const std::size_t n : model.runs()) {
+    std::vector<std::pair<double, std::size_t>> squares;
+    for (std::size_t i = first; i < first + n; ++i) {
+      const double r = model.residual(i, found.delta);
+      squares.emplace_back(std::isfinite(r) ? r * r : std::numeric_limits<double>::infinity(), i);
+    }
+    std::ranges::sort(squares);
+    const std::size_t half = (n + model.own() + model.shared() + 1) / 2;
+    for (const auto& [square, row] : std::span(squares).first(std::min(n, half))) {
+      found.squares += square;
+      found.rows.push_back(row);
+    }
+    first += n;
   }
   return found;
+}
+
+/// As many rows as there are parameters, far apart: of each run those of its own parameters, and of
+/// the longest those of the shared ones as well, one of each of as many equal parts of the run.
+std::vector<std::size_t> drawn(const Linear& model, std::mt19937& random) {
+  const auto& runs = model.runs();
+  const auto longest = static_cast<std::size_t>(std::ranges::max_element(runs) - runs.begin());
+  std::vector<std::size_t> rows;
+  std::size_t of_run = 0;
+  for (std::size_t r = 0; r < runs.size(); of_run += runs[r++]) {
+    const std::size_t n = runs[r],
+                      few = std::min(n, model.own() + (r == longest ? model.shared() : 0));
+    for (std::size_t j = 0; j < few; ++j) {
+      const std::size_t first = j * n / few, end = (j + 1) * n / few;
+      rows.push_back(of_run + first + random() % (end - first));
+    }
+  }
+  return rows;
 }
 
 /// The least trimmed squares, as far as exact fits of random rows and the fits of their best halves
 /// lead to them (Rousseeuw and Van Driessen 2006, Data Min. Knowl. Discov. 12, 29).
 std::vector<double> trimmed_step(const Linear& model) {
   constexpr int draws = 100;
-  const std::size_t n = model.rows(), p = model.columns();
   std::mt19937 random;  // with the seed of the standard: the same draws in each run
-  Half best = best_half(model, std::vector<double>(p));
+  Half best = best_half(model, std::vector<double>(model.columns()));
   for (int draw = 0; draw < draws; ++draw) {
-    std::vector<std::size_t> rows;
-    for (std::size_t j = 0; j < p; ++j) {  // one row of each p-th of the record: far apart
-      const std::size_t first = j * n / p, end = (j + 1) * n / p;
-      rows.push_back(first + random() % (end - first));
-    }
-    Half found = best_half(model, model.fit(rows));
+    Half found = best_half(model, model.fit(drawn(model, random)));
     for (int step = 0; step < 2; ++step) found = best_half(model, model.fit(found.rows));
     if (found.squares < best.squares) best = std::move(found);
   }
@@ -111,7 +154,7 @@ struct Point {
 
 /// An infinite scale if theta is not allowed.
 Point point_at(const System& system, std::vector<double> theta) try {
-  const double scale = median_scale(evaluated(system, theta).f, system.parameters());
+  const double scale = residuals_at(system, theta).scale;
   return {std::move(theta), scale};
 } catch (const Error&) {
   return {{}, std::numeric_limits<double>::infinity()};

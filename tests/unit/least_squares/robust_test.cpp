@@ -5,6 +5,7 @@
 #include "unit/fit/simulated.h"
 #include "unit/least_squares/systems.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -140,4 +141,26 @@ TEST_CASE("minimise_robust: a start without finite values is refused, or another
   const System line = line_through(t, y);
   CHECK_THROWS_AS(minimise_robust(line, {{nan, 0}}), Error);
   CHECK(std::abs(minimise_robust(line, {{nan, 0}, {0, 0}}).theta[1] - 1) < 0.1);
+}
+
+TEST_CASE("minimise_robust: each run has its own scale", "[fit]") {
+  // Two levels, of noise 0.01 and 1. What is an outlier beside the first is none beside the second.
+  constexpr std::size_t n = 40;
+  simulated::Noise noise(5);
+  std::vector<double> y;
+  for (std::size_t i = 0; i < 2 * n; ++i) y.push_back(i < n ? noise(0.01) : 3 + noise(1));
+  y[7] = 0.3, y[n + 7] = 3.3;
+  const System levels{{n, n}, 1, 0, [&](const std::vector<double>& x, const TakeRows& take) {
+                        for (std::size_t run : {0U, 1U}) {
+                          std::vector<double> f, J(n, 1);
+                          for (std::size_t i = 0; i < n; ++i) f.push_back(x[run] - y[run * n + i]);
+                          take(run, f, J);
+                        }
+                      }};
+  const Minimum m = minimise_robust(levels, {{0, 0}});
+  CHECK(std::abs(m.theta[0]) < 0.006);
+  CHECK(std::abs(m.theta[1] - 3) < 0.6);
+  CHECK(m.f[7] == 0);
+  CHECK(m.f[n + 7] != 0);
+  CHECK(std::ranges::count(m.f, 0) < 5);
 }
