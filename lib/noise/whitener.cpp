@@ -156,19 +156,4 @@ double Whitener::trace() const {
   return static_cast<double>(n_) - of_F;
 }
 
-std::vector<double> Whitener::meat(const std::vector<std::span<double>>& Q) const {
-  std::vector<double> M;
-  for (const auto x : Q)
-    for (const auto y : Q) M.push_back(dot(x, y));
-  for (const auto x : Q) apply_transposed(x);
-  for (std::size_t i = 0; i < n_; ++i) {
-    const double size = std::sqrt(white_ * variance(i));
-    for (const auto x : Q) x[i] *= size;
-  }
-  auto element = M.begin();
-  for (const auto x : Q)
-    for (const auto y : Q) *element++ -= dot(x, y);
-  return M;
-}
-
 }  // namespace rolling

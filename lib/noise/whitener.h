@@ -47,8 +47,6 @@ class Whitener {
   double log_size() const;
   /// tr R^-T E E^T R^-1: the number of residuals minus the contribution of F.
   double trace() const;
-  /// Q^T R^-T E E^T R^-1 Q, row by row, of the columns of Q; overwrites Q.
-  std::vector<double> meat(const std::vector<std::span<double>>& Q) const;
 
  private:
   std::size_t n_, band_;   // as in Covariance
