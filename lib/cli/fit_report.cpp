@@ -52,6 +52,11 @@ std::string budget(const FitResult& r) {
       r.sigma_b, b);
 }
 
+/// The text with the value; nothing for NaN, as where there are as many parameters as records.
+std::string known(const char* text, double value) {
+  return std::isnan(value) ? "" : fmt::format(fmt::runtime(text), value);
+}
+
 void report_route(Tool& tool, const std::string& name, Route route, const std::vector<FitRun>& runs,
                   const FitOptions& options) {
   for (const FitRun& run : runs)
@@ -62,28 +67,28 @@ void report_route(Tool& tool, const std::string& name, Route route, const std::v
   const auto begin = std::chrono::steady_clock::now();
   const FitResult r = fit(route, runs, options);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
-  const auto known = [](const char* text, double value) {  // as many parameters as records: NaN
-    return std::isnan(value) ? "" : fmt::format(fmt::runtime(text), value);
-  };
   tool.say(fmt::format("{}: a {:.5g}{}, b {:.5g}{}{}, n {}, errors {}{}, {:.2g} ms", name, r.a,
                        known(" +- {:.2g}", r.sigma_a), r.b, known(" +- {:.2g}", r.sigma_b),
                        known(", rms {:.3g}", r.rms), r.n, kinds.at(r.errors),
                        known(" (Ljung-Box p {:.2g})", r.whiteness), time.count()));
-  if (r.shares.size() > 1) tool.say(budget(r));
+  if (r.shares.size() > 1 && r.errors != Errors::none) tool.say(budget(r));
 }
 
 /// "D = d0 + d1 v: d0 = 0.0012 +- 1e-05, d1 = 0.0005 +- 3e-05; corr d0 d1 -0.93; AICc 1.2"
 std::string described(const LawFit& fit, double least) {
   const auto& names = fit.law->coefficients;
-  if (fit.coefficients.empty()) return fmt::format("D = {}: not determined", fit.law->formula);
+  const auto finite = [](const Estimate& c) { return std::isfinite(c.value); };
+  if (fit.coefficients.empty() || !std::ranges::all_of(fit.coefficients, finite))
+    return fmt::format("D = {}: not determined", fit.law->formula);
   std::string line = fmt::format("D = {}:", fit.law->formula), corr;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const Estimate& c = fit.coefficients[i];
-    line += fmt::format(" {} = {:.6g} +- {:.2g}{}", names[i].name, c.value, c.sigma,
+    line += fmt::format(" {} = {:.6g}{}{}", names[i].name, c.value, known(" +- {:.2g}", c.sigma),
                         i + 1 < names.size() ? "," : ";");
     for (std::size_t j = 0; j < i; ++j)
-      corr += fmt::format("{} {} {} {:.3f}", corr.empty() ? " corr" : ",", names[j].name,
-                          names[i].name, fit.correlations[i * names.size() + j]);
+      if (const double value = fit.correlations[i * names.size() + j]; !std::isnan(value))
+        corr += fmt::format("{} {} {} {:.3f}", corr.empty() ? " corr" : ",", names[j].name,
+                            names[i].name, value);
   }
   return line + (corr.empty() ? "" : corr + ";") +
          (std::isfinite(fit.aicc) ? fmt::format(" AICc {:.1f} above the least", fit.aicc - least)
