@@ -1,6 +1,7 @@
 #include "noise/filter_matrix.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "base/dot.h"
@@ -207,11 +208,11 @@ TransposedPass::TransposedPass(const FilterMatrix& H, std::size_t columns,
                                std::function<void(const double* row)> take)
     : columns_(columns), take_(std::move(take)) {
   for (auto L = H.factors_.rbegin(); L != H.factors_.rend(); ++L)
-    stages_.push_back({L->get(), std::vector<double>((*L)->window() * columns)});
+    stages_.push_back({L->get(), std::vector<double>(std::bit_ceil((*L)->window()) * columns)});
 }
 
 double* TransposedPass::sum(Stage& s, std::size_t row) {
-  return &s.sums[row % s.L->window() * columns_];
+  return &s.sums[(row & (std::bit_ceil(s.L->window()) - 1)) * columns_];
 }
 
 /// Passes the output rows before `end` to the next stage.

@@ -149,7 +149,7 @@ class TransposedPass {
  private:
   struct Stage {
     const BandMatrix* L;
-    std::vector<double> sums;  // a ring of the output rows done .. done + window - 1
+    std::vector<double> sums;  // a ring of the output rows from `done` on
     std::size_t done = 0, reached = 0, row = 0;
   };
   void push(std::size_t stage, const double* row);
