@@ -114,7 +114,8 @@ bool is_missing(std::string_view field) {
 bool means_missing(std::string_view field) {
   if (field.starts_with('#')) return true;
   std::string letters;
-  for (const unsigned char c : field) {
+  for (const char letter : field) {
+    const auto c = static_cast<unsigned char>(letter);
     if (std::isdigit(c)) return false;
     if (std::isalpha(c)) letters += static_cast<char>(std::tolower(c));
   }
