@@ -27,8 +27,8 @@ namespace rolling {
 class SlopeIntegrals {
  public:
   /// depth = D(v0)/R in 0 .. 1; arm_square = 1 - depth^2, from a caller who knows it without
-  /// cancellation (not used for A = 1); log_depth = ln(depth), also where
-  /// depth itself underflows. K + A must not be 0.
+  /// cancellation (not used for A = 1); log_depth = ln(depth), also where depth itself underflows.
+  /// K + A must not be 0.
   SlopeIntegrals(Geometry, double b, double K, double depth, double arm_square, double slope,
                  double log_depth);
 

@@ -225,7 +225,8 @@ void TransposedPass::pass_on(std::size_t stage, std::size_t end) {
   }
 }
 
-/// No row from this one on has an element further before the last column reached than the window.
+/// The elements of this row and of later ones lie within the window before the last column that has
+/// been reached: the sums of the columns before it are complete.
 void TransposedPass::push(std::size_t stage, const double* in) {
   if (stage == stages_.size()) return take_(in);
   Stage& s = stages_[stage];

@@ -1,5 +1,8 @@
 #include "noise/filter_matrix.h"
 
+#include <array>
+#include <random>
+
 #include "unit/noise/dense.h"
 #include "unit/catch.h"
 
@@ -12,4 +15,40 @@ TEST_CASE("band matrix: a product, of which a row may be all 0", "[fit]") {
   B.append(0, pair), B.append(1, one), B.append(0, none);
   const FilterMatrix product = FilterMatrix(B).then(A);
   CHECK(dense(product, 3) == std::vector<double>{0, 10, 0, 0, 0, 0, 0, 0, 0, 10, 15, 0});
+}
+
+// Random bands that move on by 0 to 3 columns a row, at times back by one, and rows left out.
+TEST_CASE("band matrix: the transposed product row by row, of any bands", "[fit]") {
+  std::mt19937 random(3);
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+  const auto band = [&](std::size_t rows, std::size_t columns) {
+    BandMatrix L;
+    for (std::size_t i = 0, first = 0; i < rows; ++i) {
+      std::vector<double> row(std::min(below(5), columns - first));
+      for (double& x : row) x = static_cast<double>(below(9)) - 4;
+      L.append(first - std::min(first, below(2)), row);
+      first = std::min(first + below(4), columns - 1);
+    }
+    return L;
+  };
+  for (int k = 0; k < 500; ++k) {
+    const std::size_t rows = 1 + below(30);
+    const FilterMatrix all = FilterMatrix(band(rows, 40)).then(band(1 + below(30), rows));
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < all.rows(); i += 1 + below(3)) chosen.push_back(i);
+    const FilterMatrix H = all.of_rows(chosen);
+    std::vector<double> x(H.rows()), y(H.rows()), of_x, of_y;
+    for (double& value : x) value = static_cast<double>(below(9)) - 4;
+    for (double& value : y) value = static_cast<double>(below(9)) - 4;
+    TransposedPass pass(H, 2, [&](const double* row) {
+      of_x.push_back(row[0]);
+      of_y.push_back(row[1]);
+    });
+    for (std::size_t i = 0; i < H.rows(); ++i) pass.push(std::array{x[i], y[i]}.data());
+    pass.finish();
+    REQUIRE(of_x.size() <= H.columns());
+    of_x.resize(H.columns()), of_y.resize(H.columns());
+    CHECK(of_x == H.transposed_times(x));
+    CHECK(of_y == H.transposed_times(y));
+  }
 }
