@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "cli/command_line.h"
+#include "text/input.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -97,10 +98,10 @@ SceneValue read_line(const std::string& line) {
 std::vector<SceneValue> read_scene(const std::string& file) {
   const std::string text = content(file);
   std::vector<SceneValue> scene;
-  std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // a byte order mark
+  std::size_t at = 0;
   for (std::size_t number = 1; at < text.size(); ++number) {
     const auto end = std::min(text.find('\n', at), text.size());
-    std::string_view line = std::string_view(text).substr(at, end - at);
+    std::string_view line = without_byte_order_marks(std::string_view(text).substr(at, end - at));
     at = end + 1;
     if (line.ends_with('\r')) line.remove_suffix(1);
     if (is_comment(line)) continue;

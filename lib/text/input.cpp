@@ -37,6 +37,12 @@ void refuse_output(const std::string& name) {
     fail<InputError>("{}: this input is the output too", name);
 }
 
+std::string_view without_byte_order_marks(std::string_view text) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  while (text.starts_with(mark)) text.remove_prefix(mark.size());
+  return text;
+}
+
 namespace {
 int open_for_reading(const std::string& name) {
   refuse_output(name);  // first: if standard output is closed, open() may return its number
@@ -122,7 +128,7 @@ bool Input::next(std::string_view& line) {
   at_ = feed == end_ ? feed : feed + 1;
   if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
   ++line_number_;
-  if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);  // before each of joined files
+  line = without_byte_order_marks(line);
   return true;
 }
 

@@ -175,6 +175,8 @@ TEST_CASE("scene: a file is at most 64 KiB", "[cli]") {
 
 TEST_CASE("scene: a byte order mark, and a key that stands twice", "[cli]") {
   CHECK(read("\xEF\xBB\xBFradius = 1\n") == "radius=1 ");
+  CHECK(read("\xEF\xBB\xBFradius = 1\n\xEF\xBB\xBF\xEF\xBB\xBFgravity = 9.8\n") ==
+        "radius=1 gravity=9.8 ");
   const TemporaryFile twice("radius = 1\n\nradius = 1\n");
   CHECK(anonymous(refusal([&] { read_scene(twice.name()); })) == "FILE:3: radius is in line 1 too");
 }

@@ -41,6 +41,8 @@ TEST_CASE(
   CHECK(lines("\xEF\xBB\xBF"
               "a\n\xEF\xBB\xBF"
               "b\n") == "<a><b>");
+  CHECK(lines("\xEF\xBB\xBF\xEF\xBB\xBF"  // the first of them has nothing else
+              "a\n") == "<a>");
 }
 
 TEST_CASE("input: lines across the blocks of reading are whole", "[text]") {
