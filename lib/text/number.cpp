@@ -5,6 +5,7 @@
 #include <bit>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -124,7 +125,11 @@ bool means_missing(std::string_view field) {
 }
 
 char* write_number(char* to, double value, int digits) {
-  return digits > 0 ? write_digits(to, value, digits) : write_shortest(to, value);
+  if (digits > 0) {
+    char* const end = write_digits(to, value, digits);
+    if (std::abs(value) < 1e308 || is_number({to, end})) return end;
+  }
+  return write_shortest(to, value);
 }
 
 bool has_groups(std::string_view text) {

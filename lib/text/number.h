@@ -29,7 +29,8 @@ bool is_missing(std::string_view field);
 bool means_missing(std::string_view field);
 
 /// Writes the shortest text that reads back to the same double, or `digits` significant digits if
-/// digits > 0. Returns the end of the text, which has at most longest_number characters.
+/// digits > 0 and they are not beyond the largest double. Returns the end of the text, which has at
+/// most longest_number characters.
 char* write_number(char* to, double value, int digits = 0);
 inline constexpr std::size_t longest_number = 32;
 

@@ -255,6 +255,20 @@ TEST_CASE("number: digits round to as many significant ones", "[text]") {
   CHECK(written(-1.2345678901234567e-308, 17).size() < 32);
 }
 
+TEST_CASE("number: a number that is rounded is a number again, up to the largest", "[text]") {
+  CHECK(written(1.44e308, 1) == "1e+308");
+  CHECK(written(1.79e308, 1) == "1.79e+308");  // 2e308 is beyond a double
+  CHECK(written(-1.79e308, 2) == "-1.79e+308");
+  CHECK(written(1.79e308, 3) == "1.79e+308");
+  using limits = std::numeric_limits<double>;
+  for (const double value : {limits::max(), limits::lowest(), limits::min(), limits::denorm_min()})
+    for (int digits = 1; digits <= 17; ++digits) {
+      INFO(written(value, digits));
+      CHECK(std::isfinite(std::strtod(written(value, digits).c_str(), nullptr)));
+      CHECK(std::strtod(written(value, digits).c_str(), nullptr) != 0);
+    }
+}
+
 TEST_CASE("number: the locale has no say", "[text]") {
   for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE", "nl_NL.UTF-8"})
     if (std::setlocale(LC_ALL, name)) break;  // one with a decimal comma, if the system has any
