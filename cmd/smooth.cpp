@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
             "width of the window, an odd number of samples (11), or auto");
   tool.number("--seconds", options.width.seconds, positive,
               "width of the window in seconds, instead");
-  tool.count("--order", options.order, whole, "order of savgol's polynomial (2)");
+  tool.count("--order", options.order, polynomial, "order of savgol's polynomial (2)");
   tool.number("--outliers", select.outliers, positive,
               "leave out readings further than this many scaled MADs from their window's median");
   tool.flag("--coast", select.coast, "keep the free roll only: after the last push or hold");

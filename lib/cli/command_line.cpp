@@ -46,6 +46,8 @@ void append_item(std::string& page, const std::string& names, std::string_view w
   ((page += line) += words) += '\n';
 }
 
+bool may_repeat(const CLI::Option& option) { return option.get_items_expected_max() > 1; }
+
 /// `-w,--width N`, with ` ...` behind where the option may be repeated.
 std::string synopsis(const CLI::Option& option) {
   std::string text;
@@ -53,16 +55,28 @@ std::string synopsis(const CLI::Option& option) {
   text += "--" + option.get_lnames().front();
   if (option.get_type_size() == 0) return text;
   text += ' ' + option.get_type_name();
-  if (option.get_items_expected_max() > 1) text += " ...";
+  if (may_repeat(option)) text += " ...";
   return text;
 }
 
 /// CLI11's message on one line, with long words cut.
-std::string one_line(const char* message) {
+std::string one_line(const std::string& message) {
   std::istringstream words(message);
   std::string text;
   for (std::string word; words >> word;) text += shown(word) + ' ';
   return text;
+}
+
+/// What is wrong with the number of values of an option. CLI11's message begins with its long name,
+/// that of a flag without hyphens.
+std::string wrong_count(const CLI::App& app, const std::string& message) {
+  const auto begin = message.find_first_not_of('-');
+  const std::string name = "--" + message.substr(begin, message.find_first_of(": ", begin) - begin);
+  const CLI::Option* const option = app.get_option_no_throw(name);
+  if (!option) return one_line(message);
+  if (option->count() > 1 && !may_repeat(*option)) return name + " is given more than once ";
+  if (option->get_items_expected_max() == 0) return name + " takes no value ";
+  return name + " needs a value, " + option->get_type_name() + ' ';
 }
 
 }  // namespace
@@ -119,6 +133,8 @@ CommandLine::Asked CommandLine::parse(int argc, const char* const* argv) {
     return Asked::help;
   } catch (const CLI::CallForVersion&) {
     return Asked::version;
+  } catch (const CLI::ArgumentMismatch& error) {
+    fail("{}(see --help)", wrong_count(parser_->app, error.what()));
   } catch (const CLI::ParseError& error) {
     fail("{}(see --help)", one_line(error.what()));
   }

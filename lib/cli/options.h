@@ -36,6 +36,10 @@ inline constexpr Range odd{"an odd whole number from 1 to 1e9", [](double x) {
                              return whole.holds(x) && static_cast<std::int64_t>(x) % 2 == 1;
                            }};
 
+/// The order of a polynomial: SavitzkyGolay::most_order is the limit.
+inline constexpr Range polynomial{"a whole number from 1 to 10",
+                                  [](double x) { return whole.holds(x) && x <= 10; }};
+
 /// The number in a text. Throws Error for another text and for a number outside the range.
 double to_number(const std::string& text, const Range&);
 

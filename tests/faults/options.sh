@@ -74,7 +74,12 @@ smooth -w auto --seconds 1 @|--width does not go with --seconds
 smooth --outliers 0 @|'0' must be greater than 0
 smooth --order 2 @|--order goes with --method savgol
 smooth -M savgol -w 3 --order 3 @|order
-smooth -M savgol --order 0 @|'0' must be a whole number from 1 to 1e9
+smooth -M savgol --order 0 @|'0' must be a whole number from 1 to 10
+smooth -M savgol -w 75 --order 11 @|'11' must be a whole number from 1 to 10
+smooth -w 3 -w 5 @|--width is given more than once
+smooth -q @ -q|--quiet is given more than once
+smooth @ -w|--width needs a value, N
+smooth --quiet=yes @|--quiet takes no value
 smooth -M nothing @|'nothing' is not one of
 smooth -c w @|there is no column 'w' among
 smooth -c 5 @|there is no column '5' among
