@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "text/commented_names.h"
+#include "text/delimiters.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -264,10 +265,9 @@ Head HeadReader::finish() {
 /// What to do about a record of another number of fields than there are names.
 std::string HeadReader::way_out(std::size_t width, std::size_t names) const {
   if (before_) return fmt::format("; if line {} is a heading, begin it with #", head_.line);
-  if (dialect_.separator() == ',')
-    return "; if some of its commas are decimal ones, make them points first";
-  const bool words = dialect_.separator() == '\0' && names > width;
-  return words ? "; if a name has blanks in it, put it in quotes" : "";
+  if (names > width)
+    return dialect_.separator() == '\0' ? "; if a name has blanks in it, put it in quotes" : "";
+  return way_out_of_commas(lines_.text(), dialect_.separator(), width - names);
 }
 
 Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {

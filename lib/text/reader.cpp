@@ -293,9 +293,8 @@ void Reader::change_fields() {
   } else {
     fail<InputError>("{}: {} field{} where the first record has {}{}", here(), fields_.size(),
                      fields_.size() == 1 ? "" : "s", width,
-                     fields_.size() > width && file_dialect_.separator() == ','
-                         ? "; if some of its commas are decimal ones, make them points first"
-                         : "");
+                     way_out_of_commas(line_, file_dialect_.separator(),
+                                       std::max(fields_.size(), width) - width));
   }
   fields_changed_ = true;
 }
