@@ -102,7 +102,7 @@ class Accounts {
 
   /// Checks the balance at the end of a run.
   void close(const Balance& balance) {
-    if (std::isnan(tolerance_)) return;
+    if (std::isnan(tolerance_) || balance.empty()) return;
     std::string beyond;
     if (!(std::abs(balance.closure()) <= tolerance_))
       beyond = fmt::format("closure {:.4g}", balance.closure());
@@ -150,6 +150,7 @@ void write_summary(Output& out, Reader& in, Accounts& accounts, const Body& body
   while (in.next_run()) {
     Balance balance = accounts.open();
     while (in.next()) accounts.enter(balance);
+    if (balance.empty()) continue;
     for (const double cell : {balance.start(), balance.end(), balance.dissipated(),
                               balance.closure(), balance.imbalance()})
       out.cell(cell);

@@ -219,14 +219,17 @@ class Rows {
   /// At the times in the column t of a file; each run of the file starts the roll anew.
   void write_at(Reader& in) {
     const auto t = in.need_time();
-    for (bool first = true; in.next_run(); first = false) {
-      if (!first) out_.end_line();
-      for (const std::string& comment : in.comments())
-        if (comment.starts_with("## run ")) out_.text(comment), out_.end_line();
-      write_header();
-      const auto motion = task_.start();
+    for (bool first = true; in.next_run();) {
+      std::unique_ptr<Motion> motion;
       while (in.next()) {
         if (in[t] < 0) fail("t = {} is before the roll, which begins at 0", in[t]);
+        if (!motion) {
+          if (!std::exchange(first, false)) out_.end_line();
+          for (const std::string& comment : in.comments())
+            if (comment.starts_with("## run ")) out_.text(comment), out_.end_line();
+          write_header();
+          motion = task_.start();
+        }
         write(in[t], *motion);
       }
       format();

@@ -29,6 +29,7 @@ class Balance {
     worst_ = std::max(worst_, off);
   }
 
+  bool empty() const { return !begun_; }   ///< no record has been added
   double start() const { return start_; }  ///< E_trans + E_rot at the first record [J]
   double end() const { return end_; }      ///< and at the last [J]
   /// I_E1 + I_E2 integrated over time so far [J].

@@ -65,6 +65,7 @@ bool Reader::find_run() {
   if (options_.run && !run_found_)
     fail("there is no run {} (runs: {})", *options_.run,
          labels_.empty() ? fmt::format("{}", run_) : labels_);
+  if (left_out_ > 0 && !record_found_) fail("no records: a needed reading is missing in every one");
   return false;
 }
 
@@ -267,7 +268,7 @@ bool Reader::next() {
       if (!next_line()) return false;
       split_line();
     }
-    if (take_record()) return true;
+    if (take_record()) return record_found_ = true;
     ++left_out_;
   }
 }

@@ -154,7 +154,7 @@ class Reader {
   std::size_t run_in_file_ = 0;  // number of the run in the file
   std::string place_;            // where() behind its last record
   std::string labels_;           // the numbers that runs before it carry, where one is asked for
-  bool run_found_ = false, file_open_ = false;
+  bool run_found_ = false, record_found_ = false, file_open_ = false;
 
   // The present record.
   std::vector<double> values_;  // of the needed columns, by slot
