@@ -133,7 +133,7 @@ void check_options(const Tool& tool, const Task& task) {
     fail("--damping goes with --memory");
 }
 
-/// The time of the last row: `until`, or the stop if that is not given.
+/// The time where the rows end: `until`, or the stop if that is not given.
 double last_time(const Roll& roll, const Motion& motion, double until) {
   const double end = std::isnan(until) ? motion.stop_time() : until;
   if (!std::isfinite(end)) fail("{}: say --until when to end", why_endless(roll, motion));
@@ -270,7 +270,7 @@ int main(int argc, char** argv) {
   bool sensor = false;
   add_options(tool, task);
   tool.number("--dt", dt, positive, "time between rows [s] (0.01)");
-  tool.number("--until", until, not_negative, "time of the last row [s] (the stop)");
+  tool.number("--until", until, not_negative, "no row is later than this [s] (the stop)");
   tool.text("--at", times_file, "FILE", "file with a column t: the times of the rows, instead");
   tool.text("--columns", columns, "NAME,...", "what to compute, of t,x,v,a,D (all)");
   tool.choice<bool>("--sensor", sensor, {{"pasco", true}},
