@@ -196,8 +196,8 @@ void warn_of_unused_body(Tool& tool, const std::vector<FitRun>& runs, Geometry g
         if (tool.on_command_line(option) && !tool.on_command_line("report"))
           unused += fmt::format("{}--{}", unused.empty() ? "" : ", ", option);
       if (unused.empty()) continue;
-      return tool.warn(fmt::format(
-          "run {}: no `##` line tells how D was computed, and so not used: {}", run.name, unused));
+      return tool.warn(fmt::format("run {}: not used: {}: no `##` line tells how D was computed",
+                                   run.name, unused));
     }
     Body given = run.body;
     if (!tool.given("gravity")) given.g = not_given;

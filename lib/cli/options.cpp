@@ -18,8 +18,11 @@ void require(const Range& range, double value, std::string_view text) {
 }
 
 [[noreturn]] void refuse_number(const std::string& text) {
+  Estimate estimate;
+  const std::string with_points = replace_all(text, ",", ".");
+  const bool has_comma = with_points != text && parse_estimate(with_points, estimate);
   fail("'{}' is not a number{}", shown(text),
-       text.find(',') < text.size() ? "; its decimal mark has to be a point" : "");
+       has_comma ? "; its decimal mark has to be a point" : "");
 }
 
 Estimate to_estimate(const std::string& text, const Range& range) {

@@ -76,6 +76,7 @@ smooth --order 2 @|--order goes with --method savgol
 smooth -M savgol -w 3 --order 3 @|order
 smooth -M savgol --order 0 @|'0' must be a whole number from 1 to 10
 smooth -M savgol -w 75 --order 11 @|'11' must be a whole number from 1 to 10
+smooth --seconds 0,5 @|'0,5' is not a number; its decimal mark has to be a point
 smooth -w 3 -w 5 @|--width is given more than once
 smooth -q @ -q|--quiet is given more than once
 smooth @ -w|--width needs a value, N

@@ -58,6 +58,11 @@ TEST_CASE("options: what is given about a body, on the command line and in a sce
   CHECK(given({"-K", "0.5+--1"}, {}) == "2 tool: -K,--shape-factor: '0.5+--1' is not a number\n");
   CHECK(given({"-R", "0+-1"}, {}) == "2 tool: -R,--radius: '0+-1' must be greater than 0\n");
   CHECK(given({"-m", "1+-1"}, {}) == "2 tool: -m,--mass: '1+-1' is not a number\n");
+  CHECK(
+      given({"-R", "0,04 +- 0,001"}, {}) ==
+      "2 tool: -R,--radius: '0,04 +- 0,001' is not a number; its decimal mark has to be a point\n");
+  for (const std::string text : {"0.04,0.03", "0,04m", ","})
+    CHECK(given({"-R", text}, {}) == "2 tool: -R,--radius: '" + text + "' is not a number\n");
   const TemporaryFile wrong("\nmass = \"1+-1\"\n");
   CHECK(given({"--scene", wrong.name()}, {}) == "2 tool: FILE:2: mass: '1+-1' is not a number\n");
 
