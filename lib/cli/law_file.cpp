@@ -61,7 +61,11 @@ LawFile read_law(Tool& tool, const std::string& file) {
   std::vector<double> speeds, shifts;
   while (in.next_run())
     while (in.next()) speeds.push_back(in[v]), shifts.push_back(in[D]);
-  return {.table = TableLaw(std::move(speeds), std::move(shifts))};
+  try {
+    return {.table = TableLaw(std::move(speeds), std::move(shifts))};
+  } catch (const Error& error) {
+    fail<InputError>("{}: {}", file, error.what());
+  }
 }
 
 }  // namespace rolling

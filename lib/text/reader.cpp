@@ -65,7 +65,9 @@ bool Reader::find_run() {
   if (options_.run && !run_found_)
     fail("there is no run {} (runs: {})", *options_.run,
          labels_.empty() ? fmt::format("{}", run_) : labels_);
-  if (left_out_ > 0 && !record_found_) fail("no records: a needed reading is missing in every one");
+  if (left_out_ > 0 && !record_found_)
+    fail<InputError>("{}no records: a needed reading is missing in every one",
+                     options_.files.size() == 1 ? lines_->name() + ": " : "");
   return false;
 }
 

@@ -214,7 +214,7 @@ TEST_CASE("filter: no record with all its readings is an error", "[text]") {
         while (filter.next()) filter.put(1);
     });
   });
-  CHECK(message == "no records: a needed reading is missing in every one");
+  CHECK(message == file.name() + ": no records: a needed reading is missing in every one");
 }
 
 TEST_CASE("filter: ten thousand rows that wait for a late filter", "[text]") {
