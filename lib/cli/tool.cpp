@@ -59,8 +59,6 @@ bool Tool::used(const std::string& quantity) const {
 }
 
 Reader& Tool::read(std::vector<std::string> order) {
-  if (reads_standard_input(input_) && ::isatty(STDIN_FILENO))
-    say("reading columns from the terminal; end with Ctrl-D");
   return open(input_, std::move(order));
 }
 
@@ -70,8 +68,11 @@ Reader& Tool::read_file(const std::string& file, std::vector<std::string> order)
 }
 
 Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
-  if (reads_standard_input(options) && std::exchange(standard_input_taken_, true))
-    fail("standard input cannot be read twice: name a file for one of the two");
+  if (reads_standard_input(options)) {
+    if (std::exchange(standard_input_taken_, true))
+      fail("standard input cannot be read twice: name a file for one of the two");
+    if (::isatty(STDIN_FILENO)) warn("reading columns from the terminal; end with Ctrl-D");
+  }
   options.on_block = [this](const std::string& name, double part) {
     progress.at(name == "-" ? "standard input" : name, part);
   };

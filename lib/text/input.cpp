@@ -53,7 +53,7 @@ int open_for_reading(const std::string& name) {
 Input::Input(std::string name, BlockHook on_block)
     : name_(std::move(name)), on_block_(std::move(on_block)), fd_(open_for_reading(name_)),
       at_(buffer_.reserve(block)), end_(at_) {
-  if (fd_ < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
+  if (fd_ < 0) fail<InputError>("{}: {}", name_.empty() ? "''" : name_, std::strerror(errno));
 #ifdef F_SETPIPE_SZ
   // A larger pipe lets the tools of a chain wait less for each other. Failure does no harm.
   ::fcntl(fd_, F_SETPIPE_SZ, 1 << 20);

@@ -30,9 +30,15 @@ into_file() { smooth big 2>err | { sleep 3; cat >/dev/null; }; cat err; }
 silent 'into a file' into_file
 
 # Whoever reads from the terminal is told so, and ends the columns by Ctrl-D.
-said=$({ printf '0 1\n1 2\n' && sleep 1 && printf '\004'; } | script -qec 'smooth -w 1' /dev/null | tr -d '\r')
+typed() { { printf "$1" && sleep 1 && printf '\004'; } | script -qec "$2" /dev/null | tr -d '\r'; }
+said=$(typed '0 1\n1 2\n' 'smooth -w 1')
 [[ $said == *'smooth: reading columns from the terminal; end with Ctrl-D'*$'\n0\t1\n1\t2' ]] ||
   { echo "at a terminal smooth says '$said'" && wrong=1; }
+said=$(typed 'v D\n0.1 1e-3\n0.6 1e-3\n' 'simulate -K 0.5 -R 0.04 --v0 0.5 --dt 9 --law -')
+[[ $said == *'simulate: reading columns from the terminal; end with Ctrl-D'*'## simulate table'* ]] ||
+  { echo "at a terminal simulate --law - says '$said'" && wrong=1; }
+said=$(typed '0 1\n1 2\n' 'smooth -q -w 1')
+[[ $said != *'Ctrl-D'* ]] || { echo "at a terminal smooth -q says '$said'" && wrong=1; }
 
 # Fits of one run each, as many as take three seconds.
 roll=$(simulate -K 0.5 -R 0.04 -a 1.87e-3 -b 0.215 --v0 0.5 --dt 0.04 --columns t,x --digits 3)
