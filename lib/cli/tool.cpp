@@ -58,9 +58,7 @@ bool Tool::used(const std::string& quantity) const {
   });
 }
 
-Reader& Tool::read(std::vector<std::string> order) {
-  return open(input_, std::move(order));
-}
+Reader& Tool::read(std::vector<std::string> order) { return open(input_, std::move(order)); }
 
 Reader& Tool::read_file(const std::string& file, std::vector<std::string> order) {
   // --use is about the operands
@@ -111,7 +109,7 @@ int Tool::finish(int status) {
   if (failed_checks_ == 0) return status;
   say(failed_checks_ == 1 ? failed_check_
                           : fmt::format("{} (and {} more)", failed_check_, failed_checks_ - 1));
-  return 1;
+  return std::max(status, 1);  // trouble is more than a check that does not hold
 }
 
 int Tool::run(int argc, char** argv, const std::function<int()>& work) {
