@@ -113,7 +113,8 @@ bool is_missing(std::string_view field) {
 }
 
 bool means_missing(std::string_view field) {
-  if (field.starts_with('#')) return true;
+  if (field.starts_with('#'))
+    return field.size() > 1 && std::isupper(static_cast<unsigned char>(field[1]));
   std::string letters;
   for (const char letter : field) {
     const auto c = static_cast<unsigned char>(letter);

@@ -24,8 +24,7 @@ inline bool is_number(std::string_view field) {
 bool is_missing(std::string_view field);
 
 /// True for what other programs write for a missing reading, and the tools refuse: NA, N/A, null,
-/// None, -nan, signs without a letter or digit, and the error values of spreadsheets, which begin
-/// with #.
+/// None, -nan, signs without a letter or digit, and the error values of spreadsheets, as #DIV/0!.
 bool means_missing(std::string_view field);
 
 /// Writes the shortest text that reads back to the same double, or `digits` significant digits if

@@ -289,6 +289,18 @@ TEST_CASE("number: a missing reading is nothing, or NaN in any case", "[text]") 
   }
 }
 
+TEST_CASE("number: what other programs write for a missing reading", "[text]") {
+  for (const char* text :
+       {"NA", "n/a", "-", "--", "null", "None", "-nan", "-nan(ind)", "#N/A", "#DIV/0!", "#NULL!"}) {
+    INFO(text);
+    CHECK(means_missing(text));
+  }
+  for (const char* text : {"0", "a", "Run", "#", "# t[s]", "## smooth v mean width 3", "#1"}) {
+    INFO(text);
+    CHECK_FALSE(means_missing(text));
+  }
+}
+
 TEST_CASE("number: a message shows printable ASCII, cut at 40 characters", "[text]") {
   CHECK(shown("abc") == "abc");
   CHECK(shown("a\tb\x7f\xC2\xB2\n") == "a?b????");
