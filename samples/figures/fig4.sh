@@ -13,7 +13,7 @@
 # D against v of record $1, the file $3, with the shape factor $2, and the row of the law.
 shifts() {
   local from=v
-  ! smooth -q -w 1 "$3" 2>/dev/null | grep '^# t' | grep -q 'x\[' || from=x
+  ! smooth -q -c x -w 1 "$3" >/dev/null 2>&1 || from=x
   case $from in
     x) smooth -q --coast -c x -w 1 "$3" | differentiate -c x | smooth -q -w 11 ;;
     v) smooth -q --coast -c v -w 11 "$3" ;;
@@ -21,7 +21,7 @@ shifts() {
   fitpower -q "shift$1" | grep -v '^#' >>laws
   # The picture has the rows of whole windows alone; fitpower knows the noise of all of them.
   whole_windows <"shift$1" | awk -F'\t' '
-    /^# t/ { for (i = 1; i <= NF; i++) { if ($i ~ /^v\[/) v = i; if ($i ~ /^D\[/) D = i } next }
+    /^# / { for (i = 1; i <= NF; i++) { if ($i ~ /^v\[/) v = i; if ($i ~ /^D\[/) D = i } next }
     /^[^#]/ {
       if (!way) way = $v < 0 ? -1 : 1
       print (way < 0 ? sprintf("%.17g", -$v) : $v) "\t" way * 1e3 * $D

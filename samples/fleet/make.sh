@@ -7,6 +7,7 @@
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
+[ $# -gt 0 ] || { echo "make.sh: say the folder: make.sh FOLDER [RECORDS [SPREAD]]" >&2; exit 2; }
 folder=$1 records=${2:-1000} spread=${3:-0.1}
 # The tools of this source, or those on the PATH.
 PATH=$(cd "$(dirname "$0")/../.." && pwd)/bin:$PATH

@@ -7,6 +7,7 @@
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
+[ $# -gt 0 ] || { echo "table.sh: say the folder: table.sh FOLDER [OPTION]..." >&2; exit 2; }
 folder=$1 program=$(dirname "$0")/fit.sh
 shift
 # parallel quotes what replaces {}, but takes the rest of its command for code.

@@ -193,6 +193,10 @@ cut -d , -f 1,2 samples/CR.csv >"$scratch/CR.csv"
 samples/figures/fig4.sh "$scratch/CR.csv" >"$scratch/towards-growing-x.svg"
 samples/figures/fig4.sh "$scratch/mirrored/CR.csv" |
   cmp - "$scratch/towards-growing-x.svg" || complain "fig4 of a roll towards falling x"
+mkdir "$scratch/swapped"
+awk -F, -v OFS=, '{ print $2, $1 }' "$scratch/CR.csv" >"$scratch/swapped/CR.csv"
+samples/figures/fig4.sh "$scratch/swapped/CR.csv" |
+  cmp - "$scratch/towards-growing-x.svg" || complain "fig4 of a record with x before t"
 smooth -q --coast -c v -w 11 "$scratch/my_'run'; set label.1.csv" | differentiate -c v |
   shift-from-accel -q -K 0.5 -R 0.04 | fitpower -q | tail -n 1 >"$scratch/law"
 sed -n 's/.*>\(my_.*\)<.text>.*/\1/p' "$scratch/own.svg" |
