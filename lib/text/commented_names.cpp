@@ -92,6 +92,13 @@ std::size_t names_with_units(std::string_view comment) {
       [](const Column& word) { return is_known(word) && !word.unit.empty(); }));
 }
 
+/// True for nothing but known quantities. One word without a unit may be a label.
+bool is_list_of_known(std::string_view comment) {
+  const std::vector<Column> words = words_of(without_marks(comment));
+  return (words.size() > 1 || names_with_units(comment) > 0) &&
+         std::ranges::all_of(words, is_known);
+}
+
 /// True if each known quantity is in the same place in both, in the same unit.
 bool agree(const std::vector<std::string>& one, const std::vector<std::string>& other) {
   const auto same = [](const std::string& x, const std::string& y) {
@@ -148,6 +155,9 @@ class Choice {
                "there");
       if (comments_[i].is_history()) continue;
       if (chosen == none && names_with_units(comments_[i].text) > 1) refuse_units(i);
+      if (chosen == none && is_list_of_known(comments_[i].text))
+        refuse(i, "'{}' names known quantities, but not one for each of {}",
+               shown(comments_[i].text), columns_in_words());
       if (chosen != none && all_[i].known > 1 && weight(i) + !is_complete(chosen) > weight(chosen))
         refuse(i,
                "'{}' can be the names of the columns, and so can line {}: give one of them another "
@@ -193,8 +203,10 @@ class Choice {
                      fmt::format(what, std::forward<Args>(args)...));
   }
   [[noreturn]] void refuse_units(std::size_t i) const {
-    refuse(i, "a comment with units, but not the names of {} column{}", columns_.count,
-           columns_.count == 1 ? "" : "s");
+    refuse(i, "a comment with units, but not the names of {}", columns_in_words());
+  }
+  std::string columns_in_words() const {
+    return fmt::format("{} column{}", columns_.count, columns_.count == 1 ? "" : "s");
   }
 
   const std::vector<Comment>& comments_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "text/number.h"
 #include "unit/text/files.h"
 
 using namespace rolling;
@@ -122,6 +123,18 @@ TEST_CASE("commented names: names of columns in a history line are refused", "[t
   CHECK(chosen({"## smooth v coast", "## smooth v mean width 3"}, {3}).empty());
   CHECK(chosen({"## t x v", "# v x t"}, {3}) == "f:1: " + refused);
   CHECK(chosen({"## t x v", "# t x v"}, {3}) == "2 <t><x><v>");
+}
+
+TEST_CASE("commented names: nothing but known quantities, but not one for each column", "[text]") {
+  // Such are the names of a file of which columns were cut away, or added.
+  for (const std::string text : {"#v[mm/s]", "# t x v", "# t[s]\tx", "# Time (s), v, a"})
+    for (const std::size_t columns : {4U, 5U})
+      for (const bool first : {true, false})
+        CHECK(chosen({text}, {columns}, first) ==
+              fmt::format("f:1: '{}' names known quantities, but not one for each of {} columns",
+                          shown(text), columns));
+  CHECK(chosen({"#v[mm/s]", "# t x"}, {2}) == "2 <t><x>");
+  CHECK(chosen({"# v", "# the v", "# v, fast", "#", "# 5"}, {3}).empty());
 }
 
 TEST_CASE("commented names: a comment with units and names of other columns is refused", "[text]") {
