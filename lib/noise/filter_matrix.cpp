@@ -143,7 +143,7 @@ std::vector<double> FilterMatrix::transposed_times(std::vector<double> x) const 
     std::vector<double> next(f > 0 ? factors_[f - 1]->rows() : columns_);
     for (std::size_t i = 0; i < L.rows(); ++i) {
       const auto row = L.row(i);
-      double* const to = &next[L.first(i)];
+      double* const to = next.data() + L.first(i);
       for (std::size_t k = 0; k < row.size(); ++k) to[k] += row[k] * x[i];
     }
     x.swap(next);
