@@ -22,7 +22,7 @@ $(wordlist 2,$(words $(goals)),$(goals)): $(firstword $(goals)) ;
 else
 
 CXX      ?= g++
-CXXFLAGS ?= -O2 -g1
+CXXFLAGS ?= -O2
 # No flag of the user's, behind which these stand, may fuse a multiplication and an addition or
 # regroup a sum.
 override CXXFLAGS += -ffp-contract=off -fno-unsafe-math-optimizations
