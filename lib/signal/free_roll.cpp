@@ -13,6 +13,7 @@
 #include "signal/corner.h"
 #include "signal/moving_median.h"
 #include "signal/release.h"
+#include "signal/units.h"
 
 namespace rolling {
 namespace {
@@ -238,9 +239,12 @@ class Search {
 constexpr std::size_t at_once = 20000;
 
 /// The roll in a run of at most at_once samples.
-Stretch roll_of(std::span<const Sample> run, bool positions, double step) {
+Stretch roll_of(std::span<const Sample> readings, bool positions, double step) {
   constexpr double clear = 5, faint = 3.5;  // standard deviations
-  const Search search(run, positions, step);
+  const Units units(readings);
+  std::vector<Sample> run(readings.size());
+  std::ranges::transform(readings, run.begin(), units);
+  const Search search(run, positions, std::ldexp(step, -units.y));
   Stretch roll{search.begin(clear), search.end(), {}};
   if (roll.begin + 3 > roll.end) fail("{}", not_found);
   const std::size_t other = std::min(search.begin(faint), roll.end - 1);

@@ -91,7 +91,7 @@ Release release_of(std::span<const Sample> samples, bool positions, double falli
     const double most = least + 2.5 * 2.5 * residuals.variance(least);
     const auto within = [&](double sum) { return sum <= most; };
     const auto first = std::find_if(sums.begin(), sums.end(), within);
-    if (first == sums.end()) break;  // the sums have overflowed
+    if (first == sums.end()) break;  // without noise, the finer grid may miss the least sum
     const auto last = std::find_if(sums.rbegin(), sums.rend(), within);
     const auto at = [&](std::ptrdiff_t i) { return from + static_cast<std::size_t>(i) * step; };
     const std::size_t begin = at(first - sums.begin()), end = at(sums.rend() - last - 1);

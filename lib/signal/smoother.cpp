@@ -7,6 +7,7 @@
 #include "signal/moving_mean.h"
 #include "signal/moving_median.h"
 #include "signal/savitzky_golay.h"
+#include "signal/units.h"
 
 namespace rolling {
 
@@ -49,6 +50,7 @@ std::size_t best_width(std::span<const Sample> run, const SignalOptions& options
   const bool whole = options.method->has_order;
   const std::size_t first = whole ? 0 : least;
   LocalPolynomial polynomial;
+  const Units units(run);
   std::vector<Sample> others;
   double least_sum = std::numeric_limits<double>::infinity();
   std::size_t best = least;
@@ -63,8 +65,8 @@ std::size_t best_width(std::span<const Sample> run, const SignalOptions& options
       others.clear();
       for (std::size_t j = middle - k; j <= middle + k; ++j)
         if (j + apart < i || j > i + apart) others.push_back(run[j]);
-      const double distance =
-          run[i].y - polynomial(others, {run[i].t, others.front().y}, order).value;
+      const double distance = std::ldexp(
+          run[i].y - polynomial(others, {run[i].t, others.front().y}, order).value, -units.y);
       sum += distance * distance;
     }
     if (sum < least_sum) least_sum = sum, best = half;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "signal/units.h"
 
 namespace rolling {
 
@@ -13,8 +14,7 @@ namespace rolling {
 // values of the spline are y - alpha Q g.
 
 std::span<const double> SplineDerivative::push(double t, double y) {
-  t_.push_back(t);
-  y_.push_back(y);
+  run_.push_back({t, y});
   return {};
 }
 
@@ -66,23 +66,22 @@ double SplineDerivative::solve(double alpha) {
 }
 
 std::span<const double> SplineDerivative::finish() {
-  const std::size_t n = t_.size();
+  const std::size_t n = run_.size();
   if (n == 0) return {};
   if (n == 1) fail("a run of one record has no derivative");
-  const double unit = (t_.back() - t_.front()) / static_cast<double>(n - 1);
-  // A power of two scales the readings to order one, so that no square overflows or underflows.
-  double largest = 0;
-  for (const double y : y_) largest = std::max(largest, std::abs(y));
-  const int scale = largest > 0 ? std::ilogb(largest) : 0;
-  for (double& y : y_) y = std::ldexp(y, -scale);
-  for (std::size_t i = 0; i + 1 < n; ++i) h_.push_back((t_[i + 1] - t_[i]) / unit);
+  const Units units(run_);
+  std::ranges::transform(run_, run_.begin(), units);
+  const auto step = [this](std::size_t i) { return run_[i + 1].t - run_[i].t; };
+  const auto difference = [this](std::size_t i) { return run_[i + 1].y - run_[i].y; };
+  const double unit = (run_.back().t - run_.front().t) / static_cast<double>(n - 1);
+  for (std::size_t i = 0; i + 1 < n; ++i) h_.push_back(step(i) / unit);
   const std::size_t m = n - 2;
   qy_.resize(m), q0_.resize(m), q1_.resize(m), q2_.resize(m), D_.resize(m), L1_.resize(m),
       L2_.resize(m), bend_.resize(m);
   const auto inverse = [this](std::size_t i) { return i < h_.size() ? 1 / h_[i] : 0; };
   for (std::size_t j = 0; j < m; ++j) {
     const double a = inverse(j), b = inverse(j + 1), c = inverse(j + 2);
-    qy_[j] = (y_[j + 2] - y_[j + 1]) * b - (y_[j + 1] - y_[j]) * a;
+    qy_[j] = difference(j + 1) * b - difference(j) * a;
     q0_[j] = a * a + (a + b) * (a + b) + b * b;
     q1_[j] = -b * (a + 2 * b + c);
     q2_[j] = b * c;
@@ -115,13 +114,13 @@ std::span<const double> SplineDerivative::finish() {
   };
   // A difference of readings, unlike one of values, loses no digits to what they have in common.
   const auto rise = [&](std::size_t i) {
-    return (y_[i + 1] - y_[i] - alpha * (Qg(i + 1) - Qg(i))) / h_[i];
+    return (difference(i) - alpha * (Qg(i + 1) - Qg(i))) / h_[i];
   };
   slopes_.reserve(n);
   for (std::size_t i = 0; i + 1 < n; ++i)
     slopes_.push_back((rise(i) - h_[i] * (2 * bend(i) + bend(i + 1)) / 6) / unit);
   slopes_.push_back((rise(n - 2) + h_[n - 2] * (bend(n - 2) + 2 * bend(n - 1)) / 6) / unit);
-  for (double& slope : slopes_) slope = std::ldexp(slope, scale);
+  for (double& slope : slopes_) slope = std::ldexp(slope, units.y - units.t);
   return slopes_;
 }
 

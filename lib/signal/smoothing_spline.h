@@ -21,7 +21,8 @@ class SplineDerivative : public Signal {
  private:
   double solve(double parameter);
 
-  std::vector<double> t_, y_, slopes_;
+  std::vector<Sample> run_;
+  std::vector<double> slopes_;
   std::vector<double> h_;                  // time steps in units of their mean
   std::vector<double> qy_, q0_, q1_, q2_;  // Q^T y, and the bands of Q^T Q (Green and Silverman)
   std::vector<double> D_, L1_, L2_,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "unit/catch.h"
@@ -364,4 +365,30 @@ TEST_CASE("free_roll: a reading that does not belong is no push", "[signal]") {
     run[100].y = wrong;
     CHECK(run[free_roll(run, false).begin].t < release + 1);
   }
+}
+
+TEST_CASE("free_roll: the units of time and readings change nothing", "[signal]") {
+  for (const bool positions : {false, true})
+    for (const double rate : {25.0, 5000.0}) {  // 5000: means of several records are searched first
+      const auto run = record(rate, positions ? 0.0004 : 0.004, 1, positions);
+      const Stretch expected = free_roll(run, positions);
+      for (const auto& [of_t, of_y] : {std::pair{0, -900},
+                                       {0, -560},
+                                       {0, 560},
+                                       {0, 900},
+                                       {-900, 0},
+                                       {-300, 0},
+                                       {300, 0},
+                                       {900, 0},
+                                       {500, -500},
+                                       {-600, 600}}) {
+        std::vector<Sample> scaled = run;
+        for (Sample& s : scaled) s = {std::ldexp(s.t, of_t), std::ldexp(s.y, of_y)};
+        const Stretch found = free_roll(scaled, positions);
+        INFO((positions ? "x, " : "v, ") << rate << " Hz, 2^" << of_t << ", 2^" << of_y);
+        CHECK(found.begin == expected.begin);
+        CHECK(found.end == expected.end);
+        CHECK(found.other == expected.other);
+      }
+    }
 }

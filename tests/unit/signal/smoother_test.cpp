@@ -186,3 +186,17 @@ TEST_CASE("smoother: the best width of a long run, of which every tenth record i
       static_cast<double>(best_width(std::span(wave).subspan(0, 2000), {methods.at("mean")}));
   CHECK(std::abs(whole - part) <= 0.3 * part);
 }
+
+TEST_CASE("smoother: the units of the readings do not change the best width", "[signal]") {
+  const std::vector<Sample> run = noisy_sine(even_times(300), 1, 1);
+  for (const char* method : {"mean", "savgol"}) {
+    const std::size_t expected = best_width(run, {methods.at(method)});
+    CHECK(expected > 9);
+    for (const int power : {-900, -600, 600, 900}) {
+      std::vector<Sample> scaled = run;
+      for (Sample& s : scaled) s.y = std::ldexp(s.y, power);
+      INFO(method << ", 2^" << power);
+      CHECK(best_width(scaled, {methods.at(method)}) == expected);
+    }
+  }
+}
