@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/golden_section.h"
 #include "signal/units.h"
 
 namespace rolling {
@@ -92,17 +93,13 @@ std::span<const double> SplineDerivative::finish() {
   double alpha = 0;
   if (m > 1) {  // with three samples the spline interpolates
     constexpr double lowest = -6, highest = 12, coarse = 0.5;
-    const auto score = [this](double exponent) { return solve(std::pow(10, exponent)); };
-    double best = lowest, least = score(lowest);
+    const auto worth = [this](double exponent) { return -solve(std::pow(10, exponent)); };
+    Largest best{lowest, worth(lowest)};
     for (double e = lowest + coarse; e <= highest; e += coarse)
-      if (const double now = score(e); now < least) least = now, best = e;
-    double from = std::max(lowest, best - coarse), to = std::min(highest, best + coarse);
-    while (to - from > 0.01) {  // ternary search; the score is flat near its minimum
-      const double a = from + (to - from) / 3, b = to - (to - from) / 3;
-      if (score(a) < score(b)) to = b;
-      else from = a;
-    }
-    alpha = std::pow(10, (from + to) / 2);
+      if (const double now = worth(e); now > best.value) best = {e, now};
+    best = golden_section(std::max(lowest, best.at - coarse), std::min(highest, best.at + coarse),
+                          1e-4, worth);
+    alpha = std::pow(10, best.at);
   }
   solve(alpha);
 
