@@ -32,8 +32,9 @@ double acceleration_from_shift(const Body&, Geometry, double D);
 
 /// Shift D [m] from an observed acceleration a [m/s^2], the inverse of acceleration_from_shift().
 /// With A = 1 this is Eq. 11, which gives a shift for any acceleration, beyond the radius too. In
-/// the exact geometry there is a shift only for |a| <= g cos theta / K; else it throws Error. A
-/// body that speeds up on a level mat has D < 0, which is returned as it is.
+/// the exact geometry there is one shift for |a| <= g cos theta / K; else it throws Error, since
+/// there is none, or, on a mat steeper than tan theta = 1/K, perhaps two. A body that speeds up on
+/// a level mat has D < 0, which is returned as it is.
 double shift_from_acceleration(const Body&, Geometry, double a);
 
 }  // namespace rolling
