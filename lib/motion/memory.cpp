@@ -19,8 +19,11 @@ constexpr double rest_fraction = 1e-3;  // of v0
 constexpr double stiff = 3e4;           // measured: above it an implicit solver is faster
 constexpr double most_swings = 1e5, most_relaxations = 2e7;
 
-double slowing_time(const Body& body, PowerLaw law, double v0) {
-  return v0 / std::abs(trial_acceleration(body, Geometry::approximate, law(v0)));
+/// The time in which the body slows down from v0. With z near the law, the shift z + damping z' of
+/// a body that slows down is smaller than z, by the factor 1 + damping c dD/dv.
+double slowing_time(const Body& body, PowerLaw law, Bulge bulge, double v0) {
+  const double q = std::abs(trial_acceleration(body, Geometry::approximate, law(v0)));
+  return v0 / q + bulge.damping * law.b;
 }
 
 OdeSystem equations(const Body& body, Geometry geometry, PowerLaw law, Bulge bulge, double v0) {
@@ -60,8 +63,9 @@ OdeSystem equations(const Body& body, Geometry geometry, PowerLaw law, Bulge bul
 }  // namespace
 
 Stepper memory_stepper(const Body& body, PowerLaw law, Bulge bulge, double v0) {
-  const double following = bulge.length / v0;
-  return slowing_time(body, law, v0) > stiff * following ? Stepper::rk4imp : Stepper::rk8pd;
+  const double q = std::abs(trial_acceleration(body, Geometry::approximate, law(v0))),
+               following = bulge.length / (v0 + bulge.damping * q);
+  return slowing_time(body, law, bulge, v0) > stiff * following ? Stepper::rk4imp : Stepper::rk8pd;
 }
 
 // Swings: about v = 0 the bulge is a spring, v'' = -w^2 v with w^2 = c a u^b / length at the speed
@@ -81,8 +85,9 @@ MemoryWork memory_work(const Body& body, PowerLaw law, Bulge bulge, double v0, d
   const double log_u = std::log(std::max({rest, creep, L / t})),
                log_w = (std::log(c) + std::log(law.a) + law.b * log_u - std::log(L)) / 2,
                swings = std::exp(log_w + std::log(L) - log_u);
-  const double to_rest = law.b < 2 ? slowing_time(body, law, v0) / (2 - law.b) : infinity;
-  double path = v0 * std::min(t, to_rest), lost = std::min(v0, c * law(v0) * t);
+  const double q = c * law(v0),
+               to_rest = law.b < 2 ? slowing_time(body, law, bulge, v0) / (2 - law.b) : infinity;
+  double path = v0 * std::min(t, to_rest), lost = std::min(v0 + bulge.damping * law.b * q, q * t);
   if (creep > 0) path += creep * t, lost += c * law(creep) * t;
   return {std::min(swings, 2 / (bulge.damping * std::exp(log_w))),
           (path + bulge.damping * lost) / L};

@@ -17,9 +17,9 @@ struct Bulge {
   double damping = 0;  ///< sigma_1 [s], >= 0
 };
 
-/// The solver for this stiffness. The shift follows v within the time length/v0, and the body slows
-/// down within v0/(c D(v0)). If the ratio of these times exceeds 3e4 the system is stiff: the
-/// result is rk4imp, otherwise rk8pd.
+/// The solver for this stiffness. With q = c D(v0), the bulge and v follow each other within the
+/// time length/(v0 + damping q), and the body slows down within v0/q + damping b. If the ratio of
+/// these times exceeds 3e4 the system is stiff: the result is rk4imp, otherwise rk8pd.
 Stepper memory_stepper(const Body&, PowerLaw, Bulge, double v0);
 
 /// The work of any solver from the start to the time t, or to the rest if that is earlier. The

@@ -310,3 +310,31 @@ TEST_CASE("MemoryRoll: the work is known before it begins, and refused where it 
   rings.seek(1);  // the roll before it
   CHECK(rings.evaluations() > 0);
 }
+
+// The bulge takes up speed: v' = -c (z + damping z') with z near D(v) slows the body down by the
+// factor 1 + damping c D'(v) less, and v follows z at the rate damping c D / length.
+TEST_CASE("MemoryRoll: a strong damping makes the roll long and stiff, which is known before",
+          "[rolling]") {
+  for (const double damping : {3.0, 30.0}) {
+    const Bulge bulge{1e-4, damping};
+    INFO("damping " << damping);
+    CHECK(memory_stepper(cylinder, rubber, bulge, 0.5) == Stepper::rk4imp);
+    MemoryRoll motion = roll(bulge);
+    const double stop = motion.stop_time();
+    motion.seek(stop);
+    CHECK(motion.evaluations() < 500000);  // rk8pd: 6e6
+    MemoryRoll slow(cylinder, Geometry::approximate, rubber, bulge, 0.5, 0, Stepper::rk8pd, 1e-6);
+    const double end = stop / 100,
+                 expected = memory_work(cylinder, rubber, bulge, 0.5, end).relaxations;
+    slow.seek(end);
+    const auto evaluations = static_cast<double>(slow.evaluations());
+    INFO("estimate " << expected << " evaluations " << evaluations);
+    // Two to four evaluations for each relaxation, and the factor of 4 of the estimate.
+    CHECK((evaluations > 2 / 4. * expected && evaluations < 4 * 4 * expected));
+  }
+  // No evaluation is spent on what is refused.
+  MemoryRoll never_done(cylinder, Geometry::approximate, rubber, {1e-4, 1000}, 0.5, 0,
+                        Stepper::rk8pd, 1e-10);
+  CHECK_THROWS_AS(never_done.stop_time(), Error);
+  CHECK(never_done.evaluations() == 0);
+}
