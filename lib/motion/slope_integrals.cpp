@@ -21,7 +21,8 @@ constexpr double fastest = 300;  // speeds above v0 e^300 are refused
 // the other term. On a slope a depth below its bound is continued by fade_.
 constexpr double least_b = 1e-19, least_slope = 1e-200;
 constexpr double least_net = 1e-100, least_depth = 1e-290;
-constexpr double least_pole = 1e-6;   // the time in which A grows to it is 1e-12 of the whole
+constexpr double least_pole = 1e-6;  // the time in which A grows to it is 1e-12 of the whole
+constexpr double negligible_part = 1e-20;
 constexpr double least_part = 1e-17;  // the panels towards a last speed end at this part of the way
 constexpr double negligible = 1e-6;   // last speeds below it, as a part of v0, count as rest:
 constexpr double rest_left = std::numbers::ln2;  // the stop is at twice the last speed
@@ -200,12 +201,12 @@ void SlopeIntegrals::quadrature(const Panel& p, double width, Integrand&& integr
   }
 }
 
-/// E/|net| at r, from E/d, which is one power, since E and d may both underflow. Where E/d would
-/// overflow, d is negligible beside the slope's part, and E/|net| is taken directly.
+/// E/|net| at r, from E/d, which is one power, since E and d may both underflow; where d is
+/// negligible beside the slope's part, directly.
 double SlopeIntegrals::E_by_net(double r, double d, double net) const {
+  if (slope_ != 0 && d < negligible_part * net) return std::exp(-way_ * r) / net;
   const double E_by_d = std::exp(-way_ * (1 - b_) * r - fade_) / depth_;
-  if (slope_ == 0) return E_by_d;
-  return E_by_d < 1e200 ? E_by_d * (d / net) : std::exp(-way_ * r) / net;
+  return slope_ == 0 ? E_by_d : E_by_d * (d / net);
 }
 
 /// E (K + A)/|net| at r from the beginning of the panel.

@@ -315,3 +315,16 @@ TEST_CASE("Slope: the steepest mats take no digit", "[rolling]") {
             40 * eps);
     }
 }
+
+// With the law at most 1e-90 of gravity the body falls freely down the mat.
+TEST_CASE("Slope: down a wall, whatever the law", "[rolling]") {
+  for (const double b : {-300.0, -3.0, 0.0, 0.2, 1.0})
+    for (const double S : {-1e100, -1e150, -1e200, -1e300}) {
+      const Trajectory roll({1, 0.04, 0.5, 9.81, S}, paper, {1e-3, b}, 2);
+      for (const double t : {1e-3, 0.3, 2.0, 50.0}) {
+        INFO("b " << b << " S " << S << " t " << t);
+        CHECK(std::abs(roll.at(t).v / (2 + 6.54 * t) - 1) < 20 * eps);
+        CHECK(std::abs(roll.at(t).x / (2 * t + 3.27 * t * t) - 1) < 20 * eps);
+      }
+    }
+}
