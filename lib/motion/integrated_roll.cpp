@@ -59,16 +59,17 @@ IntegratedRoll::IntegratedRoll(const Body& body, Geometry geometry, AnyLaw law, 
 }
 
 Integrator::Event IntegratedRoll::floor_event() const {
-  const double limit = geometry_ == Geometry::exact ? body_.R : infinity;
-  return [floor = floor_, limit, fastest = fastest_,
+  const bool exact = geometry_ == Geometry::exact;
+  return [floor = floor_, exact, R = body_.R, v0 = v0(), fastest = fastest_,
           shift = law_.shift](const std::vector<double>& y) {
     if (y[1] > fastest * (1 + gain))
       fail(
           "the solver has made the body faster, which this mat cannot do: v = {:.6g} m/s after "
           "{:.6g} m/s (a smaller --rtol, or another method)",
           y[1], fastest);
-    return limit < infinity && y[1] > 0 ? std::min(y[1] - floor, limit - shift(y[1]))
-                                        : y[1] - floor;
+    // The way to D = R is a speed too: of two units one would not be seen beside the other.
+    const double left = y[1] - floor;
+    return exact && y[1] > 0 ? std::min(left, (1 - shift(y[1]) / R) * v0) : left;
   };
 }
 

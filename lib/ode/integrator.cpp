@@ -79,6 +79,10 @@ Integrator::Integrator(OdeSystem system, const OdeOptions& options, double t, st
   if (!is_explicit(options.stepper) && !system.jacobian)
     fail("an implicit stepper needs the Jacobian");
   problem_->system = std::move(system);
+  std::vector<double> rate(y_.size());
+  problem_->system.derivative(t_, y_.data(), rate.data());
+  for (std::size_t i = 0; i < y_.size(); ++i)
+    if (const double part = 1e-3 * std::abs(y_[i] / rate[i]); part > 0) h_ = std::min(h_, part);
   problem_->gsl = {Problem::derivative, problem_->system.jacobian ? Problem::jacobian : nullptr,
                    y_.size(), problem_.get()};
   silence_gsl();

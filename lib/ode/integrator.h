@@ -59,7 +59,8 @@ class Integrator {
   unsigned long max_steps_, steps_left_ = 0;
   double t_;
   std::vector<double> y_, before_;  // before_: at the beginning of a step
-  double h_ = 1e-6;  // a first guess; the error control corrects it within a few steps
+  // A first guess, or less where the state changes faster; the error control corrects it.
+  double h_ = 1e-6;
 };
 
 }  // namespace rolling

@@ -167,3 +167,19 @@ TEST_CASE("IntegratedRoll: rest, and what is refused", "[rolling]") {
                         {Method::solver, Stepper::rkf45}, 1e-8),
                   Error);
 }
+
+// Under a constant shift one step may reach far beyond the stop.
+TEST_CASE("IntegratedRoll: the units of length and time do not matter", "[rolling]") {
+  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+    for (const Stepper stepper : {Stepper::rk8pd, Stepper::rkf45, Stepper::rk4imp, Stepper::msbdf})
+      for (const auto& [length, time] :
+           {std::pair{0, 0}, {12, -40}, {100, -100}, {-200, 0}, {-20, 12}, {30, 200}}) {
+        INFO(static_cast<int>(stepper) << ", 2^" << length << " m, 2^" << time << " s");
+        const double R = std::ldexp(0.04, length), D = R / 10, v0 = std::ldexp(0.5, length - time);
+        const Body body{1, R, 0.5, std::ldexp(9.81, length - 2 * time)};
+        IntegratedRoll motion(body, geometry, {[=](double) { return D; }, [](double) { return 0; }},
+                              v0, 0, stepper, 1e-10);
+        const double stop = -v0 / acceleration_from_shift(body, geometry, D);
+        CHECK(std::abs(motion.stop_time() / stop - 1) < 1e-9);
+      }
+}
