@@ -113,8 +113,8 @@ class Periodogram {
     const bool mean_removed = fit_.filters_known() && fit_.means_taken() > 0;
     const std::size_t q = q_ + mean_removed + 2;
     Triangles all(System{{f_.size()}, 0, q, {}});
-    fit_.noise->added().inferred ? fold_filtered(wobble, all)
-                                 : fold_means(wobble, mean_removed, all);
+    fit_.noise->known() && !fit_.filters_known() ? fold_filtered(wobble, all)
+                                                 : fold_means(wobble, mean_removed, all);
     all.join();
     const Column R = all.without_f(), theta = all.solve();
     const double cc = R[(q - 2) * q + q - 2], cs = R[(q - 2) * q + q - 1], ss = R[q * q - 1],

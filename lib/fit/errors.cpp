@@ -141,9 +141,9 @@ struct Tested {
 
 Tested tested(std::span<const double> noise, std::span<const std::size_t> runs, const Taken& taken,
               const Fitted& fit) {
-  const Errors white = fit.filters_known()           ? Errors::filters
-                       : fit.noise->added().inferred ? Errors::differences
-                                                     : Errors::classical;
+  const Errors white = fit.noise->added().inferred           ? Errors::differences
+                       : fit.raw_noise || fit.noise->known() ? Errors::filters
+                                                             : Errors::classical;
   double whiteness = ljung_box(noise, taken, runs);
   if (fit.minimum.f.size() < 30) return {whiteness, white};
   const bool uneven = std::min(breusch_pagan(noise, runs), unequal_runs(noise, runs)) <=
@@ -171,8 +171,14 @@ Tested tested(const Fitted& fit) {
 }  // namespace
 
 RawNoise raw_noise_of(const Fitted& fit) {
-  RawNoise raw{variance_of(fit, meat_of(fit)), {}, {}, taken_of(fit), estimated(fit)};
-  raw.innovations = fit.noise->innovations(fit.minimum.f, raw.innovation_runs);
+  RawNoise raw{.variance = variance_of(fit, meat_of(fit)),
+               .freedom = fit.degrees_left(),
+               .innovations = fit.minimum.f,
+               .innovation_runs = fit.system.runs,
+               .taken = taken_of(fit),
+               .sources = estimated(fit)};
+  if (fit.filters_known())
+    raw.innovations = fit.noise->innovations(fit.minimum.f, raw.innovation_runs);
   return raw;
 }
 
@@ -181,7 +187,7 @@ Uncertainty uncertainty_of(const Fitted& fit) {
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size(),
                     q = fit.system.columns();
   const auto& R = fit.minimum.R;
-  if (n <= fit.degrees_taken())
+  if (fit.degrees_left() == 0)
     return {Errors::none, nan, nan, {R, std::vector<double>(R.size(), nan), q}};
   const bool known = fit.filters_known();
   const auto [whiteness, kind] = tested(fit);

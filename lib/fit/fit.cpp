@@ -17,10 +17,10 @@ namespace rolling {
 
 namespace {
 
-/// sqrt(RSS / (n - p)); NaN where there are as many parameters as records.
+/// sqrt(RSS / (n - p)); NaN where no degree of freedom is left for the noise.
 double rms_of(const Fitted& found) {
   const std::size_t n = found.minimum.f.size(), p = found.minimum.theta.size();
-  if (n <= found.degrees_taken()) return std::numeric_limits<double>::quiet_NaN();
+  if (found.degrees_left() == 0) return std::numeric_limits<double>::quiet_NaN();
   return std::sqrt(sum_of_squares(found) / static_cast<double>(n - p));
 }
 

@@ -26,6 +26,7 @@ struct Sources {
 /// The noise of the raw column, as estimated from the residuals of a fit with known filters.
 struct RawNoise {
   double variance;
+  std::size_t freedom;  ///< degrees of freedom of the variance
   /// The weighted residuals that are not determined by those before them (see
   /// Noise::innovations()); they are white if the noise of the raw column is white.
   std::vector<double> innovations;
@@ -54,20 +55,21 @@ struct Fitted {
   std::size_t means_taken() const {
     return rolls ? rolling::means_taken(rolls->runs(), rolls->parameters()) : 0;
   }
-  /// The number of degrees of freedom that the fit and the filters take from the records.
-  std::size_t degrees_taken() const { return minimum.theta.size() + means_taken(); }
-  /// The number of degrees of freedom that are left for the size of the noise. Filters at the ends
-  /// of a short run may leave fewer than its records less the mean.
+  /// The number of degrees of freedom that are left for the size of the noise; with none left there
+  /// are no errors. Filters at the ends of a short run may leave fewer than its records less the
+  /// mean.
   std::size_t degrees_left() const;
-  /// True if the covariance of the noise follows from filters that the data name.
-  bool filters_known() const { return raw_noise || (noise->known() && !noise->added().inferred); }
+  /// True if the noise is that of the raw column alone, through filters that the data name. White
+  /// noise beside it makes the weighted residuals those of independent noise, as if nothing had
+  /// been filtered.
+  bool filters_known() const { return raw_noise || noise->from_sources_alone(); }
 };
 
 /// Minimises by the loss that the options name: squares from the first start.
 Minimum solve(const System&, const std::vector<std::vector<double>>& starts, const FitOptions&);
 
-/// Throws Error if n records are too few for p parameters and as many means as the filters have
-/// removed, or if p = 0.
-void require_records(std::size_t n, std::size_t p, std::size_t means = 0);
+/// Throws Error if n records, so many of which filters leave independent, are too few for p
+/// parameters, or if p = 0.
+void require_records(std::size_t n, std::size_t p, std::size_t independent);
 
 }  // namespace rolling

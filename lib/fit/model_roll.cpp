@@ -129,6 +129,14 @@ std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>& runs, Adde
   return std::make_shared<const Noise>(std::move(all), added);
 }
 
+std::size_t informative_records(const std::vector<ObservedRun>& runs, const Parameters& parameters,
+                                const Noise& noise) {
+  if (noise.from_sources_alone()) return noise.informative();
+  std::size_t n = 0;
+  for (const ObservedRun& run : runs) n += run.y.size();
+  return n - means_taken(runs, parameters);
+}
+
 Trajectory RollModel::trajectory(const std::vector<double>& theta, std::size_t run) const {
   Body body = runs_[run].body;
   body.slope = slope(theta, run);

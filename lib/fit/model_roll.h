@@ -74,6 +74,9 @@ std::size_t means_taken(const std::vector<ObservedRun>&, const Parameters&);
 /// The noise of these runs; unknown if they have no H.
 std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>&, AddedNoise = {});
 
+/// The number of records of these runs that filters leave independent of the others.
+std::size_t informative_records(const std::vector<ObservedRun>&, const Parameters&, const Noise&);
+
 /// The model of the raw column of one run: returns the value at time t from the origin, and writes
 /// the derivatives with respect to the parameters of the run, then the shared ones, to `slopes`,
 /// `stride` apart.

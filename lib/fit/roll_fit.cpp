@@ -118,7 +118,7 @@ void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   if (!rounded(fit)) return;
   const bool many = std::ranges::max(fit.system.runs) > searched_for_white_noise;
   fit.system = {}, fit.noise = {};  // frees memory: these are large, and the search needs as much
-  const WhiteShare found = most_likely_share(fit.rolls, fit.minimum.theta, 1e-7, 1, 0);
+  const WhiteShare found = most_likely_share(fit.rolls, fit.minimum.theta, 1e-7, 100, 0);
   const bool adopted = many || found.decisive();
   fit.noise = noise_of(fit.rolls->runs(), {adopted ? found.share : 0});
   fit.system = system_of(fit.rolls, fit.noise);
@@ -132,9 +132,9 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   const Parameters& all = joint.rolls->parameters();
   ObservedRun run = joint.rolls->runs()[r];
   const Parameters own = all.of_one_run();
-  require_records(run.y.size(), own.count());
   run.body.slope = all.slope(theta, run.body.slope);
   auto noise = noise_of({run}, joint.noise->added());
+  require_records(run.y.size(), own.count(), informative_records({run}, own, *noise));
   Fitted fit =
       minimum_of({std::move(run)}, std::move(noise), {own, all.theta_of_run(theta, r)}, options);
   report(fit);
@@ -155,7 +155,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       const Parameters q(options, route == Route::position, runs.size(), 1, 1);
       // Shifts are fitted for what all runs share: the v0 of their rolls is not reported.
       const bool asked = is_trajectory(route) || q.shared() > 0;
-      require_records(n, asked ? q.count() : 0, means_taken(runs, q));
+      require_records(n, asked ? q.count() : 0, informative_records(runs, q, *noise));
       std::vector<ObservedRun> smooth;
       if (noise->known()) smooth = smooth_motion(route, runs, *noise, options);
       const std::vector<ObservedRun>& plain = noise->known() ? smooth : runs;

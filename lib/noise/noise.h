@@ -27,6 +27,8 @@ class Noise {
 
   bool known() const { return !E_.empty(); }
   const AddedNoise& added() const { return added_; }
+  /// True if the covariance is known and no noise was added to that of the sources.
+  bool from_sources_alone() const { return known() && added_.share == 0; }
   const Whitener& whitener(std::size_t run) const { return whiteners_[run]; }
   /// The unweighted residuals W^-1 f of all runs; W^T W is the weight matrix.
   std::vector<double> without_weights(const std::vector<double>& f) const;

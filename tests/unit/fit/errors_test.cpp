@@ -1,5 +1,6 @@
 #include "fit/errors.h"
 
+#include "cli/history.h"
 #include "unit/fit/simulated.h"
 #include "unit/catch.h"
 
@@ -74,4 +75,78 @@ TEST_CASE("errors: the residuals of many short runs are as white as their noise"
   CHECK(not_white_by_x <= 4);  // more of 100 at 0.6 %, two tests of 0.3 %, by chance in 0.05 %
   CHECK(not_white_by_D <= 4);
   CHECK(twentieth <= 22);  // more at 10 % by chance in 0.02 %
+}
+
+namespace {
+
+/// Speeds from positions, by filters that are known, with white noise of their own that is ten
+/// times what the filters leave of the noise of the positions.
+FitRun rounded_speeds(double a, simulated::Noise& noise) {
+  FitRun run{};
+  run.body = {1.375, 0.04, 0.5};
+  const auto truth = simulated::roll(run.body, a, 0.215, 0.5);
+  for (int i = 0; i < 60; ++i) {
+    run.t.push_back(0.03 * i);
+    run.x.push_back(truth.x(run.t.back()) + noise(2e-5));
+  }
+  run.filters = {simulated::differentiate("x", "v"), simulated::smooth_v(11)};
+  run.v = run.filters[1].apply(run.t, run.filters[0].apply(run.t, run.x));
+  for (double& v : run.v) v += noise(1e-3);
+  return run;
+}
+
+}  // namespace
+
+TEST_CASE("errors: they are those of white noise that the filters have not made", "[fit]") {
+  simulated::Noise noise(12);
+  double squares = 0, variances = 0;
+  int not_white_by_v = 0;
+  constexpr int fits = 200;
+  for (int k = 0; k < fits; ++k) {
+    const FitResult r = fit(Route::velocity, {rounded_speeds(1.87e-3, noise)}, {});
+    squares += (r.b - 0.215) * (r.b - 0.215);
+    variances += r.sigma_b * r.sigma_b;
+    not_white_by_v += noise_is_correlated(r);
+  }
+  CHECK(std::abs(std::sqrt(variances / squares) - 1) < 0.15);  // three standard deviations
+  CHECK(not_white_by_v <= 5);  // more of 200 at 0.6 % by chance in 0.2 %
+}
+
+TEST_CASE("errors: runs with white noise beside that of the filters are compared", "[fit]") {
+  simulated::Noise noise(13);
+  int like = 0, unlike = 0;
+  for (int k = 0; k < 50; ++k) {
+    const FitRun one = rounded_speeds(1.87e-3, noise), same = rounded_speeds(1.87e-3, noise),
+                 other = rounded_speeds(2.06e-3, noise);
+    const auto alike = fit(Route::velocity, {one, same}, {}).agreement,
+               apart = fit(Route::velocity, {one, other}, {}).agreement;
+    REQUIRE((alike && apart));
+    like += alike->agree();
+    unlike += !apart->agree();
+  }
+  CHECK(like >= 47);  // fewer at 1 % by chance in 0.2 %
+  CHECK(unlike == 50);
+}
+
+// A polynomial of third order through all positions has a slope of three numbers.
+TEST_CASE("errors: there are none where filters leave as many numbers as parameters", "[fit]") {
+  const Body body{1.375, 0.04, 0.5};
+  const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.5);
+  for (const int order : {3, 4}) {
+    simulated::Noise noise(14);
+    FitRun run{};
+    run.body = body;
+    for (int i = 0; i < 12; ++i) {
+      run.t.push_back(0.15 * i);
+      run.x.push_back(truth.x(run.t.back()) + noise(1e-4));
+    }
+    const std::vector line{"differentiate x savgol width 23 order " + std::to_string(order)};
+    run.filters = history_of(line, run.t).filters;
+    run.v = run.filters[0].apply(run.t, run.x);
+    const FitResult r = fit(Route::velocity, {run}, {});
+    CAPTURE(order, r.a, r.sigma_a);
+    CHECK((r.errors == Errors::none) == (order == 3));
+    CHECK(std::isnan(r.sigma_a) == (order == 3));
+    CHECK(std::isnan(r.rms) == (order == 3));
+  }
 }
