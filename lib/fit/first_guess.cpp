@@ -36,7 +36,7 @@ ObservedRun without_outliers(ObservedRun run) {
   for (std::size_t i = 0; i < y.size(); ++i) {
     const std::size_t first = i < 2 ? 0 : i - 2, end = std::min(i + 3, y.size());
     std::vector<double> near(&y[first], &y[first] + (end - first));
-    run.y[i] = nth_smallest(near, near.size() / 2);
+    run.y[i] = median(near);
   }
   return run;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 using namespace rolling;
@@ -69,4 +70,44 @@ TEST_CASE("fit: a robust joint fit of runs of different noise, in either order",
     covered += std::abs(one.b - 0.215) < 1.96 * one.sigma_b;
   }
   CHECK(covered >= 16);  // of 19: fewer by chance in 0.3 %
+}
+
+// The sign of x is that of the direction from the sensor: nothing but signs may depend on it.
+TEST_CASE("fit: a robust fit of mirrored positions is the mirrored fit", "[fit]") {
+  const Body body{1, 0.04, 0.5};
+  std::mt19937 random;
+  const auto share = [&] { return static_cast<double>(random()) * 0x1p-32; };
+  simulated::Noise noise(32);
+  FitOptions options;
+  options.robust = true;
+  int fitted = 0;
+  for (int k = 0; k < 150; ++k) {
+    const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.2 + 0.6 * share());
+    const double stop = std::pow(truth.v0, 1 - 0.215) / ((1 - 0.215) * 1.87e-3 * truth.c);
+    FitRun run, mirrored;
+    run.body = body;
+    const int n = 8 + static_cast<int>(13 * share());
+    for (int i = 0; i < n; ++i) {
+      run.t.push_back(0.95 * stop * i / (n - 1));
+      run.x.push_back(truth.x(run.t.back()) + noise(3e-4));
+      if (share() < 0.08) run.x.back() += 0.6 * share() - 0.3;
+    }
+    mirrored = run;
+    for (double& x : mirrored.x) x *= -1;
+    const auto fit_of = [&](const FitRun& of) -> std::optional<FitResult> {
+      try {
+        return fit(Route::position, {of}, options);
+      } catch (const Error&) {
+        return {};
+      }
+    };
+    const auto one = fit_of(run), other = fit_of(mirrored);
+    CAPTURE(k, n);
+    REQUIRE(one.has_value() == other.has_value());
+    if (!one) continue;
+    ++fitted;
+    CHECK(std::abs(one->a - other->a) < 1e-4 * one->sigma_a);
+    CHECK(other->sigma_b == Approx(one->sigma_b).epsilon(1e-4));
+  }
+  CHECK(fitted > 100);
 }
