@@ -434,6 +434,9 @@ inline std::vector<Case> cases() {
   unequal("4 + 4 noisy, x, 2 % scatter", 8, 4, 0);
   unequal("7 up + 1 down, x, 2 % scatter", 8, 0, 1);
   unequal("4 up + 4 down, x, 2 % scatter", 8, 0, 4);
+  joint("1 + 1 noisy, x, 5 % outliers", Route::position, {}, 2);
+  all.back().noisy = 1;
+  all.back().outliers = 0.05;
   static const char* const names[][4] = {
       {"D from v, W 5", "D from v, W 9", "D from v, W 15", "D from v, W 31"},
       {"D from x, W 5", "D from x, W 9", "D from x, W 15", "D from x, W 31"}};
