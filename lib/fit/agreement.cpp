@@ -77,7 +77,7 @@ std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own) {
     const Symmetric C{covariance(by_log_a, by_log_a) + rounding_of(by_log_a),
                       covariance(by_log_a, fit.b.gradient),
                       covariance(fit.b.gradient, fit.b.gradient) + rounding_of(fit.b.gradient)};
-    if (C.is_positive() && C.inverse().is_finite())
+    if (C.is_positive() && C.inverse().is_finite() && determines_b(std::sqrt(C.bb)))
       laws.push_back(
           {r, {std::log(fit.a.value), fit.b.value}, C, static_cast<double>(fit.degrees_left())});
   }
@@ -220,25 +220,21 @@ using BySlope = std::vector<Pair>;
 /// its derivative by ln v, the exponent, by b times as much the other way. A run that is alone in
 /// its direction has no residual; so the error comes from the residuals of all runs together, each
 /// expected to be as large as its weight says.
-BySlope take_slope(std::vector<OwnLaw>& laws, double freedom, NoiseErrors& errors, Fitted& joint) {
-  const auto n = static_cast<double>(laws.size());
+BySlope take_slope(std::vector<OwnLaw>& laws, double D, double freedom, NoiseErrors& errors,
+                   Fitted& joint) {
   std::vector<Estimate> log_D;
-  double mean = 0, exponent = 0;
-  for (const OwnLaw& one : laws) {
-    log_D.push_back(one.log_D(0));
-    mean += log_D.back().value / n;
-    exponent += one.covariance.bb > 0 ? one.law.b / n : 0;  // one that is held stays
-  }
   std::vector<double> by_slope;
   for (const OwnLaw& one : laws) {
     const ObservedRun& run = joint.rolls->runs()[one.run];
-    by_slope.push_back(run.way * run.body.R / std::exp(mean));
+    log_D.push_back(one.log_D(0));
+    by_slope.push_back(run.way * run.body.R / D);
   }
   const RandomEffectsLine line = random_effects_line(log_D, by_slope, freedom);
   joint.slope->value += line.slope;
   errors.share.slope = student(freedom) * std::sqrt(line.chi2 / freedom / line.spread);
   BySlope lost;
   for (std::size_t i = 0; i < laws.size(); ++i) {
+    const double exponent = laws[i].covariance.bb > 0 ? joint.b.value : 0;  // a held one stays
     lost.push_back({by_slope[i], -by_slope[i] * exponent});
     laws[i].law = laws[i].law - Pair{lost[i].a * line.slope, lost[i].b * line.slope};
   }
@@ -250,8 +246,14 @@ BySlope take_slope(std::vector<OwnLaw>& laws, double freedom, NoiseErrors& error
 /// agree best. The scatter of a itself, which is D at 1 m/s, is that of b if the runs are slower,
 /// and would depend on the unit of speed.
 void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, Fitted& joint) {
-  double log_v = 0;
-  for (const OwnLaw& one : laws) log_v += log_v_of(one, joint) / static_cast<double>(laws.size());
+  double log_v = 0, weights = 0;
+  for (const OwnLaw& one : laws) {
+    const double own = log_v_of(one, joint), sigma = one.log_D(own).sigma,
+                 weight = 1 / (sigma * sigma);
+    weights += weight;
+    log_v += weight / weights * (own - log_v);
+  }
+  const double common_D = joint.a.value * std::exp(joint.b.value * log_v);
   for (OwnLaw& one : laws) {  // ln D in the place of ln a: the unit of speed is the common one
     const Symmetric& C = one.covariance;
     const Estimate D = one.log_D(log_v);
@@ -259,7 +261,7 @@ void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, F
         one.run, {D.value, one.law.b}, {D.sigma * D.sigma, C.ab + log_v * C.bb, C.bb}, one.freedom};
   }
   BySlope by_slope(laws.size());
-  if (joint.slope) by_slope = take_slope(laws, freedom, errors, joint);
+  if (joint.slope) by_slope = take_slope(laws, common_D, freedom, errors, joint);
   std::vector<Estimate> Ds, bs;
   for (const OwnLaw& one : laws) Ds.push_back(one.log_D(0)), bs.push_back(one.b());
   const RandomEffectsMean D = random_effects_mean(Ds, freedom),

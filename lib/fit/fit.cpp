@@ -77,7 +77,7 @@ void require_determined(const FitResult& result, const FitOptions& options) {
         "a slope of the mat and its law slow the body down alike, and these runs do not tell them "
         "apart (a comes out as {:.3g}{}): add runs in the other direction",
         result.a, result.errors == Errors::none ? "" : fmt::format(" +- {:.2g}", result.sigma_a));
-  if (result.sigma_b > 3)
+  if (result.errors != Errors::none && !determines_b(result.sigma_b))
     fail("the data do not determine b: it comes out as {:.3g} +- {:.2g}", result.b, result.sigma_b);
   if (result.errors == Errors::none && !options.b && std::abs(result.b) > 10)
     fail("as many parameters as records do not determine b: it comes out as {:.3g}", result.b);

@@ -72,6 +72,9 @@ struct FitResult {
   std::vector<ErrorShare> shares = {};            ///< the noise first
 };
 
+/// True if the data determine b. A larger error of a nonlinear fit is not reliable itself.
+inline bool determines_b(double sigma_b) { return sigma_b <= 3; }
+
 /// At or below this significance of the Ljung-Box test the noise is taken as not white. The test is
 /// made at two numbers of lags, so that about 0.6 % of the records with white noise fall below it.
 inline constexpr double not_white = 0.003;

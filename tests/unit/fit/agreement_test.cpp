@@ -481,3 +481,35 @@ TEST_CASE("agreement: by loglog, runs whose filters are known", "[fit]") {
   constexpr double t = 4.302653;  // Student, 0.975, 2 degrees of freedom
   CHECK(r.sigma_a / r.a == Approx(t / 1.96 * std::sqrt(squares / 2 / 3)).epsilon(0.05));
 }
+
+// A body that was hardly moved tells nothing of the law: beside four rolls that disagree, two such
+// runs must not change what the four tell of the slope.
+TEST_CASE("agreement: runs mostly at rest do not count where a slope is fitted", "[fit]") {
+  simulated::Noise noise(41);
+  FitOptions options;
+  options.fit_slope = true;
+  constexpr double slope = 1e-3;
+  int held = 0, near = 0;
+  for (int k = 0; k < 40; ++k) {
+    std::vector<FitRun> runs;
+    for (const double way : {1, -1, 1, -1})
+      runs.push_back(roll({rubber.a * (1 + noise(0.03)), rubber.b}, slope, way, noise));
+    const FitResult four = fit(Route::position, runs, options);
+    for (const double way : {1, -1}) {
+      FitRun& run = runs.emplace_back();
+      run.body = cylinder;
+      Body seen = cylinder;
+      seen.slope = way * slope;
+      const Trajectory truth(seen, Geometry::approximate, rubber, 0.02);
+      for (int i = 0; i < 8; ++i) {
+        run.t.push_back(0.06 * i);
+        run.x.push_back(way * truth.at(run.t.back()).x + noise(3e-4));
+      }
+    }
+    const FitResult six = fit(Route::position, runs, options);
+    held += std::abs(six.slope - slope) < 1.96 * six.sigma_slope;
+    near += std::abs(six.slope - four.slope) < 2 * four.sigma_slope;
+  }
+  CHECK(near >= 38);
+  CHECK(held >= 32);  // of 38: fewer by chance in 0.3 %
+}
