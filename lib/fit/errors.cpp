@@ -46,16 +46,31 @@ void add_shared(std::vector<double>& M, std::size_t columns, std::size_t shared)
     }
 }
 
+namespace {
+
+/// In runs as long as these the fit takes nearly nothing of one residual, and what it takes of sums
+/// of their products is the limit to a few hundredths.
+bool has_long_runs(const Fitted& fit) {
+  return fit.minimum.f.size() > 1000 * fit.system.runs.size();
+}
+
+/// Q of the residuals or, if the filters are known, of the innovations, whose numbers are `runs`.
+Matrix orthonormal_of_white(const Fitted& fit, std::vector<std::size_t>& runs) {
+  Matrix Q = orthonormal(fit);
+  runs = fit.system.runs;
+  if (fit.filters_known())
+    for (std::vector<double>& column : Q) column = fit.noise->innovations(column, runs);
+  return Q;
+}
+
+}  // namespace
+
 Taken taken_of(const Fitted& fit) {
-  constexpr std::size_t long_run = 1000;  // there the limit holds to a few hundredths of its value
   if (fit.taken) return *fit.taken;
   if (fit.raw_noise) return fit.raw_noise->taken;
-  const std::size_t n = fit.minimum.f.size();
-  if (n > long_run * fit.system.runs.size()) return taken_by_few(fit.minimum.theta.size());
-  Matrix Q = orthonormal(fit);
-  if (!fit.filters_known()) return taken_by(Q, fit.system.runs);
+  if (has_long_runs(fit)) return taken_by_few(fit.minimum.theta.size());
   std::vector<std::size_t> runs;
-  for (std::vector<double>& column : Q) column = fit.noise->innovations(column, runs);
+  const Matrix Q = orthonormal_of_white(fit, runs);
   return taken_by(Q, runs);
 }
 
@@ -139,6 +154,18 @@ struct Tested {
   Errors kind;
 };
 
+/// The share of the variance of each white residual that the fit has left: 1 - h, h the leverage.
+/// Empty where that is nearly all, and behind known filters.
+std::vector<double> left_of(const Fitted& fit, std::size_t n) {
+  if (fit.taken || fit.filters_known() || has_long_runs(fit)) return {};
+  std::vector<double> left(n, 1);
+  std::vector<std::size_t> runs;
+  for (const auto& column : orthonormal_of_white(fit, runs))
+    for (std::size_t i = 0; i < n; ++i) left[i] -= column[i] * column[i];
+  for (double& x : left) x = x > 0.01 ? x : 0;
+  return left;
+}
+
 Tested tested(std::span<const double> noise, std::span<const std::size_t> runs, const Taken& taken,
               const Fitted& fit) {
   const Errors white = fit.noise->added().inferred           ? Errors::differences
@@ -146,8 +173,12 @@ Tested tested(std::span<const double> noise, std::span<const std::size_t> runs, 
                                                              : Errors::classical;
   double whiteness = ljung_box(noise, taken, runs);
   if (fit.minimum.f.size() < 30) return {whiteness, white};
-  const bool uneven = std::min(breusch_pagan(noise, runs), unequal_runs(noise, runs)) <=
-                      (runs.size() > 1 ? 0.005 : 0.01);
+  const std::vector<double> left = left_of(fit, noise.size());
+  std::vector<double> alike;  // of one variance, if the noise has one
+  for (std::size_t i = 0; i < left.size(); ++i)
+    alike.push_back(left[i] > 0 ? noise[i] / std::sqrt(left[i]) : 0);
+  const bool uneven = std::min(breusch_pagan(left.empty() ? noise : alike, runs),
+                               unequal_runs(noise, runs, left)) <= (runs.size() > 1 ? 0.005 : 0.01);
   if (uneven && whiteness <= not_white) whiteness = ljung_box_uneven(noise, taken, runs);
   if (whiteness <= not_white) return {whiteness, Errors::autocorrelation};
   if (uneven) return {whiteness, Errors::uneven};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <tuple>
 
 #include "base/by_run.h"
@@ -116,15 +117,21 @@ double breusch_pagan(std::span<const double> residuals, std::span<const std::siz
   return gsl_cdf_chisq_Q(n * (along1 * along1 / P1 + along2 * along2 / P2) / all, 2);
 }
 
-double unequal_runs(std::span<const double> residuals, std::span<const std::size_t> runs) {
+double unequal_runs(std::span<const double> residuals, std::span<const std::size_t> runs,
+                    std::span<const double> left) {
   if (runs.size() < 2) return 1;
-  const double n = static_cast<double>(residuals.size());
-  const double mean = lagged(residuals, runs, 0) / n;
+  const double n = static_cast<double>(residuals.size()),
+               freedom = left.empty() ? n : std::reduce(left.begin(), left.end());
+  const double mean = lagged(residuals, runs, 0) / freedom;
   double between = 0, all = 0;
+  std::size_t i = 0;
   for (const auto run : by_run(residuals, runs)) {
-    double sum = 0;
-    for (const double r : run) sum += r * r - mean, all += (r * r - mean) * (r * r - mean);
-    if (!run.empty()) between += sum * sum / static_cast<double>(run.size());
+    double sum = 0, of_run = 0;
+    for (const double r : run) {
+      const double share = left.empty() ? 1 : left[i], off = r * r / share - mean;
+      sum += r * r - mean * share, of_run += share, all += share > 0 ? off * off : 0, ++i;
+    }
+    if (of_run > 0) between += sum * sum / of_run;
   }
   return all > 0 ? gsl_cdf_chisq_Q(n * between / all, static_cast<double>(runs.size() - 1)) : 1;
 }

@@ -38,7 +38,9 @@ double ljung_box_uneven(std::span<const double> residuals, const Taken&,
 double breusch_pagan(std::span<const double> residuals, std::span<const std::size_t> runs);
 
 /// Significance of a difference of the variance between the runs, by the same test; 1 for one run.
-double unequal_runs(std::span<const double> residuals, std::span<const std::size_t> runs);
+/// `left` is the share that a fit has left of the variance of each residual; without it all of it.
+double unequal_runs(std::span<const double> residuals, std::span<const std::size_t> runs,
+                    std::span<const double> left = {});
 
 /// The sum of the products of residuals that are `lag` records apart within a run.
 double lagged(std::span<const double> residuals, std::span<const std::size_t> runs,
