@@ -54,23 +54,16 @@ bool has_long_runs(const Fitted& fit) {
   return fit.minimum.f.size() > 1000 * fit.system.runs.size();
 }
 
-/// Q of the residuals or, if the filters are known, of the innovations, whose numbers are `runs`.
-Matrix orthonormal_of_white(const Fitted& fit, std::vector<std::size_t>& runs) {
-  Matrix Q = orthonormal(fit);
-  runs = fit.system.runs;
-  if (fit.filters_known())
-    for (std::vector<double>& column : Q) column = fit.noise->innovations(column, runs);
-  return Q;
-}
-
 }  // namespace
 
 Taken taken_of(const Fitted& fit) {
   if (fit.taken) return *fit.taken;
   if (fit.raw_noise) return fit.raw_noise->taken;
   if (has_long_runs(fit)) return taken_by_few(fit.minimum.theta.size());
+  Matrix Q = orthonormal(fit);
+  if (!fit.filters_known()) return taken_by(Q, fit.system.runs);
   std::vector<std::size_t> runs;
-  const Matrix Q = orthonormal_of_white(fit, runs);
+  for (std::vector<double>& column : Q) column = fit.noise->innovations(column, runs);
   return taken_by(Q, runs);
 }
 
@@ -154,13 +147,12 @@ struct Tested {
   Errors kind;
 };
 
-/// The share of the variance of each white residual that the fit has left: 1 - h, h the leverage.
+/// The share of the variance of each residual that the fit has left: 1 - h, h the leverage.
 /// Empty where that is nearly all, and behind known filters.
 std::vector<double> left_of(const Fitted& fit, std::size_t n) {
   if (fit.taken || fit.filters_known() || has_long_runs(fit)) return {};
   std::vector<double> left(n, 1);
-  std::vector<std::size_t> runs;
-  for (const auto& column : orthonormal_of_white(fit, runs))
+  for (const std::vector<double>& column : orthonormal(fit))
     for (std::size_t i = 0; i < n; ++i) left[i] -= column[i] * column[i];
   for (double& x : left) x = x > 0.01 ? x : 0;
   return left;

@@ -482,6 +482,26 @@ TEST_CASE("agreement: by loglog, runs whose filters are known", "[fit]") {
   CHECK(r.sigma_a / r.a == Approx(t / 1.96 * std::sqrt(squares / 2 / 3)).epsilon(0.05));
 }
 
+TEST_CASE("agreement: the exponents of runs where a is held", "[fit]") {
+  simulated::Noise noise(42);
+  FitOptions options;
+  options.a = rubber.a;
+  std::vector<FitRun> runs;
+  double mean = 0, squares = 0;
+  std::vector<double> own;
+  for (const double b : {0.2, 0.22, 0.23, 0.21}) {
+    runs.push_back(roll({rubber.a, b}, 0, 1, noise));
+    own.push_back(fit(Route::position, {runs.back()}, options).b);
+    mean += own.back() / 4;
+  }
+  for (const double b : own) squares += (b - mean) * (b - mean);
+  const FitResult r = fit(Route::position, runs, options);
+  REQUIRE(!r.agreement->agree());
+  CHECK(r.b == Approx(mean).epsilon(0.002));
+  constexpr double t = 3.182446;  // Student, 0.975, 3 degrees of freedom
+  CHECK(r.sigma_b == Approx(t / 1.96 * std::sqrt(squares / 3 / 4)).epsilon(0.05));
+}
+
 // A body that was hardly moved tells nothing of the law: beside four rolls that disagree, two such
 // runs must not change what the four tell of the slope.
 TEST_CASE("agreement: runs mostly at rest do not count where a slope is fitted", "[fit]") {
