@@ -194,14 +194,11 @@ Tested tested(const Fitted& fit) {
 }  // namespace
 
 RawNoise raw_noise_of(const Fitted& fit) {
-  RawNoise raw{.variance = variance_of(fit, meat_of(fit)),
-               .freedom = fit.degrees_left(),
-               .innovations = fit.minimum.f,
-               .innovation_runs = fit.system.runs,
-               .taken = taken_of(fit),
-               .sources = estimated(fit)};
+  RawNoise raw{
+      variance_of(fit, meat_of(fit)), fit.degrees_left(), {}, {}, taken_of(fit), estimated(fit)};
   if (fit.filters_known())
     raw.innovations = fit.noise->innovations(fit.minimum.f, raw.innovation_runs);
+  else raw.innovations = fit.minimum.f, raw.innovation_runs = fit.system.runs;
   return raw;
 }
 
