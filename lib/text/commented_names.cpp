@@ -92,11 +92,12 @@ std::size_t names_with_units(std::string_view comment) {
       [](const Column& word) { return is_known(word) && !word.unit.empty(); }));
 }
 
-/// True for nothing but known quantities. One word without a unit may be a label.
-bool is_list_of_known(std::string_view comment) {
+/// The number of known quantities in a comment of nothing else, or 0. One word without a unit may
+/// be a label.
+std::size_t known_alone(std::string_view comment) {
   const std::vector<Column> words = words_of(without_marks(comment));
-  return (words.size() > 1 || names_with_units(comment) > 0) &&
-         std::ranges::all_of(words, is_known);
+  const bool named = words.size() > 1 || names_with_units(comment) > 0;
+  return named && std::ranges::all_of(words, is_known) ? words.size() : 0;
 }
 
 /// True if each known quantity is in the same place in both, in the same unit.
@@ -155,7 +156,7 @@ class Choice {
                "there");
       if (comments_[i].is_history()) continue;
       if (chosen == none && names_with_units(comments_[i].text) > 1) refuse_units(i);
-      if (chosen == none && is_list_of_known(comments_[i].text))
+      if (names_others(i, chosen))
         refuse(i, "'{}' names known quantities, but not one for each of {}",
                shown(comments_[i].text), columns_in_words());
       if (chosen != none && all_[i].known > 1 && weight(i) + !is_complete(chosen) > weight(chosen))
@@ -190,12 +191,19 @@ class Choice {
   bool is_complete(std::size_t i) const {
     return all_[i].known + columns_.blank_end >= columns_.count;
   }
-  /// The number of known names in a history line, of all columns or of all but one. One may be the
-  /// column of a filter, `smooth v mean width 11`.
+  /// True for nothing but known quantities, as many as the chosen comment has or more, but not one
+  /// for each column, where the chosen one has not one for each either.
+  bool names_others(std::size_t i, std::size_t chosen) const {
+    const std::size_t known = known_alone(comments_[i].text);
+    return known > 0 && all_[i].names.empty() &&
+           (chosen == none || (!is_complete(chosen) && known >= all_[chosen].known));
+  }
+  /// The number of known names in a history line, of all columns or of all but one, or of nothing
+  /// but known ones. One may be the column of a filter, `smooth v mean width 11`.
   std::size_t names_in_history(std::size_t i) const {
     const std::string& text = comments_[i].text;
     return std::max({all_[i].known, names_in_comment(text, {columns_.count - 1}).known,
-                     names_with_units(text)});
+                     names_with_units(text), known_alone(text)});
   }
   template <typename... Args>
   [[noreturn]] void refuse(std::size_t i, fmt::format_string<Args...> what, Args&&... args) const {

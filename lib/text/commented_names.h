@@ -54,9 +54,10 @@ struct ChosenNames {
 
 /// The last comment that names known columns, or names between tabs; in the first head of a file
 /// (`first`), else the last one of as many words as columns. Nothing if there is none. Throws
-/// InputError if another comment may be meant: its names are as likely, or it has names and units
-/// but not of these columns, or known names stand in a history line. Throws it for a sentence that
-/// may be names, too: with the article `a`, or one that would move known columns of the run before.
+/// InputError if another comment may be meant: its names are as likely, or it has names and units,
+/// or nothing but known names, but not of these columns, or known names stand in a history line.
+/// Throws it for a sentence that may be names, too: with the article `a`, or one that would move
+/// known columns of the run before.
 std::optional<ChosenNames> choose_names(const std::vector<Comment>&, const UnnamedColumns&,
                                         bool first, std::string_view file);
 

@@ -119,6 +119,16 @@ class RandomFile {
     return lines + end + "\n";
   }
 
+  /// The columns of which some names are left where one column was added, or its name cut away.
+  std::vector<Made> cut(std::vector<Made> columns) {
+    const auto is_known = [](const Made& of) {
+      return !si_unit(read_column(of.name).name).empty();
+    };
+    if (columns.size() > 2 && std::ranges::all_of(columns, is_known) && once_in(8))
+      columns.pop_back();
+    return columns;
+  }
+
   void make() {
     std::string quantities = "tv";
     for (const char other : {'x', 'a', 'D', 'n'})
@@ -135,7 +145,7 @@ class RandomFile {
         std::ranges::shuffle(quantities, random_);
         columns.clear();
         for (const char of : quantities) columns.push_back(column(of));
-        if (!behind) text += names(columns, separator, end);
+        if (!behind) text += names(cut(columns), separator, end);
         for (std::size_t n = once_in(3) && !behind ? 1 + below(2) : 0; n > 0; --n) text += prose();
       }
       text += data(quantities, columns, separator, end);
