@@ -5,12 +5,16 @@
 #include <utility>
 
 #include "cli/scene.h"
+#include "signal/savitzky_golay.h"
 #include "text/column.h"
 #include "text/estimate.h"
 #include "text/input.h"
 #include "text/number.h"
 
 namespace rolling {
+
+static_assert(polynomial.holds(SavitzkyGolay::most_order) &&
+              !polynomial.holds(SavitzkyGolay::most_order + 1));
 namespace {
 
 void require(const Range& range, double value, std::string_view text) {

@@ -36,7 +36,7 @@ inline constexpr Range odd{"an odd whole number from 1 to 1e9", [](double x) {
                              return whole.holds(x) && static_cast<std::int64_t>(x) % 2 == 1;
                            }};
 
-/// The order of a polynomial: SavitzkyGolay::most_order is the limit.
+/// The order of the polynomial of SavitzkyGolay.
 inline constexpr Range polynomial{"a whole number from 1 to 10",
                                   [](double x) { return whole.holds(x) && x <= 10; }};
 

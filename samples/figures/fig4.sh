@@ -12,12 +12,11 @@
 
 # D against v of record $1, the file $3, with the shape factor $2, and the row of the law.
 shifts() {
-  local from=v
-  ! smooth -q -c x -w 1 "$3" >/dev/null 2>&1 || from=x
-  case $from in
-    x) smooth -q --coast -c x -w 1 "$3" | differentiate -c x | smooth -q -w 11 ;;
-    v) smooth -q --coast -c v -w 11 "$3" ;;
-  esac | differentiate -c v | shift-from-accel -q -K "$2" -R "$R" >"shift$1"
+  if smooth -q -c x -w 1 "$3" >/dev/null 2>&1; then
+    smooth -q --coast -c x -w 1 "$3" | differentiate -c x | smooth -q -w 11
+  else
+    smooth -q --coast -c v -w 11 "$3"
+  fi | differentiate -c v | shift-from-accel -q -K "$2" -R "$R" >"shift$1"
   fitpower -q "shift$1" | grep -v '^#' >>laws
   # The picture has the rows of whole windows alone; fitpower knows the noise of all of them.
   whole_windows <"shift$1" | awk -F'\t' '
