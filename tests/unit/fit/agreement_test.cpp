@@ -3,31 +3,13 @@
 #include <functional>
 
 #include "base/error.h"
-#include "motion/trajectory.h"
 #include "unit/catch.h"
-#include "unit/fit/simulated.h"
+#include "unit/fit/rolls.h"
 
 using namespace rolling;
+using rolls::cylinder, rolls::felt, rolls::roll, rolls::rubber;
 
 namespace {
-
-const Body cylinder{1.375, 0.04, 0.5};
-
-/// Positions every 40 ms with noise, down to the stop; way -1 towards falling x.
-FitRun roll(PowerLaw law, double slope, double way, simulated::Noise& noise, double size = 3e-4) {
-  FitRun run{};
-  run.body = cylinder;
-  Body seen = cylinder;
-  seen.slope = way * slope;
-  const Trajectory truth(seen, Geometry::approximate, law, 0.5);
-  for (double t = 0; t < truth.stop_time(); t += 0.04) {
-    run.t.push_back(t);
-    run.x.push_back(way * truth.at(t).x + noise(size));
-  }
-  return run;
-}
-
-constexpr PowerLaw rubber{1.87e-3, 0.215}, felt{5.75e-4, 0.0244};
 
 /// So many rolls on felt of six records each, 0.8 s apart.
 std::vector<FitRun> short_rolls(int count, simulated::Noise& noise) {
@@ -230,29 +212,6 @@ TEST_CASE("agreement: of 200 times 40 short rolls under one law 1 % are said to 
   CHECK(alarms <= 7);  // more by chance in 0.1 %
 }
 
-TEST_CASE("agreement: a mat that is 1 mm a metre off level shows in two directions", "[fit]") {
-  simulated::Noise noise(32);
-  for (int k = 0; k < 20; ++k) {
-    const std::vector<FitRun> runs{roll(felt, 1e-3, 1, noise), roll(felt, 1e-3, -1, noise)};
-    const auto r = fit(Route::position, runs, {});
-    REQUIRE(r.agreement);
-    CHECK_FALSE(r.agreement->agree());
-    CHECK(r.agreement->run == 0);
-    // Up the slope the body seems to roll on a mat with (1 + K) R S/(1 + K) = R S more shift, down
-    // with as much less.
-    const double D = felt.a * std::pow(r.agreement->speed, felt.b), by_slope = 0.04 * 1e-3;
-    CHECK(std::abs(r.agreement->log_D.value - std::log((D + by_slope) / (D - by_slope))) < 0.01);
-    CHECK(std::abs(r.a - felt.a) < 1.96 * r.sigma_a);
-    CHECK(r.sigma_a < felt.a);
-    // With the slope as a parameter they agree; one degree of freedom is left.
-    FitOptions options;
-    options.fit_slope = true;
-    const auto level = fit(Route::position, runs, options);
-    CHECK(level.agreement->dof == 1);
-    if (k < 5) CHECK(level.agreement->significance > 1e-3);
-  }
-}
-
 TEST_CASE("agreement: the errors allow for 2 % of scatter from run to run", "[fit][many]") {
   for (const auto& [law, count] : {std::pair(felt, 4), std::pair(rubber, 6)}) {
     simulated::Noise noise(33);
@@ -339,18 +298,6 @@ TEST_CASE("agreement: a run of two records has no say", "[fit]") {
   CHECK(r.agreement->dof == 2);
 }
 
-TEST_CASE("agreement: runs of which only the common slope is unknown have no law to compare",
-          "[fit]") {
-  simulated::Noise noise(45);
-  FitOptions options;
-  options.a = felt.a, options.b = felt.b, options.v0 = 0.5, options.x0 = 0,
-  options.fit_slope = true;
-  const std::vector<FitRun> runs{roll(felt, 1e-3, 1, noise), roll(felt, 1e-3, 1, noise)};
-  const auto r = fit(Route::position, runs, options);
-  CHECK_FALSE(r.agreement);
-  CHECK(std::abs(r.slope - 1e-3) < 4 * r.sigma_slope);
-}
-
 TEST_CASE("agreement: where runs disagree, a and b are correlated as they scatter from run to run",
           "[fit]") {
   // b falls where a grows; the noise of one run would correlate them the other way round.
@@ -363,87 +310,6 @@ TEST_CASE("agreement: where runs disagree, a and b are correlated as they scatte
   CHECK_FALSE(r.agreement->agree());
   CHECK(r.corr < -0.9);
   CHECK(r.corr >= -1);
-}
-
-// Of seven rolls up and one down the mean of a hangs on the slope, which is found from their
-// scatter.
-TEST_CASE("agreement: the errors allow for scatter from run to run beside a slope", "[fit][many]") {
-  simulated::Noise noise(36);
-  FitOptions options;
-  options.fit_slope = true;
-  int a = 0, b = 0, told = 0;
-  for (int k = 0; k < 80; ++k) {
-    std::vector<FitRun> runs;
-    for (const double way : {1, 1, 1, 1, 1, 1, 1, -1})
-      runs.push_back(roll({felt.a * (1 + noise(0.02)), felt.b}, 1e-3, way, noise));
-    const auto r = fit(Route::position, runs, options);
-    REQUIRE(r.agreement);
-    CHECK(r.agreement->dof == 13);
-    a += std::abs(r.a - felt.a) < 1.96 * r.sigma_a;
-    b += std::abs(r.b - felt.b) < 1.96 * r.sigma_b;
-    told += !r.agreement->agree();
-  }
-  CAPTURE(a, b);
-  CHECK(told == 80);
-  for (int covered : {a, b}) {
-    CHECK(covered >= 69);  // fewer of 95 % by chance in 0.1 %
-    CHECK(covered <= 79);
-  }
-}
-
-// R S acts like a shift, which bends ln D(v) where D is not constant: where the scatter of a puts
-// the slope off, b is off by R b/D of that, and its error holds that of the slope.
-TEST_CASE("agreement: the exponents of the runs are those at the slope that is found", "[fit]") {
-  simulated::Noise noise(42);
-  FitOptions options;
-  options.fit_slope = true;
-  std::vector<FitRun> runs;
-  for (const auto& [by, way] : {std::pair(0.98, 1), {1.01, 1}, {1.03, 1}, {1.02, -1}})
-    runs.push_back(roll({by * rubber.a, rubber.b}, 1e-3, way, noise, 1e-6));
-  const auto r = fit(Route::position, runs, options);
-  REQUIRE_FALSE(r.agreement->agree());
-  const double D = rubber.a * std::pow(0.25, rubber.b), by_slope = 0.5 * 0.04 * rubber.b / D;
-  CHECK((r.b - rubber.b) / (by_slope * (r.slope - 1e-3)) == Approx(1).epsilon(0.15));
-  CHECK(r.sigma_b > 0.9 * by_slope * r.sigma_slope);
-  CHECK(r.sigma_b < 1.5 * by_slope * r.sigma_slope);
-}
-
-// The error of the slope is that of a difference of two means in ln D, times D/(2 R): 2 rolls up
-// and 2 down leave two degrees of freedom. D is that of the speeds of the rolls, not that of 1 m/s.
-TEST_CASE("agreement: the error of the slope where b is held, by hand", "[fit]") {
-  simulated::Noise noise(47);
-  FitOptions options;
-  options.fit_slope = true;
-  options.b = 0.5;
-  std::vector<FitRun> runs;
-  for (const auto& [by, way] : {std::pair(-0.05, 1), {0.05, 1}, {-0.03, -1}, {0.03, -1}})
-    runs.push_back(roll({rubber.a * std::exp(by), 0.5}, 0, way, noise, 1e-5));
-  const auto r = fit(Route::position, runs, options);
-  REQUIRE_FALSE(r.agreement->agree());
-  const double way_to_stop = runs[0].x.back() - runs[0].x.front(),
-               D = rubber.a * std::sqrt(way_to_stop / runs[0].t.back()),
-               scatter = std::sqrt(2 * (0.05 * 0.05 + 0.03 * 0.03) / 2),
-               student = gsl_cdf_tdist_Pinv(0.975, 2) / gsl_cdf_ugaussian_Pinv(0.975);
-  CHECK(r.sigma_slope == Approx(student * scatter * D / (2 * 0.04)).epsilon(0.05));
-}
-
-// What the runs scatter by is no slope: in one direction it is found by its part of each roll
-// alone.
-TEST_CASE("agreement: the scatter of runs in one direction does not tell a slope", "[fit]") {
-  simulated::Noise noise(39);
-  FitOptions options;
-  options.fit_slope = true;
-  for (int k = 0; k < 5; ++k) {
-    std::vector<FitRun> runs;
-    for (int i = 0; i < 4; ++i)
-      runs.push_back(roll({rubber.a * (1 + noise(0.01)), rubber.b}, 1e-3, 1, noise, 1e-4));
-    try {
-      const auto r = fit(Route::position, runs, options);
-      CHECK(std::abs(r.slope - 1e-3) < 4 * r.sigma_slope);
-      CHECK(std::abs(r.a - rubber.a) < 4 * r.sigma_a);
-    } catch (const Error&) {  // not determined
-    }
-  }
 }
 
 // --min-speed leaves the records out that are slower in the fitted roll, the joint one or the run's
@@ -500,36 +366,4 @@ TEST_CASE("agreement: the exponents of runs where a is held", "[fit]") {
   CHECK(r.b == Approx(mean).epsilon(0.002));
   constexpr double t = 3.182446;  // Student, 0.975, 3 degrees of freedom
   CHECK(r.sigma_b == Approx(t / 1.96 * std::sqrt(squares / 3 / 4)).epsilon(0.05));
-}
-
-// A body that was hardly moved tells nothing of the law: beside four rolls that disagree, two such
-// runs must not change what the four tell of the slope.
-TEST_CASE("agreement: runs mostly at rest do not count where a slope is fitted", "[fit]") {
-  simulated::Noise noise(41);
-  FitOptions options;
-  options.fit_slope = true;
-  constexpr double slope = 1e-3;
-  int held = 0, near = 0;
-  for (int k = 0; k < 40; ++k) {
-    std::vector<FitRun> runs;
-    for (const double way : {1, -1, 1, -1})
-      runs.push_back(roll({rubber.a * (1 + noise(0.03)), rubber.b}, slope, way, noise));
-    const FitResult four = fit(Route::position, runs, options);
-    for (const double way : {1, -1}) {
-      FitRun& run = runs.emplace_back();
-      run.body = cylinder;
-      Body seen = cylinder;
-      seen.slope = way * slope;
-      const Trajectory truth(seen, Geometry::approximate, rubber, 0.02);
-      for (int i = 0; i < 8; ++i) {
-        run.t.push_back(0.06 * i);
-        run.x.push_back(way * truth.at(run.t.back()).x + noise(3e-4));
-      }
-    }
-    const FitResult six = fit(Route::position, runs, options);
-    held += std::abs(six.slope - slope) < 1.96 * six.sigma_slope;
-    near += std::abs(six.slope - four.slope) < 2 * four.sigma_slope;
-  }
-  CHECK(near >= 38);
-  CHECK(held >= 32);  // of 38: fewer by chance in 0.3 %
 }

@@ -1,0 +1,30 @@
+// Rolls of the cylinder of the paper, for joint fits.
+#pragma once
+
+#include "motion/trajectory.h"
+#include "unit/fit/simulated.h"
+
+namespace rolls {
+
+using namespace rolling;
+
+inline const Body cylinder{1.375, 0.04, 0.5};
+
+/// Positions every 40 ms with noise, down to the stop; way -1 towards falling x.
+inline FitRun roll(PowerLaw law, double slope, double way, simulated::Noise& noise,
+                   double size = 3e-4) {
+  FitRun run{};
+  run.body = cylinder;
+  Body seen = cylinder;
+  seen.slope = way * slope;
+  const Trajectory truth(seen, Geometry::approximate, law, 0.5);
+  for (double t = 0; t < truth.stop_time(); t += 0.04) {
+    run.t.push_back(t);
+    run.x.push_back(way * truth.at(t).x + noise(size));
+  }
+  return run;
+}
+
+inline constexpr PowerLaw rubber{1.87e-3, 0.215}, felt{5.75e-4, 0.0244};
+
+}  // namespace rolls
