@@ -249,7 +249,7 @@ void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, F
   double log_v = 0, weights = 0;
   for (const OwnLaw& one : laws) {
     const double own = log_v_of(one, joint), sigma = one.log_D(own).sigma,
-                 weight = sigma > 0 ? 1 / (sigma * sigma) : 1;  // a held one has no error
+                 weight = sigma > 0 ? 1 / (sigma * sigma) : 1;  // without error if a is held
     weights += weight;
     log_v += weight / weights * (own - log_v);
   }
