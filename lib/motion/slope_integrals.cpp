@@ -21,7 +21,7 @@ constexpr double fastest = 300;  // speeds above v0 e^300 are refused
 // the other term. On a slope a depth below its bound is continued by fade_.
 constexpr double least_b = 1e-19, least_slope = 1e-200;
 constexpr double least_net = 1e-100, least_depth = 1e-290;
-constexpr double least_pole = 1e-6;  // the time in which A grows to it is 1e-12 of the whole
+constexpr double least_pole = 1e-6;        // the time in which A grows to it is 1e-12 of the whole
 constexpr double negligible_part = 1e-20;  // of the net force: no digit of a sum shows it
 constexpr double least_part = 1e-17;  // the panels towards a last speed end at this part of the way
 constexpr double negligible = 1e-6;   // last speeds below it, as a part of v0, count as rest:
