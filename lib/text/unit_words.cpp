@@ -70,6 +70,17 @@ constexpr std::array unknown = {"ns",    "mi", "yd", "px",  "deg",  "rpm",
 /// mass.
 constexpr std::array ambiguous = {"in", "min", "us", "um", "h", "cm"};
 
+/// True for a unit that is spelled in whatever language, as Millisekunden and centimetros are: a
+/// metre or a second behind a prefix, or a minute.
+bool is_spelled_out(std::string_view word) {
+  if (word.starts_with("minut")) return true;
+  for (const std::string_view prefix :
+       {"milli", "mili", "mikro", "micro", "centi", "zenti", "santi", "kilo", "nano"})
+    for (const std::string_view unit : {"met", "se", "sa"})
+      if (word.starts_with(prefix) && word.substr(prefix.size()).starts_with(unit)) return true;
+  return false;
+}
+
 /// The unit that a word of a name is, `letters` in the letters of units; empty if it is none.
 std::string unit_of_word(std::string_view quantity, const std::string& word,
                          const std::string& letters) {
@@ -77,7 +88,8 @@ std::string unit_of_word(std::string_view quantity, const std::string& word,
   if (std::string unit = quotient(letters); !unit.empty()) return unit;
   const bool is_other =
       std::ranges::count(ambiguous, word) == 0 && unit_kind(letters) != UnitKind::none;
-  return is_other || std::ranges::count(unknown, letters) > 0 ? letters : std::string();
+  if (is_other || std::ranges::count(unknown, letters) > 0) return letters;
+  return is_spelled_out(word) ? word : std::string();
 }
 
 /// Units that no word of a name or a sentence ends in by accident (`sum`, `left`, `status` end in
@@ -102,6 +114,14 @@ std::string glued_unit(std::string_view quantity, const std::string& word) {
       return unit;
   }
   return {};
+}
+
+/// What stands about the last slash of a name: cm/seg of Velocidad_cm/seg, Std of t_/_Std.
+std::string about_slash(std::string_view name) {
+  const auto slash = name.rfind('/'), blank = name.find_last_of(" _", slash);
+  const auto begin = blank == std::string_view::npos ? 0 : blank + 1;
+  if (begin != slash) return std::string(name.substr(begin));
+  return std::string(name.substr(std::min(name.find_first_not_of(" _", slash + 1), name.size())));
 }
 
 /// The words of a comment, with their capitals: a quotient is one word (cm/s^2), and `in` stands
@@ -145,7 +165,9 @@ std::string unit_in_name(std::string_view quantity, std::string_view name) {
   std::vector<std::string> letters;
   for (const std::string& word : words) letters.push_back(in_letters(word));
   constexpr std::size_t longest = 5;  // cm per s per s
-  for (std::size_t i = 0; i < words.size(); ++i)
+  bool divides = false;               // there is a slash, and no known unit in it or behind it
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    divides |= words[i] == "per" && name.find('/') != std::string_view::npos;
     for (std::size_t end = std::min(i + longest, words.size()); end > i; --end) {
       std::string unit;
       if (end == i + 1) {
@@ -159,9 +181,11 @@ std::string unit_in_name(std::string_view quantity, std::string_view name) {
       if (unit.empty()) continue;
       if (unit_kind(unit) != UnitKind::si) return unit;
       i = end - 1;
+      divides = false;
       break;
     }
-  return {};
+  }
+  return divides ? about_slash(name) : std::string();
 }
 
 UnitsOf units_in_comment(std::string_view comment) {

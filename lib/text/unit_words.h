@@ -10,7 +10,9 @@ namespace rolling {
 /// A unit other than SI that the name of a column says without brackets, as in `t_ms`, `x/mm`,
 /// `Weg_in_cm`, `Speed cm s-1`, `speedKmh`, `posmm` and `dist centimeters`; empty if there is none.
 /// `v_ms` is in m/s, and what is a word too counts only for the quantity that has this unit:
-/// `v_min`, `v_cm`. `in` never does; it ends the names that free_name() makes.
+/// `v_min`, `v_cm`. `in` never does; it ends the names that free_name() makes. A slash divides a
+/// unit: if it is no known one, as in `cm/seg`, it comes as it stands there. So does a unit that is
+/// spelled out in another language.
 std::string unit_in_name(std::string_view quantity, std::string_view name);
 
 /// The units other than SI in the words of a comment, as in `# times are in ms` and `# units: ms

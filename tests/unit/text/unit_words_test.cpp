@@ -69,6 +69,20 @@ TEST_CASE("unit words: a unit in a name without brackets", "[text]") {
       {"a", "accel cm s-2", "cm/s^2"},
       {"a", "accel in cm\xC2\xB7s\xE2\x81\xBB\xC2\xB2", "cm/s^2"},
       {"a", "cm per second per second", "cm/s^2"},
+      {"v", "Velocidad cm/seg", "cm/seg"},
+      {"v", "H\xC4\xB1z cm/sn", "cm/sn"},
+      {"v", "\xD0\xA1\xD0\xBA\xD0\xBE\xD1\x80, \xD1\x81\xD0\xBC/\xD1\x81",
+       "\xD1\x81\xD0\xBC/\xD1\x81"},
+      {"t", "\xE6\x97\xB6\xE9\x97\xB4/\xE6\xAF\xAB\xE7\xA7\x92",
+       "\xE6\x97\xB6\xE9\x97\xB4/\xE6\xAF\xAB\xE7\xA7\x92"},
+      {"t", "Zeit_/_Std", "Std"},
+      {"t", "Zeit_/_Millisek", "millisek"},
+      {"v", "m/min_or_m/s", "m/min"},
+      {"t", "Zeit Millisekunden", "millisekunden"},
+      {"t", "zaman_milisaniye", "milisaniye"},
+      {"t", "Zeit Minuten", "minuten"},
+      {"x", "Weg in Zentimetern", "zentimetern"},
+      {"x", "position centim\xC3\xA8tres", "cm"},
       {"t", "t_in_s", ""},
       {"t", "times", ""},
       {"x", "x_in", ""},
@@ -84,7 +98,9 @@ TEST_CASE("unit words: a unit in a name without brackets", "[text]") {
 
 TEST_CASE("unit words: SI units, and words that are no units", "[text]") {
   const std::pair<const char*, std::vector<const char*>> cases[] = {
-      {"t", {"Time_elapsed", "time_sec", "Time in seconds", "times", "Run 1", "in", "stamp"}},
+      {"t",
+       {"Time_elapsed", "Zeit_/_s", "t / s (raw)", "t/(s)", "time_sec", "Time in seconds", "times",
+        "Run 1", "in", "stamp"}},
       {"x",
        {"x_m", "x2", "Position_1", "distance to motion sensor", "Distance in meters", "rms",
         "Mass A", "x_s", "x_min", "items", "sum", "left", "origin", "radius", "xMax", "frame A"}},
@@ -108,7 +124,9 @@ TEST_CASE("unit words: SI units, and words that are no units", "[text]") {
         "Wheel Speed",
         "foot speed",
         "second run",
-        "Speed meter"}},
+        "Speed meter",
+        "v/(m/s)",
+        "speed of the microscope stage"}},
       {"a", {"a_ms2", "a_m_s_2", "a m/s/s", "Acceleration y", "a_cm", "acc_without_g"}},
   };
   for (const auto& [quantity, names] : cases)
