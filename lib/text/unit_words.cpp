@@ -150,11 +150,28 @@ std::string quantity_of(const std::string& word) {
 
 /// The units that a word of a comment may be; capitals are those of a short word.
 std::array<std::string, 3> as_units(std::string word) {
-  if (word == "in" || word.size() > longest_unit) return {};
+  if (word.size() > longest_unit) return {};
   if (word.size() > 2)
     for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const std::string letters = in_letters(word);
   return {word, letters, quotient(letters)};
+}
+
+/// The place of the list of units that ends a comment, two or more or one behind `in`: there `in`
+/// is an inch and `min` a minute. Behind the last word if there is none.
+std::size_t list_of_units(const std::vector<std::string>& words) {
+  const std::size_t end = words.size();
+  const auto is_unit = [](const std::string& word) {
+    const auto units = as_units(word);
+    return !units.back().empty() || std::ranges::any_of(units, [](const std::string& unit) {
+      return unit_kind(unit) != UnitKind::none;
+    });
+  };
+  std::size_t begin = end;
+  while (begin > 0 && is_unit(words[begin - 1]) && (begin < 2 || !is_number(words[begin - 2])))
+    --begin;
+  while (begin + 1 < end && words[begin] == "in") ++begin;
+  return begin + 1 < end || (begin > 0 && words[begin - 1] == "in") ? begin : end;
 }
 
 }  // namespace
@@ -193,7 +210,11 @@ UnitsOf units_in_comment(std::string_view comment) {
   if (comment.starts_with("##")) return said;
   const std::vector<std::string> words = words_of_comment(comment.substr(1));
   const auto is_value = [&](std::size_t i) { return i < words.size() && is_number(words[i]); };
-  const auto is_in = [&](std::size_t i) { return i < words.size() && words[i] == "in"; };
+  const auto is_in = [&](std::size_t i) {
+    constexpr std::array in = {"in", "unit", "units", "Unit", "Units"};
+    return i < words.size() && std::ranges::count(in, words[i]) > 0;
+  };
+  const std::size_t list = list_of_units(words);
   std::string of;  // the known quantity that was named last
   for (std::size_t i = 0; i < words.size(); ++i) {
     std::string word = words[i];
@@ -207,6 +228,7 @@ UnitsOf units_in_comment(std::string_view comment) {
       continue;
     const bool behind_in = i > 0 && is_in(i - 1);
     const std::string before = i > 1 && behind_in ? quantity_of(words[i - 2]) : "";
+    if (word == "in" && i < list) continue;
     const auto units = as_units(word);
     for (const char* const quantity : {"t", "x", "v", "a", "D"}) {
       const auto found = std::ranges::find_if(
@@ -217,7 +239,7 @@ UnitsOf units_in_comment(std::string_view comment) {
                                                               : unit_in_name(quantity, word);
       const bool of_another = of != quantity && is_unit_of(of, unit);
       if (!unit.empty() && unit_kind(unit) != UnitKind::si && !of_another &&
-          (behind_in || is_sure(unit)))
+          (behind_in || i >= list || is_sure(unit)))
         said.emplace(quantity, unit);
     }
   }

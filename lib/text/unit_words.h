@@ -17,8 +17,9 @@ std::string unit_in_name(std::string_view quantity, std::string_view name);
 
 /// The units other than SI in the words of a comment, as in `# times are in ms` and `# units: ms
 /// cm/s`, for each known quantity the first that it may be in. A number before or behind it makes a
-/// value of it, and what is a word too counts only behind `in`, an equals sign or a colon: `time:
-/// min`. A length belongs to the one of x and D that the comment has named last, if any.
+/// value of it, and what is a word too counts only behind `in`, `unit`, an equals sign or a colon,
+/// and in a list of units at the end: `time: min`, `units: s ft`. A length belongs to the one of x
+/// and D that the comment has named last, if any.
 using UnitsOf = std::map<std::string, std::string>;  // by quantity
 UnitsOf units_in_comment(std::string_view comment);
 

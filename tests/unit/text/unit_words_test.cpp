@@ -180,6 +180,14 @@ TEST_CASE("unit words: a unit in a comment", "[text]") {
       {"a", "# accelerations in g", "g"},
       {"t", "# times in days", "days"},
       {"x", "# positions: pixels", "px"},
+      {"t", "# min ft", "min"},
+      {"x", "# min ft", "ft"},
+      {"x", "# (s)\t(ft)", "ft"},
+      {"x", "# units: s ft", "ft"},
+      {"x", "# [s] [in]", "in"},
+      {"x", "# t in s, x in in", "in"},
+      {"t", "# Einheiten;min;m", "min"},
+      {"x", "# Position Units;inch", "in"},
   };
   for (const Case& c : cases) {
     INFO(c.quantity << " of " << c.comment);
@@ -207,6 +215,10 @@ TEST_CASE("unit words: values, and words that are no units, in a comment", "[tex
                               "# g = 981 cm/s^2",
                               "# mass in g",
                               "# every 40 ms m by m",
+                              "# s, m, in that order",
+                              "# x in m, v_in",
+                              "# roll 3 m, h",
+                              "# t s x in",
                               "# the sum of two forms is a status",
                               "#"})
     CHECK(units_in_comment(comment) == UnitsOf());
