@@ -184,6 +184,8 @@ std::string unit_in_name(std::string_view quantity, std::string_view name) {
   constexpr std::size_t longest = 5;  // cm per s per s
   bool divides = false;               // there is a slash, and no known unit in it or behind it
   for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool is_with = i > 0 && words[i - 1].starts_with("with");  // without g, which is no unit
+    if (quantity == "a" && words[i] == "g" && !is_with) return words[i];
     divides |= words[i] == "per" && name.find('/') != std::string_view::npos;
     for (std::size_t end = std::min(i + longest, words.size()); end > i; --end) {
       std::string unit;
@@ -196,9 +198,11 @@ std::string unit_in_name(std::string_view quantity, std::string_view name) {
         unit = quotient(run);
       }
       if (unit.empty()) continue;
-      if (unit_kind(unit) != UnitKind::si) return unit;
+      const bool is_own = is_unit_of(quantity, unit);
+      const bool is_quotient = unit.find('/') != std::string::npos;
+      if (unit_kind(unit) != UnitKind::si || (is_quotient && !is_own)) return unit;
       i = end - 1;
-      divides = false;
+      divides &= !is_own;
       break;
     }
   }

@@ -83,6 +83,12 @@ TEST_CASE("unit words: a unit in a name without brackets", "[text]") {
       {"t", "Zeit Minuten", "minuten"},
       {"x", "Weg in Zentimetern", "zentimetern"},
       {"x", "position centim\xC3\xA8tres", "cm"},
+      {"v", "n 1/s", "1/s"},
+      {"v", "n U/min", "U/min"},
+      {"a", "v_m/s", "m/s"},
+      {"x", "v_m/s", "m/s"},
+      {"a", "ax_g", "g"},
+      {"a", "gForceX", "g"},
       {"t", "t_in_s", ""},
       {"t", "times", ""},
       {"x", "x_in", ""},
@@ -127,7 +133,8 @@ TEST_CASE("unit words: SI units, and words that are no units", "[text]") {
         "Speed meter",
         "v/(m/s)",
         "speed of the microscope stage"}},
-      {"a", {"a_ms2", "a_m_s_2", "a m/s/s", "Acceleration y", "a_cm", "acc_without_g"}},
+      {"a",
+       {"a_ms2", "a_m_s_2", "a m/s/s", "Acceleration y", "a_cm", "acc_without_g", "acc with g"}},
   };
   for (const auto& [quantity, names] : cases)
     for (const char* const name : names) {
