@@ -97,14 +97,18 @@ int Tool::finish(int status) {
   out.flush();
   progress.stop();
   std::size_t left_out = 0;
-  bool coarse_time = false;
+  bool coarse_time = false, distant_time = false;
   for (const auto& reader : readers_) {
     left_out += reader->left_out();
     coarse_time |= reader->coarse_time();
+    distant_time |= reader->distant_time();
   }
   if (coarse_time && !quiet_)
     say("the times are so large that the time between records keeps fewer than four digits; "
         "subtract the first");
+  if (distant_time && !quiet_)
+    say("the times are beyond 1e11 s, some 3000 years: if they are in ms or us, write that in "
+        "brackets behind the name of their column");
   count_left_out(left_out, "a reading is missing");
   if (failed_checks_ == 0) return status;
   say(failed_checks_ == 1 ? failed_check_

@@ -340,6 +340,7 @@ inline void Reader::check_time() {
                        t < last_time_ ? "; put a blank line before another run" : ""));
   // The roundings of two times, 2^-53 t each, are then more than 2^-13 of the step between them.
   coarse_time_ |= t - last_time_ < 0x1p-39 * std::abs(t);
+  distant_time_ |= std::abs(t) > 1e11;
   last_time_ = t;
 }
 

@@ -105,6 +105,8 @@ class Reader {
   /// True if times are so large that a double keeps fewer than four digits of the step between two
   /// records.
   bool coarse_time() const { return coarse_time_; }
+  /// True if a time is beyond 3000 years, where milliseconds since 1970 are.
+  bool distant_time() const { return distant_time_; }
 
  private:
   enum class State { found, in_run, between, ended };
@@ -162,7 +164,7 @@ class Reader {
   std::size_t line_number_ = 0;  // 0: there is none
   std::span<const Field> fields_;
   std::vector<Field> changed_fields_;
-  bool fields_changed_ = false, coarse_time_ = false;
+  bool fields_changed_ = false, coarse_time_ = false, distant_time_ = false;
   std::size_t time_slot_ = no_column;
   double last_time_ = 0;  // NaN before the first record of a run
   std::size_t left_out_ = 0;
