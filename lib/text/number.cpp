@@ -116,13 +116,31 @@ bool means_missing(std::string_view field) {
   if (field.starts_with('#'))
     return field.size() > 1 && std::isupper(static_cast<unsigned char>(field[1]));
   std::string letters;
-  for (const char letter : field) {
-    const auto c = static_cast<unsigned char>(letter);
-    if (std::isdigit(c)) return false;
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    const auto c = static_cast<unsigned char>(field[i]);
+    if (std::isdigit(c) || (c > 0x7F && c != 0xE2)) return false;  // a letter of another script
     if (std::isalpha(c)) letters += static_cast<char>(std::tolower(c));
+    else if (c == 0xE2) i += 2;  // dashes and other signs: U+2000 to U+2FFF
   }
   constexpr std::array<std::string_view, 6> words = {"", "na", "nan", "nanind", "null", "none"};
   return std::ranges::count(words, letters) > 0;
+}
+
+bool has_other_digits(std::string_view text) {
+  struct Block {
+    std::string_view front;
+    unsigned char first, last;
+  };
+  constexpr Block blocks[] = {{"\xD9", 0xA0, 0xAC},       // Arabic, with its decimal mark
+                              {"\xDB", 0xB0, 0xB9},       // Persian and Urdu
+                              {"\xE0\xA5", 0xA6, 0xAF},   // Devanagari
+                              {"\xEF\xBC", 0x8B, 0x99}};  // of full width, with + , - and .
+  return std::ranges::any_of(blocks, [&](const Block& block) {
+    const auto at = text.find(block.front);
+    if (at == std::string_view::npos || at + block.front.size() == text.size()) return false;
+    const auto last = static_cast<unsigned char>(text[at + block.front.size()]);
+    return last >= block.first && last <= block.last;
+  });
 }
 
 char* write_number(char* to, double value, int digits) {

@@ -27,6 +27,9 @@ bool is_missing(std::string_view field);
 /// None, -nan, signs without a letter or digit, and the error values of spreadsheets, as #DIV/0!.
 bool means_missing(std::string_view field);
 
+/// True if digits of another script are in it: Arabic, Persian, Devanagari, or of full width.
+bool has_other_digits(std::string_view text);
+
 /// Writes the shortest text that reads back to the same double, or `digits` significant digits if
 /// digits > 0 and they are not beyond the largest double. Returns the end of the text, which has at
 /// most longest_number characters.

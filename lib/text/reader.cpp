@@ -375,8 +375,8 @@ void Reader::reject(std::size_t column, std::string_view why) const {
 }
 
 /// What to do about a field that is not a number, where its text shows the likely reason: a decimal
-/// comma, thousands set apart, a typographic minus sign, a missing reading, a time of day, the
-/// names of another run, a line of text.
+/// comma, thousands set apart, a typographic minus sign, digits of another script, a missing
+/// reading, a time of day, the names of another run, a line of text.
 std::string Reader::way_out(std::size_t column) const {
   const std::string_view field = fields_[column].text;
   const bool in_field =
@@ -393,6 +393,7 @@ std::string Reader::way_out(std::size_t column) const {
   if (plain != field) return "; remove the blanks that are not plain ones";
   if (in_field || beside) return "; if a comma here is a decimal one, make it a point first";
   if (field.starts_with("\xE2\x88\x92")) return "; make its minus sign (U+2212) a hyphen first";
+  if (has_other_digits(field)) return "; write it with the digits 0 to 9 and a point";
   if (means_missing(field)) return "; write NaN for a missing reading";
   if (!word) return "";
   if (head_.named && read_column(field).name == layout().columns[column].name)

@@ -290,15 +290,30 @@ TEST_CASE("number: a missing reading is nothing, or NaN in any case", "[text]") 
 }
 
 TEST_CASE("number: what other programs write for a missing reading", "[text]") {
-  for (const char* text :
-       {"NA", "n/a", "-", "--", "null", "None", "-nan", "-nan(ind)", "#N/A", "#DIV/0!", "#NULL!"}) {
+  for (const char* text : {"NA", "n/a", "-", "--", "null", "None", "-nan", "-nan(ind)", "#N/A",
+                           "#DIV/0!", "#NULL!", "\xE2\x80\x94", "\xE2\x88\x92", "\xE2\x80\xA6"}) {
     INFO(text);
     CHECK(means_missing(text));
   }
-  for (const char* text : {"0", "a", "Run", "#", "# t[s]", "## smooth v mean width 3", "#1"}) {
+  for (const char* text :
+       {"0", "a", "Run", "#", "# t[s]", "## smooth v mean width 3", "#1",
+        "\xD0\xA1\xD0\xB5\xD1\x80\xD0\xB8\xD1\x8F", "\xEF\xBC\x95", "\xD9\xA0\xD9\xAB\xD9\xA5"}) {
     INFO(text);
     CHECK_FALSE(means_missing(text));
   }
+}
+
+TEST_CASE("number: digits of other scripts", "[text]") {
+  for (const char* text :
+       {"\xD9\xA0\xD9\xAB\xD9\xA5",
+        "0\xD9\xAB"
+        "5",
+        "\xDB\xB5", "\xEF\xBC\x95", "-\xEF\xBC\x90\xEF\xBC\x8E\xEF\xBC\x95", "\xE0\xA5\xA6"})
+    CHECK(has_other_digits(text));
+  for (const char* text : {"", "0.5", "\xD9", "\xD9\x85", "\xEF\xBC", "\xE6\x97\xB6",
+                           "\xE2\x88\x92"
+                           "1"})
+    CHECK_FALSE(has_other_digits(text));
 }
 
 TEST_CASE("number: a message shows printable ASCII, cut at 40 characters", "[text]") {
