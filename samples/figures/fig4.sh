@@ -58,8 +58,16 @@ set xrange [0:vmax]; set yrange [0:Dmax]; set samples 201
 set style fill transparent solid 0.2 noborder
 set key top left width 2
 if (own) { set key maxrows 4 } else { set key maxrows 2 }
-set label "Bands: 95 % confidence of the law, not of the points.\nPoints: \
-the free roll, less five records at each end." at graph 0.98, 0.075 right font ',12'
+# The key has four columns of four names. What does not fit gnuplot leaves out without a word, so
+# long names lose their middle: of a line of small letters each column takes 8 for its symbol.
+named = n > 16 ? 16 : n
+room = 40; if (named > 4) { set key font ',11' samplen 2.6; room = 58/((named + 3)/4) - 8 }
+cut(name) = strlen(name) <= room ? name : \
+  substr(name, 1, (room - 1)/2).'…'.substr(name, strlen(name) - room/2 + 1, strlen(name))
+note = "Bands: 95 % confidence of the law, not of the points.\nPoints: \
+the free roll, less five records at each end."
+if (named < n) { note = sprintf("The key names the first %d of %d records.\n", named, n).note }
+set label note at graph 0.98, (named < n ? 0.115 : 0.075) right font ',12'
 if (!own) { set label 'rubber' at 0.495, 1.74 right; set label 'felt' at 0.495, 0.68 right }
 array a[n]; array sigma_a[n]; array b[n]; array sigma_b[n]; array corr[n]
 array title[n]
@@ -78,5 +86,5 @@ line(i) = !own ? i : style[(i-1)%8 + 1]
 plot for [i=1:n] '+' using 1:(edge(i,$1,-1)):(edge(i,$1,1)) with filledcurves ls line(i) notitle, \
      for [i=1:n] sprintf('points%d', i) using 1:2 with points ls line(i) notitle, \
      for [i=1:n] [v=0.04*vmax:vmax] '+' using 1:(D(i,$1)) with lines ls line(i) notitle, \
-     for [i=1:n] keyentry with linespoints ls line(i) ps 0.9 title title[i] noenhanced
+     for [i=1:named] keyentry with linespoints ls line(i) ps 0.9 title cut(title[i]) noenhanced
 PLOT

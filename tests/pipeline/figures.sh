@@ -203,6 +203,19 @@ sed -n 's/.*>\(my_.*\)<.text>.*/\1/p' "$scratch/own.svg" |
   grep -qxF "my_&#39;run&#39;; set label.1" ||
   grep -qF "my_'run'; set label.1" "$scratch/own.svg" ||
     complain "own record: its name is not there"
+# The key has every name, long ones without their middle, or says how many it has.
+names=()
+for i in {1..17}; do
+  names+=("$scratch/a solid cylinder on the second rubber mat, try no. $((i + 10)).csv")
+  cp "$scratch/CR.csv" "${names[-1]}"
+done
+for n in 1 4 5 9 16 17; do
+  samples/figures/fig4.sh "${names[@]:0:n}" >"$scratch/names.svg" || complain "fig4 of $n records"
+  [ "$(grep -c '<text>a.*…' "$scratch/names.svg")" = $((n > 16 ? 16 : n)) ] ||
+    complain "fig4 of $n records: $(grep -c '<text>a.*…' "$scratch/names.svg") names"
+done
+grep -q 'The key names the first 16 of 17 records' "$scratch/names.svg" ||
+  complain 'fig4 of 17 records does not say that it names 16'
 part own 3 | grep -oE '[0-9.]+,[0-9.]+' | tr ',' ' ' | awk -v frame="$(axes own)" '
   BEGIN { split(frame, f, " ") }
   FNR == NR { a = $1; b = $3; next }
