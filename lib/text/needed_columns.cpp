@@ -174,7 +174,7 @@ void NeededColumns::resolve(Needed& needed) const {
     fail<InputError>("{}: '{}' is asked for, but column {} is '{}'", place_, shown(needed.name),
                      *found + 1, shown(to_text(meant)));
   const auto way_out = [&] {
-    return has_use_ ? fmt::format(" or say --use {}={}[UNIT]", quantity, *found + 1) : "";
+    return has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", quantity, *found + 1) : "";
   };
   if (meant.unit.empty()) {
     std::string unit = unit_in_name(quantity, meant.name), by;

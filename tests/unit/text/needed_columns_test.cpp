@@ -96,13 +96,13 @@ TEST_CASE("needed columns: a column that is absent", "[text]") {
 TEST_CASE("needed columns: a unit that the tools do not read is not taken for SI", "[text]") {
   CHECK(output({"t_ms", "x/cm"}, {"t=1[ms]", "x=x/cm"}, {"t", "x"}) ==
         "FILE: column 'x/cm' cannot serve as x: is it in cm? Write the unit in brackets or say "
-        "--use x=2[UNIT]");
+        "--use 'x=2[UNIT]'");
   CHECK(output({"t_ms", "x/cm"}, {"t=1[ms]", "x=x/cm[cm]"}, {"t", "x"}) == "t[s] x[m]");
   CHECK(output({"t", "w_km/h"}, {}, {"w_km/h"}) == "t w_km/h");  // no quantity
   const Texts file = {"t (seconds)", "v (knots)"};
   CHECK(output(file, {"v=2[m/s]"}) ==
         "FILE: column 't[seconds]' cannot serve as t: its unit 'seconds' is not one of those known "
-        "(s, sec, ms, us, min, h); convert it first or say --use t=1[UNIT]");
+        "(s, sec, ms, us, min, h); convert it first or say --use 't=1[UNIT]'");
   CHECK(output(file, {"t=1[s]", "v=2[m/s]"}) == "t[s] v[m/s]");
 }
 

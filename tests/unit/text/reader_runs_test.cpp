@@ -13,7 +13,7 @@ TEST_CASE("reader: a separator at the ends of lines may be left out in the secon
 TEST_CASE("reader: units that a comment gives to the columns of the second run alone", "[text]") {
   CHECK(records({"# t v F\n0 1 2\n\n# s cm/s N\n2 3 4\n"}) ==
         "FILE:5: column 'v' cannot serve as v: is it in cm/s, as line 4 says? Write the unit in "
-        "brackets or say --use v=2[UNIT]");
+        "brackets or say --use 'v=2[UNIT]'");
 }
 
 TEST_CASE("reader: blank lines end a run, however many", "[text]") {
@@ -159,7 +159,7 @@ TEST_CASE("reader: names and units hold until others come", "[text]") {
         "FILE:4: there is no column 'v' among t[s], x[m]; say --use v=COLUMN");
   CHECK(records({first + "# t[s]\tv[furlong/s]\n1\t2\n"}) ==
         "FILE:4: column 'v[furlong/s]' cannot serve as v: its unit 'furlong/s' is not one of those "
-        "known (m/s, mm/s, cm/s, km/h, mph, ft/s); convert it first or say --use v=2[UNIT]");
+        "known (m/s, mm/s, cm/s, km/h, mph, ft/s); convert it first or say --use 'v=2[UNIT]'");
   CHECK(records({"# t w[rpm]\n0 1\n\n# t w[rad/s]\n0 2\n"}, {}, {"t", "w"}) ==
         "FILE:4: column w is in rad/s, and in rpm in the runs before");
   CHECK(records({"# t w\n0 1\n\n# t u\n0 2\n"}, {}, {"t", "2"}) ==

@@ -169,7 +169,7 @@ TEST_CASE("reader: --use says which column serves, by name or number", "[text]")
   CHECK(records({"# t v\n0 1\n"}, use({"t=v", "v=t"})) == "1 0");
   CHECK(records({"# t w[rpm]\n0 1\n"}, use({"v=w"})) ==
         "FILE: column 'w[rpm]' cannot serve as v: its unit 'rpm' is not one of those known (m/s, "
-        "mm/s, cm/s, km/h, mph, ft/s); convert it first or say --use v=2[UNIT]");
+        "mm/s, cm/s, km/h, mph, ft/s); convert it first or say --use 'v=2[UNIT]'");
   CHECK(records({"0 1 72\n"}, use({"v=3[km/h]"})) == "0 20");
   CHECK(records({"# t w\n0 72\n"}, use({"v=w[MPH]"})) == "0 32.18688");
   CHECK(records({"# t w[m/s]\n0 72\n"}, use({"v=w[km/h]"})) ==
@@ -224,7 +224,7 @@ TEST_CASE("reader: a carriage return or a NUL within a line is refused wherever 
 TEST_CASE("reader: a unit that only a comment gives is not passed over", "[text]") {
   const std::string refused =
       "FILE: column 'v' cannot serve as v: is it in km/h, as line 1 says? Write the unit in "
-      "brackets or say --use v=2[UNIT]";
+      "brackets or say --use 'v=2[UNIT]'";
   CHECK(records({"# v [km/h]: by a GPS\n# t v\n0 36\n"}) == refused);
   CHECK(records({"t [s], v [km/h] and a remark\n\nt,v\n0,36\n"}) == refused);
   CHECK(records({"# v [km/h]: by a GPS\n# t v\n0 36\n"}, use({"v=v[km/h]"})) == "0 10");
@@ -271,7 +271,7 @@ TEST_CASE("reader: units are converted, and go out converted", "[text]") {
   CHECK(
       records({"# t[parsec] v\n0 1\n"}) ==
       "FILE: column 't[parsec]' cannot serve as t: its unit 'parsec' is not one of those known (s, "
-      "sec, ms, us, min, h); convert it first or say --use t=1[UNIT]");
+      "sec, ms, us, min, h); convert it first or say --use 't=1[UNIT]'");
   CHECK(records({"# t[h] v\n1e308 1\n"}) ==
         "FILE:2: field 1 (t): '1e308' is beyond the range of a double in SI units");
 }
@@ -330,7 +330,7 @@ TEST_CASE("reader: the names are the last comment with as many fields as the rec
         "FILE:1: a comment with units, but not the names of 2 columns");
   CHECK(records({"# Speed (km/h) from GPS\n0 36\n"}) ==
         "FILE: column 'v' cannot serve as v: is it in km/h, as line 1 says? Write the unit in "
-        "brackets or say --use v=2[UNIT]");
+        "brackets or say --use 'v=2[UNIT]'");
   CHECK(records({"# t[s] v[m/s]\n0 1\n# t[ms] v[km/h]\n1000 36\n"}) ==
         "FILE:3: names among the records; where another run begins, put a blank line before it");
 }
