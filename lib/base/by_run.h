@@ -5,8 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "base/matrix.h"
-
 namespace rolling {
 
 /// Views of consecutive parts of `all`, one for each run: of sizes[r] numbers.

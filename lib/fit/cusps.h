@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fit/model_roll.h"
+#include "least_squares/minimise.h"
 
 namespace rolling {
 

@@ -7,7 +7,6 @@
 
 #include "base/by_run.h"
 #include "base/dot.h"
-#include "base/error.h"
 #include "statistics/residuals.h"
 
 namespace rolling {

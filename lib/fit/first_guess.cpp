@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/median.h"
 #include "contact/contact.h"
+#include "least_squares/minimise.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fit/model_roll.h"
+#include "least_squares/minimise.h"
 #include "statistics/residuals.h"
 
 namespace rolling {

@@ -1,7 +1,6 @@
 // The input of a fit of the power law D(v) = a v^b: the records of the runs, and what is fitted.
 #pragma once
 
-#include "base/estimate.h"
 #include "contact/contact.h"
 #include "noise/filter.h"
 

@@ -2,7 +2,6 @@
 
 #include "base/chebyshev.h"
 #include "base/error.h"
-#include "contact/contact.h"
 
 #include <algorithm>
 #include <array>

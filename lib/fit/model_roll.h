@@ -16,7 +16,7 @@
 #pragma once
 
 #include "fit/parameters.h"
-#include "least_squares/minimise.h"
+#include "least_squares/system.h"
 #include "motion/trajectory.h"
 #include "noise/noise.h"
 #include "noise/response.h"

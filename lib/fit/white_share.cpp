@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/golden_section.h"
+#include "least_squares/minimise.h"
 
 namespace rolling {
 

@@ -1,7 +1,7 @@
 // The white noise that the residuals of a roll hold in addition to the filtered noise: rounding.
 #pragma once
 
-#include "fit/fitted.h"
+#include "fit/model_roll.h"
 
 namespace rolling {
 

@@ -5,8 +5,6 @@
 #include "base/matrix.h"
 #include "noise/whitener.h"
 
-#include <memory>
-
 namespace rolling {
 
 /// White noise that did not pass the filters of its columns.

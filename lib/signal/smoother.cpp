@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/error.h"
 #include "signal/moving_mean.h"
 #include "signal/moving_median.h"
 #include "signal/savitzky_golay.h"

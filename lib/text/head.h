@@ -1,7 +1,6 @@
 // The head of a run: the comments, history and names before its first record.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

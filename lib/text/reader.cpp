@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "text/commented_names.h"
 #include "text/delimiters.h"
 #include "text/number.h"
 

@@ -10,7 +10,6 @@
 
 #include "base/error.h"
 #include "text/bytes.h"
-#include "text/commented_names.h"
 #include "text/dialect.h"
 #include "text/head.h"
 #include "text/lines.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "text/delimiters.h"
 #include "text/number.h"
 #include "text/unit_words.h"
 
