@@ -35,6 +35,10 @@ Matrix orthonormal(const Fitted& fit) {
   return Q;
 }
 
+namespace {
+
+/// Adds, over the runs, the block of the shared parameters of each run's matrix in M, and writes
+/// the sum to every run's block.
 void add_shared(std::vector<double>& M, std::size_t columns, std::size_t shared) {
   const std::size_t square = columns * columns;
   for (std::size_t i = columns - shared; i < columns; ++i)
@@ -44,8 +48,6 @@ void add_shared(std::vector<double>& M, std::size_t columns, std::size_t shared)
       for (std::size_t at = i * columns + j; at < M.size(); at += square) M[at] = sum;
     }
 }
-
-namespace {
 
 /// In runs as long as these the fit takes nearly nothing of one residual, and what it takes of sums
 /// of their products is the limit to a few hundredths.

@@ -55,8 +55,4 @@ RawNoise raw_noise_of(const Fitted&);
 /// rows of Q.
 Matrix orthonormal(const Fitted&);
 
-/// Adds, over the runs, the block of the shared parameters of each run's matrix in M, and writes
-/// the sum to every run's block.
-void add_shared(std::vector<double>& M, std::size_t columns, std::size_t shared);
-
 }  // namespace rolling

@@ -26,6 +26,22 @@ std::vector<double> taken(const std::vector<double>& column, const Rows& rows) {
   return few;
 }
 
+/// The records of a run whose speeds are fitted where these rows are chosen: for shift, also those
+/// that the derivative at these rows has read.
+Rows rows_of_speeds(Route route, const FitRun& run, Rows rows) {
+  const std::size_t n = run.t.size();
+  if (route != Route::shift || rows.size() == n) return rows;
+  std::size_t reach = 0;
+  for (const LinearFilter& filter : run.filters)
+    if (filter.from == "v" && filter.to != "v") reach = filter.reach;
+  Rows read;
+  std::size_t next = 0;
+  for (const std::size_t i : rows)
+    for (next = std::max(next, i - std::min(i, reach)); next < std::min(n, i + reach + 1); ++next)
+      if (std::isfinite(run.v[next])) read.push_back(next);
+  return read;
+}
+
 }  // namespace
 
 double way_of(bool position, const std::vector<double>& records, const FitOptions& options) {
@@ -55,20 +71,6 @@ std::vector<Response> responses_of(Route route, const std::vector<FitRun>& all) 
       return {};
   }
   return responses;
-}
-
-Rows rows_of_speeds(Route route, const FitRun& run, Rows rows) {
-  const std::size_t n = run.t.size();
-  if (route != Route::shift || rows.size() == n) return rows;
-  std::size_t reach = 0;
-  for (const LinearFilter& filter : run.filters)
-    if (filter.from == "v" && filter.to != "v") reach = filter.reach;
-  Rows read;
-  std::size_t next = 0;
-  for (const std::size_t i : rows)
-    for (next = std::max(next, i - std::min(i, reach)); next < std::min(n, i + reach + 1); ++next)
-      if (std::isfinite(run.v[next])) read.push_back(next);
-  return read;
 }
 
 std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,

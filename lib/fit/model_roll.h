@@ -58,10 +58,6 @@ struct ObservedRun {
 /// that the route reads (for v and D with a known shift_of); otherwise empty.
 std::vector<Response> responses_of(Route, const std::vector<FitRun>&);
 
-/// The records of a run whose speeds are fitted where these rows are chosen: for shift, also those
-/// that the derivative at these rows has read.
-Rows rows_of_speeds(Route, const FitRun&, Rows);
-
 /// The runs in the form that the model needs, with the chosen rows alone. Throws Error for a run
 /// without a row.
 std::vector<ObservedRun> observe(Route, const std::vector<FitRun>&, const std::vector<Rows>&,

@@ -57,8 +57,6 @@ FilterMatrix::FilterMatrix(BandMatrix L) : columns_(L.columns()) {
   factors_.push_back(std::make_shared<const BandMatrix>(std::move(L)));
 }
 
-FilterMatrix FilterMatrix::identity(std::size_t n) { return BandMatrix::identity(n); }
-
 FilterMatrix FilterMatrix::then(BandMatrix L) const {
   FilterMatrix product = *this;
   if (factors_.size() == 1 && factors_[0]->is_identity()) product.factors_.clear();

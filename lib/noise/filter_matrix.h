@@ -62,7 +62,6 @@ class BandMatrix {
 class FilterMatrix {
  public:
   FilterMatrix(BandMatrix);
-  static FilterMatrix identity(std::size_t n);
   /// The product of L and this matrix. If L is equal to one of its factors, it is stored once.
   FilterMatrix then(BandMatrix L) const;
   /// The matrix of these rows alone.

@@ -111,7 +111,7 @@ Response response_of(const FilterChain& chain, std::span<const double> t) {
   Response response;
   if (chain.empty()) return response;
   response.source = chain.front().from;
-  response.of.emplace(response.source, FilterMatrix::identity(t.size()));
+  response.of.emplace(response.source, BandMatrix::identity(t.size()));
   for (const auto& filter : chain) {
     const auto input = response.of.find(filter.from);
     if (input == response.of.end())

@@ -51,7 +51,6 @@ class NeededColumns {
   /// Index of the column that serves as `name` (a name, a 1-based number, or what --use says), if
   /// there is one.
   std::optional<std::size_t> find(std::string_view name) const;
-  const std::vector<Column>& as_read() const { return as_read_; }
   /// The columns of this run with the names and units of the output: a column that serves as a
   /// quantity has its name and unit; another column of that name is renamed.
   const std::vector<Column>& in_output() const { return in_output_; }

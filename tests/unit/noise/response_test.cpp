@@ -107,7 +107,7 @@ TEST_CASE("response: between equal steps few rows are probed; lost records chang
 TEST_CASE("response: a pass through the filters is the product with their matrix", "[fit]") {
   constexpr std::size_t n = 600;
   const auto t = simulated::times(n);
-  const FilterMatrix H = FilterMatrix::identity(n)
+  const FilterMatrix H = FilterMatrix(BandMatrix::identity(n))
                              .then(probe(simulated::smooth_v(9), t))
                              .then(probe(simulated::differentiate("v", "a"), t))
                              .of_rows(std::vector<std::size_t>{0, 1, 5, 300, 301, 598, 599});
