@@ -109,15 +109,11 @@ bool Reader::next_file() {
 }
 
 void Reader::take_head(Head head) {
-  if (run_in_file_ == 0) {
-    const bool other_width = !head.named && !head_.named && head_.layout.width != head.layout.width;
-    if (next_file_ > 1 && !head.named && (head_.named || other_width))
-      fail<InputError>("{}: its columns are not those of {}: {}; give it a line of names",
-                       lines_->name(), options_.files.front(),
-                       other_width
-                           ? fmt::format("{}, not {}", head.layout.width, head_.layout.width)
-                           : "those have names");
-  }
+  const std::size_t width = head.layout.width, before = head_.layout.width;
+  if (run_in_file_ == 0 && next_file_ > 1 && !head.named && (head_.named || width != before))
+    fail<InputError>("{}: its columns are not those of {}: {}; give it a line of names",
+                     lines_->name(), options_.files.front(),
+                     head_.named ? "those have names" : fmt::format("{}, not {}", width, before));
   head_ = std::move(head);
   side_ = 0;
   sides_.clear();
