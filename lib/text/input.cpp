@@ -27,6 +27,11 @@ ssize_t read_some(int fd, char* to, std::size_t size) {
   }
 }
 
+int open_for_reading(const std::string& name) {
+  refuse_output(name);  // first: if standard output is closed, open() may return its number
+  return name == "-" ? STDIN_FILENO : ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
+}
+
 }  // namespace
 
 void refuse_output(const std::string& name) {
@@ -42,13 +47,6 @@ std::string_view without_byte_order_marks(std::string_view text) {
   while (text.starts_with(mark)) text.remove_prefix(mark.size());
   return text;
 }
-
-namespace {
-int open_for_reading(const std::string& name) {
-  refuse_output(name);  // first: if standard output is closed, open() may return its number
-  return name == "-" ? STDIN_FILENO : ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
-}
-}  // namespace
 
 Input::Input(std::string name, BlockHook on_block)
     : name_(std::move(name)), on_block_(std::move(on_block)), fd_(open_for_reading(name_)),
