@@ -112,7 +112,7 @@ class Periodogram {
     // coefficients.
     const bool mean_removed = fit_.filters_known() && fit_.means_taken() > 0;
     const std::size_t q = q_ + mean_removed + 2;
-    Triangles all(System{{f_.size()}, 0, q, {}});
+    Triangles all(1, 0, q);
     fit_.noise->known() && !fit_.filters_known() ? fold_filtered(wobble, all)
                                                  : fold_means(wobble, mean_removed, all);
     all.join();

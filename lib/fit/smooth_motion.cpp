@@ -29,7 +29,7 @@ ObservedRun smooth_motion(Route route, const ObservedRun& run, std::size_t numbe
   const std::size_t n = run.y.size(), terms = std::min<std::size_t>(1 + n / (slopes ? 3 : 2), 7);
   const std::size_t first = slopes ? 1 : 0;
   const double half = std::max(run.t.back() / 2, std::numeric_limits<double>::min());
-  Triangles R(System{{n}, terms, 0, {}});
+  Triangles R(1, terms, 0);
   evaluate(
       run, number, terms, noise,
       [&](double t, double* to, std::size_t stride) {

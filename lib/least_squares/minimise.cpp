@@ -20,7 +20,9 @@ constexpr double unseen = 1e-11;        // negligible step / (standard deviation
 /// decomposition of J, because the condition number of the normal equations is the square of that
 /// of J.
 struct Point {
-  explicit Point(const System& system) : R(system) { f.reserve(system.residuals()); }
+  explicit Point(const System& system) : R(system.runs.size(), system.own, system.shared) {
+    f.reserve(system.residuals());
+  }
 
   std::vector<double> theta, f;
   Triangles R;
@@ -42,7 +44,7 @@ struct Point {
 bool evaluate_at(const System& system, Point& at, std::vector<double> theta) {
   at.theta = std::move(theta);
   at.f.clear();
-  at.R = Triangles(system);
+  at.R = Triangles(system.runs.size(), system.own, system.shared);
   at.rss = 0;
   try {
     system.evaluate(at.theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {

@@ -32,9 +32,6 @@ void fold(double* R, std::size_t q, double* J, double* f, std::size_t m) {
 
 }  // namespace
 
-Triangles::Triangles(const System& system)
-    : runs_(system.runs.size()), own_(system.own), shared_(system.shared), R_(runs_ * triangle()) {}
-
 void Triangles::add(std::size_t run, std::span<double> f, std::span<double> J) {
   fold(of(run), q(), J.data(), f.data(), f.size());
 }

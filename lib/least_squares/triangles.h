@@ -1,7 +1,9 @@
 // The QR decomposition of a Jacobian of several runs that share some of their parameters.
 #pragma once
 
-#include "least_squares/system.h"
+#include <cstddef>
+#include <span>
+#include <vector>
 
 namespace rolling {
 
@@ -11,7 +13,9 @@ namespace rolling {
 /// with the number of runs.
 class Triangles {
  public:
-  explicit Triangles(const System&);
+  /// `own` parameters of each run, `shared` ones of all (see System).
+  Triangles(std::size_t runs, std::size_t own, std::size_t shared)
+      : runs_(runs), own_(own), shared_(shared), R_(runs_ * triangle()) {}
   /// Updates the triangle of a run with further rows by Householder reflections; overwrites f and
   /// J.
   void add(std::size_t run, std::span<double> f, std::span<double> J);

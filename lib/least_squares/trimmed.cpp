@@ -73,7 +73,7 @@ class Linear {
       f.push_back(f_[rows[k]]);
       for (std::size_t j = 0; j < p_; ++j) J[j * n + k] = J_[rows[k] * p_ + j];
     }
-    Triangles R({{n}, p_, 0, {}});
+    Triangles R(1, p_, 0);
     R.add(0, f, J);
     return R.solve();
   }
