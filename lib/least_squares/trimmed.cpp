@@ -49,8 +49,10 @@ namespace {
 /// The residuals f + J delta of a model that is linear in delta. J is stored row by row.
 class Linear {
  public:
-  Linear(const System& system, const std::vector<double>& theta)
-      : runs_(system.runs), own_(system.own), p_(system.parameters()), J_(system.residuals() * p_) {
+  const System& system;
+
+  Linear(const System& of, const std::vector<double>& theta)
+      : system(of), p_(of.parameters()), J_(of.residuals() * p_) {
     system.evaluate(theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
       double* const row = &J_[f_.size() * p_];
       for (std::size_t k = 0; k < J.size(); ++k)
@@ -58,10 +60,6 @@ class Linear {
       f_.insert(f_.end(), f.begin(), f.end());
     });
   }
-  const std::vector<std::size_t>& runs() const { return runs_; }
-  std::size_t own() const { return own_; }
-  std::size_t shared() const { return p_ - runs_.size() * own_; }
-  std::size_t columns() const { return p_; }
   double residual(std::size_t i, const std::vector<double>& delta) const {
     return f_[i] + dot(&J_[i * p_], delta.data(), p_);
   }
@@ -79,8 +77,7 @@ class Linear {
   }
 
  private:
-  std::vector<std::size_t> runs_;
-  std::size_t own_, p_;
+  std::size_t p_;
   std::vector<double> f_, J_;
 };
 
@@ -94,14 +91,14 @@ struct Half {
 Half best_half(const Linear& model, std::vector<double> delta) {
   Half found{std::move(delta)};
   std::size_t first = 0;
-  for (const std::size_t n : model.runs()) {
+  for (const std::size_t n : model.system.runs) {
     std::vector<std::pair<double, std::size_t>> squares;
     for (std::size_t i = first; i < first + n; ++i) {
       const double r = model.residual(i, found.delta);
       squares.emplace_back(std::isfinite(r) ? r * r : std::numeric_limits<double>::infinity(), i);
     }
     std::ranges::sort(squares);
-    const std::size_t half = (n + model.own() + model.shared() + 1) / 2;
+    const std::size_t half = (n + model.system.columns() + 1) / 2;
     for (const auto& [square, row] : std::span(squares).first(std::min(n, half))) {
       found.squares += square;
       found.rows.push_back(row);
@@ -114,13 +111,13 @@ Half best_half(const Linear& model, std::vector<double> delta) {
 /// As many rows as there are parameters, far apart: of each run those of its own parameters, and of
 /// the longest those of the shared ones as well, one of each of as many equal parts of the run.
 std::vector<std::size_t> drawn(const Linear& model, std::mt19937& random) {
-  const auto& runs = model.runs();
+  const auto& runs = model.system.runs;
   const auto longest = static_cast<std::size_t>(std::ranges::max_element(runs) - runs.begin());
   std::vector<std::size_t> rows;
   std::size_t of_run = 0;
   for (std::size_t r = 0; r < runs.size(); of_run += runs[r++]) {
-    const std::size_t n = runs[r],
-                      few = std::min(n, model.own() + (r == longest ? model.shared() : 0));
+    const std::size_t n = runs[r], few = std::min(n, model.system.own +
+                                                         (r == longest ? model.system.shared : 0));
     for (std::size_t j = 0; j < few; ++j) {
       const std::size_t first = j * n / few, end = (j + 1) * n / few;
       rows.push_back(of_run + first + random() % (end - first));
@@ -134,7 +131,7 @@ std::vector<std::size_t> drawn(const Linear& model, std::mt19937& random) {
 std::vector<double> trimmed_step(const Linear& model) {
   constexpr int draws = 100;
   std::mt19937 random;  // with the seed of the standard: the same draws in each run
-  Half best = best_half(model, std::vector<double>(model.columns()));
+  Half best = best_half(model, std::vector<double>(model.system.parameters()));
   for (int draw = 0; draw < draws; ++draw) {
     Half found = best_half(model, model.fit(drawn(model, random)));
     for (int step = 0; step < 2; ++step) found = best_half(model, model.fit(found.rows));
