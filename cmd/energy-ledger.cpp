@@ -63,62 +63,70 @@ struct Law {
   std::string words() const { return table ? "table" : fmt::format("a {} b {}", power.a, power.b); }
 };
 
-/// What is printed: the records with their energies, or --summary.
-enum class Form { records, summary };
+/// What the options and the scene describe.
+struct Task {
+  Body body{};
+  Geometry geometry{};
+  Law law{};
+  bool uses_law = false;      ///< instead of the column D
+  bool law_of_scene = false;  ///< it uses the law because the first run has no column D
+  bool summary = false;
+  double tolerance = not_given;  ///< NaN without --check
+
+  bool shows_balance() const { return summary || !std::isnan(tolerance); }
+};
 
 /// The energy balances of the runs, and the warnings after the last one.
 class Accounts {
  public:
-  Accounts(Tool& tool, Reader& in, const Body& body, Geometry geometry, const Law* law, Form form,
-           double tolerance, bool law_of_scene)
-      : tool_(tool), in_(in), body_(body), geometry_(geometry), law_(law), tolerance_(tolerance),
-        balance_is_shown_(form == Form::summary || !std::isnan(tolerance)),
-        law_of_scene_(law_of_scene), t_(in.need_time()), v_(in.need("v")),
-        D_(law ? v_ : in.need("D")) {}
+  Accounts(Tool& tool, Reader& in, const Task& task)
+      : tool_(tool), in_(in), task_(task), t_(in.need_time()), v_(in.need("v")),
+        D_(task.uses_law ? v_ : in.need("D")) {}
 
   /// Begins the balance of a run.
   Balance open() {
-    if (law_of_scene_ && in_.find("D"))
+    if (task_.law_of_scene && in_.find("D"))
       fail<InputError>(
           "run {} has a column D, and the runs before it have none: choose the law by -a and -b, "
           "or give the runs one by one",
           in_.run_name());
-    tests_nothing_ |= balance_is_shown_ && !law_ && shifts_of_speeds(in_.history());
+    tests_nothing_ |= task_.shows_balance() && !task_.uses_law && shifts_of_speeds(in_.history());
     const auto shift_of = history_of(in_.history(), {}).shift_of;
-    if (const auto others = law_ ? "" : other_body(shift_of, body_);
+    if (const auto others = task_.uses_law ? "" : other_body(shift_of, task_.body);
         !others.empty() && other_body_.empty())
       other_body_ = fmt::format("run {}: D was computed with {}", in_.run_name(), others);
-    return Balance(body_);
+    return Balance(task_.body);
   }
 
   /// Adds the present record to the balance of its run.
   Ledger enter(Balance& balance) {
-    const double v = in_[v_], D = law_ ? (*law_)(v) : in_[D_];
-    const Ledger now(body_, geometry_, v, D);
+    const double v = in_[v_], D = task_.uses_law ? task_.law(v) : in_[D_];
+    const Ledger now(task_.body, task_.geometry, v, D);
     balance.push(in_[t_], now);
-    beyond_ += std::abs(D) > body_.R;
+    beyond_ += std::abs(D) > task_.body.R;
     return now;
   }
 
   /// Checks the balance at the end of a run.
   void close(const Balance& balance) {
-    if (std::isnan(tolerance_) || balance.empty()) return;
+    const double tolerance = task_.tolerance;
+    if (std::isnan(tolerance) || balance.empty()) return;
     std::string beyond;
-    if (!(std::abs(balance.closure()) <= tolerance_))
+    if (!(std::abs(balance.closure()) <= tolerance))
       beyond = fmt::format("closure {:.4g}", balance.closure());
-    if (!(balance.imbalance() <= tolerance_))
+    if (!(balance.imbalance() <= tolerance))
       beyond += fmt::format("{}imbalance {:.4g} at t = {:.6g} s", beyond.empty() ? "" : ", ",
                             balance.imbalance(), balance.time_of_imbalance());
     if (!beyond.empty())
       tool_.check_failed(fmt::format("run {}: the check does not hold: {}: beyond {}",
-                                     in_.run_name(), beyond, tolerance_));
+                                     in_.run_name(), beyond, tolerance));
   }
 
   /// Prints the warnings about all runs.
   void finish() const {
     if (beyond_ > 0)
       tool_.warn(fmt::format("{} shift{} beyond the radius {} m", beyond_,
-                             beyond_ == 1 ? " is" : "s are", body_.R));
+                             beyond_ == 1 ? " is" : "s are", task_.body.R));
     if (!other_body_.empty()) tool_.warn(other_body_);
     if (tests_nothing_)
       tool_.warn(
@@ -129,20 +137,15 @@ class Accounts {
  private:
   Tool& tool_;
   Reader& in_;
-  const Body& body_;
-  Geometry geometry_;
-  const Law* law_;         // null: use the column D
-  double tolerance_;       // NaN without --check
-  bool balance_is_shown_;  // by --summary or --check
-  bool law_of_scene_;      // it is used because the first run has no column D
+  const Task& task_;
   std::size_t t_, v_, D_, beyond_ = 0;
   bool tests_nothing_ = false;
   std::string other_body_ = {};  // the first warning of other numbers of the body
 };
 
 /// Writes the table of --summary: a row for each run.
-void write_summary(Output& out, Reader& in, Accounts& accounts, const Body& body) {
-  const bool inclined = body.slope != 0;
+void write_summary(Output& out, Reader& in, Accounts& accounts, const Task& task) {
+  const bool inclined = task.body.slope != 0;
   std::vector<Column> columns = {
       {"E_start", "J"}, {"E_end", "J"}, {"E_diss", "J"}, {"closure", ""}, {"imbalance", ""}};
   if (inclined) columns.push_back({"W_g", "J"});
@@ -165,57 +168,56 @@ void write_summary(Output& out, Reader& in, Accounts& accounts, const Body& body
 int main(int argc, char** argv) {
   using enum BodyOption;
   Tool tool("energy-ledger", "Append the energies and the flows of energy of a rolling body.");
-  Body body;
-  Geometry geometry;
-  Law law;
-  bool summary = false;
-  double tolerance = not_given, temperature = not_given;
+  Task task;
+  double temperature = not_given;
   std::string law_file, columns = "E_trans,E_rot,I_E1,I_E2,P_T1,P_R1,P_R2,P_T2,P_diss,E_diss";
-  tool.body(body, {mass, radius, shape_factor, gravity, slope});
-  tool.law(law.power);
+  tool.body(task.body, {mass, radius, shape_factor, gravity, slope});
+  tool.law(task.law.power);
   tool.text("--law", law_file, "FILE",
             "file (- is standard input) with a row of fitpower or a table of v D: the law, instead "
             "of the column D");
-  tool.geometry(geometry);
+  tool.geometry(task.geometry);
   tool.text("--columns", columns, "NAME,...",
             "what to append: any quantities of the paper (energies and flows of energy)");
   tool.number("--temperature", temperature, positive, "of the mat [K], for Pi_S");
-  tool.flag("--summary", summary,
+  tool.flag("--summary", task.summary,
             "print only a row for each run: energies at the start, at the end, dissipated; closure "
             "and imbalance");
-  tool.number("--check", tolerance, not_negative,
+  tool.number("--check", task.tolerance, not_negative,
               "exit with 1 when |closure| or the imbalance is above this");
   tool.scene();
   tool.input();
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    if (summary) tool.refuse({"columns"}, "does not go with --summary, which has its own columns");
+    if (task.summary)
+      tool.refuse({"columns"}, "does not go with --summary, which has its own columns");
     const auto row = chosen(columns, quantities);
     for (const auto& quantity : row)
       if (quantity.name == "Pi_S" && std::isnan(temperature)) fail("Pi_S needs --temperature");
     if (!law_file.empty()) {
       LawFile read = read_law(tool, law_file);
-      law = {read.law_or(law.power), std::move(read.table)};
-      body.slope = read.slope.value_or(body.slope);
+      task.law = {read.law_or(task.law.power), std::move(read.table)};
+      task.body.slope = read.slope.value_or(task.body.slope);
     }
     tool.need({"mass", "radius", "shape-factor"});
     Reader& in = tool.read({"t", "v", "D"});
     // A law on the command line takes precedence over a column D, the law of a scene does not.
     const bool law_given = !law_file.empty() || tool.on_command_line("coefficient") ||
-                           tool.on_command_line("exponent"),
-               use_law = law_given || (!std::isnan(law.power.a) && !in.find("D"));
-    if (use_law && !law.table) tool.need({"coefficient", "exponent"});
-    Accounts accounts(tool, in, body, geometry, use_law ? &law : nullptr,
-                      summary ? Form::summary : Form::records, tolerance, use_law && !law_given);
-    if (summary) {
-      write_summary(tool.out, in, accounts, body);
+                           tool.on_command_line("exponent");
+    task.law_of_scene = !law_given && !std::isnan(task.law.power.a) && !in.find("D");
+    task.uses_law = law_given || task.law_of_scene;
+    if (task.uses_law && !task.law.table) tool.need({"coefficient", "exponent"});
+    Accounts accounts(tool, in, task);
+    if (task.summary) {
+      write_summary(tool.out, in, accounts, task);
       accounts.finish();
       return 0;
     }
-    Filter filter(in, tool.out,
-                  fmt::format("energy-ledger {}{}", use_law ? law.words() : "D",
-                              body.slope == 0 ? "" : fmt::format(" slope {}", body.slope)));
+    Filter filter(
+        in, tool.out,
+        fmt::format("energy-ledger {}{}", task.uses_law ? task.law.words() : "D",
+                    task.body.slope == 0 ? "" : fmt::format(" slope {}", task.body.slope)));
     for (const auto& quantity : row) filter.append(quantity.column());
     while (filter.next_run()) {
       Balance balance = accounts.open();
