@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
 #include "contact/contact.h"
 #include "motion/trajectory.h"
 
@@ -21,7 +20,6 @@ constexpr double gone = -1e4;     // for L below it, v = 0 in a double
 ClosedForm::ClosedForm(const Body& body, PowerLaw law, double v0, double x0)
     : body_(body), b_(law.b), v0_(v0), x0_(x0), exponent_(law.b) {
   check_roll(body, law, v0);
-  if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
   if (v0 == 0) return;
   const DoubleDouble s = two_sum(1, -law.b), s1 = two_sum(2, -law.b);
   const Scaled arm = Scaled(two_sum(body.K, 1)) * Scaled(body.R) / Scaled(body.g), speed(v0);

@@ -18,7 +18,7 @@ namespace rolling {
 /// and dv/dt are within 2 ulp and x within 4 ulp of the true value.
 class ClosedForm final : public Motion {
  public:
-  /// Throws Error as check_roll does, and if x0 is not finite. v0 = 0 is rest for ever.
+  /// Throws Error as check_roll does. v0 = 0 is rest for ever.
   ClosedForm(const Body&, PowerLaw, double v0, double x0);
 
   double stop_time() const override { return stop_time_; }  ///< t* rounded up

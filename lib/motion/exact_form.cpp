@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
-
 namespace rolling {
 
 namespace {
@@ -60,7 +58,6 @@ DoubleDouble mean_arm_series(DoubleDouble s, double b, DoubleDouble root, double
 ExactForm::ExactForm(const Body& body, PowerLaw law, double v0, double x0)
     : trajectory_(body, Geometry::exact, law, v0), x0_(x0), stop_(trajectory_.stop_time()),
       stop_time_(stop_.hi), speed_(Scaled(v0)) {
-  if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
   if (v0 > 0 && law.b >= 0) {
     const Scaled D = Scaled(law.a) * power(v0, law.b),
                  rate = D / (Scaled(two_sum(body.K, 1)) * Scaled(body.R) / Scaled(body.g)) /

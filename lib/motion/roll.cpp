@@ -59,6 +59,7 @@ Method best_method(const Roll& roll) {
 std::unique_ptr<Motion> start(const Roll& roll, Method method, double rtol,
                               unsigned long most_steps) {
   const auto& [body, geometry, law, table, bulge, v0, x0] = roll;
+  if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
   check_rest(roll);
   if (bulge.length > 0) {
     if (table) fail("the memory goes with a law a v^b, not with a table");

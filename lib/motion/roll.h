@@ -35,8 +35,8 @@ struct Method {
 Method best_method(const Roll&);
 
 /// Constructs the motion at t = 0. rtol and most_steps concern solvers: the tolerance of a step,
-/// and the largest number of steps from one seek() to the next. Throws Error if the method does not
-/// suit the scene.
+/// and the largest number of steps from one seek() to the next. Throws Error if x0 is not finite,
+/// and if the method does not suit the scene.
 std::unique_ptr<Motion> start(const Roll&, Method, double rtol,
                               unsigned long most_steps = 1'000'000);
 

@@ -1,9 +1,6 @@
 // The roll under D(v) = a v^b on a mat that is not level, in either geometry.
 #pragma once
 
-#include <cmath>
-
-#include "base/error.h"
 #include "motion/motion.h"
 #include "motion/trajectory.h"
 
@@ -13,11 +10,9 @@ namespace rolling {
 /// 1e-14.
 class SlopeRoll final : public Motion {
  public:
-  /// Throws Error as check_roll does, and if x0 is not finite.
+  /// Throws Error as check_roll does.
   SlopeRoll(const Body& body, Geometry geometry, PowerLaw law, double v0, double x0)
-      : trajectory_(body, geometry, law, v0), x0_(x0), v_(v0) {
-    if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
-  }
+      : trajectory_(body, geometry, law, v0), x0_(x0), v_(v0) {}
 
   double stop_time() const override { return trajectory_.stop_time(); }
   double last_speed() const override { return trajectory_.last_speed(); }

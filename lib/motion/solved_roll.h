@@ -1,7 +1,6 @@
 // The common part of the rolls that are solutions of differential equations.
 #pragma once
 
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -26,13 +25,12 @@ class SolvedRoll : public Motion {
  protected:
   /// A part of it, times a tolerance, is still a number with all digits.
   static constexpr double least_speed = 1e-280;
-  /// `start` is the state at t = 0. Throws Error if its x is not finite or its v is positive and
-  /// below least_speed, and the errors of Integrator.
+  /// `start` is the state at t = 0. Throws Error if its v is positive and below least_speed, and
+  /// the errors of Integrator.
   SolvedRoll(const Body& body, Geometry geometry, OdeSystem equations, const OdeOptions& options,
              std::vector<double> start)
       : body_(body), geometry_(geometry), equations_(std::move(equations)), options_(options),
         start_(std::move(start)), ode_(equations_, options_, 0, start_) {
-    if (!std::isfinite(start_[0])) fail("the initial position x0 = {} must be finite", start_[0]);
     if (v0() > 0 && v0() < least_speed)
       fail("the initial velocity v0 = {} is too small for a solver: the least is {:g} m/s", v0(),
            least_speed);

@@ -34,7 +34,6 @@ TableRoll::TableRoll(const Body& body, Geometry geometry, TableLaw law, double v
     fail("the initial velocity v0 = {} is above the table of the law, which ends at {}", v0,
          law_.highest());
   check_roll(body, {law_.largest_shift(v0), 0}, v0);
-  if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
   if (!always_slows(body, geometry, law_, v0))
     fail(
         "on this slope the law of the table does not slow the body at every speed: the method is a "

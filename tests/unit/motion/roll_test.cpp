@@ -29,6 +29,16 @@ TEST_CASE("Roll: the best method, and methods that do not fit the scene", "[roll
   CHECK_THROWS_AS(start(roll, {Method::solver}, 1e-8), Error);
 }
 
+TEST_CASE("Roll: a start that is no position is refused by every method", "[rolling]") {
+  Roll roll{};
+  roll.body = {1.375, 0.04, 0.5}, roll.law = {1e-3, 0.2}, roll.v0 = 0.5;
+  for (const double x0 : {INFINITY, -INFINITY, NAN}) {
+    roll.x0 = x0;
+    for (const Method method : {Method{Method::closed}, Method{Method::solver}})
+      CHECK_THROWS_AS(start(roll, method, 1e-8), Error);
+  }
+}
+
 // Where a tolerance times v0 is no number, or one of few digits, a solver prints what it likes.
 TEST_CASE("Roll: every solver refuses a v0 that is too small for it, and is right above",
           "[rolling]") {
