@@ -20,20 +20,12 @@
 namespace rolling {
 namespace {
 
-System line_system(ShiftRecords records, Height height) {
-  const std::size_t p = height.count();
-  std::vector<std::size_t> runs = records.runs;
-  return {std::move(runs), 0, p,
-          [records = std::make_shared<const ShiftRecords>(std::move(records)), height, p](
-              const std::vector<double>& theta, const TakeRows& take) {
+System line_system(ShiftRecords records, const Height& height) {
+  return system_of(std::move(records), height, [height](const std::vector<double>& theta) {
     const double b = height.exponent(theta),
                  h = height.a ? std::log(*height.a) + b * height.log_v_ref : theta[0];
-    hand_over(records->runs, p, take,
-              [&](std::size_t i, std::span<double> J, std::size_t k, std::size_t n) {
-      height.put(J, k, n, 1, records->log_u[i], 1);
-      return h + b * records->log_u[i] - records->y[i];
-    });
-          }};
+    return [=](double log_u) -> Curve { return {h + b * log_u, 1, log_u, 1}; };
+  });
 }
 
 /// The noise and the bias of the points (ln v, ln D) of a run. The noise of ln D - b ln v is

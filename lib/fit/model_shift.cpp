@@ -11,21 +11,15 @@
 namespace rolling {
 namespace {
 
-System power_system(ShiftRecords records, Height height, double unit) {
-  const std::size_t p = height.count();
-  std::vector<std::size_t> runs = records.runs;
-  return {std::move(runs), 0, p,
-          [records = std::make_shared<const ShiftRecords>(std::move(records)), height, unit, p](
-              const std::vector<double>& theta, const TakeRows& take) {
+System power_system(ShiftRecords records, const Height& height, double unit) {
+  return system_of(std::move(records), height, [height, unit](const std::vector<double>& theta) {
     const double b = height.exponent(theta),
                  h = height.a ? *height.a * std::exp(b * height.log_v_ref) : theta[0] * unit;
-    hand_over(records->runs, p, take,
-              [&](std::size_t i, std::span<double> J, std::size_t k, std::size_t n) {
-      const double power = std::exp(b * records->log_u[i]);
-      height.put(J, k, n, unit * power, h * power * records->log_u[i], h * power);
-      return h * power - records->y[i];
-    });
-          }};
+    return [=](double log_u) -> Curve {
+      const double power = std::exp(b * log_u);
+      return {h * power, unit * power, h * power * log_u, h * power};
+    };
+  });
 }
 
 /// Every k-th record, with k the smallest that leaves at most `most` records.

@@ -65,20 +65,35 @@ struct Height {
   }
 };
 
-/// Passes the residuals fill(record, J, row, rows of the block) to the callback, in blocks of at
-/// most 256 records, which fit into the cache.
-template <typename Fill>
-void hand_over(const std::vector<std::size_t>& runs, std::size_t columns, const TakeRows& take,
-               Fill&& fill) {
-  std::vector<double> f, J;
-  std::size_t first = 0;
-  for (std::size_t r = 0; r < runs.size(); ++r)
-    for (const std::size_t end = first + runs[r]; first < end; first += f.size()) {
-      f.resize(std::min<std::size_t>(end - first, 256));
-      J.resize(f.size() * columns);
-      for (std::size_t k = 0; k < f.size(); ++k) f[k] = fill(first + k, std::span(J), k, f.size());
-      take(r, f, J);
-    }
+/// The fitted function at a record, and its derivatives: by the height, by b at constant height,
+/// and by ln D(v_ref).
+struct Curve {
+  double value, by_height, by_b, by_log_height;
+};
+
+/// The least-squares problem of these records. curve_of(theta) is a function of log_u that returns
+/// a Curve. The residuals are passed on in blocks of at most 256, which fit into the cache.
+template <typename CurveOf>
+System system_of(ShiftRecords all, Height height, CurveOf curve_of) {
+  const std::size_t p = height.count();
+  std::vector<std::size_t> runs = all.runs;
+  return {std::move(runs), 0, p,
+          [records = std::make_shared<const ShiftRecords>(std::move(all)), height, curve_of, p](
+              const std::vector<double>& theta, const TakeRows& take) {
+    const auto curve = curve_of(theta);
+    std::vector<double> f, J;
+    std::size_t i = 0;
+    for (std::size_t r = 0; r < records->runs.size(); ++r)
+      for (const std::size_t end = i + records->runs[r]; i < end; take(r, f, J)) {
+        f.resize(std::min<std::size_t>(end - i, 256));
+        J.resize(f.size() * p);
+        for (std::size_t k = 0; k < f.size(); ++k, ++i) {
+          const Curve at = curve(records->log_u[i]);
+          f[k] = at.value - records->y[i];
+          height.put(J, k, f.size(), at.by_height, at.by_b, at.by_log_height);
+        }
+      }
+          }};
 }
 
 }  // namespace rolling
