@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "bench/coverage_cases.h"
 #include "cli/history.h"
 #include "cli/linear_filters.h"
 #include "fit/fit.h"
@@ -20,107 +21,10 @@
 #include <chrono>
 #include <cstdlib>
 #include <map>
-#include <memory>
 #include <sstream>
 #include <string>
 
 namespace coverage {
-
-using rolling::Route;
-using Column = std::vector<double>;
-
-/// What becomes of the noisy readings before they are fitted.
-struct Case {
-  const char* name;
-  Route route;
-  enum Raw { x, v } raw = x;              ///< the column that carries white noise
-  std::vector<std::string> history = {};  ///< the filters, as the `##` lines tell them
-  Column (*unknown)(const Column& x) =
-      nullptr;             ///< or v from x by a sensor's software, of which no line tells
-  double resolution = 0;   ///< positions are rounded to this [m]
-  double outliers = 0;     ///< share of readings that are false echoes
-  double lost = 0;         ///< share of records that are missing
-  double growth = 0;       ///< the noise grows along the run by so many times its size
-  double AR = 0;           ///< correlation of the noise from one reading to the next
-  int runs = 1;            ///< that are fitted jointly
-  double scatter = 0;      ///< of a from run to run, as a share
-  int noisy = 0;           ///< the last so many runs have five times the noise
-  int down = 0;            ///< the last so many roll down a slope, which is fitted (positions)
-  int digits = 0;          ///< all columns are rounded to so many by the tools
-  bool record = false;     ///< the free roll is sought in the whole record of a sensor
-  rolling::Bulge bulge{};  ///< of whole records
-  bool bound = false;      ///< white noise on the fitted column: the Cramer-Rao bound holds
-  int finer = 1;           ///< so many times as many records a second
-};
-
-constexpr double dt = 0.04, noise_x = 3e-4,
-                 noise_v = noise_x / dt / 1.41421356;  // a sonar at 25 Hz
-constexpr double slope = 1e-3;                         // of the mat, where it is fitted
-
-inline double clamped(const Column& x, std::ptrdiff_t i) {
-  return x[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, std::ssize(x) - 1))];
-}
-
-/// Speeds as PASCO Capstone exports them; at the ends, what is there of them.
-inline Column capstone(const Column& x) {
-  Column v;
-  for (std::ptrdiff_t i = 0; i < std::ssize(x); ++i) {
-    const std::ptrdiff_t k = std::min({std::ptrdiff_t{2}, i, std::ssize(x) - 1 - i});
-    v.push_back(
-        k == 2 ? (clamped(x, i + 1) + clamped(x, i + 2) - clamped(x, i - 1) - clamped(x, i - 2)) /
-                     (6 * dt)
-        : k == 1 ? (clamped(x, i + 1) - clamped(x, i - 1)) / (2 * dt)
-        : i == 0 ? (clamped(x, 1) - clamped(x, 0)) / dt
-                 : (clamped(x, i) - clamped(x, i - 1)) / dt);
-  }
-  return v;
-}
-
-/// Speeds as Vernier Logger Pro exports them: slopes over 1, 2, 3 records to either side with
-/// weights 3, 2, 1.
-inline Column logger_pro(const Column& x) {
-  Column v;
-  const std::ptrdiff_t n = std::ssize(x);
-  for (std::ptrdiff_t i = 0; i < n; ++i) {
-    double sum = 0;
-    for (std::ptrdiff_t k = 1; k <= 3; ++k)
-      sum +=
-          static_cast<double>(4 - k) * (clamped(x, i + k) - clamped(x, i - k)) /
-          (static_cast<double>(std::min(i + k, n - 1) - std::max<std::ptrdiff_t>(i - k, 0)) * dt);
-    v.push_back(sum / 6);
-  }
-  return v;
-}
-
-inline std::vector<std::string> to_shift(Case::Raw raw, const std::string& smooth,
-                                         const std::string& differentiate = "central") {
-  std::vector<std::string> lines;
-  if (raw == Case::x) lines.push_back("differentiate x central");
-  if (!smooth.empty()) lines.push_back("smooth v " + smooth);
-  lines.insert(lines.end(),
-               {"differentiate v " + differentiate, "shift-from-accel K 0.5 R 0.04 g 9.81"});
-  return lines;
-}
-inline std::vector<std::string> to_shift(Case::Raw raw, int width) {
-  return to_shift(raw, "mean width " + std::to_string(width));
-}
-
-struct Scene {
-  const char* name;
-  double a, b, K = 0.5;
-
-  rolling::PowerLaw law() const { return {a, b}; }
-  rolling::Body body() const { return {1.375, 0.04, K}; }
-};
-constexpr Scene CR{"CR", 1.87e-3, 0.215}, CF{"CF", 5.75e-4, 0.0244};
-/// Other exponents, with D(0.5 m/s) as on rubber.
-constexpr Scene exponents[] = {{"b=0", 1.611e-3, 0},
-                               {"b=.1", 1.727e-3, 0.1},
-                               {"b=.3", 1.984e-3, 0.3},
-                               {"b=.4", 2.126e-3, 0.4},
-                               {"b=.5", 2.278e-3, 0.5}};
-/// The shell under the laws of Table 1.
-constexpr Scene SR{"SR", 1.78e-3, 0.255, 0.83}, SF{"SF", 5.75e-4, 0.0244, 0.83};
 
 struct Row {
   double bias_a = 0, bias_b = 0;    ///< in standard deviations of one run
@@ -331,124 +235,6 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
   row.told /= runs;
   row.differ /= runs;
   return row;
-}
-
-inline std::vector<Case> cases() {
-  std::vector<Case> all{
-      {.name = "white x", .route = Route::position, .bound = true},
-      {.name = "white v", .route = Route::velocity, .raw = Case::v, .bound = true},
-      {.name = "v from x, known", .route = Route::velocity, .history = {"differentiate x central"}},
-      {.name = "v from x, smooth 11, known",
-       .route = Route::velocity,
-       .history = {"differentiate x central", "smooth v mean width 11"}},
-      {.name = "v by Capstone", .route = Route::velocity, .unknown = capstone},
-      {.name = "v by Logger Pro", .route = Route::velocity, .unknown = logger_pro},
-      {.name = "x to 1 mm", .route = Route::position, .resolution = 1e-3},
-      {.name = "v from x to 1 mm, known",
-       .route = Route::velocity,
-       .history = {"differentiate x central"},
-       .resolution = 1e-3},
-      {.name = "D from x to 1 mm, W 11",
-       .route = Route::shift,
-       .history = to_shift(Case::x, 11),
-       .resolution = 1e-3},
-      {.name = "x, 1 % outliers", .route = Route::position, .outliers = 0.01},
-      {.name = "v, 1 % outliers", .route = Route::velocity, .raw = Case::v, .outliers = 0.01},
-  };
-  const auto shift = [&](const char* name, std::vector<std::string> history, double lost = 0,
-                         double AR = 0, double growth = 0) {
-    all.push_back({.name = name,
-                   .route = Route::shift,
-                   .history = std::move(history),
-                   .lost = lost,
-                   .growth = growth,
-                   .AR = AR});
-  };
-  shift("D from x, mean 11", to_shift(Case::x, 11));
-  shift("D from x, 5 % lost", to_shift(Case::x, 11), 0.05);
-  shift("D from x, 10 % lost", to_shift(Case::x, 11), 0.1);
-  shift("D from x, 20 % lost", to_shift(Case::x, 11), 0.2);
-  shift("D from x, savgol 31", to_shift(Case::x, "", "savgol width 31 order 2"));
-  shift("D from x, savgol 31, 10 % lost", to_shift(Case::x, "", "savgol width 31 order 2"), 0.1);
-  shift("D from x, savgol 31, 20 % lost", to_shift(Case::x, "", "savgol width 31 order 2"), 0.2);
-  shift("D from x, spline", to_shift(Case::x, "", "spline"));
-  shift("D from x, mean 11, spline", to_shift(Case::x, "mean width 11", "spline"));
-  shift("D from x, mean auto", to_shift(Case::x, "auto"));
-  shift("D from x, AR(1) 0.5", to_shift(Case::x, 11), 0, 0.5);
-  shift("D from x, AR(1) 0.8", to_shift(Case::x, 11), 0, 0.8);
-  shift("D from x, AR(1) 0.95", to_shift(Case::x, 11), 0, 0.95);
-  for (const int digits : {4, 3}) {
-    shift(digits == 4 ? "D from x, --digits 4" : "D from x, --digits 3", to_shift(Case::x, 11));
-    all.back().digits = digits;
-  }
-  shift("D from x, noise grows", to_shift(Case::x, 11), 0, 0, 10);
-  all.push_back({.name = "x, AR(1) 0.5", .route = Route::position, .AR = 0.5});
-  all.push_back({.name = "x, AR(1) 0.8", .route = Route::position, .AR = 0.8});
-  all.push_back({.name = "x, AR(1) 0.95", .route = Route::position, .AR = 0.95});
-  all.push_back({.name = "x, noise grows", .route = Route::position, .growth = 10});
-  all.push_back({.name = "x, 10 % lost", .route = Route::position, .lost = 0.1});
-  all.push_back({.name = "v, AR(1) 0.8", .route = Route::velocity, .raw = Case::v, .AR = 0.8});
-  all.push_back({.name = "x, 4 kHz", .route = Route::position, .finer = 160});
-  shift("D from x, 4 kHz", to_shift(Case::x, 11));
-  all.back().finer = 160;
-  shift("D from x, 4 kHz, 1 % lost", to_shift(Case::x, 11), 0.01);
-  all.back().finer = 160;
-  constexpr rolling::Bulge mat{5e-4, 0.02};
-  for (const bool memory : {false, true}) {
-    all.push_back({.name = memory ? "whole record with memory, x" : "whole record, x",
-                   .route = Route::position,
-                   .record = true,
-                   .bulge = memory ? mat : rolling::Bulge{}});
-    all.push_back(all.back());
-    all.back().name = memory ? "whole record with memory, D" : "whole record, D";
-    all.back().route = Route::shift;
-    all.back().history = to_shift(Case::x, 11);
-  }
-  // Runs that agree, and runs that scatter by 2 %.
-  const auto joint = [&](const char* name, Route route, std::vector<std::string> history, int runs,
-                         double scatter = 0, double AR = 0, double growth = 0) {
-    all.push_back({.name = name,
-                   .route = route,
-                   .history = std::move(history),
-                   .growth = growth,
-                   .AR = AR,
-                   .runs = runs,
-                   .scatter = scatter});
-  };
-  joint("2 runs, x", Route::position, {}, 2);
-  joint("4 runs, x", Route::position, {}, 4);
-  joint("4 runs, D from x, mean 11", Route::shift, to_shift(Case::x, 11), 4);
-  joint("4 runs, D from x, W 15", Route::loglog, to_shift(Case::x, 15), 4);
-  joint("4 runs, x, AR(1) 0.8", Route::position, {}, 4, 0, 0.8);
-  joint("4 runs, x, noise grows", Route::position, {}, 4, 0, 0, 10);
-  joint("4 runs, x, 2 % scatter", Route::position, {}, 4, 0.02);
-  joint("10 runs, x, 2 % scatter", Route::position, {}, 10, 0.02);
-  joint("4 runs, D, 2 % scatter", Route::shift, to_shift(Case::x, 11), 4, 0.02);
-  const auto unequal = [&](const char* name, int runs, int noisy, int down) {
-    joint(name, Route::position, {}, runs, 0.02);
-    all.back().noisy = noisy;
-    all.back().down = down;
-  };
-  unequal("1 + 3 noisy, x, 2 % scatter", 4, 3, 0);
-  unequal("2 + 2 noisy, x, 2 % scatter", 4, 2, 0);
-  unequal("4 + 4 noisy, x, 2 % scatter", 8, 4, 0);
-  unequal("7 up + 1 down, x, 2 % scatter", 8, 0, 1);
-  unequal("4 up + 4 down, x, 2 % scatter", 8, 0, 4);
-  joint("1 + 1 noisy, x, 5 % outliers", Route::position, {}, 2);
-  all.back().noisy = 1;
-  all.back().outliers = 0.05;
-  static const char* const names[][4] = {
-      {"D from v, W 5", "D from v, W 9", "D from v, W 15", "D from v, W 31"},
-      {"D from x, W 5", "D from x, W 9", "D from x, W 15", "D from x, W 31"}};
-  constexpr int widths[] = {5, 9, 15, 31};
-  for (Route route : {Route::shift, Route::loglog})
-    for (Case::Raw raw : {Case::v, Case::x})
-      for (int i = 0; i < 4; ++i)
-        all.push_back({.name = names[raw == Case::x][i],
-                       .route = route,
-                       .raw = raw,
-                       .history = to_shift(raw, widths[i])});
-  return all;
 }
 
 }  // namespace coverage
