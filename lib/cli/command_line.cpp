@@ -5,8 +5,8 @@
 #include <CLI/Formatter.hpp>
 
 #include <list>
-#include <new>
 #include <sstream>
+#include <utility>
 
 #include "base/error.h"
 #include "text/number.h"
@@ -159,16 +159,6 @@ std::string CommandLine::help(const std::string& name) const {
   const bool reads = operands.size() > 1;
   return "Usage: " + name + " [OPTION...]" + (reads ? " [FILE...]" : "") + "\n" +
          app.get_description() + '\n' + (reads ? operands : "") + options;
-}
-
-std::optional<std::pair<std::string, std::string>> read_assignment(const std::string& line) {
-  std::istringstream stream(line);
-  const std::vector<CLI::ConfigItem> items = CLI::ConfigTOML().from_config(stream);
-  if (stream.bad()) throw std::bad_alloc();  // a stream is silent when memory runs out
-  const bool one =
-      items.size() == 1 && items.front().inputs.size() == 1 && items.front().parents.empty();
-  return one ? std::optional(std::pair(items.front().name, items.front().inputs.front()))
-             : std::nullopt;
 }
 
 }  // namespace rolling

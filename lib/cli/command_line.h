@@ -1,13 +1,11 @@
-// The command line, and the assignments of a scene file, as CLI11 parses them. Only
-// command_line.cpp includes CLI11, which needs several seconds to compile.
+// The command line, as CLI11 parses it. Only command_line.cpp includes CLI11, which needs several
+// seconds to compile.
 #pragma once
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace rolling {
@@ -45,9 +43,5 @@ class CommandLine {
   struct Parser;
   std::unique_ptr<Parser> parser_;
 };
-
-/// The key and the value of a line `key = value` of a TOML file, without quotes and comment;
-/// nullopt if CLI11 does not read the line so.
-std::optional<std::pair<std::string, std::string>> read_assignment(const std::string& line);
 
 }  // namespace rolling

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "cli/command_line.h"
 #include "text/input.h"
 #include "text/number.h"
 
@@ -68,9 +67,9 @@ std::size_t end_of_value(std::string_view text) {
   return is_number(word) || word == "true" || word == "false" ? end : 0;
 }
 
-/// Throws Error unless the line is `key = value` with an optional comment. A line that passes has
-/// the same meaning in TOML and in every release of CLI11.
-void require_assignment(std::string_view line) {
+/// Reads `key = value` with an optional comment. A line that is accepted has the same meaning in
+/// TOML.
+SceneValue read_line(std::string_view line) {
   const auto key_end = std::find_if_not(line.begin(), line.end(), in_key);
   const std::string_view key(line.begin(), key_end);
   std::string_view value = trim(line.substr(key.size()));
@@ -81,16 +80,11 @@ void require_assignment(std::string_view line) {
   if (end == 0 || !is_comment(value.substr(end)))
     fail("{}: '{}' is neither a number, true, false nor a string in quotes", shown(key),
          shown(value));
-}
-
-SceneValue read_line(const std::string& line) {
-  require_assignment(line);
-  const auto assignment = read_assignment(line);
-  if (!assignment) fail("'{}' is not `key = value`", shown(line));
-  const auto& [key, value] = *assignment;
   if (std::find(keys.begin(), keys.end(), key) == keys.end())
     fail("a scene has no '{}'; it has mass, radius, shape-factor, ...", shown(key));
-  return {key, value, 0};
+  const bool quoted = value.front() == '"' || value.front() == '\'';
+  value = quoted ? value.substr(1, end - 2) : value.substr(0, end);
+  return {std::string(key), std::string(value), 0};
 }
 
 }  // namespace
@@ -106,7 +100,7 @@ std::vector<SceneValue> read_scene(const std::string& file) {
     if (line.ends_with('\r')) line.remove_suffix(1);
     if (is_comment(line)) continue;
     try {
-      SceneValue value = read_line(std::string(trim(line)));
+      SceneValue value = read_line(trim(line));
       for (const SceneValue& earlier : scene)
         if (earlier.key == value.key) fail("{} is in line {} too", value.key, earlier.line);
       value.line = number;
