@@ -87,6 +87,7 @@ inline SlopePairs slope_pairs(PowerLaw law, double slope, int pairs, unsigned se
 struct GivenNumbers {
   Tally a, b, v0;
   double stated_a = 0, stated_b = 0, stated_v0 = 0, stated_corr = 0, corr = 0;
+  FitResult first{};  ///< of the records that state errors
 };
 inline GivenNumbers given_numbers(int draws, unsigned seed) {
   Body body = records::cylinder;
@@ -114,6 +115,7 @@ inline GivenNumbers given_numbers(int draws, unsigned seed) {
       all.stated_b += r.sigma_b * 100 / draws;
       all.stated_v0 += r.sigma_v0[0] * 100 / draws;
       all.stated_corr += r.corr * 100 / draws;
+      if (k == 0) all.first = r;
       run.given = {};
     }
     run.body.K += noise(u.K);

@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "bench/studies.h"
 #include "motion/trajectory.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
@@ -130,60 +131,16 @@ TEST_CASE("given numbers: what is held fixed has no error from them", "[fit]") {
   CHECK(r.sigma_b > share(r, "noise", &ErrorShare::b));
 }
 
-// The records are those of the nominal body; the fits take its numbers from their distributions.
+// The short form of a table of `make coverage`. A spread of 2000 draws scatters by 1.6 %.
 TEST_CASE("given numbers: errors and correlation are those of Monte Carlo draws", "[fit][many]") {
-  Body body = cylinder;
-  body.slope = 0.002;
-  const PowerLaw law{1.87e-3, 0.215};
-  const BodyUncertainty u{.R = 4e-4, .K = 0.01, .g = 0.01, .slope = 3e-4};
-  const Trajectory truth(body, Geometry::exact, law, 0.5);
-  FitOptions options;
-  options.geometry = Geometry::exact;
-  options.start_a = law.a;
-  options.start_b = law.b;
-  simulated::Noise noise(8);
-  constexpr int draws = 2000;
-  double a = 0, b = 0, aa = 0, bb = 0, ab = 0, v0 = 0, v0v0 = 0;
-  std::vector<FitResult> with_errors;
-  for (int k = 0; k < draws; ++k) {
-    FitRun run{};
-    run.body = body;
-    for (double t = 0; t < 0.9 * truth.stop_time(); t += 0.05) {
-      run.t.push_back(t);
-      run.x.push_back(truth.at(t).x + noise(3e-4));
-    }
-    if (k % 100 == 0) {
-      run.given = u;
-      with_errors.push_back(fit(Route::position, {run}, options));
-      run.given = {};
-    }
-    run.body.K += noise(u.K);
-    run.body.R += noise(u.R);
-    run.body.g += noise(u.g);
-    run.body.slope += noise(u.slope);
-    const auto r = fit(Route::position, {run}, options);
-    const double da = r.a - law.a, db = r.b - law.b, dv = r.v0[0] - 0.5;
-    a += da, b += db, v0 += dv;
-    aa += da * da, bb += db * db, ab += da * db, v0v0 += dv * dv;
-  }
-  const auto moment = [](double xy, double x, double y) { return (xy - x * y / draws) / draws; };
-  const double sd_a = std::sqrt(moment(aa, a, a)), sd_b = std::sqrt(moment(bb, b, b)),
-               sd_v0 = std::sqrt(moment(v0v0, v0, v0)), corr = moment(ab, a, b) / (sd_a * sd_b);
-  double sigma_a = 0, sigma_b = 0, sigma_v0 = 0, reported = 0;
-  for (const FitResult& r : with_errors) {
-    const double n = static_cast<double>(with_errors.size());
-    sigma_a += r.sigma_a / n;
-    sigma_b += r.sigma_b / n;
-    sigma_v0 += r.sigma_v0[0] / n;
-    reported += r.corr / n;
-  }
-  // A spread of 2000 draws scatters by 1.6 %.
-  CAPTURE(sigma_a, sd_a, sigma_b, sd_b, reported, corr, sigma_v0, sd_v0);
-  CHECK(std::abs(sigma_a / sd_a - 1) < 0.06);
-  CHECK(std::abs(sigma_b / sd_b - 1) < 0.06);
-  CHECK(std::abs(sigma_v0 / sd_v0 - 1) < 0.06);
-  CHECK(std::abs(reported - corr) < 0.03);
+  const auto all = studies::given_numbers(2000, 8);
+  CAPTURE(all.stated_a, all.a.sd(), all.stated_b, all.b.sd(), all.stated_v0, all.v0.sd(),
+          all.stated_corr, all.corr);
+  CHECK(std::abs(all.stated_a / all.a.sd() - 1) < 0.06);
+  CHECK(std::abs(all.stated_b / all.b.sd() - 1) < 0.06);
+  CHECK(std::abs(all.stated_v0 / all.v0.sd() - 1) < 0.06);
+  CHECK(std::abs(all.stated_corr - all.corr) < 0.03);
   // No given number is a trifle here.
   for (const char* of : {"K", "R", "slope"})
-    CHECK(share(with_errors[0], of, &ErrorShare::a) > 0.2 * sigma_a);
+    CHECK(share(all.first, of, &ErrorShare::a) > 0.2 * all.stated_a);
 }
