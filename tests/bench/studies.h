@@ -5,29 +5,13 @@
 
 #include "bench/records.h"
 #include "motion/trajectory.h"
+#include "unit/fit/rolls.h"
 
 namespace studies {
 
 using namespace rolling;
 
-constexpr PowerLaw CR{1.87e-3, 0.215}, CF{5.75e-4, 0.0244};
-
-/// Positions of a roll with noise of 0.3 mm every 40 ms, down to the stop, on a mat that rises by
-/// `slope`; way -1 towards falling x.
-inline FitRun roll(PowerLaw law, double slope, double way, simulated::Noise& noise) {
-  FitRun run{};
-  run.body = records::cylinder;
-  Body seen = run.body;
-  seen.slope = way * slope;
-  const Trajectory truth(seen, Geometry::approximate, law, records::v0);
-  // Rubber 5 mm/m downhill holds no body at rest: it creeps on at 0.03 mm/s.
-  const double end = std::min(truth.stop_time(), 10.0);
-  for (double t = 0; t < end; t += records::dt) {
-    run.t.push_back(t);
-    run.x.push_back(way * truth.at(t).x + noise(records::noise));
-  }
-  return run;
-}
+constexpr PowerLaw CR = rolls::rubber, CF = rolls::felt;
 
 /// Of estimates with a standard error, and their truth.
 struct Tally {
@@ -57,7 +41,7 @@ inline int disagreements(PowerLaw law, int rolls, double slope, int sets, unsign
   for (int k = 0; k < sets; ++k) {
     std::vector<FitRun> runs;
     for (int i = 0; i < rolls; ++i)
-      runs.push_back(roll(law, slope, slope != 0 && i % 2 ? -1 : 1, noise));
+      runs.push_back(rolls::roll(law, slope, slope != 0 && i % 2 ? -1 : 1, noise));
     all += !fit(Route::position, runs, {}).agreement->agree();
   }
   return all;
@@ -73,7 +57,8 @@ inline SlopePairs slope_pairs(PowerLaw law, double slope, int pairs, unsigned se
   FitOptions options;
   options.fit_slope = true;
   for (int k = 0; k < pairs; ++k) {
-    const std::vector<FitRun> runs{roll(law, slope, 1, noise), roll(law, slope, -1, noise)};
+    const std::vector<FitRun> runs{rolls::roll(law, slope, 1, noise),
+                                   rolls::roll(law, slope, -1, noise)};
     const FitResult r = fit(Route::position, runs, options);
     all.a.add(r.a, r.sigma_a);
     all.b.add(r.b, r.sigma_b);

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "base/error.h"
+#include "bench/studies.h"
 #include "unit/catch.h"
 #include "unit/fit/rolls.h"
 
@@ -156,13 +157,7 @@ TEST_CASE("agreement: uneven noise around the runs' own laws, by hand", "[fit]")
 
 TEST_CASE("agreement: of 1000 pairs of rolls under one law 1 % are said to disagree",
           "[fit][many]") {
-  simulated::Noise noise(31);
-  int alarms = 0;
-  for (int k = 0; k < 1000; ++k) {
-    std::vector<FitRun> runs;
-    for (int i = 0; i < 2; ++i) runs.push_back(roll(rubber, 0, 1, noise));
-    alarms += !fit(Route::position, runs, {}).agreement->agree();
-  }
+  const int alarms = studies::disagreements(rubber, 2, 0, 1000, 31);
   CHECK(alarms >= 2);  // fewer or more by chance in 0.05 % and 0.07 %
   CHECK(alarms <= 21);
 }
