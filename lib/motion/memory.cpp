@@ -159,11 +159,11 @@ bool MemoryRoll::advance(Integrator& ode, double& crept, double t) const {
 
 double MemoryRoll::stop_time() const {
   if (v0() == 0) return 0;
-  if (law_.b >= 2 || body_.slope != 0) return std::numeric_limits<double>::infinity();
+  if (law_.b >= 2 || body_.slope != 0) return infinity;
   if (!stop_time_) {
     Integrator ode = from_start();
     double crept = 0;
-    advance(ode, crept, std::numeric_limits<double>::infinity());
+    advance(ode, crept, infinity);
     stop_time_ = ode.time();
   }
   return *stop_time_;
@@ -173,7 +173,7 @@ void MemoryRoll::seek(double t) {
   if (at_rest_) return;
   // The computed time of rest depends, within rounding, on the steps. The first value that was
   // returned remains valid.
-  const double stop = stop_time_.value_or(std::numeric_limits<double>::infinity());
+  const double stop = stop_time_.value_or(infinity);
   at_rest_ = advance(ode_, crept_, std::min(t, stop)) || t >= stop;
   if (at_rest_ && !stop_time_) stop_time_ = ode_.time();
 }
