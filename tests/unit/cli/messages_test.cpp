@@ -5,7 +5,6 @@
 
 #include <cerrno>
 #include <new>
-#include <stdexcept>
 
 #include "unit/catch.h"
 #include "unit/text/files.h"

@@ -1,7 +1,6 @@
 // What smooth and differentiate say in their `##` lines, read back.
 #include "cli/history.h"
 
-#include "base/error.h"
 #include "signal/derivative.h"
 #include "signal/smoother.h"
 #include "unit/catch.h"

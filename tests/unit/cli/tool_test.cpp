@@ -4,7 +4,6 @@
 
 #include <array>
 #include <new>
-#include <stdexcept>
 
 #include "unit/catch.h"
 #include "unit/text/files.h"

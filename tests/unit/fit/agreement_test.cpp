@@ -2,7 +2,6 @@
 
 #include <functional>
 
-#include "base/error.h"
 #include "bench/studies.h"
 #include "unit/catch.h"
 #include "unit/fit/rolls.h"

@@ -1,6 +1,5 @@
 #include "fit/cusps.h"
 
-#include "base/error.h"
 #include "fit/errors.h"
 #include "fit/route.h"
 #include "unit/catch.h"

@@ -1,4 +1,3 @@
-#include "base/error.h"
 #include "bench/studies.h"
 #include "motion/trajectory.h"
 #include "unit/catch.h"

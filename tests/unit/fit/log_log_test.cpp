@@ -1,7 +1,6 @@
 #include <random>
 
 #include "base/error.h"
-#include "fit/errors.h"
 #include "unit/fit/simulated.h"
 #include "statistics/residuals.h"
 #include "unit/catch.h"

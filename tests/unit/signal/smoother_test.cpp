@@ -4,8 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/error.h"
-#include "signal/savitzky_golay.h"
 #include "unit/catch.h"
 #include "unit/signal/through.h"
 
