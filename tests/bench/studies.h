@@ -86,6 +86,7 @@ inline GivenNumbers given_numbers(int draws, unsigned seed) {
   simulated::Noise noise(seed);
   GivenNumbers all{{CR.a}, {CR.b}, {records::v0}};
   double ab = 0;
+  const int stating = (draws + 99) / 100;
   for (int k = 0; k < draws; ++k) {
     FitRun run{};
     run.body = body;
@@ -96,10 +97,10 @@ inline GivenNumbers given_numbers(int draws, unsigned seed) {
     if (k % 100 == 0) {
       run.given = u;
       const FitResult r = fit(Route::position, {run}, options);
-      all.stated_a += r.sigma_a * 100 / draws;
-      all.stated_b += r.sigma_b * 100 / draws;
-      all.stated_v0 += r.sigma_v0[0] * 100 / draws;
-      all.stated_corr += r.corr * 100 / draws;
+      all.stated_a += r.sigma_a / stating;
+      all.stated_b += r.sigma_b / stating;
+      all.stated_v0 += r.sigma_v0[0] / stating;
+      all.stated_corr += r.corr / stating;
       if (k == 0) all.first = r;
       run.given = {};
     }
