@@ -71,6 +71,7 @@ Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
       fail("standard input cannot be read twice: name a file for one of the two");
     if (::isatty(STDIN_FILENO)) warn("reading columns from the terminal; end with Ctrl-D");
   }
+  options.appended_by = {{"a", "differentiate"}, {"D", "shift-from-accel"}};
   options.on_block = [this](const std::string& name, double part) {
     progress.at(name == "-" ? "standard input" : name, part);
   };

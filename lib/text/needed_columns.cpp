@@ -21,8 +21,9 @@ bool serves(const NeededColumns::Needed& needed) {
 
 }  // namespace
 
-NeededColumns::NeededColumns(const std::vector<std::string>& use, bool has_use)
-    : has_use_(has_use) {
+NeededColumns::NeededColumns(const std::vector<std::string>& use, bool has_use,
+                             std::map<std::string, std::string> appended_by)
+    : has_use_(has_use), appended_by_(std::move(appended_by)) {
   for (const std::string& text : use) {
     const auto equals = text.find('=');
     if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
@@ -125,16 +126,16 @@ std::string NeededColumns::list() const {
 }
 
 std::size_t NeededColumns::require(std::string_view name) const {
-  const auto column = find(name), of_name = column ? column : find_column(name);
-  if (!column && of_name)
-    fail<InputError>("{}: column {} cannot serve as both {} and {}", place_, *of_name + 1,
-                     quantities_[*of_name], name);
-  if (!column)
-    fail<InputError>("{}: there is no column '{}' among {}{}", place_, shown(name), list(),
-                     has_use_ && !si_unit(read_column(name).name).empty()
-                         ? fmt::format("; say --use {}=COLUMN", name)
-                         : "");
-  return *column;
+  if (const auto column = find(name)) return *column;
+  if (const auto column = find_column(name))
+    fail<InputError>("{}: column {} cannot serve as both {} and {}", place_, *column + 1,
+                     quantities_[*column], name);
+  std::string way_out;
+  if (const auto by = appended_by_.find(std::string(name)); by != appended_by_.end())
+    way_out = fmt::format("; {} appends it", by->second);
+  if (has_use_ && !si_unit(read_column(name).name).empty())
+    way_out += fmt::format("{} say --use {}=COLUMN", way_out.empty() ? ";" : ", or", name);
+  fail<InputError>("{}: there is no column '{}' among {}{}", place_, shown(name), list(), way_out);
 }
 
 /// A column with the unit of its name, or with the unit that --use gives.

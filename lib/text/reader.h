@@ -25,6 +25,8 @@ struct ReaderOptions {
   bool strict = false;                  ///< a missing reading is an error
   BlockHook on_block = {};              ///< is called with the progress of reading a file
   bool has_use = true;                  ///< the option --use applies to these files
+  /// By quantity, the program that appends it: messages name it where there is no such column.
+  std::map<std::string, std::string> appended_by = {};
 };
 
 class Reader {
