@@ -98,7 +98,7 @@ void add_run(Candidate& candidate, const Thinned& of, const FitOptions& options)
   Body level = thin.body;
   level.slope = 0;
   const Trajectory trajectory(level, thin.geometry, candidate.law, of.v0,
-                              Trajectory::Derivatives::of_law, Trajectory::AtRadius::stays);
+                              Trajectory::Derivatives::of_law, Trajectory::AtRadius::passed);
   double mm = 0, my = 0, m_mean = 0, y_mean = 0;
   std::vector<double> m, y;
   for (std::size_t i = 0; i < thin.t.size(); ++i) {

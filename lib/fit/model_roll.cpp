@@ -99,12 +99,6 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
       seen.shifts = {responses[r].of.at("D"), std::move(accelerations), rows[r].size(),
                      (by.body.K + 1) * by.body.R / by.body.g};
     }
-    // With A = 1 on a level mat the motion depends on g/((K + 1) R) alone (Eq. 12), and D may
-    // exceed R. R and g are multiplied by the same large factor, so that D/R stays small.
-    if (seen.geometry == Geometry::approximate && seen.body.slope == 0 && !options.fit_slope) {
-      seen.body.R *= 1e6;
-      seen.body.g *= 1e6;
-    }
     seen.raw_is_position = known ? responses[r].source == "x" : route == Route::position;
     if (known) {
       seen.t = run.t;
@@ -147,7 +141,7 @@ Trajectory RollModel::trajectory(const std::vector<double>& theta, std::size_t r
           parameters_.v0(theta, run),
           parameters_.fits_slope() ? Trajectory::Derivatives::of_law_and_slope
                                    : Trajectory::Derivatives::of_law,
-          Trajectory::AtRadius::stays};
+          Trajectory::AtRadius::passed};
 }
 
 double RollModel::slope(const std::vector<double>& theta, std::size_t run) const {

@@ -16,7 +16,7 @@ namespace rolling {
 /// The variable of integration is ln(v0/u). The 4-point Gauss-Legendre rule is applied to short
 /// panels up to the latest requested time. The relative error is about 1e-10. If q = 0 at some
 /// speed, the body approaches that speed and never reaches it. In the exact geometry a D that grows
-/// to R stays R, as with Trajectory::AtRadius::stays; there 1/A, in the derivatives, has a larger
+/// to R stays R, as with Trajectory::AtRadius::passed; there 1/A, in the derivatives, has a larger
 /// error.
 class LawRoll {
  public:

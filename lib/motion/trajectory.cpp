@@ -6,6 +6,7 @@
 #include "base/double_double.h"
 #include "base/error.h"
 #include "contact/contact.h"
+#include "contact/trial.h"
 #include "motion/power_integral.h"
 
 namespace rolling {
@@ -27,8 +28,30 @@ Depth depth_of(const Body& body, PowerLaw law, double v0) {
   return {std::min(depth.hi, 1.0), arm_square};
 }
 
-SpeedIntegrals integrals_of(const Body& body, Geometry geometry, PowerLaw law, double v0) {
-  check_roll(body, law, v0);
+/// Throws Error as check_roll does, but passes any D.
+void check_numbers(const Body& body, PowerLaw law, double v0) {
+  const auto positive = [](const char* name, double value) {
+    if (!(value > 0 && std::isfinite(value)))
+      fail("{} = {} must be a positive number", name, value);
+  };
+  const auto not_negative = [](const char* name, double value) {
+    if (!(value >= 0 && std::isfinite(value)))
+      fail("{} = {} must be a number that is not negative", name, value);
+  };
+  positive("the radius R", body.R);
+  not_negative("the shape factor K", body.K);
+  positive("gravity g", body.g);
+  positive("the coefficient a", law.a);
+  if (!std::isfinite(body.slope)) fail("the slope {} must be finite", body.slope);
+  if (!(std::abs(law.b) <= 1000)) fail("the exponent b = {} is beyond -1000 to 1000", law.b);
+  not_negative("the initial velocity v0", v0);
+}
+
+SpeedIntegrals integrals_of(const Body& body, Geometry geometry, PowerLaw law, double v0,
+                            bool passes_radius) {
+  check_numbers(body, law, v0);
+  if (!passes_radius) check_shift(body, law(v0));
+  if (!std::isfinite(law(v0))) fail("the shift at v0 = {} m/s has no finite value", v0);
   if (geometry == Geometry::approximate || body.slope != 0 || v0 == 0) return {law.b, body.K, 0};
   const Depth depth = depth_of(body, law, v0);
   return {law.b, body.K, depth.ratio, depth.arm_square};
@@ -39,7 +62,9 @@ SpeedIntegrals integrals_of(const Body& body, Geometry geometry, PowerLaw law, d
 Trajectory::Trajectory(const Body& body, Geometry geometry, PowerLaw law, double v0,
                        Derivatives derivatives, AtRadius at_radius)
     : body_(body), geometry_(geometry), law_(law), v0_(v0), log_v0_(std::log(v0)),
-      integrals_(integrals_of(body, geometry, law, v0)), stays_(at_radius == AtRadius::stays) {
+      integrals_(integrals_of(body, geometry, law, v0,
+                              at_radius == AtRadius::passed && geometry == Geometry::approximate)),
+      passed_(at_radius == AtRadius::passed) {
   if (v0 == 0) return;
   if (body.slope != 0 || derivatives == Derivatives::of_law_and_slope) {
     const Depth depth =
@@ -50,7 +75,7 @@ Trajectory::Trajectory(const Body& body, Geometry geometry, PowerLaw law, double
     stop_time_ = unit_ * incline_->stop();
     radius_time_ = unit_ * incline_->end();
     if (radius_time_ < infinity) radius_speed_ = v0 * incline_->speed(incline_->last());
-    if (std::isinf(stop_time_) && !(stays_ && radius_speed_ > 0)) return;
+    if (std::isinf(stop_time_) && !(passed_ && radius_speed_ > 0)) return;
     stopped_ = point_of(incline_->last(), Wanted::speed_and_distance);
     if (radius_speed_ > 0) {
       const auto g = incline_->gradient(incline_->last(), Wanted::speed);
@@ -66,7 +91,7 @@ Trajectory::Trajectory(const Body& body, Geometry geometry, PowerLaw law, double
   stop_time_ = unit_ * integrals_.stop();
   radius_time_ = unit_ * integrals_.end();
   if (radius_time_ < infinity) radius_speed_ = velocity(integrals_.last());
-  if (std::isinf(stop_time_) && !(stays_ && radius_speed_ > 0)) return;
+  if (std::isinf(stop_time_) && !(passed_ && radius_speed_ > 0)) return;
   const auto g = integrals_.gradient(infinity);
   const double length = v0 * unit_, x = length * g.distance;
   stopped_ = {0,
@@ -113,21 +138,7 @@ Trajectory::Point Trajectory::at_radius(double rest) const {
 }
 
 void check_roll(const Body& body, PowerLaw law, double v0) {
-  const auto positive = [](const char* name, double value) {
-    if (!(value > 0 && std::isfinite(value)))
-      fail("{} = {} must be a positive number", name, value);
-  };
-  const auto not_negative = [](const char* name, double value) {
-    if (!(value >= 0 && std::isfinite(value)))
-      fail("{} = {} must be a number that is not negative", name, value);
-  };
-  positive("the radius R", body.R);
-  not_negative("the shape factor K", body.K);
-  positive("gravity g", body.g);
-  positive("the coefficient a", law.a);
-  if (!std::isfinite(body.slope)) fail("the slope {} must be finite", body.slope);
-  if (!(std::abs(law.b) <= 1000)) fail("the exponent b = {} is beyond -1000 to 1000", law.b);
-  not_negative("the initial velocity v0", v0);
+  check_numbers(body, law, v0);
   check_shift(body, law(v0));
 }
 
@@ -157,13 +168,14 @@ double Trajectory::position(double t, double lambda) const {
 }
 
 double Trajectory::shift(double v) const {
-  const double D = stays_ ? std::min(law_(v), body_.R) : law_(v);
-  check_shift(body_, D);
-  return D;
+  const double D = law_(v);
+  if (!passed_) check_shift(body_, D);
+  return passed_ && geometry_ == Geometry::exact ? std::min(D, body_.R) : D;
 }
 
 double Trajectory::acceleration(double v) const {
-  return acceleration_from_shift(body_, geometry_, shift(v));
+  return passed_ ? trial_acceleration(body_, geometry_, shift(v))
+                 : acceleration_from_shift(body_, geometry_, shift(v));
 }
 
 // With T(v; a, b, v0) = t the integral over speed, at fixed t:  dv/dp = -(dT/dp) / (dT/dv) =

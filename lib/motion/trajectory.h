@@ -39,12 +39,13 @@ class Trajectory {
   enum class Derivatives { of_law, of_law_and_slope };
   /// What follows where D reaches R.
   enum class AtRadius {
-    ends,  ///< the roll ends there: later times throw Error, and stop_time() is infinite
-    stays  ///< D stays R, so that A = 0 and v' = -g cos(theta)/K (Eq. 12) down to the stop: for
-           ///< fits, whose search needs a value at every time, continuous in the law
+    ends,   ///< the roll ends there: later times throw Error, and stop_time() is infinite
+    passed  ///< for fits, whose search needs a value at every time, continuous in the law. In the
+            ///< exact geometry D then stays R, so that A = 0 and v' = -g cos(theta)/K (Eq. 12) down
+            ///< to the stop; with A = 1 Eq. 12 holds for any D, at v0 too
   };
 
-  /// Refuses what check_roll refuses. v0 = 0 is rest for ever.
+  /// Refuses what check_roll refuses, but not a D(v0) that is passed. v0 = 0 is rest for ever.
   Trajectory(const Body&, Geometry, PowerLaw, double v0, Derivatives = Derivatives::of_law,
              AtRadius = AtRadius::ends);
 
@@ -92,7 +93,7 @@ class Trajectory {
   const SpeedIntegrals& integrals() const { return integrals_; }
 
   /// D [m] and dv/dt [m/s^2] at speed v. Throw Error where |D| > R (A = 1 and b < 0, just before
-  /// the stop), unless D stays R.
+  /// the stop), unless it is passed.
   double shift(double v) const;
   double acceleration(double v) const;
 
@@ -108,7 +109,7 @@ class Trajectory {
   Point at_radius(double rest) const;
   double radius_deceleration() const { return body_.g * incline(body_).cos / body_.K; }
   double fall() const;
-  bool rolls_at_radius(double t) const { return t > radius_time_ && t < stop_time_ && stays_; }
+  bool rolls_at_radius(double t) const { return t > radius_time_ && t < stop_time_ && passed_; }
   /// stop_time_ - t for the integrals: infinite where they end at D = R.
   double rest_of_law(double rest) const {
     return radius_speed_ > 0 ? std::numeric_limits<double>::infinity() : rest;
@@ -124,7 +125,7 @@ class Trajectory {
   std::optional<SlopeIntegrals> incline_;  // where the mat is not level, or its slope a parameter
   double stop_time_ = 0;
   double radius_time_ = std::numeric_limits<double>::infinity(), radius_speed_ = 0;
-  bool stays_;  // AtRadius::stays
+  bool passed_;  // AtRadius::passed
   Point stopped_{};
   ByParameters stop_time_by_{};  // the derivatives of stop_time_, where D stays R
 };

@@ -62,7 +62,7 @@ TEST_CASE("law roll: where D of a v^b reaches R it stays there, as in the trajec
       const double c[]{2e-3, b};
       const Trajectory exact(body, Geometry::exact, {c[0], c[1]}, 0.5,
                              Trajectory::Derivatives::of_law_and_slope,
-                             Trajectory::AtRadius::stays);
+                             Trajectory::AtRadius::passed);
       LawRoll rolled(body, Geometry::exact, {&laws()[0], 1, 1}, c, 0.5);
       for (const double part : {0.3, 0.9, 0.99, 1.01, 2.0}) {
         const double t = part * exact.stop_time();

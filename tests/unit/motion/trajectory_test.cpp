@@ -180,7 +180,7 @@ TEST_CASE("Trajectory: where D stays R, the roll and its derivatives against qua
   for (const auto& r : rolls)
     for (const auto by : {Derivatives::of_law, Derivatives::of_law_and_slope}) {
       const Trajectory roll({1, 0.04, r.K, 9.81, r.S}, Geometry::exact, {r.a, r.b}, r.v0, by,
-                            Trajectory::AtRadius::stays);
+                            Trajectory::AtRadius::passed);
       CAPTURE(r.K, r.b, r.S, r.t);
       const auto p = roll.at(r.t);
       // v belongs to the time that is left. Where A should be 0 it is some sqrt(2 eps), which is so
@@ -212,7 +212,7 @@ TEST_CASE("Trajectory: the place of rest is a continuous function of b, through 
           "[rolling]") {
   const auto rest = [](double b) {
     return Trajectory({1, 0.04, 0.5}, Geometry::exact, {2e-3, b}, 0.5,
-                      Trajectory::Derivatives::of_law, Trajectory::AtRadius::stays)
+                      Trajectory::Derivatives::of_law, Trajectory::AtRadius::passed)
         .at(10);
   };
   // A step further is where the derivatives at both ends of the step lead (trapezoid rule).
@@ -221,6 +221,40 @@ TEST_CASE("Trajectory: the place of rest is a continuous function of b, through 
     CAPTURE(b);
     CHECK(next.x - here.x == Approx((here.x_b + next.x_b) / 2 * 1e-3).epsilon(1e-5));
   }
+}
+
+TEST_CASE("Trajectory: with A = 1 a roll that stays passes the radius, on a slope too",
+          "[rolling]") {
+  // v' = -g cos(theta) (D + R S)/((K + 1) R) is the same for a body of n R on a slope S/n under the
+  // gravity n g cos(theta)/cos(theta/n).
+  constexpr double n = 1e3, R = 0.04;
+  using Derivatives = Trajectory::Derivatives;
+  for (const double S : {0.0, 0.03, -0.03})
+    for (const double b : {-0.2, 0.0, 0.215, 1.5})
+      for (const auto by : {Derivatives::of_law, Derivatives::of_law_and_slope}) {
+        const PowerLaw law{1.6 * R, b};  // at 2 m/s D is 1.4 R to 4.5 R
+        const double g = n * 9.81 * std::hypot(1, S / n) / std::hypot(1, S);
+        const auto geometry = Geometry::approximate;
+        const Trajectory roll({1, R, 0.5, 9.81, S}, geometry, law, 2, by,
+                              Trajectory::AtRadius::passed),
+            wide({1, n * R, 0.5, g, S / n}, geometry, law, 2, by);
+        CAPTURE(S, b);
+        for (const double t : {0.05, 0.1, 0.2}) {
+          const auto p = roll.at(t), q = wide.at(t);
+          CHECK(p.v == Approx(q.v).epsilon(1e-13));
+          CHECK(p.x == Approx(q.x).epsilon(1e-13));
+          CHECK(p.v_a == Approx(q.v_a).epsilon(1e-12));
+          CHECK(p.x_b == Approx(q.x_b).epsilon(1e-12));
+          CHECK(roll.speed_at(t).v == Approx(q.v).epsilon(1e-13));
+          if (p.v == 0) continue;
+          CHECK(roll.shift(p.v) == law(p.v));
+          CHECK(roll.acceleration(p.v) == Approx(wide.acceleration(p.v)).epsilon(1e-13));
+        }
+        CHECK_THROWS_AS(Trajectory({1, R, 0.5, 9.81, S}, geometry, law, 2), Error);
+        CHECK_THROWS_AS(Trajectory({1, R, 0.5, 9.81, S}, Geometry::exact, law, 2, by,
+                                   Trajectory::AtRadius::passed),
+                        Error);
+      }
 }
 
 TEST_CASE("Trajectory: refusals", "[rolling]") {
