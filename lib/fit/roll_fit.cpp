@@ -118,7 +118,7 @@ void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   if (!rounded(fit)) return;
   const bool many = std::ranges::max(fit.system.runs) > searched_for_white_noise;
   fit.system = {}, fit.noise = {};  // frees memory: these are large, and the search needs as much
-  const WhiteShare found = most_likely_share(fit.rolls, fit.minimum.theta, 1e-7, 100, 0);
+  const WhiteShare found = most_likely_share(fit.rolls, fit.minimum.theta, 1e-7, 100);
   const bool adopted = many || found.decisive();
   fit.noise = noise_of(fit.rolls->runs(), {adopted ? found.share : 0});
   fit.system = system_of(fit.rolls, fit.noise);

@@ -33,21 +33,19 @@ struct Maker {
 /// correlated noise: so the roll without a filter is the one to compare with.
 Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
                   const FitOptions& options, const Fitted& plain) {
-  const double least = std::exp(-12), white = std::exp(4);
+  const double least = std::exp(-12), most = std::exp(4);
   const std::vector<double>& theta = plain.minimum.theta;
   const auto model_of = [&](const std::vector<Response>& responses) {
     return std::make_shared<const RollModel>(
         observe(Route::velocity, all, rows, responses, options), plain.rolls->parameters());
   };
-  const auto with_white_noise = [&](const std::shared_ptr<const RollModel>& model) {
-    return restricted_likelihood(system_of(model, std::make_shared<const Noise>()), theta);
-  };
-  const double of_plain = with_white_noise(model_of({}));
+  const double of_white_noise =
+      restricted_likelihood(system_of(model_of({}), std::make_shared<const Noise>()), theta);
   Maker best;
   for (const LinearFilter& filter : options.possible_filters) {
-    const auto model = model_of(responses_by(filter, all));
-    const WhiteShare found = most_likely_share(model, theta, least, white, white);
-    const double gain = found.gain + with_white_noise(model) - of_plain;
+    const WhiteShare found =
+        most_likely_share(model_of(responses_by(filter, all)), theta, least, most);
+    const double gain = found.likelihood - of_white_noise;
     if (gain >= 3 && gain > best.gain) best = {&filter, found.share, gain};
   }
   return best;
@@ -116,8 +114,7 @@ std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const FitO
     Fitted fit = fit_rolls(Route::velocity, all, std::move(regular),
                            responses_by(*maker.filter, all), options, {maker.share, true});
     const Uncertainty found = uncertainty_of(fit);
-    if (found.whiteness > not_white && breusch_pagan(fit.minimum.f, fit.system.runs) > 0.01)
-      return fit;
+    if (found.whiteness > not_white && found.kind != Errors::uneven) return fit;
   } catch (const Error&) {  // too few records, or no minimum
   }
   return {};

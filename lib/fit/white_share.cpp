@@ -38,16 +38,15 @@ std::vector<Linear> linear_around(const std::vector<double>& theta, const System
 }  // namespace
 
 WhiteShare most_likely_share(const std::shared_ptr<const RollModel>& model,
-                             const std::vector<double>& theta, double least, double most,
-                             double other) {
+                             const std::vector<double>& theta, double least, double most) {
   System system = system_of(model, std::make_shared<const Noise>());
   for (std::size_t& records : system.runs) records = std::min(records, searched_for_white_noise);
   const std::vector<Linear> runs = linear_around(theta, system, *model);
-  const auto likelihood = [&](double log_share) {
+  const auto likelihood = [&](double share) {
     double log_size = 0;
     system.evaluate = [&](const std::vector<double>&, const TakeRows& take) {
       for (std::size_t r = 0; r < runs.size(); ++r) {
-        const Whitener whitener(runs[r].noise, std::exp(log_share));
+        const Whitener whitener(runs[r].noise, share);
         log_size += whitener.log_size();
         std::vector<double> columns = runs[r].columns;
         whitener.apply(columns);
@@ -58,8 +57,9 @@ WhiteShare most_likely_share(const std::shared_ptr<const RollModel>& model,
     const double of_weighted = restricted_likelihood(system, theta);
     return of_weighted - log_size;
   };
-  const Largest found = golden_section(std::log(least), std::log(most), 0.1, likelihood);
-  return {std::exp(found.at), found.value - likelihood(std::log(other))};
+  const Largest found = golden_section(std::log(least), std::log(most), 0.1,
+                                       [&](double log) { return likelihood(std::exp(log)); });
+  return {std::exp(found.at), found.value, found.value - likelihood(0)};
 }
 
 }  // namespace rolling

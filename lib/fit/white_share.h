@@ -8,7 +8,8 @@ namespace rolling {
 /// An estimate of the share of white noise (the share of Noise).
 struct WhiteShare {
   double share;
-  double gain;  ///< ln of the likelihood ratio to the share that it is compared with
+  double likelihood;  ///< ln of it, comparable with restricted_likelihood() under other noise
+  double gain;        ///< ln of the likelihood ratio to no white noise
 
   /// Noise without additional white noise reaches this gain in about 1 % of the records.
   bool decisive() const { return gain >= 3; }
@@ -20,10 +21,8 @@ struct WhiteShare {
 inline constexpr std::size_t searched_for_white_noise = 100'000;
 
 /// The share between `least` and `most` with the largest restricted likelihood of the residuals,
-/// with the model linear around theta, compared with the share `other`. H of every run must be
-/// known.
+/// with the model linear around theta. H of every run must be known.
 WhiteShare most_likely_share(const std::shared_ptr<const RollModel>&,
-                             const std::vector<double>& theta, double least, double most,
-                             double other);
+                             const std::vector<double>& theta, double least, double most);
 
 }  // namespace rolling

@@ -82,6 +82,38 @@ TEST_CASE(
 
 // Differences round off the stop, and more so where b < 0: what such a roll leaves there looks like
 // correlated noise, although a roll without differences fits better.
+TEST_CASE(
+    "differences: runs of different rates with one white noise are not taken for them, those with "
+    "one noise of positions are",
+    "[fit]") {
+  FitOptions options;
+  options.possible_filters = filters_of_sensors();
+  simulated::Noise noise(3);
+  std::size_t white = 0, differences = 0;
+  constexpr std::size_t pairs = 60;
+  for (std::size_t k = 0; k < pairs; ++k) {
+    std::vector<FitRun> by_speed(2), by_position(2);
+    for (std::size_t r = 0; r < 2; ++r) {
+      const auto truth = simulated::roll(cylinder, 5.75e-4, 0.1, 0.5);
+      FitRun& run = by_speed[r];
+      run.body = cylinder;
+      std::vector<double> x;
+      for (int i = 0; i < (r == 0 ? 120 : 12); ++i) {
+        run.t.push_back((r == 0 ? 0.025 : 0.25) * i);
+        x.push_back(truth.x(run.t.back()) + noise(3e-4));
+        run.v.push_back(truth.v(run.t.back()) + noise(5e-3));
+      }
+      by_position[r] = run;
+      by_position[r].v = simulated::slope(run.t, x);
+    }
+    white += fit(Route::velocity, by_speed, options).left_out > 0;
+    differences += fit(Route::velocity, by_position, options).left_out > 0;
+  }
+  CAPTURE(white, differences);
+  CHECK(white <= 4);  // e^-3 of them, 3, at most
+  CHECK(differences >= 54);
+}
+
 TEST_CASE("differences: speeds with white noise and a sudden stop are not taken for them",
           "[fit]") {
   const PowerLaw law{1e-3, -0.2};

@@ -27,7 +27,7 @@ WhiteShare found_share(double share, simulated::Noise& noise, std::size_t n = 40
   const std::vector<FitRun> runs{run};
   const Fitted fit = fit_rolls(Route::velocity, runs, usable(Route::velocity, runs),
                                responses_of(Route::velocity, runs), {});
-  return most_likely_share(fit.rolls, fit.minimum.theta, 1e-7, 1, 0);
+  return most_likely_share(fit.rolls, fit.minimum.theta, 1e-7, 1);
 }
 
 }  // namespace
