@@ -90,17 +90,14 @@ std::span<const double> SplineDerivative::finish() {
 
   // The range of alpha reaches from no effect between neighbours to a straight line over a thousand
   // of them.
-  double alpha = 0;
-  if (m > 1) {  // with three samples the spline interpolates
-    constexpr double lowest = -6, highest = 12, coarse = 0.5;
-    const auto worth = [this](double exponent) { return -solve(std::pow(10, exponent)); };
-    Largest best{lowest, worth(lowest)};
-    for (double e = lowest + coarse; e <= highest; e += coarse)
-      if (const double now = worth(e); now > best.value) best = {e, now};
-    best = golden_section(std::max(lowest, best.at - coarse), std::min(highest, best.at + coarse),
-                          1e-4, worth);
-    alpha = std::pow(10, best.at);
-  }
+  constexpr double lowest = -6, highest = 12, coarse = 0.5;
+  const auto worth = [this](double exponent) { return -solve(std::pow(10, exponent)); };
+  Largest best{lowest, worth(lowest)};
+  for (double e = lowest + coarse; e <= highest; e += coarse)
+    if (const double now = worth(e); now > best.value) best = {e, now};
+  best = golden_section(std::max(lowest, best.at - coarse), std::min(highest, best.at + coarse),
+                        1e-4, worth);
+  const double alpha = std::pow(10, best.at);
   solve(alpha);
 
   const auto bend = [&](std::size_t i) { return i >= 1 && i <= m ? bend_[i - 1] : 0; };
