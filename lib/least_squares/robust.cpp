@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 
-#include "base/by_run.h"
 #include "base/dot.h"
 #include "base/error.h"
 #include "least_squares/trimmed.h"
@@ -26,14 +25,10 @@ Influence bisquare(double u) {
   return rest > 0 ? Influence{rest * rest, rest * (5 * rest - 4)} : Influence{0, 0};
 }
 
-/// The sizes of residuals in the scales of their runs.
-std::vector<double> sizes_of(const Residuals& at, const std::vector<std::size_t>& runs) {
+/// The sizes of residuals in units of their scale.
+std::vector<double> sizes_of(const Residuals& at) {
   std::vector<double> sizes;
-  auto scale = at.scales.begin();
-  for (const auto f : by_run(at.f, runs)) {
-    for (const double x : f) sizes.push_back(std::abs(x) / *scale);
-    ++scale;
-  }
+  for (const double x : at.f) sizes.push_back(std::abs(x) / at.scale);
   return sizes;
 }
 
@@ -77,7 +72,7 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
   const bool trimmed = system.residuals() <= few && p <= few_parameters;
   std::vector<double> theta = trimmed ? least_trimmed(system, starts) : starts.front();
   Residuals at = residuals_at(system, theta);
-  std::vector<double> u = sizes_of(at, system.runs), factors(u.size());
+  std::vector<double> u = sizes_of(at), factors(u.size());
   std::vector<bool> outliers;
   for (const double size : u) outliers.push_back(trimmed && size > 30);
   for (const auto influence : {huber, bisquare}) {
@@ -93,11 +88,11 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
         change = std::max(change, std::abs(next[j] - theta[j]) / std::max(1.0, std::abs(next[j])));
       theta = next;
       Residuals now = residuals_at(system, theta);
-      // The bisquare loss has fixed scales, and so has Huber's after a while: they are medians,
-      // which may go to and fro between two records without end.
-      if (influence == bisquare || round > 50) now.scales = at.scales, now.scale = at.scale;
+      // The bisquare loss has a fixed scale, and so has Huber's after a while: it is made of
+      // medians, which may go to and fro between two records without end.
+      if (influence == bisquare || round > 50) now.scale = at.scale;
       at = std::move(now);
-      u = sizes_of(at, system.runs);
+      u = sizes_of(at);
     }
   }
   const double n = static_cast<double>(u.size());

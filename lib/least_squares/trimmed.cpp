@@ -36,11 +36,10 @@ Residuals residuals_at(const System& system, const std::vector<double>& theta) {
   if (!std::isfinite(dot(at.f, at.f))) fail("the law has no finite values");
   double squares = 0;
   for (const auto f : by_run(at.f, system.runs)) {
-    at.scales.push_back(median_scale({f.begin(), f.end()}, system.columns()));
-    squares += static_cast<double>(f.size()) * at.scales.back() * at.scales.back();
+    const double of_run = median_scale({f.begin(), f.end()}, system.columns());
+    squares += of_run * of_run;
   }
-  at.scale = std::sqrt(squares / static_cast<double>(at.f.size()));
-  std::ranges::replace(at.scales, 0, at.scale);
+  at.scale = std::sqrt(squares / static_cast<double>(system.runs.size()));
   return at;
 }
 

@@ -7,10 +7,11 @@ namespace rolling {
 
 struct Residuals {
   std::vector<double> f;
-  /// The median size of the residuals of each run, divided by that of a standard normal variable
-  /// (0.6745). A run most of whose residuals are 0, as at rest, has that of all.
-  std::vector<double> scales;
-  double scale;  ///< the root of the mean square, over the records, of the scales of their runs
+  /// The root of the mean square of the scales of the runs: of the median size of the residuals of
+  /// a run, divided by that of a standard normal variable (0.6745). So a run of much noise is no
+  /// outlier as a whole. A scale of its own would be known to a fifth for a run of 30 records, and
+  /// few records that outliers have drawn away would take them for their noise.
+  double scale;
 };
 /// Throws Error if the model has no finite values at theta.
 Residuals residuals_at(const System&, const std::vector<double>& theta);
