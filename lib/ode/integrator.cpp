@@ -97,8 +97,8 @@ unsigned long Integrator::evaluations() const { return problem_->evaluations; }
 void Integrator::step(double t) {
   if (steps_left_ == 0)
     fail(
-        "the integration has reached its limit of {} steps at t = {:.6g} s (a stiff problem needs "
-        "an implicit method)",
+        "the integration has reached its limit of {} steps at t = {:.6g} s (if the problem is "
+        "stiff, msbdf takes far fewer)",
         max_steps_, t_);
   --steps_left_;
   const double before = t_;
