@@ -18,7 +18,8 @@ namespace {
 
 /// The run whose records are block means, from each edge to the next.
 ObservedRun means(const ObservedRun& run, const std::vector<std::size_t>& edges) {
-  ObservedRun thin{run.body, run.geometry, run.way, run.origin, run.raw_is_position, {}, {}, {}};
+  ObservedRun thin{run.place,           run.body, run.geometry, run.way, run.origin,
+                   run.raw_is_position, {},       {},           {}};
   for (auto edge = edges.begin(); edge + 1 != edges.end(); ++edge) {
     const auto mean = [&](const std::vector<double>& x) {
       return std::accumulate(x.begin() + static_cast<std::ptrdiff_t>(edge[0]),
@@ -75,7 +76,8 @@ Thinned thinned(const ObservedRun& run, const FitOptions& options) {
   const double half_time =
       run.t[std::max<std::size_t>(half, n > 1)] - (position && options.x0 ? 0 : run.t[0]);
   const double v0 = options.v0 ? std::abs(*options.v0) : 0.6 * most / half_time;
-  if (!(v0 > 0) || !std::isfinite(v0)) fail("the body does not move: a and b cannot be determined");
+  if (!(v0 > 0) || !std::isfinite(v0))
+    fail("{}the body does not move: a and b cannot be determined", run.place);
   const std::size_t used = std::min(n, end + std::max<std::size_t>(end / 3, 8)),
                     block = (used + 63) / 64;
   std::vector<std::size_t> edges;

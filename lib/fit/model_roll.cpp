@@ -81,9 +81,9 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
   std::vector<ObservedRun> runs;
   for (std::size_t r = 0; r < all.size(); ++r) {
     const FitRun& run = all[r];
-    if (rows[r].empty())
-      fail("{}no record can be fitted", all.size() > 1 ? fmt::format("run {}: ", run.name) : "");
     ObservedRun seen;
+    if (all.size() > 1) seen.place = fmt::format("run {}: ", run.name);
+    if (rows[r].empty()) fail("{}no record can be fitted", seen.place);
     seen.body = run.body;
     seen.geometry = options.geometry;
     seen.origin = run.t.front();

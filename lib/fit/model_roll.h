@@ -23,6 +23,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace rolling {
 
@@ -35,7 +36,8 @@ using Rows = std::vector<std::size_t>;
 
 /// The data of one run in the form that the model needs.
 struct ObservedRun {
-  Body body;  ///< the body and its mat; only what the motion depends on is meaningful
+  std::string place;  ///< begins messages about the run; empty if there is no other
+  Body body;          ///< the body and its mat; only what the motion depends on is meaningful
   Geometry geometry = Geometry::approximate;
   double way = 1;     ///< direction of motion: -1 if the body rolls towards falling x (v < 0)
   double origin = 0;  ///< the time of the first record [s]: v0 and x0 hold there, t counts from it

@@ -16,13 +16,11 @@ namespace rolling {
 namespace {
 
 /// Throws Error if a v0 that is held has the other sign than the motion of a run.
-void require_ways(const std::vector<ObservedRun>& runs, const std::vector<FitRun>& all,
-                  const FitOptions& options) {
-  for (std::size_t r = 0; r < runs.size(); ++r)
-    if (options.v0 && runs[r].way * *options.v0 < 0)
-      fail("{}v0 = {} cannot be held: the body rolls towards {} x",
-           all.size() > 1 ? fmt::format("run {}: ", all[r].name) : "", *options.v0,
-           runs[r].way > 0 ? "growing" : "falling");
+void require_ways(const std::vector<ObservedRun>& runs, const FitOptions& options) {
+  for (const ObservedRun& run : runs)
+    if (options.v0 && run.way * *options.v0 < 0)
+      fail("{}v0 = {} cannot be held: the body rolls towards {} x", run.place, *options.v0,
+           run.way > 0 ? "growing" : "falling");
 }
 
 /// Removes from `rows` the records whose fitted speed is below the limit; returns whether there
@@ -159,7 +157,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       std::vector<ObservedRun> smooth;
       if (noise->known()) smooth = smooth_motion(route, runs, *noise, options);
       const std::vector<ObservedRun>& plain = noise->known() ? smooth : runs;
-      require_ways(plain, all, options);
+      require_ways(plain, options);
       for (const ObservedRun& run : plain) ways.push_back(run.way);
       guess = first_guess(plain, options);
     }

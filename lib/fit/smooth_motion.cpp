@@ -42,7 +42,7 @@ ObservedRun smooth_motion(Route route, const ObservedRun& run, std::size_t numbe
   R.join();
   const std::vector<double> c = R.solve();
 
-  ObservedRun smooth{run.body, run.geometry, 1, run.origin, position, {}, {}, {}};
+  ObservedRun smooth{run.place, run.body, run.geometry, 1, run.origin, position, {}, {}, {}};
   const std::size_t begin = run.H->columns_of(0).first, end = run.H->columns_of(n - 1).end;
   for (std::size_t i = begin; i < end; i += (end - begin + 255) / 256) {
     double y = 0;
