@@ -126,16 +126,20 @@ std::string NeededColumns::list() const {
 }
 
 std::size_t NeededColumns::require(std::string_view name) const {
-  if (const auto column = find(name)) return *column;
-  if (const auto column = find_column(name))
-    fail<InputError>("{}: column {} cannot serve as both {} and {}", place_, *column + 1,
-                     quantities_[*column], name);
-  std::string way_out;
-  if (const auto by = appended_by_.find(std::string(name)); by != appended_by_.end())
-    way_out = fmt::format("; {} appends it", by->second);
-  if (has_use_ && !si_unit(read_column(name).name).empty())
-    way_out += fmt::format("{} say --use {}=COLUMN", way_out.empty() ? ";" : ", or", name);
-  fail<InputError>("{}: there is no column '{}' among {}{}", place_, shown(name), list(), way_out);
+  const auto column = find(name), of_name = column ? column : find_column(name);
+  if (!column && of_name)
+    fail<InputError>("{}: column {} cannot serve as both {} and {}", place_, *of_name + 1,
+                     quantities_[*of_name], name);
+  if (!column) {
+    std::string way_out;
+    if (const auto by = appended_by_.find(std::string(name)); by != appended_by_.end())
+      way_out = fmt::format("; {} appends it", by->second);
+    if (has_use_ && !si_unit(read_column(name).name).empty())
+      way_out += fmt::format("{} say --use {}=COLUMN", way_out.empty() ? ";" : ", or", name);
+    fail<InputError>("{}: there is no column '{}' among {}{}", place_, shown(name), list(),
+                     way_out);
+  }
+  return *column;
 }
 
 /// A column with the unit of its name, or with the unit that --use gives.
