@@ -9,6 +9,7 @@
 #include "base/by_run.h"
 #include "base/dot.h"
 #include "base/error.h"
+#include "base/rounding.h"
 #include "base/median.h"
 #include "least_squares/minimise.h"
 #include "least_squares/triangles.h"
@@ -34,12 +35,12 @@ Residuals residuals_at(const System& system, const std::vector<double>& theta) {
     at.f.insert(at.f.end(), f.begin(), f.end());
   });
   if (!std::isfinite(dot(at.f, at.f))) fail("the law has no finite values");
-  double squares = 0;
-  for (const auto f : by_run(at.f, system.runs)) {
-    const double of_run = median_scale({f.begin(), f.end()}, system.columns());
-    squares += of_run * of_run;
-  }
-  at.scale = std::sqrt(squares / static_cast<double>(system.runs.size()));
+  std::vector<double> scales;
+  for (const auto f : by_run(at.f, system.runs))
+    scales.push_back(median_scale({f.begin(), f.end()}, system.columns()));
+  const double least = program_rounding * std::ranges::max(scales);
+  std::erase_if(scales, [&](double scale) { return scale < least; });
+  at.scale = std::sqrt(dot(scales, scales) / static_cast<double>(scales.size()));
   return at;
 }
 

@@ -10,7 +10,8 @@ struct Residuals {
   /// The root of the mean square of the scales of the runs: of the median size of the residuals of
   /// a run, divided by that of a standard normal variable (0.6745). So a run of much noise is no
   /// outlier as a whole. A scale of its own would be known to a fifth for a run of 30 records, and
-  /// few records that outliers have drawn away would take them for their noise.
+  /// few records that outliers have drawn away would take them for their noise. Runs without
+  /// noise, as at rest, do not count.
   double scale;
 };
 /// Throws Error if the model has no finite values at theta.

@@ -1,6 +1,7 @@
 #include "least_squares/robust.h"
 
 #include "base/error.h"
+#include "least_squares/trimmed.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
 #include "unit/least_squares/systems.h"
@@ -163,4 +164,25 @@ TEST_CASE("minimise_robust: a run of a hundred times the noise is no outlier as 
   CHECK(m.f[7] == 0);
   CHECK(m.f[n + 7] != 0);
   CHECK(std::ranges::count(m.f, 0) < 5);
+}
+
+TEST_CASE("minimise_robust: runs at rest do not make the noise of the others smaller", "[fit]") {
+  // Levels of 40 readings: the first with noise 1, the others constant but for rounding.
+  constexpr std::size_t n = 40;
+  simulated::Noise noise(6);
+  std::vector<double> y;
+  for (std::size_t i = 0; i < n; ++i) y.push_back(noise(1));
+  const auto scale_beside = [&](std::size_t others) {
+    const System levels{std::vector<std::size_t>(1 + others, n), 1, 0,
+                        [&, others](const std::vector<double>&, const TakeRows& take) {
+      for (std::size_t run = 0; run <= others; ++run) {
+        std::vector<double> f(n, run % 2 == 0 ? 0 : 1e-17), J(n, 1);
+        if (run == 0) f = y;
+        take(run, f, J);
+      }
+                        }};
+    return residuals_at(levels, std::vector<double>(1 + others)).scale;
+  };
+  CHECK(scale_beside(0) > 0.5);
+  for (const std::size_t others : {1U, 9U}) CHECK(scale_beside(others) == scale_beside(0));
 }
