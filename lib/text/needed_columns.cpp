@@ -187,7 +187,7 @@ void NeededColumns::resolve(Needed& needed) const {
       unit = said->second.unit, by = fmt::format(", as line {} says", said->second.line);
     if (!unit.empty())
       fail<InputError>(
-          "{}: column '{}' cannot serve as {}: is it in {}{}? Write the unit in brackets{}", place_,
+          "{}: column '{}' cannot serve as {}: is it in '{}'{}? Write the unit in brackets{}", place_,
           shown(meant.name), quantity, unit, by, way_out());
   }
   try {

@@ -95,7 +95,7 @@ TEST_CASE("needed columns: a column that is absent", "[text]") {
 
 TEST_CASE("needed columns: a unit that the tools do not read is not taken for SI", "[text]") {
   CHECK(output({"t_ms", "x/cm"}, {"t=1[ms]", "x=x/cm"}, {"t", "x"}) ==
-        "FILE: column 'x/cm' cannot serve as x: is it in cm? Write the unit in brackets or say "
+        "FILE: column 'x/cm' cannot serve as x: is it in 'cm'? Write the unit in brackets or say "
         "--use 'x=2[UNIT]'");
   CHECK(output({"t_ms", "x/cm"}, {"t=1[ms]", "x=x/cm[cm]"}, {"t", "x"}) == "t[s] x[m]");
   CHECK(output({"t", "w_km/h"}, {}, {"w_km/h"}) == "t w_km/h");  // no quantity

@@ -12,7 +12,7 @@ TEST_CASE("reader: a separator at the ends of lines may be left out in the secon
 
 TEST_CASE("reader: units that a comment gives to the columns of the second run alone", "[text]") {
   CHECK(records({"# t v F\n0 1 2\n\n# s cm/s N\n2 3 4\n"}) ==
-        "FILE:5: column 'v' cannot serve as v: is it in cm/s, as line 4 says? Write the unit in "
+        "FILE:5: column 'v' cannot serve as v: is it in 'cm/s', as line 4 says? Write the unit in "
         "brackets or say --use 'v=2[UNIT]'");
 }
 

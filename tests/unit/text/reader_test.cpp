@@ -223,7 +223,7 @@ TEST_CASE("reader: a carriage return or a NUL within a line is refused wherever 
 
 TEST_CASE("reader: a unit that only a comment gives is not passed over", "[text]") {
   const std::string refused =
-      "FILE: column 'v' cannot serve as v: is it in km/h, as line 1 says? Write the unit in "
+      "FILE: column 'v' cannot serve as v: is it in 'km/h', as line 1 says? Write the unit in "
       "brackets or say --use 'v=2[UNIT]'";
   CHECK(records({"# v [km/h]: by a GPS\n# t v\n0 36\n"}) == refused);
   CHECK(records({"t [s], v [km/h] and a remark\n\nt,v\n0,36\n"}) == refused);
@@ -329,7 +329,7 @@ TEST_CASE("reader: the names are the last comment with as many fields as the rec
   CHECK(records({"# t[ms] v[km/h] x[m]\n0 36\n"}) ==
         "FILE:1: a comment with units, but not the names of 2 columns");
   CHECK(records({"# Speed (km/h) from GPS\n0 36\n"}) ==
-        "FILE: column 'v' cannot serve as v: is it in km/h, as line 1 says? Write the unit in "
+        "FILE: column 'v' cannot serve as v: is it in 'km/h', as line 1 says? Write the unit in "
         "brackets or say --use 'v=2[UNIT]'");
   CHECK(records({"# t[s] v[m/s]\n0 1\n# t[ms] v[km/h]\n1000 36\n"}) ==
         "FILE:3: names among the records; where another run begins, put a blank line before it");
