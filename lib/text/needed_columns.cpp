@@ -187,8 +187,8 @@ void NeededColumns::resolve(Needed& needed) const {
       unit = said->second.unit, by = fmt::format(", as line {} says", said->second.line);
     if (!unit.empty())
       fail<InputError>(
-          "{}: column '{}' cannot serve as {}: is it in '{}'{}? Write the unit in brackets{}", place_,
-          shown(meant.name), quantity, unit, by, way_out());
+          "{}: column '{}' cannot serve as {}: is it in '{}'{}? Write the unit in brackets{}",
+          place_, shown(meant.name), quantity, unit, by, way_out());
   }
   try {
     needed.to_si = conversion_to_si(quantity, meant);
