@@ -32,15 +32,13 @@ dd { margin-left: 2rem; }
   .head, .foot { color: #a8a49c; }
 }
 END
-# mandoc links to the pages of this site where it finds their files.
-for page in "${pages[@]}"; do : >"$to/${page#man/}.html"; done
+# mandoc links to a page of this site where it finds its source in the folder that it runs in.
 for page in "${pages[@]}"; do
-  page=$PWD/$page
-  (cd "$to" && mandoc -Thtml \
-    -O 'style=pages.css,man=%N.%S.html;https://manpages.debian.org/%N.%S' "$page" |
-    sed 's/<head>/<head>\n  <meta name="viewport" content="width=device-width, initial-scale=1"\/>/
-      s/<body>/<body>\n<p><a href="index.html">rolling: all pages<\/a><\/p>/' \
-      >"$(basename "$page").html")
+  name=${page#man/}
+  (cd man && mandoc -Thtml \
+    -O 'style=pages.css,man=%N.%S.html;https://manpages.debian.org/%N.%S' "$name") |
+    sed 's/^<html>/<html lang="en">/
+      s/<body>/<body>\n<p><a href="index.html">rolling: all pages<\/a><\/p>/' >"$to/$name.html"
 done
 
 {

@@ -1,6 +1,7 @@
 #!/bin/bash
-# `make html`: every manual page is there, is in the index, and each link within the site leads to a
-# page and a place in it that exist.
+# `make html`: every manual page is there, in English, with one viewport, and is in the index; each
+# link leads to a page of the site, and to a place in it, that exist, or to a page or a site that
+# this project does not have.
 set -u
 export LC_ALL=C
 unset CDPATH
@@ -20,17 +21,39 @@ for page in "$OLDPWD"/man/*.[157]; do
   about=$(sed -n 's/^\.Nd //p' "$page" | sed 's/\\-/-/g')
   [ "$(grep -cF ">$about</td>" index.html)" = 1 ] || complain "$name: '$about' is not in the index"
 done
-links=0
+for page in ./*.html; do
+  [ "$(grep -c '<html lang="en">' "$page")" = 1 ] || complain "$page does not say its language once"
+  [ "$(grep -c 'name="viewport"' "$page")" = 1 ] || complain "$page has not one viewport"
+done
+
+# leads FILE TARGET: whether the target of a link in FILE is as it should be.
+leads() {
+  local file=$1 target=$2 page=${2%%#*} place=''
+  case $target in
+    https://manpages.debian.org/*)
+      [ ! -e "${target##*/}.html" ] || complain "$file: $target is a page of this site"
+      return ;;
+    https://doi.org/10.*/* | https://github.com/*/*) return ;;
+    *:*) complain "$file links to $target: where is that?"; return ;;
+  esac
+  [[ $target != *#* ]] || place=${target#*#}
+  [ -n "$page" ] || page=$file
+  [ -s "$page" ] || { complain "$file links to $target" && return; }
+  [ -z "$place" ] || grep -qF "id=\"$place\"" "$page" || complain "$file links to no place $target"
+}
+declare -A within=()
 while IFS=: read -r file link; do
   target=${link#href=\"}
   target=${target%\"}
-  case $target in https://*) continue ;; esac
-  links=$((links + 1))
-  page=${target%%#*} place=
-  [[ $target != *#* ]] || place=${target#*#}
-  [ -n "$page" ] || page=$file
-  [ -s "$page" ] || { complain "$file links to $target" && continue; }
-  [ -z "$place" ] || grep -qF "id=\"$place\"" "$page" || complain "$file links to no place $target"
+  leads "$file" "$target"
+  case $target in *.[157].html*) within[$file]=$((${within[$file]:-0} + 1)) ;; esac
 done < <(grep -oH 'href="[^"]*"' ./*.html)
-[ "$links" -gt 50 ] || complain "only $links links"
+for page in ./*.[157].html; do
+  [ "${within[$page]:-0}" -gt 3 ] || complain "$page has ${within[$page]:-0} links to other pages"
+done
+
+# The check itself sees what it looks for.
+said=$(leads ./smooth.1.html https://manpages.debian.org/fitpower.1; leads ./smooth.1.html nowhere.html
+  leads ./smooth.1.html fitpower.1.html#nowhere; leads ./smooth.1.html http://else.where)
+[ "$(wc -l <<<"$said")" = 4 ] || complain "wrong links pass: $said"
 exit $wrong
