@@ -167,16 +167,22 @@ void set_bodies(std::vector<FitRun>& runs, const Body& body,
 }
 
 void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
-  const auto y = column_of(fitted_columns(route).back());
+  const auto columns = fitted_columns(route);
   const auto less = [&](std::size_t i, std::size_t j) {  // of all doubles, NaN too
-    return std::ranges::lexicographical_compare(
-        runs[i].*y, runs[j].*y, [](double a, double b) { return std::strong_order(a, b) < 0; });
+    for (const std::string& name : columns) {
+      const auto &x = runs[i].*column_of(name), &y = runs[j].*column_of(name);
+      const auto order = std::lexicographical_compare_three_way(
+          x.begin(), x.end(), y.begin(), y.end(),
+          [](double a, double b) { return std::strong_order(a, b); });
+      if (order != 0) return order < 0;
+    }
+    return false;
   };
   std::set<std::size_t, decltype(less)> different(less);
   std::string copy;
   std::size_t copies = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if ((runs[i].*y).size() < 10) continue;
+    if ((runs[i].*column_of(columns.back())).size() < 10) continue;
     const auto [same, inserted] = different.insert(i);
     if (!inserted && ++copies == 1)
       copy =

@@ -28,8 +28,9 @@ std::vector<FitRun> read_runs(Tool&, Reader&, Route, Columns);
 void set_bodies(std::vector<FitRun>&, const Body&, const std::vector<Estimate>& shape_factors,
                 const BodyUncertainty&);
 
-/// Warns of a record that was given twice: in a joint fit it makes the errors too small. Fewer than
-/// ten readings may be equal by chance.
+/// Warns of a run that was given twice: in a joint fit it makes the errors too small. All columns
+/// that are fitted are those of the other run: gates and speed bands fix x or v, and measure t.
+/// Fewer than ten readings may be equal by chance.
 void warn_of_copies(Tool&, Route, const std::vector<FitRun>&);
 
 /// Warns of a geometry and of numbers of the body that a fit of D does not use: D was computed with
