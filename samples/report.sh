@@ -21,13 +21,14 @@ trap 'rm -rf "$scratch"' EXIT
 # figure FILE TITLE COMMAND: the picture in the page, and the caption from standard input. The names
 # in the picture get its own name in front, for a name may stand only once in a page.
 figure() {
-  local name
+  local name width
   name=$(basename "$1" .svg)
+  width=$(sed -n 's/^ width="\([0-9]*\)".*/\1/p' "$1")
   printf '<figure id="%s">\n<a class="back" href="#_">back to the page</a>\n' "$name"
   printf '<a href="#%s" title="the figure alone">\n' "$name"
   sed -e '/^<?xml/d; /^<desc>/d; s/<title>[^<]*<\/title>//; s/^ width="[0-9]*" height="[0-9]*"$//' \
     -e "s/ id=\([\"']\)/ id=\1$name-/g; s/href='#/href='#$name-/g; s/url(#/url(#$name-/g" \
-    -e "s/^<svg *$/<svg role=\"img\" aria-label=\"$2\"/" "$1"
+    -e "s/^<svg *$/<svg role=\"img\" aria-label=\"$2\" style=\"--width: ${width}px\"/" "$1"
   printf '</a>\n<figcaption><b>%s.</b> %s <code>%s</code></figcaption>\n</figure>\n' "$2" "$(cat)" "$3"
 }
 drawn() { figure "$figures/$1.svg" "$2" "make figures/$1.svg"; }
@@ -80,14 +81,16 @@ table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: 1
 tr { border-bottom: 1px solid #ddd; }
 th, td { padding: .25rem .8rem .25rem 0; text-align: left; vertical-align: top; }
 th { white-space: nowrap; }
-/* On a phone a figure is as wide as the screen; a tap opens it alone, to be enlarged. */
-figure > a { display: block; }
+/* On a phone a figure is moved sideways, like a wide table, rather than made smaller than can be
+   read: letters of 14 px keep 10 of them. A tap opens it alone. */
+figure > a { display: block; overflow-x: auto; }
 figure:target { position: fixed; inset: 0; margin: 0; padding: .5rem; overflow: auto;
   background: #fff; z-index: 1; }
 figure:target svg { width: auto; min-width: 44rem; }
 .back { display: none; }
 figure:target .back { display: inline-block; padding: .5rem 0; }
 @media (max-width: 36rem) { body { font-size: 1rem; padding: .7rem; }
+  figure svg { width: max(100%, calc(.7 * var(--width))); }
   th, td { padding-right: .5rem; font-size: .85rem; } }
 @media (prefers-color-scheme: dark) {
   body, figure:target { color: #e6e3dd; background: #16181b; }

@@ -29,23 +29,26 @@ command -v gnuplot >/dev/null ||
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 figures=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-PATH=${figures%/*/*}/bin:$PATH
-cp "$figures"/*.gp "$figures"/../*.csv "$figures"/../*.toml "$scratch"
+samples=${figures%/*}
+PATH=${samples%/*}/bin:$PATH
+cp "$figures"/*.gp "$samples"/*.csv "$samples"/*.toml "$scratch"
 called_from=$PWD
 cd "$scratch"
 
-# draw WIDTH HEIGHT [ASSIGNMENTS]: gnuplot on the commands of standard input, after style.gp. A PNG
-# has 240 dots an inch where the SVG has 96. The symbols of the two terminals are made alike: those
-# of svg are thin, those of pngcairo small.
+# draw WIDTH HEIGHT [ASSIGNMENTS]: gnuplot on the commands of standard input, after style.gp. $title is
+# the title of the SVG, which readers for the blind and browsers tell. A PNG has 240 dots an inch
+# where the SVG has 96. The symbols of the two terminals are made alike: those of svg are thin, those
+# of pngcairo small.
 draw() {
   local size=$1,$2
   [ "$terminal" = svg ] ||
-    size="$(($1 * 5 / 2)),$(($2 * 5 / 2)) fontscale 2.5 linewidth 2.5 pointscale 3.2"
+    size="$(($1 * 5 / 2)),$(($2 * 5 / 2)) fontscale 1.95 linewidth 2.5 pointscale 3.2"
   LC_ALL=C.UTF-8 gnuplot -d \
     -e "set terminal $terminal size $size font 'sans-serif,14' background 'white'" \
     -e "${3:-}" style.gp /dev/stdin |
     if [ "$terminal" = svg ]; then
-      sed "/id='gpPt/s/stroke-width='0[.0-9]*'/stroke-width='0.4'/"
+      sed "/id='gpPt/s/stroke-width='0[.0-9]*'/stroke-width='0.4'/
+        s|<title>Gnuplot</title>|<title>${title:?}</title>|; s|<title>gnuplot_[^<]*</title>||"
     else
       cat
     fi

@@ -13,7 +13,8 @@ differentiate -c x roll | smooth -w 11 | whole_windows | ledger >measured
 start=$(awk '!/^#/ { print $1; exit }' roll)
 first=$(awk -v start="$start" '!/^#/ { print $1 - start; exit }' measured)
 simulate --law fit -K 0.5 -R 0.04 --columns t,v | smooth -q -w 1 --from "$first" | ledger >fitted
-draw 720 560 "start = $start" <<'PLOT'
+title='Energy of the cylinder on rubber against time: translation, rotation, dissipated, and their sum'
+draw 520 480 "start = $start" <<'PLOT'
 set xlabel 'time t / s'; set ylabel 'energy / J'; set yrange [0:0.18]; set xrange [0:2.3]
 set key at graph 0.98, 0.6
 set style line 1 lc rgb purple lw 2 dt 1 pt 7; set style line 2 lc rgb blue lw 2 dt 2 pt 2

@@ -14,8 +14,9 @@ differentiate -q -c x CR.csv >raw
 stop=$(awk '!/^#/ { print $1; exit }' roll; roll | awk 'END { print $1 }')
 rest=$(tail -n 25 raw | awk '{ sum += $2 } END { print sum / NR }'
   for file in law memory; do awk 'END { print $2 }' "$file"; done)
-draw 720 760 "stop = '${stop//$'\n'/ }'; rest = '${rest//$'\n'/ }'" <<'PLOT'
-set multiplot layout 2,1 margins 0.13,0.98,0.09,0.98 spacing 0.08
+title='Fig. 1, the stop: velocity and position near the stop, with the brief roll backwards'
+draw 520 680 "stop = '${stop//$'\n'/ }'; rest = '${rest//$'\n'/ }'" <<'PLOT'
+set multiplot layout 2,1 margins 0.15,0.98,0.09,0.98 spacing 0.1
 set xrange [-0.52:0.82]; set xzeroaxis lt -1 lw 0.5
 set xlabel 'time after the stop that the law D(v) alone predicts / s'
 after(t, start) = t - word(stop, 2) - (start ? word(stop, 1) : 0)

@@ -15,8 +15,9 @@ run() {  # NAME K
     awk -v start="$start" '!/^#/ { print $1 + start "\t" $2 }' >"$1.line"
 }
 run CR 0.5; run SR 0.83; run CF 0.5; run SF 0.83
-draw 720 760 <<'PLOT'
-set multiplot layout 2,1 margins 0.12,0.98,0.09,0.98 spacing 0.08
+title='Fig. 1: the velocity of the four experiments against time'
+draw 520 680 <<'PLOT'
+set multiplot layout 2,1 margins 0.14,0.98,0.09,0.98 spacing 0.1
 set xrange [0.8:9.2]; set yrange [-0.05:0.55]; set xzeroaxis lt -1 lw 0.5
 set ylabel 'velocity v / (m/s)'; set xlabel 'time t / s'
 of(i, kind) = word(runs, i) . kind

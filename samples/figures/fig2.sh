@@ -5,6 +5,7 @@
 . "$(dirname "$0")/draw.sh"
 now=$(echo 0 | simulate --scene CR.toml --exact --at - |
   energy-ledger --scene CR.toml --exact | assignments)
+title='Fig. 2: the forces on the cylinder on rubber, to scale'
 draw 840 470 "W = 840.0; H = 470.0; $(scene CR.toml) $now" <<'PLOT'
 # The forces by the simulated acceleration and by the ledger's P_R2 = (v/R) D F_N; 2 mm a newton.
 F_H = m*a; F_N = P_R2*R/(v*D); h = 2*F_H; n = 2*F_N

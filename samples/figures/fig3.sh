@@ -5,6 +5,7 @@
 . "$(dirname "$0")/draw.sh"
 now=$(echo 0 | simulate --scene CR.toml --exact --at - |
   energy-ledger --scene CR.toml --exact | assignments)
+title='Fig. 3: the velocity of P as a point of the body, to scale'
 draw 840 780 "W = 840.0; H = 780.0; $(scene CR.toml) $now" <<'PLOT'
 # The velocity of P by the ledger: each current of energy over its current of momentum; 50 mm for
 # 1 m/s.

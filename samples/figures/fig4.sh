@@ -4,20 +4,21 @@
 #   fig4.sh [-t svg | pngcairo] >fig4.svg                          the four experiments
 #   fig4.sh [-t ...] [-K K[,K...]] [-R R] FILE... >mine.svg        records of your own
 #
-# K (0.5) is the shape factor, one for all files or one for each; R (0.04) the radius in metres. A
-# file has the columns t and x (Time, Position), or t and v (Time, Velocity). Of each record the
-# free roll is taken; of one towards falling x the signs are turned. `make figures/fig4.svg` draws
-# the experiments.
+# K (0.5) is the shape factor, one for all files or one for each; R (0.04) the radius in metres; both
+# may have an uncertainty, 0.5+-0.005. A file has the columns t and x (Time, Position), or t and v
+# (Time, Velocity). Of each run the free roll is taken; of one towards falling x the signs are turned.
+# Up to four runs of your own have their a and b in the picture, and one by itself the scatter of its
+# points as bars. `make figures/fig4.svg` draws the experiments.
 . "$(dirname "$0")/draw.sh"
 
-# D against v of record $1, the file $3, with the shape factor $2, and the row of the law.
+# D against v of run $1, the file $3, with the shape factor $2, and the row of the law.
 shifts() {
   if smooth -q -c x -w 1 "$3" >/dev/null 2>&1; then
     smooth -q --coast -c x -w 1 "$3" | differentiate -c x | smooth -q -w 11
   else
     smooth -q --coast -c v -w 11 "$3"
   fi | differentiate -c v | shift-from-accel -q -K "$2" -R "$R" >"shift$1"
-  fitpower -q "shift$1" | grep -v '^#' >>laws
+  fitpower -q "shift$1" >"fit$1"
   # The picture has the rows of whole windows alone; fitpower knows the noise of all of them.
   whole_windows <"shift$1" | awk -F'\t' '
     /^# / { for (i = 1; i <= NF; i++) { if ($i ~ /^v\[/) v = i; if ($i ~ /^D\[/) D = i } next }
@@ -25,6 +26,12 @@ shifts() {
       if (!way) way = $v < 0 ? -1 : 1
       print (way < 0 ? sprintf("%.17g", -$v) : $v) "\t" way * 1e3 * $D
     }' >"points$1"
+  # The law and the scatter of these points about it [mm], as gnuplot reads them.
+  { assignments <"fit$1" && awk -F'\t' '
+      FNR == NR { if (!/^#/) { a = 1e3 * $1; b = $3 } next }
+      { if (!n++ || $1 < low) low = $1; if ($1 > high) high = $1; sum += ($2 - a * $1^b)^2 }
+      END { printf "scatter = %g; low = %g; high = %g", sqrt(sum / n), low, high }' \
+    "fit$1" "points$1"; } >"law$1"
 }
 
 own=$#
@@ -44,7 +51,7 @@ for file; do
     case $file in /* | -) ;; *) file=$called_from/$file ;; esac
   fi
   # What is read but once is copied: it is read twice here.
-  [ -f "$file" ] || { cat -- "$file" >"record$runs" && file=record$runs; }
+  [ -f "$file" ] || { cat -- "$file" >"run$runs" && file=run$runs; }
   shifts $runs "${shapes[runs - 1]:-${shapes[0]}}" "$file"
 done
 
@@ -52,39 +59,55 @@ frame='vmax = 0.5; Dmax = 2.2'
 [ "$own" = 0 ] || frame=$(sort -g points* | awk '
   { if ($1 > v) v = $1; if ($2 > D) D = $2 }
   END { printf "vmax = %g; Dmax = %g", 1.05 * v, 1.35 * D }')
-draw 720 560 "n = $runs; own = $own; $frame" <<'PLOT'
+for i in $(seq $runs); do
+  "$samples/law.sh" -f "$(awk "BEGIN { $frame; print 0.04 * vmax }")" \
+    -t "$(awk "BEGIN { $frame; print vmax }")" -n 200 "fit$i" >"band$i"
+done
+title='Fig. 4: the shift D against the velocity, with power laws and their 95 % bands'
+given="K = $K, R = $R m" && given=${given//+-/ ± }
+draw 520 480 "count = $runs; own = $own; $frame; given = '$given'" <<'PLOT'
 set xlabel 'velocity v / (m/s)'; set ylabel 'shift D / mm'
-set xrange [0:vmax]; set yrange [0:Dmax]; set samples 201
+set xrange [0:vmax]; set yrange [0:Dmax]
 set style fill transparent solid 0.2 noborder
 set key top left width 2
 if (own) { set key maxrows 4 } else { set key maxrows 2 }
+told = own && count <= 4   # the key has the laws
 # The key has four columns of four names. What does not fit gnuplot leaves out without a word, so
 # long names lose their middle: of a line of small letters each column takes 8 for its symbol.
-named = n > 16 ? 16 : n
-room = 40; if (named > 4) { set key font ',11' samplen 2.6; room = 58/((named + 3)/4) - 8 }
+named = count > 16 ? 16 : count
+room = 34
+if (told) { room = 14; set key Left reverse width 0 font ',11' samplen 1.5 }
+if (named > 4) { set key font ',11' samplen 2.6; room = 50/((named + 3)/4) - 8 }
 cut(name) = strlen(name) <= room ? name : \
   substr(name, 1, (room - 1)/2).'…'.substr(name, strlen(name) - room/2 + 1, strlen(name))
-note = "Bands: 95 % confidence of the law, not of the points.\nPoints: \
-the free roll, less five records at each end."
-if (named < n) { note = sprintf("The key names the first %d of %d records.\n", named, n).note }
-set label note at graph 0.98, (named < n ? 0.115 : 0.075) right font ',12'
-if (!own) { set label 'rubber' at 0.495, 1.74 right; set label 'felt' at 0.495, 0.68 right }
-array a[n]; array sigma_a[n]; array b[n]; array sigma_b[n]; array corr[n]
-array title[n]
-do for [i=1:n] {
-  law = system(sprintf('sed -n %dp laws', i))
-  a[i] = real(word(law, 1)); sigma_a[i] = real(word(law, 2))
-  b[i] = real(word(law, 3)); sigma_b[i] = real(word(law, 4)); corr[i] = real(word(law, 5))
-  title[i] = system(sprintf('sed -n %dp names', i))
-}
-D(i, v) = 1e3*a[i]*v**b[i]
-# The standard error of ln D = ln a + b ln v.
-sigma(i, v) = (s = sigma_a[i]/a[i], l = sigma_b[i]*log(v), sqrt(s**2 + l**2 + 2*corr[i]*s*l))
-edge(i, v, sign) = v > 0.04*vmax ? D(i, v)*exp(sign*1.96*sigma(i, v)) : NaN
-array style[8] = [1, 3, 5, 7, 2, 4, 6, 8]  # every record of somebody's own in another colour
+array style[8] = [1, 3, 5, 7, 2, 4, 6, 8]  # every run of somebody's own in another colour
 line(i) = !own ? i : style[(i-1)%8 + 1]
-plot for [i=1:n] '+' using 1:(edge(i,$1,-1)):(edge(i,$1,1)) with filledcurves ls line(i) notitle, \
-     for [i=1:n] sprintf('points%d', i) using 1:2 with points ls line(i) notitle, \
-     for [i=1:n] [v=0.04*vmax:vmax] '+' using 1:(D(i,$1)) with lines ls line(i) notitle, \
-     for [i=1:named] keyentry with linespoints ls line(i) ps 0.9 title cut(title[i]) noenhanced
+array title[count]; array least[count]; array most[count]
+do for [i = count:1:-1] {
+  eval system(sprintf('cat law%d', i))
+  least[i] = low; most[i] = high
+  title[i] = cut(system(sprintf('sed -n %dp names', i)))
+  if (told) { title[i] = title[i].sprintf(':  a = %.3f ± %.3f mm,  b = %.3f ± %.3f', \
+    1e3*a, 1e3*sigma_a, b, sigma_b) }
+}
+note = "Points: the free roll, less five rows at each end."
+if (own) { note = note."\n".given.";  a is D at 1 m/s" }
+note = (own && count == 1 ? "Band: 95 % confidence of the law. Bars: scatter.\n" : \
+  "Bands: 95 % confidence of the law, not of the points.\n").note
+if (named < count) { note = sprintf("The key names the first %d of %d runs.\n", named, count).note }
+set label note at graph 0.98, (named < count ? 0.145 : own ? 0.105 : 0.065) right font ',12' \
+  noenhanced
+if (!own) { set label 'rubber' at 0.495, 1.74 right; set label 'felt' at 0.495, 0.68 right }
+file(name, i) = sprintf('%s%d', name, i)
+inside(i, v) = v >= least[i] && v <= most[i] ? v : NaN
+outside(i, v) = v >= least[i] && v <= most[i] ? NaN : v
+# The law is a full line where there are points, a dotted one elsewhere.
+plot for [i=1:count] file('band', i) using 1:(1e3*$5):(1e3*$6) with filledcurves ls line(i) notitle, \
+     for [i=1:count] file('points', i) using 1:2 with points ls line(i) notitle, \
+     for [i=1:count] file('band', i) using (outside(i, $1)):(1e3*$2) with lines ls line(i) dt 3 \
+       notitle, \
+     for [i=1:count] file('band', i) using (inside(i, $1)):(1e3*$2) with lines ls line(i) notitle, \
+     for [i=1:(own && count == 1)] file('points', i) using 1:($2 - scatter):(0):(2*scatter) \
+       with vectors nohead ls line(i) lw 0.5 notitle, \
+     for [i=1:named] keyentry with linespoints ls line(i) ps 0.9 title title[i] noenhanced
 PLOT

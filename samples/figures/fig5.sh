@@ -7,6 +7,7 @@
 instant=${1:-0.5}
 now=$(echo "$instant" | simulate --scene CR.toml --exact --at - |
   energy-ledger --scene CR.toml --exact | assignments)
+title='Fig. 5: the process diagram of the cylinder on rubber'
 draw 900 600 "W = 900.0; H = 600.0; $(scene CR.toml) $now" <<'PLOT'
 # All in pixels. A stage is a box in which a carrier falls or is pumped; what is stored flows in
 # from above.
@@ -18,7 +19,7 @@ pixels = 72/P_diss   # for a watt
 F_H = m*a; F_N = P_R2*R/(v*D); v_H = -I_E1/F_H; v_V = -I_E2/F_N
 y = 300; wide = 128; high = 170; stored = y + high/2 + 75
 x(stage) = 80 + 246*(stage - 1)
-mW(p) = (p < 0 ? '−' : '').sprintf('%.1f', 1e3*abs(p))
+mW(p) = (p < 0 ? '−' : '').sprintf('%.2f', 1e3*abs(p))
 # An arrow of energy, to the right or down: a shaft as wide as its power, and a head a little wider.
 shape = '%g,%g to %g,%g to %g,%g to %g,%g to %g,%g to %g,%g to %g,%g to %g,%g'
 across(x1, x2, power) = (w = pixels*power/2, sprintf(shape, \
@@ -49,8 +50,10 @@ do for [s = 1:2] {
 }
 set label sprintf("E_{trans}\n%.4f J", E_trans) at x(1), stored + 36 center
 set label sprintf("E_{rot}\n%.4f J", E_rot) at x(2), stored + 36 center
-set label mW(P_T1 + I_E1) at x(1) + 48, stored - 32 left
-set label mW(P_R2 + P_R1) at x(2) + 36, stored - 32 left
+# From the numbers that the others say, so that what is read at a stage adds up in its last digit.
+said(p) = floor(1e5*p + 0.5)/1e5
+set label mW(said(P_T1) + said(I_E1)) at x(1) + 48, stored - 32 left
+set label mW(said(P_R2) - said(P_T1)) at x(2) + 36, stored - 32 left
 # Released above an arrow, used below it.
 between(s) = (x(s) + x(s + 1))/2
 power(name, p) = name."\n".mW(p)
@@ -59,7 +62,7 @@ set label power('P_{R1}', P_R1) at between(1) + 1, y - 56 center font ',13'
 set label power('P_{R2}', P_R2) at between(2) - 6, y + 78 center font ',13'
 set label power('P_{T2}', P_T2) at between(2) + 1, y - 62 center font ',13'
 set label power('I_{E2}', I_E2) at between(3) + 1, y + 78 center font ',13'
-set label "P_{diss} = I_{E1} + I_{E2}\n= ".mW(P_diss) at x(4) - 58, y - high/2 - 72 right
+set label "P_{diss} = I_{E1} + I_{E2}\n= ".mW(said(I_E1) + said(I_E2)) at x(4) - 58, y - high/2 - 72 right
 # The mat, at 293 K, produces entropy.
 set object circle at x(4), y - high/2 - 122 size 11 fs empty \
   border rgb vermilion lw 2

@@ -34,6 +34,8 @@ for script in samples/figures/*.sh; do
   [ "$name" != draw ] || continue
   draw "$name"
   grep -q '^</svg>' "$scratch/$name.svg" || complain "$name: no end"
+  sed '/<g /,$d' "$scratch/$name.svg" | grep -q '<title>[^<]' &&
+    ! grep -qi '<title>gnuplot' "$scratch/$name.svg" || complain "$name: no title of its own"
   if parser; then
     python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' "$scratch/$name.svg" ||
       complain "$name: not well-formed"
@@ -47,7 +49,7 @@ has fig1-stop 'velocity v / (mm/s)' 'distance from rest / mm' \
   'with a memory of 0.5 mm (given, not fitted)'
 has fig4 'velocity v / (m/s)' 'shift D / mm' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt' \
   'Bands: 95 % confidence of the law, not of the points.' \
-  'Points: the free roll, less five records at each end.'
+  'Points: the free roll, less five rows at each end.'
 has energy 'energy / J' 'time t / s' translational rotational dissipated sum \
   'points: measured velocities' 'lines: fitted trajectory'
 
@@ -122,8 +124,12 @@ for instant in 0.5 1.5; do
     FILENAME ~ /text$/ {
       if (before ~ /^(P[TR][12]|IE2)$/) { key = before; sub(/E/, "_E", key); sub(/^P/, "P_", key)
         compare(before, $1 / 1e3, is[key]) }
-      if (before == "Pdiss = IE1 + IE2") compare("P_diss", $2 / 1e3, is["P_diss"])
+      if (before ~ /^(P[TR][12]|IE2)$/) said[before] = $1
+      if (before == "Pdiss = IE1 + IE2") {
+        compare("P_diss", $2 / 1e3, is["P_diss"]); said["diss"] = $2 }
       if (/^IE1 = /) compare("I_E1", 100 * $3, int(1e5 * is["I_E1"] + 0.5))  # mW, two decimals
+      if (before ~ / J$/ && /^[0-9.]+$/) said["trans"] = $1
+      else if (("trans" in said) && !("rot" in said) && /^[0-9.]+$/) said["rot"] = $1
       if (before ~ / J$/ && /^[0-9.]+$/ && !stored++) {
         compare("what E_trans gives", $1 / 1e3, is["trans"])
       }
@@ -134,13 +140,17 @@ for instant in 0.5 1.5; do
     END {
       split("P_T1 P_R2 I_E2 trans rot P_diss", drawn, " ")
       for (i = 1; i <= 5; i++) compare("the width of " drawn[i], width[i] / width[6], is[drawn[i]] / is["P_diss"])
+      if ((said["trans"] + said["rot"] - said["diss"])^2 > 1e-9 ||
+          (said["PT1"] + said["rot"] - said["PR2"])^2 > 1e-9) {
+        print "fig5: its numbers do not add up:", said["trans"], said["rot"], said["PR2"], said["diss"]
+        bad = 1 }
       if (checks != 14) { print "fig5: " checks " of 14 numbers found"; bad = 1 }
       exit bad }' "$scratch/row" "$scratch/fig5.text" "$scratch/shafts" || wrong=1
 done
 
 # Fig. 4: at 0.1 and 0.5 m/s each law and its band, read off the picture, where fitpower puts them.
 part() { awk -v n="$2" '/id="gnuplot_plot_/ { on = index($0, "\"gnuplot_plot_" n "\"") } on' "$scratch/$1.svg"; }
-curve() { part fig4 "$1" | grep -oE '[0-9.]+,[0-9.]+' | tr ',' ' '; }
+curve() { part fig4 "$1" | grep -oE "[ML' ][0-9.]+,[0-9.]+" | tr -d "ML' " | tr ',' ' '; }
 axes() { grep -oE "d='M[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+" "$scratch/$1.svg" |
   tail -n 1 | tr -c '0-9.\n' ' '; }
 frame=$(axes fig4)
@@ -151,7 +161,7 @@ for run in CR:0.5 SR:0.83 CF:0.5 SF:0.83; do
     differentiate |
     shift-from-accel -K "${run#*:}" -R 0.04 | fitpower -q | tail -n 1 >"$scratch/law"
   curve $i >"$scratch/band"
-  curve $((i + 8)) >"$scratch/line"
+  { curve $((i + 8)); curve $((i + 12)); } >"$scratch/line"
   awk -v frame="$frame" -v run="$run" '
     # The frame: left top left bottom right bottom, for D from 2.2 mm to 0, v from 0 to 0.5 m/s.
     BEGIN { split(frame, f, " ") }
@@ -199,10 +209,15 @@ samples/figures/fig4.sh "$scratch/swapped/CR.csv" |
   cmp - "$scratch/towards-growing-x.svg" || complain "fig4 of a record with x before t"
 smooth -q --coast -c v -w 11 "$scratch/my_'run'; set label.1.csv" | differentiate -c v |
   shift-from-accel -q -K 0.5 -R 0.04 | fitpower -q | tail -n 1 >"$scratch/law"
-sed -n 's/.*>\(my_.*\)<.text>.*/\1/p' "$scratch/own.svg" |
-  grep -qxF "my_&#39;run&#39;; set label.1" ||
-  grep -qF "my_'run'; set label.1" "$scratch/own.svg" ||
+sed "s/&#39;/'/g" "$scratch/own.svg" | grep -qF "my_'ru…label.1:  a = " ||
     complain "own record: its name is not there"
+# The picture says a, b, K and R with their uncertainties.
+samples/figures/fig4.sh -K 0.50+-0.05 -R 0.04 "$scratch/CR.csv" >"$scratch/given.svg"
+smooth -q --coast -c x -w 1 "$scratch/CR.csv" | differentiate -c x | smooth | differentiate |
+  shift-from-accel -K 0.50+-0.05 -R 0.04 | fitpower -q | awk -F'\t' '!/^#/ {
+    printf "CR:  a = %.3f ± %.3f mm,  b = %.3f ± %.3f\n", 1e3 * $1, 1e3 * $2, $3, $4 }' >"$scratch/said"
+grep -qF "$(cat "$scratch/said")" "$scratch/given.svg" || complain "fig4 does not say: $(cat "$scratch/said")"
+grep -qF 'K = 0.50 ± 0.05, R = 0.04 m' "$scratch/given.svg" || complain 'fig4 does not say K and R'
 # The key has every name, long ones without their middle, or says how many it has.
 names=()
 for i in {1..17}; do
@@ -211,16 +226,16 @@ for i in {1..17}; do
 done
 for n in 1 4 5 9 16 17; do
   samples/figures/fig4.sh "${names[@]:0:n}" >"$scratch/names.svg" || complain "fig4 of $n records"
-  [ "$(grep -c '<text>a.*…' "$scratch/names.svg")" = $((n > 16 ? 16 : n)) ] ||
-    complain "fig4 of $n records: $(grep -c '<text>a.*…' "$scratch/names.svg") names"
+  [ "$(grep -c '<title>a[^<]*…' "$scratch/names.svg")" = $((n > 16 ? 16 : n)) ] ||
+    complain "fig4 of $n records: $(grep -c '<title>a[^<]*…' "$scratch/names.svg") names"
 done
-grep -q 'The key names the first 16 of 17 records' "$scratch/names.svg" ||
+grep -q 'The key names the first 16 of 17 runs' "$scratch/names.svg" ||
   complain 'fig4 of 17 records does not say that it names 16'
-part own 3 | grep -oE '[0-9.]+,[0-9.]+' | tr ',' ' ' | awk -v frame="$(axes own)" '
+{ part own 3; part own 4; } | grep -oE '[ML][0-9.]+,[0-9.]+' | tr -d ML | tr ',' ' ' | awk -v frame="$(axes own)" '
   BEGIN { split(frame, f, " ") }
   FNR == NR { a = $1; b = $3; next }
   { if (!n++) { x0 = $1; y0 = $2 } x1 = $1; y1 = $2 }
-  END {  # from 4 % to the whole of the axis the law grows by 25^b
+  END {  # from one speed to another the law grows by their ratio to the power b
     grows = (f[4] - y1) / (f[4] - y0); wide = (x1 - f[1]) / (x0 - f[1])
     exit !(n > 50 && (grows / wide^b - 1)^2 < 1e-4) }' "$scratch/law" - ||
       complain "own record: its law"
