@@ -176,6 +176,12 @@ line. On felt <i>D</i> is small and hardly depends on the velocity, and the line
 lie on each other; on rubber it grows with the velocity. The points of one body are not independent:
 each sample is in eleven means, and the fit takes that into account.
 HTML
+drawn residuals "The residuals of a fit" <<'HTML'
+The cylinder on rubber: what is left of the positions when the motion that the law predicts is taken
+off, against time and against velocity. They scatter evenly about zero and not more in one place than
+in another: the law describes the run. <i>To discuss:</i> what would they look like if the hand were
+still on the body at the beginning, or the mat had a hole?
+HTML
 cat <<'HTML'
 <div class="section"><h3>Table 1: <i>D</i> = <i>a v<sup>b</sup></i></h3>
 <p>By two routes: through the points of Fig. 4, and by the motion of Fig. 1 fitted to the positions,

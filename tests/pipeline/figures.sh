@@ -50,6 +50,7 @@ has fig1-stop 'velocity v / (mm/s)' 'distance from rest / mm' \
 has fig4 'velocity v / (m/s)' 'shift D / mm' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt' \
   'Bands: 95 % confidence of the law, not of the points.' \
   'Points: the free roll, less five rows at each end.'
+has residuals 'residual / mm' 'time t / s' 'velocity v / (m/s)' '51 of 156 rows, 2 without a reading; no outlier'
 has energy 'energy / J' 'time t / s' translational rotational dissipated sum \
   'points: measured velocities' 'lines: fitted trajectory'
 
@@ -240,6 +241,34 @@ grep -q 'The key names the first 16 of 17 runs' "$scratch/names.svg" ||
     exit !(n > 50 && (grows / wide^b - 1)^2 < 1e-4) }' "$scratch/law" - ||
       complain "own record: its law"
 
+# The residuals, read off the picture at two of its ticks, are those of Eq. 13 with the row of
+# fitpower; the rms is that of the row; a row that is 20 mm off is named.
+smooth -q --coast -c x -w 1 samples/CR.csv >"$scratch/CR.roll"
+fitpower -q --route position -K 0.5 -R 0.04 "$scratch/CR.roll" >"$scratch/fit"
+part residuals 1a | grep -oE "gpPt6' transform='translate\([0-9.]+,[0-9.]+" | sed 's/.*(//; s/,/ /' >"$scratch/drawn"
+tr -d '\n\t' <"$scratch/residuals.svg" | sed 's|</text>|\n|g' |
+  sed -nE "s/.* d='M[0-9.]+,([0-9.]+) L[0-9., ]*'.*text-anchor=\"end\">/\1 /; s/<[^>]*>//g; s/−/-/g; /^[0-9.]+ *-?1$/p" >"$scratch/ticks"
+awk '
+  FILENAME ~ /fit$/ { if (!/^#/) { a = $1; b = $3; rms = $6; v0 = $8 } next }
+  FILENAME ~ /roll$/ { if (!/^#/) { if (!n++) start = $1; t[n] = $1; x[n] = $2 } next }
+  FILENAME ~ /ticks$/ { if ($2 == 1 && !high) high = $1; if ($2 == -1 && !low) low = $1; next }
+  { y[++drawn] = $2 }
+  END {
+    c = 9.81 / (1.5 * 0.04)
+    for (i = 1; i <= n; i++) {
+      left = v0^(1 - b) - (1 - b) * a * c * (t[i] - start); v = left > 0 ? left^(1 / (1 - b)) : 0
+      r[i] = x[i] - (v0^(2 - b) - v^(2 - b)) / ((2 - b) * a * c); sum += r[i] }
+    for (i = 1; i <= n; i++) {
+      is = (low - y[i]) / (low - high) * 2 - 1
+      if ((is - 1e3 * (r[i] - sum / n))^2 > (2 / (low - high))^2) { print "residual at " t[i] ": " is; bad = 1 } }
+    if (drawn != n || n != 51 || !(low > high + 50)) { print drawn " residuals for " n, low, high; bad = 1 }
+    exit bad }' "$scratch/fit" "$scratch/CR.roll" "$scratch/ticks" "$scratch/drawn" || complain 'residuals'
+grep -q "rms $(awk '!/^#/ { printf "%.3g", 1e3 * $6 }' "$scratch/fit") mm, scatter" "$scratch/residuals.svg" ||
+  complain 'residuals: another rms'
+awk -F, -v OFS=, 'NR == 70 { $2 += 0.02 } { print $1, $2 }' samples/CR.csv >"$scratch/off.csv"
+samples/figures/residuals.sh "$scratch/off.csv" >"$scratch/off.svg" 2>&1 || complain 'residuals of a row that is off'
+grep -q "t = 2.72 s" "$scratch/off.svg" && grep -q "1 outlier" "$scratch/off.svg" || complain 'residuals: the outlier is not named'
+
 # The stop: in the upper panel, from -22 to 110 mm/s, the law alone ends at 0, and with memory the
 # lowest velocity is simulate's.
 smooth -q --coast -c x -w 1 samples/CR.csv |
@@ -290,7 +319,7 @@ for e in elements:
         to = e.getAttribute(attribute)
         if to and to != "#_" and not (to.startswith("#") and to[1:] in names):
             wrong.append(f"{e.tagName} refers to {to}")
-wrong += [f"no svg in {f}" for f in ("fig1", "fig1-stop", "fig2", "fig3", "fig4", "fig5", "energy")
+wrong += [f"no svg in {f}" for f in ("fig1", "fig1-stop", "fig2", "fig3", "fig4", "fig5", "energy", "residuals")
           if not any(e.getElementsByTagName("svg") for e in elements if e.getAttribute("id") == f and e.tagName == "figure")]
 print(*wrong, sep="\n")
 sys.exit(bool(wrong))
