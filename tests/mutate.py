@@ -130,6 +130,12 @@ def make(goals, where):
     )
 
 
+def cases(tree, tool):
+    """The files and folders of cases of a tool."""
+    found = sorted((tree / "tests/tools").glob(f"{tool}*"))
+    return [str(p.relative_to(tree)) for p in found]
+
+
 def stages(tree, path, near):
     """(goals of make, command) of the tests that can notice a mutant of path: its own first, the
     long ones last."""
@@ -142,7 +148,7 @@ def stages(tree, path, near):
         return [str(p.relative_to(tree)) for p in found]
 
     if path.parts[0] == "cmd":
-        first = [("all", ["tests/run.sh", f"tests/tools/{path.stem}"])]
+        first = [("all", ["tests/run.sh", *cases(tree, path.stem)])]
     else:
         unit = f"build/unit-{room}"
         own = f"{path.stem}_test"
@@ -155,7 +161,7 @@ def stages(tree, path, near):
         tools = TOOLS.get(room, [])
         if near and tools:
             bins = " ".join(f"bin/{tool}" for tool in tools)
-            first.append((bins, ["tests/run.sh", *(f"tests/tools/{tool}" for tool in tools)]))
+            first.append((bins, ["tests/run.sh", *(c for tool in tools for c in cases(tree, tool))]))
     if near:
         return first
     if path.parts[0] == "lib":

@@ -2,19 +2,38 @@
 # Runs the tests and counts them. It prints a line as each group of tests ends, then what was
 # skipped and how to have it; the last line is `N passed, N failed`, with `, N skipped` if any were.
 #
-#   tests/run.sh [UNIT-PROGRAM] [FOLDER | SCRIPT]...
+#   tests/run.sh [UNIT-PROGRAM] [FOLDER | FILE.cases[:NAME] | SCRIPT.sh]...
 #
 # UNIT-PROGRAM is a Catch2 program (2.13 or 3): each of its test cases counts. A FOLDER is searched
-# for cases, a SCRIPT.sh is one test. Without folders and scripts: all cases of tests/tools, all
-# scripts of tests/pipeline, tests/faults and tests/house.
+# for files of cases, a SCRIPT is one test. Without these: all cases of tests/tools, all scripts of
+# tests/pipeline, tests/faults and tests/house. With :NAME only the cases of that name, a pattern of
+# the shell in which hyphens stand for blanks: tests/tools/smooth/filters.cases:mean-*
 #
-# A case is a folder with a shell line in `cmd`, which runs there with bin/ on the PATH and nothing
-# on standard input.
-#   expected  standard output, byte for byte; or, if there is a file `approx` with a tolerance, as
-#             tests/approx.awk compares
-#   stderr    standard error, byte for byte; empty without that file
-#   status    exit status; 0 without that file. Other than 0, and no `expected`: standard output
-#             must be empty
+# A file of cases holds for each of them what is true, the lines of a shell, and what they print:
+#
+#   === mean by hand
+#   smooth -w 3 input
+#   --- input
+#   0 1
+#   1 5
+#   2 3
+#   --- stdout
+#   # t[s]	v[m/s]
+#   0	1
+#   1	3
+#   2	3
+#   <an empty line, which belongs to no block>
+#   === the next case
+#
+#   --- stdout                   standard output, byte for byte; needed where the status is 0, and
+#   --- stdout within 1e-9 1e-12 with tolerances, relative and absolute, compared by approx.awk
+#   --- stderr                   standard error, byte for byte; without it there must be none
+#   --- status N                 exit status; 0 without it
+#   --- NAME                     any other name is a file in the folder where the lines run
+#
+# The lines run with bin/ on the PATH, nothing on standard input, in a new folder of the case; its
+# neighbours are ../samples and the files that stand above the first case. What a file of text does
+# not show (CR, a last line without its end) is made by printf. Above the first case also comments.
 # A script runs at the top of the checkout: status 0 is passed, 77 is skipped (its last line says
 # why, and how to have it), anything else is failed.
 set -u
@@ -53,27 +72,26 @@ run_unit() {
   echo "$passed $failed $skipped" >"$2/counts"
 }
 
-run_case() {
-  local status wanted=0 expected=/dev/null errors=/dev/null wrong=''
-  [ ! -f "$1/status" ] || wanted=$(cat "$1/status")
-  [ ! -f "$1/stderr" ] || errors=$1/stderr
-  if [ -f "$1/expected" ]; then expected=$1/expected
-  elif [ "$wanted" = 0 ]; then wrong='there is no file expected'
-  fi
-  (cd "$1" && TMPDIR=$2 exec timeout "$((60 * slower))" bash ./cmd) </dev/null >"$2/out" 2>"$2/err"
+run_case() {  # the path of a case, as plan_cases left it
+  local status wanted=0 expected=/dev/null errors=/dev/null
+  [ ! -f "$1.status" ] || wanted=$(<"$1.status")
+  [ ! -f "$1.stdout" ] || expected=$1.stdout
+  [ ! -f "$1.stderr" ] || errors=$1.stderr
+  (cd "$1" && TMPDIR=$2 exec timeout "$((60 * slower))" bash "$1.command") \
+    </dev/null >"$2/out" 2>"$2/err"
   status=$?
   {
-    [ -z "$wrong" ] || echo "$wrong"
     [ "$status" = "$wanted" ] || echo "exit $status instead of $wanted"
-    if [ -f "$1/approx" ]; then
-      awk -v tolerance="$(cat "$1/approx")" -f "$root/tests/approx.awk" "$expected" "$2/out"
+    if [ -f "$1.within" ]; then
+      awk -v tolerance="$(<"$1.within")" -f "$root/tests/approx.awk" "$expected" "$2/out"
     else
       diff -u --label expected "$expected" --label 'standard output' "$2/out"
     fi
     diff -u --label expected "$errors" --label 'standard error' "$2/err"
   } >"$2/wrong" 2>&1
   if [ -s "$2/wrong" ]; then
-    echo "FAIL ${1#"$root"/}: $(grep -v '^#' "$1/cmd")"
+    echo "FAIL $(<"$1.title")"
+    grep -v '^#' "$1.command"
     cat "$2/wrong"
     echo 0 1 0 >"$2/counts"
   else
@@ -106,24 +124,43 @@ kinds=() paths=() groups=()
 plan() {  # KIND PATH GROUP
   kinds+=("$1") paths+=("$2") groups+=("$3")
 }
-plan_cases() {
-  local cmd group
-  while IFS= read -r cmd; do
-    group=${cmd%/*/cmd}
-    plan case "${cmd%/cmd}" "${group#"$root"/}"
-  done < <(find "$1" -name cmd -type f | sort)
+plan_cases() {  # FILE.cases [NAME]
+  local folder number line name found=false of=${1#"$root"/}
+  folder=$(mktemp -d "$scratch/cases.XXXXXX") && ln -s "$root/samples" "$folder" &&
+    number=$(grep -c '^=== ' "$1") && (cd "$folder" && eval "mkdir {1..$number}") &&
+    awk -v into="$folder" -f "$root/tests/cases.awk" "$1" >"$folder.list" || exit 2
+  while read -r number line name; do
+    [[ ${name// /-} == ${2-*} ]] || continue
+    echo "$of:$line: $name" >"$folder/$number.title"
+    plan case "$folder/$number" "${of%.cases}"
+    found=true
+  done <"$folder.list"
+  $found || { echo "run.sh: $of: no case ${2-}" && exit 2; }
 }
 plan_script() {
   local group=${1%/*}
   plan script "$1" "${group#"$root"/}"
 }
+plan_folder() {
+  local file
+  while IFS= read -r file; do
+    plan_cases "$file"
+  done < <(find "$1" -name '*.cases' -type f | sort)
+}
 more=false
 for argument; do
+  file=${argument%%.cases:*}
   if [ -d "$argument" ]; then
+    plan_folder "$(absolute "$argument")"
+    more=true
+  elif [ "$file" != "$argument" ] && [ -f "$file.cases" ]; then
+    plan_cases "$(absolute "$file.cases")" "${argument#"$file.cases:"}"
+    more=true
+  elif [ -f "$argument" ] && [[ $argument == *.cases ]]; then
     plan_cases "$(absolute "$argument")"
     more=true
   elif [ ! -x "$argument" ]; then
-    echo "run.sh: $argument: no folder, and no program that can run"
+    echo "run.sh: $argument: no folder, no cases, and no program that can run"
     exit 2
   elif [[ $argument == *.sh ]]; then
     plan_script "$(absolute "$argument")"
@@ -136,7 +173,7 @@ if ! $more; then
   for script in "$root"/tests/pipeline/*.sh "$root"/tests/faults/*.sh "$root"/tests/house/*.sh; do
     [ ! -e "$script" ] || plan_script "$script"
   done
-  plan_cases "$root/tests/tools"
+  plan_folder "$root/tests/tools"
 fi
 
 total_passed=0 total_failed=0 total_skipped=0

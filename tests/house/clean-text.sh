@@ -1,24 +1,26 @@
 #!/bin/bash
-# Nothing is half there: a case has its cmd and an expectation, a file of lib/ that computes has its
+# Nothing is half there: a case runs its tool, a file of lib/ that computes has its
 # unit test, a test is run.
 set -u
 export LC_ALL=C
 unset CDPATH
 cd "$(dirname "$0")/../.." || exit 2
 wrong=0
+scratch=$(mktemp -d) || exit 2
+trap 'rm -rf "$scratch"' EXIT
 complain() { echo "$*" && wrong=1; }
 
-for folder in tests/tools/*/*/; do
-  [ -s "${folder}cmd" ] || complain "$folder has no cmd"
-  [ -e "${folder}expected" ] || [ -e "${folder}status" ] ||
-    complain "$folder has neither expected nor status"
-  tool=$(basename "$(dirname "$folder")")
-  grep -q -e "$tool" "${folder}cmd" || complain "${folder}cmd does not run $tool"
-done
 for source in cmd/*.cpp; do
   tool=$(basename "$source" .cpp)
-  [ -d "tests/tools/$tool" ] || complain "tests/tools/$tool: no cases"
-done
+  cases=("tests/tools/$tool"*.cases "tests/tools/$tool"/*.cases)
+  cat "${cases[@]}" 2>/dev/null | awk -v tool="$tool" '
+    function end() { if (name != "" && !runs) print "the case " name " does not run " tool }
+    /^=== / { end(); name = substr($0, 5); runs = 0; command = 1; next }
+    /^--- / { command = 0 }
+    command && index($0, tool) { runs = 1; ++cases }
+    END { end(); if (!cases) print "no cases of " tool }'
+done >"$scratch/complaints"
+[ ! -s "$scratch/complaints" ] || complain "$(cat "$scratch/complaints")"
 
 # A unit test includes the header of each source of lib/, or that of a source which is made of it.
 # Without: what only a command as a whole can show.
