@@ -71,6 +71,19 @@ build/common.h.gch:
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -x c++-header -o $@ build/common.h
 endif
 
+# The unit tests are compiled with -Og and parse Catch2 once, which takes 0.4 of the time.
+of_test := $(call object,$(test))
+$(of_test) build/catch.h.gch: override CXXFLAGS := $(CXXFLAGS:-O2=-Og)
+ifeq ($(origin CXX),default)
+$(of_test): private CPPFLAGS += -include build/catch.h
+$(of_test): | build/catch.h.gch
+build/catch.h.gch: override CPPFLAGS += -Itests
+build/catch.h.gch: tests/unit/catch.h
+	@mkdir -p $(@D)
+	printf '#include %s\n' $(common:%='%') '<random>' '"unit/catch.h"' >build/catch.h
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -x c++-header -o $@ build/catch.h
+endif
+
 # Catch2 brings its own main: version 3 as a library, version 2 as a header.
 build/unit: CPPFLAGS += -Itests
 build/unit: $(call object,$(test)) build/catch_main.o build/lib.a
