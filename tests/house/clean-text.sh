@@ -10,6 +10,9 @@ scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 complain() { echo "$*" && wrong=1; }
 
+while IFS= read -r file; do
+  complain "$file is no file of cases: nobody reads it"
+done < <(find tests/tools -type f ! -name '*.cases')
 for source in cmd/*.cpp; do
   tool=$(basename "$source" .cpp)
   cases=("tests/tools/$tool"*.cases "tests/tools/$tool"/*.cases)
