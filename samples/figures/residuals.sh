@@ -17,6 +17,7 @@ name=${file##*/} && name=${name%.*}
 # What is read but once is copied: it is read more than once here.
 [ -f "$file" ] || { cat -- "$file" >run && file=run; }
 
+a='' b='' v0='' rms=''
 route=position column=x unit=mm
 smooth -q -c x -w 1 "$file" >readings 2>/dev/null ||
   { route=velocity column=v unit=mm/s && smooth -q -c v -w 1 "$file" >readings; }
@@ -24,8 +25,8 @@ smooth -q --coast -c $column -w 1 "$file" >roll
 fitpower -q --route $route -K "$K" -R "$R" roll >fit
 eval "$(assignments <fit | sed "s/ = /=/g")"
 
-# column FILE NAME: that column, a number a line.
-column() {
+# of_name FILE NAME: that column, a number a line.
+of_name() {
   awk -F'\t' -v want="$2" '
     /^##/ { next }
     /^# / { sub(/^# /, ""); for (i = 1; i <= NF; i++) if (index($i, want "[") == 1) at = i; next }
@@ -33,11 +34,11 @@ column() {
 }
 # The roll of the law at the times of the rows, from its v0 towards growing x; of a roll the other way
 # the signs are turned. A fit of positions has an x0 of its own: the mean of the distances.
-column roll t >times
+of_name roll t >times
 start=$(head -n 1 times)
 awk -v start="$start" '{ printf "%.17g\n", $1 - start }' times |
   simulate -q -a "$a" -b "$b" --v0 "${v0#-}" -K "$K" -R "$R" --at - >law
-paste times <(column roll $column) <(column law $column) <(column law v) |
+paste times <(of_name roll $column) <(of_name law $column) <(of_name law v) |
   awk -v way="$([[ $v0 == -* ]] && echo -1 || echo 1)" -v column=$column '
     { t[NR] = $1; r[NR] = way * $2 - $3; v[NR] = $4; sum += r[NR] }
     END { x0 = column == "x" ? sum / NR : 0
