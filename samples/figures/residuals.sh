@@ -34,11 +34,11 @@ of_name() {
 }
 # The roll of the law at the times of the rows, from its v0 towards growing x; of a roll the other way
 # the signs are turned. A fit of positions has an x0 of its own: the mean of the distances.
-of_name roll t >times
-start=$(head -n 1 times)
-awk -v start="$start" '{ printf "%.17g\n", $1 - start }' times |
+of_name roll t >moments
+start=$(head -n 1 moments)
+awk -v start="$start" '{ printf "%.17g\n", $1 - start }' moments |
   simulate -q -a "$a" -b "$b" --v0 "${v0#-}" -K "$K" -R "$R" --at - >law
-paste times <(of_name roll $column) <(of_name law $column) <(of_name law v) |
+paste moments <(of_name roll $column) <(of_name law $column) <(of_name law v) |
   awk -v way="$([[ $v0 == -* ]] && echo -1 || echo 1)" -v column=$column '
     { t[NR] = $1; r[NR] = way * $2 - $3; v[NR] = $4; sum += r[NR] }
     END { x0 = column == "x" ? sum / NR : 0
@@ -63,7 +63,7 @@ awk -v unit=$unit -v rms="$rms" -v scatter="$scatter" -v rows="$(wc -l <residual
     outliers == 0 ? "no outlier" : outliers == 1 ? "1 outlier" : outliers " outliers" }' >>heading
 
 title="Residuals of $(head -n 1 heading | sed 's/[&<>\\|]/./g')"
-draw 520 640 "unit = '$unit'; first = $start; last = $(tail -n 1 times); rms = 1e3*$rms; \
+draw 520 640 "unit = '$unit'; first = $start; last = $(tail -n 1 moments); rms = 1e3*$rms; \
   outliers = $(wc -l <outliers)" <<'PLOT'
 set multiplot layout 2,1 margins 0.16,0.97,0.09,0.88 spacing 0.12
 stats 'residuals' using 3 nooutput

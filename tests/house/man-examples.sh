@@ -1,6 +1,8 @@
 #!/bin/bash
 # Every example of the manual pages runs, and prints what the page shows (blanks aside). An example
-# that ends in `# exits N` must exit with N.
+# that ends in `# exits N` must exit with N. The examples of a page run one after the other in one
+# folder, a copy of the top of the checkout with the samples alone: a file that one makes, the next
+# may read.
 #
 #   tests/house/man-examples.sh [PREFIX]     those of the source, or what is installed there
 #   tests/house/man-examples.sh refresh      writes into the pages what they print today: read the diff
@@ -53,13 +55,11 @@ refresh() {
     }' "$scratch/shown" "$1" >"$scratch/page" && cp "$scratch/page" "$1"
 }
 
-# run PAGE COMMAND SHOWN: runs in a fresh copy, as from the top of the checkout; SHOWN is empty if
-# the page shows no output.
+# run PAGE COMMAND SHOWN: SHOWN is empty if the page shows no output.
 run() {
   local page=$1 command=$2 shown=$3 status wanted=0
   [[ $command =~ \#\ exits\ ([0-9]+)$ ]] && wanted=${BASH_REMATCH[1]}
   count=$((count + 1))
-  rm -rf "$scratch/top" && mkdir "$scratch/top" && cp -R "$top/samples" "$scratch/top/" || exit 2
   (cd "$scratch/top" && LC_ALL=${EXAMPLES_LOCALE:-C} bash -o pipefail -c "$command") \
     </dev/null >"$scratch/out" 2>"$scratch/err"
   status=$?
@@ -82,6 +82,7 @@ run() {
 
 for page in "${pages[@]}"; do
   command='' shown='' blank='' indent='' continued=0
+  rm -rf "$scratch/top" && mkdir "$scratch/top" && cp -R "$top/samples" "$scratch/top/" || exit 2
   while IFS= read -r line; do
     text=${line#"${line%%[! ]*}"}
     if [[ $continued -eq 1 ]]; then
