@@ -15,11 +15,5 @@ s/^\\.Dt ($(upper "$tools")) /.Dt $(upper "$prefix")\\1 /
 s/^\\.(Nm|Ql) ($tools)( |\$)/.\\1 $prefix\\2\\3/
 s/Xr ($tools) 1/Xr $prefix\\1 1/g
 s/^($tools): /$prefix\\1: /
-/^\\$ /{
-  :command
-  s/(^\\$ |^ *|\\| |\\{ |\\()($tools)( |\$)/\\1$prefix\\2\\3/g
-  /\\\\e\$/{
-    n
-    b command
-  }
-}" "$page"
+/^\\$ /,/^\\.Ed/s/(^\\$ |^ *|\\| |\\{ |\\(|; |do )($tools)( |\$)/\\1$prefix\\2\\3/g
+" "$page"

@@ -158,7 +158,8 @@ std::string CommandLine::help(const std::string& name) const {
   }
   const bool reads = operands.size() > 1;
   return "Usage: " + name + " [OPTION...]" + (reads ? " [FILE...]" : "") + "\n" +
-         app.get_description() + '\n' + (reads ? operands : "") + options;
+         app.get_description() + '\n' + (reads ? operands : "") + options +
+         "\nIn full: man " + name + ". A tutorial: man rolling.\n";
 }
 
 }  // namespace rolling

@@ -55,9 +55,17 @@ refresh() {
     }' "$scratch/shown" "$1" >"$scratch/page" && cp "$scratch/page" "$1"
 }
 
+# Whether a command draws where there is no gnuplot, or runs a script of the samples, which calls the
+# tools by their plain names, where they are installed under others.
+absent() {
+  [[ $1 == *samples/figures/* ]] && ! command -v gnuplot >/dev/null ||
+    [[ $1 == *samples/*.sh* && ! -x $bin/smooth ]]
+}
+
 # run PAGE COMMAND SHOWN: SHOWN is empty if the page shows no output.
 run() {
   local page=$1 command=$2 shown=$3 status wanted=0
+  absent "$command" && return
   [[ $command =~ \#\ exits\ ([0-9]+)$ ]] && wanted=${BASH_REMATCH[1]}
   count=$((count + 1))
   (cd "$scratch/top" && LC_ALL=${EXAMPLES_LOCALE:-C} bash -o pipefail -c "$command") \
@@ -101,8 +109,8 @@ for page in "${pages[@]}"; do
       command=''
       continue
     fi
-    continued=0
-    [[ $command == *\\ ]] && continued=1
+    continued=0  # the command goes on where it ends with a backslash, or is not yet whole
+    [[ $command == *\\ ]] || ! bash -n -c "$command" 2>/dev/null && continued=1
   done < <(mandoc -Tascii "$page" | sed "s/.$overstrike//g"; echo .)
 done
 
