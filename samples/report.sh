@@ -120,7 +120,7 @@ of the body and pushes back at a point P, a distance <i>D</i> ahead of the lowes
 After Corridoni, D’Anna and Fuchs, <cite>Experiments and Models in Rolling Motion: Momentum, Angular
 Momentum, Energy, and Dissipation</cite>; the numbers of the equations are theirs.</p>
 <p>Four experiments: a solid cylinder C and a cylindrical shell S, on felt and on a rubber mat,
-followed by a sonar. <b>The records here are not the authors’ measurements:</b>
+followed by a sonar. <b>The runs here are not the authors’ measurements:</b>
 <code>simulate</code> made them from the paper’s values, with the noise, the rounding and the lost
 echoes of such a sensor. So the answer is known, and one can see how well it is found.</p>
 
@@ -174,7 +174,7 @@ Each point is <i>D</i> = −(1 + <i>K</i>) <i>R</i> d<i>v</i>/d<i>t</i> / <i>g</
 smoothed velocities; lines are the power laws fitted to them, bands the 95 % confidence of each
 line. On felt <i>D</i> is small and hardly depends on the velocity, and the lines of the two bodies
 lie on each other; on rubber it grows with the velocity. The points of one body are not independent:
-each sample is in eleven means, and the fit takes that into account.
+each reading is in eleven means, and the fit takes that into account.
 HTML
 drawn residuals "The residuals of a fit" <<'HTML'
 The cylinder on rubber: what is left of the positions when the motion that the law predicts is taken
@@ -185,9 +185,9 @@ HTML
 cat <<'HTML'
 <div class="section"><h3>Table 1: <i>D</i> = <i>a v<sup>b</sup></i></h3>
 <p>By two routes: through the points of Fig. 4, and by the motion of Fig. 1 fitted to the positions,
-which is more precise. <i>a</i> is the shift at 1 m/s. The first error is that of the noise, the second
+which is more precise. <i>a</i> is the shift at 1 m/s. The first uncertainty is that of the noise, the second
 that of <i>K</i> and <i>R</i>, which no further roll of the same body makes smaller. The columns “off”
-tell by how many standard errors of the noise a value differs from the paper’s, from which the records
+tell by how many standard uncertainties of the noise a value differs from the paper’s, from which the runs
 were made. <code>make table1</code></p>
 HTML
 table "Table 1" "$scratch/table1"
@@ -214,7 +214,7 @@ HTML
 cat <<'HTML'
 <div class="section"><h3>The check</h3>
 <p>The measured loss of each run beside what the shift of Table 1 dissipates; the closure is their
-relative difference (Eq. 23). Over many such records it scatters by some 1.2 %. The imbalance is the
+relative difference (Eq. 23). Over many such runs it scatters by some 1.2 %. The imbalance is the
 largest difference of the two at any moment of the run.</p>
 HTML
 table "Energy" "$scratch/table1"

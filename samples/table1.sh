@@ -1,7 +1,7 @@
 #!/bin/bash
-# Table 1 and the check of the dissipated energy, from the raw records alone: samples/table1.sh
-# (bash). Exits with 1 when a recovered value is more than 4 standard errors from
-# the paper's, or an energy balance is open.
+# Table 1 and the check of the dissipated energy, from the raw runs alone: samples/table1.sh (bash).
+# Exits with 1 when a recovered value is more than 4 standard uncertainties from the paper's, or an
+# energy balance is open.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
@@ -19,7 +19,7 @@ tolerance=0.05
 value() { sed -n "s/^$1 *= *\"*\([^ \"+]*\).*/\1/p" "$2.toml"; }
 given() { sed -n "s/^$1 *= *//p" "$2.toml" | tr -d '" '; }
 
-# The free roll in a raw record, with the positions as they are; and v from them, smoothed.
+# The free roll in a raw run, with the positions as they are; and v from them, smoothed.
 roll() { smooth -q --coast -c x -w 1 "$1.csv"; }
 velocity() { roll "$1" | differentiate -q -c x | smooth -w 11; }
 
@@ -48,7 +48,7 @@ fits() {
   done
 }
 
-# The row of a fit beside the paper's a and b: errors of the noise, then of K and R. The records
+# The row of a fit beside the paper's a and b: errors of the noise, then of K and R. The runs
 # were made with K and R as they are given, so that the noise alone counts in the distances.
 compare() {  # FIT ROUTE A B
   awk -v route="$2" -v a="$3" -v b="$4" '
@@ -74,8 +74,8 @@ table() {  # NAME TITLE A B RUN...
   compare "$name" "trajectory x(t)" "$a" "$b"
 }
 
-echo "Table 1, D = a v^b: from the raw records in samples/, beside the paper's values;" \
-  "distances in standard errors of the noise"
+echo "Table 1, D = a v^b: from the raw runs in samples/, beside the paper's values;" \
+  "off: in standard uncertainties of the noise"
 echo
 printf '  %-16s %-27s  %-27s  %-5s  %s\n' \
   route "a [1e-3 m], noise, K and R" "b, noise, K and R" "off a" "off b"
@@ -93,7 +93,7 @@ fits CF CF
 fits SF SF
 
 echo
-echo "What the paper expects of D(v)"
+echo "What the paper expects of D(v); the limits are this project's"
 awk '
   FNR == 1 { file = FILENAME; sub(/.*\//, "", file); sub(/\.fit$/, "", file) }
   !/^#/ { a[file] = $1; b[file] = $3 }
@@ -239,6 +239,7 @@ done
 echo
 cat <<'TEXT'
 A slope S acts like R S more shift on the way up and R S less on the way down, here 0.04 mm. One way by
-itself hides that: its residuals are as good as on a level mat. Both ways together tell it from the law.
+itself hides that: its residuals are as good as on a level mat. Only rolls in both directions separate
+the slope from the law.
 TEXT
 exit $failed
