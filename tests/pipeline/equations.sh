@@ -110,7 +110,7 @@ near 13 "$(echo 0.7 | simulate --scene "$scene" --at - --columns v | last 1)" "$
 near 23 "$(simulate --scene "$scene" | energy-ledger --scene "$scene" --columns E_diss | last 6)" \
   "$(awk 'BEGIN { printf "%.17g", 0.5 * 1.5 * 1.375 * 0.25 }')" 1e-6
 
-# The table of symbols: `.It SYMBOL Ta UNIT Ta MEANING Ta TOOL COLUMN`.
+# The table of symbols: SYMBOL, UNIT, MEANING and `TOOL COLUMN`, two blanks or more apart.
 simulate --scene "$scene" >"$scratch/roll"
 symbols=0
 while read -r tool column; do
@@ -124,8 +124,8 @@ while read -r tool column; do
     *) echo "$tool prints nothing" && false ;;
   esac >"$scratch/out" && grep '^#' "$scratch/out" | tail -n 1 | tr '\t' '\n' | sed 's/^# //; s/\[.*//' |
     grep -qx "$column" || { echo "rolling-motion(7): $tool does not print $column" && wrong=1; }
-done < <(sed -n '/^\.Ss Symbols/,/^\.El/p' man/rolling-motion.7 |
-  sed -nE 's/^\.It .* Ta ([a-z-]+ [A-Za-z0-9_]+)$/\1/p')
+done < <(sed -n '/^\.Ss Symbols/,/^\.Ed/p' man/rolling-motion.7 |
+  sed -nE 's/^.*  ([a-z-]+ [A-Za-z0-9_]+)$/\1/p')
 [ "$symbols" -ge 30 ] ||
   { echo "only $symbols symbols in the table of rolling-motion(7)" && wrong=1; }
 
@@ -137,7 +137,7 @@ while IFS= read -r line; do
   [[ $line != *'ledger '* ]] ||
     line=${line/ledger /energy-ledger --scene $scene --exact --columns }
   bash -o pipefail -c "$line" >/dev/null || { echo "fails: $line" && wrong=1; }
-done < <(sed -n '/^\.Ss Which command/,/^\.El/p' man/rolling-motion.7 |
-  sed -nE 's/^\.It [^a-z]* Ta ([a-z].*)$/\1/p')
+done < <(sed -n '/^\.Ss Which command/,/^\.Ed/p' man/rolling-motion.7 |
+  sed -nE 's/^[0-9, ]*  ([a-z].*)$/\1/p')
 [ "$commands" -ge 9 ] || { echo "only $commands commands in rolling-motion(7)" && wrong=1; }
 exit $wrong
