@@ -148,7 +148,8 @@ struct Comments {
     if (with_report && with_run) tool.say(fmt::format("run {}, the report:", runs.front().name));
     if (with_report) report(tool, runs, options, laws);
     if (with_check)
-      check(tool, route, result, runs, laws, disturbed_beginning(route, runs, options));
+      check(tool, route, result, runs, laws, disturbed_beginning(route, runs, options),
+            options.a && options.b);
   }
 };
 
@@ -161,7 +162,8 @@ std::vector<std::string> order_without_names(std::optional<Route> given, bool ti
 
 /// The route without --route, by the columns of the input.
 Route default_route(const Reader& in) {
-  return in.find("D") ? Route::shift : in.find("v") ? Route::velocity : Route::position;
+  return in.find("D") ? Route::shift
+         : in.find("x") || !in.find("v") ? Route::position : Route::velocity;
 }
 
 }  // namespace
@@ -180,7 +182,7 @@ int main(int argc, char** argv) {
   bool each = false, with_report = false, with_check = false;
   tool.choice("--route", given_route, fit_routes(),
               "what is fitted: D of v (loglog, shift), v of t or x of t (shift if there is D, else "
-              "velocity if v, else position)");
+              "position if x, else velocity)");
   tool.numbers("-K,--shape-factor", shape_factors, not_negative,
                "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
   tool.body(body, {radius, gravity}, &uncertainty);
@@ -204,7 +206,7 @@ int main(int argc, char** argv) {
     options.fit_slope = slope_text == "fit";
     if (!options.fit_slope) set_slope(slope_text, body, uncertainty);
     Reader& in = tool.read(order_without_names(given_route, tool.used("t")));
-    const Route route = given_route ? *given_route : default_route(in);
+    Route route = given_route ? *given_route : default_route(in);
     options.possible_filters = filters_of_sensors();
     const bool trajectory = is_trajectory(route);
     if (trajectory) tool.need({"radius", "shape-factor"});
@@ -216,6 +218,7 @@ int main(int argc, char** argv) {
     auto runs =
         read_runs(tool, in, route, with_report ? Columns::of_all_routes : Columns::of_route);
     if (!each) warn_of_copies(tool, route, runs);
+    if (route == Route::velocity && take_pulses(tool, runs)) route = Route::position;
     set_bodies(runs, body, shape_factors, uncertainty);
     if (!trajectory && !options.fit_slope) warn_of_unused_body(tool, runs, options.geometry);
     const auto fits = grouped(std::move(runs), each);

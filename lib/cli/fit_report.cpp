@@ -125,27 +125,51 @@ std::string of_run(const std::vector<FitRun>& runs) {
   return runs.size() == 1 ? fmt::format("run {}: ", runs[0].name) : "";
 }
 
+/// What a reader of the row alone would not know and what speaks against it: a warning, or a reason
+/// why the check does not hold. A reason that no other one causes comes first.
+std::vector<std::string> against(const FitResult& r, const std::vector<FitRun>& runs, bool noisy) {
+  std::vector<std::string> all;
+  const std::string run = of_run(runs);
+  if (r.agreement && !r.agreement->agree())
+    all.push_back(disagreement(r, runs) + "; the errors allow for that");
+  if (r.off && noisy)
+    all.push_back(fmt::format(
+        "run {}: the reading at t = {:.6g} s is {:.2g} standard deviations off the roll{}: look at "
+        "it, and leave it out (smooth --outliers), or fit the raw column with --robust",
+        runs[r.off->run].name, r.off->time, r.off->distance,
+        r.off->count > 1 ? fmt::format(", and {} more are off", r.off->count - 1) : ""));
+  if (r.b + levels::below_least_b * r.sigma_b < levels::least_b && noisy)
+    all.push_back(fmt::format(
+        "{}b is {:.3g} +- {:.2g}: no mat resists so much more as the body slows down, but a hand, "
+        "a wall, an incline or a magnet at the end of the roll does; cut it off",
+        run, r.b, r.sigma_b));
+  return all;
+}
+
 }  // namespace
 
 void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
              bool check_comes) {
-  for (std::size_t i = 0; i < r.v0.size(); ++i)
-    if (const double D = r.a * std::pow(std::abs(r.v0[i]), r.b); D > runs[i].body.R) {
-      tool.warn(fmt::format(
-          "run {}: no body rolls so: at its first speed, {:.3g} m/s, D is {:.3g} m, beyond the "
-          "radius {} m; are the units of the columns right?",
-          runs[i].name, r.v0[i], D, runs[i].body.R));
-      break;
-    }
+  for (std::size_t i = 0; i < r.v0.size(); ++i) {
+    const double D = r.a * std::pow(std::abs(r.v0[i]), r.b), R = runs[i].body.R;
+    const bool beyond = D > R;
+    if (!beyond && !(std::abs(D) < levels::least_D_over_R * R)) continue;
+    tool.warn(fmt::format(
+        "run {}: no body rolls so: at its first speed, {:.3g} m/s, D is {:.3g} m, {} the radius {} "
+        "m: the units of a column, or the radius, are hardly right",
+        runs[i].name, r.v0[i], D, beyond ? "beyond" : "not a ten-thousandth of", R));
+    break;
+  }
   const std::string run = of_run(runs);
   if (r.a < 0)
     tool.warn(run +
               "a is negative: D has the other sign than v, as if the mat drove the body on, "
               "which simulate refuses");
-  if (exact(route, r, runs)) return;
-  // ln a has the normal distribution. Where sigma_a is 0.3 a, a +- 1.96 sigma_a holds the truth in
-  // 93.6 % still, but misses it by more than 3 sigma_a six times too often, and then worse.
-  if (r.a > 0 && r.sigma_a > 0.3 * r.a)
+  const bool noisy = !exact(route, r, runs);
+  if (!check_comes)
+    for (const std::string& text : against(r, runs, noisy)) tool.warn(text);
+  if (!noisy) return;
+  if (r.a > 0 && r.sigma_a > levels::uncertain_a * r.a)
     tool.warn(fmt::format(
         "{}sigma_a is {:.2g} times a: this ratio is the standard error of ln a, and a is "
         "too uncertain for the interval a +- sigma_a",
@@ -163,8 +187,6 @@ void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitR
               "use --route shift");
   if (r.errors == Errors::uneven)
     tool.warn(run + "the noise is not of one size: the errors allow for that");
-  if (r.agreement && !r.agreement->agree() && !check_comes)
-    tool.warn(disagreement(r, runs) + "; the errors allow for that");
   if (const auto& found = r.eccentricity)
     tool.warn(fmt::format(
         "run {}: the speed changes once a turn (significance {:.1g}), as if the centre of mass lay "
@@ -185,29 +207,27 @@ void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& optio
   if (!laws->possible())
     return tool.say("too few independent records to compare a v^b with other laws");
   for (const LawFit& fit : laws->fits) tool.say(described(fit, laws->least()));
-  tool.say(laws->against_power() <= 2 ? "D = a v^b is adequate" : "D = a v^b is not adequate");
+  tool.say(laws->against_power() <= levels::adequate ? "D = a v^b is adequate" : "D = a v^b is not adequate");
 }
 
 void check(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
-           const std::optional<LawComparison>& laws, const std::optional<Beginning>& beginning) {
-  // The difference in AICc at which the other law has essentially no support (Burnham and
-  // Anderson 2002, section 2.6).
-  constexpr double better = 10;
+           const std::optional<LawComparison>& laws, const std::optional<Beginning>& beginning,
+           bool both_held) {
   const std::string run = of_run(runs);
-  // check_failed() prints the first reason in full. Therefore a reason that no warning has
-  // reported, or that would cause the others, comes first.
-  if (r.agreement && !r.agreement->agree())
-    tool.check_failed(disagreement(r, runs) + "; the errors allow for that");
   const bool noisy = !exact(route, r, runs);
+  // check_failed() prints the first reason in full.
+  if (r.errors == Errors::none || (r.sigma_a == 0 && r.sigma_b == 0 && !both_held))
+    tool.check_failed(run + "nothing is left to tell standard uncertainties from: fit more readings");
+  for (const std::string& text : against(r, runs, noisy)) tool.check_failed(text);
   if (noisy && beginning)
     tool.check_failed(fmt::format(
         "run {}: the first {} records do not go on as the others (chance {:.1g}), as if a hand "
         "were still on: cut off {:.2g} s",
         runs[beginning->run].name, beginning->records, beginning->significance, beginning->time));
-  if (laws && laws->against_power() >= better)
+  if (laws && laws->against_power() >= levels::another_law)
     tool.check_failed(fmt::format("{}D = {} is better than a v^b by {:.1f} in AICc; see --report",
                                   run, laws->best_other().law->formula, laws->against_power()));
-  if (noisy && r.whiteness <= not_white)
+  if (noisy && r.whiteness <= levels::not_white)
     tool.check_failed(
         fmt::format("{}the residuals are not white (Ljung-Box p {:.2g}): the law, or what is "
                     "known of the noise, is not right",

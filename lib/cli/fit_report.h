@@ -26,9 +26,10 @@ void warn_of(Tool&, Route, const FitResult&, const std::vector<FitRun>&, bool ch
 void report(Tool&, const std::vector<FitRun>&, const FitOptions&,
             const std::optional<LawComparison>&);
 
-/// Reports a failed check if the runs of a joint fit disagree, another law is better by 10 in AICc,
-/// the beginning of a run is disturbed, or the residuals are not white.
+/// Reports a failed check if there are no standard errors (unless a and b are both held), the runs
+/// of a joint fit disagree, a reading is off, b is far below what mats have, another law is better
+/// by 10 in AICc, the beginning of a run is disturbed, or the residuals are not white.
 void check(Tool&, Route, const FitResult&, const std::vector<FitRun>&,
-           const std::optional<LawComparison>&, const std::optional<Beginning>&);
+           const std::optional<LawComparison>&, const std::optional<Beginning>&, bool both_held);
 
 }  // namespace rolling

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cli/history.h"
+#include "signal/pulses.h"
 #include "signal/repeats.h"
 
 namespace rolling {
@@ -147,6 +148,26 @@ std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, Columns colum
   }
   warn_of_lost_history(tool, runs, has_history);
   return runs;
+}
+
+bool take_pulses(Tool& tool, std::vector<FitRun>& runs) {
+  std::vector<double> ways;
+  for (const FitRun& run : runs) {
+    const auto way = run.filters.empty() ? way_between_pulses(run.t, run.v) : std::nullopt;
+    if (!way) return false;
+    ways.push_back(*way);
+  }
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    for (std::size_t i = 0; i < runs[r].t.size(); ++i)
+      runs[r].x.push_back(ways[r] * static_cast<double>(i));
+    std::vector<double>().swap(runs[r].v);
+  }
+  tool.warn(fmt::format(
+      "run {}{}: each speed is {:.6g} m over the time between two rows: the rows are pulses, and "
+      "their positions are fitted",
+      runs[0].name, runs.size() > 1 ? fmt::format(" and {} others", runs.size() - 1) : "",
+      ways[0]));
+  return true;
 }
 
 void set_bodies(std::vector<FitRun>& runs, const Body& body,

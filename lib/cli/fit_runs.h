@@ -24,6 +24,10 @@ enum class Columns { of_route, of_all_routes };
 /// records that are left out because their windows are not known.
 std::vector<FitRun> read_runs(Tool&, Reader&, Route, Columns);
 
+/// Where the speeds of all runs are those of pulses, a fixed way over the time from row to row, gives
+/// the runs that way as positions, says so, and returns true: the positions are what was measured.
+bool take_pulses(Tool&, std::vector<FitRun>&);
+
 /// Gives the runs their bodies. There is one shape factor, or one for each run, or none.
 void set_bodies(std::vector<FitRun>&, const Body&, const std::vector<Estimate>& shape_factors,
                 const BodyUncertainty&);

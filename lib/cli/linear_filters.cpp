@@ -21,8 +21,25 @@ LinearFilter linear(const std::string& from, const std::string& to, const Signal
           options.method->shift_invariant && options.width.seconds == 0};
 }
 
+namespace {
+
+/// The way over the time from row i - 1 to row i, as the speed of row i or (`forward`) of row i -
+/// 1. The row without a neighbour has the speed of the one beside it.
+LinearFilter step(bool forward) {
+  return {"x", "v", 1, [forward](auto t, auto x) {
+            const std::size_t n = x.size();
+            std::vector<double> v(n);
+            for (std::size_t i = 1; i < n; ++i)
+              v[forward ? i - 1 : i] = (x[i] - x[i - 1]) / (t[i] - t[i - 1]);
+            if (n > 1) (forward ? v[n - 1] : v[0]) = forward ? v[n - 2] : v[1];
+            return v;
+          }};
+}
+
+}  // namespace
+
 std::vector<LinearFilter> filters_of_sensors() {
-  std::vector<LinearFilter> filters;
+  std::vector<LinearFilter> filters{step(false), step(true)};
   for (const char* method : {"central", "vernier", "pasco"}) {
     const SignalOptions options = signal_options(derivative_methods, method).value();
     filters.push_back(linear("x", "v", options, options.method->reach));

@@ -16,8 +16,10 @@ LinearFilter identity(const std::string& from, const std::string& to);
 LinearFilter linear(const std::string& from, const std::string& to, const SignalOptions&,
                     std::size_t reach);
 
-/// The filters that the software of sensors may apply to speeds: the central difference of
-/// positions and the differences of Vernier's and PASCO's programs; and means of 2, 3 or 5 speeds,
+/// The filters that the software of sensors may apply to speeds: the differences of positions to
+/// the row before and to the row after (of spreadsheets, gates and encoders; where times are even,
+/// those in the middle between them differ in the clock alone), the central one, and those of
+/// Vernier's and PASCO's programs; and means of 2, 3 or 5 speeds,
 /// whose noise is similar to some of these.
 std::vector<LinearFilter> filters_of_sensors();
 

@@ -13,6 +13,7 @@
 #include "base/gsl.h"
 #include "fit/errors.h"
 #include "fit/fitted.h"
+#include "fit/levels.h"
 #include "fit/roll_fit.h"
 #include "fit/route.h"
 #include "statistics/residuals.h"
@@ -96,7 +97,6 @@ struct Search {
 
 std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitRun>& runs,
                                              const FitOptions& options) {
-  constexpr double decisive = 0.001, white = 0.005;
   if (options.robust) return {};
   for (const FitRun& run : runs)
     if (!run.filters.empty()) return {};
@@ -113,7 +113,8 @@ std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitR
   auto& [found, rest, parameters] = *search.found;
   found.significance = std::min(1.0, found.significance * search.tests);
   const std::size_t size[] = {rest.size()};
-  if (found.significance > decisive || ljung_box(rest, taken_by_few(parameters), size) <= white)
+  if (found.significance > levels::beginning ||
+      ljung_box(rest, taken_by_few(parameters), size) <= levels::beginning_white)
     return {};
   return found;
 }

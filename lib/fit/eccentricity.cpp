@@ -10,7 +10,9 @@
 
 #include "base/by_run.h"
 #include "base/dot.h"
+#include "base/median.h"
 #include "contact/contact.h"
+#include "fit/levels.h"
 #include "least_squares/triangles.h"
 
 namespace rolling {
@@ -191,21 +193,32 @@ class Periodogram {
   Column times_;
 };
 
+/// Cuts residuals off at a few standard deviations: a burst or a lost echo has all periods. Returns
+/// what is left of the sum of their squares, as a share.
+double cut_off(std::span<double> f) {
+  const double before = dot(f, f);
+  Column sizes(f.begin(), f.end());
+  for (double& x : sizes) x = std::abs(x);
+  const double most = levels::cut_off * deviation(sizes);
+  if (!(most > 0)) return 1;
+  for (double& x : f) x = std::clamp(x, -most, most);
+  return dot(f, f) / before;
+}
+
 }  // namespace
 
 std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRun>& runs,
                                             const Fitted& fit, double variance) {
-  constexpr double decisive = 0.01;
   if (!fit.rolls || fit.minimum.f.size() < fit.minimum.theta.size() + 10) return {};
   std::optional<Eccentricity> found;
   const bool known = fit.filters_known();
-  const Column f = known ? fit.noise->to_sources(fit.minimum.f) : fit.minimum.f;
+  Column f = known ? fit.noise->to_sources(fit.minimum.f) : fit.minimum.f;
   const auto f_of = by_run(f, known ? fit.noise->sources() : fit.system.runs);
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size();
   const double of_all = fit.minimum.rss / static_cast<double>(n - p);
   const auto residuals = by_run(fit.minimum.f, fit.system.runs);
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    const double squares = dot(residuals[r], residuals[r]),
+    const double squares = dot(residuals[r], residuals[r]) * cut_off(f_of[r]),
                  freedom = static_cast<double>(residuals[r].size()) -
                            static_cast<double>(fit.system.columns());
     if (!(freedom > 2 && squares > 0)) continue;
@@ -216,7 +229,7 @@ std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRu
     if (!spectrum.worth(turns)) continue;
     Eccentricity once_a_turn = spectrum.of(turns);
     once_a_turn.significance *= static_cast<double>(runs.size());
-    if (once_a_turn.significance > decisive ||
+    if (once_a_turn.significance > levels::one_turn ||
         (found && found->significance < once_a_turn.significance))
       continue;
     const double near = std::min(spectrum.of(spectrum.wobble(0.7)).significance,

@@ -1,5 +1,7 @@
 #include "fit/errors.h"
 
+#include <gsl/gsl_cdf.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +9,7 @@
 
 #include "base/by_run.h"
 #include "base/dot.h"
+#include "base/grid.h"
 #include "statistics/residuals.h"
 
 namespace rolling {
@@ -171,15 +174,30 @@ Tested tested(std::span<const double> noise, std::span<const std::size_t> runs, 
   for (std::size_t i = 0; i < left.size(); ++i)
     alike.push_back(left[i] > 0 ? noise[i] / std::sqrt(left[i]) : 0);
   const bool uneven = std::min(breusch_pagan(left.empty() ? noise : alike, runs),
-                               unequal_runs(noise, runs, left)) <= (runs.size() > 1 ? 0.005 : 0.01);
-  if (uneven && whiteness <= not_white) whiteness = ljung_box_uneven(noise, taken, runs);
-  if (whiteness <= not_white) return {whiteness, Errors::autocorrelation};
+                               unequal_runs(noise, runs, left)) <=
+                      (runs.size() > 1 ? levels::uneven_runs : levels::uneven);
+  if (uneven && whiteness <= levels::not_white) whiteness = ljung_box_uneven(noise, taken, runs);
+  if (whiteness <= levels::not_white) return {whiteness, Errors::autocorrelation};
   if (uneven) return {whiteness, Errors::uneven};
-  // With 60 records the test often misses an autocorrelation of 0.5, although the classical errors
-  // are then only half as large as they should be. This limit gives Newey-West errors to one in ten
-  // records with white noise, at a cost of 1 to 2 % in their size.
-  const bool near = whiteness <= 0.1 && lagged(noise, runs, 1) > 0;
+  const bool near = whiteness <= levels::nearly_white && lagged(noise, runs, 1) > 0;
   return {whiteness, near ? Errors::autocorrelation : white};
+}
+
+/// The mean variance that the rounding of the readings leaves them; 0 behind filters. Gates fix x or
+/// v, and t is measured: readings on a grid that are far closer to the roll than rounding would
+/// leave them, and of which none repeats, are not rounded.
+double variance_of_rounding(const Fitted& fit, double freedom) {
+  if (!fit.rolls || fit.noise->known()) return 0;
+  double sum = 0;
+  bool repeats = false;
+  for (const ObservedRun& run : fit.rolls->runs()) {
+    sum += std::pow(grid_of(run.y), 2) / 12 * static_cast<double>(run.y.size());
+    repeats |= std::ranges::adjacent_find(run.y) != run.y.end();
+  }
+  const double variance = sum / static_cast<double>(fit.minimum.f.size());
+  return repeats || gsl_cdf_chisq_P(fit.minimum.rss / variance, freedom) > levels::not_rounded
+             ? variance
+             : 0;
 }
 
 Tested tested(const Fitted& fit) {
@@ -211,6 +229,9 @@ Uncertainty uncertainty_of(const Fitted& fit) {
   if (fit.degrees_left() == 0)
     return {Errors::none, nan, nan, {R, std::vector<double>(R.size(), nan), q}};
   const bool known = fit.filters_known();
+  const double freedom = static_cast<double>(n - p), floor = variance_of_rounding(fit, freedom);
+  if (fit.minimum.rss < floor * freedom)
+    return {Errors::classical, nan, floor, {R, classical(fit, floor), q}};
   const auto [whiteness, kind] = tested(fit);
   const bool consistent = kind == Errors::autocorrelation || kind == Errors::uneven;
   Sources sources;
@@ -222,7 +243,7 @@ Uncertainty uncertainty_of(const Fitted& fit) {
     M = meat_of(fit);
   }
   const double variance =
-      known ? variance_of(fit, M) : fit.minimum.rss / static_cast<double>(n - p);
+      known ? variance_of(fit, M) : fit.minimum.rss / freedom;
   if (consistent) M = consistent_meat(fit, std::move(sources), kind, variance);
   else if (known)
     for (double& x : M) x *= variance;

@@ -6,10 +6,12 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/rounding.h"
 #include "fit/agreement.h"
 #include "fit/eccentricity.h"
 #include "fit/errors.h"
 #include "fit/given_numbers.h"
+#include "fit/off_readings.h"
 #include "fit/roll_fit.h"
 #include "fit/route.h"
 
@@ -83,6 +85,31 @@ void require_determined(const FitResult& result, const FitOptions& options) {
     fail("as many parameters as records do not determine b: it comes out as {:.3g}", result.b);
 }
 
+/// Throws Error if the roll has no shift, as a body at rest, or if it has lost nearly all of v0
+/// before the second reading, as where the first one is wrong.
+void require_seen(const Fitted& found, const std::vector<FitRun>& all) {
+  if (!found.rolls) return;
+  const auto& runs = found.rolls->runs();
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const ObservedRun& run = runs[r];
+    const std::string place = runs.size() > 1 ? fmt::format("run {}: ", all[r].name) : "";
+    const Trajectory roll = found.rolls->trajectory(found.minimum.theta, r);
+    const double v0 = std::abs(found.v0[r].value),
+                 D = found.a.value * std::pow(v0, found.b.value);
+    if (run.body.slope == 0 && !found.slope && std::abs(D) < program_rounding * run.body.R)
+      fail("{}the body does not slow down: D comes out as {:.2g} m", place, D);
+    double fastest = 0;
+    for (std::size_t i = 0; i + 1 < run.t.size() && fastest <= v0 / levels::v0_over_speeds; ++i)
+      fastest = std::max(fastest, (roll.distance_at(run.t[i + 1]) - roll.distance_at(run.t[i])) /
+                                      (run.t[i + 1] - run.t[i]));
+    if (v0 > levels::v0_over_speeds * fastest)
+      fail(
+          "{}no reading comes near v0 = {:.3g} m/s: is the first one, at t = {} s, of the roll? "
+          "Leave it out (smooth --outliers or --from), or fit with --robust",
+          place, found.v0[r].value, run.origin);
+  }
+}
+
 /// Throws Error if records follow after D has reached R (exact geometry, b < 0) at a speed that is
 /// not next to rest. There the model lets D be R, which serves the search, but is not the law.
 void require_law(const Fitted& found, const std::vector<FitRun>& all) {
@@ -106,11 +133,13 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   const Uncertainty uncertainty = uncertainty_of(found);
   NoiseErrors noise = noise_errors(found, uncertainty);
   const auto eccentricity = eccentricity_of(route, runs, found, uncertainty.variance);
+  const auto off = off_readings(route, runs, options, found);
   const auto agreement = agreement_of(route, runs, options, noise, found);
   std::vector<ErrorShare> shares{noise.share};
   const double rms = rms_of(found);
   require_determined(result_of(found, rms, noise, shares), options);
   require_law(found, runs);
+  require_seen(found, runs);
   for (ErrorShare& share :
        shares_of_given(route, runs, options, found, !agreement || agreement->agree()))
     shares.push_back(std::move(share));
@@ -121,6 +150,7 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   if (!is_trajectory(route)) result.v0 = result.sigma_v0 = {};
   result.agreement = agreement;
   result.eccentricity = eccentricity;
+  result.off = off;
   return result;
 }
 

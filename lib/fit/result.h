@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/estimate.h"
+#include "fit/levels.h"
 
 #include <cmath>
 #include <cstddef>
@@ -28,6 +29,14 @@ struct Eccentricity {
   double phase;         ///< [rad]
 };
 
+/// Single readings that are off the motion of the others, see off_readings().
+struct OffReadings {
+  std::size_t run;      ///< the number of the run, from 0
+  std::size_t count;    ///< of the readings of that run
+  double time;          ///< of the reading that is furthest off [s]
+  double distance = 0;  ///< of that reading, in standard deviations of the others
+};
+
 /// The comparison of the runs of a joint fit, each fitted by its own law, and the run that differs
 /// most from the others.
 struct Agreement {
@@ -40,7 +49,7 @@ struct Agreement {
   Estimate log_D = {};      ///< ln D of that run minus ln D of the others at that speed
   Estimate b = {};          ///< the exponent of that run minus the exponent of the others
 
-  bool agree() const { return significance > 0.01; }
+  bool agree() const { return significance > levels::runs_disagree; }
 };
 
 /// The contribution of one source of error to the standard errors, which are the root sums of
@@ -69,18 +78,16 @@ struct FitResult {
   Errors errors;
   std::optional<Eccentricity> eccentricity = {};  ///< of the run with the most significant signal
   std::optional<Agreement> agreement = {};        ///< for two or more runs
+  std::optional<OffReadings> off = {};            ///< of the run with the reading furthest off
   std::vector<ErrorShare> shares = {};            ///< the noise first
 };
 
-/// True if the data determine b. A larger error of a nonlinear fit is not reliable itself.
-inline bool determines_b(double sigma_b) { return sigma_b <= 3; }
+/// True if the data determine b.
+inline bool determines_b(double sigma_b) { return sigma_b <= levels::largest_sigma_b; }
 
-/// At or below this significance of the Ljung-Box test the noise is taken as not white. The test is
-/// made at two numbers of lags, so that about 0.6 % of the records with white noise fall below it.
-inline constexpr double not_white = 0.003;
 /// True if the noise is significantly autocorrelated and the standard errors allow for that.
 inline bool noise_is_correlated(const FitResult& r) {
-  return r.errors == Errors::autocorrelation && r.whiteness <= not_white;
+  return r.errors == Errors::autocorrelation && r.whiteness <= levels::not_white;
 }
 
 /// For a fit by loglog. Noise makes the logarithms of D too low, by rms^2 / 2 on average (to second

@@ -46,30 +46,63 @@ Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
     const WhiteShare found =
         most_likely_share(model_of(responses_by(filter, all)), theta, least, most);
     const double gain = found.likelihood - of_white_noise;
-    if (gain >= 3 && gain > best.gain) best = {&filter, found.share, gain};
+    if (gain >= levels::likely && gain > best.gain) best = {&filter, found.share, gain};
   }
   return best;
 }
 
+/// For each record, the number of gaps before it: of steps that are much longer than those around
+/// them. The steps of a wheel that slows down grow, and uneven times differ, without a gap.
+std::vector<std::size_t> gaps_before(const std::vector<double>& t) {
+  constexpr std::size_t around = 5;
+  constexpr double longer = 1.7;
+  std::vector<std::size_t> gaps(t.size());
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    std::vector<double> near;
+    for (std::size_t k = i - std::min(i - 1, around); k < std::min(i + around + 1, t.size()); ++k)
+      near.push_back(t[k] - t[k - 1]);
+    gaps[i] = gaps[i - 1] + (t[i] - t[i - 1] > longer * median(near));
+  }
+  return gaps;
+}
+
 /// Sensors' programs differ in how they treat the ends of a run and lost records; elsewhere the
 /// candidates are known. This function removes from `rows` the records whose window reaches an end
-/// or a gap; it returns false if a run is shorter than one window.
+/// or a gap; it returns false if that would be half of a run: what is left would be another run.
 bool leave_out_irregular(const std::vector<FitRun>& all, std::vector<Rows>& rows,
                          std::size_t reach) {
   for (std::size_t r = 0; r < all.size(); ++r) {
-    const auto& t = all[r].t;
-    std::vector<double> spans;  // durations of the windows
-    for (std::size_t i = 2 * reach; i < t.size(); ++i) spans.push_back(t[i] - t[i - 2 * reach]);
-    if (spans.empty()) return false;
-    auto sorted = spans;
-    // A window may be longer than the median by half a record.
-    const double most =
-        nth_smallest(sorted, sorted.size() / 2) * (1 + 0.25 / static_cast<double>(reach));
+    const std::size_t n = all[r].t.size(), before = rows[r].size();
+    const auto gaps = gaps_before(all[r].t);
     std::erase_if(rows[r], [&](std::size_t i) {
-      return i < reach || i + reach >= t.size() || spans[i - reach] > most;
+      return i < reach || i + reach >= n || gaps[i + reach] > gaps[i - reach];
     });
+    if (2 * rows[r].size() < before) return false;
   }
   return true;
+}
+
+/// How long before its row, on average, a filter takes its speed; 0 for uneven times, where the
+/// filter knows.
+double lag_of(const LinearFilter& filter, const std::vector<double>& t) {
+  const std::size_t n = t.size();
+  const double step = (t[n - 1] - t[0]) / static_cast<double>(n - 1);
+  std::vector<double> squares;
+  for (std::size_t i = 1; i < n; ++i)
+    if (std::abs(t[i] - t[i - 1] - step) > 0.01 * step) return 0;
+  for (const double x : t) squares.push_back((x - t[0]) * (x - t[0]));
+  const std::size_t middle = n / 2;
+  return t[middle] - t[0] - filter.apply(t, squares)[middle] / 2;
+}
+
+/// On even times differences to the row before, to the row after and over the middle of a step
+/// differ in the clock alone. The speeds are taken as those of their rows, as they are said to be.
+void set_clock(Fitted& fit, const LinearFilter& filter, const std::vector<FitRun>& all) {
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    const Trajectory roll = fit.rolls->trajectory(fit.minimum.theta, r);
+    double& v0 = fit.v0[r].value;
+    v0 -= std::copysign(lag_of(filter, all[r].t), v0) * roll.acceleration(std::abs(v0));
+  }
 }
 
 /// The search for the filter uses at most this many records from the beginning of each run. About a
@@ -110,11 +143,14 @@ std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const FitO
     const Maker maker = most_likely(heads, head_rows, options, plain);
     if (!maker.filter || maker.filter->from == "v") return {};
     std::vector<Rows> regular = usable(Route::velocity, all);
-    if (!leave_out_irregular(all, regular, reach)) return {};
+    if (!leave_out_irregular(all, regular, maker.filter->reach)) return {};
     Fitted fit = fit_rolls(Route::velocity, all, std::move(regular),
                            responses_by(*maker.filter, all), options, {maker.share, true});
     const Uncertainty found = uncertainty_of(fit);
-    if (found.whiteness > not_white && found.kind != Errors::uneven) return fit;
+    if (found.whiteness > levels::not_white && found.kind != Errors::uneven) {
+      set_clock(fit, *maker.filter, all);
+      return fit;
+    }
   } catch (const Error&) {  // too few records, or no minimum
   }
   return {};

@@ -1,6 +1,7 @@
 // The white noise that the residuals of a roll hold in addition to the filtered noise: rounding.
 #pragma once
 
+#include "fit/levels.h"
 #include "fit/model_roll.h"
 
 namespace rolling {
@@ -12,7 +13,7 @@ struct WhiteShare {
   double gain;        ///< ln of the likelihood ratio to no white noise
 
   /// Noise without additional white noise reaches this gain in about 1 % of the records.
-  bool decisive() const { return gain >= 3; }
+  bool decisive() const { return gain >= levels::likely; }
 };
 
 /// The search for the share of white noise uses at most this many records from the beginning of

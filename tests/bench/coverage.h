@@ -13,6 +13,7 @@
 #include "sensor/sonar.h"
 #include "signal/derivative.h"
 #include "signal/free_roll.h"
+#include "signal/pulses.h"
 #include "signal/smoother.h"
 #include "unit/fit/simulated.h"
 
@@ -30,7 +31,10 @@ struct Row {
   double bias_a = 0, bias_b = 0;    ///< in standard deviations of one run
   double sd_b = 0, over_bound = 0;  ///< of b; over the Cramer-Rao bound, 0 where it does not apply
   double percent_a = 0;             ///< bias of a in per cent of a
-  double cover_a = 0, cover_b = 0;  ///< share of runs whose 95 % interval holds the truth
+  /// Shares of runs whose intervals of these levels hold the truth.
+  static constexpr double quantiles[] = {0.67449, 0.99446, 1.95996, 2.57583};  // 50 68 95 99 %
+  double covers_a[4] = {}, covers_b[4] = {};
+  double cover_a = 0, cover_b = 0;  ///< those of 95 %
   double cover_slope = 0;
   double sigma_a = 0, sigma_b = 0;  ///< root of the mean square of the standard errors, over the sd
   double told = 0;  ///< share of runs whose errors are not those of white noise through the filters
@@ -73,9 +77,12 @@ class Simulation {
     times_the_noise_ = i < c_.runs - c_.noisy ? 1 : 5;
     rolling::FitRun run{};
     run.body = scene_.body();
-    const Column raw = c_.record ? free_roll(run.t) : readings(run.t);
+    const Column raw = c_.ending ? pushed_roll(run.t)
+                       : c_.record ? free_roll(run.t)
+                       : c_.gate > 0 ? gates(run.t) : readings(run.t);
     run.x = run.v = run.D = raw;
     if (c_.unknown) run.v = c_.unknown(raw);
+    if (c_.gate > 0 && c_.route == Route::velocity) pulses(run);
     if (c_.history.empty()) return run;
     const auto history_lines = lines(run.t, raw);
     rolling::History history = rolling::history_of(history_lines, run.t);
@@ -104,7 +111,9 @@ class Simulation {
     Column raw;
     double error = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      const double t = dt * static_cast<double>(i) / c_.finer, share = t / truth.stop_time();
+      const double t = i == 0 ? 0
+                              : dt * (static_cast<double>(i) + noise_(c_.jitter)) / c_.finer,
+                   share = t / truth.stop_time();
       const auto s = truth.at(t);
       const double size =
           (c_.raw == Case::x ? noise_x : noise_v) * times_the_noise_ * (1 + c_.growth * share);
@@ -112,11 +121,55 @@ class Simulation {
       double y = way_ * (c_.raw == Case::x ? s.x : s.v) + size * error;
       if (c_.resolution > 0) y = c_.resolution * std::round(y / c_.resolution);
       if (uniform() < c_.outliers) y += uniform() - 0.5;
-      if (i > 0 && uniform() < c_.lost) continue;
+      if (i > 0 && (uniform() < c_.lost || t <= times.back())) continue;
       times.push_back(t);
       raw.push_back(y);
     }
     return raw;
+  }
+  /// The times at which the body passes each gate, measured to 0.2 ms.
+  Column gates(Column& times) {
+    Column x;
+    const double stop = truth_.stop_time();
+    for (double to = c_.gate; to < truth_.at(stop).x - c_.gate / 2; to += c_.gate) {
+      double from = 0, end = stop;
+      while (end - from > 1e-9) (truth_.at((from + end) / 2).x < to ? from : end) = (from + end) / 2;
+      times.push_back(from + noise_(2e-4));
+      x.push_back(to);
+    }
+    return x;
+  }
+  /// The speeds of a wheel: the way of a pulse over the time since the one before.
+  void pulses(rolling::FitRun& run) {
+    for (std::size_t i = 1; i < run.t.size(); ++i) run.v[i] = c_.gate / (run.t[i] - run.t[i - 1]);
+    if (const auto way = rolling::way_between_pulses(run.t, run.v))
+      for (std::size_t i = 0; i < run.t.size(); ++i) run.x[i] = *way * static_cast<double>(i);
+  }
+  /// Rest, a push of 0.3 s, the roll, and what ends it; readings of 0.3 mm at 25 Hz. smooth --coast
+  Column pushed_roll(Column& times) {
+    constexpr double rest = 0.6, push = 0.3;
+    const double begin = rest + push + 0.04 * uniform(), of_push = 0.5 * push * truth_.speed_at(0).v,
+                 ends = truth_.stop_time() * (c_.ending == Case::stop ? 1 : 0.5 + 0.2 * uniform()),
+                 v = truth_.speed_at(ends).v,
+                 slows = c_.ending == Case::caught   ? v / 0.3
+                         : c_.ending == Case::braked ? -3 * truth_.acceleration(v) : 1e3;
+    std::vector<rolling::Sample> samples;
+    for (double t = 0; t < begin + ends + std::min(v / slows, 2.0) + 0.6; t += dt) {
+      const double since = t - begin, after = std::clamp(since - ends, 0.0, v / slows),
+                   pushed = std::clamp(1 + since / push, 0.0, 1.0),
+                   x = since < 0 ? of_push * (pushed * pushed - 1)
+                                 : truth_.at(std::min(since, ends)).x +
+                                       after * (v - slows * after / 2);
+      samples.push_back({t, x + 1 + noise_(noise_x)});
+    }
+    return kept(samples, times);
+  }
+  static Column kept(const std::vector<rolling::Sample>& samples, Column& times) {
+    const rolling::Stretch stretch = rolling::free_roll(samples, true);
+    Column x;
+    for (std::size_t i = stretch.begin; i < stretch.end; ++i)
+      times.push_back(samples[i].t), x.push_back(samples[i].y);
+    return x;
   }
   /// simulate --sensor pasco | smooth --coast -c x -w 1
   Column free_roll(Column& times) {
@@ -128,11 +181,7 @@ class Simulation {
                           [&](const rolling::SonarSample& s) {
       if (s.x) samples.push_back({s.t, *s.x});
     });
-    const rolling::Stretch stretch = rolling::free_roll(samples, true);
-    Column x;
-    for (std::size_t i = stretch.begin; i < stretch.end; ++i)
-      times.push_back(samples[i].t), x.push_back(samples[i].y);
-    return x;
+    return kept(samples, times);
   }
   /// Does to the columns what a `##` line of smooth or differentiate says.
   void filter(const std::string& line, const Column& t, std::map<std::string, Column>& columns) {
@@ -195,10 +244,13 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
     for (int i = 0; i < c.runs; ++i) joint.push_back(simulation.next(i));
     const auto begin = std::chrono::steady_clock::now();
     try {
-      const auto r = rolling::fit(c.route, joint, options);
+      const bool pulses = c.gate > 0 && c.route == Route::velocity;
+      const auto r = rolling::fit(pulses ? Route::position : c.route, joint, options);
       const double a = (r.a - scene.a) / r.sigma_a, b = (r.b - scene.b) / r.sigma_b;
-      row.cover_a += std::abs(a) < 1.96;
-      row.cover_b += std::abs(b) < 1.96;
+      for (std::size_t i = 0; i < 4; ++i) {
+        row.covers_a[i] += std::abs(a) < Row::quantiles[i];
+        row.covers_b[i] += std::abs(b) < Row::quantiles[i];
+      }
       row.cover_slope += c.down > 0 && std::abs(r.slope - slope) < 1.96 * r.sigma_slope;
       row.far += std::abs(b) > 6 || std::abs(a) > 6;
       row.told += rolling::noise_is_correlated(r) || r.errors == rolling::Errors::uneven ||
@@ -229,8 +281,9 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
     row.over_bound = row.sd_b / bound_of_b(truth, simulation.records(), c.route == Route::position);
   row.sigma_a = std::sqrt(row.sigma_a / fits) / sd_a;
   row.sigma_b = std::sqrt(row.sigma_b / fits) / row.sd_b;
-  row.cover_a /= runs;
-  row.cover_b /= runs;
+  for (double* cover : {row.covers_a, row.covers_b})
+    for (std::size_t i = 0; i < 4; ++i) cover[i] /= runs;
+  row.cover_a = row.covers_a[2], row.cover_b = row.covers_b[2];
   row.cover_slope /= runs;
   row.told /= runs;
   row.differ /= runs;

@@ -33,6 +33,9 @@ struct Case {
   int down = 0;            ///< the last so many roll down a slope, which is fitted (positions)
   int digits = 0;          ///< all columns are rounded to so many by the tools
   bool record = false;     ///< the free roll is sought in the whole record of a sensor
+  enum Ending { none, stop, caught, braked, wall } ending = none;  ///< of a whole record, pushed
+  double jitter = 0;  ///< standard deviation of the times of the readings, as a share of a step
+  double gate = 0;    ///< the times are measured at which x is a multiple of this [m]
   rolling::Bulge bulge{};  ///< of whole records
   bool bound = false;      ///< white noise on the fitted column: the Cramer-Rao bound holds
   int finer = 1;           ///< so many times as many records a second
@@ -75,6 +78,26 @@ inline Column logger_pro(const Column& x) {
     v.push_back(sum / 6);
   }
   return v;
+}
+
+/// Speeds as a spreadsheet makes them: over the time since the row before.
+inline Column since_the_row_before(const Column& x) {
+  Column v;
+  for (std::ptrdiff_t i = 0; i < std::ssize(x); ++i)
+    v.push_back((clamped(x, std::max<std::ptrdiff_t>(i, 1)) -
+                 clamped(x, std::max<std::ptrdiff_t>(i, 1) - 1)) / dt);
+  return v;
+}
+
+inline Column medians_of_5(const Column& v) {
+  Column medians;
+  for (std::ptrdiff_t i = 0; i < std::ssize(v); ++i) {
+    Column near;
+    for (std::ptrdiff_t k = i - 2; k <= i + 2; ++k) near.push_back(clamped(v, k));
+    std::ranges::nth_element(near, near.begin() + 2);
+    medians.push_back(near[2]);
+  }
+  return medians;
 }
 
 inline std::vector<std::string> to_shift(Case::Raw raw, const std::string& smooth,
@@ -121,7 +144,14 @@ inline std::vector<Case> cases() {
        .history = {v_of_x[0], "smooth v mean width 11"}},
       {.name = "v by Capstone", .route = velocity, .unknown = capstone},
       {.name = "v by Logger Pro", .route = velocity, .unknown = logger_pro},
+      {.name = "v by a spreadsheet", .route = velocity, .unknown = since_the_row_before},
+      {.name = "v, medians of 5", .route = velocity, .raw = Case::v, .unknown = medians_of_5},
       {.name = "x to 1 mm", .route = position, .resolution = 1e-3},
+      {.name = "x to 1 cm, 50 Hz", .route = position, .resolution = 1e-2, .finer = 2},
+      {.name = "x, jitter .3 of a step", .route = position, .jitter = 0.3},
+      {.name = "D from x, jitter .3 of a step", .route = shift, .history = mean_11, .jitter = 0.3},
+      {.name = "gates every 4 cm", .route = position, .gate = 0.04},
+      {.name = "pulses every 4 cm", .route = velocity, .gate = 0.04},
       {.name = "v from x to 1 mm, known", .route = velocity, .history = v_of_x, .resolution = 1e-3},
       {.name = "D from x to 1 mm, W 11", .route = shift, .history = mean_11, .resolution = 1e-3},
       {.name = "x, 1 % outliers", .route = position, .outliers = 0.01},
@@ -157,6 +187,10 @@ inline std::vector<Case> cases() {
        .history = mean_11,
        .lost = 0.01,
        .finer = 160},
+      {.name = "pushed, to the stop, x", .route = position, .ending = Case::stop},
+      {.name = "caught in 0.3 s, x", .route = position, .ending = Case::caught},
+      {.name = "braked, x", .route = position, .ending = Case::braked},
+      {.name = "against a wall, x", .route = position, .ending = Case::wall},
       {.name = "whole record, x", .route = position, .record = true},
       {.name = "whole record, D", .route = shift, .history = mean_11, .record = true},
       {.name = "whole record with memory, x", .route = position, .record = true, .bulge = mat},

@@ -129,7 +129,7 @@ inline Verdict judge(const Trouble& wrong, rolling::PowerLaw law, int runs, unsi
       if (!options.robust)
         against = rolling::compare_laws(rolling::Route::position, {run}, options).against_power();
       sum.adequate += against <= 2;
-      const bool other = against >= better, coloured = r.whiteness <= rolling::not_white,
+      const bool other = against >= better, coloured = r.whiteness <= rolling::levels::not_white,
                  hand = !options.robust &&
                         rolling::disturbed_beginning(rolling::Route::position, {run}, options);
       sum.other_law += other;

@@ -68,9 +68,9 @@ TEST_CASE("errors: the residuals of many short runs are as white as their noise"
       runs.push_back(std::move(run));
     }
     const double p = fit(Route::position, runs, {}).whiteness;
-    not_white_by_x += p <= not_white;
+    not_white_by_x += p <= levels::not_white;
     twentieth += p <= 0.05;
-    not_white_by_D += fit(Route::shift, shifts, {}).whiteness <= not_white;
+    not_white_by_D += fit(Route::shift, shifts, {}).whiteness <= levels::not_white;
   }
   CHECK(not_white_by_x <= 4);  // more of 100 at 0.6 %, two tests of 0.3 %, by chance in 0.05 %
   CHECK(not_white_by_D <= 4);

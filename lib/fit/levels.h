@@ -1,0 +1,44 @@
+// The levels that decide what a user is told or refused, and which standard errors a row has. Each
+// with its rate of false alarms, where that was measured: in 1000 good records of rubber and of felt
+// (make coverage, rolling-fits(7)), unless another place is named.
+#pragma once
+
+namespace rolling::levels {
+
+/// Ljung-Box: at or below it the noise is taken as not white. Two numbers of lags: 0.6 %.
+inline constexpr double not_white = 0.003;
+/// With 60 records the test often misses an autocorrelation of 0.5. At or below this limit a
+/// positive one gets errors that allow for it: one record in ten, at 1 to 2 % in their size.
+inline constexpr double nearly_white = 0.1;
+/// Unequal variance, along one run and in several: 1 %.
+inline constexpr double uneven = 0.01, uneven_runs = 0.005;
+/// Runs of a joint fit disagree: 1 % (tests/unit/fit/agreement_test.cpp).
+inline constexpr double runs_disagree = 0.01;
+/// The beginning is disturbed, after Bonferroni's correction: 0.1 %. The others must be white.
+inline constexpr double beginning = 0.001, beginning_white = 0.005;
+/// A signal of one turn, for all runs: 0.5 to 0.8 %, since another period must not explain it.
+inline constexpr double one_turn = 0.01;
+/// Residuals count in the search for one turn up to so many standard deviations.
+inline constexpr double cut_off = 3;
+/// ln of the likelihood ratio for differences of a sensor, and for rounding: 1 %.
+inline constexpr double likely = 3;
+/// A reading is off the motion by so many standard deviations, and by chance so rarely in a run.
+inline constexpr double off = 10, off_chance = 1e-4;
+/// So close to the roll readings on a grid cannot be rounded to it.
+inline constexpr double not_rounded = 0.001;
+/// AICc by which another law leaves a v^b no support (Burnham and Anderson 2002, section 2.6), and
+/// by which a v^b is called adequate.
+inline constexpr double another_law = 10, adequate = 2;
+/// sigma_a/a above which a +- sigma_a is no interval: ln a has the normal distribution. There a +-
+/// 1.96 sigma_a holds the truth in 93.6 %, but misses it by 3 sigma_a six times too often.
+inline constexpr double uncertain_a = 0.3;
+/// A larger error of b is not reliable itself.
+inline constexpr double largest_sigma_b = 3;
+/// b lies below -1/2 by so many standard errors: no mat is known whose shift grows so at rest.
+inline constexpr double least_b = -0.5, below_least_b = 3;
+/// D/R of rolling bodies, from steel on steel to a wheel in sand.
+inline constexpr double least_D_over_R = 1e-4;
+/// v0 above so many times the mean speed between any two readings is not measured.
+inline constexpr double v0_over_speeds = 10;
+
+}  // namespace rolling::levels

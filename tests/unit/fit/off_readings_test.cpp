@@ -1,0 +1,90 @@
+// Readings that are off, what they do to the search for a period, and the rounding of readings.
+#include "unit/catch.h"
+#include "unit/fit/rolls.h"
+
+using namespace rolls;
+
+namespace {
+
+FitRun roll_of(unsigned seed, PowerLaw law = rubber) {
+  simulated::Noise noise(seed);
+  return roll(law, 0, 1, noise);
+}
+
+FitResult fitted(const FitRun& run, FitOptions options = {}) {
+  return fit(Route::position, {run}, options);
+}
+
+}  // namespace
+
+TEST_CASE("a zero, a spike and a burst are named with their time", "[many]") {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const FitRun good = roll_of(seed, seed % 2 ? rubber : felt);
+    CHECK_FALSE(fitted(good).off);
+    const std::size_t n = good.t.size(), at = 2 + seed * (n - 6) / 40;
+    for (const std::size_t burst : {1U, 3U}) {
+      FitRun run = good;
+      for (std::size_t i = at; i < at + burst; ++i) run.x[i] += 0.006;  // 20 times the noise
+      const auto off = fitted(run).off;
+      INFO(seed << ", " << burst << " from " << at << " of " << n);
+      REQUIRE(off);
+      CHECK(off->count == burst);
+      CHECK(off->time >= run.t[at]);
+      CHECK(off->time <= run.t[at + burst - 1]);
+      CHECK(off->distance > 10);
+      CHECK_FALSE(fitted(run, {.robust = true}).off);
+    }
+  }
+}
+
+TEST_CASE("a zero in positions is found behind differences and means") {
+  const FitRun raw = roll_of(3, felt);
+  std::vector<double> x = raw.x;
+  x[70] = 0;
+  const FitRun run = simulated::shifts(cylinder, raw.t, x, 5, "x");
+  const auto off = fit(Route::shift, {run}, {}).off;
+  REQUIRE(off);
+  CHECK(off->time == Approx(raw.t[70]));
+  CHECK_FALSE(fit(Route::shift, {simulated::shifts(cylinder, raw.t, raw.x, 5, "x")}, {}).off);
+}
+
+TEST_CASE("bursts and lost echoes are no eccentricity", "[many]") {
+  int told = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    FitRun run = roll_of(seed, felt);
+    for (const std::size_t at : {9U, 40U, 77U, 110U}) run.x[at + seed % 7] = 0;
+    told += fitted(run).eccentricity.has_value();
+  }
+  CHECK(told <= 2);
+}
+
+TEST_CASE("no standard uncertainty is below what the rounding of the readings leaves", "[many]") {
+  // Readings to 1 cm without noise, and a few that no noise tells from the roll.
+  FitRun run{};
+  run.body = {1, 0.0125, 0.03};
+  run.t = {0, .05, .1, .15, .2, .25};
+  run.x = {2.906, 2.914, 2.917, 2.917, 2.917, 2.917};
+  const FitResult r = fitted(run);
+  CHECK(r.sigma_b > 0.1);
+  double squares = 0;
+  int fits = 0;
+  for (int phase = 0; phase < 100; ++phase) {
+    FitRun rounded{};
+    rounded.body = cylinder;
+    const auto truth = simulated::roll(cylinder, felt.a, felt.b, 0.5);
+    for (int i = 0; i < 12; ++i) {
+      rounded.t.push_back(0.4 * i);
+      rounded.x.push_back(std::round((truth.x(rounded.t.back()) + 1e-5 * phase) / 1e-3) * 1e-3);
+    }
+    const FitResult found = fitted(rounded);
+    squares += std::pow((found.b - felt.b) / found.sigma_b, 2), ++fits;
+  }
+  CHECK(squares / fits < 1.3);
+}
+
+TEST_CASE("a v0 that no reading comes near is refused") {
+  FitRun run = roll_of(1);
+  run.x.front() = -3;  // a lost echo
+  CHECK_THROWS_WITH(fitted(run), Catch::Matchers::Contains("no reading comes near v0"));
+  CHECK_NOTHROW(fitted(run, {.robust = true}));
+}
