@@ -11,6 +11,7 @@
 #include "fit/errors.h"
 #include "fit/levels.h"
 #include "fit/route.h"
+#include "least_squares/robust.h"
 
 namespace rolling {
 namespace {
@@ -163,11 +164,13 @@ std::optional<OffReadings> off_readings(Route route, const std::vector<FitRun>& 
   if (!fit.rolls || fit.degrees_left() == 0 || options.robust) return {};
   double most_off = 0;
   auto found = around(fit, most_off);
-  if (found || most_off < 5 || fit.noise->known()) return found;
+  if (found || most_off < 5) return found;
   try {  // a reading far off may have bent the roll to itself, away from where it is linear
     FitOptions robust = options;
     robust.robust = true;
-    Fitted straight = fit_route(route, runs, robust);
+    Fitted straight = fit.noise->known() ? fit : fit_route(route, runs, robust);
+    if (fit.noise->known())
+      straight.minimum = minimise_robust(straight.system, {fit.minimum.theta});
     straight.minimum = evaluated(straight.system, straight.minimum.theta);
     return around(straight, most_off);
   } catch (const Error&) {
