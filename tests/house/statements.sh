@@ -1,0 +1,57 @@
+#!/bin/bash
+# Statements of the pages that a command can show, each with the page that makes it.
+set -u
+export LC_ALL=C
+unset CDPATH
+cd "$(dirname "$0")/../.." || exit 2
+PATH=$PWD/bin:$PATH
+scratch=$(mktemp -d) || exit 2
+trap 'rm -rf "$scratch"' EXIT
+wrong=0
+complain() { echo "$*" && wrong=1; }
+# below WHAT NUMBER LIMIT
+below() { awk -v x="$2" -v limit="$3" 'BEGIN { exit !(x != "" && x ^ 2 < limit ^ 2) }' || complain "$1: $2, not below $3"; }
+last_of() { tail -n 1 | cut -f "$1"; }
+of_scene() { sed -n "s/^$1 = //p" "samples/$2.toml"; }
+# says PAGE TEXT: the page still makes the statement, line ends aside.
+says() {
+  tr '\n' ' ' <"$1" | sed 's/\\ / /g; s/\\(ha/^/g; s/  */ /g' | grep -qF -e "$2" || complain "$1 does not say: $2"
+}
+
+# energy-ledger(1): closure and imbalance of simulated rows.
+says man/energy-ledger.1 'below 3e-7 with a row every 0.01 s, 5e-6 every 0.04 s and 5e-5 every 0.1 s'
+says man/energy-ledger.1 'below 2e-4, 8e-4 and 2e-3 in these scenes with b = -0.3'
+for scene in CF CR SF SR; do
+  while read -r dt limit negative; do
+    for law in "" "-b -0.3"; do
+      # shellcheck disable=SC2086  # two words
+      simulate --scene samples/$scene.toml $law --dt "$dt" |
+        energy-ledger --scene samples/$scene.toml ${law:+-a $(of_scene coefficient $scene) $law} --summary |
+        last_of 5 >"$scratch/imbalance"
+      below "imbalance of $scene, dt $dt $law" "$(cat "$scratch/imbalance")" "$([ "$law" ] && echo $negative || echo $limit)"
+    done
+  done <<<'0.01 3e-7 2e-4
+0.04 5e-6 8e-4
+0.1 5e-5 2e-3'
+done
+
+# rolling-motion(7), shift-from-accel(1): A = 1 beside the exact geometry.
+says man/rolling-motion.7 "0.054 % or less at 0.5 m/s, and 0.005 to 0.035 % of the time to the stop"
+says man/shift-from-accel.1 '0.054 % for the cylinder on rubber at 0.5 m/s'
+for scene in CF CR SF SR; do
+  stop() { simulate --scene samples/$scene.toml --columns t "$@" | last_of 1; }
+  awk -v t="$(stop)" -v exact="$(stop --exact)" 'BEGIN { off = t / exact - 1; exit !(off > 0.45e-4 && off < 3.55e-4) }' ||
+    complain "$scene: the time to the stop with A = 1"
+done
+for scene in CF CR SF SR; do
+  force() { echo 0 | simulate --scene samples/$scene.toml --at - | energy-ledger --scene samples/$scene.toml --columns F_H "$@" | last_of 6; }
+  awk -v approximate="$(force)" -v exact="$(force --exact)" 'BEGIN { exit !((exact / approximate - 1)^2 < 5.45e-4^2) }' ||
+    complain "$scene: F_H with A = 1"
+done
+says man/rolling-motion.7 '2.5 to 6.1 % of that on rubber between 0.5 and 0.02 m/s'
+awk 'BEGIN { low = 4e-5 / (1.87e-3 * 0.5^0.215); high = 4e-5 / (1.78e-3 * 0.02^0.255)
+  exit !(low > 0.0245 && low < 0.0255 && high > 0.0605 && high < 0.0615) }' || complain 'slope and D on rubber'
+says man/rolling-motion.7 '0.12 to 0.15 mm less than that of the cylinder anywhere from 0.02 to 0.5 m/s'
+awk 'BEGIN { for (v = 0.02; v <= 0.5; v += 0.001) { off = 1.87 * v^0.215 - 1.78 * v^0.255
+    if (off < 0.115 || off > 0.155) exit 1 } }' || complain 'the two rows of Table 1'
+exit $wrong
