@@ -95,6 +95,7 @@ for prefix in 'r&d-' 'a/b' '-x' 'a b' '$(touch hit)' "'"; do
   grep -q 'PROGRAM_PREFIX is' "$scratch/said" || complain "is refused by: $(cat "$scratch/said")"
 done
 if [ -e "$scratch/none" ] || [ -e hit ]; then complain "is refused too late"; fi
-grep -q "version $(bin/smooth --version | cut -d " " -f 3)\." README.md ||
-  { echo "README.md names another version" && wrong=1; }
+version=$(bin/smooth --version | cut -d " " -f 3)
+{ grep -qF "version = {$version}" samples/rolling.bib && grep -qxF ".It $version" man/rolling.7; } ||
+  { echo "samples/rolling.bib or rolling(7) names another version" && wrong=1; }
 exit $wrong
