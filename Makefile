@@ -284,8 +284,8 @@ build/tests/bench/coverage.o: CPPFLAGS += -Itests
 build/coverage: build/tests/bench/coverage.o build/lib.a
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) -pthread
 coverage: build/coverage build/bench/records
-	@build/coverage
-	@build/bench/records
+	@{ echo 'Of build/coverage and build/bench/records, run by make coverage:'; build/coverage; \
+	  build/bench/records; } | tee samples/coverage.txt
 
 # Error against run time of all methods: some minutes; figures where gnuplot is installed. See
 # tests/bench/README.md.

@@ -73,6 +73,7 @@ figure svg { display: block; width: 100%; height: auto; background: #fff; border
 .formula span { margin-left: 1.5em; }
 .together { white-space: nowrap; }
 figcaption { margin-top: .5rem; font-size: .95rem; color: #333; }
+pre { font-size: .8rem; line-height: 1.35; }
 code { font-size: .85em; background: #f3f1ec; padding: .1em .3em; overflow-wrap: anywhere; }
 figcaption code { display: inline-block; color: #555; }
 .wide { overflow-x: auto; }
@@ -275,6 +276,12 @@ HTML
       }' >"$scratch/methods"
   table methods "$scratch/methods"
 fi
+cat <<'HTML'
+<h2>How often the intervals hold</h2>
+<p>An uncertainty is right if the interval of 1.96 of them holds the truth in 95 of 100 runs. Only where
+the truth is known can one count that: in simulated runs. <code>make coverage</code></p>
+HTML
+echo "<div class=\"wide\"><pre>$(sed 's/&/\&amp;/g; s/</\&lt;/g' coverage.txt)</pre></div>"
 cat <<HTML
 <h2>How this page was made</h2>
 <p><code>make report</code> ran $(simulate --version |
