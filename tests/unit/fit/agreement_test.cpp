@@ -223,7 +223,7 @@ TEST_CASE("agreement: the errors allow for 2 % of scatter from run to run", "[fi
     CHECK(told == 200);
     for (int covered : {a, b}) {
       CHECK(covered >= 178);  // fewer of 95 % by chance in 0.02 %
-      CHECK(covered <= 199);
+      CHECK(covered <= 198);  // more by chance in 0.04 %
     }
   }
 }
@@ -244,7 +244,7 @@ TEST_CASE("agreement: the errors allow for scatter of runs that are not equally 
   CAPTURE(a, b);
   for (int covered : {a, b}) {
     CHECK(covered >= 178);  // fewer of 95 % by chance in 0.02 %
-    CHECK(covered <= 199);
+    CHECK(covered <= 198);  // more by chance in 0.04 %
   }
 }
 

@@ -86,7 +86,6 @@ TEST_CASE("shift: exact data give the law back, with errors of rounding size", "
   const auto r = fit(Route::shift, {run}, {});
   CHECK(std::abs(r.a / 1.87e-3 - 1) < 1e-13);
   CHECK(std::abs(r.b - 0.215) < 1e-13);
-  CHECK(r.sigma_b >= 0);
   CHECK(r.sigma_b < 1e-13);
 }
 
@@ -191,7 +190,6 @@ TEST_CASE(
     }
     CAPTURE(width, b, covered, variances / squares, squares / raw_squares);
     CHECK(covered >= 178);  // 200 of 95 %: fewer by chance in 0.02 % (binomial)
-    CHECK(covered < runs);
     CHECK(std::abs(sum / runs) < 3.3 * std::sqrt(squares) / runs);
     CHECK(squares < 1.1 * 1.1 * raw_squares);
     CHECK(std::abs(variances / squares - 1) < 0.32);  // 3.3 times the scatter sqrt(2/200)
