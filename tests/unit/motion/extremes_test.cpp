@@ -126,18 +126,14 @@ TEST_CASE("Extremes: the stop, no NaN and no v < 0 by any solver; and what bare 
       INFO("stepper " << static_cast<int>(stepper));
       const auto solver = start(roll, {Method::solver, stepper}, 1e-6),
                  best = start(roll, best_method(roll), 1e-10);
-      try {
-        for (int i = 1; i <= 100; ++i) {
-          solver->seek(end * i / 100);
-          best->seek(end * i / 100);
-          REQUIRE(std::isfinite(solver->velocity()));
-          if (e.length == 0) REQUIRE(solver->velocity() >= 0);
-          CHECK(std::abs(solver->velocity() - best->velocity()) < 1e-3 * v0);
-        }
-        if (e.length == 0 && stop < end) CHECK(solver->velocity() == 0);
-      } catch (const Error& refusal) {
-        CHECK(std::string(refusal.what()).find("integration") != std::string::npos);
+      for (int i = 1; i <= 100; ++i) {
+        solver->seek(end * i / 100);
+        best->seek(end * i / 100);
+        REQUIRE(std::isfinite(solver->velocity()));
+        if (e.length == 0) REQUIRE(solver->velocity() >= 0);
+        CHECK(std::abs(solver->velocity() - best->velocity()) < 1e-3 * v0);
       }
+      if (e.length == 0 && stop < end) CHECK(solver->velocity() == 0);
     }
     CHECK(run_bare(roll, gsl_odeiv2_step_rkf45, end) == e.rkf45);
     CHECK(run_bare(roll, gsl_odeiv2_step_rk8pd, end) == e.rk8pd);
