@@ -25,7 +25,7 @@ TEST_CASE("fit: correlated residuals are noticed, and the errors grow", "[fit]")
   }
   CAPTURE(variances / squares);
   CHECK(noticed == runs);
-  CHECK(covered >= 178);  // fewer of 95 % by chance in 0.02 %
+  CHECK(covered >= 178);                            // fewer of 95 % by chance in 0.02 %
   CHECK(std::abs(variances / squares - 1) < 0.32);  // 3.3 times the scatter sqrt(2/200)
 }
 
