@@ -201,7 +201,7 @@ int main(int argc, char** argv) {
       task.body.slope = read.slope.value_or(task.body.slope);
     }
     tool.need({"mass", "radius", "shape-factor"});
-    Reader& in = tool.read({"t", "v", "D"});
+    Reader& in = task.summary ? tool.read({"t", "v", "D"}) : tool.filter({"t", "v", "D"});
     // A law on the command line takes precedence over a column D, the law of a scene does not.
     const bool law_given = !law_file.empty() || tool.on_command_line("coefficient") ||
                            tool.on_command_line("exponent");

@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     tool.need({"radius", "shape-factor"});
-    Reader& in = tool.read({"t", "v", "a"});
+    Reader& in = tool.filter({"t", "v", "a"});
     const auto a = in.need("a");
     Filter filter(in, tool.out, history(body, given, geometry));
     filter.append({"D", "m"});

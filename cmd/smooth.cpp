@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
     if (width != "auto") options.width.samples = odd_number(width);
     select.width = options.width;
     make_signal(options);  // refuses wrong options before anything is read
-    Reader& in = tool.read({"t", "v"});
+    Reader& in = tool.filter({"t", "v"});
     const auto t = in.need_time();
     if (column.empty()) column = default_column(in, t);
     const auto y = in.need(column);

@@ -120,8 +120,17 @@ void Options::numbers(const std::string& names, std::vector<Estimate>& values, c
       names, "NUMBER,...", help,
       [&values, range](const std::string& text) {
     values.clear();
-    for (const std::string& part : split_names(text, ','))
+    bool whole_before = false;
+    for (const std::string& part : split_names(text, ',')) {
+      const bool is_whole = part.find_first_not_of("0123456789") == std::string::npos;
+      if (whole_before && is_whole)
+        fail(
+            "'{}' can be read in two ways: if its comma is a decimal one, make it a point; else "
+            "write whole numbers with one, as 1.0,2.0",
+            shown(text));
       values.push_back(to_estimate(part, range));
+      whole_before = is_whole;
+    }
       },
       [&values] { return values.empty(); });
 }

@@ -13,75 +13,25 @@
 namespace rolling {
 namespace {
 
-struct Unit {
-  std::string_view name;
-  Conversion to_si;
-};
-struct KnownQuantity {
-  std::string_view name, long_name, other_name;
-  std::vector<Unit> units;  // the SI unit is the first
-};
+constexpr std::pair<std::string_view, std::string_view> long_names[] = {
+    {"time", "t"},  {"position", "x"},     {"velocity", "v"},
+    {"speed", "v"}, {"acceleration", "a"}, {"shift", "D"}};
 
-const std::vector<Unit> lengths = {{"m", {}},          {"mm", {1, 1e3}},   {"cm", {1, 1e2}},
-                                   {"dm", {1, 10}},    {"um", {1, 1e6}},   {"km", {1e3, 1}},
-                                   {"in", {254, 1e4}}, {"ft", {3048, 1e4}}};
-const std::array<KnownQuantity, 5> quantities = {{
-    {"t",
-     "time",
-     "time",
-     {{"s", {}},
-      {"sec", {}},
-      {"ms", {1, 1e3}},
-      {"us", {1, 1e6}},
-      {"min", {60, 1}},
-      {"h", {3600, 1}}}},
-    {"x", "position", "position", lengths},
-    {"v",
-     "velocity",
-     "speed",
-     {{"m/s", {}},
-      {"mm/s", {1, 1e3}},
-      {"cm/s", {1, 1e2}},
-      {"km/h", {5, 18}},
-      {"mph", {1397, 3125}},
-      {"ft/s", {3048, 1e4}}}},
-    {"a",
-     "acceleration",
-     "acceleration",
-     {{"m/s^2", {}}, {"m/s/s", {}}, {"mm/s^2", {1, 1e3}}, {"cm/s^2", {1, 1e2}}}},
-    {"D", "shift", "shift", lengths},
-}};
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return out;
-}
-
-/// The spelling of a unit in the lists above: a quotient instead of a product, km/h for kph and
-/// kmh, and km/h and mph in small letters.
-std::string listed_unit(std::string unit) {
-  unit = as_quotients(replace_all(std::move(unit), " / ", "/"));
-  const std::string small = lower(unit);
-  if (small == "km/h" || small == "kph" || small == "kmh" || small == "km/hr") return "km/h";
-  return small == "mph" ? small : unit;
-}
-
-const KnownQuantity* known(std::string_view name) {
-  for (const KnownQuantity& q : quantities)
-    if (q.name == name) return &q;
-  return nullptr;
+/// t for Time, and so on; any other name as it is.
+std::string short_name(std::string_view name) {
+  const auto found = std::ranges::find(long_names, lower(name), [](auto& of) { return of.first; });
+  return std::string(found == std::end(long_names) ? name : found->second);
 }
 
 /// Removes `Run #2` or `Run 2` from the end of a name, and `Latest:` or `Data Set 1:` from its
-/// beginning; returns the number, or the word if there is no number.
+/// beginning; returns the number, or the word if there is no number. A colon in brackets, or behind
+/// them, is none of a label: `Clock (hh:mm:ss)`.
 std::string take_run(std::string_view& name) {
   const auto number_at_end = [](std::string_view text) {
     return text.substr(text.find_last_not_of("0123456789") + 1);
   };
   std::string_view prefix;
-  if (const auto colon = name.find(':'); colon != std::string_view::npos) {
+  if (const auto colon = name.find(':'); colon < name.find_first_of("([")) {
     prefix = trim(name.substr(0, colon));
     name = trim(name.substr(colon + 1));
   }
@@ -126,37 +76,20 @@ std::string replace_all(std::string text, std::string_view from, std::string_vie
   return replaced.append(text, begin, std::string::npos);
 }
 
-std::string plain_unit(std::string unit) {
-  for (const auto& [from, to] : {std::pair{"\xE2\x81\xBB\xC2\xB9", "^-1"},
-                                 {"\xE2\x81\xBB\xC2\xB2", "^-2"},
-                                 {"\xC2\xB2", "^2"},
-                                 {"\xB2", "^2"},
-                                 {"\xC2\xB5", "u"},
-                                 {"\xCE\xBC", "u"},
-                                 {"\xB5", "u"},
-                                 {"\xC2\xA0", " "},
-                                 {"\n", " "}})
-    unit = replace_all(std::move(unit), from, to);
-  return replace_all(std::move(unit), "s2", "s^2");
-}
-
-std::string as_quotients(std::string text) {
-  for (const std::string_view times : {"\xC2\xB7", "\xE2\x8B\x85", "*", "."})
-    text = replace_all(std::move(text), times, " ");
-  const auto are_blanks = [](char one, char next) { return one == ' ' && next == ' '; };
-  text.erase(std::unique(text.begin(), text.end(), are_blanks), text.end());
-  for (const std::string_view time : {"s", "min", "h"})
-    for (const auto& [power, per] : {std::pair{"^-1", ""}, {"-1", ""}, {"^-2", "^2"}, {"-2", "^2"}})
-      text = replace_all(std::move(text), fmt::format(" {}{}", time, power),
-                         fmt::format("/{}{}", time, per));
-  return text;
+std::string lower(std::string_view text) {
+  std::string out(text);
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return out;
 }
 
 Column read_column(std::string_view text) {
   Column column;
   std::string line = replace_all(std::string(text), "\xC2\xA0", " ");  // no-break spaces
+  line = replace_all(replace_all(line, "\xEF\xBC\x88", "("), "\xEF\xBC\x89", ")");  // full width
   std::replace(line.begin(), line.end(), '\n', ' ');  // a quoted name may go over two lines
   std::string_view name = trim(line);
+  const auto whole = name;
   column.run = take_run(name);
   const char close = name.empty() ? '\0' : name.back();
   const auto open = close == ')'   ? name.rfind('(')
@@ -166,12 +99,23 @@ Column read_column(std::string_view text) {
     column.unit = plain_unit(std::string(trim(name.substr(open + 1, name.size() - open - 2))));
     name = trim(name.substr(0, open));
   }
-  const std::string small = lower(name);
-  for (const KnownQuantity& q : quantities)
-    if (small == q.long_name || small == q.other_name) name = q.name;
-  column.name = name;
-  std::replace_if(
-      column.name.begin(), column.name.end(), [](char c) { return c == ' ' || c == '\t'; }, '_');
+  // Everything but the unit, where the label stands before it or behind it.
+  if (!column.run.empty())
+    column.labelled = name.data() == whole.data()
+                          ? fmt::format("{} Run {}", name, column.run)
+                          : whole.substr(0, static_cast<std::size_t>(name.end() - whole.begin()));
+  const auto slash = column.unit.empty() ? name.find('/') : std::string_view::npos;
+  const std::string quantity = short_name(trim(name.substr(0, slash)));
+  if (slash == std::string_view::npos) {
+    column.name = quantity;
+  } else if (const std::string below = bare_unit(trim(name.substr(slash + 1)));
+             unit_of(quantity, below)) {  // t/ms
+    column.name = quantity, column.unit = below;
+  } else {
+    column.name = name;
+  }
+  for (std::string* const text_of : {&column.name, &column.labelled})
+    std::ranges::replace_if(*text_of, is_blank, '_');
   return column;
 }
 
@@ -186,44 +130,15 @@ std::string free_name(const std::vector<Column>& columns, std::string name) {
   return name;
 }
 
-std::string_view si_unit(std::string_view quantity) {
-  const KnownQuantity* q = known(quantity);
-  return q ? q->units.front().name : std::string_view();
-}
-
-std::string bare_unit(std::string_view text) {
-  if (text.size() > 1 && (text.front() == '[' || text.front() == '('))
-    text = text.substr(1, text.size() - 2);
-  return std::string(trim(plain_unit(std::string(text))));
-}
-
-UnitKind unit_kind(std::string_view text) {
-  const std::string listed = listed_unit(bare_unit(text));
-  for (const KnownQuantity& q : quantities)
-    for (const Unit& unit : q.units)
-      if (unit.name == listed) return unit.to_si.changes() ? UnitKind::other : UnitKind::si;
-  return UnitKind::none;
-}
-
 bool is_known(const Column& column) { return !si_unit(column.name).empty(); }
 
-bool is_unit_of(std::string_view quantity, std::string_view unit) {
-  const KnownQuantity* q = known(quantity);
-  return q && std::ranges::count(q->units, unit, &Unit::name) > 0;
-}
-
 Conversion conversion_to_si(std::string_view quantity, const Column& column) {
-  const KnownQuantity* q = known(quantity);
-  if (!q || column.unit.empty()) return {};
-  std::string all;
-  for (const Unit& unit : q->units) {
-    if (unit.name == listed_unit(column.unit)) return unit.to_si;
-    (all += all.empty() ? "" : ", ") += unit.name;
-  }
+  if (si_unit(quantity).empty() || column.unit.empty()) return {};
+  if (const auto found = unit_of(quantity, column.unit)) return *found;
   fail(
       "column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); convert it "
       "first",
-      shown(to_text(column)), quantity, shown(column.unit), all);
+      shown(to_text(column)), quantity, shown(column.unit), known_units(quantity));
 }
 
 std::vector<std::string> split_names(std::string_view line, char separator) {

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "text/unit.h"
+
 namespace rolling {
 
 struct Column {
@@ -14,16 +16,10 @@ struct Column {
   std::string unit{};
   /// The number in `Run #2` or `Data Set 1:`, the word in `Latest:`; empty if the name has neither.
   std::string run{};
+  /// The name with that label, for a column that is of no run of its own: `Engine:_Load`.
+  std::string labelled{};
 
   bool operator==(const Column&) const = default;
-};
-
-/// Value in SI units = value * multiply / divide. Both factors are exact in a double, so that a
-/// decimal unit adds one rounding error only.
-struct Conversion {
-  double multiply = 1, divide = 1;
-  bool changes() const { return multiply != divide; }
-  double operator()(double value) const { return value * multiply / divide; }
 };
 
 /// Reads `v[m/s]`, `Velocity (m/s)`, `Time(s)`, `Latest: Time (s)`, `Data Set 1:Time(s)`, `Velocity
@@ -39,33 +35,14 @@ std::string free_name(const std::vector<Column>&, std::string name);
 
 std::string replace_all(std::string text, std::string_view from, std::string_view to);
 
-/// A unit in ASCII: superscripts in UTF-8 or Latin-1 become ^2 and ^-1, micro signs become u.
-std::string plain_unit(std::string unit);
-
-/// The same without the brackets around it.
-std::string bare_unit(std::string_view text);
-
-/// A text in which products are quotients: `cm s^-1`, `cm*s-1`, `cm.s^-1` and the same with a
-/// raised dot become cm/s, and other signs of a product become blanks.
-std::string as_quotients(std::string text);
-
-/// Whether a text is a unit, perhaps in brackets, in which t, x, v, a or D can be read.
-enum class UnitKind { none, si, other };
-UnitKind unit_kind(std::string_view text);
-
-/// The SI unit of a known quantity (t, x, v, a, D); empty for any other name.
-std::string_view si_unit(std::string_view quantity);
+/// In small letters.
+std::string lower(std::string_view text);
 
 /// Whether a column is t, x, v, a or D.
 bool is_known(const Column&);
 
-/// Whether the tools convert `unit`, spelled as in rolling-columns(5), to the SI unit of
-/// `quantity`.
-bool is_unit_of(std::string_view quantity, std::string_view unit);
-
-/// The conversion to SI of a column that serves as `quantity`. Units may be spelled as common
-/// programs spell them: `MPH`, `Km/h`, `m s^-1`. A column without a unit is in SI units. Throws
-/// Error for a unit that is not one of this quantity.
+/// The conversion to SI of a column that serves as `quantity`. A column without
+/// a unit is in SI units. Throws Error for a unit that is not one of this quantity.
 Conversion conversion_to_si(std::string_view quantity, const Column&);
 
 /// The names in a line, one for each field; a name may stand in quotes. With `separator` 0 blanks

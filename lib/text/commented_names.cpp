@@ -31,7 +31,7 @@ bool is_figure(std::string_view text) { return is_number(text) || is_date(text);
 
 /// The text without separators at its end.
 std::string_view without_end(std::string_view text) {
-  return text.substr(0, text.find_last_not_of("\t,; ") + 1);
+  return text.substr(0, text.find_last_not_of(filling) + 1);
 }
 
 /// A text of names between these separators, 0 for blanks; without names if it has another number.

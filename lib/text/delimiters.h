@@ -10,6 +10,9 @@ namespace rolling {
 
 /// The separators of delimited files. A line is searched for them in this order.
 inline constexpr std::string_view separators = "\t;,";
+/// What stands around cells where they are blank: the separators and the blank.
+inline constexpr std::string_view filling = "\t;, ";
+static_assert(filling.starts_with(separators));
 constexpr bool is_separator(char c) { return separators.find(c) != std::string_view::npos; }
 
 inline constexpr char quote = '"';

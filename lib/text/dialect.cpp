@@ -33,17 +33,21 @@ std::string_view append_plain(std::string& to, std::string_view field, Marks mar
   return std::string_view(to).substr(from);
 }
 
-/// True for `1,002`, whose comma may separate thousands: one to three digits, of which the first is
-/// not 0, before the comma, and three behind it.
-bool may_be_thousands(std::string_view field) {
+std::string_view without_sign(std::string_view field) {
   for (const std::string_view sign : {minus, std::string_view("-"), std::string_view("+")})
-    if (field.starts_with(sign)) {
-      field.remove_prefix(sign.size());
-      break;
-    }
-  const auto comma = field.find(',');
-  return comma >= 1 && comma <= 3 && field.size() == comma + 4 && field.front() != '0' &&
-         field.find_first_not_of("0123456789,") == npos;
+    if (field.starts_with(sign)) return field.substr(sign.size());
+  return field;
+}
+
+constexpr std::string_view digits = "0123456789";
+
+/// True for `1,002`, whose mark may separate thousands: one to three digits, of which the first is
+/// not 0, before the mark, and three behind it.
+bool may_be_thousands(std::string_view field, char mark) {
+  field = without_sign(field);
+  const auto at = field.find(mark);
+  return at >= 1 && at <= 3 && field.size() == at + 4 && field.front() != '0' &&
+         field.find_first_not_of(digits) == at && field.find_first_not_of(digits, at + 1) == npos;
 }
 
 /// The characters of plain text: no separator, no quote, and none that only numbers with a decimal
@@ -73,6 +77,12 @@ Dialect Dialect::of_output() {
   return dialect;
 }
 
+Dialect Dialect::of_sides() const {
+  Dialect dialect = of_output();
+  dialect.foreign_numbers_ = dialect.asks_ = asks_ && decimal_mark_ == '\0';
+  return dialect;
+}
+
 bool Dialect::choose(std::string_view line, bool tabs) {
   const std::string outside = outside_quotes(line, separators).text;
   const auto first = std::find_if(separators.begin(), separators.end(),
@@ -80,7 +90,9 @@ bool Dialect::choose(std::string_view line, bool tabs) {
   separator_ = first == separators.end() ? '\0' : *first;
   foreign_numbers_ = separator_ == '\t' || separator_ == ';';
   decimal_mark_ = '\0';
-  passed_thousands_ = false;
+  asks_ = foreign_numbers_;
+  grouped_ = passed_thousands_ = false;
+  seen_.clear();
   fields_.clear();
   if (separator_ == '\t' && !tabs) {
     const auto fields = split(line);
@@ -243,14 +255,39 @@ std::string_view Dialect::take_quoted(const char*& at, const char* end) {
   return std::string_view(made_).substr(from);
 }
 
+/// True for `1.000`, which is read as 1 as long as its column says nothing else. Refuses it beside a
+/// whole number below 1000: neither one number of decimals nor the fewest would give both.
+bool Dialect::may_be_grouped(const Field& field) {
+  if (seen_.size() < count_) seen_.resize(count_);
+  const std::string_view size = without_sign(field.text);
+  const bool is_grouped = may_be_thousands(field.text, '.'),
+             is_whole = !size.empty() && size.size() <= 3 && size.find_first_not_of(digits) == npos;
+  if (!field.wanted || !(is_grouped || is_whole)) return is_grouped;
+  Seen& seen = seen_[count_ - 1];
+  seen.whole |= is_whole;
+  seen.three_digits |= is_whole && size.size() == 3;
+  seen.grouped |= is_grouped;
+  seen.zero_at_the_end |= is_grouped && size.ends_with('0');
+  if (seen.whole && seen.grouped && (seen.three_digits || seen.zero_at_the_end))
+    fail(
+        "field {}: '{}' can be read in two ways in a column where whole numbers stand beside such "
+        "as 1.000: if its points separate thousands, remove them, else give all numbers decimals",
+        count_, shown(field.text));
+  return is_grouped;
+}
+
 /// Reads a number with a decimal comma or U+2212 and puts its form with point and hyphen into the
 /// field. False for any other text, which is left unchanged.
 bool Dialect::rewrite(Field& field) {
   const Marks marks = marks_in(field.text);
+  if (asks_ && decimal_mark_ == '\0' && may_be_grouped(field)) {
+    grouped_ |= field.wanted;
+    return field.wanted && parse_number(field.text, field.number);
+  }
   const bool other_minus = marks.first_minus != npos, comma = marks.comma != npos,
              point = marks.point != npos;
   if (!other_minus && (decimal_mark_ == '.' || (!comma && !point))) return false;
-  if (separator_ == '\t' && decimal_mark_ == '\0' && may_be_thousands(field.text)) {
+  if (separator_ == '\t' && decimal_mark_ == '\0' && may_be_thousands(field.text, ',')) {
     if (field.wanted)
       fail(
           "field {}: '{}' can be read in two ways: if its comma is a decimal one, replace it by a "
@@ -271,7 +308,7 @@ bool Dialect::rewrite(Field& field) {
           "in two ways: replace each decimal comma by a point, and remove each other comma",
           count_, shown(field.text));
     if (decimal_mark_ == '\0') decimal_mark_ = mark;
-    if (decimal_mark_ != mark)
+    if (decimal_mark_ != mark || (comma && grouped_))
       fail("field {}: the decimal mark of '{}' is not that of the numbers before it", count_,
            shown(field.text));
   }

@@ -23,6 +23,8 @@ class Dialect {
   Dialect() = default;
   /// The form that the tools write: separated by tabs, with a decimal point.
   static Dialect of_output();
+  /// That form for fields of this dialect, after all of them have been split.
+  Dialect of_sides() const;
 
   /// Chooses the separator from a line: the first of the separators that the line contains outside
   /// quotes, else blanks; also if blanks and tabs both separate numbers, unless `tabs` says that
@@ -34,11 +36,13 @@ class Dialect {
   /// want_none().
   void want(std::size_t field);
   void want_none();
+  /// A point is a decimal one in this file, whose head a tool has written.
+  void has_points() { asks_ = false; }
 
   /// The fields of a line, valid until the next call or as long as the line. In files delimited by
   /// ; or tab a decimal comma becomes a point, and the minus sign U+2212 a hyphen. Throws Error for
-  /// a file with both decimal marks, for a comma that may separate thousands, and for a quote that
-  /// is not closed or has text behind it.
+  /// a file with both decimal marks, for a mark that may separate thousands (1,002 and, below 980,
+  /// 1.000), and for a quote that is not closed or has text behind it.
   std::span<const Field> split(std::string_view line);
   /// Fast path of split() for the line at the beginning of `text`, whose end has not been searched
   /// for: each field is a number, or text without special characters, quoted or not, and the line
@@ -65,10 +69,21 @@ class Dialect {
   const char* take_text(const char* at, const char* end, Field&);
   std::string_view take_quoted(const char*& at, const char* end);
   bool rewrite(Field&);
+  bool may_be_grouped(const Field&);
+
+  /// Readings of a column that speak for a point between thousands, while no number has shown that
+  /// it is a decimal one.
+  struct Seen {
+    bool whole = false, three_digits = false;        // 0 to 999; one from 100 on
+    bool grouped = false, zero_at_the_end = false;   // 1.000; which no shortest number ends with
+  };
 
   char separator_ = '\0';
   bool foreign_numbers_ = false;   // the separator allows decimal commas and U+2212
   char decimal_mark_ = '\0';       // of the numbers so far; '\0' if none had one
+  bool asks_ = false;              // a point may separate thousands
+  bool grouped_ = false;           // one that may has been read as a decimal one
+  std::vector<Seen> seen_;         // by field
   bool passed_thousands_ = false;  // a number whose comma may separate thousands went out as text
   bool as_it_stands_ = false, may_need_quotes_ = false;
   std::vector<Field> fields_;  // as many as the longest line had

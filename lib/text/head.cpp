@@ -1,13 +1,16 @@
 #include "text/head.h"
 
 #include <algorithm>
+#include <deque>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include "base/error.h"
 #include "text/commented_names.h"
 #include "text/delimiters.h"
 #include "text/number.h"
+#include "text/unit_lines.h"
 
 namespace rolling {
 namespace {
@@ -59,16 +62,19 @@ void refuse_two_readings(const std::string& line) {
 /// The comments and other lines in front of the first record.
 class HeadReader {
  public:
-  HeadReader(Lines& lines, Dialect& dialect, const Head* before)
-      : lines_(lines), dialect_(dialect), before_(before) {}
+  HeadReader(Lines& lines, Dialect& dialect, const Head* before, const CommentHook& pass)
+      : lines_(lines), dialect_(dialect), before_(before), pass_(pass) {}
 
   Head read(const std::vector<std::string>& order, Sides sides);
 
  private:
   bool has_tabs_of_names(std::string_view line) const;
   bool find_record();
+  void keep(std::string comment);
   void take_history();
   bool is_missing_record(std::string_view line);
+  bool is_named_by_comment(std::size_t width, bool any) const;
+  bool are_units(std::string_view line);
   std::vector<std::string> take_units();
   std::vector<std::string> take_names(std::size_t width, bool blank_end);
   bool is_named_below(const UnnamedColumns& columns) const;
@@ -82,8 +88,10 @@ class HeadReader {
   Lines& lines_;
   Dialect& dialect_;
   const Head* before_;
+  const CommentHook& pass_;
   Head head_;
   std::vector<Comment> comments_;
+  std::deque<Comment> last_;  // behind them, while lines are read
   std::vector<Comment> preamble_;  // lines that are neither comments nor records
 };
 
@@ -94,9 +102,34 @@ void HeadReader::take_history() {
   if (text.starts_with("run ")) {  // the `##` lines above belong to a run without records
     head_.run = trim(text.substr(4));
     std::erase_if(comments_, std::mem_fn(&Comment::is_history));
+    std::erase_if(last_, std::mem_fn(&Comment::is_history));
   } else {
-    comments_.push_back({line, lines_.number()});
+    keep(line);
   }
+}
+
+/// Keeps a comment, and passes one on that is too far from the record: a sensor that idles may
+/// write millions.
+void HeadReader::keep(std::string comment) {
+  last_.push_back({std::move(comment), lines_.number()});
+  constexpr std::size_t most = 100;
+  if (last_.size() <= most) return;
+  Comment& first = last_.front();
+  if (!pass_ || first.is_history() ||
+      (comments_.size() < most && (first.text.find('\t') != std::string::npos ||
+                                   holds_known_name(first.text))))
+    comments_.push_back(std::move(first));
+  else pass_(first.text);
+  last_.pop_front();
+}
+
+/// True if a comment has names for so many columns; known ones or with tabs, or `any`.
+bool HeadReader::is_named_by_comment(std::size_t width, bool any) const {
+  const auto names_them = [&](const Comment& comment) {
+    const CommentedNames found = names_in_comment(comment.text, {width});
+    return !comment.is_history() && !found.names.empty() && (any || found.tabs || found.known > 0);
+  };
+  return std::ranges::any_of(comments_, names_them) || std::ranges::any_of(last_, names_them);
 }
 
 /// True for a first record with missing readings: a field is NaN, which is no name of a column; or
@@ -107,7 +140,7 @@ bool HeadReader::is_missing_record(std::string_view line) {
   const auto is_nan = [](const Field& f) { return is_missing(f.text) && !f.text.empty(); };
   const auto is_blank = [](const Field& field) { return field.text.empty(); };
   if (std::ranges::any_of(fields, is_nan)) return true;
-  if (holds_known_name(line)) return false;
+  if (holds_known_name(line) || are_units(line)) return false;
   const std::size_t width = fields.size();
   const bool all_blank = std::ranges::all_of(fields, is_blank);
   if (before_) {  // a names line has no blanks where the one before had names
@@ -116,12 +149,7 @@ bool HeadReader::is_missing_record(std::string_view line) {
            (width == before_->layout.width && std::any_of(fields.begin(), last, is_blank));
   }
   if (preamble_.empty())  // blanks under the names of a comment; beside text, if these are certain
-    return std::ranges::any_of(fields, is_blank) &&
-           std::ranges::any_of(comments_, [&](const Comment& comment) {
-             const CommentedNames found = names_in_comment(comment.text, {width});
-             return !comment.is_history() && !found.names.empty() &&
-                    (all_blank || found.tabs || found.known > 0);
-           });
+    return std::ranges::any_of(fields, is_blank) && is_named_by_comment(width, all_blank);
   if (!std::ranges::all_of(fields, [&](const Field& f) { return is_blank(f) || is_date(f.text); }))
     return false;
   const std::string& above = preamble_.back().text;
@@ -139,7 +167,8 @@ bool HeadReader::has_tabs_of_names(std::string_view line) const {
     return names.find(' ') == std::string_view::npos && std::ranges::count(names, '\t') == tabs;
   };
   return tabs > 0 && ((!preamble_.empty() && agrees(preamble_.back())) ||
-                      std::ranges::any_of(comments_, agrees));
+                      std::ranges::any_of(comments_, agrees) ||
+                      std::ranges::any_of(last_, agrees));
 }
 
 /// Goes to the first record; false if there is none.
@@ -158,7 +187,7 @@ bool HeadReader::find_record() {
         take_history();
         break;
       case LineKind::comment:
-        comments_.push_back({line.substr(line.find('#')), lines_.number()});
+        keep(line.substr(line.find('#')));
         break;
       case LineKind::record:
         if ((before_ ? dialect_.holds_number(line)
@@ -187,7 +216,10 @@ bool HeadReader::is_named_below(const UnnamedColumns& columns) const {
 std::vector<std::string> HeadReader::take_commented_names(const UnnamedColumns& columns) {
   auto chosen = choose_names(comments_, columns, !before_, lines_.name());
   if (!chosen) return {};
-  head_.line = comments_[chosen->place].line;
+  const Comment& names = comments_[chosen->place];
+  if (names.text.starts_with("# ") && names.text.find('\t') != std::string::npos)
+    dialect_.has_points();
+  head_.line = names.line;
   note_sorted_history(chosen->place);
   comments_.erase(comments_.begin() + static_cast<std::ptrdiff_t>(chosen->place));
   return std::move(chosen->names);
@@ -204,10 +236,27 @@ void HeadReader::note_sorted_history(std::size_t names) {
     comments_.push_back({fmt::format("## {}", lines_sorted), comments_.back().line});
 }
 
+/// True for a line of units, some of them blank, under a comment with the names.
+bool HeadReader::are_units(std::string_view line) {
+  const auto units = names_in(line, dialect_);
+  const auto is_unit = [](const std::string& text) {
+    return text.empty() || unit_kind(text) != UnitKind::none;
+  };
+  return std::ranges::all_of(units, is_unit) && std::ranges::count(units, "") != std::ssize(units);
+}
+
 /// The units in the line below the line of names; empty if there is none.
 std::vector<std::string> HeadReader::take_units() {
-  if (preamble_.size() < 2) return {};
+  if (preamble_.empty()) return {};
   auto units = names_in(preamble_.back().text, dialect_);
+  if (preamble_.size() == 1 && std::ranges::any_of(comments_, [&](const Comment& comment) {
+        return comment.line < preamble_.back().line && !comment.is_history() &&
+               names_in_comment(comment.text, {units.size()}).known > 0;
+      }) && are_units(preamble_.back().text)) {
+    preamble_.pop_back();
+    return units;
+  }
+  if (preamble_.size() < 2) return {};
   if (!are_units_of(names_in(preamble_[preamble_.size() - 2].text, dialect_), units)) return {};
   preamble_.pop_back();
   return units;
@@ -271,7 +320,10 @@ std::string HeadReader::way_out(std::size_t width, std::size_t names) const {
 }
 
 Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
-  if (!find_record()) {
+  const bool found = find_record();
+  std::ranges::move(last_, std::back_inserter(comments_));
+  last_.clear();
+  if (!found) {
     if (!before_) refuse_without_records("no records");
     comment_preamble();
     return finish();
@@ -317,9 +369,9 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
 }  // namespace
 
 Head read_head(Lines& lines, Dialect& dialect, const Head* before,
-               const std::vector<std::string>& order, Sides sides) {
+               const std::vector<std::string>& order, Sides sides, const CommentHook& pass) {
   try {
-    return HeadReader(lines, dialect, before).read(order, sides);
+    return HeadReader(lines, dialect, before, pass).read(order, sides);
   } catch (const InputError&) {
     throw;
   } catch (const Error& error) {

@@ -109,7 +109,7 @@ bool Input::another_run() const {
   const std::string_view ahead = this->ahead();
   bool blank = false;
   for (std::size_t at = 0; at < ahead.size();) {
-    const auto mark = std::min(ahead.find_first_not_of(" \t\r", at), ahead.size() - 1);
+    const auto mark = std::min(ahead.find_first_not_of("\t;, \"\r", at), ahead.size() - 1);
     constexpr std::string_view no_record = "\n#\x1A";
     if (blank && no_record.find(ahead[mark]) == std::string_view::npos) return true;
     blank = blank || ahead[mark] == '\n';

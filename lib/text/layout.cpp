@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "base/error.h"
+#include "text/number.h"
 
 namespace rolling {
 namespace {
@@ -19,6 +21,40 @@ void add(Layout& layout, const std::vector<Column>& line, std::size_t field, std
   else std::for_each(layout.runs.begin(), layout.runs.end(), put);
 }
 
+/// The labels that make runs: those of a t; without one, those of a known quantity that another
+/// label brings too (or of any other column, if they are numbers); else the only one, if it is of a
+/// known quantity or a number.
+std::vector<std::string> labels_of_runs(const std::vector<Column>& line) {
+  std::vector<std::string> all, timed, alike;
+  const auto note = [](std::vector<std::string>& labels, const std::string& label) {
+    if (std::ranges::count(labels, label) == 0) labels.push_back(label);
+  };
+  for (const Column& c : line) {
+    if (c.run.empty()) continue;
+    note(all, c.run);
+    if (c.name == "t") note(timed, c.run);
+    const bool counts = is_known(c) || is_number(c.run);
+    if (counts && std::ranges::any_of(line, [&](const Column& other) {
+          return other.name == c.name && !other.run.empty() && other.run != c.run;
+        }))
+      note(alike, c.run);
+  }
+  if (!timed.empty()) return timed;
+  const bool one = all.size() == 1 && std::ranges::any_of(line, [](const Column& c) {
+    return !c.run.empty() && (is_known(c) || is_number(c.run));
+  });
+  return one ? all : alike;
+}
+
+/// The columns, of which those that are of none of these runs have no label but in their names.
+std::vector<Column> without_other_labels(std::vector<Column> line,
+                                         const std::vector<std::string>& runs) {
+  for (Column& c : line)
+    if (!c.run.empty() && !is_known(c) && std::ranges::count(runs, c.run) == 0)
+      c.name = std::exchange(c.labelled, ""), c.run.clear();
+  return line;
+}
+
 /// Refuses a quantity that occurs fewer times than t: it is not clear to which t it belongs.
 void refuse_unclear(const std::vector<Column>& line, std::map<std::string, std::size_t>& count,
                     bool labelled) {
@@ -26,36 +62,35 @@ void refuse_unclear(const std::vector<Column>& line, std::map<std::string, std::
   for (const Column& c : line) times += c.name == "t" && (!labelled || !c.run.empty());
   if (times < 2) return;
   for (const Column& c : line)
-    if (c.name != "t" && !si_unit(c.name).empty() &&
-        (labelled ? c.run.empty() : count[c.name] < times))
+    if (c.name != "t" && is_known(c) && (labelled ? c.run.empty() : count[c.name] < times))
       fail("of {} columns t, which one {} goes with is not clear: say --use t=N, by number", times,
            c.name);
 }
 
 }  // namespace
 
-Layout Layout::one(const std::vector<Column>& line) {
+Layout Layout::one(const std::vector<Column>& of) {
+  const auto labels = labels_of_runs(of);
+  const auto line = without_other_labels(of, labels);
   Layout layout{{Run()}, line.size(), std::vector<bool>(line.size())};
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    add(layout, line, i, 0);
-    if (layout.runs.front().label.empty()) layout.runs.front().label = line[i].run;
-  }
+  if (!labels.empty()) layout.runs.front().label = labels.front();
+  for (std::size_t i = 0; i < line.size(); ++i) add(layout, line, i, 0);
   return layout;
 }
 
-Layout Layout::of(const std::vector<Column>& line) {
+Layout Layout::of(const std::vector<Column>& named) {
+  const auto labels = labels_of_runs(named);
+  const auto line = without_other_labels(named, labels);
   Layout layout{{}, line.size(), std::vector<bool>(line.size())};
-  std::map<std::string, std::size_t> place, count;  // of a label; of a name
-  for (const Column& column : line) {
-    ++count[column.name];
-    if (!column.run.empty() && place.emplace(column.run, place.size()).second)
-      layout.runs.push_back({column.run, {}, {}});
-  }
-  if (place.size() > 1) {
+  std::map<std::string, std::size_t> count;  // of a name
+  for (const Column& column : line) ++count[column.name];
+  if (labels.size() > 1) {
     refuse_unclear(line, count, true);
+    for (const std::string& label : labels) layout.runs.push_back({label, {}, {}});
     for (std::size_t i = 0; i < line.size(); ++i)
-      add(layout, line, i, line[i].run.empty() ? layout.runs.size() : place[line[i].run]);
-  } else if (count["t"] > 1) {
+      add(layout, line, i,
+          static_cast<std::size_t>(std::ranges::find(labels, line[i].run) - labels.begin()));
+  } else if (labels.empty() && count["t"] > 1) {
     refuse_unclear(line, count, false);
     layout.runs = std::vector<Layout::Run>(count["t"]);
     std::map<std::string, std::size_t> seen;
@@ -64,7 +99,7 @@ Layout Layout::of(const std::vector<Column>& line) {
           count[line[i].name] == 1 ? layout.runs.size()
                                    : std::min(seen[line[i].name]++, layout.runs.size() - 1));
   } else {
-    return one(line);
+    return one(named);
   }
   return layout;
 }

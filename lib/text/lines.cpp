@@ -14,8 +14,6 @@ namespace {
 constexpr std::array<std::string_view, 8> error_values = {
     "#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!", "#SPILL!"};
 
-constexpr std::string_view filling = "\t;, ";
-
 /// A line without the separators with which a spreadsheet fills it up, and without the quotes that
 /// some put around each text.
 std::string_view only_cell(std::string_view line) {
@@ -40,7 +38,8 @@ bool begins_with_error_value(std::string_view line) {
 LineKind Lines::kind() const {
   std::string_view line = text_;
   const std::size_t first = line.find_first_not_of(" \t");
-  if (first == std::string_view::npos || line == "\x1A") return LineKind::blank;
+  if (first == std::string_view::npos || line == "\x1A" || is_blank_row(first))
+    return LineKind::blank;
   const bool is_field = separators_ == "\t" && line.find('\t') < first;  // a blank one before it
   if (line[first] == quote && !is_field && only_cell(line).starts_with("##"))
     return LineKind::history;
@@ -48,6 +47,13 @@ LineKind Lines::kind() const {
   line.remove_prefix(first);
   if (line.starts_with("##")) return LineKind::history;
   return begins_with_error_value(line) ? LineKind::record : LineKind::comment;
+}
+
+/// True for a row whose cells are all blank, in quotes perhaps: separators alone from `first` on.
+bool Lines::is_blank_row(std::size_t first) const {
+  const char c = text_[first];
+  if (separators_.empty() || (c != quote && separators_.find(c) == std::string::npos)) return false;
+  return text_.find_first_not_of(separators_ + " \t\"", first) == std::string_view::npos;
 }
 
 std::string history_line(std::string_view line) {

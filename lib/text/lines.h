@@ -42,7 +42,8 @@ class Lines {
   void put_back() { again_ = true; }
   /// The present line, valid until the next one.
   std::string_view text() const { return text_; }
-  /// A blank line contains blanks and tabs only, or the Ctrl-Z that ends a file of DOS. A comment
+  /// A blank line contains blanks, tabs and separators only, blank cells in quotes perhaps, or the
+  /// Ctrl-Z that ends a file of DOS. A comment
   /// begins with #, a history line with ##; blanks may stand before it, and tabs where they are not
   /// the separator. A history line may be in quotes, if the other fields of its line are blank. A
   /// line that begins with an error value of a spreadsheet (#N/A) is a record.
@@ -67,6 +68,7 @@ class Lines {
  private:
   void join_quoted();
   void check_bytes() const;
+  bool is_blank_row(std::size_t first) const;
 
   Input input_;
   std::string_view text_;

@@ -1,17 +1,26 @@
 #include "text/needed_columns.h"
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "base/error.h"
 #include "text/number.h"
-#include "text/unit_words.h"
 
 namespace rolling {
 namespace {
 
 bool is_column_number(std::string_view name) {
   return name.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// A word of the name begins with Time, or the name is t and a number.
+bool says_time(const std::string& name) {
+  const std::string small = lower(name);
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  for (auto at = small.find("time"); at != std::string::npos; at = small.find("time", at + 1))
+    if (at == 0 || !is_letter(small[at - 1])) return true;
+  return small.starts_with("t") && small.size() > 1 && std::ranges::none_of(small.substr(1), is_letter);
 }
 
 /// The column is to have the name and the unit of the quantity that it serves as.
@@ -75,16 +84,57 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits
       fail<InputError>("{}: --use: column {} cannot serve as both {} and {}", place_, *at + 1,
                        quantity, quantities_[*at]);
     else if (!use.unit.empty()) as_read_[*at].unit = with_unit(*at, quantity).unit;
+  serve_by_units();
   resolve();
+}
+
+/// Headers in other languages: the only column in a unit of time serves as t, and where none is x
+/// or v by its name, the only length as x and the only speed as v.
+void NeededColumns::serve_by_units() {
+  if (!named_) return;
+  const auto names = [&](const std::string& quantity) {
+    return std::ranges::count(quantities_, quantity) > 0;
+  };
+  const bool moves = names("x") || names("v");
+  for (const std::string quantity : {"t", "x", "v"}) {
+    if (quantity == "t" ? names("t") : moves) continue;
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < as_read_.size(); ++i)
+      if (!as_read_[i].unit.empty() && unit_of(quantity, as_read_[i].unit) &&
+          si_unit(quantities_[i]).empty())
+        found.push_back(i);
+    if (found.size() == 1) quantities_[found.front()] = quantity;
+  }
+}
+
+/// True for a column that is a time by its name or its unit, but for one that a tool has renamed.
+bool NeededColumns::may_be_time(std::size_t i) const {
+  const Column& column = as_read_[i];
+  return quantities_[i] == "t" ||
+         (si_unit(quantities_[i]).empty() && !column.name.ends_with("_in") &&
+          (says_time(column.name) || (!column.unit.empty() && unit_of("t", column.unit))));
+}
+
+/// Refuses t in `column` where another one may be it too.
+void NeededColumns::refuse_other_times(std::size_t column) const {
+  for (std::size_t i = 0; i < as_read_.size(); ++i)
+    if (i != column && may_be_time(i))
+      fail<InputError>("{}: columns {}, '{}', and {}, '{}', may both be t; say --use t=N", place_,
+                       std::min(i, column) + 1, shown(to_text(as_read_[std::min(i, column)])),
+                       std::max(i, column) + 1, shown(to_text(as_read_[std::max(i, column)])));
 }
 
 std::optional<std::size_t> NeededColumns::find(std::string_view name) const {
   const std::string quantity = read_column(name).name;
   if (const auto use = use_.find(quantity); use != use_.end())
     return find_column(use->second.column);
-  const auto at = find_column(name);
+  auto at = find_column(name);
+  if (const auto by_unit = std::ranges::find(quantities_, quantity);
+      !at && quantity == name && by_unit != quantities_.end())
+    at = static_cast<std::size_t>(by_unit - quantities_.begin());
   // The column of this name serves as another quantity.
   if (at && !si_unit(quantity).empty() && quantities_[*at] != quantity) return {};
+  if (at && quantity == "t" && named_) refuse_other_times(*at);
   return at;
 }
 
@@ -97,8 +147,9 @@ std::optional<std::size_t> NeededColumns::find_column(std::string_view name) con
   std::optional<std::size_t> found;
   bool of_another_run = false;
   for (std::size_t i = 0; i < as_read_.size(); ++i)
-    if (as_read_[i].name == asked.name) {
-      if (!asked.run.empty() && asked.run != as_read_[i].run) {
+    if (as_read_[i].name == asked.name || (!asked.run.empty() && as_read_[i].name == asked.labelled)) {
+      if (!asked.run.empty() && asked.run != as_read_[i].run &&
+          as_read_[i].name != asked.labelled) {
         of_another_run = true;
         continue;
       }
@@ -134,6 +185,7 @@ std::size_t NeededColumns::require(std::string_view name) const {
     std::string way_out;
     if (const auto by = appended_by_.find(std::string(name)); by != appended_by_.end())
       way_out = fmt::format("; {} appends it", by->second);
+    if (!named_) way_out += "; if this line is a heading, begin it with #";
     if (has_use_ && !si_unit(read_column(name).name).empty())
       way_out += fmt::format("{} say --use {}=COLUMN", way_out.empty() ? ";" : ", or", name);
     fail<InputError>("{}: there is no column '{}' among {}{}", place_, shown(name), list(),
@@ -149,14 +201,15 @@ Column NeededColumns::with_unit(std::size_t column, const std::string& quantity)
   const auto use = use_.find(quantity);
   if (use == use_.end() || use->second.unit.empty()) return read;
   // The unit that --use gives stands for one that no tool knows.
-  if (named_ && unit_kind(read.unit) != UnitKind::none && read.unit != use->second.unit)
+  const auto own = unit_of(quantity, read.unit), given = unit_of(quantity, use->second.unit);
+  if (named_ && unit_kind(read.unit) != UnitKind::none && !(own && given && *own == *given))
     fail<InputError>("{}: --use {} says {}, but the column's name {}", place_, quantity,
                      shown(use->second.unit), shown(to_text(read)));
   read.unit = use->second.unit;
   return read;
 }
 
-void NeededColumns::resolve(Needed& needed) const {
+void NeededColumns::resolve(Needed& needed) {
   const auto found = needed.kind == Kind::wanted ? find(needed.name) : require(needed.name);
   needed.column = found.value_or(no_column);
   needed.to_si = {};
@@ -178,22 +231,37 @@ void NeededColumns::resolve(Needed& needed) const {
       first && !asked.empty() && asked != meant.unit && asked != si_unit(quantity))
     fail<InputError>("{}: '{}' is asked for, but column {} is '{}'", place_, shown(needed.name),
                      *found + 1, shown(to_text(meant)));
-  const auto way_out = [&] {
-    return has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", quantity, *found + 1) : "";
-  };
-  if (meant.unit.empty()) {
-    std::string unit = unit_in_name(quantity, meant.name), by;
-    if (const auto said = said_.find(quantity); unit.empty() && said != said_.end())
-      unit = said->second.unit, by = fmt::format(", as line {} says", said->second.line);
-    if (!unit.empty())
-      fail<InputError>(
-          "{}: column '{}' cannot serve as {}: is it in '{}'{}? Write the unit in brackets{}",
-          place_, shown(meant.name), quantity, unit, by, way_out());
+  needed.to_si = conversion(*found, quantity);
+}
+
+/// The conversion of a column that serves as `quantity`. Its unit may stand at the end of its name;
+/// a column without one is in SI units, which is noted where its name does not say so. Refuses a
+/// unit that is not known, and names the other columns that are refused for the same reason.
+Conversion NeededColumns::conversion(std::size_t at, const std::string& quantity) {
+  Column meant = with_unit(at, quantity);
+  const bool named = named_ && meant.name == quantity;
+  if (meant.unit.empty() && named_) meant.unit = unit_at_end(quantity, meant.name);
+  if (const auto said = said_.find(quantity);
+      has_use_ && meant.unit.empty() && !si_unit(quantity).empty() && (!named || said != said_.end())) {
+    std::string line = fmt::format("{} is column {}", quantity, at + 1);
+    if (named_) line += fmt::format(", '{}'", shown(meant.name));
+    line += fmt::format(", taken in {}", si_unit(quantity));
+    if (said != said_.end())
+      line += fmt::format(" although line {} says {}", said->second.line, shown(said->second.unit));
+    if (taken_in_si_.find(line) == std::string::npos)
+      taken_in_si_ += (taken_in_si_.empty() ? "" : "; ") + line;
   }
   try {
-    needed.to_si = conversion_to_si(quantity, meant);
+    return conversion_to_si(quantity, meant);
   } catch (const Error& error) {
-    fail<InputError>("{}: {}{}", place_, error.what(), way_out());
+    std::string others;
+    for (std::size_t i = 0; i < as_read_.size(); ++i)
+      if (const Column& c = as_read_[i]; i != at && !c.unit.empty() && named_ &&
+          !si_unit(quantities_[i]).empty() && !unit_of(quantities_[i], c.unit))
+        others += fmt::format("; nor can '{}' as {}", shown(to_text(c)), quantities_[i]);
+    fail<InputError>("{}: {}{}{}", place_, error.what(),
+                     has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", quantity, at + 1) : "",
+                     others);
   }
 }
 
@@ -216,6 +284,10 @@ void NeededColumns::name_columns() {
   }
   for (const Needed& needed : needed_) {
     if (!serves(needed)) continue;
+    if (needed.quantity == "t" && use_.contains("t"))  // the next tool of a pipe has no choice
+      for (std::size_t i = 0; i < as_read_.size(); ++i)
+        if (i != needed.column && named_ && may_be_time(i) && as_read_[i].name != "t")
+          in_output_[i].name = free_name(in_output_, in_output_[i].name);
     Column& column = in_output_[needed.column];
     column.name = needed.quantity;
     if (const auto unit = si_unit(needed.quantity); !unit.empty()) column.unit = unit;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "text/column.h"
-#include "text/unit_lines.h"
+#include "text/unit.h"
 
 namespace rolling {
 
@@ -41,7 +41,7 @@ class NeededColumns {
   bool use_has_numbers() const;
 
   /// Finds the columns again among those of the next run. `named`: the file names them. `said`: the
-  /// units in its comments, which a column without one is refused for. `place` begins the messages.
+  /// units in its comments. `place` begins the messages.
   /// Throws InputError if one is absent, or has another quantity or unit than in the runs before.
   void begin_run(std::vector<Column> as_read, bool named, SaidUnits said, std::string place);
   /// Declares a column; returns its slot, its index in all(). Throws InputError like begin_run().
@@ -51,13 +51,19 @@ class NeededColumns {
   bool converts() const { return converts_; }
 
   /// Index of the column that serves as `name` (a name, a 1-based number, or what --use says), if
-  /// there is one.
+  /// there is one. Where no name is t, or x or v, the only column in a unit of it serves as it.
+  /// Throws InputError for t where several columns may be it.
   std::optional<std::size_t> find(std::string_view name) const;
+  /// What each column of this run serves as: by --use, by its unit, else its own name.
+  const std::vector<std::string>& quantities() const { return quantities_; }
   /// The columns of this run with the names and units of the output: a column that serves as a
   /// quantity has its name and unit; another column of that name is renamed.
   const std::vector<Column>& in_output() const { return in_output_; }
   /// A needed column of this run has another name in the file.
   bool renames() const;
+  /// The quantities so far whose columns say neither quantity nor unit, or have no unit where a
+  /// comment says one: `t is column 1, 'Frame', taken in s; ...`. Empty if there is none.
+  const std::string& taken_in_si() const { return taken_in_si_; }
 
  private:
   struct Use {
@@ -66,9 +72,13 @@ class NeededColumns {
   std::optional<std::size_t> find_column(std::string_view name) const;
   std::size_t require(std::string_view name) const;
   Column with_unit(std::size_t column, const std::string& quantity) const;
+  bool may_be_time(std::size_t column) const;
+  void serve_by_units();
+  void refuse_other_times(std::size_t column) const;
   std::string list() const;
   void resolve();
-  void resolve(Needed&) const;
+  void resolve(Needed&);
+  Conversion conversion(std::size_t column, const std::string& quantity);
   void name_columns();
 
   std::map<std::string, Use> use_;  // by quantity
@@ -76,10 +86,11 @@ class NeededColumns {
   std::map<std::string, std::string> appended_by_;
   std::vector<Needed> needed_;
   bool converts_ = false;
+  std::string taken_in_si_;
 
   // The run.
   std::vector<Column> as_read_, in_output_;
-  std::vector<std::string> quantities_;  // what each column serves as: by --use, else its own name
+  std::vector<std::string> quantities_;
   bool named_ = false;
   SaidUnits said_;
   std::string place_;

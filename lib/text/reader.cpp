@@ -10,6 +10,16 @@
 #include "text/number.h"
 
 namespace rolling {
+namespace {
+
+bool is_whole(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// The key of what is wrong with the order of the times of a run that was passed over.
+constexpr const char* order_of_times = "order of t";
+
+}  // namespace
 
 Reader::Reader(ReaderOptions options, std::vector<std::string> order)
     : options_(std::move(options)), needed_(options_.use, options_.has_use, options_.appended_by),
@@ -23,14 +33,20 @@ Reader::~Reader() = default;
 // ----------------------------------------------------------------------------------------
 // runs
 
-/// True if the run on this side is to be read.
-bool Reader::asked_for(std::size_t side) const {
+/// True if the present run is to be read: by the number in its header or at the end of its name,
+/// which is the same behind a tool, else by its place.
+bool Reader::asked_for() {
   if (!options_.run) return true;
-  const auto has_number = [](const Layout::Run& run) { return is_number(run.label); };
-  const std::vector<Layout::Run>& runs = head_.layout.runs;
-  return std::ranges::any_of(runs, has_number)
-             ? runs[side].label == fmt::format("{}", *options_.run)
-             : run_ + static_cast<int>(side - side_) + 1 == *options_.run;
+  std::string number = layout().label;
+  if (!is_number(number)) number = run_is_named() ? run_name() : "";
+  number.erase(0, number.rfind(' ') + 1);
+  const auto is_label = [](const Layout::Run& run) { return is_number(run.label); };
+  if (!is_whole(number)) {
+    if (std::ranges::any_of(head_.layout.runs, is_label)) return false;
+    number = fmt::format("{}", run_);
+  }
+  runs_ += (runs_.empty() ? "" : ", ") + number;
+  return number == fmt::format("{}", *options_.run);
 }
 
 bool Reader::next_run() {
@@ -46,12 +62,11 @@ bool Reader::find_run() {
   remarks_.clear();
   comments_.clear();
   place_.clear();
+  bool passed = false;
   while (state_ != State::ended && next_head()) {
-    const bool wanted = asked_for(side_);
     ++run_;
     ++run_in_file_;
-    if (const std::string& label = layout().label; options_.run && is_number(label))
-      labels_ += (labels_.empty() ? "" : ", ") + label;
+    const bool wanted = asked_for();
     if (wanted && options_.run && run_found_)
       fail<InputError>("{}:{}: another run {}; give the file of one of them alone", lines_->name(),
                        head_.line, *options_.run);
@@ -59,13 +74,16 @@ bool Reader::find_run() {
       begin_run();
       return true;
     }
-    while (next_line()) continue;
+    pass_over();
+    passed = true;
+    comments_.clear();
   }
+  if (passed) comments_.clear();  // of the run that was passed over last
   state_ = State::ended;
   line_number_ = 0;
   if (options_.run && !run_found_)
     fail("there is no run {} (runs: {})", *options_.run,
-         labels_.empty() ? fmt::format("{}", run_) : labels_);
+         runs_);
   if (left_out_ > 0 && !record_found_)
     fail<InputError>("{}no records: a needed reading is missing in every one",
                      options_.files.size() == 1 ? lines_->name() + ": " : "");
@@ -83,7 +101,8 @@ bool Reader::next_head() {
   const Sides sides = needed_.use_has_numbers() ? Sides::one : Sides::by_names;
   while (file_open_ || next_file()) {
     const bool first = run_in_file_ == 0;
-    Head head = read_head(*lines_, file_dialect_, first ? nullptr : &head_, order_, sides);
+    Head head = read_head(*lines_, file_dialect_, first ? nullptr : &head_, order_, sides,
+                          run_ == 0 && !options_.run ? options_.on_comment : CommentHook());
     if (!head.layout.runs.empty()) {
       take_head(std::move(head));
       return true;
@@ -118,17 +137,13 @@ void Reader::take_head(Head head) {
   side_ = 0;
   sides_.clear();
   if (!head_.layout.side_by_side()) return;
-  std::vector<bool> wanted;
-  for (std::size_t side = 0; side < head_.layout.runs.size(); ++side)
-    wanted.push_back(asked_for(side));
-  sides_ = take_apart(*lines_, file_dialect_, head_.layout, wanted);
+  sides_ = take_apart(*lines_, file_dialect_, head_.layout);
 }
 
-/// True if there are several runs, or if the run has a name in the input.
+/// True if there are several runs, or if the run has a name or a number in the input.
 bool Reader::run_is_named() const {
-  if (!head_.run.empty()) return true;
-  return !options_.run && (options_.files.size() > 1 || head_.layout.side_by_side() ||
-                           run_in_file_ > 1 || lines_->another_run());
+  return !head_.run.empty() || is_number(layout().label) || options_.files.size() > 1 ||
+         head_.layout.side_by_side() || run_in_file_ > 1 || lines_->another_run();
 }
 
 std::string Reader::run_name() const {
@@ -146,18 +161,72 @@ std::string Reader::run_name() const {
   return std::string(trim(name));
 }
 
+/// Prepares for the lines of the run whose head has been read.
+void Reader::begin_lines() {
+  side_line_ = 0;
+  side_dialect_ = file_dialect_.of_sides();
+  dialect_ = sides_.empty() ? &file_dialect_ : &side_dialect_;
+}
+
+/// Reads the present run as strictly as one that is kept: what is wrong in a column is an error as
+/// soon as this column is needed.
+void Reader::pass_over() {
+  begin_lines();
+  NeededColumns judge(options_.use, options_.has_use);
+  judge.begin_run(layout().columns, head_.named, head_.said, place_of_head());
+  const std::vector<std::string>& quantities = judge.quantities();
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    dialect_->want(i);
+    try {
+      judge.add(fmt::format("{}", i + 1), NeededColumns::Kind::wanted);
+    } catch (const InputError& error) {
+      passed_.emplace(quantities[i], error.what());
+    }
+  }
+  double last = std::numeric_limits<double>::quiet_NaN();
+  while (next_line()) {
+    remarks_.clear();
+    split_line();
+    if (fields_.size() != quantities.size()) change_fields();
+    for (std::size_t i = 0; i < quantities.size(); ++i) {
+      const bool missing = is_missing(fields_[i].text);
+      const double number = fields_[i].number;
+      if (missing ? options_.strict : std::isnan(number))
+        passed_.emplace(quantities[i],
+                        wrong(i, quantities[i],
+                              missing ? "is a missing reading" : "is not a number" + way_out(i)));
+      if (quantities[i] != "t" || std::isnan(number)) continue;
+      if (number <= last)
+        passed_.emplace(order_of_times, wrong(i, "t", fmt::format("does not come after {}", last)));
+      last = number;
+    }
+  }
+  remarks_.clear();
+  refuse_passed();
+}
+
+/// Refuses what is wrong in a needed column of a run that was passed over.
+void Reader::refuse_passed() const {
+  const auto refuse = [&](const std::string& what) {
+    if (const auto found = passed_.find(what); found != passed_.end())
+      fail<InputError>("{}", found->second);
+  };
+  for (const NeededColumns::Needed& needed : needed_.all()) refuse(needed.quantity);
+  if (time_slot_ != no_column) refuse(order_of_times);
+}
+
+/// What begins the messages about the columns of the present run.
+std::string Reader::place_of_head() const {
+  return run_in_file_ > 1 || !head_.named ? fmt::format("{}:{}", lines_->name(), head_.line)
+                                          : lines_->name();
+}
+
 /// Prepares for the records of the run whose head has been read.
 void Reader::begin_run() {
   state_ = State::found;
   run_found_ = true;
   last_time_ = std::numeric_limits<double>::quiet_NaN();
-  side_line_ = 0;
-  if (sides_.empty()) {
-    dialect_ = &file_dialect_;
-  } else {
-    side_dialect_ = Dialect::of_output();
-    dialect_ = &side_dialect_;
-  }
+  begin_lines();
   place_ = lines_->name();
   if (run_is_named()) {
     place_ = "run " + run_name();
@@ -165,14 +234,13 @@ void Reader::begin_run() {
   }
   for (const std::string& comment : head_.comments)
     if (side_ == 0 || comment.starts_with("##")) comments_.push_back(comment);
-  needed_.begin_run(
-      layout().columns, head_.named, head_.said,
-      run_in_file_ > 1 ? fmt::format("{}:{}", lines_->name(), head_.line) : lines_->name());
+  needed_.begin_run(layout().columns, head_.named, head_.said, place_of_head());
   read_needed();
 }
 
 std::size_t Reader::add(std::string_view name, NeededColumns::Kind kind) {
   const std::size_t slot = needed_.add(name, kind);
+  refuse_passed();
   read_needed();
   return slot;
 }
@@ -366,9 +434,13 @@ std::size_t Reader::append_made(Bytes& to, std::size_t column) {
   return std::min(place, to.size() - begin);
 }
 
+std::string Reader::wrong(std::size_t column, std::string_view name, std::string_view why) const {
+  return fmt::format("{}: field {} ({}): '{}' {}", here(), layout().fields[column] + 1, shown(name),
+                     shown(fields_[column].text), why);
+}
+
 void Reader::reject(std::size_t column, std::string_view why) const {
-  fail<InputError>("{}: field {} ({}): '{}' {}", here(), layout().fields[column] + 1,
-                   shown(columns()[column].name), shown(fields_[column].text), why);
+  fail<InputError>("{}", wrong(column, columns()[column].name, why));
 }
 
 /// What to do about a field that is not a number, where its text shows the likely reason: a decimal

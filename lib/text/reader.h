@@ -2,6 +2,7 @@
 // names in each head, converts them to SI units, and passes all other text through.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +25,8 @@ struct ReaderOptions {
   std::optional<int> run = {};          ///< the only run to be read
   bool strict = false;                  ///< a missing reading is an error
   BlockHook on_block = {};              ///< is called with the progress of reading a file
+  /// Gets most of very many comments in front of the first run, see read_head(); not with `run`.
+  CommentHook on_comment = {};
   bool has_use = true;                  ///< the option --use applies to these files
   /// By quantity, the program that appends it: messages name it where there is no such column.
   std::map<std::string, std::string> appended_by = {};
@@ -62,7 +65,11 @@ class Reader {
   /// known quantity (a is the coefficient in a row of fitpower, not an acceleration).
   std::size_t need_as_is(std::string_view name) { return add(name, NeededColumns::Kind::as_is); }
   /// Needs t, and refuses times that do not increase within a run.
-  std::size_t need_time() { return time_slot_ = need("t"); }
+  std::size_t need_time() {
+    time_slot_ = need("t");
+    refuse_passed();
+    return time_slot_;
+  }
   /// The index of a needed column in the records of the present run.
   std::size_t column_of(std::size_t slot) const { return needed_.all()[slot].column; }
   /// A needed column of this run has another name in the file: what the history says of the name
@@ -103,6 +110,8 @@ class Reader {
   std::string where() const;
   /// Number of records that were left out because a needed reading was missing.
   std::size_t left_out() const { return left_out_; }
+  /// See NeededColumns.
+  const std::string& taken_in_si() const { return needed_.taken_in_si(); }
   /// True if times are so large that a double keeps fewer than four digits of the step between two
   /// records.
   bool coarse_time() const { return coarse_time_; }
@@ -121,8 +130,12 @@ class Reader {
   bool next_head();
   bool next_file();
   void take_head(Head);
-  bool asked_for(std::size_t side) const;
+  bool asked_for();
+  void begin_lines();
   void begin_run();
+  void pass_over();
+  void refuse_passed() const;
+  std::string place_of_head() const;
   bool run_is_named() const;
 
   // Records.
@@ -135,6 +148,7 @@ class Reader {
   bool take_record();
   void check_time();
   std::size_t append_made(Bytes& to, std::size_t column);
+  std::string wrong(std::size_t column, std::string_view name, std::string_view why) const;
   [[noreturn]] void reject(std::size_t column, std::string_view why) const;
   std::string way_out(std::size_t column) const;
   std::string here() const;
@@ -156,7 +170,8 @@ class Reader {
   std::vector<std::string> comments_, remarks_;
   std::size_t run_in_file_ = 0;  // number of the run in the file
   std::string place_;            // where() behind its last record
-  std::string labels_;           // the numbers that runs before it carry, where one is asked for
+  std::string runs_;             // the numbers of the runs so far, where one is asked for
+  std::map<std::string, std::string> passed_;  // what is wrong in runs passed over, by quantity
   bool run_found_ = false, record_found_ = false, file_open_ = false;
 
   // The present record.

@@ -18,8 +18,7 @@ void Side::take(LineKind kind, std::size_t number) {
   lines_.push_back({number, lines_.empty() ? 0 : lines_.back().end, text_.size(), kind});
 }
 
-std::vector<Side> take_apart(Lines& lines, Dialect& dialect, const Layout& layout,
-                             const std::vector<bool>& wanted) {
+std::vector<Side> take_apart(Lines& lines, Dialect& dialect, const Layout& layout) {
   std::vector<Side> sides(layout.runs.size());
   while (lines.next()) {
     const LineKind kind = lines.kind();
@@ -43,7 +42,6 @@ std::vector<Side> take_apart(Lines& lines, Dialect& dialect, const Layout& layou
       fail<InputError>("{}:{}: {}", lines.name(), lines.number(), error.what());
     }
     for (std::size_t r = 0; r < sides.size(); ++r) {
-      if (!wanted[r]) continue;
       Side& side = sides[r];
       bool reading = false, first = true;
       for (const std::size_t i : layout.runs[r].fields) {

@@ -24,7 +24,7 @@ class Side {
   Line operator[](std::size_t i) const;
 
  private:
-  friend std::vector<Side> take_apart(Lines&, Dialect&, const Layout&, const std::vector<bool>&);
+  friend std::vector<Side> take_apart(Lines&, Dialect&, const Layout&);
   struct Entry {
     std::size_t number, begin, end;
     LineKind kind;
@@ -37,8 +37,8 @@ class Side {
 };
 
 /// Reads up to a blank line, a history line or the end of the file, and returns the records of each
-/// run that is `wanted`. A run ends with its last reading: blank cells below it, beside a longer
+/// run. A run ends with its last reading: blank cells below it, beside a longer
 /// run, are not records. Throws InputError for a line with more fields than there are names.
-std::vector<Side> take_apart(Lines&, Dialect&, const Layout&, const std::vector<bool>& wanted);
+std::vector<Side> take_apart(Lines&, Dialect&, const Layout&);
 
 }  // namespace rolling

@@ -4,7 +4,6 @@
 
 #include "base/error.h"
 #include "text/number.h"
-#include "text/unit_words.h"
 
 namespace rolling {
 namespace {
@@ -31,10 +30,6 @@ void add_unit(Column& column, std::string_view unit, std::string_view place) {
     fail<InputError>("{}: the column '{}' has another unit in the line below, '{}'", place,
                      shown(to_text(column)), shown(below));
   column.unit = below;
-}
-
-void note_units(const std::string& comment, std::size_t line, SaidUnits& said) {
-  for (auto& [quantity, unit] : units_in_comment(comment)) said[quantity] = {unit, line};
 }
 
 }  // namespace rolling

@@ -1,0 +1,242 @@
+#include "text/unit.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "text/column.h"
+#include "text/number.h"
+
+namespace rolling {
+namespace {
+
+enum class Dimension { length, time };
+
+/// A unit of length or time, by its spellings. Those of SI units may have a prefix.
+struct Unit {
+  Dimension dimension;
+  Conversion to_si;
+  bool prefixed;
+  std::array<std::string_view, 5> spellings;
+};
+constexpr Unit units[] = {
+    {Dimension::length, {}, true, {"m", "meter", "meters", "metre", "metres"}},
+    {Dimension::length, {127, 5000}, false, {"in", "inch", "inches"}},
+    {Dimension::length, {381, 1250}, false, {"ft", "foot", "feet"}},
+    {Dimension::length, {1143, 1250}, false, {"yd", "yard", "yards"}},
+    {Dimension::length, {201168, 125}, false, {"mi", "mile", "miles"}},
+    {Dimension::time, {}, true, {"s", "sec", "secs", "second", "seconds"}},
+    {Dimension::time, {60, 1}, false, {"min", "mins", "minute", "minutes"}},
+    {Dimension::time, {3600, 1}, false, {"h", "hr", "hrs", "hour", "hours"}},
+};
+struct Prefix {
+  std::string_view letter, word;
+  Conversion size;
+};
+constexpr Prefix prefixes[] = {{"k", "kilo", {1e3, 1}},  {"d", "deci", {1, 1e1}},
+                               {"c", "centi", {1, 1e2}}, {"m", "milli", {1, 1e3}},
+                               {"u", "micro", {1, 1e6}}, {"n", "nano", {1, 1e9}}};
+
+/// Speeds that have a name of their own, in any case.
+constexpr std::pair<std::string_view, std::string_view> named_speeds[] = {
+    {"mph", "mi/h"},  {"km/h", "km/h"}, {"kmh", "km/h"}, {"kph", "km/h"},
+    {"kmph", "km/h"}, {"mps", "m/s"},   {"fps", "ft/s"}};
+constexpr std::array<std::string_view, 5> knots = {"kn", "kt", "kts", "knot", "knots"};
+constexpr Conversion knot{463, 900};
+
+struct KnownQuantity {
+  std::string_view name, si, units;
+};
+constexpr std::string_view lengths = "m, mm, cm, dm, um, km, in, ft";
+constexpr KnownQuantity quantities[] = {
+    {"t", "s", "s, sec, ms, us, min, h"},
+    {"x", "m", lengths},
+    {"v", "m/s", "m/s, mm/s, cm/s, km/h, mph, ft/s"},
+    {"a", "m/s^2", "m/s^2, m/s/s, mm/s^2, cm/s^2"},
+    {"D", "m", lengths},
+};
+
+const KnownQuantity* known(std::string_view name) {
+  const auto found = std::ranges::find(quantities, name, &KnownQuantity::name);
+  return found == std::end(quantities) ? nullptr : found;
+}
+
+/// In the lowest terms, so that a product with a short number is exact.
+Conversion reduced(double multiply, double divide) {
+  const auto common = static_cast<double>(
+      std::gcd(static_cast<std::int64_t>(multiply), static_cast<std::int64_t>(divide)));
+  return {multiply / common, divide / common};
+}
+Conversion product(Conversion a, Conversion b) {
+  return reduced(a.multiply * b.multiply, a.divide * b.divide);
+}
+Conversion quotient(Conversion a, Conversion b) {
+  return reduced(a.multiply * b.divide, a.divide * b.multiply);
+}
+
+std::optional<Conversion> spelled(Dimension dimension, std::string_view word) {
+  const auto is_one_of = [](const Unit& unit, std::string_view text) {
+    return !text.empty() && std::ranges::count(unit.spellings, text) > 0;
+  };
+  for (const Unit& unit : units) {
+    if (unit.dimension != dimension) continue;
+    if (is_one_of(unit, word)) return unit.to_si;
+    for (const Prefix& prefix : prefixes)
+      for (const std::string_view front : {prefix.word, prefix.letter})
+        if (unit.prefixed && word.starts_with(front) && is_one_of(unit, word.substr(front.size())))
+          return product(prefix.size, unit.to_si);
+  }
+  if (dimension == Dimension::time && (word == "millis" || word == "micros"))
+    return Conversion{1, word == "millis" ? 1e3 : 1e6};
+  return {};
+}
+
+/// A unit of length or time. Case does not matter in words, but in letters: Ms is no millisecond.
+std::optional<Conversion> base_unit(Dimension dimension, std::string_view text) {
+  text = trim(text);
+  if (const auto found = spelled(dimension, text); found || text.size() < 3) return found;
+  return spelled(dimension, lower(text));
+}
+
+/// With a slash for `per`, and for a product with a power of time, as in `m s^-1`, `cm*s-1` and
+/// `ms-2`. There the time is s, min or h, so that mms-1 is mm/s.
+std::string as_quotient(std::string text) {
+  text = replace_all(std::move(text), " per ", "/");
+  for (const auto& [power, squared] :
+       {std::pair{"^-1", ""}, {"-1", ""}, {"^-2", "^2"}, {"-2", "^2"}})
+    for (const std::string_view time : {"s", "min", "h"}) {
+      const std::string end = std::string(time) + power;
+      if (!text.ends_with(end)) continue;
+      std::string front = text.substr(0, text.size() - end.size());
+      for (const std::string_view times : {"\xC2\xB7", "\xE2\x8B\x85", "*", "."})
+        front = replace_all(std::move(front), times, " ");
+      if (base_unit(Dimension::length, front)) return front + "/" + std::string(time) + squared;
+    }
+  return text;
+}
+
+/// The quotient LENGTH/TIME, or LENGTH/TIME^2 and LENGTH/TIME/TIME if `power` is 2.
+std::optional<Conversion> rate(std::string_view text, int power) {
+  const auto slash = text.find('/');
+  if (slash == std::string_view::npos) return {};
+  const auto length = base_unit(Dimension::length, text.substr(0, slash));
+  std::string_view below = trim(text.substr(slash + 1));
+  if (power == 2) {
+    const auto second = below.find('/');
+    if (below.ends_with("^2")) below.remove_suffix(2);
+    else if (second == std::string_view::npos ||
+             trim(below.substr(0, second)) != trim(below.substr(second + 1)))
+      return {};
+    else below = below.substr(0, second);
+  }
+  const auto time = base_unit(Dimension::time, below);
+  if (!length || !time) return {};
+  const Conversion speed = quotient(*length, *time);
+  return power == 2 ? quotient(speed, *time) : speed;
+}
+
+std::optional<Conversion> speed(const std::string& text) {
+  const std::string small = lower(text);
+  if (std::ranges::count(knots, small) > 0) return knot;
+  for (const auto& [name, unit] : named_speeds)
+    if (small == name) return rate(unit, 1);
+  return rate(text, 1);
+}
+
+/// Words of English, and signs in the names of columns.
+bool is_ambiguous(std::string_view word) {
+  constexpr std::array words = {"in", "min", "mins", "us", "um", "h", "cm", "foot", "feet"};
+  return std::ranges::count(words, word) > 0;
+}
+
+}  // namespace
+
+std::string plain_unit(std::string unit) {
+  for (const auto& [from, to] : {std::pair{"\xE2\x81\xBB\xC2\xB9", "^-1"},
+                                 {"\xE2\x81\xBB\xC2\xB2", "^-2"},
+                                 {"\xC2\xB2", "^2"},
+                                 {"\xB2", "^2"},
+                                 {"\xC2\xB5", "u"},
+                                 {"\xCE\xBC", "u"},
+                                 {"\xB5", "u"},
+                                 {"\xC2\xA0", " "},
+                                 {"\n", " "}})
+    unit = replace_all(std::move(unit), from, to);
+  return replace_all(std::move(unit), "s2", "s^2");
+}
+
+std::string bare_unit(std::string_view text) {
+  if (text.size() > 1 && (text.front() == '[' || text.front() == '('))
+    text = text.substr(1, text.size() - 2);
+  return std::string(trim(plain_unit(std::string(text))));
+}
+
+std::string_view si_unit(std::string_view quantity) {
+  const KnownQuantity* q = known(quantity);
+  return q ? q->si : std::string_view();
+}
+
+std::string_view known_units(std::string_view quantity) {
+  const KnownQuantity* q = known(quantity);
+  return q ? q->units : std::string_view();
+}
+
+std::optional<Conversion> unit_of(std::string_view quantity, std::string_view unit) {
+  if (!known(quantity)) return {};
+  std::string text = plain_unit(std::string(unit));
+  if (text.starts_with("in ")) text.erase(0, 3);  // Zeit (in s)
+  text = as_quotient(std::move(text));
+  if (quantity == "t") return base_unit(Dimension::time, text);
+  if (quantity == "v") return speed(text);
+  if (quantity == "a") return rate(text, 2);
+  return base_unit(Dimension::length, text);
+}
+
+UnitKind unit_kind(std::string_view text) {
+  const std::string unit = bare_unit(text);
+  for (const std::string_view quantity : {"t", "x", "v", "a"})
+    if (const auto found = unit_of(quantity, unit))
+      return found->changes() ? UnitKind::other : UnitKind::si;
+  return UnitKind::none;
+}
+
+std::string unit_at_end(std::string_view quantity, std::string_view name) {
+  if (!known(quantity)) return {};
+  constexpr std::string_view between = "_/";
+  for (auto at = name.find_first_of(between); at != std::string_view::npos;
+       at = name.find_first_of(between, at + 1)) {
+    std::string end(name.substr(at + 1));
+    std::ranges::replace(end, '_', ' ');
+    const std::string unit = bare_unit(trim(end));
+    if (unit != "in" && unit_of(quantity, unit)) return unit;
+  }
+  const auto slash = name.rfind('/');
+  if (slash == std::string_view::npos) return {};
+  const auto before = name.find_last_of('_', slash);
+  return std::string(name.substr(before == std::string_view::npos ? 0 : before + 1));
+}
+
+void note_units(std::string_view comment, std::size_t line, SaidUnits& said) {
+  if (comment.starts_with("##")) return;
+  std::string text = plain_unit(std::string(comment));
+  for (const std::string_view per : {" per ", " / "})
+    text = replace_all(std::move(text), per, "/");
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 0x80 && !std::isalnum(c) && c != '/' && c != '^'; },
+      ' ');
+  const std::vector<std::string> words = split_names(text, '\0');
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool of_value =
+        (i > 0 && is_number(words[i - 1])) || (i + 1 < words.size() && is_number(words[i + 1]));
+    if (of_value || is_ambiguous(words[i])) continue;
+    for (const std::string_view quantity : {"t", "x", "v", "a", "D"})
+      if (const auto found = unit_of(quantity, words[i]); found && found->changes())
+        said[std::string(quantity)] = {words[i], line};
+  }
+}
+
+}  // namespace rolling

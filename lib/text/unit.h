@@ -1,0 +1,58 @@
+// Units: lengths and times as programs spell them; speeds and accelerations are quotients of these.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace rolling {
+
+/// Value in SI units = value * multiply / divide. Both factors are whole numbers and exact in a
+/// double, so that a decimal unit adds one rounding error only.
+struct Conversion {
+  double multiply = 1, divide = 1;
+  bool changes() const { return multiply != divide; }
+  double operator()(double value) const { return value * multiply / divide; }
+  bool operator==(const Conversion&) const = default;
+};
+
+/// A unit in ASCII: superscripts in UTF-8 or Latin-1 become ^2 and ^-1, micro signs become u.
+std::string plain_unit(std::string unit);
+
+/// The same without the brackets around it.
+std::string bare_unit(std::string_view text);
+
+/// The SI unit of a known quantity (t, x, v, a, D); empty for any other name.
+std::string_view si_unit(std::string_view quantity);
+
+/// The units of a known quantity, by their common spellings, as a message shows them.
+std::string_view known_units(std::string_view quantity);
+
+/// The conversion of a unit to the SI unit of a known quantity; nothing if it is not one of this
+/// quantity.
+std::optional<Conversion> unit_of(std::string_view quantity, std::string_view unit);
+
+/// Whether a text is a unit, perhaps in brackets, in which t, x, v, a or D can be read.
+enum class UnitKind { none, si, other };
+UnitKind unit_kind(std::string_view text);
+
+/// The unit of `quantity` that the name of a column ends with, behind `_` or `/`: `t_ms`, `x/cm`,
+/// `Speed_in_km/h`; or else what a slash divides, which may be an unknown unit. Empty without one,
+/// and for a unit of another quantity: `v_min`, `x_s`. `in` is none; it ends the names that
+/// free_name() makes.
+std::string unit_at_end(std::string_view quantity, std::string_view name);
+
+/// By quantity, the unit other than SI that a comment says last, and where: a column that has none
+/// of its own is told to be read in SI units all the same.
+struct SaidUnit {
+  std::string unit;
+  std::size_t line;  ///< the number of the line that says it
+};
+using SaidUnits = std::map<std::string, SaidUnit>;
+
+/// Adds those of a comment. The word beside a number is part of a value; what is a word of English
+/// too (in, min, us) does not count.
+void note_units(std::string_view comment, std::size_t line, SaidUnits&);
+
+}  // namespace rolling
