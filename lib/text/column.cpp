@@ -17,12 +17,6 @@ constexpr std::pair<std::string_view, std::string_view> long_names[] = {
     {"time", "t"},  {"position", "x"},     {"velocity", "v"},
     {"speed", "v"}, {"acceleration", "a"}, {"shift", "D"}};
 
-/// t for Time, and so on; any other name as it is.
-std::string short_name(std::string_view name) {
-  const auto found = std::ranges::find(long_names, lower(name), [](auto& of) { return of.first; });
-  return std::string(found == std::end(long_names) ? name : found->second);
-}
-
 /// Removes `Run #2` or `Run 2` from the end of a name, and `Latest:` or `Data Set 1:` from its
 /// beginning; returns the number, or the word if there is no number. A colon in brackets, or behind
 /// them, is none of a label: `Clock (hh:mm:ss)`.
@@ -81,6 +75,11 @@ std::string lower(std::string_view text) {
   std::transform(out.begin(), out.end(), out.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return out;
+}
+
+std::string short_name(std::string_view name) {
+  const auto found = std::ranges::find(long_names, lower(name), [](auto& of) { return of.first; });
+  return std::string(found == std::end(long_names) ? name : found->second);
 }
 
 Column read_column(std::string_view text) {

@@ -26,6 +26,9 @@ struct Column {
 /// (m/s) Run #2`, or a bare name.
 Column read_column(std::string_view text);
 
+/// t for Time, x for Position and so on, in any case; any other name as it is.
+std::string short_name(std::string_view name);
+
 /// The form in which the tools write names: `v[m/s]`.
 std::string to_text(const Column&);
 

@@ -85,6 +85,22 @@ std::vector<Column> words_of(std::string_view line) {
   return words;
 }
 
+/// False for a line in which no run of letters is the name of a known quantity: at little cost, for
+/// there may be millions.
+bool may_hold_known_name(std::string_view line) {
+  const auto is_letter = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+  };
+  for (auto at = line.begin(); at != line.end();) {
+    const auto end = std::find_if_not(at, line.end(), is_letter);
+    if (end - at == 1 ? !si_unit({at, end}).empty()
+                      : end - at >= 4 && !si_unit(short_name({at, end})).empty())
+      return true;
+    at = end == line.end() ? end : end + 1;
+  }
+  return false;
+}
+
 /// The number of known quantities with units in a comment.
 std::size_t names_with_units(std::string_view comment) {
   return static_cast<std::size_t>(std::ranges::count_if(
@@ -235,7 +251,7 @@ bool is_date(std::string_view text) {
 }
 
 bool holds_known_name(std::string_view line) {
-  return std::ranges::any_of(words_of(line), is_known);
+  return may_hold_known_name(line) && std::ranges::any_of(words_of(line), is_known);
 }
 
 CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns& columns) {

@@ -187,13 +187,13 @@ std::string_view known_units(std::string_view quantity) {
 
 std::optional<Conversion> unit_of(std::string_view quantity, std::string_view unit) {
   if (!known(quantity)) return {};
-  std::string text = plain_unit(std::string(unit));
-  if (text.starts_with("in ")) text.erase(0, 3);  // Zeit (in s)
-  text = as_quotient(std::move(text));
-  if (quantity == "t") return base_unit(Dimension::time, text);
-  if (quantity == "v") return speed(text);
-  if (quantity == "a") return rate(text, 2);
-  return base_unit(Dimension::length, text);
+  const std::string text = as_quotient(plain_unit(std::string(unit)));
+  const auto found = quantity == "t"   ? base_unit(Dimension::time, text)
+                     : quantity == "v" ? speed(text)
+                     : quantity == "a" ? rate(text, 2)
+                                       : base_unit(Dimension::length, text);
+  constexpr std::string_view in = "in ";  // Zeit (in s)
+  return !found && unit.starts_with(in) ? unit_of(quantity, unit.substr(in.size())) : found;
 }
 
 UnitKind unit_kind(std::string_view text) {

@@ -89,7 +89,7 @@ TEST_CASE("head: runs side by side, or one record of all", "[text]") {
 }
 
 TEST_CASE("head: a record without readings is one, as wide as the names", "[text]") {
-  CHECK(head("t,v\n,\n0,1\n") == " t v in 1 of 2; 2: ,");
+  CHECK(head("t,v\n,\n0,1\n") == " t v in 1 of 2; 3: 0,1");  // a blank row is none
   CHECK(head("# t v\nNaN NaN\n") == " t v in 1 of 2; 2: NaN NaN");
   for (const std::string time : {"10:15:00.5", "2026-11-24 10:15:00", "2026-11-24T10:15:00.5Z"})
     CHECK(head("t,v\n" + time + ",\n" + time + ",\n0,1\n") == " t v in 1 of 2; 2: " + time + ",");
@@ -98,7 +98,7 @@ TEST_CASE("head: a record without readings is one, as wide as the names", "[text
         "# Anna,Ben|# 24/11/2026,| t v in 1 of 2; 4: 0,1");
   CHECK(head("My cart,\n24/11/2026,\nt,v\n0,1\n") ==
         "# My cart,|# 24/11/2026,| t v in 1 of 2; 4: 0,1");
-  CHECK(head("My cart,\n,\nt,v\n0,1\n") == "# My cart,|# ,| t v in 1 of 2; 4: 0,1");
+  CHECK(head("My cart,\n,\nt,v\n0,1\n") == "# My cart,| t v in 1 of 2; 4: 0,1");
   CHECK(head("# x of my cart\nv;t;n;\n0;1;2;\n") ==
         "# x of my cart| v t n c4 in 1 of 4; 3: 0;1;2;");
 }

@@ -88,21 +88,22 @@ TEST_CASE("needed columns: a column that is absent", "[text]") {
   NeededColumns needed({}, true);
   needed.begin_run(columns({"t"}), false, {}, "FILE");
   CHECK(refusal([&] { needed.add("v", Kind::needed); }) ==
-        "FILE: there is no column 'v' among 1 column without names; say --use v=COLUMN");
+        "FILE: there is no column 'v' among 1 column without names; if this line is a heading, begin it with "
+        "#, or say --use v=COLUMN");
   CHECK(needed.add("x", Kind::wanted) == 0);  // may be absent
   CHECK(needed.all()[0].column == NeededColumns::no_column);
 }
 
 TEST_CASE("needed columns: a unit that the tools do not read is not taken for SI", "[text]") {
   CHECK(output({"t_ms", "x/cm"}, {"t=1[ms]", "x=x/cm"}, {"t", "x"}) ==
-        "FILE: column 'x/cm' cannot serve as x: is it in 'cm'? Write the unit in brackets or say "
-        "--use 'x=2[UNIT]'");
+        "t[s] x[m]");
   CHECK(output({"t_ms", "x/cm"}, {"t=1[ms]", "x=x/cm[cm]"}, {"t", "x"}) == "t[s] x[m]");
   CHECK(output({"t", "w_km/h"}, {}, {"w_km/h"}) == "t w_km/h");  // no quantity
-  const Texts file = {"t (seconds)", "v (knots)"};
+  const Texts file = {"t (moments)", "v (bananas)"};
   CHECK(output(file, {"v=2[m/s]"}) ==
-        "FILE: column 't[seconds]' cannot serve as t: its unit 'seconds' is not one of those known "
+        "FILE: column 't[moments]' cannot serve as t: its unit 'moments' is not one of those known "
         "(s, sec, ms, us, min, h); convert it first or say --use 't=1[UNIT]'");
+  CHECK(output(file).ends_with("or say --use 't=1[UNIT]'; nor can 'v[bananas]' as v"));
   CHECK(output(file, {"t=1[s]", "v=2[m/s]"}) == "t[s] v[m/s]");
 }
 

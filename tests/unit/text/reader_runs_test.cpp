@@ -11,9 +11,8 @@ TEST_CASE("reader: a separator at the ends of lines may be left out in the secon
 }
 
 TEST_CASE("reader: units that a comment gives to the columns of the second run alone", "[text]") {
-  CHECK(records({"# t v F\n0 1 2\n\n# s cm/s N\n2 3 4\n"}) ==
-        "FILE:5: column 'v' cannot serve as v: is it in 'cm/s', as line 4 says? Write the unit in "
-        "brackets or say --use 'v=2[UNIT]'");
+  CHECK(told("# t v F\n0 1 2\n\n# s cm/s N\n2 3 4\n") ==
+        "v is column 2, 'v', taken in m/s although line 4 says cm/s");
 }
 
 TEST_CASE("reader: blank lines end a run, however many", "[text]") {
@@ -56,14 +55,24 @@ TEST_CASE("reader: a second file that is not there is refused, and where() is st
 TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]") {
   CHECK(records({"0 1\n\n0 2\n1 3\n\n0 4\n"}, run(2)) == "0 2 | 1 3");
   CHECK(records({"0 1\n\n0 2\n"}, run(1)) == "0 1");
-  CHECK(records({"0 1\n\n0 bad\n\n0 4\n"}, run(3)) == "0 4");  // what is not read is not judged
+  // What is passed over is read as strictly, in the columns that are needed.
+  CHECK(records({"0 1\n\n0 bad\n\n0 4\n"}, run(3)) == "FILE:3: field 2 (v): 'bad' is not a number");
+  CHECK(records({"0 1\n\n0 bad\n\n0 4\n"}, run(1)) == "FILE:3: field 2 (v): 'bad' is not a number");
+  CHECK(records({"0 1\n\n0 bad\n\n0 4\n"}, run(3), {"t"}) == "0");
+  CHECK(records({"1 1\n1 2\n\n0 4\n"}, run(2)) == "FILE:2: field 1 (t): '1' does not come after 1");
+  CHECK(records({"1 1\n1 2\n\n0 4\n"}, run(2), {"v"}) == "4");
+  CHECK(records({"t,v (odd)\n0,1\n\nt,v\n0,4\n"}, run(2)).find("its unit 'odd'") < 60);
+  CHECK(records({"0 1\n0 1 2\n\n0 4\n"}, run(2)) == "FILE:2: 3 fields where the first record has 2");
   CHECK(records({"0 1\n", "0 2\n", "0 3\n"}, run(2)) == "0 2");
   CHECK(records({"Time (s) Run #7,Velocity (m/s) Run #7\n0,1\n"}, run(7)) == "0 1");
-  CHECK(records({"0 1\n\n0 2\n"}, run(3)) == "there is no run 3 (runs: 2)");
+  CHECK(records({"0 1\n\n0 2\n"}, run(3)) == "there is no run 3 (runs: 1, 2)");
   CHECK(records({"t Run 2,v Run 2,t Run 4,v Run 4\n0,1,0,5\n"}, run(4)) == "0 5");
   CHECK(records({"t Run 2,v Run 2,t Run 4,v Run 4\n0,1,0,5\n"}, run(3)) ==
         "there is no run 3 (runs: 2, 4)");
-  CHECK(records({"t,v,t,v\n0,1,0,2\n", "t,v,t,v\n0,3,0,4\n"}, run(3)) == "0 3");
+  // Of files of several runs each, the numbers in the names of the runs.
+  CHECK(records({"t,v,t,v\n0,1,0,2\n", "t,v,t,v\n0,3,0,4\n"}, run(3)) ==
+        "there is no run 3 (runs: 1, 2, 1, 2)");
+  CHECK(records({"## run a 7\n0 1\n\n## run b 1\n0 2\n"}, run(1)) == "0 2");
 }
 
 TEST_CASE("reader: --run picks one run and no other", "[text]") {
@@ -140,7 +149,9 @@ TEST_CASE("reader: --run gives the head of its run and nothing of another", "[te
       "# one\n## smooth v mean width 3\n# t[s] v[m/s]\n0 1\n\n# two\n# t[ms] v[km/h] n\n0 36 1\n");
   Reader in({.files = {file.name()}, .run = 2}, {});
   CHECK(in.history().empty());
-  CHECK(in.comments() == Texts{"# two"});
+  REQUIRE(in.comments().size() == 2);
+  CHECK(in.comments()[0] == "## run " + in.run_name());
+  CHECK(in.comments()[1] == "# two");
   const auto v = in.need("v");
   CHECK(in.columns().size() == 3);
   REQUIRE(in.next_run());
@@ -190,7 +201,7 @@ TEST_CASE("reader: a run's name", "[text]") {
   CHECK(run_names({"t Run 7,v Run 7\n0,1\n\nt Run 9,v Run 9\n0,1\n"}) == "<FILE 7><FILE 9>");
   CHECK(run_names({"t Run 2,v Run 2,t Run 4,v Run 4\n0,1,0,5\n"}) == "<FILE 2><FILE 4>");
   CHECK(run_names({"## run a b\n0 1\n\n0 2\n"}) == "<a b><FILE 2>");
-  CHECK(run_names({"0 1\n\n0 2\n"}, run(2)) == "(FILE 2)");
+  CHECK(run_names({"0 1\n\n0 2\n"}, run(2)) == "<FILE 2>");
   const TemporaryFile file("0 1\n\n0 2\n");
   const Redirect from_file(STDIN_FILENO, file.name());
   CHECK(run_names({}) == "<1><2>");

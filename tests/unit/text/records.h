@@ -39,6 +39,18 @@ inline std::string records(const Texts& texts, ReaderOptions options = {},
   return message.empty() ? all : anonymous(message);
 }
 
+/// What a reader says that it took in SI units although no name said so.
+inline std::string told(const std::string& text, ReaderOptions options = {}) {
+  const TemporaryFile file(text);
+  options.files = {file.name()};
+  Reader in(options, {"t", "v"});
+  in.need_time();
+  in.need("v");
+  while (in.next_run())
+    while (in.next()) continue;
+  return in.taken_in_si();
+}
+
 /// The records as they would pass through, lines in < >.
 inline std::string copies(const std::string& text, ReaderOptions options = {},
                           const std::vector<std::string>& wanted = {"t", "v"}) {

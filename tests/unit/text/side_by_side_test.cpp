@@ -8,8 +8,7 @@ using namespace rolling;
 namespace {
 
 /// The lines of each run as <number text>, those of a run behind a |.
-std::string apart(const std::string& text, const std::vector<std::string>& names,
-                  std::vector<bool> wanted = {true, true}) {
+std::string apart(const std::string& text, const std::vector<std::string>& names) {
   std::vector<Column> columns;
   for (const std::string& name : names) columns.push_back(read_column(name));
   const TemporaryFile file(text);
@@ -18,7 +17,7 @@ std::string apart(const std::string& text, const std::vector<std::string>& names
   dialect.choose("0,1,2,3");
   std::string all;
   const std::string message = refusal([&] {
-    for (const Side& side : take_apart(lines, dialect, Layout::of(columns), wanted)) {
+    for (const Side& side : take_apart(lines, dialect, Layout::of(columns))) {
       all += '|';
       for (std::size_t i = 0; i < side.size(); ++i)
         all += fmt::format("<{} {}>", side[i].number, side[i].text);
@@ -38,7 +37,6 @@ TEST_CASE("side by side: runs become lines of their own, up to the end of the ru
         "|<1 0\t1><2 1\t2>|<1 5\t6><2 7\t8> 9,9,9,9");
   CHECK(apart("0,1,5,6\n## a\n", two) == "|<1 0\t1>|<1 5\t6> ## a");
   CHECK(apart("0,1,5\n", shared) == "|<1 0\t1>|<1 0\t5>");
-  CHECK(apart("0,1,5,6\n", two, {false, true}) == "||<1 5\t6>");
   CHECK(apart("0,\"a\tb\",5,\"#\"\n", two) == "|<1 0\t\"a\tb\">|<1 5\t\"#\">");
 }
 

@@ -40,15 +40,3 @@ TEST_CASE("unit lines: a unit that looks like the label of a run is still the un
   CHECK(with_unit("t", "mm:ss") == "t[mm:ss]");
   CHECK(with_unit("t", "s Run 2") == "t[s Run 2]");
 }
-
-TEST_CASE("unit lines: comments say units other than SI, the last one counts", "[text]") {
-  SaidUnits said;
-  std::size_t line = 0;
-  for (const char* comment :
-       {"# times are in us", "# units: ms, cm/s, N, m", "# D in mm", "# 40 min", "## x in cm"})
-    note_units(comment, ++line, said);
-  std::string all;
-  for (const auto& [quantity, unit] : said)
-    all += fmt::format("{} {} {}, ", quantity, unit.unit, unit.line);
-  CHECK(all == "D mm 3, t ms 2, v cm/s 2, ");
-}
