@@ -39,16 +39,20 @@ inline std::string records(const Texts& texts, ReaderOptions options = {},
   return message.empty() ? all : anonymous(message);
 }
 
-/// What a reader says that it took in SI units although no name said so.
+/// What a reader says that it took in SI units although no name said so; or the refusal.
 inline std::string told(const std::string& text, ReaderOptions options = {}) {
   const TemporaryFile file(text);
   options.files = {file.name()};
-  Reader in(options, {"t", "v"});
-  in.need_time();
-  in.need("v");
-  while (in.next_run())
-    while (in.next()) continue;
-  return in.taken_in_si();
+  std::string said;
+  const std::string message = refusal([&] {
+    Reader in(options, {"t", "v"});
+    in.need_time();
+    in.need("v");
+    while (in.next_run())
+      while (in.next()) continue;
+    said = in.taken_in_si();
+  });
+  return message.empty() ? said : anonymous(message);
 }
 
 /// The records as they would pass through, lines in < >.
