@@ -255,8 +255,8 @@ std::string_view Dialect::take_quoted(const char*& at, const char* end) {
   return std::string_view(made_).substr(from);
 }
 
-/// True for `1.000`, which is read as 1 as long as its column says nothing else. Refuses it beside a
-/// whole number below 1000: neither one number of decimals nor the fewest would give both.
+/// True for `1.000`, which is read as 1 as long as its column says nothing else. Refuses it beside
+/// a whole number below 1000: neither one number of decimals nor the fewest would give both.
 bool Dialect::may_be_grouped(const Field& field) {
   if (seen_.size() < count_) seen_.resize(count_);
   const std::string_view size = without_sign(field.text);

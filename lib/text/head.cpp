@@ -91,7 +91,7 @@ class HeadReader {
   const CommentHook& pass_;
   Head head_;
   std::vector<Comment> comments_;
-  std::deque<Comment> last_;  // behind them, while lines are read
+  std::deque<Comment> last_;       // behind them, while lines are read
   std::vector<Comment> preamble_;  // lines that are neither comments nor records
 };
 
@@ -116,8 +116,8 @@ void HeadReader::keep(std::string comment) {
   if (last_.size() <= most) return;
   Comment& first = last_.front();
   if (!pass_ || first.is_history() ||
-      (comments_.size() < most && (first.text.find('\t') != std::string::npos ||
-                                   holds_known_name(first.text))))
+      (comments_.size() < most &&
+       (first.text.find('\t') != std::string::npos || holds_known_name(first.text))))
     comments_.push_back(std::move(first));
   else pass_(first.text);
   last_.pop_front();
@@ -167,8 +167,7 @@ bool HeadReader::has_tabs_of_names(std::string_view line) const {
     return names.find(' ') == std::string_view::npos && std::ranges::count(names, '\t') == tabs;
   };
   return tabs > 0 && ((!preamble_.empty() && agrees(preamble_.back())) ||
-                      std::ranges::any_of(comments_, agrees) ||
-                      std::ranges::any_of(last_, agrees));
+                      std::ranges::any_of(comments_, agrees) || std::ranges::any_of(last_, agrees));
 }
 
 /// Goes to the first record; false if there is none.
@@ -249,10 +248,14 @@ bool HeadReader::are_units(std::string_view line) {
 std::vector<std::string> HeadReader::take_units() {
   if (preamble_.empty()) return {};
   auto units = names_in(preamble_.back().text, dialect_);
-  if (preamble_.size() == 1 && std::ranges::any_of(comments_, [&](const Comment& comment) {
-        return comment.line < preamble_.back().line && !comment.is_history() &&
-               names_in_comment(comment.text, {units.size()}).known > 0;
-      }) && are_units(preamble_.back().text)) {
+  if (preamble_.size() == 1 &&
+      std::ranges::any_of(
+          comments_,
+          [&](const Comment& comment) {
+    return comment.line < preamble_.back().line && !comment.is_history() &&
+           names_in_comment(comment.text, {units.size()}).known > 0;
+          }) &&
+      are_units(preamble_.back().text)) {
     preamble_.pop_back();
     return units;
   }

@@ -41,8 +41,8 @@ std::vector<std::string> labels_of_runs(const std::vector<Column>& line) {
   }
   if (!timed.empty()) return timed;
   const bool one = all.size() == 1 && std::ranges::any_of(line, [](const Column& c) {
-    return !c.run.empty() && (is_known(c) || is_number(c.run));
-  });
+                     return !c.run.empty() && (is_known(c) || is_number(c.run));
+                   });
   return one ? all : alike;
 }
 

@@ -20,7 +20,8 @@ bool says_time(const std::string& name) {
   const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
   for (auto at = small.find("time"); at != std::string::npos; at = small.find("time", at + 1))
     if (at == 0 || !is_letter(small[at - 1])) return true;
-  return small.starts_with("t") && small.size() > 1 && std::ranges::none_of(small.substr(1), is_letter);
+  return small.starts_with("t") && small.size() > 1 &&
+         std::ranges::none_of(small.substr(1), is_letter);
 }
 
 /// The column is to have the name and the unit of the quantity that it serves as.
@@ -147,7 +148,8 @@ std::optional<std::size_t> NeededColumns::find_column(std::string_view name) con
   std::optional<std::size_t> found;
   bool of_another_run = false;
   for (std::size_t i = 0; i < as_read_.size(); ++i)
-    if (as_read_[i].name == asked.name || (!asked.run.empty() && as_read_[i].name == asked.labelled)) {
+    if (as_read_[i].name == asked.name ||
+        (!asked.run.empty() && as_read_[i].name == asked.labelled)) {
       if (!asked.run.empty() && asked.run != as_read_[i].run &&
           as_read_[i].name != asked.labelled) {
         of_another_run = true;
@@ -241,8 +243,9 @@ Conversion NeededColumns::conversion(std::size_t at, const std::string& quantity
   Column meant = with_unit(at, quantity);
   const bool named = named_ && meant.name == quantity;
   if (meant.unit.empty() && named_) meant.unit = unit_at_end(quantity, meant.name);
-  if (const auto said = said_.find(quantity);
-      has_use_ && meant.unit.empty() && !si_unit(quantity).empty() && (!named || said != said_.end())) {
+  if (const auto said = said_.find(quantity); has_use_ && meant.unit.empty() &&
+                                              !si_unit(quantity).empty() &&
+                                              (!named || said != said_.end())) {
     std::string line = fmt::format("{} is column {}", quantity, at + 1);
     if (named_) line += fmt::format(", '{}'", shown(meant.name));
     line += fmt::format(", taken in {}", si_unit(quantity));
@@ -257,7 +260,8 @@ Conversion NeededColumns::conversion(std::size_t at, const std::string& quantity
     std::string others;
     for (std::size_t i = 0; i < as_read_.size(); ++i)
       if (const Column& c = as_read_[i]; i != at && !c.unit.empty() && named_ &&
-          !si_unit(quantities_[i]).empty() && !unit_of(quantities_[i], c.unit))
+                                         !si_unit(quantities_[i]).empty() &&
+                                         !unit_of(quantities_[i], c.unit))
         others += fmt::format("; nor can '{}' as {}", shown(to_text(c)), quantities_[i]);
     fail<InputError>("{}: {}{}{}", place_, error.what(),
                      has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", quantity, at + 1) : "",

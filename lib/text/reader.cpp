@@ -81,9 +81,7 @@ bool Reader::find_run() {
   if (passed) comments_.clear();  // of the run that was passed over last
   state_ = State::ended;
   line_number_ = 0;
-  if (options_.run && !run_found_)
-    fail("there is no run {} (runs: {})", *options_.run,
-         runs_);
+  if (options_.run && !run_found_) fail("there is no run {} (runs: {})", *options_.run, runs_);
   if (left_out_ > 0 && !record_found_)
     fail<InputError>("{}no records: a needed reading is missing in every one",
                      options_.files.size() == 1 ? lines_->name() + ": " : "");

@@ -27,7 +27,7 @@ struct ReaderOptions {
   BlockHook on_block = {};              ///< is called with the progress of reading a file
   /// Gets most of very many comments in front of the first run, see read_head(); not with `run`.
   CommentHook on_comment = {};
-  bool has_use = true;                  ///< the option --use applies to these files
+  bool has_use = true;  ///< the option --use applies to these files
   /// By quantity, the program that appends it: messages name it where there is no such column.
   std::map<std::string, std::string> appended_by = {};
 };

@@ -223,8 +223,7 @@ std::string unit_at_end(std::string_view quantity, std::string_view name) {
 void note_units(std::string_view comment, std::size_t line, SaidUnits& said) {
   if (comment.starts_with("##")) return;
   std::string text = plain_unit(std::string(comment));
-  for (const std::string_view per : {" per ", " / "})
-    text = replace_all(std::move(text), per, "/");
+  for (const std::string_view per : {" per ", " / "}) text = replace_all(std::move(text), per, "/");
   std::ranges::replace_if(
       text, [](unsigned char c) { return c < 0x80 && !std::isalnum(c) && c != '/' && c != '^'; },
       ' ');

@@ -88,15 +88,15 @@ TEST_CASE("needed columns: a column that is absent", "[text]") {
   NeededColumns needed({}, true);
   needed.begin_run(columns({"t"}), false, {}, "FILE");
   CHECK(refusal([&] { needed.add("v", Kind::needed); }) ==
-        "FILE: there is no column 'v' among 1 column without names; if this line is a heading, begin it with "
+        "FILE: there is no column 'v' among 1 column without names; if this line is a heading, "
+        "begin it with "
         "#, or say --use v=COLUMN");
   CHECK(needed.add("x", Kind::wanted) == 0);  // may be absent
   CHECK(needed.all()[0].column == NeededColumns::no_column);
 }
 
 TEST_CASE("needed columns: a unit that the tools do not read is not taken for SI", "[text]") {
-  CHECK(output({"t_ms", "x/cm"}, {"t=1[ms]", "x=x/cm"}, {"t", "x"}) ==
-        "t[s] x[m]");
+  CHECK(output({"t_ms", "x/cm"}, {"t=1[ms]", "x=x/cm"}, {"t", "x"}) == "t[s] x[m]");
   CHECK(output({"t_ms", "x/cm"}, {"t=1[ms]", "x=x/cm[cm]"}, {"t", "x"}) == "t[s] x[m]");
   CHECK(output({"t", "w_km/h"}, {}, {"w_km/h"}) == "t w_km/h");  // no quantity
   const Texts file = {"t (moments)", "v (bananas)"};

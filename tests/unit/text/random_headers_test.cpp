@@ -37,13 +37,24 @@ class RandomHeader {
     double size;
   };
   Unit time_unit() {
-    return one_of<Unit>({{"s", 1}, {"ms", 1e-3}, {"in s", 1}, {"seconds", 1}, {"msec", 1e-3},
-                         {"min", 60}, {"Minutes", 60}});
+    return one_of<Unit>({{"s", 1},
+                         {"ms", 1e-3},
+                         {"in s", 1},
+                         {"seconds", 1},
+                         {"msec", 1e-3},
+                         {"min", 60},
+                         {"Minutes", 60}});
   }
   Unit speed_unit() {
-    return one_of<Unit>({{"m/s", 1}, {"km/h", 1 / 3.6}, {"cm/s", 0.01}, {"ms-1", 1},
-                         {"m s^-1", 1}, {"kmph", 1 / 3.6}, {"meters per second", 1},
-                         {"in cm/s", 0.01}, {"mph", 0.44704}});
+    return one_of<Unit>({{"m/s", 1},
+                         {"km/h", 1 / 3.6},
+                         {"cm/s", 0.01},
+                         {"ms-1", 1},
+                         {"m s^-1", 1},
+                         {"kmph", 1 / 3.6},
+                         {"meters per second", 1},
+                         {"in cm/s", 0.01},
+                         {"mph", 0.44704}});
   }
   /// A column that no tool takes for t or v.
   std::string other(bool speeds) {
@@ -70,7 +81,8 @@ class RandomHeader {
       columns.push_back({full, is, unit.size, run});
     };
     const std::string time = one_of<std::string>(
-                          foreign ? std::vector<std::string>{"Zeit", "temps", "\xE6\x97\xB6\xE9\x97\xB4"}
+                          foreign ? std::vector<std::string>{"Zeit", "temps",
+                                                             "\xE6\x97\xB6\xE9\x97\xB4"}
                                   : std::vector<std::string>{"Time", "t", "TIME"}),
                       speed = one_of<std::string>(
                           foreign ? std::vector<std::string>{"Geschwindigkeit", "vitesse"}
@@ -146,8 +158,7 @@ TEST_CASE("random headers: every run and unit as an independent reader says, or 
     CHECK_FALSE(made.question);
     bool same = found.size() == made.rows.size();
     for (std::size_t i = 0; same && i < found.size(); ++i)
-      for (const int k : {0, 1})
-        same = same && std::abs(found[i][k] / made.rows[i][k] - 1) < 1e-12;
+      for (const int k : {0, 1}) same = same && std::abs(found[i][k] / made.rows[i][k] - 1) < 1e-12;
     CHECK(same);
   }
   CHECK(read > 2 * refused);

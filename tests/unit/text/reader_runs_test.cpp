@@ -62,7 +62,8 @@ TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]
   CHECK(records({"1 1\n1 2\n\n0 4\n"}, run(2)) == "FILE:2: field 1 (t): '1' does not come after 1");
   CHECK(records({"1 1\n1 2\n\n0 4\n"}, run(2), {"v"}) == "4");
   CHECK(records({"t,v (odd)\n0,1\n\nt,v\n0,4\n"}, run(2)).find("its unit 'odd'") < 60);
-  CHECK(records({"0 1\n0 1 2\n\n0 4\n"}, run(2)) == "FILE:2: 3 fields where the first record has 2");
+  CHECK(records({"0 1\n0 1 2\n\n0 4\n"}, run(2)) ==
+        "FILE:2: 3 fields where the first record has 2");
   CHECK(records({"0 1\n", "0 2\n", "0 3\n"}, run(2)) == "0 2");
   CHECK(records({"Time (s) Run #7,Velocity (m/s) Run #7\n0,1\n"}, run(7)) == "0 1");
   CHECK(records({"0 1\n\n0 2\n"}, run(3)) == "there is no run 3 (runs: 1, 2)");

@@ -115,7 +115,7 @@ TEST_CASE("reader: a first record whose readings are all missing is a record, no
   CHECK(records({"t,v\n,\n0,1\n"}) == "0 1");
   CHECK(records({"# v t\n;\n5;0\n"}) == "0 5");
   CHECK(records({"# v t\n## smooth v mean width 3\n;\n5;0\n"}) == "0 5");
-  CHECK(records({"t,v\n,\n0,1\n"}, strict) == "0 1");  // a blank row is a run break
+  CHECK(records({"t,v\n,\n0,1\n"}, strict) == "0 1");    // a blank row is a run break
   CHECK(records({"My cart,\n,\nt,v\n0,1\n"}) == "0 1");  // blank cells of a preamble
 }
 
@@ -127,8 +127,8 @@ TEST_CASE("reader: a row of blank cells is a run break, whatever separates them"
         const auto row = [&](int t) { return fmt::format("{1}{0}{2}{0}3\n", separator, t, t + 1); };
         const std::string names = named ? "t" + separator + "v" + separator + "w\n" : "";
         INFO(names << blank);
-        CHECK(records({names + row(0) + row(1) + blank + row(0) + blank + blank + row(1) + blank}) ==
-              "0 1 | 1 2 || 0 1 || 1 2");
+        CHECK(records({names + row(0) + row(1) + blank + row(0) + blank + blank + row(1) +
+                       blank}) == "0 1 | 1 2 || 0 1 || 1 2");
         CHECK(records({blank + names + blank + row(0)}) == "0 1");
       }
   CHECK(records({"t,v,t,v\n0,1,0,5\n,,,\n2,3,2,6\n"}) == "0 1 || 0 5 || 2 3 || 2 6");
@@ -262,8 +262,7 @@ TEST_CASE("reader: no words about units are passed over, whatever names the colu
   for (const auto& [before, behind, use_columns] : forms) {
     for (const char* words :
          {"times are in ms", "speed: km/h", "Units: ms and cm/s",
-          "all speeds in kilometres per hour", "speed in knots",
-          "Velocity (cm/s) from a camera"}) {
+          "all speeds in kilometres per hour", "speed in knots", "Velocity (cm/s) from a camera"}) {
       INFO(before << words << behind);
       CHECK_FALSE(told(before + words + behind, use(use_columns)).empty());
     }

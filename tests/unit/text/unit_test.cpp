@@ -23,15 +23,26 @@ TEST_CASE("unit: every spelling of lengths and times, and of their quotients", "
     const char* text;
     double size;
   };
-  const Spelled times[] = {{"s", 1},          {"sec", 1},        {"seconds", 1},
-                         {"ms", 1e-3},             {"msec", 1e-3},    {"milliseconds", 1e-3},
-                         {"Milliseconds", 1e-3},   {"us", 1e-6},      {"usec", 1e-6},
-                         {"\xC2\xB5s", 1e-6},      {"ns", 1e-9},      {"min", 60},
-                         {"Minutes", 60},          {"h", 3600},       {"hrs", 3600}};
-  const Spelled lengths[] = {{"m", 1}, {"meters", 1},   {"metre", 1},      {"mm", 1e-3},
-                           {"cm", 0.01},    {"dm", 0.1},     {"um", 1e-6},      {"km", 1000},
-                           {"in", 0.0254},  {"feet", 0.3048}, {"centimetres", 0.01},
-                           {"yd", 0.9144},  {"mile", 1609.344}};
+  const Spelled times[] = {{"s", 1},
+                           {"sec", 1},
+                           {"seconds", 1},
+                           {"ms", 1e-3},
+                           {"msec", 1e-3},
+                           {"milliseconds", 1e-3},
+                           {"Milliseconds", 1e-3},
+                           {"us", 1e-6},
+                           {"usec", 1e-6},
+                           {"\xC2\xB5s", 1e-6},
+                           {"ns", 1e-9},
+                           {"min", 60},
+                           {"Minutes", 60},
+                           {"h", 3600},
+                           {"hrs", 3600}};
+  const Spelled lengths[] = {{"m", 1},          {"meters", 1},         {"metre", 1},
+                             {"mm", 1e-3},      {"cm", 0.01},          {"dm", 0.1},
+                             {"um", 1e-6},      {"km", 1000},          {"in", 0.0254},
+                             {"feet", 0.3048},  {"centimetres", 0.01}, {"yd", 0.9144},
+                             {"mile", 1609.344}};
   const auto close = [](double a, double b) { return std::abs(a / b - 1) < 1e-15; };
   for (const Spelled& length : lengths) {
     INFO(length.text);
@@ -56,7 +67,8 @@ TEST_CASE("unit: every spelling of lengths and times, and of their quotients", "
 TEST_CASE("unit: speeds with a name, and products with a power of time", "[text]") {
   for (const char* unit : {"km/h", "KM/H", "kmh", "kph", "kmph", "km h^-1", "kmh-1", "km/hr"})
     CHECK(size_of("v", unit) == 5 / 18.);
-  for (const char* unit : {"m s^-1", "m*s-1", "ms-1", "m.s-1", "m\xC2\xB7s\xE2\x81\xBB\xC2\xB9", "mps"})
+  for (const char* unit :
+       {"m s^-1", "m*s-1", "ms-1", "m.s-1", "m\xC2\xB7s\xE2\x81\xBB\xC2\xB9", "mps"})
     CHECK(size_of("v", unit) == 1);
   CHECK(size_of("v", "mms-1") == 1e-3);
   CHECK(size_of("v", "mph") == 0.44704);
@@ -80,12 +92,24 @@ TEST_CASE("unit: at the end of a name", "[text]") {
     const char *quantity, *name, *unit;
   };
   const Case cases[] = {
-      {"t", "t_ms", "ms"},          {"t", "Zeit_in_ms", "in ms"},    {"t", "Zeit_/_ms", "ms"},
-      {"x", "Weg/cm", "cm"},        {"v", "v_km/h", "km/h"},      {"v", "v/km/h", "km/h"},
-      {"v", "speed_cm_s-1", "cm s-1"}, {"v", "v_m_per_s", "m per s"}, {"a", "a_cm/s^2", "cm/s^2"},
-      {"v", "v_ms", ""},            {"v", "v_min", ""},           {"x", "x_in", ""},
-      {"t", "t_in_s", "in s"},         {"t", "times", ""},           {"v", "v_smoothed", ""},
-      {"v", "Velocidad_cm/seg", "cm/seg"}, {"v", "n_1/s", "1/s"}, {"w", "w_ms", ""},
+      {"t", "t_ms", "ms"},
+      {"t", "Zeit_in_ms", "in ms"},
+      {"t", "Zeit_/_ms", "ms"},
+      {"x", "Weg/cm", "cm"},
+      {"v", "v_km/h", "km/h"},
+      {"v", "v/km/h", "km/h"},
+      {"v", "speed_cm_s-1", "cm s-1"},
+      {"v", "v_m_per_s", "m per s"},
+      {"a", "a_cm/s^2", "cm/s^2"},
+      {"v", "v_ms", ""},
+      {"v", "v_min", ""},
+      {"x", "x_in", ""},
+      {"t", "t_in_s", "in s"},
+      {"t", "times", ""},
+      {"v", "v_smoothed", ""},
+      {"v", "Velocidad_cm/seg", "cm/seg"},
+      {"v", "n_1/s", "1/s"},
+      {"w", "w_ms", ""},
   };
   for (const Case& c : cases) {
     INFO(c.quantity << " of " << c.name);
@@ -96,9 +120,9 @@ TEST_CASE("unit: at the end of a name", "[text]") {
 TEST_CASE("unit: other than SI in comments, the last one counts", "[text]") {
   SaidUnits said;
   std::size_t line = 0;
-  for (const char* comment :
-       {"# times are in us, us all", "# units: ms, cm/s, N, m", "# D in mm", "# 40 ns", "## x in km",
-        "# radius in dm: 4", "# speed in kilometers per hour", "# v in m/s, t in s, in a min"})
+  for (const char* comment : {"# times are in us, us all", "# units: ms, cm/s, N, m", "# D in mm",
+                              "# 40 ns", "## x in km", "# radius in dm: 4",
+                              "# speed in kilometers per hour", "# v in m/s, t in s, in a min"})
     note_units(comment, ++line, said);
   std::string all;
   for (const auto& [quantity, unit] : said)
