@@ -1,5 +1,7 @@
 // fitpower - fit the power law D = a v^b to columns; see fitpower(1)
+#ifdef __GLIBC__
 #include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <cmath>

@@ -28,13 +28,22 @@ void put(const std::string& text) {
 
 struct Progress::Writer {
   std::string name;
-  std::mutex mutex = {};  // of the two that follow
+  std::mutex mutex = {};  // of the three that follow
   std::string what = {};
   double part = std::nan("");
-  std::condition_variable_any stopped = {};
-  std::jthread thread = std::jthread([this](const std::stop_token& stop) { show(stop); });
+  bool ended = false;
+  std::condition_variable end = {};
+  std::thread thread = std::thread([this] { show(); });
 
-  void show(const std::stop_token&);
+  ~Writer() {
+    {
+      const std::lock_guard lock(mutex);
+      ended = true;
+    }
+    end.notify_one();
+    thread.join();
+  }
+  void show();
 };
 
 Progress::Progress() = default;
@@ -57,15 +66,14 @@ void Progress::at(std::string_view what, double part) {
 
 void Progress::stop() { writer_.reset(); }
 
-void Progress::Writer::show(const std::stop_token& stop) {
+void Progress::Writer::show() {
   sigset_t all;  // the main thread handles signals, between whole lines of output
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, nullptr);
   const auto begin = steady_clock::now();
   bool shown = false;
   std::unique_lock lock(mutex);
-  for (auto next = begin + patience;
-       !stopped.wait_until(lock, stop, next, [] { return false; }) && !stop.stop_requested();
+  for (auto next = begin + patience; !end.wait_until(lock, next, [this] { return ended; });
        next += interval) {
     if (what.empty()) continue;
     std::string text = name + ": " + what;

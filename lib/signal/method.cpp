@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/decimal.h"
 #include "base/error.h"
 
 namespace rolling {
@@ -16,11 +17,14 @@ std::string_view next_word(std::string_view& words) {
   return word;
 }
 
-template <typename Number>
-bool read(std::string_view word, Number& number) {
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  return error == std::errc() && end == word.data() + word.size() &&
-         std::isfinite(static_cast<double>(number));
+bool read(std::string_view word, double& number) {
+  const char* const end = word.data() + word.size();
+  return !word.empty() && read_decimal(word.data(), end, number) == end && std::isfinite(number);
+}
+bool read(std::string_view word, std::size_t& number) {
+  const char* const end = word.data() + word.size();
+  const auto [behind, error] = std::from_chars(word.data(), end, number);
+  return error == std::errc() && behind == end;
 }
 
 }  // namespace

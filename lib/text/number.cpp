@@ -4,11 +4,11 @@
 #include <array>
 #include <bit>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 
+#include "base/decimal.h"
 #include "base/double_double.h"
 #include "text/shortest.h"
 
@@ -61,9 +61,9 @@ std::uint64_t number_of(std::uint64_t eight) {
 /// 19 digits, or close to the middle of two doubles.
 [[gnu::noinline]] const char* read_any_number(const char* const begin, const char* const end,
                                               double& value) {
-  const auto [behind, status] =
-      std::from_chars(*begin == '+' ? begin + 1 : begin, end, value);  // it does not accept a plus
-  return status == std::errc() ? behind : begin;
+  const char* const from = *begin == '+' ? begin + 1 : begin;  // from_chars does not accept a plus
+  const char* const behind = read_decimal(from, end, value);
+  return behind == from ? begin : behind;
 }
 
 }  // namespace
