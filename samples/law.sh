@@ -1,4 +1,4 @@
-#!/bin/bash
+#!/usr/bin/env bash
 # law.sh [-f FROM] [-t TO] [-n N] [ROW]: the law D = a v^b of a row of fitpower, from a file or from
 # standard input, as columns: N velocities (50) from FROM to TO in m/s, D, and the limits of its 68 %
 # and of its 95 % band. TO is v0 of the row, or 0.5 where it has none, and FROM a 25th of TO. Of

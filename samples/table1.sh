@@ -1,50 +1,55 @@
-#!/bin/bash
-# Table 1 and the check of the dissipated energy, from the raw runs alone: samples/table1.sh (bash).
-# Exits with 1 when a recovered value is more than 4 standard uncertainties from the paper's, or an
-# energy balance is open.
-set -euo pipefail
+#!/bin/sh
+# Table 1 and the check of the dissipated energy, from the raw runs alone: samples/table1.sh. Exits
+# with 1 when a recovered value is more than 4 standard uncertainties from the paper's, or an energy
+# balance is open.
+set -eu
 export LC_ALL=C
 unset CDPATH
-cd "$(dirname "$0")"
+# shellcheck disable=SC3040  # not every sh has it
+if (set -o pipefail) 2>/dev/null; then set -o pipefail; fi
+here=$(cd "$(dirname "$0")" && pwd)
 # The tools of this source, or those on the PATH.
-PATH=$(cd .. && pwd)/bin:$PATH
-scratch=$(mktemp -d)
+PATH=${here%/*}/bin:$PATH
+scratch=$(cd "$(mktemp -d)" && pwd)
 trap 'rm -rf "$scratch"' EXIT
+trap 'exit 130' INT TERM
+cd "$scratch"
 failed=0
 # Of closure and imbalance. Over 160 seeds the closure scatters by 1.2 % (the speeds at both ends,
 # the error of the fit), and the largest imbalance, of a noisy speed anywhere, is 3.5 %.
 tolerance=0.05
 
 # KEY of the scene of a run: its value, and its standard uncertainty (0.5+-0.005).
-value() { sed -n "s/^$1 *= *\"*\([^ \"+]*\).*/\1/p" "$2.toml"; }
-given() { sed -n "s/^$1 *= *//p" "$2.toml" | tr -d '" '; }
+value() { sed -n "s/^$1 *= *\"*\([^ \"+]*\).*/\1/p" "$here/$2.toml"; }
+given() { sed -n "s/^$1 *= *//p" "$here/$2.toml" | tr -d '" '; }
 
 # The free roll in a raw run, with the positions as they are; and v from them, smoothed.
-roll() { smooth -q --coast -c x -w 1 "$1.csv"; }
+roll() { smooth -q --coast -c x -w 1 "$here/$1.csv"; }
 velocity() { roll "$1" | differentiate -q -c x | smooth -w 11; }
 
 # The two routes to a and b: through D(v), as in Fig. 4, and by the simulated trajectory; each with
 # the errors of the noise alone (NAME.fit) and with what K and R of the scenes bring to them
 # (NAME.all.fit).  fits NAME RUN...
 fits() {
-  local name=$1 run records=() shifts=() shapes with=()
+  fitted=$1
   shift
+  records='' shifts=''
   for run; do
-    roll "$run" >"$scratch/$run.roll"
-    records+=("$scratch/$run.roll") shifts+=("$scratch/$run.D")
+    roll "$run" >"$run.roll"
+    records="$records $run.roll" shifts="$shifts $run.D"
   done
   for all in '' .all; do
-    shapes=
+    shapes=''
     for run; do
-      if [ "$all" ]; then with=("$(given shape-factor "$run")" "$(given radius "$run")")
-      else with=("$(value shape-factor "$run")" "$(value radius "$run")"); fi
-      velocity "$run" | differentiate |
-        shift-from-accel -K "${with[0]}" -R "${with[1]}" >"$scratch/$run.D"
-      shapes+=${shapes:+,}${with[0]}
+      if [ "$all" ]; then K=$(given shape-factor "$run") R=$(given radius "$run")
+      else K=$(value shape-factor "$run") R=$(value radius "$run"); fi
+      velocity "$run" | differentiate | shift-from-accel -K "$K" -R "$R" >"$run.D"
+      shapes=$shapes${shapes:+,}$K
     done
-    fitpower -q "${shifts[@]}" >"$scratch/$name.D$all.fit"
-    fitpower -q --route position -K "$shapes" -R "${with[1]}" "${records[@]}" \
-      >"$scratch/$name$all.fit"
+    # shellcheck disable=SC2086  # names without a blank
+    fitpower -q $shifts >"$fitted.D$all.fit"
+    # shellcheck disable=SC2086
+    fitpower -q --route position -K "$shapes" -R "$R" $records >"$fitted$all.fit"
   done
 }
 
@@ -61,11 +66,11 @@ compare() {  # FIT ROUTE A B
       printf "  %7.4f +- %.4f +- %.4f", $3, $4, given($4, all_b)
       printf "  %+5.1f  %+5.1f%s\n", off_a, off_b, far ? "  TOO FAR" : ""
       exit far
-    }' "$scratch/$1.all.fit" "$scratch/$1.fit" || failed=1
+    }' "$1.all.fit" "$1.fit" || failed=1
 }
 
 table() {  # NAME TITLE A B RUN...
-  local name=$1 title=$2 a=$3 b=$4
+  name=$1 title=$2 a=$3 b=$4
   shift 4
   fits "$name" "$@"
   awk -v title="$title" -v a="$a" -v b="$b" 'BEGIN {
@@ -119,7 +124,7 @@ awk '
     printf "  %-53s %.1e on rubber, %.1e on felt\n", "1 - A, which the fits set to 0, at 0.5 m/s",
       1 - sqrt(1 - (D("CR", 0.5) / 0.04)^2), 1 - sqrt(1 - (D("F", 0.5) / 0.04)^2)
     exit failed > 0
-  }' "$scratch"/{SR,CR,F,CF,SF}.fit || failed=1
+  }' SR.fit CR.fit F.fit CF.fit SF.fit || failed=1
 
 # The mat takes what the law of the trajectory says at the measured speeds; the body loses what its
 # measured speeds say. The ends of the speeds are left away: the mean there has a shrunken window.
@@ -129,9 +134,9 @@ speeds() {
 }
 # The row of the balance of a run under a law: E_start E_end E_diss closure imbalance.
 balance() {  # RUN OPTION...
-  local run=$1
+  run=$1
   shift
-  speeds "$run" | energy-ledger --scene "$run.toml" --summary "$@" | grep -v '^#'
+  speeds "$run" | energy-ledger --scene "$here/$run.toml" --summary "$@" | grep -v '^#'
 }
 plus() { awk -v x="$1" -v y="$2" 'BEGIN { printf "%.17g", x + y }'; }
 echo
@@ -139,9 +144,13 @@ echo "Energy: measured loss against what the fitted shift dissipates" \
   "(within $tolerance at every moment)"
 printf '  %-4s %-20s %-12s %-16s %-10s %s\n' \
   run "E at the start [J]" "lost [J]" "dissipated [J]" closure imbalance
-for run in "CF F" "CR CR" "SF F" "SR SR"; do
-  read -r name fit <<<"$run"
-  read -r a _ b _ < <(grep -v '^#' "$scratch/$fit.fit")
+# The row of a fit, to take its numbers apart.
+row() { grep -v '^#' "$1.fit"; }
+for pair in "CF F" "CR CR" "SF F" "SR SR"; do
+  name=${pair% *}
+  # shellcheck disable=SC2046  # numbers
+  set -- $(row "${pair#* }")
+  a=$1 b=$3
   { balance "$name" -a "$a" -b "$b" --check "$tolerance" || echo open; } |
     awk -v name="$name" '/open/ { open = 1 }
       /^[0-9]/ { start = $1; end = $2; diss = $3; closure = $4; imbalance = $5 }
@@ -160,9 +169,11 @@ echo
 echo "The same with the law of the other body on that mat, and with the paper's law for that body"
 printf '  %-4s %-7s %-9s %-15s %-29s %s\n' \
   run "law of" "lost [J]" "dissipated [J]" "closure, noise, K" "closure, paper's law"
-for run in "CF SF" "SF CF" "CR SR" "SR CR"; do
-  read -r name other <<<"$run"
-  read -r a sigma_a b sigma_b corr _ < <(grep -v '^#' "$scratch/$other.fit")
+for pair in "CF SF" "SF CF" "CR SR" "SR CR"; do
+  name=${pair% *} other=${pair#* }
+  # shellcheck disable=SC2046
+  set -- $(row "$other")
+  a=$1 sigma_a=$2 b=$3 sigma_b=$4 corr=$5
   {
     echo "$sigma_a $sigma_b $corr"
     balance "$name" -a "$a" -b "$b"
@@ -203,17 +214,17 @@ printf '  %-20s %-17s  %-17s  %-17s  %-5s  %-5s  %s\n' \
   run "a [1e-3 m]" b slope "off a" "off b" "off slope"
 slope=0.001
 for mat in "CF felt" "CR rubber"; do
-  read -r run mat <<<"$mat"
-  simulate --scene "$run.toml" --slope $slope --sensor pasco --seed 5 >"$scratch/up"
-  simulate --scene "$run.toml" --slope -$slope --sensor pasco --seed 6 |
-    awk -F, -v OFS=, 'NR > 1 && $2 != "" { $2 = 2 - $2 } { print $1, $2 }' >"$scratch/down"
-  for way in up down; do smooth -q --coast -c x -w 1 "$scratch/$way" >"$scratch/$way.roll"; done
+  run=${mat% *} mat=${mat#* }
+  simulate --scene "$here/$run.toml" --slope $slope --sensor pasco --seed 5 >up
+  simulate --scene "$here/$run.toml" --slope -$slope --sensor pasco --seed 6 |
+    awk -F, -v OFS=, 'NR > 1 && $2 != "" { $2 = 2 - $2 } { print $1, $2 }' >down
+  for way in up down; do smooth -q --coast -c x -w 1 $way >$way.roll; done
   K=$(value shape-factor "$run") R=$(value radius "$run")
   fit() { fitpower -q --route position -K "$K" -R "$R" "$@"; }
   {
-    fit --slope fit "$scratch/up.roll" "$scratch/down.roll"
-    fit "$scratch/up.roll"
-    fit "$scratch/down.roll"
+    fit --slope fit up.roll down.roll
+    fit up.roll
+    fit down.roll
   } | awk -v mat="$mat" -v slope=$slope \
     -v a="$(value coefficient "$run")" -v b="$(value exponent "$run")" '
     function row(i, title) {

@@ -1,6 +1,7 @@
 #!/bin/bash
-# arm64.sh FOLDER: builds for arm64 in FOLDER, a copy of the sources, and runs the tests there
-# through qemu's user mode; then compares with bin/ what the samples give, byte for byte. It takes
+# arm64.sh FOLDER [GOAL...]: builds for arm64 in FOLDER, a copy of the sources. Without a GOAL it
+# runs the tests there through qemu's user mode; then compares with bin/ what the samples give, byte
+# for byte. It takes
 # g++-aarch64-linux-gnu and qemu-user. The libraries are Debian's for arm64, unpacked into
 # FOLDER/sysroot: nothing is installed.
 set -euo pipefail
@@ -8,6 +9,9 @@ export LC_ALL=C
 unset CDPATH MAKEFLAGS
 here=$PWD
 cd "$1"
+shift
+goals=(all build/unit)
+[ $# = 0 ] || goals=("$@")
 root=$PWD
 sysroot=$root/sysroot
 library=$sysroot/usr/lib/aarch64-linux-gnu
@@ -40,9 +44,11 @@ fi
 ln -sfn /usr/include/CLI /usr/include/boost "$sysroot/usr/include"
 
 # -Wno-psabi: g++ notes there, for each pair of doubles passed, that its version 9 did otherwise.
-make -s -j"$(nproc)" all build/unit AR=aarch64-linux-gnu-ar \
+make -s -j"$(nproc)" "${goals[@]}" AR=aarch64-linux-gnu-ar \
   CXX="${ARM64_CXX:-aarch64-linux-gnu-g++} -isystem sysroot/usr/include -Wno-psabi" \
   LDFLAGS='-Lsysroot/usr/lib/aarch64-linux-gnu -Wl,-rpath-link,sysroot/usr/lib/aarch64-linux-gnu'
+
+[ $# = 0 ] || exit 0
 
 # In front of each program that make has linked, a script of its name that calls it through qemu.
 for program in bin/* build/unit; do

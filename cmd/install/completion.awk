@@ -51,7 +51,7 @@ function bash(    i, pattern, options, files, others, function_name) {
   if (operands) print "    *) if [[ $current == -* ]]; then words='" options "'; else files=yes; fi ;;"
   else print "    *) words='" options "' ;;"
   print "  esac"
-  print "  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")"
+  print "  COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))  # words without a blank"
   print "  [[ $files ]] || compopt +o default 2>/dev/null  # which only a completion under way can do"
   print "}"
   print "complete -o default -F " function_name " " name "  # default: file names, where there are no words"

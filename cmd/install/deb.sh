@@ -1,8 +1,7 @@
-#!/bin/bash
+#!/usr/bin/env bash
 # deb.sh: makes build/rolling_VERSION_ARCHITECTURE.deb of what install.sh installs below /usr.
 # PROGRAM_PREFIX goes before the names of the tools. DEBFULLNAME and DEBEMAIL name the maintainer,
-# else the author of git's last commit does, else the user. SOURCE_DATE_EPOCH dates the package,
-# else the last commit does, else the newest file of the source.
+# else the author of git's last commit does, else the user. date.sh says of when it is.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
@@ -19,13 +18,14 @@ version=$(bin/smooth --version | awk '{ print $NF }')
 architecture=$(dpkg --print-architecture)
 # git refuses where there is no repository, and in one that belongs to another user.
 of_commit() { git log -1 --format="$1" 2>/dev/null; }
-of_source() { find Makefile cmd lib man samples -type f -printf '%T@\n' | sort -n | tail -n 1; }
 maintainer=${DEBFULLNAME:-$(of_commit %an || id -un)}
 maintainer+=" <${DEBEMAIL:-$(of_commit %ae || echo "$(id -un)@$(uname -n)")}>"
-moment=${SOURCE_DATE_EPOCH:-$(of_commit %ct || of_source | cut -d . -f 1)}
+moment=$(cmd/install/date.sh)
 umask 022
 rm -rf $folder
-DESTDIR=$tree PREFIX=/usr cmd/install/install.sh install
+bindir=/usr/bin mandir=/usr/share/man datadir=/usr/share docdir=/usr/share/doc/rolling \
+  DESTDIR=$tree cmd/install/install.sh install >/dev/null
+rm "$tree"/usr/share/doc/rolling/installed-files*
 
 strip --strip-unneeded --remove-section=.comment --remove-section=.note "$tree"/usr/bin/*
 gzip -9n "$tree"/usr/share/man/man?/*

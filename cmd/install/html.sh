@@ -1,4 +1,4 @@
-#!/bin/bash
+#!/usr/bin/env bash
 # html.sh FOLDER: the manual pages as one site of HTML in FOLDER, made by mandoc: NAME.SECTION.html
 # for each page and index.html. A page of another project (awk, sed, ...) is linked at
 # manpages.debian.org.

@@ -1,64 +1,160 @@
-#!/bin/bash
-# install.sh install | uninstall: the tools, their pages and completions, and the samples, into
-# PREFIX below DESTDIR; PROGRAM_PREFIX goes before the name of each tool. The three come from the
-# environment. `uninstall` removes the files that `install` puts there, and the folders of the
-# samples if nothing else is in them.
-set -euo pipefail
+#!/bin/sh
+# install.sh install | uninstall: the tools in TOOLS, their pages and completions, and the samples,
+# into bindir, mandir, datadir and docdir below DESTDIR; PROGRAM_PREFIX goes before the name of each
+# tool. All come from the environment; `make install` sets them.
+#
+# docdir/installed-files says what was installed, a line `CKSUM SIZE PATH` for each file. `install`
+# replaces a file only if it is in that list and as it was installed; if a single one is not,
+# nothing is written. `uninstall` removes what is in the list and as it was installed.
+set -eu
 export LC_ALL=C
 unset CDPATH
 cd "$(dirname "$0")/../.."
 
-root=${DESTDIR-}${PREFIX?} prefix=${PROGRAM_PREFIX-}
-case $root in -*) root=./$root ;; esac
-[[ $prefix =~ ^([A-Za-z0-9_][A-Za-z0-9._+-]*)?$ ]] || {
-  printf "install: PROGRAM_PREFIX is '%s'; it may have letters, digits and . _ + -\n" "$prefix" >&2
-  exit 2
-}
-tools=(cmd/*.cpp)
-tools=("${tools[@]#cmd/}")
-tools=("${tools[@]%.cpp}")
-doc=$root/share/doc/rolling
-
-# each ACTION: calls ACTION KIND SOURCE DESTINATION for every file.
-each() {
-  local tool page sample
-  for tool in "${tools[@]}"; do
-    "$1" program "bin/$tool" "$root/bin/$prefix$tool"
-    "$1" page "man/$tool.1" "$root/share/man/man1/$prefix$tool.1"
-    "$1" bash "bin/$tool" "$root/share/bash-completion/completions/$prefix$tool"
-    "$1" zsh "bin/$tool" "$root/share/zsh/site-functions/_$prefix$tool"
-  done
-  for page in man/*.[57]; do "$1" page "$page" "$root/share/man/man${page##*.}/${page#man/}"; done
-  while IFS= read -r sample; do
-    "$1" sample "$sample" "$doc/$sample"
-  done < <(find samples -name results -prune -o -type f ! -name '.*' -print | sort)
-}
-
-put() {
-  case $1 in
-    program) install -D -s -m 755 "$2" "$3" ;;
-    page)
-      install -D -m 644 "$2" "$3"
-      cmd/install/rename-page.sh "$prefix" "$3" "${tools[@]}" ;;
-    bash | zsh)
-      install -D -m 644 /dev/null "$3"
-      "$2" --help | awk -v shell="$1" -v name="$prefix${2#bin/}" -f cmd/install/completion.awk >"$3" ;;
-    sample)
-      if [ -x "$2" ]; then install -D -m 755 "$2" "$3"; else install -D -m 644 "$2" "$3"; fi ;;
+prefix=${PROGRAM_PREFIX-}
+refuse() { printf 'install: %s\n' "$*" >&2; exit 2; }
+case $prefix in
+  [!A-Za-z0-9_]* | *[!A-Za-z0-9._+-]*)
+    refuse "PROGRAM_PREFIX is '$prefix'; it may have letters, digits and . _ + -" ;;
+esac
+for folder in "${bindir?}" "${mandir?}" "${datadir?}" "${docdir?}"; do
+  case $folder in
+    *"
+"*) refuse "'$folder': a name of two lines" ;;
+    /*) ;;
+    *) refuse "'$folder' has to begin with /" ;;
   esac
+done
+case ${DESTDIR-} in '' | /*) root=${DESTDIR-} ;; *) root=$PWD/$DESTDIR ;; esac
+docdir=${docdir%/}
+lists=$root$docdir/installed-files
+list=$lists${prefix:+-}$prefix
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+trap 'exit 130' INT TERM
+: >"$scratch/files"
+
+# stage MODE PATH: standard input is to become this file.
+stage() {
+  mkdir -p "$scratch/stage${2%/*}"
+  cat >"$scratch/stage$2"
+  chmod "$1" "$scratch/stage$2"
+  printf '%s\n' "$2" >>"$scratch/files"
 }
-take() { rm -f "$3"; }
+# What belongs to the source: records and results of somebody's own stay where they are.
+samples() {
+  set -- samples/README.md samples/[CS][FR].csv samples/[CS][FR].toml samples/*.sh samples/*.svg \
+    samples/exports/capstone.csv samples/exports/phyphox.csv samples/exports/tracker.txt \
+    samples/exports/vernier.csv samples/exports/*.sh samples/figures/*.sh samples/figures/*.gp \
+    samples/fleet/*.sh samples/fleet/*.awk samples/fleet/README.md \
+    samples/lab/*.sh samples/lab/*.awk samples/lab/Makefile samples/lab/README.md
+  for sample; do [ ! -f "$sample" ] || printf '%s\n' "$sample"; done
+}
+stage_all() {
+  tools=''
+  for source in cmd/*.cpp; do
+    tool=${source#cmd/}
+    tools="$tools ${tool%.cpp}"
+  done
+  for tool in $tools; do
+    stage 755 "$bindir/$prefix$tool" <"$TOOLS/$tool"
+    ${STRIP:-strip} "$scratch/stage$bindir/$prefix$tool"
+    # shellcheck disable=SC2086  # tools are words
+    cmd/install/rename-page.sh "$prefix" $tools <"man/$tool.1" |
+      stage 644 "$mandir/man1/$prefix$tool.1"
+    for shell in bash:bash-completion/completions/ zsh:zsh/site-functions/_; do
+      "bin/$tool" --help |
+        awk -v shell="${shell%%:*}" -v name="$prefix$tool" -f cmd/install/completion.awk |
+        stage 644 "$datadir/${shell#*:}$prefix$tool"
+    done
+  done
+  for page in man/*.[57]; do
+    # shellcheck disable=SC2086
+    cmd/install/rename-page.sh "$prefix" $tools <"$page" |
+      stage 644 "$mandir/man${page##*.}/${page#man/}"
+  done
+  samples >"$scratch/samples"
+  while IFS= read -r sample; do
+    mode=644
+    [ ! -x "$sample" ] || mode=755
+    stage $mode "$docdir/$sample" <"$sample"
+  done <"$scratch/samples"
+}
+
+described() { printf '%s %s\n' "$(cksum <"$1")" "$2"; }  # FILE PATH: its line in a list
+exists() { [ -e "$1" ] || [ -L "$1" ]; }
+as_installed() {  # PATH: by this prefix or by another one
+  [ ! -L "$root$1" ] && [ -f "$root$1" ] && described "$root$1" "$1" >"$scratch/line" &&
+    cat "$lists"* 2>/dev/null | grep -qxF -f "$scratch/line"
+}
+
+# Removes what the list names and the file $1 does not.
+remove_listed() {
+  [ -f "$list" ] || return 0
+  cut -d ' ' -f 3- "$list" >"$scratch/listed"
+  for other in "$lists"*; do [ "$other" = "$list" ] || cut -d ' ' -f 3- "$other"; done \
+    >"$scratch/of-others"
+  while IFS= read -r path; do
+    ! printf '%s\n' "$path" | grep -qxF -f - "$1" "$scratch/of-others" || continue
+    exists "$root$path" || continue
+    if as_installed "$path"; then rm -f "$root$path"
+    else printf 'install: %s is not as it was installed: it stays\n' "$root$path" >&2
+    fi
+  done <"$scratch/listed"
+}
+
+install_all() {
+  stage_all
+  while IFS= read -r path; do
+    exists "$root$path" || continue
+    cmp -s "$root$path" "$scratch/stage$path" && [ ! -L "$root$path" ] || as_installed "$path" ||
+      printf '  %s\n' "$root$path"
+  done <"$scratch/files" >"$scratch/strangers"
+  if [ -s "$scratch/strangers" ]; then
+    {
+      echo 'install: these files exist, and are none that this has installed:'
+      cat "$scratch/strangers"
+      echo 'Nothing was installed. Move them, or install the tools under other names:'
+      echo '  make install PROGRAM_PREFIX=roll-'
+    } >&2
+    exit 1
+  fi
+  remove_listed "$scratch/files"
+  # The list comes first: where a copy fails, what is there can be removed.
+  mkdir -p "$root$docdir"
+  while IFS= read -r path; do described "$scratch/stage$path" "$path"; done <"$scratch/files" \
+    >"$list"
+  while IFS= read -r path; do
+    mkdir -p "$root${path%/*}"
+    rm -f "$root$path"  # it may run, or be a link
+    cp -p "$scratch/stage$path" "$root$path"
+  done <"$scratch/files"
+  printf 'installed: %s and what is listed in %s\n' "$root$bindir" "$list"
+}
+
+uninstall_all() {
+  if [ ! -f "$list" ]; then
+    printf 'uninstall: there is no list %s: nothing was removed\n' "$list"
+    exit 0
+  fi
+  : >"$scratch/nothing"
+  remove_listed "$scratch/nothing"
+  # Folders of the samples, the innermost first, unless they hold something else.
+  while IFS= read -r path; do
+    path=${path%/*}
+    while [ "$path" != "$docdir" ] && [ "${path#"$docdir"/}" != "$path" ]; do
+      printf '%s\n' "$path"
+      path=${path%/*}
+    done
+  done <"$scratch/listed" | sort -ru >"$scratch/folders"
+  while IFS= read -r path; do rmdir "$root$path" 2>/dev/null || true; done <"$scratch/folders"
+  rm -f "$list"
+  rmdir "$root$docdir" 2>/dev/null || true
+  printf 'removed what was listed in %s\n' "$list"
+}
 
 case ${1-} in
-  install)
-    each put
-    echo "installed below $root" ;;
-  uninstall)
-    each take
-    while IFS= read -r folder; do
-      rmdir "$doc/$folder" 2>/dev/null || true  # unless it holds something else
-    done < <(find samples -depth -type d)
-    rmdir "$doc" 2>/dev/null || true
-    echo "removed what was installed below $root" ;;
+  install) umask 022 && install_all ;;
+  uninstall) uninstall_all ;;
   *) echo 'install.sh install | uninstall' >&2; exit 2 ;;
 esac

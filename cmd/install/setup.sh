@@ -1,45 +1,96 @@
-#!/bin/bash
+#!/bin/sh
 # setup.sh GOAL...: installs the Debian packages that these goals of make need and that are missing.
-set -euo pipefail
+# Where it cannot, it says what they are called elsewhere.
+set -eu
 export LC_ALL=C
 unset CDPATH
+cd "${0%/*}/../.."
 
-packages=(g++ libgsl-dev libfmt-dev libcli11-dev)
+goals=${*:-check}
+packages='g++ libgsl-dev libfmt-dev libcli11-dev'
+need() { packages="$packages $*"; }
 for goal; do
   case $goal in
-    all | table1 | samples | install | uninstall | clean) ;;
-    figures | figures/* | report) packages+=(gnuplot-nox mandoc) ;;
-    html) packages+=(mandoc) ;;
-    deb) packages+=(dpkg-dev) ;;
-    lint) packages+=(clang-format-14 clang-tidy-14 cppcheck shellcheck mandoc) ;;
-    fuzz) packages+=(clang-14) ;;
-    *) packages+=(catch2 libboost-dev mandoc gnuplot-nox locales) ;;&  # whatever runs the tests
-    sanitize) packages+=(valgrind) ;;
-    coverage-lines) packages+=(gcovr) ;;
-    check-clang) packages+=(clang-14) ;;
-    check-arm64) packages+=(g++-aarch64-linux-gnu qemu-user) ;;
+    */*) ;;  # a file
+    *) cut -d : -f 1 Makefile tests/targets.mk | grep -qxF -e "$goal" || {
+        echo "setup: there is no goal '$goal': nothing was installed" >&2
+        exit 2
+      } ;;
+  esac
+done
+for goal; do
+  case $goal in
+    all | table1 | samples | install | uninstall | clean) continue ;;
+    figures | figures/* | report) need gnuplot-nox mandoc; continue ;;
+    html) need mandoc; continue ;;
+    static) need binutils xz-utils; continue ;;
+    static-arm64) need binutils xz-utils g++-aarch64-linux-gnu; continue ;;
+    deb) need dpkg-dev; continue ;;
+    lint) need clang-format-14 clang-tidy-14 cppcheck shellcheck mandoc; continue ;;
+    fuzz) need clang-14; continue ;;
+  esac
+  # Whatever runs the tests.
+  need catch2 libboost-dev mandoc gnuplot-nox locales busybox gawk mawk original-awk xz-utils
+  case $goal in
+    sanitize) need valgrind ;;
+    coverage-lines) need gcovr ;;
+    check-clang) need clang-14 ;;
+    check-libcxx) need clang-14 libc++-14-dev libc++abi-14-dev ;;
+    check-arm64) need g++-aarch64-linux-gnu qemu-user ;;
   esac
 done
 
-missing=()
-for package in "${packages[@]}"; do
+missing=''
+for package in $packages; do
+  case " $missing " in *" $package "*) continue ;; esac
   dpkg-query -W -f '${Status}\n' "$package" 2>/dev/null | grep -q '^install ok installed' ||
-    missing+=("$package")
+    missing="$missing${missing:+ }$package"
 done
-[ ${#missing[@]} -gt 0 ] || exit 0
+[ "$missing" ] || exit 0
 
+# The names of what is missing, by the system: Debian Fedora Arch Alpine Homebrew FreeBSD; `-` where
+# it needs no package. What only Debian is tried with is not in the table.
+elsewhere() {
+  while read -r debian fedora arch alpine brew freebsd; do
+    case " $missing " in *" $debian "*) ;; *) continue ;; esac
+    for name in "Fedora:dnf install:$fedora" "Arch:pacman -S:$arch" "Alpine:apk add:$alpine" \
+      "macOS:brew install:$brew" "FreeBSD:pkg install:$freebsd"; do
+      printf '%s\n' "$name"
+    done
+  done <<'END' | awk -F: '
+    !($1 in how) { order[++n] = $1; how[$1] = $2 }
+    $3 != "-" { names[$1] = names[$1] " " $3 }
+    END { for (i = 1; i <= n; i++) if (names[order[i]] != "")
+      printf "  %-8s %s%s\n", order[i], how[order[i]], names[order[i]] }'
+g++ gcc-c++,make gcc,make g++,make,bash make,bash gmake,bash
+libgsl-dev gsl-devel gsl gsl-dev gsl gsl
+libfmt-dev fmt-devel fmt fmt-dev fmt libfmt
+libcli11-dev cli11-devel cli11 cli11-dev cli11 cli11
+gnuplot-nox gnuplot gnuplot gnuplot gnuplot gnuplot
+mandoc mandoc mandoc mandoc mandoc mandoc
+catch2 catch-devel catch2 catch2-3 catch2 catch2
+libboost-dev boost-devel boost boost-dev boost boost-libs
+END
+}
 give_up() {
-  echo "setup: $1; these packages of Debian are missing, or what your system calls them:" >&2
-  echo "  ${missing[*]}" >&2
+  {
+    echo "setup: $1; these packages of Debian are missing, or what your system calls them:"
+    echo "  Debian   apt-get install $missing"
+    elsewhere | tr , ' '
+    echo "then: make $goals"
+  } >&2
   exit 1
 }
 command -v apt-get >/dev/null || give_up 'there is no apt-get here'
-as_root=()
+as_root=''
 if [ "$(id -u)" != 0 ]; then
   command -v sudo >/dev/null || give_up 'installing takes root, or sudo'
-  as_root=(sudo)
+  as_root=sudo
 fi
-echo "installing ${missing[*]}"
-"${as_root[@]}" apt-get update -q
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-  apt-get install -qy --no-install-recommends "${missing[@]}"
+echo "installing $missing"
+# shellcheck disable=SC2086  # packages are words
+{
+  $as_root apt-get update -q &&
+    $as_root env DEBIAN_FRONTEND=noninteractive \
+      apt-get install -qy --no-install-recommends $missing
+} || give_up 'they could not be installed'

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <compare>
+#include <cstring>
 #include <set>
 
 #include "cli/history.h"
@@ -189,12 +189,11 @@ void set_bodies(std::vector<FitRun>& runs, const Body& body,
 
 void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
   const auto columns = fitted_columns(route);
-  const auto less = [&](std::size_t i, std::size_t j) {  // of all doubles, NaN too
+  const auto less = [&](std::size_t i, std::size_t j) {  // by their bytes
     for (const std::string& name : columns) {
       const auto &x = runs[i].*column_of(name), &y = runs[j].*column_of(name);
-      const auto order = std::lexicographical_compare_three_way(
-          x.begin(), x.end(), y.begin(), y.end(),
-          [](double a, double b) { return std::strong_order(a, b); });
+      if (x.size() != y.size()) return x.size() < y.size();
+      const int order = std::memcmp(x.data(), y.data(), x.size() * sizeof(double));
       if (order != 0) return order < 0;
     }
     return false;

@@ -1,4 +1,4 @@
-#!/bin/bash
+#!/usr/bin/env bash
 # make.sh FOLDER: the sample records in the forms in which other programs export them
 # (`make samples`).
 set -euo pipefail

@@ -1,4 +1,4 @@
-#!/bin/bash
+#!/usr/bin/env bash
 # Fig. 4: D against v, the power law fitted to it, and the 95 % band of the law.
 #
 #   fig4.sh [-t svg | pngcairo] >fig4.svg                          the four experiments

@@ -1,4 +1,4 @@
-#!/bin/bash
+#!/usr/bin/env bash
 # The residuals of a fit against time and against velocity: the first look at whether a law describes
 # a run.
 #

@@ -1,4 +1,4 @@
-#!/bin/bash
+#!/usr/bin/env bash
 # fit.sh [-K K] [-R R] [-c x|v] RECORD: the row that fitpower finds for one record, under its names,
 # with the name of the record in front. K (0.5) is the shape factor, R (0.04) the radius in metres;
 # x (the default) fits the positions of the record, v its velocities. In the name, what a field of a

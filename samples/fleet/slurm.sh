@@ -1,4 +1,4 @@
-#!/bin/bash
+#!/usr/bin/env bash
 #SBATCH --job-name=rolling --ntasks=1 --cpus-per-task=1 --time=10 --output=/dev/null
 # The table by a job array of Slurm: task i of n fits each n-th record of the folder, from the i-th
 # on, to part.i. From the top of the source:

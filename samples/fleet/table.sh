@@ -1,4 +1,4 @@
-#!/bin/bash
+#!/usr/bin/env bash
 # table.sh FOLDER [OPTION-OF-parallel]...: one table of the fits of all records in FOLDER, by GNU
 # parallel: as many at a time as there are processors, or as the options say. On other machines too,
 # if they have the tools on their PATH:

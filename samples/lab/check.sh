@@ -1,4 +1,4 @@
-#!/bin/bash
+#!/usr/bin/env bash
 # check.sh [-m M] [-K K] [-R R] [-c x|v] RECORD FIT: fails unless a law a v^b describes the positions
 # of RECORD, and unless the law in FIT, a row of fit.sh, dissipates what the measured velocities of
 # RECORD lose, within 5 %. Prints both energies.

@@ -1,4 +1,4 @@
-#!/bin/bash
+#!/usr/bin/env bash
 # live.sh [-K K] [-R R] [-w WIDTH] [-c x|v] [-T TERMINAL] SOURCE: draws D against v while the body
 # rolls, again with every record. SOURCE is the device of a sensor (a serial port), a file that
 # grows, or - for standard input, with lines of time and velocity (-c v, the default) or of time and

@@ -2,6 +2,7 @@
 # `make install` with plain and with prefixed names: the tools run, the pages are found and are
 # right, their examples run under the installed names; `make uninstall` removes all of it and
 # nothing else. Both whatever the environment is and whatever signs the folder has in its name.
+# What others have put there is never replaced or removed, and what is the user's own is not copied.
 set -u
 export LC_ALL=C
 unset CDPATH
@@ -58,7 +59,7 @@ for prefix in '' roll-; do
         complain "$page refers to $name($section), which is not installed"
     done < <(grep -ohE 'Xr [^ ]+ [1-8]' "$page" "$root"/share/man/man[57]/* | cut -d ' ' -f 2,3 | sort -u)
   done
-  [ "$(find "$root/bin" -name "${prefix}*" ! -name smoother -type f -perm 755 | wc -l)" = "$(find cmd -name '*.cpp' | wc -l)" ] || complain "other programs than those of cmd/: $(ls "$root/bin")"
+  [ "$(find "$root/bin" -name "${prefix}*" ! -name smoother -type f -perm 755 | wc -l)" = "$(find cmd/*.cpp | wc -l)" ] || complain "other programs than those of cmd/: $(ls "$root/bin")"
   [ -z "$(find "$root/share" -type f ! -name mine ! -name other ! -name '*.sh' ! -perm 644)" ] ||
     complain "modes: $(find "$root/share" -type f ! -perm 644)"
   # They are stripped: no more than a megabyte each.
@@ -76,9 +77,7 @@ for prefix in '' roll-; do
   left=$(cd "$root" && find . -type f | cut -c 3- | sort | xargs)
   [ "$left" = "$(printf '%s\n' $others | sort | xargs)" ] ||
     complain "after uninstall there is $left"
-  rm "$root/share/doc/rolling/mine"
-  put uninstall
-  [ ! -e "$root/share/doc/rolling" ] || complain "uninstall leaves share/doc/rolling"
+  [ "$(ls -A "$root/share/doc/rolling")" = mine ] || complain "uninstall leaves folders of samples"
   [ -e "$stage/a/mine" ] || complain "uninstall deletes a stranger's folder"
   [ ! -e hit ] && [ ! -e "$scratch/hit" ] || { rm -f hit; complain "a name was run as code"; }
 done
@@ -88,10 +87,76 @@ make install DESTDIR="$scratch/default" >"$scratch/made" 2>&1 || complain "make 
 [ "$(cd "$scratch/default" && find . -maxdepth 3 -name bin)" = ./usr/local/bin ] &&
   [ -z "$(find "$scratch/default" -type f ! -path '*/usr/local/*')" ] ||
   complain "make install goes to $(find "$scratch/default" -name bin)"
+# The GNU variables, each by itself.
+make install DESTDIR="$scratch/gnu" prefix=/p bindir=/b datadir=/d mandir=/m docdir=/doc \
+  >"$scratch/made" 2>&1 || complain "make install with directories fails: $(cat "$scratch/made")"
+for file in b/smooth m/man1/smooth.1 d/bash-completion/completions/smooth doc/samples/CR.csv; do
+  [ -s "$scratch/gnu/$file" ] || complain "make install does not make $file"
+done
+[ ! -e "$scratch/gnu/p" ] || complain 'make install makes the prefix that nothing is in'
+
+# The samples are those of the source, and nothing of the user's.
+if git ls-files --error-unmatch samples/table1.sh >/dev/null 2>&1; then
+  diff <(git ls-files samples | while read -r file; do [ ! -f "$file" ] || echo "$file"; done) \
+    <(cd "$scratch/gnu/doc" && find samples -type f | sort) || complain 'other samples are installed'
+fi
+copy=$scratch/copy
+mkdir "$copy" && tar -cf - Makefile cmd man samples tests/targets.mk | tar -xf - -C "$copy"
+ln -s "$PWD/bin" "$copy/bin"
+mkdir -p "$copy/samples/lab/records" "$copy/samples/lab/results" "$copy/samples/mine"
+for file in lab/records/0001.csv lab/results/a.sh mine/run.sh my.csv my.toml .hidden; do
+  echo own >"$copy/samples/$file"
+done
+run_there() {  # install | uninstall, into $scratch/there
+  bindir=/b mandir=/m datadir=/d docdir=/doc TOOLS=bin DESTDIR=$scratch/there \
+    PROGRAM_PREFIX=${2-} "$copy/cmd/install/install.sh" "$1" >"$scratch/said" 2>&1
+}
+run_there install || complain "install.sh: $(cat "$scratch/said")"
+own=$(cd "$scratch/there/doc" && find . -name '0001.csv' -o -name 'my.*' -o -name 'run.sh' -o -name a.sh)
+[ -z "$own" ] || complain "install copies $own"
+
+# Again, and in a newer version with a file less: no complaint, and the file goes.
+rm "$copy/samples/run.svg" && echo '# newer' >>"$copy/samples/table1.sh"
+run_there install || complain "a second install: $(cat "$scratch/said")"
+grep -q '^# newer' "$scratch/there/doc/samples/table1.sh" || complain 'a newer version is not installed'
+[ ! -e "$scratch/there/doc/samples/run.svg" ] || complain 'what a newer version lacks stays'
+# With another prefix beside it: what both have stays until both are gone.
+run_there install r- && run_there uninstall || complain "two prefixes: $(cat "$scratch/said")"
+[ -x "$scratch/there/b/r-smooth" ] && [ ! -e "$scratch/there/b/smooth" ] &&
+  [ -s "$scratch/there/doc/samples/CR.csv" ] || complain "of two prefixes: $(ls "$scratch/there/b")"
+run_there uninstall r-
+[ -z "$(find "$scratch/there" -type f)" ] && [ ! -e "$scratch/there/doc" ] ||
+  complain "of two: $(find "$scratch/there")"
+
+# A stranger's program or link of the same name, and a sample that was changed: nothing is written;
+# and what was changed after it was installed stays.
+for stranger in b/simulate doc/samples/CR.csv m/man1/smooth.1; do
+  for kind in file link; do
+    rm -rf "$scratch/there" && mkdir -p "$scratch/there/${stranger%/*}"
+    echo stranger >"$scratch/elsewhere"
+    if [ $kind = file ]; then cp "$scratch/elsewhere" "$scratch/there/$stranger"
+    else ln -s "$scratch/elsewhere" "$scratch/there/$stranger"; fi
+    run_there install && complain "install replaces a stranger's $stranger"
+    grep -qF "$scratch/there/$stranger" "$scratch/said" || complain "install says $(cat "$scratch/said")"
+    [ "$(find "$scratch/there" ! -type d)" = "$scratch/there/$stranger" ] &&
+      [ "$(cat "$scratch/elsewhere" "$scratch/there/$stranger" | sort -u)" = stranger ] ||
+      complain "install has written beside or over a stranger's $stranger"
+    run_there uninstall
+    [ -e "$scratch/there/$stranger" ] || complain "uninstall deletes $stranger, which it never installed"
+  done
+done
+rm -rf "$scratch/there"
+run_there install && rm "$scratch/there/b/smooth" && echo other >"$scratch/there/b/smooth"
+run_there uninstall
+[ "$(cat "$scratch/there/b/smooth")" = other ] && grep -q 'smooth is not as it was' "$scratch/said" ||
+  complain "uninstall deletes another's smooth: $(cat "$scratch/said")"
+
 # A name of a program that could be more than a name is refused, before anything is written.
 for prefix in 'r&d-' 'a/b' '-x' 'a b' '$(touch hit)' "'"; do
-  if PROGRAM_PREFIX=$prefix PREFIX=/opt DESTDIR=$scratch/none cmd/install/install.sh install \
-    2>"$scratch/said"; then complain "is accepted"; fi
+  if PROGRAM_PREFIX=$prefix bindir=/b mandir=/m datadir=/d docdir=/doc TOOLS=bin \
+    DESTDIR=$scratch/none cmd/install/install.sh install 2>"$scratch/said"; then
+    complain "is accepted"
+  fi
   grep -q 'PROGRAM_PREFIX is' "$scratch/said" || complain "is refused by: $(cat "$scratch/said")"
 done
 if [ -e "$scratch/none" ] || [ -e hit ]; then complain "is refused too late"; fi

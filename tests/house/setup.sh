@@ -1,6 +1,7 @@
 #!/bin/bash
 # `make setup GOAL...` installs what these goals need and is missing, nothing else, before anything
-# is built. Without root it uses sudo; without both, and without apt-get, it names what is missing.
+# is built. Without root it uses sudo; without both, without apt-get and where sudo refuses, it names
+# what is missing, here and on other systems. A goal that there is not is told first.
 set -u
 export LC_ALL=C
 unset CDPATH MAKEFLAGS MAKELEVEL
@@ -32,11 +33,13 @@ needs figures/fig4.svg 'gnuplot-nox mandoc'
 needs 'report table1' 'gnuplot-nox mandoc'
 needs html mandoc
 needs deb dpkg-dev
+needs static 'binutils xz-utils'
 needs lint 'clang-format-14 clang-tidy-14 cppcheck mandoc shellcheck'
-needs check 'catch2 gnuplot-nox libboost-dev locales mandoc'
-needs check-arm64 'catch2 g++-aarch64-linux-gnu gnuplot-nox libboost-dev locales mandoc qemu-user'
-needs check-clang 'catch2 clang-14 gnuplot-nox libboost-dev locales mandoc'
-needs sanitize 'catch2 gnuplot-nox libboost-dev locales mandoc valgrind'
+needs check 'busybox catch2 gawk gnuplot-nox libboost-dev locales mandoc mawk original-awk xz-utils'
+needs check-arm64 'busybox catch2 g++-aarch64-linux-gnu gawk gnuplot-nox libboost-dev locales mandoc mawk original-awk qemu-user xz-utils'
+needs check-clang 'busybox catch2 clang-14 gawk gnuplot-nox libboost-dev locales mandoc mawk original-awk xz-utils'
+needs check-libcxx 'busybox catch2 clang-14 gawk gnuplot-nox libboost-dev libc++-14-dev libc++abi-14-dev locales mandoc mawk original-awk xz-utils'
+needs sanitize 'busybox catch2 gawk gnuplot-nox libboost-dev locales mandoc mawk original-awk valgrind xz-utils'
 
 stand_in dpkg-query 'echo install ok installed'
 said=$(PATH="$scratch:$PATH" cmd/install/setup.sh check 2>&1) && [ -z "$said" ] ||
@@ -45,23 +48,45 @@ said=$(make -n setup table1 2>/dev/null | head -n 1)
 [ "$said" = 'cmd/install/setup.sh table1' ] || complain "make setup table1 begins with $said"
 
 # A path with nothing but what the script calls.
-mkdir "$scratch/bare" && ln -s "$(command -v grep)" "$(command -v bash)" "$scratch/bare"
+mkdir "$scratch/bare" &&
+  ln -s "$(command -v grep)" "$(command -v bash)" "$(command -v awk)" "$(command -v tr)" "$(command -v cut)" "$scratch/bare"
 cp "$scratch/id" "$scratch/bare"
-for missing in sudo apt-get; do
-  [ $missing = apt-get ] || cp "$scratch/apt-get" "$scratch/bare"
-  [ $missing = sudo ] || rm "$scratch/bare/apt-get"
-  said=$(PATH="$scratch/bare" "$scratch/bare/bash" cmd/install/setup.sh table1 2>&1) &&
-    complain "setup without $missing: exit 0"
-  grep -q '^  g++ libgsl-dev libfmt-dev libcli11-dev$' <<<"$said" ||
-    complain "setup without $missing says '$said'"
+without() {  # WHAT PATH: the script gives up and says how to go on
+  said=$(PATH=$2 "$scratch/bare/bash" cmd/install/setup.sh table1 2>&1) &&
+    complain "setup without $1: exit 0"
+  for line in 'Debian   apt-get install g++ libgsl-dev libfmt-dev libcli11-dev' \
+    'Fedora   dnf install gcc-c++ make gsl-devel fmt-devel cli11-devel' \
+    'Arch     pacman -S gcc make gsl fmt cli11' \
+    'Alpine   apk add g++ make bash gsl-dev fmt-dev cli11-dev' \
+    'macOS    brew install make bash gsl fmt cli11' \
+    'FreeBSD  pkg install gmake bash gsl libfmt cli11'; do
+    grep -qxF "  $line" <<<"$said" || complain "setup without $1 does not say '$line': $said"
+  done
+  [ "$(tail -n 1 <<<"$said")" = 'then: make table1' ] || complain "setup without $1 ends with $said"
+}
+cp "$scratch/apt-get" "$scratch/bare"
+without sudo "$scratch/bare"
+rm "$scratch/bare/apt-get"
+without apt-get "$scratch/bare"
+stand_in dpkg-query 'exit 1'
+stand_in sudo 'echo "user is not in the sudoers file" >&2; exit 1'
+without leave "$scratch:$PATH"
+
+# A word that is no goal: nothing is asked of anybody.
+stand_in sudo "touch '$scratch/asked'"
+for goals in tabel1 'table1 chekc' 'table. figures'; do
+  # shellcheck disable=SC2086
+  said=$(PATH="$scratch:$PATH" make setup $goals 2>&1) && complain "make setup $goals: exit 0"
+  grep -q '^setup: there is no goal ' <<<"$said" || complain "make setup $goals says $said"
 done
+[ ! -e "$scratch/asked" ] || complain 'a misspelt goal installs something'
 
 # Figures without gnuplot: one line that says how to have it, and nothing half made.
-mkdir "$scratch/plain" && tar -cf - Makefile samples man cmd | tar -xf - -C "$scratch/plain"
+mkdir "$scratch/plain" && tar -cf - Makefile samples man cmd tests/targets.mk | tar -xf - -C "$scratch/plain"
 mkdir "$scratch/plain/bin"
 for tool in bin/*; do ln -s "$PWD/$tool" "$scratch/plain/bin"; done
-ln -s "$(command -v make)" "$(command -v nproc)" "$(command -v grep)" "$(command -v sort)" \
-  "$(command -v mkdir)" "$(command -v env)" "$scratch/bare"
+ln -sf "$(command -v make)" "$(command -v nproc)" "$(command -v grep)" "$(command -v sort)" \
+  "$(command -v mkdir)" "$(command -v env)" "$(command -v sh)" "$scratch/bare"
 said=$(cd "$scratch/plain" &&
   PATH="$scratch/bare" make -o bin/smooth -o bin/differentiate -o bin/shift-from-accel \
     -o bin/fitpower figures/fig4.svg 2>&1) && complain "a figure without gnuplot: exit 0"

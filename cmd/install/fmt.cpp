@@ -1,0 +1,6 @@
+// What the tools call of fmt, compiled here: Debian 12 has no static library of it.
+#define FMT_HEADER_ONLY
+#include <fmt/format.h>
+
+extern std::string (*const formatter)(fmt::string_view, fmt::format_args);
+std::string (*const formatter)(fmt::string_view, fmt::format_args) = fmt::vformat;

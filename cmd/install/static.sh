@@ -1,0 +1,18 @@
+#!/bin/sh
+# static.sh ARCHITECTURE: makes build/rolling-VERSION-linux-ARCHITECTURE.tar.xz of the static
+# programs in TOOLS, with pages, completions and samples. Like sources give like bytes.
+set -eu
+export LC_ALL=C
+unset CDPATH
+cd "$(dirname "$0")/../.."
+name=rolling-$(bin/smooth --version | cut -d ' ' -f 3)-linux-$1
+folder=build/static/$1
+rm -rf "$folder"
+bindir=/bin mandir=/share/man datadir=/share docdir=/ PROGRAM_PREFIX='' \
+  DESTDIR=$folder/$name cmd/install/install.sh install >/dev/null
+rm "$folder/$name/installed-files"
+cp README.md LICENSE "$folder/$name"
+chmod -R u=rwX,go=rX "$folder"
+tar --sort=name --format=ustar --owner=0 --group=0 --numeric-owner \
+  --mtime="@$(cmd/install/date.sh)" -C "$folder" -cf - "$name" | xz -9e -T1 >"build/$name.tar.xz"
+echo "build/$name.tar.xz: $(wc -c <"build/$name.tar.xz") bytes"

@@ -1,0 +1,63 @@
+#!/bin/bash
+# `make static` makes an archive that needs nothing of the system: in an empty root with busybox
+# alone its tools give Table 1 and the rest of the samples byte for byte, and like sources give a
+# like archive.
+set -u
+export LC_ALL=C
+unset CDPATH MAKEFLAGS MAKELEVEL
+cd "$(dirname "$0")/../.." || exit 2
+[ -x build/static/bin/smooth ] ||
+  { echo "skipped: no static library of GSL here (Debian's libgsl-dev has it)" && exit 77; }
+command -v busybox >/dev/null || { echo "skipped: no busybox; make setup check installs it" && exit 77; }
+scratch=$(mktemp -d) || exit 2
+trap 'rm -rf "$scratch"' EXIT
+wrong=0
+complain() { echo "$*" && wrong=1; }
+archive=build/rolling-$(bin/smooth --version | cut -d ' ' -f 3)-linux-$(uname -m).tar.xz
+export SOURCE_DATE_EPOCH=1600000000
+make static >"$scratch/made" 2>&1 && cp "$archive" "$scratch/first" &&
+  make static >"$scratch/made" 2>&1 || { cat "$scratch/made" && exit 1; }
+cmp "$archive" "$scratch/first" || complain "two archives of one source differ"
+
+root=$scratch/root
+mkdir -p "$root/bin" "$root/tmp" "$root/dev"
+tar -xf "$archive" -C "$root" --strip-components=1
+for tool in "$root"/bin/*; do
+  if grep -qF "$PWD" "$tool"; then complain "$tool names the folder in which it was built"; fi
+  readelf -ld "$tool" | grep -E 'INTERP|NEEDED' && complain "$tool is not static"
+done
+for file in README.md LICENSE samples/table1.sh share/man/man1/smooth.1 share/man/man7/rolling-fits.7 \
+  share/bash-completion/completions/smooth share/zsh/site-functions/_smooth; do
+  [ -s "$root/$file" ] || complain "$file is missing"
+done
+[ "$(find "$root" -type f ! -path "$root/bin/*" -newermt '2020-09-13 12:27' | wc -l)" = 0 ] ||
+  complain "files of another date"
+
+# busybox, with the libraries that it may need: the tools are static.
+cp "$(command -v busybox)" "$root/bin/busybox"
+ldd "$root/bin/busybox" 2>/dev/null | grep -oE '/[^ ]+' | while IFS= read -r library; do
+  mkdir -p "$root${library%/*}" && cp "$library" "$root$library"
+done
+in_root() { unshare -r chroot "$root" /bin/busybox env -i PATH=/bin TMPDIR=/tmp /bin/sh -c "$1"; }
+ln -s busybox "$root/bin/sh"
+in_root '/bin/busybox --install -s /bin' 2>"$scratch/said" || {
+  echo "skipped: no root of one's own can be made here: $(cat "$scratch/said")"
+  exit $((wrong ? 1 : 77))
+}
+: >"$root/dev/null"
+in_root 'cd /samples && ./table1.sh' >"$scratch/there" 2>&1 || complain "table1.sh fails there"
+samples/table1.sh >"$scratch/here"
+diff "$scratch/here" "$scratch/there" || complain "Table 1 is another there"
+products='for run in CF CR SF SR; do
+  simulate --scene $run.toml --sensor pasco --seed 7
+  simulate --scene $run.toml --exact --slope 0.001
+  smooth --coast -w 11 $run.csv | differentiate | shift-from-accel -K 0.5 -R 0.04
+  smooth -M savgol -w 11 $run.csv | differentiate -M savgol -w 7
+  smooth --coast -q -c x -w 1 $run.csv | fitpower -q --route position -K 0.5 -R 0.04
+  simulate --scene $run.toml | energy-ledger --scene $run.toml
+done'
+in_root "cd /samples && $products" >"$scratch/there" 2>&1
+(cd samples && PATH="$PWD/../bin:$PATH" sh -c "$products") >"$scratch/here" 2>&1
+[ "$(wc -l <"$scratch/here")" -gt 5000 ] || complain "only $(wc -l <"$scratch/here") lines of samples"
+cmp "$scratch/here" "$scratch/there" || complain "the samples give something else there"
+exit $wrong

@@ -1,0 +1,221 @@
+# What only those need who develop: the tests and how they are built, other compilers and machines,
+# analysis, measurements. The Makefile includes it.
+test   := $(wildcard tests/unit/*/*.cpp tests/pipeline/*.cpp)
+static_libc := $(wildcard /usr/lib/*/libgsl.a)
+target := number reader scene $(tool)
+
+.PHONY: check-arm64 check-clang check-libcxx check-long static-arm64 fuzz sanitize coverage-lines \
+        mutate coverage work-precision work-precision-signal bench lint
+
+-include $(patsubst %.o,%.d,$(call object,$(test) \
+           $(wildcard tests/bench/*.cpp tests/fuzz/*.cpp tests/fused/*.cpp)))
+
+# The unit tests are compiled with -Og and parse Catch2 once, which takes 0.4 of the time.
+of_test := $(call object,$(test))
+$(of_test) build/catch.h.gch: override CXXFLAGS := $(CXXFLAGS:-O2=-Og)
+ifneq ($(common),)
+$(of_test): parsed := -include build/catch.h
+$(of_test): | build/catch.h.gch
+build/catch.h.gch: override CPPFLAGS += -Itests
+build/catch.h.gch: tests/unit/catch.h
+	@mkdir -p $(@D)
+	printf '#include %s\n' $(common:%='%') '<random>' '"unit/catch.h"' >build/catch.h
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -x c++-header -o $@ build/catch.h
+endif
+
+# Catch2 brings its own main: version 3 as a library, version 2 as a header.
+build/unit: CPPFLAGS += -Itests
+build/unit: $(call object,$(test)) build/catch_main.o build/lib.a
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) \
+	  $$(test -e /usr/include/catch2/catch.hpp || echo -lCatch2)
+
+build/catch_main.o:
+	@mkdir -p $(@D)
+	if test -e /usr/include/catch2/catch.hpp; then \
+	  echo '#define CATCH_CONFIG_MAIN'; echo '#include <catch2/catch.hpp>'; \
+	else \
+	  echo '#include <catch2/catch_session.hpp>'; \
+	  echo 'int main(int argc, char** argv) { return Catch::Session().run(argc, argv); }'; \
+	fi | $(CXX) $(CXXFLAGS) -x c++ -c -o $@ -
+
+# The unit tests of one room of lib/, by themselves: build/unit-fit.
+build/unit-%: CPPFLAGS += -Itests
+build/unit-%: $$(call object,$$(wildcard tests/unit/$$*/*.cpp)) build/catch_main.o build/lib.a
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) \
+	  $$(test -e /usr/include/catch2/catch.hpp || echo -lCatch2)
+
+# The exact arithmetic built as it is, and with flags in front of the project's that would fuse
+# multiplications and additions: tests/pipeline/fused.sh compares what the two print, and smooth and
+# differentiate with their sums and numbers built so.
+exact_source := lib/base/double_double.cpp lib/contact/contact.cpp tests/fused/fused.cpp \
+                $(patsubst %,lib/motion/%.cpp,closed_form exact_form power_integral \
+                  slope_integrals speed_integrals speed_panel speed_series trajectory)
+has_fma := $(shell grep -qw avx2 /proc/cpuinfo 2>/dev/null && grep -qw fma /proc/cpuinfo && \
+                   uname -m | grep -x x86_64)
+build/fused/obj/%.o: %.cpp
+	@mkdir -p $(@D)
+	$(CXX) $(CPPFLAGS) -O3 -march=x86-64-v3 -ffp-contract=fast $(filter-out -O%,$(CXXFLAGS)) \
+	  -MMD -MP -c -o $@ $<
+-include $(wildcard build/fused/obj/*/*/*.d)
+build/fused/fused: $(exact_source:%.cpp=build/fused/obj/%.o)
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+build/fused/plain: $(exact_source:%.cpp=build/%.o)
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+fused_room := $(patsubst %,build/fused/obj/lib/%.o,text/number \
+                $(addprefix signal/,derivative exact_sum savitzky_golay smoother windows))
+build/fused/bin/%: $(fused_room) build/cmd/%.o build/lib.a
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+fused := $(addprefix build/fused/,plain fused bin/smooth bin/differentiate)
+
+check: build/unit build/shim.so $(target:%=build/replay/%) $(if $(has_fma),$(fused)) \
+       $(if $(static_libc),$(tool:%=build/static/bin/%))
+
+# Most of the suite on arm64, through qemu: make setup check-arm64.
+check-arm64: all
+	@$(call copy,build/arm64)
+	tests/arm64.sh build/arm64
+
+# build/rolling-VERSION-linux-aarch64.tar.xz, built likewise.
+static-arm64: all
+	@$(call copy,build/arm64)
+	tests/arm64.sh build/arm64 $(tool:%=build/static/bin/%)
+	@TOOLS=build/arm64/build/static/bin STRIP=aarch64-linux-gnu-strip cmd/install/static.sh aarch64
+
+# tests/faults preloads it into the tools: it may not depend on the C++ library or on a sanitizer.
+build/shim.so: tests/faults/shim.cpp
+	@mkdir -p $(@D)
+	$(CXX) -O1 -Wall -Wextra -shared -fPIC -o $@ $<
+
+# Fuzz targets: the readers, and each tool with its main() under another name. build/replay runs
+# them on the files of tests/fuzz/corpus; `make fuzz` looks for more, SECONDS for each, in a copy
+# that clang builds for its fuzzer.
+build/tests/fuzz/%.o: CPPFLAGS += -Itests/fuzz
+$(tool:%=build/fuzz/%.o): build/fuzz/%.o: build/cmd/%.o tests/fuzz/tool.cpp tests/fuzz/streams.h
+	@mkdir -p $(@D)
+	objcopy --redefine-sym main=_Z9tool_mainiPPc $< $(@:.o=-main.o)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -DTOOL='"$*"' -c -o $(@:.o=-target.o) tests/fuzz/tool.cpp
+	$(LD) -r -o $@ $(@:.o=-main.o) $(@:.o=-target.o)
+build/fuzz/%.o: build/tests/fuzz/%.o
+	@mkdir -p $(@D)
+	cp $< $@
+build/replay/%: build/fuzz/%.o build/tests/fuzz/replay.o build/lib.a
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+build/fuzzer/%: build/fuzz/%.o build/lib.a
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) -fsanitize=fuzzer $(LDFLAGS) -o $@ $^ $(LDLIBS)
+
+# A copy of the sources for a build of another kind; what has not changed there is not built again.
+copy = mkdir -p $1 && rm -rf $(addprefix $1/,cmd lib man samples tests) && \
+       tar -cf - Makefile README.md LICENSE cmd lib man samples tests | tar -xf - -C $1
+# There the tests of what the tools do run, with more time for each; those of pages, packages and
+# the sizes of programs do not.
+check_in = $(MAKE) -C $1 check SLOWER=5 \
+           TESTS='tests/tools tests/pipeline/*.sh tests/faults/*.sh tests/house/progress.sh'
+SECONDS ?= 60
+sanitized := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined \
+             -fno-sanitize-recover=all
+fuzz:
+	@$(call copy,build/fuzzing)
+	$(MAKE) -C build/fuzzing CXX=clang++-14 CXXFLAGS="$(sanitized) -fsanitize=fuzzer-no-link" \
+	  $(target:%=build/fuzzer/%)
+	tests/fuzz/fuzz.sh build/fuzzing/build/fuzzer $(SECONDS) $(target)
+
+# The suite with another compiler, and with the library of macOS and FreeBSD: LIBCXX is its version.
+# What Debian has of fmt is compiled for the other library. Version 14 lacks algorithms of ranges.
+check-clang:
+	@$(call copy,build/clang)
+	+$(call check_in,build/clang) CXX=clang++-14
+LIBCXX ?= 14
+libcxx  = CXX='clang++-$(LIBCXX) -stdlib=libc++' CPPFLAGS='-DFMT_HEADER_ONLY \
+          $(if $(filter 14,$(LIBCXX)),-include tests/libcxx/ranges.h)'
+check-libcxx:
+	@$(call copy,build/libcxx-$(LIBCXX))
+	+$(call check_in,build/libcxx-$(LIBCXX)) $(libcxx)
+
+# The whole suite under AddressSanitizer and UndefinedBehaviorSanitizer, then most of it under
+# valgrind.
+sanitize: all build/unit $(target:%=build/replay/%)
+	@$(call copy,build/sanitized)
+	+$(call check_in,build/sanitized) CXXFLAGS="$(sanitized)"
+	tests/valgrind.sh
+
+# Lines and branches of lib/ and cmd/ that the tests reach; less than every line is an error.
+covered := -O0 -g --coverage
+coverage-lines:
+	@$(call copy,build/covered)
+	find build/covered -name '*.gcda' -delete
+	$(MAKE) -C build/covered build/tests/gcov_exit.o CXXFLAGS="$(covered)"
+	+$(call check_in,build/covered) CXXFLAGS="$(covered)" LDFLAGS=build/tests/gcov_exit.o
+	gcovr --root build/covered --filter build/covered/lib/ --filter build/covered/cmd/ \
+	  --exclude-throw-branches --exclude-unreachable-branches --print-summary \
+	  -o build/covered/lines.txt --fail-under-line 100 \
+	  $(addprefix build/covered/build/,lib cmd tests) || { cat build/covered/lines.txt; exit 1; }
+
+# Mutants of lib/ and cmd/ that no test notices; half an hour and more.
+MUTANTS ?= 150
+mutate: check
+	tests/mutate.py --count $(MUTANTS)
+
+# The long form of the tests of numbers and memory.
+check-long: check
+	PATH="$$PWD/bin:$$PATH" build/unit '[.long]'
+	LONG=1 tests/faults/memory.sh
+
+# How often the errors of fitpower hold, by case and route: 1000 simulated runs each. Then what it
+# says of records with one thing wrong, and which law it finds. Some 20 minutes of two processors.
+build/tests/bench/coverage.o: CPPFLAGS += -Itests
+build/coverage: build/tests/bench/coverage.o build/lib.a
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) -pthread
+coverage: build/coverage build/bench/records
+	@{ echo 'Of build/coverage and build/bench/records, run by make coverage:'; build/coverage; \
+	  build/bench/records; } | tee samples/coverage.txt
+
+# Error against run time of all methods: some minutes; figures where gnuplot is installed. See
+# tests/bench/README.md.
+build/bench/%: CPPFLAGS += -Itests
+build/bench/%: build/tests/bench/%.o build/lib.a
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) -pthread
+
+# CVODE beside them where libsundials-dev is installed: see tests/bench/cvode.h.
+ifneq ($(wildcard /usr/include/cvode/cvode.h),)
+build/bench/work_precision: LDLIBS += -lsundials_cvode -lsundials_nvecserial \
+                                      -lsundials_sunmatrixdense -lsundials_sunlinsoldense
+endif
+
+work-precision: build/bench/ulp build/bench/work_precision
+	@mkdir -p build/work-precision
+	build/bench/ulp | tee build/work-precision/ulp.tsv
+	build/bench/work_precision build/work-precision
+	tests/bench/work-precision.sh build/work-precision | tee build/work-precision/failures.tsv
+
+# The errors of smooth and differentiate on noisy records, by method and window: some seconds.
+work-precision-signal: build/bench/signal
+	@mkdir -p build/work-precision
+	tests/bench/signal.sh build/work-precision
+	@echo 'results: build/work-precision/signal.tsv and, with gnuplot, signal*.svg and signal*.png'
+
+# How fast the tools are beside peers and bare loops: some minutes.
+bench: all build/bench/speed
+	@PATH="$$PWD/bin:$$PATH" tests/bench/speed.sh
+	@PATH="$$PWD/bin:$$PATH" tests/bench/profile.sh
+
+# Static analysis; .clang-tidy says what is checked.
+lint:
+	clang-format-14 --dry-run --Werror $$(find lib cmd tests -name '*.cpp' -o -name '*.h')
+	mandoc -Tlint -Wwarning man/*
+	shellcheck -x -P SCRIPTDIR --severity=warning cmd/install/*.sh samples/*.sh samples/*/*.sh \
+	  tests/*.sh tests/*/*.sh
+	cppcheck --quiet --std=c++20 --language=c++ --enable=warning,performance,portability \
+	  --inline-suppr --error-exitcode=1 -Ilib --suppress=internalAstError \
+	  --suppress=derefInvalidIteratorRedundantCheck --suppress=containerOutOfBounds \
+	  --suppress=passedByValue lib cmd
+	printf '%s\n' $(source) $(wildcard cmd/*.cpp) | xargs -P $$(nproc) -n 4 sh -c \
+	  'clang-tidy-14 --quiet --warnings-as-errors="*" "$$@" -- -x c++ -std=c++20 -Ilib' sh
+	printf '%s\n' $(source) $(wildcard cmd/*.cpp tests/*/*.cpp tests/*/*/*.cpp) | \
+	  xargs -P $$(nproc) -n 4 \
+	  clang++-14 -fsyntax-only -Werror '-DTOOL=""' $(CPPFLAGS) -Itests $(CXXFLAGS)
+
