@@ -14,5 +14,6 @@ rm "$folder/$name/installed-files"
 cp README.md LICENSE "$folder/$name"
 chmod -R u=rwX,go=rX "$folder"
 tar --sort=name --format=ustar --owner=0 --group=0 --numeric-owner \
-  --mtime="@$(cmd/install/date.sh)" -C "$folder" -cf - "$name" | xz -9e -T1 >"build/$name.tar.xz"
+  --mtime="@$(cmd/install/date.sh)" -C "$folder" -cf - "$name" | xz -T1 >"$folder/archive"
+mv "$folder/archive" "build/$name.tar.xz"
 echo "build/$name.tar.xz: $(wc -c <"build/$name.tar.xz") bytes"

@@ -18,16 +18,16 @@
 
 namespace rolling {
 
-/// Reads the double that begins at `begin`, as std::from_chars does. Returns the place behind it, or
-/// `begin` if there is none or it is out of range.
+/// Reads the double that begins at `begin`, as std::from_chars does. Returns the place behind it,
+/// or `begin` if there is none or it is out of range.
 inline const char* read_decimal(const char* const begin, const char* const end, double& value) {
 #ifdef __cpp_lib_to_chars
   const auto [behind, status] = std::from_chars(begin, end, value);
   return status == std::errc() ? behind : begin;
 #else
-  // libc++ has from_chars of integers alone up to its version 19. strtod rounds correctly in glibc,
-  // macOS and FreeBSD. What it reads beyond from_chars, a plus in front, blanks, hexadecimal digits,
-  // has other signs.
+  // libc++ has from_chars of integers alone up to its version 19. strtod rounds correctly in
+  // glibc, macOS and FreeBSD. What it reads beyond from_chars, a plus in front, blanks, hexadecimal
+  // digits, has other signs.
   constexpr std::string_view signs = "+-.0123456789eE";
   static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
   const std::string text(begin, std::find_if(begin, end, [&](char c) {

@@ -40,7 +40,7 @@ done
 
 for copy in 1 2; do
   SOURCE_DATE_EPOCH=1600000000 DEBFULLNAME=A DEBEMAIL=a@b.de make deb >"$scratch/made" 2>&1 &&
-    mv "$package" "$scratch/$copy.deb"
+    cp "$package" "$scratch/$copy.deb"
 done
 cmp "$scratch/1.deb" "$scratch/2.deb" || complain "two packages of one source differ"
 
