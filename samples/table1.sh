@@ -136,7 +136,10 @@ speeds() {
 balance() {  # RUN OPTION...
   run=$1
   shift
-  speeds "$run" | energy-ledger --scene "$here/$run.toml" --summary "$@" | grep -v '^#'
+  speeds "$run" >speeds
+  energy-ledger --scene "$here/$run.toml" --summary "$@" speeds >ledger && open=0 || open=1
+  grep -v '^#' ledger
+  return $open
 }
 plus() { awk -v x="$1" -v y="$2" 'BEGIN { printf "%.17g", x + y }'; }
 echo

@@ -43,7 +43,8 @@ stage() {
 }
 # What belongs to the source: records and results of somebody's own stay where they are.
 samples() {
-  set -- samples/README.md samples/[CS][FR].csv samples/[CS][FR].toml samples/*.sh samples/*.svg \
+  set -- samples/README.md samples/coverage.txt samples/rolling.bib samples/*.sh samples/*.svg \
+    samples/[CS][FR].csv samples/[CS][FR].toml \
     samples/exports/capstone.csv samples/exports/phyphox.csv samples/exports/tracker.txt \
     samples/exports/vernier.csv samples/exports/*.sh samples/figures/*.sh samples/figures/*.gp \
     samples/fleet/*.sh samples/fleet/*.awk samples/fleet/README.md \
