@@ -51,9 +51,17 @@ LineKind Lines::kind() const {
 
 /// True for a row whose cells are all blank, in quotes perhaps: separators alone from `first` on.
 bool Lines::is_blank_row(std::size_t first) const {
-  const char c = text_[first];
-  if (separators_.empty() || (c != quote && separators_.find(c) == std::string::npos)) return false;
-  return text_.find_first_not_of(separators_ + " \t\"", first) == std::string_view::npos;
+  if (separators_.empty()) return false;
+  for (std::size_t i = first; i < text_.size(); ++i) {
+    if (text_[i] == quote) {  // a second one closes the cell, a third one would be text
+      if (!text_.substr(i).starts_with("\"\"") || text_.substr(i + 2).starts_with(quote))
+        return false;
+      ++i;
+    } else if (!is_blank(text_[i]) && separators_.find(text_[i]) == std::string::npos) {
+      return false;
+    }
+  }
+  return true;
 }
 
 std::string history_line(std::string_view line) {

@@ -1,5 +1,7 @@
 #include "text/lines.h"
 
+#include <utility>
+
 #include "unit/text/files.h"
 #include "unit/catch.h"
 
@@ -112,4 +114,18 @@ TEST_CASE(
     CHECK(history_line(line) == "## smooth v mean");
   CHECK(history_line("## run a,b;c") == "## run a,b;c");
   CHECK(history_line("##,") == "##");
+}
+
+TEST_CASE("lines: blank cells make a blank row, a quote that is text or opens a field does not",
+          "[text]") {
+  for (const auto& [text, kinds] : {std::pair{",,\n\"\",\"\"\n", "blank blank "},
+                                    {"\"\"\"\",\n", "record "},
+                                    {",\"\n\"\n", "record "}}) {
+    const TemporaryFile file(text);
+    Lines lines(file.name());
+    lines.separate_by(',');
+    std::string all;
+    while (lines.next()) all += lines.kind() == LineKind::blank ? "blank " : "record ";
+    CHECK(all == kinds);
+  }
 }
