@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/estimate.h"
-#include "fit/levels.h"
+#include "fit/run_laws.h"
 
 #include <cmath>
 #include <cstddef>
@@ -35,21 +35,6 @@ struct OffReadings {
   std::size_t count;    ///< of the readings of that run
   double time;          ///< of the reading that is furthest off [s]
   double distance = 0;  ///< of that reading, in standard deviations of the others
-};
-
-/// The comparison of the runs of a joint fit, each fitted by its own law, and the run that differs
-/// most from the others.
-struct Agreement {
-  double chi2 = 0;  ///< chi-square of the differences of the laws; its expected value is dof
-  std::size_t dof = 0;
-  double significance = 1;  ///< the probability that noise alone makes the runs differ as much
-  std::size_t runs = 0;     ///< the number of runs that determine a law
-  std::size_t run = 0;      ///< the run that differs most from the others, from 0
-  double speed = 1;         ///< the speed at which D of that run is known best [m/s]
-  Estimate log_D = {};      ///< ln D of that run minus ln D of the others at that speed
-  Estimate b = {};          ///< the exponent of that run minus the exponent of the others
-
-  bool agree() const { return significance > levels::runs_disagree; }
 };
 
 /// The contribution of one source of error to the standard errors, which are the root sums of

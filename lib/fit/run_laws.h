@@ -1,0 +1,117 @@
+// The laws D = a v^b of several runs, each with the covariance of its own fit: do they agree, and
+// what is their mean where they do not?
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "base/estimate.h"
+#include "fit/levels.h"
+#include "statistics/random_effects.h"
+
+namespace rolling {
+
+/// ln a and b of a law, or a difference of two laws. In another unit of speed ln a is ln D at that
+/// speed.
+struct Pair {
+  double a, b;
+};
+/// The covariance of a Pair, or the inverse of one.
+struct Symmetric {
+  double aa, ab, bb;
+
+  Pair operator*(Pair x) const { return {aa * x.a + ab * x.b, ab * x.a + bb * x.b}; }
+  double square(Pair x) const { return x.a * (aa * x.a + 2 * ab * x.b) + x.b * bb * x.b; }
+  /// A parameter that is held fixed has a row and a column of zeros; they stay zeros.
+  Symmetric inverse() const {
+    if (aa == 0 || bb == 0) return {aa == 0 ? 0 : 1 / aa, 0, bb == 0 ? 0 : 1 / bb};
+    const double det = aa * bb - ab * ab;
+    return {bb / det, -ab / det, aa / det};
+  }
+  bool is_finite() const { return std::isfinite(aa) && std::isfinite(ab) && std::isfinite(bb); }
+  /// True if no variance is negative; a parameter that is held fixed has none.
+  bool is_positive() const { return aa >= 0 && bb >= 0 && aa * bb >= ab * ab; }
+};
+inline Pair operator+(Pair x, Pair y) { return {x.a + y.a, x.b + y.b}; }
+inline Pair operator-(Pair x, Pair y) { return {x.a - y.a, x.b - y.b}; }
+inline Symmetric operator+(Symmetric X, Symmetric Y) {
+  return {X.aa + Y.aa, X.ab + Y.ab, X.bb + Y.bb};
+}
+inline Symmetric operator-(Symmetric X, Symmetric Y) {
+  return {X.aa - Y.aa, X.ab - Y.ab, X.bb - Y.bb};
+}
+inline Symmetric operator*(double s, Symmetric X) { return {s * X.aa, s * X.ab, s * X.bb}; }
+
+/// The law of one run that is fitted by itself.
+struct OwnLaw {
+  std::size_t run;
+  Pair law;
+  Symmetric covariance;
+  double freedom;  ///< degrees of freedom of its residuals
+
+  /// The logarithm of D at the speed exp(log_v), with its standard error.
+  Estimate log_D(double log_v) const;
+  /// The logarithm of the speed at which the error of D is least; D and b are uncorrelated there.
+  double best_log_v() const { return covariance.bb > 0 ? -covariance.ab / covariance.bb : 0; }
+  Estimate b() const { return {law.b, std::sqrt(covariance.bb)}; }
+  /// The same law in the unit of speed exp(log_v): ln D there in the place of ln a.
+  OwnLaw in_unit(double log_v) const;
+};
+
+/// The sums for a weighted mean of laws.
+struct Weighted {
+  Symmetric weights = {};
+  Pair sum = {};
+
+  void add(Symmetric weight, Pair law) {
+    weights = weights + weight;
+    sum = sum + weight * law;
+  }
+  Pair mean() const { return weights.inverse() * sum; }
+};
+
+/// The comparison of runs, each fitted by its own law, and the run that differs most from the
+/// others.
+struct Agreement {
+  double chi2 = 0;  ///< chi-square of the differences of the laws; its expected value is dof
+  std::size_t dof = 0;
+  /// -2 ln of the ratio of likelihoods of one common law to laws of the runs' own, which is chi2
+  /// but for what the noise of each run, an estimate, adds to that.
+  double ratio = 0;
+  double significance = 1;  ///< the probability that noise alone makes `ratio` as large
+  std::size_t runs = 0;     ///< the number of runs that determine a law
+  std::size_t run = 0;      ///< the run that differs most from the others, from 0
+  double speed = 1;         ///< the speed at which D of that run is known best [m/s]
+  Estimate log_D = {};      ///< ln D of that run minus ln D of the others at that speed
+  Estimate b = {};          ///< the exponent of that run minus the exponent of the others
+
+  bool agree() const { return significance > levels::runs_disagree; }
+};
+
+/// Compares two or more laws. `start` is a common law from which the search for that of the
+/// likelihood begins, beside the weighted mean; `parameters`, how many of a and b are free; `taken`
+/// degrees of freedom were spent on what the runs have in common beside the law.
+Agreement compare(const std::vector<OwnLaw>&, Pair start, std::size_t parameters,
+                  std::size_t taken);
+
+/// The logarithm of the speed that is common to laws which are known best at the speeds `log_v_of`.
+double common_log_v(const std::vector<OwnLaw>&,
+                    const std::function<double(const OwnLaw&)>& log_v_of);
+
+/// The mean law of runs that scatter: that of the mean of b and of the mean of ln D at the common
+/// speed, where both scatter independently (random_effects.h). The scatter of a itself, which is D
+/// at 1 m/s, is that of b if the runs are slower, and would depend on the unit of speed.
+struct ScatteredMean {
+  double log_v;
+  RandomEffectsMean D, b;
+
+  /// `laws` in the unit of speed exp(`unit`).
+  ScatteredMean(const std::vector<OwnLaw>& laws, double unit, double freedom);
+  /// Of ln a and b, a change of ln D and b at the common speed.
+  Symmetric square(double log_D, double exponent) const;
+  Symmetric covariance() const;  ///< of ln a and b
+};
+
+}  // namespace rolling
