@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cli/fit_report.h"
+#include "cli/fit_rows.h"
 #include "cli/fit_runs.h"
 #include "cli/linear_filters.h"
 #include "fit/fit.h"
@@ -155,6 +156,13 @@ struct Comments {
   }
 };
 
+/// The values of --route.
+std::map<std::string, std::string> route_names() {
+  std::map<std::string, std::string> names{{"fits", "fits"}};
+  for (const auto& [name, route] : fit_routes()) names[name] = name;
+  return names;
+}
+
 /// The columns of a file without names. If --use says where t is and there is no --route, the route
 /// is a trajectory: no column then counts as v or D by its position.
 std::vector<std::string> order_without_names(std::optional<Route> given, bool times_given) {
@@ -164,8 +172,9 @@ std::vector<std::string> order_without_names(std::optional<Route> given, bool ti
 
 /// The route without --route, by the columns of the input.
 Route default_route(const Reader& in) {
-  return in.find("D") ? Route::shift
-         : in.find("x") || !in.find("v") ? Route::position : Route::velocity;
+  return in.find("D")                    ? Route::shift
+         : in.find("x") || !in.find("v") ? Route::position
+                                         : Route::velocity;
 }
 
 }  // namespace
@@ -174,20 +183,21 @@ int main(int argc, char** argv) {
   using enum BodyOption;
   keep_freed_memory();
   Tool tool("fitpower", "Fit the power law D = a v^b to columns.");
-  std::optional<Route> given_route;
-  std::vector<Estimate> shape_factors;
+  std::string route_name;
+  std::vector<Estimate> shape_factors, radii;
   std::vector<std::string> fixed, start;
   std::string slope_text = "0";
   Body body;
   BodyUncertainty uncertainty;
   FitOptions options;
   bool each = false, with_report = false, with_check = false;
-  tool.choice("--route", given_route, fit_routes(),
-              "what is fitted: D of v (loglog, shift), v of t or x of t (shift if there is D, else "
-              "position if x, else velocity)");
+  tool.choice("--route", route_name, route_names(),
+              "what is fitted: D of v (loglog, shift), v of t, x of t, or rows of fitpower (fits); "
+              "shift if there is D, else position if x, else velocity");
   tool.numbers("-K,--shape-factor", shape_factors, not_negative,
                "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
-  tool.body(body, {radius, gravity}, &uncertainty);
+  tool.numbers("-R,--radius", radii, positive, "radius [m]; one, or one for each run");
+  tool.body(body, {gravity}, &uncertainty);
   tool.text("--slope", slope_text, "S|fit",
             "the mat rises by S metres a metre along growing x; fit: find it, of all runs");
   add_options(tool, options);
@@ -207,6 +217,9 @@ int main(int argc, char** argv) {
     set_parameters(options, fixed, start);
     options.fit_slope = slope_text == "fit";
     if (!options.fit_slope) set_slope(slope_text, body, uncertainty);
+    if (route_name == "fits")
+      return fit_rows(tool, body, shape_factors, radii, uncertainty, with_check);
+    const auto given_route = fit_routes()[route_name];
     Reader& in = tool.read(order_without_names(given_route, tool.used("t")));
     Route route = given_route ? *given_route : default_route(in);
     options.possible_filters = filters_of_sensors();
@@ -221,7 +234,7 @@ int main(int argc, char** argv) {
         read_runs(tool, in, route, with_report ? Columns::of_all_routes : Columns::of_route);
     if (!each) warn_of_copies(tool, route, runs);
     if (route == Route::velocity && take_pulses(tool, runs)) route = Route::position;
-    set_bodies(runs, body, shape_factors, uncertainty);
+    set_bodies(runs, body, shape_factors, radii, uncertainty);
     if (!trajectory && !options.fit_slope) warn_of_unused_body(tool, runs, options.geometry);
     const auto fits = grouped(std::move(runs), each);
     const Table table{tool.out, trajectory && fits.front().size() == 1, options.fit_slope, each};

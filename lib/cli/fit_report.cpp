@@ -95,15 +95,17 @@ std::string described(const LawFit& fit, double least) {
                                   : " too few records for its AICc");
 }
 
-/// "the runs disagree ...: run 3 stands out, its D(0.21 m/s) is 4.1 +- 0.4 % less than the others'
-/// and its b 0.012 +- 0.004 more"
-std::string disagreement(const FitResult& r, const std::vector<FitRun>& runs) {
-  const Agreement& found = *r.agreement;
+}  // namespace
+
+std::string disagreement(const Agreement& found, const std::vector<FitRun>& runs,
+                         const std::string& given) {
   const auto more = [](double x) { return x < 0 ? "less" : "more"; };
   std::string line = fmt::format(
-      "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees of freedom, chance "
-      "{:.1g}): run {} stands out",
-      found.chi2, found.dof, found.significance, runs[found.run].name);
+      "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees of freedom, p {}): "
+      "run {} stands out",
+      found.ratio, found.dof,
+      found.significance < 1e-300 ? "< 1e-300" : fmt::format("= {:.1g}", found.significance),
+      runs[found.run].name);
   if (found.log_D.sigma > 0)
     line +=
         fmt::format(", its D({:.2g} m/s) is {:.2g} +- {:.1g} % {} than that of the other{}",
@@ -112,12 +114,18 @@ std::string disagreement(const FitResult& r, const std::vector<FitRun>& runs) {
   if (found.b.sigma > 0)
     line += fmt::format(", its b {:.2g} +- {:.1g} {}", std::abs(found.b.value), found.b.sigma,
                         more(found.b.value));
+  if (!given.empty()) line += fmt::format("; this test takes {} as exact", given);
+  return line + "; the errors allow for that";
+}
+
+namespace {
+
+std::string disagreement(const FitResult& r, const std::vector<FitRun>& runs) {
   std::string given;
   for (const ErrorShare& share : r.shares)
     if (share.of != "noise" && share.of != "bias")
       given += fmt::format("{}{}", given.empty() ? "" : ", ", share.of);
-  if (!given.empty()) line += fmt::format("; this test takes {} as exact", given);
-  return line;
+  return disagreement(*r.agreement, runs, given);
 }
 
 /// What a message about the fit of one run begins with.
@@ -130,8 +138,7 @@ std::string of_run(const std::vector<FitRun>& runs) {
 std::vector<std::string> against(const FitResult& r, const std::vector<FitRun>& runs, bool noisy) {
   std::vector<std::string> all;
   const std::string run = of_run(runs);
-  if (r.agreement && !r.agreement->agree())
-    all.push_back(disagreement(r, runs) + "; the errors allow for that");
+  if (r.agreement && !r.agreement->agree()) all.push_back(disagreement(r, runs));
   if (r.off && noisy)
     all.push_back(fmt::format(
         "run {}: the reading at t = {:.6g} s is {:.2g} standard deviations off the roll{}: look at "
@@ -207,7 +214,8 @@ void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& optio
   if (!laws->possible())
     return tool.say("too few independent records to compare a v^b with other laws");
   for (const LawFit& fit : laws->fits) tool.say(described(fit, laws->least()));
-  tool.say(laws->against_power() <= levels::adequate ? "D = a v^b is adequate" : "D = a v^b is not adequate");
+  tool.say(laws->against_power() <= levels::adequate ? "D = a v^b is adequate"
+                                                     : "D = a v^b is not adequate");
 }
 
 void check(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
@@ -217,7 +225,8 @@ void check(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun
   const bool noisy = !exact(route, r, runs);
   // check_failed() prints the first reason in full.
   if (r.errors == Errors::none || (r.sigma_a == 0 && r.sigma_b == 0 && !both_held))
-    tool.check_failed(run + "nothing is left to tell standard uncertainties from: fit more readings");
+    tool.check_failed(run +
+                      "nothing is left to tell standard uncertainties from: fit more readings");
   for (const std::string& text : against(r, runs, noisy)) tool.check_failed(text);
   if (noisy && beginning)
     tool.check_failed(fmt::format(

@@ -16,6 +16,11 @@ namespace rolling {
 /// has no route.
 std::map<std::string, std::optional<Route>> fit_routes();
 
+/// "the runs disagree ...: run 3 stands out, its D(0.21 m/s) is 4.1 +- 0.4 % less than that of the
+/// others, its b 0.012 +- 0.004 more; this test takes K as exact; ...". `given` names the numbers
+/// that have uncertainties.
+std::string disagreement(const Agreement&, const std::vector<FitRun>&, const std::string& given);
+
 /// Warns the user: of errors that are not those of white noise, of runs that disagree (unless
 /// check() follows, which reports it), of the bias of logarithms, of an eccentric body, of a shift
 /// beyond the radius, of an a whose error is not that of a normal distribution.

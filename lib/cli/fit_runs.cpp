@@ -170,20 +170,31 @@ bool take_pulses(Tool& tool, std::vector<FitRun>& runs) {
   return true;
 }
 
-void set_bodies(std::vector<FitRun>& runs, const Body& body,
-                const std::vector<Estimate>& shape_factors, const BodyUncertainty& uncertainty) {
-  if (shape_factors.size() > 1 && shape_factors.size() != runs.size())
+namespace {
+
+/// A number of the body for run i of n.
+Estimate of_run(const std::vector<Estimate>& values, const char* option, std::size_t i,
+                std::size_t n) {
+  if (values.size() > 1 && values.size() != n)
     fail(
-        "--shape-factor gives {} values for {} run{}: give one for all, or one for each, with "
-        "decimal points",
-        shape_factors.size(), runs.size(), runs.size() == 1 ? "" : "s");
+        "--{} gives {} values for {} run{}: give one for all, or one for each, with decimal points",
+        option, values.size(), n, n == 1 ? "" : "s");
+  if (values.empty()) return {not_given};
+  return values[values.size() > 1 ? i : 0];
+}
+
+}  // namespace
+
+void set_bodies(std::vector<FitRun>& runs, const Body& body,
+                const std::vector<Estimate>& shape_factors, const std::vector<Estimate>& radii,
+                const BodyUncertainty& uncertainty) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const Estimate K = shape_factors.empty() ? Estimate{not_given}
-                                             : shape_factors[shape_factors.size() > 1 ? i : 0];
+    const Estimate K = of_run(shape_factors, "shape-factor", i, runs.size()),
+                   R = of_run(radii, "radius", i, runs.size());
     runs[i].body = body;
-    runs[i].body.K = K.value;
+    runs[i].body.K = K.value, runs[i].body.R = R.value;
     runs[i].given = uncertainty;
-    runs[i].given.K = K.sigma;
+    runs[i].given.K = K.sigma, runs[i].given.R = R.sigma;
   }
 }
 

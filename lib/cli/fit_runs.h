@@ -24,13 +24,15 @@ enum class Columns { of_route, of_all_routes };
 /// records that are left out because their windows are not known.
 std::vector<FitRun> read_runs(Tool&, Reader&, Route, Columns);
 
-/// Where the speeds of all runs are those of pulses, a fixed way over the time from row to row, gives
-/// the runs that way as positions, says so, and returns true: the positions are what was measured.
+/// Where the speeds of all runs are those of pulses, a fixed way over the time from row to row,
+/// gives the runs that way as positions, says so, and returns true: the positions are what was
+/// measured.
 bool take_pulses(Tool&, std::vector<FitRun>&);
 
-/// Gives the runs their bodies. There is one shape factor, or one for each run, or none.
+/// Gives the runs their bodies. There is one shape factor, or one for each run, or none; and so one
+/// radius.
 void set_bodies(std::vector<FitRun>&, const Body&, const std::vector<Estimate>& shape_factors,
-                const BodyUncertainty&);
+                const std::vector<Estimate>& radii, const BodyUncertainty&);
 
 /// Warns of a run that was given twice: in a joint fit it makes the errors too small. All columns
 /// that are fitted are those of the other run: gates and speed bands fix x or v, and measure t.

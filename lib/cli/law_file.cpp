@@ -3,50 +3,23 @@
 #include <vector>
 
 #include "base/error.h"
-#include "text/column.h"
+#include "cli/row_column.h"
 
 namespace rolling {
-namespace {
-
-/// A column of a row of fitpower. In a file of records its name may mean another quantity (a is an
-/// acceleration there), so it is read without conversion and converted here.
-class RowColumn {
- public:
-  RowColumn(Reader& in, const std::string& name, std::string_view quantity)
-      : in_(in), to_si_(conversion_to_si(quantity, in.columns()[*in.find(name)])),
-        slot_(in.need_as_is(name)) {}
-  double value() const { return to_si_(in_[slot_]); }
-
- private:
-  Reader& in_;
-  Conversion to_si_;
-  std::size_t slot_;
-};
-
-/// A column of a row of fitpower that has no unit.
-std::size_t need_number(Reader& in, const std::string& name) {
-  if (const Column& column = in.columns()[*in.find(name)]; !column.unit.empty())
-    fail("column '{}': {} is a number without a unit", shown(to_text(column)), name);
-  return in.need_as_is(name);
-}
-
-}  // namespace
 
 LawFile read_law(Tool& tool, const std::string& file) {
   Reader& in = tool.read_file(file, {"v", "D"});
   if (in.find("a") && in.find("b")) {
-    const RowColumn a(in, "a", "D");
-    const auto b = need_number(in, "b");
-    std::optional<std::size_t> slope_slot;
-    if (in.find("slope")) slope_slot = need_number(in, "slope");
-    std::optional<RowColumn> v0;
+    const RowColumn a(in, "a", "D"), b(in, "b");
+    std::optional<RowColumn> slope, v0;
+    if (in.find("slope")) slope.emplace(in, "slope");
     if (tool.has("v0") && in.find("v0")) v0.emplace(in, "v0", "v");
     if (!in.next_run() || !in.next()) fail<InputError>("{}: no row of fitpower", shown(file));
     LawFile law;
     if (!tool.on_command_line("coefficient")) law.a = a.value();
     if (law.a && !(*law.a > 0)) fail("a = {} must be greater than 0", *law.a);
-    if (!tool.on_command_line("exponent")) law.b = in[b];
-    if (slope_slot && !tool.on_command_line("slope")) law.slope = in[*slope_slot];
+    if (!tool.on_command_line("exponent")) law.b = b.value();
+    if (slope && !tool.on_command_line("slope")) law.slope = slope->value();
     if (v0 && !tool.on_command_line("v0")) law.v0 = v0->value();
     if (law.v0 && *law.v0 < 0)
       fail("v0 = {}: that body rolled towards falling x; say --v0 {}, and turn the sign of a slope",

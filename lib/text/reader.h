@@ -86,6 +86,8 @@ class Reader {
   std::size_t records_ahead() const { return lines_->lines_ahead(); }
   /// The number in a needed column [SI].
   double operator[](std::size_t slot) const { return values_[slot]; }
+  /// The text of a column of the present record.
+  std::string_view text(std::size_t column) const { return fields_[column].text; }
 
   static constexpr std::size_t no_column = NeededColumns::no_column;
   /// Appends the present record as it goes out, tab-separated, without the text of a column;

@@ -34,7 +34,7 @@ expect "$(offered smooth --method =)" 'mean median savgol' 'smooth --method='
 expect "$(offered smooth --method = s)" savgol 'smooth --method=s'
 expect "$(offered smooth --width '')" '' 'smooth --width'
 expect "$(offered smooth samp)" '' 'smooth samp'  # left to readline
-expect "$(offered fitpower --route '')" 'loglog position shift velocity' 'fitpower --route'
+expect "$(offered fitpower --route '')" 'fits loglog position shift velocity' 'fitpower --route'
 expect "$(offered simulate --sensor '')" pasco 'simulate --sensor'
 grep -q rk8pd <<<"$(offered simulate --method r)" ||
   complain "simulate --method r: $(offered simulate --method r)"

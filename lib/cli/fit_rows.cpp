@@ -1,0 +1,169 @@
+#include "cli/fit_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "cli/fit_report.h"
+#include "cli/fit_runs.h"
+#include "cli/row_column.h"
+#include "contact/uncertain_number.h"
+#include "fit/joint_law.h"
+
+namespace rolling {
+namespace {
+
+struct Rows {
+  std::vector<LawRow> laws;
+  std::vector<FitRun> runs;  ///< the names and bodies of the runs, without readings
+  bool a_fixed = false, b_fixed = false;
+
+  void add(std::string name, Estimate a, Estimate b, double corr);
+};
+
+/// Throws Error for a row that is none of a fit with errors.
+void Rows::add(std::string name, Estimate a, Estimate b, double corr) {
+  if (!(a.value > 0)) fail("a = {} must be greater than 0", a.value);
+  if (a.sigma < 0 || b.sigma < 0 || std::abs(corr) > 1)
+    fail("sigma_a, sigma_b or corr is not one of a fit");
+  if (a.sigma == 0 && b.sigma == 0) fail("a and b have no errors: were both fixed?");
+  if (laws.empty()) a_fixed = a.sigma == 0, b_fixed = b.sigma == 0;
+  if (a_fixed != (a.sigma == 0) || b_fixed != (b.sigma == 0))
+    fail("{} is fixed in some rows only", a_fixed != (a.sigma == 0) ? "a" : "b");
+  if (!laws.empty() && ((a_fixed && std::log(a.value) != laws.front().own.law.a) ||
+                        (b_fixed && b.value != laws.front().own.law.b)))
+    fail("{} is fixed at another value than in the first row", a_fixed ? "a" : "b");
+  const double log_a = a.sigma / a.value;
+  const Symmetric C{log_a * log_a, corr * log_a * b.sigma, b.sigma * b.sigma};
+  if (!C.inverse().is_finite() || !(C.aa * C.bb >= C.ab * C.ab))
+    fail("corr = {}: its digits do not tell a from b: write the rows with more", corr);
+  laws.push_back({{laws.size(), {std::log(a.value), b.value}, C, known_errors}});
+  runs.emplace_back().name = std::move(name);
+}
+
+/// A row that is there twice would count twice.
+void warn_of_copies(Tool& tool, const Rows& rows) {
+  std::map<std::vector<double>, std::size_t> different;
+  for (std::size_t i = 0; i < rows.laws.size(); ++i) {
+    const OwnLaw& one = rows.laws[i].own;
+    const Symmetric& C = one.covariance;
+    const auto [same, inserted] = different.insert({{one.law.a, one.law.b, C.aa, C.ab, C.bb}, i});
+    if (inserted) continue;
+    return tool.warn(fmt::format("row {}: its numbers are those of row {}: leave copies out",
+                                 rows.runs[i].name, rows.runs[same->second].name));
+  }
+}
+
+Rows read_rows(Tool& tool) {
+  Reader& in = tool.read({});
+  if (!in.find("sigma_a")) fail("no rows of fitpower: there is no column sigma_a");
+  const RowColumn a(in, "a", "D"), sigma_a(in, "sigma_a", "D"), b(in, "b"), sigma_b(in, "sigma_b"),
+      corr(in, "corr");
+  Rows rows;
+  while (in.next_run()) {
+    const auto name = in.find("run") ? in.find("run") : in.find("record");
+    const bool sized = in.find("rms") && in.find("n");
+    const auto rms = in.want("rms"), n = in.want("n");
+    // a, b, and v0, x0 and the slope where they were fitted
+    const double parameters = 2 + (in.find("v0") ? 2 : 0) + (in.find("slope") ? 1 : 0);
+    while (in.next()) {
+      rows.add(name ? std::string(in.text(*name)) : in.where(), {a.value(), sigma_a.value()},
+               {b.value(), sigma_b.value()}, corr.value());
+      if (!sized || !(in[n] > parameters) || !(in[rms] > 0)) continue;
+      rows.laws.back().rms = in[rms];
+      rows.laws.back().own.freedom = in[n] - parameters;
+    }
+  }
+  if (rows.laws.size() < 2)
+    fail("{} row{}: a joint law is that of two or more", rows.laws.size(),
+         rows.laws.size() == 1 ? "" : "s");
+  return rows;
+}
+
+/// What K, R and g have brought to ln a of all rows (a goes as (K + 1) R/g, Eq. 12) is taken out of
+/// the rows: it is not noise.
+std::vector<CommonError> take_common(Rows& rows) {
+  std::vector<CommonError> all;
+  for (const UncertainNumber& number : uncertain_numbers) {
+    std::map<std::pair<double, double>, CommonError> by_value;
+    for (std::size_t i = 0; i < rows.runs.size(); ++i) {
+      const double value = rows.runs[i].body.*number.value,
+                   sigma = rows.runs[i].given.*number.sigma;
+      if (!(sigma > 0)) continue;
+      const double log_a = sigma / (number.value == &Body::K ? value + 1 : value);
+      CommonError& common =
+          by_value.try_emplace({value, sigma}, CommonError{log_a, {}}).first->second;
+      common.rows.push_back(i);
+      Symmetric& C = rows.laws[i].own.covariance;
+      C.aa -= log_a * log_a;
+      if (!rows.a_fixed && !(C.aa > 0 && C.aa * C.bb >= C.ab * C.ab))
+        fail(
+            "row {}: its sigma_a is less than what the uncertainty of {} alone makes it: give -K "
+            "and -R as for the fits of the rows",
+            rows.runs[i].name, number.name);
+    }
+    for (auto& [value, common] : by_value) all.push_back(std::move(common));
+  }
+  return all;
+}
+
+/// "K, R": the numbers that have uncertainties.
+std::string common_numbers(const Rows& rows) {
+  std::string names;
+  for (const UncertainNumber& number : uncertain_numbers)
+    if (std::ranges::any_of(rows.runs,
+                            [&](const FitRun& run) { return run.given.*number.sigma > 0; }))
+      names += fmt::format("{}{}", names.empty() ? "" : ", ", number.name);
+  return names;
+}
+
+void write(Output& out, const JointLaw& joint, std::size_t n) {
+  out.names({{"a", "m"},
+             {"sigma_a", "m"},
+             {"b"},
+             {"sigma_b"},
+             {"corr"},
+             {"scatter_ln_a"},
+             {"scatter_b"},
+             {"n"},
+             {"chi2"},
+             {"dof"},
+             {"p"}});
+  const Symmetric& C = joint.covariance;
+  const double a = std::exp(joint.law.a);
+  for (const double value :
+       {a, a * std::sqrt(C.aa), joint.law.b, std::sqrt(C.bb),
+        C.ab != 0 ? C.ab / std::sqrt(C.aa * C.bb) : 0, joint.scatter_log_a, joint.scatter_b})
+    out.cell(value);
+  const auto count = [&](std::size_t number) {  // never rounded to --digits
+    out.blank();
+    out.text(std::to_string(number));
+  };
+  count(n);
+  out.cell(joint.agreement.ratio);
+  count(joint.agreement.dof);
+  out.cell(joint.agreement.significance);
+  out.end_line();
+}
+
+}  // namespace
+
+int fit_rows(Tool& tool, const Body& body, const std::vector<Estimate>& shape_factors,
+             const std::vector<Estimate>& radii, const BodyUncertainty& uncertainty,
+             bool with_check) {
+  tool.refuse({"each", "exact", "fix", "min-speed", "report", "robust", "slope", "start"},
+              "is for the fits of the runs: --route fits reads their rows");
+  Rows rows = read_rows(tool);
+  warn_of_copies(tool, rows);
+  set_bodies(rows.runs, body, shape_factors, radii, uncertainty);
+  const auto common = take_common(rows);
+  const JointLaw joint = joint_law(rows.laws, common);
+  write(tool.out, joint, rows.laws.size());
+  tool.out.flush();
+  if (joint.agreement.agree()) return 0;
+  const std::string text = disagreement(joint.agreement, rows.runs, common_numbers(rows));
+  with_check ? tool.check_failed(text) : tool.warn(text);
+  return 0;
+}
+
+}  // namespace rolling
