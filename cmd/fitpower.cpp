@@ -217,8 +217,11 @@ int main(int argc, char** argv) {
     set_parameters(options, fixed, start);
     options.fit_slope = slope_text == "fit";
     if (!options.fit_slope) set_slope(slope_text, body, uncertainty);
-    if (route_name == "fits")
+    if (route_name == "fits") {
+      tool.refuse({"each", "exact", "fix", "min-speed", "report", "robust", "slope", "start"},
+                  "is for the fits of the runs: --route fits reads their rows");
       return fit_rows(tool, body, shape_factors, radii, uncertainty, with_check);
+    }
     const auto given_route = fit_routes()[route_name];
     Reader& in = tool.read(order_without_names(given_route, tool.used("t")));
     Route route = given_route ? *given_route : default_route(in);

@@ -151,8 +151,6 @@ void write(Output& out, const JointLaw& joint, std::size_t n) {
 int fit_rows(Tool& tool, const Body& body, const std::vector<Estimate>& shape_factors,
              const std::vector<Estimate>& radii, const BodyUncertainty& uncertainty,
              bool with_check) {
-  tool.refuse({"each", "exact", "fix", "min-speed", "report", "robust", "slope", "start"},
-              "is for the fits of the runs: --route fits reads their rows");
   Rows rows = read_rows(tool);
   warn_of_copies(tool, rows);
   set_bodies(rows.runs, body, shape_factors, radii, uncertainty);
