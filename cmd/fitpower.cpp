@@ -71,6 +71,12 @@ void add_options(Tool& tool, FitOptions& options) {
             "let outliers count little: bisquare loss instead of squares");
 }
 
+void add_body(Tool& tool, std::vector<Estimate>& shape_factors, std::vector<Estimate>& radii) {
+  tool.numbers("-K,--shape-factor", shape_factors, not_negative,
+               "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
+  tool.numbers("-R,--radius", radii, positive, "radius [m]; one, or one for each run");
+}
+
 /// The groups of runs that are fitted together: one group of all runs, or one for each run.
 std::vector<std::vector<FitRun>> grouped(std::vector<FitRun> runs, bool each) {
   std::vector<std::vector<FitRun>> groups;
@@ -163,6 +169,11 @@ std::map<std::string, std::string> route_names() {
   return names;
 }
 
+void refuse_beside_rows(const Tool& tool) {
+  tool.refuse({"each", "exact", "fix", "min-speed", "report", "robust", "slope", "start"},
+              "is for the fits of the runs: --route fits reads their rows");
+}
+
 /// The columns of a file without names. If --use says where t is and there is no --route, the route
 /// is a trajectory: no column then counts as v or D by its position.
 std::vector<std::string> order_without_names(std::optional<Route> given, bool times_given) {
@@ -191,12 +202,11 @@ int main(int argc, char** argv) {
   BodyUncertainty uncertainty;
   FitOptions options;
   bool each = false, with_report = false, with_check = false;
-  tool.choice("--route", route_name, route_names(),
-              "what is fitted: D of v (loglog, shift), v of t, x of t, or rows of fitpower (fits); "
-              "shift if there is D, else position if x, else velocity");
-  tool.numbers("-K,--shape-factor", shape_factors, not_negative,
-               "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
-  tool.numbers("-R,--radius", radii, positive, "radius [m]; one, or one for each run");
+  tool.choice(
+      "--route", route_name, route_names(),
+      "D of v (loglog, shift), v of t, x of t, or rows of fitpower (fits); without it shift "
+      "if there is D, else position if x, else velocity");
+  add_body(tool, shape_factors, radii);
   tool.body(body, {gravity}, &uncertainty);
   tool.text("--slope", slope_text, "S|fit",
             "the mat rises by S metres a metre along growing x; fit: find it, of all runs");
@@ -217,11 +227,9 @@ int main(int argc, char** argv) {
     set_parameters(options, fixed, start);
     options.fit_slope = slope_text == "fit";
     if (!options.fit_slope) set_slope(slope_text, body, uncertainty);
-    if (route_name == "fits") {
-      tool.refuse({"each", "exact", "fix", "min-speed", "report", "robust", "slope", "start"},
-                  "is for the fits of the runs: --route fits reads their rows");
+    if (route_name == "fits") refuse_beside_rows(tool);
+    if (route_name == "fits")
       return fit_rows(tool, body, shape_factors, radii, uncertainty, with_check);
-    }
     const auto given_route = fit_routes()[route_name];
     Reader& in = tool.read(order_without_names(given_route, tool.used("t")));
     Route route = given_route ? *given_route : default_route(in);

@@ -1,7 +1,7 @@
 // The joint law of runs that were fitted by themselves, from their rows alone.
 #pragma once
 
-#include "statistics/run_laws.h"
+#include "fit/run_laws.h"
 
 namespace rolling {
 

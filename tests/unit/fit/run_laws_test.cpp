@@ -1,0 +1,25 @@
+#include "fit/run_laws.h"
+
+#include "unit/catch.h"
+
+using namespace rolling;
+
+TEST_CASE("run laws: two laws whose errors are known, by hand", "[fit]") {
+  const std::vector<OwnLaw> laws{{4, {0, 0.2}, {1e-4, 0, 4e-4}, 1e6},
+                                 {7, {0.03, 0.2}, {1e-4, 0, 4e-4}, 1e6}};
+  const Agreement found = compare(laws, {0, 0.2}, 2, 0);
+  CHECK(found.chi2 == Approx(0.03 * 0.03 / 2e-4));
+  CHECK(found.ratio == Approx(found.chi2).epsilon(1e-4));
+  CHECK(found.significance == Approx(std::exp(-4.5 / 2)).epsilon(1e-4));
+  CHECK(found.run == 4);
+  CHECK(found.log_D.value == Approx(-0.03));
+}
+
+TEST_CASE("run laws: in another unit of speed ln D takes the place of ln a", "[fit]") {
+  const OwnLaw one{0, {-6, 0.2}, {1e-4, 1.5e-4, 4e-4}, 10};
+  CHECK(one.best_log_v() == Approx(-0.375));
+  const OwnLaw there = one.in_unit(one.best_log_v());
+  CHECK(there.law.a == Approx(-6 - 0.375 * 0.2));
+  CHECK(there.covariance.ab == Approx(0).margin(1e-18));
+  CHECK(there.log_D(0.375).sigma == Approx(0.01));
+}
