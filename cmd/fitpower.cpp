@@ -169,9 +169,12 @@ std::map<std::string, std::string> route_names() {
   return names;
 }
 
-void refuse_beside_rows(const Tool& tool) {
+int joint_of_rows(Tool& tool, const Body& body, const std::vector<Estimate>& shape_factors,
+                  const std::vector<Estimate>& radii, const BodyUncertainty& uncertainty,
+                  bool with_check) {
   tool.refuse({"each", "exact", "fix", "min-speed", "report", "robust", "slope", "start"},
               "is for the fits of the runs: --route fits reads their rows");
+  return fit_rows(tool, body, shape_factors, radii, uncertainty, with_check);
 }
 
 /// The columns of a file without names. If --use says where t is and there is no --route, the route
@@ -227,9 +230,8 @@ int main(int argc, char** argv) {
     set_parameters(options, fixed, start);
     options.fit_slope = slope_text == "fit";
     if (!options.fit_slope) set_slope(slope_text, body, uncertainty);
-    if (route_name == "fits") refuse_beside_rows(tool);
     if (route_name == "fits")
-      return fit_rows(tool, body, shape_factors, radii, uncertainty, with_check);
+      return joint_of_rows(tool, body, shape_factors, radii, uncertainty, with_check);
     const auto given_route = fit_routes()[route_name];
     Reader& in = tool.read(order_without_names(given_route, tool.used("t")));
     Route route = given_route ? *given_route : default_route(in);

@@ -44,7 +44,7 @@ all_scripts() {
   cp "$samples/CR.csv" "$out/fleet/a&b;touch hit;\$(touch hit)\`touch hit\`'\"\\t x.csv"
   cp "$samples/CR.csv" "$out/fleet/#h.csv"
   for name in "$out"/fleet/*.csv; do "$samples/fleet/fit.sh" "$name"; done | LC_ALL=C sort >"$out/table"
-  LC_ALL=C awk -f "$samples/fleet/joint.awk" "$out/table" >"$out/joint"
+  fitpower --route fits "$out/table" >"$out/joint"
   if command -v parallel >/dev/null; then "$samples/fleet/table.sh" "$out/fleet" >"$out/parallel"; fi
 }
 odd="$scratch/o d'd\"&;\$(touch hit)\`touch hit\`"

@@ -27,7 +27,7 @@ awk -f samples/fleet/pulls.awk "$scratch/run/truth.txt" "$scratch/table"
 
 # Laws that scatter by 0.1 in ln a, 0.02 in b: 24 of them tell that within a factor of 2 (chi
 # square), and the mean within 4 of its errors.
-awk -f samples/fleet/joint.awk "$scratch/table" | awk '!/^#/ {
+fitpower -q --route fits "$scratch/table" | awk '!/^#/ {
   off_a = ($1 - 1.87e-3) / $2; off_b = ($3 - 0.215) / $4
   if (off_a^2 > 16 || off_b^2 > 16 || $6 < 0.05 || $6 > 0.2 || $7 < 0.01 || $7 > 0.04) {
     print "joint:", $0; exit 1 } }'
@@ -35,11 +35,11 @@ awk -f samples/fleet/joint.awk "$scratch/table" | awk '!/^#/ {
 # One law for all: there is nothing that scatters, and the joint fit of the rows is that of fitpower
 # on all records at once.
 samples/fleet/make.sh "$scratch/class" 12 0
-for record in "$scratch"/class/*.csv; do samples/fleet/fit.sh "$record"; done >"$scratch/table"
+for record in "$scratch"/class/*.csv; do samples/fleet/fit.sh "$record"; done | awk '!/^#/ || !names++' >"$scratch/table"
 smooth -q --coast -c x -w 1 "$scratch"/class/*.csv |
   fitpower -q --route position -K 0.5 -R 0.04 >"$scratch/joint"
-awk -f samples/fleet/joint.awk "$scratch/table" | tail -n 1 | cut -f 1-8 >"$scratch/of-rows"
+fitpower -q --route fits "$scratch/table" | tail -n 1 | cut -f 1-8 >"$scratch/of-rows"
 tail -n 1 "$scratch/joint" | paste "$scratch/of-rows" - | awk '{
   far_a = ($1 - $9) / $10; far_b = ($3 - $11) / $12; wide = $4 / $12
-  if ($6 > 0.02 || far_a^2 > 0.25 || far_b^2 > 0.25 || wide < 0.8 || wide > 1.25) {
+  if ($6 > 0.02 || far_a^2 > 0.04 || far_b^2 > 0.04 || wide < 0.8 || wide > 1.25) {
     print "joint of the rows, and of the records:", $0; exit 1 } }'
