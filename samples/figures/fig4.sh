@@ -4,20 +4,20 @@
 #   fig4.sh [-t svg | pngcairo] >fig4.svg                          the four experiments
 #   fig4.sh [-t ...] [-K K[,K...]] [-R R] FILE... >mine.svg        records of your own
 #
-# K (0.5) is the shape factor, one for all files or one for each; R (0.04) the radius in metres; both
+# K (0.5) is the shape factor, R (0.04) the radius in metres; each is one for all files or one for each, and
 # may have an uncertainty, 0.5+-0.005. A file has the columns t and x (Time, Position), or t and v
 # (Time, Velocity). Of each run the free roll is taken; of one towards falling x the signs are turned.
 # Up to four runs of your own have their a and b in the picture, and one by itself the scatter of its
 # points as bars. `make figures/fig4.svg` draws the experiments.
 . "$(dirname "$0")/draw.sh"
 
-# D against v of run $1, the file $3, with the shape factor $2, and the row of the law.
+# D against v of run $1, the file $3, with the shape factor $2 and the radius $4, and the row of the law.
 shifts() {
   if smooth -q -c x -w 1 "$3" >/dev/null 2>&1; then
     smooth -q --coast -c x -w 1 "$3" | differentiate -c x | smooth -q -w 11
   else
     smooth -q --coast -c v -w 11 "$3"
-  fi | differentiate -c v | shift-from-accel -q -K "$2" -R "$R" >"shift$1"
+  fi | differentiate -c v | shift-from-accel -q -K "$2" -R "$4" >"shift$1"
   fitpower -q "shift$1" >"fit$1"
   # The picture has the rows of whole windows alone; fitpower knows the noise of all of them.
   whole_windows <"shift$1" | awk -F'\t' '
@@ -43,6 +43,9 @@ fi
 IFS=, read -r -a shapes <<<"$K"
 [ ${#shapes[@]} = 1 ] || [ ${#shapes[@]} = $# ] ||
   { echo "$0: -K has ${#shapes[@]} values for $# files" >&2; exit 2; }
+IFS=, read -r -a radii <<<"$R"
+[ ${#radii[@]} = 1 ] || [ ${#radii[@]} = $# ] ||
+  { echo "$0: -R has ${#radii[@]} values for $# files" >&2; exit 2; }
 runs=0
 for file; do
   runs=$((runs + 1))
@@ -52,7 +55,7 @@ for file; do
   fi
   # What is read but once is copied: it is read twice here.
   [ -f "$file" ] || { cat -- "$file" >"run$runs" && file=run$runs; }
-  shifts $runs "${shapes[runs - 1]:-${shapes[0]}}" "$file"
+  shifts $runs "${shapes[runs - 1]:-${shapes[0]}}" "$file" "${radii[runs - 1]:-${radii[0]}}"
 done
 
 frame='vmax = 0.5; Dmax = 2.2'
