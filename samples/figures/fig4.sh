@@ -2,16 +2,17 @@
 # Fig. 4: D against v, the power law fitted to it, and the 95 % band of the law.
 #
 #   fig4.sh [-t svg | pngcairo] >fig4.svg                          the four experiments
-#   fig4.sh [-t ...] [-K K[,K...]] [-R R] FILE... >mine.svg        records of your own
+#   fig4.sh [-t ...] [-K K[,K...]] [-R R[,R...]] FILE... >mine.svg        records of your own
 #
-# K (0.5) is the shape factor, R (0.04) the radius in metres; each is one for all files or one for each, and
-# may have an uncertainty, 0.5+-0.005. A file has the columns t and x (Time, Position), or t and v
+# K (0.5) is the shape factor, R (0.04) the radius in metres; each is one for all files or one for
+# each, and may have an uncertainty, 0.5+-0.005. A file has the columns t and x (Time, Position), or t and v
 # (Time, Velocity). Of each run the free roll is taken; of one towards falling x the signs are turned.
 # Up to four runs of your own have their a and b in the picture, and one by itself the scatter of its
 # points as bars. `make figures/fig4.svg` draws the experiments.
 . "$(dirname "$0")/draw.sh"
 
-# D against v of run $1, the file $3, with the shape factor $2 and the radius $4, and the row of the law.
+# D against v of run $1, the file $3, with the shape factor $2 and the radius $4, and the row of the
+# law.
 shifts() {
   if smooth -q -c x -w 1 "$3" >/dev/null 2>&1; then
     smooth -q --coast -c x -w 1 "$3" | differentiate -c x | smooth -q -w 11
