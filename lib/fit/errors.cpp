@@ -183,8 +183,8 @@ Tested tested(std::span<const double> noise, std::span<const std::size_t> runs, 
   return {whiteness, near ? Errors::autocorrelation : white};
 }
 
-/// The mean variance that the rounding of the readings leaves them; 0 behind filters. Gates fix x or
-/// v, and t is measured: readings on a grid that are far closer to the roll than rounding would
+/// The mean variance that the rounding of the readings leaves them; 0 behind filters. Gates fix x
+/// or v, and t is measured: readings on a grid that are far closer to the roll than rounding would
 /// leave them, and of which none repeats, are not rounded.
 double variance_of_rounding(const Fitted& fit, double freedom) {
   if (!fit.rolls || fit.noise->known()) return 0;
@@ -242,8 +242,7 @@ Uncertainty uncertainty_of(const Fitted& fit) {
   } else if (known) {
     M = meat_of(fit);
   }
-  const double variance =
-      known ? variance_of(fit, M) : fit.minimum.rss / freedom;
+  const double variance = known ? variance_of(fit, M) : fit.minimum.rss / freedom;
   if (consistent) M = consistent_meat(fit, std::move(sources), kind, variance);
   else if (known)
     for (double& x : M) x *= variance;

@@ -94,8 +94,7 @@ void require_seen(const Fitted& found, const std::vector<FitRun>& all) {
     const ObservedRun& run = runs[r];
     const std::string place = runs.size() > 1 ? fmt::format("run {}: ", all[r].name) : "";
     const Trajectory roll = found.rolls->trajectory(found.minimum.theta, r);
-    const double v0 = std::abs(found.v0[r].value),
-                 D = found.a.value * std::pow(v0, found.b.value);
+    const double v0 = std::abs(found.v0[r].value), D = found.a.value * std::pow(v0, found.b.value);
     if (run.body.slope == 0 && !found.slope && std::abs(D) < program_rounding * run.body.R)
       fail("{}the body does not slow down: D comes out as {:.2g} m", place, D);
     double fastest = 0;

@@ -87,8 +87,8 @@ class Others {
   std::vector<bool> out_;
 };
 
-/// The time is the number of the reading here. `most_off`: becomes the distance of the first reading
-/// that is left out, if that is larger.
+/// The time is the number of the reading here. `most_off`: becomes the distance of the first
+/// reading that is left out, if that is larger.
 OffReadings of_run(Others others, std::size_t n, double& most_off) {
   OffReadings found{};
   std::vector<std::size_t> out;
@@ -141,8 +141,9 @@ std::optional<OffReadings> around(const Fitted& fit, double& most_off) {
     const double freedom =
         static_cast<double>(sizes[r]) - static_cast<double>(fit.system.columns());
     if (freedom < 13) continue;
-    OffReadings off = of_run({e_of[r], B_of.empty() ? std::vector<std::span<double>>() : B_of[r],
-                              freedom}, sizes[r], most_off);
+    OffReadings off =
+        of_run({e_of[r], B_of.empty() ? std::vector<std::span<double>>() : B_of[r], freedom},
+               sizes[r], most_off);
     if (off.count == 0 || (found && found->distance > off.distance)) continue;
     const ObservedRun& run = fit.rolls->runs()[r];
     off.run = r;

@@ -10,8 +10,9 @@ namespace rolling {
 /// one after another the reading that is furthest off is left out, to first order, up to a tenth of
 /// the run, and those up to the last that is so far off count (Rosner 1983, Technometrics 25, 165):
 /// a burst does not hide behind itself. Where a reading has bent the roll too far for that, the
-/// robust roll is the one to look from. None for a robust fit. For known filters the readings are those of the raw column.
-/// Returns the reading that is furthest off, of the run where that is most.
+/// robust roll is the one to look from. None for a robust fit. For known filters the readings are
+/// those of the raw column. Returns the reading that is furthest off, of the run where that is
+/// most.
 std::optional<OffReadings> off_readings(Route, const std::vector<FitRun>&, const FitOptions&,
                                         const Fitted&);
 

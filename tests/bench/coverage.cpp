@@ -25,8 +25,9 @@ std::string row(const coverage::Case& what, const coverage::Scene& scene, int ru
       "%6.2f\n",
       what.name, route_names[static_cast<int>(what.route)], scene.name, r.bias_a, r.percent_a,
       r.bias_b, r.sd_b, what.bound ? fmt::sprintf("%.3f", r.over_bound) : "-", r.sigma_a, r.sigma_b,
-      shares(r.covers_a), shares(r.covers_b), what.down > 0 ? fmt::sprintf("%.3f", r.cover_slope) : "-", r.told,
-      r.differ, r.far, r.refused, 1e3 * r.seconds);
+      shares(r.covers_a), shares(r.covers_b),
+      what.down > 0 ? fmt::sprintf("%.3f", r.cover_slope) : "-", r.told, r.differ, r.far, r.refused,
+      1e3 * r.seconds);
 }
 
 }  // namespace
@@ -51,10 +52,11 @@ int main(int argc, char** argv) {
       "told: errors of the autocorrelation or of uneven noise; differ: joint runs that are said to "
       "disagree; far: beyond 6 standard errors\n",
       runs);
-  std::printf("%-31s %-8s %-5s %7s %7s %7s %8s %9s %7s %7s %5s %5s %5s %5s %5s %5s %5s %5s %7s %5s "
+  std::printf(
+      "%-31s %-8s %-5s %7s %7s %7s %8s %9s %7s %7s %5s %5s %5s %5s %5s %5s %5s %5s %7s %5s "
       "%6s %4s %8s %6s\n",
-              "# case", "route", "scene", "bias_a", "%_of_a", "bias_b", "sd_b", "sd/bound",
-              "sigma_a", "sigma_b", "a50", "a68", "a95", "a99", "b50", "b68", "b95", "b99", "slope", "told", "differ", "far",
-              "refused", "ms");
+      "# case", "route", "scene", "bias_a", "%_of_a", "bias_b", "sd_b", "sd/bound", "sigma_a",
+      "sigma_b", "a50", "a68", "a95", "a99", "b50", "b68", "b95", "b99", "slope", "told", "differ",
+      "far", "refused", "ms");
   bench::print_rows("coverage", std::move(rows));
 }

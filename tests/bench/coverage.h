@@ -77,9 +77,10 @@ class Simulation {
     times_the_noise_ = i < c_.runs - c_.noisy ? 1 : 5;
     rolling::FitRun run{};
     run.body = scene_.body();
-    const Column raw = c_.ending ? pushed_roll(run.t)
-                       : c_.record ? free_roll(run.t)
-                       : c_.gate > 0 ? gates(run.t) : readings(run.t);
+    const Column raw = c_.ending     ? pushed_roll(run.t)
+                       : c_.record   ? free_roll(run.t)
+                       : c_.gate > 0 ? gates(run.t)
+                                     : readings(run.t);
     run.x = run.v = run.D = raw;
     if (c_.unknown) run.v = c_.unknown(raw);
     if (c_.gate > 0 && c_.route == Route::velocity) pulses(run);
@@ -111,8 +112,7 @@ class Simulation {
     Column raw;
     double error = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      const double t = i == 0 ? 0
-                              : dt * (static_cast<double>(i) + noise_(c_.jitter)) / c_.finer,
+      const double t = i == 0 ? 0 : dt * (static_cast<double>(i) + noise_(c_.jitter)) / c_.finer,
                    share = t / truth.stop_time();
       const auto s = truth.at(t);
       const double size =
@@ -133,7 +133,8 @@ class Simulation {
     const double stop = truth_.stop_time();
     for (double to = c_.gate; to < truth_.at(stop).x - c_.gate / 2; to += c_.gate) {
       double from = 0, end = stop;
-      while (end - from > 1e-9) (truth_.at((from + end) / 2).x < to ? from : end) = (from + end) / 2;
+      while (end - from > 1e-9)
+        (truth_.at((from + end) / 2).x < to ? from : end) = (from + end) / 2;
       times.push_back(from + noise_(2e-4));
       x.push_back(to);
     }
@@ -148,18 +149,20 @@ class Simulation {
   /// Rest, a push of 0.3 s, the roll, and what ends it; readings of 0.3 mm at 25 Hz. smooth --coast
   Column pushed_roll(Column& times) {
     constexpr double rest = 0.6, push = 0.3;
-    const double begin = rest + push + 0.04 * uniform(), of_push = 0.5 * push * truth_.speed_at(0).v,
+    const double begin = rest + push + 0.04 * uniform(),
+                 of_push = 0.5 * push * truth_.speed_at(0).v,
                  ends = truth_.stop_time() * (c_.ending == Case::stop ? 1 : 0.5 + 0.2 * uniform()),
                  v = truth_.speed_at(ends).v,
                  slows = c_.ending == Case::caught   ? v / 0.3
-                         : c_.ending == Case::braked ? -3 * truth_.acceleration(v) : 1e3;
+                         : c_.ending == Case::braked ? -3 * truth_.acceleration(v)
+                                                     : 1e3;
     std::vector<rolling::Sample> samples;
     for (double t = 0; t < begin + ends + std::min(v / slows, 2.0) + 0.6; t += dt) {
       const double since = t - begin, after = std::clamp(since - ends, 0.0, v / slows),
                    pushed = std::clamp(1 + since / push, 0.0, 1.0),
-                   x = since < 0 ? of_push * (pushed * pushed - 1)
-                                 : truth_.at(std::min(since, ends)).x +
-                                       after * (v - slows * after / 2);
+                   x = since < 0
+                           ? of_push * (pushed * pushed - 1)
+                           : truth_.at(std::min(since, ends)).x + after * (v - slows * after / 2);
       samples.push_back({t, x + 1 + noise_(noise_x)});
     }
     return kept(samples, times);

@@ -21,18 +21,18 @@ struct Case {
   enum Raw { x, v } raw = x;              ///< the column that carries white noise
   std::vector<std::string> history = {};  ///< the filters, as the `##` lines tell them
   Column (*unknown)(const Column& x) =
-      nullptr;             ///< or v from x by a sensor's software, of which no line tells
-  double resolution = 0;   ///< positions are rounded to this [m]
-  double outliers = 0;     ///< share of readings that are false echoes
-  double lost = 0;         ///< share of records that are missing
-  double growth = 0;       ///< the noise grows along the run by so many times its size
-  double AR = 0;           ///< correlation of the noise from one reading to the next
-  int runs = 1;            ///< that are fitted jointly
-  double scatter = 0;      ///< of a from run to run, as a share
-  int noisy = 0;           ///< the last so many runs have five times the noise
-  int down = 0;            ///< the last so many roll down a slope, which is fitted (positions)
-  int digits = 0;          ///< all columns are rounded to so many by the tools
-  bool record = false;     ///< the free roll is sought in the whole record of a sensor
+      nullptr;            ///< or v from x by a sensor's software, of which no line tells
+  double resolution = 0;  ///< positions are rounded to this [m]
+  double outliers = 0;    ///< share of readings that are false echoes
+  double lost = 0;        ///< share of records that are missing
+  double growth = 0;      ///< the noise grows along the run by so many times its size
+  double AR = 0;          ///< correlation of the noise from one reading to the next
+  int runs = 1;           ///< that are fitted jointly
+  double scatter = 0;     ///< of a from run to run, as a share
+  int noisy = 0;          ///< the last so many runs have five times the noise
+  int down = 0;           ///< the last so many roll down a slope, which is fitted (positions)
+  int digits = 0;         ///< all columns are rounded to so many by the tools
+  bool record = false;    ///< the free roll is sought in the whole record of a sensor
   enum Ending { none, stop, caught, braked, wall } ending = none;  ///< of a whole record, pushed
   double jitter = 0;  ///< standard deviation of the times of the readings, as a share of a step
   double gate = 0;    ///< the times are measured at which x is a multiple of this [m]
@@ -85,7 +85,8 @@ inline Column since_the_row_before(const Column& x) {
   Column v;
   for (std::ptrdiff_t i = 0; i < std::ssize(x); ++i)
     v.push_back((clamped(x, std::max<std::ptrdiff_t>(i, 1)) -
-                 clamped(x, std::max<std::ptrdiff_t>(i, 1) - 1)) / dt);
+                 clamped(x, std::max<std::ptrdiff_t>(i, 1) - 1)) /
+                dt);
   return v;
 }
 
