@@ -5,8 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/grid.h"
+#include "base/median.h"
 #include "cli/fit_runs.h"
 #include "fit/fit.h"
+#include "signal/repeats.h"
 
 namespace rolling {
 
@@ -153,6 +156,41 @@ std::vector<std::string> against(const FitResult& r, const std::vector<FitRun>& 
   return all;
 }
 
+/// Warns of readings that repeat, as roundings more coarse than the motion, medians and held
+/// readings do: their errors hang together in a way that residuals of few records do not show.
+void warn_of_repeats(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs) {
+  for (const FitRun& run : runs) {
+    const std::vector<double>& y = route == Route::position ? run.x : run.v;
+    if (!run.filters.empty() || records_held(y) > 1) continue;
+    std::size_t rows = 0, repeats = 0, waiting = 0;
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < y.size(); ++i) {  // without the rest at the end
+      ++waiting;
+      if (y[i] == y[i - 1]) continue;
+      rows += waiting, repeats += waiting - 1, waiting = 0;
+      steps.push_back(std::abs(y[i] - y[i - 1]));
+    }
+    const double grid = grid_of(y),
+                 share = static_cast<double>(repeats) / static_cast<double>(rows);
+    const char* const what = route == Route::position ? "positions" : "speeds";
+    if (repeats < 10) continue;
+    if (r.rms < levels::grid_of_rms * grid && share > levels::repeats_of_grid)
+      return tool.warn(fmt::format(
+          "run {}: {:.0f} % of the {} repeat, on a grid of {:.3g} that is coarser than their "
+          "noise: "
+          "errors of rounding hang together, and sigma_a and sigma_b may be too small; keep only "
+          "the records in which a new one comes",
+          run.name, 100 * share, what, grid));
+    const double small = nth_smallest(steps, steps.size() / 10);  // a grid, but for a few steps
+    if (r.rms > levels::noise_over_grid * small && share > levels::repeats_of_noise)
+      return tool.warn(fmt::format(
+          "run {}: {:.0f} % of the {} repeat, which readings of such noise do not, but medians do, "
+          "and a logger that holds them: sigma_a and sigma_b are too small; fit the readings "
+          "before that filter",
+          run.name, 100 * share, what));
+  }
+}
+
 }  // namespace
 
 void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
@@ -192,6 +230,11 @@ void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitR
     tool.warn(run +
               "the noise of D biases its logarithms by more than the standard error of the line: "
               "use --route shift");
+  if (is_trajectory(route)) warn_of_repeats(tool, route, r, runs);
+  if (r.sigma_slope > 0 && runs.size() == 2)
+    tool.warn(
+        "two rolls alone tell the slope: what their laws differ by counts as slope, and its "
+        "standard uncertainty does not hold that; add rolls in both directions");
   if (r.errors == Errors::uneven)
     tool.warn(run + "the noise is not of one size: the errors allow for that");
   if (const auto& found = r.eccentricity)

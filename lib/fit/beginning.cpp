@@ -30,15 +30,37 @@ struct Without {
 
 /// f_S are the first k residuals, Q_S their rows of the orthonormal Q. A = I - Q_S^T Q_S is the
 /// normal matrix of the other records. Then c = A^-1 Q_S^T f_S, and the reduction is |f_S|^2 +
-/// f_S^T Q_S c.
-Without without_first(std::size_t k, const Matrix& Q, const std::vector<double>& f) {
-  const std::size_t q = Q.size();
-  std::vector<double> A(q * q), g(q);
-  for (std::size_t i = 0; i < q; ++i) {
-    for (std::size_t j = 0; j < q; ++j) A[i * q + j] = (i == j) - dot(&Q[i][0], &Q[j][0], k);
-    g[i] = dot(&Q[i][0], &f[0], k);
+/// f_S^T Q_S c. The sums over S grow with k.
+class First {
+ public:
+  First(const Matrix& Q, const std::vector<double>& f)
+      : Q_(Q), f_(f), A_(Q.size() * Q.size()), g_(Q.size()) {
+    for (std::size_t i = 0; i < A_.size(); i += Q.size() + 1) A_[i] = 1;
   }
-  Without result{dot(&f[0], &f[0], k), g};
+  Without without(std::size_t k) {
+    const std::size_t q = Q_.size(), more = k - k_;
+    for (std::size_t i = 0; i < q; ++i) {
+      for (std::size_t j = 0; j < q; ++j) A_[i * q + j] -= dot(&Q_[i][k_], &Q_[j][k_], more);
+      g_[i] += dot(&Q_[i][k_], &f_[k_], more);
+    }
+    squares_ += dot(&f_[k_], &f_[k_], more);
+    k_ = k;
+    return solved(A_, g_, squares_);
+  }
+
+ private:
+  static Without solved(std::vector<double> A, const std::vector<double>& g, double squares);
+
+  const Matrix& Q_;
+  const std::vector<double>& f_;
+  std::vector<double> A_, g_;
+  double squares_ = 0;
+  std::size_t k_ = 0;
+};
+
+Without First::solved(std::vector<double> A, const std::vector<double>& g, double squares) {
+  const std::size_t q = g.size();
+  Without result{squares, g};
   gsl_matrix_view normal = gsl_matrix_view_array(A.data(), q, q);
   gsl_vector_view c = gsl_vector_view_array(result.c.data(), q);
   // A is not positive definite if the removed records alone determine a parameter.
@@ -73,22 +95,28 @@ struct Search {
     const auto& t = fit.rolls->runs().front().t;
     const Matrix Q = orthonormal(fit);
     const std::size_t q = Q.size();
+    First first(Q, f);
+    const auto changed = [&](const Without& without, std::size_t from, std::size_t end) {
+      std::vector<double> rest(f.begin() + static_cast<std::ptrdiff_t>(from),
+                               f.begin() + static_cast<std::ptrdiff_t>(end));
+      for (std::size_t j = 0; j < q; ++j)
+        for (std::size_t i = from; i < end; ++i) rest[i - from] += without.c[j] * Q[j][i];
+      return rest;
+    };
     for (std::size_t k = 3, next = 5; 4 * k <= f.size(); k = std::exchange(next, k + next)) {
       ++tests;
-      const Without without = without_first(k, Q, f);
-      std::vector<double> changed = f;
-      for (std::size_t j = 0; j < q; ++j)
-        for (std::size_t i = 0; i < f.size(); ++i) changed[i] += without.c[j] * Q[j][i];
-      const auto others = std::span(changed).subspan(k), near = std::span(changed).first(k + 5);
-      const double gone = static_cast<double>(k), squares = dot(others, others),
+      const Without without = first.without(k);
+      const double gone = static_cast<double>(k), squares = fit.minimum.rss - without.reduction,
                    left = static_cast<double>(f.size() - q - k);
+      if (!(squares > 0)) continue;
+      const double noise = std::max(squares / left, local_variance(changed(without, 0, k + 5))),
+                   chance = gsl_cdf_fdist_Q(without.reduction / gone / noise, gone, left);
+      if (chance >= (found ? found->beginning.significance : levels::beginning)) continue;
       // Where the removed records alone determine a parameter, nothing but rounding may remain: the
       // squares are then more than those of a fit.
-      if (!(squares > 0 && squares < 1.01 * (fit.minimum.rss - without.reduction))) continue;
-      const double noise = std::max(squares / left, local_variance(near)),
-                   chance = gsl_cdf_fdist_Q(without.reduction / gone / noise, gone, left);
-      if (found && chance >= found->beginning.significance) continue;
-      found = {{run, k, t[k] - t[0], chance}, {others.begin(), others.end()}, q};
+      std::vector<double> others = changed(without, k, f.size());
+      if (!(dot(others, others) < 1.01 * squares)) continue;
+      found = {{run, k, t[k] - t[0], chance}, std::move(others), q};
     }
   }
 };
@@ -106,7 +134,9 @@ std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitR
   const std::size_t fewest = 20 + joint.rolls->parameters().of_one_run().count();
   Search search;
   for (std::size_t r = 0; r < runs.size(); ++r) try {
-      if (joint.system.runs[r] >= fewest) search.add(fit_of_run(joint, r, options), r);
+      if (joint.system.runs[r] < fewest) continue;
+      else if (runs.size() == 1 && !options.fit_slope) search.add(joint, r);
+      else search.add(fit_of_run(joint, r, options), r);
     } catch (const Error&) {  // the run does not determine a law by itself
     }
   if (!search.found) return {};

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "fit/errors.h"
 #include "fit/first_guess.h"
+#include "fit/roll_fit.h"
 #include "fit/route.h"
 #include "motion/law_roll.h"
 #include "statistics/residuals.h"
@@ -26,7 +27,6 @@ class Records {
   explicit Records(Fitted power) : power_(std::move(power)), law_{power_.a.value, power_.b.value} {
     for (double v : power_.v) v_unit_ = std::max(v_unit_, v);
     for (const auto& q : power_.v0) v_unit_ = std::max(v_unit_, std::abs(q.value));
-    if (power_.rolls && !power_.noise->known()) means_ = means_of_many(power_.rolls->runs());
   }
 
   const Fitted& power() const { return power_; }
@@ -53,12 +53,6 @@ class Records {
                  f_of = by_run(power_.minimum.f, power_.system.runs);
       for (std::size_t r = 0; r < v_of.size(); ++r) shifts(law, r, v_of[r], f_of[r], theta, take);
             }};
-  }
-
-  bool are_many() const { return !means_.empty(); }
-  /// The same problem on block means if there are many records, for a fast search.
-  System system_of_few(const Law& law) const {
-    return are_many() ? rolls(law, means_) : system(law);
   }
 
  private:
@@ -112,7 +106,6 @@ class Records {
   Fitted power_;
   PowerLaw law_;
   double v_unit_ = 0;
-  std::vector<ObservedRun> means_;  // block means for the search; empty for few records
 };
 
 /// The fit of one law.
@@ -150,10 +143,9 @@ std::vector<std::vector<double>> closest(const Law& law, const Candidate& other)
 /// The smallest minimum of a law over several starting points. The search starts where the law is
 /// closest to a v^b and to the laws fitted before, so that it never ends above a special case of
 /// the law. If the law has several starts of its own, they are tried as well: close to a law
-/// without a peak, a law with a peak has another minimum than at its peak. For many records the
-/// search uses their block means, and only the last steps use all records.
+/// without a peak, a law with a peak has another minimum than at its peak.
 Candidate fit_law(const Records& records, const Law& law, const std::vector<Candidate>& before) {
-  const System system = records.system_of_few(law);
+  const System system = records.system(law);
   std::vector<std::pair<double, std::vector<double>>> starts;
   for (const Candidate& other : before) {
     if (!other.found()) continue;
@@ -186,8 +178,6 @@ Candidate fit_law(const Records& records, const Law& law, const std::vector<Cand
     try_from(start->second);
   if (law.starts.size() > 1)
     for (const auto& start : law.starts) try_from(records.theta(start));
-  if (records.are_many() && best.found())
-    best.minimum = attempt(records.system(law), best.minimum.theta);
   if (!best.found()) return best;
   const auto shared = best.minimum.theta.end() - static_cast<std::ptrdiff_t>(system.shared);
   best.c.assign(shared, shared + static_cast<std::ptrdiff_t>(law.coefficients.size()));
@@ -256,7 +246,7 @@ LawComparison compare_laws(Route route, const std::vector<FitRun>& runs,
   // The mean of ln D is not the logarithm of the mean of D if D is noisy; other laws would fit the
   // difference.
   if (route == Route::loglog) route = Route::shift;
-  const Records records(fit_route(route, runs, options));
+  const Records records(of_means(fit_route(route, runs, options), options));
   const Fitted& power = records.power();
   std::vector<Candidate> all{{&laws().front(), power.minimum, {1, power.b.value}}};
   for (std::size_t i = 1; i < laws().size(); ++i) all.push_back(fit_law(records, laws()[i], all));

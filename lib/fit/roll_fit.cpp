@@ -75,9 +75,25 @@ void report(Fitted& fit) {
   }
 }
 
-/// The minimum of the system of these rolls. The robust loss ignores what the cusps make.
+/// Every k-th record of each run, at most 4096 of them.
+std::vector<ObservedRun> some_of(std::vector<ObservedRun> runs) {
+  for (ObservedRun& run : runs) {
+    const std::size_t n = run.y.size(), step = (n + 4095) / 4096;
+    for (std::size_t i = 0; i * step < n; ++i)
+      run.t[i] = run.t[i * step], run.y[i] = run.y[i * step];
+    run.t.resize((n + step - 1) / step), run.y.resize(run.t.size());
+  }
+  return runs;
+}
+
+/// The minimum of the system of these rolls. The robust loss ignores what the cusps make. Of many
+/// records its search begins at the minimum of some of them.
 Minimum search(const RollModel& rolls, const System& system,
-               const std::vector<std::vector<double>>& starts, const FitOptions& options) {
+               std::vector<std::vector<double>> starts, const FitOptions& options) {
+  if (options.robust && system.residuals() > 16384 * system.runs.size()) {
+    const auto some = std::make_shared<const RollModel>(some_of(rolls.runs()), rolls.parameters());
+    starts = {solve(system_of(some, std::make_shared<const Noise>()), starts, options).theta};
+  }
   Minimum found = solve(system, starts, options);
   if (options.robust) return found;
   return beyond_cusps(rolls, system, std::move(found));
@@ -139,6 +155,16 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   return fit;
 }
 
+Fitted of_means(Fitted fit, const FitOptions& options) {
+  if (!fit.rolls || fit.noise->known()) return fit;
+  std::vector<ObservedRun> few = means_of_many(fit.rolls->runs());
+  if (few.empty()) return fit;
+  Fitted means = minimum_of(std::move(few), fit.noise,
+                            {fit.rolls->parameters(), fit.minimum.theta, {}}, options);
+  report(means);
+  return means;
+}
+
 Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows,
                  std::vector<Response> responses, const FitOptions& options, AddedNoise added) {
   std::optional<FirstGuess> guess;
@@ -159,7 +185,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       const std::vector<ObservedRun>& plain = noise->known() ? smooth : runs;
       require_ways(plain, options);
       for (const ObservedRun& run : plain) ways.push_back(run.way);
-      guess = first_guess(plain, options);
+      guess = first_guess(options.robust ? some_of(plain) : plain, options);
     }
     for (std::size_t r = 0; r < runs.size(); ++r) runs[r].way = ways[r];
     if (options.min_speed <= 0) responses = {}, rows.clear();  // frees memory: no round follows

@@ -18,6 +18,11 @@ Fitted fit_rolls(Route, const std::vector<FitRun>&, std::vector<Rows>, std::vect
 /// none.
 Fitted fit_of_run(const Fitted& joint, std::size_t run, const FitOptions&);
 
+/// The fit of block means of equal size, at most 4096 of each run, where there are more records
+/// than that and no filter is known; otherwise the fit itself. The means hold what a smooth law can
+/// tell.
+Fitted of_means(Fitted, const FitOptions&);
+
 /// The sum of squares of model - data in the unit of the fitted column, without weights.
 double sum_of_squares(const Fitted&);
 

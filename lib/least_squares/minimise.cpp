@@ -185,6 +185,12 @@ Minimum attempt(const System& system, const std::vector<double>& start) {
   }
 }
 
+std::vector<double> stepped(const System& system, std::vector<double> theta, double longer) {
+  Point at = at_start(system, std::move(theta));
+  for (double& x : at.step) x *= longer;
+  return moved(std::move(at.theta), at.step);
+}
+
 Minimum evaluated(const System& system, std::vector<double> theta) {
   return minimum_at(at_start(system, std::move(theta)));
 }

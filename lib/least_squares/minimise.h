@@ -22,6 +22,10 @@ Minimum minimise(const System&, const std::vector<double>& start);
 /// solved: if the search finds no minimum, theta is `start`, rss is infinite and the rest is empty.
 Minimum attempt(const System&, const std::vector<double>& start);
 
+/// theta after a Gauss-Newton step, times this factor. Throws Error where the model has no finite
+/// values.
+std::vector<double> stepped(const System&, std::vector<double> theta, double longer);
+
 /// f and R at theta, which need not be a minimum. Throws Error where the model has no finite
 /// values.
 Minimum evaluated(const System&, std::vector<double> theta);

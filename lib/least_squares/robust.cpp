@@ -76,13 +76,23 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
   std::vector<bool> outliers;
   for (const double size : u) outliers.push_back(trimmed && size > 30);
   for (const auto influence : {huber, bisquare}) {
-    double change = 1;
-    for (int round = 0; change > 1e-9; ++round) {
+    const double least = influence == huber ? 1e-6 : 1e-9;  // Huber's minimum tells the scale alone
+    double change = influence == huber ? 1 : 0.01;
+    for (int round = 0; change > least; ++round) {
       if (round == 200) fail("the robust fit does not converge");
       if (!(at.scale > 0)) return exact_fit(system, theta);
-      for (std::size_t i = 0; i < u.size(); ++i)
-        factors[i] = influence == huber && outliers[i] ? 0 : std::sqrt(influence(u[i]).weight);
-      const auto next = minimise(weighted(system, factors), theta).theta;
+      double squares = 0, slopes = 0;  // sums of the weights and of psi'
+      for (std::size_t i = 0; i < u.size(); ++i) {
+        const bool out = influence == huber && outliers[i];
+        const Influence of = out ? Influence{0, 0} : influence(u[i]);
+        factors[i] = std::sqrt(of.weight);
+        squares += of.weight, slopes += of.slope;
+      }
+      const System weights = weighted(system, factors);
+      // A step of reweighted squares is too short by the ratio of these sums: with it Newton's.
+      const double longer = slopes > squares / 2 ? squares / slopes : 1;
+      const auto next =
+          change > 0.01 ? minimise(weights, theta).theta : stepped(weights, theta, longer);
       change = 0;
       for (std::size_t j = 0; j < p; ++j)
         change = std::max(change, std::abs(next[j] - theta[j]) / std::max(1.0, std::abs(next[j])));
