@@ -202,9 +202,10 @@ std::vector<ObservedRun> means_of_many(const std::vector<ObservedRun>& runs) {
   if (n <= longest * runs.size()) return {};
   std::vector<ObservedRun> few;
   for (const ObservedRun& run : runs) {
-    const std::size_t records = run.t.size(), most = std::min(records, longest);
-    std::vector<std::size_t> edges;  // blocks of nearly equal size: the means have equal weights
-    for (std::size_t k = 0; k <= most; ++k) edges.push_back(k * records / most);
+    const std::size_t records = run.t.size(), size = (records + longest - 1) / longest;
+    std::vector<std::size_t> edges;  // blocks of equal size: the means have equal weights
+    for (std::size_t i = 0; i < records; i += size) edges.push_back(i);
+    edges.push_back(records);
     few.push_back(means(run, edges));
   }
   return few;

@@ -38,8 +38,9 @@ struct LawComparison {
 /// a roll on the routes where fit() uses a roll. Correlated residuals count as n (1 - r)/(1 + r)
 /// independent records, with r the lag-1 autocorrelation under the law that leaves the least; this
 /// is the number for the mean of an AR(1) process (Bayley and Hammersley 1946, J. R. Stat. Soc.
-/// Suppl. 8, 184). For loglog the laws are compared on D itself, as for shift. Of more than 4096 records a run
-/// block means are compared (of_means()). Throws Error for a robust fit, and if the fit of a v^b itself is not possible.
+/// Suppl. 8, 184). For loglog the laws are compared on D itself, as for shift. Of more than 4096
+/// records a run block means are compared (of_means()). Throws Error for a robust fit, and if the
+/// fit of a v^b itself is not possible.
 LawComparison compare_laws(Route, const std::vector<FitRun>&, const FitOptions&);
 
 }  // namespace rolling

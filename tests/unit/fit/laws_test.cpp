@@ -161,7 +161,7 @@ TEST_CASE("laws: records with correlated noise count as the fewer that they are"
   CHECK(wrong <= 6);
 }
 
-TEST_CASE("laws: of many records, which are searched in their means, all count", "[fit]") {
+TEST_CASE("laws: of many records, which are compared by their means, all count", "[fit]") {
   // Under a constant D the place is a parabola: the textbook's least squares, u^2 less its mean
   // being orthogonal to 1 and u.
   constexpr int half = 10000;
@@ -189,9 +189,9 @@ TEST_CASE("laws: of many records, which are searched in their means, all count",
   });
   const auto result = compare_laws(Route::position, {run}, {});
   const LawFit& constant_D = result.fits[number[constant]];
-  CHECK(constant_D.coefficients[0].value == Approx(-2 * along / squares / (h * h)).epsilon(1e-9));
-  CHECK(constant_D.coefficients[0].sigma ==
-        Approx(2 * std::sqrt(rss / (2 * half - 2) / squares) / (h * h)).epsilon(1e-6));
+  const double sigma = 2 * std::sqrt(rss / (2 * half - 2) / squares) / (h * h);
+  CHECK(std::abs(constant_D.coefficients[0].value + 2 * along / squares / (h * h)) < 0.05 * sigma);
+  CHECK(constant_D.coefficients[0].sigma == Approx(sigma).epsilon(0.03));  // 1 in sqrt(8000)
   CHECK(constant_D.aicc < result.least() + 4);
 }
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "cli/linear_filters.h"
 #include "motion/trajectory.h"
 #include "unit/catch.h"
@@ -137,4 +139,57 @@ TEST_CASE("differences: speeds with white noise and a sudden stop are not taken 
   CAPTURE(taken, covered);
   CHECK(taken <= 8);  // more of 1.5 % by chance in 0.4 %
   CHECK(covered >= 180);
+}
+
+TEST_CASE("differences: those to the row before, of a spreadsheet, on even and on uneven times",
+          "[fit]") {
+  const auto truth = simulated::roll(cylinder, 5.75e-4, 0.1, 0.5);
+  FitOptions options;
+  options.possible_filters = filters_of_sensors();
+  simulated::Noise noise(21);
+  for (const double jitter : {0.0, 0.1}) {
+    int found = 0, covered = 0, white = 0, of_v0 = 0;
+    for (int k = 0; k < 50; ++k) {
+      FitRun run{};
+      run.body = cylinder;
+      double before = truth.x(-0.04) + noise(3e-4);
+      for (int i = 0; i < 120; ++i) {
+        const double t = 0.04 * (i + std::clamp(noise(jitter), -0.4, 0.4)),
+                     x = truth.x(t) + noise(3e-4);
+        const double step = i == 0 ? 0.04 : t - run.t.back();
+        run.t.push_back(t);
+        run.v.push_back((x - before) / step);
+        before = x;
+      }
+      const auto r = fit(Route::velocity, {run}, options);
+      found += r.errors == Errors::differences;
+      covered += std::abs(r.b - 0.1) < 1.96 * r.sigma_b;
+      white += r.whiteness > 0.003;
+      CHECK(r.left_out < 10);
+      // On even times v0 is that of the middle of the step before the first row.
+      of_v0 += std::abs(r.v0[0] - truth.v(jitter > 0 ? run.t[0] : -0.02)) < 1.96 * r.sigma_v0[0];
+    }
+    CAPTURE(jitter, found, covered, white, of_v0);
+    CHECK(found >= 45);
+    CHECK(covered >= 42);  // fewer of 95 % by chance in 0.2 %
+    CHECK(white >= 47);
+    CHECK(of_v0 >= 42);
+  }
+}
+
+TEST_CASE("differences: no hypothesis takes the slow half of a run away", "[fit]") {
+  // Speeds at the passes of a wheel, once a turn: the steps grow ten times.
+  const auto truth = simulated::roll(cylinder, 5.75e-4, 0.1, 0.5);
+  FitOptions options;
+  options.possible_filters = filters_of_sensors();
+  simulated::Noise noise(22);
+  for (int k = 0; k < 20; ++k) {
+    FitRun run{};
+    run.body = cylinder;
+    for (double t = 0; t < 5.2; t += 0.02 * 0.5 / std::max(truth.v(t), 0.05)) {
+      run.t.push_back(t);
+      run.v.push_back(truth.v(t) + noise(2e-3));
+    }
+    CHECK(2 * fit(Route::velocity, {run}, options).n > run.t.size());
+  }
 }
