@@ -190,7 +190,8 @@ TEST_CASE("laws: of many records, which are compared by their means, all count",
   const auto result = compare_laws(Route::position, {run}, {});
   const LawFit& constant_D = result.fits[number[constant]];
   const double sigma = 2 * std::sqrt(rss / (2 * half - 2) / squares) / (h * h);
-  CHECK(std::abs(constant_D.coefficients[0].value + 2 * along / squares / (h * h)) < 0.05 * sigma);
+  // One record stands alone in the last block and counts as five.
+  CHECK(std::abs(constant_D.coefficients[0].value + 2 * along / squares / (h * h)) < 0.1 * sigma);
   CHECK(constant_D.coefficients[0].sigma == Approx(sigma).epsilon(0.03));  // 1 in sqrt(8000)
   CHECK(constant_D.aicc < result.least() + 4);
 }
