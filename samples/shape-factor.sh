@@ -7,8 +7,8 @@
 #   samples/shape-factor.sh make FOLDER SEED  makes such records, with a known answer
 #   samples/shape-factor.sh                   makes records of cylinder and shell, and uses their K
 #
-# A record has the columns time in seconds and angle in radians, separated by a comma, below a line
-# with their names; FALL begins after the weight is released and ends before it lands.
+# A record has the columns Time and Angle, as Time (s) and Angle (rad) or Angle (deg), in any form that
+# rolling-columns(5) describes; FALL begins after the weight is released and ends before it lands.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
@@ -23,26 +23,54 @@ measured='m = 1.375;  u_m = 0.001    # mass of the body [kg]
           w = 0.0500; u_w = 0.00005  # mass of the weight [kg]
           g = 9.81'
 
-# The angular acceleration in a record from rest or to rest: `a sigma_a`, in rad/s^2 / 1000.
-# A constant deceleration is the motion of Eq. 12 with b = 0: v' = -g a / ((K + 1) R), so that
-# fitpower finds it, with its error; K = 0, R = 1 m and g = 1000 m/s^2 make it 1000 a. The angle
-# stands for a position: the arc of a circle of 1 m. A film of the fall run backwards slows down.
-acceleration() {  # FILE forwards|backwards
-  awk -F, -v way="$2" '
-    FNR > 1 && NF >= 2 { t[++n] = $1; angle[n] = $2 }
+# The record as smooth reads it, in seconds and radians. The angle stands for a position: the arc of a
+# circle of 1 m. A film of the fall run backwards slows down.
+arc() {  # FILE forwards|backwards
+  smooth -c Angle -w 1 -- "$1" | awk -F '\t' -v way="$2" '
+    function refuse(why) { print "shape-factor.sh: " why >"/dev/stderr"; wrong = 2; exit wrong }
+    # The column of this name, and its unit.
+    function place(name,   i) {
+      for (i = 1; i <= fields; i++) if (head[i] ~ "^" name "(\\[|$)") break
+      unit = substr(head[i], length(name) + 2)
+      sub(/\]$/, "", unit)
+      return i
+    }
+    /^##/ { next }
+    /^#/ { fields = split(substr($0, 3), head); next }
+    /^$/ { refuse("two runs in a record: smooth --run N picks one") }
+    !n {
+      time = place("t"); column = place("Angle")
+      if (unit == "deg" || unit == "°") size = atan2(0, -1) / 180
+      else if (unit == "rad") size = 1
+      else refuse(unit == "" ? "Angle has no unit" : "Angle is in \047" unit "\047, not in rad or deg")
+    }
+    { t[++n] = $time; angle[n] = size * $column }
     END {
+      if (wrong) exit wrong
       print "# t[s]\tx[m]"
       for (i = 1; i <= n; i++)
         if (way == "forwards") printf "%.17g\t%.17g\n", t[i], angle[i]
         else printf "%.17g\t%.17g\n", t[n] - t[n + 1 - i], angle[n] - angle[n + 1 - i]
-    }' "$1" | fitpower -q --route position --fix b=0 -K 0 -R 1 -g 1000 | grep -v '^#' | cut -f 1,2
+    }'
+}
+
+# The angular acceleration in a record from rest or to rest: `a sigma_a`, in rad/s^2 / 1000.
+# A constant deceleration is the motion of Eq. 12 with b = 0: v' = -g a / ((K + 1) R), so that
+# fitpower finds it, with its error; K = 0, R = 1 m and g = 1000 m/s^2 make it 1000 a.
+acceleration() {  # FILE forwards|backwards
+  local arc row
+  arc=$(arc "$1" "$2") && row=$(fitpower --route position --fix b=0 -K 0 -R 1 -g 1000 <<<"$arc") ||
+    { echo "shape-factor.sh: no acceleration from ${1##*/}" >&2; return 2; }
+  tail -n 1 <<<"$row" | cut -f 1,2
 }
 
 # The weight pulls with w (g - r alpha) at the radius r, against the friction J beta of the bearing:
 #   J = w (g - r alpha) r / (alpha + beta)
 # The uncertainties add in squares, each by the change of K that it makes.
 shape_factor() {  # FALL SPIN
-  { acceleration "$1" backwards; acceleration "$2" forwards; } | awk '
+  local alpha beta
+  alpha=$(acceleration "$1" backwards) && beta=$(acceleration "$2" forwards) || return
+  printf '%s\n' "$alpha" "$beta" | awk '
     function K(m, R, r, w, alpha, beta) { return w * (g - r * alpha) * r / (alpha + beta) / (m * R^2) }
     function add(change) { sum += change^2 }
     NR == 1 { alpha = 1000 * $1; u_alpha = 1000 * $2 }
@@ -50,6 +78,11 @@ shape_factor() {  # FALL SPIN
     END {
       '"$measured"'
       k = K(m, R, r, w, alpha, beta)
+      if (!(k > 0)) {
+        print "shape-factor.sh: K would be " k ": the units, or what was measured, are not right" \
+          >"/dev/stderr"
+        exit 2
+      }
       add(K(m + u_m, R, r, w, alpha, beta) - k)
       add(K(m, R + u_R, r, w, alpha, beta) - k)
       add(K(m, R, r + u_r, w, alpha, beta) - k)

@@ -1,6 +1,7 @@
 #!/bin/bash
 # The shape factor comes back from made records with the error that is told, over 25 seeds of two
-# bodies; a caliper that is read wrong is noticed; and what is printed serves as -K.
+# bodies; a caliper that is read wrong is noticed; and what is printed serves as -K. A record is read
+# as the tools read it.
 set -u
 export LC_ALL=C
 unset CDPATH
@@ -34,3 +35,61 @@ cmp -s samples/shape-factor.sh "$scratch/wrong.sh" && { echo "nothing was change
 chmod +x "$scratch/wrong.sh"
 pulls "$scratch/wrong.sh" | awk '{ squares += $1^2 } END { exit !(squares > 200) }' ||
   { echo "a radius that is wrong is not noticed"; exit 1; }
+
+# Milliseconds and degrees are converted, in any place, with decimal commas too: the same K.
+samples/shape-factor.sh make "$scratch" 1
+fall=$scratch/cylinder-fall.csv spin=$scratch/cylinder-spin.csv
+K=$(samples/shape-factor.sh "$fall" "$spin")
+wrong=0
+complain() { echo "$*" && wrong=1; }
+same() {  # TITLE AWK: both records, changed by awk, tell the same K
+  awk -F, -v OFS=, "$2" "$fall" >"$scratch/a.csv"
+  awk -F, -v OFS=, "$2" "$spin" >"$scratch/b.csv"
+  local said
+  said=$(samples/shape-factor.sh "$scratch/a.csv" "$scratch/b.csv" 2>&1)
+  [ "$said" = "$K" ] || complain "$1: $said, not $K"
+}
+same 'ms and degrees' 'NR == 1 { print "Time (ms),Angle (deg)"; next }
+  { print 1000 * $1, sprintf("%.12g", $2 * 57.29577951308232) }'
+same 'degrees of a sign' 'NR == 1 { print "Time (s),Angle (°)"; next }
+  { print $1, sprintf("%.12g", $2 * 57.29577951308232) }'
+same 'another column' 'NR == 1 { print "Angle (rad),Torque,Time (s)"; next } { print $2, 7, $1 }'
+same 'decimal commas' '{ t = $1; angle = $2; gsub(/[.]/, ",", t); gsub(/[.]/, ",", angle); print t ";" angle }'
+same 'comments' 'NR == 1 { print "# Sensor\t7\n## any [deg]\n# t\tAngle of mount [deg]\tAngle [rad]"; next }
+  { print $1 "\t" 3 "\t" $2 }'
+same 'BOM and CR' 'NR == 1 { printf "\357\273\277" } { print $0 "\r" }'
+
+# Blank readings are left out, and told.
+awk -F, -v OFS=, 'NR % 7 == 3 { $2 = "" } { print $1, $2 }' "$fall" >"$scratch/blank.csv"
+said=$(samples/shape-factor.sh "$scratch/blank.csv" "$spin" 2>"$scratch/err")
+awk -v K="$K" -v is="$said" 'BEGIN { split(K, k, /\+-/); n = split(is, i, /\+-/)
+    exit !(n == 2 && (k[1] - i[1])^2 < k[2]^2 / 4) }' ||
+  complain "with blank readings K is $said, not $K"
+grep -q '22 records left out: a reading is missing' "$scratch/err" ||
+  complain "blank readings: $(cat "$scratch/err")"
+
+# What cannot be read, or does not tell an acceleration, ends the script, and prints no K.
+refused() {  # WHY FALL SPIN
+  local said status
+  said=$(samples/shape-factor.sh "$2" "$3" 2>"$scratch/err")
+  status=$?
+  [ $status -gt 0 ] && [ -z "$said" ] && grep -q -- "$1" "$scratch/err" ||
+    complain "$1: status $status, $said, $(cat "$scratch/err")"
+}
+sed 's/(rad)/(rev)/' "$fall" >"$scratch/a.csv"
+refused "Angle is in 'rev', not in rad or deg" "$scratch/a.csv" "$spin"
+sed 's/ (rad)//' "$spin" >"$scratch/a.csv"
+refused "Angle has no unit" "$fall" "$scratch/a.csv"
+sed 1d "$fall" >"$scratch/a.csv"
+refused "there is no column 'Angle'" "$scratch/a.csv" "$spin"
+sed '9s/.*/0.28,abc/' "$spin" >"$scratch/a.csv"
+refused "a.csv:9: field 2 (Angle): 'abc' is not a number" "$fall" "$scratch/a.csv"
+refused 'nofile' "$scratch/nofile" "$spin"
+head -n 3 "$spin" >"$scratch/a.csv"
+refused 'fitpower: ' "$fall" "$scratch/a.csv"
+{ cat "$fall"; echo; sed 1d "$fall"; } >"$scratch/a.csv"
+refused 'two runs' "$scratch/a.csv" "$spin"
+refused 'fitpower: ' "$spin" "$fall"
+sed 's/(s)/(ms)/' "$fall" >"$scratch/a.csv"
+refused 'K would be -' "$scratch/a.csv" "$spin"
+exit $wrong
