@@ -8,8 +8,8 @@ unset CDPATH
 prefix=$1
 shift
 [ -n "$prefix" ] || exec cat
-tools=$(echo "$*" | tr ' ' '|')
-upper() { echo "$*" | tr '[:lower:]' '[:upper:]'; }
+tools=$(echo "$*" | sed 's/ /|/g; s/-/\\\\?-/g')  # a hyphen may be escaped
+upper() { printf '%s\n' "$*" | tr '[:lower:]' '[:upper:]'; }
 sed -E "
 s/^\\.Dt ($(upper "$tools")) /.Dt $(upper "$prefix")\\1 /
 s/^\\.(Nm|Ql) ($tools)( |\$)/.\\1 $prefix\\2\\3/
