@@ -15,7 +15,7 @@ cd "$(dirname "$0")/.."
     function cells(run, i) { return (run, i) in line ? line[run, i] : ",," }
     END {
       names = "\"Time (s) Run #%d\",\"Position (m) Run #%d\",\"Velocity (m/s) Run #%d\"%s"
-      for (run = 1; run <= 2; run++) printf names, run, run, run, run < 2 ? "," : "\n"
+      for (run = 1; run <= 2; run++) printf names, run, run, run, (run < 2 ? "," : "\n")
       for (i = 2; i <= rows; i++) print cells(1, i) "," cells(2, i)
     }' CR.csv SR.csv
 } >"$to/capstone.csv"
