@@ -269,7 +269,7 @@ int main(int argc, char** argv) {
     const Comments comments{with_report, with_check, each};
     for (std::size_t i = 0; i < fits.size(); ++i)
       if (results[i]) comments.tell(tool, route, *results[i], fits[i], options);
-    tool.count_left_out(left_out, "see \"Which records are used\" in the manual page");
+    tool.count_left_out(left_out, why_left_out(route, options));
     return std::all_of(results.begin(), results.end(), fitted) ? 0 : 2;
   });
 }

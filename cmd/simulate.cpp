@@ -122,7 +122,7 @@ struct Task {
 void check_options(const Tool& tool, const Task& task) {
   if (tool.on_command_line("sensor"))
     tool.refuse({"dt", "at", "columns", "x0"},
-                "does not go with --sensor, whose records come at --rate, with its own columns, "
+                "does not go with --sensor, whose rows come at --rate, with its own columns, "
                 "from 0.3 m on");
   else tool.refuse({"seed", "rate", "resolution", "noise", "lost"}, "goes with --sensor");
   if (tool.on_command_line("at"))
@@ -165,7 +165,7 @@ void add_options(Tool& tool, Task& task) {
 }
 
 void add_options(Tool& tool, SonarOptions& sonar) {
-  tool.number("--rate", sonar.rate, positive, "records of the sensor a second (25)");
+  tool.number("--rate", sonar.rate, positive, "rows of the sensor a second (25)");
   tool.number("--resolution", sonar.resolution, not_negative,
               "resolution of the sensor [m] (0.001)");
   tool.number("--noise", sonar.noise, not_negative,

@@ -193,6 +193,18 @@ void warn_of_repeats(Tool& tool, Route route, const FitResult& r, const std::vec
 
 }  // namespace
 
+std::string why_left_out(Route route, const FitOptions& options) {
+  const std::map<Route, std::string> reasons{
+      {Route::loglog, "v or D is not above 0, or the body has stopped"},
+      {Route::shift, "v is not above 0"},
+      {Route::velocity,
+       "they lie beside an end or a lost reading, where a sensor's speeds are not to be trusted"},
+      {Route::position, ""}};
+  const std::string& reason = reasons.at(route);
+  if (options.min_speed <= 0) return reason;
+  return (reason.empty() ? "" : reason + ", or ") + "slower than --min-speed";
+}
+
 void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
              bool check_comes) {
   for (std::size_t i = 0; i < r.v0.size(); ++i) {

@@ -21,6 +21,9 @@ std::map<std::string, std::optional<Route>> fit_routes();
 /// that have uncertainties.
 std::string disagreement(const Agreement&, const std::vector<FitRun>&, const std::string& given);
 
+/// Why a route leaves rows out.
+std::string why_left_out(Route, const FitOptions&);
+
 /// Warns the user: of errors that are not those of white noise, of runs that disagree (unless
 /// check() follows, which reports it), of the bias of logarithms, of an eccentric body, of a shift
 /// beyond the radius, of an a whose error is not that of a normal distribution.

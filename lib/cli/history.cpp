@@ -121,7 +121,7 @@ class Chain {
     constexpr std::size_t most = 50'000'000;
     if (reach_ * t_.size() <= most && history_.filters.size() <= 100) return true;
     return distrust(fmt::format(
-        "the filters in its `##` lines are too wide or too many for {} records", t_.size()));
+        "the filters in its `##` lines are too wide or too many for {} rows", t_.size()));
   }
 
   std::span<const double> t_;
@@ -199,7 +199,7 @@ History known_windows(History history, FitRun& run, const std::string& column) {
   if (history.left_out > 0 && run.t.size() < history.left_out + 10)
     return {.shift_of = history.shift_of,
             .doubt =
-                "it was cut after the filters that its `##` lines name, and fewer than 10 records "
+                "it was cut after the filters that its `##` lines name, and fewer than 10 rows "
                 "are far enough from the cut"};
   const std::pair<const char*, std::vector<double>*> columns[] = {
       {"x", &run.x}, {"v", &run.v}, {"D", &run.D}};

@@ -49,7 +49,7 @@ void Tool::output() {
                                                      return x >= 1 && x <= 17 && x == std::floor(x);
                                                    }}));
   });
-  flag("-u,--unbuffered", out.unbuffered, "write each record at once");
+  flag("-u,--unbuffered", out.unbuffered, "write each row at once");
 }
 
 bool Tool::used(const std::string& quantity) const {
@@ -95,7 +95,7 @@ void Tool::say(const std::string& text) {
 
 void Tool::count_left_out(std::size_t count, const std::string& why) {
   if (count > 0 && !quiet_)
-    say(fmt::format("{} record{} left out: {}", count, count == 1 ? "" : "s", why));
+    say(fmt::format("{} row{} left out: {}", count, count == 1 ? "" : "s", why));
 }
 
 void Tool::check_failed(const std::string& text) {
@@ -117,7 +117,7 @@ int Tool::finish(int status) {
     distant_time |= reader->distant_time();
   }
   if (coarse_time && !quiet_)
-    say("the times are so large that the time between records keeps fewer than four digits; "
+    say("the times are so large that the time between rows keeps fewer than four digits; "
         "subtract the first");
   if (distant_time && !quiet_)
     say("the times are beyond 1e11 s, some 3000 years: if they are in ms or us, write that in "

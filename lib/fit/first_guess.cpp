@@ -153,9 +153,7 @@ std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions
     if (std::isfinite(nearest.rss)) best.push_back(std::move(nearest));
   }
   if (best.empty())
-    fail(
-        "no law a v^b comes near the data: are all of these records of the free roll (smooth "
-        "--coast)?");
+    fail("no law a v^b comes near the data: {}", choose_the_roll);
   std::ranges::sort(best, {}, &Candidate::rss);
   return best;
 }

@@ -163,13 +163,10 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
     // round before, the minimum lies at infinity.
     const bool lost = freedom > 0 && gain * freedom < 1 && best.size > std::max(1.0, size);
     if (lost || gain == 0 || round == 20)
-      fail(
-          "the fit does not converge: are all of these records of the free roll (smooth --coast)?");
+      fail("the fit does not converge: {}", choose_the_roll);
   }
   if (!determined())
-    fail(
-        "the data do not determine the parameters: are all of these records of a free roll that "
-        "slows down (smooth --coast)?");
+    fail("the data do not determine the parameters: {}", choose_the_roll);
   // A negligible step is taken without evaluating the residuals again.
   std::vector<double> theta = best.negligible() ? moved(best.theta, best.step) : best.theta;
   Minimum minimum = minimum_at(std::move(best));

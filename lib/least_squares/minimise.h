@@ -6,6 +6,11 @@
 
 namespace rolling {
 
+/// The way out of data that no law fits.
+inline constexpr const char* choose_the_roll =
+    "are all of these rows of one free roll that slows down? Choose it with smooth --coast, or with "
+    "--from and --to";
+
 struct Minimum {
   std::vector<double> theta, f;
   /// J = Q R for the columns of each run: one upper triangle for each run, row by row. The rows of

@@ -90,7 +90,7 @@ BandMatrix probe(const LinearFilter& filter, std::span<const double> times) {
     for (std::size_t j = k; j < n; j += spacing) comb[j] = 1;
     const auto response = filter.apply(t, comb);
     if (response.size() != n)
-      fail("a filter of {} gives {} values for {} records", filter.from, response.size(), n);
+      fail("a filter of {} gives {} values for {} rows", filter.from, response.size(), n);
     for (std::size_t j = k; j < n; j += spacing) {
       comb[j] = 0;
       const std::size_t end = std::min(n, j + rows.most() + 1);

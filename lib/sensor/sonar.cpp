@@ -50,7 +50,7 @@ void sonar_record(Motion& motion, const SonarOptions& o,
   if (std::isinf(roll)) fail("the body never stops: the sensor needs to know until when to record");
   const double release = o.rest_before + o.push;
   const double records = std::floor((release + roll) * o.rate * (1 + 1e-12)) + 1;
-  if (records > 1e9) fail("the sensor would make {:.3g} records; the most is 1e9", records);
+  if (records > 1e9) fail("the sensor would make {:.3g} rows; the most is 1e9", records);
 
   const auto position = [&](double t) {
     if (t <= o.rest_before) return o.start;

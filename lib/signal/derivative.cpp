@@ -26,7 +26,7 @@ std::span<const double> CentralDerivative::push(double t, double y) {
 
 std::span<const double> CentralDerivative::finish() {
   if (count_ == 0) return {};
-  if (count_ == 1) fail("a run of one record has no derivative");
+  if (count_ == 1) fail("a run of one row has no derivative");
   known_[0] = known_[1] = slope_ + bend_ * step_;  // bend_ is 0 in a run of two
   return {known_.data(), count_ == 2 ? std::size_t{2} : std::size_t{1}};
 }
@@ -34,7 +34,7 @@ std::span<const double> CentralDerivative::finish() {
 // The order of operations is that of Vernier's programs, so that the results agree to the last bit:
 // the weight multiplies the rise before the division.
 double VernierDerivative::value(const Windows& window) {
-  if (window.size() == 1) fail("a run of one record has no derivative");
+  if (window.size() == 1) fail("a run of one row has no derivative");
   const std::size_t i = window.at(), last = window.end() - 1;
   const auto slope = [&](std::size_t k, double weight) {
     const Sample &a = window.sample(std::max(i, window.begin() + k) - k),
@@ -45,7 +45,7 @@ double VernierDerivative::value(const Windows& window) {
 }
 
 double PascoDerivative::value(const Windows& window) {
-  if (window.size() == 1) fail("a run of one record has no derivative");
+  if (window.size() == 1) fail("a run of one row has no derivative");
   const std::size_t i = window.at(), before = i - window.begin(), after = window.end() - 1 - i;
   const auto rise = [&](const Sample& a, const Sample& b) { return Sample{b.t - a.t, b.y - a.y}; };
   if (before > 0 && after > 0) {

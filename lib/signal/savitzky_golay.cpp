@@ -53,7 +53,7 @@ SavitzkyGolay::SavitzkyGolay(Width width, std::size_t order, What what)
 }
 
 double SavitzkyGolay::value(const Windows& window) {
-  if (what_ == What::slope && window.size() == 1) fail("a run of one record has no derivative");
+  if (what_ == What::slope && window.size() == 1) fail("a run of one row has no derivative");
   samples_.clear();
   for (std::size_t i = window.begin(); i < window.end(); ++i) samples_.push_back(window.sample(i));
   const auto [value, slope] = polynomial_(samples_, window.sample(window.at()), order_);

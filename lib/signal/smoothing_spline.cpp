@@ -69,7 +69,7 @@ double SplineDerivative::solve(double alpha) {
 std::span<const double> SplineDerivative::finish() {
   const std::size_t n = run_.size();
   if (n == 0) return {};
-  if (n == 1) fail("a run of one record has no derivative");
+  if (n == 1) fail("a run of one row has no derivative");
   const Units units(run_);
   std::ranges::transform(run_, run_.begin(), units);
   const auto step = [this](std::size_t i) { return run_[i + 1].t - run_[i].t; };

@@ -40,7 +40,7 @@ void refuse_other_separator(std::string_view line, char separator) {
   const auto is_reading = [](const Field& f) { return is_number(f.text) || is_missing(f.text); };
   if (is_reading(fields.front()) && std::ranges::count_if(fields, is_reading) > 1)
     fail(
-        "'{}' is separated by {}, and the records before by {}; if it is a heading, begin it with "
+        "'{}' is separated by {}, and the rows before by {}; if it is a heading, begin it with "
         "#",
         shown(line), name_of(other.separator()), name_of(separator));
 }
@@ -327,7 +327,10 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
   std::ranges::move(last_, std::back_inserter(comments_));
   last_.clear();
   if (!found) {
-    if (!before_) refuse_without_records("no records");
+    const bool empty = lines_.name() == "-" && comments_.empty() && preamble_.empty();
+    if (!before_ && empty)
+      fail<InputError>("standard input is empty: did the tool before this one fail?");
+    if (!before_) refuse_without_records("no rows");
     comment_preamble();
     return finish();
   }

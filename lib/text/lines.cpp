@@ -100,7 +100,7 @@ void refuse_error_line(const Lines& lines) {
   const std::string line = history_line(lines.text());
   const std::string_view text = trim(std::string_view(line).substr(2));
   if (text.ends_with(ended_with_an_error) && text.find(' ') == text.find(':') + 1)
-    fail<InputError>("{}:{}: {} ended with an error: the records are not complete", lines.name(),
+    fail<InputError>("{}:{}: {} ended with an error: the rows are not complete", lines.name(),
                      lines.number(), shown(text.substr(0, text.find(':'))));
 }
 

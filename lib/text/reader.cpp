@@ -83,7 +83,7 @@ bool Reader::find_run() {
   line_number_ = 0;
   if (options_.run && !run_found_) fail("there is no run {} (runs: {})", *options_.run, runs_);
   if (left_out_ > 0 && !record_found_)
-    fail<InputError>("{}no records: a needed reading is missing in every one",
+    fail<InputError>("{}no rows: a needed reading is missing in every one",
                      options_.files.size() == 1 ? lines_->name() + ": " : "");
   return false;
 }
@@ -108,7 +108,7 @@ bool Reader::next_head() {
     for (std::string& comment : head.comments) {
       if (!head_.named && are_names(comment))
         fail<InputError>(
-            "{}: the names of the columns stand behind the last record; put them above the first",
+            "{}: the names of the columns stand behind the last row; put them above the first",
             lines_->name());
       if (!comment.starts_with("##")) comments_.push_back(std::move(comment));
     }
@@ -267,7 +267,7 @@ bool Reader::next_line() {
     if (kind == LineKind::comment) {
       if (state_ == State::in_run && are_names(line_.substr(line_.find('#'))))
         fail<InputError>(
-            "{}:{}: names among the records; where another run begins, put a blank line before it",
+            "{}:{}: names among the rows; where another run begins, put a blank line before it",
             lines_->name(), lines_->number());
       remarks_.emplace_back(line_.substr(line_.find('#')));
       continue;
@@ -357,7 +357,7 @@ void Reader::change_fields() {
     changed_fields_.emplace_back();
     fields_ = changed_fields_;
   } else {
-    fail<InputError>("{}: {} field{} where the first record has {}{}", here(), fields_.size(),
+    fail<InputError>("{}: {} field{} where the first row has {}{}", here(), fields_.size(),
                      fields_.size() == 1 ? "" : "s", width,
                      way_out_of_commas(line_, file_dialect_.separator(),
                                        std::max(fields_.size(), width) - width));
@@ -465,7 +465,7 @@ std::string Reader::way_out(std::size_t column) const {
   if (!word) return "";
   if (head_.named && read_column(field).name == layout().columns[column].name)
     return "; put a blank line before the names of another run";
-  return column == 0 ? "; if this line is not a record, begin it with #" : "";
+  return column == 0 ? "; if this line is not a row, begin it with #" : "";
 }
 
 std::string Reader::here() const { return fmt::format("{}:{}", lines_->name(), line_number_); }

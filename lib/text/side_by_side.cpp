@@ -37,7 +37,7 @@ std::vector<Side> take_apart(Lines& lines, Dialect& dialect, const Layout& layou
     try {
       fields = dialect.split(lines.text());
       if (fields.size() > layout.width)
-        fail("{} fields where the first record has {}", fields.size(), layout.width);
+        fail("{} fields where the first row has {}", fields.size(), layout.width);
     } catch (const Error& error) {
       fail<InputError>("{}:{}: {}", lines.name(), lines.number(), error.what());
     }

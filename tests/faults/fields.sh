@@ -72,15 +72,15 @@ while IFS=$'\t' read -r name says file; do
       complain "$tool: $name: a bad record went out: $(cat "$scratch/out")"
   done
 done <<'END'
-empty	-: no records	
-a line end	-: no records	\n
-only blank lines	-: no records	\n\n \t\n\n
-only names	-: no records	t v a D\n
-only a comment	-: no records	# t v a D
-only a history	-: no records	## smooth v mean width 11\n# t[s]\tv[m/s]\ta\tD\n
-a row cut short	-:4: 2 fields where the first record has 4	# t v a D\n0 .5 -.1 1e-3\n1 .4 -.1 1e-3\n77 .7\n
-a row cut short without its end	-:4: 3 fields where the first record has 4	# t v a D\n0 .5 -.1 1e-3\n1 .4 -.1 1e-3\n77 .7 -7
-a row too long	-:4: 5 fields where the first record has 4	# t v a D\n0 .5 -.1 1e-3\n1 .4 -.1 1e-3\n77 .7 -.7 7 7\n
+empty	standard input is empty: did the tool before this one fail?	
+a line end	standard input is empty: did the tool before this one fail?	\n
+only blank lines	standard input is empty: did the tool before this one fail?	\n\n \t\n\n
+only names	-: no rows	t v a D\n
+only a comment	-: no rows	# t v a D
+only a history	-: no rows	## smooth v mean width 11\n# t[s]\tv[m/s]\ta\tD\n
+a row cut short	-:4: 2 fields where the first row has 4	# t v a D\n0 .5 -.1 1e-3\n1 .4 -.1 1e-3\n77 .7\n
+a row cut short without its end	-:4: 3 fields where the first row has 4	# t v a D\n0 .5 -.1 1e-3\n1 .4 -.1 1e-3\n77 .7 -7
+a row too long	-:4: 5 fields where the first row has 4	# t v a D\n0 .5 -.1 1e-3\n1 .4 -.1 1e-3\n77 .7 -.7 7 7\n
 a second header	is not a number	t v a D\n0 .5 -.1 1e-3\n1 .4 -.1 1e-3\nt v a D\n77 .7 -.7 7\n
 fewer names than fields	-:2: 4 fields under a line of 3 names	t,v,a\n7,.5,-.1,1e-3\n1,.4,-.1,1e-3\n
 lines that end in CR	-:1: a carriage return	0 .5 -.1 1e-3 1\r1 .4 -.1 1e-3 1\r77 .7 -.7 7 1\r
@@ -109,7 +109,7 @@ large 'a token of 16 MiB' '-:1: a line of more than 1048576 bytes'
 { good 3; head -c 16777216 /dev/zero | tr '\0' 7; } >"$scratch/in"
 large 'a token of 16 MiB in the fifth line' '-:5: a line of more than 1048576 bytes'
 head -c 400000 /dev/urandom | LC_ALL=C tr -d '0-9#"\n\r\0' >"$scratch/in"
-large 'random bytes' '-: no records'
+large 'random bytes' '-: no rows'
 # Half a million columns are a line of columns.
 awk 'BEGIN { for (i = 0; i < 2; i++) { printf "%d 1e-3 1e-3 1e-3", i; for (k = 4; k < 500000; k++) printf " 1"; print "" } }' >"$scratch/in"
 for tool in $tools; do

@@ -90,7 +90,7 @@ smooth --use v=t @|cannot serve as both
 smooth --use v=D --use v=a @|comes after another for v
 smooth --use v= @|is not NAME=COLUMN
 smooth --use =v @|is not NAME=COLUMN
-smooth --from 5 --to 1 @|no records
+smooth --from 5 --to 1 @|no rows
 smooth --run 0 @|'0' must be a whole number
 smooth --run 1.5 @|'1.5' must be a whole number
 smooth --run 2 @|there is no run 2

@@ -92,7 +92,7 @@ flywheel | smooth -w 1 -c rpm |
   awk '!/^#/ { w = $2 * atan2(0, -1) / 30; e = 0.5 * 0.8489 * w * w;
       if ((e - $3)^2 > (1e-3 * $3 + 0.05)^2) bad++ }
   END { exit bad > 0 }' || { echo "flywheel: energy beside rpm"; failed=1; }
-refuse "9 fields where the first record has 3" smooth "$data/flywheel-spindown/spindown_poweredOff_badSprocket.txt"
+refuse "9 fields where the first row has 3" smooth "$data/flywheel-spindown/spindown_poweredOff_badSprocket.txt"
 expect 9904 smooth -c 'RR_Wheel Speed' "$data/small-car-coastdown/RR-Coastdown-1.txt"
 # Figures that its owners or its README give: the top of the spin-up, the top speed, the spacing of
 # the phone's records.

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "unit/fit/simulated.h"
 #include "unit/catch.h"
+#include "least_squares/minimise.h"
 
 using namespace rolling;
 
@@ -112,11 +113,9 @@ TEST_CASE(
     return std::string("not at all");
   };
   CHECK(refused([](int) { return 1.0; }) ==
-        "the data do not determine the parameters: are all of these records of a free roll that "
-        "slows down (smooth --coast)?");
+        fmt::format("the data do not determine the parameters: {}", choose_the_roll));
   CHECK(refused([](int i) { return i < 2 ? 1.0 : 0.0; }) ==
-        "the data do not determine the parameters: are all of these records of a free roll that "
-        "slows down (smooth --coast)?");
+        fmt::format("the data do not determine the parameters: {}", choose_the_roll));
 }
 
 // The one law that is left comes to its stop while the body still rolls the other way.
@@ -128,8 +127,7 @@ TEST_CASE("first guess: speeds that the one law held has against them are refuse
   held.a = 0.03;
   held.b = 0;
   CHECK_THROWS_WITH(fit(Route::velocity, {run}, held),
-                    "no law a v^b comes near the data: are all of these records of the free roll "
-                    "(smooth --coast)?");
+                    fmt::format("no law a v^b comes near the data: {}", choose_the_roll));
   run.v[0] = 2;  // the body stops at once, as that law has it
   CHECK(fit(Route::velocity, {run}, held).v0[0] > 0);
 }

@@ -197,7 +197,7 @@ TEST_CASE("filter: no record left is an error of its own", "[text]") {
         for (std::size_t i = 0; filter.next(); ++i) filter.drop(i);
     });
   });
-  CHECK(message == "no records are left");
+  CHECK(message == "no rows are left");
 }
 
 TEST_CASE("filter: no record with all its readings is an error", "[text]") {
@@ -214,7 +214,7 @@ TEST_CASE("filter: no record with all its readings is an error", "[text]") {
         while (filter.next()) filter.put(1);
     });
   });
-  CHECK(message == file.name() + ": no records: a needed reading is missing in every one");
+  CHECK(message == file.name() + ": no rows: a needed reading is missing in every one");
 }
 
 TEST_CASE("filter: ten thousand rows that wait for a late filter", "[text]") {

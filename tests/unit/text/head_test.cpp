@@ -130,8 +130,8 @@ TEST_CASE("head: text behind the last run becomes comments of one line each", "[
 }
 
 TEST_CASE("head: no columns are refused, with the line", "[text]") {
-  CHECK(head("") == " no records");
-  CHECK(head("# t v\n") == " no records");
+  CHECK(head("") == " no rows");
+  CHECK(head("# t v\n") == " no rows");
   CHECK(head("t,v\n0,1,2\n") ==
         "2: 3 fields under a line of 2 names; if some of its commas are decimal ones, make them "
         "points first");
@@ -153,11 +153,11 @@ TEST_CASE("head: no columns are refused, with the line", "[text]") {
 TEST_CASE("head: where no line is a record, the last one with a digit is said to be none",
           "[text]") {
   CHECK(head("0 1,\n1 2,\n2 3,\n") ==
-        "3: no records: '2 3,' is separated by ',', and no field of it is a number");
+        "3: no rows: '2 3,' is separated by ',', and no field of it is a number");
   CHECK(head("Time (ms)|Velocity (cm/s)\n0|1\n1|2\n") ==
-        "3: no records: '1|2' is separated by blanks, and no field of it is a number");
+        "3: no rows: '1|2' is separated by blanks, and no field of it is a number");
   CHECK(head("t=0 v=1\nt=1 v=2\nend\n") ==
-        "2: no records: 't=1 v=2' is separated by blanks, and no field of it is a number");
+        "2: no rows: 't=1 v=2' is separated by blanks, and no field of it is a number");
   std::string bars;
   for (int i = 0; i < 200; ++i) bars += fmt::format("{}|0\n", i);
   CHECK(

@@ -37,7 +37,7 @@ TEST_CASE("reader: files in order, a run break between them", "[text]") {
         "FILE: its columns are not those of FILE: those have names; give it a line of names");
   CHECK(records({"0 1\n", "0 3 4\n"}) ==
         "FILE: its columns are not those of FILE: 3, not 2; give it a line of names");
-  CHECK(records({"0 1\n", ""}) == "FILE: no records");
+  CHECK(records({"0 1\n", ""}) == "FILE: no rows");
 }
 
 TEST_CASE("reader: a second file that is not there is refused, and where() is still safe",
@@ -63,7 +63,7 @@ TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]
   CHECK(records({"1 1\n1 2\n\n0 4\n"}, run(2), {"v"}) == "4");
   CHECK(records({"t,v (odd)\n0,1\n\nt,v\n0,4\n"}, run(2)).find("its unit 'odd'") < 60);
   CHECK(records({"0 1\n0 1 2\n\n0 4\n"}, run(2)) ==
-        "FILE:2: 3 fields where the first record has 2");
+        "FILE:2: 3 fields where the first row has 2");
   CHECK(records({"0 1\n", "0 2\n", "0 3\n"}, run(2)) == "0 2");
   CHECK(records({"Time (s) Run #7,Velocity (m/s) Run #7\n0,1\n"}, run(7)) == "0 1");
   CHECK(records({"0 1\n\n0 2\n"}, run(3)) == "there is no run 3 (runs: 1, 2)");
@@ -176,7 +176,7 @@ TEST_CASE("reader: names and units hold until others come", "[text]") {
         "FILE:4: column w is in rad/s, and in rpm in the runs before");
   CHECK(records({"# t w\n0 1\n\n# t u\n0 2\n"}, {}, {"t", "2"}) ==
         "FILE:4: column 2 is u, and w in the runs before");
-  CHECK(records({first + "1\t2\t3\n"}) == "FILE:4: 3 fields where the first record has 2");
+  CHECK(records({first + "1\t2\t3\n"}) == "FILE:4: 3 fields where the first row has 2");
 }
 
 TEST_CASE("reader: a run's name", "[text]") {

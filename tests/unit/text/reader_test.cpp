@@ -15,11 +15,11 @@ TEST_CASE("reader: blanks, tabs, commas and semicolons separate", "[text]") {
 }
 
 TEST_CASE("reader: the first record sets the separator, and the others have it", "[text]") {
-  CHECK(records({"0,1\n1;2\n"}) == "FILE:2: 1 field where the first record has 2");
-  CHECK(records({"0\t1\n1 2\n"}) == "FILE:2: 1 field where the first record has 2");
-  CHECK(records({"0 1\n1 2 3\n"}) == "FILE:2: 3 fields where the first record has 2");
+  CHECK(records({"0,1\n1;2\n"}) == "FILE:2: 1 field where the first row has 2");
+  CHECK(records({"0\t1\n1 2\n"}) == "FILE:2: 1 field where the first row has 2");
+  CHECK(records({"0 1\n1 2 3\n"}) == "FILE:2: 3 fields where the first row has 2");
   CHECK(records({"0,1\n1,2,\n"}) ==
-        "FILE:2: 3 fields where the first record has 2; if some of its commas are decimal ones, "
+        "FILE:2: 3 fields where the first row has 2; if some of its commas are decimal ones, "
         "make them points first");
 }
 
@@ -49,19 +49,19 @@ TEST_CASE("reader: names in a first line that is not numeric", "[text]") {
         "FILE:2: 1 field under a line of 2 names; if a name has blanks in it, put it in quotes");
   CHECK(records({"t v\r\n0 5\r\n\x1A"}) == "0 5");
   CHECK(records({"# t\tv\n0\t5\n\n# t v\n0 7\n"}) ==
-        "FILE:5: '0 7' is separated by blanks, and the records before by tabs; if it is a heading, "
+        "FILE:5: '0 7' is separated by blanks, and the rows before by tabs; if it is a heading, "
         "begin it with #");
   CHECK(records({"t v\n0 5\n\nt;v\n0,5;7\n"}) ==
-        "FILE:5: '0,5;7' is separated by ';', and the records before by blanks; if it is a "
+        "FILE:5: '0,5;7' is separated by ';', and the rows before by blanks; if it is a "
         "heading, begin it with #");
   CHECK(records({"t,v\n0,5\n\n0;\n"}) ==
-        "FILE:4: '0;' is separated by ';', and the records before by ','; if it is a heading, "
+        "FILE:4: '0;' is separated by ';', and the rows before by ','; if it is a heading, "
         "begin it with #");
   CHECK(records({"# t\tv\n0\t5\n\n0;7;note\n"}) ==
-        "FILE:4: '0;7;note' is separated by ';', and the records before by tabs; if it is a "
+        "FILE:4: '0;7;note' is separated by ';', and the rows before by tabs; if it is a "
         "heading, begin it with #");
   CHECK(records({"t,v\n0,5\n\nRun 2\n\nThe end of 3 runs\n\n1. try\n"}) == "0 5");
-  const std::string hint = "; if this line is not a record, begin it with #";
+  const std::string hint = "; if this line is not a row, begin it with #";
   // Quotes that are none in this file do not make a record a line of names, or a remark.
   CHECK(records({"# t v\n\"0\" \"5\"\n1 6\n"}, use({"t=1", "v=2"})) ==
         "FILE:2: field 1 (t): '\"0\"' is not a number" + hint);
@@ -314,10 +314,10 @@ TEST_CASE("reader: what is neither number nor missing is refused, and says where
 }
 
 TEST_CASE("reader: an empty file, a header alone, words alone", "[text]") {
-  CHECK(records({""}) == "FILE: no records");
-  CHECK(records({"\n\n"}) == "FILE: no records");
-  CHECK(records({"# t v\n"}) == "FILE: no records");
-  CHECK(records({"t,v\n"}) == "FILE: no records");
+  CHECK(records({""}) == "FILE: no rows");
+  CHECK(records({"\n\n"}) == "FILE: no rows");
+  CHECK(records({"# t v\n"}) == "FILE: no rows");
+  CHECK(records({"t,v\n"}) == "FILE: no rows");
   std::string words;
   for (int i = 0; i < 200; ++i) words += "once upon a time\n";
   CHECK(records({words}) == "FILE: no numbers in the first 100 lines");
@@ -340,7 +340,7 @@ TEST_CASE("reader: the names are the last comment with as many fields as the rec
   CHECK(told("# Speed (km/h) from GPS\n0 36\n") ==
         "t is column 1, taken in s; v is column 2, taken in m/s although line 1 says km/h");
   CHECK(records({"# t[s] v[m/s]\n0 1\n# t[ms] v[km/h]\n1000 36\n"}) ==
-        "FILE:3: names among the records; where another run begins, put a blank line before it");
+        "FILE:3: names among the rows; where another run begins, put a blank line before it");
 }
 
 TEST_CASE("reader: a separator at an end of the commented names begins no name", "[text]") {
@@ -353,7 +353,7 @@ TEST_CASE("reader: a separator at an end of the commented names begins no name",
 TEST_CASE("reader: names behind the records of a file that has none above are refused", "[text]") {
   for (const char* end : {"## p\n# v t\n", "\n# v t\n", "## p\n# v t\n# q\n"})
     CHECK(records({fmt::format("1 0\n2 1\n{}", end), "2 3\n"}) ==
-          "FILE: the names of the columns stand behind the last record; put them above the first");
+          "FILE: the names of the columns stand behind the last row; put them above the first");
   CHECK(records({"# t v\n1 0\n## p\n# v t\n"}) == "1 0");
   CHECK(records({"1 0\n\n# made on Tuesday\n"}) == "1 0");
 }
@@ -366,7 +366,7 @@ TEST_CASE("reader: a tool that ended with an error is refused, wherever it says 
     INFO(text);
     const std::string message = records({text});
     CHECK(message.substr(message.find(": ")) ==
-          ": smooth ended with an error: the records are not complete");
+          ": smooth ended with an error: the rows are not complete");
   }
   CHECK(records({"## no error: ended with an error\n0 1\n"}) == "0 1");
 }

@@ -52,8 +52,8 @@ TEST_CASE("side by side: comments stay with the first run", "[text]") {
 }
 
 TEST_CASE("side by side: what is no record is refused with its line", "[text]") {
-  CHECK(apart("0,1,5,6\n1,2,3,4,5\n", two) == "FILE:2: 5 fields where the first record has 4");
+  CHECK(apart("0,1,5,6\n1,2,3,4,5\n", two) == "FILE:2: 5 fields where the first row has 4");
   CHECK(apart("0,1,5,\"6\n", two) == "FILE:1: a quote that is not closed");
   CHECK(apart("0,1,5,6\n## smooth: ended with an error\n", two) ==
-        "FILE:2: smooth ended with an error: the records are not complete");
+        "FILE:2: smooth ended with an error: the rows are not complete");
 }
