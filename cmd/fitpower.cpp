@@ -1,5 +1,5 @@
 // fitpower - fit the power law D = a v^b to columns; see fitpower(1)
-#ifdef __GLIBC__
+#ifdef __linux__
 #include <malloc.h>
 #endif
 
