@@ -7,15 +7,12 @@ smooth -q --coast -c x -w 1 CR.csv >roll
 fitpower -q --route position -K 0.5 -R 0.04 roll >fit
 read -r a _ b _ < <(grep -v '^#' fit)
 ledger() { energy-ledger -m 1.375 -K 0.5 -R 0.04 -a "$a" -b "$b"; }
-differentiate -c x roll | smooth -w 11 | whole_windows | ledger >measured
-# The trajectory begins with the roll; its ledger begins with the first whole window, as that of the
-# points does.
+differentiate -c x -M savgol -w 21 roll | ledger >measured
 start=$(awk '!/^#/ { print $1; exit }' roll)
-first=$(awk -v start="$start" '!/^#/ { print $1 - start; exit }' measured)
-simulate --law fit -K 0.5 -R 0.04 --columns t,v | smooth -q -w 1 --from "$first" | ledger >fitted
+simulate --law fit -K 0.5 -R 0.04 --columns t,v | ledger >fitted
 title='Energy of the cylinder on rubber against time: translation, rotation, dissipated, and their sum'
 draw 520 480 "start = $start" <<'PLOT'
-set xlabel 'time t / s'; set ylabel 'energy / J'; set yrange [0:0.18]; set xrange [0:2.3]
+set xlabel 'time t / s'; set ylabel 'energy / J'; set yrange [0:0.24]; set xrange [0:2.3]
 set key at graph 0.98, 0.6
 set style line 1 lc rgb purple lw 2 dt 1 pt 7; set style line 2 lc rgb blue lw 2 dt 2 pt 2
 set style line 3 lc rgb vermilion lw 2 dt 4 pt 9; set style line 4 lc rgb black lw 2 dt 1 pt 4
