@@ -8,7 +8,8 @@ namespace rolling {
 
 /// The way out of data that no law fits.
 inline constexpr const char* choose_the_roll =
-    "are all of these rows of one free roll that slows down? Choose it with smooth --coast, or with "
+    "are all of these rows of one free roll that slows down? Choose it with smooth --coast, or "
+    "with "
     "--from and --to";
 
 struct Minimum {
