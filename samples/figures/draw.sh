@@ -2,7 +2,8 @@
 # What the scripts of the figures share; each sources it first. They take
 #
 #   -t svg | pngcairo   the terminal of gnuplot (svg); the picture goes to standard output
-#   -K K[,K...] -R R    shape factor and radius, where a figure draws records of your own
+#   -K K[,K...] -R R[,R...] --slope S -c x|v --use NAME=COLUMN
+#                       as for the tools, where a figure draws records of your own
 #   -h                  print the comment at the top of the script
 #
 # and leave their operands in "$@". The tools are those of this source, or on the PATH. A script
@@ -11,14 +12,26 @@
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
-terminal=svg K=0.5 R=0.04
+terminal=svg K='' R='' slope=0 column='' use=()
 usage() { sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0"; }
-while getopts ht:K:R: option; do
+while getopts ht:K:R:c:-: option; do
+  # --slope S, and --slope=S.
+  if [ "$option" = - ]; then
+    option=--${OPTARG%%=*}
+    case $OPTARG in
+      *=*) OPTARG=${OPTARG#*=} ;;
+      slope | use) OPTARG=${!OPTIND-} OPTIND=$((OPTIND + 1)) ;;
+    esac
+    [ "$OPTARG" ] || option=none
+  fi
   case $option in
     t) terminal=$OPTARG ;;
     K) K=$OPTARG ;;
     R) R=$OPTARG ;;
-    h) usage; exit ;;
+    c) column=$OPTARG ;;
+    --slope) slope=$OPTARG ;;
+    --use) use+=(--use "$OPTARG") ;;
+    h | --help) usage; exit ;;
     *) usage >&2; exit 2 ;;
   esac
 done
@@ -26,6 +39,13 @@ shift $((OPTIND - 1))
 case $terminal in svg | pngcairo) ;; *) echo "$0: -t $terminal: svg or pngcairo" >&2; exit 2 ;; esac
 command -v gnuplot >/dev/null ||
   { echo "$0: gnuplot is not installed; make setup figures installs it" >&2; exit 2; }
+# What rolled in a record of your own is not guessed, nor which of its columns is to be drawn.
+own_body() {
+  [ "$K" ] && [ "$R" ] || { echo "$0: say what rolled: -K 0.5 -R 0.04" >&2; exit 2; }
+  case $column in '' | x | v) ;; *) echo "$0: -c $column: x or v" >&2; exit 2 ;; esac
+}
+# The rows of a record with their column x or v.
+read_record() { smooth -q ${use[@]+"${use[@]}"} -c "$@"; }
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 figures=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

@@ -1,24 +1,26 @@
 #!/usr/bin/env bash
 # Fig. 4: D against v, the power law fitted to it, and the 95 % band of the law.
 #
-#   fig4.sh [-t svg | pngcairo] >fig4.svg                          the four experiments
-#   fig4.sh [-t ...] [-K K[,K...]] [-R R[,R...]] FILE... >mine.svg        records of your own
+#   fig4.sh [-t svg | pngcairo] >fig4.svg         the four experiments
+#   fig4.sh [-t ...] -K K[,K...] -R R[,R...] [--slope S] [-c x|v] [--use NAME=COLUMN]... FILE... >mine.svg
+#                                                 records of your own
 #
-# K (0.5) is the shape factor, R (0.04) the radius in metres; each is one for all files or one for
-# each, and may have an uncertainty, 0.5+-0.005. A file has the columns t and x (Time, Position), or t and v
-# (Time, Velocity). Of each run the free roll is taken; of one towards falling x the signs are turned.
-# Up to four runs of your own have their a and b in the picture, and one by itself the scatter of its
-# points as bars. `make figures/fig4.svg` draws the experiments.
+# K is the shape factor, R the radius in metres; each is one for all files or one for each, and may have
+# an uncertainty, 0.5+-0.005. S is how the mat rises, in metres a metre along growing x (0). A file has
+# the columns t and x (Time, Position), or t and v (Time, Velocity); of one with both -c v takes v. Of
+# each run the free roll is taken; of one towards falling x the signs are turned. Up to four runs of
+# your own have their a and b in the picture, and one by itself the scatter of its points as bars.
+# `make figures/fig4.svg` draws the experiments.
 . "$(dirname "$0")/draw.sh"
 
 # D against v of run $1, the file $3, with the shape factor $2 and the radius $4, and the row of the
 # law.
 shifts() {
-  if smooth -q -c x -w 1 "$3" >/dev/null 2>&1; then
-    smooth -q --coast -c x -w 1 "$3" | differentiate -c x | smooth -q -w 11
+  if [ "$column" = x ] || { [ -z "$column" ] && read_record x -w 1 "$3" >/dev/null 2>&1; }; then
+    read_record x --coast -w 1 "$3" | differentiate -c x | smooth -q -w 11
   else
-    smooth -q --coast -c v -w 11 "$3"
-  fi | differentiate -c v | shift-from-accel -q -K "$2" -R "$4" >"shift$1"
+    read_record v --coast -w 11 "$3"
+  fi | differentiate -c v | shift-from-accel -q -K "$2" -R "$4" --slope "$slope" >"shift$1"
   fitpower -q "shift$1" >"fit$1"
   # The picture has the rows of whole windows alone; fitpower knows the noise of all of them.
   whole_windows <"shift$1" | awk -F'\t' '
@@ -38,9 +40,10 @@ shifts() {
 own=$#
 if [ "$own" = 0 ]; then
   for run in CR SR CF SF; do set -- "$@" "$run.csv"; done
-  K=0.5,0.83,0.5,0.83
+  K=0.5,0.83,0.5,0.83 R=0.04
   printf '%s\n' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt' >names
 fi
+own_body
 IFS=, read -r -a shapes <<<"$K"
 [ ${#shapes[@]} = 1 ] || [ ${#shapes[@]} = $# ] ||
   { echo "$0: -K has ${#shapes[@]} values for $# files" >&2; exit 2; }
@@ -68,7 +71,8 @@ for i in $(seq $runs); do
     -t "$(awk "BEGIN { $frame; print vmax }")" -n 200 "fit$i" >"band$i"
 done
 title='Fig. 4: the shift D against the velocity, with power laws and their 95 % bands'
-given="K = $K, R = $R m" && given=${given//+-/ ± }
+given="K = $K, R = $R m" && [ "$slope" = 0 ] || given+=", slope $slope"
+given=${given//+-/ ± }
 draw 520 480 "count = $runs; own = $own; $frame; given = '$given'" <<'PLOT'
 set xlabel 'velocity v / (m/s)'; set ylabel 'shift D / mm'
 set xrange [0:vmax]; set yrange [0:Dmax]

@@ -2,15 +2,18 @@
 # The residuals of a fit against time and against velocity: the first look at whether a law describes
 # a run.
 #
-#   residuals.sh [-t svg | pngcairo] [-K K] [-R R] [FILE] >residuals.svg
+#   residuals.sh [-t svg | pngcairo] [-K K -R R [--slope S] [-c x|v] [--use NAME=COLUMN]... FILE] \
+#     >residuals.svg
 #
-# FILE is a run with the columns t and x, or t and v (samples/CR.csv without one); K (0.5) and R (0.04)
-# as for fig4.sh. What is fitted are the positions of the free roll, or the velocities where there are
-# no positions. The picture says the law, the rms of the fit beside the scatter that half of the rows
+# FILE is a run with the columns t and x, or t and v (samples/CR.csv without one); the options are those
+# of fig4.sh. What is fitted are the positions of the free roll, or the velocities with -c v or where
+# there are no positions. The picture says the law, the rms of the fit beside the scatter that half of the rows
 # show, how many rows were left out, and where; and it names the times of rows that are more than five
 # times the scatter off. `make figures/residuals.svg`
 . "$(dirname "$0")/draw.sh"
 [ $# -le 1 ] || { usage >&2; exit 2; }
+[ $# = 1 ] || K=0.5 R=0.04
+own_body
 file=${1:-CR.csv}
 name=${file##*/} && name=${name%.*}
 [ $# = 0 ] || case $file in /* | -) ;; *) file=$called_from/$file ;; esac
@@ -18,11 +21,15 @@ name=${file##*/} && name=${name%.*}
 [ -f "$file" ] || { cat -- "$file" >run && file=run; }
 
 a='' b='' v0='' rms=''
-route=position column=x unit=mm
-smooth -q -c x -w 1 "$file" >readings 2>/dev/null ||
-  { route=velocity column=v unit=mm/s && smooth -q -c v -w 1 "$file" >readings; }
-smooth -q --coast -c $column -w 1 "$file" >roll
-fitpower -q --route $route -K "$K" -R "$R" roll >fit
+route=position unit=mm
+if [ "$column" != v ] && read_record x -w 1 "$file" >readings 2>said; then column=x
+else
+  [ "$column" != x ] || { cat said >&2; exit 2; }
+  route=velocity column=v unit=mm/s
+  read_record v -w 1 "$file" >readings
+fi
+read_record $column --coast -w 1 "$file" >roll
+fitpower -q --route $route -K "$K" -R "$R" --slope "$slope" roll >fit
 eval "$(assignments <fit | sed "s/ = /=/g")"
 
 # of_name FILE NAME: that column, a number a line.
@@ -36,8 +43,10 @@ of_name() {
 # the signs are turned. A fit of positions has an x0 of its own: the mean of the distances.
 of_name roll t >moments
 start=$(head -n 1 moments)
+ahead=$slope
+[[ $v0 != -* ]] || case $slope in -*) ahead=${slope#-} ;; *) ahead=-$slope ;; esac
 awk -v start="$start" '{ printf "%.17g\n", $1 - start }' moments |
-  simulate -q -a "$a" -b "$b" --v0 "${v0#-}" -K "$K" -R "$R" --at - >law
+  simulate -q -a "$a" -b "$b" --v0 "${v0#-}" -K "$K" -R "$R" --slope="$ahead" --at - >law
 paste moments <(of_name roll $column) <(of_name law $column) <(of_name law v) |
   awk -v way="$([[ $v0 == -* ]] && echo -1 || echo 1)" -v column=$column '
     { t[NR] = $1; r[NR] = way * $2 - $3; v[NR] = $4; sum += r[NR] }
@@ -45,7 +54,7 @@ paste moments <(of_name roll $column) <(of_name law $column) <(of_name law v) |
       for (i = 1; i <= NR; i++) printf "%s\t%.9g\t%.9g\n", t[i], v[i], 1e3 * (r[i] - x0) }' >residuals
 
 # What the picture says. The scatter is the median of |residual|, over 0.6745 that of a normal one.
-missing=$(($(smooth -q -c t -w 1 "$file" | grep -c '^[^#]') - $(grep -c '^[^#]' readings)))
+missing=$(($(read_record t -w 1 "$file" | grep -c '^[^#]') - $(grep -c '^[^#]' readings)))
 scatter=$(awk '{ print $3 < 0 ? -$3 : $3 }' residuals | sort -g |
   awk '{ r[NR] = $1 } END { print (r[int((NR + 1) / 2)] + r[int(NR / 2) + 1]) / 2 / 0.6745 }')
 awk -v scatter="$scatter" '{ r = $3 < 0 ? -$3 : $3 } r > 5 * scatter' residuals >outliers
@@ -55,6 +64,7 @@ label=${name//[[:cntrl:]]/?} && [ ${#label} -le 24 ] || label=${label:0:11}…${
   awk "BEGIN { $(assignments <fit)"'
     printf "a = %.3f ± %.3f mm,  b = %.3f ± %.3f", 1e3 * a, 1e3 * sigma_a, b, sigma_b }'
   printf '\nK = %s,  R = %s m;  ' "${K//+-/ ± }" "${R//+-/ ± }"
+  [ "$slope" = 0 ] || printf 'slope %s;  ' "${slope//+-/ ± }"
 } >heading
 awk -v unit=$unit -v rms="$rms" -v scatter="$scatter" -v rows="$(wc -l <residuals)" \
   -v readings="$(grep -c '^[^#]' readings)" -v missing="$missing" -v outliers="$(wc -l <outliers)" '

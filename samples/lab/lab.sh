@@ -56,7 +56,7 @@ else
   cat results/table.txt
 fi
 if command -v gnuplot >/dev/null; then
-  ../figures/fig4.sh -K "$K" -R "$R" "$@" >results/fig4.svg
+  ../figures/fig4.sh -c "$column" -K "$K" -R "$R" --slope "$slope" ${use:+--use "$use"} -- "$@" >results/fig4.svg
 fi
 [ "$goal" = check ] || exit 0
 

@@ -201,12 +201,12 @@ mkdir "$scratch/mirrored"
 awk -F, -v OFS=, 'NR > 1 && $2 != "" { $2 = -$2 } { print $1, $2 }' samples/CR.csv \
   >"$scratch/mirrored/CR.csv"
 cut -d , -f 1,2 samples/CR.csv >"$scratch/CR.csv"
-samples/figures/fig4.sh "$scratch/CR.csv" >"$scratch/towards-growing-x.svg"
-samples/figures/fig4.sh "$scratch/mirrored/CR.csv" |
+samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/CR.csv" >"$scratch/towards-growing-x.svg"
+samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/mirrored/CR.csv" |
   cmp - "$scratch/towards-growing-x.svg" || complain "fig4 of a roll towards falling x"
 mkdir "$scratch/swapped"
 awk -F, -v OFS=, '{ print $2, $1 }' "$scratch/CR.csv" >"$scratch/swapped/CR.csv"
-samples/figures/fig4.sh "$scratch/swapped/CR.csv" |
+samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/swapped/CR.csv" |
   cmp - "$scratch/towards-growing-x.svg" || complain "fig4 of a record with x before t"
 smooth -q --coast -c v -w 11 "$scratch/my_'run'; set label.1.csv" | differentiate -c v |
   shift-from-accel -q -K 0.5 -R 0.04 | fitpower -q | tail -n 1 >"$scratch/law"
@@ -219,6 +219,39 @@ smooth -q --coast -c x -w 1 "$scratch/CR.csv" | differentiate -c x | smooth | di
     printf "CR:  a = %.3f ± %.3f mm,  b = %.3f ± %.3f\n", 1e3 * $1, 1e3 * $2, $3, $4 }' >"$scratch/said"
 grep -qF "$(cat "$scratch/said")" "$scratch/given.svg" || complain "fig4 does not say: $(cat "$scratch/said")"
 grep -qF 'K = 0.50 ± 0.05, R = 0.04 m' "$scratch/given.svg" || complain 'fig4 does not say K and R'
+# A slope, the column that is drawn, and columns by their place are those of the tools.
+simulate --scene samples/CR.toml --slope 0.002 --sensor pasco --seed 3 | cut -d , -f 1,2 >"$scratch/CR.csv"
+samples/figures/fig4.sh -K 0.5 -R 0.04 --slope 0.002 "$scratch/CR.csv" >"$scratch/sloped.svg" ||
+  complain "fig4 --slope: exit $?"
+smooth -q --coast -c x -w 1 "$scratch/CR.csv" | differentiate -c x | smooth | differentiate |
+  shift-from-accel -q -K 0.5 -R 0.04 --slope 0.002 | fitpower -q | awk -F'\t' '!/^#/ {
+    printf "CR:  a = %.3f ± %.3f mm,  b = %.3f ± %.3f\n", 1e3 * $1, 1e3 * $2, $3, $4 }' >"$scratch/said"
+grep -qF "$(cat "$scratch/said")" "$scratch/sloped.svg" || complain "fig4 --slope does not say: $(cat "$scratch/said")"
+grep -qF 'slope 0.002;' "$scratch/sloped.svg" || complain 'fig4 does not say the slope'
+mkdir "$scratch/unnamed" "$scratch/speeds"
+sed '1s/.*/Uhr,Ort/' "$scratch/CR.csv" >"$scratch/unnamed/CR.csv"
+samples/figures/fig4.sh -K 0.5 -R 0.04 --slope=0.002 --use t=1 --use=x=Ort "$scratch/unnamed/CR.csv" 2>/dev/null |
+  cmp - "$scratch/sloped.svg" || complain 'fig4 --use'
+cut -d , -f 1,3 samples/CR.csv >"$scratch/speeds/CR.csv"
+samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/speeds/CR.csv" >"$scratch/speeds.svg"
+cp samples/CR.csv "$scratch/speeds"
+samples/figures/fig4.sh -c v -K 0.5 -R 0.04 "$scratch/speeds/CR.csv" | cmp - "$scratch/speeds.svg" || complain 'fig4 -c v'
+# Of a roll up a mat, and of its mirror image down, the residuals are those of one fit.
+for sign in '' -; do
+  awk -F, -v OFS=, -v sign="${sign}1" 'NR > 1 && $2 != "" { $2 *= sign } { print }' "$scratch/CR.csv" >"$scratch/speeds/CR.csv"
+  samples/figures/residuals.sh -K 0.5 -R 0.04 --slope "${sign}0.002" "$scratch/speeds/CR.csv" >"$scratch/up$sign.svg" ||
+    complain "residuals --slope ${sign}0.002"
+  sed 's/slope -/slope /' "$scratch/up$sign.svg" | cmp - "$scratch/up.svg" || complain 'residuals: up and down differ'
+done
+smooth -q --coast -c x -w 1 "$scratch/CR.csv" |
+  fitpower -q --route position -K 0.5 -R 0.04 --slope 0.002 | awk '!/^#/ {
+    printf "CR:  a = %.3f ± %.3f mm,  b = %.3f ± %.3f\n", 1e3 * $1, 1e3 * $2, $3, $4 }' >"$scratch/said"
+grep -qF "$(cat "$scratch/said")" "$scratch/up.svg" || complain "residuals --slope does not say: $(cat "$scratch/said")"
+# What rolled is not guessed.
+for figure in fig4 residuals; do
+  samples/figures/$figure.sh -K 0.5 "$scratch/CR.csv" >/dev/null 2>"$scratch/err" && complain "$figure guesses R"
+  grep -q 'say what rolled: -K 0.5 -R 0.04' "$scratch/err" || complain "$figure: $(cat "$scratch/err")"
+done
 # The key has every name, long ones without their middle, or says how many it has.
 names=()
 for i in {1..17}; do
@@ -226,7 +259,7 @@ for i in {1..17}; do
   cp "$scratch/CR.csv" "${names[-1]}"
 done
 for n in 1 4 5 9 16 17; do
-  samples/figures/fig4.sh "${names[@]:0:n}" >"$scratch/names.svg" || complain "fig4 of $n records"
+  samples/figures/fig4.sh -K 0.5 -R 0.04 "${names[@]:0:n}" >"$scratch/names.svg" || complain "fig4 of $n records"
   [ "$(grep -c '<title>a[^<]*…' "$scratch/names.svg")" = $((n > 16 ? 16 : n)) ] ||
     complain "fig4 of $n records: $(grep -c '<title>a[^<]*…' "$scratch/names.svg") names"
 done
@@ -266,7 +299,7 @@ awk '
 grep -q "rms $(awk '!/^#/ { printf "%.3g", 1e3 * $6 }' "$scratch/fit") mm, scatter" "$scratch/residuals.svg" ||
   complain 'residuals: another rms'
 awk -F, -v OFS=, 'NR == 70 { $2 += 0.02 } { print $1, $2 }' samples/CR.csv >"$scratch/off.csv"
-samples/figures/residuals.sh "$scratch/off.csv" >"$scratch/off.svg" 2>&1 || complain 'residuals of a row that is off'
+samples/figures/residuals.sh -K 0.5 -R 0.04 "$scratch/off.csv" >"$scratch/off.svg" 2>&1 || complain 'residuals of a row that is off'
 grep -q "t = 2.72 s" "$scratch/off.svg" && grep -q "1 outlier" "$scratch/off.svg" || complain 'residuals: the outlier is not named'
 
 # The stop: in the upper panel, from -22 to 110 mm/s, the law alone ends at 0, and with memory the
