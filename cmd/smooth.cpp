@@ -1,6 +1,10 @@
 // smooth - smooth a column and select its records; see smooth(1)
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "cli/tool.h"
 #include "signal/selection.h"
@@ -29,6 +33,10 @@ void check(const Tool& tool, const SignalOptions& options) {
   if (!options.method->has_order) tool.refuse({"order"}, "goes with --method savgol");
 }
 
+bool asks_to_smooth(const Tool& tool) {
+  return tool.given("width") || tool.given("seconds") || tool.given("method");
+}
+
 /// The `##` lines.
 std::string history(const std::string& column, const SelectionOptions& selected,
                     const SignalOptions& smoothed) {
@@ -46,13 +54,55 @@ std::string history(const std::string& column, const SelectionOptions& selected,
   return lines;
 }
 
-void warn_of_doubt(Tool& tool, const Reader& in, const Selection& selection) {
-  if (const auto& doubt = selection.doubt())
-    tool.warn(
-        fmt::format("run {}: --coast keeps the roll from {:.6g} s on, but by fainter signs it "
-                    "begins at {:.6g} s: choose with --from",
-                    in.run_name(), doubt->begin, doubt->other));
-}
+/// Tells what --coast keeps: of one run in a line, of more in a line for all.
+class Told {
+ public:
+  explicit Told(Tool& tool) : tool_(tool) {}
+
+  void add(const Selection& selection, const std::string& run) {
+    for (const double t : selection.outliers())
+      if (++outliers_ <= 10) times_ += fmt::format("{}{:.6g}", times_.empty() ? "" : ", ", t);
+    if (!selection.roll()) return;
+    const Selection::Roll& roll = *selection.roll();
+    ++runs_, kept_ += roll.samples, rows_ += roll.of;
+    ++ends_[static_cast<std::size_t>(roll.how)];
+    one_ = fmt::format("--coast keeps {:.6g} to {:.6g} s ({} of {} rows); the roll {}", roll.from,
+                       roll.to, roll.samples, roll.of, end(roll));
+    if (roll.other)
+      doubts_.push_back(
+          fmt::format("{}the free roll may also be {:.6g} to {:.6g} s, and not {:.6g} "
+                      "to {:.6g} s: choose with --from and --to",
+                      run.empty() ? "" : "run " + run + ": ", roll.other->first, roll.other->second,
+                      roll.from, roll.to));
+  }
+  void say() const {
+    if (outliers_ > 0)
+      tool_.warn(fmt::format("{} outlier{} left out: at {}{} s", outliers_,
+                             outliers_ == 1 ? "" : "s", times_, outliers_ > 10 ? ", ..." : ""));
+    if (runs_ == 1) tool_.warn(one_);
+    if (runs_ > 1)
+      tool_.warn(
+          fmt::format("--coast keeps {} of {} rows of {} runs; {} rolls end by themselves, {} "
+                      "are ended, {} go on to the end of their records",
+                      kept_, rows_, runs_, ends_[0], ends_[1], ends_[2]));
+    for (std::size_t i = 0; i < std::min<std::size_t>(doubts_.size(), 3); ++i)
+      tool_.warn(doubts_[i]);
+    if (doubts_.size() > 3) tool_.warn(fmt::format("and {} runs more", doubts_.size() - 3));
+  }
+
+ private:
+  static std::string end(const Selection::Roll& roll) {
+    if (roll.how == FreeRoll::End::by_itself) return "ends by itself";
+    if (roll.how == FreeRoll::End::goes_on) return "goes on to the end of the record";
+    return fmt::format("is ended at {:.6g} s", roll.after);
+  }
+
+  Tool& tool_;
+  std::size_t outliers_ = 0, runs_ = 0, kept_ = 0, rows_ = 0;
+  std::array<std::size_t, 3> ends_{};
+  std::string times_, one_;
+  std::vector<std::string> doubts_;
+};
 
 }  // namespace
 
@@ -72,9 +122,11 @@ int main(int argc, char** argv) {
   tool.number("--seconds", options.width.seconds, positive,
               "width of the window in seconds, instead");
   tool.count("--order", options.order, polynomial, "order of savgol's polynomial (2)");
-  tool.number("--outliers", select.outliers, positive,
-              "leave out readings further than this many scaled MADs from their window's median");
-  tool.flag("--coast", select.coast, "keep the free roll only: after the last push or hold");
+  tool.number(
+      "--outliers", select.outliers, positive,
+      "leave out readings that are this many times the scatter off their neighbours' motion");
+  tool.flag("--coast", select.coast,
+            "keep the free roll only: without push, hold, hand, brake and rest");
   tool.number("--from", select.from, any_number, "leave out the records before this time [s]");
   tool.number("--to", select.to, any_number, "leave out the records after this time [s]");
   tool.input();
@@ -83,8 +135,9 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     check(tool, options);
     bool choose = width == "auto";
-    if (width != "auto") options.width.samples = odd_number(width);
+    if (!choose) options.width.samples = odd_number(width);
     select.width = options.width;
+    if (!select.all() && !asks_to_smooth(tool)) options.width.samples = 1;
     make_signal(options);  // refuses wrong options before anything is read
     Reader& in = tool.filter({"t", "v"});
     const auto t = in.need_time();
@@ -101,7 +154,7 @@ int main(int argc, char** argv) {
     const auto tell = [&] {
       if (!std::exchange(told, true)) filter.set_history(history(name, select, options));
     };
-    std::size_t outliers = 0;
+    Told selected(tool);
     while (filter.next_run()) {
       if (!choose && !select.coast) tell();  // else the first run may still be refused
       Selection selection(select);
@@ -120,7 +173,7 @@ int main(int argc, char** argv) {
         else take(selection.push(filter[t], filter[y]));
       }
       selection.finish();
-      warn_of_doubt(tool, in, selection);
+      selected.add(selection, in.run_name());
       if (!choose) tell();
       for (auto more = selection.rest(); !more.empty(); more = selection.rest()) take(more);
       const auto rest = smoother->finish();
@@ -130,9 +183,8 @@ int main(int argc, char** argv) {
         tell();
       }
       filter.put(rest);
-      outliers += selection.outliers();
     }
-    tool.count_left_out(outliers, "outliers");
+    selected.say();
     return 0;
   });
 }

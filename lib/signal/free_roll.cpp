@@ -2,279 +2,381 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/median.h"
 #include "base/rounding.h"
-#include "signal/corner.h"
-#include "signal/moving_median.h"
-#include "signal/release.h"
+#include "signal/outliers.h"
+#include "signal/piece.h"
 #include "signal/units.h"
 
 namespace rolling {
 namespace {
 
-/// The distance along the direction of motion: the positions themselves, or the integral of the
-/// speeds by the trapezium rule.
-std::vector<Sample> way_of(std::span<const Sample> run, bool positions, double sign) {
-  std::vector<Sample> way(run.begin(), run.end());
-  double x = 0;
-  for (std::size_t i = 0; i < run.size(); ++i) {
-    if (i > 0) x += (run[i].t - run[i - 1].t) * std::midpoint(run[i].y, run[i - 1].y);
-    way[i].y = sign * (positions ? run[i].y : x);
+constexpr const char* choose = ": choose the roll by its times (--from, --to)";
+
+/// Pieces that are one roll, by their indices.
+struct Chain {
+  std::size_t first, last;
+  double duration = 0, fastest = 0, lost = 0;  ///< share of its speed that it loses
+};
+
+template <std::size_t P>
+class Search {
+ public:
+  Search(std::span<const Sample> samples, double noise, bool positions)
+      : samples_(samples), noise_(noise), positions_(positions) {
+    const auto joints = Partition<P>(samples, noise).joints();
+    for (std::size_t i = 1; i < joints.size(); ++i) add(joints[i - 1], joints[i]);
+    for (const auto& p : pieces_)
+      for (const double t : {p.from, p.middle(), p.to})
+        if (const auto v = p.v(t); !p.is_short())
+          fastest_ = std::max(fastest_, std::abs(v.value) - 3 * v.error);
   }
-  return way;
+
+  FreeRoll roll() const {
+    std::vector<Chain> chains = rolls();
+    if (chains.empty()) fail("no free roll is found that stands out of the noise{}", choose);
+    const auto rank = [](const Chain& c) { return std::pair(c.lost > 0.1, c.duration); };
+    const auto longer = [&](const Chain& a, const Chain& b) { return rank(a) > rank(b); };
+    std::sort(chains.begin(), chains.end(), longer);
+    const Chain& best = chains[0];
+    FreeRoll found{kept(best), end_of(best), pieces_[best.last].end};
+    const auto may_be = [&](const Chain& c) {
+      return c.lost > 0.05 && (c.duration > 0.4 * best.duration ||
+                               (c.duration > 0.1 * best.duration && c.last + 1 == best.first));
+    };
+    const auto other = std::find_if(chains.begin() + 1, chains.end(), may_be);
+    if (other != chains.end()) found.other = kept(*other);
+    return found;
+  }
+
+ private:
+  static double sign(double a) { return a < 0 ? -1 : 1; }
+
+  /// A cubic may pass for a roll and the rest behind it, or for a push and the roll; but no smooth
+  /// motion speeds up and slows down, unless it turns.
+  void add(std::size_t begin, std::size_t end) {
+    const Piece<P> p(samples_, begin, end, noise_, positions_);
+    const auto a0 = p.a(p.from), a1 = p.a(p.to);
+    const bool turns = p.v(p.from).value * p.v(p.to).value < 0,
+               bends = a0.value * a1.value < 0 && a0.is_known() && a1.is_known();
+    if (!bends || turns || p.size() < 12) return void(pieces_.push_back(p));
+    const auto cost = cost_of_joints(begin, P, P, end);
+    const auto joint = std::min_element(cost.begin() + 5, cost.end() - 5) - cost.begin();
+    for (const std::size_t half : {begin, begin + static_cast<std::size_t>(joint)})
+      pieces_.emplace_back(samples_, half, half == begin ? begin + joint : end, noise_, positions_);
+  }
+
+  std::vector<Chain> rolls() const {
+    std::vector<Chain> chains;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const Piece<P>& p = pieces_[i];
+      if (p.is_short()) continue;
+      if (!chains.empty() && continues(pieces_[chains.back().last], p)) chains.back().last = i;
+      else if (is_roll(p)) chains.push_back({i, i});
+    }
+    for (Chain& c : chains) {
+      const auto &a = pieces_[c.first], &b = pieces_[c.last];
+      const double v0 = a.v(a.from).value, v1 = b.v(b.to).value;
+      c.duration = b.to - a.from;
+      c.fastest = std::max(std::abs(v0), std::abs(v1));
+      c.lost = std::abs(v0 - v1) / c.fastest;
+    }
+    std::erase_if(chains, [&](const Chain& c) {
+      return c.fastest < 0.2 * fastest_ || !stands_out(pieces_[c.first], pieces_[c.last]);
+    });
+    return chains;
+  }
+
+  /// Of noise alone, a piece in some thousand would.
+  bool stands_out(const Piece<P>& a, const Piece<P>& b) const {
+    if (!positions_) return std::abs(a.v(a.from).value) > 5 * noise_;
+    const double way = std::max(std::abs(b.y(b.to).value - a.y(a.from).value),
+                                std::abs(a.y(a.to).value - a.y(a.from).value));
+    return way > 12 * noise_;
+  }
+  /// Whether the body slows down, or turns and comes back.
+  bool is_roll(const Piece<P>& p) const {
+    const auto v0 = p.v(p.from), v1 = p.v(p.to), v = p.v(p.middle()), a = p.a(p.middle());
+    if (!(std::abs(a.value) > 4 * a.error)) return false;
+    if (v0.value * v1.value < 0 && v0.is_known() && comes_back(p, sign(a.value)))
+      return v0.value * a.value < 0 && std::abs(v1.value) < 1.1 * std::abs(v0.value);
+    return v.value * a.value < 0 && v.is_known() && std::abs(v.value) > 0.03 * fastest_;
+  }
+  bool comes_back(const Piece<P>& p, double way) const {
+    const auto v = p.v(p.to);
+    return v.is_known() && v.value * way > 0.15 * fastest_;
+  }
+
+  /// Whether the motion of a goes on in b under one law, whatever lies between.
+  bool continues(const Piece<P>& a, const Piece<P>& b) const {
+    if (b.from - a.to > std::min(a.duration(), b.duration()) / 2) return false;
+    const double t = std::midpoint(a.to, b.from);
+    const auto jump = [](auto p, auto q) { return std::abs(p.value - q.value); };
+    const auto error = [](auto p, auto q) { return std::hypot(p.error, q.error); };
+    const auto va = a.v(t), vb = b.v(t), ya = a.y(t), yb = b.y(t);
+    const auto ma = a.a(a.middle()), mb = b.a(b.middle());
+    const double ratio = mb.value / ma.value, way = sign(ma.value);
+    if (!(ratio > 0)) return false;
+    const bool turns = std::abs(va.value) < 0.25 * fastest_ && comes_back(b, way);
+    if (jump(va, vb) > 4 * error(va, vb) + (turns ? 0.1 : 0.03) * fastest_) return false;
+    const double passed = jump(a.y(a.from), b.y(b.to));
+    if (positions_ && jump(ya, yb) > 5 * error(ya, yb) + 0.02 * passed) return false;
+    if (turns) return ratio > 0.25 && ratio < 4;
+    const bool stops = mb.is_known() && std::abs(b.v(b.to).value) < 0.03 * fastest_;
+    if (va.value * way < 0 && !stops && !is_roll(b)) return false;
+    const auto ea = a.a(a.to), eb = b.a(b.from);
+    const double larger = std::max(std::abs(ea.value), std::abs(eb.value));
+    const double most = std::abs(eb.value) > std::abs(ea.value) ? 0.2 : 0.4;
+    if (error(ea, eb) < 0.15 * larger)
+      return ratio > 0.2 && ratio < 5 && jump(ea, eb) < std::max(most * larger, 3 * error(ea, eb));
+    return ratio > 0.55 && ratio < 1.5;
+  }
+
+  FreeRoll::End end_of(const Chain& c) const {
+    const Piece<P>& last = pieces_[c.last];
+    if (last.end == samples_.size()) return FreeRoll::End::goes_on;
+    const auto v = last.v(last.to);
+    return std::abs(v.value) < std::max(3 * v.error, 0.15 * c.fastest) ? FreeRoll::End::by_itself
+                                                                       : FreeRoll::End::is_ended;
+  }
+
+  /// The samples that belong to a roll whatever their noise.
+  Stretch kept(const Chain& c) const {
+    const Piece<P>&first = pieces_[c.first], &last = pieces_[c.last];
+    Stretch s{first.begin, last.end};
+    if (s.begin > 0) {
+      const Piece<P>& before = pieces_[c.first - 1];
+      const auto cost = cost_of_joints(before.begin, before.order, first.order, first.end);
+      s.begin = before.begin + inner_joint(cost, before.size(), first.size() / 3, 1);
+      s.begin = std::max(s.begin, first.end - agreeing(first.end - 1, first.begin));
+      const double t = samples_[s.begin].t + std::max(unseen(first, samples_[s.begin].t, false),
+                                                      unseen_push(before, first));
+      while (s.begin + 1 < first.end && samples_[s.begin].t < t) ++s.begin;
+    }
+    if (s.end < samples_.size()) {
+      const Piece<P>& next = pieces_[c.last + 1];
+      const auto cost = cost_of_joints(last.begin, last.order, next.order, next.end);
+      s.end = last.begin + inner_joint(cost, last.size(), last.size() / 3, -1);
+      s.end = std::min(s.end, last.begin + agreeing(last.begin, last.end - 1));
+      const bool stops = end_of(c) == FreeRoll::End::by_itself;
+      const double t =
+          (stops ? last.to : samples_[s.end - 1].t) - unseen(last, samples_[s.end - 1].t, stops);
+      while (s.end > std::max(last.begin, s.begin) + 1 && samples_[s.end - 1].t > t) --s.end;
+    }
+    // What a sensor makes of several positions knows of two rows behind the joint; and the rows
+    // that decided are not kept, which would bias a and b.
+    const std::size_t spare = std::min<std::size_t>(2, (s.end - s.begin) / 25);
+    if (s.begin > 0) s.begin += positions_ ? spare / 2 : spare;
+    if (s.end < samples_.size()) s.end -= spare;
+    return s;
+  }
+
+  /// The time for which positions do not show a change: a body that a hand moves from rest to v, or
+  /// back, within T deviates from the sudden change by v T/8 at most, one that stops by a t^2/2.
+  double unseen(const Piece<P>& p, double t, bool stops) const {
+    if (!positions_) return 0;
+    const double longest = p.duration() / 4;
+    const double time = stops ? std::sqrt(2 * noise_ / std::abs(p.a(t).value))
+                              : 12 * noise_ / std::abs(p.v(t).value);
+    return time < longest ? time : longest;
+  }
+
+  /// The same for the end of a push of the duration T, whose force fades: its speed is
+  /// v (1 + cos(pi s/T))/2 before the release, which moves the body by v pi^2 s^3/(12 T^2) less.
+  double unseen_push(const Piece<P>& push, const Piece<P>& roll) const {
+    if (!push.a(push.middle()).is_known()) return 0;
+    const double v = std::abs(roll.v(roll.from).value), T = push.duration(), share = 2 * noise_ / v;
+    const double s =
+        positions_ ? std::cbrt(12 * share * T * T / 9.87) : T * std::sqrt(share / 2.47);
+    return std::min({s, T / 2, roll.duration() / 8});
+  }
+
+  /// RSS of the samples from `from` to `to`, forwards or backwards, of the first k for each k.
+  template <std::size_t Q>
+  std::vector<double> sums(std::size_t from, std::size_t to, auto of) const {
+    Polynomial<Q> fit;
+    std::vector<double> sums{0};
+    for (std::size_t i = from;; i += to > from ? 1 : std::size_t(-1)) {
+      fit.add(samples_[i].t - samples_[from].t, samples_[i].y / noise_);
+      sums.push_back(of(fit));
+      if (i == to) return sums;
+    }
+  }
+  /// The RSS of the samples [begin, end) as two polynomials of these numbers of coefficients, of
+  /// which the first has k samples, for each k.
+  std::vector<double> cost_of_joints(std::size_t begin, std::size_t order, std::size_t order_after,
+                                     std::size_t end) const {
+    const auto rss = [](std::size_t n) { return [n](const auto& fit) { return fit.rss(n); }; };
+    auto cost = sums<P>(begin, end - 1, rss(order));
+    const auto after = sums<P>(end - 1, begin, rss(order_after));
+    for (std::size_t k = 0; k < cost.size(); ++k) cost[k] += after[cost.size() - 1 - k];
+    return cost;
+  }
+  /// From `joint`, at most `far` inwards (+1 or -1): the furthest joint within three standard
+  /// errors of the best.
+  static std::size_t inner_joint(const std::vector<double>& cost, std::size_t joint,
+                                 std::size_t far, int inwards) {
+    constexpr double three_sigma = 9;
+    const auto at = [&](std::size_t k) { return inwards > 0 ? joint + k : joint - k; };
+    double least = cost[joint];
+    for (std::size_t k = 1; k <= far; ++k) least = std::min(least, cost[at(k)]);
+    while (far > 0 && cost[at(far)] > least + three_sigma) --far;
+    return at(far);
+  }
+  /// The number of samples, of those from `from` to `to`, that agree with one another: the last
+  /// half may be left out at twice the mean share of chi square.
+  std::size_t agreeing(std::size_t from, std::size_t to) const {
+    const double weight = 0.75 * std::log(static_cast<double>(samples_.size()));
+    const auto cost = sums<P + 1>(from, to, [&](const auto& fit) {
+      double least = fit.rss(1) + weight;
+      for (std::size_t k = 2; k <= P + 1; ++k)
+        least = std::min(least, fit.rss(k) + weight * static_cast<double>(k));
+      return least;
+    });
+    const std::size_t n = cost.size() - 1;
+    const double unit = n > P ? 2 * std::max(1.0, cost[n] / static_cast<double>(n - P)) : 2;
+    std::size_t best = n;
+    for (std::size_t k = n; k > n / 2; --k)
+      if (cost[k] - cost[best] + unit * static_cast<double>(best - k) < 0) best = k;
+    return best;
+  }
+
+  std::span<const Sample> samples_;
+  double noise_, fastest_ = 0;
+  bool positions_;
+  std::vector<Piece<P>> pieces_;
+};
+
+/// The noise of samples while the body moves: the median scatter about the parabolas of few
+/// neighbours. Where a body moves by less than a step of rounded positions it is at least that of
+/// rounding.
+double noise_of(std::span<const Sample> samples, bool positions, double step) {
+  constexpr double least = 1e-6;  // of the range of readings: what no sensor resolves
+  double noise = std::max(least, positions ? step / std::sqrt(12) : step);
+  for (const auto& [size, typical] :
+       {std::pair<std::size_t, double>{4, 0.6745}, {9, 0.94}, {25, 0.98}}) {
+    std::vector<std::pair<double, double>> found;  // speed, scatter
+    std::vector<double> speeds, scatter, all;
+    for (std::size_t i = 0; i + size <= samples.size(); ++i) {
+      const auto near = samples.subspan(i, size);
+      Polynomial<3> fit;
+      for (const Sample& s : near) fit.add(s.t - near[0].t, s.y);
+      const double own = std::sqrt(fit.rss() / static_cast<double>(size - 3)),
+                   moved = std::abs(positions ? near.back().y - near[0].y : near[size / 2].y);
+      all.push_back(own);
+      if (own > 0.12 * moved) continue;  // a jump or rest
+      const bool coarse = positions && moved < 0.99 * step * static_cast<double>(size - 1);
+      found.push_back({positions ? moved / (near.back().t - near[0].t) : moved,
+                       std::max(own / typical, coarse ? 0.43 * step : 0)});
+      speeds.push_back(found.back().first);
+    }
+    // A quarter of all tells the noise of a record in which nothing moves.
+    if (size == 4 && !all.empty())
+      noise = std::max(noise, nth_smallest(all, all.size() / 4) / 0.32);
+    if (found.size() < (size == 4 ? 1 : 4 * size)) continue;
+    const double fast = nth_smallest(speeds, speeds.size() - 1 - speeds.size() / 50);
+    for (const auto& [speed, here] : found)
+      if (speed >= 0.2 * fast) scatter.push_back(here);
+    noise =
+        std::max(noise, size == 25 ? nth_smallest(scatter, scatter.size() / 4) : median(scatter));
+  }
+  return noise;
 }
 
-/// The sums of a sliding window, which give its mean and its slope in O(1) per sample. Indices
-/// count from the sample in the middle.
-struct Sums {
-  long double n = 0, i = 0, t = 0, y = 0, it = 0, iy = 0;
-
-  void add(long double index, const Sample& s, long double sign) {
-    n += sign, i += sign * index, t += sign * s.t, y += sign * s.y;
-    it += sign * index * s.t, iy += sign * index * s.y;
+/// The means of t and y over consecutive blocks of `size` samples; an incomplete last block is
+/// dropped.
+std::vector<Sample> means(std::span<const Sample> samples, std::size_t size) {
+  std::vector<Sample> blocks;
+  blocks.reserve(samples.size() / size);
+  for (std::size_t i = 0; i + size <= samples.size(); i += size) {
+    const Sample& begin = samples[i];  // means of differences from it lose no digits
+    double t = 0, y = 0;
+    for (const Sample& s : samples.subspan(i, size)) t += s.t - begin.t, y += s.y - begin.y;
+    blocks.push_back(
+        {begin.t + t / static_cast<double>(size), begin.y + y / static_cast<double>(size)});
   }
-  void move_on() { i -= n, it -= t, iy -= y; }
-  double mean() const { return static_cast<double>(y / n); }
-  /// The slope of the line with the same first moments about the indices as the samples; at even
-  /// times it is the least-squares slope.
-  double slope() const { return static_cast<double>((iy - i / n * y) / (it - i / n * t)); }
-};
-
-/// The speeds of a run from windows of 2k + 1 samples, which are cut off at the ends of the run.
-struct View {
-  std::size_t k, peak = 0;
-  std::vector<double> speeds;
-  double fastest, noise;
-
-  View(std::span<const Sample> run, bool positions, double step, std::size_t half) : k(half) {
-    const std::size_t n = run.size();
-    const auto from_first = [&](std::size_t j) { return Sample{run[j].t - run[0].t, run[j].y}; };
-    speeds.reserve(n);
-    Sums sums;
-    const auto index = [](std::size_t j, std::size_t i) {
-      return static_cast<long double>(j) - static_cast<long double>(i);
-    };
-    for (std::size_t i = 0, from = 0, to = 0; i < n; sums.move_on(), ++i) {
-      for (; to < std::min(i + k + 1, n); ++to) sums.add(index(to, i), from_first(to), 1);
-      for (; from + k < i; ++from) sums.add(index(from, i), from_first(from), -1);
-      speeds.push_back(positions ? sums.slope() : sums.mean());
-      if (std::abs(speeds[i]) > std::abs(speeds[peak])) peak = i;
-    }
-    fastest = std::abs(speeds[peak]);
-    noise = noise_from(peak, fastest / 5);
-    // Positions that only their rounding disturbs have errors that follow each other.
-    const double window =
-        (run[n - 1].t - run[0].t) / static_cast<double>(n - 1) * static_cast<double>(2 * k + 1);
-    if (positions) noise = std::max(noise, step / window / 2);
-  }
-
-  /// The noise of the speeds, from second differences of windows that do not overlap, after sample
-  /// `first` and at speeds of at least `least`; from the whole run if there are fewer than ten.
-  double noise_from(std::size_t first, double least) const {
-    const std::size_t apart = 2 * k + 1;
-    std::vector<double> distances;
-    for (std::size_t i = first + apart; i + apart < speeds.size(); ++i)
-      if (std::abs(speeds[i]) >= least)
-        distances.push_back(std::abs(speeds[i + apart] - 2 * speeds[i] + speeds[i - apart]));
-    if (distances.size() < 10 && least > 0) return noise_from(0, 0);
-    return deviation(distances) / std::sqrt(6.0);
-  }
-};
-
-constexpr double enough = 0.02;  // noise relative to the greatest speed that is small enough
-
-/// The narrowest windows whose noise is below 2 % of the greatest speed, if there are any;
-/// otherwise those with the smallest relative noise.
-View best_view(std::span<const Sample> run, bool positions, double step) {
-  View view(run, positions, step, 2);
-  for (std::size_t k = view.k; view.noise > enough * view.fastest;) {
-    // The noise of slopes falls as the width to the power of -3/2; that of means falls more slowly.
-    const double excess = std::pow(view.noise / (enough * view.fastest), 2.0 / 3);
-    k = 1 + static_cast<std::size_t>(static_cast<double>(k) * std::clamp(excess, 1.25, 4.0));
-    if (20 * k >= run.size()) break;
-    if (View wider(run, positions, step, k);
-        wider.noise * view.fastest < view.noise * wider.fastest)
-      view = std::move(wider);
-  }
-  return view;
+  return blocks;
 }
 
 /// The smallest difference between neighbours above the rounding error of a program: the resolution
-/// of the readings, if they are rounded.
+/// of the readings, if they are rounded. 0 if no two neighbours are equal (light gates); infinite
+/// if all are.
 double smallest_step(std::span<const Sample> readings) {
   double largest = 0, step = std::numeric_limits<double>::infinity();
+  bool repeats = false;
   for (const Sample& s : readings) largest = std::max(largest, std::abs(s.y));
   for (std::size_t i = 1; i < readings.size(); ++i)
     if (const double here = std::abs(readings[i].y - readings[i - 1].y);
         here > program_rounding * largest)
       step = std::min(step, here);
-  return step;
+    else repeats = true;
+  return repeats ? step : 0;
 }
 
-/// Replaces outliers by the moving median of five, so that one or two of them make no corner. An
-/// outlier is further from the median than 6 standard deviations of these distances (for samples
-/// from `first` on, while the body moves) and than 3 times `step`.
-std::vector<Sample> without_spikes(std::span<const Sample> readings, std::size_t first,
-                                   double step) {
-  MovingMedian median_of_five({5, 0});
-  std::vector<Sample> kept(readings.begin(), readings.end());
-  const std::vector<double> medians =
-      output_of(median_of_five, kept.size(), [&](std::size_t i) { return kept[i]; });
-  std::vector<double> distances;
-  for (std::size_t i = first; i < kept.size(); ++i)
-    distances.push_back(std::abs(kept[i].y - medians[i]));
-  const double most = std::max(6 * deviation(distances), 3 * step);
-  for (std::size_t i = 0; i < kept.size(); ++i)
-    if (std::abs(kept[i].y - medians[i]) > most) kept[i].y = medians[i];
-  return kept;
-}
+constexpr std::size_t at_once = 1000;
 
-constexpr const char* not_found =
-    "no free roll is found after the last push: choose it by its times (--from, --to)";
-
-/// A run with the quantities that the search for its roll needs. `step` is the resolution of its
-/// readings.
-class Search {
- public:
-  Search(std::span<const Sample> run, bool positions, double step)
-      : positions_(positions), step_(step), view_(best_view(run, positions, step)),
-        sign_(view_.speeds[view_.peak] < 0 ? -1 : 1) {
-    if (!(view_.fastest > 8 * view_.noise))
-      fail(
-          "no motion stands out of the noise, or too few records show it: if there is a free roll, "
-          "choose it by its times (--from, --to)");
-    const auto moves = [&](std::size_t i) { return speed(i) > 2 * view_.noise; };
-    first_ = end_ = view_.peak;
-    while (first_ > 0 && moves(first_ - 1)) --first_;
-    while (end_ < run.size() && moves(end_)) ++end_;
-    if (end_ < run.size()) {
-      end_ = std::min(end_ + 2 * view_.k + 1, run.size());
-      while (!moves(end_ - 1)) --end_;
-      end_ -= std::min(view_.k + 1, end_);
-    }
-    if (end_ < least_samples) fail("{}", not_found);
-    samples_ = without_spikes(run.subspan(0, end_), first_, step);
-  }
-  std::size_t end() const { return end_; }
-
-  /// The beginning of the roll according to corners of this significance; end() if there is none.
-  std::size_t begin(double significance) const {
-    const std::size_t corner = corner_of(significance);
-    auto [from, to] = slowing_after(corner);
-    if (to < from + least_samples) return end_;
-    Release release = release_in(from, to);
-    if (corner == 0 && !(release.significance >= significance)) return 0;
-    // The speed of a roll is not a linear function of time. If the release is known to an eighth of
-    // the fitted samples behind it, half of these suffice; the curvature then matters a quarter as
-    // much.
-    while (8 * (release.latest - release.earliest) < to - release.latest &&
-           to - release.latest > 2 * least_samples) {
-      to = std::midpoint(release.latest, to);
-      from = std::midpoint(from, release.earliest);
-      release = release_in(from, to);
-    }
-    return std::min(release.latest + 3, end_);
-  }
-
- private:
-  static constexpr std::size_t least_samples = 8;
-
-  Release release_in(std::size_t from, std::size_t to) const {
-    Release release = release_of(std::span(samples_).subspan(from, to - from), positions_, sign_);
-    release.earliest += from, release.latest += from;
-    return release;
-  }
-  double speed(std::size_t i) const { return sign_ * view_.speeds[i]; }
-
-  std::size_t corner_of(double significance) const {
-    constexpr double least = 0.05;  // relative to the greatest speed
-    const double dt = (samples_[end_ - 1].t - samples_[0].t) / static_cast<double>(end_ - 1);
-    // The rounding error of a reading has the standard deviation step / sqrt(12). The bend in
-    // corner.cpp has sqrt(6) times that for positions, and twice that for means of white speeds.
-    // The errors of positions follow each other where a reading moves by less than a step: means do
-    // not reduce them. Speeds that a sensor computed from four positions are twice as noisy as
-    // their step suggests.
-    const RoundedSpeeds coarse = positions_ ? RoundedSpeeds{step_ / std::sqrt(2) / dt, 1}
-                                            : RoundedSpeeds{4 * step_ / std::sqrt(12), 0.5};
-    std::size_t size = 1;  // smaller blocks than those of the view contain only noise
-    while (4 * size <= view_.k) size *= 2;
-    return last_corner(way_of(samples_, positions_, sign_),
-                       {size, first_, least * view_.fastest, significance, coarse});
-  }
-
-  /// The range of samples around the release: the speed is above 0.9 of its maximum after the
-  /// corner, and the range ends where it falls to 0.75 of that. Within it the deceleration changes
-  /// little.
-  std::pair<std::size_t, std::size_t> slowing_after(std::size_t corner) const {
-    std::size_t peak = corner;
-    for (std::size_t i = corner; i < end_; ++i)
-      if (speed(i) > speed(peak)) peak = i;
-    const auto last_above = [&](double share) {
-      std::size_t last = end_;
-      while (last > peak + 1 && speed(last - 1) < share * speed(peak)) --last;
-      return last;
-    };
-    const std::size_t to = std::min(std::max(last_above(0.75), peak + least_samples), end_),
-                      slow = 6 * (to - std::min(last_above(0.9), to));
-    std::size_t from = peak;
-    while (from > first_ && from + slow > to && speed(from - 1) > 0.9 * speed(peak)) --from;
-    return {from, to};
-  }
-
-  bool positions_;
-  double step_;
-  View view_;
-  double sign_;
-  std::size_t first_, end_;
-  std::vector<Sample> samples_;  // from the beginning of the run to the end of the roll
-};
-
-/// The most samples of one search, which then costs less than reading a longer run.
-constexpr std::size_t at_once = 20000;
-
-/// The roll in a run of at most at_once samples.
-Stretch roll_of(std::span<const Sample> readings, bool positions, double step) {
-  constexpr double clear = 5, faint = 3.5;  // standard deviations
+/// The roll in at most at_once samples.
+FreeRoll roll_of(std::span<const Sample> readings, bool positions, double step) {
+  constexpr double off = 6;  // standard errors
   const Units units(readings);
-  std::vector<Sample> run(readings.size());
-  std::ranges::transform(readings, run.begin(), units);
-  const Search search(run, positions, std::ldexp(step, -units.y));
-  Stretch roll{search.begin(clear), search.end(), {}};
-  if (roll.begin + 3 > roll.end) fail("{}", not_found);
-  const std::size_t other = std::min(search.begin(faint), roll.end - 1);
-  const std::size_t apart = other > roll.begin ? other - roll.begin : roll.begin - other;
-  if (10 * apart > roll.end - roll.begin) roll.other = other;
+  std::vector<Sample> samples;
+  std::vector<std::size_t> index;  // of the samples that are on the motion of their neighbours
+  Outliers outliers({201, 0}, off);
+  std::size_t i = 0;
+  const auto take = [&](std::span<const Judged> judged) {
+    for (const Judged& s : judged) {
+      if (s.kept) samples.push_back(units({s.t - readings[0].t, s.y})), index.push_back(i);
+      ++i;
+    }
+  };
+  for (const Sample& s : readings) take(outliers.push(s.t, s.y));
+  take(outliers.finish());
+  const double noise = noise_of(samples, positions, std::ldexp(step, -units.y));
+  FreeRoll roll =
+      positions ? Search<4>(samples, noise, true).roll() : Search<3>(samples, noise, false).roll();
+  const auto whole = [&](std::size_t end) {
+    return end == samples.size() ? readings.size() : end == 0 ? 0 : index[end - 1] + 1;
+  };
+  const auto of_readings = [&](Stretch s) {
+    return Stretch{s.begin == 0 ? 0 : index[s.begin], whole(s.end)};
+  };
+  roll.kept = of_readings(roll.kept);
+  if (roll.other) roll.other = of_readings(*roll.other);
+  roll.after = whole(roll.after);
   return roll;
 }
 
 }  // namespace
 
-Stretch free_roll(std::span<const Sample> run, bool positions) {
-  if (run.size() < 10) fail("a run of {} records is too short to find its free roll", run.size());
-  if (run.size() <= at_once) return roll_of(run, positions, smallest_step(run));
-  const std::size_t size = 2 * run.size() / at_once, n = run.size();
-  // The rounding errors of speeds are independent, those of positions follow each other.
-  const double step = smallest_step(run),
-               step_of_means = positions ? step : step / std::sqrt(static_cast<double>(size));
-  Stretch roll = roll_of(means(run, size), positions, step_of_means);
-  roll.begin *= size, roll.end = std::min(roll.end * size, n);
-  if (roll.other) *roll.other *= size;
-  // A range as long as the roll on either side shows its beginning and its end. If that is more
-  // than half of the run, the second search would have nearly the same resolution.
-  const std::size_t around = std::max(roll.end - roll.begin, 20 * size),
-                    from = roll.begin - std::min(around, roll.begin),
-                    to = std::min(roll.end + around, n);
+FreeRoll free_roll(std::span<const Sample> run, bool positions) {
+  const std::size_t n = run.size();
+  if (n < 10) fail("a run of {} records is too short to find its free roll", n);
+  const double step = smallest_step(run);
+  if (std::isinf(step)) fail("nothing moves: there is no free roll to find");
+  if (n <= at_once) return roll_of(run, positions, positions ? step : 0);
+  const std::size_t size = (n + at_once - 1) / at_once;
+  // Speeds that a sensor takes from rounded positions have errors that follow each other.
+  const double coarse = positions ? step : 2 * step / static_cast<double>(size);
+  FreeRoll roll = roll_of(means(run, size), positions, coarse);
+  const auto rows = [&](std::size_t& i) { i = i == n / size ? n : i * size; };
+  for (std::size_t* i : {&roll.kept.begin, &roll.kept.end, &roll.after}) rows(*i);
+  if (roll.other) rows(roll.other->begin), rows(roll.other->end);
+  // As much on either side as the roll is long shows its beginning and its end. If that is more
+  // than half of the run, a second search would see little more.
+  const std::size_t around = std::max(roll.kept.end - roll.kept.begin, 20 * size),
+                    from = roll.kept.begin - std::min(around, roll.kept.begin),
+                    to = std::min(roll.kept.end + around, n);
   if (to - from > n / 2) return roll;
-  Stretch finer = free_roll(run.subspan(from, to - from), positions);
-  finer.begin += from, finer.end += from;
-  if (finer.other) *finer.other += from;
-  return finer;
+  const auto other = roll.other;
+  roll = free_roll(run.subspan(from, to - from), positions);
+  for (std::size_t* i : {&roll.kept.begin, &roll.kept.end, &roll.after}) *i += from;
+  if (roll.how == FreeRoll::End::goes_on && to < n) roll.how = FreeRoll::End::is_ended;
+  roll.other = other;
+  return roll;
 }
 
 }  // namespace rolling

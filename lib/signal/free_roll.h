@@ -1,4 +1,4 @@
-// Search for the free roll in a record: from the last push or hold to the stop.
+// Search for the free roll in a record: among rest, push, hold, hand, brake, wall and way back.
 #pragma once
 
 #include <cstddef>
@@ -9,36 +9,41 @@
 
 namespace rolling {
 
-/// The samples [begin, end) of the free roll in a run of positions or speeds. The run may be noisy
-/// and may begin and end at rest.
-///
-/// The end. The roll ends where the body, after its greatest speed in the run, comes to rest:
-/// before the last window of 2k + 1 samples whose speed is above twice its noise. k is 2, or larger
-/// so that the noise falls below 2 % of the greatest speed, or as low as windows of up to a tenth
-/// of the run allow. The noise of positions is at least that of their rounding. The search for that
-/// window goes backwards, from 2k + 1 samples behind the first slower one. No sample that is kept
-/// has decided, so that no sample is selected by its noise.
-///
-/// The beginning. The roll begins after the last corner of the speed (signal/corner.h) that exceeds
-/// 5 standard deviations of the noise and adds 5 % of the greatest speed in a window; one or two
-/// outliers make no corner. The samples around it are used where the speed is above 0.9 of its
-/// maximum after the corner and until it falls to 0.75 of it. A constant speed followed by a linear
-/// decrease is fitted to them, and the roll begins 3 samples after the latest time of release that
-/// agrees with the samples (signal/release.h). If there is neither a corner nor a significant hold
-/// at the beginning, the roll begins with the first sample.
-///
-/// The beginning is doubtful if corners of 3.5 standard deviations move it by more than a tenth of
-/// the roll.
-///
-/// A run of more than 20 000 samples is first reduced to 10 000 to 15 000 block means; the search
-/// is then repeated around the roll with smaller blocks. O(n).
-///
-/// A hand that slows the body down is not distinguished from the roll. Throws Error if nothing
-/// moves or no roll is found.
+/// The samples [begin, end) of a run, by their indices.
 struct Stretch {
   std::size_t begin, end;
-  std::optional<std::size_t> other = {};  ///< the other possible beginning, if it is doubtful
 };
-Stretch free_roll(std::span<const Sample> run, bool positions);
+
+struct FreeRoll {
+  enum class End { by_itself, is_ended, goes_on };
+
+  Stretch kept;
+  End how;            ///< at rest; by a hand, a brake, a wall, ...; not before the record is over
+  std::size_t after;  ///< the sample with which something else begins, if it does not go on
+  std::optional<Stretch> other{};  ///< another roll, or what may be the roll as well
+};
+
+/// The free roll in a run of positions or speeds of at least 10 samples.
+///
+/// A record is a chain of smooth motions with sudden changes between them: the best partition into
+/// pieces (signal/partition.h), of samples that are on the motion of their neighbours
+/// (signal/outliers.h). Rest, push, hold, roll, hand, brake, wall and way back are all pieces with
+/// a speed and an acceleration.
+///
+/// Pieces that slow down, one after the other, are one roll if neither speed nor acceleration jumps
+/// between them: a law D(v) is continuous. On a slope, a body that turns goes on with an
+/// acceleration of the same sign. Of several rolls the one that lasts longest is the free one; a
+/// second one is told if it lasts 0.4 of that, or if the roll follows on it with a larger
+/// deceleration, so that it may be a brake.
+///
+/// A joint is as uncertain as noise makes it. Kept are the samples of the roll that belong to it
+/// wherever the joint lies within three standard errors, less those at its ends that do not agree
+/// with the rest of it, less the time in which a push, a hand or a stop stays within two standard
+/// deviations of the noise.
+///
+/// A run of more than 1000 samples is reduced to means of equal numbers of samples; if the roll is
+/// short, the search is repeated around it. O(n). Throws Error if nothing moves or no roll is
+/// found.
+FreeRoll free_roll(std::span<const Sample> run, bool positions);
 
 }  // namespace rolling

@@ -6,12 +6,12 @@
 namespace rolling {
 
 Selection::Selection(const SelectionOptions& options) : options_(options) {
-  if (options_.outliers > 0) hampel_.emplace(options_.width, options_.outliers);
+  if (options_.outliers > 0) test_.emplace(options_.width, options_.outliers);
 }
 
 void Selection::take(std::span<const Judged> samples) {
-  outliers_ += static_cast<std::size_t>(
-      std::count_if(samples.begin(), samples.end(), [](const Judged& s) { return !s.kept; }));
+  for (const Judged& s : samples)
+    if (!s.kept) outliers_.push_back(s.t);
   for (const Judged& s : samples) wait(s);
 }
 
@@ -24,18 +24,23 @@ void Selection::wait(const Judged& s) {
 std::span<const Judged> Selection::push(double t, double y) {
   decided_.clear();
   const bool within = t >= options_.from && t <= options_.to;
-  if (hampel_ && t > options_.to) take(hampel_->finish());
-  if (hampel_ && within) take(hampel_->push(t, y));
+  if (test_ && t > options_.to) take(test_->finish());
+  if (test_ && within) take(test_->push(t, y));
   else wait({t, y, within});
   return decided_;
 }
 
 void Selection::finish() {
   decided_.clear();
-  if (hampel_) take(hampel_->finish());
+  if (test_) take(test_->finish());
   if (!options_.coast) return;
-  roll_ = free_roll({run_.data(), run_.size()}, options_.positions);
-  if (roll_.other) doubt_ = {run_[roll_.begin].t, run_[*roll_.other].t};
+  const FreeRoll found = free_roll({run_.data(), run_.size()}, options_.positions);
+  kept_ = found.kept;
+  const auto first = [&](std::size_t i) { return run_[std::min(i, run_.size() - 1)].t; };
+  const auto last = [&](std::size_t end) { return run_[end - 1].t; };
+  roll_ = Roll{kept_.end - kept_.begin, in_run_.size(),     found.how, first(kept_.begin),
+               last(kept_.end),         first(found.after), {}};
+  if (found.other) roll_->other = {first(found.other->begin), last(found.other->end)};
 }
 
 std::span<const Judged> Selection::rest() {
@@ -45,7 +50,7 @@ std::span<const Judged> Selection::rest() {
   for (; out_ < in_run_.size() && decided_.size() < at_a_time; ++out_) {
     const std::size_t i = out_of_run_;
     if (in_run_[out_]) ++out_of_run_;
-    const bool kept = in_run_[out_] && i >= roll_.begin && i < roll_.end;
+    const bool kept = in_run_[out_] && i >= kept_.begin && i < kept_.end;
     decided_.push_back(kept ? Judged{run_[i].t, run_[i].y, true} : Judged{0, 0, false});
   }
   return decided_;

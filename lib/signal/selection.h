@@ -4,17 +4,19 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "base/growing.h"
 #include "signal/free_roll.h"
-#include "signal/hampel.h"
+#include "signal/outliers.h"
 
 namespace rolling {
 
 struct SelectionOptions {
   double from = -std::numeric_limits<double>::infinity(),
          to = std::numeric_limits<double>::infinity();  ///< [s]
-  /// Readings further from the median than this many scaled MADs are left out; 0: none.
+  /// Readings further from the motion than this many times the scatter are left out; 0: none.
   double outliers = 0;
   Width width{};           ///< width of the windows for outliers
   bool coast = false;      ///< selects the free roll only, which needs the whole run
@@ -36,29 +38,33 @@ class Selection {
   /// After finish(): the remaining samples in order, in blocks; empty when there are no more. t and
   /// y of samples that are left out are not set. Valid until the next call.
   std::span<const Judged> rest();
-  std::size_t outliers() const { return outliers_; }  ///< number of outliers so far
-  /// After finish(): the two possible beginnings of the free roll, if it is doubtful.
-  struct Doubt {
-    double begin, other;  ///< the chosen time [s], and the one by less significant corners
+  const std::vector<double>& outliers() const { return outliers_; }  ///< their times so far
+  /// After finish(), for coast: the free roll, and the times [s] of its first and last sample, of
+  /// that with which something else begins, and those of another roll.
+  struct Roll {
+    std::size_t samples, of;
+    FreeRoll::End how;
+    double from, to, after;
+    std::optional<std::pair<double, double>> other;
   };
-  const std::optional<Doubt>& doubt() const { return doubt_; }
+  const std::optional<Roll>& roll() const { return roll_; }
 
  private:
   void take(std::span<const Judged>);
   void wait(const Judged&);
 
   SelectionOptions options_;
-  std::optional<Hampel> hampel_;
+  std::optional<Outliers> test_;
   std::vector<Judged> decided_;
   bool any_rest_ = true;
-  std::size_t outliers_ = 0;
+  std::vector<double> outliers_;
   // For coast: run_ holds the samples of the run that are between the two times and not outliers;
   // in_run_ says for each sample whether it is one of them.
   Growing<Sample> run_;
   std::vector<bool> in_run_;
-  Stretch roll_{0, 0};
+  Stretch kept_{0, 0};
   std::size_t out_ = 0, out_of_run_ = 0;  // by rest()
-  std::optional<Doubt> doubt_;
+  std::optional<Roll> roll_;
 };
 
 }  // namespace rolling

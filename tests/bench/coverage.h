@@ -168,7 +168,7 @@ class Simulation {
     return kept(samples, times);
   }
   static Column kept(const std::vector<rolling::Sample>& samples, Column& times) {
-    const rolling::Stretch stretch = rolling::free_roll(samples, true);
+    const rolling::Stretch stretch = rolling::free_roll(samples, true).kept;
     Column x;
     for (std::size_t i = stretch.begin; i < stretch.end; ++i)
       times.push_back(samples[i].t), x.push_back(samples[i].y);

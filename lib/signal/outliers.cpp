@@ -1,0 +1,150 @@
+#include "signal/outliers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/rounding.h"
+#include "signal/polynomial.h"
+
+namespace rolling {
+namespace {
+
+constexpr std::size_t near = 11;  // samples that show the local motion: the one and its neighbours
+
+/// Of normal noise, found in 4000 windows: the lower quartile of the root of the RSS of `near`
+/// samples about their parabola, over sqrt(8), and the median of that of the best seven of ten.
+constexpr double quartile = 0.79, of_seven = 0.346;
+
+Width at_least_61(Width width) {
+  constexpr std::size_t least = 61;
+  width.least = least;
+  if (width.seconds == 0) width.samples = std::max(width.samples, least);
+  return width;
+}
+
+/// The neighbours of a sample in units in which they and their times are of order one.
+struct Neighbours {
+  std::size_t size = 0;
+  std::array<Sample, near> at;
+
+  double unit = 0, length = 0;
+
+  /// Without the sample `but`, if it is one of them.
+  Neighbours(auto begin, auto end, const Sample& origin, const Sample* but) {
+    for (auto s = begin; s != end; ++s) unit = std::max(unit, std::abs(s->y - origin.y));
+    unit = unit > 0 ? std::ldexp(1.0, std::ilogb(unit)) : 1;
+    length = (end - 1)->t - begin->t;
+    for (auto s = begin; s != end; ++s)
+      if (&*s != but) at[size++] = {(s->t - origin.t) / length, (s->y - origin.y) / unit};
+  }
+  Polynomial<3> parabola() const {
+    Polynomial<3> fit;
+    for (std::size_t i = 0; i < size; ++i) fit.add(at[i].t, at[i].y);
+    return fit;
+  }
+  /// Through all but three, or fewer if there are hardly more.
+  Polynomial<3> best_parabola() const {
+    const std::size_t all = size - std::min<std::size_t>(size > 4 ? size - 4 : 0, 3);
+    Polynomial<3> best, none;
+    const auto without = [&](auto& self, const Polynomial<3>& fit, std::size_t i) -> void {
+      if (best.size() > 0 && fit.rss() >= best.rss()) return;
+      if (fit.size() == all) return void(best = fit);
+      if (fit.size() + size - i > all) self(self, fit, i + 1);
+      Polynomial<3> with = fit;
+      with.add(at[i].t, at[i].y);
+      self(self, with, i + 1);
+    };
+    without(without, none, 0);
+    return best;
+  }
+};
+
+}  // namespace
+
+Outliers::Outliers(Width width, double threshold)
+    : near_({near, 0}, Windows::Ends::stay), scatter_(at_least_61(width), Windows::Ends::cut),
+      threshold_(threshold) {}
+
+std::span<const Judged> Outliers::push(double t, double y) {
+  if (count_++ > 0) {
+    large_ = std::max(large_, std::min(std::abs(y), std::abs(last_)));
+    const double step = std::abs(y - last_), least = program_rounding * large_;
+    if (step > least && (step < step_ || step_ <= least)) step_ = step;
+  }
+  last_ = y;
+  near_.push(t, y);
+  samples_.push_back({t, y});
+  return judge();
+}
+
+std::span<const Judged> Outliers::finish() {
+  near_.finish();
+  judge();
+  scatter_.finish();
+  auto judged = std::move(judged_);
+  judge();
+  judged.insert(judged.end(), judged_.begin(), judged_.end());
+  judged_ = std::move(judged);
+  return judged_;
+}
+
+double Outliers::least_scatter() const { return std::max(step_ / 3, program_rounding * large_); }
+
+/// Whether one outlier is in so many windows that these do not tell the scatter of the others.
+bool Outliers::few() const { return sorted_.size() < 3 * near; }
+
+/// Whether sample i is on the motion of its neighbours, whose noise is known.
+bool Outliers::belongs(std::size_t i, double noise) const {
+  const std::size_t begin = std::max(first_, std::min(i - std::min(i, near / 2),
+                                                      count_ - std::min(count_, near))),
+                    end = std::min(std::max(i + near / 2 + 1, begin + near), count_);
+  const auto at = [&](std::size_t j) {
+    return samples_.begin() + static_cast<std::ptrdiff_t>(j - first_);
+  };
+  const Sample& s = *at(i);
+  const Neighbours others(at(begin), at(end), s, &s);
+  if (others.size < 4) return true;
+  noise = (few() ? least_scatter() : noise) / others.unit;
+  Polynomial<3> motion = others.parabola();
+  const auto scatter = [&] {
+    return std::sqrt(motion.rss() / static_cast<double>(motion.size() - 3));
+  };
+  if (scatter() > 1.7 * noise) {  // of normal noise, one in 200
+    motion = others.best_parabola();
+    const double own = scatter() / of_seven;
+    if (few()) noise = std::max(noise, 1.5 * own);
+    else if (own > 3.5 * noise) noise = own;
+  }
+  const auto [value, error] = motion.derivative(0, 0);
+  return std::abs(value) <= threshold_ * noise * std::sqrt(1 + error * error);
+}
+
+std::span<const Judged> Outliers::judge() {
+  judged_.clear();
+  while (near_.next()) {
+    const Sample& s = near_.sample(near_.at());
+    std::array<Sample, near> window;
+    for (std::size_t i = 0; i < near_.size(); ++i) window[i] = near_.sample(near_.begin() + i);
+    const Neighbours all(window.begin(), window.begin() + static_cast<std::ptrdiff_t>(near_.size()),
+                         s, nullptr);
+    scatter_.push(s.t, std::sqrt(all.parabola().rss()) * all.unit);
+  }
+  while (scatter_.next()) {
+    scatter_.slide(
+        begin_, end_, [this](const Sample& s) { sorted_.insert(s.y); },
+        [this](const Sample& s) { sorted_.erase(s.y); });
+    const std::size_t i = scatter_.at();
+    const double noise =
+        std::max(sorted_[sorted_.size() / 4] / std::sqrt(static_cast<double>(near - 3)) / quartile,
+                 least_scatter());
+    // No reading is further from the motion than the root of the RSS, in standard errors.
+    const bool near_all = !few() && scatter_.sample(i).y <= threshold_ * noise;
+    const Sample& s = samples_[i - first_];
+    judged_.push_back({s.t, s.y, near_all || belongs(i, noise)});
+    for (; i > first_ + near; ++first_) samples_.pop_front();
+  }
+  return judged_;
+}
+
+}  // namespace rolling

@@ -1,0 +1,60 @@
+// The best partition of a record into smooth pieces with sudden changes between them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "signal/polynomial.h"
+#include "signal/windows.h"
+
+namespace rolling {
+
+/// The partition of n samples into polynomials of P coefficients, without conditions at the joints,
+/// that has the least cost: RSS over the variance of the noise, and a penalty for each piece that
+/// grows with its free numbers, 1.5 ln n for each coefficient and for the joint. A piece may be as
+/// short as one sample, so that a reading that is off does not spoil the pieces beside it. Exact,
+/// by dynamic programming (Bellman 1961, Commun. ACM 4, 284). O(n^2), with P^2 operations each.
+template <std::size_t P>
+class Partition {
+ public:
+  Partition(std::span<const Sample> samples, double sigma)
+      : samples_(samples), back_(samples.size() + 1, 0) {
+    const std::size_t n = samples.size();
+    std::vector<double> least(n + 1, 0);  // cost of the first samples
+    for (std::size_t end = 1; end <= n; ++end) {
+      Polynomial<P> piece;
+      double& cost = least[end] = std::numeric_limits<double>::infinity();
+      for (std::size_t i = end; i-- > 0 && piece.rss() < cost;) {
+        piece.add(samples[i].t - samples[end - 1].t, samples[i].y / sigma);
+        const double here = least[i] + cost_of(piece, n).first;
+        if (here < cost) cost = here, back_[end] = i;
+      }
+    }
+  }
+  /// The indices at which pieces begin, and n.
+  std::vector<std::size_t> joints() const {
+    std::vector<std::size_t> joints{samples_.size()};
+    while (joints.back() > 0) joints.push_back(back_[joints.back()]);
+    std::reverse(joints.begin(), joints.end());
+    return joints;
+  }
+  /// The cost of a piece and the number of its coefficients.
+  static std::pair<double, std::size_t> cost_of(const Polynomial<P>& piece, std::size_t n) {
+    const double weight = 1.5 * std::log(static_cast<double>(n));
+    std::pair<double, std::size_t> least{std::numeric_limits<double>::infinity(), 0};
+    for (std::size_t k = 1; k <= std::min(P, piece.size()); ++k)
+      least = std::min(least, {piece.rss(k) + weight * static_cast<double>(k + 1), k});
+    return least;
+  }
+
+ private:
+  std::span<const Sample> samples_;
+  std::vector<std::size_t> back_;
+};
+
+}  // namespace rolling
