@@ -126,7 +126,8 @@ class Search {
     const double passed = jump(a.y(a.from), b.y(b.to));
     if (positions_ && jump(ya, yb) > 5 * error(ya, yb) + 0.02 * passed) return false;
     if (turns) return ratio > 0.25 && ratio < 4;
-    const bool stops = mb.is_known() && std::abs(b.v(b.to).value) < 0.03 * fastest_;
+    const bool stops = b.end < samples_.size() && mb.is_known() &&
+                       std::abs(b.v(b.to).value) < 0.03 * fastest_;
     if (va.value * way < 0 && !stops && !is_roll(b)) return false;
     const auto ea = a.a(a.to), eb = b.a(b.from);
     const double larger = std::max(std::abs(ea.value), std::abs(eb.value));
@@ -167,6 +168,9 @@ class Search {
           (stops ? last.to : samples_[s.end - 1].t) - unseen(last, samples_[s.end - 1].t, stops);
       while (s.end > std::max(last.begin, s.begin) + 1 && samples_[s.end - 1].t > t) --s.end;
     }
+    // A rest at the end of the record may be too short for a piece of its own.
+    if (s.end == samples_.size() && std::abs(last.v(last.to).value) < 0.1 * c.fastest)
+      s.end = last.begin + agreeing(last.begin, last.end - 1);
     // What a sensor makes of several positions knows of two rows behind the joint; and the rows
     // that decided are not kept, which would bias a and b.
     const std::size_t spare = std::min<std::size_t>(2, (s.end - s.begin) / 25);
