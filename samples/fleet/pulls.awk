@@ -4,8 +4,9 @@
 BEGIN { FS = "\t" }
 /^#/ { next }
 FILENAME == ARGV[1] { a[$1] = $2; b[$1] = $3; next }
-!($1 in a) { print $1 " is not in " ARGV[1] >"/dev/stderr"; wrong = 1; exit }
-{ add("a", ($2 - a[$1]) / $3); add("b", ($4 - b[$1]) / $5); ++n }
+{ record = $NF; sub(/\.csv$/, "", record) }
+!(record in a) { print record " is not in " ARGV[1] >"/dev/stderr"; wrong = 1; exit }
+{ add("a", ($1 - a[record]) / $2); add("b", ($3 - b[record]) / $4); ++n }
 function add(what, pull) { sum[what] += pull; squares[what] += pull ^ 2 }
 END {
   if (n < 2 || wrong) exit 2

@@ -43,9 +43,9 @@ all_scripts() {
   "$samples/fleet/make.sh" "$out/fleet" 3
   cp "$samples/CR.csv" "$out/fleet/a&b;touch hit;\$(touch hit)\`touch hit\`'\"\\t x.csv"
   cp "$samples/CR.csv" "$out/fleet/#h.csv"
-  for name in "$out"/fleet/*.csv; do "$samples/fleet/fit.sh" "$name"; done | LC_ALL=C sort >"$out/table"
+  for name in "$out"/fleet/*.csv; do "$samples/fleet/fit.sh" -K 0.5 -R 0.04 "$name"; done 2>"$out/told" | LC_ALL=C sort >"$out/table"
   fitpower --route fits "$out/table" >"$out/joint"
-  if command -v parallel >/dev/null; then "$samples/fleet/table.sh" "$out/fleet" >"$out/parallel"; fi
+  if command -v parallel >/dev/null; then "$samples/fleet/table.sh" -K 0.5 -R 0.04 "$out/fleet" >"$out/parallel"; fi
 }
 odd="$scratch/o d'd\"&;\$(touch hit)\`touch hit\`"
 mkdir "$scratch/plain" "$odd" "$odd/out" "$odd/tmp"

@@ -13,17 +13,37 @@ samples/fleet/make.sh "$scratch/run" 24
 export SLURM_ARRAY_TASK_COUNT=2
 for SLURM_ARRAY_TASK_ID in 0 1; do
   export SLURM_ARRAY_TASK_ID
-  samples/fleet/slurm.sh "$scratch/run"
-done
-sort -u "$scratch"/run/part.* >"$scratch/table"
+  samples/fleet/slurm.sh -K 0.5 -R 0.04 "$scratch/run"
+done 2>"$scratch/told"
+awk '!/^#/ || !names++' "$scratch"/run/part.* | sort >"$scratch/table"
 [ "$(grep -vc '^#' "$scratch/table")" = 24 ] &&
-  [ "$(head -n 1 "$scratch/table" | cut -f 1,2)" = "# record	a[m]" ] ||
+  [ "$(head -n 1 "$scratch/table" | tr '\t' '\n' | sed -n '1p;$p' | xargs)" = '# a[m] run' ] ||
     fail "$(cat "$scratch/table")"
-if command -v parallel >/dev/null; then
-  HOME=$scratch samples/fleet/table.sh "$scratch/run" | diff "$scratch/table" - ||
-    fail "parallel makes another table"
-fi
 awk -f samples/fleet/pulls.awk "$scratch/run/truth.txt" "$scratch/table"
+# What the runs tell is told, like things of many runs once: most of the records have lost an echo.
+told() { grep -c 'smooth: [0-9]* records* left out: a reading is missing; and [0-9]* more like it$' "$1" || :; }
+[ "$(told "$scratch/told")" = 2 ] || fail "not a line of each task: $(cat "$scratch/told")"
+
+# A record that cannot be fitted is named, ends in an error, and the others have their rows.
+printf 't,x\n0,1\n1,1\n2,1\n' >"$scratch/run/still.csv"
+export SLURM_ARRAY_TASK_COUNT=1 SLURM_ARRAY_TASK_ID=0
+if samples/fleet/slurm.sh -K 0.5 -R 0.04 "$scratch/run" 2>"$scratch/told"; then fail 'still.csv is fitted'; fi
+[ "$(awk '!/^#/ && $1' "$scratch/run/part.0" | grep -c .)" = 24 ] || fail "$(cat "$scratch/run/part.0")"
+grep -q '^still.csv: smooth: ' "$scratch/told" || fail "still.csv is not named: $(cat "$scratch/told")"
+if command -v parallel >/dev/null; then
+  status=0
+  HOME=$scratch samples/fleet/table.sh -K 0.5 -R 0.04 "$scratch/run" >"$scratch/parallel" 2>"$scratch/told" || status=$?
+  [ $status = 1 ] && grep -q '^still.csv: smooth: ' "$scratch/told" && [ "$(told "$scratch/told")" = 1 ] ||
+    fail "parallel: status $status: $(cat "$scratch/told")"
+  awk '/^#/ || $1' "$scratch/parallel" | sort | diff "$scratch/table" - || fail "parallel makes another table"
+fi
+rm "$scratch/run/still.csv"
+
+# What rolled is not guessed.
+for script in fit.sh table.sh slurm.sh; do
+  if samples/fleet/$script "$scratch/run" >/dev/null 2>"$scratch/told"; then fail "$script guesses K and R"; fi
+  grep -q "$script: say what rolled" "$scratch/told" || fail "$script: $(cat "$scratch/told")"
+done
 
 # Laws that scatter by 0.1 in ln a, 0.02 in b: 24 of them tell that within a factor of 2 (chi
 # square), and the mean within 4 of its errors.
@@ -35,7 +55,7 @@ fitpower -q --route fits "$scratch/table" | awk '!/^#/ {
 # One law for all: there is nothing that scatters, and the joint fit of the rows is that of fitpower
 # on all records at once.
 samples/fleet/make.sh "$scratch/class" 12 0
-for record in "$scratch"/class/*.csv; do samples/fleet/fit.sh "$record"; done | awk '!/^#/ || !names++' >"$scratch/table"
+for record in "$scratch"/class/*.csv; do samples/fleet/fit.sh -K 0.5 -R 0.04 "$record"; done 2>/dev/null | awk '!/^#/ || !names++' >"$scratch/table"
 smooth -q --coast -c x -w 1 "$scratch"/class/*.csv |
   fitpower -q --route position -K 0.5 -R 0.04 >"$scratch/joint"
 fitpower -q --route fits "$scratch/table" | tail -n 1 | cut -f 1-8 >"$scratch/of-rows"
