@@ -33,6 +33,11 @@ void check(const Tool& tool, const SignalOptions& options) {
   if (!options.method->has_order) tool.refuse({"order"}, "goes with --method savgol");
 }
 
+void need_motion(const std::string& name) {
+  if (name != "x" && name != "v")
+    fail("--coast needs x or v, not {}: say --use v=COLUMN, or --use x=COLUMN -c x", shown(name));
+}
+
 bool asks_to_smooth(const Tool& tool) {
   return tool.given("width") || tool.given("seconds") || tool.given("method");
 }
@@ -145,8 +150,7 @@ int main(int argc, char** argv) {
     const auto y = in.need(column);
     const std::string name = in.columns()[in.column_of(y)].name;
     select.positions = name == "x";
-    if (select.coast && name != "x" && name != "v")
-      fail("--coast needs x or v, not {}: say --use v=COLUMN, or --use x=COLUMN -c x", shown(name));
+    if (select.coast) need_motion(name);
 
     Filter filter(in, tool.out);
     filter.replace(y);
