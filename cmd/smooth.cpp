@@ -154,8 +154,7 @@ int main(int argc, char** argv) {
 
     Filter filter(in, tool.out);
     filter.replace(y);
-    bool told = false;
-    const auto tell = [&] {
+    const auto tell = [&, told = false]() mutable {
       if (!std::exchange(told, true)) filter.set_history(history(name, select, options));
     };
     Told selected(tool);
