@@ -154,7 +154,7 @@ int main(int argc, char** argv) {
 
     Filter filter(in, tool.out);
     filter.replace(y);
-    const auto tell = [&, told = false]() mutable {
+    auto tell = [&, told = false]() mutable {
       if (!std::exchange(told, true)) filter.set_history(history(name, select, options));
     };
     Told selected(tool);
