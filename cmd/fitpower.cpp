@@ -66,7 +66,7 @@ void set_slope(const std::string& text, Body& body, BodyUncertainty& uncertainty
 
 void add_options(Tool& tool, FitOptions& options) {
   tool.geometry(options.geometry);
-  tool.number("--min-speed", options.min_speed, not_negative, "leave slower records out [m/s]");
+  tool.number("--min-speed", options.min_speed, not_negative, "leave slower rows out [m/s]");
   tool.flag("--robust", options.robust,
             "let outliers count little: bisquare loss instead of squares");
 }
@@ -218,7 +218,7 @@ int main(int argc, char** argv) {
   tool.list("--fix", fixed, "NAME=VALUE", "hold a, b, v0 or x0 fixed");
   tool.list("--start", start, "NAME=VALUE", "begin the search at this a or b");
   tool.flag("--report", with_report,
-            "tell on standard error what each route finds, and whether the law is adequate");
+            "tell on standard error what each route finds, and whether another law is better");
   tool.flag("--check", with_check,
             "exit with 1 if runs disagree, a beginning, another law or the residuals speak against "
             "the fit");

@@ -73,7 +73,7 @@ void report_route(Tool& tool, const std::string& name, Route route, const std::v
   tool.say(fmt::format("{}: a {:.5g}{}, b {:.5g}{}{}, n {}, errors {}{}, {:.2g} ms", name, r.a,
                        known(" +- {:.2g}", r.sigma_a), r.b, known(" +- {:.2g}", r.sigma_b),
                        known(", rms {:.3g}", r.rms), r.n, kinds.at(r.errors),
-                       known(" (Ljung-Box p {:.2g})", r.whiteness), time.count()));
+                       known(" (Ljung and Box: p = {:.2g})", r.whiteness), time.count()));
   if (r.shares.size() > 1 && r.errors != Errors::none) tool.say(budget(r));
 }
 
@@ -95,8 +95,14 @@ std::string described(const LawFit& fit, double least) {
   }
   return line + (corr.empty() ? "" : corr + ";") +
          (std::isfinite(fit.aicc) ? fmt::format(" AICc {:.1f} above the least", fit.aicc - least)
-                                  : " too few records for its AICc");
+                                  : " too few rows for its AICc");
 }
+
+}  // namespace
+
+namespace {
+
+std::string p_of(double p) { return p < 1e-300 ? "p < 1e-300" : fmt::format("p = {:.1g}", p); }
 
 }  // namespace
 
@@ -104,21 +110,21 @@ std::string disagreement(const Agreement& found, const std::vector<FitRun>& runs
                          const std::string& given) {
   const auto more = [](double x) { return x < 0 ? "less" : "more"; };
   std::string line = fmt::format(
-      "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees of freedom, p {}): "
-      "run {} stands out",
-      found.ratio, found.dof,
-      found.significance < 1e-300 ? "< 1e-300" : fmt::format("= {:.1g}", found.significance),
-      runs[found.run].name);
-  if (found.log_D.sigma > 0)
-    line +=
-        fmt::format(", its D({:.2g} m/s) is {:.2g} +- {:.1g} % {} than that of the other{}",
-                    found.speed, 100 * std::abs(std::expm1(found.log_D.value)),
-                    100 * found.log_D.sigma, more(found.log_D.value), found.runs > 2 ? "s" : "");
+      "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees of freedom, {}): run "
+      "{} stands out",
+      found.ratio, found.dof, p_of(found.significance), runs[found.run].name);
+  if (found.log_D.sigma > 0) {
+    const double percent = 100 * std::abs(std::expm1(found.log_D.value));
+    line += fmt::format(
+        ", its D({:.2g} m/s) is {} +- {:.1g} % {} than that of the other{}", found.speed,
+        percent < 100 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent),
+        100 * found.log_D.sigma, more(found.log_D.value), found.runs > 2 ? "s" : "");
+  }
   if (found.b.sigma > 0)
     line += fmt::format(", its b {:.2g} +- {:.1g} {}", std::abs(found.b.value), found.b.sigma,
                         more(found.b.value));
   if (!given.empty()) line += fmt::format("; this test takes {} as exact", given);
-  return line + "; the errors allow for that";
+  return line + "; the row is their mean, with their scatter in its uncertainties";
 }
 
 namespace {
@@ -128,7 +134,8 @@ std::string disagreement(const FitResult& r, const std::vector<FitRun>& runs) {
   for (const ErrorShare& share : r.shares)
     if (share.of != "noise" && share.of != "bias")
       given += fmt::format("{}{}", given.empty() ? "" : ", ", share.of);
-  return disagreement(*r.agreement, runs, given);
+  return disagreement(*r.agreement, runs, given) +
+         "; where they rolled in both directions, --slope fit; where bodies differ, a K for each";
 }
 
 /// What a message about the fit of one run begins with.
@@ -179,7 +186,7 @@ void warn_of_repeats(Tool& tool, Route route, const FitResult& r, const std::vec
           "run {}: {:.0f} % of the {} repeat, on a grid of {:.3g} that is coarser than their "
           "noise: "
           "errors of rounding hang together, and sigma_a and sigma_b may be too small; keep only "
-          "the records in which a new one comes",
+          "the rows in which a new one comes",
           run.name, 100 * share, what, grid));
     const double small = nth_smallest(steps, steps.size() / 10);  // a grid, but for a few steps
     if (r.rms > levels::noise_over_grid * small && share > levels::repeats_of_noise)
@@ -228,19 +235,20 @@ void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitR
   if (!noisy) return;
   if (r.a > 0 && r.sigma_a > levels::uncertain_a * r.a)
     tool.warn(fmt::format(
-        "{}sigma_a is {:.2g} times a: this ratio is the standard error of ln a, and a is "
-        "too uncertain for the interval a +- sigma_a",
+        "{}sigma_a is {:.2g} times a: this ratio is the standard uncertainty of ln a, and "
+        "a is too uncertain for the interval a +- sigma_a",
         run, r.sigma_a / r.a));
   if (noise_is_correlated(r))
     tool.warn(fmt::format(
-        "{}the noise is correlated from record to record (Ljung-Box p {:.2g}), or the "
-        "law is not the right one: the errors allow for the correlation; {}see --report",
-        run, r.whiteness,
+        "{}the noise is correlated from row to row ({}), or the law is not the right one: {}look "
+        "at "
+        "the residuals, and see --report",
+        run, p_of(r.whiteness),
         route == Route::velocity ? "fit the positions, if the file has them (--route position), or "
                                  : ""));
   if (route == Route::loglog && logarithms_biased(r))
     tool.warn(run +
-              "the noise of D biases its logarithms by more than the standard error of the line: "
+              "the noise of D biases its logarithms by more than the uncertainty of the line: "
               "use --route shift");
   if (is_trajectory(route)) warn_of_repeats(tool, route, r, runs);
   if (r.sigma_slope > 0 && runs.size() == 2)
@@ -248,13 +256,17 @@ void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitR
         "two rolls alone tell the slope: what their laws differ by counts as slope, and its "
         "standard uncertainty does not hold that; add rolls in both directions");
   if (r.errors == Errors::uneven)
-    tool.warn(run + "the noise is not of one size: the errors allow for that");
+    tool.warn(run +
+              "the noise is not of one size along the run, which sigma_a and sigma_b take into "
+              "account: look at the residuals");
   if (const auto& found = r.eccentricity)
     tool.warn(fmt::format(
-        "run {}: the speed changes once a turn (significance {:.1g}), as if the centre of mass lay "
-        "{:.2g} +- {:.1g} mm off the axis, most ahead of it at {:.0f} degrees: a and b are further "
-        "off than their errors say; balance the body",
-        runs[found->run].name, found->significance, 1e3 * found->e, 1e3 * found->sigma,
+        "run {}: the speed changes once a turn ({}, in one good run of a hundred by chance), as if "
+        "the centre of mass lay {:.2g} +- {:.1g} mm off the axis, most ahead of it at {:.0f} "
+        "degrees: "
+        "a and b are further off than sigma_a and sigma_b say; balance the body, unless another "
+        "warning names a cause",
+        runs[found->run].name, p_of(found->significance), 1e3 * found->e, 1e3 * found->sigma,
         std::fmod(found->phase * 180 / std::numbers::pi + 360, 360)));
 }
 
@@ -267,10 +279,11 @@ void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& optio
     }
   if (!laws) return;
   if (!laws->possible())
-    return tool.say("too few independent records to compare a v^b with other laws");
+    return tool.say("too few independent readings to compare a v^b with other laws");
   for (const LawFit& fit : laws->fits) tool.say(described(fit, laws->least()));
-  tool.say(laws->against_power() <= levels::adequate ? "D = a v^b is adequate"
-                                                     : "D = a v^b is not adequate");
+  tool.say(laws->against_power() <= levels::adequate
+               ? "no law that was tried is better than D = a v^b"
+               : "another law is better than D = a v^b");
 }
 
 void check(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
@@ -284,18 +297,20 @@ void check(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun
                       "nothing is left to tell standard uncertainties from: fit more readings");
   for (const std::string& text : against(r, runs, noisy)) tool.check_failed(text);
   if (noisy && beginning)
-    tool.check_failed(fmt::format(
-        "run {}: the first {} records do not go on as the others (chance {:.1g}), as if a hand "
-        "were still on: cut off {:.2g} s",
-        runs[beginning->run].name, beginning->records, beginning->significance, beginning->time));
+    tool.check_failed(
+        fmt::format("run {}: the first {} rows do not go on as the others ({}), as if a hand were "
+                    "still on: cut "
+                    "off {:.2g} s",
+                    runs[beginning->run].name, beginning->records, p_of(beginning->significance),
+                    beginning->time));
   if (laws && laws->against_power() >= levels::another_law)
     tool.check_failed(fmt::format("{}D = {} is better than a v^b by {:.1f} in AICc; see --report",
                                   run, laws->best_other().law->formula, laws->against_power()));
   if (noisy && r.whiteness <= levels::not_white)
-    tool.check_failed(
-        fmt::format("{}the residuals are not white (Ljung-Box p {:.2g}): the law, or what is "
-                    "known of the noise, is not right",
-                    run, r.whiteness));
+    tool.check_failed(fmt::format(
+        "{}the residuals are not white ({}): the law, or what is known of the noise, is "
+        "not right",
+        run, p_of(r.whiteness)));
 }
 
 }  // namespace rolling

@@ -61,10 +61,10 @@ void warn_of_held(Tool& tool, Route route, const FitRun& run,
   if (!position && speeds_of_positions(history)) return;
   const double held = records_held(position ? run.x : run.v);
   if (held > 1)
-    tool.warn(fmt::format(
-        "run {}: {} repeat: each stands in {:.2g} records on average; keep only the record "
-        "in which a new one comes",
-        run.name, position ? "positions" : "speeds", held));
+    tool.warn(
+        fmt::format("run {}: {} repeat: each stands in {:.2g} rows on average; keep only the row "
+                    "in which a new one comes",
+                    run.name, position ? "positions" : "speeds", held));
 }
 
 bool change_numbers(const std::vector<LinearFilter>& filters) {
@@ -88,7 +88,7 @@ void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
   if (history.left_out > 0)
     tool.warn(
         fmt::format("run {}: it was cut after the filters that its `##` lines name: {} more "
-                    "records at the cut are left out, since their windows are not known; cut first",
+                    "rows at the cut are left out, since their windows are not known; cut first",
                     run.name, history.left_out));
 }
 

@@ -124,7 +124,7 @@ void require_law(const Fitted& found, const std::vector<FitRun>& all) {
         roll.radius_time() < runs[r].t.back())
       fail(
           "{}a = {:.4g} and b = {:.4g} have no meaning below {:.2g} m/s, where D is beyond the "
-          "radius {} m: leave the records out that follow, or fit with A = 1",
+          "radius {} m: leave the rows out that follow, or fit with A = 1",
           runs.size() > 1 ? fmt::format("run {}: ", all[r].name) : "", found.a.value, found.b.value,
           roll.radius_speed(), runs[r].body.R);
   }

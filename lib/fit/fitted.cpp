@@ -8,10 +8,10 @@
 namespace rolling {
 
 void require_records(std::size_t n, std::size_t p, std::size_t independent) {
-  if (n == 0) fail("no record can be fitted");
-  if (p == 0) fail("a and b are both held: nothing is left to fit");
+  if (n == 0) fail("no row can be fitted");
+  if (p == 0) fail("a and b are both fixed: nothing is left to fit");
   if (independent < p)
-    fail("{} record{} cannot determine {} parameters{}", n, n == 1 ? "" : "s", p,
+    fail("{} row{} cannot determine {} parameters{}", n, n == 1 ? "" : "s", p,
          independent < n
              ? fmt::format(", for their filters leave {} of them independent", independent)
              : "");

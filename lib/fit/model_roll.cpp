@@ -83,7 +83,7 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     const FitRun& run = all[r];
     ObservedRun seen;
     if (all.size() > 1) seen.place = fmt::format("run {}: ", run.name);
-    if (rows[r].empty()) fail("{}no record can be fitted", seen.place);
+    if (rows[r].empty()) fail("{}no row can be fitted", seen.place);
     seen.body = run.body;
     seen.geometry = options.geometry;
     seen.origin = run.t.front();

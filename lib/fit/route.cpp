@@ -17,8 +17,9 @@ Fitted fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions&
     fail("the slope shows in a roll alone: on this route `##` lines must tell how D was made");
   if (options.robust && known)
     fail(
-        "robust fits judge single records, but filters have spread each outlier over many: fit the "
-        "raw column");
+        "--robust judges single readings, and a filter spreads an outlier over many: fit the "
+        "column "
+        "that was not smoothed");
   if (route == Route::loglog) return fit_log_log(runs, options, std::move(responses));
   if (!known && route == Route::shift) return fit_shift(runs, options);
   Fitted fit = fit_rolls(route, runs, usable(route, runs), std::move(responses), options);

@@ -95,7 +95,7 @@ ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& opt
   }
   const std::size_t n = y.size();
   if (n == 0 && logarithms && records.left_out > 0)
-    fail("no record has v > 0 and D > 0: there is no logarithm to fit");
+    fail("no row has v > 0 and D > 0: there is no logarithm to fit");
   require_records(n, !options.a + !options.b, n);
   if (!options.b &&
       std::all_of(log_u.begin(), log_u.end(), [&](double x) { return x == log_u[0]; }))

@@ -65,7 +65,7 @@ said=$(samples/shape-factor.sh "$scratch/blank.csv" "$spin" 2>"$scratch/err")
 awk -v K="$K" -v is="$said" 'BEGIN { split(K, k, /\+-/); n = split(is, i, /\+-/)
     exit !(n == 2 && (k[1] - i[1])^2 < k[2]^2 / 4) }' ||
   complain "with blank readings K is $said, not $K"
-grep -q '22 records left out: a reading is missing' "$scratch/err" ||
+grep -q '22 rows left out: a reading is missing' "$scratch/err" ||
   complain "blank readings: $(cat "$scratch/err")"
 
 # What cannot be read, or does not tell an acceleration, ends the script, and prints no K.
