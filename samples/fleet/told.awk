@@ -9,7 +9,7 @@
       kind = substr(kind, 1, at - 1) substr(kind, at + length(name))
   }
   gsub(/[-+]?[0-9.][-+0-9.e]*/, "0", kind)
-  gsub(/records? /, "record ", kind)
+  gsub(/rows? /, "row ", kind)
   if (!count[kind]++) { first[++kinds] = $0; key[kinds] = kind }
 }
 END {

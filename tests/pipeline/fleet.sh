@@ -21,7 +21,7 @@ awk '!/^#/ || !names++' "$scratch"/run/part.* | sort >"$scratch/table"
     fail "$(cat "$scratch/table")"
 awk -f samples/fleet/pulls.awk "$scratch/run/truth.txt" "$scratch/table"
 # What the runs tell is told, like things of many runs once: most of the records have lost an echo.
-told() { grep -c 'smooth: [0-9]* records* left out: a reading is missing; and [0-9]* more like it$' "$1" || :; }
+told() { grep -c 'smooth: [0-9]* rows* left out: a reading is missing; and [0-9]* more like it$' "$1" || :; }
 [ "$(told "$scratch/told")" = 2 ] || fail "not a line of each task: $(cat "$scratch/told")"
 
 # A record that cannot be fitted is named, ends in an error, and the others have their rows.
