@@ -87,6 +87,16 @@ awk '!/^#/ { exit !($11 > 0.01 && ($1 - 1.87e-3)^2 < 16 * $2^2) }' results/joint
 make records=two K=0.5 R=0.04 >said 2>&1
 grep -q 'fitpower: the runs disagree .* stands out' said || complain "one K for two bodies: $(cat said)"
 
+# A column that has a name of its own, as the table and as the figure say; and the slope is in it.
+mkdir named
+for i in 1 2 3 4; do sed '1s/.*/Time (s),Ort/' two/$i.csv >named/$i.csv; done
+make records=two K=0.5,0.5,0.83,0.83 R=0.04 slope=0.001 >said 2>&1 || complain "slope=0.001: $(cat said)"
+law >named/law && cp results/fig4.svg named/
+grep -q 'slope 0.001;' named/fig4.svg || complain 'the figure has no slope'
+make records=named K=0.5,0.5,0.83,0.83 R=0.04 slope=0.001 >said 2>&1 && complain 'Ort is taken for x'
+make records=named K=0.5,0.5,0.83,0.83 R=0.04 slope=0.001 use=x=Ort >said 2>&1 || complain "use=x=Ort: $(cat said)"
+law | cmp - named/law && cmp results/fig4.svg named/fig4.svg || complain "use=x=Ort: $(cat said)"
+
 # Speeds instead of positions; two mats have no one law.
 mkdir speeds
 for run in CF CR; do cut -d, -f1,3 ../$run.csv >speeds/$run.csv; done
