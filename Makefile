@@ -155,9 +155,13 @@ build/static/bin/%: build/cmd/%.o build/lib.a build/cmd/install/fmt.o
 	@mkdir -p $(@D)
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -static -o $@ $^ $(filter-out -lfmt,$(LDLIBS))
 
-# build/rolling_VERSION_ARCHITECTURE.deb
+# build/rolling_VERSION_ARCHITECTURE.deb, of programs built with the flags of Debian's packages.
+of_debian = $(shell DEB_BUILD_MAINT_OPTIONS='hardening=+all reproducible=-fixfilepath' \
+              DEB_CXXFLAGS_MAINT_STRIP=-g dpkg-buildflags --get $1)
 deb: all
-	@cmd/install/deb.sh
+	@$(call copy,build/debian)
+	$(MAKE) -C build/debian all $(foreach f,CPPFLAGS CXXFLAGS LDFLAGS,$f='$(call of_debian,$f)')
+	@TOOLS=build/debian/bin cmd/install/deb.sh
 
 clean:
 	rm -rf bin build figures

@@ -4,10 +4,13 @@
 # and of its 95 % band. TO is v0 of the row, or 0.5 where it has none, and FROM a 25th of TO. Of
 # several rows each makes a run.
 #
+# It needs an awk with exp, log and sqrt.
+#
 # The band is that of ln D = ln a + b ln v, at 1 and 1.96 standard uncertainties, from sigma_a,
 # sigma_b and their correlation.
 set -euo pipefail
 export LC_ALL=C
+unset CDPATH
 from='' to='' N=50
 while getopts hf:t:n: option; do
   case $option in

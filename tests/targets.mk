@@ -159,10 +159,12 @@ MUTANTS ?= 150
 mutate: check
 	tests/mutate.py --count $(MUTANTS)
 
-# The long form of the tests of numbers and memory.
+# The long form of the tests of numbers, memory and packages.
 check-long: check
 	PATH="$$PWD/bin:$$PATH" build/unit '[.long]'
 	LONG=1 tests/faults/memory.sh
+	LONG=1 tests/house/deb.sh
+	LONG=1 tests/house/reproducible.sh
 
 # How often the errors of fitpower hold, by case and route: 1000 simulated runs each. Then what it
 # says of records with one thing wrong, and which law it finds. Some 20 minutes of two processors.

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# deb.sh: makes build/rolling_VERSION_ARCHITECTURE.deb of what install.sh installs below /usr.
+# deb.sh: makes build/rolling_VERSION_ARCHITECTURE.deb of what install.sh installs below /usr, with
+# the programs in TOOLS.
 # PROGRAM_PREFIX goes before the names of the tools. DEBFULLNAME and DEBEMAIL name the maintainer,
 # else the author of git's last commit does, else the user. date.sh says of when it is.
 set -euo pipefail
@@ -64,7 +65,8 @@ Package: rolling
 Version: $version
 Architecture: $architecture
 Maintainer: $maintainer
-Installed-Size: $(du -sk --apparent-size "$tree/usr" | cut -f 1)
+Installed-Size: $(find "$tree/usr" -printf '%y %s\n' |
+  awk '{ k += $1 == "f" ? int(($2 + 1023) / 1024) : 1 } END { print k }')
 Depends: ${depends#shlibs:Depends=}
 Section: science
 Priority: optional
@@ -77,4 +79,4 @@ Description: from motion-sensor data to the physics of a rolling body
 END
 (cd "$tree" && find usr -type f -print0 | sort -z | xargs -0 md5sum >DEBIAN/md5sums)
 find "$tree" -exec touch -h -d "@$moment" {} +
-dpkg-deb --root-owner-group --build "$tree" "build/rolling_${version}_$architecture.deb"
+SOURCE_DATE_EPOCH=$moment dpkg-deb --root-owner-group --build "$tree" "build/rolling_${version}_$architecture.deb"

@@ -7,9 +7,9 @@
 # Everything is made anew each time: nothing is told of a run that is no longer there. `check` fails
 # where a law or an energy balance does not hold. Names of files are never code.
 set -eu
-goal=${1:-all}
 export LC_ALL=C
 unset CDPATH
+goal=${1:-all}
 cd "$(dirname "$0")"
 PATH=$(cd ../.. && pwd)/bin:$PATH
 say() { printf 'lab: %s\n' "$*" >&2; }

@@ -44,6 +44,7 @@ all_scripts() {
   cp "$samples/CR.csv" "$out/fleet/a&b;touch hit;\$(touch hit)\`touch hit\`'\"\\t x.csv"
   cp "$samples/CR.csv" "$out/fleet/#h.csv"
   for name in "$out"/fleet/*.csv; do "$samples/fleet/fit.sh" -K 0.5 -R 0.04 "$name"; done 2>"$out/told" | LC_ALL=C sort >"$out/table"
+  LC_ALL=C sort -o "$out/told" "$out/told"
   fitpower --route fits "$out/table" >"$out/joint"
   if command -v parallel >/dev/null; then "$samples/fleet/table.sh" -K 0.5 -R 0.04 "$out/fleet" >"$out/parallel"; fi
 }

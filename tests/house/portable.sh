@@ -72,7 +72,9 @@ compare() {  # WITH WHAT
   rm -rf "$scratch/other" && tried+=", $1"
 }
 for awk in mawk gawk 'gawk --posix' original-awk 'busybox awk'; do
-  [ "$($awk 'BEGIN { print 4^0.5 }' 2>/dev/null)" = 2 ] || continue  # not here, or without powers
+  command -v "${awk%% *}" >/dev/null || continue
+  [ "$($awk 'BEGIN { print 4^0.5 + log(1) }' 2>/dev/null)" = 2 ] ||
+    { tried+=", not $awk, which has no exp, log and sqrt"; continue; }
   printf '#!/bin/sh\nexec %s "$@"\n' "$awk" >"$scratch/bin/awk" && chmod +x "$scratch/bin/awk"
   mkdir "$scratch/other"
   PATH=$scratch/bin:$PATH everything "$scratch/other"

@@ -1,7 +1,6 @@
 #!/bin/bash
 # `make static` makes an archive that needs nothing of the system: in an empty root with busybox
-# alone its tools give Table 1 and the rest of the samples byte for byte, and like sources give a
-# like archive.
+# alone its tools give Table 1 and the rest of the samples byte for byte.
 set -u
 export LC_ALL=C
 unset CDPATH MAKEFLAGS MAKELEVEL
@@ -15,9 +14,7 @@ wrong=0
 complain() { echo "$*" && wrong=1; }
 archive=build/rolling-$(bin/smooth --version | cut -d ' ' -f 3)-linux-$(uname -m).tar.xz
 export SOURCE_DATE_EPOCH=1600000000 XZ_OPT=-0
-make static >"$scratch/made" 2>&1 && cp "$archive" "$scratch/first" &&
-  make static >"$scratch/made" 2>&1 || { cat "$scratch/made" && exit 1; }
-cmp "$archive" "$scratch/first" || complain "two archives of one source differ"
+make static >"$scratch/made" 2>&1 || { cat "$scratch/made" && exit 1; }
 
 root=$scratch/root
 mkdir -p "$root/bin" "$root/tmp" "$root/dev"

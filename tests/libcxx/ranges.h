@@ -53,12 +53,16 @@ auto max(R&& range, C compare = {}, P p = {}) {
   return *ranges::max_element(range, compare, p);
 }
 
+template <class R, class F = std::equal_to<>, class P = std::identity>
+auto adjacent_find(R&& range, F same = {}, P p = {}) {
+  return std::adjacent_find(std::begin(range), std::end(range), ranges::projected(same, p));
+}
+
 #define ROLLING_OF_ARGUMENTS(name)                                 \
   template <class R, class... T>                                   \
   auto name(R&& range, T&&... rest) {                              \
     return std::name(std::begin(range), std::end(range), rest...); \
   }
-ROLLING_OF_ARGUMENTS(adjacent_find)
 ROLLING_OF_ARGUMENTS(lower_bound)
 ROLLING_OF_ARGUMENTS(next_permutation)
 ROLLING_OF_ARGUMENTS(replace)
