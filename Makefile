@@ -156,7 +156,8 @@ build/static/bin/%: build/cmd/%.o build/lib.a build/cmd/install/fmt.o
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -static -o $@ $^ $(filter-out -lfmt,$(LDLIBS))
 
 # build/rolling_VERSION_ARCHITECTURE.deb, of programs built with the flags of Debian's packages.
-of_debian = $(shell DEB_BUILD_MAINT_OPTIONS='hardening=+all reproducible=-fixfilepath' \
+pathless  = reproducible=-fixfilepath,-fixdebugpath
+of_debian = $(shell DEB_BUILD_MAINT_OPTIONS='hardening=+all $(pathless)' \
               DEB_CXXFLAGS_MAINT_STRIP=-g dpkg-buildflags --get $1)
 deb: all
 	@$(call copy,build/debian)
