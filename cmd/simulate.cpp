@@ -274,7 +274,7 @@ int main(int argc, char** argv) {
   tool.text("--at", times_file, "FILE", "file with a column t: the times of the rows, instead");
   tool.text("--columns", columns, "NAME,...", "what to compute, of t,x,v,a,D (all)");
   tool.choice<bool>("--sensor", sensor, {{"pasco", true}},
-                    "write what this motion sensor records, push and rest included");
+                    "write what this motion sensor sees, push and rest included");
   tool.count("--seed", seed, whole, "seed of the sensor's noise (1)");
   add_options(tool, sonar);
   tool.scene();

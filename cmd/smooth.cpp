@@ -88,7 +88,7 @@ class Told {
     if (runs_ > 1)
       tool_.warn(
           fmt::format("--coast keeps {} of {} rows of {} runs; {} rolls end by themselves, {} "
-                      "are ended, {} go on to the end of their records",
+                      "are ended, {} go on to the end of their runs",
                       kept_, rows_, runs_, ends_[0], ends_[1], ends_[2]));
     for (std::size_t i = 0; i < std::min<std::size_t>(doubts_.size(), 3); ++i)
       tool_.warn(doubts_[i]);
@@ -98,7 +98,7 @@ class Told {
  private:
   static std::string end(const Selection::Roll& roll) {
     if (roll.how == FreeRoll::End::by_itself) return "ends by itself";
-    if (roll.how == FreeRoll::End::goes_on) return "goes on to the end of the record";
+    if (roll.how == FreeRoll::End::goes_on) return "goes on to the end of the run";
     return fmt::format("is ended at {:.6g} s", roll.after);
   }
 
@@ -114,7 +114,7 @@ class Told {
 int main(int argc, char** argv) {
   Tool tool("smooth",
             "Replace a column by its mean over a moving window, or smooth it otherwise; select its "
-            "records.");
+            "rows.");
   std::string column, width = "11";
   SelectionOptions select;
   auto methods = by_name(smoothing_methods);
@@ -132,8 +132,8 @@ int main(int argc, char** argv) {
       "leave out readings that are this many times the scatter off their neighbours' motion");
   tool.flag("--coast", select.coast,
             "keep the free roll only: without push, hold, hand, brake and rest");
-  tool.number("--from", select.from, any_number, "leave out the records before this time [s]");
-  tool.number("--to", select.to, any_number, "leave out the records after this time [s]");
+  tool.number("--from", select.from, any_number, "leave out the rows before this time [s]");
+  tool.number("--to", select.to, any_number, "leave out the rows after this time [s]");
   tool.input();
   tool.output();
 

@@ -358,7 +358,7 @@ FreeRoll roll_of(std::span<const Sample> readings, bool positions, double step) 
 
 FreeRoll free_roll(std::span<const Sample> run, bool positions) {
   const std::size_t n = run.size();
-  if (n < 10) fail("a run of {} records is too short to find its free roll", n);
+  if (n < 10) fail("a run of {} rows is too short to find its free roll", n);
   const double step = smallest_step(run);
   if (std::isinf(step)) fail("nothing moves: there is no free roll to find");
   if (n <= at_once) return roll_of(run, positions, positions ? step : 0);

@@ -128,7 +128,7 @@ bool Reader::next_file() {
 void Reader::take_head(Head head) {
   const std::size_t width = head.layout.width, before = head_.layout.width;
   if (run_in_file_ == 0 && next_file_ > 1 && !head.named && (head_.named || width != before))
-    fail<InputError>("{}: its columns are not those of {}: {}; give it a line of names",
+    fail<InputError>("{}: its columns are not those of {}: {}; give it a header",
                      lines_->name(), options_.files.front(),
                      head_.named ? "those have names" : fmt::format("{}, not {}", width, before));
   head_ = std::move(head);

@@ -34,9 +34,9 @@ TEST_CASE("reader: files in order, a run break between them", "[text]") {
   CHECK(records({"# t v\n0 1\n", "# v t\n0 3\n"}) == "0 1 || 3 0");
   CHECK(records({"# t[s] v[m/s]\n0 1\n", "# t[ms] v[m/s]\n7 3\n"}) == "0 1 || 0.007 3");
   CHECK(records({"# t v\n0 1\n", "0 3\n"}) ==
-        "FILE: its columns are not those of FILE: those have names; give it a line of names");
+        "FILE: its columns are not those of FILE: those have names; give it a header");
   CHECK(records({"0 1\n", "0 3 4\n"}) ==
-        "FILE: its columns are not those of FILE: 3, not 2; give it a line of names");
+        "FILE: its columns are not those of FILE: 3, not 2; give it a header");
   CHECK(records({"0 1\n", ""}) == "FILE: no rows");
 }
 
