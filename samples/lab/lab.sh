@@ -42,7 +42,9 @@ velocity() {
   else roll "$1" | smooth -c v -M savgol -w 21; fi
 }
 
-roll "$@" >results/rolls
+# Several runs have the names of their files.
+{ [ $# -gt 1 ] || printf '## run %s\n' "$(printf %s "${1##*/}" | tr '[:cntrl:]' '?')"
+  roll "$@"; } >results/rolls
 if [ "$slope" = fit ]; then
   fit --slope fit results/rolls >results/slope.txt
   slope=$(awk -F '\t' '/^# / { for (i = 1; i <= NF; i++) if ($i == "slope") s = i; next }
@@ -64,8 +66,10 @@ fi
 # speeds of a sensor are not asked for the law: each was made of several positions, so their noise is
 # not white, and the check of the residuals would blame the law for it.
 failed=0
-[ $# -lt 2 ] || fitpower -q --check --route fits -K "$K" -R "$R" results/table.txt >/dev/null || failed=1
-[ "$column" = v ] || fit -q --check --each --slope "$slope" results/rolls >/dev/null || failed=1
+[ $# -lt 2 ] || fitpower -q --check --route fits -K "$K" -R "$R" results/table.txt >/dev/null ||
+  { say 'the runs do not have one law'; failed=1; }
+[ "$column" = v ] || fit -q --check --each --slope "$slope" results/rolls >/dev/null ||
+  { say 'the positions are not those of a law a v^b'; failed=1; }
 i=0
 for file; do
   i=$((i + 1))

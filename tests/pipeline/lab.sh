@@ -101,11 +101,17 @@ law | cmp - named/law && cmp results/fig4.svg named/fig4.svg || complain "use=x=
 mkdir speeds
 for run in CF CR; do cut -d, -f1,3 ../$run.csv >speeds/$run.csv; done
 make records=speeds K=0.5 R=0.04 column=v check >said 2>&1 && complain 'check: two mats agree'
+grep -q 'lab: the runs do not have one law' said || complain "check: two mats: $(cat said)"
 # Another law, D = 0.5 mm + 4 mm (v/(m/s))^2: no a v^b describes its roll.
 mkdir other
 awk 'BEGIN { print "# v D"; for (i = 0; i <= 60; i++) print i / 100, 5e-4 + 4e-3 * (i / 100)^2 }' |
   simulate --law - -K 0.5 -R 0.04 --v0 0.5 --sensor pasco --seed 3 >other/run.csv
-make records=other K=0.5 R=0.04 check >said 2>&1 && complain 'check: D = 0.5 mm + 4 mm v^2 is a v^b'
+cp -R other ./-x
+make records=-x K=0.5 R=0.04 check >said 2>&1 && complain 'check: D = 0.5 mm + 4 mm v^2 is a v^b'
+for line in 'the positions are not those of a law a v^b' 'the energy of run 1 does not balance: run.csv'; do
+  grep -q "lab: $line" said || complain "check: D = 0.5 mm + 4 mm v^2: $(cat said)"
+done
+[ "$(runs)" = run.csv ] || complain "the name of one run: $(runs)"
 
 # live.sh: a picture for every record but the last six: five wait for their window to be whole, one
 # for the difference with the next. A record comes at its own pace through a pseudo terminal.
