@@ -51,7 +51,7 @@ END
 gzip -9n >"$doc/changelog.gz" <<END
 rolling ($version) unstable; urgency=medium
 
-  * Built from the source.
+  * What changed: VERSION AND CHANGES in rolling(7).
 
  -- $maintainer  $(date -u -R -d "@$moment")
 END
