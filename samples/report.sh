@@ -215,7 +215,7 @@ HTML
 cat <<'HTML'
 <div class="section"><h3>The check</h3>
 <p>The measured loss of each run beside what the shift of Table 1 dissipates; the closure is their
-relative difference (Eq. 23). Over many such runs it scatters by some 0.8 %. The imbalance is the
+relative difference (Eq. 23). Over many such runs it scatters by some 0.6 %. The imbalance is the
 largest difference of the two at any moment of the run.</p>
 HTML
 table "Energy" "$scratch/table1"

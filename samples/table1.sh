@@ -15,8 +15,8 @@ trap 'rm -rf "$scratch"' EXIT
 trap 'exit 130' INT TERM
 cd "$scratch"
 failed=0
-# Of closure and imbalance. Over 160 runs the closure scatters by 0.8 % (the speeds at both ends, the
-# error of the fit), about 0.5 % (the bulge that remembers), and the largest imbalance is 2.7 %.
+# Of closure and imbalance. Over 160 runs the closure scatters by 0.6 % (the speeds at both ends, the
+# error of the fit), about 0.4 % (the bulge that remembers), and the largest imbalance is 2.2 %.
 tolerance=0.05
 
 # KEY of the scene of a run: its value, and its standard uncertainty (0.5+-0.005).
@@ -199,7 +199,7 @@ done
 echo
 cat <<'TEXT'
 On felt the law of one body closes the ledger of the other: one law, and both K are right within some
-2 %, for the speeds at the ends make closures scatter by 0.8 %. On rubber the cylinder's law takes a
+2 %, for the speeds at the ends make closures scatter by 0.6 %. On rubber the cylinder's law takes a
 tenth too much from the shell, and the shell's law as much too little from the cylinder, as the paper's
 own values do; to make one law of them, K of the shell would have to be off by 0.2. "Nearly the same
 for both bodies" means, on rubber, within a tenth of the energy.
