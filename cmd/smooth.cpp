@@ -157,6 +157,10 @@ int main(int argc, char** argv) {
     auto tell = [&, told = false]() mutable {
       if (!std::exchange(told, true)) filter.set_history(history(name, select, options));
     };
+    double first = INFINITY, last = -INFINITY;
+    filter.say_why_none([&] {
+      return fmt::format(": the times of the file go from {:.6g} to {:.6g} s", first, last);
+    });
     Told selected(tool);
     while (filter.next_run()) {
       if (!choose && !select.coast) tell();  // else the first run may still be refused
@@ -172,6 +176,7 @@ int main(int argc, char** argv) {
         }
       };
       while (filter.next()) {
+        first = std::min(first, filter[t]), last = std::max(last, filter[t]);
         if (select.all()) filter.put(smoother->push(filter[t], filter[y])), ++kept;
         else take(selection.push(filter[t], filter[y]));
       }

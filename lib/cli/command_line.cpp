@@ -135,6 +135,10 @@ CommandLine::Asked CommandLine::parse(int argc, const char* const* argv) {
     return Asked::version;
   } catch (const CLI::ArgumentMismatch& error) {
     fail("{}(see --help)", wrong_count(parser_->app, error.what()));
+  } catch (const CLI::ExtrasError&) {
+    for (const std::string& word : parser_->app.remaining())
+      if (word.starts_with('-')) fail("there is no option {} (see --help)", shown(unmarked(word)));
+    fail("there are no operands (see --help)");
   } catch (const CLI::ParseError& error) {
     fail("{}(see --help)", one_line(error.what()));
   }
@@ -158,8 +162,8 @@ std::string CommandLine::help(const std::string& name) const {
   }
   const bool reads = operands.size() > 1;
   return "Usage: " + name + " [OPTION...]" + (reads ? " [FILE...]" : "") + "\n" +
-         app.get_description() + '\n' + (reads ? operands : "") + options +
-         "\nIn full: man " + name + ". A tutorial: man rolling.\n";
+         app.get_description() + '\n' + (reads ? operands : "") + options + "\nIn full: man " +
+         name + ". A tutorial: man rolling.\n";
 }
 
 }  // namespace rolling

@@ -86,7 +86,7 @@ bool Filter::next_run() {
     take_head();
     return true;
   }
-  if (!any_row_) fail("no rows are left");
+  if (!any_row_) fail("no rows are left{}", why_none_ ? why_none_() : "");
   take_remarks(in_.comments());
   if (head_) out_.text(remarks_of(head_->comments));
   return false;

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <queue>
 #include <span>
@@ -36,6 +37,8 @@ class Filter {
   Filter& operator=(const Filter&) = delete;
   /// An empty history writes no line: this filter changes no number.
   void set_history(std::string history);
+  /// What the error says behind "no rows are left".
+  void say_why_none(std::function<std::string()> why) { why_none_ = std::move(why); }
 
   /// The numbers replace the column of this slot of the reader.
   void replace(std::size_t slot) { replaced_ = slot; }
@@ -98,6 +101,7 @@ class Filter {
   std::size_t records_ = 0, run_begins_ = 0, done_ = 0;
   std::optional<Head> head_;  // of a run none of whose rows has been written
   bool any_row_ = false;
+  std::function<std::string()> why_none_;
   bool changing_ = false;  // the rows; true for good when that has failed
 };
 

@@ -128,8 +128,8 @@ bool Reader::next_file() {
 void Reader::take_head(Head head) {
   const std::size_t width = head.layout.width, before = head_.layout.width;
   if (run_in_file_ == 0 && next_file_ > 1 && !head.named && (head_.named || width != before))
-    fail<InputError>("{}: its columns are not those of {}: {}; give it a header",
-                     lines_->name(), options_.files.front(),
+    fail<InputError>("{}: its columns are not those of {}: {}; give it a header", lines_->name(),
+                     options_.files.front(),
                      head_.named ? "those have names" : fmt::format("{}, not {}", width, before));
   head_ = std::move(head);
   side_ = 0;
@@ -465,7 +465,8 @@ std::string Reader::way_out(std::size_t column) const {
   if (!word) return "";
   if (head_.named && read_column(field).name == layout().columns[column].name)
     return "; put a blank line before the names of another run";
-  return column == 0 ? "; if this line is not a row, begin it with #" : "";
+  return column == 0 ? "; if this line is not a row, begin it with #"
+                     : "; write NaN where a reading is missing";
 }
 
 std::string Reader::here() const { return fmt::format("{}:{}", lines_->name(), line_number_); }

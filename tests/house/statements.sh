@@ -54,4 +54,26 @@ awk 'BEGIN { low = 4e-5 / (1.87e-3 * 0.5^0.215); high = 4e-5 / (1.78e-3 * 0.02^0
 says man/rolling-motion.7 '0.12 to 0.15 mm less than that of the cylinder anywhere from 0.02 to 0.5 m/s'
 awk 'BEGIN { for (v = 0.02; v <= 0.5; v += 0.001) { off = 1.87 * v^0.215 - 1.78 * v^0.255
     if (off < 0.115 || off > 0.155) exit 1 } }' || complain 'the two rows of Table 1'
+
+# smooth(1): the noise of savgol inside and at the ends, from its weights: unit impulses, a run each.
+says man/smooth.1 '1.5 s/sqrt(N); at the very ends 3 s/sqrt(N) for order 2 and 4 s/sqrt(N) for order 3'
+while read -r order end; do
+  awk 'BEGIN { for (k = 0; k < 201; k++) { for (i = 0; i < 201; i++) print i, (i == k); print "" } }' |
+    smooth -q -M savgol -w 201 --order "$order" | awk -v end="$end" '
+      /^[0-9]/ { if ($1 == 0) ends += $2^2; if ($1 == 100) inside += $2^2 }
+      END { ends = sqrt(201 * ends); inside = sqrt(201 * inside)
+        exit !(ends / end > 0.97 && ends / end < 1.03 && inside > 1.47 && inside < 1.53) }' ||
+    complain "smooth -M savgol --order $order: another noise"
+done <<<'2 3
+3 4'
+
+# smooth(1), fitpower(1), rolling(7): defaults.
+run=$scratch/run.csv
+cut -d , -f 1,2 samples/CR.csv >"$run"
+cmp -s <(smooth -q "$run") <(smooth -q -w 11 -M mean "$run") || complain 'smooth: another default'
+cmp -s <(smooth -q --coast "$run") <(smooth -q --coast -w 1 "$run") || complain 'smooth --coast smooths'
+smooth -q --coast -c x samples/CR.csv >"$scratch/roll"
+cmp -s <(fitpower -q -K 0.5 -R 0.04 "$scratch/roll") \
+  <(fitpower -q -K 0.5 -R 0.04 -g 9.81 --slope 0 --route position "$scratch/roll") ||
+  complain 'fitpower: another default'
 exit $wrong

@@ -56,14 +56,15 @@ TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]
   CHECK(records({"0 1\n\n0 2\n1 3\n\n0 4\n"}, run(2)) == "0 2 | 1 3");
   CHECK(records({"0 1\n\n0 2\n"}, run(1)) == "0 1");
   // What is passed over is read as strictly, in the columns that are needed.
-  CHECK(records({"0 1\n\n0 bad\n\n0 4\n"}, run(3)) == "FILE:3: field 2 (v): 'bad' is not a number");
-  CHECK(records({"0 1\n\n0 bad\n\n0 4\n"}, run(1)) == "FILE:3: field 2 (v): 'bad' is not a number");
+  CHECK(records({"0 1\n\n0 bad\n\n0 4\n"}, run(3)) ==
+        "FILE:3: field 2 (v): 'bad' is not a number; write NaN where a reading is missing");
+  CHECK(records({"0 1\n\n0 bad\n\n0 4\n"}, run(1)) ==
+        "FILE:3: field 2 (v): 'bad' is not a number; write NaN where a reading is missing");
   CHECK(records({"0 1\n\n0 bad\n\n0 4\n"}, run(3), {"t"}) == "0");
   CHECK(records({"1 1\n1 2\n\n0 4\n"}, run(2)) == "FILE:2: field 1 (t): '1' does not come after 1");
   CHECK(records({"1 1\n1 2\n\n0 4\n"}, run(2), {"v"}) == "4");
   CHECK(records({"t,v (odd)\n0,1\n\nt,v\n0,4\n"}, run(2)).find("its unit 'odd'") < 60);
-  CHECK(records({"0 1\n0 1 2\n\n0 4\n"}, run(2)) ==
-        "FILE:2: 3 fields where the first row has 2");
+  CHECK(records({"0 1\n0 1 2\n\n0 4\n"}, run(2)) == "FILE:2: 3 fields where the first row has 2");
   CHECK(records({"0 1\n", "0 2\n", "0 3\n"}, run(2)) == "0 2");
   CHECK(records({"Time (s) Run #7,Velocity (m/s) Run #7\n0,1\n"}, run(7)) == "0 1");
   CHECK(records({"0 1\n\n0 2\n"}, run(3)) == "there is no run 3 (runs: 1, 2)");
@@ -258,7 +259,7 @@ TEST_CASE(
   CHECK(in.left_out() == 1);  // data follows the torn row, so that it is no padding
   CHECK(records({"t Run 1,v Run 1,t Run 2,v (km/h) Run 2,n Run 2\n0,1,0,36,7\n"}) == "0 1 || 0 10");
   CHECK(records({"t Run 1,v Run 1,t Run 2,v Run 2\n0,1,0,x\n"}) ==
-        "FILE:2: field 4 (v): 'x' is not a number");
+        "FILE:2: field 4 (v): 'x' is not a number; write NaN where a reading is missing");
   CHECK(copies("Time (s) Run #2,v Run #2,Time (s) Run #4,v Run #4\n0.0,1,0.00,5\n") ==
         "<0.0\t1><0.00\t5>");
 }

@@ -302,8 +302,10 @@ TEST_CASE("reader: a missing reading leaves its record out, and is counted", "[t
 }
 
 TEST_CASE("reader: what is neither number nor missing is refused, and says where", "[text]") {
-  CHECK(records({"0 1\n1 abc\n"}) == "FILE:2: field 2 (v): 'abc' is not a number");
-  CHECK(records({"0 1\n\n# c\n1 inf\n"}) == "FILE:4: field 2 (v): 'inf' is not a number");
+  CHECK(records({"0 1\n1 abc\n"}) ==
+        "FILE:2: field 2 (v): 'abc' is not a number; write NaN where a reading is missing");
+  CHECK(records({"0 1\n\n# c\n1 inf\n"}) ==
+        "FILE:4: field 2 (v): 'inf' is not a number; write NaN where a reading is missing");
   CHECK(records({"0 1\n1 1e400\n"}) == "FILE:2: field 2 (v): '1e400' is not a number");
   CHECK(records({"0 1\n1 0x1\n"}) == "FILE:2: field 2 (v): '0x1' is not a number");
   CHECK(records({"0 1\n1 " + std::string(50, '9') + "x\n"}) ==
@@ -437,7 +439,7 @@ TEST_CASE("reader: a separator that ends every line is an empty last column", "[
 TEST_CASE("reader: a quoted field may hold separators and line ends", "[text]") {
   CHECK(records({"\"t\",\"v, of\nthe cart\"\n0,1\n"}, {}, {"t", "v,_of_the_cart"}) == "0 1");
   CHECK(records({"note,t,v\n\"one\ntwo, three\",0,1\nfour,1,x\n"}) ==
-        "FILE:4: field 3 (v): 'x' is not a number");
+        "FILE:4: field 3 (v): 'x' is not a number; write NaN where a reading is missing");
   CHECK(records({"t,v,note\n0,1,\"open\n1,2,x\n"}) == "FILE:2: a quote that is not closed");
 }
 
