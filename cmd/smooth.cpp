@@ -109,6 +109,20 @@ class Told {
   std::vector<std::string> doubts_;
 };
 
+/// The times of the rows, for the error where a selection keeps none of them.
+class Times {
+ public:
+  explicit Times(Filter& filter) {
+    filter.say_why_none([this] {
+      return fmt::format(": the times of the file go from {:.6g} to {:.6g} s", first_, last_);
+    });
+  }
+  void take(double t) { first_ = std::min(first_, t), last_ = std::max(last_, t); }
+
+ private:
+  double first_ = INFINITY, last_ = -INFINITY;
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -151,16 +165,12 @@ int main(int argc, char** argv) {
     const std::string name = in.columns()[in.column_of(y)].name;
     select.positions = name == "x";
     if (select.coast) need_motion(name);
-
     Filter filter(in, tool.out);
     filter.replace(y);
     auto tell = [&, told = false]() mutable {
       if (!std::exchange(told, true)) filter.set_history(history(name, select, options));
     };
-    double first = INFINITY, last = -INFINITY;
-    filter.say_why_none([&] {
-      return fmt::format(": the times of the file go from {:.6g} to {:.6g} s", first, last);
-    });
+    Times times(filter);
     Told selected(tool);
     while (filter.next_run()) {
       if (!choose && !select.coast) tell();  // else the first run may still be refused
@@ -175,8 +185,7 @@ int main(int argc, char** argv) {
           ++record;
         }
       };
-      while (filter.next()) {
-        first = std::min(first, filter[t]), last = std::max(last, filter[t]);
+      for (; filter.next(); times.take(filter[t])) {
         if (select.all()) filter.put(smoother->push(filter[t], filter[y])), ++kept;
         else take(selection.push(filter[t], filter[y]));
       }
