@@ -47,13 +47,13 @@ TEST_CASE("first guess: the means of many records are those of all of them, each
   const auto few = means_of_many({run});
   REQUIRE(few.size() == 1);
   const auto& t = few[0].t;
-  REQUIRE(t.size() == 4096);
+  REQUIRE(t.size() == 3334);  // blocks of three, for 10000 are more than twice 4096
   // A block from t = first to t = last has its mean half way and its number of records between its
   // neighbours': the blocks end where the next ones begin.
   double end = 0, sum = 0;
   for (std::size_t i = 0; i < t.size(); ++i) {
     const double records = 2 * (t[i] - end) + 1;
-    CHECK((records == 2 || records == 3));
+    CHECK(records == (i + 1 < t.size() ? 3 : 1));
     sum += few[0].y[i] * records;
     end += records;
   }
