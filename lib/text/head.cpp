@@ -7,10 +7,9 @@
 #include <utility>
 
 #include "base/error.h"
-#include "text/commented_names.h"
 #include "text/delimiters.h"
+#include "text/header.h"
 #include "text/number.h"
-#include "text/unit_lines.h"
 
 namespace rolling {
 namespace {
@@ -23,11 +22,9 @@ std::string name_of(char separator) {
 }
 
 /// The names in a line that is not a comment.
-std::vector<std::string> names_in(std::string_view line, Dialect& dialect) {
-  if (dialect.separator() == '\0') return split_names(line, '\0');
-  std::vector<std::string> names;
-  for (const Field& field : dialect.split(line)) names.emplace_back(field.text);
-  if (names.front().starts_with("# ")) names.front().erase(0, 2);  // of a comment in quotes
+std::vector<std::string> names_in(std::string_view line, char separator) {
+  auto names = split_names(line, separator);
+  if (separator && names.front().starts_with("# ")) names.front().erase(0, 2);  // quoted
   return names;
 }
 
@@ -73,8 +70,7 @@ class HeadReader {
   void keep(std::string comment);
   void take_history();
   bool is_missing_record(std::string_view line);
-  bool is_named_by_comment(std::size_t width, bool any) const;
-  bool are_units(std::string_view line);
+  bool is_named_by_comment(std::size_t width) const;
   std::vector<std::string> take_units();
   std::vector<std::string> take_names(std::size_t width, bool blank_end);
   bool is_named_below(const UnnamedColumns& columns) const;
@@ -123,39 +119,29 @@ void HeadReader::keep(std::string comment) {
   last_.pop_front();
 }
 
-/// True if a comment has names for so many columns; known ones or with tabs, or `any`.
-bool HeadReader::is_named_by_comment(std::size_t width, bool any) const {
+/// True if a comment has names for so many columns, one of them known.
+bool HeadReader::is_named_by_comment(std::size_t width) const {
   const auto names_them = [&](const Comment& comment) {
-    const CommentedNames found = names_in_comment(comment.text, {width});
-    return !comment.is_history() && !found.names.empty() && (any || found.tabs || found.known > 0);
+    return !comment.is_history() && names_in_comment(comment.text, {width}).known > 0;
   };
   return std::ranges::any_of(comments_, names_them) || std::ranges::any_of(last_, names_them);
 }
 
 /// True for a first record with missing readings: a field is NaN, which is no name of a column; or
-/// fields are blank below a line of names, and none is a known name itself. Below known names dates
-/// and times may stand beside the blanks.
+/// all are blank, dates or times below known names; or one is blank below those of a comment.
 bool HeadReader::is_missing_record(std::string_view line) {
   const auto fields = dialect_.split(line);
-  const auto is_nan = [](const Field& f) { return is_missing(f.text) && !f.text.empty(); };
-  const auto is_blank = [](const Field& field) { return field.text.empty(); };
-  if (std::ranges::any_of(fields, is_nan)) return true;
-  if (holds_known_name(line) || are_units(line)) return false;
-  const std::size_t width = fields.size();
-  const bool all_blank = std::ranges::all_of(fields, is_blank);
-  if (before_) {  // a names line has no blanks where the one before had names
-    const auto last = before_->blank_end ? fields.end() - 1 : fields.end();
-    return all_blank ||
-           (width == before_->layout.width && std::any_of(fields.begin(), last, is_blank));
-  }
-  if (preamble_.empty())  // blanks under the names of a comment; beside text, if these are certain
-    return std::ranges::any_of(fields, is_blank) && is_named_by_comment(width, all_blank);
-  if (!std::ranges::all_of(fields, [&](const Field& f) { return is_blank(f) || is_date(f.text); }))
-    return false;
+  const auto any = [&](auto&& is) { return std::ranges::any_of(fields, is); };
+  if (any([](const Field& f) { return is_missing(f.text) && !f.text.empty(); })) return true;
+  const bool text = any([](const Field& f) { return !f.text.empty() && !is_date(f.text); });
+  if (before_) return !text && fields.size() == before_->layout.width;
+  if (preamble_.empty())
+    return any([](const Field& f) { return f.text.empty(); }) && !holds_known_name(line) &&
+           !any([](const Field& f) { return unit_kind(f.text) != UnitKind::none; }) &&
+           is_named_by_comment(fields.size());
   const std::string& above = preamble_.back().text;
-  const auto names = names_in(above, dialect_);
-  return names.size() == width && std::ranges::count(names, "") == 0 &&
-         (all_blank || holds_known_name(above));
+  return !text && holds_known_name(above) &&
+         names_in(above, dialect_.separator()).size() == fields.size();
 }
 
 /// True if a line or comment above, whose names are separated by tabs and contain no blanks, has as
@@ -216,6 +202,9 @@ std::vector<std::string> HeadReader::take_commented_names(const UnnamedColumns& 
   auto chosen = choose_names(comments_, columns, !before_, lines_.name());
   if (!chosen) return {};
   const Comment& names = comments_[chosen->place];
+  if (!preamble_.empty() && preamble_.back().line > names.line)
+    fail<InputError>("{}:{}: '{}' below the names is neither a record nor a unit for each of them",
+                     lines_.name(), preamble_.back().line, shown(preamble_.back().text));
   if (names.text.starts_with("# ") && names.text.find('\t') != std::string::npos)
     dialect_.has_points();
   head_.line = names.line;
@@ -235,32 +224,19 @@ void HeadReader::note_sorted_history(std::size_t names) {
     comments_.push_back({fmt::format("## {}", lines_sorted), comments_.back().line});
 }
 
-/// True for a line of units, some of them blank, under a comment with the names.
-bool HeadReader::are_units(std::string_view line) {
-  const auto units = names_in(line, dialect_);
-  const auto is_unit = [](const std::string& text) {
-    return text.empty() || unit_kind(text) != UnitKind::none;
-  };
-  return std::ranges::all_of(units, is_unit) && std::ranges::count(units, "") != std::ssize(units);
-}
-
-/// The units in the line below the line of names; empty if there is none.
+/// The units in the line below the line of names, or the comment with them; empty if there is none.
 std::vector<std::string> HeadReader::take_units() {
   if (preamble_.empty()) return {};
-  auto units = names_in(preamble_.back().text, dialect_);
-  if (preamble_.size() == 1 &&
-      std::ranges::any_of(
-          comments_,
-          [&](const Comment& comment) {
-    return comment.line < preamble_.back().line && !comment.is_history() &&
-           names_in_comment(comment.text, {units.size()}).known > 0;
-          }) &&
-      are_units(preamble_.back().text)) {
-    preamble_.pop_back();
-    return units;
-  }
-  if (preamble_.size() < 2) return {};
-  if (!are_units_of(names_in(preamble_[preamble_.size() - 2].text, dialect_), units)) return {};
+  auto units = names_in(preamble_.back().text, dialect_.separator());
+  std::vector<std::string> above;
+  if (preamble_.size() > 1)
+    above = names_in(preamble_[preamble_.size() - 2].text, dialect_.separator());
+  for (const Comment& comment : comments_)
+    if (preamble_.size() == 1 && comment.line < preamble_.back().line && !comment.is_history())
+      if (auto found = names_in_comment(comment.text, {units.size(), units.back().empty()});
+          found.known > 0)
+        above = std::move(found.names);
+  if (!are_units_of(above, units)) return {};
   preamble_.pop_back();
   return units;
 }
@@ -274,7 +250,7 @@ std::vector<std::string> HeadReader::take_names(std::size_t width, bool blank_en
     comment_preamble();
     return names;
   }
-  auto names = names_in(preamble_.back().text, dialect_);
+  auto names = names_in(preamble_.back().text, dialect_.separator());
   head_.line = preamble_.back().line;
   preamble_.pop_back();
   comment_preamble();

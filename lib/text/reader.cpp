@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "text/commented_names.h"
 #include "text/delimiters.h"
+#include "text/header.h"
 #include "text/number.h"
 
 namespace rolling {

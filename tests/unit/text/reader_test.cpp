@@ -338,7 +338,8 @@ TEST_CASE("reader: the names are the last comment with as many fields as the rec
   CHECK(records({"# t[s] v[cm s^-1]\n0 100\n"}) == "0 1");
   CHECK(records({"# t[ms] v[km/h] n\n# made on Tuesday\n0 36 1\n"}) == "0 10");
   CHECK(records({"# t[ms] v[km/h] x[m]\n0 36\n"}) ==
-        "FILE:1: a comment with units, but not the names of 2 columns");
+        "FILE:1: '# t[ms] v[km/h] x[m]' may be the names of the columns, but has not one for each of "
+        "2 columns");
   CHECK(told("# Speed (km/h) from GPS\n0 36\n") ==
         "t is column 1, taken in s; v is column 2, taken in m/s although line 1 says km/h");
   CHECK(records({"# t[s] v[m/s]\n0 1\n# t[ms] v[km/h]\n1000 36\n"}) ==

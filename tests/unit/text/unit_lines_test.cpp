@@ -1,4 +1,4 @@
-#include "text/unit_lines.h"
+#include "text/header.h"
 
 #include "base/error.h"
 #include "unit/text/files.h"

@@ -1,5 +1,5 @@
-// The names of columns in a comment. A comment may as well be a sentence: which one it is follows
-// from the comments together.
+// The header of a run: the names of its columns, in a comment or in a line of their own, and the
+// units that may stand in a line below them.
 #pragma once
 
 #include <optional>
@@ -11,6 +11,7 @@
 
 namespace rolling {
 
+/// A line above the first record that is no record.
 struct Comment {
   std::string text;  ///< with its marks
   std::size_t line;  ///< its number in the file
@@ -34,16 +35,16 @@ struct CommentedNames {
   std::vector<std::string> names = {};  ///< empty if the comment has another number of words
   bool tabs = false;                    ///< tabs separate them
   bool words = false;                   ///< blanks separate them, as in a sentence
-  bool article = false;                 ///< one is `a` before a word, as in a sentence
-  std::size_t units = 0;                ///< number of known quantities that have a unit
-  std::size_t known = 0;  ///< number that are t, x, v, a (no article), D or names of the run before
+  std::size_t known = 0;  ///< number that are t, x, v, a, D or names of the run before
+  std::size_t units = 0;  ///< number of known quantities that have a unit
 };
+/// The names are separated by the first of tabs, ; , and blanks that gives one for each column.
 CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns&);
 
 /// A date or a time of day, in digits: `24/11/2026`, `10:15:00.5`, `2026-11-24T10:15:00Z`.
 bool is_date(std::string_view text);
 
-/// True if t, x, v, a or D is a word of the line, between any separators.
+/// True if t, x, v, a or D is a word of the line, by its short name or its long one.
 bool holds_known_name(std::string_view line);
 
 /// The names of the columns and the place of the comment that has them.
@@ -52,13 +53,19 @@ struct ChosenNames {
   std::vector<std::string> names;
 };
 
-/// The last comment that names known columns, or names between tabs; in the first head of a file
-/// (`first`), else the last one of as many words as columns. Nothing if there is none. Throws
-/// InputError if another comment may be meant: its names are as likely, or it has names and units,
-/// or nothing but known names, but not of these columns, or known names stand in a history line.
-/// Throws it for a sentence that may be names, too: with the article `a`, or one that would move
-/// known columns of the run before.
+/// The comment for which most speaks (tabs, then known names and their units), of equal ones the
+/// last; in the first head of a file (`first`) one without known names, too. Nothing if there is
+/// none. Throws InputError if another line may be meant, or if the chosen one may be a sentence
+/// that would move known columns of the run before.
 std::optional<ChosenNames> choose_names(const std::vector<Comment>&, const UnnamedColumns&,
                                         bool first, std::string_view file);
+
+/// Whether the fields of the line above the records are the units of the names in the line above
+/// it, which has as many: none of them is a known name, and two are known units, or one under names
+/// of which one is known.
+bool are_units_of(const std::vector<std::string>& names, const std::vector<std::string>& fields);
+
+/// Gives a column the unit that stands below its name. Refuses one other than that of the name.
+void add_unit(Column&, std::string_view unit, std::string_view place);
 
 }  // namespace rolling

@@ -1,0 +1,214 @@
+#include "text/header.h"
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "base/error.h"
+#include "text/delimiters.h"
+#include "text/number.h"
+
+namespace rolling {
+namespace {
+
+constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+bool is_known_name(const std::string& text) { return is_known(read_column(text)); }
+
+/// The text without separators at its end.
+std::string_view without_end(std::string_view text) {
+  return text.substr(0, text.find_last_not_of(filling) + 1);
+}
+
+/// The names between these separators, 0 for blanks: none if they are not as many as the columns,
+/// or if some are blank, unless one is known or `blanks` allows it.
+CommentedNames names_between(char separator, std::string_view text, const UnnamedColumns& columns,
+                             bool blanks) {
+  CommentedNames found{split_names(text, separator), separator == '\t' && columns.count > 1,
+                       separator == '\0'};
+  auto& names = found.names;
+  while (names.size() > columns.count && names.back().empty()) names.pop_back();
+  while (names.size() > columns.count && names.front().empty()) names.erase(names.begin());
+  bool sentence = false;
+  for (const std::string& name : names) {
+    sentence |= found.words && std::string_view(",;:").find(name.back()) != std::string_view::npos;
+    const Column column = read_column(name);
+    if (found.words && names.size() > 1 && name == "a") continue;  // the article, perhaps
+    found.known += is_known(column) || std::ranges::count(columns.before, column.name, &Column::name);
+    found.units += is_known(column) && !column.unit.empty();
+  }
+  const bool is_blank = std::ranges::count(names, "") > 0;
+  return names.size() != columns.count || sentence || (is_blank && !blanks && found.known == 0)
+             ? CommentedNames()
+             : found;
+}
+
+/// The words of a line, whatever separates them: `t [ms]`, `time` and `x [cm]` of `t [ms]: time, x
+/// [cm]`.
+std::vector<Column> words_of(std::string_view line) {
+  std::string text(line);
+  for (const char separator : separators) std::ranges::replace(text, separator, ' ');
+  std::vector<Column> words;
+  for (std::string& word : split_names(text, '\0')) {
+    word.erase(word.find_last_not_of(",;:=") + 1);
+    words.push_back(read_column(word));
+  }
+  return words;
+}
+
+/// The number of known quantities with units in a comment.
+std::size_t names_with_units(std::string_view comment) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(words_of(without_marks(comment)), [](const Column& word) {
+        return is_known(word) && !word.unit.empty();
+      }));
+}
+
+/// True for a comment of nothing but known quantities, or that gives two of them units. One word
+/// without a unit may be a label.
+bool looks_like_names(std::string_view comment) {
+  const std::vector<Column> words = words_of(without_marks(comment));
+  const std::size_t units = names_with_units(comment);
+  return units > 1 || (words.size() + units > 1 && std::ranges::all_of(words, is_known));
+}
+
+/// True if each known quantity is in the same place in both, in the same unit.
+bool agree(const std::vector<std::string>& one, const std::vector<std::string>& other) {
+  const auto same = [](const std::string& x, const std::string& y) {
+    const auto unit = [](const Column& of) {
+      return of.unit.empty() ? std::string(si_unit(of.name)) : of.unit;
+    };
+    const Column a = read_column(x), b = read_column(y);
+    return !(is_known(a) || is_known(b)) || (a.name == b.name && unit(a) == unit(b));
+  };
+  return std::ranges::equal(one, other, same);
+}
+
+/// True if a known quantity is not in the same place in these names and in the columns before.
+bool moves_known(const std::vector<std::string>& names, const std::vector<Column>& before) {
+  for (std::size_t i = 0; i < std::min(names.size(), before.size()); ++i) {
+    const Column now = read_column(names[i]);
+    if (now.name != before[i].name && (is_known(now) || is_known(before[i]))) return true;
+  }
+  return false;
+}
+
+/// What speaks for names: those that are known, and their units; before all, tabs.
+std::size_t weight(const CommentedNames& of) {
+  return of.known + of.units + (of.tabs ? 2 * of.names.size() + 1 : 0);
+}
+
+/// True if they can hardly be a sentence.
+bool is_sure(const CommentedNames& of, const UnnamedColumns& columns) {
+  return of.known > 0 && (of.tabs || of.known + columns.blank_end >= columns.count);
+}
+
+/// True if the comment `i` may be names as well as the chosen one: it is below it, or as likely, or
+/// its names are as many as the columns once were.
+bool is_other(const std::vector<CommentedNames>& all, std::size_t i, std::size_t chosen, bool sure,
+              const Comment& comment) {
+  const CommentedNames& of = all[i];
+  if (chosen != none && agree(of.names, all[chosen].names)) return false;
+  const bool alone = looks_like_names(comment.text), likely = alone || of.known > 1;
+  if (comment.is_history() || chosen == none) return likely && (alone || comment.is_history());
+  if (i > chosen) return likely || of.tabs || (!sure && of.known > 0);
+  return !sure && (of.names.empty() ? alone : of.known > 1 && weight(of) >= weight(all[chosen]));
+}
+
+}  // namespace
+
+std::string_view without_marks(std::string_view comment) {
+  return comment.substr(std::min(comment.find_first_not_of('#'), comment.size()));
+}
+
+bool is_date(std::string_view text) {
+  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) &&
+         text.find_first_not_of("0123456789+-.:/ TZ") == std::string_view::npos;
+}
+
+bool holds_known_name(std::string_view line) {
+  const auto is_letter = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+  };
+  for (auto at = line.begin(); at != line.end();) {
+    const auto end = std::find_if_not(at, line.end(), is_letter);
+    if (end - at == 1 ? !si_unit({at, end}).empty()
+                      : end - at >= 4 && !si_unit(short_name({at, end})).empty())
+      return true;
+    at = end == line.end() ? end : end + 1;
+  }
+  return false;
+}
+
+CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns& columns) {
+  const std::string_view text = without_marks(comment);
+  for (const bool blanks : {false, true})
+    for (const char separator : std::string(separators) + '\0')
+      for (const std::string_view part : {without_end(text), text})
+        if (auto found = names_between(separator, part, columns, blanks); !found.names.empty())
+          return found;
+  if (!columns.blank_end) return {};
+  CommentedNames found = names_in_comment(comment, {columns.count - 1, false, columns.before});
+  if (found.known == 0) return {};
+  found.names.emplace_back();
+  return found;
+}
+
+std::optional<ChosenNames> choose_names(const std::vector<Comment>& comments,
+                                        const UnnamedColumns& columns, bool first,
+                                        std::string_view file) {
+  std::vector<CommentedNames> all;
+  for (const Comment& of : comments) all.push_back(names_in_comment(of.text, columns));
+  std::size_t chosen = none;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto is_figure = [](const std::string& s) { return is_number(s) || is_date(s); };
+    if (!comments[i].is_history() && !all[i].names.empty() &&
+        (weight(all[i]) > 0 || (first && std::ranges::none_of(all[i].names, is_figure))) &&
+        (chosen == none || weight(all[i]) >= weight(all[chosen])))
+      chosen = i;
+  }
+  const bool sure = chosen != none && is_sure(all[chosen], columns);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool history = comments[i].is_history();
+    if (i == chosen ? all[i].tabs ||
+                          names_with_units(comments[i].text) <= std::max(all[i].units, 1UL)
+                    : !is_other(all, i, chosen, sure, comments[i]))
+      continue;
+    fail<InputError>(
+        "{}:{}: '{}' may be the names of the columns, {}", file, comments[i].line,
+        shown(comments[i].text),
+        history ? "but it begins with ##, as history does; leave one # there"
+        : all[i].names.empty() || i == chosen
+            ? fmt::format("but has not one for each of {} column{}", columns.count,
+                          columns.count == 1 ? "" : "s")
+            : fmt::format("and so may line {}: give one of them another number of words",
+                          comments[chosen].line));
+  }
+  if (chosen == none) return {};
+  const bool article = all[chosen].known == 0 && std::ranges::count(all[chosen].names, "a") > 0;
+  if (!sure && all[chosen].words && all[chosen].units == 0 &&
+      (article || moves_known(all[chosen].names, columns.before)))
+    fail<InputError>(
+        "{}:{}: '{}' can be names of the columns or a sentence: put tabs between names, or give "
+        "the sentence another number of words",
+        file, comments[chosen].line, shown(comments[chosen].text));
+  return ChosenNames{chosen, all[chosen].names};
+}
+
+bool are_units_of(const std::vector<std::string>& names, const std::vector<std::string>& fields) {
+  const auto is_unit = [](const std::string& text) { return unit_kind(text) != UnitKind::none; };
+  const auto units = std::ranges::count_if(fields, is_unit);
+  return names.size() == fields.size() && std::ranges::none_of(fields, is_known_name) &&
+         units + std::ranges::any_of(names, is_known_name) > 1;
+}
+
+void add_unit(Column& column, std::string_view unit, std::string_view place) {
+  const std::string below = bare_unit(unit);
+  if (below.empty()) return;
+  if (!column.unit.empty() && column.unit != below)
+    fail<InputError>("{}: the column '{}' has another unit in the line below, '{}'", place,
+                     shown(to_text(column)), shown(below));
+  column.unit = below;
+}
+
+}  // namespace rolling
