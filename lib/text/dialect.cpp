@@ -71,18 +71,6 @@ const char* read_plain(const char* at, const char* end, Field& field) {
 
 }  // namespace
 
-Dialect Dialect::of_output() {
-  Dialect dialect;
-  dialect.separator_ = '\t';
-  return dialect;
-}
-
-Dialect Dialect::of_sides() const {
-  Dialect dialect = of_output();
-  dialect.foreign_numbers_ = dialect.asks_ = asks_ && decimal_mark_ == '\0';
-  return dialect;
-}
-
 bool Dialect::choose(std::string_view line, bool tabs) {
   const std::string outside = outside_quotes(line, separators).text;
   const auto first = std::find_if(separators.begin(), separators.end(),

@@ -21,10 +21,6 @@ class Dialect {
  public:
   /// Blanks separate fields until choose() finds another separator.
   Dialect() = default;
-  /// The form that the tools write: separated by tabs, with a decimal point.
-  static Dialect of_output();
-  /// That form for fields of this dialect, after all of them have been split.
-  Dialect of_sides() const;
 
   /// Chooses the separator from a line: the first of the separators that the line contains outside
   /// quotes, else blanks; also if blanks and tabs both separate numbers, unless `tabs` says that

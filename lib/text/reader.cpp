@@ -99,7 +99,7 @@ bool Reader::next_head() {
   const Sides sides = needed_.use_has_numbers() ? Sides::one : Sides::by_names;
   while (file_open_ || next_file()) {
     const bool first = run_in_file_ == 0;
-    Head head = read_head(*lines_, file_dialect_, first ? nullptr : &head_, order_, sides,
+    Head head = read_head(*lines_, dialect_, first ? nullptr : &head_, order_, sides,
                           run_ == 0 && !options_.run ? options_.on_comment : CommentHook());
     if (!head.layout.runs.empty()) {
       take_head(std::move(head));
@@ -133,9 +133,23 @@ void Reader::take_head(Head head) {
                      head_.named ? "those have names" : fmt::format("{}, not {}", width, before));
   head_ = std::move(head);
   side_ = 0;
-  sides_.clear();
-  if (!head_.layout.side_by_side()) return;
-  sides_ = take_apart(*lines_, file_dialect_, head_.layout);
+  kept_.clear();
+  if (head_.layout.side_by_side()) keep_rows();
+}
+
+/// Keeps the lines of runs side by side, up to a run break.
+void Reader::keep_rows() {
+  kept_text_.truncate(0);
+  while (lines_->next() && lines_->kind() != LineKind::blank) {
+    const std::string_view text = lines_->text();
+    if (lines_->kind() == LineKind::history) {
+      refuse_error_line(*lines_);
+      lines_->put_back();
+      break;
+    }
+    kept_.push_back({lines_->kind(), lines_->number(), kept_text_.size(), text.size()});
+    kept_text_.append(text);
+  }
 }
 
 /// True if there are several runs, or if the run has a name or a number in the input.
@@ -159,22 +173,33 @@ std::string Reader::run_name() const {
   return std::string(trim(name));
 }
 
-/// Prepares for the lines of the run whose head has been read.
-void Reader::begin_lines() {
-  side_line_ = 0;
-  side_dialect_ = file_dialect_.of_sides();
-  dialect_ = sides_.empty() ? &file_dialect_ : &side_dialect_;
+/// Goes before the first row of the present run. The blanks of a run side by side below its last
+/// reading, beside a longer run, are no rows.
+void Reader::begin_rows() {
+  next_kept_ = 0;
+  dialect_.want_none();
+  const std::size_t number = line_number_;
+  const auto is_reading = [&](std::size_t i) {
+    return i < fields_.size() && !head_.layout.shared[i] && !fields_[i].text.empty();
+  };
+  for (kept_end_ = kept_.size(); kept_end_ > 0; --kept_end_) {
+    const Kept& kept = kept_[kept_end_ - 1];
+    line_number_ = kept.number;
+    fields_ = split({kept_text_.data() + kept.begin, kept.size});
+    if (kept.kind == LineKind::record && std::ranges::any_of(layout().fields, is_reading)) break;
+  }
+  line_number_ = number;
 }
 
 /// Reads the present run as strictly as one that is kept: what is wrong in a column is an error as
 /// soon as this column is needed.
 void Reader::pass_over() {
-  begin_lines();
+  begin_rows();
   NeededColumns judge(options_.use, options_.has_use);
   judge.begin_run(layout().columns, head_.named, head_.said, place_of_head());
   const std::vector<std::string>& quantities = judge.quantities();
   for (std::size_t i = 0; i < quantities.size(); ++i) {
-    dialect_->want(i);
+    dialect_.want(layout().fields[i]);
     try {
       judge.add(fmt::format("{}", i + 1), NeededColumns::Kind::wanted);
     } catch (const InputError& error) {
@@ -184,8 +209,8 @@ void Reader::pass_over() {
   double last = std::numeric_limits<double>::quiet_NaN();
   while (next_line()) {
     remarks_.clear();
-    split_line();
-    if (fields_.size() != quantities.size()) change_fields();
+    fields_ = split(line_);
+    take_fields();
     for (std::size_t i = 0; i < quantities.size(); ++i) {
       const bool missing = is_missing(fields_[i].text);
       const double number = fields_[i].number;
@@ -224,7 +249,7 @@ void Reader::begin_run() {
   state_ = State::found;
   run_found_ = true;
   last_time_ = std::numeric_limits<double>::quiet_NaN();
-  begin_lines();
+  begin_rows();
   place_ = lines_->name();
   if (run_is_named()) {
     place_ = "run " + run_name();
@@ -246,9 +271,9 @@ std::size_t Reader::add(std::string_view name, NeededColumns::Kind kind) {
 /// Declares to the dialect the fields whose numbers are read.
 void Reader::read_needed() {
   values_.resize(needed_.all().size());
-  dialect_->want_none();
+  dialect_.want_none();
   for (const NeededColumns::Needed& needed : needed_.all())
-    if (needed.column != no_column) dialect_->want(needed.column);
+    if (needed.column != no_column) dialect_.want(layout().fields[needed.column]);
 }
 
 // ----------------------------------------------------------------------------------------
@@ -256,7 +281,7 @@ void Reader::read_needed() {
 
 /// Goes to the next line of this run that is a record; false at its end.
 bool Reader::next_line() {
-  if (!sides_.empty()) return next_side_line();
+  if (!kept_.empty()) return next_kept_line();
   while (lines_->next()) {
     line_ = lines_->text();
     const LineKind kind = lines_->kind();
@@ -284,13 +309,13 @@ bool Reader::next_line() {
   return false;
 }
 
-bool Reader::next_side_line() {
-  while (side_line_ < sides_[side_].size()) {
-    const Side::Line line = sides_[side_][side_line_++];
-    line_ = line.text;
-    line_number_ = line.number;
-    if (line.kind == LineKind::record) return true;
-    remarks_.emplace_back(line_);
+bool Reader::next_kept_line() {
+  while (next_kept_ < kept_.size()) {
+    const Kept& kept = kept_[next_kept_++];
+    line_ = {kept_text_.data() + kept.begin, kept.size};
+    line_number_ = kept.number;
+    if (kept.kind == LineKind::comment && side_ == 0) remarks_.emplace_back(line_);
+    if (kept.kind == LineKind::record && next_kept_ <= kept_end_) return true;
   }
   state_ = State::between;
   return false;
@@ -315,9 +340,9 @@ bool Reader::are_names(std::string_view comment) const {
 /// Fast path for most lines: a record of the same form as the one before it in this run is found
 /// and split in one pass. False for any other line, which is left to next_line().
 inline bool Reader::take_plain_line() {
-  if (!sides_.empty()) return false;
+  if (!kept_.empty()) return false;
   const std::string_view ahead = lines_->ahead();
-  const char* const end = file_dialect_.split_plain(ahead, fields_);
+  const char* const end = dialect_.split_plain(ahead, fields_);
   if (!end) return false;
   lines_->take(static_cast<std::size_t>(end - ahead.data()), *end == '\r' ? 2 : 1);
   line_ = lines_->text();
@@ -331,44 +356,45 @@ bool Reader::next() {
   for (;;) {
     if (!take_plain_line()) {
       if (!next_line()) return false;
-      split_line();
+      fields_ = split(line_);
     }
     if (take_record()) return record_found_ = true;
     ++left_out_;
   }
 }
 
-void Reader::split_line() {
+std::span<const Field> Reader::split(std::string_view line) {
   try {
-    fields_ = dialect_->split(line_);
+    return dialect_.split(line);
   } catch (const Error& error) {
     fail<InputError>("{}: {}", here(), error.what());
   }
 }
 
-/// Accepts a record with one field more or less than the first one if the difference is a separator
-/// at the end of the line; refuses any other number of fields.
-void Reader::change_fields() {
-  const std::size_t width = layout().columns.size();
-  if (fields_.size() == width + 1 && fields_.back().text.empty() && head_.named) {
-    fields_ = fields_.first(width);
-  } else if (fields_.size() + 1 == width && head_.blank_end) {
-    changed_fields_.assign(fields_.begin(), fields_.end());
-    changed_fields_.emplace_back();
-    fields_ = changed_fields_;
-  } else {
-    fail<InputError>("{}: {} field{} where the first row has {}{}", here(), fields_.size(),
-                     fields_.size() == 1 ? "" : "s", width,
-                     way_out_of_commas(line_, file_dialect_.separator(),
-                                       std::max(fields_.size(), width) - width));
-  }
-  fields_changed_ = true;
+/// Leaves of the fields of a line those of the present run. A line of one run may have one more or
+/// less than the first if the difference is a separator at its end; runs side by side may end
+/// early. Refuses any other number.
+void Reader::take_fields() {
+  const std::size_t width = head_.layout.width, count = fields_.size();
+  const bool side_by_side = head_.layout.side_by_side();
+  fields_changed_ = side_by_side || count != width;
+  if (!fields_changed_) return;
+  const bool more = count == width + 1 && fields_.back().text.empty() && head_.named,
+             less = count + 1 == width && head_.blank_end;
+  if (side_by_side ? count > width : !more && !less)
+    fail<InputError>("{}: {} field{} where the first row has {}{}", here(), count,
+                     count == 1 ? "" : "s", width,
+                     way_out_of_commas(line_, dialect_.separator(),
+                                       std::max(count, width) - width));
+  changed_fields_.clear();
+  for (const std::size_t i : layout().fields)
+    changed_fields_.push_back(i < count ? fields_[i] : Field());
+  fields_ = changed_fields_;
 }
 
 /// Reads the needed numbers of the record; false if one is missing.
 bool Reader::take_record() {
-  fields_changed_ = false;
-  if (fields_.size() != columns().size()) change_fields();
+  take_fields();
   double* to = values_.data();
   const bool converts = needed_.converts();
   for (const NeededColumns::Needed& needed : needed_.all()) {
@@ -426,7 +452,7 @@ std::size_t Reader::append_made(Bytes& to, std::size_t column) {
     if (converted != needed.end() && !std::isnan(fields_[i].number))
       to.set_end(write_number(to.reserve(longest_number),
                               values_[static_cast<std::size_t>(converted - needed.begin())]));
-    else if (dialect_->may_need_quotes()) append_field(to, fields_[i].text);
+    else if (dialect_.may_need_quotes()) append_field(to, fields_[i].text);
     else to.append(fields_[i].text);
   }
   return std::min(place, to.size() - begin);
@@ -449,7 +475,7 @@ std::string Reader::way_out(std::size_t column) const {
   const bool in_field =
       std::count(field.begin(), field.end(), ',') == 1 && field.find('.') == std::string_view::npos;
   const auto blank = field.find(' ');
-  const bool beside = file_dialect_.separator() == ',' && blank < field.size() &&
+  const bool beside = dialect_.separator() == ',' && blank < field.size() &&
                       is_number(field.substr(0, blank)) && is_number(trim(field.substr(blank)));
   const bool word = !field.empty() &&
                     std::string_view("+-.0123456789").find(field.front()) == std::string_view::npos;

@@ -15,7 +15,6 @@
 #include "text/head.h"
 #include "text/lines.h"
 #include "text/needed_columns.h"
-#include "text/side_by_side.h"
 
 namespace rolling {
 
@@ -93,7 +92,7 @@ class Reader {
   /// Appends the present record as it goes out, tab-separated, without the text of a column;
   /// returns where in it that column stands, or its length if there is none.
   std::size_t append_text(Bytes& to, std::size_t column = no_column) {
-    if (!dialect_->as_it_stands() || needed_.converts() || fields_changed_)
+    if (!dialect_.as_it_stands() || needed_.converts() || fields_changed_)
       return append_made(to, column);
     if (column >= fields_.size()) return to.append(line_), line_.size();
     const std::string_view field = fields_[column].text;
@@ -133,7 +132,7 @@ class Reader {
   bool next_file();
   void take_head(Head);
   bool asked_for();
-  void begin_lines();
+  void begin_rows();
   void begin_run();
   void pass_over();
   void refuse_passed() const;
@@ -142,11 +141,12 @@ class Reader {
 
   // Records.
   bool next_line();
-  bool next_side_line();
+  void keep_rows();
+  bool next_kept_line();
   bool take_plain_line();
   bool are_names(std::string_view comment) const;
-  void split_line();
-  void change_fields();
+  std::span<const Field> split(std::string_view line);
+  void take_fields();
   bool take_record();
   void check_time();
   std::size_t append_made(Bytes& to, std::size_t column);
@@ -166,9 +166,15 @@ class Reader {
   int run_ = 0;  // number of the run in the input, from 1
   Head head_;
   std::size_t side_ = 0;
-  std::vector<Side> sides_;  // runs side by side; else empty
-  std::size_t side_line_ = 0;
-  Dialect file_dialect_, side_dialect_, *dialect_ = &file_dialect_;
+  /// The lines of runs side by side, which are read once for each of them.
+  struct Kept {
+    LineKind kind;
+    std::size_t number, begin, size;
+  };
+  Bytes kept_text_;
+  std::vector<Kept> kept_;                    // else empty
+  std::size_t next_kept_ = 0, kept_end_ = 0;  // which is behind the last reading of this run
+  Dialect dialect_;
   std::vector<std::string> comments_, remarks_;
   std::size_t run_in_file_ = 0;  // number of the run in the file
   std::string place_;            // where() behind its last record
