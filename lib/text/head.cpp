@@ -203,7 +203,7 @@ std::vector<std::string> HeadReader::take_commented_names(const UnnamedColumns& 
   if (!chosen) return {};
   const Comment& names = comments_[chosen->place];
   if (!preamble_.empty() && preamble_.back().line > names.line)
-    fail<InputError>("{}:{}: '{}' below the names is neither a record nor a unit for each of them",
+    fail<InputError>("{}:{}: '{}' below the names is neither a row nor a unit for each of them",
                      lines_.name(), preamble_.back().line, shown(preamble_.back().text));
   if (names.text.starts_with("# ") && names.text.find('\t') != std::string::npos)
     dialect_.has_points();

@@ -104,20 +104,6 @@ std::size_t Input::lines_ahead() const {
              : static_cast<std::size_t>(1.125 * left * (feeds / static_cast<double>(some.size())));
 }
 
-bool Input::another_run() const {
-  if (size_ == 0) return false;
-  const std::string_view ahead = this->ahead();
-  bool blank = false;
-  for (std::size_t at = 0; at < ahead.size();) {
-    const auto mark = std::min(ahead.find_first_not_of("\t;, \"\r", at), ahead.size() - 1);
-    constexpr std::string_view no_record = "\n#\x1A";
-    if (blank && no_record.find(ahead[mark]) == std::string_view::npos) return true;
-    blank = blank || ahead[mark] == '\n';
-    at = std::min(ahead.find('\n', mark), ahead.size() - 1) + 1;
-  }
-  return false;
-}
-
 bool Input::next(std::string_view& line) {
   const char* feed =
       static_cast<const char*>(std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_)));

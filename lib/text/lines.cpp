@@ -35,10 +35,9 @@ bool begins_with_error_value(std::string_view line) {
 
 }  // namespace
 
-LineKind Lines::kind() const {
-  std::string_view line = text_;
+LineKind Lines::kind_of(std::string_view line) const {
   const std::size_t first = line.find_first_not_of(" \t");
-  if (first == std::string_view::npos || line == "\x1A" || is_blank_row(first))
+  if (first == std::string_view::npos || line == "\x1A" || is_blank_row(line.substr(first)))
     return LineKind::blank;
   const bool is_field = separators_ == "\t" && line.find('\t') < first;  // a blank one before it
   if (line[first] == quote && !is_field && only_cell(line).starts_with("##"))
@@ -49,19 +48,32 @@ LineKind Lines::kind() const {
   return begins_with_error_value(line) ? LineKind::record : LineKind::comment;
 }
 
-/// True for a row whose cells are all blank, in quotes perhaps: separators alone from `first` on.
-bool Lines::is_blank_row(std::size_t first) const {
+/// True for a row whose cells are all blank, in quotes perhaps.
+bool Lines::is_blank_row(std::string_view line) const {
   if (separators_.empty()) return false;
-  for (std::size_t i = first; i < text_.size(); ++i) {
-    if (text_[i] == quote) {  // a second one closes the cell, a third one would be text
-      if (!text_.substr(i).starts_with("\"\"") || text_.substr(i + 2).starts_with(quote))
-        return false;
-      ++i;
-    } else if (!is_blank(text_[i]) && separators_.find(text_[i]) == std::string::npos) {
+  for (; !line.empty(); line.remove_prefix(1)) {
+    if (line.front() == quote) {  // a second one closes the cell, a third one would be text
+      if (!line.starts_with("\"\"") || line.starts_with("\"\"\"")) return false;
+      line.remove_prefix(1);
+    } else if (!is_blank(line.front()) && separators_.find(line.front()) == std::string::npos) {
       return false;
     }
   }
   return true;
+}
+
+bool Lines::another_run() const {
+  std::string_view ahead = input_.has_size() ? input_.ahead() : std::string_view();
+  for (bool blank = false; !ahead.empty();) {
+    const auto end = std::min(ahead.find('\n'), ahead.size());
+    std::string_view line = ahead.substr(0, end);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    const LineKind kind = kind_of(line);
+    if (blank && kind == LineKind::record) return true;
+    blank |= kind == LineKind::blank;
+    ahead.remove_prefix(std::min(end + 1, ahead.size()));
+  }
+  return false;
 }
 
 std::string history_line(std::string_view line) {

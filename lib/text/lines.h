@@ -43,11 +43,11 @@ class Lines {
   /// The present line, valid until the next one.
   std::string_view text() const { return text_; }
   /// A blank line contains blanks, tabs and separators only, blank cells in quotes perhaps, or the
-  /// Ctrl-Z that ends a file of DOS. A comment
-  /// begins with #, a history line with ##; blanks may stand before it, and tabs where they are not
-  /// the separator. A history line may be in quotes, if the other fields of its line are blank. A
-  /// line that begins with an error value of a spreadsheet (#N/A) is a record.
-  LineKind kind() const;
+  /// Ctrl-Z that ends a file of DOS. A comment begins with #, a history line with ##; blanks may
+  /// stand before it, and tabs where they are not the separator. A history line may be in quotes, if
+  /// the other fields of its line are blank. A line that begins with an error value of a spreadsheet
+  /// (#N/A) is a record.
+  LineKind kind() const { return kind_of(text_); }
   std::size_t number() const { return number_; }  ///< of its first line in the file, from 1
   const std::string& name() const { return input_.name(); }
 
@@ -63,12 +63,15 @@ class Lines {
   }
 
   std::size_t lines_ahead() const { return input_.lines_ahead(); }
-  bool another_run() const { return input_.another_run(); }
+  /// True for a regular file with a blank line, and a record below it, in memory behind the present
+  /// line.
+  bool another_run() const;
 
  private:
   void join_quoted();
   void check_bytes() const;
-  bool is_blank_row(std::size_t first) const;
+  LineKind kind_of(std::string_view line) const;
+  bool is_blank_row(std::string_view line) const;
 
   Input input_;
   std::string_view text_;

@@ -126,23 +126,6 @@ bool means_missing(std::string_view field) {
   return std::ranges::count(words, letters) > 0;
 }
 
-bool has_other_digits(std::string_view text) {
-  struct Block {
-    std::string_view front;
-    unsigned char first, last;
-  };
-  constexpr Block blocks[] = {{"\xD9", 0xA0, 0xAC},       // Arabic, with its decimal mark
-                              {"\xDB", 0xB0, 0xB9},       // Persian and Urdu
-                              {"\xE0\xA5", 0xA6, 0xAF},   // Devanagari
-                              {"\xEF\xBC", 0x8B, 0x99}};  // of full width, with + , - and .
-  return std::ranges::any_of(blocks, [&](const Block& block) {
-    const auto at = text.find(block.front);
-    if (at == std::string_view::npos || at + block.front.size() == text.size()) return false;
-    const auto last = static_cast<unsigned char>(text[at + block.front.size()]);
-    return last >= block.first && last <= block.last;
-  });
-}
-
 char* write_number(char* to, double value, int digits) {
   if (digits > 0) {
     char* const end = write_digits(to, value, digits);
@@ -151,24 +134,9 @@ char* write_number(char* to, double value, int digits) {
   return write_shortest(to, value);
 }
 
-bool has_groups(std::string_view text) {
-  constexpr std::string_view digits = "0123456789";
-  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
-  const auto count = [&] { return std::min(text.find_first_not_of(digits), text.size()); };
-  const std::size_t first = count();
-  if (first < 1 || first > 3 || first == text.size()) return false;
-  text.remove_prefix(first);
-  const char between = text.front();
-  if (std::string_view(" .,'").find(between) == std::string_view::npos) return false;
-  while (text.starts_with(between)) {
-    text.remove_prefix(1);
-    if (count() != 3) return false;
-    text.remove_prefix(3);
-  }
-  if (text.starts_with('.') || text.starts_with(',')) text.remove_prefix(1);
-  return count() == text.size();
-}
+namespace {
 
+/// With a plain blank for each no-break or thin one (U+00A0, U+2009, U+202F).
 std::string with_plain_blanks(std::string_view text) {
   std::string out;
   while (!text.empty()) {
@@ -180,6 +148,8 @@ std::string with_plain_blanks(std::string_view text) {
   }
   return out;
 }
+
+}  // namespace
 
 std::string shown(std::string_view text) {
   std::string out = with_plain_blanks(text);

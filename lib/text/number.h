@@ -27,20 +27,11 @@ bool is_missing(std::string_view field);
 /// None, -nan, signs without a letter or digit, and the error values of spreadsheets, as #DIV/0!.
 bool means_missing(std::string_view field);
 
-/// True if digits of another script are in it: Arabic, Persian, Devanagari, or of full width.
-bool has_other_digits(std::string_view text);
-
 /// Writes the shortest text that reads back to the same double, or `digits` significant digits if
 /// digits > 0 and they are not beyond the largest double. Returns the end of the text, which has at
 /// most longest_number characters.
 char* write_number(char* to, double value, int digits = 0);
 inline constexpr std::size_t longest_number = 32;
-
-/// True for a number whose digits stand in groups of three, as in `1 000`, `1'000` and `1.000,5`.
-bool has_groups(std::string_view text);
-
-/// With a plain blank for each no-break or thin one (U+00A0, U+2009, U+202F).
-std::string with_plain_blanks(std::string_view text);
 
 /// `text` as a message shows it: printable ASCII only, at most 40 characters.
 std::string shown(std::string_view text);

@@ -1,6 +1,7 @@
 #include "text/reader.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -467,27 +468,27 @@ void Reader::reject(std::size_t column, std::string_view why) const {
   fail<InputError>("{}", wrong(column, columns()[column].name, why));
 }
 
-/// What to do about a field that is not a number, where its text shows the likely reason: a decimal
-/// comma, thousands set apart, a typographic minus sign, digits of another script, a missing
-/// reading, a time of day, the names of another run, a line of text.
+/// What to do about a field that is not a number, where its text shows the likely reason: a missing
+/// reading, a time of day, a decimal comma, signs that are none of a number, the names of another
+/// run, a line of text.
 std::string Reader::way_out(std::size_t column) const {
+  constexpr std::string_view digits = "0123456789", plain = "+-.0123456789";
   const std::string_view field = fields_[column].text;
-  const bool in_field =
-      std::count(field.begin(), field.end(), ',') == 1 && field.find('.') == std::string_view::npos;
-  const auto blank = field.find(' ');
+  if (means_missing(field) && !is_missing(field)) return "; write NaN for a missing reading";
+  const bool word = !field.empty() && plain.find(field.front()) == std::string_view::npos;
+  if (!word && field.find(':') < field.size()) return "; make it one number of seconds first";
+  const auto blank = field.find(' '), comma = field.find(',');
   const bool beside = dialect_.separator() == ',' && blank < field.size() &&
                       is_number(field.substr(0, blank)) && is_number(trim(field.substr(blank)));
-  const bool word = !field.empty() &&
-                    std::string_view("+-.0123456789").find(field.front()) == std::string_view::npos;
-  if (!word && field.find(':') < field.size()) return "; make it one number of seconds first";
-  const std::string plain = with_plain_blanks(field);
-  const bool is_comma = in_field && plain.find_first_of(" '") == std::string::npos;
-  if (!is_comma && has_groups(plain)) return "; remove what separates its thousands";
-  if (plain != field) return "; remove the blanks that are not plain ones";
-  if (in_field || beside) return "; if a comma here is a decimal one, make it a point first";
-  if (field.starts_with("\xE2\x88\x92")) return "; make its minus sign (U+2212) a hyphen first";
-  if (has_other_digits(field)) return "; write it with the digits 0 to 9 and a point";
-  if (means_missing(field)) return "; write NaN for a missing reading";
+  const auto is_wide = [](char c) { return static_cast<unsigned char>(c) > 0x7F; };
+  const bool wide = std::ranges::any_of(field, is_wide);
+  if (beside || (comma == field.rfind(',') && comma < field.size() && !wide &&
+                 field.find_first_of(". '") == std::string_view::npos))
+    return "; if a comma here is a decimal one, make it a point first";
+  const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0; };
+  if (field.find_first_not_of(plain) < field.size() && std::ranges::none_of(field, is_letter) &&
+      (wide || field.find_first_of(digits) < field.size()))
+    return "; write it with the digits 0 to 9, a hyphen and a point alone";
   if (!word) return "";
   if (head_.named && read_column(field).name == layout().columns[column].name)
     return "; put a blank line before the names of another run";

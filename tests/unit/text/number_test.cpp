@@ -303,19 +303,6 @@ TEST_CASE("number: what other programs write for a missing reading", "[text]") {
   }
 }
 
-TEST_CASE("number: digits of other scripts", "[text]") {
-  for (const char* text :
-       {"\xD9\xA0\xD9\xAB\xD9\xA5",
-        "0\xD9\xAB"
-        "5",
-        "\xDB\xB5", "\xEF\xBC\x95", "-\xEF\xBC\x90\xEF\xBC\x8E\xEF\xBC\x95", "\xE0\xA5\xA6"})
-    CHECK(has_other_digits(text));
-  for (const char* text : {"", "0.5", "\xD9", "\xD9\x85", "\xEF\xBC", "\xE6\x97\xB6",
-                           "\xE2\x88\x92"
-                           "1"})
-    CHECK_FALSE(has_other_digits(text));
-}
-
 TEST_CASE("number: a message shows printable ASCII, cut at 40 characters", "[text]") {
   CHECK(shown("abc") == "abc");
   CHECK(shown("a\tb\x7f\xC2\xB2\n") == "a?b????");
@@ -323,14 +310,6 @@ TEST_CASE("number: a message shows printable ASCII, cut at 40 characters", "[tex
   CHECK(shown(std::string(41, 'x')) == std::string(40, 'x') + "...");
   CHECK(shown("1\xE2\x80\xAF"
               "000\xC2\xA0m") == "1 000 m");
-}
-
-TEST_CASE("number: digits in groups of three", "[text]") {
-  for (const char* text : {"1 000", "-12.000,5", "1,234.5", "1'000'000", "1.000.000", "+1,000"})
-    CHECK(has_groups(text));
-  for (const char* text : {"", "-", "1", "1000", "1 00", "1 0000", "1234,567", " 000", "1 000 0",
-                           "1,234.5.6", "1:000", "1 000 m"})
-    CHECK_FALSE(has_groups(text));
 }
 
 TEST_CASE("number: blanks and tabs are trimmed, nothing else", "[text]") {
