@@ -15,6 +15,9 @@
 namespace rolling {
 namespace {
 
+/// Share of the largest speed below which a body may come to rest by itself.
+constexpr double slow = 0.15;
+
 constexpr const char* choose = ": choose the roll by its times (--from, --to)";
 
 /// Pieces that are one roll, by their indices.
@@ -74,9 +77,10 @@ class Search {
     std::vector<Chain> chains;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       const Piece<P>& p = pieces_[i];
-      if (p.is_short()) continue;
+      const auto a = p.a(p.middle());
+      if (p.is_short() && std::abs(a.value) < 20 * a.error) continue;
       if (!chains.empty() && continues(pieces_[chains.back().last], p)) chains.back().last = i;
-      else if (is_roll(p)) chains.push_back({i, i});
+      else if (!p.is_short() && is_roll(p)) chains.push_back({i, i});
     }
     for (Chain& c : chains) {
       const auto &a = pieces_[c.first], &b = pieces_[c.last];
@@ -113,7 +117,7 @@ class Search {
 
   /// Whether the motion of a goes on in b under one law, whatever lies between.
   bool continues(const Piece<P>& a, const Piece<P>& b) const {
-    if (b.from - a.to > std::min(a.duration(), b.duration()) / 2) return false;
+    if (b.from - a.to > std::min(a.duration(), b.duration())) return false;
     const double t = std::midpoint(a.to, b.from);
     const auto jump = [](auto p, auto q) { return std::abs(p.value - q.value); };
     const auto error = [](auto p, auto q) { return std::hypot(p.error, q.error); };
@@ -126,8 +130,7 @@ class Search {
     const double passed = jump(a.y(a.from), b.y(b.to));
     if (positions_ && jump(ya, yb) > 5 * error(ya, yb) + 0.02 * passed) return false;
     if (turns) return ratio > 0.25 && ratio < 4;
-    const bool stops = b.end < samples_.size() && mb.is_known() &&
-                       std::abs(b.v(b.to).value) < 0.03 * fastest_;
+    const bool stops = mb.is_known() && std::abs(b.v(b.to).value) < 0.03 * fastest_;
     if (va.value * way < 0 && !stops && !is_roll(b)) return false;
     const auto ea = a.a(a.to), eb = b.a(b.from);
     const double larger = std::max(std::abs(ea.value), std::abs(eb.value));
@@ -141,7 +144,7 @@ class Search {
     const Piece<P>& last = pieces_[c.last];
     if (last.end == samples_.size()) return FreeRoll::End::goes_on;
     const auto v = last.v(last.to);
-    return std::abs(v.value) < std::max(3 * v.error, 0.15 * c.fastest) ? FreeRoll::End::by_itself
+    return std::abs(v.value) < std::max(3 * v.error, slow * c.fastest) ? FreeRoll::End::by_itself
                                                                        : FreeRoll::End::is_ended;
   }
 
@@ -154,7 +157,7 @@ class Search {
       const auto cost = cost_of_joints(before.begin, before.order, first.order, first.end);
       s.begin = before.begin + inner_joint(cost, before.size(), first.size() / 3, 1);
       s.begin = std::max(s.begin, first.end - agreeing(first.end - 1, first.begin));
-      const double t = samples_[s.begin].t + std::max(unseen(first, samples_[s.begin].t, false),
+      const double t = samples_[s.begin].t + std::max(unseen(first, samples_[s.begin].t),
                                                       unseen_push(before, first));
       while (s.begin + 1 < first.end && samples_[s.begin].t < t) ++s.begin;
     }
@@ -163,14 +166,12 @@ class Search {
       const auto cost = cost_of_joints(last.begin, last.order, next.order, next.end);
       s.end = last.begin + inner_joint(cost, last.size(), last.size() / 3, -1);
       s.end = std::min(s.end, last.begin + agreeing(last.begin, last.end - 1));
-      const bool stops = end_of(c) == FreeRoll::End::by_itself;
-      const double t =
-          (stops ? last.to : samples_[s.end - 1].t) - unseen(last, samples_[s.end - 1].t, stops);
-      while (s.end > std::max(last.begin, s.begin) + 1 && samples_[s.end - 1].t > t) --s.end;
+      const double t = samples_[s.end - 1].t - unseen(last, samples_[s.end - 1].t);
+      while (end_of(c) == FreeRoll::End::is_ended && s.end > std::max(last.begin, s.begin) + 1 &&
+             samples_[s.end - 1].t > t)
+        --s.end;
     }
-    // A rest at the end of the record may be too short for a piece of its own.
-    if (s.end == samples_.size() && std::abs(last.v(last.to).value) < 0.1 * c.fastest)
-      s.end = last.begin + agreeing(last.begin, last.end - 1);
+    if (std::abs(last.v(last.to).value) < slow * c.fastest) s.end = std::min(s.end, before_stop(c));
     // What a sensor makes of several positions knows of two rows behind the joint; and the rows
     // that decided are not kept, which would bias a and b.
     const std::size_t spare = std::min<std::size_t>(2, (s.end - s.begin) / 25);
@@ -179,14 +180,34 @@ class Search {
     return s;
   }
 
+  /// The end of a roll whose body comes to rest by itself, at s: its speed falls to 0 without a
+  /// jump, so that its positions are y + sum c_k (s - t)^k, k > 1, before s and y from then on.
+  std::size_t before_stop(const Chain& c) const {
+    const Piece<P>& last = pieces_[c.last];
+    const std::size_t end = last.end < samples_.size() ? pieces_[c.last + 1].end : last.end;
+    const std::size_t least = last.begin + last.size() / 2;
+    std::vector<double> cost;
+    for (std::size_t joint = least; joint <= end; ++joint) {
+      Polynomial<P> fit;
+      for (std::size_t i = last.begin; i < end; ++i) {
+        const double u = joint < end ? std::min(samples_[i].t - samples_[joint].t, 0.0)
+                                     : samples_[i].t - samples_[end - 1].t;
+        std::array<double, P> row{1, u};
+        const std::size_t lowest = joint < end && positions_ ? 2 : 1;
+        for (std::size_t k = 1; k < P; ++k) row[k] = k == 1 ? std::pow(u, lowest) : row[k - 1] * u;
+        fit.add(row, samples_[i].y / noise_);
+      }
+      cost.push_back(fit.rss());
+    }
+    const std::size_t best = std::min_element(cost.begin(), cost.end()) - cost.begin();
+    return least + inner_joint(cost, best, best, -1);
+  }
+
   /// The time for which positions do not show a change: a body that a hand moves from rest to v, or
-  /// back, within T deviates from the sudden change by v T/8 at most, one that stops by a t^2/2.
-  double unseen(const Piece<P>& p, double t, bool stops) const {
-    if (!positions_) return 0;
-    const double longest = p.duration() / 4;
-    const double time = stops ? std::sqrt(2 * noise_ / std::abs(p.a(t).value))
-                              : 12 * noise_ / std::abs(p.v(t).value);
-    return time < longest ? time : longest;
+  /// back, within T deviates from the sudden change by v T/8 at most.
+  double unseen(const Piece<P>& p, double t) const {
+    const double time = positions_ ? 12 * noise_ / std::abs(p.v(t).value) : 0;
+    return std::min(time, p.duration() / 4);
   }
 
   /// The same for the end of a push of the duration T, whose force fades: its speed is

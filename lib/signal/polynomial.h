@@ -18,6 +18,10 @@ class Polynomial {
     std::array<double, P> row;
     row[0] = 1;
     for (std::size_t k = 1; k < P; ++k) row[k] = row[k - 1] * u;
+    add(row, y);
+  }
+  /// The same for other functions than powers.
+  void add(std::array<double, P> row, double y) {
     for (std::size_t k = 0; k < P; ++k) {
       if (row[k] == 0) continue;
       const double length = std::sqrt(r_[k][k] * r_[k][k] + row[k] * row[k]), c = r_[k][k] / length,

@@ -101,6 +101,24 @@ TEST_CASE("free_roll: without noise the roll ends where the speed is 0", "[signa
   CHECK(begin > 38);
 }
 
+// v' = -c v^b, whose acceleration falls to 0 with the speed where b > 0.
+TEST_CASE("free_roll: a record without noise that ends at the stop keeps its end", "[signal]") {
+  for (const double b : {0.0244, 0.215, 0.5})
+    for (const double dt : {0.01, 0.02, 0.04})
+      for (const bool positions : {false, true}) {
+        std::vector<Sample> run;
+        for (std::size_t i = 0; i <= static_cast<std::size_t>(std::round(3 / dt)); ++i) {
+          const double left = std::max(0.0, 3 - dt * static_cast<double>(i)), k = 1 / (1 - b);
+          run.push_back({3 - left, positions ? 0.2 * (3 - std::pow(left, k + 1)) / (k + 1)
+                                             : 0.2 * std::pow(left, k)});
+        }
+        const auto [begin, end] = free_roll(run, positions).kept;
+        INFO("b " << b << ", dt " << dt << ", positions " << positions);
+        CHECK(begin == 0);
+        CHECK(end + 6 >= run.size());
+      }
+}
+
 TEST_CASE("free_roll: the noise is that of the moving body, however still a long rest is",
           "[signal]") {
   // The speed is four times the noise 0.8 s before the stop, and twice that of a mean of 5 records
