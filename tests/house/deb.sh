@@ -43,7 +43,8 @@ done
 
 if command -v lintian >/dev/null; then
   lintian --fail-on error,warning "$package" 2>/dev/null || complain "lintian"
-  [ -z "${LONG-}" ] || ! lintian -I "$package" 2>/dev/null | grep hardening- ||
+  # What they call of libc has no fortified form, which lintian takes for a flag that is missing.
+  [ -z "${LONG-}" ] || ! lintian -I "$package" 2>/dev/null | grep 'hardening-no-[^f]' ||
     complain "its programs are not hardened"
 fi
 exit $wrong
