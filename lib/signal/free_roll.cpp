@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "base/median.h"
-#include "base/rounding.h"
 #include "signal/outliers.h"
 #include "signal/piece.h"
+#include "signal/resolution.h"
 #include "signal/units.h"
 
 namespace rolling {
@@ -328,21 +328,6 @@ std::vector<Sample> means(std::span<const Sample> samples, std::size_t size) {
         {begin.t + t / static_cast<double>(size), begin.y + y / static_cast<double>(size)});
   }
   return blocks;
-}
-
-/// The smallest difference between neighbours above the rounding error of a program: the resolution
-/// of the readings, if they are rounded. 0 if no two neighbours are equal (light gates); infinite
-/// if all are.
-double smallest_step(std::span<const Sample> readings) {
-  double largest = 0, step = std::numeric_limits<double>::infinity();
-  bool repeats = false;
-  for (const Sample& s : readings) largest = std::max(largest, std::abs(s.y));
-  for (std::size_t i = 1; i < readings.size(); ++i)
-    if (const double here = std::abs(readings[i].y - readings[i - 1].y);
-        here > program_rounding * largest)
-      step = std::min(step, here);
-    else repeats = true;
-  return repeats ? step : 0;
 }
 
 constexpr std::size_t at_once = 1000;
