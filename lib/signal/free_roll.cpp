@@ -71,8 +71,9 @@ class Search {
                bends = a0.value * a1.value < 0 && a0.is_known() && a1.is_known();
     if (!bends || turns || p.size() < 12) return void(pieces_.push_back(p));
     const auto cost = cost_of_joints(begin, P, P, end);
-    const auto joint = std::min_element(cost.begin() + 5, cost.end() - 5) - cost.begin();
-    for (const std::size_t half : {begin, begin + static_cast<std::size_t>(joint)})
+    const auto least = std::min_element(cost.begin() + 5, cost.end() - 5);
+    const auto joint = static_cast<std::size_t>(least - cost.begin());
+    for (const std::size_t half : {begin, begin + joint})
       pieces_.emplace_back(samples_, half, half == begin ? begin + joint : end, noise_, positions_);
   }
 
@@ -202,7 +203,8 @@ class Search {
       }
       cost.push_back(fit.rss());
     }
-    const std::size_t best = std::min_element(cost.begin(), cost.end()) - cost.begin();
+    const auto lowest = std::min_element(cost.begin(), cost.end());
+    const auto best = static_cast<std::size_t>(lowest - cost.begin());
     return least + inner_joint(cost, best, best, -1);
   }
 
