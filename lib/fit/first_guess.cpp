@@ -152,8 +152,7 @@ std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions
       }
     if (std::isfinite(nearest.rss)) best.push_back(std::move(nearest));
   }
-  if (best.empty())
-    fail("no law a v^b comes near the data: {}", choose_the_roll);
+  if (best.empty()) fail("no law a v^b comes near the data: {}", choose_the_roll);
   std::ranges::sort(best, {}, &Candidate::rss);
   return best;
 }

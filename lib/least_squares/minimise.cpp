@@ -162,11 +162,9 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
     // and yet the next step changes a parameter by more than its own size, and by more than in the
     // round before, the minimum lies at infinity.
     const bool lost = freedom > 0 && gain * freedom < 1 && best.size > std::max(1.0, size);
-    if (lost || gain == 0 || round == 20)
-      fail("the fit does not converge: {}", choose_the_roll);
+    if (lost || gain == 0 || round == 20) fail("the fit does not converge: {}", choose_the_roll);
   }
-  if (!determined())
-    fail("the data do not determine the parameters: {}", choose_the_roll);
+  if (!determined()) fail("the data do not determine the parameters: {}", choose_the_roll);
   // A negligible step is taken without evaluating the residuals again.
   std::vector<double> theta = best.negligible() ? moved(best.theta, best.step) : best.theta;
   Minimum minimum = minimum_at(std::move(best));

@@ -161,8 +161,8 @@ class Search {
       const auto cost = cost_of_joints(before.begin, before.order, first.order, first.end);
       s.begin = before.begin + inner_joint(cost, before.size(), first.size() / 3, 1);
       s.begin = std::max(s.begin, first.end - agreeing(first.end - 1, first.begin));
-      const double t = samples_[s.begin].t + std::max(unseen(first, samples_[s.begin].t),
-                                                      unseen_push(before, first));
+      const double t = samples_[s.begin].t +
+                       std::max(unseen(first, samples_[s.begin].t), unseen_push(before, first));
       while (s.begin + 1 < first.end && samples_[s.begin].t < t) ++s.begin;
     }
     if (s.end < samples_.size()) {

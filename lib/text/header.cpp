@@ -34,7 +34,8 @@ CommentedNames names_between(char separator, std::string_view text, const Unname
     sentence |= found.words && std::string_view(",;:").find(name.back()) != std::string_view::npos;
     const Column column = read_column(name);
     if (found.words && names.size() > 1 && name == "a") continue;  // the article, perhaps
-    found.known += is_known(column) || std::ranges::count(columns.before, column.name, &Column::name);
+    found.known +=
+        is_known(column) || std::ranges::count(columns.before, column.name, &Column::name);
     found.units += is_known(column) && !column.unit.empty();
   }
   const bool is_blank = std::ranges::count(names, "") > 0;
@@ -58,10 +59,9 @@ std::vector<Column> words_of(std::string_view line) {
 
 /// The number of known quantities with units in a comment.
 std::size_t names_with_units(std::string_view comment) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(words_of(without_marks(comment)), [](const Column& word) {
-        return is_known(word) && !word.unit.empty();
-      }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      words_of(without_marks(comment)),
+      [](const Column& word) { return is_known(word) && !word.unit.empty(); }));
 }
 
 /// True for a comment of nothing but known quantities, or that gives two of them units. One word
@@ -170,9 +170,9 @@ std::optional<ChosenNames> choose_names(const std::vector<Comment>& comments,
   const bool sure = chosen != none && is_sure(all[chosen], columns);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool history = comments[i].is_history();
-    if (i == chosen ? all[i].tabs ||
-                          names_with_units(comments[i].text) <= std::max(all[i].units, 1UL)
-                    : !is_other(all, i, chosen, sure, comments[i]))
+    if (i == chosen
+            ? all[i].tabs || names_with_units(comments[i].text) <= std::max(all[i].units, 1UL)
+            : !is_other(all, i, chosen, sure, comments[i]))
       continue;
     fail<InputError>(
         "{}:{}: '{}' may be the names of the columns, {}", file, comments[i].line,

@@ -48,7 +48,7 @@ class Input {
   /// the size of the file (for a pipe: of ahead()).
   std::size_t lines_ahead() const;
 
-  bool has_size() const { return size_ > 0; }  ///< it is a regular file, and not empty
+  bool has_size() const { return size_ > 0; }        ///< it is a regular file, and not empty
   const std::string& name() const { return name_; }  ///< as the user gave it
   std::size_t line_number() const { return line_number_; }
   bool quotes() const { return quotes_; }  ///< a " has been read so far

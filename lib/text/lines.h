@@ -44,9 +44,9 @@ class Lines {
   std::string_view text() const { return text_; }
   /// A blank line contains blanks, tabs and separators only, blank cells in quotes perhaps, or the
   /// Ctrl-Z that ends a file of DOS. A comment begins with #, a history line with ##; blanks may
-  /// stand before it, and tabs where they are not the separator. A history line may be in quotes, if
-  /// the other fields of its line are blank. A line that begins with an error value of a spreadsheet
-  /// (#N/A) is a record.
+  /// stand before it, and tabs where they are not the separator. A history line may be in quotes,
+  /// if the other fields of its line are blank. A line that begins with an error value of a
+  /// spreadsheet (#N/A) is a row.
   LineKind kind() const { return kind_of(text_); }
   std::size_t number() const { return number_; }  ///< of its first line in the file, from 1
   const std::string& name() const { return input_.name(); }

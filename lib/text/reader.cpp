@@ -383,10 +383,9 @@ void Reader::take_fields() {
   const bool more = count == width + 1 && fields_.back().text.empty() && head_.named,
              less = count + 1 == width && head_.blank_end;
   if (side_by_side ? count > width : !more && !less)
-    fail<InputError>("{}: {} field{} where the first row has {}{}", here(), count,
-                     count == 1 ? "" : "s", width,
-                     way_out_of_commas(line_, dialect_.separator(),
-                                       std::max(count, width) - width));
+    fail<InputError>(
+        "{}: {} field{} where the first row has {}{}", here(), count, count == 1 ? "" : "s", width,
+        way_out_of_commas(line_, dialect_.separator(), std::max(count, width) - width));
   changed_fields_.clear();
   for (const std::size_t i : layout().fields)
     changed_fields_.push_back(i < count ? fields_[i] : Field());

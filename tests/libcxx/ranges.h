@@ -26,19 +26,19 @@ ROLLING_OF_PREDICATE(none_of)
 ROLLING_OF_PREDICATE(count_if)
 ROLLING_OF_PREDICATE(find_if)
 
-#define ROLLING_OF_VALUE(name)                                         \
-  template <class R, class T, class P = std::identity>                 \
-  auto name(R&& range, const T& value, P p = {}) {                     \
-    return std::name##_if(std::begin(range), std::end(range),          \
+#define ROLLING_OF_VALUE(name)                                                   \
+  template <class R, class T, class P = std::identity>                           \
+  auto name(R&& range, const T& value, P p = {}) {                               \
+    return std::name##_if(std::begin(range), std::end(range),                    \
                           [&](auto&& x) { return std::invoke(p, x) == value; }); \
   }
 ROLLING_OF_VALUE(count)
 ROLLING_OF_VALUE(find)
 
-#define ROLLING_OF_ORDER(name)                                                             \
-  template <class R, class C = std::less<>, class P = std::identity>                       \
-  constexpr auto name(R&& range, C compare = {}, P p = {}) {                               \
-    return std::name(std::begin(range), std::end(range), ranges::projected(compare, p));   \
+#define ROLLING_OF_ORDER(name)                                                           \
+  template <class R, class C = std::less<>, class P = std::identity>                     \
+  constexpr auto name(R&& range, C compare = {}, P p = {}) {                             \
+    return std::name(std::begin(range), std::end(range), ranges::projected(compare, p)); \
   }
 ROLLING_OF_ORDER(sort)
 ROLLING_OF_ORDER(min_element)

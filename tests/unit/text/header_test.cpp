@@ -79,10 +79,9 @@ TEST_CASE(
     "commented names: behind a run, words that would move its known columns may be a sentence",
     "[text]") {
   const std::vector<Column> before{{"t"}, {"v"}, {"w"}};
-  CHECK(
-      chosen({"# t has v"}, {3, false, before}, false) ==
-      "f:1: '# t has v' can be names of the columns or a sentence: put tabs between names, or "
-      "give the sentence another number of words");
+  CHECK(chosen({"# t has v"}, {3, false, before}, false) ==
+        "f:1: '# t has v' can be names of the columns or a sentence: put tabs between names, or "
+        "give the sentence another number of words");
   CHECK(chosen({"# was pushed to"}, {3, false, before}, false).empty());
   CHECK(chosen({"# t v n"}, {3, false, before}, false) == "1 <t><v><n>");
   CHECK(chosen({"# t, n, v"}, {3, false, before}, false) == "1 <t><n><v>");
@@ -98,10 +97,9 @@ TEST_CASE("commented names: a comment with more known names than the chosen one 
   CHECK(chosen({"# n t v", "# v or t"}, {3}) ==
         "f:1: '# n t v' may be the names of the columns, and so may line 2: give one of them "
         "another number of words");
-  CHECK(
-      chosen({"# Time (ms), v", "# t v"}, {2}) ==
-      "f:2: '# t v' may be the names of the columns, and so may line 1: give one of them "
-      "another number of words");
+  CHECK(chosen({"# Time (ms), v", "# t v"}, {2}) ==
+        "f:2: '# t v' may be the names of the columns, and so may line 1: give one of them "
+        "another number of words");
   CHECK(chosen({"# Time (s), Velocity (m/s)", "# t v"}, {2}) == "1 <Time (s)><Velocity (m/s)>");
   CHECK(chosen({"# trial D", "# t angle"}, {2}) == "2 <t><angle>");
   CHECK(chosen({"# trial D", "# p\tq"}, {2}) == "2 <p><q>");
@@ -117,7 +115,8 @@ TEST_CASE("commented names: names of columns in a history line are refused", "[t
   for (const char* line :
        {"## t[s] x[cm]", "##Time (s),Position (cm)", "## t x v", "###w;x;v;", "## x,v"})
     CHECK(chosen({"# made by me", line}, {3}) == "f:2: " + refused(line));
-  CHECK(chosen({"## t[ms] n v[m/s] x", "# v Time Monday test"}, {4}) == "f:1: " + refused("## t[ms] n v[m/s] x"));
+  CHECK(chosen({"## t[ms] n v[m/s] x", "# v Time Monday test"}, {4}) ==
+        "f:1: " + refused("## t[ms] n v[m/s] x"));
   CHECK(chosen({"## t x v"}, {5}) == "f:1: " + refused("## t x v"));
   CHECK(chosen({"## smooth v coast", "## smooth v mean width 3"}, {3}).empty());
   CHECK(chosen({"## t x v", "# v x t"}, {3}) == "f:1: " + refused("## t x v"));
@@ -129,9 +128,11 @@ TEST_CASE("commented names: nothing but known quantities, but not one for each c
   for (const std::string text : {"#v[mm/s]", "# t x v", "# t[s]\tx", "# Time (s), v, a"})
     for (const std::size_t columns : {4U, 5U})
       for (const bool first : {true, false})
-        CHECK(chosen({text}, {columns}, first) ==
-              fmt::format("f:1: '{}' may be the names of the columns, but has not one for each of {} columns",
-                          shown(text), columns));
+        CHECK(
+            chosen({text}, {columns}, first) ==
+            fmt::format(
+                "f:1: '{}' may be the names of the columns, but has not one for each of {} columns",
+                shown(text), columns));
   CHECK(chosen({"#v[mm/s]", "# t x"}, {2}) == "2 <t><x>");
   CHECK(chosen({"# a;v;t", "# cart v t run"}, {4}) ==
         "f:1: '# a;v;t' may be the names of the columns, but has not one for each of 4 columns");
@@ -142,9 +143,10 @@ TEST_CASE("commented names: nothing but known quantities, but not one for each c
 TEST_CASE("commented names: a comment with units and names of other columns is refused", "[text]") {
   CHECK(chosen({"# made by me", "# t[s] x[m]"}, {1}) ==
         "f:2: '# t[s] x[m]' may be the names of the columns, but has not one for each of 1 column");
-  CHECK(chosen({"# t [ms]: time, x [cm]"}, {3}) ==
-        "f:1: '# t [ms]: time, x [cm]' may be the names of the columns, but has not one for each of "
-        "3 columns");
+  CHECK(
+      chosen({"# t [ms]: time, x [cm]"}, {3}) ==
+      "f:1: '# t [ms]: time, x [cm]' may be the names of the columns, but has not one for each of "
+      "3 columns");
   for (const char* comment : {"# Time (s); Position (m)", "#,t[s],w,x[m]", "# w[N]\tt[s]; x[m]"})
     CHECK(chosen({comment}, {5}).ends_with("but has not one for each of 5 columns"));
   for (const char* comment : {"# t[s] alone now", "# w[ms] n[cm]", "# t in s, v in m/s", "##"})

@@ -148,12 +148,9 @@ TEST_CASE("reader: what is no number is refused with what to do about it", "[tex
   for (const char* text : {"t;v\n1 000;2\n",
                            "t;v\n1\xE2\x80\xAF"
                            "000;2\n"})
-    CHECK(records({text}) ==
-          "FILE:2: field 1 (t): '1 000' is not a number" + signs);
-  CHECK(records({"t;v\n1.000,5;2\n"}) ==
-        "FILE:2: field 1 (t): '1.000,5' is not a number" + signs);
-  CHECK(records({"t v\n5\xC2\xA0 2\n"}) ==
-        "FILE:2: field 1 (t): '5 ' is not a number" + signs);
+    CHECK(records({text}) == "FILE:2: field 1 (t): '1 000' is not a number" + signs);
+  CHECK(records({"t;v\n1.000,5;2\n"}) == "FILE:2: field 1 (t): '1.000,5' is not a number" + signs);
+  CHECK(records({"t v\n5\xC2\xA0 2\n"}) == "FILE:2: field 1 (t): '5 ' is not a number" + signs);
 }
 
 TEST_CASE("reader: two decimal marks in one file are refused", "[text]") {
@@ -172,8 +169,7 @@ TEST_CASE("reader: two decimal marks in one file are refused", "[text]") {
   CHECK(records({"t\tv\n0,0\t1,002\n"}) == "0 1.002");
   CHECK(records({"t;v\n0;1,234,567\n"}) ==
         "FILE:2: field 2 (v): '1,234,567' is not a number" + signs);
-  CHECK(records({"t;v\n0;1,234.5\n"}) ==
-        "FILE:2: field 2 (v): '1,234.5' is not a number" + signs);
+  CHECK(records({"t;v\n0;1,234.5\n"}) == "FILE:2: field 2 (v): '1,234.5' is not a number" + signs);
 }
 
 TEST_CASE("reader: --use says which column serves, by name or number", "[text]") {
@@ -314,8 +310,7 @@ TEST_CASE("reader: what is neither number nor missing is refused, and says where
   CHECK(records({"0 1\n1 " + std::string(50, '9') + "x\n"}) ==
         "FILE:2: field 2 (v): '" + std::string(40, '9') + "...' is not a number");
   CHECK(records({"0 1\n1 \xE2\x88\x92"
-                 "1\n"}) ==
-        "FILE:2: field 2 (v): '???1' is not a number" + signs);
+                 "1\n"}) == "FILE:2: field 2 (v): '???1' is not a number" + signs);
 }
 
 TEST_CASE("reader: an empty file, a header alone, words alone", "[text]") {
@@ -340,9 +335,10 @@ TEST_CASE("reader: the names are the last comment with as many fields as the rec
   CHECK(records({"# t[ms], v[km/h]\n0 36\n"}) == "0 10");
   CHECK(records({"# t[s] v[cm s^-1]\n0 100\n"}) == "0 1");
   CHECK(records({"# t[ms] v[km/h] n\n# made on Tuesday\n0 36 1\n"}) == "0 10");
-  CHECK(records({"# t[ms] v[km/h] x[m]\n0 36\n"}) ==
-        "FILE:1: '# t[ms] v[km/h] x[m]' may be the names of the columns, but has not one for each of "
-        "2 columns");
+  CHECK(
+      records({"# t[ms] v[km/h] x[m]\n0 36\n"}) ==
+      "FILE:1: '# t[ms] v[km/h] x[m]' may be the names of the columns, but has not one for each of "
+      "2 columns");
   CHECK(told("# Speed (km/h) from GPS\n0 36\n") ==
         "t is column 1, taken in s; v is column 2, taken in m/s although line 1 says km/h");
   CHECK(records({"# t[s] v[m/s]\n0 1\n# t[ms] v[km/h]\n1000 36\n"}) ==
