@@ -1,5 +1,6 @@
 // energy-ledger - append where the energy goes (Eqs. 1 to 23); see energy-ledger(1)
 #include <cmath>
+#include <optional>
 
 #include "cli/history.h"
 #include "cli/law_file.h"
@@ -47,32 +48,27 @@ constexpr Quantity<double (*)(const Moment&)> quantities[] = {
     {"Pi_S", "W/K", [](const Moment& m) { return m.now.P_diss() / m.temperature; }},
 };
 
-/// The law D(v) that replaces the column D. It is odd in v, as the mat is the same in both
-/// directions.
-struct Law {
-  PowerLaw power;
-  std::optional<TableLaw> table;
-
-  double operator()(double v) const {
-    if (!table || v == 0) return power(v);
-    if (std::abs(v) > table->highest())
-      fail("v = {:.6g} m/s is beyond the table of the law, which ends at {:.6g} m/s", v,
-           table->highest());
-    return std::copysign((*table)(std::abs(v)), v);
-  }
-  std::string words() const { return table ? "table" : fmt::format("a {} b {}", power.a, power.b); }
-};
-
 /// What the options and the scene describe.
 struct Task {
   Body body{};
   Geometry geometry{};
-  Law law{};
+  PowerLaw power{};
+  std::optional<Law> points = {};  ///< instead of `power`
   bool uses_law = false;      ///< instead of the column D
   bool law_of_scene = false;  ///< it uses the law because the first run has no column D
   bool summary = false;
   double tolerance = not_given;  ///< NaN without --check
 
+  /// The shift at a velocity.
+  double shift(double v) const {
+    if (points && std::abs(v) > points->highest())
+      fail("v = {:.6g} m/s is beyond the table of the law, which ends at {:.6g} m/s", v,
+           points->highest());
+    return points ? (*points)(v) : power(v);
+  }
+  std::string law_words() const {
+    return points ? "table" : fmt::format("a {} b {}", power.a, power.b);
+  }
   bool shows_balance() const { return summary || !std::isnan(tolerance); }
 };
 
@@ -100,7 +96,7 @@ class Accounts {
 
   /// Adds the present record to the balance of its run.
   Ledger enter(Balance& balance) {
-    const double v = in_[v_], D = task_.uses_law ? task_.law(v) : in_[D_];
+    const double v = in_[v_], D = task_.uses_law ? task_.shift(v) : in_[D_];
     const Ledger now(task_.body, task_.geometry, v, D);
     balance.push(in_[t_], now);
     beyond_ += std::abs(D) > task_.body.R;
@@ -172,7 +168,7 @@ int main(int argc, char** argv) {
   double temperature = not_given;
   std::string law_file, columns = "E_trans,E_rot,I_E1,I_E2,P_T1,P_R1,P_R2,P_T2,P_diss,E_diss";
   tool.body(task.body, {mass, radius, shape_factor, gravity, slope});
-  tool.law(task.law.power);
+  tool.law(task.power);
   tool.text("--law", law_file, "FILE",
             "file (- is standard input) with a row of fitpower or a table of v D: the law, instead "
             "of the column D");
@@ -197,7 +193,8 @@ int main(int argc, char** argv) {
       if (quantity.name == "Pi_S" && std::isnan(temperature)) fail("Pi_S needs --temperature");
     if (!law_file.empty()) {
       LawFile read = read_law(tool, law_file);
-      task.law = {read.law_or(task.law.power), std::move(read.table)};
+      task.power = read.law_or(task.power);
+      task.points = std::move(read.points);
       task.body.slope = read.slope.value_or(task.body.slope);
     }
     tool.need({"mass", "radius", "shape-factor"});
@@ -205,9 +202,9 @@ int main(int argc, char** argv) {
     // A law on the command line takes precedence over a column D, the law of a scene does not.
     const bool law_given = !law_file.empty() || tool.on_command_line("coefficient") ||
                            tool.on_command_line("exponent");
-    task.law_of_scene = !law_given && !std::isnan(task.law.power.a) && !in.find("D");
+    task.law_of_scene = !law_given && !std::isnan(task.power.a) && !in.find("D");
     task.uses_law = law_given || task.law_of_scene;
-    if (task.uses_law && !task.law.table) tool.need({"coefficient", "exponent"});
+    if (task.uses_law && !task.points) tool.need({"coefficient", "exponent"});
     Accounts accounts(tool, in, task);
     if (task.summary) {
       write_summary(tool.out, in, accounts, task);
@@ -216,7 +213,7 @@ int main(int argc, char** argv) {
     }
     Filter filter(
         in, tool.out,
-        fmt::format("energy-ledger {}{}", task.uses_law ? task.law.words() : "D",
+        fmt::format("energy-ledger {}{}", task.uses_law ? task.law_words() : "D",
                     task.body.slope == 0 ? "" : fmt::format(" slope {}", task.body.slope)));
     for (const auto& quantity : row) filter.append(quantity.column());
     while (filter.next_run()) {

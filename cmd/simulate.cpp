@@ -1,5 +1,6 @@
 // simulate - roll a body under a law D(v); see simulate(1)
 #include <cmath>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -7,7 +8,7 @@
 #include "cli/quantities.h"
 #include "cli/tool.h"
 #include "motion/measure.h"
-#include "motion/roll.h"
+#include "motion/scene.h"
 #include "sensor/sonar.h"
 
 using namespace rolling;
@@ -62,13 +63,13 @@ void write_record(Output& out, Motion& motion, const SonarOptions& sonar) {
 }
 
 /// Prints the run times and the errors of the methods on this scene to standard error.
-void report(Tool& tool, const Roll& roll, double rtol, double end) {
-  const Reference right = reference(roll, 200, end);
-  const Method best = best_method(roll);
+void report(Tool& tool, const Scene& scene, double rtol, double end) {
+  const Reference right = reference(scene, 200, end);
+  const Method best = best_method(scene);
   tool.say(fmt::format("{:8} {:>7} {:>9} {:>10} {:>11} {:>11} {:>8}", "method", "rtol",
                        "max|dv|/v0", "dt*/t*", "evaluations", "ns/sample", "scatter"));
   const auto row = [&](const std::string& name, const Method& method, double tolerance) {
-    const Measured m = measure([&] { return start(roll, method, tolerance); }, right, roll.v0, 7);
+    const Measured m = measure([&] { return start(scene, method, tolerance); }, right, scene.v0, 7);
     const std::string text = fmt::format(
         "{:8} {:>7}", name, method.kind == Method::solver ? fmt::format("{:g}", tolerance) : "-");
     if (!m.failure.empty()) return tool.say(text + " failed: " + m.failure);
@@ -84,18 +85,20 @@ void report(Tool& tool, const Roll& roll, double rtol, double end) {
                                        : "errors are against the first");
 }
 
-std::string why_endless(const Roll& roll, const Motion& motion) {
+std::string why_endless(const Scene& scene, Motion& motion) {
   const double last = motion.last_speed();
   if (std::isinf(last)) return "the body gains speed on this slope for ever";
-  if (last > 0)
-    return fmt::format("the body never stops on this slope: its speed tends to {:.4g} m/s", last);
-  return roll.law.b < 0 ? "the shift grows to the radius before the body stops"
+  if (last != 0)
+    return fmt::format("the body never stops on this slope: its speed tends to {:.4g} m/s",
+                       std::abs(last));
+  return scene.law.at_rest() >= scene.body.R ? "the shift grows to the radius before the body stops"
                         : "the body never stops";
 }
 
 /// What the options and the scene describe: the roll and how it is solved.
 struct Task {
-  Roll roll{};
+  Scene roll{};
+  PowerLaw law{};
   Method method{};
   double rtol = 1e-10;
   std::string law_file;
@@ -103,15 +106,17 @@ struct Task {
 
   /// Reads the law, checks that nothing is missing, and chooses the method.
   void complete(Tool& tool) {
+    std::optional<Law> points;
     if (!law_file.empty()) {
       LawFile read = read_law(tool, law_file);
-      roll.law = read.law_or(roll.law);
-      roll.table = std::move(read.table);
+      law = read.law_or(law);
+      points = std::move(read.points);
       roll.body.slope = read.slope.value_or(roll.body.slope);
       roll.v0 = read.v0.value_or(roll.v0);
     }
+    roll.law = points ? *points : Law(law);
     std::vector<std::string> needed = {"radius", "shape-factor", "v0"};
-    if (!roll.table) needed.insert(needed.end(), {"coefficient", "exponent"});
+    if (!points) needed.insert(needed.end(), {"coefficient", "exponent"});
     tool.need(needed);
     if (!tool.on_command_line("method")) method = best_method(roll);
   }
@@ -134,18 +139,18 @@ void check_options(const Tool& tool, const Task& task) {
 }
 
 /// The time where the rows end: `until`, or the stop if that is not given.
-double last_time(const Roll& roll, const Motion& motion, double until) {
+double last_time(const Scene& scene, Motion& motion, double until) {
   const double end = std::isnan(until) ? motion.stop_time() : until;
-  if (!std::isfinite(end)) fail("{}: say --until when to end", why_endless(roll, motion));
+  if (!std::isfinite(end)) fail("{}: say --until when to end", why_endless(scene, motion));
   return end;
 }
 
 void add_options(Tool& tool, Task& task) {
   using enum BodyOption;
-  Roll& roll = task.roll;
+  Scene& roll = task.roll;
   roll.v0 = not_given;
   tool.body(roll.body, {radius, shape_factor, gravity, slope});
-  tool.law(roll.law);
+  tool.law(task.law);
   tool.geometry(roll.geometry);
   tool.number("--v0", roll.v0, not_negative, "speed at t = 0 [m/s]");
   tool.number("--x0", roll.x0, any_number, "position at t = 0 [m] (0)");
@@ -193,8 +198,9 @@ class Rows {
   Rows& operator=(const Rows&) = delete;
 
   void write_header() const {
-    const auto& [body, geometry, law, table, bulge, v0, x0] = task_.roll;
-    out_.text("## simulate " + (table ? "table" : fmt::format("a {} b {}", law.a, law.b)) +
+    const auto& [body, geometry, law, bulge, v0, x0] = task_.roll;
+    const auto power = law.power();
+    out_.text("## simulate " + (power ? fmt::format("a {} b {}", power->a, power->b) : "table") +
               fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, v0) +
               (body.slope == 0 ? "" : fmt::format(" slope {}", body.slope)));
     out_.end_line();

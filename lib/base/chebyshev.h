@@ -20,21 +20,68 @@ class ChebyshevSeries {
  public:
   using Values = std::array<double, N>;
 
+ private:
+  using Pairs = std::array<double, N + N % 2>;  // two values fill one vector register
+
+  /// A fold, since -O2 does not unroll a loop: the sums then stay in registers.
+  template <std::size_t... i>
+  static void add(Pairs& sum, double T, const Pairs& term, std::index_sequence<i...>) {
+    ((sum[i] += T * term[i]), ...);
+  }
+
+ public:
   ChebyshevSeries() = default;
   /// The series for from <= t <= to. The nodes lie between these limits.
   template <typename Function>
   ChebyshevSeries(double from, double to, Function&& f) : from_(from), to_(to) {
     // cos(j (2k + 1) pi / (2 terms)); the integer is reduced by the period before it is rounded.
-    const auto cosine = [](std::size_t halves) {
-      return std::cos(std::numbers::pi * static_cast<double>(halves % (4 * terms)) / (2 * terms));
-    };
+    static const auto cosines = [] {
+      std::array<double, 4 * terms> all;
+      for (std::size_t halves = 0; halves < all.size(); ++halves)
+        all[halves] = std::cos(std::numbers::pi * static_cast<double>(halves) / (2 * terms));
+      return all;
+    }();
+    const auto cosine = [](std::size_t halves) { return cosines[halves % (4 * terms)]; };
+    std::array<Pairs, terms> y{};
     for (std::size_t k = 0; k < terms; ++k) {
-      const Values y = f(from + (to - from) * (1 + cosine(2 * k + 1)) / 2);
-      for (std::size_t j = 0; j < terms; ++j) {
-        const double weight = (j == 0 ? 1 : 2) * cosine(j * (2 * k + 1)) / terms;
-        for (std::size_t i = 0; i < N; ++i) terms_[j][i] += weight * y[i];
+      const Values at = f(from + (to - from) * (1 + cosine(2 * k + 1)) / 2);
+      std::copy_n(at.begin(), N, y[k].begin());
+    }
+    for (std::size_t j = 0; j < terms; ++j) {
+      Pairs sum{};
+      for (std::size_t k = 0; k < terms; ++k)
+        add(sum, cosine(j * (2 * k + 1)), y[k], std::make_index_sequence<std::tuple_size_v<Pairs>>());
+      for (double& x : sum) x *= (j == 0 ? 1. : 2.) / terms;
+      terms_[j] = sum;
+    }
+  }
+
+  /// The integral of the series from its beginning.
+  ChebyshevSeries integral() const {
+    ChebyshevSeries sum;
+    sum.from_ = from_, sum.to_ = to_;
+    for (std::size_t j = 1; j < terms; ++j) {
+      const double unit = (to_ - from_) / 4 / static_cast<double>(j), first = j == 1 ? 2 : 1;
+      for (std::size_t i = 0; i < std::tuple_size_v<Pairs>; ++i) {
+        const double term =
+            unit * (first * terms_[j - 1][i] - (j + 1 < terms ? terms_[j + 1][i] : 0));
+        sum.terms_[j][i] = term;
+        sum.terms_[0][i] += j % 2 ? term : -term;  // 0 at the beginning
       }
     }
+    return sum;
+  }
+  /// The value number i at t, and its derivative.
+  std::pair<double, double> value_and_slope(std::size_t i, double t) const {
+    const double x = 2 * (t - from_) / (to_ - from_) - 1;
+    double T = 1, next_T = x, U = 1, next_U = 2 * x, sum = terms_[0][i], slope = 0;
+    for (std::size_t j = 1; j < terms; ++j) {
+      slope += static_cast<double>(j) * U * terms_[j][i];
+      T = std::exchange(next_T, 2 * x * next_T - T);
+      U = std::exchange(next_U, 2 * x * next_U - U);
+      sum += T * terms_[j][i];
+    }
+    return {sum, slope * 2 / (to_ - from_)};
   }
 
   bool contains(double t) const { return t >= from_ && t <= to_; }
@@ -50,27 +97,24 @@ class ChebyshevSeries {
     std::copy_n(sum.begin(), N, y.begin());
     return y;
   }
-  /// True if the last two terms of each value are at most `tolerance` times its largest term; of an
-  /// even or odd function, every second term is 0.
+  /// The larger of the last two terms of value i (of an even or odd function, every second one is
+  /// 0), and its largest term.
+  double last(std::size_t i) const {
+    return std::max(std::abs(terms_[terms - 2][i]), std::abs(terms_[terms - 1][i]));
+  }
+  double largest(std::size_t i) const {
+    double most = 0;
+    for (const Pairs& term : terms_) most = std::max(most, std::abs(term[i]));
+    return most;
+  }
+  /// True if the last terms of each value are at most `tolerance` times its largest term.
   bool converges(double tolerance) const {
-    for (std::size_t i = 0; i < N; ++i) {
-      double largest = 0;
-      for (const Pairs& term : terms_) largest = std::max(largest, std::abs(term[i]));
-      for (const std::size_t last : {terms - 2, terms - 1})
-        if (!(std::abs(terms_[last][i]) <= tolerance * largest)) return false;
-    }
+    for (std::size_t i = 0; i < N; ++i)
+      if (!(last(i) <= tolerance * largest(i))) return false;
     return true;
   }
 
  private:
-  using Pairs = std::array<double, N + N % 2>;  // two values fill one vector register
-
-  /// A fold, since -O2 does not unroll a loop: the sums then stay in registers.
-  template <std::size_t... i>
-  static void add(Pairs& sum, double T, const Pairs& term, std::index_sequence<i...>) {
-    ((sum[i] += T * term[i]), ...);
-  }
-
   double from_ = 0, to_ = -1;
   std::array<Pairs, terms> terms_{};
 };
@@ -83,9 +127,10 @@ class ChebyshevPanels {
  public:
   using Values = std::invoke_result_t<Function, double>;
 
-  /// `times` must not decrease, and must exist as long as this object. f is smooth before `end`.
-  ChebyshevPanels(std::span<const double> times, double end, Function f)
-      : times_(times), end_(end), f_(std::move(f)) {}
+  /// `times` must not decrease, and must exist as long as this object. f is smooth between these two
+  /// corners.
+  ChebyshevPanels(std::span<const double> times, std::array<double, 2> corners, Function f)
+      : times_(times), corners_(corners), f_(std::move(f)) {}
 
   /// The values at t, which is one of the times; cheapest in their order.
   Values operator()(double t) {
@@ -101,7 +146,10 @@ class ChebyshevPanels {
         static_cast<std::size_t>(std::ranges::lower_bound(times_, t) - times_.begin()));
     for (size_ = std::min(2 * size_, rest.size()); size_ >= least; size_ /= 2) {
       const double last = rest[size_ - 1];
-      if (!(last > t && last < end_)) continue;
+      if (!(last > t) || std::ranges::any_of(corners_, [=](double corner) {
+            return t <= corner && corner <= last;
+          }))
+        continue;
       panel_ = {t, last, f_};
       if (panel_.converges(2e-15)) return true;
     }
@@ -110,7 +158,7 @@ class ChebyshevPanels {
   }
 
   std::span<const double> times_;
-  double end_;
+  std::array<double, 2> corners_;
   Function f_;
   ChebyshevSeries<std::tuple_size_v<Values>, terms> panel_;
   std::size_t size_ = least;   // number of times in the panel

@@ -35,7 +35,7 @@ LawFile read_law(Tool& tool, const std::string& file) {
   while (in.next_run())
     while (in.next()) speeds.push_back(in[v]), shifts.push_back(in[D]);
   try {
-    return {.table = TableLaw(std::move(speeds), std::move(shifts))};
+    return {.points = TableLaw(std::move(speeds), std::move(shifts))};
   } catch (const Error& error) {
     fail<InputError>("{}: {}", file, error.what());
   }

@@ -5,15 +5,14 @@
 #include <string>
 
 #include "cli/tool.h"
-#include "contact/power_law.h"
-#include "contact/table_law.h"
+#include "contact/law.h"
 
 namespace rolling {
 
-/// What the file says: a table, or the numbers of a row of fitpower. A number is empty where the
+/// What the file says: points, or the numbers of a row of fitpower. A number is empty where the
 /// row has no such column, or where the command line gives the value, which takes precedence.
 struct LawFile {
-  std::optional<TableLaw> table = {};
+  std::optional<Law> points = {};
   std::optional<double> a = {}, b = {}, slope = {}, v0 = {};  ///< SI units
 
   /// `given`, with a and b replaced by those of the file.

@@ -15,7 +15,7 @@
 #include "base/estimate.h"
 #include "cli/command_line.h"
 #include "contact/body.h"
-#include "contact/power_law.h"
+#include "contact/law.h"
 
 namespace rolling {
 

@@ -7,33 +7,39 @@
 namespace rolling {
 namespace {
 
-double power(const double* c, double v, double* by_c) {
+Shift power(const double* c, double v, double* by_c) {
   by_c[0] = std::pow(v, c[1]);
-  by_c[1] = c[0] * by_c[0] * std::log(v);
-  return c[0] * by_c[0];
+  const double D = c[0] * by_c[0];
+  by_c[1] = D * std::log(v);
+  return {D, c[1] * D};
 }
 
-double constant(const double* c, double, double* by_c) {
+Shift constant(const double* c, double, double* by_c) {
   by_c[0] = 1;
-  return c[0];
+  return {c[0], 0};
 }
 
-double line(const double* c, double v, double* by_c) {
+Shift parabola(const double* c, double v, double* by_c) {
   by_c[0] = 1;
   by_c[1] = v;
-  return c[0] + c[1] * v;
-}
-
-double parabola(const double* c, double v, double* by_c) {
   by_c[2] = v * v;
-  return line(c, v, by_c) + c[2] * v * v;
+  return {c[0] + v * (c[1] + c[2] * v), v * (c[1] + 2 * c[2] * v)};
 }
 
-double square(const double* c, double v, double* by_c) { return line(c, v * v, by_c); }
+Shift line(const double* c, double v, double* by_c) {
+  by_c[0] = 1;
+  by_c[1] = v;
+  return {c[0] + c[1] * v, c[1] * v};
+}
+
+Shift square(const double* c, double v, double* by_c) {
+  const Shift s = line(c, v * v, by_c);
+  return {s.D, 2 * s.by_log_v};
+}
 
 /// d0 + a v^n as h + s (v^n - 1)/n (Box and Cox 1964, J. R. Stat. Soc. B 26, 211): where n is
 /// small, d0 and a are large and nearly cancel, while h, s and n stay what they are.
-double constant_and_power(const double* c, double v, double* by_c) {
+Shift constant_and_power(const double* c, double v, double* by_c) {
   const double n = c[2], log = std::log(v), x = n * log,
                B = std::abs(x) < 1e-5 ? log * (1 + x / 2) : std::expm1(x) / n,
                B_n = std::abs(x) < 1e-3 ? log * log * (0.5 + x / 3 + x * x / 8)
@@ -41,7 +47,7 @@ double constant_and_power(const double* c, double v, double* by_c) {
   by_c[0] = 1;
   by_c[1] = B;
   by_c[2] = c[1] * B_n;
-  return c[0] + c[1] * B;
+  return {c[0] + c[1] * B, c[1] * std::exp(x)};
 }
 
 void written_constant_and_power(const double* c, double* d, double* by_c) {
@@ -51,12 +57,12 @@ void written_constant_and_power(const double* c, double* d, double* by_c) {
   std::copy(std::begin(J), std::end(J), by_c);
 }
 
-double peak(const double* c, double v, double* by_c) {
+Shift peak(const double* c, double v, double* by_c) {
   const double w = c[2], below = v * v + w * w;
   by_c[0] = 1;
   by_c[1] = 2 * v * w / below;
   by_c[2] = c[1] * 2 * v * (v * v - w * w) / (below * below);
-  return c[0] + c[1] * by_c[1];
+  return {c[0] + c[1] * by_c[1], -w * by_c[2]};
 }
 
 /// The same curve has p w = (-p)(-w): the formula is written with w > 0.
@@ -69,9 +75,9 @@ void written_peak(const double* c, double* d, double* by_c) {
 
 }  // namespace
 
-const std::vector<Law>& laws() {
+const std::vector<LawForm>& laws() {
   constexpr int per_speed = -1, per_square = -2;
-  static const std::vector<Law> all{
+  static const std::vector<LawForm> all{
       {"a v^b", {{"a", 1, 0, 1}, {"b", 0}}, power, nullptr, {{1, 0.3}}, true},
       {"d0", {{"d0"}}, constant, nullptr, {{1}}, true},
       {"d0 + d1 v", {{"d0"}, {"d1", 1, per_speed}}, line, nullptr, {{1, 0}}},
@@ -95,20 +101,19 @@ const std::vector<Law>& laws() {
   return all;
 }
 
-double LawInUnits::in_SI(const double* c, std::size_t j, std::span<double> by_c) const {
-  std::array<double, Law::most> d{};
-  std::array<double, Law::most * Law::most> J{};
-  if (law->written) law->written(c, d.data(), J.data());
+double Law::in_SI(std::size_t j, std::span<double> by_c) const {
+  std::array<double, LawForm::most> d = c_;
+  std::array<double, LawForm::most * LawForm::most> J{};
+  if (form_->written) form_->written(c_.data(), d.data(), J.data());
   else
-    for (std::size_t i = 0; i < size(); ++i) d[i] = c[i], J[i * size() + i] = 1;
-  const Law::Coefficient& of = law->coefficients[j];
+    for (std::size_t i = 0; i < size(); ++i) J[i * size() + i] = 1;
+  const LawForm::Coefficient& of = form_->coefficients[j];
   const bool by_exponent = of.exponent >= 0;
   const auto e = static_cast<std::size_t>(std::max(of.exponent, 0));
-  const double power = by_exponent ? -d[e] : of.v,
-               unit = std::pow(D_unit, of.D) * std::pow(v_unit, power);
+  const double unit = std::pow(D_unit_, of.D) * std::pow(v_unit_, by_exponent ? -d[e] : of.v);
   for (std::size_t i = 0; i < size(); ++i)
-    by_c[i] = unit *
-              (J[j * size() + i] - (by_exponent ? d[j] * std::log(v_unit) * J[e * size() + i] : 0));
+    by_c[i] = unit * (J[j * size() + i] -
+                      (by_exponent ? d[j] * std::log(v_unit_) * J[e * size() + i] : 0));
   return d[j] * unit;
 }
 

@@ -1,14 +1,38 @@
-// Laws D(v) of a mat with a few coefficients: one entry in a table for each.
+// The law D(v) of a mat: a value, whatever its form. The forms with coefficients are the rows of one
+// table.
 #pragma once
 
+#include "contact/table_law.h"
+
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace rolling {
 
-/// A law D(v) for v > 0, with the properties that a fit needs.
-struct Law {
+/// D = a v^b, the law of the paper. It is odd in v, since the mat is the same in both directions.
+struct PowerLaw {
+  double a;  ///< shift at 1 m/s [m (s/m)^b]
+  double b;  ///< exponent
+
+  /// Shift D [m] at the velocity v [m/s]: it has the sign of v and is 0 at rest.
+  double operator()(double v) const {
+    return v == 0 ? 0 : std::copysign(a * std::pow(std::abs(v), b), v);
+  }
+};
+
+/// D at a speed, and its derivative by ln v.
+struct Shift {
+  double D, by_log_v;
+};
+
+/// A form of a law D(v; c) for v > 0, with the properties that a fit needs.
+struct LawForm {
   /// A coefficient. Its unit is that of D to the power `D`, times that of v to the power `v`; or,
   /// as that of a in a v^b, to the power of minus the coefficient number `exponent`.
   struct Coefficient {
@@ -19,7 +43,7 @@ struct Law {
   const char* formula;  ///< as a person writes it: "d0 + d1 v"
   std::vector<Coefficient> coefficients;
   /// D at v, and its derivatives by the coefficients.
-  double (*shift)(const double* c, double v, double* by_c);
+  Shift (*shift)(const double* c, double v, double* by_c);
   /// The coefficients that the formula names, in the same units, of those that `shift` takes, and
   /// their derivatives row by row; none where they are the same.
   void (*written)(const double* c, double* as_written, double* by_c);
@@ -39,22 +63,67 @@ struct Law {
 ///     to give way: Flom and Bueche (1959), J. Appl. Phys. 30, 1725; May, Morris and Atack (1959),
 ///     J. Appl. Phys. 30, 1713, whose curve follows the distribution of relaxation times, for one
 ///     of them this peak; Poeschel, Schwager and Brilliantov (1999), Eur. Phys. J. B 10, 169.
-const std::vector<Law>& laws();
+const std::vector<LawForm>& laws();
 
-/// A law in units in which speeds and shifts are of order one: D = D_unit law(c; v / v_unit).
-struct LawInUnits {
-  const Law* law;
-  double D_unit, v_unit;
+/// A law: a form with its coefficients, or points. Units in which speeds and shifts are of order
+/// one suit a search: D = D_unit form(c; v / v_unit).
+class Law {
+ public:
+  Law() : Law(PowerLaw{0, 0}) {}
+  Law(PowerLaw law) : Law(laws().front(), std::array{law.a, law.b}) {}  // NOLINT: it is one
+  Law(TableLaw points) : points_(std::make_shared<const TableLaw>(std::move(points))) {}  // NOLINT
+  Law(const LawForm& form, std::span<const double> c, double D_unit = 1, double v_unit = 1)
+      : form_(&form), D_unit_(D_unit), v_unit_(v_unit) {
+    for (std::size_t j = 0; j < size(); ++j) c_[j] = c[j];
+  }
 
-  std::size_t size() const { return law->coefficients.size(); }
-  /// D [m] at v > 0 [m/s], and its derivatives by c.
-  double operator()(const double* c, double v, double* by_c) const {
-    const double D = law->shift(c, v / v_unit, by_c);
-    for (std::size_t j = 0; j < size(); ++j) by_c[j] *= D_unit;
-    return D_unit * D;
+  /// The law a v^b that this is, if it is one.
+  std::optional<PowerLaw> power() const {
+    if (form_ != &laws().front()) return {};
+    return PowerLaw{D_unit_ * c_[0] * std::pow(v_unit_, -c_[1]), c_[1]};
+  }
+  bool has_points() const { return points_ != nullptr; }
+  /// The number of coefficients; 0 for points.
+  std::size_t size() const { return form_ ? form_->coefficients.size() : 0; }
+  const LawForm& form() const { return *form_; }
+  /// Coefficient j that `shift` of the form takes, in the law's units.
+  double c(std::size_t j) const { return c_[j]; }
+  /// D [m] and v dD/dv [m] at v >= 0 [m/s], and the derivatives of D by the coefficients. Above
+  /// highest() the points continue with their last slope, only for the trial steps of a solver.
+  Shift at(double v, double* by_c) const {
+    if (points_) return {(*points_)(v), v * points_->slope(v)};
+    Shift s = form_->shift(c_.data(), v / v_unit_, by_c);
+    for (std::size_t j = 0; j < size(); ++j) by_c[j] *= D_unit_;
+    return {D_unit_ * s.D, D_unit_ * s.by_log_v};
+  }
+  Shift at(double v) const {
+    double unused[LawForm::most];
+    return at(v, unused);
+  }
+  /// D at a velocity: it has the sign of v and is 0 at rest.
+  double operator()(double v) const {
+    return v == 0 ? 0 : std::copysign(1.0, v) * at(std::abs(v)).D;
+  }
+  /// The limit of D for v -> 0, which may be infinite.
+  double at_rest() const { return at(0).D; }
+  /// The largest speed for which the law is defined.
+  double highest() const { return points_ ? points_->highest() : infinity; }
+  /// The largest |D| at speeds up to v, of a law that has points or rises or falls all the way.
+  double largest_shift(double v) const { return points_ ? points_->largest_shift(v) : at(v).D; }
+  /// The speeds, in increasing order, where a derivative of the law jumps.
+  std::span<const double> corners() const {
+    return points_ ? std::span<const double>(points_->speeds()) : std::span<const double>();
   }
   /// Coefficient j of the formula in SI units, and its derivatives by c.
-  double in_SI(const double* c, std::size_t j, std::span<double> by_c) const;
+  double in_SI(std::size_t j, std::span<double> by_c) const;
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  const LawForm* form_ = nullptr;
+  std::shared_ptr<const TableLaw> points_;
+  std::array<double, LawForm::most> c_{};
+  double D_unit_ = 1, v_unit_ = 1;
 };
 
 }  // namespace rolling

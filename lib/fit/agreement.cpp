@@ -80,9 +80,10 @@ bool of_one_way(const std::vector<OwnLaw>& laws, const Fitted& joint) {
 /// which a slope acts like more D.
 double log_v_of(const OwnLaw& one, const Fitted& joint) {
   if (one.covariance.bb > 0 || !joint.rolls) return one.best_log_v();
-  const Trajectory roll = joint.rolls->trajectory(joint.minimum.theta, one.run);
-  const double end = std::min(joint.rolls->runs()[one.run].t.back(), roll.stop_time());
-  return std::log(roll.distance_at(end) / end);
+  Roll roll = joint.rolls->roll(joint.minimum.theta, one.run);
+  const double last = joint.rolls->runs()[one.run].t.back(),
+               end = std::min(last, roll.stop_until(last));
+  return std::log(roll.at(end).x / end);
 }
 
 /// What a run's ln D and b lose where the slope of the mat grows, to first order.

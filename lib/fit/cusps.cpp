@@ -20,7 +20,7 @@ std::vector<double> slopes_of_stop(const RollModel& rolls, const System& system,
     const double at = x, step = 1e-5 * std::max(1.0, std::abs(at));
     const auto stop = [&](double value) {
       x = value;
-      return rolls.trajectory(theta, run).stop_time();
+      return rolls.roll(theta, run).stop_time();
     };
     slopes.push_back((stop(at + step) - stop(at - step)) / (2 * step));
     x = at;
@@ -66,7 +66,7 @@ std::vector<double> other_stops(const std::vector<double>& t, double stop) {
 /// if the roll has no stop close to this one.
 void search_around(const RollModel& rolls, const System& system, std::size_t run, Minimum& best) {
   const std::vector<double> from = best.theta;
-  const double stop = rolls.trajectory(from, run).stop_time();
+  const double stop = rolls.roll(from, run).stop_time();
   const std::vector<double> stops = other_stops(rolls.runs()[run].t, stop);
   if (stops.empty()) return;
   const std::vector<double> later =
@@ -82,7 +82,7 @@ void search_around(const RollModel& rolls, const System& system, std::size_t run
 /// slows down at a rate that is not 0 at the stop, as with b = 0.
 bool has_cusps(const RollModel& rolls, const std::vector<double>& theta, std::size_t run) {
   return !rolls.runs()[run].raw_is_position &&
-         (rolls.parameters().law(theta).b < 0.5 || rolls.slope(theta, run) != 0);
+         (rolls.parameters().law(theta).c(1) < 0.5 || rolls.slope(theta, run) != 0);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ using Column = std::vector<double>;
 class Wobble {
  public:
   /// `times` increase.
-  Wobble(const ObservedRun& run, const Trajectory& roll, std::span<const double> times, double r)
+  Wobble(const ObservedRun& run, Roll roll, std::span<const double> times, double r)
       : t_(times.begin(), times.end()) {
     constexpr double longest = 0.2;  // integration step, angle of the body [rad]
     constexpr double slow = 0.05;  // share of v0 below which w is constant: it diverges at the stop
@@ -34,14 +34,14 @@ class Wobble {
     std::array<double, 2> w{}, dx{}, dv{};
     double before = 0;
     for (double t : t_) {
-      const double angle = roll.speed_at(before).v * (t - before) / r;
+      const double angle = roll.at(before).v * (t - before) / r;
       const double count = std::clamp(std::ceil(angle / longest), 1.0, 32.0),
                    h = (t - before) / count;
       for (double i = 0; h > 0 && i < count; ++i) {
         const auto s = roll.at(before + (i + 0.5) * h);
         if (first_v_ == 0) first_v_ = s.v;
         fastest_ = std::max(fastest_, s.v);
-        const double acceleration = s.v > 0 ? roll.acceleration(s.v) : 0,
+        const double acceleration = s.a,
                      by_force = s.v > slow * first_v_ ? by_D / acceleration * h / 2 : 0;
         for (std::size_t k = 0; k < 2; ++k) {
           const double half_w = by_force * (k ? std::sin(s.x / r) : std::cos(s.x / r));
@@ -136,12 +136,12 @@ class Periodogram {
   static double square(double x) { return x * x; }
 
   /// The ends of blocks of records that are short relative to one turn and to the run.
-  std::vector<std::size_t> thinned() const {
+  std::vector<std::size_t> thinned() {
     constexpr double turned = 0.1, shares = 512;
     const Column& t = seen_.t;
     std::vector<std::size_t> ends;
     for (auto first = t.begin(); first != t.end();) {
-      const double v = roll_.speed_at(*first).v, share = (t.back() - t.front()) / shares,
+      const double v = roll_.at(*first).v, share = (t.back() - t.front()) / shares,
                    longest = v > 0 ? std::min(share, turned * R_ / v) : share;
       first = std::upper_bound(first, t.end(), *first + longest);
       ends.push_back(static_cast<std::size_t>(first - t.begin()));
@@ -187,7 +187,7 @@ class Periodogram {
   RunNoise noise_;
   std::span<const double> f_;
   const ObservedRun& seen_ = fit_.rolls->runs()[run_];
-  Trajectory roll_ = fit_.rolls->trajectory(fit_.minimum.theta, run_);
+  Roll roll_ = fit_.rolls->roll(fit_.minimum.theta, run_);
   RawModel model_ = fit_.rolls->raw(fit_.minimum.theta, run_);
   std::vector<std::size_t> ends_ = thinned();
   Column times_;

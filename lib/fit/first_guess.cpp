@@ -93,20 +93,39 @@ struct Candidate {
   std::vector<double> v0, x0;
 };
 
+/// The rolls of the runs on a level mat with A = 1 under an exponent b: those of any a are the same
+/// with another unit of time and of distance, since the acceleration is proportional to a.
+struct Shape {
+  PowerLaw law;             // of the rolls
+  std::vector<Roll> rolls;  // of each run, with its rough v0
+};
+
+Shape shape_of(const std::vector<Thinned>& thin, double b) {
+  const ObservedRun& first = thin.front().run;
+  const double v0 = thin.front().v0;
+  Shape shape{{std::pow(v0, 1 - b) * (first.body.K + 1) * first.body.R / first.body.g /
+                   first.t.back(),
+               b},
+              {}};
+  for (const auto& [run, scale] : thin) {
+    Body level = run.body;
+    level.slope = 0;
+    shape.rolls.emplace_back(level, Geometry::approximate, shape.law, scale);
+  }
+  return shape;
+}
+
 /// Adds a run to a candidate, with v0 (a factor) and x0 at their least-squares values.
-void add_run(Candidate& candidate, const Thinned& of, const FitOptions& options) {
+void add_run(Candidate& candidate, const Thinned& of, const Shape& shape, Roll& roll,
+             const FitOptions& options) {
   const ObservedRun& thin = of.run;
   const bool position = thin.raw_is_position;
-  Body level = thin.body;
-  level.slope = 0;
-  const Trajectory trajectory(level, thin.geometry, candidate.law, of.v0,
-                              Trajectory::Derivatives::of_law, Trajectory::AtRadius::passed);
+  const double faster = candidate.law.a / shape.law.a;
   double mm = 0, my = 0, m_mean = 0, y_mean = 0;
   std::vector<double> m, y;
   for (std::size_t i = 0; i < thin.t.size(); ++i) {
-    const double lambda = trajectory.log_ratio(thin.t[i]);
-    m.push_back(thin.way *
-                (position ? trajectory.position(thin.t[i], lambda) : trajectory.velocity(lambda)));
+    const Roll::Point p = roll.at(thin.t[i] * faster);
+    m.push_back(thin.way * (position ? p.x / faster : p.v));
     y.push_back(thin.y[i] - (position ? options.x0.value_or(0) : 0));
   }
   const double n = static_cast<double>(m.size());
@@ -134,19 +153,18 @@ void add_run(Candidate& candidate, const Thinned& of, const FitOptions& options)
 std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions& options) {
   std::vector<double> exponents{-0.5, 0, 0.25, 0.5, 1, 1.5, 2, 3};
   if (const auto given = options.given_b()) exponents = {*given};
-  const Body& body = thin.front().run.body;
-  const double duration = thin.front().run.t.back(), v0 = thin.front().v0;
   std::vector<Candidate> best;
   for (double b : exponents) {
+    Shape shape = shape_of(thin, b);
     std::vector<double> as;
     if (const auto given = options.given_a()) as = {*given};
     else
-      for (double x = 0.01; x < 1000; x *= 1.3)
-        as.push_back(x / duration * std::pow(v0, 1 - b) * (body.K + 1) * body.R / body.g);
+      for (double x = 0.01; x < 1000; x *= 1.3) as.push_back(x * shape.law.a);
     Candidate nearest{std::numeric_limits<double>::infinity(), {}, {}, {}};
     for (double a : as) try {
         Candidate candidate{0, {a, b}, {}, {}};
-        for (const Thinned& run : thin) add_run(candidate, run, options);
+        for (std::size_t r = 0; r < thin.size(); ++r)
+          add_run(candidate, thin[r], shape, shape.rolls[r], options);
         if (candidate.rss < nearest.rss) nearest = std::move(candidate);
       } catch (const Error&) {  // no roll has this law and these data
       }

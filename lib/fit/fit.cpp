@@ -119,9 +119,10 @@ void require_law(const Fitted& found, const std::vector<FitRun>& all) {
   constexpr double rest = 1e-3;  // of v0; below it MemoryRoll, too, counts a body as at rest
   const auto& runs = found.rolls->runs();
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    const Trajectory roll = found.rolls->trajectory(found.minimum.theta, r);
-    if (roll.radius_speed() > rest * std::abs(found.v0[r].value) &&
-        roll.radius_time() < runs[r].t.back())
+    Roll roll = found.rolls->roll(found.minimum.theta, r);
+    const double last = runs[r].t.back();
+    if (roll.radius_time(last) < last &&
+        roll.radius_speed() > rest * std::abs(found.v0[r].value))
       fail(
           "{}a = {:.4g} and b = {:.4g} have no meaning below {:.2g} m/s, where D is beyond the "
           "radius {} m: leave the rows out that follow, or fit with A = 1",

@@ -1,6 +1,7 @@
 #include "fit/fitted.h"
 
 #include <algorithm>
+#include <array>
 
 #include "base/error.h"
 #include "least_squares/robust.h"
@@ -22,6 +23,18 @@ std::size_t Fitted::degrees_left() const {
                               : minimum.f.size(),
                     p = minimum.theta.size(), left = n > p ? n - p : 0;
   return raw_noise ? std::min(left, raw_noise->freedom) : left;
+}
+
+void report_law(Fitted& fit, const Parameters& q) {
+  const Law law = q.law(fit.minimum.theta);
+  const auto coefficient = [&](std::size_t j) {
+    std::array<double, LawForm::most> by_c{};
+    FittedNumber number{law.in_SI(j, by_c), std::vector<double>(q.columns())};
+    q.chain(number.gradient.data(), 1, law.c(0), {by_c});
+    return number;
+  };
+  fit.a = coefficient(0);
+  fit.b = coefficient(1);
 }
 
 Minimum solve(const System& system, const std::vector<std::vector<double>>& starts,

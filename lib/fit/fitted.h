@@ -36,6 +36,8 @@ struct RawNoise {
   Sources sources = {};
 };
 
+struct ShiftRecords;
+
 /// A minimum with what its errors need. fit(), compare_laws() and the other questions about a fit
 /// start from it.
 struct Fitted {
@@ -51,7 +53,7 @@ struct Fitted {
   std::vector<FittedNumber> v0 = {};            ///< one for each run, if the model is a roll
   std::shared_ptr<const RollModel> rolls = {};  ///< the model, if it is a roll
   std::optional<Taken> taken = {};  ///< see taken_of(); if other fits have left these residuals
-  std::vector<double> v = {};  ///< speeds of the fitted records [m/s], if the model is a law D(v)
+  std::shared_ptr<const ShiftRecords> shifts = {};  ///< the records, if the model is a law D(v)
 
   std::size_t means_taken() const {
     return rolls ? rolling::means_taken(rolls->runs(), rolls->parameters()) : 0;
@@ -65,6 +67,9 @@ struct Fitted {
   /// been filtered.
   bool filters_known() const { return raw_noise || noise->from_sources_alone(); }
 };
+
+/// Writes a and b with their gradients into the fit.
+void report_law(Fitted&, const Parameters&);
 
 /// Minimises by the loss that the options name: squares from the first start.
 Minimum solve(const System&, const std::vector<std::vector<double>>& starts, const FitOptions&);

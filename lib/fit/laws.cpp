@@ -1,6 +1,7 @@
 #include "fit/laws.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -11,7 +12,7 @@
 #include "fit/first_guess.h"
 #include "fit/roll_fit.h"
 #include "fit/route.h"
-#include "motion/law_roll.h"
+#include "fit/shift_records.h"
 #include "statistics/residuals.h"
 
 namespace rolling {
@@ -25,14 +26,16 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 class Records {
  public:
   explicit Records(Fitted power) : power_(std::move(power)), law_{power_.a.value, power_.b.value} {
-    for (double v : power_.v) v_unit_ = std::max(v_unit_, v);
+    if (power_.shifts) v_unit_ = std::ranges::max(power_.shifts->v);
     for (const auto& q : power_.v0) v_unit_ = std::max(v_unit_, std::abs(q.value));
   }
 
   const Fitted& power() const { return power_; }
-  LawInUnits in_units(const Law& law) const { return {&law, law_(v_unit_), v_unit_}; }
-  std::size_t own() const { return power_.system.own; }
-  std::size_t shared(const Law& law) const { return law.coefficients.size() + fits_slope(); }
+  /// The parameters of a fit of another law, in units in which shifts and speeds are of order one.
+  Parameters parameters(const LawForm& form) const {
+    const Parameters q = power_.rolls ? power_.rolls->parameters() : Parameters({}, false, 1, 1);
+    return q.with(form, law_(v_unit_), v_unit_);
+  }
 
   /// theta with v0, x0 and the slope of the fitted a v^b, and with these coefficients.
   std::vector<double> theta(const std::vector<double>& c) const {
@@ -41,68 +44,17 @@ class Records {
     const double slope = all.back();
     all.resize(system.runs.size() * system.own);
     all.insert(all.end(), c.begin(), c.end());
-    if (fits_slope()) all.push_back(slope);
+    if (power_.slope) all.push_back(slope);
     return all;
   }
 
-  System system(const Law& law) const {
-    if (power_.rolls) return rolls(law, power_.rolls->runs());
-    return {power_.system.runs, own(), shared(law),
-            [this, &law](const std::vector<double>& theta, const TakeRows& take) {
-      const auto v_of = by_run(power_.v, power_.system.runs),
-                 f_of = by_run(power_.minimum.f, power_.system.runs);
-      for (std::size_t r = 0; r < v_of.size(); ++r) shifts(law, r, v_of[r], f_of[r], theta, take);
-            }};
+  System system(const LawForm& form) const {
+    const Parameters q = parameters(form);
+    if (!power_.rolls) return system_of(power_.shifts, q);
+    return system_of(std::make_shared<const RollModel>(power_.rolls->runs(), q), power_.noise);
   }
 
  private:
-  bool fits_slope() const { return power_.slope.has_value(); }
-
-  /// The residuals of a law D(v): its difference from the power law plus the residuals f of the
-  /// power law.
-  void shifts(const Law& law, std::size_t r, std::span<const double> v, std::span<const double> old,
-              const std::vector<double>& theta, const TakeRows& take) const {
-    const LawInUnits D = in_units(law);
-    const std::size_t n = v.size();
-    std::vector<double> f(n), J(n * D.size());
-    for (std::size_t i = 0; i < n; ++i) {
-      double by_c[Law::most];
-      f[i] = D(theta.data(), v[i], by_c) - law_(v[i]) + old[i];
-      for (std::size_t j = 0; j < D.size(); ++j) J[j * n + i] = by_c[j];
-    }
-    take(r, f, J);
-  }
-
-  /// The rolls of these runs under a law, which are the records or their block means.
-  System rolls(const Law& law, const std::vector<ObservedRun>& runs) const {
-    std::vector<std::size_t> sizes;
-    for (const ObservedRun& run : runs) sizes.push_back(run.y.size());
-    const auto all = [this, &law, &runs](const std::vector<double>& theta, const TakeRows& take) {
-      for (std::size_t r = 0; r < runs.size(); ++r) roll(law, runs[r], r, theta, take);
-    };
-    return {std::move(sizes), own(), shared(law), all};
-  }
-
-  void roll(const Law& law, const ObservedRun& run, std::size_t r, const std::vector<double>& theta,
-            const TakeRows& take) const {
-    const Parameters& q = power_.rolls->parameters();
-    Body body = run.body;
-    body.slope = power_.rolls->slope(theta, r);
-    LawRoll roll(body, run.geometry, in_units(law), &theta[theta.size() - shared(law)],
-                 q.v0(theta, r));
-    const std::size_t coefficients = law.coefficients.size();
-    const bool x = run.raw_is_position;
-    const auto raw = [&](double t, double* to, std::size_t stride) {
-      const LawRoll::Point p = roll.at(t);
-      const auto& by_c = x ? p.x_c : p.v_c;
-      to = q.chain_own(to, stride, run.way * (x ? p.x_v0 : p.v_v0), 1);
-      for (std::size_t j = 0; j < coefficients; ++j, to += stride) *to = run.way * by_c[j];
-      if (fits_slope()) *to = Parameters::slope_unit * by_c[coefficients];
-      return x ? q.x0(theta, r) + run.way * p.x : run.way * p.v;
-    };
-    evaluate(run, r, own() + shared(law), *power_.noise, raw, take);
-  }
-
   Fitted power_;
   PowerLaw law_;
   double v_unit_ = 0;
@@ -110,7 +62,7 @@ class Records {
 
 /// The fit of one law.
 struct Candidate {
-  const Law* law;
+  const LawForm* law;
   Minimum minimum;
   std::vector<double> c;
 
@@ -120,7 +72,7 @@ struct Candidate {
 /// The coefficients that bring a law closest to another one, by least squares over the speeds, from
 /// each of its starting points. If the other law is a special case of this one, the result is
 /// exact.
-std::vector<std::vector<double>> closest(const Law& law, const Candidate& other) {
+std::vector<std::vector<double>> closest(const LawForm& law, const Candidate& other) {
   constexpr std::size_t points = 20;
   const System curve{{points},
                      0,
@@ -129,8 +81,8 @@ std::vector<std::vector<double>> closest(const Law& law, const Candidate& other)
     std::vector<double> f(points), J(points * c.size());
     for (std::size_t i = 0; i < points; ++i) {
       const double u = static_cast<double>(i + 1) / points;
-      double by_c[Law::most], by_other[Law::most];
-      f[i] = law.shift(c.data(), u, by_c) - other.law->shift(other.c.data(), u, by_other);
+      double by_c[LawForm::most], by_other[LawForm::most];
+      f[i] = law.shift(c.data(), u, by_c).D - other.law->shift(other.c.data(), u, by_other).D;
       for (std::size_t j = 0; j < c.size(); ++j) J[j * points + i] = by_c[j];
     }
     take(0, f, J);
@@ -144,7 +96,7 @@ std::vector<std::vector<double>> closest(const Law& law, const Candidate& other)
 /// closest to a v^b and to the laws fitted before, so that it never ends above a special case of
 /// the law. If the law has several starts of its own, they are tried as well: close to a law
 /// without a peak, a law with a peak has another minimum than at its peak.
-Candidate fit_law(const Records& records, const Law& law, const std::vector<Candidate>& before) {
+Candidate fit_law(const Records& records, const LawForm& law, const std::vector<Candidate>& before) {
   const System system = records.system(law);
   std::vector<std::pair<double, std::vector<double>>> starts;
   for (const Candidate& other : before) {
@@ -204,12 +156,14 @@ void report_coefficients(LawFit& result, const Records& records, const Candidate
     values.clear();
     fit.system = records.system(*found.law);
     fit.minimum = found.minimum;
-    const LawInUnits law = records.in_units(*found.law);
+    const Parameters q = records.parameters(*found.law);
+    const Law law = q.law(found.minimum.theta);
     for (std::size_t j = 0; j < law.size(); ++j) {
-      FittedNumber q{0, std::vector<double>(fit.system.columns())};
-      q.value =
-          law.in_SI(found.c.data(), j, std::span(q.gradient).subspan(records.own(), law.size()));
-      values.push_back(std::move(q));
+      FittedNumber number{0, std::vector<double>(fit.system.columns())};
+      std::array<double, LawForm::most> by_c{};
+      number.value = law.in_SI(j, by_c);
+      q.chain(number.gradient.data(), 1, law.c(0), {by_c});
+      values.push_back(std::move(number));
     }
   }
   const Uncertainty errors = uncertainty_of(fit);

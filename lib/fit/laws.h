@@ -11,7 +11,7 @@ namespace rolling {
 
 /// The fit of one law to the records of a route.
 struct LawFit {
-  const Law* law;
+  const LawForm* law;
   /// The corrected Akaike information criterion (Burnham and Anderson 2002, Model Selection and
   /// Multimodel Inference). Smaller is better; a difference below 2 is not significant. Infinite if
   /// the law cannot be fitted.

@@ -11,7 +11,7 @@
 #include "base/dot.h"
 #include "base/error.h"
 #include "contact/contact.h"
-#include "contact/power_law.h"
+#include "contact/law.h"
 #include "fit/errors.h"
 #include "fit/roll_fit.h"
 #include "fit/shift_records.h"
@@ -19,14 +19,6 @@
 
 namespace rolling {
 namespace {
-
-System line_system(ShiftRecords records, const Height& height) {
-  return system_of(std::move(records), height, [height](const std::vector<double>& theta) {
-    const double b = height.exponent(theta),
-                 h = height.a ? std::log(*height.a) + b * height.log_v_ref : theta[0];
-    return [=](double log_u) -> Curve { return {h + b * log_u, 1, log_u, 1}; };
-  });
-}
 
 /// The noise and the bias of the points (ln v, ln D) of a run. The noise of ln D - b ln v is
 /// by_D D e + by_v v e for each point, with raw noise e of variance one and the rows of D and v.
@@ -117,7 +109,7 @@ std::optional<KnownRoll> known_roll(const std::vector<FitRun>& runs, const FitOp
   roll.responses = std::move(responses);
   for (std::size_t r = 0; r < runs.size(); ++r)
     roll.stops.push_back(roll.fit.rolls->runs()[r].origin +
-                         roll.fit.rolls->trajectory(roll.fit.minimum.theta, r).stop_time());
+                         roll.fit.rolls->roll(roll.fit.minimum.theta, r).stop_time());
   return roll;
 }
 
@@ -171,6 +163,18 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
   line.bias_b = bias_of(line.b.gradient);
 }
 
+/// The law of the straight line through the records.
+PowerLaw line_through(const ShiftRecords& records) {
+  double mean = 0, xx = 0, xy = 0;
+  for (std::size_t i = 0; i < records.y.size(); ++i) {
+    const double x = std::log(records.v[i] / records.v_ref);  // its mean is 0
+    mean += records.y[i] / static_cast<double>(records.y.size());
+    xx += x * x, xy += x * records.y[i];
+  }
+  const double b = xx > 0 ? xy / xx : 0;
+  return {std::exp(mean) * std::pow(records.v_ref, -b), b};
+}
+
 }  // namespace
 
 Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
@@ -178,23 +182,16 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
   const std::vector<FitRun> some = with_logarithms(all, options, responses);
   const std::vector<FitRun>& runs = some.empty() ? all : some;
   std::optional<KnownRoll> roll = known_roll(runs, options, std::move(responses));
-  ShiftRecords records =
-      shift_records(runs, options, true, roll ? roll->stops : std::vector<double>());
-  const Height height{options.a, options.b, records.log_v_ref};
-  Fitted line{.system = {}, .minimum = {}};
-  line.records = records.y.size();
-  line.left_out = records.left_out;
-  if (!roll) line.negative = records.negative;
+  auto records = std::make_shared<const ShiftRecords>(
+      shift_records(runs, options, true, roll ? roll->stops : std::vector<double>()));
+  const Parameters q(options, true, 1, records->v_ref);
+  Fitted line{.system = system_of(records, q), .minimum = {}};
+  line.records = records->y.size();
+  line.left_out = records->left_out;
+  if (!roll) line.negative = records->negative;
   if (!some.empty()) line.left_out += readings(all) - readings(some);
-  std::vector<double> start(height.count(), 0);
-  if (start.size() == 2)  // the line itself, since the mean of log_u is 0
-    start = {std::reduce(records.y.begin(), records.y.end()) / static_cast<double>(line.records),
-             dot(records.log_u, records.y) / dot(records.log_u, records.log_u)};
-  line.system = line_system(std::move(records), height);
-  line.minimum = solve(line.system, {start}, options);
-  const double b = height.exponent(line.minimum.theta),
-               a = options.a ? *options.a : std::exp(line.minimum.theta[0] - b * height.log_v_ref);
-  height.report(line, a, a);
+  line.minimum = solve(line.system, {q.theta(line_through(*records), {}, {})}, options);
+  report_law(line, q);
   if (roll) carry_noise(line, runs, std::move(*roll), options);
   return line;
 }

@@ -132,52 +132,54 @@ std::size_t informative_records(const std::vector<ObservedRun>& runs, const Para
   return n - means_taken(runs, parameters);
 }
 
-Trajectory RollModel::trajectory(const std::vector<double>& theta, std::size_t run) const {
+Roll RollModel::roll(const std::vector<double>& theta, std::size_t run) const {
   Body body = runs_[run].body;
   body.slope = slope(theta, run);
-  return {body,
-          runs_[run].geometry,
-          parameters_.law(theta),
-          parameters_.v0(theta, run),
-          parameters_.fits_slope() ? Trajectory::Derivatives::of_law_and_slope
-                                   : Trajectory::Derivatives::of_law,
-          Trajectory::AtRadius::passed};
+  return {body, runs_[run].geometry, parameters_.law(theta), parameters_.v0(theta, run)};
 }
 
 double RollModel::slope(const std::vector<double>& theta, std::size_t run) const {
   return runs_[run].way * parameters_.slope(theta, runs_[run].body.slope);
 }
 
+namespace {
+
+/// x or v of a roll with its derivatives, as a Chebyshev series where the times are dense.
+auto rolled(const ObservedRun& run, Roll roll) {
+  const double last = run.t.back();
+  const std::array corners{roll.stop_until(last), roll.radius_time(last)};
+  const auto direct = [roll = std::move(roll), position = run.raw_is_position](double t) mutable {
+    const Roll::Point p = roll.at(t);
+    std::array<double, 2 + Roll::most> values{position ? p.x : p.v, position ? p.x_v0 : p.v_v0};
+    std::ranges::copy(position ? p.x_c : p.v_c, values.begin() + 2);
+    return values;
+  };
+  return ChebyshevPanels(run.t, corners, direct);
+}
+
+}  // namespace
+
 RawModel RollModel::raw(const std::vector<double>& theta, std::size_t r) const {
   const ObservedRun& run = runs_[r];
-  const Trajectory roll = trajectory(theta, r);
-  const bool position = run.raw_is_position;
-  const auto direct = [roll, position](double t) -> std::array<double, 5> {
-    const auto s = position ? roll.at(t) : roll.speed_at(t);
-    if (position) return {s.x, s.x_a, s.x_b, s.x_v0, s.x_S};
-    return {s.v, s.v_a, s.v_b, s.v_v0, s.v_S};
-  };
-  ChebyshevPanels rolled(run.t, roll.smooth_until(), direct);
-  return [&q = parameters_, a = parameters_.law(theta).a, x0 = parameters_.x0(theta, r),
-          way = run.way, rolled](double t, double* slopes, std::size_t stride) mutable {
-    const auto [s, by_a, by_b, by_v0, by_S] = rolled(t);
+  const Law law = parameters_.law(theta);
+  return [&q = parameters_, law, x0 = parameters_.x0(theta, r), way = run.way,
+          rolled = rolled(run, roll(theta, r))](double t, double* slopes,
+                                                std::size_t stride) mutable {
+    auto of = rolled(t);
+    for (std::size_t j = 0; j < 1 + law.size(); ++j) of[1 + j] *= way;
     // 1 is the derivative by x0; where speeds are fitted, x0 is 0 and no parameter.
-    q.chain(slopes, stride, a, {way * by_a, way * by_b, way * by_v0, 1, by_S});
-    return x0 + way * s;
+    q.chain(slopes, stride, law.c(0), {std::span(of).subspan(2), of[1], 1, of[2 + law.size()]});
+    return x0 + way * of[0];
   };
 }
 
 std::vector<double> RollModel::raw_column(const std::vector<double>& theta, std::size_t r) const {
   const ObservedRun& run = runs_[r];
-  const Trajectory roll = trajectory(theta, r);
-  const auto direct = [&](double t) {
-    return std::array{run.raw_is_position ? roll.distance_at(t) : roll.speed_at(t).v};
-  };
-  ChebyshevPanels rolled(run.t, roll.smooth_until(), direct);
+  auto at = rolled(run, roll(theta, r));
   const double x0 = parameters_.x0(theta, r);
   std::vector<double> column;
   column.reserve(run.t.size());
-  for (double t : run.t) column.push_back(x0 + run.way * rolled(t)[0]);
+  for (double t : run.t) column.push_back(x0 + run.way * at(t)[0]);
   return column;
 }
 

@@ -17,7 +17,7 @@
 
 #include "fit/parameters.h"
 #include "least_squares/system.h"
-#include "motion/trajectory.h"
+#include "motion/roll.h"
 #include "noise/noise.h"
 #include "noise/response.h"
 
@@ -94,7 +94,7 @@ class RollModel {
 
   const std::vector<ObservedRun>& runs() const { return runs_; }
   const Parameters& parameters() const { return parameters_; }
-  Trajectory trajectory(const std::vector<double>& theta, std::size_t run) const;
+  Roll roll(const std::vector<double>& theta, std::size_t run) const;
   /// Refers to this object.
   RawModel raw(const std::vector<double>& theta, std::size_t run) const;
   /// The raw column of a run without derivatives: x or v at its times.

@@ -11,25 +11,14 @@
 namespace rolling {
 namespace {
 
-System power_system(ShiftRecords records, const Height& height, double unit) {
-  return system_of(std::move(records), height, [height, unit](const std::vector<double>& theta) {
-    const double b = height.exponent(theta),
-                 h = height.a ? *height.a * std::exp(b * height.log_v_ref) : theta[0] * unit;
-    return [=](double log_u) -> Curve {
-      const double power = std::exp(b * log_u);
-      return {h * power, unit * power, h * power * log_u, h * power};
-    };
-  });
-}
-
 /// Every k-th record, with k the smallest that leaves at most `most` records.
 ShiftRecords thinned(const ShiftRecords& records, std::size_t most) {
   ShiftRecords few;
-  few.log_v_ref = records.log_v_ref;
+  few.v_ref = records.v_ref;
   const std::size_t n = records.y.size();
   for (std::size_t i = 0, step = (n + most - 1) / most; i < n; i += step) {
     few.y.push_back(records.y[i]);
-    few.log_u.push_back(records.log_u[i]);
+    few.v.push_back(records.v[i]);
   }
   few.runs = {few.y.size()};
   return few;
@@ -38,60 +27,57 @@ ShiftRecords thinned(const ShiftRecords& records, std::size_t most) {
 /// A starting point: the exponent of a coarse grid with the smallest sum of squares (the height
 /// follows by linear least squares), or the values that the user gives. From one exponent of the
 /// grid to the next no D changes by more than a factor e^(1/2) relative to D at the mean of ln v.
-std::vector<double> power_start(const ShiftRecords& few, const FitOptions& options, double unit) {
+PowerLaw power_start(const ShiftRecords& few, const FitOptions& options) {
   const auto a_given = options.given_a(), b_given = options.given_b();
   std::vector<double> exponents;
   if (b_given) exponents = {*b_given};
   else {
     double widest = 2;
-    for (const double log_u : few.log_u) widest = std::max(widest, std::abs(log_u));
+    for (const double v : few.v) widest = std::max(widest, std::abs(std::log(v / few.v_ref)));
     for (double b = -4; b <= 8; b += 0.5 / widest) exponents.push_back(b);
   }
-  double least = std::numeric_limits<double>::infinity(), best_b = exponents.front(), best_h = 0;
+  double least = std::numeric_limits<double>::infinity();
+  PowerLaw best{0, 0};
   for (double b : exponents) {
     double mm = 0, mD = 0, rss = 0;
+    const PowerLaw unit{std::pow(few.v_ref, -b), b};
     for (std::size_t i = 0; i < few.y.size(); ++i) {
-      const double m = std::exp(b * few.log_u[i]);
+      const double m = unit(few.v[i]);
       mm += m * m;
       mD += m * few.y[i];
     }
-    const double h = a_given ? *a_given * std::exp(b * few.log_v_ref) : mD / mm;
+    const double a = a_given.value_or(unit.a * mD / mm);
     for (std::size_t i = 0; i < few.y.size(); ++i) {
-      const double f = h * std::exp(b * few.log_u[i]) - few.y[i];
+      const double f = PowerLaw{a, b}(few.v[i]) - few.y[i];
       rss += f * f;
     }
-    if (rss < least || exponents.size() == 1) least = rss, best_b = b, best_h = h;
+    if (rss < least || exponents.size() == 1) least = rss, best = {a, b};
   }
-  std::vector<double> theta;
-  if (!options.a) theta.push_back(best_h / unit);
-  if (!options.b) theta.push_back(best_b);
-  return theta;
+  return best;
 }
 
 }  // namespace
 
 Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
-  const ShiftRecords records = shift_records(all, options, false);
-  const Height height{options.a, options.b, records.log_v_ref};
+  auto records = std::make_shared<const ShiftRecords>(shift_records(all, options, false));
   double unit = 0;
-  for (double D : records.y) unit = std::max(unit, std::abs(D));
+  for (double D : records->y) unit = std::max(unit, std::abs(D));
   if (unit == 0) fail("all shifts are 0: b cannot be determined");
+  const Parameters q(options, false, unit, records->v_ref);
   // For many records, a few thousand of them give a starting point close to the minimum.
   constexpr std::size_t most = 4096;
-  const std::size_t n = records.y.size();
-  const ShiftRecords few = thinned(records, options.robust ? n : most);
-  std::vector<double> theta = power_start(few, options, unit);
-  if (few.y.size() < n) theta = attempt(power_system(few, height, unit), theta).theta;
+  const std::size_t n = records->y.size();
+  auto few = std::make_shared<const ShiftRecords>(thinned(*records, options.robust ? n : most));
+  std::vector<double> theta = q.theta(power_start(*few, options), {}, {});
+  if (few->y.size() < n) theta = attempt(system_of(std::move(few), q), theta).theta;
 
-  const System system = power_system(records, height, unit);
+  System system = system_of(records, q);
   Minimum minimum = solve(system, {theta}, options);
-  const double b = height.exponent(minimum.theta), scale = std::exp(-b * records.log_v_ref),
-               a = minimum.theta.front() * unit * scale;  // if it is not held
-  Fitted result{.system = system, .minimum = std::move(minimum)};
+  Fitted result{.system = std::move(system), .minimum = std::move(minimum)};
   result.records = n;
-  result.left_out = records.left_out;
-  height.report(result, a, unit * scale);
-  for (double x : records.log_u) result.v.push_back(std::exp(x + records.log_v_ref));
+  result.left_out = records->left_out;
+  report_law(result, q);
+  result.shifts = std::move(records);
   return result;
 }
 

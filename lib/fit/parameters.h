@@ -1,8 +1,8 @@
-// The parameter vector theta of a roll, scaled to numbers of order one, and the physical parameters
+// The parameter vector theta of a fit, scaled to numbers of order one, and the physical parameters
 // that it stands for.
 #pragma once
 
-#include "contact/power_law.h"
+#include "contact/law.h"
 #include "fit/input.h"
 
 #include <cmath>
@@ -11,27 +11,46 @@
 namespace rolling {
 
 /// For each run, theta holds v0 in units of v_ref and x0 in units of x_ref. The parameters shared
-/// by all runs follow: ln D(v_ref), b, and the slope of the mat in millimetres per metre. ln
-/// D(v_ref) replaces ln a, which is nearly collinear with b. Parameters that are held fixed have no
-/// element in theta. v0 is the speed along the direction of motion and is not negative.
+/// by all runs follow: the coefficients of the law in units of its own, and the slope of the mat in
+/// millimetres per metre. Of a v^b they are ln D or D at the unit of speed, in place of a, which is
+/// nearly collinear with b, and b. Parameters that are held fixed have no element in theta. v0 is
+/// the speed along the direction of motion and is not negative.
 class Parameters {
  public:
   static constexpr double slope_unit = 1e-3;
 
-  /// `position`: the raw column is a position, so that each run has an x0.
+  /// Of rolls under a v^b. `position`: the raw column is a position, so that each run has an x0.
   Parameters(const FitOptions& options, bool position, std::size_t runs, double v_ref, double x_ref)
       : a_(options.a), b_(options.b), v0_(options.v0), x0_(options.x0), slope_(options.fit_slope),
-        position_(position), runs_(runs), v_ref_(v_ref), log_v_ref_(std::log(v_ref)),
-        x_ref_(x_ref) {}
+        position_(position), runs_(runs), v_ref_(v_ref), x_ref_(x_ref), v_unit_(v_ref) {}
+  /// Of D = a v^b alone. `logarithm`: ln D at the unit of speed is the parameter, else D.
+  Parameters(const FitOptions& options, bool logarithm, double D_unit, double v_unit)
+      : a_(options.a), b_(options.b), v0_(0), logarithm_(logarithm), D_unit_(D_unit),
+        v_unit_(v_unit) {}
+  /// The same parameters with another law, all of whose coefficients are free.
+  Parameters with(const LawForm& form, double D_unit, double v_unit) const {
+    Parameters other = *this;
+    other.form_ = &form, other.D_unit_ = D_unit, other.v_unit_ = v_unit;
+    other.a_.reset(), other.b_.reset(), other.logarithm_ = false;
+    return other;
+  }
 
-  std::size_t shared() const { return !a_ + !b_ + slope_; }
+  const LawForm& form() const { return *form_; }
+  /// The number of free coefficients of the law.
+  std::size_t coefficients() const { return form_->coefficients.size() - !!a_ - !!b_; }
+  std::size_t shared() const { return coefficients() + slope_; }
   std::size_t own() const { return !v0_ + free_x0(); }
   std::size_t columns() const { return own() + shared(); }
   std::size_t count() const { return runs_ * own() + shared(); }
 
-  PowerLaw law(const std::vector<double>& theta) const {
-    const double b = b_ ? *b_ : theta[count() - 1 - slope_];
-    return {a_ ? *a_ : std::exp(theta[count() - shared()] - b * log_v_ref_), b};
+  Law law(const std::vector<double>& theta) const {
+    std::array<double, LawForm::most> c{};
+    const double* from = &theta[count() - shared()];
+    for (std::size_t j = 0; j < form_->coefficients.size(); ++j)
+      c[j] = j == 0 && a_ ? 0 : j == 1 && b_ ? *b_ : *from++;
+    if (a_) c[0] = *a_ * std::pow(v_unit_, c[1]) / D_unit_;
+    else if (logarithm_) c[0] = std::exp(c[0]);
+    return {*form_, c, D_unit_, v_unit_};
   }
   double v0(const std::vector<double>& theta, std::size_t run) const {
     return v0_ ? std::abs(*v0_) : theta[run * own()] * v_ref_;
@@ -58,7 +77,7 @@ class Parameters {
     one.insert(one.end(), at(runs_ * own()), at(count() - slope_));
     return one;
   }
-  /// The theta of this law with these v0 and x0 (one for each run), and slope 0.
+  /// The theta of a v^b with these v0 and x0 (one for each run), and slope 0.
   std::vector<double> theta(PowerLaw law, const std::vector<double>& v0,
                             const std::vector<double>& x0) const {
     std::vector<double> all;
@@ -66,40 +85,43 @@ class Parameters {
       if (!v0_) all.push_back(v0[r] / v_ref_);
       if (free_x0()) all.push_back(x0[r] / x_ref_);
     }
-    if (!a_) all.push_back(std::log(law.a) + law.b * log_v_ref_);
+    const double D = law(v_unit_) / D_unit_;
+    if (!a_) all.push_back(logarithm_ ? std::log(D) : D);
     if (!b_) all.push_back(law.b);
     if (slope_) all.push_back(0);
     return all;
   }
 
-  /// Partial derivatives of a number with respect to a, b, the v0 and x0 of its run, and the slope.
+  /// Partial derivatives of a number: by the coefficients of the law, by the v0 and x0 of its run,
+  /// and by the slope.
   struct Derivatives {
-    double a, b, v0 = 0, x0 = 0, slope = 0;
+    std::span<const double> by_c;
+    double v0 = 0, x0 = 0, slope = 0;
   };
-  /// Converts derivatives with respect to v0 and x0 to the elements of theta that belong to the run
-  /// and writes them `stride` apart; returns the place for the next one.
-  double* chain_own(double* to, std::size_t stride, double v0, double x0) const noexcept {
-    if (!v0_) *std::exchange(to, to + stride) = v0 * v_ref_;
-    if (free_x0()) *std::exchange(to, to + stride) = x0 * x_ref_;
-    return to;
-  }
-  /// The same for all columns of a run: its own parameters, then the shared ones. a is the value of
-  /// a under theta.
-  void chain(double* to, std::size_t stride, double a, const Derivatives& by) const noexcept {
-    double* place = chain_own(to, stride, by.v0, by.x0);
-    const auto put = [&](double value) { *std::exchange(place, place + stride) = value; };
-    if (!a_) put(a * by.a);
-    if (!b_) put(by.b - (a_ ? 0 : log_v_ref_ * a * by.a));
+  /// Converts derivatives to the elements of theta, those of the run first and then the shared ones,
+  /// and writes them `stride` apart. c0 is the first coefficient under theta.
+  void chain(double* to, std::size_t stride, double c0, const Derivatives& by) const noexcept {
+    const auto put = [&](double value) { *std::exchange(to, to + stride) = value; };
+    if (!v0_) put(by.v0 * v_ref_);
+    if (free_x0()) put(by.x0 * x_ref_);
+    for (std::size_t j = 0; j < form_->coefficients.size(); ++j) {
+      const bool held = j == 0 ? a_.has_value() : j == 1 && b_;
+      if (held) continue;
+      put(j == 0 && logarithm_  ? c0 * by.by_c[0]
+          : j == 1 && a_ ? by.by_c[1] + c0 * std::log(v_unit_) * by.by_c[0]
+                         : by.by_c[j]);
+    }
     if (slope_) put(by.slope * slope_unit);
   }
 
  private:
   bool free_x0() const { return position_ && !x0_; }
 
+  const LawForm* form_ = &laws().front();
   std::optional<double> a_, b_, v0_, x0_;
-  bool slope_, position_;
-  std::size_t runs_;
-  double v_ref_, log_v_ref_, x_ref_;
+  bool slope_ = false, position_ = false, logarithm_ = true;
+  std::size_t runs_ = 0;
+  double v_ref_ = 1, x_ref_ = 1, D_unit_ = 1, v_unit_ = 1;
 };
 
 }  // namespace rolling

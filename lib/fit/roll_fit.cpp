@@ -1,6 +1,7 @@
 #include "fit/roll_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -30,9 +31,9 @@ bool leave_out_slow(const RollModel& model, const std::vector<double>& theta,
                     const std::vector<FitRun>& all, std::vector<Rows>& rows, double limit) {
   std::size_t slow = 0;
   for (std::size_t r = 0; r < all.size(); ++r) {
-    const Trajectory fitted = model.trajectory(theta, r);
+    Roll fitted = model.roll(theta, r);
     slow += std::erase_if(rows[r], [&](std::size_t i) {
-      return fitted.speed_at(all[r].t[i] - model.runs()[r].origin).v < limit;
+      return std::abs(fitted.at(all[r].t[i] - model.runs()[r].origin).v) < limit;
     });
   }
   return slow > 0;
@@ -58,19 +59,18 @@ double squares_of_shifts(const RollModel& rolls, const std::vector<double>& thet
 void report(Fitted& fit) {
   const std::vector<double>& theta = fit.minimum.theta;
   const Parameters& q = fit.rolls->parameters();
-  const PowerLaw law = q.law(theta);
-  const auto quantity = [&](double value, const Parameters::Derivatives& by) {
+  const std::array<double, LawForm::most> none{};
+  const auto quantity = [&](double value, double v0, double slope) {
     FittedNumber result{value, std::vector<double>(q.columns())};
-    q.chain(result.gradient.data(), 1, law.a, by);
+    q.chain(result.gradient.data(), 1, 0, {none, v0, 0, slope});
     return result;
   };
-  fit.a = quantity(law.a, {1, 0});
-  fit.b = quantity(law.b, {0, 1});
-  if (q.fits_slope()) fit.slope = quantity(q.slope(theta, 0), {0, 0, 0, 0, 1});
+  report_law(fit, q);
+  if (q.fits_slope()) fit.slope = quantity(q.slope(theta, 0), 0, 1);
   const auto& runs = fit.rolls->runs();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const double way = runs[r].way;
-    fit.v0.push_back(quantity(way * q.v0(theta, r), {0, 0, way}));
+    fit.v0.push_back(quantity(way * q.v0(theta, r), way, 0));
     fit.records += runs[r].shifts ? runs[r].shifts->fitted : runs[r].y.size();
   }
 }

@@ -1,7 +1,10 @@
 #include "fit/shift_records.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/error.h"
 #include "base/median.h"
@@ -69,10 +72,11 @@ bool has_logarithm(const FitRun& run, const FitOptions& options) {
 ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& options,
                            bool logarithms, const std::vector<double>& stops) {
   ShiftRecords records;
-  auto &y = records.y, &log_u = records.log_u;
+  records.logarithms = logarithms;
+  auto &y = records.y, &speeds = records.v;
   std::size_t most = 0;
   for (const auto& run : all) most += run.v.size();
-  y.reserve(most), log_u.reserve(most);
+  y.reserve(most), speeds.reserve(most);
   double sum = 0;
   for (std::size_t r = 0; r < all.size(); ++r) {
     const FitRun& run = all[r];
@@ -87,8 +91,8 @@ ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& opt
         records.negative += of_any_sign.allows(i, v, D);
         continue;
       }
-      log_u.push_back(std::log(v));
-      sum += log_u.back();
+      speeds.push_back(v);
+      sum += std::log(v);
       y.push_back(logarithms ? std::log(D) : D);
     }
     records.runs.push_back(y.size() - before);
@@ -97,13 +101,34 @@ ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& opt
   if (n == 0 && logarithms && records.left_out > 0)
     fail("no row has v > 0 and D > 0: there is no logarithm to fit");
   require_records(n, !options.a + !options.b, n);
-  if (!options.b &&
-      std::all_of(log_u.begin(), log_u.end(), [&](double x) { return x == log_u[0]; }))
+  if (!options.b && std::ranges::all_of(speeds, [&](double v) { return v == speeds[0]; }))
     fail("all speeds are equal: b cannot be determined");
-  const double mean = sum / static_cast<double>(n);
-  for (double& x : log_u) x -= mean;
-  records.log_v_ref = mean;
+  records.v_ref = std::exp(sum / static_cast<double>(n));
   return records;
+}
+
+System system_of(std::shared_ptr<const ShiftRecords> records, const Parameters& q) {
+  const std::size_t p = q.columns();
+  const std::vector<std::size_t>& runs = records->runs;
+  return {runs, 0, p, [records = std::move(records), q, p](const std::vector<double>& theta,
+                                                           const TakeRows& take) {
+    const Law law = q.law(theta);
+    std::vector<double> f, J;
+    std::size_t i = 0;
+    for (std::size_t r = 0; r < records->runs.size(); ++r)
+      for (const std::size_t end = i + records->runs[r]; i < end; take(r, f, J)) {
+        f.resize(std::min<std::size_t>(end - i, 256));
+        J.resize(f.size() * p);
+        for (std::size_t k = 0; k < f.size(); ++k, ++i) {
+          std::array<double, LawForm::most> by_c{};
+          const double D = law.at(records->v[i], by_c.data()).D;
+          f[k] = (records->logarithms ? std::log(D) : D) - records->y[i];
+          if (records->logarithms)
+            for (double& by : by_c) by /= D;
+          q.chain(&J[k], f.size(), law.c(0), {by_c});
+        }
+      }
+          }};
 }
 
 }  // namespace rolling

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "contact/contact.h"
-#include "motion/trajectory.h"
+#include "motion/roll.h"
 
 namespace rolling {
 

@@ -4,7 +4,7 @@
 #include "base/double_double.h"
 #include "contact/body.h"
 #include "motion/motion.h"
-#include "contact/power_law.h"
+#include "contact/law.h"
 
 namespace rolling {
 
@@ -21,7 +21,7 @@ class ClosedForm final : public Motion {
   /// Throws Error as check_roll does. v0 = 0 is rest for ever.
   ClosedForm(const Body&, PowerLaw, double v0, double x0);
 
-  double stop_time() const override { return stop_time_; }  ///< t* rounded up
+  double stop_time() override { return stop_time_; }  ///< t* rounded up
   void seek(double t) override;
   double position() override;
   double velocity() override;

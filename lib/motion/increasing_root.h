@@ -9,6 +9,7 @@ namespace rolling {
 /// leaves the bracket. `function` returns value and slope. At most 200 evaluations.
 template <typename Function>
 double increasing_root(double lo, double hi, double x, Function&& function) {
+  const double least = 1e-9 * (hi - lo);
   for (int i = 0; i < 200; ++i) {
     const auto [value, slope] = function(x);
     (value < 0 ? lo : hi) = x;
@@ -16,7 +17,7 @@ double increasing_root(double lo, double hi, double x, Function&& function) {
     if (!(next >= lo && next <= hi)) next = lo + (hi - lo) / 2;
     const double step = std::abs(next - x);
     x = next;
-    if (step <= 1e-8 * x) break;  // convergence is quadratic
+    if (step <= least) break;  // convergence is quadratic
   }
   return x;
 }

@@ -20,29 +20,30 @@ constexpr double unseen = 1e-28;     // of v0: the rest of the roll does not sho
 constexpr double least_part = 1e-8;  // of v0; for much lower v, rounding of t exceeds a step
 
 /// The speed at which the solver ends; 0 if the body never stops.
-double floor_of(const AnyLaw& law, double v0) {
-  return law.stops ? std::max(least_part * v0, law.rest) : 0;
+double floor_of(Rest rest, double v0) {
+  return rest.reached ? std::max(least_part * v0, rest.speed) : 0;
 }
 
-OdeSystem equations(const Body& body, Geometry geometry, const AnyLaw& law, double v0) {
+OdeSystem equations(const Body& body, Geometry geometry, const Law& law, double floor, double v0) {
   if (!(v0 >= 0 && std::isfinite(v0)))
     fail("the initial velocity v0 = {} must be a number that is not negative", v0);
-  if (v0 > 0) check_shift(body, law.shift(v0));
-  const double floor = floor_of(law, v0);
+  if (v0 > 0) check_shift(body, law(v0));
   // Below the floor D is constant, so that v crosses the floor: nothing attracts the solver to v =
   // 0.
-  const auto shift = [law = law.shift, floor](double v) {
+  const auto shift = [law, floor](double v) {
     return floor > 0 || v > 0 ? law(std::max(v, floor)) : 0;
   };
   const auto derivative = [body, geometry, shift](double, const double* y, double* dydt) {
     dydt[0] = y[1];
     dydt[1] = trial_acceleration(body, geometry, shift(y[1]));
   };
-  const auto jacobian = [body, geometry, shift, slope = law.slope, floor](
+  const auto jacobian = [body, geometry, shift, law, floor](
                             double, const double* y, double* dfdy, double* dfdt) {
     dfdy[0] = 0, dfdy[1] = 1, dfdy[2] = 0;
     dfdy[3] =
-        y[1] <= floor ? 0 : trial_acceleration_slope(body, geometry, shift(y[1])) * slope(y[1]);
+        y[1] <= floor ? 0
+                      : trial_acceleration_slope(body, geometry, shift(y[1])) *
+                            law.at(y[1]).by_log_v / y[1];
     dfdt[0] = dfdt[1] = 0;
   };
   return {2, derivative, jacobian};
@@ -50,18 +51,18 @@ OdeSystem equations(const Body& body, Geometry geometry, const AnyLaw& law, doub
 
 }  // namespace
 
-IntegratedRoll::IntegratedRoll(const Body& body, Geometry geometry, AnyLaw law, double v0,
+IntegratedRoll::IntegratedRoll(const Body& body, Geometry geometry, Law law, Rest rest, double v0,
                                double x0, Stepper stepper, double rtol, unsigned long most_steps)
-    : SolvedRoll(body, geometry, equations(body, geometry, law, v0),
+    : SolvedRoll(body, geometry, equations(body, geometry, law, floor_of(rest, v0), v0),
                  {stepper, rtol, v0 > 0 ? rtol * least_part * v0 : 1, most_steps}, {x0, v0}),
-      law_(std::move(law)), floor_(floor_of(law_, v0)), fastest_(body.slope < 0 ? infinity : v0) {
+      law_(std::move(law)), rest_(rest), floor_(floor_of(rest, v0)), fastest_(body.slope < 0 ? infinity : v0) {
   if (v0 == 0) tail_ = {0, 0, 0, 0};
 }
 
 Integrator::Event IntegratedRoll::floor_event() const {
   const bool exact = geometry_ == Geometry::exact;
   return [floor = floor_, exact, R = body_.R, v0 = v0(), fastest = fastest_,
-          shift = law_.shift](const std::vector<double>& y) {
+          law = law_](const std::vector<double>& y) {
     if (y[1] > fastest * (1 + gain))
       fail(
           "the solver has made the body faster, which this mat cannot do: v = {:.6g} m/s after "
@@ -69,18 +70,18 @@ Integrator::Event IntegratedRoll::floor_event() const {
           y[1], fastest);
     // The way to D = R is a speed too: of two units one would not be seen beside the other.
     const double left = y[1] - floor;
-    return exact && y[1] > 0 ? std::min(left, (1 - shift(y[1]) / R) * v0) : left;
+    return exact && y[1] > 0 ? std::min(left, (1 - law(y[1]) / R) * v0) : left;
   };
 }
 
 IntegratedRoll::Tail IntegratedRoll::tail(const Integrator& ode) const {
-  const double t = ode.time(), v = std::max(0.0, ode.state()[1]), D = law_.shift(v), R = body_.R;
+  const double t = ode.time(), v = std::max(0.0, ode.state()[1]), D = law_(v), R = body_.R;
   // The event is that of the closer limit: the rounding of t moves it away from the state a little,
   // so that v may be above or below the floor.
   bool grows_to_R = geometry_ == Geometry::exact && (R - D) * floor_ < std::abs(v - floor_) * R;
   Tail tail{t, 0, v, 0};
-  if (!grows_to_R && law_.rest != floor_) {
-    const double a = trial_acceleration(body_, geometry_, D), power = v * law_.slope(v) / D;
+  if (!grows_to_R && rest_.speed != floor_) {
+    const double a = trial_acceleration(body_, geometry_, D), power = law_.at(v).by_log_v / D;
     tail.q = D * trial_acceleration_slope(body_, geometry_, D) * power / a;
     tail.duration = v / ((1 - tail.q) * -a);
     grows_to_R = geometry_ == Geometry::exact && power < 0 &&
@@ -90,8 +91,8 @@ IntegratedRoll::Tail IntegratedRoll::tail(const Integrator& ode) const {
   return tail;
 }
 
-double IntegratedRoll::stop_time() const {
-  if (v0() > 0 && !law_.stops) return infinity;
+double IntegratedRoll::stop_time() {
+  if (v0() > 0 && !rest_.reached) return infinity;
   if (!tail_) {
     Integrator ode = from_start();
     ode.advance(infinity, floor_event());
@@ -107,9 +108,9 @@ void IntegratedRoll::seek(double t) {
   if (ode_.advance(tail_ ? std::min(t, tail_->begin) : t, floor_event()) && !tail_)
     tail_ = tail(ode_);
   if (body_.slope >= 0) fastest_ = std::min(fastest_, std::max(0.0, v()));
-  if (v() > law_.highest * (1 + 1e-9))
+  if (v() > law_.highest() * (1 + 1e-9))
     fail("at t = {:.6g} s the speed {:.6g} m/s is above the table of the law, which ends at {}",
-         ode_.time(), v(), law_.highest);
+         ode_.time(), v(), law_.highest());
 }
 
 double IntegratedRoll::left() const {
@@ -129,7 +130,7 @@ double IntegratedRoll::position() {
 }
 
 double IntegratedRoll::shift() {
-  const double v = velocity(), D = v == 0 ? 0 : law_.shift(v);
+  const double v = velocity(), D = law_(v);
   check_shift(body_, D);
   return D;
 }

@@ -3,21 +3,18 @@
 // that have neither.
 #pragma once
 
+#include "contact/law.h"
 #include "motion/solved_roll.h"
 
-#include <functional>
-#include <limits>
 #include <optional>
 
 namespace rolling {
 
-/// A law: D(v) [m] for v >= 0 and, for the implicit steppers, dD/dv [s].
-struct AnyLaw {
-  std::function<double(double)> shift, slope;
-  bool stops = true;  ///< whether the body comes to rest in finite time
-  double rest = 0;    ///< speed below which the body counts as at rest [m/s]
-  double highest = std::numeric_limits<double>::infinity();  ///< largest speed for which the law is
-                                                             ///< defined [m/s]
+/// Whether a roll comes to rest in finite time, and the speed below which it counts as at rest
+/// [m/s].
+struct Rest {
+  bool reached = true;
+  double speed = 0;
 };
 
 /// Solves for the state (x, v) with v' = -g D(v) / ((K + A) R) (Eq. 12) and, on a slope, the
@@ -33,11 +30,11 @@ class IntegratedRoll final : public SolvedRoll {
   /// Throws Error for R, g, v0 and K as check_roll does. seek() and stop_time() throw the errors of
   /// the solver: more than most_steps steps in one call, D above R, v above the range of the law,
   /// and a v that grows although the mat slows the body down (an error of the step).
-  IntegratedRoll(const Body&, Geometry, AnyLaw, double v0, double x0, Stepper, double rtol,
+  IntegratedRoll(const Body&, Geometry, Law, Rest, double v0, double x0, Stepper, double rtol,
                  unsigned long most_steps = 1'000'000);
 
   /// The first call integrates to the stop, independently of seek().
-  double stop_time() const override;
+  double stop_time() override;
   void seek(double t) override;
   double position() override;
   double velocity() override;
@@ -53,10 +50,11 @@ class IntegratedRoll final : public SolvedRoll {
   double left() const;  // remaining fraction of the tail, 1 to 0
   bool at_rest() override { return velocity() == 0; }
 
-  AnyLaw law_;
+  Law law_;
+  Rest rest_;
   double floor_;            // 0: the body never stops
   double t_ = 0, fastest_;  // upper bound of v
-  mutable std::optional<Tail> tail_;
+  std::optional<Tail> tail_;
 };
 
 }  // namespace rolling

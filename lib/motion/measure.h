@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "motion/motion.h"
-#include "motion/roll.h"
+#include "motion/scene.h"
 
 namespace rolling {
 
@@ -21,7 +21,7 @@ struct Reference {
 /// is later than 1000 times `end`. With memory the times end at the stop, because rest is declared
 /// there, whereas the solution of the equations continues to oscillate. The speeds are those of the
 /// best method; with memory that is the solver with a relative tolerance of 1e-13.
-Reference reference(const Roll&, std::size_t n, double end);
+Reference reference(const Scene&, std::size_t n, double end);
 
 struct Measured {
   double v_error = 0;     ///< largest |v - reference| / v0

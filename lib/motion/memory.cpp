@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "contact/contact.h"
-#include "motion/trajectory.h"
+#include "motion/roll.h"
 #include "contact/trial.h"
 
 namespace rolling {
@@ -157,7 +157,7 @@ bool MemoryRoll::advance(Integrator& ode, double& crept, double t) const {
   }
 }
 
-double MemoryRoll::stop_time() const {
+double MemoryRoll::stop_time() {
   if (v0() == 0) return 0;
   if (law_.b >= 2 || body_.slope != 0) return infinity;
   if (!stop_time_) {

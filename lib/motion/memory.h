@@ -2,7 +2,7 @@
 // rolls backwards before it rests.
 #pragma once
 
-#include "contact/power_law.h"
+#include "contact/law.h"
 #include "motion/solved_roll.h"
 
 #include <optional>
@@ -52,7 +52,7 @@ class MemoryRoll final : public SolvedRoll {
              unsigned long most_steps = 1'000'000);
 
   /// The first call integrates to the rest, independently of seek().
-  double stop_time() const override;
+  double stop_time() override;
   void seek(double t) override;
   double position() override { return x(); }
   double velocity() override { return at_rest_ ? 0 : v(); }
@@ -71,7 +71,7 @@ class MemoryRoll final : public SolvedRoll {
   double spare_evaluations_;  // of one call, in addition to ten times the expected number
   double crept_ = 0;
   bool at_rest_ = false;
-  mutable std::optional<double> stop_time_;
+  std::optional<double> stop_time_;
 };
 
 }  // namespace rolling

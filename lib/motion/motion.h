@@ -8,10 +8,12 @@ namespace rolling {
 class Motion {
  public:
   virtual ~Motion() = default;
-  /// The time from which on v is 0 [s]; infinity if the body never stops.
-  virtual double stop_time() const = 0;
-  /// The limit of v if the body never stops [m/s]; infinity if its speed grows without bound.
-  virtual double last_speed() const { return 0; }
+  /// The time from which on v is 0 [s], or of the turning point; infinity if there is none.
+  virtual double stop_time() = 0;
+  /// True if the body rolls back after stop_time().
+  virtual bool turns() const { return false; }
+  /// The limit of v if the body never rests [m/s], which may be infinite.
+  virtual double last_speed() { return 0; }
   /// Sets the time t [s] >= 0, which must not decrease from call to call.
   virtual void seek(double t) = 0;
   virtual double position() = 0;      ///< x [m]

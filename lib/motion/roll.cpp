@@ -1,97 +1,98 @@
 #include "motion/roll.h"
 
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "contact/contact.h"
-#include "motion/closed_form.h"
-#include "motion/exact_form.h"
-#include "motion/integrated_roll.h"
-#include "motion/slope_roll.h"
-#include "motion/table_roll.h"
-#include "motion/trajectory.h"
 
 namespace rolling {
-
 namespace {
 
-AnyLaw any_law(const Roll& roll) {
-  if (roll.table)
-    return {*roll.table, [table = *roll.table](double v) { return table.slope(v); },
-            always_slows(roll.body, roll.geometry, *roll.table, roll.v0), 0, roll.table->highest()};
-  const auto slope = [law = roll.law](double v) { return law.b * law(v) / v; };
-  if (roll.body.slope == 0) {
-    check_roll(roll.body, roll.law, roll.v0);
-    return {roll.law, slope, roll.law.b < 1};
-  }
-  const Trajectory trajectory(roll.body, roll.geometry, roll.law, roll.v0);
-  return {roll.law, slope, std::isfinite(trajectory.stop_time()), trajectory.rest_speed()};
-}
-
-/// Throws Error if a body at rest on a slope would begin to roll: it stays only if the shift at
-/// rest balances gravity.
-void check_rest(const Roll& roll) {
-  const auto& [body, geometry, law, table, bulge, v0, x0] = roll;
-  if (v0 != 0 || body.slope == 0 || (!table && bulge.length == 0 && law.b < 0)) return;
-  const double D = bulge.length > 0 ? 0 : table ? (*table)(0) : law.b == 0 ? law.a : 0;
-  const auto [cos, sin] = incline(body);
-  if (D * cos >= arm_factor(body, geometry, D) * body.R * std::abs(sin)) return;
-  fail(
-      "v0 = 0: on a slope of {} the body begins to roll {}, for at rest the law holds it by D = "
-      "{:.3g} m alone: {}",
-      body.slope, body.slope < 0 ? "down" : "back", D,
-      body.slope < 0 ? "say a small v0, as 1e-9"
-                     : "turn the sign of the slope, and say a small v0, as 1e-9");
-}
+constexpr double negligible = 1e-6;    // speeds below it, as a part of v0, count as rest
+constexpr double first_part = 1e-18;   // of v0: the way back begins there
 
 }  // namespace
 
-Method best_method(const Roll& roll) {
-  if (roll.bulge.length > 0)
-    return {Method::solver, memory_stepper(roll.body, roll.law, roll.bulge, roll.v0)};
-  if (roll.table)
-    return {always_slows(roll.body, roll.geometry, *roll.table, roll.v0) ? Method::exact
-                                                                         : Method::solver};
-  return {roll.geometry == Geometry::exact || roll.body.slope != 0 ? Method::exact
-                                                                   : Method::closed};
+void check_numbers(const Body& body, double v0) {
+  const auto check = [](const char* name, double value, bool positive) {
+    if (!(value >= 0 && std::isfinite(value)) || (positive && value == 0))
+      fail("{} = {} must be a {}", name, value,
+           positive ? "positive number" : "number that is not negative");
+  };
+  check("the radius R", body.R, true);
+  check("the shape factor K", body.K, false);
+  check("gravity g", body.g, true);
+  check("the initial velocity v0", v0, false);
+  if (!std::isfinite(body.slope)) fail("the slope {} must be finite", body.slope);
 }
 
-std::unique_ptr<Motion> start(const Roll& roll, Method method, double rtol,
-                              unsigned long most_steps) {
-  const auto& [body, geometry, law, table, bulge, v0, x0] = roll;
-  if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
-  check_rest(roll);
-  if (bulge.length > 0) {
-    if (table) fail("the memory goes with a law a v^b, not with a table");
-    if (method.kind != Method::solver)
-      fail(
-          "a bulge with memory has no closed form and no integral over speed: its methods are the "
-          "solvers");
-    return std::make_unique<MemoryRoll>(body, geometry, law, bulge, v0, x0, method.stepper, rtol,
-                                        most_steps);
-  }
-  if (method.kind == Method::closed) {
-    if (table) fail("the method closed goes with a law a v^b: a table has no closed form");
-    if (geometry == Geometry::exact)
-      fail("the method closed goes with A = 1: the exact geometry has no closed form");
-    if (body.slope != 0)
-      fail("the method closed goes with a level mat: on a slope there is no closed form");
-    return std::make_unique<ClosedForm>(body, law, v0, x0);
-  }
-  if (method.kind == Method::exact) {
-    if (table) return std::make_unique<TableRoll>(body, geometry, *table, v0, x0);
-    if (body.slope != 0) return std::make_unique<SlopeRoll>(body, geometry, law, v0, x0);
-    if (geometry == Geometry::approximate)
-      fail(
-          "the method exact goes with the exact geometry, a table or a slope: for A = 1 there is "
-          "closed");
-    return std::make_unique<ExactForm>(body, law, v0, x0);
-  }
-  if (table && v0 > table->highest())
+void check_roll(const Body& body, PowerLaw law, double v0) {
+  check_numbers(body, v0);
+  if (!(law.a > 0 && std::isfinite(law.a)))
+    fail("the coefficient a = {} must be a positive number", law.a);
+  if (!(std::abs(law.b) <= 1000)) fail("the exponent b = {} is beyond -1000 to 1000", law.b);
+  if (!std::isfinite(law(v0))) fail("the shift at v0 = {} m/s has no finite value", v0);
+  check_shift(body, law(v0));
+}
+
+Roll::Roll(const Body& body, Geometry geometry, Law law, double v0)
+    : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0) {
+  check_numbers(body, v0);
+  if (v0 > law_.highest())
     fail("the initial velocity v0 = {} is above the table of the law, which ends at {}", v0,
-         table->highest());
-  return std::make_unique<IntegratedRoll>(body, geometry, any_law(roll), v0, x0, method.stepper,
-                                          rtol, most_steps);
+         law_.highest());
+  if (v0 > 0) leg_.emplace(body, geometry, law_, v0);
+  turns_ = (v0 == 0 || (body.slope > 0 && leg_->slows())) && rolls_down();
+}
+
+/// True if the mat does not hold the body at rest, nor at a speed that counts as rest.
+bool Roll::rolls_down() const {
+  const double lift = body_.R * std::abs(body_.slope);
+  const auto holds = [&](double D) {
+    if (geometry_ == Geometry::approximate) return D >= lift;
+    return D >= body_.R || D >= arm_factor(body_, geometry_, D) * lift;
+  };
+  return lift > 0 && !holds(law_.at_rest()) && !holds(law_.at(negligible * v0_).D);
+}
+
+/// The way down from rest. Up to a speed that is not seen the acceleration is constant.
+Leg& Roll::back() {
+  if (!back_) {
+    Body down = body_;
+    down.slope = -std::abs(body_.slope);
+    const double first = first_part * (v0_ > 0 ? v0_ : std::sqrt(body_.g * body_.R));
+    back_.emplace(down, geometry_, law_, first);
+    back_begin_ = first / back_->at(0).a;
+  }
+  return *back_;
+}
+
+double Roll::last_speed() {
+  if (turns_) return (body_.slope > 0 ? -1 : 1) * back().last_speed();
+  return leg_ ? leg_->last_speed() : 0;
+}
+
+// With T and X the time and the place of the turning point, on the way back v = -u(t - T) and
+// x = X - way(t - T).
+Roll::Point Roll::at(double t) {
+  if (!turns_ || (leg_ && leg_->stop_until(t) > t)) return leg_ ? leg_->at(t) : Point{};
+  const double since = t - stop_time(), sign = body_.slope > 0 ? -1 : 1;
+  const Point turn = leg_ ? leg_->at(stop_time()) : Point{};
+  const Leg::Derivatives T_c = leg_ ? leg_->stop_time_by_c() : Leg::Derivatives{};
+  Leg& leg = back();
+  Point p{}, q = leg.at(std::max(0.0, since - back_begin_));
+  if (since <= back_begin_) q.v = q.x = 0;
+  const double T_v0 = leg_ ? leg_->stop_time_by_v0() : 0;
+  p.a = sign * q.a;
+  p.v = sign * q.v, p.x = turn.x + sign * q.x;
+  p.v_v0 = -sign * q.a * T_v0, p.x_v0 = turn.x_v0 - sign * q.v * T_v0;
+  for (std::size_t j = 0; j <= law_.size(); ++j) {
+    const double by = j < law_.size() || body_.slope < 0 ? 1 : -1;  // its slope is -|slope|
+    p.v_c[j] = sign * (by * q.v_c[j] - q.a * T_c[j]);
+    p.x_c[j] = turn.x_c[j] + sign * (by * q.x_c[j] - q.v * T_c[j]);
+  }
+  return p;
 }
 
 }  // namespace rolling

@@ -1,43 +1,75 @@
-// A scene and the methods that compute its motion.
+// The free roll under any law D(v), on a mat of any slope and in either geometry, as a function of
+// time, with its derivatives by the coefficients of the law, by the slope and by v0.
 #pragma once
 
-#include <memory>
+#include <limits>
 #include <optional>
 
-#include "ode/integrator.h"
-#include "contact/body.h"
-#include "motion/memory.h"
-#include "motion/motion.h"
-#include "contact/power_law.h"
-#include "contact/table_law.h"
+#include "motion/leg.h"
 
 namespace rolling {
 
-struct Roll {
-  Body body;
-  Geometry geometry;
-  PowerLaw law;  ///< used if there is no table
-  std::optional<TableLaw> table;
-  Bulge bulge{0};  ///< of length 0: no memory
-  double v0, x0;
+/// Throws Error unless R > 0, g > 0, K >= 0, v0 >= 0, all of them and the slope finite.
+void check_numbers(const Body&, double v0);
+/// The same, and unless a > 0, |b| <= 1000 and D(v0) <= R.
+void check_roll(const Body&, PowerLaw, double v0);
+
+/// A roll is one leg, or two. Where the mat rises along the motion more than the law can hold at
+/// rest, A R S > D(0), the body rolls back from its turning point: D always acts against the motion.
+/// If the way back would not be faster than 1e-6 v0, it counts as rest. From v0 = 0 a body that the
+/// mat does not hold begins to roll down.
+///
+/// In the exact geometry D may grow to R as the body slows down. There it stays, so that A = 0 and
+/// v' = -g cos(theta)/K (Eq. 12) down to the stop; with A = 1, Eq. 12 holds for any D.
+///
+/// v and x are within 1e-13 of v0 and of the way, derivatives within 1e-9. x and v0 count along the
+/// motion, so the slope of the Body is the one that this roll sees: whoever describes a roll towards
+/// falling x by v0 > 0 turns the sign of the slope.
+class Roll {
+ public:
+  using Point = Leg::Point;
+  static constexpr std::size_t most = Leg::most;
+
+  /// Throws Error as check_numbers does, where the law has no finite value at v0 or is not defined,
+  /// and in the exact geometry for D(v0) > R.
+  Roll(const Body&, Geometry, Law, double v0);
+
+  /// The state at t >= 0 [s], x counted from 0, and its partial derivatives at fixed t: by v0, by the
+  /// coefficients of the law and, behind them, by the slope. Once the body rests, v is 0 with
+  /// derivatives 0.
+  Point at(double t);
+
+  /// When v first becomes 0: the stop or the turning point [s]; infinity if it never does. On a
+  /// falling mat the speed may tend to last_speed(); one below 1e-6 v0 counts as rest, from the
+  /// moment when v is twice as large.
+  double stop_time() { return leg_ ? leg_->stop_time() : 0; }
+  /// The same if it is not later than t, else infinity: what takes no longer than at(t).
+  double stop_until(double t) { return leg_ ? leg_->stop_until(t) : 0; }
+  /// True if the body rolls back after stop_time().
+  bool turns() const { return turns_; }
+  /// The limit of v for a body that rolls for ever [m/s], which may be infinite; else 0.
+  double last_speed();
+  /// The speed that counts as rest [m/s]: 0, or that of the moment named above.
+  double rest_speed() const { return leg_ ? leg_->rest_speed() : 0; }
+  /// When D reaches R, if that is not later than t, else infinity; and the speed there.
+  double radius_time(double t) { return leg_ ? leg_->radius_time(t) : infinity; }
+  double radius_speed() const { return leg_ ? leg_->radius_speed() : 0; }
+
+  const Body& body() const { return body_; }
+  const Law& law() const { return law_; }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  bool rolls_down() const;
+  Leg& back();
+
+  Body body_;
+  Geometry geometry_;
+  Law law_;
+  double v0_;
+  std::optional<Leg> leg_, back_;
+  double back_begin_ = 0;  // from the turning point to the beginning of back_ [s]
+  bool turns_;
 };
-
-/// closed: ClosedForm. exact: an integral over speed, by ExactForm, SlopeRoll or TableRoll. solver:
-/// a differential equation, by this stepper.
-struct Method {
-  enum { closed, exact, solver } kind;
-  Stepper stepper = Stepper::rk8pd;
-};
-
-/// The fastest method that is exact for the scene: closed for A = 1; exact for the exact geometry,
-/// tables and slopes; with memory, where neither exists, the solver that suits the stiffness; rk8pd
-/// for a table under which the body does not slow down at every speed on its slope.
-Method best_method(const Roll&);
-
-/// Constructs the motion at t = 0. rtol and most_steps concern solvers: the tolerance of a step,
-/// and the largest number of steps from one seek() to the next. Throws Error if x0 is not finite,
-/// and if the method does not suit the scene.
-std::unique_ptr<Motion> start(const Roll&, Method, double rtol,
-                              unsigned long most_steps = 1'000'000);
 
 }  // namespace rolling

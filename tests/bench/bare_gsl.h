@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/gsl.h"
 #include "motion/motion.h"
-#include "motion/roll.h"
+#include "motion/scene.h"
 
 namespace rolling {
 
@@ -20,17 +20,17 @@ class BareGsl final : public Motion {
  public:
   static constexpr unsigned long most_evaluations = 1'000'000;
 
-  BareGsl(const Roll& roll, const gsl_odeiv2_step_type* type, double rtol, bool odd)
-      : roll_(roll), odd_(odd), system_{derivative, jacobian, dimension(), this} {
+  BareGsl(const Scene& scene, const gsl_odeiv2_step_type* type, double rtol, bool odd)
+      : scene_(scene), power_(scene.law.power().value_or(PowerLaw{})), odd_(odd), system_{derivative, jacobian, dimension(), this} {
     silence_gsl();
-    y_[0] = roll.v0, y_[1] = roll.law(roll.v0);
+    y_[0] = scene.v0, y_[1] = scene.law(scene.v0);
     driver_ = gsl_odeiv2_driver_alloc_y_new(&system_, type, 1e-6, 1e-3 * rtol, rtol);
   }
   BareGsl(const BareGsl&) = delete;
   BareGsl& operator=(const BareGsl&) = delete;
   ~BareGsl() override { gsl_odeiv2_driver_free(driver_); }
 
-  double stop_time() const override {
+  double stop_time() override {
     return std::numeric_limits<double>::quiet_NaN();
   }  // it has none
   void seek(double t) override {
@@ -46,25 +46,25 @@ class BareGsl final : public Motion {
   unsigned long evaluations() const override { return evaluations_; }
 
  private:
-  std::size_t dimension() const { return roll_.bulge.length > 0 ? 2 : 1; }
+  std::size_t dimension() const { return scene_.bulge.length > 0 ? 2 : 1; }
 
   double pull(double D) const {
-    const double d = D / roll_.body.R,
-                 A = roll_.geometry == Geometry::exact ? std::sqrt(1 - d * d) : 1;
-    return -roll_.body.g * d / (roll_.body.K + A);
+    const double d = D / scene_.body.R,
+                 A = scene_.geometry == Geometry::exact ? std::sqrt(1 - d * d) : 1;
+    return -scene_.body.g * d / (scene_.body.K + A);
   }
   double law(double v) const {
     if (odd_ && v <= 0) return v == 0 ? 0 : -law(-v);
-    return roll_.table ? (*roll_.table)(v) : roll_.law.a * std::pow(v, roll_.law.b);
+    return scene_.law.has_points() ? scene_.law(v) : power_.a * std::pow(v, power_.b);
   }
 
   static int derivative(double, const double* y, double* dydt, void* self) {
     auto& me = *static_cast<BareGsl*>(self);
     if (++me.evaluations_ > most_evaluations) return GSL_EBADFUNC;
-    if (const double L = me.roll_.bulge.length; L > 0) {
+    if (const double L = me.scene_.bulge.length; L > 0) {
       const double v = y[0], z = y[1];
-      dydt[1] = (v * me.roll_.law.a * std::pow(std::abs(v), me.roll_.law.b) - std::abs(v) * z) / L;
-      dydt[0] = me.pull(z + me.roll_.bulge.damping * dydt[1]);
+      dydt[1] = (v * me.power_.a * std::pow(std::abs(v), me.power_.b) - std::abs(v) * z) / L;
+      dydt[0] = me.pull(z + me.scene_.bulge.damping * dydt[1]);
     } else {
       dydt[0] = me.pull(me.law(y[0]));
     }
@@ -88,7 +88,8 @@ class BareGsl final : public Motion {
     return GSL_SUCCESS;
   }
 
-  Roll roll_;
+  Scene scene_;
+  PowerLaw power_;
   bool odd_;
   gsl_odeiv2_system system_;
   gsl_odeiv2_driver* driver_ = nullptr;

@@ -9,7 +9,7 @@
 #include "cli/linear_filters.h"
 #include "fit/fit.h"
 #include "motion/roll.h"
-#include "motion/trajectory.h"
+#include "motion/scene.h"
 #include "sensor/sonar.h"
 #include "signal/derivative.h"
 #include "signal/free_roll.h"
@@ -45,14 +45,14 @@ struct Row {
 };
 
 /// Least standard error of b that any unbiased fit of the run can have.
-inline double bound_of_b(const rolling::Trajectory& roll, std::size_t n, bool position) {
+inline double bound_of_b(rolling::Roll& roll, std::size_t n, bool position) {
   double A[4][4] =
       {};  // b last: its pivot, after elimination of the others, is the inverse of its variance
   const std::size_t p = position ? 4 : 3;
   for (std::size_t i = 0; i < n; ++i) {
     const auto s = roll.at(dt * static_cast<double>(i));
     const std::vector<double> g =
-        position ? Column{1, s.x_v0, s.x_a, s.x_b} : Column{s.v_v0, s.v_a, s.v_b};
+        position ? Column{1, s.x_v0, s.x_c[0], s.x_c[1]} : Column{s.v_v0, s.v_c[0], s.v_c[1]};
     for (std::size_t j = 0; j < p; ++j)
       for (std::size_t k = 0; k < p; ++k) A[j][k] += g[j] * g[k];
   }
@@ -65,7 +65,7 @@ inline double bound_of_b(const rolling::Trajectory& roll, std::size_t n, bool po
 /// A run of readings with noise, and what the filters make of them.
 class Simulation {
  public:
-  Simulation(const Case& c, const rolling::Trajectory& truth, const Scene& scene, unsigned seed)
+  Simulation(const Case& c, rolling::Roll& truth, const Scene& scene, unsigned seed)
       : c_(c), truth_(truth), scene_(scene),
         n_(static_cast<std::size_t>(truth.stop_time() / dt * c.finer) + 1), noise_(seed),
         random_(seed + 1) {}
@@ -103,10 +103,10 @@ class Simulation {
   Column readings(Column& times) {
     rolling::Body body = scene_.body();
     if (c_.down > 0) body.slope = way_ * slope;
-    const rolling::Trajectory truth =
+    rolling::Roll truth =
         c_.scatter > 0 || c_.down > 0
-            ? rolling::Trajectory(body, rolling::Geometry::approximate,
-                                  {scene_.a * (1 + noise_(c_.scatter)), scene_.b}, 0.5)
+            ? rolling::Roll(body, rolling::Geometry::approximate,
+                            rolling::PowerLaw{scene_.a * (1 + noise_(c_.scatter)), scene_.b}, 0.5)
             : truth_;
     const std::size_t n = c_.down > 0 ? static_cast<std::size_t>(truth.stop_time() / dt) + 1 : n_;
     Column raw;
@@ -176,7 +176,7 @@ class Simulation {
   }
   /// simulate --sensor pasco | smooth --coast -c x -w 1
   Column free_roll(Column& times) {
-    const rolling::Roll roll{scene_.body(), {}, scene_.law(), {}, c_.bulge, 0.5, 0};
+    const rolling::Scene roll{scene_.body(), {}, scene_.law(), c_.bulge, 0.5, 0};
     rolling::SonarOptions sonar;
     sonar.seed = random_();
     std::vector<rolling::Sample> samples;
@@ -225,7 +225,7 @@ class Simulation {
   double uniform() { return static_cast<double>(random_()) / 4294967296.0; }
 
   const Case& c_;
-  const rolling::Trajectory& truth_;
+  rolling::Roll& truth_;
   const Scene& scene_;
   std::size_t n_;
   double way_ = 1, times_the_noise_ = 1;
@@ -234,7 +234,7 @@ class Simulation {
 };
 
 inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
-  const rolling::Trajectory truth(scene.body(), rolling::Geometry::approximate, scene.law(), 0.5);
+  rolling::Roll truth(scene.body(), rolling::Geometry::approximate, scene.law(), 0.5);
   rolling::FitOptions options;
   options.robust = c.outliers > 0;
   options.fit_slope = c.down > 0;

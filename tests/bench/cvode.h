@@ -16,7 +16,7 @@
 #include "base/error.h"
 #include "base/gsl.h"
 #include "motion/motion.h"
-#include "motion/roll.h"
+#include "motion/scene.h"
 #include "contact/trial.h"
 
 namespace rolling {
@@ -29,8 +29,9 @@ class Cvode final : public Motion {
   static constexpr unsigned long most_evaluations = 1'000'000;
 
   /// method: CV_ADAMS or CV_BDF.
-  Cvode(const Roll& roll, int method, double rtol) : roll_(roll), floor_(1e-3 * rtol * roll.v0) {
-    const sunindextype n = roll.bulge.length > 0 ? 2 : 1;
+  Cvode(const Scene& scene, int method, double rtol)
+      : scene_(scene), floor_(1e-3 * rtol * scene.v0) {
+    const sunindextype n = scene.bulge.length > 0 ? 2 : 1;
     y_ = own(N_VNew_Serial(n, context_.get()), N_VDestroy);
     matrix_ = own(SUNDenseMatrix(n, n, context_.get()), SUNMatDestroy);
     solver_ = own(
@@ -38,8 +39,8 @@ class Cvode final : public Motion {
         +[](SUNLinearSolver solver) { SUNLinSolFree(solver); });
     cvode_ = own(
         CVodeCreate(method, context_.get()), +[](void* memory) { CVodeFree(&memory); });
-    NV_Ith_S(y_.get(), 0) = roll.v0;
-    if (n > 1) NV_Ith_S(y_.get(), 1) = roll.law(roll.v0);
+    NV_Ith_S(y_.get(), 0) = scene.v0;
+    if (n > 1) NV_Ith_S(y_.get(), 1) = scene.law(scene.v0);
     check(CVodeInit(cvode_.get(), derivative, 0, y_.get()));
     check(CVodeSStolerances(cvode_.get(), rtol, floor_));
     check(CVodeSetUserData(cvode_.get(), this));
@@ -52,7 +53,7 @@ class Cvode final : public Motion {
   Cvode& operator=(const Cvode&) = delete;
 
   /// Of the stop that seek() has met; NaN before it.
-  double stop_time() const override {
+  double stop_time() override {
     return stopped_ ? t_ : std::numeric_limits<double>::quiet_NaN();
   }
   void seek(double t) override {
@@ -76,7 +77,7 @@ class Cvode final : public Motion {
   static int derivative(double, N_Vector y, N_Vector dydt, void* self) {
     auto& me = *static_cast<Cvode*>(self);
     if (++me.evaluations_ > most_evaluations) return -1;
-    const auto& [body, geometry, law, table, bulge, v0, x0] = me.roll_;
+    const auto& [body, geometry, law, bulge, v0, x0] = me.scene_;
     const double v = NV_Ith_S(y, 0);
     double D = 0;
     if (bulge.length > 0) {
@@ -84,7 +85,7 @@ class Cvode final : public Motion {
       NV_Ith_S(dydt, 1) = dz;
       D = z + bulge.damping * dz;
     } else {
-      D = table ? (*table)(std::max(v, me.floor_)) : law(std::max(v, me.floor_));
+      D = law(std::max(v, me.floor_));
     }
     NV_Ith_S(dydt, 0) = trial_acceleration(body, geometry, D);
     return 0;
@@ -102,7 +103,7 @@ class Cvode final : public Motion {
   template <typename Handle>
   using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, void (*)(Handle)>;
 
-  Roll roll_;
+  Scene scene_;
   double floor_;
   Owned<SUNContext> context_ = own(
       new_context(), +[](SUNContext context) { SUNContext_Free(&context); });

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "contact/law.h"
-#include "contact/power_law.h"
+#include "contact/law.h"
 #include "fit/beginning.h"
 #include "fit/route.h"
 #include "fit/laws.h"
@@ -195,13 +195,13 @@ struct Contest {
 };
 
 inline Contest contest(const Truth& truth, int runs, unsigned seed) {
-  const rolling::Law& law = rolling::laws()[truth.law];
+  const rolling::LawForm& law = rolling::laws()[truth.law];
   std::vector<double> c = truth.c;
   if (truth.law == 5) c = {c[0] + c[1], c[1] * c[2], c[2]};  // h, s, n of d0 + a v^n
   Readings readings(path(
                         [&](double v) {
-    double by_c[rolling::Law::most];
-    return law.shift(c.data(), v, by_c);
+    double by_c[rolling::LawForm::most];
+    return law.shift(c.data(), v, by_c).D;
                         },
                         {}),
                     {.name = ""}, seed);

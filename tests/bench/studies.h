@@ -4,7 +4,7 @@
 #pragma once
 
 #include "bench/records.h"
-#include "motion/trajectory.h"
+#include "motion/roll.h"
 #include "unit/fit/rolls.h"
 
 namespace studies {
@@ -78,7 +78,7 @@ inline GivenNumbers given_numbers(int draws, unsigned seed) {
   Body body = records::cylinder;
   body.slope = 0.002;
   const BodyUncertainty u{.R = 4e-4, .K = 0.01, .g = 0.01, .slope = 3e-4};
-  const Trajectory truth(body, Geometry::exact, CR, records::v0);
+  Roll truth(body, Geometry::exact, CR, records::v0);
   FitOptions options;
   options.geometry = Geometry::exact;
   options.start_a = CR.a;
@@ -128,13 +128,13 @@ inline MinSpeed min_speed(PowerLaw law, double limit, int runs, unsigned seed) {
   MinSpeed all{{law.a}, {law.b}};
   FitOptions options;
   options.min_speed = limit;
-  const Trajectory truth(records::cylinder, Geometry::approximate, law, records::v0);
+  Roll truth(records::cylinder, Geometry::approximate, law, records::v0);
   for (int k = 0; k < runs; ++k) {
     FitRun run{};
     run.body = records::cylinder;
     for (double t = 0; t < truth.stop_time(); t += records::dt) {
       run.t.push_back(t);
-      run.v.push_back(truth.speed_at(t).v + noise(sd));
+      run.v.push_back(truth.at(t).v + noise(sd));
     }
     const FitResult r = fit(Route::velocity, {run}, options);
     all.a.add(r.a, r.sigma_a);

@@ -19,15 +19,15 @@ namespace {
 constexpr std::size_t samples = 200;  // to 1.2 times the stop, with memory to the stop, or to 10 s
 constexpr int repeats = 5;
 
-Roll scene(double a, double b, double K) {
-  Roll roll{};
-  roll.body = {1.375, 0.04, K}, roll.geometry = Geometry::approximate, roll.law = {a, b},
+Scene scene(double a, double b, double K) {
+  Scene roll{};
+  roll.body = {1.375, 0.04, K}, roll.geometry = Geometry::approximate, roll.law = PowerLaw{a, b},
   roll.v0 = 0.5;
   return roll;
 }
 
-std::vector<std::pair<std::string, Roll>> problems() {
-  std::vector<std::pair<std::string, Roll>> all = {{"CR", scene(1.87e-3, 0.215, 0.5)},
+std::vector<std::pair<std::string, Scene>> problems() {
+  std::vector<std::pair<std::string, Scene>> all = {{"CR", scene(1.87e-3, 0.215, 0.5)},
                                                    {"CF", scene(5.75e-4, 0.0244, 0.5)},
                                                    {"SR", scene(1.78e-3, 0.255, 0.83)},
                                                    {"SF", scene(5.75e-4, 0.0244, 0.83)}};
@@ -56,7 +56,7 @@ std::vector<std::pair<std::string, Roll>> problems() {
       v.push_back(0.5 * i / n),
           D.push_back(1.87e-3 * std::pow(v.back(), 0.215) * (1 + 0.05 * std::sin(7.0 * i)));
     all.emplace_back(fmt::format("table-{}", n), scene(1, 1, 0.5));
-    all.back().second.table.emplace(v, D);
+    all.back().second.law = TableLaw(v, D);
   }
   return all;
 }

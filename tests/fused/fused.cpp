@@ -4,8 +4,7 @@
 #include <initializer_list>
 
 #include "motion/closed_form.h"
-#include "motion/exact_form.h"
-#include "motion/slope_roll.h"
+#include "motion/scene.h"
 
 using namespace rolling;
 
@@ -28,10 +27,9 @@ int main() {
     for (const double K : {0.5, 0.83}) {
       const PowerLaw law{1.87e-3, b};
       ClosedForm closed({1.375, 0.04, K}, law, 0.5, 0);
-      ExactForm exact({1.375, 0.04, K}, law, 0.5, 0);
-      SlopeRoll slope({1.375, 0.04, K, 9.81, 1e-3}, Geometry::exact, law, 0.5, 0);
-      for (Motion* motion : {static_cast<Motion*>(&closed), static_cast<Motion*>(&exact),
-                             static_cast<Motion*>(&slope)})
-        print(*motion);
+      print(closed);
+      for (const double slope : {0.0, 1e-3, 0.05})
+        print(*start({{1.375, 0.04, K, 9.81, slope}, Geometry::exact, law, {0}, 0.5, 0},
+                     {Method::exact}, 0));
     }
 }

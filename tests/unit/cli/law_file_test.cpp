@@ -14,7 +14,7 @@ namespace {
 struct Given {
   PowerLaw law{};
   double slope = 0, v0 = not_given;
-  std::optional<TableLaw> table;
+  std::optional<Law> points;
   int status = 0;
   std::string said;
 };
@@ -36,7 +36,7 @@ Given law_of(const std::string& text, std::vector<std::string> words = {}) {
     const Redirect to_file(STDERR_FILENO, errors.name());
     given.status = tool.run(static_cast<int>(words.size()), arguments.data(), [&] {
       const LawFile read = read_law(tool, file.name());
-      given.table = read.table;
+      given.points = read.points;
       given.law = read.law_or(given.law);
       given.slope = read.slope.value_or(body.slope);
       given.v0 = read.v0.value_or(given.v0);
@@ -52,7 +52,7 @@ Given law_of(const std::string& text, std::vector<std::string> words = {}) {
 TEST_CASE("law file: a row of fitpower, in its units; the command line wins", "[cli]") {
   const std::string row = "# a[mm]\tsigma_a[mm]\tb\tv0[cm/s]\tslope\n1.5\t0.1\t0.25\t50\t0.001\n";
   const Given all = law_of(row);
-  CHECK((all.status == 0 && all.said.empty() && !all.table));
+  CHECK((all.status == 0 && all.said.empty() && !all.points));
   CHECK((all.law.a == 1.5e-3 && all.law.b == 0.25 && all.v0 == 0.5 && all.slope == 0.001));
   const Given some = law_of(row, {"-a", "2e-3", "--v0", "1", "--slope", "0"});
   CHECK((some.law.a == 2e-3 && some.law.b == 0.25 && some.v0 == 1 && some.slope == 0));
@@ -64,8 +64,8 @@ TEST_CASE("law file: a row of fitpower, in its units; the command line wins", "[
 
 TEST_CASE("law file: a table of v and D", "[cli]") {
   const Given given = law_of("# v[cm/s]\tD[mm]\n100\t2\n0\t1\n");
-  REQUIRE(given.table);
-  CHECK(((*given.table)(1) == 2e-3 && given.table->highest() == 1));
+  REQUIRE(given.points);
+  CHECK(((*given.points)(1) == 2e-3 && given.points->highest() == 1));
 }
 
 TEST_CASE("law file: what is neither is refused", "[cli]") {

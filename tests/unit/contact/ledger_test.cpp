@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "motion/closed_form.h"
 #include "contact/contact.h"
-#include "motion/exact_form.h"
+#include "motion/scene.h"
 #include "unit/catch.h"
 
 using namespace rolling;
@@ -83,9 +83,10 @@ TEST_CASE("ledger: over a whole run the outflow is the energy of the start (Eq. 
     const double energy = 0.5 * (K + 1) * body.m * 0.25;
     ClosedForm closed(body, {1.87e-3, 0.215}, 0.5, 0);
     CHECK(std::abs(whole(closed, body, Geometry::approximate) / energy - 1) < 1e-9);
-    ExactForm exact(body, {0.03, 0.215}, 0.5, 0);
-    CHECK(std::abs(whole(exact, body, Geometry::exact) / energy - 1) < 1e-9);
-    CHECK(std::abs(whole(exact, body, Geometry::approximate) / energy - 1) >
+    const auto exact =
+        start({body, Geometry::exact, PowerLaw{0.03, 0.215}, {0}, 0.5, 0}, {Method::exact}, 0);
+    CHECK(std::abs(whole(*exact, body, Geometry::exact) / energy - 1) < 1e-9);
+    CHECK(std::abs(whole(*exact, body, Geometry::approximate) / energy - 1) >
           1e-3);  // it does see the geometry
   }
 }

@@ -29,7 +29,7 @@ TEST_CASE("first guess: near the law of exact runs, whatever the exponent, from 
       std::iota(all.begin(), all.end(), 0);
       const Route route = position ? Route::position : Route::velocity;
       const auto [q, theta, others] = first_guess(observe(route, {run}, {all}, {}, {}), {});
-      const PowerLaw law = q.law(theta);
+      const PowerLaw law = *q.law(theta).power();
       const double at = 0.3, D = law(at), true_D = 1e-3 * std::pow(at, b);
       INFO((position ? "x, b " : "v, b ")
            << b << ": guessed b " << law.b << ", v0 " << q.v0(theta, 0) << ", D(0.3) " << D / true_D

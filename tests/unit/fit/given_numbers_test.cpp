@@ -1,5 +1,5 @@
 #include "bench/studies.h"
-#include "motion/trajectory.h"
+#include "motion/roll.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
 

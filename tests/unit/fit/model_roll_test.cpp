@@ -344,15 +344,15 @@ TEST_CASE("model: at dense times the roll is that of single times", "[fit]") {
           const RollModel model({run}, q);
           const RawModel dense = model.raw(theta, 0);
           const auto column = model.raw_column(theta, 0);
-          const Trajectory roll = model.trajectory(theta, 0);
+          Roll roll = model.roll(theta, 0);
           // The largest deviation of each number, and the number itself at its largest.
           std::array<double, 6> off{}, size{};
           for (std::size_t i = 0; i < run.t.size(); ++i) {
-            const auto p = position ? roll.at(run.t[i]) : roll.speed_at(run.t[i]);
+            const Roll::Point p = roll.at(run.t[i]);
             std::array<double, 6> single{position ? 0.3 + p.x : p.v}, slopes{};
-            q.chain(&single[1], 1, of.a,
-                    position ? Parameters::Derivatives{p.x_a, p.x_b, p.x_v0, 1, p.x_S}
-                             : Parameters::Derivatives{p.v_a, p.v_b, p.v_v0, 1, p.v_S});
+            const auto& by_c = position ? p.x_c : p.v_c;
+            q.chain(&single[1], 1, of(1),
+                    {by_c, position ? p.x_v0 : p.v_v0, 1, by_c[2]});  // speeds in units of 1 m/s
             const double value = dense(run.t[i], slopes.data(), 1);
             off[0] =
                 std::max({off[0], std::abs(value - single[0]), std::abs(column[i] - single[0])});

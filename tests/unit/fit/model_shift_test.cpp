@@ -1,6 +1,6 @@
 #include "base/error.h"
 #include "contact/contact.h"
-#include "motion/trajectory.h"
+#include "motion/roll.h"
 #include "unit/fit/simulated.h"
 #include "unit/catch.h"
 
@@ -281,12 +281,12 @@ TEST_CASE("shift: without noise, lost echoes and wide windows leave the law as i
 
 TEST_CASE("shift: made by the exact root of Eq. 9, it gives the law of an exact roll", "[fit]") {
   const Body body{1.375, 0.04, 0.5};
-  const Trajectory roll(body, Geometry::exact, {1.2e-2, 0.3}, 0.5);  // D/R = 0.24 at first
+  Roll roll(body, Geometry::exact, PowerLaw{1.2e-2, 0.3}, 0.5);  // D/R = 0.24 at first
   FitRun run{};
   run.shift_of = ShiftOf{body, Geometry::exact};
   for (int i = 0; i < 80; ++i) {
     run.t.push_back(0.005 * i);
-    run.v.push_back(roll.speed_at(run.t.back()).v);
+    run.v.push_back(roll.at(run.t.back()).v);
   }
   run.filters = {simulated::differentiate("v", "a"), simulated::shift()};
   for (double a : run.filters[0].apply(run.t, run.v))

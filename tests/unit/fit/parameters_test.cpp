@@ -20,8 +20,8 @@ TEST_CASE("parameters: a run by itself has the law, v0 and x0 that it has among 
         REQUIRE(own.size() == one.count());
         CHECK(one.v0(own, 0) == all.v0(theta, r));
         CHECK(one.x0(own, 0) == all.x0(theta, r));
-        CHECK(one.law(own).a == all.law(theta).a);
-        CHECK(one.law(own).b == all.law(theta).b);
+        CHECK(one.law(own).c(0) == all.law(theta).c(0));
+        CHECK(one.law(own).c(1) == all.law(theta).c(1));
         CHECK(one.slope(own, 7) == 7);
       }
     }

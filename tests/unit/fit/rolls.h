@@ -1,7 +1,7 @@
 // Rolls of the cylinder of the paper, for joint fits.
 #pragma once
 
-#include "motion/trajectory.h"
+#include "motion/roll.h"
 #include "unit/fit/simulated.h"
 
 namespace rolls {
@@ -17,7 +17,7 @@ inline FitRun roll(PowerLaw law, double slope, double way, simulated::Noise& noi
   run.body = cylinder;
   Body seen = cylinder;
   seen.slope = way * slope;
-  const Trajectory truth(seen, Geometry::approximate, law, 0.5);
+  Roll truth(seen, Geometry::approximate, law, 0.5);
   // Rubber 5 mm/m downhill holds no body at rest: it creeps on at 0.03 mm/s.
   const double end = std::min(truth.stop_time(), 10.0);
   for (double t = 0; t < end; t += 0.04) {

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "base/error.h"
-#include "contact/power_law.h"
+#include "contact/law.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
 

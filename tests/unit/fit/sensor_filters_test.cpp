@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "cli/linear_filters.h"
-#include "motion/trajectory.h"
+#include "motion/roll.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
 
@@ -120,7 +120,7 @@ TEST_CASE("differences: speeds with white noise and a sudden stop are not taken 
           "[fit]") {
   const PowerLaw law{1e-3, -0.2};
   const auto truth = simulated::roll(cylinder, law.a, law.b, 0.5);
-  const Trajectory exact(cylinder, Geometry::approximate, law, 0.5);
+  Roll exact(cylinder, Geometry::approximate, law, 0.5);
   FitOptions options;
   options.possible_filters = filters_of_sensors();
   simulated::Noise noise(44);

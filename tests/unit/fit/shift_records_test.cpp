@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
 using namespace rolling;
 
@@ -32,9 +33,8 @@ TEST_CASE("shift records: along the motion, v finite and positive, D positive fo
   CHECK(all.runs == std::vector<std::size_t>{2, 2});
   CHECK(all.left_out == 2);  // two more are missing
   // The geometric mean of 0.4 and 0.1, twice.
-  CHECK(std::abs(all.log_v_ref - std::log(0.2)) < 1e-15);
-  for (std::size_t i = 0; i < 4; ++i)
-    CHECK(std::abs(all.log_u[i] - (i % 2 ? -1 : 1) * std::log(2)) < 1e-15);
+  CHECK(all.v_ref == Approx(0.2).epsilon(1e-15));
+  CHECK(all.v == std::vector<double>{0.4, 0.1, 0.4, 0.1});
 
   const ShiftRecords positive = shift_records(runs, {}, true);
   CHECK(positive.y == std::vector<double>{std::log(3), std::log(3), 0});
@@ -56,19 +56,38 @@ TEST_CASE("shift records: what rounding leaves of a difference is 0", "[fit]") {
   CHECK(shift_records(runs, {}, true).left_out == 2);
 }
 
-TEST_CASE("shift records: the derivatives of a height are those of differences", "[fit]") {
-  constexpr double log_v_ref = -1.5, log_u = 0.7, step = 1e-6;
-  // ln D = h + b log_u, where h = ln a + b log_v_ref moves with b if a is held.
-  for (const bool hold_a : {false, true}) {
-    const Height height{hold_a ? std::optional(2.0) : std::nullopt, {}, log_v_ref};
-    const auto model = [&](double h, double b) {
-      return (hold_a ? std::log(*height.a) + b * log_v_ref : h) + b * log_u;
-    };
-    REQUIRE(height.count() == (hold_a ? 1 : 2));
-    std::vector<double> J(3 * height.count(), 0);
-    height.put(J, 1, 3, 1, log_u, 1);
-    CHECK(std::abs(J[J.size() - 2] - (model(0.3, 1 + step) - model(0.3, 1 - step)) / (2 * step)) <
-          1e-9);
-    if (!hold_a) CHECK(J[1] == 1);
-  }
+TEST_CASE("shift records: the derivatives of the residuals are those of differences", "[fit]") {
+  const std::vector<FitRun> runs{run_of({0.4, 0.2, 0.1, 0.05}, {3e-3, 2e-3, 2.5e-3, 1e-3})};
+  for (const bool logarithms : {false, true})
+    for (const bool hold_a : {false, true})
+      for (const bool hold_b : {false, true}) {
+        if (hold_a && hold_b) continue;
+        FitOptions options;
+        if (hold_a) options.a = 4e-3;
+        if (hold_b) options.b = 0.3;
+        auto records = std::make_shared<const ShiftRecords>(shift_records(runs, options, logarithms));
+        const Parameters q(options, logarithms, logarithms ? 1 : 3e-3, records->v_ref);
+        const System system = system_of(records, q);
+        const auto at = [&](const std::vector<double>& theta) {
+          std::vector<double> all;
+          system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
+            all.assign(f.begin(), f.end());
+            all.insert(all.end(), J.begin(), J.end());
+          });
+          return all;
+        };
+        const auto theta = q.theta({4e-3, 0.3}, {}, {});
+        REQUIRE(theta.size() == 2u - hold_a - hold_b);
+        const auto f = at(theta);
+        for (std::size_t i = 0; i < 4; ++i) {
+          const double D = 4e-3 * std::pow(records->v[i], 0.3);
+          CHECK(f[i] == Approx((logarithms ? std::log(D) : D) - records->y[i]).epsilon(1e-12));
+        }
+        for (std::size_t j = 0; j < theta.size(); ++j) {
+          auto up = theta, down = theta;
+          up[j] += 1e-5, down[j] -= 1e-5;
+          for (std::size_t i = 0; i < 4; ++i)
+            CHECK(f[4 * (1 + j) + i] == Approx((at(up)[i] - at(down)[i]) / 2e-5).epsilon(1e-8));
+        }
+      }
 }

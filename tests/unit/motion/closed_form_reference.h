@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "contact/body.h"
-#include "contact/power_law.h"
+#include "contact/law.h"
 
 namespace rolling {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "contact/body.h"
-#include "contact/power_law.h"
+#include "contact/law.h"
 #include "unit/motion/random_scene.h"
 
 namespace rolling {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "base/error.h"
+#include "motion/scene.h"
 #include "motion/roll.h"
-#include "motion/trajectory.h"
 #include "unit/catch.h"
 
 using namespace rolling;
@@ -15,15 +15,15 @@ namespace {
 
 const Body cylinder{1.375, 0.04, 0.5};
 
-Roll scene(double a, double b, Geometry geometry = Geometry::approximate, double v0 = 0.5) {
-  Roll roll{};
-  roll.body = cylinder, roll.geometry = geometry, roll.law = {a, b}, roll.v0 = v0;
+Scene scene(double a, double b, Geometry geometry = Geometry::approximate, double v0 = 0.5) {
+  Scene roll{};
+  roll.body = cylinder, roll.geometry = geometry, roll.law = PowerLaw{a, b}, roll.v0 = v0;
   return roll;
 }
 
 /// Largest |v - exact| / v0 on the way to 1.2 times the stop, or to 5 s; requires v >= 0 and 0
 /// after the stop.
-double error(const Roll& roll, Stepper stepper, double rtol) {
+double error(const Scene& roll, Stepper stepper, double rtol) {
   const auto exact = start(roll, best_method(roll), 0),
              motion = start(roll, {Method::solver, stepper}, rtol);
   const double end = std::isinf(exact->stop_time()) ? 5 : 1.2 * exact->stop_time();
@@ -48,7 +48,7 @@ TEST_CASE(
     "[rolling]") {
   for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
     for (const double b : {0.0, 1e-8, 0.0244, 0.215, 0.5, 0.9, 1.0, 1.5, 2.0}) {
-      const Roll roll = scene(2e-3, b, geometry);
+      const Scene roll = scene(2e-3, b, geometry);
       for (const Stepper stepper : {Stepper::rkf45, Stepper::rkck, Stepper::rk8pd}) {
         INFO("b " << b << " stepper " << static_cast<int>(stepper) << " exact "
                   << (geometry == Geometry::exact));
@@ -69,7 +69,7 @@ TEST_CASE("IntegratedRoll: the stop, also where v has long been below the tolera
     for (const double b : {0.0, 1e-8, 0.215, 0.5, 0.9, 0.99})
       for (const Stepper stepper :
            {Stepper::rkf45, Stepper::rk8pd, Stepper::rk4imp, Stepper::bsimp, Stepper::msbdf}) {
-        const Roll roll = scene(2e-3, b, geometry);
+        const Scene roll = scene(2e-3, b, geometry);
         const auto exact = start(roll, best_method(roll), 0),
                    motion = start(roll, {Method::solver, stepper}, 1e-10);
         const double stop = motion->stop_time();
@@ -103,10 +103,10 @@ TEST_CASE("IntegratedRoll: stop_time() does not move seek(), and is met", "[roll
 TEST_CASE("IntegratedRoll: close to the stop, speed and way left follow the law to its end",
           "[rolling]") {
   for (const double b : {0.5, 0.9}) {
-    const Roll roll = scene(2e-3, b);
+    const Scene roll = scene(2e-3, b);
     const auto motion = start(roll, {Method::solver}, 1e-6);
     const double stop = motion->stop_time(),
-                 c = roll.law.a * cylinder.g / ((1 + cylinder.K) * cylinder.R);  // dv/dt = -c v^b
+                 c = roll.law.power()->a * cylinder.g / ((1 + cylinder.K) * cylinder.R);  // dv/dt = -c v^b
     motion->seek(stop);
     const double end = motion->position();
     CHECK(motion->velocity() == 0);
@@ -127,10 +127,10 @@ TEST_CASE("IntegratedRoll: no stepper goes on where D has reached R, whatever it
           "[rolling]") {
   for (const double b : {-1e-9, -0.02, -0.1, -0.13, -0.25, -0.41, -0.46})
     for (const double depth : {0.3, 0.03, 1e-3, 1e-4}) {
-      const Roll roll = scene(depth * cylinder.R * std::pow(0.5, -b), b, Geometry::exact);
-      const Trajectory exact(roll.body, roll.geometry, roll.law, roll.v0);
-      const bool stops = std::isfinite(exact.stop_time());
-      const double end = std::min(exact.stop_time(), exact.radius_time());
+      const Scene roll = scene(depth * cylinder.R * std::pow(0.5, -b), b, Geometry::exact);
+      Roll exact(roll.body, roll.geometry, roll.law, roll.v0);
+      const double end = std::min(exact.stop_time(), exact.radius_time(exact.stop_time()));
+      const bool stops = end == exact.stop_time();
       for (const Stepper stepper : {Stepper::rk2, Stepper::rkf45, Stepper::rk8pd, Stepper::rk4imp})
         for (const double part : {0.0, 0.5, 0.9, 0.99, 0.9999}) {
           INFO("b " << b << " depth " << depth << " stepper " << static_cast<int>(stepper)
@@ -177,8 +177,7 @@ TEST_CASE("IntegratedRoll: the units of length and time do not matter", "[rollin
         INFO(static_cast<int>(stepper) << ", 2^" << length << " m, 2^" << time << " s");
         const double R = std::ldexp(0.04, length), D = R / 10, v0 = std::ldexp(0.5, length - time);
         const Body body{1, R, 0.5, std::ldexp(9.81, length - 2 * time)};
-        IntegratedRoll motion(body, geometry, {[=](double) { return D; }, [](double) { return 0; }},
-                              v0, 0, stepper, 1e-10);
+        IntegratedRoll motion(body, geometry, PowerLaw{D, 0}, {}, v0, 0, stepper, 1e-10);
         const double stop = -v0 / acceleration_from_shift(body, geometry, D);
         CHECK(std::abs(motion.stop_time() / stop - 1) < 1e-9);
       }

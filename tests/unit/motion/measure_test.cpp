@@ -10,14 +10,14 @@ using namespace rolling;
 
 namespace {
 
-Roll scene(double b, double length = 0) {
-  Roll roll{};
-  roll.body = {1.375, 0.04, 0.5}, roll.geometry = Geometry::approximate, roll.law = {1.87e-3, b},
+Scene scene(double b, double length = 0) {
+  Scene roll{};
+  roll.body = {1.375, 0.04, 0.5}, roll.geometry = Geometry::approximate, roll.law = PowerLaw{1.87e-3, b},
   roll.v0 = 0.5, roll.bulge.length = length;
   return roll;
 }
 
-Measured run(const Roll& roll, Method method, double rtol) {
+Measured run(const Scene& roll, Method method, double rtol) {
   return measure([&] { return start(roll, method, rtol); }, reference(roll, 50, 5), roll.v0, 3);
 }
 
@@ -53,8 +53,8 @@ TEST_CASE("measure: the reference goes beyond the stop, with memory to the stop"
 }
 
 TEST_CASE("measure: the stop by a method that is off shows in the errors", "[rolling]") {
-  Roll other = scene(0.215);
-  other.law.a *= 1.01;
+  Scene other = scene(0.215);
+  other.law = PowerLaw{1.01 * 1.87e-3, 0.215};
   const Reference right = reference(scene(0.215), 50, 5);
   const Measured off = measure([&] { return start(other, {Method::closed}, 0); }, right, 0.5, 1);
   CHECK((off.stop_error > 0.009 && off.stop_error < 0.011));
@@ -63,7 +63,7 @@ TEST_CASE("measure: the stop by a method that is off shows in the errors", "[rol
 
 TEST_CASE("measure: a failure says how", "[rolling]") {
   struct NoNumber final : Motion {
-    double stop_time() const override { return 1; }
+    double stop_time() override { return 1; }
     void seek(double) override {}
     double position() override { return 0; }
     double velocity() override { return std::nan(""); }

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "motion/closed_form.h"
-#include "motion/exact_form.h"
+#include "motion/scene.h"
 #include "contact/ledger.h"
 #include "unit/catch.h"
 
@@ -66,9 +66,10 @@ TEST_CASE("MemoryRoll: tends to the law without memory as the length goes to 0",
     return motion.velocity() - law.velocity();
   };
   ClosedForm closed(cylinder, {0.01, 0.215}, 0.5, 0);
-  ExactForm exact(cylinder, {0.01, 0.215}, 0.5, 0);
+  const auto exact = start({cylinder, Geometry::exact, PowerLaw{0.01, 0.215}, {0}, 0.5, 0},
+                           {Method::exact}, 0);
   for (const auto& [geometry, law] :
-       {std::pair<Geometry, Motion*>{Geometry::approximate, &closed}, {Geometry::exact, &exact}}) {
+       {std::pair<Geometry, Motion*>{Geometry::approximate, &closed}, {Geometry::exact, exact.get()}}) {
     const double coarse = difference(geometry, *law, 4e-4), fine = difference(geometry, *law, 1e-4);
     CHECK(std::abs(fine) < 2e-4);
     CHECK(std::abs(coarse / fine - 4) < 0.15);  // first order in the length

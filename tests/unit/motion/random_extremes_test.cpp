@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "motion/roll.h"
+#include "motion/scene.h"
 #include "sensor/sonar.h"
 #include "unit/catch.h"
 
@@ -26,21 +26,23 @@ class Extremes {
   bool one_in(int n) { return std::uniform_int_distribution(1, n)(random_) == 1; }
   double power(double lo, double hi) { return std::pow(10, between(lo, hi)); }
 
-  Roll roll() {
-    Roll roll{};
+  Scene roll() {
+    Scene roll{};
+    PowerLaw law;
     const double R = one_in(5) ? power(-300, 300) : 0.04;
     roll.body = {1, R, one_in(4) ? 0 : between(0, 1), one_in(8) ? power(-300, 300) : 9.81};
     if (one_in(3)) roll.body.slope = std::copysign(power(-12, 1), between(-1, 1));
     roll.geometry = one_in(2) ? Geometry::exact : Geometry::approximate;
     roll.v0 = one_in(8) ? 0 : one_in(3) ? power(-300, 150) : power(-3, 1);
-    roll.law.b = one_in(6) ? std::copysign(power(-20, 308), between(-1, 1)) : between(-0.5, 3);
+    law.b = one_in(6) ? std::copysign(power(-20, 308), between(-1, 1)) : between(-0.5, 3);
     const double depth = one_in(3) ? 1 - power(-16, -1) : power(-9, 0);
-    roll.law.a = depth * R * std::pow(roll.v0, -roll.law.b);
+    law.a = depth * R * std::pow(roll.v0, -law.b);
+    roll.law = law;
     if (one_in(4)) {
       std::vector<double> v, D;
       for (int i = 0; i < 5; ++i) v.push_back(roll.v0 * (i + 1) / 5), D.push_back(R * power(-6, 0));
       try {
-        roll.table.emplace(v, D);
+        roll.law = TableLaw(v, D);
       } catch (const Error&) {}
     } else if (one_in(5)) {
       roll.bulge = {power(-9, one_in(3) ? 300 : 0), one_in(2) ? 0 : power(-9, 1)};
@@ -48,7 +50,7 @@ class Extremes {
     return roll;
   }
 
-  Method method(const Roll& roll) {
+  Method method(const Scene& roll) {
     constexpr Stepper steppers[] = {Stepper::rk2,    Stepper::rkf45,  Stepper::rk8pd,
                                     Stepper::rk2imp, Stepper::rk4imp, Stepper::msbdf};
     if (one_in(2)) return best_method(roll);
@@ -60,8 +62,8 @@ class Extremes {
 };
 
 /// The evaluations that a bulge with memory is expected to take, to the time t.
-double expected_evaluations(const Roll& roll, Method method, double t) {
-  const MemoryWork work = memory_work(roll.body, roll.law, roll.bulge, roll.v0, t);
+double expected_evaluations(const Scene& roll, Method method, double t) {
+  const MemoryWork work = memory_work(roll.body, *roll.law.power(), roll.bulge, roll.v0, t);
   return 300 * work.swings + (method.stepper < Stepper::rk1imp ? 4 * work.relaxations : 0);
 }
 
@@ -77,17 +79,18 @@ TEST_CASE("Extremes: random scenes end with finite numbers or one line, and neve
   Extremes extremes(5);
   int finished = 0;
   for (int i = 0; i < 1000; ++i) {
-    const Roll scene = extremes.roll();
+    const Scene scene = extremes.roll();
+    const PowerLaw law = scene.law.power().value_or(PowerLaw{0, 0});
     INFO("i " << i << " R " << scene.body.R << " K " << scene.body.K << " g " << scene.body.g
-              << " S " << scene.body.slope << " a " << scene.law.a << " b " << scene.law.b << " v0 "
-              << scene.v0 << " L " << scene.bulge.length << " table " << scene.table.has_value()
+              << " S " << scene.body.slope << " a " << law.a << " b " << law.b << " v0 "
+              << scene.v0 << " L " << scene.bulge.length << " table " << scene.law.has_points()
               << " exact " << (scene.geometry == Geometry::exact));
     try {
       const Method method = extremes.method(scene);
       const auto motion = start(scene, method, 1e-6, 10'000);
       const double other = extremes.power(-9, 300);
       const bool memory = scene.bulge.length > 0, to_stop = extremes.one_in(2),
-                 rests = !memory || (scene.law.b < 2 && scene.body.slope == 0);
+                 rests = !memory || (law.b < 2 && scene.body.slope == 0);
       const double expected =
           memory ? expected_evaluations(scene, method, to_stop && rests ? infinity : 2 * other) : 0;
       if (memory && expected > 3e4 && expected < 1e9) continue;  // some seconds each
@@ -104,7 +107,7 @@ TEST_CASE("Extremes: random scenes end with finite numbers or one line, and neve
         // Beyond the range of double the tools refuse to print: see Output::number.
         if (!std::isfinite(v + x + a + D)) fail("beyond the range");
         if (scene.body.slope >= 0) REQUIRE(v <= scene.v0);
-        if (scene.bulge.length == 0) REQUIRE(v >= 0);
+        if (scene.bulge.length == 0 && !motion->turns()) REQUIRE(v >= 0);
       }
       INFO("evaluations " << motion->evaluations() << " expected " << expected);
       REQUIRE(static_cast<double>(motion->evaluations()) < 3e6 + 80 * expected);

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "contact/body.h"
-#include "contact/power_law.h"
+#include "contact/law.h"
 
 namespace rolling {
 

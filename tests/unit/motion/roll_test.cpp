@@ -1,6 +1,9 @@
 #include "motion/roll.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <random>
 #include <vector>
 
 #include "base/error.h"
@@ -8,56 +11,236 @@
 
 using namespace rolling;
 
-TEST_CASE("Roll: the best method, and methods that do not fit the scene", "[rolling]") {
-  Roll roll{};
-  roll.body = {1.375, 0.04, 0.5}, roll.law = {1e-3, 0.2}, roll.v0 = 0.5;
-  CHECK(best_method(roll).kind == Method::closed);
-  CHECK_THROWS_AS(start(roll, {Method::exact}, 1e-8), Error);
-  roll.geometry = Geometry::exact;
-  CHECK(best_method(roll).kind == Method::exact);
-  CHECK_THROWS_AS(start(roll, {Method::closed}, 1e-8), Error);
-  roll.bulge.length = 1e-3;
-  CHECK(best_method(roll).kind == Method::solver);
-  CHECK_THROWS_AS(start(roll, {Method::exact}, 1e-8), Error);
-  roll.table.emplace(std::vector{0.1, 1.0}, std::vector{1e-3, 2e-3});
-  CHECK_THROWS_AS(start(roll, {Method::solver}, 1e-8), Error);
-  roll.bulge.length = 0;
-  CHECK(best_method(roll).kind == Method::exact);
-  CHECK_THROWS_AS(start(roll, {Method::closed}, 1e-8), Error);
-  roll.v0 = 1.5;
-  CHECK_THROWS_AS(start(roll, {Method::exact}, 1e-8), Error);
-  CHECK_THROWS_AS(start(roll, {Method::solver}, 1e-8), Error);
+namespace {
+
+struct Reference {
+  int exact;
+  double K, a, b, v0, t, v, x, v_a, v_b, v_v0, x_a, x_b, x_v0;
+};
+
+const Reference references[] = {
+#include "unit/motion/trajectory_reference.inc"
+};
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+Roll roll(const Reference& r) {
+  return {{1, 0.04, r.K},
+          r.exact ? Geometry::exact : Geometry::approximate,
+          PowerLaw{r.a, r.b},
+          r.v0};
 }
 
-TEST_CASE("Roll: a start that is no position is refused by every method", "[rolling]") {
-  Roll roll{};
-  roll.body = {1.375, 0.04, 0.5}, roll.law = {1e-3, 0.2}, roll.v0 = 0.5;
-  for (const double x0 : {INFINITY, -INFINITY, NAN}) {
-    roll.x0 = x0;
-    for (const Method method : {Method{Method::closed}, Method{Method::solver}})
-      CHECK_THROWS_AS(start(roll, method, 1e-8), Error);
+/// The time in which a body would lose its speed at the deceleration of v0.
+double unit_time(const Reference& r) {
+  const double d = r.a * std::pow(r.v0, r.b) / 0.04, A = r.exact ? std::sqrt(1 - d * d) : 1;
+  return r.v0 * (r.K + A) / (9.81 * d);
+}
+
+}  // namespace
+
+TEST_CASE("Roll: speed, distance and derivatives against quadrature with 40 digits", "[rolling]") {
+  for (const Reference& r : references) {
+    const auto s = roll(r).at(r.t);
+    // x of the first records is a millionth of the way, and its derivatives are the square of that.
+    const double T = unit_time(r), way = std::max(r.x, r.v0 * T);
+    INFO("exact " << r.exact << " K " << r.K << " a " << r.a << " b " << r.b << " v0 " << r.v0
+                  << " t " << r.t);
+    CHECK(std::abs(s.v - r.v) <= 1e-13 * r.v0);
+    CHECK(std::abs(s.x - r.x) <= 1e-14 * way);
+    const auto close = [&](double value, double expected, double scale) {
+      CHECK(std::abs(value - expected) <= 1e-12 * scale);
+    };
+    // d/db changes its sign where ln(u) does.
+    const double log_u = std::abs(std::log(r.v0)) + std::abs(std::log(r.v));
+    const double of_v = std::abs(r.v_a) + r.v0 / r.a, of_x = std::abs(r.x_a) + way / r.a;
+    close(s.v_c[0], r.v_a, of_v);
+    close(s.v_c[1], r.v_b, r.a * of_v * log_u);
+    close(s.v_v0, r.v_v0, 1 + r.v_v0);
+    close(s.x_c[0], r.x_a, of_x);
+    close(s.x_c[1], r.x_b, r.a * of_x * log_u);
+    close(s.x_v0, r.x_v0, T + r.x_v0);
   }
 }
 
-// Where a tolerance times v0 is no number, or one of few digits, a solver prints what it likes.
-TEST_CASE("Roll: every solver refuses a v0 that is too small for it, and is right above",
+TEST_CASE("Roll: after the stop the speed is 0, and the place is where the derivatives lead",
           "[rolling]") {
-  Roll roll{};
-  roll.body = {1.375, 0.04, 0.5}, roll.law = {1e-3, 0.5};
-  for (const Stepper stepper :
-       {Stepper::rk2, Stepper::rk4, Stepper::rkf45, Stepper::rkck, Stepper::rk8pd, Stepper::msadams,
-        Stepper::rk1imp, Stepper::rk2imp, Stepper::rk4imp, Stepper::bsimp, Stepper::msbdf}) {
-    INFO("stepper " << static_cast<int>(stepper));
-    for (const double v0 : {5e-324, 1e-318, 1e-308, 1e-281}) {
-      roll.v0 = v0;
-      for (const double memory : {0.0, 1e-3}) {
-        roll.bulge.length = memory;
-        CHECK_THROWS_AS(start(roll, {Method::solver, stepper}, 1e-8), Error);
+  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+    for (const double b : {-0.01, 0.0, 0.215, 0.9}) {
+      const Body body{1, 0.04, 0.5};
+      const PowerLaw law{8e-3, b};
+      Roll trajectory(body, geometry, law, 0.7);
+      const double T = trajectory.stop_time();
+      for (const double t : {T, std::nextafter(T, 1e9), 2 * T, 1e300}) {
+        const auto s = trajectory.at(t);
+        CHECK(s.v == 0);
+        CHECK((s.v_c[0] == 0 && s.v_c[1] == 0 && s.v_v0 == 0));
       }
+      const auto stopped = trajectory.at(2 * T), rolling = trajectory.at(T * (1 - 1e-12));
+      CHECK(rolling.v > 0);
+      CHECK(std::abs(rolling.x / stopped.x - 1) < 1e-12);
+      const double h = 1e-6;
+      const auto x = [&](double a, double bb, double v0) {
+        return Roll(body, geometry, PowerLaw{a, bb}, v0).at(1e9).x;
+      };
+      const double x_a =
+          (x(law.a * (1 + h), b, 0.7) - x(law.a * (1 - h), b, 0.7)) / (2 * h * law.a);
+      const double x_b = (x(law.a, b + h, 0.7) - x(law.a, b - h, 0.7)) / (2 * h),
+                   x_v0 = (x(law.a, b, 0.7 + h) - x(law.a, b, 0.7 - h)) / (2 * h);
+      CHECK(std::abs(stopped.x_c[0] / x_a - 1) < 1e-8);
+      CHECK(std::abs(stopped.x_c[1] / x_b - 1) < 1e-8);
+      CHECK(std::abs(stopped.x_v0 / x_v0 - 1) < 1e-8);
     }
-    roll.v0 = 1e-280;
-    roll.bulge.length = 0;
-    const double stop = start(roll, {Method::closed}, 1e-8)->stop_time();
-    CHECK(std::abs(start(roll, {Method::solver, stepper}, 1e-8)->stop_time() / stop - 1) < 1e-4);
+}
+
+TEST_CASE("Roll: at t = 0 it is where it starts", "[rolling]") {
+  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+    for (const double a : {1e-3, 0.04}) {
+      const auto s = Roll({1, 0.04, 0.5}, geometry, PowerLaw{a, 0.3}, 1).at(0);
+      CHECK((s.v == 1 && s.x == 0 && s.v_v0 == 1));
+      CHECK((s.v_c[0] == 0 && s.v_c[1] == 0 && s.x_c[0] == 0 && s.x_c[1] == 0 && s.x_v0 == 0));
+    }
+}
+
+TEST_CASE("Roll: finite and monotone on random laws, up to D = R and down to rest",
+          "[rolling]") {
+  std::mt19937_64 random(4);
+  const auto between = [&](double lo, double hi) {
+    return std::uniform_real_distribution(lo, hi)(random);
+  };
+  for (int i = 0; i < 3000; ++i) {
+    const double b = i % 7 == 0 ? 1 + between(-1e-15, 1e-15) : between(-0.5, 3),
+                 v0 = std::pow(10, between(-6, 3)), K = between(0, 1);
+    const double depth = i % 3 ? std::pow(10, between(-9, 0)) : 1;
+    const Geometry geometry = i % 2 ? Geometry::exact : Geometry::approximate;
+    const PowerLaw law{0.04 * depth * std::pow(v0, -b) * (1 - 1e-12), b};
+    Roll trajectory({1, 0.04, K}, geometry, law, v0);
+    double v = v0 * (1 + 1e-12), x = -1;
+    const double unit = v0 * 0.04 / (9.81 * law(v0));
+    for (double t = 1e-12 * unit; t < 1e9 * unit; t *= 3) {
+      INFO("i " << i << " b " << b << " K " << K << " depth " << depth << " t/unit " << t / unit);
+      Roll::Point s{};
+      s = trajectory.at(t);
+      REQUIRE((s.v >= 0 && s.v <= v * (1 + 4 * eps)));
+      REQUIRE((s.x >= x * (1 - 4 * eps) && s.x <= v0 * (t + 1e-14 * unit)));
+      for (const double d : {s.v_c[0], s.v_c[1], s.v_v0, s.x_c[0], s.x_c[1], s.x_v0})
+        REQUIRE(std::isfinite(d));
+      v = s.v, x = s.x;
+    }
   }
+}
+
+TEST_CASE("Roll: speeds beyond all use", "[rolling]") {
+  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+    for (const double v0 : {1e-300, 1e-150, 1e-30, 1e30, 1e150})
+      for (const double b : {-0.5, 0.215, 1 - 1e-15, 1.0, 1.5, 3.0}) {
+        const double a = std::pow(v0, -b) * 1e-3;
+        if (a < 1e-300 || a > 1e300) continue;
+        INFO("v0 " << v0 << " b " << b);
+        Roll trajectory({1, 0.04, 0.5}, geometry, PowerLaw{a, b}, v0),
+            unit({1, 0.04, 0.5}, geometry, PowerLaw{1e-3, b}, 1);
+        // The law has no scale: v/v0 depends on t/v0 alone.
+        const auto s = trajectory.at(2 * v0), u = unit.at(2);
+        CHECK(std::abs(s.v / v0 - u.v) <= 1e-12);
+        if (v0 > 1e-300) CHECK(std::abs(s.x / v0 / v0 - u.x) <= 1e-12 * u.x);
+        CHECK(std::abs(s.v_v0 - (u.v_v0)) <= 1e-12);
+      }
+  const auto frozen = Roll({1, 0.04, 0.5}, Geometry::approximate, PowerLaw{1e-3, 3}, 1e-300).at(5);
+  CHECK((frozen.v == 1e-300 && frozen.x == 5e-300 && frozen.v_v0 == 1 && frozen.x_v0 == 5));
+}
+
+TEST_CASE("Roll: where D stays R, the roll and its derivatives against quadrature",
+          "[rolling]") {
+  struct {
+    double K, a, b, v0, S, t, radius_time, stop, v, x;
+    double v_a, v_b, v_v0, v_S, x_a, x_b, x_v0, x_S;
+  } const rolls[] = {
+#include "unit/motion/radius_reference.inc"
+  };
+  for (const auto& r : rolls) {
+    Roll roll({1, 0.04, r.K, 9.81, r.S}, Geometry::exact, PowerLaw{r.a, r.b}, r.v0);
+    CAPTURE(r.K, r.b, r.S, r.t);
+    const auto p = roll.at(r.t);
+    const double error = 20 * eps;
+    CHECK(roll.radius_time(r.stop) == Approx(r.radius_time).epsilon(error));
+    CHECK(roll.stop_time() == Approx(r.stop).epsilon(error));
+    CHECK(p.v == Approx(r.v).epsilon(0).margin(1e-13 * r.v0));
+    CHECK(p.x == Approx(r.x).epsilon(error));
+    // Where A should be 0 it is some sqrt(2 eps).
+    const double of_root = 1e-8;
+    const double log_u = std::abs(std::log(r.v0)) + std::abs(std::log(roll.radius_speed()));
+    CHECK(p.v_c[0] == Approx(r.v_a).epsilon(of_root));
+    CHECK(p.v_c[1] == Approx(r.v_b).epsilon(0).margin(of_root * log_u * std::abs(r.a * r.v_a)));
+    CHECK(p.v_v0 == Approx(r.v_v0).epsilon(1e-11));
+    CHECK(p.v_c[2] == Approx(r.v_S).epsilon(of_root));
+    CHECK(p.x_c[0] == Approx(r.x_a).epsilon(of_root));
+    CHECK(p.x_c[1] == Approx(r.x_b).epsilon(0).margin(of_root * log_u * std::abs(r.a * r.x_a)));
+    CHECK(p.x_v0 == Approx(r.x_v0).epsilon(1e-12));
+    CHECK(p.x_c[2] == Approx(r.x_S).epsilon(of_root));
+  }
+}
+
+TEST_CASE("Roll: the place of rest is a continuous function of b, through b = 0",
+          "[rolling]") {
+  const auto rest = [](double b) {
+    return Roll({1, 0.04, 0.5}, Geometry::exact, PowerLaw{2e-3, b}, 0.5).at(10);
+  };
+  // A step further is where the derivatives at both ends of the step lead (trapezoid rule).
+  for (double b = -0.6; b < 0.1; b += 1e-3) {
+    const auto here = rest(b), next = rest(b + 1e-3);
+    CAPTURE(b);
+    CHECK(next.x - here.x == Approx((here.x_c[1] + next.x_c[1]) / 2 * 1e-3).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("Roll: with A = 1 a roll that stays passes the radius, on a slope too",
+          "[rolling]") {
+  // v' = -g cos(theta) (D + R S)/((K + 1) R) is the same for a body of n R on a slope S/n under the
+  // gravity n g cos(theta)/cos(theta/n).
+  constexpr double n = 1e3, R = 0.04;
+  for (const double S : {0.0, 0.03, -0.03})
+    for (const double b : {-0.2, 0.0, 0.215, 1.5}) {
+      const PowerLaw law{1.6 * R, b};  // at 2 m/s D is 1.4 R to 4.5 R
+      const double g = n * 9.81 * std::hypot(1, S / n) / std::hypot(1, S);
+      const auto geometry = Geometry::approximate;
+      Roll roll({1, R, 0.5, 9.81, S}, geometry, law, 2),
+          wide({1, n * R, 0.5, g, S / n}, geometry, law, 2);
+      CAPTURE(S, b);
+      for (const double t : {0.05, 0.1, 0.2}) {
+        const auto p = roll.at(t), q = wide.at(t);
+        CHECK(p.v == Approx(q.v).epsilon(1e-12).margin(1e-14));
+        CHECK(p.x == Approx(q.x).epsilon(1e-13));
+        CHECK(p.v_c[0] == Approx(q.v_c[0]).epsilon(1e-10).margin(1e-12));
+        CHECK(p.x_c[1] == Approx(q.x_c[1]).epsilon(1e-11));
+      }
+      CHECK_THROWS_AS(Roll({1, R, 0.5, 9.81, S}, Geometry::exact, law, 2), Error);
+    }
+}
+
+TEST_CASE("Roll: refusals", "[rolling]") {
+  const Body body{1, 0.04, 0.5};
+  const PowerLaw law{1e-3, 0.2};
+  const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
+  const auto refused = [&](Body c, PowerLaw l, double v0) {
+    CHECK_THROWS_AS(check_roll(c, l, v0), Error);
+    if (l.a == law.a && l.b == law.b)
+      for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+        CHECK_THROWS_AS(Roll(c, geometry, l, v0), Error);
+  };
+  for (const double bad : {nan, infinite, -infinite, -1.0}) {
+    refused({1, bad, 0.5}, law, 0.5);
+    refused({1, 0.04, bad}, law, 0.5);
+    refused({1, 0.04, 0.5, bad}, law, 0.5);
+    refused(body, {bad, 0.2}, 0.5);
+    refused(body, law, bad);
+    if (bad != -1) refused(body, {1e-3, bad}, 0.5);
+    if (bad != -1) refused({1, 0.04, 0.5, 9.81, bad}, law, 0.5);
+  }
+  refused({1, 0, 0.5}, law, 0.5);
+  refused({1, 0.04, 0.5, 0}, law, 0.5);
+  refused(body, {0, 0.2}, 0.5);
+  refused(body, {0.041, 0.2}, 1);
+  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+    CHECK_NOTHROW(Roll(body, geometry, PowerLaw{0.04, 0.2}, 1));
+  CHECK_THROWS_AS(Roll({1, 0.04, 0}, Geometry::exact, PowerLaw{0.04, 0.2}, 1), Error);
 }

@@ -1,0 +1,259 @@
+#include "motion/leg.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "contact/contact.h"
+#include "motion/increasing_root.h"
+
+namespace rolling {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double tolerance = 1e-14;  // of the last terms of a series; the integral has less
+constexpr double narrowest = 2e-15;
+constexpr double unseen = 1e-17;     // what is left of a sum below it does not show in a double
+constexpr double slowest = 1e-290;   // speeds below it, as a part of v0, count as 0
+constexpr double fastest = 345;      // speeds above v0 e^345 are refused
+constexpr double negligible = 1e-6;  // last speeds below it, as a part of v0, count as rest
+constexpr std::size_t most_panels = 3000;
+
+/// The r > lo where `above` ceases to hold, by bisection.
+template <typename Predicate>
+double last_where(double lo, double hi, Predicate&& above) {
+  for (int i = 0; i < 200 && hi - lo > 0; ++i) {
+    const double middle = lo + (hi - lo) / 2;
+    if (middle == lo || middle == hi) break;
+    (above(middle) ? lo : hi) = middle;
+  }
+  return hi;
+}
+
+}  // namespace
+
+Leg::Leg(const Body& body, Geometry geometry, Law law, double v0)
+    : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0), cos_(incline(body).cos),
+      sin_(incline(body).sin), way_(1) {
+  const Rate start = rate(v0);
+  way_ = start.q < 0 ? -1 : 1;
+  q0_ = std::abs(start.q);
+  if (!std::isfinite(q0_)) fail("the deceleration at v0 = {} m/s has no finite value", v0);
+  if (q0_ == 0 || start.balanced) end_ = End::constant_speed;
+  else if (way_ > 0 && body.slope < 0) find_rest();
+}
+
+double Leg::speed(double r) const { return v0_ * std::exp(-way_ * r); }
+
+/// D + A R S at the speed u: the force against the motion.
+double Leg::net(double u) const {
+  double D = law_.at(u).D;
+  if (geometry_ == Geometry::exact && D >= body_.R) return D;
+  return D + arm_factor(body_, geometry_, D) * body_.R * body_.slope;
+}
+
+/// Where the law is too weak at rest to hold the body on a falling mat, it leaves a speed.
+void Leg::find_rest() {
+  if (law_.at_rest() >= -body_.R * body_.slope || net(negligible * v0_) <= 0) return;
+  const double r = last_where(-std::log(negligible), 690, [&](double at) { return net(speed(at)) > 0; });
+  rest_ = 2 * speed(r);
+  end_r_ = r - std::numbers::ln2;
+}
+
+Leg::Rate Leg::rate(double u) const {
+  Rate r{};
+  const double R = body_.R, g = body_.g;
+  const double D = law_.at(u, r.q_c.data()).D;
+  const bool exact = geometry_ == Geometry::exact;
+  if (exact && D >= R && (u < v0_ || D > R)) {
+    if (u >= v0_) check_shift(body_, D);
+    r = {way_ * g * cos_ / body_.K, 1, false, {}};
+    r.q_c[law_.size()] = -r.q * body_.slope * cos_ * cos_;
+    return r;
+  }
+  const double A = arm_factor(body_, geometry_, D), lift = A * R * body_.slope, net = D + lift,
+               arm = body_.K + A, unit = way_ * g / R / arm;
+  r.q = unit * net * cos_;
+  const double terms_of_net = std::abs(D) + std::abs(lift);
+  r.noise = terms_of_net / std::abs(net) + (exact ? 1 / (A * A) : 0);
+  r.balanced = std::abs(net) <= 2 * eps * terms_of_net;
+  const double A_D = exact ? -D / (R * R * A) : 0,
+               by_D = unit * (cos_ + A_D * R * sin_ - net * cos_ / arm * A_D);
+  for (std::size_t j = 0; j < law_.size(); ++j) r.q_c[j] *= by_D;
+  r.q_c[law_.size()] = unit * cos_ * cos_ * (A * R * cos_ - D * sin_);  // by S = tan theta
+  return r;
+}
+
+/// The end of what is smooth beyond r_: a corner of the law, or the end of the leg.
+double Leg::next_break() const {
+  double next = way_ > 0 ? std::min(end_r_, -std::log(slowest)) : fastest;
+  const auto corners = law_.corners();
+  for (const double v : corners) {
+    if (v == 0) continue;
+    const double r = way_ * std::log(v0_ / v);
+    if (r > r_ + narrowest * (1 + r_)) next = std::min(next, r);
+  }
+  return next;
+}
+
+/// Adds a panel of this length if its series converge. `factor` is how much longer it might be.
+bool Leg::try_panel(double width, bool to_radius, double& factor) {
+  Panel p{r_, width, to_radius, sums_, {}, 0, 0};
+  double noise = 1, largest = 0;
+  bool positive = true;
+  const Series rates(0, width, [&](double z) {
+    Sums f{};
+    const double u = speed(r_ + p.r_of(z)), E = u / v0_;
+    const Rate at = rate(u);
+    if (!to_radius) noise = std::max(noise, at.noise);
+    positive &= at.q > 0;
+    const double dt = u / at.q * (to_radius ? 2 * (1 - z / width) : 1);
+    f[0] = dt, f[1] = E * dt;
+    for (std::size_t j = 0; j <= law_.size(); ++j) {
+      f[2 + j] = dt * at.q_c[j] / at.q;
+      f[2 + most + j] = E * f[2 + j];
+    }
+    return f;
+  });
+  factor = 0.5;
+  if (!positive) return false;
+  for (std::size_t i = 0; i < values; ++i) {
+    const double scale = rates.largest(i) + std::abs(sums_[i]) / width;
+    if (scale > 0) largest = std::max(largest, rates.last(i) / scale);
+  }
+  const double allowed = tolerance + 4 * eps * noise;
+  factor = std::clamp(0.9 * std::pow(allowed / largest, 1.0 / terms), 0.1, 4.0);
+  if (!(largest <= allowed) && width > narrowest * (1 + r_)) return false;
+  p.sums = rates.integral();
+  p.begin = rates(0)[0];
+  p.decay = to_radius ? 0 : std::log(p.begin / rates(width)[0]) / width;
+  const Sums over = p.sums(width);
+  for (std::size_t i = 0; i < values; ++i) sums_[i] += over[i];
+  panels_.push_back(p);
+  return true;
+}
+
+void Leg::add_panel() {
+  if (panels_.size() > most_panels) fail("the law is too steep to be rolled");
+  const double limit = next_break();
+  double width = width_, factor = 1;
+  for (;;) {
+    double to = std::min(r_ + width, limit);
+    const auto below = [&](double r) { return law_.at(speed(r)).D < body_.R; };
+    const bool deepens = geometry_ == Geometry::exact && radius_time_ == infinity && !below(to);
+    if (deepens) to = last_where(r_, to, below);
+    if (deepens && to - r_ <= narrowest * (1 + r_)) {
+      radius_time_ = sums_[0], radius_speed_ = speed(r_);
+      continue;
+    }
+    if (to - r_ <= narrowest * (1 + r_) && net(speed(to)) * way_ <= 0) {
+      end_ = End::constant_speed;
+      return;
+    }
+    if (try_panel(to - r_, deepens, factor)) {
+      r_ = to;
+      width_ = (to < limit || deepens ? to - panels_.back().r : width) * std::max(factor, 0.2);
+      if (deepens) radius_time_ = sums_[0], radius_speed_ = speed(r_);
+      break;
+    }
+    width = (to - r_) * std::min(factor, 0.7);
+    if (width < narrowest * (1 + r_)) width = narrowest * (1 + r_) / 2;
+  }
+  const double u = speed(r_);
+  if (way_ < 0) {
+    if (r_ >= fastest) end_ = End::too_fast;
+    return;
+  }
+  const double q = rate(u).q, left = u / q;
+  if (r_ >= end_r_) {
+    end_ = End::stop, stop_ = sums_[0];
+  } else if (left <= unseen * sums_[0] || u <= 1.1 * slowest * v0_) {
+    // The rest of the way follows the power of v that q has there.
+    const Shift s = law_.at(u);
+    const double power = body_.slope == 0 && s.D < body_.R ? s.by_log_v / s.D : 0;
+    end_ = power < 1 ? End::stop : End::constant_speed;
+    if (power < 1) stop_ = sums_[0] + left / (1 - power);
+  }
+}
+
+void Leg::reach(double t) {
+  while (end_ == End::none && sums_[0] <= t) add_panel();
+}
+
+Leg::Point Leg::point(const Sums& sum, double v, double q) const {
+  Point p{v, v0_ * sum[1], -way_ * q, q / q0_, std::abs(v0_ - v) / q0_, {}, {}};
+  for (std::size_t j = 0; j <= law_.size(); ++j) {
+    p.v_c[j] = -way_ * q * sum[2 + j];
+    p.x_c[j] = v * sum[2 + j] - v0_ * sum[2 + most + j];
+  }
+  return p;
+}
+
+Leg::Point Leg::at(double t) {
+  reach(t);
+  if (t >= stop_) return point(sums_, 0, 0);
+  if (t >= sums_[0]) {
+    if (end_ == End::too_fast) fail("the speed has grown by a factor e^{}", fastest);
+    const double since = t - sums_[0], v = speed(r_);
+    if (end_ == End::stop) return point(sums_, v, 0);  // the last part does not show in x
+    Point p = point(sums_, v, panels_.empty() ? q0_ : rate(v).q);
+    p.x += v * since;
+    p.x_v0 += p.v_v0 * since;
+    for (std::size_t j = 0; j <= law_.size(); ++j) p.x_c[j] += p.v_c[j] * since;
+    return p;
+  }
+  const auto after = std::upper_bound(panels_.begin() + 1, panels_.end(), t,
+                                      [](double time, const Panel& p) { return time < p.before[0]; });
+  const Panel& p = *(after - 1);
+  // The starting point assumes that the time per r is an exponential function over the panel.
+  const double since = t - p.before[0], part = p.decay * since / p.begin,
+               start = std::abs(part) < 1e-8 ? since / p.begin : -std::log1p(-part) / p.decay;
+  double per_z = p.begin;
+  const double z =
+      increasing_root(0, p.width, start >= 0 && start <= p.width ? start : p.width / 2,
+                      [&](double at) {
+    const auto [value, slope] = p.sums.value_and_slope(0, at);
+    return std::pair(value - since, per_z = slope);
+                      });
+  Sums sum = p.sums(z);
+  for (std::size_t i = 0; i < values; ++i) sum[i] += p.before[i];
+  const double v = speed(p.r + p.r_of(z));
+  return point(sum, v, p.to_radius ? rate(v).q : v / per_z);
+}
+
+double Leg::stop_time() {
+  if (way_ < 0) return infinity;
+  // A level mat under a power of v that is not below 1 never stops the body.
+  if (body_.slope == 0) {
+    const Shift s = law_.at(v0_ * 1e-3);
+    if (law_.at_rest() == 0 && s.by_log_v >= s.D) return infinity;
+  }
+  reach(infinity);
+  return stop_;
+}
+
+double Leg::stop_until(double t) {
+  reach(t);
+  return stop_ <= t ? stop_ : infinity;
+}
+
+double Leg::radius_time(double t) {
+  if (geometry_ == Geometry::approximate) return infinity;
+  reach(t);
+  return radius_time_;
+}
+
+double Leg::last_speed() {
+  if (way_ < 0 || body_.slope < 0) reach(infinity);
+  return end_ == End::constant_speed ? speed(r_) : end_ == End::too_fast ? infinity : 0;
+}
+
+Leg::Derivatives Leg::stop_time_by_c() {
+  reach(infinity);
+  Derivatives by{};
+  for (std::size_t j = 0; j <= law_.size(); ++j) by[j] = -sums_[2 + j];
+  return by;
+}
+
+}  // namespace rolling

@@ -1,0 +1,106 @@
+// The part of a roll in which the speed only falls or only grows, as integrals over speed.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "base/chebyshev.h"
+#include "contact/body.h"
+#include "contact/law.h"
+
+namespace rolling {
+
+/// The law is autonomous: with the deceleration q(u) = -v' (Eq. 12) at the speed u,
+///   t = int du/|q|,   x = int u du/|q|,
+/// and the derivatives by the coefficients c of the law and by the slope are
+///   u_c = -q G,   x_c = u G - U,   G = int q_c/(q |q|) du,   U = int u q_c/(q |q|) du.
+/// The variable of integration is r = |ln(u0/u)|. The integrands are Chebyshev series over panels of
+/// r, whose lengths follow from the last terms of the series, so that they suit the scale of any
+/// law; u(t) is the inverse of the first integral by Newton's method. Panels are added when a time
+/// is asked for. Times and ways count from the beginning of the leg, along the motion.
+class Leg {
+ public:
+  static constexpr std::size_t most = LawForm::most + 1;
+  using Derivatives = std::array<double, most>;  ///< by the coefficients, then by the slope
+  struct Point {
+    double v, x;
+    double a;  ///< dv/dt
+    double v_v0, x_v0;
+    Derivatives v_c, x_c;
+  };
+  /// From the speed v0 > 0, on a mat that rises by body.slope along the motion. Throws Error if the
+  /// law is not defined there.
+  Leg(const Body&, Geometry, Law, double v0);
+
+  /// The state at t >= 0, and its derivatives at fixed t. From the stop on, v = 0 and its
+  /// derivatives are 0. Throws Error where the speed has grown by a factor e^345.
+  Point at(double t);
+  /// When v becomes 0 [s]; infinity if it never does. If a falling mat leaves a speed below 1e-6 v0,
+  /// that counts as rest, from the moment when v is twice as large.
+  double stop_time();
+  /// The stop if it is not later than t, else infinity.
+  double stop_until(double t);
+  /// The limit of the speed of a body that never stops; infinity if it grows without bound.
+  double last_speed();
+  /// The speed that counts as rest: 0, or that of the moment just named.
+  double rest_speed() const { return rest_; }
+  /// In the exact geometry a D that has grown to R stays R. When that begins, up to the time t, and
+  /// the speed there; infinity and 0 if it does not.
+  double radius_time(double t);
+  double radius_speed() const { return radius_speed_; }
+  bool slows() const { return way_ > 0; }
+  /// The derivatives of the time of the stop by v0 and by c.
+  double stop_time_by_v0() const { return 1 / q0_; }
+  Derivatives stop_time_by_c();
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr std::size_t terms = 20, values = 2 + 2 * most;
+  /// Time, way in units of v0, G, and U in units of v0.
+  using Series = ChebyshevSeries<values, terms>;
+  using Sums = Series::Values;
+  struct Rate {
+    double q;       // |dv/dt|, negative where the leg would end
+    double noise;   // its rounding, in units of eps q
+    bool balanced;  // q is rounding alone
+    Derivatives q_c;
+  };
+  /// A piece of the way from r on. Its variable is z = 0 to width; where D = R at its end, A has a
+  /// root there, of which r - r(end) = (z - width)^2/width leaves nothing in the integrands.
+  struct Panel {
+    double r, width;
+    bool to_radius;
+    Sums before;
+    Series sums;          // from its beginning
+    double begin, decay;  // time per z at the beginning, and its logarithmic decrease along z
+
+    double r_of(double z) const { return to_radius ? z * (2 - z / width) : z; }
+  };
+  enum class End { none, stop, constant_speed, too_fast };
+
+  Rate rate(double u) const;
+  double net(double u) const;
+  double speed(double r) const;
+  double next_break() const;
+  void find_rest();
+  void add_panel();
+  bool try_panel(double width, bool to_radius, double& factor);
+  void reach(double t);
+  Point point(const Sums&, double v, double q) const;
+
+  Body body_;
+  Geometry geometry_;
+  Law law_;
+  double v0_, q0_, cos_, sin_;
+  double way_;            // 1 if the speed falls, -1 if it grows
+  std::vector<Panel> panels_;
+  double r_ = 0, width_ = 2;  // where the next panel begins, and how long it may be
+  Sums sums_{};               // up to there
+  End end_ = End::none;
+  double end_r_ = infinity;   // of a stop at a speed that counts as rest
+  double rest_ = 0, stop_ = infinity;
+  double radius_time_ = infinity, radius_speed_ = 0;
+};
+
+}  // namespace rolling

@@ -1,0 +1,162 @@
+#include "motion/scene.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/error.h"
+#include "contact/contact.h"
+#include "motion/closed_form.h"
+#include "motion/integrated_roll.h"
+#include "motion/roll.h"
+
+namespace rolling {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The motion of a Roll.
+class SpeedRoll final : public Motion {
+ public:
+  SpeedRoll(const Scene& scene)
+      : roll_(scene.body, scene.geometry, scene.law, scene.v0), geometry_(scene.geometry),
+        x0_(scene.x0) {
+    seek(0);
+  }
+
+  double stop_time() override {
+    const double stop = roll_.stop_time();
+    return roll_.radius_time(stop) < stop ? infinity : stop;
+  }
+  bool turns() const override { return roll_.turns(); }
+  double last_speed() override { return roll_.last_speed(); }
+  void seek(double t) override {
+    state_ = roll_.at(t);
+    if (const double end = roll_.radius_time(t); t > end)
+      fail(
+          "at t = {:.6g} s the shift has grown beyond the radius {:.6g} m (since t = {:.6g} s): "
+          "b < 0 has no meaning there",
+          t, roll_.body().R, end);
+    if (std::abs(state_.v) > roll_.law().highest())
+      fail("at t = {:.6g} s the speed {:.6g} m/s is above the table of the law, which ends at {}", t,
+           std::abs(state_.v), roll_.law().highest());
+  }
+  double position() override { return x0_ + state_.x; }
+  double velocity() override { return state_.v; }
+  double acceleration() override {
+    return state_.a == 0 ? 0 : acceleration_from_shift(roll_.body(), geometry_, shift());
+  }
+  double shift() override {
+    const double D = roll_.law()(state_.v);
+    check_shift(roll_.body(), D);
+    return D;
+  }
+
+ private:
+  Roll roll_;
+  Geometry geometry_;
+  double x0_;
+  Roll::Point state_{};
+};
+
+/// A roll that a solver computes in two parts: up to the turning point, and back from a speed that
+/// is not seen.
+class SolvedBothWays final : public Motion {
+ public:
+  SolvedBothWays(const Scene& scene, Stepper stepper, double rtol, unsigned long most_steps)
+      : up_(scene.body, scene.geometry, scene.law, {}, scene.v0, scene.x0, stepper, rtol,
+            most_steps),
+        back_(turned(scene.body), scene.geometry, scene.law, {false, 0},
+              first_part * (scene.v0 > 0 ? scene.v0 : 1), 0, stepper, rtol, most_steps),
+        way_(scene.body.slope > 0 ? -1 : 1) {}
+
+  double stop_time() override { return up_.stop_time(); }
+  bool turns() const override { return true; }
+  void seek(double t) override {
+    const double T = stop_time();
+    up_.seek(std::min(t, T));
+    is_back_ = t > T;
+    if (is_back_) back_.seek(t - T);
+  }
+  double position() override { return up_.position() + (is_back_ ? way_ * back_.position() : 0); }
+  double velocity() override { return is_back_ ? way_ * back_.velocity() : up_.velocity(); }
+  double acceleration() override {
+    return is_back_ ? way_ * back_.acceleration() : up_.acceleration();
+  }
+  double shift() override { return is_back_ ? way_ * back_.shift() : up_.shift(); }
+  unsigned long evaluations() const override { return up_.evaluations() + back_.evaluations(); }
+
+ private:
+  static constexpr double first_part = 1e-13;
+  static Body turned(Body body) {
+    body.slope = -std::abs(body.slope);
+    return body;
+  }
+
+  IntegratedRoll up_, back_;
+  double way_;
+  bool is_back_ = false;
+};
+
+std::unique_ptr<Motion> solved(const Scene& scene, Stepper stepper, double rtol,
+                               unsigned long most_steps) {
+  Roll roll(scene.body, scene.geometry, scene.law, scene.v0);
+  if (roll.turns()) return std::make_unique<SolvedBothWays>(scene, stepper, rtol, most_steps);
+  const Rest rest{std::isfinite(roll.stop_time()), roll.rest_speed()};
+  return std::make_unique<IntegratedRoll>(scene.body, scene.geometry, scene.law, rest, scene.v0,
+                                          scene.x0, stepper, rtol, most_steps);
+}
+
+}  // namespace
+
+Method best_method(const Scene& scene) {
+  const auto power = scene.law.power();
+  if (scene.bulge.length > 0 && power)
+    return {Method::solver, memory_stepper(scene.body, *power, scene.bulge, scene.v0)};
+  const bool closed =
+      power && scene.geometry == Geometry::approximate && scene.body.slope == 0;
+  return {closed ? Method::closed : Method::exact};
+}
+
+std::unique_ptr<Motion> start(const Scene& scene, Method method, double rtol,
+                              unsigned long most_steps) {
+  const auto& [body, geometry, law, bulge, v0, x0] = scene;
+  if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
+  const auto power = law.power();
+  if (power) check_roll(body, *power, v0);
+  else {
+    check_numbers(body, v0);
+    if (v0 > law.highest())
+      fail("the initial velocity v0 = {} is above the table of the law, which ends at {}", v0,
+           law.highest());
+    check_shift(body, law.largest_shift(v0));
+  }
+  if (bulge.length > 0) {
+    if (!power) fail("the memory goes with a law a v^b, not with a table");
+    if (method.kind != Method::solver)
+      fail(
+          "a bulge with memory has no closed form and no integral over speed: its methods are the "
+          "solvers");
+    if (v0 == 0 && body.slope != 0)
+      fail("v0 = 0: the memory of a mat at rest does not hold a body on a slope: say a small v0");
+    return std::make_unique<MemoryRoll>(body, geometry, *power, bulge, v0, x0, method.stepper, rtol,
+                                        most_steps);
+  }
+  if (method.kind == Method::solver) return solved(scene, method.stepper, rtol, most_steps);
+  if (method.kind == Method::exact) {
+    if (power && geometry == Geometry::approximate && body.slope == 0)
+      fail(
+          "the method exact goes with the exact geometry, a table or a slope: for A = 1 there is "
+          "closed");
+    return std::make_unique<SpeedRoll>(scene);
+  }
+  if (!power) fail("the method closed goes with a law a v^b: a table has no closed form");
+  if (geometry == Geometry::exact)
+    fail("the method closed goes with A = 1: the exact geometry has no closed form");
+  if (body.slope != 0)
+    fail("the method closed goes with a level mat: on a slope there is no closed form");
+  return std::make_unique<ClosedForm>(body, *power, v0, x0);
+}
+
+}  // namespace rolling

@@ -1,0 +1,40 @@
+// A scene and the methods that compute its motion.
+#pragma once
+
+#include <memory>
+
+#include "contact/body.h"
+#include "contact/law.h"
+#include "motion/memory.h"
+#include "motion/motion.h"
+#include "ode/integrator.h"
+
+namespace rolling {
+
+struct Scene {
+  Body body;
+  Geometry geometry;
+  Law law;
+  Bulge bulge{0};  ///< of length 0: no memory
+  double v0, x0;
+};
+
+/// closed: ClosedForm. exact: integrals over speed, by Roll. solver: a differential equation, by
+/// this stepper.
+struct Method {
+  enum { closed, exact, solver } kind;
+  Stepper stepper = Stepper::rk8pd;
+};
+
+/// The fastest method that is exact for the scene: closed for a v^b with A = 1 on a level mat; with
+/// memory, where neither exists, the solver that suits the stiffness; else exact.
+Method best_method(const Scene&);
+
+/// Constructs the motion at t = 0. rtol and most_steps concern solvers: the tolerance of a step,
+/// and the largest number of steps from one seek() to the next. Throws Error if x0 is not finite,
+/// for a D(v0) > R, and if the method does not suit the scene. Where D grows to R, the law loses its
+/// meaning: later times throw Error, and stop_time() is infinite.
+std::unique_ptr<Motion> start(const Scene&, Method, double rtol,
+                              unsigned long most_steps = 1'000'000);
+
+}  // namespace rolling
