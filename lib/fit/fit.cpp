@@ -96,13 +96,13 @@ void require_seen(const Fitted& found, const std::vector<FitRun>& all) {
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const ObservedRun& run = runs[r];
     const std::string place = runs.size() > 1 ? fmt::format("run {}: ", all[r].name) : "";
-    const Trajectory roll = found.rolls->trajectory(found.minimum.theta, r);
+    Roll roll = found.rolls->roll(found.minimum.theta, r);
     const double v0 = std::abs(found.v0[r].value), D = found.a.value * std::pow(v0, found.b.value);
     if (run.body.slope == 0 && !found.slope && std::abs(D) < program_rounding * run.body.R)
       fail("{}the body does not slow down: D comes out as {:.2g} m", place, D);
     double fastest = 0;
     for (std::size_t i = 0; i + 1 < run.t.size() && fastest <= v0 / levels::v0_over_speeds; ++i)
-      fastest = std::max(fastest, (roll.distance_at(run.t[i + 1]) - roll.distance_at(run.t[i])) /
+      fastest = std::max(fastest, (roll.at(run.t[i + 1]).x - roll.at(run.t[i]).x) /
                                       (run.t[i + 1] - run.t[i]));
     if (v0 > levels::v0_over_speeds * fastest)
       fail(

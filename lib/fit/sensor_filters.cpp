@@ -99,9 +99,8 @@ double lag_of(const LinearFilter& filter, const std::vector<double>& t) {
 /// differ in the clock alone. The speeds are taken as those of their rows, as they are said to be.
 void set_clock(Fitted& fit, const LinearFilter& filter, const std::vector<FitRun>& all) {
   for (std::size_t r = 0; r < all.size(); ++r) {
-    const Trajectory roll = fit.rolls->trajectory(fit.minimum.theta, r);
     double& v0 = fit.v0[r].value;
-    v0 -= std::copysign(lag_of(filter, all[r].t), v0) * roll.acceleration(std::abs(v0));
+    v0 -= std::copysign(lag_of(filter, all[r].t), v0) * fit.rolls->roll(fit.minimum.theta, r).at(0).a;
   }
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double gain = 1e-9;        // relative growth of v that rounding explains
-constexpr double unseen = 1e-28;     // of v0: the rest of the roll does not show in a double
+constexpr double unseen = 1e-17;     // of v0: the rest of the roll does not show in a double
 constexpr double least_part = 1e-8;  // of v0; for much lower v, rounding of t exceeds a step
 
 /// The speed at which the solver ends; 0 if the body never stops.

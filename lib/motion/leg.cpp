@@ -77,7 +77,7 @@ Leg::Rate Leg::rate(double u) const {
   r.q = unit * net * cos_;
   const double terms_of_net = std::abs(D) + std::abs(lift);
   r.noise = terms_of_net / std::abs(net) + (exact ? 1 / (A * A) : 0);
-  r.balanced = std::abs(net) <= 2 * eps * terms_of_net;
+  r.balanced = std::abs(net) <= 20 * eps * terms_of_net;
   const double A_D = exact ? -D / (R * R * A) : 0,
                by_D = unit * (cos_ + A_D * R * sin_ - net * cos_ / arm * A_D);
   for (std::size_t j = 0; j < law_.size(); ++j) r.q_c[j] *= by_D;
@@ -161,11 +161,11 @@ void Leg::add_panel() {
     if (width < narrowest * (1 + r_)) width = narrowest * (1 + r_) / 2;
   }
   const double u = speed(r_);
-  if (way_ < 0) {
-    if (r_ >= fastest) end_ = End::too_fast;
-    return;
-  }
-  const double q = rate(u).q, left = u / q;
+  const Rate now = rate(u);
+  if (now.balanced) end_ = End::constant_speed;
+  else if (way_ < 0 && r_ >= fastest) end_ = End::too_fast;
+  if (end_ != End::none || way_ < 0) return;
+  const double left = u / now.q;
   if (r_ >= end_r_) {
     end_ = End::stop, stop_ = sums_[0];
   } else if (left <= unseen * sums_[0] || u <= 1.1 * slowest * v0_) {

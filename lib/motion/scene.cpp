@@ -27,7 +27,7 @@ class SpeedRoll final : public Motion {
 
   double stop_time() override {
     const double stop = roll_.stop_time();
-    return roll_.radius_time(stop) < stop ? infinity : stop;
+    return std::isfinite(stop) && roll_.radius_time(stop) < stop ? infinity : stop;
   }
   bool turns() const override { return roll_.turns(); }
   double last_speed() override { return roll_.last_speed(); }

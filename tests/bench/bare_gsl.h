@@ -55,7 +55,7 @@ class BareGsl final : public Motion {
   }
   double law(double v) const {
     if (odd_ && v <= 0) return v == 0 ? 0 : -law(-v);
-    return scene_.law.has_points() ? scene_.law(v) : power_.a * std::pow(v, power_.b);
+    return scene_.law.has_points() ? scene_.law.at(std::max(v, 0.0)).D : power_.a * std::pow(v, power_.b);
   }
 
   static int derivative(double, const double* y, double* dydt, void* self) {

@@ -150,11 +150,11 @@ class Simulation {
   Column pushed_roll(Column& times) {
     constexpr double rest = 0.6, push = 0.3;
     const double begin = rest + push + 0.04 * uniform(),
-                 of_push = 0.5 * push * truth_.speed_at(0).v,
+                 of_push = 0.5 * push * truth_.at(0).v,
                  ends = truth_.stop_time() * (c_.ending == Case::stop ? 1 : 0.5 + 0.2 * uniform()),
-                 v = truth_.speed_at(ends).v,
+                 v = truth_.at(ends).v,
                  slows = c_.ending == Case::caught   ? v / 0.3
-                         : c_.ending == Case::braked ? -3 * truth_.acceleration(v)
+                         : c_.ending == Case::braked ? -3 * truth_.at(ends).a
                                                      : 1e3;
     std::vector<rolling::Sample> samples;
     for (double t = 0; t < begin + ends + std::min(v / slows, 2.0) + 0.6; t += dt) {

@@ -79,7 +79,10 @@ TEST_CASE("Exact geometry: b < 0, where the roll ends as D reaches R", "[rolling
       INFO("a " << scene.law.a << " b " << scene.law.b << " K " << scene.body.K << " R "
                 << scene.body.R << " v0 " << scene.v0 << " t/end " << part << " v " << error.v
                 << " x " << error.x << " by t " << error.v_by_t);
-      CHECK(std::abs(error.v) * motion->velocity() <= 1e-13 * scene.v0);
+      // As good as t is as a double.
+      CHECK(std::abs(error.v) * motion->velocity() <=
+            1e-13 * scene.v0 + 4 * std::numeric_limits<double>::epsilon() * error.v_by_t *
+                                   motion->velocity());
       CHECK(std::abs(error.x) <= 1e-13);
     }
     if (std::isinf(motion->stop_time())) CHECK_THROWS_AS(motion->seek(end * (1 + 1e-9)), Error);
