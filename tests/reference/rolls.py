@@ -216,6 +216,8 @@ class Roll:
             if self.law.at_rest == 0:  # on a slope, however small, it would roll back
                 del x_p["S"]
             return result + [self.line(t, mpf(0), stop[1], dict.fromkeys(x_p, mpf(0)), x_p, stop)]
+        if self.back(self.v0 * mpf("1e-6"))[0] <= 0:  # a way back so slow counts as rest
+            return result
         limit = self.limit(self.back)
         top = self.v0 if limit is None else min(limit, self.v0)
         more, _, _ = self.instants(self.back, end, mpf(0), [top * mpf(r) for r in back], stop)
