@@ -1,9 +1,11 @@
 #include "fit/first_guess.h"
 
+#include "base/dot.h"
 #include "base/error.h"
 #include "base/median.h"
 #include "contact/contact.h"
 #include "least_squares/minimise.h"
+#include "least_squares/triangles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,6 +50,7 @@ ObservedRun without_outliers(ObservedRun run) {
 struct Thinned {
   ObservedRun run;
   double v0;
+  bool turns;  ///< it has come back
 };
 
 /// Estimates v0 from the time of half the distance. v0 times that time is 0.59 of the whole
@@ -58,7 +61,7 @@ Thinned thinned(const ObservedRun& run, const FitOptions& options) {
   const std::size_t n = run.t.size();
   const bool position = run.raw_is_position;
   const double x0 = options.x0.value_or(position ? run.y[0] : 0);
-  double most = 0;
+  double most = 0, distance = 0;
   // The first record at which the distance has reached the goal. If none has, the result is n and
   // `most` is the largest distance.
   const auto reached = [&](double goal) {
@@ -69,6 +72,7 @@ Thinned thinned(const ObservedRun& run, const FitOptions& options) {
       if (way >= goal) return i;
       most = std::max(most, way);
     }
+    distance = way;
     return n;
   };
   reached(std::numeric_limits<double>::infinity());
@@ -78,12 +82,13 @@ Thinned thinned(const ObservedRun& run, const FitOptions& options) {
   const double v0 = options.v0 ? std::abs(*options.v0) : 0.6 * most / half_time;
   if (!(v0 > 0) || !std::isfinite(v0))
     fail("{}the body does not move: a and b cannot be determined", run.place);
-  const std::size_t used = std::min(n, end + std::max<std::size_t>(end / 3, 8)),
+  // The way back of a body that turns is used as well.
+  const std::size_t used = distance < 0.8 * most ? n : std::min(n, end + std::max<std::size_t>(end / 3, 8)),
                     block = (used + 63) / 64;
   std::vector<std::size_t> edges;
   for (std::size_t i = 0; i < used; i += block) edges.push_back(i);
   edges.push_back(used);
-  return {means(run, edges), v0};
+  return {means(run, edges), v0, distance < 0.8 * most};
 }
 
 /// A law with the v0 and x0 of each run, and the sum of squares of the thinned runs.
@@ -91,6 +96,7 @@ struct Candidate {
   double rss;
   PowerLaw law;
   std::vector<double> v0, x0;
+  double slope = 0;  ///< of the mat along growing x, where it is a parameter
 };
 
 /// The rolls of the runs on a level mat with A = 1 under an exponent b: those of any a are the same
@@ -107,7 +113,7 @@ Shape shape_of(const std::vector<Thinned>& thin, double b) {
                    first.t.back(),
                b},
               {}};
-  for (const auto& [run, scale] : thin) {
+  for (const auto& [run, scale, turns] : thin) {
     Body level = run.body;
     level.slope = 0;
     shape.rolls.emplace_back(level, Geometry::approximate, shape.law, scale);
@@ -170,7 +176,6 @@ std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions
       }
     if (std::isfinite(nearest.rss)) best.push_back(std::move(nearest));
   }
-  if (best.empty()) fail("no law a v^b comes near the data: {}", choose_the_roll);
   std::ranges::sort(best, {}, &Candidate::rss);
   return best;
 }
@@ -180,7 +185,7 @@ std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions
 std::optional<Candidate> of_constant_acceleration(const std::vector<Thinned>& thin) {
   Candidate start{0, {0, 0}, {}, {}};
   bool speeds_up = false;
-  for (const auto& [run, v0_scale] : thin) {
+  for (const auto& [run, v0_scale, turns] : thin) {
     const std::size_t n = run.t.size();
     if (n < 6 || run.body.slope == 0) return {};
     const ObservedRun third = means(run, {0, n / 3, 2 * n / 3, n});
@@ -201,6 +206,68 @@ std::optional<Candidate> of_constant_acceleration(const std::vector<Thinned>& th
     speeds_up |= a > 0;
   }
   return speeds_up ? std::optional(std::move(start)) : std::nullopt;
+}
+
+/// A roll of constant decelerations up to the time T and back from there.
+struct BothWays {
+  double rss, T, up, back, x_turn;
+};
+
+/// The closest such roll to a run, over a grid of T.
+BothWays closest_both_ways(const ObservedRun& run) {
+  const std::size_t terms = run.raw_is_position ? 3 : 2, n = run.t.size();
+  BothWays best{std::numeric_limits<double>::infinity(), 0, 0, 0, 0};
+  for (std::size_t k = 1; k < 2 * n; ++k) {
+    const double T = run.t.back() * static_cast<double>(k) / static_cast<double>(n);
+    Triangles all(1, terms, 0);
+    const auto row = [&](std::size_t i, double* J) {
+      const double t = run.t[i] - T, part = run.raw_is_position ? -t * t / 2 : -t;
+      J[0] = t < 0 ? part : 0, J[1] = t < 0 ? 0 : part, J[2] = 1;
+    };
+    double J[3];
+    for (std::size_t i = 0; i < n; ++i) {
+      row(i, J);
+      double f = -run.way * run.y[i];  // solve() makes f + J c least
+      all.add(0, {&f, 1}, std::span(J).first(terms));
+    }
+    all.join();
+    std::vector<double> c = all.solve();
+    c.resize(3);
+    double rss = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      row(i, J);
+      const double off = run.way * run.y[i] - dot(std::span(J).first(terms), std::span(c).first(terms));
+      rss += off * off;
+    }
+    if (rss < best.rss) best = {rss, T, c[0], c[1], c[2]};
+  }
+  return best;
+}
+
+/// The start where bodies turn and roll back, which no roll on a level mat resembles: constant
+/// decelerations on both ways, and so b = 0. Where the slope is a parameter, they tell it.
+std::optional<Candidate> of_both_ways(const std::vector<Thinned>& thin, const FitOptions& options) {
+  Candidate start{0, {0, 0}, {}, {}, 0};
+  double turned = 0;
+  if (std::ranges::none_of(thin, &Thinned::turns)) return {};
+  for (const auto& [run, scale, turns] : thin) {
+    if (run.t.size() < 8 || (run.body.slope == 0 && !options.fit_slope)) return {};
+    const BothWays roll = closest_both_ways(run);
+    start.v0.push_back(std::max(roll.up * roll.T, 0.05 * scale));
+    start.x0.push_back(run.way * (roll.x_turn - roll.up * roll.T * roll.T / 2));
+    if (!(roll.T < run.t.back() && roll.up > 0 && roll.back > 0)) continue;
+    // Up g (D + R S)/((K + 1) R), back g (R S - D)/((K + 1) R).
+    const Body& body = run.body;
+    const double unit = (body.K + 1) / body.g, S = (roll.up + roll.back) / 2 * unit,
+                 D = std::max(options.fit_slope ? (roll.up - roll.back) / 2 * unit
+                                                : roll.up * unit - std::abs(body.slope),
+                              1e-3 * S) *
+                     body.R;
+    start.law.a += D, start.slope += run.way * S, ++turned;
+  }
+  if (turned == 0) return {};
+  start.law.a /= turned, start.slope /= turned;
+  return start;
 }
 
 System unweighted(std::vector<ObservedRun> runs, const Parameters& q) {
@@ -242,11 +309,13 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
 
   // The three best starting points lead to minima of the thinned runs; the best of these is taken.
   auto candidates = starts(thin, options);
-  const auto theta_of = [&](const Candidate& c) { return q.theta(c.law, c.v0, c.x0); };
+  const auto theta_of = [&](const Candidate& c) { return q.theta(c.law, c.v0, c.x0, c.slope); };
   std::vector<std::vector<double>> others;
   if (options.robust) std::ranges::transform(candidates, std::back_inserter(others), theta_of);
   if (candidates.size() > 3) candidates.resize(3);
-  if (auto start = of_constant_acceleration(thin)) candidates.push_back(std::move(*start));
+  for (auto start : {of_constant_acceleration(thin), of_both_ways(thin, options)})
+    if (start) candidates.push_back(std::move(*start));
+  if (candidates.empty()) fail("no law a v^b comes near the data: {}", choose_the_roll);
   std::vector<double> theta = theta_of(candidates.front());
   if (candidates.size() > 1) {
     const System system = unweighted(std::move(thin_runs), q);

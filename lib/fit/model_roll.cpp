@@ -1,7 +1,10 @@
 #include "fit/model_roll.h"
 
 #include "base/chebyshev.h"
+#include "base/dot.h"
 #include "base/error.h"
+#include "least_squares/minimise.h"
+#include "least_squares/triangles.h"
 
 #include <algorithm>
 #include <array>
@@ -44,7 +47,42 @@ Rows rows_of_speeds(Route route, const FitRun& run, Rows rows) {
 
 }  // namespace
 
-double way_of(bool position, const std::vector<double>& records, const FitOptions& options) {
+/// The sign of the speed of a body that turns, before it does; 0 if none does. It turns if the
+/// speeds at both ends have different signs, in the parabola through the positions or the line through
+/// the speeds, and the first one is not due to noise.
+double way_before_turn(bool position, const std::vector<double>& t,
+                       const std::vector<double>& records) {
+  constexpr double errors = 5;  // the first speed is so many of its standard errors
+  const std::size_t terms = position ? 3 : 2;
+  if (records.size() < terms + 3) return 0;
+  const double first = t.front(), half = (t.back() - first) / 2;
+  Triangles all(1, terms, 0);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const double u = (t[i] - first) / half - 1;
+    double f = -records[i], J[]{1, u, u * u};  // solve() makes f + J c least
+    all.add(0, {&f, 1}, std::span(J).first(terms));
+  }
+  all.join();
+  const std::vector<double> c = all.solve(), R = all.without_f();
+  // The speed at u = -1 or 1, in the unit of u: its coefficients.
+  const auto speed = [&](double u) { return position ? c[1] + 2 * u * c[2] : c[0] + u * c[1]; };
+  std::vector<double> g = position ? std::vector{0., 1., -2.} : std::vector{1., -1.};
+  double rss = 0;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const double u = (t[i] - first) / half - 1,
+                 off = records[i] - c[0] - u * (c[1] + (position ? u * c[2] : 0));
+    rss += off * off;
+  }
+  solve_transposed(R.data(), g);
+  const double sigma =
+      std::sqrt(dot(g, g) * rss / static_cast<double>(records.size() - terms));
+  const double begin = speed(-1), end = speed(1);
+  return begin * end < 0 && std::abs(begin) > errors * sigma ? std::copysign(1.0, begin) : 0;
+}
+
+double way_of(bool position, const std::vector<double>& t, const std::vector<double>& records,
+              const FitOptions& options) {
+  if (const double way = way_before_turn(position, t, records); way != 0) return way;
   const auto sum = [](auto begin, auto end) { return std::accumulate(begin, end, 0.0); };
   const double all = sum(records.begin(), records.end());
   if (!position) return all < 0 ? -1 : 1;
@@ -89,7 +127,6 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     seen.origin = run.t.front();
     const Rows fitted = rows_of_speeds(route, run, rows[r]);
     seen.y = taken(route == Route::position ? run.x : run.v, fitted);
-    seen.way = way_of(route == Route::position, seen.y, options);
     if (route == Route::shift) {
       const ShiftOf& by = *run.shift_of;
       seen.body = by.body;
@@ -107,6 +144,7 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
       seen.t = taken(run.t, rows[r]);
     }
     for (double& t : seen.t) t -= seen.origin;
+    seen.way = way_of(route == Route::position, taken(run.t, fitted), seen.y, options);
     runs.push_back(std::move(seen));
   }
   return runs;
@@ -135,7 +173,10 @@ std::size_t informative_records(const std::vector<ObservedRun>& runs, const Para
 Roll RollModel::roll(const std::vector<double>& theta, std::size_t run) const {
   Body body = runs_[run].body;
   body.slope = slope(theta, run);
-  return {body, runs_[run].geometry, parameters_.law(theta), parameters_.v0(theta, run)};
+  const Law law = parameters_.law(theta);
+  const double v0 = parameters_.v0(theta, run);
+  if (law.at(v0).D < 0) fail("the mat does not slow the body down");
+  return {body, runs_[run].geometry, law, v0};
 }
 
 double RollModel::slope(const std::vector<double>& theta, std::size_t run) const {

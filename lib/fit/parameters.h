@@ -35,7 +35,10 @@ class Parameters {
     return other;
   }
 
-  const LawForm& form() const { return *form_; }
+  /// The value of coefficient j in SI units if it is held fixed.
+  std::optional<double> held(std::size_t j) const {
+    return j == 0 ? a_ : j == 1 ? b_ : std::nullopt;
+  }
   /// The number of free coefficients of the law.
   std::size_t coefficients() const { return form_->coefficients.size() - !!a_ - !!b_; }
   std::size_t shared() const { return coefficients() + slope_; }
@@ -77,9 +80,9 @@ class Parameters {
     one.insert(one.end(), at(runs_ * own()), at(count() - slope_));
     return one;
   }
-  /// The theta of a v^b with these v0 and x0 (one for each run), and slope 0.
+  /// The theta of a v^b with these v0 and x0 (one for each run), and this slope.
   std::vector<double> theta(PowerLaw law, const std::vector<double>& v0,
-                            const std::vector<double>& x0) const {
+                            const std::vector<double>& x0, double slope = 0) const {
     std::vector<double> all;
     for (std::size_t r = 0; r < runs_; ++r) {
       if (!v0_) all.push_back(v0[r] / v_ref_);
@@ -88,7 +91,7 @@ class Parameters {
     const double D = law(v_unit_) / D_unit_;
     if (!a_) all.push_back(logarithm_ ? std::log(D) : D);
     if (!b_) all.push_back(law.b);
-    if (slope_) all.push_back(0);
+    if (slope_) all.push_back(slope / slope_unit);
     return all;
   }
 
@@ -105,8 +108,7 @@ class Parameters {
     if (!v0_) put(by.v0 * v_ref_);
     if (free_x0()) put(by.x0 * x_ref_);
     for (std::size_t j = 0; j < form_->coefficients.size(); ++j) {
-      const bool held = j == 0 ? a_.has_value() : j == 1 && b_;
-      if (held) continue;
+      if (held(j)) continue;
       put(j == 0 && logarithm_  ? c0 * by.by_c[0]
           : j == 1 && a_ ? by.by_c[1] + c0 * std::log(v_unit_) * by.by_c[0]
                          : by.by_c[j]);

@@ -52,7 +52,7 @@ ObservedRun smooth_motion(Route route, const ObservedRun& run, std::size_t numbe
     smooth.t.push_back(run.t[i]);
     smooth.y.push_back(y);
   }
-  smooth.way = way_of(position, smooth.y, options);
+  smooth.way = way_of(position, smooth.t, smooth.y, options);
   return smooth;
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double gain = 1e-9;        // relative growth of v that rounding explains
-constexpr double unseen = 1e-17;     // of v0: the rest of the roll does not show in a double
+constexpr double unseen = 1e-16;     // of the time: what follows does not show in a double
 constexpr double least_part = 1e-8;  // of v0; for much lower v, rounding of t exceeds a step
 
 /// The speed at which the solver ends; 0 if the body never stops.
@@ -85,7 +85,7 @@ IntegratedRoll::Tail IntegratedRoll::tail(const Integrator& ode) const {
     tail.q = D * trial_acceleration_slope(body_, geometry_, D) * power / a;
     tail.duration = v / ((1 - tail.q) * -a);
     grows_to_R = geometry_ == Geometry::exact && power < 0 &&
-                 v * std::pow(D / R, -1 / power) > unseen * v0();
+                 v * std::pow(D / R, -1 / power) * body_.K / body_.g > unseen * t;
   }
   if (grows_to_R) fail("at t = {:.6g} s the shift has grown to the radius {:.6g} m", t, R);
   return tail;

@@ -16,9 +16,10 @@ constexpr double tolerance = 1e-14;  // of the last terms of a series; the integ
 constexpr double narrowest = 2e-15;
 constexpr double unseen = 1e-17;     // what is left of a sum below it does not show in a double
 constexpr double slowest = 1e-290;   // speeds below it, as a part of v0, count as 0
+constexpr double least_part = 1e-40;  // of the time: a smaller part of a coefficient in it is none
 constexpr double fastest = 345;      // speeds above v0 e^345 are refused
 constexpr double negligible = 1e-6;  // last speeds below it, as a part of v0, count as rest
-constexpr std::size_t most_panels = 3000;
+constexpr std::size_t most_panels = 2000;  // beside the corners of the law
 
 /// The r > lo where `above` ceases to hold, by bisection.
 template <typename Predicate>
@@ -64,19 +65,20 @@ void Leg::find_rest() {
 Leg::Rate Leg::rate(double u) const {
   Rate r{};
   const double R = body_.R, g = body_.g;
-  const double D = law_.at(u, r.q_c.data()).D;
+  const auto [D, D_by_log_u] = law_.at(u, r.q_c.data());
   const bool exact = geometry_ == Geometry::exact;
   if (exact && D >= R && (u < v0_ || D > R)) {
     if (u >= v0_) check_shift(body_, D);
-    r = {way_ * g * cos_ / body_.K, 1, false, {}};
-    r.q_c[law_.size()] = -r.q * body_.slope * cos_ * cos_;
+    r = {way_ * g * cos_ / body_.K, 1, 0, false, {}};
+    if (body_.K > 0) r.q_c[law_.size()] = -r.q * body_.slope * cos_ * cos_;
     return r;
   }
   const double A = arm_factor(body_, geometry_, D), lift = A * R * body_.slope, net = D + lift,
                arm = body_.K + A, unit = way_ * g / R / arm;
   r.q = unit * net * cos_;
-  const double terms_of_net = std::abs(D) + std::abs(lift);
+  const double terms_of_net = std::abs(D) + std::abs(lift) + std::abs(D_by_log_u);
   r.noise = terms_of_net / std::abs(net) + (exact ? 1 / (A * A) : 0);
+  r.steepness = D == 0 ? 0 : std::abs(D_by_log_u / D);
   r.balanced = std::abs(net) <= 20 * eps * terms_of_net;
   const double A_D = exact ? -D / (R * R * A) : 0,
                by_D = unit * (cos_ + A_D * R * sin_ - net * cos_ / arm * A_D);
@@ -106,7 +108,8 @@ bool Leg::try_panel(double width, bool to_radius, double& factor) {
     Sums f{};
     const double u = speed(r_ + p.r_of(z)), E = u / v0_;
     const Rate at = rate(u);
-    if (!to_radius) noise = std::max(noise, at.noise);
+    // A rounding of r is one of ln u, which a steep law makes larger.
+    if (!to_radius) noise = std::max(noise, at.noise + at.steepness * (1 + r_));
     positive &= at.q > 0;
     const double dt = u / at.q * (to_radius ? 2 * (1 - z / width) : 1);
     f[0] = dt, f[1] = E * dt;
@@ -120,10 +123,14 @@ bool Leg::try_panel(double width, bool to_radius, double& factor) {
   if (!positive) return false;
   for (std::size_t i = 0; i < values; ++i) {
     const double scale = rates.largest(i) + std::abs(sums_[i]) / width;
-    if (scale > 0) largest = std::max(largest, rates.last(i) / scale);
+    const std::size_t j = (i - 2) % most;  // of a derivative
+    const double c = i >= 2 && j < law_.size() && law_.c(j) != 0 ? std::abs(law_.c(j)) : 1;
+    if (c * scale > least_part * rates.largest(i < 2 ? i : 0)) largest = std::max(largest, rates.last(i) / scale);
   }
   const double allowed = tolerance + 4 * eps * noise;
-  factor = std::clamp(0.9 * std::pow(allowed / largest, 1.0 / terms), 0.1, 4.0);
+  // Terms that are rounding alone do not tell how much longer the panel might be.
+  factor = largest <= 4 * eps * noise ? 3
+                                      : std::clamp(0.9 * std::pow(allowed / largest, 1.0 / terms), 0.1, 3.0);
   if (!(largest <= allowed) && width > narrowest * (1 + r_)) return false;
   p.sums = rates.integral();
   p.begin = rates(0)[0];
@@ -135,7 +142,7 @@ bool Leg::try_panel(double width, bool to_radius, double& factor) {
 }
 
 void Leg::add_panel() {
-  if (panels_.size() > most_panels) fail("the law is too steep to be rolled");
+  if (panels_.size() > most_panels + law_.corners().size()) fail("the law is too steep to be rolled");
   const double limit = next_break();
   double width = width_, factor = 1;
   for (;;) {
@@ -162,7 +169,7 @@ void Leg::add_panel() {
   }
   const double u = speed(r_);
   const Rate now = rate(u);
-  if (now.balanced) end_ = End::constant_speed;
+  if (now.balanced || !(now.q > 0)) end_ = End::constant_speed;
   else if (way_ < 0 && r_ >= fastest) end_ = End::too_fast;
   if (end_ != End::none || way_ < 0) return;
   const double left = u / now.q;
@@ -182,7 +189,8 @@ void Leg::reach(double t) {
 }
 
 Leg::Point Leg::point(const Sums& sum, double v, double q) const {
-  Point p{v, v0_ * sum[1], -way_ * q, q / q0_, std::abs(v0_ - v) / q0_, {}, {}};
+  Point p{v, v0_ * sum[1], -way_ * q, 1, 0, {}, {}};
+  if (q0_ > 0) p.v_v0 = q / q0_, p.x_v0 = std::abs(v0_ - v) / q0_;
   for (std::size_t j = 0; j <= law_.size(); ++j) {
     p.v_c[j] = -way_ * q * sum[2 + j];
     p.x_c[j] = v * sum[2 + j] - v0_ * sum[2 + most + j];
@@ -191,6 +199,7 @@ Leg::Point Leg::point(const Sums& sum, double v, double q) const {
 }
 
 Leg::Point Leg::at(double t) {
+  if (t == 0) return point({}, v0_, q0_);
   reach(t);
   if (t >= stop_) return point(sums_, 0, 0);
   if (t >= sums_[0]) {
@@ -209,17 +218,16 @@ Leg::Point Leg::at(double t) {
   // The starting point assumes that the time per r is an exponential function over the panel.
   const double since = t - p.before[0], part = p.decay * since / p.begin,
                start = std::abs(part) < 1e-8 ? since / p.begin : -std::log1p(-part) / p.decay;
-  double per_z = p.begin;
   const double z =
       increasing_root(0, p.width, start >= 0 && start <= p.width ? start : p.width / 2,
                       [&](double at) {
-    const auto [value, slope] = p.sums.value_and_slope(0, at);
-    return std::pair(value - since, per_z = slope);
+    const auto [value, per_z] = p.sums.value_and_slope(0, at);
+    return std::pair(value - since, per_z);
                       });
   Sums sum = p.sums(z);
   for (std::size_t i = 0; i < values; ++i) sum[i] += p.before[i];
   const double v = speed(p.r + p.r_of(z));
-  return point(sum, v, p.to_radius ? rate(v).q : v / per_z);
+  return point(sum, v, rate(v).q);
 }
 
 double Leg::stop_time() {

@@ -63,7 +63,8 @@ class Leg {
   struct Rate {
     double q;       // |dv/dt|, negative where the leg would end
     double noise;   // its rounding, in units of eps q
-    bool balanced;  // q is rounding alone
+    double steepness;  // |dlnD/dlnu|
+    bool balanced;     // q is rounding alone
     Derivatives q_c;
   };
   /// A piece of the way from r on. Its variable is z = 0 to width; where D = R at its end, A has a

@@ -82,10 +82,10 @@ Roll::Point Roll::at(double t) {
   const Leg::Derivatives T_c = leg_ ? leg_->stop_time_by_c() : Leg::Derivatives{};
   Leg& leg = back();
   Point p{}, q = leg.at(std::max(0.0, since - back_begin_));
-  if (since <= back_begin_) q.v = q.x = 0;
+
   const double T_v0 = leg_ ? leg_->stop_time_by_v0() : 0;
   p.a = sign * q.a;
-  p.v = sign * q.v, p.x = turn.x + sign * q.x;
+  p.v = since <= back_begin_ ? 0 : sign * q.v, p.x = turn.x + sign * q.x;
   p.v_v0 = -sign * q.a * T_v0, p.x_v0 = turn.x_v0 - sign * q.v * T_v0;
   for (std::size_t j = 0; j <= law_.size(); ++j) {
     const double by = j < law_.size() || body_.slope < 0 ? 1 : -1;  // its slope is -|slope|

@@ -48,8 +48,10 @@ TEST_CASE("Roll: speed, distance and derivatives against quadrature with 40 digi
                   << " t " << r.t);
     CHECK(std::abs(s.v - r.v) <= 1e-13 * r.v0);
     CHECK(std::abs(s.x - r.x) <= 1e-14 * way);
+    // What an error eps of t makes of v, relatively.
+    const double condition = 1 + r.t * std::abs(s.a) / r.v;
     const auto close = [&](double value, double expected, double scale) {
-      CHECK(std::abs(value - expected) <= 1e-12 * scale);
+      CHECK(std::abs(value - expected) <= (1e-9 + 40 * eps * condition) * scale);
     };
     // d/db changes its sign where ln(u) does.
     const double log_u = std::abs(std::log(r.v0)) + std::abs(std::log(r.v));
