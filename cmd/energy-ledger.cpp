@@ -54,8 +54,8 @@ struct Task {
   Geometry geometry{};
   PowerLaw power{};
   std::optional<Law> points = {};  ///< instead of `power`
-  bool uses_law = false;      ///< instead of the column D
-  bool law_of_scene = false;  ///< it uses the law because the first run has no column D
+  bool uses_law = false;           ///< instead of the column D
+  bool law_of_scene = false;       ///< it uses the law because the first run has no column D
   bool summary = false;
   double tolerance = not_given;  ///< NaN without --check
 

@@ -92,7 +92,7 @@ std::string why_endless(const Scene& scene, Motion& motion) {
     return fmt::format("the body never stops on this slope: its speed tends to {:.4g} m/s",
                        std::abs(last));
   return scene.law.at_rest() >= scene.body.R ? "the shift grows to the radius before the body stops"
-                        : "the body never stops";
+                                             : "the body never stops";
 }
 
 /// What the options and the scene describe: the roll and how it is solved.

@@ -50,7 +50,8 @@ class ChebyshevSeries {
     for (std::size_t j = 0; j < terms; ++j) {
       Pairs sum{};
       for (std::size_t k = 0; k < terms; ++k)
-        add(sum, cosine(j * (2 * k + 1)), y[k], std::make_index_sequence<std::tuple_size_v<Pairs>>());
+        add(sum, cosine(j * (2 * k + 1)), y[k],
+            std::make_index_sequence<std::tuple_size_v<Pairs>>());
       for (double& x : sum) x *= (j == 0 ? 1. : 2.) / terms;
       terms_[j] = sum;
     }
@@ -127,8 +128,8 @@ class ChebyshevPanels {
  public:
   using Values = std::invoke_result_t<Function, double>;
 
-  /// `times` must not decrease, and must exist as long as this object. f is smooth between these two
-  /// corners.
+  /// `times` must not decrease, and must exist as long as this object. f is smooth between these
+  /// two corners.
   ChebyshevPanels(std::span<const double> times, std::array<double, 2> corners, Function f)
       : times_(times), corners_(corners), f_(std::move(f)) {}
 

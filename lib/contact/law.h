@@ -1,5 +1,5 @@
-// The law D(v) of a mat: a value, whatever its form. The forms with coefficients are the rows of one
-// table.
+// The law D(v) of a mat: a value, whatever its form. The forms with coefficients are the rows of
+// one table.
 #pragma once
 
 #include "contact/table_law.h"

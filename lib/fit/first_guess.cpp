@@ -83,7 +83,9 @@ Thinned thinned(const ObservedRun& run, const FitOptions& options) {
   if (!(v0 > 0) || !std::isfinite(v0))
     fail("{}the body does not move: a and b cannot be determined", run.place);
   // The way back of a body that turns is used as well.
-  const std::size_t used = distance < 0.8 * most ? n : std::min(n, end + std::max<std::size_t>(end / 3, 8)),
+  const std::size_t used = distance < 0.8 * most
+                               ? n
+                               : std::min(n, end + std::max<std::size_t>(end / 3, 8)),
                     block = (used + 63) / 64;
   std::vector<std::size_t> edges;
   for (std::size_t i = 0; i < used; i += block) edges.push_back(i);
@@ -109,10 +111,9 @@ struct Shape {
 Shape shape_of(const std::vector<Thinned>& thin, double b) {
   const ObservedRun& first = thin.front().run;
   const double v0 = thin.front().v0;
-  Shape shape{{std::pow(v0, 1 - b) * (first.body.K + 1) * first.body.R / first.body.g /
-                   first.t.back(),
-               b},
-              {}};
+  Shape shape{
+      {std::pow(v0, 1 - b) * (first.body.K + 1) * first.body.R / first.body.g / first.t.back(), b},
+      {}};
   for (const auto& [run, scale, turns] : thin) {
     Body level = run.body;
     level.slope = 0;
@@ -236,7 +237,8 @@ BothWays closest_both_ways(const ObservedRun& run) {
     double rss = 0;
     for (std::size_t i = 0; i < n; ++i) {
       row(i, J);
-      const double off = run.way * run.y[i] - dot(std::span(J).first(terms), std::span(c).first(terms));
+      const double off =
+          run.way * run.y[i] - dot(std::span(J).first(terms), std::span(c).first(terms));
       rss += off * off;
     }
     if (rss < best.rss) best = {rss, T, c[0], c[1], c[2]};

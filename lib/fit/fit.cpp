@@ -102,8 +102,8 @@ void require_seen(const Fitted& found, const std::vector<FitRun>& all) {
       fail("{}the body does not slow down: D comes out as {:.2g} m", place, D);
     double fastest = 0;
     for (std::size_t i = 0; i + 1 < run.t.size() && fastest <= v0 / levels::v0_over_speeds; ++i)
-      fastest = std::max(fastest, (roll.at(run.t[i + 1]).x - roll.at(run.t[i]).x) /
-                                      (run.t[i + 1] - run.t[i]));
+      fastest = std::max(
+          fastest, (roll.at(run.t[i + 1]).x - roll.at(run.t[i]).x) / (run.t[i + 1] - run.t[i]));
     if (v0 > levels::v0_over_speeds * fastest)
       fail(
           "{}no reading comes near v0 = {:.3g} m/s: is the first one, at t = {} s, of the roll? "
@@ -121,8 +121,7 @@ void require_law(const Fitted& found, const std::vector<FitRun>& all) {
   for (std::size_t r = 0; r < runs.size(); ++r) {
     Roll roll = found.rolls->roll(found.minimum.theta, r);
     const double last = runs[r].t.back();
-    if (roll.radius_time(last) < last &&
-        roll.radius_speed() > rest * std::abs(found.v0[r].value))
+    if (roll.radius_time(last) < last && roll.radius_speed() > rest * std::abs(found.v0[r].value))
       fail(
           "{}a = {:.4g} and b = {:.4g} have no meaning below {:.2g} m/s, where D is beyond the "
           "radius {} m: leave the rows out that follow, or fit with A = 1",

@@ -96,7 +96,8 @@ std::vector<std::vector<double>> closest(const LawForm& law, const Candidate& ot
 /// closest to a v^b and to the laws fitted before, so that it never ends above a special case of
 /// the law. If the law has several starts of its own, they are tried as well: close to a law
 /// without a peak, a law with a peak has another minimum than at its peak.
-Candidate fit_law(const Records& records, const LawForm& law, const std::vector<Candidate>& before) {
+Candidate fit_law(const Records& records, const LawForm& law,
+                  const std::vector<Candidate>& before) {
   const System system = records.system(law);
   std::vector<std::pair<double, std::vector<double>>> starts;
   for (const Candidate& other : before) {

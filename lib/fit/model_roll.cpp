@@ -48,8 +48,8 @@ Rows rows_of_speeds(Route route, const FitRun& run, Rows rows) {
 }  // namespace
 
 /// The sign of the speed of a body that turns, before it does; 0 if none does. It turns if the
-/// speeds at both ends have different signs, in the parabola through the positions or the line through
-/// the speeds, and the first one is not due to noise.
+/// speeds at both ends have different signs, in the parabola through the positions or the line
+/// through the speeds, and the first one is not due to noise.
 double way_before_turn(bool position, const std::vector<double>& t,
                        const std::vector<double>& records) {
   constexpr double errors = 5;  // the first speed is so many of its standard errors
@@ -74,8 +74,7 @@ double way_before_turn(bool position, const std::vector<double>& t,
     rss += off * off;
   }
   solve_transposed(R.data(), g);
-  const double sigma =
-      std::sqrt(dot(g, g) * rss / static_cast<double>(records.size() - terms));
+  const double sigma = std::sqrt(dot(g, g) * rss / static_cast<double>(records.size() - terms));
   const double begin = speed(-1), end = speed(1);
   return begin * end < 0 && std::abs(begin) > errors * sigma ? std::copysign(1.0, begin) : 0;
 }
@@ -203,15 +202,15 @@ auto rolled(const ObservedRun& run, Roll roll) {
 RawModel RollModel::raw(const std::vector<double>& theta, std::size_t r) const {
   const ObservedRun& run = runs_[r];
   const Law law = parameters_.law(theta);
-  return [&q = parameters_, law, x0 = parameters_.x0(theta, r), way = run.way,
-          rolled = rolled(run, roll(theta, r))](double t, double* slopes,
-                                                std::size_t stride) mutable {
+  return
+      [&q = parameters_, law, x0 = parameters_.x0(theta, r), way = run.way,
+       rolled = rolled(run, roll(theta, r))](double t, double* slopes, std::size_t stride) mutable {
     auto of = rolled(t);
     for (std::size_t j = 0; j < 1 + law.size(); ++j) of[1 + j] *= way;
     // 1 is the derivative by x0; where speeds are fitted, x0 is 0 and no parameter.
     q.chain(slopes, stride, law.c(0), {std::span(of).subspan(2), of[1], 1, of[2 + law.size()]});
     return x0 + way * of[0];
-  };
+      };
 }
 
 std::vector<double> RollModel::raw_column(const std::vector<double>& theta, std::size_t r) const {

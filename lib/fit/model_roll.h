@@ -27,8 +27,8 @@
 
 namespace rolling {
 
-/// The direction of motion, +1 or -1, of positions or speeds at these times: the first one, where the
-/// body turns. All records contribute, so that a few false echoes do not decide.
+/// The direction of motion, +1 or -1, of positions or speeds at these times: the first one, where
+/// the body turns. All records contribute, so that a few false echoes do not decide.
 double way_of(bool position, const std::vector<double>& t, const std::vector<double>& records,
               const FitOptions&);
 

@@ -101,17 +101,17 @@ class Parameters {
     std::span<const double> by_c;
     double v0 = 0, x0 = 0, slope = 0;
   };
-  /// Converts derivatives to the elements of theta, those of the run first and then the shared ones,
-  /// and writes them `stride` apart. c0 is the first coefficient under theta.
+  /// Converts derivatives to the elements of theta, those of the run first and then the shared
+  /// ones, and writes them `stride` apart. c0 is the first coefficient under theta.
   void chain(double* to, std::size_t stride, double c0, const Derivatives& by) const noexcept {
     const auto put = [&](double value) { *std::exchange(to, to + stride) = value; };
     if (!v0_) put(by.v0 * v_ref_);
     if (free_x0()) put(by.x0 * x_ref_);
     for (std::size_t j = 0; j < form_->coefficients.size(); ++j) {
       if (held(j)) continue;
-      put(j == 0 && logarithm_  ? c0 * by.by_c[0]
-          : j == 1 && a_ ? by.by_c[1] + c0 * std::log(v_unit_) * by.by_c[0]
-                         : by.by_c[j]);
+      put(j == 0 && logarithm_ ? c0 * by.by_c[0]
+          : j == 1 && a_       ? by.by_c[1] + c0 * std::log(v_unit_) * by.by_c[0]
+                               : by.by_c[j]);
     }
     if (slope_) put(by.slope * slope_unit);
   }

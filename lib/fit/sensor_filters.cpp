@@ -100,7 +100,8 @@ double lag_of(const LinearFilter& filter, const std::vector<double>& t) {
 void set_clock(Fitted& fit, const LinearFilter& filter, const std::vector<FitRun>& all) {
   for (std::size_t r = 0; r < all.size(); ++r) {
     double& v0 = fit.v0[r].value;
-    v0 -= std::copysign(lag_of(filter, all[r].t), v0) * fit.rolls->roll(fit.minimum.theta, r).at(0).a;
+    v0 -=
+        std::copysign(lag_of(filter, all[r].t), v0) * fit.rolls->roll(fit.minimum.theta, r).at(0).a;
   }
 }
 

@@ -110,8 +110,9 @@ ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& opt
 System system_of(std::shared_ptr<const ShiftRecords> records, const Parameters& q) {
   const std::size_t p = q.columns();
   const std::vector<std::size_t>& runs = records->runs;
-  return {runs, 0, p, [records = std::move(records), q, p](const std::vector<double>& theta,
-                                                           const TakeRows& take) {
+  return {
+      runs, 0, p,
+      [records = std::move(records), q, p](const std::vector<double>& theta, const TakeRows& take) {
     const Law law = q.law(theta);
     std::vector<double> f, J;
     std::size_t i = 0;
@@ -128,7 +129,7 @@ System system_of(std::shared_ptr<const ShiftRecords> records, const Parameters& 
           q.chain(&J[k], f.size(), law.c(0), {by_c});
         }
       }
-          }};
+      }};
 }
 
 }  // namespace rolling

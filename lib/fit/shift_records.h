@@ -36,8 +36,8 @@ Rows shift_rows(const FitRun&, const FitOptions&, bool logarithms,
 /// True if a record of the run has v > 0 and D > 0.
 bool has_logarithm(const FitRun&, const FitOptions&);
 
-/// The least-squares problem of a law and these records. The residuals are passed on in blocks of at
-/// most 256, which fit into the cache.
+/// The least-squares problem of a law and these records. The residuals are passed on in blocks of
+/// at most 256, which fit into the cache.
 System system_of(std::shared_ptr<const ShiftRecords>, const Parameters&);
 
 }  // namespace rolling

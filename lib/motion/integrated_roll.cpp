@@ -37,13 +37,12 @@ OdeSystem equations(const Body& body, Geometry geometry, const Law& law, double 
     dydt[0] = y[1];
     dydt[1] = trial_acceleration(body, geometry, shift(y[1]));
   };
-  const auto jacobian = [body, geometry, shift, law, floor](
-                            double, const double* y, double* dfdy, double* dfdt) {
+  const auto jacobian =
+      [body, geometry, shift, law, floor](double, const double* y, double* dfdy, double* dfdt) {
     dfdy[0] = 0, dfdy[1] = 1, dfdy[2] = 0;
-    dfdy[3] =
-        y[1] <= floor ? 0
-                      : trial_acceleration_slope(body, geometry, shift(y[1])) *
-                            law.at(y[1]).by_log_v / y[1];
+    dfdy[3] = y[1] <= floor ? 0
+                            : trial_acceleration_slope(body, geometry, shift(y[1])) *
+                                  law.at(y[1]).by_log_v / y[1];
     dfdt[0] = dfdt[1] = 0;
   };
   return {2, derivative, jacobian};
@@ -55,7 +54,8 @@ IntegratedRoll::IntegratedRoll(const Body& body, Geometry geometry, Law law, Res
                                double x0, Stepper stepper, double rtol, unsigned long most_steps)
     : SolvedRoll(body, geometry, equations(body, geometry, law, floor_of(rest, v0), v0),
                  {stepper, rtol, v0 > 0 ? rtol * least_part * v0 : 1, most_steps}, {x0, v0}),
-      law_(std::move(law)), rest_(rest), floor_(floor_of(rest, v0)), fastest_(body.slope < 0 ? infinity : v0) {
+      law_(std::move(law)), rest_(rest), floor_(floor_of(rest, v0)),
+      fastest_(body.slope < 0 ? infinity : v0) {
   if (v0 == 0) tail_ = {0, 0, 0, 0};
 }
 

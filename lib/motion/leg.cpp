@@ -14,11 +14,11 @@ namespace {
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double tolerance = 1e-14;  // of the last terms of a series; the integral has less
 constexpr double narrowest = 2e-15;
-constexpr double unseen = 1e-17;     // what is left of a sum below it does not show in a double
-constexpr double slowest = 1e-290;   // speeds below it, as a part of v0, count as 0
+constexpr double unseen = 1e-17;      // what is left of a sum below it does not show in a double
+constexpr double slowest = 1e-290;    // speeds below it, as a part of v0, count as 0
 constexpr double least_part = 1e-40;  // of the time: a smaller part of a coefficient in it is none
-constexpr double fastest = 345;      // speeds above v0 e^345 are refused
-constexpr double negligible = 1e-6;  // last speeds below it, as a part of v0, count as rest
+constexpr double fastest = 345;       // speeds above v0 e^345 are refused
+constexpr double negligible = 1e-6;   // last speeds below it, as a part of v0, count as rest
 constexpr std::size_t most_panels = 2000;  // beside the corners of the law
 
 /// The r > lo where `above` ceases to hold, by bisection.
@@ -57,7 +57,8 @@ double Leg::net(double u) const {
 /// Where the law is too weak at rest to hold the body on a falling mat, it leaves a speed.
 void Leg::find_rest() {
   if (law_.at_rest() >= -body_.R * body_.slope || net(negligible * v0_) <= 0) return;
-  const double r = last_where(-std::log(negligible), 690, [&](double at) { return net(speed(at)) > 0; });
+  const double r =
+      last_where(-std::log(negligible), 690, [&](double at) { return net(speed(at)) > 0; });
   rest_ = 2 * speed(r);
   end_r_ = r - std::numbers::ln2;
 }
@@ -125,12 +126,14 @@ bool Leg::try_panel(double width, bool to_radius, double& factor) {
     const double scale = rates.largest(i) + std::abs(sums_[i]) / width;
     const std::size_t j = (i - 2) % most;  // of a derivative
     const double c = i >= 2 && j < law_.size() && law_.c(j) != 0 ? std::abs(law_.c(j)) : 1;
-    if (c * scale > least_part * rates.largest(i < 2 ? i : 0)) largest = std::max(largest, rates.last(i) / scale);
+    if (c * scale > least_part * rates.largest(i < 2 ? i : 0))
+      largest = std::max(largest, rates.last(i) / scale);
   }
   const double allowed = tolerance + 4 * eps * noise;
   // Terms that are rounding alone do not tell how much longer the panel might be.
-  factor = largest <= 4 * eps * noise ? 3
-                                      : std::clamp(0.9 * std::pow(allowed / largest, 1.0 / terms), 0.1, 3.0);
+  factor = largest <= 4 * eps * noise
+               ? 3
+               : std::clamp(0.9 * std::pow(allowed / largest, 1.0 / terms), 0.1, 3.0);
   if (!(largest <= allowed) && width > narrowest * (1 + r_)) return false;
   p.sums = rates.integral();
   p.begin = rates(0)[0];
@@ -142,7 +145,8 @@ bool Leg::try_panel(double width, bool to_radius, double& factor) {
 }
 
 void Leg::add_panel() {
-  if (panels_.size() > most_panels + law_.corners().size()) fail("the law is too steep to be rolled");
+  if (panels_.size() > most_panels + law_.corners().size())
+    fail("the law is too steep to be rolled");
   const double limit = next_break();
   double width = width_, factor = 1;
   for (;;) {
@@ -212,18 +216,18 @@ Leg::Point Leg::at(double t) {
     for (std::size_t j = 0; j <= law_.size(); ++j) p.x_c[j] += p.v_c[j] * since;
     return p;
   }
-  const auto after = std::upper_bound(panels_.begin() + 1, panels_.end(), t,
-                                      [](double time, const Panel& p) { return time < p.before[0]; });
+  const auto after =
+      std::upper_bound(panels_.begin() + 1, panels_.end(), t,
+                       [](double time, const Panel& p) { return time < p.before[0]; });
   const Panel& p = *(after - 1);
   // The starting point assumes that the time per r is an exponential function over the panel.
   const double since = t - p.before[0], part = p.decay * since / p.begin,
                start = std::abs(part) < 1e-8 ? since / p.begin : -std::log1p(-part) / p.decay;
-  const double z =
-      increasing_root(0, p.width, start >= 0 && start <= p.width ? start : p.width / 2,
-                      [&](double at) {
+  const double z = increasing_root(0, p.width, start >= 0 && start <= p.width ? start : p.width / 2,
+                                   [&](double at) {
     const auto [value, per_z] = p.sums.value_and_slope(0, at);
     return std::pair(value - since, per_z);
-                      });
+  });
   Sums sum = p.sums(z);
   for (std::size_t i = 0; i < values; ++i) sum[i] += p.before[i];
   const double v = speed(p.r + p.r_of(z));

@@ -15,8 +15,8 @@ namespace rolling {
 ///   t = int du/|q|,   x = int u du/|q|,
 /// and the derivatives by the coefficients c of the law and by the slope are
 ///   u_c = -q G,   x_c = u G - U,   G = int q_c/(q |q|) du,   U = int u q_c/(q |q|) du.
-/// The variable of integration is r = |ln(u0/u)|. The integrands are Chebyshev series over panels of
-/// r, whose lengths follow from the last terms of the series, so that they suit the scale of any
+/// The variable of integration is r = |ln(u0/u)|. The integrands are Chebyshev series over panels
+/// of r, whose lengths follow from the last terms of the series, so that they suit the scale of any
 /// law; u(t) is the inverse of the first integral by Newton's method. Panels are added when a time
 /// is asked for. Times and ways count from the beginning of the leg, along the motion.
 class Leg {
@@ -36,8 +36,8 @@ class Leg {
   /// The state at t >= 0, and its derivatives at fixed t. From the stop on, v = 0 and its
   /// derivatives are 0. Throws Error where the speed has grown by a factor e^345.
   Point at(double t);
-  /// When v becomes 0 [s]; infinity if it never does. If a falling mat leaves a speed below 1e-6 v0,
-  /// that counts as rest, from the moment when v is twice as large.
+  /// When v becomes 0 [s]; infinity if it never does. If a falling mat leaves a speed below 1e-6
+  /// v0, that counts as rest, from the moment when v is twice as large.
   double stop_time();
   /// The stop if it is not later than t, else infinity.
   double stop_until(double t);
@@ -61,8 +61,8 @@ class Leg {
   using Series = ChebyshevSeries<values, terms>;
   using Sums = Series::Values;
   struct Rate {
-    double q;       // |dv/dt|, negative where the leg would end
-    double noise;   // its rounding, in units of eps q
+    double q;          // |dv/dt|, negative where the leg would end
+    double noise;      // its rounding, in units of eps q
     double steepness;  // |dlnD/dlnu|
     bool balanced;     // q is rounding alone
     Derivatives q_c;
@@ -94,12 +94,12 @@ class Leg {
   Geometry geometry_;
   Law law_;
   double v0_, q0_, cos_, sin_;
-  double way_;            // 1 if the speed falls, -1 if it grows
+  double way_;  // 1 if the speed falls, -1 if it grows
   std::vector<Panel> panels_;
   double r_ = 0, width_ = 2;  // where the next panel begins, and how long it may be
   Sums sums_{};               // up to there
   End end_ = End::none;
-  double end_r_ = infinity;   // of a stop at a speed that counts as rest
+  double end_r_ = infinity;  // of a stop at a speed that counts as rest
   double rest_ = 0, stop_ = infinity;
   double radius_time_ = infinity, radius_speed_ = 0;
 };

@@ -9,8 +9,8 @@
 namespace rolling {
 namespace {
 
-constexpr double negligible = 1e-6;    // speeds below it, as a part of v0, count as rest
-constexpr double first_part = 1e-18;   // of v0: the way back begins there
+constexpr double negligible = 1e-6;   // speeds below it, as a part of v0, count as rest
+constexpr double first_part = 1e-18;  // of v0: the way back begins there
 
 }  // namespace
 

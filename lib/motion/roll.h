@@ -15,16 +15,16 @@ void check_numbers(const Body&, double v0);
 void check_roll(const Body&, PowerLaw, double v0);
 
 /// A roll is one leg, or two. Where the mat rises along the motion more than the law can hold at
-/// rest, A R S > D(0), the body rolls back from its turning point: D always acts against the motion.
-/// If the way back would not be faster than 1e-6 v0, it counts as rest. From v0 = 0 a body that the
-/// mat does not hold begins to roll down.
+/// rest, A R S > D(0), the body rolls back from its turning point: D always acts against the
+/// motion. If the way back would not be faster than 1e-6 v0, it counts as rest. From v0 = 0 a body
+/// that the mat does not hold begins to roll down.
 ///
 /// In the exact geometry D may grow to R as the body slows down. There it stays, so that A = 0 and
 /// v' = -g cos(theta)/K (Eq. 12) down to the stop; with A = 1, Eq. 12 holds for any D.
 ///
 /// v and x are within 1e-13 of v0 and of the way, derivatives within 1e-9. x and v0 count along the
-/// motion, so the slope of the Body is the one that this roll sees: whoever describes a roll towards
-/// falling x by v0 > 0 turns the sign of the slope.
+/// motion, so the slope of the Body is the one that this roll sees: whoever describes a roll
+/// towards falling x by v0 > 0 turns the sign of the slope.
 class Roll {
  public:
   using Point = Leg::Point;
@@ -34,8 +34,8 @@ class Roll {
   /// and in the exact geometry for D(v0) > R.
   Roll(const Body&, Geometry, Law, double v0);
 
-  /// The state at t >= 0 [s], x counted from 0, and its partial derivatives at fixed t: by v0, by the
-  /// coefficients of the law and, behind them, by the slope. Once the body rests, v is 0 with
+  /// The state at t >= 0 [s], x counted from 0, and its partial derivatives at fixed t: by v0, by
+  /// the coefficients of the law and, behind them, by the slope. Once the body rests, v is 0 with
   /// derivatives 0.
   Point at(double t);
 

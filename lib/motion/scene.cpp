@@ -39,8 +39,8 @@ class SpeedRoll final : public Motion {
           "b < 0 has no meaning there",
           t, roll_.body().R, end);
     if (std::abs(state_.v) > roll_.law().highest())
-      fail("at t = {:.6g} s the speed {:.6g} m/s is above the table of the law, which ends at {}", t,
-           std::abs(state_.v), roll_.law().highest());
+      fail("at t = {:.6g} s the speed {:.6g} m/s is above the table of the law, which ends at {}",
+           t, std::abs(state_.v), roll_.law().highest());
   }
   double position() override { return x0_ + state_.x; }
   double velocity() override { return state_.v; }
@@ -114,8 +114,7 @@ Method best_method(const Scene& scene) {
   const auto power = scene.law.power();
   if (scene.bulge.length > 0 && power)
     return {Method::solver, memory_stepper(scene.body, *power, scene.bulge, scene.v0)};
-  const bool closed =
-      power && scene.geometry == Geometry::approximate && scene.body.slope == 0;
+  const bool closed = power && scene.geometry == Geometry::approximate && scene.body.slope == 0;
   return {closed ? Method::closed : Method::exact};
 }
 

@@ -21,7 +21,8 @@ class BareGsl final : public Motion {
   static constexpr unsigned long most_evaluations = 1'000'000;
 
   BareGsl(const Scene& scene, const gsl_odeiv2_step_type* type, double rtol, bool odd)
-      : scene_(scene), power_(scene.law.power().value_or(PowerLaw{})), odd_(odd), system_{derivative, jacobian, dimension(), this} {
+      : scene_(scene), power_(scene.law.power().value_or(PowerLaw{})),
+        odd_(odd), system_{derivative, jacobian, dimension(), this} {
     silence_gsl();
     y_[0] = scene.v0, y_[1] = scene.law(scene.v0);
     driver_ = gsl_odeiv2_driver_alloc_y_new(&system_, type, 1e-6, 1e-3 * rtol, rtol);
@@ -30,9 +31,7 @@ class BareGsl final : public Motion {
   BareGsl& operator=(const BareGsl&) = delete;
   ~BareGsl() override { gsl_odeiv2_driver_free(driver_); }
 
-  double stop_time() override {
-    return std::numeric_limits<double>::quiet_NaN();
-  }  // it has none
+  double stop_time() override { return std::numeric_limits<double>::quiet_NaN(); }  // it has none
   void seek(double t) override {
     if (t <= t_) return;
     const int status = gsl_odeiv2_driver_apply(driver_, &t_, t, y_);
@@ -55,7 +54,8 @@ class BareGsl final : public Motion {
   }
   double law(double v) const {
     if (odd_ && v <= 0) return v == 0 ? 0 : -law(-v);
-    return scene_.law.has_points() ? scene_.law.at(std::max(v, 0.0)).D : power_.a * std::pow(v, power_.b);
+    return scene_.law.has_points() ? scene_.law.at(std::max(v, 0.0)).D
+                                   : power_.a * std::pow(v, power_.b);
   }
 
   static int derivative(double, const double* y, double* dydt, void* self) {

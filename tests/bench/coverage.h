@@ -149,8 +149,7 @@ class Simulation {
   /// Rest, a push of 0.3 s, the roll, and what ends it; readings of 0.3 mm at 25 Hz. smooth --coast
   Column pushed_roll(Column& times) {
     constexpr double rest = 0.6, push = 0.3;
-    const double begin = rest + push + 0.04 * uniform(),
-                 of_push = 0.5 * push * truth_.at(0).v,
+    const double begin = rest + push + 0.04 * uniform(), of_push = 0.5 * push * truth_.at(0).v,
                  ends = truth_.stop_time() * (c_.ending == Case::stop ? 1 : 0.5 + 0.2 * uniform()),
                  v = truth_.at(ends).v,
                  slows = c_.ending == Case::caught   ? v / 0.3

@@ -53,9 +53,7 @@ class Cvode final : public Motion {
   Cvode& operator=(const Cvode&) = delete;
 
   /// Of the stop that seek() has met; NaN before it.
-  double stop_time() override {
-    return stopped_ ? t_ : std::numeric_limits<double>::quiet_NaN();
-  }
+  double stop_time() override { return stopped_ ? t_ : std::numeric_limits<double>::quiet_NaN(); }
   void seek(double t) override {
     if (stopped_ || t <= t_) return;
     const int status = CVode(cvode_.get(), t, y_.get(), &t_, CV_NORMAL);

@@ -91,8 +91,8 @@ int main(int argc, char** argv) {
     const RandomScene scene =
         scenes % 20 == 0 ? deep_scene(random, scenes / 20) : random_scene(random);
     const ExactFormReference reference(scene.body, scene.law, scene.v0);
-    const auto rolled = start({scene.body, Geometry::exact, scene.law, {0}, scene.v0, 0},
-                                       {Method::exact}, 0);
+    const auto rolled =
+        start({scene.body, Geometry::exact, scene.law, {0}, scene.v0, 0}, {Method::exact}, 0);
     Motion& motion = *rolled;
     const double T = motion.stop_time();
     for (int i = 0; i < 4; ++i) {
@@ -111,8 +111,9 @@ int main(int argc, char** argv) {
       samples / 10, v, x);
 
   ClosedForm closed({1.375, 0.04, 0.5}, {1.87e-3, 0.215}, 0.5, 0);
-  const auto rolled = start({{1.375, 0.04, 0.5}, Geometry::exact, PowerLaw{1.87e-3, 0.215}, {0}, 0.5, 0},
-                            {Method::exact}, 0);
+  const auto rolled =
+      start({{1.375, 0.04, 0.5}, Geometry::exact, PowerLaw{1.87e-3, 0.215}, {0}, 0.5, 0},
+            {Method::exact}, 0);
   Motion& exact = *rolled;
   const auto along = [](auto& motion, auto of) {
     return [&motion, of] {

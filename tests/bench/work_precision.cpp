@@ -28,9 +28,9 @@ Scene scene(double a, double b, double K) {
 
 std::vector<std::pair<std::string, Scene>> problems() {
   std::vector<std::pair<std::string, Scene>> all = {{"CR", scene(1.87e-3, 0.215, 0.5)},
-                                                   {"CF", scene(5.75e-4, 0.0244, 0.5)},
-                                                   {"SR", scene(1.78e-3, 0.255, 0.83)},
-                                                   {"SF", scene(5.75e-4, 0.0244, 0.83)}};
+                                                    {"CF", scene(5.75e-4, 0.0244, 0.5)},
+                                                    {"SR", scene(1.78e-3, 0.255, 0.83)},
+                                                    {"SF", scene(5.75e-4, 0.0244, 0.83)}};
   for (const auto& [name, b] : std::vector<std::pair<std::string, double>>{{"b=-0.5", -0.5},
                                                                            {"b=0", 0},
                                                                            {"b=1e-8", 1e-8},

@@ -65,9 +65,8 @@ TEST_CASE("law: derivatives are limits of differences", "[law]") {
         std::vector<double> low = c, high = c;
         low[j] -= h, high[j] += h;
         CAPTURE(form.formula, j);
-        CHECK(by_c[j] == Approx((law(high).at(3).D - law(low).at(3).D) / (2 * h))
-                             .epsilon(1e-7)
-                             .margin(1e-12));
+        CHECK(by_c[j] ==
+              Approx((law(high).at(3).D - law(low).at(3).D) / (2 * h)).epsilon(1e-7).margin(1e-12));
         for (std::size_t i = 0; i < law(c).size(); ++i) {
           law(c).in_SI(i, SI_by_c);
           CHECK(SI_by_c[j] ==

@@ -65,7 +65,8 @@ TEST_CASE("shift records: the derivatives of the residuals are those of differen
         FitOptions options;
         if (hold_a) options.a = 4e-3;
         if (hold_b) options.b = 0.3;
-        auto records = std::make_shared<const ShiftRecords>(shift_records(runs, options, logarithms));
+        auto records =
+            std::make_shared<const ShiftRecords>(shift_records(runs, options, logarithms));
         const Parameters q(options, logarithms, logarithms ? 1 : 3e-3, records->v_ref);
         const System system = system_of(records, q);
         const auto at = [&](const std::vector<double>& theta) {

@@ -23,14 +23,15 @@ Roll roll(std::size_t law, std::span<const double> c, double v0 = 1) {
 TEST_CASE("Roll: closed forms of the other laws", "[law]") {
   const double line[]{0.1, 0.2}, square[]{0.1, 0.4}, below[]{-0.05, 0.2}, peak[]{0, 0.3, 0.4};
   Roll by_line = roll(2, line), by_square = roll(4, square), by_below = roll(2, below),
-          by_peak = roll(6, peak);
+       by_peak = roll(6, peak);
   for (double t = 0; t < 40; t += 0.37) {
     CAPTURE(t);
     const bool rolls = t < 5 * std::log(3);
     CHECK(by_line.at(t).v ==
           Approx(rolls ? 1.5 * std::exp(-0.2 * t) - 0.5 : 0).epsilon(1e-13).margin(1e-13));
     if (rolls)
-      CHECK(by_line.at(t).x == Approx(7.5 * (1 - std::exp(-0.2 * t)) - 0.5 * t).epsilon(1e-13).margin(1e-13));
+      CHECK(by_line.at(t).x ==
+            Approx(7.5 * (1 - std::exp(-0.2 * t)) - 0.5 * t).epsilon(1e-13).margin(1e-13));
     if (t < 5 * std::atan(2))
       CHECK(by_square.at(t).v ==
             Approx(0.5 * std::tan(std::atan(2) - 0.2 * t)).epsilon(1e-13).margin(1e-13));

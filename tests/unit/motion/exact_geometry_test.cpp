@@ -29,8 +29,8 @@ void check(const RandomScene& scene, std::mt19937_64& random) {
       scene.v0 / (scene.law(scene.v0) * scene.body.g / ((scene.body.K + 1) * scene.body.R));
   for (int i = 0; i < 4; ++i) {
     const double T = motion->stop_time(), t = i < 3 && std::isfinite(T)
-                                                 ? T * (1 - std::pow(1e-3, i + 1))
-                                                 : random_time(random, scene, T, i);
+                                                  ? T * (1 - std::pow(1e-3, i + 1))
+                                                  : random_time(random, scene, T, i);
     motion->seek(t);
     if (motion->velocity() < 1e-300) continue;  // denormal
     const auto error = reference.errors(t, motion->velocity(), motion->position());
@@ -49,7 +49,8 @@ void check(const RandomScene& scene, std::mt19937_64& random) {
 
 }  // namespace
 
-TEST_CASE("Exact geometry: random scenes against 60 digits, until just before the stop", "[rolling]") {
+TEST_CASE("Exact geometry: random scenes against 60 digits, until just before the stop",
+          "[rolling]") {
   std::mt19937_64 random(4);
   for (int n = 0; n < 2000; ++n) check(random_scene(random), random);  // tests/bench/ulp takes more
 }
@@ -73,9 +74,9 @@ TEST_CASE("Exact geometry: b < 0, where the roll ends as D reaches R", "[rolling
     const auto motion = exact_roll(scene.body, scene.law, scene.v0);
     const double unit =
         scene.v0 / (scene.law(scene.v0) * scene.body.g / ((scene.body.K + 1) * scene.body.R));
-    const double end = std::min(
-        motion->stop_time(),
-        Roll(scene.body, Geometry::exact, scene.law, scene.v0).radius_time(1e9 * unit));
+    const double end =
+        std::min(motion->stop_time(),
+                 Roll(scene.body, Geometry::exact, scene.law, scene.v0).radius_time(1e9 * unit));
     for (const double part : {0.1, 0.9, 1 - 1e-6, 1 - 1e-9}) {
       motion->seek(part * end);
       const auto error = reference.errors(part * end, motion->velocity(), motion->position());
@@ -84,8 +85,8 @@ TEST_CASE("Exact geometry: b < 0, where the roll ends as D reaches R", "[rolling
                 << " x " << error.x << " by t " << error.v_by_t);
       // As good as t is as a double.
       CHECK(std::abs(error.v) * motion->velocity() <=
-            1e-13 * scene.v0 + 4 * std::numeric_limits<double>::epsilon() * error.v_by_t *
-                                   motion->velocity());
+            1e-13 * scene.v0 +
+                4 * std::numeric_limits<double>::epsilon() * error.v_by_t * motion->velocity());
       CHECK(std::abs(error.x) <= 1e-13);
     }
     if (std::isinf(motion->stop_time())) CHECK_THROWS_AS(motion->seek(end * (1 + 1e-9)), Error);

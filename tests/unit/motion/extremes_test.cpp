@@ -82,8 +82,8 @@ constexpr double v0 = 0.5;
 
 Scene roll_of(const Extreme& e) {
   Scene roll{};
-  roll.body = {1.375, 0.04, e.K}, roll.geometry = e.geometry, roll.law = PowerLaw{e.a, e.b}, roll.v0 = v0,
-  roll.bulge.length = e.length;
+  roll.body = {1.375, 0.04, e.K}, roll.geometry = e.geometry, roll.law = PowerLaw{e.a, e.b},
+  roll.v0 = v0, roll.bulge.length = e.length;
   std::vector<double> v, D;
   for (int i = 1; i <= e.points; ++i)
     v.push_back(v0 * i / e.points),

@@ -106,7 +106,8 @@ TEST_CASE("IntegratedRoll: close to the stop, speed and way left follow the law 
     const Scene roll = scene(2e-3, b);
     const auto motion = start(roll, {Method::solver}, 1e-6);
     const double stop = motion->stop_time(),
-                 c = roll.law.power()->a * cylinder.g / ((1 + cylinder.K) * cylinder.R);  // dv/dt = -c v^b
+                 c = roll.law.power()->a * cylinder.g /
+                     ((1 + cylinder.K) * cylinder.R);  // dv/dt = -c v^b
     motion->seek(stop);
     const double end = motion->position();
     CHECK(motion->velocity() == 0);

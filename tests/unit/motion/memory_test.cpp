@@ -66,10 +66,10 @@ TEST_CASE("MemoryRoll: tends to the law without memory as the length goes to 0",
     return motion.velocity() - law.velocity();
   };
   ClosedForm closed(cylinder, {0.01, 0.215}, 0.5, 0);
-  const auto exact = start({cylinder, Geometry::exact, PowerLaw{0.01, 0.215}, {0}, 0.5, 0},
-                           {Method::exact}, 0);
-  for (const auto& [geometry, law] :
-       {std::pair<Geometry, Motion*>{Geometry::approximate, &closed}, {Geometry::exact, exact.get()}}) {
+  const auto exact =
+      start({cylinder, Geometry::exact, PowerLaw{0.01, 0.215}, {0}, 0.5, 0}, {Method::exact}, 0);
+  for (const auto& [geometry, law] : {std::pair<Geometry, Motion*>{Geometry::approximate, &closed},
+                                      {Geometry::exact, exact.get()}}) {
     const double coarse = difference(geometry, *law, 4e-4), fine = difference(geometry, *law, 1e-4);
     CHECK(std::abs(fine) < 2e-4);
     CHECK(std::abs(coarse / fine - 4) < 0.15);  // first order in the length

@@ -82,9 +82,9 @@ TEST_CASE("Extremes: random scenes end with finite numbers or one line, and neve
     const Scene scene = extremes.roll();
     const PowerLaw law = scene.law.power().value_or(PowerLaw{0, 0});
     INFO("i " << i << " R " << scene.body.R << " K " << scene.body.K << " g " << scene.body.g
-              << " S " << scene.body.slope << " a " << law.a << " b " << law.b << " v0 "
-              << scene.v0 << " L " << scene.bulge.length << " table " << scene.law.has_points()
-              << " exact " << (scene.geometry == Geometry::exact));
+              << " S " << scene.body.slope << " a " << law.a << " b " << law.b << " v0 " << scene.v0
+              << " L " << scene.bulge.length << " table " << scene.law.has_points() << " exact "
+              << (scene.geometry == Geometry::exact));
     try {
       const Method method = extremes.method(scene);
       const auto motion = start(scene, method, 1e-6, 10'000);

@@ -25,10 +25,8 @@ const Reference references[] = {
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
 Roll roll(const Reference& r) {
-  return {{1, 0.04, r.K},
-          r.exact ? Geometry::exact : Geometry::approximate,
-          PowerLaw{r.a, r.b},
-          r.v0};
+  return {
+      {1, 0.04, r.K}, r.exact ? Geometry::exact : Geometry::approximate, PowerLaw{r.a, r.b}, r.v0};
 }
 
 /// The time in which a body would lose its speed at the deceleration of v0.
@@ -104,8 +102,7 @@ TEST_CASE("Roll: at t = 0 it is where it starts", "[rolling]") {
     }
 }
 
-TEST_CASE("Roll: finite and monotone on random laws, up to D = R and down to rest",
-          "[rolling]") {
+TEST_CASE("Roll: finite and monotone on random laws, up to D = R and down to rest", "[rolling]") {
   std::mt19937_64 random(4);
   const auto between = [&](double lo, double hi) {
     return std::uniform_real_distribution(lo, hi)(random);
@@ -151,8 +148,7 @@ TEST_CASE("Roll: speeds beyond all use", "[rolling]") {
   CHECK((frozen.v == 1e-300 && frozen.x == 5e-300 && frozen.v_v0 == 1 && frozen.x_v0 == 5));
 }
 
-TEST_CASE("Roll: where D stays R, the roll and its derivatives against quadrature",
-          "[rolling]") {
+TEST_CASE("Roll: where D stays R, the roll and its derivatives against quadrature", "[rolling]") {
   struct {
     double K, a, b, v0, S, t, radius_time, stop, v, x;
     double v_a, v_b, v_v0, v_S, x_a, x_b, x_v0, x_S;
@@ -182,8 +178,7 @@ TEST_CASE("Roll: where D stays R, the roll and its derivatives against quadratur
   }
 }
 
-TEST_CASE("Roll: the place of rest is a continuous function of b, through b = 0",
-          "[rolling]") {
+TEST_CASE("Roll: the place of rest is a continuous function of b, through b = 0", "[rolling]") {
   const auto rest = [](double b) {
     return Roll({1, 0.04, 0.5}, Geometry::exact, PowerLaw{2e-3, b}, 0.5).at(10);
   };
@@ -195,8 +190,7 @@ TEST_CASE("Roll: the place of rest is a continuous function of b, through b = 0"
   }
 }
 
-TEST_CASE("Roll: with A = 1 a roll that stays passes the radius, on a slope too",
-          "[rolling]") {
+TEST_CASE("Roll: with A = 1 a roll that stays passes the radius, on a slope too", "[rolling]") {
   // v' = -g cos(theta) (D + R S)/((K + 1) R) is the same for a body of n R on a slope S/n under the
   // gravity n g cos(theta)/cos(theta/n).
   constexpr double n = 1e3, R = 0.04;

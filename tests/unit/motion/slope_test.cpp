@@ -48,7 +48,8 @@ TEST_CASE("Slope: speed, distance and derivatives against quadrature with 34 dig
     CHECK(std::abs(s.v - r.v) <= 3e-13 * fastest);
     CHECK(std::abs(s.x - r.x) <= 1e-13 * std::max(r.x, r.v0 * T));
     const auto close = [&](double value, double expected, double scale) {
-      CHECK(std::abs(value - expected) <= (1e-9 + 1e-14 * off + 40 * eps * r.t * slowing / r.v) * scale);
+      CHECK(std::abs(value - expected) <=
+            (1e-9 + 1e-14 * off + 40 * eps * r.t * slowing / r.v) * scale);
     };
     const double log_u = std::abs(std::log(r.v0)) + std::abs(std::log(r.v));
     const double of_v = std::abs(r.v_a) + r.v0 / r.a, of_x = std::abs(r.x_a) + r.v0 * T / r.a;
@@ -114,8 +115,10 @@ TEST_CASE("Slope: a slope that vanishes leads to the level mat", "[rolling]") {
             };
             if (part < 1) {
               const auto up = at(h), down = at(-h);
-              CHECK(std::abs(s.v_c[2] - (up.v - down.v) / (2 * h)) <= 2e-6 * std::abs(s.v_c[2]) + 1e-8);
-              CHECK(std::abs(s.x_c[2] - (up.x - down.x) / (2 * h)) <= 2e-6 * std::abs(s.x_c[2]) + 1e-10);
+              CHECK(std::abs(s.v_c[2] - (up.v - down.v) / (2 * h)) <=
+                    2e-6 * std::abs(s.v_c[2]) + 1e-8);
+              CHECK(std::abs(s.x_c[2] - (up.x - down.x) / (2 * h)) <=
+                    2e-6 * std::abs(s.x_c[2]) + 1e-10);
             }
           }
         }
@@ -163,7 +166,8 @@ TEST_CASE("Slope: random rolls are finite and monotone, uphill, downhill and for
       // At a speed that the law balances to the last digits, a moment is nothing beside a panel.
       if (i % 5 != 0) REQUIRE(s.x >= x * (1 - 8 * eps));
       if (S >= 0) REQUIRE(s.v <= v0);
-      for (const double d : {s.v_c[0], s.v_c[1], s.v_v0, s.v_c[2], s.x_c[0], s.x_c[1], s.x_v0, s.x_c[2]})
+      for (const double d :
+           {s.v_c[0], s.v_c[1], s.v_v0, s.v_c[2], s.x_c[0], s.x_c[1], s.x_v0, s.x_c[2]})
         REQUIRE(std::isfinite(d));
       v = s.v, x = s.x;
     }

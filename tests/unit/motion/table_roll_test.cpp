@@ -62,8 +62,8 @@ TEST_CASE("Table: a law that nearly vanishes, against quadrature with 30 digits"
                                   {1e-6, 44.198229968571606, 8.7479028744482666},
                                   {1e-8, 431.57886328443814, 86.224029537621578}};
   for (const auto& [least, time, distance] : references) {
-    const auto motion = rolled(Geometry::approximate,
-                               TableLaw({0.1, 0.2, 0.3}, {1e-3, least, 1e-3}), 0.3, 0);
+    const auto motion =
+        rolled(Geometry::approximate, TableLaw({0.1, 0.2, 0.3}, {1e-3, least, 1e-3}), 0.3, 0);
     const double tolerance = 2e-14 + 1e-15 * (1e-3 / least);
     CHECK(std::abs(motion->stop_time() / time - 1) < tolerance);
     motion->seek(motion->stop_time());
@@ -77,7 +77,7 @@ TEST_CASE("Table: agrees with the solvers on points without a law, in both geome
     Scene roll{};
     roll.body = cylinder, roll.geometry = geometry, roll.v0 = 0.9;
     roll.law = TableLaw(std::vector{0.05, 0.1, 0.3, 0.35, 0.6, 1.0},
-                       std::vector{1e-3, 4e-3, 4e-3, 9e-3, 8e-3, 3e-2});
+                        std::vector{1e-3, 4e-3, 4e-3, 9e-3, 8e-3, 3e-2});
     const auto table = start(roll, best_method(roll), 0),
                solver = start(roll, {Method::solver, Stepper::rk8pd}, 1e-11);
     CHECK(std::abs(table->stop_time() / solver->stop_time() - 1) < 1e-9);

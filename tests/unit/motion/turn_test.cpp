@@ -105,8 +105,9 @@ TEST_CASE("Roll: on the way back its derivatives are limits of differences", "[r
   }
 }
 
-TEST_CASE("Roll: b > 0 rolls back from a slope whose balance is seen, b = 0 beyond D/R, b < 0 never",
-          "[rolling]") {
+TEST_CASE(
+    "Roll: b > 0 rolls back from a slope whose balance is seen, b = 0 beyond D/R, b < 0 never",
+    "[rolling]") {
   for (const Geometry geometry : {paper, exact}) {
     CHECK_FALSE(roll(0.0249, {1e-3, 0}, 0.5, geometry).turns());
     CHECK(roll(0.0251, {1e-3, 0}, 0.5, geometry).turns());
