@@ -65,14 +65,6 @@ Shift peak(const double* c, double v, double* by_c) {
   return {c[0] + c[1] * by_c[1], -w * by_c[2]};
 }
 
-Shift fading_square(const double* c, double v, double* by_c) {
-  const double u = v / c[2], e = v * v * std::exp(-u);
-  by_c[0] = 1;
-  by_c[1] = e;
-  by_c[2] = c[1] * e * u / c[2];
-  return {c[0] + c[1] * e, c[1] * e * (2 - u)};
-}
-
 /// The same curve has p w = (-p)(-w): the formula is written with w > 0.
 void written_peak(const double* c, double* d, double* by_c) {
   const double sign = c[2] < 0 ? -1 : 1;
@@ -105,11 +97,6 @@ const std::vector<LawForm>& laws() {
        peak,
        written_peak,
        {{0.5, 0.5, 0.2}, {0.5, 0.5, 0.6}, {0.5, 0.5, 2}}},
-      {"d0 + c v^2 exp(-v/w)",
-       {{"d0"}, {"c", 1, per_square}, {"w", 0, 1}},
-       fading_square,
-       nullptr,
-       {{0.5, 1, 0.3}, {0.5, 1, 1}}},
   };
   return all;
 }

@@ -26,8 +26,6 @@ double by_hand(std::size_t law, const double* d, double v) {
       return d[0] + d[1] * v * v;
     case 5:
       return d[0] + d[1] * std::pow(v, d[2]);
-    case 7:
-      return d[0] + d[1] * v * v * std::exp(-v / d[2]);
     default:
       return d[0] + 2 * d[1] * v * d[2] / (v * v + d[2] * d[2]);
   }
