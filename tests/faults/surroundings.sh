@@ -99,7 +99,7 @@ live() {  # RECORDS-AHEAD COMMAND...
   local ahead=$1 i line rows=0
   shift
   coproc "$@"
-  { for i in 1 2 3 4 5 6; do
+  { for ((i = 1; i <= ahead + 3; ++i)); do
       printf '%s 0.5 -0.14 8.7e-4\n' "$i" >&"${COPROC[1]}"
       while [ $((i - rows)) -gt "$ahead" ]; do
         IFS= read -r -t 20 -u "${COPROC[0]}" line || { complain "$*: after $i records row $((rows + 1)) has not come" && break 2; }
@@ -113,7 +113,7 @@ live 0 smooth -u -w 1
 live 1 smooth -u -w 3
 live 2 smooth -u -w 5
 live 1 smooth -u -w 3 -M median
-live 5 smooth -u -w 1 --outliers 9  # whose window has at least 11 records
+live 35 smooth -u -w 1 --outliers 9  # five neighbours, and the scatter over 61 rows
 live 4 differentiate -u -M savgol -w 5  # its first rows wait for a whole window
 live 2 differentiate -u  # the first row is of second order too: it takes three
 live 0 shift-from-accel -u -K 0.5 -R 0.04 --use a=3
