@@ -46,7 +46,7 @@ Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
     const WhiteShare found =
         most_likely_share(model_of(responses_by(filter, all)), theta, least, most);
     const double gain = found.likelihood - of_white_noise;
-    if (gain >= levels::likely && gain > best.gain) best = {&filter, found.share, gain};
+    if (gain >= levels::likely_filter && gain > best.gain) best = {&filter, found.share, gain};
   }
   return best;
 }

@@ -27,7 +27,7 @@ struct Counted {
     }
   };
   Counted(const std::vector<double>& times, double end, Function function)
-      : f(function), panels(times, end, Call{function, &calls}) {}
+      : f(function), panels(times, {end, end}, Call{function, &calls}) {}
   Function f;
   int calls = 0;
   ChebyshevPanels<Call> panels;

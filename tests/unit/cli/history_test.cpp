@@ -119,7 +119,7 @@ TEST_CASE(
     if (filter.from == "x") CHECK((++differences && std::abs(out[3] - 2) < 1e-12));
     else CHECK(std::abs(out[2] - line[2]) <= 1);  // at most half a record late
   }
-  CHECK(differences == 3);
+  CHECK(differences == 5);
 }
 
 TEST_CASE("history: of a filter that is not linear nothing can be said", "[cli]") {
@@ -303,7 +303,7 @@ TEST_CASE("history: the readings beside a cut are left out, their times are not"
   history.cut_begin = history.cut_end = true;
   history = known_windows(std::move(history), few, "D");
   CHECK(history.filters.empty());
-  CHECK(history.doubt.ends_with("fewer than 10 records are far enough from the cut"));
+  CHECK(history.doubt.ends_with("fewer than 10 rows are far enough from the cut"));
   CHECK(std::isfinite(few.D.front()));
 }
 
