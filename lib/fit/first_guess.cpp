@@ -246,9 +246,9 @@ BothWays closest_both_ways(const ObservedRun& run) {
   return best;
 }
 
-/// The start where bodies turn and roll back, which no roll on a level mat resembles: constant
-/// decelerations on both ways, and so b = 0. Where the slope is a parameter, they tell it.
-std::optional<Candidate> of_both_ways(const std::vector<Thinned>& thin, const FitOptions& options) {
+/// The starts where bodies turn and roll back, which no roll on a level mat resembles: constant
+/// decelerations on both ways. Where the slope is a parameter, they tell it.
+std::vector<Candidate> of_both_ways(const std::vector<Thinned>& thin, const FitOptions& options) {
   Candidate start{0, {0, 0}, {}, {}, 0};
   double turned = 0;
   if (std::ranges::none_of(thin, &Thinned::turns)) return {};
@@ -268,8 +268,14 @@ std::optional<Candidate> of_both_ways(const std::vector<Thinned>& thin, const Fi
     start.law.a += D, start.slope += run.way * S, ++turned;
   }
   if (turned == 0) return {};
-  start.law.a /= turned, start.slope /= turned;
-  return start;
+  // Under b < 0 no slope brings a body back: the starts are not at that edge.
+  std::vector<Candidate> all;
+  for (const double b : {0.1, 0.5, 1.0}) {
+    Candidate& one = all.emplace_back(start);
+    one.law.b = options.given_b().value_or(b);
+    one.law.a *= std::pow(thin.front().v0 / 2, -one.law.b) / turned, one.slope /= turned;
+  }
+  return all;
 }
 
 System unweighted(std::vector<ObservedRun> runs, const Parameters& q) {
@@ -315,8 +321,8 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
   std::vector<std::vector<double>> others;
   if (options.robust) std::ranges::transform(candidates, std::back_inserter(others), theta_of);
   if (candidates.size() > 3) candidates.resize(3);
-  for (auto start : {of_constant_acceleration(thin), of_both_ways(thin, options)})
-    if (start) candidates.push_back(std::move(*start));
+  if (auto start = of_constant_acceleration(thin)) candidates.push_back(std::move(*start));
+  std::ranges::move(of_both_ways(thin, options), std::back_inserter(candidates));
   if (candidates.empty()) fail("no law a v^b comes near the data: {}", choose_the_roll);
   std::vector<double> theta = theta_of(candidates.front());
   if (candidates.size() > 1) {

@@ -1,0 +1,56 @@
+// One run up a slope, over its turning point and back.
+#include "fit/fit.h"
+
+#include <cmath>
+#include <limits>
+
+#include "motion/roll.h"
+#include "unit/catch.h"
+#include "unit/fit/simulated.h"
+
+using namespace rolling;
+
+namespace {
+
+struct Scene {
+  const char* name;
+  double K, R, a, b, slope, end;
+};
+
+}  // namespace
+
+// Of 48 numbers of each kind, each beyond 1.96 of its errors in 1 of 20: more than 8 in 1 of 1000.
+TEST_CASE("turning run: both ways determine the slope, and a and b, towards falling x too",
+          "[fit]") {
+  const Scene scenes[] = {{"ball", 0.4, 0.0127, 5e-5, 0.1, 0.02, 6.2},
+                          {"cart", 0.05, 0.02, 2e-4, 0.3, 0.03, 3.0},
+                          {"cylinder", 0.5, 0.04, 1.87e-3, 0.215, 0.1, 1.6}};
+  int off_a = 0, off_b = 0, off_slope = 0;
+  for (const Scene& scene : scenes)
+    for (const Route route : {Route::position, Route::velocity})
+      for (unsigned seed = 1; seed <= 8; ++seed) {
+        simulated::Noise noise(seed);
+        Roll truth({1, scene.R, scene.K, 9.81, scene.slope}, Geometry::approximate,
+                   PowerLaw{scene.a, scene.b}, 0.5);
+        const double way = seed % 2 ? 1 : -1;
+        FitRun run{};
+        run.body = {1, scene.R, scene.K};
+        for (double t = 0; t < scene.end; t += 0.04) {
+          const auto p = truth.at(t);
+          run.t.push_back(t);
+          run.x.push_back(way * p.x + noise(3e-4));
+          run.v.push_back(way * p.v + noise(1e-3));
+        }
+        FitOptions options;
+        options.fit_slope = true;
+        CAPTURE(scene.name, seed, route == Route::position);
+        const FitResult r = fit(route, {run}, options);
+        CHECK(r.v0[0] * way > 0);
+        off_a += std::abs(r.a - scene.a) > 1.96 * r.sigma_a;
+        off_b += std::abs(r.b - scene.b) > 1.96 * r.sigma_b;
+        off_slope += std::abs(r.slope - way * scene.slope) > 1.96 * r.sigma_slope;
+      }
+  CHECK(off_a <= 8);
+  CHECK(off_b <= 8);
+  CHECK(off_slope <= 8);
+}
