@@ -14,7 +14,7 @@ at_terminal() { script -qec "$1" /dev/null </dev/null | tr '\r\033' '>^'; }
 silent() { [ -z "$("${@:2}")" ] || { echo "$1: $("${@:2}")" && wrong=1; }; }
 wipe='>^[K'
 
-awk 'BEGIN { for (i = 0; i < 100000; i++) printf "%.2f\t%.4f\n", i / 25, 0.5 + sin(i / 1000) / 4 }' >big
+awk 'BEGIN { print "# t\tv"; for (i = 0; i < 100000; i++) printf "%.2f\t%.4f\n", i / 25, 0.5 + sin(i / 1000) / 4 }' >big
 slow_reader='(sleep 4; cat >/dev/null)'
 said=$(at_terminal "smooth big | $slow_reader")
 [[ $said == "${wipe}smooth: big "[1-9]*" %, 2 s$wipe"*"$wipe" ]] ||
@@ -31,13 +31,13 @@ silent 'into a file' into_file
 
 # Whoever reads from the terminal is told so, and ends the columns by Ctrl-D.
 typed() { { printf "$1" && sleep 1 && printf '\004'; } | script -qec "$2" /dev/null | tr -d '\r'; }
-said=$(typed '0 1\n1 2\n' 'smooth -w 1')
+said=$(typed '# t v\n0 1\n1 2\n' 'smooth -w 1')
 [[ $said == *'smooth: reading columns from the terminal; end with Ctrl-D'*$'\n0\t1\n1\t2' ]] ||
   { echo "at a terminal smooth says '$said'" && wrong=1; }
 said=$(typed 'v D\n0.1 1e-3\n0.6 1e-3\n' 'simulate -K 0.5 -R 0.04 --v0 0.5 --dt 9 --law -')
 [[ $said == *'simulate: reading columns from the terminal; end with Ctrl-D'*'## simulate table'* ]] ||
   { echo "at a terminal simulate --law - says '$said'" && wrong=1; }
-said=$(typed '0 1\n1 2\n' 'smooth -q -w 1')
+said=$(typed '# t v\n0 1\n1 2\n' 'smooth -q -w 1')
 [[ $said != *'Ctrl-D'* ]] || { echo "at a terminal smooth -q says '$said'" && wrong=1; }
 
 # Fits of one run each, as many as take three seconds.
