@@ -32,6 +32,24 @@ double last_where(double lo, double hi, Predicate&& above) {
   return hi;
 }
 
+/// The integral of e^(-m r) from 0 to r.
+double integral_of_power(double m, double r) {
+  const double y = m * r;
+  return y == 0 ? r : -std::expm1(-y) / m;
+}
+
+/// The integral of r e^(-m r) from 0 to r.
+double integral_of_log(double m, double r) {
+  const double y = m * r;
+  if (std::abs(y) > 1) return (-std::expm1(-y) - y * std::exp(-y)) / (m * m);
+  double sum = 0, term = 0.5;  // (-y)^k / (k + 2)!
+  for (int k = 0; k < 18; ++k) {
+    sum += (k + 1) * term;
+    term *= -y / (k + 3);
+  }
+  return r * r * sum;
+}
+
 }  // namespace
 
 Leg::Leg(const Body& body, Geometry geometry, Law law, double v0)
@@ -43,6 +61,33 @@ Leg::Leg(const Body& body, Geometry geometry, Law law, double v0)
   if (!std::isfinite(q0_)) fail("the deceleration at v0 = {} m/s has no finite value", v0);
   if (q0_ == 0 || start.balanced) end_ = End::constant_speed;
   else if (way_ > 0 && body.slope < 0) find_rest();
+  const auto power = law_.power();
+  if (!power || geometry == Geometry::exact || body.slope != 0 || way_ < 0 || q0_ == 0) return;
+  power_ = power->b;
+  for (std::size_t j = 0; j <= law_.size(); ++j) q_c_[j] = start.q_c[j] / start.q;
+  sums_ = closed_sums(-std::log(slowest));
+  if (power->b < 1) end_ = End::stop, stop_ = sums_[0] = v0_ / q0_ / (1 - power->b);
+}
+
+/// Where the leg is at t, before the stop: t = v0/q0 (1 - e^(-s r))/s with s = 1 - b.
+double Leg::closed_r(double t) const {
+  const double s = 1 - *power_, y = q0_ / v0_ * t;
+  return s == 0 ? y : -std::log1p(-s * y) / s;
+}
+
+Leg::Sums Leg::closed_sums(double r) const {
+  const double b = *power_, unit = v0_ / q0_;
+  Sums sums{};
+  for (const int way : {0, 1}) {  // the second time the integrand has another factor u/v0
+    const double m = 1 - b + way;
+    double* const c = &sums[2 + static_cast<std::size_t>(way) * most];
+    const double all = unit * integral_of_power(m, r);
+    sums[static_cast<std::size_t>(way)] = all;
+    c[0] = q_c_[0] * all;
+    c[1] = q_c_[1] * all - unit * integral_of_log(m, r);  // q_b/q = ln(u/v_unit)
+    c[2] = q_c_[2] * unit * integral_of_power(m - b, r);  // q_S is constant
+  }
+  return sums;
 }
 
 double Leg::speed(double r) const { return v0_ * std::exp(-way_ * r); }
@@ -168,8 +213,9 @@ void Leg::add_panel() {
       if (deepens) radius_time_ = sums_[0], radius_speed_ = speed(r_);
       break;
     }
-    width = (to - r_) * std::min(factor, 0.7);
-    if (width < narrowest * (1 + r_)) width = narrowest * (1 + r_) / 2;
+    const double least = narrowest * (1 + r_);
+    if (!(to - r_ > least)) fail("the deceleration has no value near v = {} m/s", speed(r_));
+    width = std::max((to - r_) * std::min(factor, 0.7), least / 2);
   }
   const double u = speed(r_);
   const Rate now = rate(u);
@@ -189,6 +235,7 @@ void Leg::add_panel() {
 }
 
 void Leg::reach(double t) {
+  if (power_) return;
   while (end_ == End::none && sums_[0] <= t) add_panel();
 }
 
@@ -206,6 +253,10 @@ Leg::Point Leg::at(double t) {
   if (t == 0) return point({}, v0_, q0_);
   reach(t);
   if (t >= stop_) return point(sums_, 0, 0);
+  if (power_) {
+    const double r = closed_r(t), v = speed(r);
+    return point(closed_sums(r), v, rate(v).q);
+  }
   if (t >= sums_[0]) {
     if (end_ == End::too_fast) fail("the speed has grown by a factor e^{}", fastest);
     const double since = t - sums_[0], v = speed(r_);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "base/chebyshev.h"
@@ -19,6 +20,9 @@ namespace rolling {
 /// of r, whose lengths follow from the last terms of the series, so that they suit the scale of any
 /// law; u(t) is the inverse of the first integral by Newton's method. Panels are added when a time
 /// is asked for. Times and ways count from the beginning of the leg, along the motion.
+///
+/// For a v^b on a level mat with A = 1, where q is a power of u, all of these are closed forms: no
+/// panels are needed (Eq. 13 is their inverse).
 class Leg {
  public:
   static constexpr std::size_t most = LawForm::most + 1;
@@ -87,6 +91,8 @@ class Leg {
   void find_rest();
   void add_panel();
   bool try_panel(double width, bool to_radius, double& factor);
+  double closed_r(double t) const;
+  Sums closed_sums(double r) const;
   void reach(double t);
   Point point(const Sums&, double v, double q) const;
 
@@ -95,6 +101,8 @@ class Leg {
   Law law_;
   double v0_, q0_, cos_, sin_;
   double way_;  // 1 if the speed falls, -1 if it grows
+  std::optional<double> power_;  // b of the closed forms
+  Derivatives q_c_{};            // q_c/q at v0, for these
   std::vector<Panel> panels_;
   double r_ = 0, width_ = 2;  // where the next panel begins, and how long it may be
   Sums sums_{};               // up to there
