@@ -96,10 +96,10 @@ TEST_CASE("chebyshev: panels do not reach over the end, a kink or what is not a 
       largest = std::max(largest, std::abs(function.panels(t)[0] - function.f(t)));
     return largest;
   };
-  // A jump at the end, which is known.
+  // A jump that is known.
   Counted stops(dense, step, [step](double t) { return t < step ? 1 + t : 3.0; });
   CHECK(worst(stops) < 5e-15);
-  CHECK(stops.calls > 20000 - 12345);
+  CHECK(stops.calls < 20000 / 10);
   // A kink that nobody has told.
   Counted bends(dense, 1e300, [step](double t) { return 1 + std::abs(t - step); });
   CHECK(worst(bends) < 5e-15);
