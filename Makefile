@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rolling: build, test, reproduce. `make setup` installs what is missing on Debian, and says what
 # other systems call it; `make table1` and `make check` do the rest. GNU make 3.81 and newer. The
 # goals of those who develop are in tests/targets.mk.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // differentiate - append the time derivative of a column; see differentiate(1)
 #include "cli/tool.h"
 #include "signal/derivative.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // energy-ledger - append where the energy goes (Eqs. 1 to 23); see energy-ledger(1)
 #include <cmath>
 #include <optional>

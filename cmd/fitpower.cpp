@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // fitpower - fit the power law D = a v^b to columns; see fitpower(1)
 #ifdef __linux__
 #include <malloc.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // shift-from-accel - append the shift D of the contact force, from the acceleration; see
 // shift-from-accel(1)
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // smooth - smooth a column and select its records; see smooth(1)
 #include <algorithm>
 #include <array>

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # law.sh [-f FROM] [-t TO] [-n N] [ROW]: the law D = a v^b of a row of fitpower, from a file or from
 # standard input, as columns: N velocities (50) from FROM to TO in m/s, D, and the limits of its 68 %
 # and of its 95 % band. TO is v0 of the row, or 0.5 where it has none, and FROM a 25th of TO. Of
@@ -17,7 +18,7 @@ while getopts hf:t:n: option; do
     f) from=$OPTARG ;;
     t) to=$OPTARG ;;
     n) N=$OPTARG ;;
-    h) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0"; exit ;;
+    h) sed -n '3,/^[^#]/s/^# \{0,1\}//p' "$0"; exit ;;
     *) exit 2 ;;
   esac
 done

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # One page with Table 1, the energy check and the figures, all in it, on standard output:
 #   samples/report.sh FIGURES [WORK-PRECISION] >report.html
 # FIGURES is a folder with the SVGs of samples/figures, and with the manual pages in man/, if they

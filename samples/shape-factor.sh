@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The shape factor K = J / (m R^2) of a body, measured (the paper's note 23). The body turns about a
 # fixed axis; a sensor records its angle while a weight on a thread drives it (FALL), and while it
 # spins down freely without the weight (SPIN), which tells the friction of the bearing.

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Table 1 and the check of the dissipated energy, from the raw runs alone: samples/table1.sh. Exits
 # with 1 when a recovered value is more than 4 standard uncertainties from the paper's, or an energy
 # balance is open.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Compares two files field by field, numbers as numbers:
 #   awk -v tolerance='1e-12' -f approx.awk expected actual       relative
 #   awk -v tolerance='1e-12 1e-15' ...                           and that much absolute besides, for what may be 0

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # arm64.sh FOLDER [GOAL...]: builds for arm64 in FOLDER, a copy of the sources. Without a GOAL it
 # runs the tests there through qemu's user mode; then compares with bin/ what the samples give, byte
 # for byte. It takes

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Takes a file of cases apart for tests/run.sh, which says how one is written:
 #   awk -v into=FOLDER -f cases.awk FILE.cases
 # Case N goes into FOLDER/N.command, N.stdout, N.within, N.stderr and N.status, its files into the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Linked into what `make coverage-lines` builds: a process that ends by _exit() or raise(), or in
 // which allocations fail, leaves its counts of lines too. Not where files may not grow: what gcov
 // cannot finish to write would be lost for all.

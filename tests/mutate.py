@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Breaks the sources in one place at a time and sees whether the tests notice.
 
     tests/mutate.py [--count N] [--seed S] [--jobs J] [--only PATH] [--near] [--again OUTPUT] [TREE]

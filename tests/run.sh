@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Runs the tests and counts them. It prints a line as each group of tests ends, then what was
 # skipped and how to have it; the last line is `N passed, N failed`, with `, N skipped` if any were.
 #

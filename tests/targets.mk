@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What only those need who develop: the tests and how they are built, other compilers and machines,
 # analysis, measurements. The Makefile includes it.
 test   := $(wildcard tests/unit/*/*.cpp tests/pipeline/*.cpp)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The completion of a tool, made from its --help:
 #   TOOL --help | awk -v shell=bash -v name=TOOL -f completion.awk
 # shell is bash or zsh. The type of an option says which values it has: {one,of,these}, a FILE, or

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # date.sh: the moment that dates a package, in seconds since 1970: SOURCE_DATE_EPOCH, else the last
 # commit, else the newest file of the source.
 set -eu

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # deb.sh: makes build/rolling_VERSION_ARCHITECTURE.deb of what install.sh installs below /usr, with
 # the programs in TOOLS.
 # PROGRAM_PREFIX goes before the names of the tools. DEBFULLNAME and DEBEMAIL name the maintainer,

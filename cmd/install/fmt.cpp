@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the tools call of fmt, compiled here: Debian 12 has no static library of it.
 #define FMT_HEADER_ONLY
 #include <fmt/format.h>

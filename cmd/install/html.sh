@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # html.sh FOLDER: the manual pages as one site of HTML in FOLDER, made by mandoc: NAME.SECTION.html
 # for each page and index.html. A page of another project (awk, sed, ...) is linked at
 # manpages.debian.org.

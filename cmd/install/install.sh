@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # install.sh install | uninstall: the tools in TOOLS, their pages and completions, and the samples,
 # into bindir, mandir, datadir and docdir below DESTDIR; PROGRAM_PREFIX goes before the name of each
 # tool. All come from the environment; `make install` sets them.

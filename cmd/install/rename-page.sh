@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # rename-page.sh PREFIX TOOL... <PAGE: gives the tools their prefix where the page names them, in
 # macros and in the commands of examples. `##` lines keep the plain names, as a renamed tool writes
 # them. PREFIX has only letters, digits and . _ + -

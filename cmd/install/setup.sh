@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # setup.sh GOAL...: installs the Debian packages that these goals of make need and that are missing.
 # Where it cannot, it says what they are called elsewhere.
 set -eu

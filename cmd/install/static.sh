@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # static.sh ARCHITECTURE: makes build/rolling-VERSION-linux-ARCHITECTURE.tar.xz of the static
 # programs in TOOLS, with pages, completions and samples. Like sources give like bytes.
 set -eu

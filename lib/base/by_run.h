@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The parts of a column, or of a matrix, of all runs that belong to each run.
 #pragma once
 

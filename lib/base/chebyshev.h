@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Chebyshev series of smooth functions of time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A number in decimal notation, read in whatever locale the program runs.
 #pragma once
 

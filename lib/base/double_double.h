@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers of about 106 bits as an unevaluated sum of two doubles, and the logarithm and exponential
 // that the closed form needs.
 //

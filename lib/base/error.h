@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The exception type of the library. Its message is one line for the user. Tool::run() catches it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The largest value of a function of one variable with a single maximum.
 #pragma once
 

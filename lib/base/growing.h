@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // An array that grows at its end. Unlike std::vector it moves a large array to a larger place
 // without a copy, and hands out uninitialised space.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // GSL without its aborting error handler, and owners of its objects.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A matrix with many rows and few columns, such as J.
 #pragma once
 

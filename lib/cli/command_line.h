@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The command line, as CLI11 parses it. Only command_line.cpp includes CLI11, which needs several
 // seconds to compile.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The messages of fitpower in addition to its row: warnings, the report, and the checks of the fit.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The route fits of fitpower: the joint law of its own rows.
 #pragma once
 

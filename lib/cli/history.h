@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parses the `##` lines, in which the tools describe what they did to the columns, and constructs
 // the filters from them.
 #pragma once

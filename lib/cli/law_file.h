@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads the law D(v) of a mat from the file of the option --law.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The filters of the tools, and of the software of sensors, as functions of whole columns.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One line on standard error, and how a tool ends where no exception can be caught.
 #pragma once
 

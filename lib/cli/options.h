@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The options of a tool: values from the command line, else from its scene file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The columns that a tool can compute: one list of quantities, each with its name, its unit and its
 // function. Only the columns that the user chooses are computed.
 #pragma once

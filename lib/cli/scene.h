@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scene files: TOML files with the long names of the options that describe a roll.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The frame of every command: its options, input and output, messages, exit status.
 #pragma once
 

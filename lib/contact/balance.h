@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The energy balance of a run (Eq. 23): the loss of stored energy against the energy that the shift
 // dissipates, at every moment and at the end.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The rolling body, and the geometry of its contact.
 #pragma once
 

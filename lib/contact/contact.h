@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The mat's force on the body, and the shift D of the point P where it acts (Eqs. 6 to 12), on a
 // mat that may be inclined. D, v and the forces point forward along the mat, a torque is positive
 // when it spins the body up in forward rolling.

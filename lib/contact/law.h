@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The law D(v) of a mat: a value, whatever its form. The forms with coefficients are the rows of
 // one table.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The quantities of the paper that follow from the velocity and the shift at one instant (Eqs. 1 to
 // 22). Flows out of the body are positive; rolling-motion(7) gives the reason for the signs.
 #pragma once

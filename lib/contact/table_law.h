@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A law D(v) given by points, with monotone interpolation.
 #pragma once
 

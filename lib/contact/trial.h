@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // dv/dt for the trial steps of a solver, which may lead to states that the body cannot have.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The numbers of a body that may be given with a standard uncertainty, in the order in which the
 // history of shift-from-accel has them.
 #pragma once

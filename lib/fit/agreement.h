@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Do the runs of a joint fit agree, and what are its errors worth where they do not?
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A test whether the body rolls freely from the first record on.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The search for the stop of a roll between the records of its speed.
 #pragma once
 

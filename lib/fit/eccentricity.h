@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A test for an eccentric body: a signal of period one turn in the residuals of a fitted roll.
 #pragma once
 

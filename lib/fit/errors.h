@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The standard errors of a fit: every question about an error bar is answered here.
 #pragma once
 

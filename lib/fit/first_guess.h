@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The starting point for the fit of a roll.
 #pragma once
 

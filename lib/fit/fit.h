@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The fit of the power law D(v) = a v^b to records by one of four routes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The result of a route before its errors are computed: the minimum, and the reported numbers with
 // their gradients with respect to the parameters.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The errors that come from numbers which are given: K, R, g and the slope of the mat.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The input of a fit of the power law D(v) = a v^b: the records of the runs, and what is fitted.
 #pragma once
 

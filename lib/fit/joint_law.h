@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The joint law of runs that were fitted by themselves, from their rows alone.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Comparison of the power law D = a v^b with other laws on the same records by AICc.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The levels that decide what a user is told or refused, and which standard errors a row has. Each
 // with its rate of false alarms, where that was measured: in 1000 good records of rubber and of
 // felt (make coverage, rolling-fits(7)), unless another place is named.

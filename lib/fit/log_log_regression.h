@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The straight line through the logarithms of the records (v, D).
 #pragma once
 

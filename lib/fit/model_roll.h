@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The model of a roll that is observed through filters. Every route uses it, except plain fits of D
 // = a v^b.
 //

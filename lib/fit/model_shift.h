@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The law D = a v^b as a model of the records (v, D).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The parameter vector theta of a fit, scaled to numbers of order one, and the physical parameters
 // that it stands for.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whether the columns of a run are what their filters make of each other.
 #pragma once
 

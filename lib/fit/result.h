@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The result of a fit: the numbers, their errors, and what the runs show beside the law.
 #pragma once
 

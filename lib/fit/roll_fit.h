@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fits of rolls: positions, speeds, and shifts whose filters are known.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The route of a fit, from the columns of the runs to a minimum.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The laws D = a v^b of several runs, each with the covariance of its own fit: do they agree, and
 // what is their mean where they do not?
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Are speeds of unknown origin differences of positions, as the software of a sensor makes them?
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The records (v, D) of the routes loglog and shift, and the law as their model.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The motion behind filtered records, before any law is known.
 #pragma once
 

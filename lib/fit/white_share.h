@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The white noise that the residuals of a roll hold in addition to the filtered noise: rounding.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nonlinear least squares to the limit of rounding: Levenberg-Marquardt steps, then Gauss-Newton
 // steps. Each step comes from a QR decomposition of the Jacobian.
 #pragma once

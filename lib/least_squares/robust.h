@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fits in which outliers count little or nothing.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A nonlinear least-squares problem of several runs, in the form that the minimisers need.
 #pragma once
 

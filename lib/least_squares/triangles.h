@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The QR decomposition of a Jacobian of several runs that share some of their parameters.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Least trimmed squares: where a robust fit may start, so that outliers do not draw it away.
 #pragma once
 

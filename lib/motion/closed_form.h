@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The roll in the paper's geometry A = 1: Eq. 13 to within a few ulp, for every b.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The root of an increasing function of one variable, by Newton's method within a bracket.
 #pragma once
 

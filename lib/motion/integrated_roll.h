@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The roll under any law D(v), by an adaptive solver of differential equations. It is the
 // independent reference for the closed forms and the integrals over speed, and the method for laws
 // that have neither.

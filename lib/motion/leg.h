@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The part of a roll in which the speed only falls or only grows, as integrals over speed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The error and the processor time of a method on a scene.
 #pragma once
 

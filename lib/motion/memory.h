@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The roll over a bulge with memory: the shift follows D(v) over a rolled length, so that the body
 // rolls backwards before it rests.
 #pragma once

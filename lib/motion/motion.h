@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A roll as a function of time, the same interface for all methods: seek() sets the time, and the
 // other functions return the state at that time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The free roll under any law D(v), on a mat of any slope and in either geometry, as a function of
 // time, with its derivatives by the coefficients of the law, by the slope and by v0.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A scene and the methods that compute its motion.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The common part of the rolls that are solutions of differential equations.
 #pragma once
 

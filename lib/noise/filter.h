@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Linear filters that were applied to the columns of a run before the fit. A filter is known by its
 // output alone.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The matrix of a chain of filters, which maps the raw column to a filtered one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The covariance of the noise of the residuals, as far as it is known, and the weights that follow
 // from it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The columns of a run as linear functions of the one raw column that the sensor recorded.
 #pragma once
 

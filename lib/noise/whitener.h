@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whitening: a linear map that makes correlated noise white.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ordinary differential equations y' = f(t, y) by the adaptive steppers of GSL: forward in time, to
 // given times or to an event.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Simulates the record of a roll by a motion sensor (sonar) at the end of the track, with noise,
 // rounding and lost echoes: raw data for which the law and the start are known.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The time derivative of a column, computed sample by sample. Every method throws Error for a run
 // of one sample.
 #pragma once

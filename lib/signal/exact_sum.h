@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A sum of doubles without rounding error, from which terms can be subtracted again. After any
 // sequence of additions and subtractions it is the exact sum of the remaining terms; a moving sum
 // does not drift, and an outlier leaves no trace.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Search for the free roll in a record: among rest, push, hold, hand, brake, wall and way back.
 #pragma once
 

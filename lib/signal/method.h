@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The properties of each method of smooth and differentiate, in one table for each tool. The
 // construction of a filter, its description in a `##` line and the parsing of that line all use
 // this table.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The mean over a centred window, computed sample by sample. At the ends of a run the window
 // shrinks symmetrically, so that a straight line is unchanged. Each mean is within 1 ulp of the
 // exact mean of its window, independent of earlier readings.

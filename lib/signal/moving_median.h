@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The median over a centred window, which shrinks symmetrically at the ends of a run; a monotonic
 // sequence is unchanged. O(sqrt w) per sample.
 #pragma once

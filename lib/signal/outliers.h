@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Detection of outliers: the distance of each reading from the motion of its neighbours.
 #pragma once
 

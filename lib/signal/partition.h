@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The best partition of a record into smooth pieces with sudden changes between them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Least squares of a polynomial in time, reading by reading.
 #pragma once
 

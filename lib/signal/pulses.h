@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Speeds that are a fixed way over the time between two pulses.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Detection of readings that a logger repeated because no newer reading had arrived.
 #pragma once
 

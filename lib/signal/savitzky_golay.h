@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Local polynomials by least squares at any spacing; at even times the filter of Savitzky and Golay
 // (1964, Anal. Chem. 36, 1627).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Selection of the samples of a run: those between two times, without outliers, of the free roll.
 #pragma once
 

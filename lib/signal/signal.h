@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A filter of a column, which processes sample by sample.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The derivative of the cubic smoothing spline: the natural spline that minimises the residual sum
 // of squares plus a parameter times the integral of the squared second derivative (Reinsch 1967,
 // Numer. Math. 10, 177). It needs the whole run.

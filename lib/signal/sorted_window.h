@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The readings of a window in sorted order, with access by rank.
 #pragma once
 

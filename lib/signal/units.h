@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Units in which the readings of a run and its duration are of order one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The window around each sample of a run, as soon as its samples are known; needs the memory of one
 // window.
 #pragma once

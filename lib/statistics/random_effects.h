@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The mean of numbers from several runs, and a line through them, where the runs scatter by more
 // than their standard errors (a random-effects model): each number has the variance sigma^2 + tau^2
 // with its own sigma and one tau, and the weight 1/(sigma^2 + tau^2). tau is the one for which

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Are the residuals of several runs white and even, and what do they add up to if they are not?
 // The residuals of all runs follow each other; `runs` holds the number of each run.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The name of a column: its quantity, its unit and its run.
 #pragma once
 

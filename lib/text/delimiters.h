@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The separators of fields, and quoted fields.
 #pragma once
 

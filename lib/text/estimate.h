@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers with an uncertainty as text: 0.50+-0.005.
 #pragma once
 

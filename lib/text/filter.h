@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The input and the output of a tool that adds computed numbers to each record, or replaces a
 // column. A record is kept as text until its numbers have been computed, which may be later (a
 // window that looks ahead). Every byte that is not computed is written as it was read. Each run is

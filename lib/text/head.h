@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The head of a run: the comments, history and names before its first record.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The header of a run: the names of its columns, in a comment or in a line of their own, and the
 // units that may stand in a line below them.
 #pragma once

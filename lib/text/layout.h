@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The fields of a line that form a record: those of one run, or of several runs side by side.
 #pragma once
 

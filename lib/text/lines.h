@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Logical lines of a file: a line end inside a quoted field does not end the line.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The columns that a tool needs: which columns of a run they are, and how they become SI units.
 #pragma once
 

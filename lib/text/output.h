@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Standard output, written in whole lines; every write is checked.
 #pragma once
 

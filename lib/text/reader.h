@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads the records of files in the format of rolling-columns(5): finds the needed columns by the
 // names in each head, converts them to SI units, and passes all other text through.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The digits are found as in Schubfach (R. Giulietti, The Schubfach way to render doubles, 2020),
 // with one product in place of three (as in Y. Guo's yy_double).
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A double as text: the shortest decimal number that reads back to it, or so many digits.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Units: lengths and times as programs spell them; speeds and accelerations are quotients of these.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash disable=SC2034
 # What the scripts of the figures share; each sources it first. They take
 #
@@ -13,7 +14,7 @@ set -euo pipefail
 export LC_ALL=C
 unset CDPATH
 terminal=svg K='' R='' slope=0 column='' use=()
-usage() { sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0"; }
+usage() { sed -n '3,/^[^#]/s/^# \{0,1\}//p' "$0"; }
 while getopts ht:K:R:c:-: option; do
   # --slope S, and --slope=S.
   if [ "$option" = - ]; then

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Where the energy of the cylinder on rubber goes: points, what its measured velocities store and
 # what the fitted shift dissipates at them; lines, the same for the fitted trajectory. The sum has
 # to stay. `make figures/energy.svg`

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Fig. 1 near the stop: the cylinder on rubber rolls backwards before it rests. The law D(v) alone
 # cannot show it; a bulge that remembers the last half millimetre does. This length is not fitted:
 # it is the one of which the record was made. `make figures/fig1-stop.svg`

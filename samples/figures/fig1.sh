@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Fig. 1, v(t) of the four experiments: differences of the sensor's positions, the same smoothed,
 # and the trajectory that fits the positions, both of the free roll. `make figures/fig1.svg`, or
 # samples/figures/fig1.sh >fig1.svg

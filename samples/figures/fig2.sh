@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Fig. 2, the forces on the cylinder on rubber at 0.5 m/s, drawn to scale: the shift D is small
 # beside the radius, and F_H beside F_N, so that a second panel shows the neighbourhood of P some
 # forty times larger. `make figures/fig2.svg`

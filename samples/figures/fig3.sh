@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Fig. 3, the velocity of P as a point of the body, drawn to scale for the cylinder on rubber at
 # 0.5 m/s: P turns about the lowest point, so it moves down with (D/R) v and forward with (1 - A) v
 # only. Each panel is a part of the one before. `make figures/fig3.svg`

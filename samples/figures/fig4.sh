@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Fig. 4: D against v, the power law fitted to it, and the 95 % band of the law.
 #
 #   fig4.sh [-t svg | pngcairo] >fig4.svg         the four experiments

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Fig. 5, the process diagram of the cylinder on rubber at one instant: momentum and angular
 # momentum fall and are pumped, and every arrow of energy is as wide as energy-ledger computes its
 # power. `make figures/fig5.svg`; an operand is another instant [s]: samples/figures/fig5.sh 1.5

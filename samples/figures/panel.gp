@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A panel of width by height pixels at left, bottom. Its lower left corner is the point x0, y0 [mm
 # from the lowest point of the body]; a millimetre has scale pixels, and the picture has W by H. For
 # Figs. 2 and 3: sets the axes and what both draw.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The residuals of a fit against time and against velocity: the first look at whether a law describes
 # a run.
 #

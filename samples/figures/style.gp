@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What the figures share. Colours of Okabe and Ito, safe for the colour-blind: rubber vermilion,
 # felt blue. The body by symbol and dash, legible in grey: C filled circles and full lines, S
 # crosses and dashed lines.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # fit.sh -K K -R R [-c x|v] RECORD: the row that fitpower finds for one record, under its names, with the
 # name of the record in the column run. K is the shape factor, R the radius in metres; x (the default)
 # fits the positions of the record, v its velocities. What the tools tell goes to standard error, a line

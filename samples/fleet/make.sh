@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # make.sh FOLDER [RECORDS [SPREAD]]: records of a motion sensor, FOLDER/0001.csv on, each of a
 # cylinder on a mat of its own, and FOLDER/truth.txt, the laws D = a v^b that made them. With the
 # spread s (0.1), ln a is normal about ln 1.87e-3 with standard deviation s, b about 0.215 with s/5;

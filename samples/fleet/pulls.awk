@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # awk -f pulls.awk truth.txt table.txt: (found - true)/error of a and of b over the records, their
 # mean (0) and their standard deviation (1). The status is 1 if either is further off than four of
 # its standard errors and 0.2: fits of such short records may be biased by as much.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 #SBATCH --job-name=rolling --ntasks=1 --cpus-per-task=1 --time=10
 # The table by a job array of Slurm: task i of n fits each n-th record of the folder, from the i-th
 # on, to part.i. What is told of them stands in the output of the task. From the top of the source:

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # lab.sh [all|check]: the runs in a folder -> a fit of each -> one table and what they say together ->
 # D(v) of all as a figure, in results/. The environment says what rolled:
 #   records  the folder; its files *.csv, *.tsv and *.txt in either case are the runs, in order

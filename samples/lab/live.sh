@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # live.sh [-K K] [-R R] [-w WIDTH] [-c x|v] [-T TERMINAL] SOURCE: draws D against v while the body
 # rolls, again with every record. SOURCE is the device of a sensor (a serial port), a file that
 # grows, or - for standard input, with lines of time and velocity (-c v, the default) or of time and
@@ -20,7 +21,7 @@ while getopts K:R:w:c:T: option; do
   esac
 done
 shift $((OPTIND - 1))
-[ $# = 1 ] || { sed -n '2s/^# //p' "$0" >&2; exit 2; }
+[ $# = 1 ] || { sed -n '3s/^# //p' "$0" >&2; exit 2; }
 PATH=$(cd "$(dirname "$0")/../.." && pwd)/bin:$PATH
 command -v gnuplot >/dev/null ||
   { echo "$0: gnuplot is not installed; make setup figures installs it" >&2; exit 2; }

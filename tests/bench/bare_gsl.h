@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // GSL's steppers in the ordinary way: gsl_odeiv2_driver from sample to sample, no event. The law is
 // a v^b by pow(v, b) as it is printed, or odd in v, as one writes it after the first NaN.
 #pragma once

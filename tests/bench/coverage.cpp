@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Prints the table of tests/bench/coverage.h: coverage [RUNS [WORD]], only the cases whose name has
 // WORD. `make coverage`.
 #include "bench/coverage.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Do the errors of fitpower hold? Simulated runs with a known law, fitted again and again: by case
 // and route the bias, the spread and how often the nominal 95 % intervals hold the truth. `make
 // coverage` prints the table; a test takes a short form.

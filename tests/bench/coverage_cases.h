@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The cases of coverage.h: what becomes of simulated readings before they are fitted.
 #pragma once
 

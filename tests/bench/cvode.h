@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // CVODE in the ordinary way: from sample to sample, the stop by its root finding. Where
 // libsundials-dev (6 or later) is installed.
 #pragma once

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Where the work of a row goes: instructions a row by what they do, counted by callgrind, of each tool and of the bare loop that it is
 # measured against.
 #

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Prints the tables of tests/bench/records.h and studies.h: records [RUNS [TABLE [TROUBLE]]], all
 // of them or one of troubles, remedies, laws, agreement, slope, given, min-speed. `make coverage`.
 #include "bench/records.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a record really has: simulated records with one thing wrong in each, and what fitpower says
 // of them; and records under each law that it compares. `make coverage` prints both tables; a test
 // takes a short form.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tables whose rows take long: they are computed by as many threads as there are processors, and
 // printed in order, each as soon as it and those before it are there.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How far smoothed speeds and their derivatives are from the truth, method by method and window by
 // window: the four scenes of the paper, seen by a sonar, many seeds each. Plain columns on standard
 // output; tests/bench/signal.sh runs it and draws the figure.

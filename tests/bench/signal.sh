@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # tests/bench/signal.sh FOLDER: the errors of smooth and differentiate on noisy records, as
 # FOLDER/signal.tsv, with SciPy's beside them where it is installed, and against window and run time
 # as FOLDER/signal{,-time}.{svg,png} where gnuplot is. Prints the best and the usual for each scene.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The bare loops that the tools are measured against, and the watch that measures.
 //
 //   speed filter [COLUMNS] <FILE    parse two numbers of each row, pass its bytes through, append

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # How fast the tools are, beside the peers that are installed and beside bare loops: one table with
 # ratios, spread and goal.
 #

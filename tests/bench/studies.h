@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Do the answers of a joint fit hold: whether runs agree, the slope of the mat, what the given
 // numbers bring to the errors, and records that --min-speed leaves out? Simulated rolls, fitted
 // again and again. `make coverage` prints them; tests of tests/unit/fit take short forms.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // ulp SAMPLES - the largest errors of the closed form against 80 digits and, for a tenth of the
 // samples, of the exact geometry against 60; and their times beside the ways without them.
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # work-precision.sh FOLDER - log-log figures of the tables FOLDER/*.txt, as SVG and PNG, and who failed how.
 set -u
 export LC_ALL=C

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // work_precision FOLDER - error against run time of every method on every problem, side by side in
 // one run: FOLDER/PROBLEM.txt each.
 #include <fmt/format.h>

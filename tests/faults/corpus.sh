@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The fuzz targets on their corpus: what a fuzzer has found before stays mended.
 . "$(dirname "$0")/tools"
 for target in number reader scene $tools; do

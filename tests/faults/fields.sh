@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What is not a number, in every column that each tool needs; and what is not a file of columns.
 . "$(dirname "$0")/tools"
 

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Every allocation of every tool fails in turn, by itself and with all after it: each time one line
 # and 2, never an abort. LONG=1 takes each of them, otherwise every seventh.
 . "$(dirname "$0")/tools"

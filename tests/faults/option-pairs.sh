@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # No option passes without effect: alone and beside each other one it is refused, or it changes what
 # is printed or the exit status.
 . "$(dirname "$0")/tools"

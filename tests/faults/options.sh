@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Every option of --help with every value that is none, twice, and without a value; then values that
 # mean nothing.
 . "$(dirname "$0")/tools"

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Standard output that takes nothing, or not all: every tool, in every form of its output.
 . "$(dirname "$0")/tools"
 good 9 >"$scratch/good"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Preloaded into a tool (LD_PRELOAD), what a system may do to it at any time:
 //   FAULT_READ=1     one byte a read, and every second call interrupted or told to try again
 //   FAULT_WRITE=1    a few bytes a write, and every second call interrupted or told to try again

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The same rows whatever the surroundings: how the input arrives, the locale, the environment, the
 # folder, the limits. And refusals where there is no input to be had.
 . "$(dirname "$0")/tools"

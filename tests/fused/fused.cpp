@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Prints rolls to the last bit: tests/pipeline/fused.sh compares what builds with and without fused
 // multiplications and additions print.
 #include <cstdio>

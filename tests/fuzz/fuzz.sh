@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # fuzz.sh FOLDER SECONDS TARGET...: runs each fuzzer of FOLDER for so long, beginning from tests/fuzz/corpus; ends with a table
 # of executions and findings. What it finds stays in FOLDER/found.
 set -u

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // parse_number against the grammar of rolling-columns(5), written out, and strtod; write_number
 // against parse_number.
 #include "text/number.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Without a fuzzer: runs a target on each of the files.
 #include <cstddef>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A scene file of any bytes: taken with values of the right kind, or refused.
 #include <cmath>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The standard streams of a tool that runs within this process, kept in memory.
 #pragma once
 

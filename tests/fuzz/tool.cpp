@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A tool as a whole: the first line is its command line, the rest is its standard input. TOOL is
 // its name, tool_main its main().
 #include <cstdint>

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Nothing is half there: a case runs its tool, a file of lib/ that computes has its
 # unit test, a test is run.
 set -u

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The completions offer what --help lists: in bash (the function, called as bash calls it, and typed
 # at a terminal) and in zsh.
 set -u

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The package holds what `make install` installs, its tools run, and lintian finds no error in it and
 # no warning. With LONG=1 it is that of `make deb`, whose programs are hardened; without, the programs
 # in bin/ are packed.

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Nothing in the environment changes what the scripts, the pages and the README give: a locale with
 # a decimal comma, CDPATH, folders and records whose names have blanks, quotes, signs of the shell.
 set -u

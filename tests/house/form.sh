@@ -1,5 +1,7 @@
 #!/bin/bash
-# The form of the code: the lengths of functions and of lines, and a header for each source.
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The form of the code: the lengths of functions and of lines, a header for each source, and the
+# licence line at the top of each file that is code or a page.
 #
 #   tests/house/form.sh            complains
 #   tests/house/form.sh table      prints the figures of each part instead
@@ -58,4 +60,17 @@ done < <(functions cmd/*.cpp lib/*/*)
 for source in lib/*/*.cpp; do
   [ -e "${source%.cpp}.h" ] || complain "$source has no header"
 done
+
+count=0
+while IFS= read -r file; do
+  count=$((count + 1))
+  case $file in *.cpp | *.h) mark=// ;; man/*) mark='.\"' ;; *) mark='#' ;; esac
+  head -n 2 "$file" | awk 'FNR == 1 && /^#!/ { next } { print; exit }' |
+    grep -qxF -e "$mark SPDX-License-Identifier: GPL-3.0-or-later" ||
+    complain "$file does not begin with its licence, or have it behind its #! line"
+done < <(find Makefile .ci/run tests/faults/tools cmd lib man tests samples -type f \( \
+  -path 'man/*.[157]' -o -name '*.cpp' -o -name '*.h' -o -name '*.sh' -o -name '*.awk' \
+  -o -name '*.gp' -o -name '*.py' -o -name '*.mk' -o -name Makefile -o -name run -o -name tools \) \
+  ! -path '*/records/*' ! -path '*/results/*')
+[ "$count" -gt 450 ] || complain "only $count files were found"
 exit $wrong

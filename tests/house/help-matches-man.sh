@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The long options that --help prints are those of the page, both ways; and each short one is on the
 # page too.
 set -u

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # `make html`: every manual page is there, in English, with one viewport, and is in the index; each
 # link leads to a page of the site, and to a place in it, that exist, or to a page or a site that
 # this project does not have.

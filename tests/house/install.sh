@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # `make install` with plain and with prefixed names: the tools run, the pages are found and are
 # right, their examples run under the installed names; `make uninstall` removes all of it and
 # nothing else. Both whatever the environment is and whatever signs the folder has in its name.
@@ -44,8 +45,8 @@ for prefix in '' roll-; do
     grep -q "^complete .* $tool " "$root/share/bash-completion/completions/$tool" ||
       complain "bash does not complete $tool"
     page=$root/share/man/man1/$tool.1
-    [ "$(sed -n 2p "$page")" = ".Dt $(upper "$tool") 1" ] ||
-      complain "the title of $page is $(sed -n 2p "$page")"
+    [ "$(grep '^\.Dt' "$page")" = ".Dt $(upper "$tool") 1" ] ||
+      complain "the title of $page is $(grep '^\.Dt' "$page")"
     if command -v man >/dev/null; then
       found=$(man -M "$root/share/man" -w "$tool") && [ "$found" -ef "$page" ] ||
         complain "man finds ${found:-nothing} for $tool"

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Who may include whom: read from the #include "room/..." lines.
 set -u
 export LC_ALL=C

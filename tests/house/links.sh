@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A tool that calls no GSL does not depend on it.
 set -u
 export LC_ALL=C

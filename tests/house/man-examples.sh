@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Every example of the manual pages runs, and prints what the page shows (blanks aside). An example
 # that ends in `# exits N` must exit with N. The examples of a page run one after the other in one
 # folder, a copy of the top of the checkout with the samples alone: a file that one makes, the next

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The pages are right mdoc: every warning is an error.
 set -u
 export LC_ALL=C

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A test that must fail does fail: each of these cases is wrong in one way, and run.sh has to notice
 # every one.
 set -u

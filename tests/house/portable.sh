@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What a user meets does without GNU: the same comes out with every awk and every sh that is here;
 # no script and no rule has what macOS and BSD lack.
 set -u

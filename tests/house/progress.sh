@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What takes more than two seconds says at a terminal how far it is, and wipes that; not what is
 # quick, nor with -q, nor into a file.
 set -u

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Every example of README.md and samples/README.md runs and prints what stands there, in the locale
 # EXAMPLES_LOCALE (C). `tests/house/readme.sh refresh` writes there what they print today: read the
 # diff.

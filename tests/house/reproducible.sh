@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Two builds in two folders give the same bytes, whatever the name of the folder, the user's umask,
 # time zone and day are: objects and a program of them, the archive and the package of given programs.
 # With LONG=1 everything is built there, and the archive and the package are those of make.

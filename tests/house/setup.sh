@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # `make setup GOAL...` installs what these goals need and is missing, nothing else, before anything
 # is built. Without root it uses sudo; without both, without apt-get and where sudo refuses, it names
 # what is missing, here and on other systems. A goal that there is not is told first.

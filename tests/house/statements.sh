@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Statements of the pages that a command can show, each with the page that makes it.
 set -u
 export LC_ALL=C

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # `make static` makes an archive that needs nothing of the system: in an empty root with busybox
 # alone its tools give Table 1 and the rest of the samples byte for byte.
 set -u

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # One word for one thing: words that are not to come back into what people read (README, pages,
 # --help, messages, what the samples print). rolling-fits(7) alone speaks of standard errors, those
 # of its estimators.

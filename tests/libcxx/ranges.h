@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The algorithms of std::ranges that this project uses, for libc++ 14, which has none of them:
 // `make check-libcxx` puts this in front of every source. Projections are as in the standard,
 // overloads that nobody calls are left out.

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # smooth --coast finds the free roll of the samples and of other seeds, in positions and in speeds:
 # it begins after the release at 1.5 s, and before 2.1 s; it ends at most 0.75 s before the stop and
 # 0.04 s after it (the closed form's times). So it does, in positions, on worse records: with noise

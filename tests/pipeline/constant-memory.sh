@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A million rows through each filter in the memory of a window: 24 MiB of address space, libraries included.
 set -eu
 export LC_ALL=C

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The short form of `make coverage`: the errors that fitpower prints hold.
 #include "bench/coverage.h"
 #include "unit/catch.h"

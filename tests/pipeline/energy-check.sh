@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What the energy check catches, and what it cannot: a law that is right, one that is 5 % too large,
 # and the five wrong inputs of energy-ledger(1), "What the check tests".
 set -u

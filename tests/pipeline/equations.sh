@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Every equation of the paper from what the tools print, and every symbol of rolling-motion(7) from
 # the command that its table names. Prints the table of the equations with the largest relative
 # difference of their two sides over the run; 1e-12 and more is a failure.

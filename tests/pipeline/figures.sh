@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The figures say what the tools say: each script draws, in silence, a well-formed picture; the
 # arrows of Fig. 5 are as wide as the powers of energy-ledger and labelled with them; the bands of
 # Fig. 4 lie about their laws by 1.96 standard errors; Figs. 2 and 3 have the forces and velocities

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # samples/fleet on a few records: every one gets a row, whoever runs the jobs; the errors are as
 # large as the distances from the truth; and the joint law and the scatter of the laws are those
 # that made the records.

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Flags that fuse a multiplication and an addition (-march with FMA, arm64 by itself) change no bit of a roll: the project's own
 # flags, behind them, forbid it. build/fused/ has the same sources without them and with them.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # samples/lab: `make` goes from the runs to the table, the joint law and the figure, whatever the files
 # are called and whatever was there before; `make check` fails where a v^b is not the law of a run,
 # where the runs disagree or the energy does not balance; live.sh draws while a run comes, from a

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # samples/law.sh: the law of a row and its bands as columns, against 20000 draws of a and b from the
 # errors of the row and their correlation; and what is no row is refused.
 set -u

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Simulated records of many seeds, through the whole chain: a and b come back within the errors that
 # fitpower reports. Of 40 runs with honest 95 % intervals fewer than 33 hits have a chance of 1 in
 # 700; two normal scores beyond 5, of 1 in a million.

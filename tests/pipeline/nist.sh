@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # NIST's certified data sets (StRD) through the tools: the mean of NumAcc1 to 4, Lew and Lottery by
 # the window that holds them all, DanWood's power law and Bennett5's trajectory.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # PASCO's own velocities and accelerations come out of differentiate -M pasco within the rounding of
 # the file: positions to 0.01 m and velocities to 0.01 m/s at 50 Hz, so 4 * 0.005 / (6 * 0.02) and
 # the last digit of the result.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every double passes every filter unchanged, to the bit. Needs the tools on PATH.
 #include <bit>
 #include <charconv>

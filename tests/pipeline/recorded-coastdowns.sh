@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Five coast-downs that others recorded: which law is adequate, with what errors. What is checked
 # does not come from the fit that it checks: another route, a figure of the record's owners, or the
 # reckoning of the way.

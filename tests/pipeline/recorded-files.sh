@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Files that motion programs and other people wrote, read as they are or after one line of sed or
 # awk: records, runs, and what can be checked in each.
 set -u

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What eight recordings of others say about the motion in them, each against something that the
 # reading did not use: a law of physics, a second sensor, a figure of the record's owners. What is
 # measured is printed; each line must stay within its bounds.

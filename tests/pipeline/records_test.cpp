@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The short form of the second table of `make coverage`: what fitpower says of records with one
 // thing wrong, and which law it finds.
 #include "bench/records.h"

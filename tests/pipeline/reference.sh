@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # simulate against the rolls of tests/reference: v within 1e-12 of the largest speed of a roll, x
 # within 1e-12 of its way, time and way of the stop within 1e-12 of themselves.
 #

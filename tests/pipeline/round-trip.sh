@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Whatever table a tool writes, a tool and an independent reader (awk) find the same names, units,
 # runs, history, comments and cells in it: random files of runs (all separators, names in every form,
 # quotes, blank cells, comments in every place, units that change) through chains of tools.

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # tool --run N FILE | ... and tool FILE | ... --run N are the same run, byte for byte: files of runs
 # one below another and side by side, with numbers in their headers, in their names, or in neither;
 # of one file or two, through one tool or two behind it.

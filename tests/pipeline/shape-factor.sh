@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The shape factor comes back from made records with the error that is told, over 25 seeds of two
 # bodies; a caliper that is read wrong is noticed; and what is printed serves as -K. A record is read
 # as the tools read it.

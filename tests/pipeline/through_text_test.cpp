@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A chain through text gives bit for bit what the library gives in one process. Needs the tools on
 // PATH.
 #include <fmt/format.h>

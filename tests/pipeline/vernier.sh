@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Vernier's own velocities and accelerations come out of differentiate -M vernier to the last bit.
 set -eu
 export LC_ALL=C

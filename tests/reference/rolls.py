@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Writes rolls.tsv, a table of rolls for whoever wants to test a program of rolling motion:
 
     python3 rolls.py >rolls.tsv        (mpmath, 60 digits; a few minutes)

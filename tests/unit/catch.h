@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Catch2 2 or 3, whichever the system has.
 #pragma once
 #if __has_include(<catch2/catch_all.hpp>)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A random file of runs into `file`, and what a reader must find behind `chain` into `expected`; see
 # ../round-trip.sh. Variables: seed, runs, extra (the names of the columns that the chain appends),
 # history (its `##` lines, without marks), each separated by |.

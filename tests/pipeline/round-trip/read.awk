@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What stands in a file that a tool has written: RUN, REM, HIS, COL and ROW lines, as make.awk tells
 # them. Knows nothing of the tools but rolling-columns(5): tabs, quotes, heads. `extra` is how many
 # columns at the end are left out of the rows, which must all have as many fields as there are names.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What smooth and differentiate say in their `##` lines, read back.
 #include "cli/history.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rolls of the cylinder of the paper, for joint fits.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Joint fits of runs with hardly more records than parameters.
 
 #include <algorithm>

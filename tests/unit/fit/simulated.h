@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Simulated runs for the tests of fit/, from closed formulas that are typed here and not taken from
 // lib/motion.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One run up a slope, over its turning point and back.
 #include "fit/fit.h"
 

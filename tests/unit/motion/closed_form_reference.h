@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The closed form in 80 decimal digits, for the numbers given as doubles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The roll in exact geometry in 60 decimal digits, for the numbers given as doubles: independent of
 // speed_integrals.
 #pragma once

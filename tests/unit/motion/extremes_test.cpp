@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stiff and extreme scenes: what must come out of the default, and of every solver: the answer or a
 // refusal, never a NaN, never v < 0 under a law without memory.
 #include <cmath>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reference rolls with D = min(a v^b, R), b < 0, for trajectory_test.cpp: python3 radius_reference.py > radius_reference.inc (mpmath; some seconds).
 
 Time and distance by quadrature over u of du / (-dv/dt) and u du / (-dv/dt) with 60 digits, where

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Random extreme scenes: every roll ends within a bounded number of evaluations, with finite
 // numbers or with an Error of one line, and on a mat that does not fall v is never above v0. What a
 // bulge with memory takes is known before it begins: it is refused at once, or takes no more.

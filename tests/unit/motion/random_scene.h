@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Random scenes and times to compare the closed form and the exact geometry on.
 #pragma once
 

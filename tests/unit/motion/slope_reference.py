@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reference rolls on a slope for slope_test.cpp: python3 slope_reference.py > slope_reference.inc (mpmath; a few minutes).
 
 Time and distance by quadrature over y = ln(v0/u) of du / (-dv/dt) with 34 digits, where

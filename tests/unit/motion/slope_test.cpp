@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rolls on a mat that is not level: against quadrature in mpmath, against the level mat, and at the
 // ends of the range.
 #include <algorithm>
@@ -96,7 +97,7 @@ TEST_CASE("Slope: a slope that vanishes leads to the level mat", "[rolling]") {
           INFO("exact " << (geometry == exact) << " b " << b << " depth " << depth << " S " << S);
           const double stop = level.stop_time(), end = std::isinf(stop) ? 0.01 / depth : stop;
           if (!std::isinf(stop)) CHECK(std::abs(roll.stop_time() / stop - 1) < 1e-14);
-          const auto half = level.at(0.5 * end);  // sums over the way, which begin with its rounding
+          const auto half = level.at(0.5 * end);  // sums over the way begin with its rounding
           for (const double part : {1e-6, 0.1, 0.9, 1.1}) {
             if (part > 1 && std::isinf(stop)) continue;
             const auto s = roll.at(part * end), l = level.at(part * end);

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reference rolls for trajectory_test.cpp: python3 trajectory_reference.py > trajectory_reference.inc (mpmath; a few minutes).
 
 Time and distance by tanh-sinh quadrature of Eq. 12 over y = ln(v0/u) with 40 digits, the speed at a time by the secant method,

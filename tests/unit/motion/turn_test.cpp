@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Up a slope, the turning point, and back.
 #include "motion/roll.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A band matrix with its zeros, row by row.
 #pragma once
 

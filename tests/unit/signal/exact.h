@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Exact arithmetic on doubles, to judge sums and means by: a number as doubles that do not overlap,
 // after J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
 // Predicates (1997). Not the method of lib/signal.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "signal/selection.h"
 
 #include "unit/catch.h"

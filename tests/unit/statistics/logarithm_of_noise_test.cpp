@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "statistics/logarithm_of_noise.h"
 
 #include <cmath>

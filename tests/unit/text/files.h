@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // For tests: input from temporary files, standard output into one, and what an error says.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files of random headings, comments and separators: t and v are read as they were written, or the
 // file is refused. What would be a fault is another column, or another unit, without a word.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Random headers: colons, brackets, second clocks, other languages, runs side by side. Each is read
 // as an independent reader says, which knows the columns from how they were made, or refused.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs of records: one below another, in several files, side by side; their heads and names.
 #include "text/reader.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // For tests of the reader: what it gives of files of these texts.
 #pragma once
 
