@@ -115,8 +115,8 @@ class Accounts {
       beyond += fmt::format("{}imbalance {:.4g} at t = {:.6g} s", beyond.empty() ? "" : ", ",
                             balance.imbalance(), balance.time_of_imbalance());
     if (!beyond.empty())
-      tool_.check_failed(fmt::format("run {}: the check does not hold: {}: beyond {}",
-                                     in_.run_name(), beyond, tolerance));
+      tool_.check_failed(in_.run_name(),
+                         fmt::format("the check does not hold: {}: beyond {}", beyond, tolerance));
   }
 
   /// Prints the warnings about all runs.

@@ -100,7 +100,7 @@ std::vector<std::optional<FitResult>> fit_all(Tool& tool, Route route,
       results.emplace_back(fit(route, runs, options));
     } catch (const Error& error) {
       if (!each) throw;
-      tool.say(fmt::format("run {}: {}", runs.front().name, error.what()));
+      tool.say(runs.front().name, error.what());
       results.emplace_back();
     }
   }

@@ -75,25 +75,25 @@ class Told {
     one_ = fmt::format("--coast keeps {:.6g} to {:.6g} s ({} of {} rows); the roll {}", roll.from,
                        roll.to, roll.samples, roll.of, end(roll));
     if (roll.other)
-      doubts_.push_back(
-          fmt::format("{}the free roll may also be {:.6g} to {:.6g} s, and not {:.6g} "
-                      "to {:.6g} s: choose with --from and --to",
-                      run.empty() ? "" : "run " + run + ": ", roll.other->first, roll.other->second,
-                      roll.from, roll.to));
+      doubts_.add(run,
+                  fmt::format("the free roll may also be {:.6g} to {:.6g} s, and not {:.6g} to "
+                              "{:.6g} s: choose with --from and --to",
+                              roll.other->first, roll.other->second, roll.from, roll.to));
   }
   void say() const {
     if (outliers_ > 0)
       tool_.warn(fmt::format("{} outlier{} left out: at {}{} s", outliers_,
                              outliers_ == 1 ? "" : "s", times_, outliers_ > 10 ? ", ..." : ""));
     if (runs_ == 1) tool_.warn(one_);
-    if (runs_ > 1)
-      tool_.warn(
-          fmt::format("--coast keeps {} of {} rows of {} runs; {} rolls end by themselves, {} "
-                      "are ended, {} go on to the end of their runs",
-                      kept_, rows_, runs_, ends_[0], ends_[1], ends_[2]));
-    for (std::size_t i = 0; i < std::min<std::size_t>(doubts_.size(), 3); ++i)
-      tool_.warn(doubts_[i]);
-    if (doubts_.size() > 3) tool_.warn(fmt::format("and {} runs more", doubts_.size() - 3));
+    if (runs_ > 1) {
+      std::vector<std::string> ends;
+      constexpr std::array how{"end by themselves", "are ended", "go on to the end of their runs"};
+      for (std::size_t i = 0; i < how.size(); ++i)
+        if (ends_[i] > 0) ends.push_back(fmt::format("{} {}", ends_[i], how[i]));
+      tool_.warn(fmt::format("--coast keeps {} of {} rows of {} runs; of the rolls {}", kept_,
+                             rows_, runs_, enumeration(ends)));
+    }
+    for (const std::string& doubt : doubts_.all()) tool_.warn(doubt);
   }
 
  private:
@@ -107,7 +107,7 @@ class Told {
   std::size_t outliers_ = 0, runs_ = 0, kept_ = 0, rows_ = 0;
   std::array<std::size_t, 3> ends_{};
   std::string times_, one_;
-  std::vector<std::string> doubts_;
+  LinesOfRuns doubts_;
 };
 
 /// The times of the rows, for the error where a selection keeps none of them.

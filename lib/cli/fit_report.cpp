@@ -99,10 +99,6 @@ std::string described(const LawFit& fit, double least) {
                                   : " too few rows for its AICc");
 }
 
-}  // namespace
-
-namespace {
-
 std::string p_of(double p) { return p < 1e-300 ? "p < 1e-300" : fmt::format("p = {:.1g}", p); }
 
 }  // namespace
@@ -139,37 +135,44 @@ std::string disagreement(const FitResult& r, const std::vector<FitRun>& runs) {
          "; where they rolled in both directions, --slope fit; where bodies differ, a K for each";
 }
 
-/// What a message about the fit of one run begins with.
-std::string of_run(const std::vector<FitRun>& runs) {
-  return runs.size() == 1 ? fmt::format("run {}: ", runs[0].name) : "";
-}
+/// The run that a message about the fit names: none of several.
+std::string of_run(const std::vector<FitRun>& runs) { return runs.size() == 1 ? runs[0].name : ""; }
+
+struct Remark {
+  std::string run, text;
+};
 
 /// What a reader of the row alone would not know and what speaks against it: a warning, or a reason
 /// why the check does not hold. A reason that no other one causes comes first.
-std::vector<std::string> against(const FitResult& r, const std::vector<FitRun>& runs, bool noisy) {
-  std::vector<std::string> all;
-  const std::string run = of_run(runs);
-  if (r.agreement && !r.agreement->agree()) all.push_back(disagreement(r, runs));
+std::vector<Remark> against(const FitResult& r, const std::vector<FitRun>& runs, bool noisy) {
+  std::vector<Remark> all;
+  if (r.agreement && !r.agreement->agree()) all.push_back({"", disagreement(r, runs)});
   if (r.off && noisy)
-    all.push_back(fmt::format(
-        "run {}: the reading at t = {:.6g} s is {:.2g} standard deviations off the roll{}: look at "
-        "it, and leave it out (smooth --outliers), or fit the raw column with --robust",
-        runs[r.off->run].name, r.off->time, r.off->distance,
-        r.off->count > 1 ? fmt::format(", and {} more are off", r.off->count - 1) : ""));
+    all.push_back(
+        {runs[r.off->run].name,
+         fmt::format(
+             "the reading at t = {:.6g} s is {:.2g} standard deviations off the roll{}: look at "
+             "it, and leave it out (smooth --outliers), or fit the raw column with --robust",
+             r.off->time, r.off->distance,
+             r.off->count > 1 ? fmt::format(", and {} more are off", r.off->count - 1) : "")});
   if (r.b + levels::below_least_b * r.sigma_b < levels::least_b && noisy)
-    all.push_back(fmt::format(
-        "{}b is {:.3g} +- {:.2g}: no mat resists so much more as the body slows down, but a hand, "
-        "a wall, an incline or a magnet at the end of the roll does; cut it off",
-        run, r.b, r.sigma_b));
+    all.push_back(
+        {of_run(runs),
+         fmt::format("b is {:.3g} +- {:.2g}: no mat resists so much more as the body slows down, "
+                     "but a hand, a wall, an incline or a magnet at the end of the roll does; cut "
+                     "it off",
+                     r.b, r.sigma_b)});
   return all;
 }
 
 /// Warns of readings that repeat, as roundings more coarse than the motion, medians and held
-/// readings do: their errors hang together in a way that residuals of few records do not show.
-void warn_of_repeats(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs) {
+/// readings do: their errors hang together in a way that residuals of few rows do not show.
+/// Returns true if it does, or read_runs() has.
+bool warn_of_repeats(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs) {
   for (const FitRun& run : runs) {
     const std::vector<double>& y = route == Route::position ? run.x : run.v;
-    if (!run.filters.empty() || records_held(y) > 1) continue;
+    if (records_held(y) > 1) return true;
+    if (!run.filters.empty()) continue;
     std::size_t rows = 0, repeats = 0, waiting = 0;
     std::vector<double> steps;
     for (std::size_t i = 1; i < y.size(); ++i) {  // without the rest at the end
@@ -182,21 +185,25 @@ void warn_of_repeats(Tool& tool, Route route, const FitResult& r, const std::vec
                  share = static_cast<double>(repeats) / static_cast<double>(rows);
     const char* const what = route == Route::position ? "positions" : "speeds";
     if (repeats < 10) continue;
-    if (r.rms < levels::grid_of_rms * grid && share > levels::repeats_of_grid)
-      return tool.warn(fmt::format(
-          "run {}: {:.0f} % of the {} repeat, on a grid of {:.3g} that is coarser than their "
-          "noise: "
-          "errors of rounding hang together, and sigma_a and sigma_b may be too small; keep only "
-          "the rows in which a new one comes",
-          run.name, 100 * share, what, grid));
+    if (r.rms < levels::grid_of_rms * grid && share > levels::repeats_of_grid) {
+      tool.warn(run.name,
+                fmt::format("{:.0f} % of the {} repeat, on a grid of {:.3g} that is coarser than "
+                            "their noise: errors of rounding hang together, and sigma_a and "
+                            "sigma_b may be too small; keep only the rows in which a new one comes",
+                            100 * share, what, grid));
+      return true;
+    }
     const double small = nth_smallest(steps, steps.size() / 10);  // a grid, but for a few steps
-    if (r.rms > levels::noise_over_grid * small && share > levels::repeats_of_noise)
-      return tool.warn(fmt::format(
-          "run {}: {:.0f} % of the {} repeat, which readings of such noise do not, but medians do, "
-          "and a logger that holds them: sigma_a and sigma_b are too small; fit the readings "
-          "before that filter",
-          run.name, 100 * share, what));
+    if (r.rms > levels::noise_over_grid * small && share > levels::repeats_of_noise) {
+      tool.warn(run.name,
+                fmt::format("{:.0f} % of the {} repeat, which readings of such noise do not, but "
+                            "medians do, and a logger that holds them: sigma_a and sigma_b are too "
+                            "small; fit the readings before that filter",
+                            100 * share, what));
+      return true;
+    }
   }
+  return false;
 }
 
 }  // namespace
@@ -213,62 +220,78 @@ std::string why_left_out(Route route, const FitOptions& options) {
   return (reason.empty() ? "" : reason + ", or ") + "slower than --min-speed";
 }
 
+namespace {
+
+/// Warns of what spoils a fit: of a shift that no body has, and of what speaks against the row
+/// (unless check() follows, which tells it). Returns true if there is any of it.
+bool warn_of_causes(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
+                    bool noisy, bool check_comes) {
+  bool beyond = false, below = false;
+  for (std::size_t i = 0; i < r.v0.size() && !beyond && !below; ++i) {
+    const double D = r.a * std::pow(std::abs(r.v0[i]), r.b), R = runs[i].body.R;
+    beyond = D > R, below = std::abs(D) < levels::least_D_over_R * R;
+    if (beyond || below)
+      tool.warn(runs[i].name,
+                fmt::format("no body rolls so: at its first speed, {:.3g} m/s, D is {:.3g} m, {} "
+                            "the radius {} m: the units of a column are hardly right",
+                            r.v0[i], D, beyond ? "beyond" : "not a ten-thousandth of", R));
+  }
+  if (r.a < 0)
+    tool.warn(of_run(runs),
+              "a is negative: D has the other sign than v, as if the mat drove the "
+              "body on, which simulate refuses");
+  const auto reasons = against(r, runs, noisy);
+  if (!check_comes)
+    for (const Remark& reason : reasons) tool.warn(reason.run, reason.text);
+  const bool repeats = noisy && is_trajectory(route) && warn_of_repeats(tool, route, r, runs);
+  return beyond || r.a < 0 || !reasons.empty() || repeats;
+}
+
+/// Warns of what the residuals show. A body out of balance makes the rest of it.
+void warn_of_residuals(Tool& tool, Route route, const FitResult& r,
+                       const std::vector<FitRun>& runs) {
+  const std::string run = of_run(runs);
+  if (r.a > 0 && r.sigma_a > levels::uncertain_a * r.a)
+    tool.warn(run, fmt::format("sigma_a is {:.2g} times a: this ratio is the standard uncertainty "
+                               "of ln a, and a is too uncertain for the interval a +- sigma_a",
+                               r.sigma_a / r.a));
+  if (const auto& found = r.eccentricity)
+    return tool.warn(
+        runs[found->run].name,
+        fmt::format("the speed changes once a turn ({}, in one good run of a hundred by chance), "
+                    "as if the centre of mass lay {:.2g} +- {:.1g} mm off the axis, most ahead of "
+                    "it at {:.0f} degrees: a and b are further off than sigma_a and sigma_b say; "
+                    "balance the body",
+                    p_of(found->significance), 1e3 * found->e, 1e3 * found->sigma,
+                    std::fmod(found->phase * 180 / std::numbers::pi + 360, 360)));
+  if (noise_is_correlated(r))
+    tool.warn(run, fmt::format("the noise is correlated from row to row ({}), or the law is not "
+                               "the right one: {}look at the residuals, and see --report",
+                               p_of(r.whiteness),
+                               route == Route::velocity ? "fit the positions, if the file has them "
+                                                          "(--route position), or "
+                                                        : ""));
+  if (r.errors == Errors::uneven)
+    tool.warn(run,
+              "the noise is not of one size along the run, which sigma_a and sigma_b take "
+              "into account: look at the residuals");
+}
+
+}  // namespace
+
 void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
              bool check_comes) {
-  for (std::size_t i = 0; i < r.v0.size(); ++i) {
-    const double D = r.a * std::pow(std::abs(r.v0[i]), r.b), R = runs[i].body.R;
-    const bool beyond = D > R;
-    if (!beyond && !(std::abs(D) < levels::least_D_over_R * R)) continue;
-    tool.warn(fmt::format(
-        "run {}: no body rolls so: at its first speed, {:.3g} m/s, D is {:.3g} m, {} the radius {} "
-        "m: the units of a column, or the radius, are hardly right",
-        runs[i].name, r.v0[i], D, beyond ? "beyond" : "not a ten-thousandth of", R));
-    break;
-  }
-  const std::string run = of_run(runs);
-  if (r.a < 0)
-    tool.warn(run +
-              "a is negative: D has the other sign than v, as if the mat drove the body on, "
-              "which simulate refuses");
   const bool noisy = !exact(route, r, runs);
-  if (!check_comes)
-    for (const std::string& text : against(r, runs, noisy)) tool.warn(text);
-  if (!noisy) return;
-  if (r.a > 0 && r.sigma_a > levels::uncertain_a * r.a)
-    tool.warn(fmt::format(
-        "{}sigma_a is {:.2g} times a: this ratio is the standard uncertainty of ln a, and "
-        "a is too uncertain for the interval a +- sigma_a",
-        run, r.sigma_a / r.a));
-  if (noise_is_correlated(r))
-    tool.warn(fmt::format(
-        "{}the noise is correlated from row to row ({}), or the law is not the right one: {}look "
-        "at "
-        "the residuals, and see --report",
-        run, p_of(r.whiteness),
-        route == Route::velocity ? "fit the positions, if the file has them (--route position), or "
-                                 : ""));
-  if (route == Route::loglog && logarithms_biased(r))
-    tool.warn(run +
-              "the noise of D biases its logarithms by more than the uncertainty of the line: "
-              "use --route shift");
-  if (is_trajectory(route)) warn_of_repeats(tool, route, r, runs);
-  if (r.sigma_slope > 0 && runs.size() == 2)
-    tool.warn(
-        "two rolls alone tell the slope: what their laws differ by counts as slope, and its "
-        "standard uncertainty does not hold that; add rolls in both directions");
-  if (r.errors == Errors::uneven)
-    tool.warn(run +
-              "the noise is not of one size along the run, which sigma_a and sigma_b take into "
-              "account: look at the residuals");
-  if (const auto& found = r.eccentricity)
-    tool.warn(fmt::format(
-        "run {}: the speed changes once a turn ({}, in one good run of a hundred by chance), as if "
-        "the centre of mass lay {:.2g} +- {:.1g} mm off the axis, most ahead of it at {:.0f} "
-        "degrees: "
-        "a and b are further off than sigma_a and sigma_b say; balance the body, unless another "
-        "warning names a cause",
-        runs[found->run].name, p_of(found->significance), 1e3 * found->e, 1e3 * found->sigma,
-        std::fmod(found->phase * 180 / std::numbers::pi + 360, 360)));
+  if (noisy && route == Route::loglog && logarithms_biased(r))
+    tool.warn(of_run(runs),
+              "the noise of D biases its logarithms by more than the uncertainty of "
+              "the line: use --route shift");
+  if (!warn_of_causes(tool, route, r, runs, noisy, check_comes) && noisy)
+    warn_of_residuals(tool, route, r, runs);
+  if (noisy && r.sigma_slope > 0 && runs.size() == 2)
+    tool.warn("",
+              "two rolls alone tell the slope: what their laws differ by counts as slope, and "
+              "its standard uncertainty does not hold that; add rolls in both directions");
 }
 
 void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& options,
@@ -294,24 +317,24 @@ void check(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun
   const bool noisy = !exact(route, r, runs);
   // check_failed() prints the first reason in full.
   if (r.errors == Errors::none || (r.sigma_a == 0 && r.sigma_b == 0 && !both_held))
-    tool.check_failed(run +
+    tool.check_failed(run,
                       "nothing is left to tell standard uncertainties from: fit more readings");
-  for (const std::string& text : against(r, runs, noisy)) tool.check_failed(text);
+  for (const Remark& reason : against(r, runs, noisy)) tool.check_failed(reason.run, reason.text);
   if (noisy && beginning)
     tool.check_failed(
-        fmt::format("run {}: the first {} rows do not go on as the others ({}), as if a hand were "
-                    "still on: cut "
-                    "off {:.2g} s",
-                    runs[beginning->run].name, beginning->records, p_of(beginning->significance),
-                    beginning->time));
+        runs[beginning->run].name,
+        fmt::format("the first {} rows do not go on as the others ({}), as if a hand were still "
+                    "on: cut off {:.2g} s",
+                    beginning->records, p_of(beginning->significance), beginning->time));
   if (laws && laws->against_power() >= levels::another_law)
-    tool.check_failed(fmt::format("{}D = {} is better than a v^b by {:.1f} in AICc; see --report",
-                                  run, laws->best_other().law->formula, laws->against_power()));
+    tool.check_failed(run,
+                      fmt::format("D = {} is better than a v^b by {:.1f} in AICc; see --report",
+                                  laws->best_other().law->formula, laws->against_power()));
   if (noisy && r.whiteness <= levels::not_white)
-    tool.check_failed(fmt::format(
-        "{}the residuals are not white ({}): the law, or what is known of the noise, is "
-        "not right",
-        run, p_of(r.whiteness)));
+    tool.check_failed(run,
+                      fmt::format("the residuals are not white ({}): the law, or what is known "
+                                  "of the noise, is not right",
+                                  p_of(r.whiteness)));
 }
 
 }  // namespace rolling

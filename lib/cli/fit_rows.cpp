@@ -62,7 +62,7 @@ Rows read_rows(Tool& tool) {
       corr(in, "corr");
   Rows rows;
   while (in.next_run()) {
-    const auto name = in.find("run") ? in.find("run") : in.find("record");
+    const auto name = in.find("run");
     const bool sized = in.find("rms") && in.find("n");
     const auto rms = in.want("rms"), n = in.want("n");
     // a, b, and v0, x0 and the slope where they were fitted
@@ -161,7 +161,7 @@ int fit_rows(Tool& tool, const Body& body, const std::vector<Estimate>& shape_fa
   tool.out.flush();
   if (joint.agreement.agree()) return 0;
   const std::string text = disagreement(joint.agreement, rows.runs, common_numbers(rows));
-  with_check ? tool.check_failed(text) : tool.warn(text);
+  with_check ? tool.check_failed("", text) : tool.warn(text);
   return 0;
 }
 

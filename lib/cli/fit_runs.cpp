@@ -62,10 +62,9 @@ void warn_of_held(Tool& tool, Route route, const FitRun& run,
   if (!position && speeds_of_positions(history)) return;
   const double held = records_held(position ? run.x : run.v);
   if (held > 1)
-    tool.warn(
-        fmt::format("run {}: {} repeat: each stands in {:.2g} rows on average; keep only the row "
-                    "in which a new one comes",
-                    run.name, position ? "positions" : "speeds", held));
+    tool.warn(run.name, fmt::format("{} repeat: each stands in {:.2g} rows on average; keep only "
+                                    "the row in which a new one comes",
+                                    position ? "positions" : "speeds", held));
 }
 
 bool change_numbers(const std::vector<LinearFilter>& filters) {
@@ -84,13 +83,12 @@ void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
   run.filters = std::move(history.filters);
   run.shift_of = history.shift_of;
   if (!history.doubt.empty())
-    tool.warn(fmt::format("run {}: {}: the fit goes on as if no filter were known", run.name,
-                          history.doubt));
+    tool.warn(run.name, history.doubt + ": the fit goes on as if no filter were known");
   if (history.left_out > 0)
-    tool.warn(
-        fmt::format("run {}: it was cut after the filters that its `##` lines name: {} more "
-                    "rows at the cut are left out, since their windows are not known; cut first",
-                    run.name, history.left_out));
+    tool.warn(run.name,
+              fmt::format("it was cut after the filters that its `##` lines name: {} more rows at "
+                          "the cut are left out, since their windows are not known; cut first",
+                          history.left_out));
 }
 
 /// Drops the columns that the route does not fit.

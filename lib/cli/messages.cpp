@@ -11,6 +11,8 @@
 #include <exception>
 #include <new>
 
+#include "base/error.h"
+
 namespace rolling {
 
 void write_message(std::string_view name, std::string_view text) {
@@ -24,6 +26,64 @@ void write_message(std::string_view name, std::string_view text) {
   // If this fails, there is no place left for a message.
   [[maybe_unused]] const auto count =
       ::write(STDERR_FILENO, line.data(), static_cast<std::size_t>(end + 1 - line.data()));
+}
+
+namespace {
+
+/// "a, b, c and 4 more"
+std::string some_of(std::vector<std::string> names) {
+  constexpr std::size_t most = 3;
+  if (names.size() > most) {
+    names[most] = fmt::format("{} more", names.size() - most);
+    names.resize(most + 1);
+  }
+  return enumeration(names);
+}
+
+}  // namespace
+
+std::string enumeration(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
+  return text;
+}
+
+void LinesOfRuns::add(const std::string& run, const std::string& text) {
+  std::string alike = text;
+  std::erase_if(alike, [](char c) {
+    return std::string_view("0123456789.+-e").find(c) != std::string_view::npos;
+  });
+  auto line = std::ranges::find(lines_, alike, &Line::alike);
+  if (run.empty() || line == lines_.end()) {
+    lines_.push_back({text, std::move(alike), {}});
+    line = lines_.end() - 1;
+  }
+  if (!run.empty()) line->runs.push_back(run);
+}
+
+std::string LinesOfRuns::Line::all() const {
+  if (runs.empty()) return text;
+  if (runs.size() == 1) return fmt::format("run {}: {}", runs[0], text);
+  return fmt::format("run {} (and {}): {}", runs[0], some_of({runs.begin() + 1, runs.end()}), text);
+}
+
+std::vector<std::string> LinesOfRuns::all() const {
+  std::vector<std::string> all;
+  for (const Line& line : lines_) all.push_back(line.all());
+  return all;
+}
+
+std::string LinesOfRuns::first_and_count() const {
+  const Line& first = lines_.front();
+  if (lines_.size() == 1) return first.all();
+  std::vector<std::string> others;
+  for (const Line& line : lines_)
+    for (const std::string& run : line.runs)
+      if (std::ranges::count(first.runs, run) + std::ranges::count(others, run) == 0)
+        others.push_back(run);
+  return fmt::format("{} (and {} more{}{})", first.all(), lines_.size() - 1,
+                     others.empty() ? "" : ", of ", some_of(others));
 }
 
 namespace {

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "text/output.h"
 
@@ -15,6 +16,31 @@ inline constexpr int trouble = 2;  ///< the exit status after an error
 /// Allocates no memory, so that it works when memory has run out. (Exceptions that nothing catches,
 /// before main() or while a message is being made, are reported by such a line too.)
 void write_message(std::string_view name, std::string_view text);
+
+/// "a, b and c"
+std::string enumeration(const std::vector<std::string>& words);
+
+/// Lines about runs: those of several runs that differ in their numbers alone are one, as
+/// `run a.csv (and b.csv, c.csv, d.csv and 4 more): sigma_a is 0.62 times a: ...`.
+class LinesOfRuns {
+ public:
+  /// A line without a run, as about a joint fit, is a line of its own.
+  void add(const std::string& run, const std::string& text);
+  /// The lines in the order of their first runs.
+  std::vector<std::string> all() const;
+  /// The first line, how many more there are, and the runs of which they are.
+  std::string first_and_count() const;
+  bool empty() const { return lines_.empty(); }
+
+ private:
+  struct Line {
+    std::string text, alike;  ///< of the first run; without numbers
+    std::vector<std::string> runs;
+
+    std::string all() const;
+  };
+  std::vector<Line> lines_;
+};
 
 /// From now on SIGINT, SIGTERM and SIGHUP write `last_line` behind the output, unless nothing has
 /// been printed or standard output would block, before they end the tool. Signals that the caller

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cli/messages.h"
 #include "cli/scene.h"
 #include "signal/savitzky_golay.h"
 #include "text/column.h"
@@ -35,14 +36,6 @@ Estimate to_estimate(const std::string& text, const Range& range) {
   if (!parse_estimate(text, estimate)) refuse_number(text);
   require(range, estimate.value, text);
   return estimate;
-}
-
-/// "a, b and c"
-std::string enumeration(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
-  return text;
 }
 
 std::string long_name(const std::string& names) {
@@ -120,18 +113,20 @@ void Options::numbers(const std::string& names, std::vector<Estimate>& values, c
   add(
       names, "NUMBER,...", help,
       [&values, range](const std::string& text) {
+    const auto parts = split_names(text, ',');
+    const auto is_whole = [](const std::string& part) {
+      return part.find_first_not_of("0123456789") == std::string::npos;
+    };
+    const auto both_whole = [&](const auto& a, const auto& b) {
+      return is_whole(a) && is_whole(b);
+    };
+    if (std::ranges::adjacent_find(parts, both_whole) != parts.end())
+      fail(
+          "'{}' can be read in two ways: if its comma is a decimal one, make it a point; else "
+          "write whole numbers with one, as 1.0,2.0",
+          shown(text));
     values.clear();
-    bool whole_before = false;
-    for (const std::string& part : split_names(text, ',')) {
-      const bool is_whole = part.find_first_not_of("0123456789") == std::string::npos;
-      if (whole_before && is_whole)
-        fail(
-            "'{}' can be read in two ways: if its comma is a decimal one, make it a point; else "
-            "write whole numbers with one, as 1.0,2.0",
-            shown(text));
-      values.push_back(to_estimate(part, range));
-      whole_before = is_whole;
-    }
+    for (const std::string& part : parts) values.push_back(to_estimate(part, range));
       },
       [&values] { return values.empty(); });
 }

@@ -11,7 +11,6 @@
 #include <new>
 #include <utility>
 
-#include "cli/messages.h"
 #include "text/column.h"
 #include "text/lines.h"
 
@@ -91,7 +90,8 @@ Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
 
 void Tool::say(const std::string& text) {
   progress.stop();
-  write_message(name_, text);
+  for (const std::string& line : std::exchange(waiting_, {}).all()) write_message(name_, line);
+  if (!text.empty()) write_message(name_, text);
 }
 
 void Tool::count_left_out(std::size_t count, const std::string& why) {
@@ -99,15 +99,11 @@ void Tool::count_left_out(std::size_t count, const std::string& why) {
     say(fmt::format("{} row{} left out: {}", count, count == 1 ? "" : "s", why));
 }
 
-void Tool::check_failed(const std::string& text) {
-  if (failed_checks_++ == 0) failed_check_ = text;
-}
-
 /// Flushes the output and prints the counts and failed checks; returns the exit status.
 int Tool::finish(int status) {
   if (status == trouble) out.end_with(error_line_);
   out.flush();
-  progress.stop();
+  say("");
   for (const auto& reader : readers_)
     if (!reader->taken_in_si().empty()) warn(reader->taken_in_si());
   std::size_t left_out = 0;
@@ -124,9 +120,8 @@ int Tool::finish(int status) {
     say("the times are beyond 1e11 s, some 3000 years: if they are in ms or us, write that in "
         "brackets behind the name of their column");
   count_left_out(left_out, "a reading is missing");
-  if (failed_checks_ == 0) return status;
-  say(failed_checks_ == 1 ? failed_check_
-                          : fmt::format("{} (and {} more)", failed_check_, failed_checks_ - 1));
+  if (failed_.empty()) return status;
+  say(failed_.first_and_count());
   return std::max(status, 1);  // trouble is more than a check that does not hold
 }
 

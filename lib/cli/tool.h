@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/messages.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "text/output.h"
@@ -39,18 +40,23 @@ class Tool : public Options {
 
   /// One line of printable ASCII on standard error, at most 512 bytes.
   void say(const std::string& text);
+  /// A line about a run, which waits for the next of say() or the end: see LinesOfRuns.
+  void say(const std::string& run, const std::string& text) { waiting_.add(run, text); }
   /// A warning: the same line, unless -q is given.
   void warn(const std::string& text) {
     if (!quiet_) say(text);
+  }
+  void warn(const std::string& run, const std::string& text) {
+    if (!quiet_) say(run, text);
   }
 
   /// Prints how many records were left out and why, unless -q is given.
   void count_left_out(std::size_t count, const std::string& why);
 
-  /// Reports that a check does not hold. When `work` has returned, run() prints the first of these
-  /// texts and how many followed, and returns 1. If `work` ends with an error, that is printed
-  /// alone.
-  void check_failed(const std::string& text);
+  /// Reports that a check of a run, or of all, does not hold. When `work` has returned, run()
+  /// prints the first of these texts and how many followed, and returns 1. If `work` ends with an
+  /// error, that is printed alone.
+  void check_failed(const std::string& run, const std::string& text) { failed_.add(run, text); }
 
   Output out;
   Progress progress;  ///< Readers update it; a tool does for longer computations of its own
@@ -64,8 +70,7 @@ class Tool : public Options {
   ReaderOptions input_;
   bool quiet_ = false;
   bool standard_input_taken_ = false;  // a Reader reads it; a second one cannot
-  std::string failed_check_;
-  std::size_t failed_checks_ = 0;
+  LinesOfRuns waiting_, failed_;
   std::vector<std::unique_ptr<Reader>> readers_;
 };
 

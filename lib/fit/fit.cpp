@@ -82,7 +82,7 @@ void require_determined(const FitResult& result, const FitOptions& options) {
         result.a, result.errors == Errors::none ? "" : fmt::format(" +- {:.2g}", result.sigma_a));
   if (result.errors != Errors::none && !determines_b(result.sigma_b))
     fail(
-        "the data do not determine b, which comes out as {:.3g} +- {:.2g}: {}; or fix it, --fix "
+        "the data do not determine b, which comes out as {:.3g} +- {:.3g}: {}; or fix it, --fix "
         "b=0",
         result.b, result.sigma_b, choose_the_roll);
   if (result.errors == Errors::none && !options.b && std::abs(result.b) > 10)

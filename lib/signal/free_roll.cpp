@@ -40,9 +40,9 @@ class Search {
           fastest_ = std::max(fastest_, std::abs(v.value) - 3 * v.error);
   }
 
-  FreeRoll roll() const {
+  std::optional<FreeRoll> roll() const {
     std::vector<Chain> chains = rolls();
-    if (chains.empty()) fail("no free roll is found that stands out of the noise{}", choose);
+    if (chains.empty()) return {};
     const auto rank = [](const Chain& c) { return std::pair(c.lost > 0.1, c.duration); };
     const auto longer = [&](const Chain& a, const Chain& b) { return rank(a) > rank(b); };
     std::sort(chains.begin(), chains.end(), longer);
@@ -352,8 +352,16 @@ FreeRoll roll_of(std::span<const Sample> readings, bool positions, double step) 
   for (const Sample& s : readings) take(outliers.push(s.t, s.y));
   take(outliers.finish());
   const double noise = noise_of(samples, positions, std::ldexp(step, -units.y));
-  FreeRoll roll =
+  const auto found =
       positions ? Search<4>(samples, noise, true).roll() : Search<3>(samples, noise, false).roll();
+  if (!found) {
+    const auto [low, high] = std::ranges::minmax(readings, {}, &Sample::y);
+    fail(
+        "no free roll is found: the readings go from {:.4g} to {:.4g}, and no motion in them that "
+        "slows down stands out of their noise of {:.1g}{}",
+        low.y, high.y, std::ldexp(noise, units.y), choose);
+  }
+  FreeRoll roll = *found;
   const auto whole = [&](std::size_t end) {
     return end == samples.size() ? readings.size() : end == 0 ? 0 : index[end - 1] + 1;
   };

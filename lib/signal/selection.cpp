@@ -34,7 +34,7 @@ std::span<const Judged> Selection::push(double t, double y) {
 void Selection::finish() {
   decided_.clear();
   if (test_) take(test_->finish());
-  if (!options_.coast) return;
+  if (!options_.coast || run_.empty()) return;
   const FreeRoll found = free_roll({run_.data(), run_.size()}, options_.positions);
   kept_ = found.kept;
   const auto first = [&](std::size_t i) { return run_[std::min(i, run_.size() - 1)].t; };

@@ -135,10 +135,11 @@ bool is_known(const Column& column) { return !si_unit(column.name).empty(); }
 Conversion conversion_to_si(std::string_view quantity, const Column& column) {
   if (si_unit(quantity).empty() || column.unit.empty()) return {};
   if (const auto found = unit_of(quantity, column.unit)) return *found;
-  fail(
-      "column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); convert it "
-      "first",
-      shown(to_text(column)), quantity, shown(column.unit), known_units(quantity));
+  fail("column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); {}",
+       shown(to_text(column)), quantity, shown(column.unit), known_units(quantity),
+       column.unit.find(':') == std::string::npos
+           ? "convert it first"
+           : "make seconds of clock times first (rolling-recipes(7))");
 }
 
 std::vector<std::string> split_names(std::string_view line, char separator) {

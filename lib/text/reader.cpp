@@ -476,7 +476,8 @@ std::string Reader::way_out(std::size_t column) const {
   const std::string_view field = fields_[column].text;
   if (means_missing(field) && !is_missing(field)) return "; write NaN for a missing reading";
   const bool word = !field.empty() && plain.find(field.front()) == std::string_view::npos;
-  if (!word && field.find(':') < field.size()) return "; make it one number of seconds first";
+  if (!word && field.find(':') < field.size())
+    return "; make it one number of seconds first (rolling-recipes(7))";
   const auto blank = field.find(' '), comma = field.find(',');
   const bool beside = dialect_.separator() == ',' && blank < field.size() &&
                       is_number(field.substr(0, blank)) && is_number(trim(field.substr(blank)));
@@ -489,7 +490,11 @@ std::string Reader::way_out(std::size_t column) const {
   if (field.find_first_not_of(plain) < field.size() && std::ranges::none_of(field, is_letter) &&
       (wide || field.find_first_of(digits) < field.size()))
     return "; write it with the digits 0 to 9, a hyphen and a point alone";
-  if (!word) return "";
+  if (!word)
+    return field.find_first_of(digits) < field.size() &&
+                   field.find_first_not_of("+-.0123456789eE") < field.size()
+               ? "; write the number alone, and its unit into the header"
+               : "";
   if (head_.named && read_column(field).name == layout().columns[column].name)
     return "; put a blank line before the names of another run";
   return column == 0 ? "; if this line is not a row, begin it with #"

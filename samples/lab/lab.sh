@@ -4,7 +4,8 @@
 # D(v) of all as a figure, in results/. The environment says what rolled:
 #   records  the folder; its files *.csv, *.tsv and *.txt in either case are the runs, in order
 #   K, R     shape factor and radius [m], one for all runs or one for each: 0.5,0.83
-#   m        mass [kg]; column: x positions, or v velocities; slope: S or fit; use: NAME=COLUMN
+#   m        mass [kg]; column: x positions, or v velocities; slope: S or fit
+#   use      NAME=COLUMN, or several with blanks between them: t=2[ms] x=Ort
 # Everything is made anew each time: nothing is told of a run that is no longer there. `check` fails
 # where a law or an energy balance does not hold. Names of files are never code.
 set -eu
@@ -34,7 +35,16 @@ done
 
 rm -rf results
 mkdir results
-roll() { smooth --coast -c "$column" -w 1 ${use:+--use "$use"} -- "$@"; }
+roll() { with_use smooth --coast -c "$column" -w 1 -- "$@"; }
+# with_use COMMAND OPTION... -- FILE...: the command with a --use for each word of use.
+with_use() {
+  command=$1
+  shift
+  set -f  # t=2[ms] is no pattern
+  for word in ${use-}; do set -- --use "$word" "$@"; done
+  set +f
+  "$command" "$@"
+}
 fit() { fitpower --route $route -K "$K" -R "$R" "$@"; }
 # Of a list, K or R, the value of run number $2.
 of_run() { printf '%s\n' "$1" | awk -F, -v i="$2" '{ print (NF > 1 ? $i : $1) }'; }
@@ -59,7 +69,7 @@ else
   cat results/table.txt
 fi
 if command -v gnuplot >/dev/null; then
-  ../figures/fig4.sh -c "$column" -K "$K" -R "$R" --slope "$slope" ${use:+--use "$use"} -- "$@" >results/fig4.svg
+  with_use ../figures/fig4.sh -c "$column" -K "$K" -R "$R" --slope "$slope" -- "$@" >results/fig4.svg
 fi
 [ "$goal" = check ] || exit 0
 

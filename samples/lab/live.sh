@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# live.sh [-K K] [-R R] [-w WIDTH] [-c x|v] [-T TERMINAL] SOURCE: draws D against v while the body
-# rolls, again with every record. SOURCE is the device of a sensor (a serial port), a file that
+# live.sh -K K -R R [-w WIDTH] [-c x|v] [-T TERMINAL] SOURCE: draws D against v while the body
+# rolls, again with every row. SOURCE is the device of a sensor (a serial port), a file that
 # grows, or - for standard input, with lines of time and velocity (-c v, the default) or of time and
 # position (-c x). TERMINAL is one of gnuplot's: without -T qt or x11 on a graphic screen, else
-# dumb, which draws with letters. The picture is (WIDTH - 1)/2 + 1 records behind the sensor, one
+# dumb, which draws with letters. The picture is (WIDTH - 1)/2 + 1 rows behind the sensor, one
 # more with -c x.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
-K=0.5 R=0.04 width=11 column=v terminal=''
+K='' R='' width=11 column=v terminal=''
 while getopts K:R:w:c:T: option; do
   case $option in
     K) K=$OPTARG ;;
@@ -21,6 +21,7 @@ while getopts K:R:w:c:T: option; do
   esac
 done
 shift $((OPTIND - 1))
+[ "$K" ] && [ "$R" ] || { echo "$0: say what rolled: -K 0.5 -R 0.04" >&2; exit 2; }
 [ $# = 1 ] || { sed -n '3s/^# //p' "$0" >&2; exit 2; }
 PATH=$(cd "$(dirname "$0")/../.." && pwd)/bin:$PATH
 command -v gnuplot >/dev/null ||
@@ -34,7 +35,7 @@ if [ -z "$terminal" ]; then
   fi
 fi
 
-records() {
+rows() {
   if [ "$1" = - ]; then
     [ ! -t 0 ] || stty raw -echo
     cat
@@ -45,7 +46,7 @@ records() {
     tail -n +1 -F --pid=$$ -- "$1" 2>/dev/null
   fi
 }
-# The commands of gnuplot, with each record all points so far. (awk would read ahead.)
+# The commands of gnuplot, with each row all points so far. (awk would read ahead.)
 pictures() {
   local points='' v=0 D=0 i field
   if [ "$terminal" = dumb ]; then
@@ -68,6 +69,6 @@ pictures() {
   done
 }
 velocity() { if [ "$column" = x ]; then differentiate -u -c x; else cat; fi; }
-records "$1" | velocity | smooth -q -u -c v -w "$width" | differentiate -u -c v |
+rows "$1" | velocity | smooth -q -u -c v -w "$width" | differentiate -u -c v |
   shift-from-accel -q -u -K "$K" -R "$R" |
   pictures | gnuplot -d -

@@ -97,6 +97,10 @@ grep -q 'slope 0.001;' named/fig4.svg || complain 'the figure has no slope'
 make records=named K=0.5,0.5,0.83,0.83 R=0.04 slope=0.001 >said 2>&1 && complain 'Ort is taken for x'
 make records=named K=0.5,0.5,0.83,0.83 R=0.04 slope=0.001 use=x=Ort >said 2>&1 || complain "use=x=Ort: $(cat said)"
 law | cmp - named/law && cmp results/fig4.svg named/fig4.svg || complain "use=x=Ort: $(cat said)"
+# Two of them, one with a unit.
+for i in 1 2 3 4; do awk -F, -v OFS=, 'NR == 1 { print "Zeitpunkt", "Ort"; next } { print 1000 * $1, $2 }' two/$i.csv >named/$i.csv; done
+make records=named K=0.5,0.5,0.83,0.83 R=0.04 slope=0.001 'use=t=1[ms] x=Ort' >said 2>&1 || complain "use of two: $(cat said)"
+law | cmp - named/law || complain "use of two: $(cat said)"
 
 # Speeds instead of positions; two mats have no one law.
 mkdir speeds
@@ -129,7 +133,9 @@ await() {  # FILE PICTURES: so many have come, and no more do
 }
 record >whole
 head -n 20 whole >grows
-./live.sh -T dumb grows >drawn 2>&1 &
+./live.sh -T dumb grows >said 2>&1 && complain 'live.sh goes on without K and R'
+grep -q 'say what rolled' said || complain "live.sh without K: $(cat said)"
+./live.sh -K 0.5 -R 0.04 -T dumb grows >drawn 2>&1 &
 live=$!
 await drawn 14
 tail -n 10 whole >>grows
@@ -141,7 +147,7 @@ if script -qec 'test -t 2' /dev/null </dev/null >/dev/null 2>&1; then
     while IFS= read -r line; do echo "$line"; sleep 0.04; done <whole
     await typed 24 >said
     kill "$(cat pid)"
-  } | timeout 20 bash -c 'echo $$ >pid; exec script -qfec "./live.sh -T dumb -" typed' >/dev/null 2>&1
+  } | timeout 20 bash -c 'echo $$ >pid; exec script -qfec "./live.sh -K 0.5 -R 0.04 -T dumb -" typed' >/dev/null 2>&1
   ! grep -q instead said || complain "in a terminal: $(cat said)"
 fi
 exit $wrong
