@@ -26,13 +26,14 @@ for shell in dash 'bash --posix' 'busybox sh'; do
   command -v "${shell%% *}" >/dev/null && shells+=("$shell")
 done
 for script in "${scripts[@]}"; do
-  case $(head -n 1 "$script") in
+  first=$(grep -v '^# SPDX' "$script" | head -n 1)
+  case $first in
     '#!/bin/sh')
       for shell in "${shells[@]}"; do
         $shell -n "$script" || complain "$shell does not read $script"
       done ;;
     '#!/usr/bin/env bash' | '# shellcheck shell=bash'*) bash -n "$script" || complain "$script" ;;
-    *) complain "$script begins with $(head -n 1 "$script")" ;;
+    *) complain "$script begins with $first" ;;
   esac
 done
 
