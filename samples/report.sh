@@ -270,7 +270,7 @@ HTML
   { echo methods; simulate --scene CR.toml --report 2>&1 >/dev/null; } |
     awk 'NR == 1 { print }
       NF == 8 {
-        for (i = 7; i <= 8; i++) if ($i ~ /^[0-9]/) $i = sprintf("%.*f", $i < 10, $i)
+        for (i = 7; i <= 8; i++) if ($i ~ /^[0-9]/) $i = sprintf($i < 10 ? "%.1f" : "%.0f", $i)
         sub(/^simulate: */, ""); gsub(/ +/, "  "); sub(/\|dv\|/, "|Δv|")
         sub(/scatter/, "scatter [ns]")
         print "  " $0

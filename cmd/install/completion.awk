@@ -64,7 +64,7 @@ function zsh(    i, part, words, value) {
   print "_arguments -s" (operands ? " '*:file:_files'" : "") " \\"
   for (i = 1; i <= count; ++i) {
     words = help[i]
-    gsub(/[\]\[:\\]/, "\\\\&", words)
+    gsub(/[]:[\\]/, "\\\\&", words)
     gsub(/'/, "'\\''", words)
     if (values(i) != "") value = ":value:(" values(i) ")"
     else if (type[i] == "FILE") value = ":file:_files"

@@ -39,7 +39,7 @@ for page in "${pages[@]}"; do
   (cd man && mandoc -Thtml \
     -O 'style=pages.css,man=%N.%S.html;https://manpages.debian.org/%N.%S' "$name") |
     sed 's/^<html>/<html lang="en">/
-      s/<body>/<body>\n<p><a href="index.html">rolling: all pages<\/a><\/p>/' >"$to/$name.html"
+      s/<body>/<body><p><a href="index.html">rolling: all pages<\/a><\/p>/' >"$to/$name.html"
 done
 
 {

@@ -56,7 +56,7 @@ paste moments <(of_name roll $column) <(of_name law $column) <(of_name law v) |
 
 # What the picture says. The scatter is the median of |residual|, over 0.6745 that of a normal one.
 missing=$(($(read_record t -w 1 "$file" | grep -c '^[^#]') - $(grep -c '^[^#]' readings)))
-scatter=$(awk '{ print $3 < 0 ? -$3 : $3 }' residuals | sort -g |
+scatter=$(awk '{ print ($3 < 0 ? -$3 : $3) }' residuals | sort -g |
   awk '{ r[NR] = $1 } END { print (r[int((NR + 1) / 2)] + r[int(NR / 2) + 1]) / 2 / 0.6745 }')
 awk -v scatter="$scatter" '{ r = $3 < 0 ? -$3 : $3 } r > 5 * scatter' residuals >outliers
 label=${name//[[:cntrl:]]/?} && [ ${#label} -le 24 ] || label=${label:0:11}…${label: -12}
@@ -71,7 +71,7 @@ awk -v unit=$unit -v rms="$rms" -v scatter="$scatter" -v rows="$(wc -l <residual
   -v readings="$(grep -c '^[^#]' readings)" -v missing="$missing" -v outliers="$(wc -l <outliers)" '
   BEGIN { printf "rms %.3g %s, scatter %.3g %s\n%d of %d rows, %d without a reading; %s\n", 1e3 * rms, unit,
     scatter, unit, rows, readings + missing, missing,
-    outliers == 0 ? "no outlier" : outliers == 1 ? "1 outlier" : outliers " outliers" }' >>heading
+    (outliers == 0 ? "no outlier" : outliers == 1 ? "1 outlier" : outliers " outliers") }' >>heading
 
 title="Residuals of $(head -n 1 heading | sed 's/[&<>\\|]/./g')"
 draw 520 640 "unit = '$unit'; first = $start; last = $(tail -n 1 moments); rms = 1e3*$rms; \

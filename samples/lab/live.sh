@@ -43,7 +43,9 @@ rows() {
     stty raw -echo <"$1"
     cat -- "$1"
   else
-    tail -n +1 -F --pid=$$ -- "$1" 2>/dev/null
+    tail -n +1 -F -- "$1" 2>/dev/null &
+    trap 'kill $!' EXIT  # with this script
+    while kill -0 $$ 2>/dev/null; do sleep 1; done
   fi
 }
 # The commands of gnuplot, with each row all points so far. (awk would read ahead.)

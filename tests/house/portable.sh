@@ -12,86 +12,103 @@ trap 'rm -rf "$scratch"' EXIT
 wrong=0 tried=''
 complain() { echo "$*" && wrong=1; }
 
-# Nothing that GNU make 3.81 or bash 3.2 lack, or the tools of BSD.
+# Nothing that GNU make 3.81 or bash 3.2 lack, or the tools of BSD: in sed, \n in what comes in. The
+# packages of Linux are made with its tools.
 mapfile -t scripts < <(find cmd/install samples -name '*.sh' -type f)
 forbidden='mapfile|readarray|declare -A|wait -n|\|&|\$\{[a-z_]+(\^|,,)|sed (-[a-zA-Z]+ )*(-i|--in)'
-forbidden+='|install -D|tail --|head -n -|cp (-[a-z]+ )*-t|readlink -f|xargs -r|grep -[a-z]*P'
-if grep -nE "^[^#]*($forbidden)" "${scripts[@]}" samples/lab/Makefile; then complain 'only GNU has that'; fi
+forbidden+='|install -D|tail [^|]*--[a-z]|head -n -|cp (-[a-z]+ )*-t|readlink -f|xargs -r|grep -[a-z]*P'
+of_gnu='-printf|sort -[a-z]*[Vz]|\b(date|touch) .*-d|stat -c|\b(nproc|realpath|tac|shuf|timeout) '
+of_gnu+='|\bs([/|])[^/|]*\4[^/|]*\\n'
+if grep -nE "^[^#]*($forbidden)" "${scripts[@]}" samples/lab/Makefile ||
+  grep -nE "^[^#]*($of_gnu)" "${scripts[@]}" samples/lab/Makefile | grep -vE '^cmd/install/(deb|static|date)\.sh:'
+then complain 'only GNU has that'; fi
 if grep -nE '^(private|undefine|define .*=|\.ONESHELL|\.SHELLFLAGS)|: private |\$\(file |!=|::=' \
   Makefile samples/lab/Makefile; then complain 'GNU make 3.81 has no such thing'; fi
 
-# A script is read by what its first line says, sh being any of these.
-shells=()
-for shell in dash 'bash --posix' 'busybox sh'; do
-  command -v "${shell%% *}" >/dev/null && shells+=("$shell")
-done
-for script in "${scripts[@]}"; do
-  first=$(grep -v '^# SPDX' "$script" | head -n 1)
-  case $first in
-    '#!/bin/sh')
-      for shell in "${shells[@]}"; do
-        $shell -n "$script" || complain "$shell does not read $script"
-      done ;;
-    '#!/usr/bin/env bash' | '# shellcheck shell=bash'*) bash -n "$script" || complain "$script" ;;
-    *) complain "$script begins with $first" ;;
-  esac
+# An algorithm of ranges that libc++ 14 lacks is in the header that stands in for it.
+for name in $(grep -ohE '\branges::[a-z_]+' -r lib cmd tests/unit tests/pipeline | sort -u); do
+  grep -qE "\b(auto|bool|using) ${name#*::}\b|\(${name#*::}\)" tests/libcxx/ranges.h ||
+    complain "tests/libcxx/ranges.h lacks $name"
 done
 
-# What the scripts make, into the folder $1, with the sh in $shell.
+# Every script, in a copy whose scripts for sh run in the shell $1, a path: what they make goes into
+# the folder $2. It takes the awk that is on the PATH.
 everything() {
-  local tool kind name
-  $shell samples/table1.sh >"$1/table1" || complain "table1.sh"
+  local tool kind name file law
+  rm -rf "$scratch/copy" && mkdir -p "$scratch/copy" "$2/exports" "$2/fleet"
+  tar -cf - Makefile cmd man samples tests/targets.mk | tar -xf - -C "$scratch/copy" || exit 2
+  ln -s "$PWD/bin" "$scratch/copy/bin"
+  for file in "${scripts[@]}"; do
+    case $(grep -v '^# SPDX' "$file" | head -n 1) in
+      '#!/bin/sh') { echo "#!$1" && tail -n +2 "$file"; } >"$scratch/copy/$file" ;;
+      '#!/usr/bin/env bash' | '# shellcheck shell=bash'*) bash -n "$file" || complain "$file" ;;
+      *) complain "$file does not say which shell it is for" ;;
+    esac
+  done
+  pushd "$scratch/copy" >/dev/null || exit 2
+  samples/table1.sh >"$2/table1" || complain table1.sh
   for tool in bin/*; do
     for kind in bash zsh; do
       "$tool" --help | awk -v shell=$kind -v name="${tool#bin/}" -f cmd/install/completion.awk \
-        >"$1/$kind-${tool#bin/}"
+        >"$2/$kind-${tool#bin/}"
     done
   done
-  mkdir "$1/exports" && samples/exports/make.sh "$1/exports"
-}
-install_with() {  # FOLDER
-  local way
-  for way in install uninstall; do
-    bindir=/b mandir=/m datadir=/d docdir=/doc PROGRAM_PREFIX=r- TOOLS=bin DESTDIR=$1 \
-      $shell cmd/install/install.sh $way >/dev/null || complain "$way"
-    (cd "$1" && find . -type f -exec cksum {} + | sort) >"$1-$way"
+  samples/exports/make.sh "$2/exports" || complain exports/make.sh
+  samples/shape-factor.sh >"$2/shape-factor" || complain shape-factor.sh
+  samples/fleet/make.sh "$2/fleet" 3 || complain fleet/make.sh
+  for file in "$2"/fleet/*.csv; do samples/fleet/fit.sh -K 0.5 -R 0.04 "$file"; done \
+    >"$2/fleet/table" 2>"$2/fleet/said" || complain fleet/fit.sh
+  awk -f samples/fleet/pulls.awk "$2/fleet/truth.txt" "$2/fleet/table" >"$2/fleet/pulls"
+  awk -f samples/fleet/told.awk "$2/fleet/said" >"$2/fleet/told" || complain told.awk
+  K=0.5 R=0.04 records=$2/fleet samples/lab/lab.sh all >"$2/lab" 2>"$2/lab-said" || complain lab.sh
+  samples/law.sh "$2/lab" >"$2/law" || complain law.sh
+  if command -v mandoc >/dev/null; then cmd/install/html.sh "$2/man" || complain html.sh; fi
+  if command -v gnuplot >/dev/null; then
+    for name in fig1 fig1-stop fig2 fig3 fig4 fig5 energy; do
+      samples/figures/$name.sh >"$2/$name.svg" || complain "$name.sh"
+    done
+    samples/figures/residuals.sh -K 0.5 -R 0.04 samples/CR.csv >"$2/residuals.svg" ||
+      complain residuals.sh
+    samples/report.sh "$2" >"$scratch/report" || complain report.sh
+    # Without the times that the solvers took.
+    grep -v '^<tr><td>[a-z0-9]*</td>' "$scratch/report" >"$2/report"
+  fi
+  for kind in install uninstall; do
+    bindir=/b mandir=/m datadir=/d docdir=/doc PROGRAM_PREFIX=r- TOOLS=bin DESTDIR=$2/tree \
+      cmd/install/install.sh $kind >/dev/null || complain "install.sh $kind"
+    # The list has the sums of the scripts, whose first lines differ here.
+    (cd "$2/tree" && find . -type f ! -path './doc/*' -exec cksum {} + | sort) >"$2/$kind"
+    (cd "$2/tree" && find . | sort) >>"$2/$kind"
   done
+  rm -r "$2/tree"
+  popd >/dev/null || exit 2
 }
-drawn() {
-  local name
-  for name in fig1 fig1-stop fig2 fig3 fig4 fig5 energy; do
-    samples/figures/$name.sh >"$1/$name.svg" || complain "$name.sh"
-  done
-}
-shell=bash
-mkdir "$scratch/first" && everything "$scratch/first" && install_with "$scratch/first-tree"
-if command -v gnuplot >/dev/null; then drawn "$scratch/first"; fi
-
-mkdir "$scratch/bin"
 compare() {  # WITH WHAT
   diff -r "$scratch/first" "$scratch/other" >"$scratch/said" ||
     complain "with $1 something else comes out:" "$(head -n 20 "$scratch/said")"
   rm -rf "$scratch/other" && tried+=", $1"
 }
-for awk in mawk gawk 'gawk --posix' original-awk 'busybox awk'; do
+everything /bin/sh "$scratch/first"
+[ "$(find "$scratch/first" -type f | wc -l)" -ge 30 ] || complain "only $(ls -R "$scratch/first")"
+
+# The examples of the pages and of the READMEs too, with each awk.
+mkdir "$scratch/bin"
+for awk in mawk 'gawk --posix' original-awk 'busybox awk'; do
   command -v "${awk%% *}" >/dev/null || continue
   [ "$($awk 'BEGIN { print 4^0.5 + log(1) }' 2>/dev/null)" = 2 ] ||
     { tried+=", not $awk, which has no exp, log and sqrt"; continue; }
   printf '#!/bin/sh\nexec %s "$@"\n' "$awk" >"$scratch/bin/awk" && chmod +x "$scratch/bin/awk"
-  mkdir "$scratch/other"
-  PATH=$scratch/bin:$PATH everything "$scratch/other"
-  if command -v gnuplot >/dev/null; then PATH=$scratch/bin:$PATH drawn "$scratch/other"; fi
+  PATH=$scratch/bin:$PATH everything /bin/sh "$scratch/other"
   compare "$awk"
-done
-for shell in "${shells[@]}"; do
-  mkdir "$scratch/other" && $shell samples/table1.sh >"$scratch/other/table1"
-  cmp "$scratch/first/table1" "$scratch/other/table1" || complain "with $shell Table 1 is another"
-  install_with "$scratch/tree"
-  for way in install uninstall; do
-    diff "$scratch/first-tree-$way" "$scratch/tree-$way" || complain "$shell: $way"
+  for name in man-examples readme; do
+    PATH=$scratch/bin:$PATH tests/house/$name.sh >"$scratch/said" 2>&1 || [ $? = 77 ] ||
+      complain "with $awk: $(head -n 20 "$scratch/said")"
   done
-  rm -rf "$scratch/tree" "$scratch/other"
-  tried+=", $shell"
+done
+for shell in dash 'bash --posix' 'busybox sh'; do
+  command -v "${shell%% *}" >/dev/null || continue
+  everything "$(command -v "${shell%% *}")${shell#"${shell%% *}"}" "$scratch/other"
+  compare "$shell"
 done
 echo "tried with ${tried#, }"
 exit $wrong

@@ -53,6 +53,11 @@ template <class R, class C = std::less<>, class P = std::identity>
 auto max(R&& range, C compare = {}, P p = {}) {
   return *ranges::max_element(range, compare, p);
 }
+template <class R>
+auto minmax(R&& range) {
+  const auto [least, most] = std::minmax_element(std::begin(range), std::end(range));
+  return std::pair(*least, *most);
+}
 
 template <class R, class F = std::equal_to<>, class P = std::identity>
 auto adjacent_find(R&& range, F same = {}, P p = {}) {
@@ -64,9 +69,13 @@ auto adjacent_find(R&& range, F same = {}, P p = {}) {
   auto name(R&& range, T&&... rest) {                              \
     return std::name(std::begin(range), std::end(range), rest...); \
   }
+ROLLING_OF_ARGUMENTS(copy)
 ROLLING_OF_ARGUMENTS(lower_bound)
+ROLLING_OF_ARGUMENTS(move)
 ROLLING_OF_ARGUMENTS(next_permutation)
+ROLLING_OF_ARGUMENTS(nth_element)
 ROLLING_OF_ARGUMENTS(replace)
+ROLLING_OF_ARGUMENTS(replace_if)
 ROLLING_OF_ARGUMENTS(reverse)
 ROLLING_OF_ARGUMENTS(shuffle)
 ROLLING_OF_ARGUMENTS(upper_bound)

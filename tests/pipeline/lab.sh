@@ -142,6 +142,8 @@ tail -n 10 whole >>grows
 await drawn 24
 kill $live
 wait $live 2>/dev/null
+for ((i = 0; i < 60; i++)); do pgrep -f '^tail .*-F -- grows$' >/dev/null || break; sleep 0.05; done
+[ $i -lt 60 ] || complain 'live.sh leaves a tail behind'
 if script -qec 'test -t 2' /dev/null </dev/null >/dev/null 2>&1; then
   {
     while IFS= read -r line; do echo "$line"; sleep 0.04; done <whole
