@@ -34,7 +34,7 @@ done
 # Every script, in a copy whose scripts for sh run in the shell $1, a path: what they make goes into
 # the folder $2. It takes the awk that is on the PATH.
 everything() {
-  local tool kind name file law
+  local tool kind name file
   rm -rf "$scratch/copy" && mkdir -p "$scratch/copy" "$2/exports" "$2/fleet"
   tar -cf - Makefile cmd man samples tests/targets.mk | tar -xf - -C "$scratch/copy" || exit 2
   ln -s "$PWD/bin" "$scratch/copy/bin"
