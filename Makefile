@@ -128,7 +128,7 @@ figures/man/index.html: cmd/install/html.sh $(wildcard man/*)
 
 # The whole suite; TESTS='tests/house/form.sh tests/tools' is a part of it.
 check: all
-	@PATH="$$PWD/bin:$$PATH" tests/run.sh build/unit $(TESTS)
+	@PATH="$$PWD/bin:$$PATH" tests/run.sh $(or $(TESTS),build/unit)
 
 # The names smooth and simulate are common: PROGRAM_PREFIX=roll- installs roll-smooth,
 # roll-simulate, ... and their pages so. The script reads all of these from its environment, where

@@ -114,7 +114,8 @@ copy = mkdir -p $1 && rm -rf $(addprefix $1/,cmd lib man samples tests) && \
 # There the tests of what the tools do run, with more time for each; those of pages, packages and
 # the sizes of programs do not.
 check_in = $(MAKE) -C $1 check SLOWER=5 \
-           TESTS='tests/tools tests/pipeline/*.sh tests/faults/*.sh tests/house/progress.sh'
+           TESTS='build/unit tests/tools tests/pipeline/*.sh tests/faults/*.sh \
+                  tests/house/progress.sh'
 SECONDS ?= 60
 sanitized := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined \
              -fno-sanitize-recover=all

@@ -69,7 +69,7 @@ void require_determined(const FitResult& result, const FitOptions& options) {
     if (!std::isfinite(x)) fail("the fit gives no finite a and b");
   if (result.errors != Errors::none)
     for (double x : {result.sigma_a, result.sigma_b, result.corr, result.rms})
-      if (!std::isfinite(x)) fail("the fit gives no finite errors of a and b");
+      if (!std::isfinite(x)) fail("the fit gives no finite errors of a and b: {}", choose_the_roll);
   // Large errors of a nonlinear fit are not reliable themselves; hence these limits on them.
   const auto backwards = [](double v0) { return v0 < 0; };
   const bool one_way = std::ranges::adjacent_find(result.v0, std::ranges::not_equal_to(),
@@ -140,9 +140,9 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   const auto agreement = agreement_of(route, runs, options, noise, found);
   std::vector<ErrorShare> shares{noise.share};
   const double rms = rms_of(found);
+  require_seen(found, runs);
   require_determined(result_of(found, rms, noise, shares), options);
   require_law(found, runs);
-  require_seen(found, runs);
   for (ErrorShare& share :
        shares_of_given(route, runs, options, found, !agreement || agreement->agree()))
     shares.push_back(std::move(share));
