@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The runs of the input: which one is read, its name, and its head.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "text/number.h"
+#include "text/reader.h"
+
+namespace rolling {
+namespace {
+
+bool is_whole(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// The key of what is wrong with the order of the times of a run that was passed over.
+constexpr const char* order_of_times = "order of t";
+
+}  // namespace
+
+/// True if the present run is to be read: by the number in its header or at the end of its name,
+/// which is the same behind a tool, else by its place.
+bool Reader::asked_for() {
+  if (!options_.run) return true;
+  std::string number = layout().label;
+  if (!is_number(number)) number = run_is_named() ? run_name() : "";
+  number.erase(0, number.rfind(' ') + 1);
+  const auto is_label = [](const Layout::Run& run) { return is_number(run.label); };
+  if (!is_whole(number)) {
+    if (std::ranges::any_of(head_.layout.runs, is_label)) return false;
+    number = fmt::format("{}", run_);
+  }
+  runs_ += (runs_.empty() ? "" : ", ") + number;
+  return number == fmt::format("{}", *options_.run);
+}
+
+bool Reader::next_run() {
+  if (state_ == State::in_run)
+    while (next_line()) continue;
+  if (state_ != State::found && !find_run()) return false;
+  state_ = State::in_run;
+  return true;
+}
+
+/// Goes to the next run that is to be read, and reads its head.
+bool Reader::find_run() {
+  remarks_.clear();
+  comments_.clear();
+  place_.clear();
+  bool passed = false;
+  while (state_ != State::ended && next_head()) {
+    ++run_;
+    ++run_in_file_;
+    const bool wanted = asked_for();
+    if (wanted && options_.run && run_found_)
+      fail<InputError>("{}:{}: another run {}; give the file of one of them alone", lines_->name(),
+                       head_.line, *options_.run);
+    if (wanted) {
+      begin_run();
+      return true;
+    }
+    pass_over();
+    passed = true;
+    comments_.clear();
+  }
+  if (passed) comments_.clear();  // of the run that was passed over last
+  state_ = State::ended;
+  line_number_ = 0;
+  if (options_.run && !run_found_) fail("there is no run {} (runs: {})", *options_.run, runs_);
+  if (left_out_ > 0 && !record_found_)
+    fail<InputError>("{}no rows: a needed reading is missing in every one",
+                     options_.files.size() == 1 ? lines_->name() + ": " : "");
+  return false;
+}
+
+/// Reads the head of the next run, whether the run is to be read or not. Comments behind the last
+/// run of a file are added to those of the next run.
+bool Reader::next_head() {
+  if (file_open_ && side_ + 1 < head_.layout.runs.size()) {
+    ++side_;
+    return true;
+  }
+  // Column numbers in --use count the fields of a line: the line is then one record.
+  const Sides sides = needed_.use_has_numbers() ? Sides::one : Sides::by_names;
+  while (file_open_ || next_file()) {
+    const bool first = run_in_file_ == 0;
+    Head head = read_head(*lines_, dialect_, first ? nullptr : &head_, order_, sides,
+                          run_ == 0 && !options_.run ? options_.on_comment : CommentHook());
+    if (!head.layout.runs.empty()) {
+      take_head(std::move(head));
+      return true;
+    }
+    for (std::string& comment : head.comments) {
+      if (!head_.named && are_names(comment))
+        fail<InputError>(
+            "{}: the names of the columns stand behind the last row; put them above the first",
+            lines_->name());
+      if (!comment.starts_with("##")) comments_.push_back(std::move(comment));
+    }
+    file_open_ = false;
+  }
+  return false;
+}
+
+bool Reader::next_file() {
+  if (next_file_ == options_.files.size()) return false;
+  line_number_ = 0;
+  run_in_file_ = 0;
+  lines_.emplace(options_.files[next_file_++], options_.on_block);
+  return file_open_ = true;
+}
+
+void Reader::take_head(Head head) {
+  const std::size_t width = head.layout.width, before = head_.layout.width;
+  if (run_in_file_ == 0 && next_file_ > 1 && !head.named && (head_.named || width != before))
+    fail<InputError>("{}: its columns are not those of {}: {}; give it a header", lines_->name(),
+                     options_.files.front(),
+                     head_.named ? "those have names" : fmt::format("{}, not {}", width, before));
+  head_ = std::move(head);
+  side_ = 0;
+  kept_.clear();
+  if (head_.layout.side_by_side()) keep_rows();
+}
+
+/// Keeps the lines of runs side by side, up to a run break.
+void Reader::keep_rows() {
+  kept_text_.truncate(0);
+  while (lines_->next() && lines_->kind() != LineKind::blank) {
+    const std::string_view text = lines_->text();
+    if (lines_->kind() == LineKind::history) {
+      refuse_error_line(*lines_);
+      lines_->put_back();
+      break;
+    }
+    kept_.push_back({lines_->kind(), lines_->number(), kept_text_.size(), text.size()});
+    kept_text_.append(text);
+  }
+}
+
+/// True if there are several runs, or if the run has a name or a number in the input.
+bool Reader::run_is_named() const {
+  return !head_.run.empty() || is_number(layout().label) || options_.files.size() > 1 ||
+         head_.layout.side_by_side() || run_in_file_ > 1 || lines_->another_run();
+}
+
+std::string Reader::run_name() const {
+  if (!head_.run.empty()) return head_.run;
+  const std::string& file = options_.files[next_file_ - 1];
+  std::string name = file == "-" ? "" : file.substr(file.rfind('/') + 1);
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < ' ') c = '?';
+  name = trim(name);
+  const std::string& label = layout().label;
+  const bool several = head_.layout.side_by_side() || run_in_file_ > 1 || lines_->another_run();
+  if (!label.empty()) name += ' ' + label;
+  else if (name.empty()) name = fmt::format("{}", run_);
+  else if (several) name += fmt::format(" {}", run_in_file_);
+  return std::string(trim(name));
+}
+
+/// Goes before the first row of the present run. The blanks of a run side by side below its last
+/// reading, beside a longer run, are no rows.
+void Reader::begin_rows() {
+  next_kept_ = 0;
+  dialect_.want_none();
+  const std::size_t number = line_number_;
+  const auto is_reading = [&](std::size_t i) {
+    return i < fields_.size() && !head_.layout.shared[i] && !fields_[i].text.empty();
+  };
+  for (kept_end_ = kept_.size(); kept_end_ > 0; --kept_end_) {
+    const Kept& kept = kept_[kept_end_ - 1];
+    line_number_ = kept.number;
+    fields_ = split({kept_text_.data() + kept.begin, kept.size});
+    if (kept.kind == LineKind::record && std::ranges::any_of(layout().fields, is_reading)) break;
+  }
+  line_number_ = number;
+}
+
+/// Reads the present run as strictly as one that is kept: what is wrong in a column is an error as
+/// soon as this column is needed.
+void Reader::pass_over() {
+  begin_rows();
+  NeededColumns judge(options_.use, options_.has_use);
+  judge.begin_run(layout().columns, head_.named, head_.said, place_of_head());
+  const std::vector<std::string>& quantities = judge.quantities();
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    dialect_.want(layout().fields[i]);
+    try {
+      judge.add(fmt::format("{}", i + 1), NeededColumns::Kind::wanted);
+    } catch (const InputError& error) {
+      passed_.emplace(quantities[i], error.what());
+    }
+  }
+  double last = std::numeric_limits<double>::quiet_NaN();
+  while (next_line()) {
+    remarks_.clear();
+    fields_ = split(line_);
+    take_fields();
+    for (std::size_t i = 0; i < quantities.size(); ++i) {
+      const bool missing = is_missing(fields_[i].text);
+      const double number = fields_[i].number;
+      if (missing ? options_.strict : std::isnan(number))
+        passed_.emplace(quantities[i],
+                        wrong(i, quantities[i],
+                              missing ? "is a missing reading" : "is not a number" + way_out(i)));
+      if (quantities[i] != "t" || std::isnan(number)) continue;
+      if (number <= last)
+        passed_.emplace(order_of_times, wrong(i, "t", fmt::format("does not come after {}", last)));
+      last = number;
+    }
+  }
+  remarks_.clear();
+  refuse_passed();
+}
+
+/// Refuses what is wrong in a needed column of a run that was passed over.
+void Reader::refuse_passed() const {
+  const auto refuse = [&](const std::string& what) {
+    if (const auto found = passed_.find(what); found != passed_.end())
+      fail<InputError>("{}", found->second);
+  };
+  for (const NeededColumns::Needed& needed : needed_.all()) refuse(needed.quantity);
+  if (time_slot_ != no_column) refuse(order_of_times);
+}
+
+/// What begins the messages about the columns of the present run.
+std::string Reader::place_of_head() const {
+  return run_in_file_ > 1 || !head_.named ? fmt::format("{}:{}", lines_->name(), head_.line)
+                                          : lines_->name();
+}
+
+/// Prepares for the records of the run whose head has been read.
+void Reader::begin_run() {
+  state_ = State::found;
+  run_found_ = true;
+  last_time_ = std::numeric_limits<double>::quiet_NaN();
+  begin_rows();
+  place_ = lines_->name();
+  if (run_is_named()) {
+    place_ = "run " + run_name();
+    comments_.push_back("## " + place_);
+  }
+  for (const std::string& comment : head_.comments)
+    if (side_ == 0 || comment.starts_with("##")) comments_.push_back(comment);
+  needed_.begin_run(layout().columns, head_.named, head_.said, place_of_head());
+  read_needed();
+}
+
+std::size_t Reader::add(std::string_view name, NeededColumns::Kind kind) {
+  const std::size_t slot = needed_.add(name, kind);
+  refuse_passed();
+  read_needed();
+  return slot;
+}
+
+/// Declares to the dialect the fields whose numbers are read.
+void Reader::read_needed() {
+  values_.resize(needed_.all().size());
+  dialect_.want_none();
+  for (const NeededColumns::Needed& needed : needed_.all())
+    if (needed.column != no_column) dialect_.want(layout().fields[needed.column]);
+}
+
+}  // namespace rolling
