@@ -41,7 +41,7 @@ TEST_CASE("tool: a check that does not hold is one line and 1, and a refusal is 
     std::array<char*, 2> arguments{name.data(), nullptr};
     Tool tool("tool", "");
     const int status = tool.run(1, arguments.data(), [&] {
-      for (const char* run : {"one", "two", "three"}) tool.check_failed(run);
+      for (const char* text : {"one", "two", "three"}) tool.check_failed("", text);
       if (refused) fail("no way");
       return 0;
     });
