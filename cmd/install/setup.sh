@@ -10,14 +10,20 @@ cd "${0%/*}/../.."
 goals=${*:-check}
 packages='g++ libgsl-dev libfmt-dev libcli11-dev'
 need() { packages="$packages $*"; }
-for goal; do
-  case $goal in
-    */*) ;;  # a file
-    *) cut -d : -f 1 Makefile tests/targets.mk | grep -qxF -e "$goal" || {
-        echo "setup: there is no goal '$goal': nothing was installed" >&2
-        exit 2
-      } ;;
+is_goal() {
+  name=${1##*/}
+  case $1 in
+    figures/report.html | figures/man/index.html | build/*) ;;
+    figures/*.svg | figures/*.png) [ -e "samples/figures/${name%.*}.sh" ] ;;
+    bin/*) [ -e "cmd/$name.cpp" ] ;;
+    *) cut -d : -f 1 Makefile tests/targets.mk | grep -qxF -e "$1" ;;
   esac
+}
+for goal; do
+  is_goal "$goal" || {
+    echo "setup: there is no goal '$goal': nothing was installed" >&2
+    exit 2
+  }
 done
 for goal; do
   case $goal in
