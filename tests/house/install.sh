@@ -116,6 +116,11 @@ run_there install || complain "install.sh: $(cat "$scratch/said")"
 own=$(cd "$scratch/there/doc" && find . -name '0001.csv' -o -name 'my.*' -o -name 'run.sh' -o -name a.sh)
 [ -z "$own" ] || complain "install copies $own"
 
+# Whatever the umask of who installs is, everybody can read it.
+rm -rf "$scratch/there" && (umask 077 && run_there install)
+closed=$(find "$scratch/there/doc" "$scratch/there/b" "$scratch/there/m" "$scratch/there/d" ! -perm -444)
+[ -z "$closed" ] || complain "others cannot read $closed"
+
 # Again, and in a newer version with a file less: no complaint, and the file goes.
 rm "$copy/samples/run.svg" && echo '# newer' >>"$copy/samples/table1.sh"
 run_there install || complain "a second install: $(cat "$scratch/said")"

@@ -72,13 +72,20 @@ auto adjacent_find(R&& range, F same = {}, P p = {}) {
 ROLLING_OF_ARGUMENTS(copy)
 ROLLING_OF_ARGUMENTS(lower_bound)
 ROLLING_OF_ARGUMENTS(move)
-ROLLING_OF_ARGUMENTS(next_permutation)
 ROLLING_OF_ARGUMENTS(nth_element)
 ROLLING_OF_ARGUMENTS(replace)
 ROLLING_OF_ARGUMENTS(replace_if)
 ROLLING_OF_ARGUMENTS(reverse)
 ROLLING_OF_ARGUMENTS(shuffle)
 ROLLING_OF_ARGUMENTS(upper_bound)
+
+struct Permuted {
+  bool found;
+};
+template <class R>
+Permuted next_permutation(R&& range) {
+  return {std::next_permutation(std::begin(range), std::end(range))};
+}
 
 template <class R, class Out, class F>
 auto transform(R&& range, Out to, F f) {
