@@ -131,6 +131,7 @@ plan_cases() {  # FILE.cases [NAME]
     number=$(grep -c '^=== ' "$1") && (cd "$folder" && eval "mkdir {1..$number}") &&
     awk -v into="$folder" -f "$root/tests/cases.awk" "$1" >"$folder.list" || exit 2
   while read -r number line name; do
+    # shellcheck disable=SC2053  # a pattern
     [[ ${name// /-} == ${2-*} ]] || continue
     echo "$of:$line: $name" >"$folder/$number.title"
     plan case "$folder/$number" "${of%.cases}"

@@ -101,7 +101,7 @@ class Leg {
   Geometry geometry_;
   Law law_;
   double v0_, q0_, cos_, sin_;
-  double way_;  // 1 if the speed falls, -1 if it grows
+  double way_;                   // 1 if the speed falls, -1 if it grows
   std::optional<double> power_;  // b of the closed forms
   Derivatives q_c_{};            // q_c/q at v0, for these
   std::vector<Panel> panels_;

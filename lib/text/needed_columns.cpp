@@ -244,9 +244,8 @@ Conversion NeededColumns::conversion(std::size_t at, const std::string& quantity
   Column meant = with_unit(at, quantity);
   const bool named = named_ && meant.name == quantity;
   if (meant.unit.empty() && named_) meant.unit = unit_at_end(quantity, meant.name);
-  if (const auto said = said_.find(quantity); meant.unit.empty() &&
-                                              !si_unit(quantity).empty() &&
-                                              (!named || said != said_.end())) {
+  if (const auto said = said_.find(quantity);
+      meant.unit.empty() && !si_unit(quantity).empty() && (!named || said != said_.end())) {
     std::string line = fmt::format("{} is column {}", quantity, at + 1);
     if (named_) line += fmt::format(", '{}'", shown(meant.name));
     line += fmt::format(", taken in {}", si_unit(quantity));
