@@ -68,12 +68,12 @@ Outliers::Outliers(Width width, double threshold)
       threshold_(threshold) {}
 
 std::span<const Judged> Outliers::push(double t, double y) {
-  if (count_++ > 0) {
-    large_ = std::max(large_, std::min(std::abs(y), std::abs(last_)));
-    const double step = std::abs(y - last_), least = program_rounding * large_;
-    if (step > least && (step < step_ || step_ <= least)) step_ = step;
-  }
-  last_ = y;
+  if (count_++ > 0) large_ = std::max(large_, std::min(std::abs(y), std::abs(last_)));
+  const double least = program_rounding * large_, step = y - last_, before = last_ - before_;
+  for (const double digit :
+       {count_ > 1 ? std::abs(step) : 0, count_ > 2 ? std::abs(step - before) : 0})
+    if (digit > least && (digit < step_ || step_ <= least)) step_ = digit;
+  before_ = std::exchange(last_, y);
   near_.push(t, y);
   samples_.push_back({t, y});
   return judge();

@@ -24,10 +24,11 @@ struct Judged {
 /// Stat. Assoc. 79, 871), so that a burst of three does not decide. The scatter is that of the
 /// readings of the window about their parabolas (its lower quartile, which outliers hardly move);
 /// that of the seven, if it is 3.5 times as large: a push or a stop bends the motion itself.
-/// It is at least a third of the smallest step between neighbours so far: steps of a last digit are
-/// no outliers. In a window of less than 33 samples it is 1.5 times that of the seven. Windows are
-/// cut off at the ends of a run and hold 61 samples or more, because the scatter of few is often
-/// far too small. About 1 us for a sample, 30 us where it scatters.
+/// It is at least a third of the smallest first or second difference so far, which is the last
+/// digit of readings that are rounded, however fast the body moves: a step of it is no outlier. In
+/// a window of less than 33 samples it is 1.5 times that of the seven. Windows are cut off at the
+/// ends of a run and hold 61 samples or more, because the scatter of few is often far too small.
+/// About 1 us for a sample, 30 us where it scatters.
 class Outliers {
  public:
   Outliers(Width, double threshold);
@@ -45,8 +46,9 @@ class Outliers {
   Windows near_;     // ten neighbours and the sample
   Windows scatter_;  // root of the RSS of each near window, as a reading at its time
   double threshold_;
-  double last_ = 0, large_ = 0;  // large_: the largest reading so far that a neighbour reaches too
-  double step_ = 0;              // the smallest step between neighbours so far
+  double before_ = 0, last_ = 0;  // the last two readings
+  double large_ = 0;              // the largest reading so far that a neighbour reaches too
+  double step_ = 0;               // the smallest difference so far
   SortedWindow sorted_;
   std::size_t begin_ = 0, end_ = 0;  // range of the samples in sorted_
   std::deque<Sample> samples_;       // of the run, from the index first_ on
