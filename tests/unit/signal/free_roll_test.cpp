@@ -386,6 +386,27 @@ TEST_CASE("free_roll: a reading that does not belong is no push", "[signal]") {
   }
 }
 
+TEST_CASE("free_roll: one reading that is off, wherever it is, moves no end but beside it",
+          "[signal]") {
+  for (const bool positions : {false, true})
+    for (const double off : {0.2, -0.02}) {
+      const auto good = record(25, positions ? 3e-4 : 2e-3, 5, positions);
+      const Stretch whole = free_roll(good, positions).kept;
+      for (std::size_t at = 1; at + 1 < good.size(); ++at) {
+        auto run = good;
+        run[at].y += off;
+        const Stretch kept = free_roll(run, positions).kept;
+        const auto moved = [&](std::size_t end, std::size_t without) {
+          const auto rows = [](std::size_t a, std::size_t b) { return a > b ? a - b : b - a; };
+          CHECK(rows(end, without) <= (rows(at, without) < 11 ? 8 : 2));  // 11: a window of Outliers
+        };
+        INFO("positions " << positions << ", " << off << " at " << at);
+        moved(kept.begin, whole.begin);
+        moved(kept.end, whole.end);
+      }
+    }
+}
+
 TEST_CASE("free_roll: the units of time and readings change nothing", "[signal]") {
   for (const bool positions : {false, true})
     for (const double rate : {25.0, 5000.0}) {  // 5000: means of several records are searched first
