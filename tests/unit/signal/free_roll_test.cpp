@@ -398,7 +398,8 @@ TEST_CASE("free_roll: one reading that is off, wherever it is, moves no end but 
         const Stretch kept = free_roll(run, positions).kept;
         const auto moved = [&](std::size_t end, std::size_t without) {
           const auto rows = [](std::size_t a, std::size_t b) { return a > b ? a - b : b - a; };
-          CHECK(rows(end, without) <= (rows(at, without) < 11 ? 8 : 2));  // 11: a window of Outliers
+          CHECK(rows(end, without) <=
+                (rows(at, without) < 11 ? 8 : 2));  // 11: a window of Outliers
         };
         INFO("positions " << positions << ", " << off << " at " << at);
         moved(kept.begin, whole.begin);
