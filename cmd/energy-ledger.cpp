@@ -193,10 +193,7 @@ int main(int argc, char** argv) {
     for (const auto& quantity : row)
       if (quantity.name == "Pi_S" && std::isnan(temperature)) fail("Pi_S needs --temperature");
     if (!law_file.empty()) {
-      LawFile read = read_law(tool, law_file);
-      task.power = read.law_or(task.power);
-      task.points = std::move(read.points);
-      task.body.slope = read.slope.value_or(task.body.slope);
+      task.points = read_law(tool, law_file, task.power, {{"slope", &task.body.slope}});
     }
     tool.need({"mass", "radius", "shape-factor"});
     Reader& in = task.summary ? tool.read({"t", "v", "D"}) : tool.filter({"t", "v", "D"});

@@ -110,20 +110,26 @@ std::vector<std::optional<FitResult>> fit_all(Tool& tool, Route route,
 /// The output: a row for each fit.
 struct Table {
   Output& out;
-  bool with_v0, with_slope, with_run;
+  Route route;
+  bool of_one_run, with_slope, with_run;
+
+  bool with_v0() const { return of_one_run && is_trajectory(route); }
+  bool with_x0() const { return of_one_run && route == Route::position; }
 
   std::vector<Column> columns() const {
     std::vector<Column> columns = {{"a", "m"}, {"sigma_a", "m"}, {"b"}, {"sigma_b"},
                                    {"corr"},   {"rms"},          {"n"}};
-    if (with_v0) columns.insert(columns.end(), {{"v0", "m/s"}, {"sigma_v0", "m/s"}});
+    if (with_v0()) columns.insert(columns.end(), {{"v0", "m/s"}, {"sigma_v0", "m/s"}});
     if (with_slope) columns.insert(columns.end(), {{"slope"}, {"sigma_slope"}});
+    if (with_x0()) columns.insert(columns.end(), {{"x0", "m"}, {"sigma_x0", "m"}});
+    if (with_v0()) columns.push_back({"t0", "s"});
     if (with_run) columns.push_back({"run"});
     return columns;
   }
   void write_names() const { out.names(columns()); }
 
   /// A run that could not be fitted has blank cells, and so have errors that do not exist.
-  void write(const std::optional<FitResult>& result, const std::string& run) const {
+  void write(const std::optional<FitResult>& result, const FitRun& run) const {
     if (result) {
       const FitResult& r = *result;
       const auto cell = [&](double value) {
@@ -133,14 +139,15 @@ struct Table {
       for (const double value : {r.a, r.sigma_a, r.b, r.sigma_b, r.corr, r.rms}) cell(value);
       out.blank();
       out.text(std::to_string(r.n));  // a count is never rounded to --digits
-      if (with_v0)
-        for (const double value : {r.v0.front(), r.sigma_v0.front()}) cell(value);
-      if (with_slope)
-        for (const double value : {r.slope, r.sigma_slope}) cell(value);
+      const auto estimate = [&](const Estimate& x) { cell(x.value), cell(x.sigma); };
+      if (with_v0()) estimate(r.v0.front());
+      if (with_slope) estimate({r.slope, r.sigma_slope});
+      if (with_x0()) estimate(r.x0.front());
+      if (with_v0()) cell(run.t.front());
     } else {
       for (std::size_t i = 1; i < columns().size(); ++i) out.blank();
     }
-    if (with_run) out.cell(run);
+    if (with_run) out.cell(run.name);
     out.end_line();
   }
 };
@@ -251,7 +258,7 @@ int main(int argc, char** argv) {
     set_bodies(runs, body, shape_factors, radii, uncertainty);
     if (!trajectory && !options.fit_slope) warn_of_unused_body(tool, runs, options.geometry);
     const auto fits = grouped(std::move(runs), each);
-    const Table table{tool.out, trajectory && fits.front().size() == 1, options.fit_slope, each};
+    const Table table{tool.out, route, fits.front().size() == 1, options.fit_slope, each};
     const auto results = fit_all(tool, route, fits, options, each);
     const auto fitted = [](const auto& result) { return result.has_value(); };
     if (std::none_of(results.begin(), results.end(), fitted)) return 2;
@@ -259,7 +266,7 @@ int main(int argc, char** argv) {
     table.write_names();
     std::size_t left_out = 0;
     for (std::size_t i = 0; i < results.size(); ++i) {
-      table.write(results[i], fits[i].front().name);
+      table.write(results[i], fits[i].front());
       if (results[i]) left_out += results[i]->left_out;
     }
     tool.out.flush();  // the rows stand above the report

@@ -40,12 +40,12 @@ constexpr Quantity<double (*)(double t, Motion&)> quantities[] = {
     {"D", "m", [](double, Motion& motion) { return motion.shift(); }},
 };
 
-/// The times 0, dt, 2 dt, ... If 1/dt is a whole number (25 Hz), each is the double nearest to
-/// k/rate.
+/// The times 0, dt, 2 dt, ... after t0. If 1/dt is a whole number (25 Hz), each is the double
+/// nearest to k/rate, but for t0.
 struct Clock {
-  double dt, rate = std::round(1 / dt);
+  double t0, dt, rate = std::round(1 / dt);
   bool whole = rate * dt == 1;
-  double at(double k) const { return whole ? k / rate : k * dt; }
+  double at(double k) const { return t0 + (whole ? k / rate : k * dt); }
 };
 
 /// A record in the form that the software of such a sensor exports: comma-separated, with a line of
@@ -70,7 +70,8 @@ void report(Tool& tool, const Scene& scene, double rtol, double end) {
   tool.say(fmt::format("{:8} {:>7} {:>9} {:>10} {:>11} {:>11} {:>8}", "method", "rtol",
                        "max|dv|/v0", "dt*/t*", "evaluations", "ns/sample", "scatter"));
   const auto row = [&](const std::string& name, const Method& method, double tolerance) {
-    const Measured m = measure([&] { return start(scene, method, tolerance); }, right, scene.v0, 7);
+    const Measured m =
+        measure([&] { return start(scene, method, tolerance); }, right, std::abs(scene.v0), 7);
     const std::string text = fmt::format(
         "{:8} {:>7}", name, method.kind == Method::solver ? fmt::format("{:g}", tolerance) : "-");
     if (!m.failure.empty()) return tool.say(text + " failed: " + m.failure);
@@ -99,6 +100,7 @@ std::string why_endless(const Scene& scene, Motion& motion) {
 /// What the options and the scene describe: the roll and how it is solved.
 struct Task {
   Scene roll{};
+  double t0 = 0;
   PowerLaw law{};
   Method method{};
   double rtol = 1e-10;
@@ -109,11 +111,9 @@ struct Task {
   void complete(Tool& tool) {
     std::optional<Law> points;
     if (!law_file.empty()) {
-      LawFile read = read_law(tool, law_file);
-      law = read.law_or(law);
-      points = std::move(read.points);
-      roll.body.slope = read.slope.value_or(roll.body.slope);
-      roll.v0 = read.v0.value_or(roll.v0);
+      points =
+          read_law(tool, law_file, law,
+                   {{"slope", &roll.body.slope}, {"v0", &roll.v0}, {"x0", &roll.x0}, {"t0", &t0}});
     }
     roll.law = points ? *points : Law(law);
     std::vector<std::string> needed = {"radius", "shape-factor", "v0"};
@@ -127,7 +127,7 @@ struct Task {
 /// Refuses every option that has no effect beside another, or without one.
 void check_options(const Tool& tool, const Task& task) {
   if (tool.on_command_line("sensor"))
-    tool.refuse({"dt", "at", "columns", "x0"},
+    tool.refuse({"dt", "at", "columns", "x0", "t0"},
                 "does not go with --sensor, whose rows come at --rate, with its own columns, "
                 "from 0.3 m on");
   else tool.refuse({"seed", "rate", "resolution", "noise", "lost"}, "goes with --sensor");
@@ -137,12 +137,18 @@ void check_options(const Tool& tool, const Task& task) {
     tool.refuse({"rtol"}, "goes with a solver: there is no tolerance here");
   if (task.roll.bulge.length == 0 && task.roll.bulge.damping > 0)
     fail("--damping goes with --memory");
+  if (tool.on_command_line("sensor") && task.roll.v0 < 0)
+    fail("v0 = {}: --sensor looks after a body that rolls away from it", task.roll.v0);
 }
 
 /// The time where the rows end: `until`, or the stop if that is not given.
-double last_time(const Scene& scene, Motion& motion, double until) {
-  const double end = std::isnan(until) ? motion.stop_time() : until;
-  if (!std::isfinite(end)) fail("{}: say --until when to end", why_endless(scene, motion));
+double last_time(const Task& task, Motion& motion, double until) {
+  const double t0 = task.t0;
+  if (until < t0) fail("--until {} is before the roll, which begins at {}", until, t0);
+  const double stop = std::isnan(until) ? motion.stop_time() : until - t0;
+  if (!std::isfinite(stop)) fail("{}: say --until when to end", why_endless(task.roll, motion));
+  double end = std::isnan(until) ? t0 + stop : until;
+  while (end - t0 < stop) end = std::nextafter(end, INFINITY);  // v is 0 there
   return end;
 }
 
@@ -153,11 +159,12 @@ void add_options(Tool& tool, Task& task) {
   tool.body(roll.body, {radius, shape_factor, gravity, slope});
   tool.law(task.law);
   tool.geometry(roll.geometry);
-  tool.number("--v0", roll.v0, not_negative, "speed at t = 0 [m/s]");
-  tool.number("--x0", roll.x0, any_number, "position at t = 0 [m] (0)");
+  tool.number("--v0", roll.v0, any_number, "velocity at t0 [m/s]: below 0 towards falling x");
+  tool.number("--x0", roll.x0, any_number, "position at t0 [m] (0)");
+  tool.number("--t0", task.t0, any_number, "time at which the roll begins [s] (0)");
   tool.text("--law", task.law_file, "FILE",
-            "file (- is standard input) with a table of v D, or with a row of fitpower: a, b and "
-            "v0 that are not given otherwise");
+            "file (- is standard input) with a table of v D, or with a row of fitpower: a, b, "
+            "slope, v0, x0 and t0 that are not given otherwise");
   tool.number("--memory", roll.bulge.length, positive,
               "length over which the bulge follows the law [m]: rolls backwards before rest");
   tool.number("--damping", roll.bulge.damping, not_negative, "damping of the bulge [s] (0)");
@@ -203,13 +210,14 @@ class Rows {
     const auto power = law.power();
     out_.text("## simulate " + (power ? fmt::format("a {} b {}", power->a, power->b) : "table") +
               fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, v0) +
-              (body.slope == 0 ? "" : fmt::format(" slope {}", body.slope)));
+              (body.slope == 0 ? "" : fmt::format(" slope {}", body.slope)) +
+              (task_.t0 == 0 ? "" : fmt::format(" t0 {}", task_.t0)));
     out_.end_line();
     out_.names(columns_of(row_));
   }
 
   void write(double t, Motion& motion) {
-    if (!only_t_) motion.seek(t);
+    if (!only_t_) motion.seek(t - task_.t0);
     std::size_t end = count_;
     for (const auto& quantity : row_) numbers_[end++] = quantity.of(t, motion);
     count_ = end;
@@ -229,7 +237,8 @@ class Rows {
     for (bool first = true; in.next_run();) {
       std::unique_ptr<Motion> motion;
       while (in.next()) {
-        if (in[t] < 0) fail("t = {} is before the roll, which begins at 0", in[t]);
+        if (in[t] < task_.t0)
+          fail("t = {} is before the roll, which begins at {}", in[t], task_.t0);
         if (!motion) {
           if (!std::exchange(first, false)) out_.end_line();
           for (const std::string& comment : in.comments())
@@ -246,10 +255,10 @@ class Rows {
   /// Every dt up to `end`, and there too if it is the stop.
   void write_every(double dt, Motion& motion, double end, bool to_the_stop) {
     // The margin keeps rounding of end / dt from adding a row beside the stop or losing the last.
-    const double margin = 1e-9 + 1e-15 * (end / dt);
-    const double steps = std::floor(end / dt + (to_the_stop ? -margin : margin));
+    const Clock clock{task_.t0, dt};
+    const double most = (end - clock.t0) / dt, margin = 1e-9 + 1e-15 * most,
+                 steps = std::floor(most + (to_the_stop ? -margin : margin));
     if (steps > 1e9) fail("these are {:.3g} rows; the most is 1e9: --dt is too small", steps);
-    const Clock clock{dt};
     write_header();
     for (double k = 0; k <= steps; ++k) write(clock.at(k), motion);
     if (to_the_stop) write(end, motion);
@@ -277,7 +286,7 @@ int main(int argc, char** argv) {
   bool sensor = false;
   add_options(tool, task);
   tool.number("--dt", dt, positive, "time between rows [s] (0.01)");
-  tool.number("--until", until, not_negative, "no row is later than this [s] (the stop)");
+  tool.number("--until", until, any_number, "no row is later than this [s] (the stop)");
   tool.text("--at", times_file, "FILE", "file with a column t: the times of the rows, instead");
   tool.text("--columns", columns, "NAME,...", "what to compute, of t,x,v,a,D (all)");
   tool.choice<bool>("--sensor", sensor, {{"pasco", true}},
@@ -294,8 +303,8 @@ int main(int argc, char** argv) {
     Rows rows(tool.out, task, columns);
     const auto motion = task.start();
     const bool to_the_stop = std::isnan(until);
-    const double end = times_file.empty() ? last_time(task.roll, *motion, until) : not_given;
-    if (task.report) report(tool, task.roll, task.rtol, to_the_stop ? 10 : until);
+    const double end = times_file.empty() ? last_time(task, *motion, until) : not_given;
+    if (task.report) report(tool, task.roll, task.rtol, to_the_stop ? 10 : until - task.t0);
     if (sensor) {
       sonar.seed = seed;
       if (!to_the_stop) sonar.until = until;

@@ -29,7 +29,7 @@ namespace {
 bool exact(Route route, const FitResult& r, const std::vector<FitRun>& runs) {
   const double scale = route == Route::loglog     ? 1
                        : route == Route::shift    ? r.a
-                       : route == Route::velocity ? std::abs(r.v0.front())
+                       : route == Route::velocity ? std::abs(r.v0.front().value)
                                                   : runs.front().body.R;
   return r.rms < 1e-9 * scale;
 }
@@ -228,13 +228,13 @@ bool warn_of_causes(Tool& tool, Route route, const FitResult& r, const std::vect
                     bool noisy, bool check_comes) {
   bool beyond = false, below = false;
   for (std::size_t i = 0; i < r.v0.size() && !beyond && !below; ++i) {
-    const double D = r.a * std::pow(std::abs(r.v0[i]), r.b), R = runs[i].body.R;
+    const double v0 = r.v0[i].value, D = r.a * std::pow(std::abs(v0), r.b), R = runs[i].body.R;
     beyond = D > R, below = std::abs(D) < levels::least_D_over_R * R;
     if (beyond || below)
       tool.warn(runs[i].name,
                 fmt::format("no body rolls so: at its first speed, {:.3g} m/s, D is {:.3g} m, {} "
                             "the radius {} m: the units of a column are hardly right",
-                            r.v0[i], D, beyond ? "beyond" : "not a ten-thousandth of", R));
+                            v0, D, beyond ? "beyond" : "not a ten-thousandth of", R));
   }
   if (r.a < 0)
     tool.warn(of_run(runs),

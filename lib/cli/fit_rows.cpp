@@ -66,7 +66,8 @@ Rows read_rows(Tool& tool) {
     const bool sized = in.find("rms") && in.find("n");
     const auto rms = in.want("rms"), n = in.want("n");
     // a, b, and v0, x0 and the slope where they were fitted
-    const double parameters = 2 + (in.find("v0") ? 2 : 0) + (in.find("slope") ? 1 : 0);
+    double parameters = 2;
+    for (const char* number : {"v0", "x0", "slope"}) parameters += in.find(number) ? 1 : 0;
     while (in.next()) {
       rows.add(name ? std::string(in.text(*name)) : in.where(), {a.value(), sigma_a.value()},
                {b.value(), sigma_b.value()}, corr.value());

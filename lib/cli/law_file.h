@@ -4,25 +4,25 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/tool.h"
 #include "contact/law.h"
 
 namespace rolling {
 
-/// What the file says: points, or the numbers of a row of fitpower. A number is empty where the
-/// row has no such column, or where the command line gives the value, which takes precedence.
-struct LawFile {
-  std::optional<Law> points = {};
-  std::optional<double> a = {}, b = {}, slope = {}, v0 = {};  ///< SI units
-
-  /// `given`, with a and b replaced by those of the file.
-  PowerLaw law_or(PowerLaw given) const { return {a.value_or(given.a), b.value_or(given.b)}; }
+/// A number that a row of fitpower may have, under the name of an option of the tool.
+struct RowNumber {
+  const char* name;  ///< slope, v0, x0 or t0
+  double* value;     ///< SI units
 };
 
-/// Reads a row of fitpower (a file with columns a and b) or a table of v and D; `-` is standard
-/// input. Columns with units are converted to SI; v0 is read only for a tool with the option --v0.
-/// Throws Error for any other file, for more than one row, and for a table beside -a or -b.
-LawFile read_law(Tool&, const std::string& file);
+/// Reads a table of v and D, which is returned, or a row of fitpower (a file with columns a and b),
+/// which sets the law and these numbers; `-` is standard input. A number keeps its value where the
+/// row has no such column, or where the command line gives it, which takes precedence. Columns with
+/// units are converted to SI. Throws Error for any other file, for more than one row, for a row
+/// that sets nothing, and for a table beside -a or -b.
+std::optional<Law> read_law(Tool&, const std::string& file, PowerLaw&,
+                            const std::vector<RowNumber>&);
 
 }  // namespace rolling

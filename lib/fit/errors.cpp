@@ -262,13 +262,15 @@ NoiseErrors noise_errors(const Fitted& fit, const Uncertainty& by) {
   if (share.a != 0 && share.b != 0) share.together = by.covariance(fit.a.gradient, fit.b.gradient);
   if (fit.slope) share.slope = sigma(*fit.slope);
   for (std::size_t r = 0; r < fit.v0.size(); ++r) share.v0.push_back(sigma(fit.v0[r], r));
+  for (std::size_t r = 0; r < fit.x0.size(); ++r) share.x0.push_back(sigma(fit.x0[r], r));
   return {by.kind, by.whiteness, std::move(share)};
 }
 
 void NoiseErrors::multiply(double factor) {
   for (double* error : {&share.a, &share.b, &share.slope}) *error *= factor;
   share.together *= factor * factor;
-  for (double& error : share.v0) error *= factor;
+  for (std::vector<double>* of_runs : {&share.v0, &share.x0})
+    for (double& error : *of_runs) error *= factor;
 }
 
 }  // namespace rolling

@@ -45,16 +45,14 @@ FitResult result_of(const Fitted& found, double rms, const NoiseErrors& noise,
                    .left_out = found.left_out,
                    .negative = found.negative,
                    .whiteness = noise.whiteness,
-                   .v0 = {},
-                   .sigma_v0 = {},
                    .errors = noise.kind};
   double together = 0;
   for (const ErrorShare& share : shares) together += share.together;
   if (together != 0) result.corr = together / (result.sigma_a * result.sigma_b);
-  for (std::size_t r = 0; r < found.v0.size(); ++r) {
-    result.v0.push_back(found.v0[r].value);
-    result.sigma_v0.push_back(total([r](const ErrorShare& of) { return of.v0[r]; }));
-  }
+  for (std::size_t r = 0; r < found.v0.size(); ++r)
+    result.v0.push_back({found.v0[r].value, total([r](const ErrorShare& of) { return of.v0[r]; })});
+  for (std::size_t r = 0; r < found.x0.size(); ++r)
+    result.x0.push_back({found.x0[r].value, total([r](const ErrorShare& of) { return of.x0[r]; })});
   if (found.slope) {
     result.slope = found.slope->value;
     result.sigma_slope = total([](const ErrorShare& of) { return of.slope; });
@@ -71,7 +69,7 @@ void require_determined(const FitResult& result, const FitOptions& options) {
     for (double x : {result.sigma_a, result.sigma_b, result.corr, result.rms})
       if (!std::isfinite(x)) fail("the fit gives no finite errors of a and b: {}", choose_the_roll);
   // Large errors of a nonlinear fit are not reliable themselves; hence these limits on them.
-  const auto backwards = [](double v0) { return v0 < 0; };
+  const auto backwards = [](const Estimate& v0) { return v0.value < 0; };
   const bool one_way = std::ranges::adjacent_find(result.v0, std::ranges::not_equal_to(),
                                                   backwards) == result.v0.end();
   if (options.fit_slope && one_way &&
@@ -150,7 +148,7 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
     shares.push_back(
         {"bias", std::abs(found.bias_a), std::abs(found.bias_b), found.bias_a * found.bias_b});
   FitResult result = result_of(found, rms, noise, std::move(shares));
-  if (!is_trajectory(route)) result.v0 = result.sigma_v0 = {};
+  if (!is_trajectory(route)) result.v0 = {};
   result.agreement = agreement;
   result.eccentricity = eccentricity;
   result.off = off;

@@ -52,6 +52,7 @@ struct Fitted {
   double bias_a = 0, bias_b = 0;  ///< the expected bias of a and b; 0 where it is not known
   std::optional<FittedNumber> slope = {};       ///< if it is a parameter
   std::vector<FittedNumber> v0 = {};            ///< one for each run, if the model is a roll
+  std::vector<FittedNumber> x0 = {};            ///< likewise, if positions are fitted
   std::shared_ptr<const RollModel> rolls = {};  ///< the model, if it is a roll
   std::optional<Taken> taken = {};  ///< see taken_of(); if other fits have left these residuals
   std::shared_ptr<const ShiftRecords> shifts = {};  ///< the records, if the model is a law D(v)

@@ -89,7 +89,7 @@ std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& 
           return (body.K + 1) * body.R / body.g;
         };
         share.a = fit.a.value * std::abs(change(unit(step), unit(-step))) / unit(0);
-        share.v0.assign(fit.v0.size(), 0);
+        share.v0.assign(fit.v0.size(), 0), share.x0.assign(fit.x0.size(), 0);
         continue;
       }
       const Fitted above = fit_with(route, runs, warm, agree, number, value, step),
@@ -100,6 +100,8 @@ std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& 
       share.slope = fit.slope ? change(above.slope->value, below.slope->value) : 0;
       for (std::size_t r = 0; r < fit.v0.size(); ++r)
         share.v0.push_back(change(above.v0[r].value, below.v0[r].value));
+      for (std::size_t r = 0; r < fit.x0.size(); ++r)
+        share.x0.push_back(change(above.x0[r].value, below.x0[r].value));
     }
   }
   return all;

@@ -47,7 +47,7 @@ struct ErrorShare {
   double a = 0, b = 0;  ///< not negative
   double together = 0;  ///< contribution to the covariance of a and b
   double slope = 0;
-  std::vector<double> v0 = {};  ///< one for each run, if the model is a roll
+  std::vector<double> v0 = {}, x0 = {};  ///< one for each run, if Fitted has them
 };
 
 struct FitResult {
@@ -59,7 +59,8 @@ struct FitResult {
   std::size_t negative;  ///< of these, those with D <= 0 whose noise loglog does not know
   double whiteness;      ///< significance of the autocorrelation of the noise (Ljung and Box); NaN
                          ///< where it is not tested
-  std::vector<double> v0, sigma_v0;  ///< initial speeds [m/s], one for each run (trajectory routes)
+  std::vector<Estimate> v0 = {};      ///< at the first row [m/s], of each run (trajectory routes)
+  std::vector<Estimate> x0 = {};      ///< likewise [m] (positions)
   double slope = 0, sigma_slope = 0;  ///< the slope of the mat, if it was fitted
   Errors errors;
   std::optional<Eccentricity> eccentricity = {};  ///< of the run with the most significant signal

@@ -56,22 +56,23 @@ double squares_of_shifts(const RollModel& rolls, const std::vector<double>& thet
   return sum * run.shifts->unit * run.shifts->unit;
 }
 
-/// Writes a, b, the slope and v0 with their gradients, and the number of records, into the fit.
+/// Writes a, b, the slope, v0 and x0 with their gradients, and the number of records, into the fit.
 void report(Fitted& fit) {
   const std::vector<double>& theta = fit.minimum.theta;
   const Parameters& q = fit.rolls->parameters();
   const std::array<double, LawForm::most> none{};
-  const auto quantity = [&](double value, double v0, double slope) {
+  const auto quantity = [&](double value, double v0, double x0, double slope) {
     FittedNumber result{value, std::vector<double>(q.columns())};
-    q.chain(result.gradient.data(), 1, 0, {none, v0, 0, slope});
+    q.chain(result.gradient.data(), 1, 0, {none, v0, x0, slope});
     return result;
   };
   report_law(fit, q);
-  if (q.fits_slope()) fit.slope = quantity(q.slope(theta, 0), 0, 1);
+  if (q.fits_slope()) fit.slope = quantity(q.slope(theta, 0), 0, 0, 1);
   const auto& runs = fit.rolls->runs();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const double way = runs[r].way;
-    fit.v0.push_back(quantity(way * q.v0(theta, r), way, 0));
+    fit.v0.push_back(quantity(way * q.v0(theta, r), way, 0, 0));
+    if (q.has_x0()) fit.x0.push_back(quantity(q.x0(theta, r), 0, 1, 0));
     fit.records += runs[r].shifts ? runs[r].shifts->fitted : runs[r].y.size();
   }
 }

@@ -6,8 +6,7 @@
 . "$(dirname "$0")/draw.sh"
 smooth -q --coast -c x -w 1 CR.csv >roll
 fitpower -q --route position -K 0.5 -R 0.04 roll >fit
-read -r a _ b _ < <(grep -v '^#' fit)
-ledger() { energy-ledger -m 1.375 -K 0.5 -R 0.04 -a "$a" -b "$b"; }
+ledger() { energy-ledger -m 1.375 -K 0.5 -R 0.04 --law fit; }
 differentiate -c x -M savgol -w 21 roll | ledger >measured
 start=$(awk '!/^#/ { print $1; exit }' roll)
 simulate --law fit -K 0.5 -R 0.04 --columns t,v | ledger >fitted
@@ -22,7 +21,7 @@ array what[4] = ['translational', 'rotational', 'dissipated', 'sum']
 # of the sensor.
 energy(i, f) = i == 1 ? column(f) : i == 2 ? column(f + 1) : i == 3 ? column(f + 9) : \
                column(f) + column(f + 1) + column(f + 9)
-plot for [i=1:4] 'fitted' using 1:(energy(i, 3)) with lines ls i notitle, \
+plot for [i=1:4] 'fitted' using ($1-start):(energy(i, 3)) with lines ls i notitle, \
      for [i=1:4] 'measured' using ($1-start):(energy(i, 5)) every 2 with points ls i ps 0.7 \
        notitle, \
      for [i=1:4] keyentry with linespoints ls i ps 0.7 title what[i], \

@@ -8,12 +8,8 @@ run() {  # NAME K
   differentiate -q -c x "$1.csv" >"$1.raw"
   smooth -q --coast -c x -w 1 "$1.csv" >"$1.roll"
   differentiate -c x "$1.roll" | smooth -w 11 | whole_windows >"$1.v"
-  # The fit's time begins with the roll.
-  local start
-  start=$(awk '!/^#/ { print $1; exit }' "$1.roll")
   fitpower -q --route position -K "$2" -R 0.04 "$1.roll" |
-    simulate --law - -K "$2" -R 0.04 --columns t,v |
-    awk -v start="$start" '!/^#/ { print $1 + start "\t" $2 }' >"$1.line"
+    simulate --law - -K "$2" -R 0.04 --columns t,v >"$1.line"
 }
 run CR 0.5; run SR 0.83; run CF 0.5; run SF 0.83
 title='Fig. 1: the velocity of the four experiments against time'

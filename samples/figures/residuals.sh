@@ -21,7 +21,7 @@ name=${file##*/} && name=${name%.*}
 # What is read but once is copied: it is read more than once here.
 [ -f "$file" ] || { cat -- "$file" >run && file=run; }
 
-a='' b='' v0='' rms=''
+rms='' t0=''
 route=position unit=mm
 if [ "$column" != v ] && read_record x -w 1 "$file" >readings 2>said; then column=x
 else
@@ -40,19 +40,12 @@ of_name() {
     /^# / { sub(/^# /, ""); for (i = 1; i <= NF; i++) if (index($i, want "[") == 1) at = i; next }
     NF { print $at }' "$1"
 }
-# The roll of the law at the times of the rows, from its v0 towards growing x; of a roll the other way
-# the signs are turned. A fit of positions has an x0 of its own: the mean of the distances.
-of_name roll t >moments
-start=$(head -n 1 moments)
-ahead=$slope
-[[ $v0 != -* ]] || case $slope in -*) ahead=${slope#-} ;; *) ahead=-$slope ;; esac
-awk -v start="$start" '{ printf "%.17g\n", $1 - start }' moments |
-  simulate -q -a "$a" -b "$b" --v0 "${v0#-}" -K "$K" -R "$R" --slope="$ahead" --at - >law
-paste moments <(of_name roll $column) <(of_name law $column) <(of_name law v) |
-  awk -v way="$([[ $v0 == -* ]] && echo -1 || echo 1)" -v column=$column '
-    { t[NR] = $1; r[NR] = way * $2 - $3; v[NR] = $4; sum += r[NR] }
-    END { x0 = column == "x" ? sum / NR : 0
-      for (i = 1; i <= NR; i++) printf "%s\t%.9g\t%.9g\n", t[i], v[i], 1e3 * (r[i] - x0) }' >residuals
+# The roll of the row, from its t0, v0 and x0 on, at the times of the run; of one towards falling x
+# the signs are turned.
+simulate -q --law fit -K "$K" -R "$R" --slope="$slope" --at roll >law
+paste <(of_name roll t) <(of_name roll $column) <(of_name law $column) <(of_name law v) |
+  awk 'NR == 1 { way = $4 < 0 ? -1 : 1 }
+    { printf "%s\t%.9g\t%.9g\n", $1, $4 < 0 ? -$4 : $4, 1e3 * way * ($2 - $3) }' >residuals
 
 # What the picture says. The scatter is the median of |residual|, over 0.6745 that of a normal one.
 missing=$(($(read_record t -w 1 "$file" | grep -c '^[^#]') - $(grep -c '^[^#]' readings)))
@@ -74,7 +67,7 @@ awk -v unit=$unit -v rms="$rms" -v scatter="$scatter" -v rows="$(wc -l <residual
     (outliers == 0 ? "no outlier" : outliers == 1 ? "1 outlier" : outliers " outliers") }' >>heading
 
 title="Residuals of $(head -n 1 heading | sed 's/[&<>\\|]/./g')"
-draw 520 640 "unit = '$unit'; first = $start; last = $(tail -n 1 moments); rms = 1e3*$rms; \
+draw 520 640 "unit = '$unit'; first = $t0; last = $(tail -n 1 residuals | cut -f 1); rms = 1e3*$rms; \
   outliers = $(wc -l <outliers)" <<'PLOT'
 set multiplot layout 2,1 margins 0.16,0.97,0.09,0.88 spacing 0.12
 stats 'residuals' using 3 nooutput

@@ -100,7 +100,7 @@ inline GivenNumbers given_numbers(int draws, unsigned seed) {
       const FitResult r = fit(Route::position, {run}, options);
       all.stated_a += r.sigma_a / stating;
       all.stated_b += r.sigma_b / stating;
-      all.stated_v0 += r.sigma_v0[0] / stating;
+      all.stated_v0 += r.v0[0].sigma / stating;
       all.stated_corr += r.corr / stating;
       if (k == 0) all.first = r;
       run.given = {};
@@ -112,7 +112,7 @@ inline GivenNumbers given_numbers(int draws, unsigned seed) {
     const FitResult r = fit(Route::position, {run}, options);
     all.a.add(r.a, r.sigma_a);
     all.b.add(r.b, r.sigma_b);
-    all.v0.add(r.v0[0], r.sigma_v0[0]);
+    all.v0.add(r.v0[0].value, r.v0[0].sigma);
     ab += (r.a - CR.a) * (r.b - CR.b);
   }
   all.corr = (ab - all.a.sum * all.b.sum / draws) / (draws - 1) / (all.a.sd() * all.b.sd());

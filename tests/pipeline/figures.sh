@@ -308,7 +308,7 @@ grep -q "t = 2.72 s" "$scratch/off.svg" && grep -q "1 outlier" "$scratch/off.svg
 # lowest velocity is simulate's.
 smooth -q --coast -c x -w 1 samples/CR.csv |
   fitpower -q --route position -K 0.5 -R 0.04 >"$scratch/fit"
-back=$(simulate --law "$scratch/fit" -K 0.5 -R 0.04 --until 4 --dt 0.005 --columns v --memory 5e-4 --damping 0.02 |
+back=$(simulate --law "$scratch/fit" -K 0.5 -R 0.04 --until 5.6 --dt 0.005 --columns v --memory 5e-4 --damping 0.02 |
   awk '!/^#/ && $1 < least { least = $1 } END { print least }')
 read -r _ top _ bottom _ < <(grep -oE "d='M[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+ L[0-9.]+,[0-9.]+" "$scratch/fig1-stop.svg" |
   head -n 1 | tr -c '0-9.\n' ' ')

@@ -14,7 +14,7 @@ namespace {
 
 struct Given {
   PowerLaw law{};
-  double slope = 0, v0 = not_given;
+  double slope = 0, v0 = not_given, x0 = 0, t0 = 0;
   std::optional<Law> points;
   int status = 0;
   std::string said;
@@ -25,10 +25,12 @@ Given law_of(const std::string& text, std::vector<std::string> words = {}) {
   const TemporaryFile file(text), errors;
   Given given;
   Tool tool("tool", "");
-  Body body;
+  Body body{};
   tool.body(body, {BodyOption::slope});
   tool.law(given.law);
-  tool.number("--v0", given.v0, not_negative, "");
+  tool.number("--v0", given.v0, any_number, "");
+  tool.number("--x0", given.x0, any_number, "");
+  tool.number("--t0", given.t0, any_number, "");
   words.insert(words.begin(), "tool");
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
@@ -36,11 +38,10 @@ Given law_of(const std::string& text, std::vector<std::string> words = {}) {
   {
     const Redirect to_file(STDERR_FILENO, errors.name());
     given.status = tool.run(static_cast<int>(words.size()), arguments.data(), [&] {
-      const LawFile read = read_law(tool, file.name());
-      given.points = read.points;
-      given.law = read.law_or(given.law);
-      given.slope = read.slope.value_or(body.slope);
-      given.v0 = read.v0.value_or(given.v0);
+      given.slope = body.slope;
+      given.points = read_law(
+          tool, file.name(), given.law,
+          {{"slope", &given.slope}, {"v0", &given.v0}, {"x0", &given.x0}, {"t0", &given.t0}});
       return 0;
     });
   }
@@ -61,6 +62,15 @@ TEST_CASE("law file: a row of fitpower, in its units; the command line wins", "[
   CHECK(none.said == "tool: --law tells nothing that is not on the command line: leave it out\n");
   const Given bare = law_of("a b\n2e-3 0\n");
   CHECK((bare.law.a == 2e-3 && bare.law.b == 0 && bare.v0 != bare.v0 && bare.slope == 0));
+}
+
+TEST_CASE("law file: where the roll of a row begins", "[cli]") {
+  const std::string row = "# a[m]\tb\tv0[m/s]\tx0[cm]\tt0[ms]\n1e-3\t0\t-0.5\t50\t1720\n";
+  const Given all = law_of(row);
+  CHECK((all.v0 == -0.5 && all.x0 == 0.5 && all.t0 == 1.72));
+  const Given some = law_of(row, {"--x0", "0", "--t0", "0"});
+  CHECK((some.v0 == -0.5 && some.x0 == 0 && some.t0 == 0));
+  CHECK(law_of("# a[m]\tb\tt0[m]\n1e-3\t0\t1\n").status == 2);
 }
 
 TEST_CASE("law file: a table of v and D", "[cli]") {

@@ -152,7 +152,7 @@ TEST_CASE("agreement: uneven noise around the runs' own laws, by hand", "[fit]")
   }
   // The lines have two parameters each, the joint fit one each and the slope.
   sum *= (n - count - 1) / (n - 2 * count);
-  CHECK(r.sigma_v0[0] == Approx(std::sqrt(sum)).epsilon(1e-6));
+  CHECK(r.v0[0].sigma == Approx(std::sqrt(sum)).epsilon(1e-6));
 }
 
 TEST_CASE("agreement: of 1000 pairs of rolls under one law 1 % are said to disagree",

@@ -81,7 +81,7 @@ TEST_CASE("first guess: of a long run all records count, where means of them com
     // No neighbour is better: the sum of squares has its minimum there, by differences of the
     // closed formula that is typed in simulated.h.
     const auto residual = [&](std::size_t i, double da, double db, double dv0) {
-      const auto roll = simulated::roll(cylinder, r.a + da, r.b + db, r.v0[0] + dv0);
+      const auto roll = simulated::roll(cylinder, r.a + da, r.b + db, r.v0[0].value + dv0);
       return route == Route::velocity ? roll.v(run.t[i]) - run.v[i] : roll.x(run.t[i]) - run.x[i];
     };
     for (int j = 0; j < 3; ++j) {
@@ -129,5 +129,5 @@ TEST_CASE("first guess: speeds that the one law held has against them are refuse
   CHECK_THROWS_WITH(fit(Route::velocity, {run}, held),
                     fmt::format("no law a v^b comes near the data: {}", choose_the_roll));
   run.v[0] = 2;  // the body stops at once, as that law has it
-  CHECK(fit(Route::velocity, {run}, held).v0[0] > 0);
+  CHECK(fit(Route::velocity, {run}, held).v0[0].value > 0);
 }

@@ -60,7 +60,7 @@ TEST_CASE("given numbers: ln a moves by dK/(1 + K), dR/R and dg/g, b does not", 
       const double all = by_noise.sigma_a * by_noise.sigma_a + r.a * r.a * (K * K + R * R + g * g);
       CHECK(std::abs(r.sigma_a / std::sqrt(all) - 1) < 1e-3);
       CHECK(std::abs(r.corr * r.sigma_a / (by_noise.corr * by_noise.sigma_a) - 1) < 1e-3);
-      if (!r.v0.empty()) CHECK(std::abs(r.sigma_v0[0] / by_noise.sigma_v0[0] - 1) < 1e-5);
+      if (!r.v0.empty()) CHECK(std::abs(r.v0[0].sigma / by_noise.v0[0].sigma - 1) < 1e-5);
     }
 }
 

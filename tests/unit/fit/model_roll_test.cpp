@@ -62,7 +62,7 @@ TEST_CASE("position: NIST's Misra1 sets are rolls under b = 1, 4/3, 3/2, 5/3", "
     run.x.insert(run.x.begin(), 0);
     const auto r = fit(Route::position, {run}, options);
     CHECK(std::abs(r.a / c.a - 1) < 1e-11);
-    CHECK(std::abs(r.v0.at(0) / c.v0 - 1) < 1e-11);
+    CHECK(std::abs(r.v0.at(0).value / c.v0 - 1) < 1e-11);
     CHECK(r.errors == Errors::classical);
     // One record more changes n - p from 12 to 13.
     if (c.b == 1) CHECK(std::abs(r.sigma_a / c.sigma_a * std::sqrt(13.0 / 12) - 1) < 1e-9);
@@ -84,7 +84,7 @@ TEST_CASE(
           CAPTURE(route, b, until, way);
           CHECK(std::abs(r.a / 1.87e-3 - 1) < 1e-9);
           CHECK(std::abs(r.b - b) < 1e-9);
-          CHECK(std::abs(r.v0.at(0) - way * 0.5) < 1e-9);
+          CHECK(std::abs(r.v0.at(0).value - way * 0.5) < 1e-9);
         }
 }
 
@@ -95,8 +95,8 @@ TEST_CASE("trajectory: one law for two bodies and two starts; held parameters st
     const auto r = fit(route, runs, {});
     CHECK(std::abs(r.a / 5.75e-4 - 1) < 1e-9);
     CHECK(std::abs(r.b - 0.1) < 1e-9);
-    CHECK(std::abs(r.v0.at(0) - 0.5) < 1e-9);
-    CHECK(std::abs(r.v0.at(1) - 0.8) < 1e-9);
+    CHECK(std::abs(r.v0.at(0).value - 0.5) < 1e-9);
+    CHECK(std::abs(r.v0.at(1).value - 0.8) < 1e-9);
     FitOptions options;
     options.a = 5.75e-4;
     const auto held = fit(route, {runs[0]}, options);
@@ -261,7 +261,7 @@ TEST_CASE(
     const auto r = fit(Route::velocity, {run}, options);
     CHECK(std::abs(r.a / 1.87e-3 - 1) < 1e-9);
     CHECK(std::abs(r.b - 0.215) < 1e-9);
-    CHECK(std::abs(r.v0.at(0) - truth.v(run.t[0])) < 1e-9);
+    CHECK(std::abs(r.v0.at(0).value - truth.v(run.t[0])) < 1e-9);
     CHECK(r.n == 39);
     CHECK(r.left_out == 0);
   }

@@ -90,11 +90,11 @@ TEST_CASE("a v0 that no reading comes near is refused") {
     for (const PowerLaw law : {rubber, felt}) {
       FitRun run = roll_of(1, law);
       run.x.front() -= off;
-      CHECK(std::abs(fitted(run, true).v0[0] - 0.5) < 0.01);
+      CHECK(std::abs(fitted(run, true).v0[0].value - 0.5) < 0.01);
       try {
         const FitResult r = fitted(run);
         CAPTURE(off, r.a, r.b);
-        CHECK(r.v0[0] < 5);
+        CHECK(r.v0[0].value < 5);
         CHECK((r.off || !(off < 0.1)));
       } catch (const Error&) {  // refused
       }

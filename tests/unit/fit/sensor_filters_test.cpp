@@ -168,7 +168,8 @@ TEST_CASE("differences: those to the row before, of a spreadsheet, on even and o
       white += r.whiteness > 0.003;
       CHECK(r.left_out < 10);
       // On even times v0 is that of the middle of the step before the first row.
-      of_v0 += std::abs(r.v0[0] - truth.v(jitter > 0 ? run.t[0] : -0.02)) < 1.96 * r.sigma_v0[0];
+      of_v0 +=
+          std::abs(r.v0[0].value - truth.v(jitter > 0 ? run.t[0] : -0.02)) < 1.96 * r.v0[0].sigma;
     }
     CAPTURE(jitter, found, covered, white, of_v0);
     CHECK(found >= 45);

@@ -123,7 +123,7 @@ TEST_CASE("smooth motion: the fit of noisy slopes at uneven times finds its law"
     CHECK(r.sigma_b < 0.1);
     CHECK(std::abs(r.a - 1.87e-3) < 4 * r.sigma_a);
     CHECK(std::abs(r.b - 0.215) < 4 * r.sigma_b);
-    CHECK(r.v0[0] == Approx(0.5).epsilon(0.05));
+    CHECK(r.v0[0].value == Approx(0.5).epsilon(0.05));
   }
   CHECK(against > 0);  // else the noise was too small to show anything
 }

@@ -46,7 +46,7 @@ TEST_CASE("turning run: both ways determine the slope, and a and b, towards fall
         options.fit_slope = true;
         CAPTURE(scene.name, seed, route == Route::position);
         const FitResult r = fit(route, {run}, options);
-        CHECK(r.v0[0] * way > 0);
+        CHECK(r.v0[0].value * way > 0);
         off_a += std::abs(r.a - scene.a) > 1.96 * r.sigma_a;
         off_b += std::abs(r.b - scene.b) > 1.96 * r.sigma_b;
         off_slope += std::abs(r.slope - way * scene.slope) > 1.96 * r.sigma_slope;
