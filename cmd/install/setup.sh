@@ -42,7 +42,9 @@ for goal; do
     sanitize) need valgrind ;;
     coverage-lines) need gcovr ;;
     check-clang) need clang-14 ;;
-    check-libcxx) need clang-14 libc++-14-dev libc++abi-14-dev ;;
+    check-libcxx)
+      n=${LIBCXX:-14}
+      need clang-$n libc++-$n-dev libc++abi-$n-dev ;;
     check-arm64) need g++-aarch64-linux-gnu qemu-user ;;
   esac
 done

@@ -40,6 +40,7 @@ needs check 'busybox catch2 gawk gnuplot-nox libboost-dev locales mandoc mawk or
 needs check-arm64 'busybox catch2 g++-aarch64-linux-gnu gawk gnuplot-nox libboost-dev locales mandoc mawk original-awk qemu-user xz-utils'
 needs check-clang 'busybox catch2 clang-14 gawk gnuplot-nox libboost-dev locales mandoc mawk original-awk xz-utils'
 needs check-libcxx 'busybox catch2 clang-14 gawk gnuplot-nox libboost-dev libc++-14-dev libc++abi-14-dev locales mandoc mawk original-awk xz-utils'
+LIBCXX=19 needs check-libcxx 'busybox catch2 clang-19 gawk gnuplot-nox libboost-dev libc++-19-dev libc++abi-19-dev locales mandoc mawk original-awk xz-utils'
 needs sanitize 'busybox catch2 gawk gnuplot-nox libboost-dev locales mandoc mawk original-awk valgrind xz-utils'
 
 stand_in dpkg-query 'echo install ok installed'
