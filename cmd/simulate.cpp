@@ -171,8 +171,8 @@ void add_options(Tool& tool, Task& task) {
   tool.choice("--method", task.method, methods,
               "how v(t) is found: closed, exact, or else a solver (the cheapest that is exact)");
   tool.number("--rtol", task.rtol,
-              {"from 1e-14 to 0.1", [](double x) { return x >= 1e-14 && x <= 0.1; }},
-              "relative tolerance of a solver's step (1e-10)");
+              {"from 1e-12 to 0.1", [](double x) { return x >= 1e-12 && x <= 0.1; }},
+              "tolerance of a solver, relative to the change in a step (1e-10)");
   tool.flag("--report", task.report,
             "on standard error, error against run time of the methods on this scene");
 }

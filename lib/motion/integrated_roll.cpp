@@ -16,13 +16,16 @@ namespace rolling {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double gain = 1e-9;        // relative growth of v that rounding explains
+constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
 constexpr double unseen = 1e-16;     // of the time: what follows does not show in a double
-constexpr double least_part = 1e-8;  // of v0; for much lower v, rounding of t exceeds a step
+constexpr double last_part = 1e-10;  // of the time; in a smaller one, rounding of t exceeds a step
 
-/// The speed at which the solver ends; 0 if the body never stops.
-double floor_of(Rest rest, double v0) {
-  return rest.reached ? std::max(least_part * v0, rest.speed) : 0;
+/// The speed at which the solver ends: what is left of the time is like v^(1-b). 0 if the body
+/// never stops.
+double floor_of(const Law& law, Rest rest, double v0) {
+  const auto power = law.power();
+  const double b = power ? std::min(power->b, 0.0) : 0;
+  return rest.reached ? std::max(std::pow(last_part, 1 / (1 - b)) * v0, rest.speed) : 0;
 }
 
 OdeSystem equations(const Body& body, Geometry geometry, const Law& law, double floor, double v0) {
@@ -46,29 +49,27 @@ OdeSystem equations(const Body& body, Geometry geometry, const Law& law, double 
                                   law.at(y[1]).by_log_v / y[1];
     dfdt[0] = dfdt[1] = 0;
   };
-  return {2, derivative, jacobian};
+  const auto longest = [body, geometry, shift, floor](const double* y) {
+    const double v = std::max(y[1], floor);
+    return v > 0 ? v / (2 * std::abs(trial_acceleration(body, geometry, shift(v)))) : infinity;
+  };
+  return {2, derivative, jacobian, longest};
 }
 
 }  // namespace
 
 IntegratedRoll::IntegratedRoll(const Body& body, Geometry geometry, Law law, Rest rest, double v0,
                                double x0, Stepper stepper, double rtol, unsigned long most_steps)
-    : SolvedRoll(body, geometry, equations(body, geometry, law, floor_of(rest, v0), v0),
-                 {stepper, rtol, v0 > 0 ? rtol * least_part * v0 : 1, most_steps}, {x0, v0}),
-      law_(std::move(law)), rest_(rest), floor_(floor_of(rest, v0)),
-      fastest_(body.slope < 0 ? infinity : v0) {
+    : SolvedRoll(body, geometry, equations(body, geometry, law, floor_of(law, rest, v0), v0),
+                 {stepper, rounding, v0 > 0 ? rtol * last_part * v0 : 1, rtol, most_steps},
+                 {x0, v0}),
+      law_(std::move(law)), rest_(rest), floor_(floor_of(law_, rest, v0)) {
   if (v0 == 0) tail_ = {0, 0, 0, 0};
 }
 
 Integrator::Event IntegratedRoll::floor_event() const {
   const bool exact = geometry_ == Geometry::exact;
-  return [floor = floor_, exact, R = body_.R, v0 = v0(), fastest = fastest_,
-          law = law_](const std::vector<double>& y) {
-    if (y[1] > fastest * (1 + gain))
-      fail(
-          "the solver has made the body faster, which this mat cannot do: v = {:.6g} m/s after "
-          "{:.6g} m/s (a smaller --rtol, or another method)",
-          y[1], fastest);
+  return [floor = floor_, exact, R = body_.R, v0 = v0(), law = law_](const std::vector<double>& y) {
     // The way to D = R is a speed too: of two units one would not be seen beside the other.
     const double left = y[1] - floor;
     return exact && y[1] > 0 ? std::min(left, (1 - law(y[1]) / R) * v0) : left;
@@ -106,9 +107,8 @@ void IntegratedRoll::seek(double t) {
   t_ = t;
   // The computed time of the stop depends, within the error of the solver, on the steps. The first
   // value that was returned remains valid.
-  if (ode_.advance(tail_ ? std::min(t, tail_->begin) : t, floor_event()) && !tail_)
+  if (v() > floor_ && ode_.advance(tail_ ? std::min(t, tail_->begin) : t, floor_event()) && !tail_)
     tail_ = tail(ode_);
-  if (body_.slope >= 0) fastest_ = std::min(fastest_, std::max(0.0, v()));
   if (v() > law_.highest() * (1 + 1e-9))
     fail("at t = {:.6g} s the speed {:.6g} m/s is above the table of the law, which ends at {}",
          ode_.time(), v(), law_.highest());
@@ -119,7 +119,7 @@ double IntegratedRoll::left() const {
 }
 
 double IntegratedRoll::velocity() {
-  if (!tail_ || t_ < tail_->begin) return std::clamp(v(), 0.0, fastest_);
+  if (!tail_ || t_ < tail_->begin) return std::max(0.0, v());
   return t_ < stop_time() ? tail_->v * std::pow(left(), 1 / (1 - tail_->q)) : 0;
 }
 

@@ -19,18 +19,21 @@ struct Rest {
 };
 
 /// Solves for the state (x, v) with v' = -g D(v) / ((K + A) R) (Eq. 12) and, on a slope, the
-/// component of gravity. rtol is the relative error of x and v that a step may have.
+/// component of gravity. rtol is the error of x and v that a step may have, relative to their
+/// change in it, so that the sum is a part of the way and of v0, however many steps there are.
 ///
 /// At v = 0 the derivative of the right-hand side is unbounded, and the steps of a solver become
-/// ever shorter. Therefore the solver ends at v = 1e-8 v0, located as an event. From there on dv/dt
-/// is assumed proportional to -v^q, with the local exponent q, so that the body stops v / ((1 - q)
-/// |dv/dt|) later. That time is not small if q is near 1: for b = 0.9 it is 16 % of the whole roll.
-/// From the stop on v, D and dv/dt are exactly 0.
+/// ever shorter. None is longer than half of v/|v'|: none passes over the stop, where an estimate
+/// of the error would mean nothing. The solver ends at v = 1e-10 v0 (for b < 0 where 1e-10 of the
+/// time is left), located as an event. From there on dv/dt is assumed proportional to -v^q, with
+/// the local exponent q, so that the body stops v / ((1 - q) |dv/dt|) later. That time is not small
+/// if q is near 1: for b = 0.9 it is 10 % of the whole roll. From the stop on v, D and dv/dt are
+/// exactly 0.
 class IntegratedRoll final : public SolvedRoll {
  public:
   /// Throws Error for R, g, v0 and K as check_roll does. seek() and stop_time() throw the errors of
-  /// the solver: more than most_steps steps in one call, D above R, v above the range of the law,
-  /// and a v that grows although the mat slows the body down (an error of the step).
+  /// the solver: more than most_steps steps in one call, D above R, and v above the range of the
+  /// law.
   IntegratedRoll(const Body&, Geometry, Law, Rest, double v0, double x0, Stepper, double rtol,
                  unsigned long most_steps = 1'000'000);
 
@@ -53,8 +56,8 @@ class IntegratedRoll final : public SolvedRoll {
 
   Law law_;
   Rest rest_;
-  double floor_;            // 0: the body never stops
-  double t_ = 0, fastest_;  // upper bound of v
+  double floor_;  // 0: the body never stops
+  double t_ = 0;
   std::optional<Tail> tail_;
 };
 

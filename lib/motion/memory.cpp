@@ -104,6 +104,7 @@ MemoryRoll::MemoryRoll(const Body& body, Geometry geometry, PowerLaw law, Bulge 
           {stepper,
            rtol,
            1e-3 * rtol,
+           0,
            most_steps * (is_explicit(stepper) ? 20 : 1),
            {bulge.length, v0, std::max({law(v0), body.R * std::abs(body.slope), least_speed})}},
           {x0, v0, law(v0)}),

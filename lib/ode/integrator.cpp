@@ -87,10 +87,10 @@ Integrator::Integrator(OdeSystem system, const OdeOptions& options, double t, st
   problem_->gsl = {Problem::derivative, problem_->system.jacobian ? Problem::jacobian : nullptr,
                    y_.size(), problem_.get()};
   silence_gsl();
-  problem_->driver =
-      own(gsl_odeiv2_driver_alloc_scaled_new(&problem_->gsl, gsl_type(options.stepper), h_,
-                                             options.atol, options.rtol, 1, 0, units.data()),
-          gsl_odeiv2_driver_free);
+  problem_->driver = own(gsl_odeiv2_driver_alloc_scaled_new(
+                             &problem_->gsl, gsl_type(options.stepper), h_, options.atol, 1,
+                             options.rtol, options.change, units.data()),
+                         gsl_odeiv2_driver_free);
 }
 
 unsigned long Integrator::evaluations() const { return problem_->evaluations; }
@@ -98,8 +98,8 @@ unsigned long Integrator::evaluations() const { return problem_->evaluations; }
 void Integrator::step(double t) {
   if (steps_left_ == 0)
     fail(
-        "the integration has reached its limit of {} steps at t = {:.6g} s (if the problem is "
-        "stiff, msbdf takes far fewer)",
+        "the integration has reached its limit of {} steps at t = {:.6g} s (rk8pd or, if the "
+        "problem is stiff, msbdf takes far fewer)",
         max_steps_, t_);
   --steps_left_;
   const double before = t_;
@@ -109,12 +109,13 @@ void Integrator::step(double t) {
     return std::isfinite(t_) &&
            std::all_of(y_.begin(), y_.end(), [](double y) { return std::isfinite(y); });
   };
+  if (problem_->system.longest_step) h_ = std::min(h_, problem_->system.longest_step(y_.data()));
   for (;;) {
     const int status = gsl_odeiv2_evolve_apply(driver.e, driver.c, driver.s, &problem_->gsl, &t_, t,
                                                &h_, y_.data());
     if (problem_->thrown) std::rethrow_exception(std::exchange(problem_->thrown, nullptr));
     if (status != GSL_SUCCESS)
-      fail("the integration fails at t = {:.6g} s: {}", t_, gsl_strerror(status));
+      fail("the integration fails at t = {:.6g} s: no step is short enough", t_);
     if (finite()) break;
     // GSL accepts a step whose error estimate is NaN, and steps grow without bound where the
     // estimate is 0.

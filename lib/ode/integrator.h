@@ -16,6 +16,8 @@ struct OdeSystem {
   std::function<void(double t, const double* y, double* dydt)> derivative;
   /// df/dy row by row, and df/dt; needed by the implicit steppers.
   std::function<void(double t, const double* y, double* dfdy, double* dfdt)> jacobian = {};
+  /// The longest step from a state, where that is known.
+  std::function<double(const double* y)> longest_step = {};
 };
 
 /// GSL's names.
@@ -25,7 +27,8 @@ inline bool is_explicit(Stepper stepper) { return stepper < Stepper::rk1imp; }
 struct OdeOptions {
   Stepper stepper = Stepper::rk8pd;
   double rtol = 1e-10;                ///< error of a step relative to y ...
-  double atol = 1e-13;                ///< ... plus this, in these units of y
+  double atol = 1e-13;                ///< ... plus this, in these units of y ...
+  double change = 0;                  ///< ... plus this, relative to the change of y in the step
   unsigned long max_steps = 300'000;  ///< of one advance(); then it is refused
   std::vector<double> units = {};     ///< one for each element of y; 1 if it is empty
 };

@@ -134,8 +134,8 @@ simulate -K 0.5 -R 0.04 -a 0 -b 0.2 --v0 1|'0' must be greater than 0
 simulate -K 0.5 -R 0.04 -a -1 -b 0.2 --v0 1|'-1' must be greater than 0
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --columns t,t|t is there twice
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --columns t,|is none of t, x, v, a, D
-simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --rtol 1|from 1e-14 to 0.1
-simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --rtol 0|from 1e-14 to 0.1
+simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --rtol 1|from 1e-12 to 0.1
+simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --rtol 0|from 1e-12 to 0.1
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --method none|'none' is not one of
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --memory 0|'0' must be greater than 0
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --damping 1|--damping goes with --memory

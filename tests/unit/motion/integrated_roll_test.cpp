@@ -113,7 +113,7 @@ TEST_CASE("IntegratedRoll: close to the stop, speed and way left follow the law 
     const double end = motion->position();
     CHECK(motion->velocity() == 0);
     for (const double left : {1.0, 0.5, 0.1}) {
-      const double v = 4e-9 * left, t = stop - std::pow(v, 1 - b) / (c * (1 - b));
+      const double v = 4e-11 * left, t = stop - std::pow(v, 1 - b) / (c * (1 - b));
       motion->seek(t);
       INFO("b " << b << " v " << v);
       const double way = std::pow(v, 2 - b) / (c * (2 - b));
