@@ -4,7 +4,7 @@
 # beside the radius, and F_H beside F_N, so that a second panel shows the neighbourhood of P some
 # forty times larger. `make figures/fig2.svg`
 . "$(dirname "$0")/draw.sh"
-now=$(echo 0 | simulate --scene CR.toml --exact --at - |
+now=$(printf 't\n0\n' | simulate --scene CR.toml --exact --at - |
   energy-ledger --scene CR.toml --exact | assignments)
 title='Fig. 2: the forces on the cylinder on rubber, to scale'
 draw 840 470 "W = 840.0; H = 470.0; $(scene CR.toml) $now" <<'PLOT'

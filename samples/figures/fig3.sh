@@ -4,7 +4,7 @@
 # 0.5 m/s: P turns about the lowest point, so it moves down with (D/R) v and forward with (1 - A) v
 # only. Each panel is a part of the one before. `make figures/fig3.svg`
 . "$(dirname "$0")/draw.sh"
-now=$(echo 0 | simulate --scene CR.toml --exact --at - |
+now=$(printf 't\n0\n' | simulate --scene CR.toml --exact --at - |
   energy-ledger --scene CR.toml --exact | assignments)
 title='Fig. 3: the velocity of P as a point of the body, to scale'
 draw 840 780 "W = 840.0; H = 780.0; $(scene CR.toml) $now" <<'PLOT'

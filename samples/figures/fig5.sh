@@ -6,7 +6,7 @@
 # >fig5.svg
 . "$(dirname "$0")/draw.sh"
 instant=${1:-0.5}
-now=$(echo "$instant" | simulate --scene CR.toml --exact --at - |
+now=$(printf 't\n%s\n' "$instant" | simulate --scene CR.toml --exact --at - |
   energy-ledger --scene CR.toml --exact | assignments)
 title='Fig. 5: the process diagram of the cylinder on rubber'
 draw 900 600 "W = 900.0; H = 600.0; $(scene CR.toml) $now" <<'PLOT'

@@ -45,7 +45,7 @@ for scene in CF CR SF SR; do
     complain "$scene: the time to the stop with A = 1"
 done
 for scene in CF CR SF SR; do
-  force() { echo 0 | simulate --scene samples/$scene.toml --at - | energy-ledger --scene samples/$scene.toml --columns F_H "$@" | last_of 6; }
+  force() { printf 't\n0\n' | simulate --scene samples/$scene.toml --at - | energy-ledger --scene samples/$scene.toml --columns F_H "$@" | last_of 6; }
   awk -v approximate="$(force)" -v exact="$(force --exact)" 'BEGIN { exit !((exact / approximate - 1)^2 < 5.45e-4^2) }' ||
     complain "$scene: F_H with A = 1"
 done

@@ -106,7 +106,7 @@ last() { tail -n 1 | cut -f "$1"; }
 row="0.5 0.5 -0.26"
 near 11 "$(echo "$row" | shift-from-accel -K 0.5 -R 0.04 | last 4)" \
   "$(awk 'BEGIN { printf "%.17g", 1.5 * 0.04 * 0.26 / 9.81 }')" 1e-14
-near 13 "$(echo 0.7 | simulate --scene "$scene" --at - --columns v | last 1)" "$(awk 'BEGIN {
+near 13 "$(printf 't\n0.7\n' | simulate --scene "$scene" --at - --columns v | last 1)" "$(awk 'BEGIN {
   b = 0.215; printf "%.17g", (0.5^(1 - b) - (1 - b) * 1.87e-3 * 9.81 / (1.5 * 0.04) * 0.7)^(1 / (1 - b)) }')" 1e-12
 near 23 "$(simulate --scene "$scene" | energy-ledger --scene "$scene" --columns E_diss | last 6)" \
   "$(awk 'BEGIN { printf "%.17g", 0.5 * 1.5 * 1.375 * 0.25 }')" 1e-6

@@ -108,7 +108,7 @@ done <"$scratch/geometry"
 # order in which they are drawn.
 for instant in 0.5 1.5; do
   draw fig5 "$instant"
-  echo "$instant" | simulate --scene samples/CR.toml --exact --at - |
+  printf 't\n%s\n' "$instant" | simulate --scene samples/CR.toml --exact --at - |
     energy-ledger --scene samples/CR.toml --exact >"$scratch/row"
   grep -oE "fill = 'rgb\(245, 208, 160\)' points = '[^']*" "$scratch/fig5.svg" |
     sed "s/.*'//" >"$scratch/shafts"
