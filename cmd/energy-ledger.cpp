@@ -95,7 +95,7 @@ class Accounts {
     return Balance(task_.body);
   }
 
-  /// Adds the present record to the balance of its run.
+  /// Adds the present row to the balance of its run.
   Ledger enter(Balance& balance) {
     const double v = in_[v_], D = task_.uses_law ? task_.shift(v) : in_[D_];
     const Ledger now(task_.body, task_.geometry, v, D);

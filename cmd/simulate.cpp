@@ -48,12 +48,12 @@ struct Clock {
   double at(double k) const { return t0 + (whole ? k / rate : k * dt); }
 };
 
-/// A record in the form that the software of such a sensor exports: comma-separated, with a line of
+/// A run in the form that the software of such a sensor exports: comma-separated, with a line of
 /// names and blank cells.
-void write_record(Output& out, Motion& motion, const SonarOptions& sonar) {
+void write_run(Output& out, Motion& motion, const SonarOptions& sonar) {
   out.text("Time (s),Position (m),Velocity (m/s)");
   out.end_line();
-  sonar_record(motion, sonar, [&](const SonarSample& sample) {
+  sonar_run(motion, sonar, [&](const SonarSample& sample) {
     out.number(sample.t);
     out.text(',');
     if (sample.x) out.number(*sample.x);
@@ -308,7 +308,7 @@ int main(int argc, char** argv) {
     if (sensor) {
       sonar.seed = seed;
       if (!to_the_stop) sonar.until = until;
-      write_record(tool.out, *motion, sonar);
+      write_run(tool.out, *motion, sonar);
     } else if (times_file.empty()) {
       rows.write_every(dt, *motion, end, to_the_stop);
     } else {

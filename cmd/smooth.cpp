@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// smooth - smooth a column and select its records; see smooth(1)
+// smooth - smooth a column and select its rows; see smooth(1)
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -55,7 +55,7 @@ std::string history(const std::string& column, const SelectionOptions& selected,
   if (selected.outliers > 0) add(fmt::format("{} outliers {}", column, selected.outliers));
   if (selected.coast) add(column + " coast");
   const Width& width = smoothed.width;
-  if (width.seconds > 0 || width.samples > 1)  // a window of one record is no filter
+  if (width.seconds > 0 || width.samples > 1)  // a window of one row is no filter
     add(column + ' ' + describe(smoothed));
   return lines;
 }
@@ -178,12 +178,12 @@ int main(int argc, char** argv) {
       Selection selection(select);
       std::unique_ptr<Signal> smoother =
           choose ? std::make_unique<AutoSmoother>(options) : make_signal(options);
-      std::size_t record = 0, kept = 0;
+      std::size_t row = 0, kept = 0;
       const auto take = [&](std::span<const Judged> samples) {
         for (const Judged& s : samples) {
           if (s.kept) filter.put(smoother->push(s.t, s.y)), ++kept;
-          else filter.drop(record);
-          ++record;
+          else filter.drop(row);
+          ++row;
         }
       };
       for (; filter.next(); times.take(filter[t])) {
@@ -195,7 +195,7 @@ int main(int argc, char** argv) {
       if (!choose) tell();
       for (auto more = selection.rest(); !more.empty(); more = selection.rest()) take(more);
       const auto rest = smoother->finish();
-      if (choose && kept > 0) {  // the first run with records decides for all
+      if (choose && kept > 0) {  // the first run with rows decides for all
         options = static_cast<AutoSmoother&>(*smoother).options();
         choose = false;
         tell();

@@ -42,7 +42,7 @@ stage() {
   chmod "$1" "$scratch/stage$2"
   printf '%s\n' "$2" >>"$scratch/files"
 }
-# What belongs to the source: records and results of somebody's own stay where they are. A name that
+# What belongs to the source: runs and results of somebody's own stay where they are. A name that
 # no pattern here fits is told by tests/house/install.sh.
 samples() {
   set -- samples/*.sh samples/*.svg samples/README.md samples/coverage.txt samples/rolling.bib \

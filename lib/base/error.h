@@ -19,7 +19,7 @@ class InputError : public Error {
   using Error::Error;
 };
 
-/// An error of the options, which names no record, whatever has been read.
+/// An error of the options, which names no row, whatever has been read.
 class OptionError : public Error {
  public:
   using Error::Error;

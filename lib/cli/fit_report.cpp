@@ -56,7 +56,7 @@ std::string budget(const FitResult& r) {
       r.sigma_b, b);
 }
 
-/// The text with the value; nothing for NaN, as where there are as many parameters as records.
+/// The text with the value; nothing for NaN, as where there are as many parameters as rows.
 std::string known(const char* text, double value) {
   return std::isnan(value) ? "" : fmt::format(fmt::runtime(text), value);
 }
@@ -171,7 +171,7 @@ std::vector<Remark> against(const FitResult& r, const std::vector<FitRun>& runs,
 bool warn_of_repeats(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs) {
   for (const FitRun& run : runs) {
     const std::vector<double>& y = route == Route::position ? run.x : run.v;
-    if (records_held(y) > 1) return true;
+    if (rows_held(y) > 1) return true;
     if (!run.filters.empty()) continue;
     std::size_t rows = 0, repeats = 0, waiting = 0;
     std::vector<double> steps;
@@ -325,7 +325,7 @@ void check(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun
         runs[beginning->run].name,
         fmt::format("the first {} rows do not go on as the others ({}), as if a hand were still "
                     "on: cut off {:.2g} s",
-                    beginning->records, p_of(beginning->significance), beginning->time));
+                    beginning->rows, p_of(beginning->significance), beginning->time));
   if (laws && laws->against_power() >= levels::another_law)
     tool.check_failed(run,
                       fmt::format("D = {} is better than a v^b by {:.1f} in AICc; see --report",

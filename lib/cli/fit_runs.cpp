@@ -23,11 +23,11 @@ class Slots {
     if (columns == Columns::of_all_routes) add_others();
   }
 
-  /// Reads the records of the present run; with all columns if it has `##` lines, which are
+  /// Reads the rows of the present run; with all columns if it has `##` lines, which are
   /// compared with them.
   void read(FitRun& run, bool first) {
     if (!in_.history().empty()) add_others();
-    const std::size_t room = first ? in_.records_ahead() : 0;  // most files are one run
+    const std::size_t room = first ? in_.rows_ahead() : 0;  // most files are one run
     for (const auto& [slot, column] : all_) (run.*column).reserve(room);
     while (in_.next())
       for (const auto& [slot, column] : all_) (run.*column).push_back(in_[slot]);
@@ -60,7 +60,7 @@ void warn_of_held(Tool& tool, Route route, const FitRun& run,
                   const std::vector<std::string>& history) {
   const bool position = route == Route::position;
   if (!position && speeds_of_positions(history)) return;
-  const double held = records_held(position ? run.x : run.v);
+  const double held = rows_held(position ? run.x : run.v);
   if (held > 1)
     tool.warn(run.name, fmt::format("{} repeat: each stands in {:.2g} rows on average; keep only "
                                     "the row in which a new one comes",

@@ -22,7 +22,7 @@ enum class Columns { of_route, of_all_routes };
 
 /// Reads all runs with their names and their filters, but without the numbers of the body. Warns
 /// of readings that a logger held, of `##` lines that are not trusted or that one run lacks, and of
-/// records that are left out because their windows are not known.
+/// rows that are left out because their windows are not known.
 std::vector<FitRun> read_runs(Tool&, Reader&, Route, Columns);
 
 /// Where the speeds of all runs are those of pulses, a fixed way over the time from row to row,

@@ -102,7 +102,7 @@ class Chain {
       history_.cut_end |= reach_ > 0 && method != "from";
       return true;
     }
-    if (method == "outliers")  // the records that it leaves out depend on the readings: not linear
+    if (method == "outliers")  // the rows that it leaves out depend on the readings: not linear
       return words.size() == 3 && parse_number(words[2], number) ? unknown() : doubt(line);
     return filter(line, smoothing_methods, words, false);
   }
@@ -189,11 +189,11 @@ History compared(History history, const FitRun& run) {
   return history;
 }
 
-// How many records were removed is not known, nor at which times, and thus not the windows at the
+// How many rows were removed is not known, nor at which times, and thus not the windows at the
 // former end. Further inside, they are those of the times of the run.
 History known_windows(History history, FitRun& run, const std::string& column) {
   if (!history.cut_begin && !history.cut_end) return history;
-  std::map<std::string, std::size_t> windows;  // the records on either side that a column has read
+  std::map<std::string, std::size_t> windows;  // the rows on either side that a column has read
   for (const LinearFilter& filter : history.filters)
     windows[filter.to] = windows[filter.from] + filter.reach;
   history.left_out = windows[column] * (std::size_t{history.cut_begin} + history.cut_end);

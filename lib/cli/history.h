@@ -17,11 +17,11 @@ struct History {
   FilterChain filters = {};  ///< empty if the filters are not known
   std::optional<ShiftOf> shift_of = {};
   std::string doubt = {};  ///< the reason why the lines are not trusted; otherwise empty
-  bool cut_begin = false, cut_end = false;  ///< records were removed there after a filter
-  std::size_t left_out = 0;                 ///< number of records that known_windows() left out
+  bool cut_begin = false, cut_end = false;  ///< rows were removed there after a filter
+  std::size_t left_out = 0;                 ///< number of rows that known_windows() left out
 };
 
-/// The filters in the `##` lines of a run (smooth, differentiate, shift-from-accel), for records at
+/// The filters in the `##` lines of a run (smooth, differentiate, shift-from-accel), for rows at
 /// times t [s]. Lines of other programs are ignored. The chain is unknown if there are no times or
 /// if a filter is not linear. A line that names one of these tools but is not, word by word, what
 /// the tool writes is not trusted.
@@ -39,11 +39,11 @@ bool speeds_of_positions(const std::vector<std::string>& lines);
 bool shifts_of_speeds(const std::vector<std::string>& lines);
 
 /// Compares the columns of the run with what the filters make of each other. If they differ only at
-/// an end, records were removed there after the filters, as the lines may tell, too. If they differ
+/// an end, rows were removed there after the filters, as the lines may tell, too. If they differ
 /// elsewhere, the lines are not trusted.
 History compared(History, const FitRun&);
 
-/// Leaves out the readings whose windows may have reached to records that were removed: they become
+/// Leaves out the readings whose windows may have reached to rows that were removed: they become
 /// NaN in x, v and D. `column` is the one that is fitted, whose readings left_out counts; the
 /// filters are unknown if fewer than 10 of them remain.
 History known_windows(History, FitRun&, const std::string& column);

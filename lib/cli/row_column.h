@@ -9,7 +9,7 @@
 
 namespace rolling {
 
-/// A column of a row of fitpower. In a file of records its name may mean another quantity (a is an
+/// A column of a row of fitpower. In a file of readings its name may mean another quantity (a is an
 /// acceleration there), so it is read without conversion and converted here.
 class RowColumn {
  public:

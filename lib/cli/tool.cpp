@@ -165,7 +165,7 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   } catch (const std::exception& error) {
     say(error.what());
   }
-  // The records before the error remain; this line tells the next tool of a pipe that it ended.
+  // The rows before the error remain; this line tells the next tool of a pipe that it ended.
   out.end_with(error_line_);
   return trouble;
 }

@@ -30,12 +30,12 @@ class Tool : public Options {
   /// `work`, 1 after check_failed(), or 2 after an error, which is one line on standard error.
   int run(int argc, char** argv, const std::function<int()>& work);
 
-  /// The records of the operands. `order` names the columns of a file without names.
+  /// The rows of the operands. `order` names the columns of a file without names.
   Reader& read(std::vector<std::string> order);
   /// The same for a filter, whose output has the comments too: of very many in front of the first
   /// row most go out at once.
   Reader& filter(std::vector<std::string> order);
-  /// The records of a file that is the value of an option.
+  /// The rows of a file that is the value of an option.
   Reader& read_file(const std::string& file, std::vector<std::string> order);
 
   /// One line of printable ASCII on standard error, at most 512 bytes.
@@ -50,7 +50,7 @@ class Tool : public Options {
     if (!quiet_) say(run, text);
   }
 
-  /// Prints how many records were left out and why, unless -q is given.
+  /// Prints how many rows were left out and why, unless -q is given.
   void count_left_out(std::size_t count, const std::string& why);
 
   /// Reports that a check of a run, or of all, does not hold. When `work` has returned, run()

@@ -16,7 +16,7 @@ class Balance {
  public:
   explicit Balance(const Body& body) : inclined_(body.slope != 0) {}
 
-  /// Adds the next record of the run: its time [s] and its quantities.
+  /// Adds the next row of the run: its time [s] and its quantities.
   void push(double t, const Ledger& now) {
     end_ = now.E_trans() + now.E_rot();
     if (!begun_) start_ = end_, worst_time_ = t;
@@ -30,8 +30,8 @@ class Balance {
     worst_ = std::max(worst_, off);
   }
 
-  bool empty() const { return !begun_; }   ///< no record has been added
-  double start() const { return start_; }  ///< E_trans + E_rot at the first record [J]
+  bool empty() const { return !begun_; }   ///< no row has been added
+  double start() const { return start_; }  ///< E_trans + E_rot at the first row [J]
   double end() const { return end_; }      ///< and at the last [J]
   /// I_E1 + I_E2 integrated over time so far [J].
   double dissipated() const { return dissipated_; }

@@ -31,7 +31,7 @@ class Integral {
   }
 
  private:
-  /// The limit lies between whole numbers, which are the ratios of the steps where records are
+  /// The limit lies between whole numbers, which are the ratios of the steps where rows are
   /// lost: no rounding of the times decides.
   static constexpr double most_times = 2.5;
 

@@ -12,7 +12,7 @@
 namespace rolling {
 namespace {
 
-/// The variance of ln a or b that rounding leaves in records without noise; 0 if it is held fixed.
+/// The variance of ln a or b that rounding leaves in rows without noise; 0 if it is held fixed.
 double rounding_of(const std::vector<double>& gradient) {
   const bool held = std::ranges::all_of(gradient, [](double slope) { return slope == 0; });
   return held ? 0 : 1e-26;

@@ -22,7 +22,7 @@
 namespace rolling {
 namespace {
 
-/// The change of a fit when the first records of one run are removed, to first order: the residuals
+/// The change of a fit when the first rows of one run are removed, to first order: the residuals
 /// f = model - data change by Q c, and the sum of squares falls by `reduction`.
 struct Without {
   double reduction;
@@ -30,7 +30,7 @@ struct Without {
 };
 
 /// f_S are the first k residuals, Q_S their rows of the orthonormal Q. A = I - Q_S^T Q_S is the
-/// normal matrix of the other records. Then c = A^-1 Q_S^T f_S, and the reduction is |f_S|^2 +
+/// normal matrix of the other rows. Then c = A^-1 Q_S^T f_S, and the reduction is |f_S|^2 +
 /// f_S^T Q_S c. The sums over S grow with k.
 class First {
  public:
@@ -64,7 +64,7 @@ Without First::solved(std::vector<double> A, const std::vector<double>& g, doubl
   Without result{squares, g};
   gsl_matrix_view normal = gsl_matrix_view_array(A.data(), q, q);
   gsl_vector_view c = gsl_vector_view_array(result.c.data(), q);
-  // A is not positive definite if the removed records alone determine a parameter.
+  // A is not positive definite if the removed rows alone determine a parameter.
   if (gsl_linalg_cholesky_decomp1(&normal.matrix) != GSL_SUCCESS ||
       gsl_linalg_cholesky_svx(&normal.matrix, &c.vector) != GSL_SUCCESS)
     return {0, std::vector<double>(q, 0)};
@@ -81,7 +81,7 @@ double local_variance(std::span<const double> f) {
 
 struct Candidate {
   Beginning beginning;
-  std::vector<double> rest;  // the residuals of the other records of the run
+  std::vector<double> rest;  // the residuals of the other rows of the run
   std::size_t parameters;    // of its fit
 };
 
@@ -113,7 +113,7 @@ struct Search {
       const double noise = std::max(squares / left, local_variance(changed(without, 0, k + 5))),
                    chance = gsl_cdf_fdist_Q(without.reduction / gone / noise, gone, left);
       if (chance >= (found ? found->beginning.significance : levels::beginning)) continue;
-      // Where the removed records alone determine a parameter, nothing but rounding may remain: the
+      // Where the removed rows alone determine a parameter, nothing but rounding may remain: the
       // squares are then more than those of a fit.
       std::vector<double> others = changed(without, k, f.size());
       if (!(dot(others, others) < 1.01 * squares)) continue;

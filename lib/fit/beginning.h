@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A test whether the body rolls freely from the first record on.
+// A test whether the body rolls freely from the first row on.
 #pragma once
 
 #include <optional>
@@ -8,17 +8,17 @@
 
 namespace rolling {
 
-/// A disturbed beginning: the first records of a run do not follow the motion of the other ones,
+/// A disturbed beginning: the first rows of a run do not follow the motion of the other ones,
 /// because of a hand that still pushes or of sliding.
 struct Beginning {
   std::size_t run;      ///< the number of the run, from 0
-  std::size_t records;  ///< number of disturbed records
-  double time;          ///< from the first disturbed record to the first undisturbed one [s]
-  double significance;  ///< the probability that noise alone gives such records
+  std::size_t rows;     ///< number of disturbed rows
+  double time;          ///< from the first disturbed row to the first undisturbed one [s]
+  double significance;  ///< the probability that noise alone gives such rows
 };
 
 /// Chow's predictive test (1960, Econometrica 28, 591) asks whether the first 3, 5, 8, 13, ...
-/// records of a run (at most a quarter of it) agree with the prediction from the others. Each run
+/// rows of a run (at most a quarter of it) agree with the prediction from the others. Each run
 /// is fitted by itself (the slope of the mat is held at that of all), as the law of a joint fit has
 /// errors from the noise of the other runs, which may be larger. The statistic is the F ratio of
 /// the reduction of the sum of squares that their removal causes to the variance of the noise: that
@@ -27,7 +27,7 @@ struct Beginning {
 /// the run with the smallest significance, if this is below 0.1 % after Bonferroni's correction and
 /// the other residuals of that run are white: noise of long memory would deviate everywhere.
 ///
-/// Runs of fewer than 20 records more than parameters are left out. The result is empty for a
+/// Runs of fewer than 20 rows more than parameters are left out. The result is empty for a
 /// robust fit and one that is not a roll, and for filtered columns: filters spread a disturbance
 /// over all residuals, which then are not white. Throws Error if the joint fit is not possible.
 std::optional<Beginning> disturbed_beginning(Route, const std::vector<FitRun>&, const FitOptions&);

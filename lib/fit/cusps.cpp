@@ -47,9 +47,9 @@ std::vector<double> later_stop(const System& system, const std::vector<double>& 
   return change;
 }
 
-/// Times in the interval between two records that holds the stop, and in those beside it: most of
-/// them close to the record before, where the speed of that record changes fastest. None if the
-/// stop is beyond all records.
+/// Times in the interval between two rows that holds the stop, and in those beside it: most of
+/// them close to the row before, where the speed of that row changes fastest. None if the
+/// stop is beyond all rows.
 std::vector<double> other_stops(const std::vector<double>& t, double stop) {
   const auto n = t.size(),
              next = static_cast<std::size_t>(std::ranges::upper_bound(t, stop) - t.begin());
@@ -90,7 +90,7 @@ bool has_cusps(const RollModel& rolls, const std::vector<double>& theta, std::si
 }  // namespace
 
 Minimum beyond_cusps(const RollModel& rolls, const System& system, Minimum best) {
-  constexpr std::size_t many = 2048;  // records times runs
+  constexpr std::size_t many = 2048;  // rows times runs
   if (system.residuals() * system.runs.size() > many) return best;
   for (double before = std::numeric_limits<double>::infinity(); best.rss < before * (1 - 1e-6);) {
     before = best.rss;

@@ -136,7 +136,7 @@ class Periodogram {
  private:
   static double square(double x) { return x * x; }
 
-  /// The ends of blocks of records that are short relative to one turn and to the run.
+  /// The ends of blocks of rows that are short relative to one turn and to the run.
   std::vector<std::size_t> thinned() {
     constexpr double turned = 0.1, shares = 512;
     const Column& t = seen_.t;

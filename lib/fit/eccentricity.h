@@ -12,12 +12,12 @@ namespace rolling {
 /// cosine of x/R are shifts; they are carried through the equation of motion (to first order around
 /// the fitted roll, A = 1) and through the filters of the data, and made orthogonal to the columns
 /// of the Jacobian, because the fit can follow those. The noise before the filters is assumed
-/// white, of its own size in each run; `variance` is that of all runs. Dense records are averaged
+/// white, of its own size in each run; `variance` is that of all runs. Dense rows are averaged
 /// over blocks that are short relative to one turn.
 ///
 /// The result is the run with the smallest significance. It is empty if no run reaches 1 % (after
 /// Bonferroni's correction), or if the period 0.7 or 1.4 times as long is as significant: the
-/// residuals then have another cause. A run of less than one turn, or with less than two records in
+/// residuals then have another cause. A run of less than one turn, or with less than two rows in
 /// a turn, is not tested.
 std::optional<Eccentricity> eccentricity_of(Route, const std::vector<FitRun>&, const Fitted&,
                                             double variance);

@@ -123,7 +123,7 @@ std::vector<double> classical(const Fitted& fit, double variance) {
   return M;
 }
 
-/// The meat that allows for noise that is uneven (HC3 for single records) or correlated.
+/// The meat that allows for noise that is uneven (HC3 for single rows) or correlated.
 std::vector<double> consistent_meat(const Fitted& fit, Sources from, Errors kind, double variance) {
   // HC3: the fit multiplies the noise of a residual by 1 - h, with h its leverage (MacKinnon and
   // White 1985, J. Econometrics 29, 305).

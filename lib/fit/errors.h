@@ -29,7 +29,7 @@ struct Uncertainty {
 };
 
 /// The covariance of a fit. For known filters it is the exact sandwich, otherwise the classical s^2
-/// (J^T J)^-1. With 30 or more records the noise is tested (for known filters the noise of the raw
+/// (J^T J)^-1. With 30 or more rows the noise is tested (for known filters the noise of the raw
 /// column). If it is not white (Ljung and Box), the covariance is that of Newey and West, already
 /// at 10 % if neighbouring residuals are positively correlated; otherwise, if the variance is
 /// uneven at 1 %, along the runs or between them, it is HC3.

@@ -19,7 +19,7 @@
 namespace rolling {
 namespace {
 
-/// The run whose records are block means, from each edge to the next.
+/// The run whose rows are block means, from each edge to the next.
 ObservedRun means(const ObservedRun& run, const std::vector<std::size_t>& edges) {
   ObservedRun thin{run.place,           run.body, run.geometry, run.way, run.origin,
                    run.raw_is_position, {},       {},           {}};
@@ -35,7 +35,7 @@ ObservedRun means(const ObservedRun& run, const std::vector<std::size_t>& edges)
   return thin;
 }
 
-/// The run after a moving median of five records, which suppresses false echoes.
+/// The run after a moving median of five rows, which suppresses false echoes.
 ObservedRun without_outliers(ObservedRun run) {
   const std::vector<double> y = run.y;
   for (std::size_t i = 0; i < y.size(); ++i) {
@@ -63,7 +63,7 @@ Thinned thinned(const ObservedRun& run, const FitOptions& options) {
   const bool position = run.raw_is_position;
   const double x0 = options.x0.value_or(position ? run.y[0] : 0);
   double most = 0, distance = 0;
-  // The first record at which the distance has reached the goal. If none has, the result is n and
+  // The first row at which the distance has reached the goal. If none has, the result is n and
   // `most` is the largest distance.
   const auto reached = [&](double goal) {
     double way = 0;
@@ -293,10 +293,10 @@ std::vector<ObservedRun> means_of_many(const std::vector<ObservedRun>& runs) {
   if (n <= longest * runs.size()) return {};
   std::vector<ObservedRun> few;
   for (const ObservedRun& run : runs) {
-    const std::size_t records = run.t.size(), size = (records + longest - 1) / longest;
+    const std::size_t rows = run.t.size(), size = (rows + longest - 1) / longest;
     std::vector<std::size_t> edges;  // blocks of equal size: the means have equal weights
-    for (std::size_t i = 0; i < records; i += size) edges.push_back(i);
-    edges.push_back(records);
+    for (std::size_t i = 0; i < rows; i += size) edges.push_back(i);
+    edges.push_back(rows);
     few.push_back(means(run, edges));
   }
   return few;

@@ -17,7 +17,7 @@ struct FirstGuess {
 FirstGuess first_guess(const std::vector<ObservedRun>&, const FitOptions&);
 
 /// The runs averaged to at most 4096 block means each; their minimum is very close to that of all
-/// records. Empty if the runs have 4096 records or fewer on average. The runs must have no H.
+/// rows. Empty if the runs have 4096 rows or fewer on average. The runs must have no H.
 std::vector<ObservedRun> means_of_many(const std::vector<ObservedRun>&);
 
 }  // namespace rolling

@@ -41,7 +41,7 @@ FitResult result_of(const Fitted& found, double rms, const NoiseErrors& noise,
                    .sigma_b = total([](const ErrorShare& of) { return of.b; }),
                    .corr = 0,
                    .rms = rms,
-                   .n = found.records,
+                   .n = found.rows,
                    .left_out = found.left_out,
                    .negative = found.negative,
                    .whiteness = noise.whiteness,
@@ -111,7 +111,7 @@ void require_seen(const Fitted& found, const std::vector<FitRun>& all) {
   }
 }
 
-/// Throws Error if records follow after D has reached R (exact geometry, b < 0) at a speed that is
+/// Throws Error if rows follow after D has reached R (exact geometry, b < 0) at a speed that is
 /// not next to rest. There the model lets D be R, which serves the search, but is not the law.
 void require_law(const Fitted& found, const std::vector<FitRun>& all) {
   if (!found.rolls) return;

@@ -9,7 +9,7 @@
 
 namespace rolling {
 
-void require_records(std::size_t n, std::size_t p, std::size_t independent) {
+void require_rows(std::size_t n, std::size_t p, std::size_t independent) {
   if (n == 0) fail("no row can be fitted");
   if (p == 0) fail("a and b are both fixed: nothing is left to fit");
   if (independent < p)
@@ -20,7 +20,7 @@ void require_records(std::size_t n, std::size_t p, std::size_t independent) {
 }
 
 std::size_t Fitted::degrees_left() const {
-  const std::size_t n = rolls ? informative_records(rolls->runs(), rolls->parameters(), *noise)
+  const std::size_t n = rolls ? informative_rows(rolls->runs(), rolls->parameters(), *noise)
                               : minimum.f.size(),
                     p = minimum.theta.size(), left = n > p ? n - p : 0;
   return raw_noise ? std::min(left, raw_noise->freedom) : left;

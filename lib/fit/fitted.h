@@ -37,7 +37,7 @@ struct RawNoise {
   Sources sources = {};
 };
 
-struct ShiftRecords;
+struct ShiftRows;
 
 /// A minimum with what its errors need. fit(), compare_laws() and the other questions about a fit
 /// start from it.
@@ -46,7 +46,7 @@ struct Fitted {
   Minimum minimum;
   std::shared_ptr<const Noise> noise = std::make_shared<const Noise>();  ///< of the weights
   std::optional<RawNoise> raw_noise = {};  ///< if another fit has estimated it (loglog)
-  std::size_t records = 0, left_out = 0;
+  std::size_t rows = 0, left_out = 0;
   std::size_t negative = 0;  ///< see FitResult
   FittedNumber a = {}, b = {};
   double bias_a = 0, bias_b = 0;  ///< the expected bias of a and b; 0 where it is not known
@@ -55,13 +55,13 @@ struct Fitted {
   std::vector<FittedNumber> x0 = {};            ///< likewise, if positions are fitted
   std::shared_ptr<const RollModel> rolls = {};  ///< the model, if it is a roll
   std::optional<Taken> taken = {};  ///< see taken_of(); if other fits have left these residuals
-  std::shared_ptr<const ShiftRecords> shifts = {};  ///< the records, if the model is a law D(v)
+  std::shared_ptr<const ShiftRows> shifts = {};  ///< the rows, if the model is a law D(v)
 
   std::size_t means_taken() const {
     return rolls ? rolling::means_taken(rolls->runs(), rolls->parameters()) : 0;
   }
   /// The number of degrees of freedom that are left for the size of the noise; with none left there
-  /// are no errors. Filters at the ends of a short run may leave fewer than its records less the
+  /// are no errors. Filters at the ends of a short run may leave fewer than its rows less the
   /// mean.
   std::size_t degrees_left() const;
   /// True if the noise is that of the raw column alone, through filters that the data name. White
@@ -76,8 +76,8 @@ void report_law(Fitted&, const Parameters&);
 /// Minimises by the loss that the options name: squares from the first start.
 Minimum solve(const System&, const std::vector<std::vector<double>>& starts, const FitOptions&);
 
-/// Throws Error if n records, so many of which filters leave independent, are too few for p
+/// Throws Error if n rows, so many of which filters leave independent, are too few for p
 /// parameters, or if p = 0.
-void require_records(std::size_t n, std::size_t p, std::size_t independent);
+void require_rows(std::size_t n, std::size_t p, std::size_t independent);
 
 }  // namespace rolling

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The input of a fit of the power law D(v) = a v^b: the records of the runs, and what is fitted.
+// The input of a fit of the power law D(v) = a v^b: the rows of the runs, and what is fitted.
 #pragma once
 
 #include "contact/contact.h"
@@ -26,7 +26,7 @@ inline double acceleration_of(const ShiftOf& by, double D) {
   return -body.g * (D * cos + body.R * sin) / ((body.K + 1) * body.R);
 }
 
-/// The data of one run in SI units: t [s], x [m], v [m/s], D [m], one element for each record. The
+/// The data of one run in SI units: t [s], x [m], v [m/s], D [m], one element for each row. The
 /// routes loglog and shift read v and D (and t, where the filters are known); velocity reads t and
 /// v; position reads t and x. Columns that the route does not read are empty.
 struct FitRun {
@@ -54,9 +54,9 @@ struct FitOptions {
   std::optional<double> given_a() const { return a ? a : start_a; }  ///< held, or where to start
   std::optional<double> given_b() const { return b ? b : start_b; }
   bool fit_slope = false;  ///< the slope of the mat is a further parameter, common to all runs
-  double min_speed = 0;    ///< records slower than this are not fitted [m/s]
+  double min_speed = 0;    ///< rows slower than this are not fitted [m/s]
   /// Filters that the software of a sensor may have applied to the speeds (velocity route, 30 or
-  /// more records, no known filter): differences of x, and for comparison means of v.
+  /// more rows, no known filter): differences of x, and for comparison means of v.
   std::vector<LinearFilter> possible_filters;
   bool robust = false;  ///< bisquare loss instead of squares; not for filtered columns
 };

@@ -13,7 +13,7 @@
 #include "fit/first_guess.h"
 #include "fit/roll_fit.h"
 #include "fit/route.h"
-#include "fit/shift_records.h"
+#include "fit/shift_rows.h"
 #include "statistics/residuals.h"
 
 namespace rolling {
@@ -21,12 +21,13 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The records and weights of a fit of a v^b, applied to other laws. theta holds the own parameters
+/// The rows and weights of a fit of a v^b, applied to other laws. theta holds the own parameters
 /// of each run (v0, x0) as in that fit, then the coefficients of the law, then the slope if it is
 /// fitted.
-class Records {
+class FittedRows {
  public:
-  explicit Records(Fitted power) : power_(std::move(power)), law_{power_.a.value, power_.b.value} {
+  explicit FittedRows(Fitted power)
+      : power_(std::move(power)), law_{power_.a.value, power_.b.value} {
     if (power_.shifts) v_unit_ = std::ranges::max(power_.shifts->v);
     for (const auto& q : power_.v0) v_unit_ = std::max(v_unit_, std::abs(q.value));
   }
@@ -97,15 +98,15 @@ std::vector<std::vector<double>> closest(const LawForm& law, const Candidate& ot
 /// closest to a v^b and to the laws fitted before, so that it never ends above a special case of
 /// the law. If the law has several starts of its own, they are tried as well: close to a law
 /// without a peak, a law with a peak has another minimum than at its peak.
-Candidate fit_law(const Records& records, const LawForm& law,
+Candidate fit_law(const FittedRows& rows, const LawForm& law,
                   const std::vector<Candidate>& before) {
-  const System system = records.system(law);
+  const System system = rows.system(law);
   std::vector<std::pair<double, std::vector<double>>> starts;
   for (const Candidate& other : before) {
     if (!other.found()) continue;
     for (const auto& c : closest(law, other)) {
       // v0 and x0 come from the fit of the law that is approximated.
-      std::vector<double> theta = records.theta(c);
+      std::vector<double> theta = rows.theta(c);
       if (&other != &before.front())
         std::copy_n(other.minimum.theta.begin(), system.runs.size() * system.own, theta.begin());
       double rss = 0;
@@ -131,16 +132,15 @@ Candidate fit_law(const Records& records, const LawForm& law,
   for (auto start = starts.begin(); start != starts.end() && !best.found(); ++start)
     try_from(start->second);
   if (law.starts.size() > 1)
-    for (const auto& start : law.starts) try_from(records.theta(start));
+    for (const auto& start : law.starts) try_from(rows.theta(start));
   if (!best.found()) return best;
   const auto shared = best.minimum.theta.end() - static_cast<std::ptrdiff_t>(system.shared);
   best.c.assign(shared, shared + static_cast<std::ptrdiff_t>(law.coefficients.size()));
   return best;
 }
 
-/// The number of independent records, from the law that leaves the smallest autocorrelation.
-double independent_records(const std::vector<Candidate>& all,
-                           const std::vector<std::size_t>& runs) {
+/// The number of independent rows, from the law that leaves the smallest autocorrelation.
+double independent_rows(const std::vector<Candidate>& all, const std::vector<std::size_t>& runs) {
   const double n = static_cast<double>(all.front().minimum.f.size());
   double r = 1;
   for (const Candidate& law : all)
@@ -151,14 +151,14 @@ double independent_records(const std::vector<Candidate>& all,
 
 /// Writes the coefficients with their standard errors, estimated as in fit(), and their
 /// correlations.
-void report_coefficients(LawFit& result, const Records& records, const Candidate& found) {
-  Fitted fit = records.power();
+void report_coefficients(LawFit& result, const FittedRows& rows, const Candidate& found) {
+  Fitted fit = rows.power();
   std::vector<FittedNumber> values{fit.a, fit.b};
   if (found.law != &laws().front()) {
     values.clear();
-    fit.system = records.system(*found.law);
+    fit.system = rows.system(*found.law);
     fit.minimum = found.minimum;
-    const Parameters q = records.parameters(*found.law);
+    const Parameters q = rows.parameters(*found.law);
     const Law law = q.law(found.minimum.theta);
     for (std::size_t j = 0; j < law.size(); ++j) {
       FittedNumber number{0, std::vector<double>(fit.system.columns())};
@@ -202,12 +202,12 @@ LawComparison compare_laws(Route route, const std::vector<FitRun>& runs,
   // The mean of ln D is not the logarithm of the mean of D if D is noisy; other laws would fit the
   // difference.
   if (route == Route::loglog) route = Route::shift;
-  const Records records(of_means(fit_route(route, runs, options), options));
-  const Fitted& power = records.power();
+  const FittedRows rows(of_means(fit_route(route, runs, options), options));
+  const Fitted& power = rows.power();
   std::vector<Candidate> all{{&laws().front(), power.minimum, {1, power.b.value}}};
-  for (std::size_t i = 1; i < laws().size(); ++i) all.push_back(fit_law(records, laws()[i], all));
+  for (std::size_t i = 1; i < laws().size(); ++i) all.push_back(fit_law(rows, laws()[i], all));
   const double n = static_cast<double>(power.minimum.f.size()),
-               independent = independent_records(all, power.system.runs);
+               independent = independent_rows(all, power.system.runs);
   LawComparison result;
   for (const Candidate& found : all) {
     const Minimum& m = found.minimum;
@@ -218,7 +218,7 @@ LawComparison compare_laws(Route route, const std::vector<FitRun>& runs,
         2 * k * (k + 1) / (independent - k - 1);
     LawFit& of_law = result.fits.emplace_back(
         LawFit{found.law, found.found() && independent > k + 1 ? aicc : infinity, {}, {}});
-    if (found.found()) report_coefficients(of_law, records, found);
+    if (found.found()) report_coefficients(of_law, rows, found);
   }
   return result;
 }

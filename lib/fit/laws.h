@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Comparison of the power law D = a v^b with other laws on the same records by AICc.
+// Comparison of the power law D = a v^b with other laws on the same rows by AICc.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace rolling {
 
-/// The fit of one law to the records of a route.
+/// The fit of one law to the rows of a route.
 struct LawFit {
   const LawForm* law;
   /// The corrected Akaike information criterion (Burnham and Anderson 2002, Model Selection and
@@ -31,16 +31,16 @@ struct LawComparison {
   const LawFit& best_other() const;
   /// AICc of a v^b minus AICc of best_other(); 0 if the comparison is not possible().
   double against_power() const;
-  /// False if there are too few independent records for the AICc of two laws.
+  /// False if there are too few independent rows for the AICc of two laws.
   bool possible() const;
 };
 
-/// Fits every law to the same records with the same weights that fit() uses for a v^b; the model is
+/// Fits every law to the same rows with the same weights that fit() uses for a v^b; the model is
 /// a roll on the routes where fit() uses a roll. Correlated residuals count as n (1 - r)/(1 + r)
-/// independent records, with r the lag-1 autocorrelation under the law that leaves the least; this
+/// independent rows, with r the lag-1 autocorrelation under the law that leaves the least; this
 /// is the number for the mean of an AR(1) process (Bayley and Hammersley 1946, J. R. Stat. Soc.
 /// Suppl. 8, 184). For loglog the laws are compared on D itself, as for shift. Of more than 4096
-/// records a run block means are compared (of_means()). Throws Error for a robust fit, and if the
+/// rows a run block means are compared (of_means()). Throws Error for a robust fit, and if the
 /// fit of a v^b itself is not possible.
 LawComparison compare_laws(Route, const std::vector<FitRun>&, const FitOptions&);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The levels that decide what a user is told or refused, and which standard errors a row has. Each
-// with its rate of false alarms, where that was measured: in 1000 good records of rubber and of
+// with its rate of false alarms, where that was measured: in 1000 good runs of rubber and of
 // felt (make coverage, rolling-fits(7)), unless another place is named.
 #pragma once
 
@@ -8,8 +8,8 @@ namespace rolling::levels {
 
 /// Ljung-Box: at or below it the noise is taken as not white. Two numbers of lags: 0.6 %.
 inline constexpr double not_white = 0.003;
-/// With 60 records the test often misses an autocorrelation of 0.5. At or below this limit a
-/// positive one gets errors that allow for it: one record in ten, at 1 to 2 % in their size.
+/// With 60 rows the test often misses an autocorrelation of 0.5. At or below this limit a
+/// positive one gets errors that allow for it: one run in ten, at 1 to 2 % in their size.
 inline constexpr double nearly_white = 0.1;
 /// Unequal variance, along one run and in several: 1 %.
 inline constexpr double uneven = 0.01, uneven_runs = 0.005;

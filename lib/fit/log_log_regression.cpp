@@ -15,7 +15,7 @@
 #include "contact/law.h"
 #include "fit/errors.h"
 #include "fit/roll_fit.h"
-#include "fit/shift_records.h"
+#include "fit/shift_rows.h"
 #include "statistics/logarithm_of_noise.h"
 
 namespace rolling {
@@ -69,7 +69,7 @@ void add_transposed(const FilterMatrix& H, std::span<const double> x,
   std::ranges::transform(H.transposed_times(std::move(scaled)), to, to.begin(), std::plus());
 }
 
-/// The roll that made the records of a line, for known filters.
+/// The roll that made the rows of a line, for known filters.
 struct KnownRoll {
   std::vector<Response> responses;
   Fitted fit;  ///< without its system and weights, which are large
@@ -95,7 +95,7 @@ std::vector<FitRun> with_logarithms(const std::vector<FitRun>& all, const FitOpt
 }
 
 /// The best-fitting roll; nothing if the filters are unknown or no roll fits. It is fitted to all
-/// records; a selection of those with D > 0 would select by their noise.
+/// rows; a selection of those with D > 0 would select by their noise.
 std::optional<KnownRoll> known_roll(const std::vector<FitRun>& runs, const FitOptions& options,
                                     std::vector<Response> responses) {
   if (responses.empty()) return {};
@@ -114,7 +114,7 @@ std::optional<KnownRoll> known_roll(const std::vector<FitRun>& runs, const FitOp
   return roll;
 }
 
-/// The number of records that are not missing.
+/// The number of rows that are not missing.
 std::size_t readings(const std::vector<FitRun>& all) {
   std::size_t count = 0;
   for (const FitRun& run : all)
@@ -164,16 +164,16 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
   line.bias_b = bias_of(line.b.gradient);
 }
 
-/// The law of the straight line through the records.
-PowerLaw line_through(const ShiftRecords& records) {
+/// The law of the straight line through the rows.
+PowerLaw line_through(const ShiftRows& rows) {
   double mean = 0, xx = 0, xy = 0;
-  for (std::size_t i = 0; i < records.y.size(); ++i) {
-    const double x = std::log(records.v[i] / records.v_ref);  // its mean is 0
-    mean += records.y[i] / static_cast<double>(records.y.size());
-    xx += x * x, xy += x * records.y[i];
+  for (std::size_t i = 0; i < rows.y.size(); ++i) {
+    const double x = std::log(rows.v[i] / rows.v_ref);  // its mean is 0
+    mean += rows.y[i] / static_cast<double>(rows.y.size());
+    xx += x * x, xy += x * rows.y[i];
   }
   const double b = xx > 0 ? xy / xx : 0;
-  return {std::exp(mean) * std::pow(records.v_ref, -b), b};
+  return {std::exp(mean) * std::pow(rows.v_ref, -b), b};
 }
 
 }  // namespace
@@ -183,15 +183,15 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
   const std::vector<FitRun> some = with_logarithms(all, options, responses);
   const std::vector<FitRun>& runs = some.empty() ? all : some;
   std::optional<KnownRoll> roll = known_roll(runs, options, std::move(responses));
-  auto records = std::make_shared<const ShiftRecords>(
-      shift_records(runs, options, true, roll ? roll->stops : std::vector<double>()));
-  const Parameters q(options, true, 1, records->v_ref);
-  Fitted line{.system = system_of(records, q), .minimum = {}};
-  line.records = records->y.size();
-  line.left_out = records->left_out;
-  if (!roll) line.negative = records->negative;
+  auto rows = std::make_shared<const ShiftRows>(
+      shift_rows(runs, options, true, roll ? roll->stops : std::vector<double>()));
+  const Parameters q(options, true, 1, rows->v_ref);
+  Fitted line{.system = system_of(rows, q), .minimum = {}};
+  line.rows = rows->y.size();
+  line.left_out = rows->left_out;
+  if (!roll) line.negative = rows->negative;
   if (!some.empty()) line.left_out += readings(all) - readings(some);
-  line.minimum = solve(line.system, {q.theta(line_through(*records), {}, {})}, options);
+  line.minimum = solve(line.system, {q.theta(line_through(*rows), {}, {})}, options);
   report_law(line, q);
   if (roll) carry_noise(line, runs, std::move(*roll), options);
   return line;

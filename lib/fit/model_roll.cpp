@@ -17,7 +17,7 @@
 namespace rolling {
 namespace {
 
-/// The rows of the matrix of a column for the fitted records.
+/// The rows of the matrix of a column for the fitted rows.
 FilterMatrix filters_of_rows(const Response& response, const char* column, const Rows& rows) {
   const FilterMatrix& H = response.of.at(column);
   return rows.size() == H.rows() ? H : H.of_rows(rows);
@@ -30,7 +30,7 @@ std::vector<double> taken(const std::vector<double>& column, const Rows& rows) {
   return few;
 }
 
-/// The records of a run whose speeds are fitted where these rows are chosen: for shift, also those
+/// The rows of a run whose speeds are fitted where these rows are chosen: for shift, also those
 /// that the derivative at these rows has read.
 Rows rows_of_speeds(Route route, const FitRun& run, Rows rows) {
   const std::size_t n = run.t.size();
@@ -52,15 +52,15 @@ Rows rows_of_speeds(Route route, const FitRun& run, Rows rows) {
 /// speeds at both ends have different signs, in the parabola through the positions or the line
 /// through the speeds, and the first one is not due to noise.
 double way_before_turn(bool position, const std::vector<double>& t,
-                       const std::vector<double>& records) {
+                       const std::vector<double>& rows) {
   constexpr double errors = 5;  // the first speed is so many of its standard errors
   const std::size_t terms = position ? 3 : 2;
-  if (records.size() < terms + 3) return 0;
+  if (rows.size() < terms + 3) return 0;
   const double first = t.front(), half = (t.back() - first) / 2;
   Triangles all(1, terms, 0);
-  for (std::size_t i = 0; i < records.size(); ++i) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
     const double u = (t[i] - first) / half - 1;
-    double f = -records[i], J[]{1, u, u * u};  // solve() makes f + J c least
+    double f = -rows[i], J[]{1, u, u * u};  // solve() makes f + J c least
     all.add(0, {&f, 1}, std::span(J).first(terms));
   }
   all.join();
@@ -69,28 +69,26 @@ double way_before_turn(bool position, const std::vector<double>& t,
   const auto speed = [&](double u) { return position ? c[1] + 2 * u * c[2] : c[0] + u * c[1]; };
   std::vector<double> g = position ? std::vector{0., 1., -2.} : std::vector{1., -1.};
   double rss = 0;
-  for (std::size_t i = 0; i < records.size(); ++i) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
     const double u = (t[i] - first) / half - 1,
-                 off = records[i] - c[0] - u * (c[1] + (position ? u * c[2] : 0));
+                 off = rows[i] - c[0] - u * (c[1] + (position ? u * c[2] : 0));
     rss += off * off;
   }
   solve_transposed(R.data(), g);
-  const double sigma = std::sqrt(dot(g, g) * rss / static_cast<double>(records.size() - terms));
+  const double sigma = std::sqrt(dot(g, g) * rss / static_cast<double>(rows.size() - terms));
   const double begin = speed(-1), end = speed(1);
   return begin * end < 0 && std::abs(begin) > errors * sigma ? std::copysign(1.0, begin) : 0;
 }
 
-double way_of(bool position, const std::vector<double>& t, const std::vector<double>& records,
+double way_of(bool position, const std::vector<double>& t, const std::vector<double>& rows,
               const FitOptions& options) {
-  if (const double way = way_before_turn(position, t, records); way != 0) return way;
+  if (const double way = way_before_turn(position, t, rows); way != 0) return way;
   const auto sum = [](auto begin, auto end) { return std::accumulate(begin, end, 0.0); };
-  const double all = sum(records.begin(), records.end());
+  const double all = sum(rows.begin(), rows.end());
   if (!position) return all < 0 ? -1 : 1;
-  if (options.x0) return all < static_cast<double>(records.size()) * *options.x0 ? -1 : 1;
-  const auto half = static_cast<std::ptrdiff_t>(records.size() / 2);
-  return sum(records.end() - half, records.end()) < sum(records.begin(), records.begin() + half)
-             ? -1
-             : 1;
+  if (options.x0) return all < static_cast<double>(rows.size()) * *options.x0 ? -1 : 1;
+  const auto half = static_cast<std::ptrdiff_t>(rows.size() / 2);
+  return sum(rows.end() - half, rows.end()) < sum(rows.begin(), rows.begin() + half) ? -1 : 1;
 }
 
 std::vector<Response> responses_of(Route route, const std::vector<FitRun>& all) {
@@ -162,8 +160,8 @@ std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>& runs, Adde
   return std::make_shared<const Noise>(std::move(all), added);
 }
 
-std::size_t informative_records(const std::vector<ObservedRun>& runs, const Parameters& parameters,
-                                const Noise& noise) {
+std::size_t informative_rows(const std::vector<ObservedRun>& runs, const Parameters& parameters,
+                             const Noise& noise) {
   if (noise.from_sources_alone()) return noise.informative();
   std::size_t n = 0;
   for (const ObservedRun& run : runs) n += run.y.size();

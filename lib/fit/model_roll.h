@@ -12,7 +12,7 @@
 // Shifts whose filters are known are derivatives of the speeds beside them: they are a linear
 // function of the speeds, without noise of their own. The weighted squares of v and D together are
 // therefore those of v alone, and y is v. The noise of a second derivative could not be whitened in
-// double precision: in n records, that of a slow motion is n^2 times smaller than that of a fast
+// double precision: in n rows, that of a slow motion is n^2 times smaller than that of a fast
 // one, in the covariance n^4 times.
 #pragma once
 
@@ -29,11 +29,11 @@
 namespace rolling {
 
 /// The direction of motion, +1 or -1, of positions or speeds at these times: the first one, where
-/// the body turns. All records contribute, so that a few false echoes do not decide.
-double way_of(bool position, const std::vector<double>& t, const std::vector<double>& records,
+/// the body turns. All rows contribute, so that a few false echoes do not decide.
+double way_of(bool position, const std::vector<double>& t, const std::vector<double>& rows,
               const FitOptions&);
 
-/// The indices of the records of one run that a route fits.
+/// The indices of the rows of one run that a route fits.
 using Rows = std::vector<std::size_t>;
 
 /// The data of one run in the form that the model needs.
@@ -42,12 +42,12 @@ struct ObservedRun {
   Body body;          ///< the body and its mat; only what the motion depends on is meaningful
   Geometry geometry = Geometry::approximate;
   double way = 1;     ///< direction of motion: -1 if the body rolls towards falling x (v < 0)
-  double origin = 0;  ///< the time of the first record [s]: v0 and x0 hold there, t counts from it
+  double origin = 0;  ///< the time of the first row [s]: v0 and x0 hold there, t counts from it
   bool raw_is_position = false;
   std::vector<double> t;          ///< times of the raw column, at which the model is evaluated [s]
   std::optional<FilterMatrix> H;  ///< y = H raw; without H, y is the raw column itself
-  std::vector<double> y;          ///< the fitted records
-  /// For shift: the accelerations of the shifts of all records are H raw; those that are not fitted
+  std::vector<double> y;          ///< the fitted rows
+  /// For shift: the accelerations of the shifts of all rows are H raw; those that are not fitted
   /// are NaN. A shift is `unit` times an acceleration.
   struct Shifts {
     FilterMatrix H;
@@ -74,8 +74,8 @@ std::size_t means_taken(const std::vector<ObservedRun>&, const Parameters&);
 /// The noise of these runs; unknown if they have no H.
 std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>&, AddedNoise = {});
 
-/// The number of records of these runs that filters leave independent of the others.
-std::size_t informative_records(const std::vector<ObservedRun>&, const Parameters&, const Noise&);
+/// The number of rows of these runs that filters leave independent of the others.
+std::size_t informative_rows(const std::vector<ObservedRun>&, const Parameters&, const Noise&);
 
 /// The model of the raw column of one run: returns the value at time t from the origin, and writes
 /// the derivatives with respect to the parameters of the run, then the shared ones, to `slopes`,
@@ -83,7 +83,7 @@ std::size_t informative_records(const std::vector<ObservedRun>&, const Parameter
 using RawModel = std::function<double(double t, double* slopes, std::size_t stride)>;
 
 /// Passes the residuals H raw - y of one run and their derivatives, whitened if the noise is known,
-/// to the callback, in blocks of at most 256 records, which fit into the cache. `number` is the
+/// to the callback, in blocks of at most 256 rows, which fit into the cache. `number` is the
 /// index of the run, `parameters` the number of columns of J.
 void evaluate(const ObservedRun& run, std::size_t number, std::size_t parameters, const Noise&,
               const RawModel& raw, const TakeRows&);

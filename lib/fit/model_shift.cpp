@@ -7,19 +7,19 @@
 #include <utility>
 
 #include "base/error.h"
-#include "fit/shift_records.h"
+#include "fit/shift_rows.h"
 
 namespace rolling {
 namespace {
 
-/// Every k-th record, with k the smallest that leaves at most `most` records.
-ShiftRecords thinned(const ShiftRecords& records, std::size_t most) {
-  ShiftRecords few;
-  few.v_ref = records.v_ref;
-  const std::size_t n = records.y.size();
+/// Every k-th row, with k the smallest that leaves at most `most` rows.
+ShiftRows thinned(const ShiftRows& rows, std::size_t most) {
+  ShiftRows few;
+  few.v_ref = rows.v_ref;
+  const std::size_t n = rows.y.size();
   for (std::size_t i = 0, step = (n + most - 1) / most; i < n; i += step) {
-    few.y.push_back(records.y[i]);
-    few.v.push_back(records.v[i]);
+    few.y.push_back(rows.y[i]);
+    few.v.push_back(rows.v[i]);
   }
   few.runs = {few.y.size()};
   return few;
@@ -28,7 +28,7 @@ ShiftRecords thinned(const ShiftRecords& records, std::size_t most) {
 /// A starting point: the exponent of a coarse grid with the smallest sum of squares (the height
 /// follows by linear least squares), or the values that the user gives. From one exponent of the
 /// grid to the next no D changes by more than a factor e^(1/2) relative to D at the mean of ln v.
-PowerLaw power_start(const ShiftRecords& few, const FitOptions& options) {
+PowerLaw power_start(const ShiftRows& few, const FitOptions& options) {
   const auto a_given = options.given_a(), b_given = options.given_b();
   std::vector<double> exponents;
   if (b_given) exponents = {*b_given};
@@ -60,25 +60,25 @@ PowerLaw power_start(const ShiftRecords& few, const FitOptions& options) {
 }  // namespace
 
 Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
-  auto records = std::make_shared<const ShiftRecords>(shift_records(all, options, false));
+  auto rows = std::make_shared<const ShiftRows>(shift_rows(all, options, false));
   double unit = 0;
-  for (double D : records->y) unit = std::max(unit, std::abs(D));
+  for (double D : rows->y) unit = std::max(unit, std::abs(D));
   if (unit == 0) fail("all shifts are 0: b cannot be determined");
-  const Parameters q(options, false, unit, records->v_ref);
-  // For many records, a few thousand of them give a starting point close to the minimum.
+  const Parameters q(options, false, unit, rows->v_ref);
+  // For many rows, a few thousand of them give a starting point close to the minimum.
   constexpr std::size_t most = 4096;
-  const std::size_t n = records->y.size();
-  auto few = std::make_shared<const ShiftRecords>(thinned(*records, options.robust ? n : most));
+  const std::size_t n = rows->y.size();
+  auto few = std::make_shared<const ShiftRows>(thinned(*rows, options.robust ? n : most));
   std::vector<double> theta = q.theta(power_start(*few, options), {}, {});
   if (few->y.size() < n) theta = attempt(system_of(std::move(few), q), theta).theta;
 
-  System system = system_of(records, q);
+  System system = system_of(rows, q);
   Minimum minimum = solve(system, {theta}, options);
   Fitted result{.system = std::move(system), .minimum = std::move(minimum)};
-  result.records = n;
-  result.left_out = records->left_out;
+  result.rows = n;
+  result.left_out = rows->left_out;
   report_law(result, q);
-  result.shifts = std::move(records);
+  result.shifts = std::move(rows);
   return result;
 }
 

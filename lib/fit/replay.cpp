@@ -15,7 +15,7 @@
 namespace rolling {
 namespace {
 
-/// A column that is computed again, and how many records on either side it has read.
+/// A column that is computed again, and how many rows on either side it has read.
 struct Column {
   std::vector<double> values;  ///< empty if it is not known
   std::size_t reach = 0;
@@ -70,7 +70,7 @@ std::vector<double> roughness(std::span<const double> t, std::span<const double>
 }
 
 /// What the filters of a run make of white noise, from which the noise of its columns is known. The
-/// first records are enough for that.
+/// first rows are enough for that.
 class WhiteNoise {
  public:
   explicit WhiteNoise(std::span<const double> t)

@@ -13,7 +13,7 @@
 
 namespace rolling {
 
-/// The estimator of the standard errors. none: there are as many parameters as records, and the
+/// The estimator of the standard errors. none: there are as many parameters as rows, and the
 /// errors and rms are NaN. classical: independent noise of equal variance. filters: the covariance
 /// of the known filters. differences: the covariance of a difference filter that was inferred from
 /// the residuals. uneven: consistent for noise of unequal variance (HC3). autocorrelation:
@@ -54,8 +54,8 @@ struct FitResult {
   double a, sigma_a, b, sigma_b;  ///< a [m (s/m)^b]
   double corr;                    ///< correlation of a and b; 0 where one of them is fixed
   double rms;     ///< sqrt(RSS / (n - p)) in the unit of the fitted column (of ln D for loglog)
-  std::size_t n;  ///< number of fitted records
-  std::size_t left_out;  ///< number of records, but for missing ones, that the route did not use
+  std::size_t n;  ///< number of fitted rows
+  std::size_t left_out;  ///< number of rows, but for missing ones, that the route did not use
   std::size_t negative;  ///< of these, those with D <= 0 whose noise loglog does not know
   double whiteness;      ///< significance of the autocorrelation of the noise (Ljung and Box); NaN
                          ///< where it is not tested
@@ -80,7 +80,7 @@ inline bool noise_is_correlated(const FitResult& r) {
 /// For a fit by loglog. Noise makes the logarithms of D too low, by rms^2 / 2 on average (to second
 /// order). The function is true if this is more than the standard error of the line at the speed
 /// where the line is known best, sigma_a / a sqrt(1 - corr^2). It is also true if more than one
-/// record in a hundred has D <= 0: the standard deviation of D is then 0.43 D or more, and the
+/// row in a hundred has D <= 0: the standard deviation of D is then 0.43 D or more, and the
 /// logarithms of the others are too low by 0.1, or too high where many are left out.
 inline bool logarithms_biased(const FitResult& r) {
   return 100 * r.negative > r.n + r.negative ||

@@ -25,8 +25,8 @@ void require_ways(const std::vector<ObservedRun>& runs, const FitOptions& option
            run.way > 0 ? "growing" : "falling");
 }
 
-/// Removes from `rows` the records whose fitted speed is below the limit; returns whether there
-/// were any. The fitted speed decides, because a threshold on noisy speeds would select records by
+/// Removes from `rows` the rows whose fitted speed is below the limit; returns whether there
+/// were any. The fitted speed decides, because a threshold on noisy speeds would select rows by
 /// their noise.
 bool leave_out_slow(const RollModel& model, const std::vector<double>& theta,
                     const std::vector<FitRun>& all, std::vector<Rows>& rows, double limit) {
@@ -56,7 +56,7 @@ double squares_of_shifts(const RollModel& rolls, const std::vector<double>& thet
   return sum * run.shifts->unit * run.shifts->unit;
 }
 
-/// Writes a, b, the slope, v0 and x0 with their gradients, and the number of records, into the fit.
+/// Writes a, b, the slope, v0 and x0 with their gradients, and the number of rows, into the fit.
 void report(Fitted& fit) {
   const std::vector<double>& theta = fit.minimum.theta;
   const Parameters& q = fit.rolls->parameters();
@@ -73,11 +73,11 @@ void report(Fitted& fit) {
     const double way = runs[r].way;
     fit.v0.push_back(quantity(way * q.v0(theta, r), way, 0, 0));
     if (q.has_x0()) fit.x0.push_back(quantity(q.x0(theta, r), 0, 1, 0));
-    fit.records += runs[r].shifts ? runs[r].shifts->fitted : runs[r].y.size();
+    fit.rows += runs[r].shifts ? runs[r].shifts->fitted : runs[r].y.size();
   }
 }
 
-/// Every k-th record of each run, at most 4096 of them.
+/// Every k-th row of each run, at most 4096 of them.
 std::vector<ObservedRun> some_of(std::vector<ObservedRun> runs) {
   for (ObservedRun& run : runs) {
     const std::size_t n = run.y.size(), step = (n + 4095) / 4096;
@@ -89,7 +89,7 @@ std::vector<ObservedRun> some_of(std::vector<ObservedRun> runs) {
 }
 
 /// The minimum of the system of these rolls. The robust loss ignores what the cusps make. Of many
-/// records its search begins at the minimum of some of them.
+/// rows its search begins at the minimum of some of them.
 Minimum search(const RollModel& rolls, const System& system,
                std::vector<std::vector<double>> starts, const FitOptions& options) {
   if (options.robust && system.residuals() > 16384 * system.runs.size()) {
@@ -128,7 +128,7 @@ bool rounded(const Fitted& fit) {
 }
 
 /// Columns that were rounded after a filter hold additional white noise. Its share is estimated by
-/// restricted likelihood, and the fit is repeated with the new weights. In few records the
+/// restricted likelihood, and the fit is repeated with the new weights. In few rows the
 /// residuals may be large by chance: there the likelihood decides.
 void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   if (!rounded(fit)) return;
@@ -150,7 +150,7 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   const Parameters own = all.of_one_run();
   run.body.slope = all.slope(theta, run.body.slope);
   auto noise = noise_of({run}, joint.noise->added());
-  require_records(run.y.size(), own.count(), informative_records({run}, own, *noise));
+  require_rows(run.y.size(), own.count(), informative_rows({run}, own, *noise));
   Fitted fit =
       minimum_of({std::move(run)}, std::move(noise), {own, all.theta_of_run(theta, r)}, options);
   report(fit);
@@ -172,7 +172,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
   std::optional<FirstGuess> guess;
   std::vector<double> ways;  // directions of motion, by the first round
   Fitted fit{};
-  for (int round = 0; round < 4; ++round) {  // each round removes the slow records of the last fit
+  for (int round = 0; round < 4; ++round) {  // each round removes the slow rows of the last fit
     auto runs = observe(route, all, rows, responses, options);
     auto noise = noise_of(runs, added);
     if (!guess) {
@@ -181,7 +181,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       const Parameters q(options, route == Route::position, runs.size(), 1, 1);
       // Shifts are fitted for what all runs share: the v0 of their rolls is not reported.
       const bool asked = is_trajectory(route) || q.shared() > 0;
-      require_records(n, asked ? q.count() : 0, informative_records(runs, q, *noise));
+      require_rows(n, asked ? q.count() : 0, informative_rows(runs, q, *noise));
       std::vector<ObservedRun> smooth;
       if (noise->known()) smooth = smooth_motion(route, runs, *noise, options);
       const std::vector<ObservedRun>& plain = noise->known() ? smooth : runs;
@@ -201,7 +201,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
   allow_for_rounding(fit, options);
   report(fit);
   for (const Rows& of_run : usable(route, all)) fit.left_out += of_run.size();
-  fit.left_out -= fit.records;
+  fit.left_out -= fit.rows;
   return fit;
 }
 

@@ -6,20 +6,20 @@
 
 namespace rolling {
 
-/// The records of each run that can be fitted to a roll: those with finite values. For shift, a
-/// record with v <= 0 counts too: to select by noisy speeds would be to select by their noise.
+/// The rows of each run that can be fitted to a roll: those with finite values. For shift, a
+/// row with v <= 0 counts too: to select by noisy speeds would be to select by their noise.
 std::vector<Rows> usable(Route, const std::vector<FitRun>&);
 
 /// Fits a roll: position, velocity, and shift with known filters (`responses`).
 Fitted fit_rolls(Route, const std::vector<FitRun>&, std::vector<Rows>, std::vector<Response>,
                  const FitOptions&, AddedNoise = {});
 
-/// Fits one run of a joint fit of rolls separately: the same records and weights, the slope of the
+/// Fits one run of a joint fit of rolls separately: the same rows and weights, the slope of the
 /// mat held at the joint value. Throws Error if the run does not determine its parameters, or has
 /// none.
 Fitted fit_of_run(const Fitted& joint, std::size_t run, const FitOptions&);
 
-/// The fit of block means of equal size, at most 4096 of each run, where there are more records
+/// The fit of block means of equal size, at most 4096 of each run, where there are more rows
 /// than that and no filter is known; otherwise the fit itself. The means hold what a smooth law can
 /// tell.
 Fitted of_means(Fitted, const FitOptions&);

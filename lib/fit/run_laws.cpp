@@ -30,7 +30,7 @@ void stand_out(Agreement& result, const OwnLaw& one, Pair others, Symmetric C, d
 /// squared distance d of a run to the common law and its degrees of freedom nu. c is nu times a
 /// factor of Bartlett's (1937, Proc. R. Soc. A 160, 268), so that the mean of each term is
 /// `parameters`. The weighted mean of the laws does not make this sum smallest: it follows a run
-/// whose few records happen to agree well. Iteratively reweighted means do; since the logarithm is
+/// whose few rows happen to agree well. Iteratively reweighted means do; since the logarithm is
 /// concave, no step makes the sum larger.
 double least_from(Pair common, const std::vector<OwnLaw>& laws, std::size_t parameters) {
   double least = INFINITY;

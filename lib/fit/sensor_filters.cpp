@@ -52,7 +52,7 @@ Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
   return best;
 }
 
-/// For each record, the number of gaps before it: of steps that are much longer than those around
+/// For each row, the number of gaps before it: of steps that are much longer than those around
 /// them. The steps of a wheel that slows down grow, and uneven times differ, without a gap.
 std::vector<std::size_t> gaps_before(const std::vector<double>& t) {
   constexpr std::size_t around = 5;
@@ -67,8 +67,8 @@ std::vector<std::size_t> gaps_before(const std::vector<double>& t) {
   return gaps;
 }
 
-/// Sensors' programs differ in how they treat the ends of a run and lost records; elsewhere the
-/// candidates are known. This function removes from `rows` the records whose window reaches an end
+/// Sensors' programs differ in how they treat the ends of a run and lost rows; elsewhere the
+/// candidates are known. This function removes from `rows` the rows whose window reaches an end
 /// or a gap; it returns false if that would be half of a run: what is left would be another run.
 bool leave_out_irregular(const std::vector<FitRun>& all, std::vector<Rows>& rows,
                          std::size_t reach) {
@@ -106,8 +106,8 @@ void set_clock(Fitted& fit, const LinearFilter& filter, const std::vector<FitRun
   }
 }
 
-/// The search for the filter uses at most this many records from the beginning of each run. About a
-/// hundred records usually give a likelihood ratio of e^3.
+/// The search for the filter uses at most this many rows from the beginning of each run. About a
+/// hundred rows usually give a likelihood ratio of e^3.
 constexpr std::size_t searched = 2000;
 
 /// False if the search would find nothing: differences leave a correlation that this many residuals
@@ -152,7 +152,7 @@ std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const FitO
       set_clock(fit, *maker.filter, all);
       return fit;
     }
-  } catch (const Error&) {  // too few records, or no minimum
+  } catch (const Error&) {  // too few rows, or no minimum
   }
   return {};
 }

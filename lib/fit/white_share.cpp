@@ -41,7 +41,7 @@ std::vector<Linear> linear_around(const std::vector<double>& theta, const System
 WhiteShare most_likely_share(const std::shared_ptr<const RollModel>& model,
                              const std::vector<double>& theta, double least, double most) {
   System system = system_of(model, std::make_shared<const Noise>());
-  for (std::size_t& records : system.runs) records = std::min(records, searched_for_white_noise);
+  for (std::size_t& rows : system.runs) rows = std::min(rows, searched_for_white_noise);
   const std::vector<Linear> runs = linear_around(theta, system, *model);
   const auto likelihood = [&](double share) {
     double log_size = 0;

@@ -154,7 +154,7 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
     if (converged()) break;
     const double gain = 1 - best.rss / before;
     // The minimum of a trajectory fit may lie on a kink, where the time of the stop coincides with
-    // a record: no step reduces the sum of squares noticeably, but the gradient on either side is
+    // a row: no step reduces the sum of squares noticeably, but the gradient on either side is
     // not zero. The search ends there, unless the remaining step is more than a standard deviation
     // and changes a parameter by more than its own size.
     const bool near = offset() < 1 || best.size < 1;

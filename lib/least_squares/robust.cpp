@@ -48,7 +48,7 @@ System weighted(const System& system, const std::vector<double>& factors) {
           }};
 }
 
-/// The fit from a theta that fits most records exactly: of those alone that it fits to rounding,
+/// The fit from a theta that fits most rows exactly: of those alone that it fits to rounding,
 /// since theta is of order one.
 Minimum exact_fit(const System& system, const std::vector<double>& theta) {
   std::vector<double> kept;
@@ -100,7 +100,7 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
       theta = next;
       Residuals now = residuals_at(system, theta);
       // The bisquare loss has a fixed scale, and so has Huber's after a while: it is made of
-      // medians, which may go to and fro between two records without end.
+      // medians, which may go to and fro between two rows without end.
       if (influence == bisquare || round > 50) now.scale = at.scale;
       at = std::move(now);
       u = sizes_of(at);

@@ -16,7 +16,7 @@ struct AddedNoise {
 
 /// The noise of the residuals of each run is E times white noise of one unknown variance. The
 /// elements of that white noise are called sources; for known filters they are the noise of the raw
-/// records.
+/// rows.
 class Noise {
  public:
   /// An unknown covariance: the residuals have no weights.

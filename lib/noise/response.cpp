@@ -23,7 +23,7 @@ struct Band {
   std::size_t end(std::size_t i) const { return std::min(n, i + (inside(i) ? reach : most()) + 1); }
 };
 
-/// A record whose rows stand for all rows of a longer one: row i of that has the elements of row
+/// A run whose rows stand for all rows of a longer one: row i of that has the elements of row
 /// `row[i]` of this, as many columns further on as i is beyond row[i].
 struct Short {
   std::vector<double> t;
@@ -34,8 +34,8 @@ struct Short {
 /// times of a few seconds the rounding is 2e-10 of a step.)
 constexpr double rounding = 1e-9;
 
-/// Leaves out the inner records of each long stretch of equal steps. A filter depends on
-/// differences of times alone, so that these records have the same row. The steps of the stretch
+/// Leaves out the inner rows of each long stretch of equal steps. A filter depends on
+/// differences of times alone, so that these readings have the same row. The steps of the stretch
 /// become its mean step: the rounding of two times would be an error of all of these rows.
 Short shortened(const LinearFilter& filter, std::span<const double> t) {
   const std::size_t n = t.size(), end = 2 * filter.reach + 1, most = 3 * end;

@@ -10,14 +10,14 @@
 
 namespace rolling {
 
-/// The matrix of a filter for records at the times t, measured as its response to combs of unit
-/// impulses. Throws Error if the filter does not return one value for each record.
+/// The matrix of a filter for rows at the times t, measured as its response to combs of unit
+/// impulses. Throws Error if the filter does not return one value for each row.
 BandMatrix probe(const LinearFilter&, std::span<const double> t);
 
 /// The response of a chain of filters to its raw column.
 struct Response {
   std::string source;  ///< name of the raw column, whose noise is assumed white
-  /// The matrix of each column, the raw one included: one row for each record of the run.
+  /// The matrix of each column, the raw one included: one row for each reading of the run.
   std::map<std::string, FilterMatrix> of;
 };
 

@@ -42,16 +42,16 @@ double rounded(double x, double resolution) {
 
 }  // namespace
 
-void sonar_record(Motion& motion, const SonarOptions& o,
-                  const std::function<void(const SonarSample&)>& write) {
+void sonar_run(Motion& motion, const SonarOptions& o,
+               const std::function<void(const SonarSample&)>& write) {
   check(o);
   motion.seek(0);
   const double v0 = motion.velocity(), x0 = motion.position();
   const double roll = std::isinf(o.until) ? motion.stop_time() + o.rest_after : o.until;
-  if (std::isinf(roll)) fail("the body never stops: the sensor needs to know until when to record");
+  if (std::isinf(roll)) fail("the body never stops: the sensor needs to know until when to go on");
   const double release = o.rest_before + o.push;
-  const double records = std::floor((release + roll) * o.rate * (1 + 1e-12)) + 1;
-  if (records > 1e9) fail("the sensor would make {:.3g} rows; the most is 1e9", records);
+  const double rows = std::floor((release + roll) * o.rate * (1 + 1e-12)) + 1;
+  if (rows > 1e9) fail("the sensor would make {:.3g} rows; the most is 1e9", rows);
 
   const auto position = [&](double t) {
     if (t <= o.rest_before) return o.start;
@@ -67,10 +67,10 @@ void sonar_record(Motion& motion, const SonarOptions& o,
   silence_gsl();
   const auto random = own(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
   gsl_rng_set(random.get(), o.seed);
-  // Records i - 4 to i, each at its number modulo 5; the middle one has its four neighbours.
+  // Rows i - 4 to i, each at its number modulo 5; the middle one has its four neighbours.
   std::array<SonarSample, 5> last;
   const auto nth = [&](std::size_t i) -> SonarSample& { return last[i % last.size()]; };
-  const auto n = static_cast<std::size_t>(records);
+  const auto n = static_cast<std::size_t>(rows);
   for (std::size_t i = 0; i < n + 2; ++i) {
     if (i < n) {
       SonarSample& now = nth(i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Simulates the record of a roll by a motion sensor (sonar) at the end of the track, with noise,
+// Simulates the run of a roll by a motion sensor (sonar) at the end of the track, with noise,
 // rounding and lost echoes: raw data for which the law and the start are known.
 #pragma once
 
@@ -13,12 +13,12 @@ namespace rolling {
 
 /// The defaults describe a sonar of PASCO, and a push by hand that begins and ends smoothly.
 struct SonarOptions {
-  double rate = 25;           ///< records a second
+  double rate = 25;           ///< rows a second
   double resolution = 0.001;  ///< positions are rounded to this [m]; 0: not at all
   double noise = 0.0003;      ///< standard deviation of a position before rounding [m]
   double lost = 0.01;         ///< fraction of echoes that do not come back
   unsigned long seed = 1;
-  /// Time from the end of the push to the end of the record [s]; infinite: the record ends
+  /// Time from the end of the push to the end of the run [s]; infinite: the run ends
   /// rest_after after the stop.
   double until = std::numeric_limits<double>::infinity();
 
@@ -28,9 +28,9 @@ struct SonarOptions {
   static constexpr double start = 0.3;      ///< distance from the sensor before the push [m]
 };
 
-/// One record; x or v is missing where the echo was lost.
+/// One row; x or v is missing where the echo was lost.
 struct SonarSample {
-  double t;                 ///< since the start of the record [s]
+  double t;                 ///< since the start of the run [s]
   std::optional<double> x;  ///< distance [m]
   std::optional<double> v;  ///< (x[i+1] + x[i+2] - x[i-1] - x[i-2]) / (6 dt) of the recorded
                             ///< positions, with one decimal more than they have [m/s]
@@ -39,11 +39,10 @@ struct SonarSample {
 /// The body is at rest. A hand pushes it with v = v0 sin^2(pi u/(2 push)), u being the time since
 /// the beginning of the push, up to the speed v0 that the motion has at its t = 0. Then the body
 /// rolls freely, and finally it is at rest. White Gaussian noise is added to each position before
-/// the rounding. The same seed gives the same record on every machine; `lost` does not change the
-/// noise of the other records. `write` receives one sample after the other; five are kept in
+/// the rounding. The same seed gives the same run on every machine; `lost` does not change the
+/// noise of the other rows. `write` receives one sample after the other; five are kept in
 /// memory. Throws Error for an option out of range, for a motion that never stops if `until` is
 /// infinite, and for more than 1e9 samples.
-void sonar_record(Motion&, const SonarOptions&,
-                  const std::function<void(const SonarSample&)>& write);
+void sonar_run(Motion&, const SonarOptions&, const std::function<void(const SonarSample&)>& write);
 
 }  // namespace rolling

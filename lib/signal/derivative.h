@@ -28,7 +28,7 @@ class CentralDerivative : public Signal {
 
 /// The derivative of Vernier's programs: the slopes over one, two and three samples to either side,
 /// with the weights 3, 2, 1; beyond the end of the run the last sample counts instead. With these
-/// weights the 304 records of an export of such a program are reproduced to the last bit
+/// weights the 304 rows of an export of such a program are reproduced to the last bit
 /// (tests/recordings.md).
 class VernierDerivative : public WindowedSignal<VernierDerivative> {
  public:

@@ -47,7 +47,7 @@ class Search {
     std::sort(chains.begin(), chains.end(), longer);
     const Chain& best = chains[0];
     FreeRoll found{kept(best), end_of(best), pieces_[best.last].end};
-    // A rest at the end of the record may be too short for a piece of its own.
+    // A rest at the end of the run may be too short for a piece of its own.
     if (found.how == FreeRoll::End::goes_on && found.kept.end < samples_.size())
       found.how = FreeRoll::End::by_itself;
     const auto may_be = [&](const Chain& c) {

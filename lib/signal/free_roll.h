@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Search for the free roll in a record: among rest, push, hold, hand, brake, wall and way back.
+// Search for the free roll in a run: among rest, push, hold, hand, brake, wall and way back.
 #pragma once
 
 #include <cstddef>
@@ -19,14 +19,14 @@ struct FreeRoll {
   enum class End { by_itself, is_ended, goes_on };
 
   Stretch kept;
-  End how;            ///< at rest; by a hand, a brake, a wall, ...; not before the record is over
+  End how;            ///< at rest; by a hand, a brake, a wall, ...; not before the run is over
   std::size_t after;  ///< the sample with which something else begins, if it does not go on
   std::optional<Stretch> other{};  ///< another roll, or what may be the roll as well
 };
 
 /// The free roll in a run of positions or speeds of at least 10 samples.
 ///
-/// A record is a chain of smooth motions with sudden changes between them: the best partition into
+/// A run is a chain of smooth motions with sudden changes between them: the best partition into
 /// pieces (signal/partition.h), of samples that are on the motion of their neighbours
 /// (signal/outliers.h). Rest, push, hold, roll, hand, brake, wall and way back are all pieces with
 /// a speed and an acceleration.

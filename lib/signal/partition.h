@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The best partition of a record into smooth pieces with sudden changes between them.
+// The best partition of a run into smooth pieces with sudden changes between them.
 #pragma once
 
 #include <algorithm>

@@ -11,7 +11,7 @@ namespace rolling {
 
 /// The polynomial of P coefficients that is nearest to readings of equal weight. Givens rotations
 /// of the rows (1, u, u^2, ... | y) update the triangular factor: no normal equations, whose
-/// cumulative sums would lose the digits of short pieces of a long record. O(P^2) a reading.
+/// cumulative sums would lose the digits of short pieces of a long run. O(P^2) a reading.
 template <std::size_t P>
 class Polynomial {
  public:

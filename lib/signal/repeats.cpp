@@ -55,7 +55,7 @@ double unit_of(std::span<const double> all_steps, double place, double rounding)
 
 }  // namespace
 
-double records_held(std::span<const double> readings) {
+double rows_held(std::span<const double> readings) {
   const double largest = std::transform_reduce(
       readings.begin(), readings.end(), 0.0, [](double x, double y) { return std::max(x, y); },
       [](double y) { return std::abs(y); });

@@ -45,7 +45,7 @@ double noise_of(std::span<const Sample> samples, bool positions, double step) {
                        std::max(own / typical, coarse ? 0.43 * step : 0)});
       speeds.push_back(found.back().first);
     }
-    // A quarter of all tells the noise of a record in which nothing moves.
+    // A quarter of all tells the noise of a run in which nothing moves.
     if (size == 4 && !all.empty())
       noise = std::max(noise, nth_smallest(all, all.size() / 4) / 0.32);
     if (found.size() < (size == 4 ? 1 : 4 * size)) continue;

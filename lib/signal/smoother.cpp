@@ -39,11 +39,11 @@ std::size_t best_width(std::span<const Sample> run, const SignalOptions& options
   // Half of the narrowest window: 2 (least - apart) > order samples remain in it.
   const std::size_t least = apart + 1 + order / 2;
   // 2000 prediction errors determine their mean square to 3 % (sqrt(2 / 2000)), and all widths are
-  // compared on the same records. The mean of 2001 readings leaves 2 % of their noise, which is
+  // compared on the same rows. The mean of 2001 readings leaves 2 % of their noise, which is
   // sufficient.
-  constexpr std::size_t records = 2000, widest = 1000;
+  constexpr std::size_t rows = 2000, widest = 1000;
   const std::size_t n = run.size(), most = std::max(least, std::min(n / 4, widest)),
-                    every = std::max<std::size_t>(1, n / records);
+                    every = std::max<std::size_t>(1, n / rows);
   if (n < 2 * least + 1) return 2 * least + 1;
   // A mean shrinks at the ends, where it has too few samples for a prediction; savgol keeps its
   // first and its last whole window.

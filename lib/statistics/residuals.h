@@ -12,7 +12,7 @@
 
 namespace rolling {
 
-/// What a fit takes of the sums of the products of residuals that are 0, 1, 2, ... records apart,
+/// What a fit takes of the sums of the products of residuals that are 0, 1, 2, ... rows apart,
 /// in units of their variance.
 using Taken = std::array<double, 11>;
 
@@ -34,7 +34,7 @@ double ljung_box(std::span<const double> residuals, const Taken&,
 double ljung_box_uneven(std::span<const double> residuals, const Taken&,
                         std::span<const std::size_t> runs);
 
-/// Significance of a trend of the variance along the runs, linear and quadratic in the record
+/// Significance of a trend of the variance along the runs, linear and quadratic in the row
 /// number: the studentised test of Breusch and Pagan (Koenker 1981, J. Econometrics 17, 107).
 double breusch_pagan(std::span<const double> residuals, std::span<const std::size_t> runs);
 
@@ -43,7 +43,7 @@ double breusch_pagan(std::span<const double> residuals, std::span<const std::siz
 double unequal_runs(std::span<const double> residuals, std::span<const std::size_t> runs,
                     std::span<const double> left = {});
 
-/// The sum of the products of residuals that are `lag` records apart within a run.
+/// The sum of the products of residuals that are `lag` rows apart within a run.
 double lagged(std::span<const double> residuals, std::span<const std::size_t> runs,
               std::size_t lag);
 
@@ -53,7 +53,7 @@ double lagged(std::span<const double> residuals, std::span<const std::size_t> ru
 /// (Newey and West 1987, Econometrica 55, 703) with the bandwidth of Andrews' AR(1) rule (1991,
 /// Econometrica 59, 817), after prewhitening by the AR(1) of the residuals (Andrews and Monahan
 /// 1992, Econometrica 60, 953). The AR(1) coefficient is corrected for the bias of the fit. Short
-/// records need both, prewhitening and correction.
+/// rows need both, prewhitening and correction.
 std::vector<double> newey_west(Matrix scores, std::size_t p, std::vector<double> residuals,
                                std::span<const std::size_t> runs);
 

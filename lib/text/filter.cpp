@@ -82,7 +82,7 @@ void Filter::take_remarks(const std::vector<std::string>& remarks) {
 
 bool Filter::next_run() {
   write_rows();
-  run_begins_ = records_;
+  run_begins_ = read_;
   if (in_.next_run()) {
     take_head();
     return true;
@@ -101,10 +101,10 @@ bool Filter::next() {
   changing_ = true;  // should memory run out, the destructor does not look at half a row
   rows_.set_end(rows_.reserve(sizeof(Row)) + sizeof(Row));
   const auto place = static_cast<std::uint32_t>(in_.append_text(rows_, cut_));
-  const Row record{Kind::record, static_cast<std::uint32_t>(rows_.size() - text), place};
-  std::memcpy(rows_.data() + row, &record, sizeof record);
+  const Row waiting{Kind::row, static_cast<std::uint32_t>(rows_.size() - text), place};
+  std::memcpy(rows_.data() + row, &waiting, sizeof waiting);
   changing_ = false;
-  ++records_;
+  ++read_;
   return true;
 }
 
@@ -124,9 +124,9 @@ void Filter::write_head() {
   head_.reset();
 }
 
-/// Writes a record with its numbers, which are finite, at this place of its text.
-inline void Filter::write_record(std::string_view text, std::size_t place,
-                                 std::span<const double> numbers) {
+/// Writes a row with its numbers, which are finite, at this place of its text.
+inline void Filter::write_row(std::string_view text, std::size_t place,
+                              std::span<const double> numbers) {
   char* to = out_.reserve(text.size() + numbers.size() * (1 + longest_number));
   to = std::copy_n(text.begin(), place, to);
   for (const double number : numbers) {
@@ -146,12 +146,12 @@ void Filter::write_rows() {
   for (Row row; front_ < rows_.size(); front_ += sizeof row + row.size) {
     std::memcpy(&row, rows_.data() + front_, sizeof row);
     const std::string_view text(rows_.data() + front_ + sizeof row, row.size);
-    if (row.kind == Kind::record && !dropped_.empty() && dropped_.front() == done_) {
+    if (row.kind == Kind::row && !dropped_.empty() && dropped_.front() == done_) {
       dropped_.pop(), ++done_;
-    } else if (row.kind == Kind::record) {
+    } else if (row.kind == Kind::row) {
       if (numbers.size() < each) break;
       write_head();
-      write_record(text, row.place, numbers.first(each));
+      write_row(text, row.place, numbers.first(each));
       numbers = numbers.subspan(each);
       any_row_ = true;
       ++done_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The input and the output of a tool that adds computed numbers to each record, or replaces a
-// column. A record is kept as text until its numbers have been computed, which may be later (a
+// The input and the output of a tool that adds computed numbers to each row, or replaces a
+// column. A row is kept as text until its numbers have been computed, which may be later (a
 // window that looks ahead). Every byte that is not computed is written as it was read. Each run is
 // written with its own head: its name, comments and history, the line of this filter, the names.
 //
@@ -47,11 +47,11 @@ class Filter {
   /// each, in their order. An existing column of that name is renamed `name_in`.
   void append(Column);
 
-  /// Goes to the next run or record, as Reader does. The record waits for its numbers.
+  /// Goes to the next run or row, as Reader does. The row waits for its numbers.
   bool next_run();
   bool next();
   double operator[](std::size_t slot) const { return in_[slot]; }
-  /// Gives the next number to the oldest record that lacks one. Throws Error if it is not finite.
+  /// Gives the next number to the oldest row that lacks one. Throws Error if it is not finite.
   void put(double value) {
     require_finite(value);
     numbers_.append(value);
@@ -60,18 +60,18 @@ class Filter {
   void put(std::span<const double> values) {
     for (const double value : values) put(value);
   }
-  /// Leaves out the record with the index i in this run (from 0), which must come after those left
+  /// Leaves out the row with the index i in this run (from 0), which must come after those left
   /// out before. It needs no numbers.
   void drop(std::size_t i);
 
  private:
-  enum class Kind : std::uint8_t { record, remark, head };
+  enum class Kind : std::uint8_t { row, remark, head };
   /// A row that waits to be written; its text follows it in the buffer. Many rows may wait (smooth
   /// --coast): they are kept small. No line is as long as 2^32.
   struct Row {
     Kind kind;
     std::uint32_t size;   // of its text; a head has it elsewhere
-    std::uint32_t place;  // of the numbers of a record in its text
+    std::uint32_t place;  // of the numbers of a row in its text
   };
   struct Head {
     std::string comments, names;
@@ -83,7 +83,7 @@ class Filter {
   void take_remarks(const std::vector<std::string>&);
   void write_rows();
   void write_head();
-  void write_record(std::string_view text, std::size_t place, std::span<const double> numbers);
+  void write_row(std::string_view text, std::size_t place, std::span<const double> numbers);
   void wait(Row, std::string_view text = {});  // appends both to the buffer
 
   Reader& in_;
@@ -95,11 +95,11 @@ class Filter {
   Bytes rows_;                                // from front_ on: rows that are not written yet
   std::size_t front_ = 0;
   std::queue<Head> heads_;           // heads of the runs that begin among these rows
-  std::queue<std::size_t> dropped_;  // indices of the records among rows_ to leave out
+  std::queue<std::size_t> dropped_;  // indices of the rows among rows_ to leave out
   Growing<double> numbers_;          // of these rows, in order
   std::size_t enough_;               // put() writes rows at this count of numbers
-  // Counts of the records of all runs: read; read before this run; written or left out.
-  std::size_t records_ = 0, run_begins_ = 0, done_ = 0;
+  // Counts of the rows of all runs: read; read before this run; written or left out.
+  std::size_t read_ = 0, run_begins_ = 0, done_ = 0;
   std::optional<Head> head_;  // of a run none of whose rows has been written
   bool any_row_ = false;
   std::function<std::string()> why_none_;

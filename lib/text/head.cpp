@@ -43,7 +43,7 @@ void refuse_other_separator(std::string_view line, char separator) {
         shown(line), name_of(other.separator()), name_of(separator));
 }
 
-/// Refuses a record without names, `1,5, 2,5`, whose commas without a blank behind them may be
+/// Refuses a row without names, `1,5, 2,5`, whose commas without a blank behind them may be
 /// decimal ones.
 void refuse_two_readings(const std::string& line) {
   const std::string other = replace_all(line, ", ", "; ");
@@ -57,7 +57,7 @@ void refuse_two_readings(const std::string& line) {
         shown(line));
 }
 
-/// The comments and other lines in front of the first record.
+/// The comments and other lines in front of the first row.
 class HeadReader {
  public:
   HeadReader(Lines& lines, Dialect& dialect, const Head* before, const CommentHook& pass)
@@ -67,17 +67,17 @@ class HeadReader {
 
  private:
   bool has_tabs_of_names(std::string_view line) const;
-  bool find_record();
+  bool find_row();
   void keep(std::string comment);
   void take_history();
-  bool is_missing_record(std::string_view line);
+  bool is_missing_row(std::string_view line);
   bool is_named_by_comment(std::size_t width) const;
   std::vector<std::string> take_units();
   std::vector<std::string> take_names(std::size_t width, bool blank_end);
   bool is_named_below(const UnnamedColumns& columns) const;
   std::vector<std::string> take_commented_names(const UnnamedColumns& columns);
   void note_sorted_history(std::size_t names);
-  [[noreturn]] void refuse_without_records(const std::string& what) const;
+  [[noreturn]] void refuse_without_rows(const std::string& what) const;
   void comment_preamble();
   Head finish();
   std::string way_out(std::size_t width, std::size_t names) const;
@@ -89,14 +89,14 @@ class HeadReader {
   Head head_;
   std::vector<Comment> comments_;
   std::deque<Comment> last_;       // behind them, while lines are read
-  std::vector<Comment> preamble_;  // lines that are neither comments nor records
+  std::vector<Comment> preamble_;  // lines that are neither comments nor rows
 };
 
 void HeadReader::take_history() {
   refuse_error_line(lines_);
   const std::string line = history_line(lines_.text());
   const std::string_view text = trim(std::string_view(line).substr(2));
-  if (text.starts_with("run ")) {  // the `##` lines above belong to a run without records
+  if (text.starts_with("run ")) {  // the `##` lines above belong to a run without rows
     head_.run = trim(text.substr(4));
     std::erase_if(comments_, std::mem_fn(&Comment::is_history));
     std::erase_if(last_, std::mem_fn(&Comment::is_history));
@@ -105,7 +105,7 @@ void HeadReader::take_history() {
   }
 }
 
-/// Keeps a comment, and passes one on that is too far from the record: a sensor that idles may
+/// Keeps a comment, and passes one on that is too far from the row: a sensor that idles may
 /// write millions.
 void HeadReader::keep(std::string comment) {
   last_.push_back({std::move(comment), lines_.number()});
@@ -128,9 +128,9 @@ bool HeadReader::is_named_by_comment(std::size_t width) const {
   return std::ranges::any_of(comments_, names_them) || std::ranges::any_of(last_, names_them);
 }
 
-/// True for a first record with missing readings: a field is NaN, which is no name of a column; or
+/// True for a first row with missing readings: a field is NaN, which is no name of a column; or
 /// all are blank, dates or times below known names; or one is blank below those of a comment.
-bool HeadReader::is_missing_record(std::string_view line) {
+bool HeadReader::is_missing_row(std::string_view line) {
   const auto fields = dialect_.split(line);
   const auto any = [&](auto&& is) { return std::ranges::any_of(fields, is); };
   if (any([](const Field& f) { return is_missing(f.text) && !f.text.empty(); })) return true;
@@ -157,8 +157,8 @@ bool HeadReader::has_tabs_of_names(std::string_view line) const {
                       std::ranges::any_of(comments_, agrees) || std::ranges::any_of(last_, agrees));
 }
 
-/// Goes to the first record; false if there is none.
-bool HeadReader::find_record() {
+/// Goes to the first row; false if there is none.
+bool HeadReader::find_row() {
   while (lines_.next()) {
     const std::string line(lines_.text());
     const LineKind kind = lines_.kind();
@@ -175,15 +175,15 @@ bool HeadReader::find_record() {
       case LineKind::comment:
         keep(line.substr(line.find('#')));
         break;
-      case LineKind::record:
+      case LineKind::row:
         if ((before_ ? dialect_.holds_number(line)
                      : dialect_.choose(line, has_tabs_of_names(line))) ||
-            is_missing_record(line))
+            is_missing_row(line))
           return true;
         if (before_) refuse_other_separator(line, dialect_.separator());
         preamble_.push_back({line, lines_.number()});
         if (preamble_.size() > longest_preamble)
-          refuse_without_records(fmt::format("no numbers in the first {} lines", longest_preamble));
+          refuse_without_rows(fmt::format("no numbers in the first {} lines", longest_preamble));
     }
   }
   return false;
@@ -215,7 +215,7 @@ std::vector<std::string> HeadReader::take_commented_names(const UnnamedColumns& 
 }
 
 /// Notes that several `##` lines were sorted, if one stands below the comment with the names: the
-/// tools write the names last, and what sorts records by a column puts `# t` before `##`.
+/// tools write the names last, and what sorts rows by a column puts `# t` before `##`.
 void HeadReader::note_sorted_history(std::size_t names) {
   const auto count = [&](std::size_t from) {
     return std::count_if(comments_.begin() + static_cast<std::ptrdiff_t>(from), comments_.end(),
@@ -242,7 +242,7 @@ std::vector<std::string> HeadReader::take_units() {
   return units;
 }
 
-/// The names of `width` columns, empty if there are none here. `blank_end`: the record ends blank.
+/// The names of `width` columns, empty if there are none here. `blank_end`: the row ends blank.
 std::vector<std::string> HeadReader::take_names(std::size_t width, bool blank_end) {
   const UnnamedColumns columns{
       width, blank_end, before_ ? before_->layout.runs.front().columns : std::vector<Column>()};
@@ -260,8 +260,8 @@ std::vector<std::string> HeadReader::take_names(std::size_t width, bool blank_en
   return names;
 }
 
-/// Says what is wrong in the last line with a digit, which may have been meant as a record.
-void HeadReader::refuse_without_records(const std::string& what) const {
+/// Says what is wrong in the last line with a digit, which may have been meant as a row.
+void HeadReader::refuse_without_rows(const std::string& what) const {
   const auto has_digit = [](const Comment& line) {
     return line.text.find_first_of("0123456789") != std::string::npos;
   };
@@ -291,7 +291,7 @@ Head HeadReader::finish() {
   return std::move(head_);
 }
 
-/// What to do about a record of another number of fields than there are names.
+/// What to do about a row of another number of fields than there are names.
 std::string HeadReader::way_out(std::size_t width, std::size_t names) const {
   if (before_) return fmt::format("; if line {} is a heading, begin it with #", head_.line);
   if (names > width)
@@ -300,14 +300,14 @@ std::string HeadReader::way_out(std::size_t width, std::size_t names) const {
 }
 
 Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
-  const bool found = find_record();
+  const bool found = find_row();
   std::ranges::move(last_, std::back_inserter(comments_));
   last_.clear();
   if (!found) {
     const bool empty = lines_.name() == "-" && comments_.empty() && preamble_.empty();
     if (!before_ && empty)
       fail<InputError>("standard input is empty: did the tool before this one fail?");
-    if (!before_) refuse_without_records("no rows");
+    if (!before_) refuse_without_rows("no rows");
     comment_preamble();
     return finish();
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The head of a run: the comments, history and names before its first record.
+// The head of a run: the comments, history and names before its first row.
 #pragma once
 
 #include <functional>
@@ -20,22 +20,22 @@ struct Head {
   std::vector<std::string> comments;
   std::vector<std::string> history;  ///< the `##` lines among them, without their marks
   std::string run;                   ///< NAME of the line `## run NAME`; empty without one
-  std::size_t line = 0;              ///< number of the line of names, else of the first record
+  std::size_t line = 0;              ///< number of the line of names, else of the first row
   bool named = false;                ///< the columns have names, from this head or an earlier one
   bool blank_end = false;            ///< the lines end with a separator, behind the last column
   SaidUnits said;                    ///< by comments, since the names
-  Layout layout;                     ///< without runs if the file has no further record
+  Layout layout;                     ///< without runs if the file has no further row
 };
 
 /// The `##` line that stands at the end of a history whose lines have been put in another order.
 inline constexpr std::string_view lines_sorted = "lines sorted";
 
-/// Whether the names may tell several runs side by side, or each line is one record.
+/// Whether the names may tell several runs side by side, or each line is one row.
 enum class Sides { by_names, one };
 
-/// Reads up to the next record, which is then the present line again. `before` is the previous head
+/// Reads up to the next row, which is then the present line again. `before` is the previous head
 /// of the file: its names and units hold until there are others. It is null for the first head,
-/// where the dialect is chosen by the record and `order` names the columns if the file does not.
+/// where the dialect is chosen by the row and `order` names the columns if the file does not.
 /// Of more than 100 comments, `pass` gets all but the last 100, the history, and the first 100 that
 /// may be names, as soon as they have been read; without it all are kept. Throws InputError, also
 /// for the line that a tool writes when it ends with an error.

@@ -12,7 +12,7 @@
 
 namespace rolling {
 
-/// A line above the first record that is no record.
+/// A line above the first row that is no row.
 struct Comment {
   std::string text;  ///< with its marks
   std::size_t line;  ///< its number in the file
@@ -23,7 +23,7 @@ struct Comment {
 /// A comment without the # or ## before it.
 std::string_view without_marks(std::string_view comment);
 
-/// The columns of the records that comments may name.
+/// The columns of the rows that comments may name.
 struct UnnamedColumns {
   std::size_t count = 0;
   /// The last field is blank: the column may have no name, because its separator ends each line.
@@ -61,7 +61,7 @@ struct ChosenNames {
 std::optional<ChosenNames> choose_names(const std::vector<Comment>&, const UnnamedColumns&,
                                         bool first, std::string_view file);
 
-/// Whether the fields of the line above the records are the units of the names in the line above
+/// Whether the fields of the line above the rows are the units of the names in the line above
 /// it, which has as many: none of them is a known name, and two are known units, or one under names
 /// of which one is known.
 bool are_units_of(const std::vector<std::string>& names, const std::vector<std::string>& fields);

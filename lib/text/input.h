@@ -10,7 +10,7 @@
 
 namespace rolling {
 
-/// Bytes. A record of motion data has tens of bytes; a file with longer lines is not one of
+/// Bytes. A row of motion data has tens of bytes; a file with longer lines is not one of
 /// columns.
 inline constexpr std::size_t longest_line = 1 << 20;
 

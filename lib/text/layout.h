@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fields of a line that form a record: those of one run, or of several runs side by side.
+// The fields of a line that form a row: those of one run, or of several runs side by side.
 #pragma once
 
 #include <string>

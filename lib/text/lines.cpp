@@ -43,10 +43,10 @@ LineKind Lines::kind_of(std::string_view line) const {
   const bool is_field = separators_ == "\t" && line.find('\t') < first;  // a blank one before it
   if (line[first] == quote && !is_field && only_cell(line).starts_with("##"))
     return LineKind::history;
-  if (line[first] != '#' || is_field) return LineKind::record;
+  if (line[first] != '#' || is_field) return LineKind::row;
   line.remove_prefix(first);
   if (line.starts_with("##")) return LineKind::history;
-  return begins_with_error_value(line) ? LineKind::record : LineKind::comment;
+  return begins_with_error_value(line) ? LineKind::row : LineKind::comment;
 }
 
 /// True for a row whose cells are all blank, in quotes perhaps.
@@ -70,7 +70,7 @@ bool Lines::another_run() const {
     std::string_view line = ahead.substr(0, end);
     if (line.ends_with('\r')) line.remove_suffix(1);
     const LineKind kind = kind_of(line);
-    if (blank && kind == LineKind::record) return true;
+    if (blank && kind == LineKind::row) return true;
     blank |= kind == LineKind::blank;
     ahead.remove_prefix(std::min(end + 1, ahead.size()));
   }
@@ -84,7 +84,7 @@ std::string history_line(std::string_view line) {
 }
 
 void Lines::join_quoted() {
-  if (text_.find(quote) == std::string_view::npos || kind() != LineKind::record ||
+  if (text_.find(quote) == std::string_view::npos || kind() != LineKind::row ||
       !outside_quotes(text_, separators_).ends_within)
     return;
   joined_ = text_;

@@ -12,7 +12,7 @@
 
 namespace rolling {
 
-enum class LineKind { blank, comment, history, record };
+enum class LineKind { blank, comment, history, row };
 
 /// A `##` line without the quotes and separators that a spreadsheet has put around it, and with
 /// blanks where it has separators in their place.
@@ -64,7 +64,7 @@ class Lines {
   }
 
   std::size_t lines_ahead() const { return input_.lines_ahead(); }
-  /// True for a regular file with a blank line, and a record below it, in memory behind the present
+  /// True for a regular file with a blank line, and a row below it, in memory behind the present
   /// line.
   bool another_run() const;
 

@@ -18,7 +18,7 @@ class NeededColumns {
  public:
   static constexpr std::size_t no_column = static_cast<std::size_t>(-1);
   enum class Kind {
-    needed,  ///< of a quantity: converted to SI, and a record without it is left out
+    needed,  ///< of a quantity: converted to SI, and a row without it is left out
     wanted,  ///< the same, but it may be absent, and its readings may be missing
     as_is    ///< under this name and without conversion
   };

@@ -16,7 +16,7 @@
 
 namespace rolling {
 
-/// Standard output cannot be written. The message then names no record.
+/// Standard output cannot be written. The message then names no row.
 class OutputError : public Error {
  public:
   using Error::Error;

@@ -22,13 +22,13 @@ Reader::Reader(ReaderOptions options, std::vector<std::string> order)
 
 Reader::~Reader() = default;
 
-/// Goes to the next line of this run that is a record; false at its end.
+/// Goes to the next line of this run that is a row; false at its end.
 bool Reader::next_line() {
   if (!kept_.empty()) return next_kept_line();
   while (lines_->next()) {
     line_ = lines_->text();
     const LineKind kind = lines_->kind();
-    if (kind == LineKind::record) {
+    if (kind == LineKind::row) {
       line_number_ = lines_->number();
       return true;
     }
@@ -58,7 +58,7 @@ bool Reader::next_kept_line() {
     line_ = {kept_text_.data() + kept.begin, kept.size};
     line_number_ = kept.number;
     if (kept.kind == LineKind::comment && side_ == 0) remarks_.emplace_back(line_);
-    if (kept.kind == LineKind::record && next_kept_ <= kept_end_) return true;
+    if (kept.kind == LineKind::row && next_kept_ <= kept_end_) return true;
   }
   state_ = State::between;
   return false;
@@ -80,7 +80,7 @@ bool Reader::are_names(std::string_view comment) const {
   return std::all_of(needed_.all().begin(), needed_.all().end(), has);
 }
 
-/// Fast path for most lines: a record of the same form as the one before it in this run is found
+/// Fast path for most lines: a row of the same form as the one before it in this run is found
 /// and split in one pass. False for any other line, which is left to next_line().
 inline bool Reader::take_plain_line() {
   if (!kept_.empty()) return false;
@@ -101,7 +101,7 @@ bool Reader::next() {
       if (!next_line()) return false;
       fields_ = split(line_);
     }
-    if (take_record()) return record_found_ = true;
+    if (take_row()) return row_found_ = true;
     ++left_out_;
   }
 }
@@ -134,8 +134,8 @@ void Reader::take_fields() {
   fields_ = changed_fields_;
 }
 
-/// Reads the needed numbers of the record; false if one is missing.
-bool Reader::take_record() {
+/// Reads the needed numbers of the row; false if one is missing.
+bool Reader::take_row() {
   take_fields();
   double* to = values_.data();
   const bool converts = needed_.converts();
@@ -175,7 +175,7 @@ inline void Reader::check_time() {
   last_time_ = t;
 }
 
-/// append_text() of a record that is not written as it was read.
+/// append_text() of a row that is not written as it was read.
 std::size_t Reader::append_made(Bytes& to, std::size_t column) {
   const std::vector<NeededColumns::Needed>& needed = needed_.all();
   const std::size_t begin = to.size();

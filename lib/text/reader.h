@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads the records of files in the format of rolling-columns(5): finds the needed columns by the
+// Reads the rows of files in the format of rolling-columns(5): finds the needed columns by the
 // names in each head, converts them to SI units, and passes all other text through.
 #pragma once
 
@@ -34,7 +34,7 @@ struct ReaderOptions {
 
 class Reader {
  public:
-  /// Reads up to the first record of the first run. `order` names the columns of a file without
+  /// Reads up to the first row of the first run. `order` names the columns of a file without
   /// names, up to the first column that --use assigns to another place.
   Reader(ReaderOptions, std::vector<std::string> order);
   ~Reader();
@@ -55,7 +55,7 @@ class Reader {
   /// (Layout::Run), or by its number in a file of several runs.
   std::string run_name() const;
 
-  /// Declares that a column is needed: its numbers are read and converted to SI, and records
+  /// Declares that a column is needed: its numbers are read and converted to SI, and rows
   /// without one are left out. Returns its slot for operator[]. Throws Error if the column does not
   /// exist, in this run or in a later one.
   std::size_t need(std::string_view name) { return add(name, NeededColumns::Kind::needed); }
@@ -70,27 +70,27 @@ class Reader {
     refuse_passed();
     return time_slot_;
   }
-  /// The index of a needed column in the records of the present run.
+  /// The index of a needed column in the rows of the present run.
   std::size_t column_of(std::size_t slot) const { return needed_.all()[slot].column; }
   /// A needed column of this run has another name in the file: what the history says of the name
   /// that it serves under is not about it.
   bool renames() const { return needed_.renames(); }
 
-  // The records.
+  // The rows.
   /// Goes to the next run; false when there is none.
   bool next_run();
-  /// Goes to the next record of this run; false at its end.
+  /// Goes to the next row of this run; false at its end.
   bool next();
-  /// An estimate of the number of records that are left in this file, and an eighth more; for a
+  /// An estimate of the number of rows that are left in this file, and an eighth more; for a
   /// pipe, of those in memory.
-  std::size_t records_ahead() const { return lines_->lines_ahead(); }
+  std::size_t rows_ahead() const { return lines_->lines_ahead(); }
   /// The number in a needed column [SI].
   double operator[](std::size_t slot) const { return values_[slot]; }
-  /// The text of a column of the present record.
+  /// The text of a column of the present row.
   std::string_view text(std::size_t column) const { return fields_[column].text; }
 
   static constexpr std::size_t no_column = NeededColumns::no_column;
-  /// Appends the present record as it goes out, tab-separated, without the text of a column;
+  /// Appends the present row as it goes out, tab-separated, without the text of a column;
   /// returns where in it that column stands, or its length if there is none.
   std::size_t append_text(Bytes& to, std::size_t column = no_column) {
     if (!dialect_.as_it_stands() || needed_.converts() || fields_changed_)
@@ -102,20 +102,20 @@ class Reader {
     if (column + 1 < fields_.size()) to.append(line_.substr(first + field.size()));
     return first;
   }
-  /// The comments between the previous record and the present one; after the last record of a run,
+  /// The comments between the previous row and the present one; after the last row of a run,
   /// those up to the end of the run.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
-  /// `file:line` of the present record. Behind the last record of a run, what its refusal begins
-  /// with: `run NAME`, or the file where there is one run. Empty before the first record of a file,
+  /// `file:line` of the present row. Behind the last row of a run, what its refusal begins
+  /// with: `run NAME`, or the file where there is one run. Empty before the first row of a file,
   /// and when next_run() has found no other run.
   std::string where() const;
-  /// Number of records that were left out because a needed reading was missing.
+  /// Number of rows that were left out because a needed reading was missing.
   std::size_t left_out() const { return left_out_; }
   /// See NeededColumns.
   const std::string& taken_in_si() const { return needed_.taken_in_si(); }
   /// True if times are so large that a double keeps fewer than four digits of the step between two
-  /// records.
+  /// rows.
   bool coarse_time() const { return coarse_time_; }
   /// True if a time is beyond 3000 years, where milliseconds since 1970 are.
   bool distant_time() const { return distant_time_; }
@@ -140,7 +140,7 @@ class Reader {
   std::string place_of_head() const;
   bool run_is_named() const;
 
-  // Records.
+  // Rows.
   bool next_line();
   void keep_rows();
   bool next_kept_line();
@@ -148,7 +148,7 @@ class Reader {
   bool are_names(std::string_view comment) const;
   std::span<const Field> split(std::string_view line);
   void take_fields();
-  bool take_record();
+  bool take_row();
   void check_time();
   std::size_t append_made(Bytes& to, std::size_t column);
   std::string wrong(std::size_t column, std::string_view name, std::string_view why) const;
@@ -178,12 +178,12 @@ class Reader {
   Dialect dialect_;
   std::vector<std::string> comments_, remarks_;
   std::size_t run_in_file_ = 0;  // number of the run in the file
-  std::string place_;            // where() behind its last record
+  std::string place_;            // where() behind its last row
   std::string runs_;             // the numbers of the runs so far, where one is asked for
   std::map<std::string, std::string> passed_;  // what is wrong in runs passed over, by quantity
-  bool run_found_ = false, record_found_ = false, file_open_ = false;
+  bool run_found_ = false, row_found_ = false, file_open_ = false;
 
-  // The present record.
+  // The present row.
   std::vector<double> values_;  // of the needed columns, by slot
   std::string_view line_;
   std::size_t line_number_ = 0;  // 0: there is none
@@ -191,7 +191,7 @@ class Reader {
   std::vector<Field> changed_fields_;
   bool fields_changed_ = false, coarse_time_ = false, distant_time_ = false;
   std::size_t time_slot_ = no_column;
-  double last_time_ = 0;  // NaN before the first record of a run
+  double last_time_ = 0;  // NaN before the first row of a run
   std::size_t left_out_ = 0;
 };
 

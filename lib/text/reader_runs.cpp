@@ -69,7 +69,7 @@ bool Reader::find_run() {
   state_ = State::ended;
   line_number_ = 0;
   if (options_.run && !run_found_) fail("there is no run {} (runs: {})", *options_.run, runs_);
-  if (left_out_ > 0 && !record_found_)
+  if (left_out_ > 0 && !row_found_)
     fail<InputError>("{}no rows: a needed reading is missing in every one",
                      options_.files.size() == 1 ? lines_->name() + ": " : "");
   return false;
@@ -82,7 +82,7 @@ bool Reader::next_head() {
     ++side_;
     return true;
   }
-  // Column numbers in --use count the fields of a line: the line is then one record.
+  // Column numbers in --use count the fields of a line: the line is then one row.
   const Sides sides = needed_.use_has_numbers() ? Sides::one : Sides::by_names;
   while (file_open_ || next_file()) {
     const bool first = run_in_file_ == 0;
@@ -173,7 +173,7 @@ void Reader::begin_rows() {
     const Kept& kept = kept_[kept_end_ - 1];
     line_number_ = kept.number;
     fields_ = split({kept_text_.data() + kept.begin, kept.size});
-    if (kept.kind == LineKind::record && std::ranges::any_of(layout().fields, is_reading)) break;
+    if (kept.kind == LineKind::row && std::ranges::any_of(layout().fields, is_reading)) break;
   }
   line_number_ = number;
 }
@@ -231,7 +231,7 @@ std::string Reader::place_of_head() const {
                                           : lines_->name();
 }
 
-/// Prepares for the records of the run whose head has been read.
+/// Prepares for the rows of the run whose head has been read.
 void Reader::begin_run() {
   state_ = State::found;
   run_found_ = true;

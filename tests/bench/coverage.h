@@ -180,7 +180,7 @@ class Simulation {
     rolling::SonarOptions sonar;
     sonar.seed = random_();
     std::vector<rolling::Sample> samples;
-    rolling::sonar_record(*rolling::start(roll, rolling::best_method(roll), 1e-10), sonar,
+    rolling::sonar_run(*rolling::start(roll, rolling::best_method(roll), 1e-10), sonar,
                           [&](const rolling::SonarSample& s) {
       if (s.x) samples.push_back({s.t, *s.x});
     });

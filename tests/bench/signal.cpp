@@ -67,7 +67,7 @@ Roll roll(const Scene& scene, unsigned long seed) {
   options.seed = seed, options.lost = 0;
   Roll out;
   std::vector<SonarSample> record;
-  sonar_record(motion, options, [&](const SonarSample& s) { record.push_back(s); });
+  sonar_run(motion, options, [&](const SonarSample& s) { record.push_back(s); });
   motion.seek(0);
   for (const SonarSample& s : record) {
     const double t = s.t - options.rest_before - options.push;

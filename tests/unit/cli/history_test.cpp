@@ -97,7 +97,7 @@ TEST_CASE("history: a second column v hides the first, and what was made of that
   CHECK(chain[2].reach == 1);
 }
 
-TEST_CASE("history: a line that cuts records away is a cut if a filter stands above it", "[cli]") {
+TEST_CASE("history: a line that cuts rows away is a cut if a filter stands above it", "[cli]") {
   const auto cuts = [](const std::vector<std::string>& lines) {
     const History history = history_of(lines, times);
     return std::pair(history.cut_begin, history.cut_end);
@@ -118,7 +118,7 @@ TEST_CASE(
     CHECK(filter.to == "v");
     const Series line = {0, 2, 4, 6, 8, 10}, out = filter.apply(times, line);
     if (filter.from == "x") CHECK((++differences && std::abs(out[3] - 2) < 1e-12));
-    else CHECK(std::abs(out[2] - line[2]) <= 1);  // at most half a record late
+    else CHECK(std::abs(out[2] - line[2]) <= 1);  // at most half a row late
   }
   CHECK(differences == 5);
 }
@@ -243,8 +243,7 @@ FitRun cut(const FitRun& run, std::size_t first, std::size_t last) {
 
 }  // namespace
 
-TEST_CASE("history: records cut off the ends after the filters are noticed by the columns",
-          "[cli]") {
+TEST_CASE("history: rows cut off the ends after the filters are noticed by the columns", "[cli]") {
   const FitRun whole = shifts(40);
   const auto cuts = [&](std::size_t first, std::size_t last) {
     const FitRun run = cut(whole, first, last);
@@ -289,7 +288,7 @@ TEST_CASE("history: the readings beside a cut are left out, their times are not"
     history = known_windows(std::move(history), run, "D");
     CHECK(history.filters.size() == 3);
     CHECK(run.t == whole.t);
-    // A mean of 5 and a central difference reach 3 records to either side.
+    // A mean of 5 and a central difference reach 3 rows to either side.
     CHECK(history.left_out == 3U * static_cast<std::size_t>(begin + end));
     for (std::size_t i = 0; i < 40; ++i) {
       const bool left_out = (begin == 1 && i < 3) || (end == 1 && i >= 37);

@@ -41,12 +41,27 @@ TEST_CASE("tool: a check that does not hold is one line and 1, and a refusal is 
     std::array<char*, 2> arguments{name.data(), nullptr};
     Tool tool("tool", "");
     const int status = tool.run(1, arguments.data(), [&] {
-      for (const char* text : {"one", "two", "three"}) tool.check_failed("", text);
+      for (const char* run : {"one", "two", "three"})
+        tool.check_failed(run, run[0] == 't' && run[1] == 'w' ? "open" : "off by 1.5");
       if (refused) fail("no way");
       return 0;
     });
     return fmt::format("{} {}", status, file.text());
   };
-  CHECK(with_check(false) == "1 tool: one (and 2 more)\n");
+  CHECK(with_check(false) == "1 tool: run one (and three): off by 1.5 (and 1 more, of two)\n");
   CHECK(with_check(true) == "2 tool: no way\n");
+}
+
+TEST_CASE("messages: lines of several runs that differ in their numbers are one", "[cli]") {
+  LinesOfRuns lines;
+  CHECK(lines.empty());
+  lines.add("a", "sigma is 0.62 times a");
+  lines.add("", "both disagree by 3");
+  lines.add("b", "sigma is -1e+300 times a");
+  lines.add("b", "no end");
+  lines.add("", "both disagree by 4");
+  for (const char* run : {"c", "d", "e", "f"}) lines.add(run, "sigma is 7 times a");
+  CHECK(lines.all() ==
+        std::vector<std::string>{"run a (and b, c, d and 2 more): sigma is 0.62 times a",
+                                 "both disagree by 3", "run b: no end", "both disagree by 4"});
 }

@@ -101,7 +101,7 @@ TEST_CASE("an exponent that is wrong meets the closure and not the balance at ev
 }
 
 TEST_CASE("a right law does not fail by the quadrature", "[contact]") {
-  // Up to 0.1 s between records, for any exponent from 0 to 1, in the middle of a run and at the
+  // Up to 0.1 s between rows, for any exponent from 0 to 1, in the middle of a run and at the
   // stop.
   const Body body{1.375, 0.04, 0.5};
   for (const double b : {0.0, 0.0244, 0.215, 0.5, 0.8})

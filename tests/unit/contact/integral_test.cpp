@@ -62,8 +62,8 @@ TEST_CASE("integral: exact on a straight line, uneven times", "[contact]") {
     CHECK(integral.push(t, 3 + 2 * t) == 3 * t + t * t);
 }
 
-TEST_CASE("integral: the beginning of the time does not matter, lost records or not", "[contact]") {
-  const auto from = [](int first) {  // 25 Hz; one record in five is lost
+TEST_CASE("integral: the beginning of the time does not matter, lost rows or not", "[contact]") {
+  const auto from = [](int first) {  // 25 Hz; one row in five is lost
     Integral integral;
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> any(0, 1);

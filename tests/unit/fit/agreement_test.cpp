@@ -12,7 +12,7 @@ using rolls::cylinder, rolls::felt, rolls::roll, rolls::rubber;
 
 namespace {
 
-/// So many rolls on felt of six records each, 0.8 s apart.
+/// So many rolls on felt of six rows each, 0.8 s apart.
 std::vector<FitRun> short_rolls(int count, simulated::Noise& noise) {
   std::vector<FitRun> runs;
   for (int k = 0; k < count; ++k) {
@@ -42,7 +42,7 @@ double least(const std::function<double(double, double)>& sum, double log_D, dou
 
 }  // namespace
 
-// Means of D, each of 7 records, with b held at 0: chi^2 and the errors are those of any textbook.
+// Means of D, each of 7 rows, with b held at 0: chi^2 and the errors are those of any textbook.
 TEST_CASE("agreement: the scatter of means, by hand", "[fit]") {
   const double means[] = {5, 5.3, 4.6, 5.5};
   const double off[] = {-0.1, 0.05, 0.1, -0.05, 0, 0.02, -0.02};  // sum 0, squares 0.0258
@@ -136,7 +136,7 @@ TEST_CASE("agreement: uneven noise around the runs' own laws, by hand", "[fit]")
   REQUIRE(r.errors == Errors::uneven);
   double squares_t = 0;
   for (double t : runs[0].t) squares_t += (t - mean_t) * (t - mean_t);
-  double sum = 0;  // of the squares of what each record brings to the v0 of the first run
+  double sum = 0;  // of the squares of what each row brings to the v0 of the first run
   for (std::size_t k = 0; k < count; ++k) {
     double mean_v = 0, slope = 0;
     for (std::size_t i = 0; i < m; ++i) {
@@ -162,7 +162,7 @@ TEST_CASE("agreement: of 1000 pairs of rolls under one law 1 % are said to disag
   CHECK(alarms <= 21);
 }
 
-// Six records leave two degrees of freedom, or three where b is held.
+// Six rows leave two degrees of freedom, or three where b is held.
 TEST_CASE("agreement: the chance is that of the law with which the runs agree best", "[fit]") {
   simulated::Noise noise(43);
   const double log_v = std::log(0.3);
@@ -280,7 +280,7 @@ TEST_CASE("agreement: where runs disagree, the law and its errors do not depend 
 }
 
 // What a run cannot tell by itself, it does not tell of agreement either.
-TEST_CASE("agreement: a run of two records has no say", "[fit]") {
+TEST_CASE("agreement: a run of two rows has no say", "[fit]") {
   simulated::Noise noise(34);
   std::vector<FitRun> runs{roll(rubber, 0, 1, noise), roll(rubber, 0, 1, noise)};
   for (auto* column : {&runs[1].t, &runs[1].x}) column->resize(2);
@@ -307,9 +307,9 @@ TEST_CASE("agreement: where runs disagree, a and b are correlated as they scatte
   CHECK(r.corr >= -1);
 }
 
-// --min-speed leaves the records out that are slower in the fitted roll, the joint one or the run's
-// own: the two need not have the same records.
-TEST_CASE("agreement: runs that disagree are told where slow records are left out", "[fit]") {
+// --min-speed leaves the rows out that are slower in the fitted roll, the joint one or the run's
+// own: the two need not have the same rows.
+TEST_CASE("agreement: runs that disagree are told where slow rows are left out", "[fit]") {
   simulated::Noise noise(37);
   FitOptions options;
   options.min_speed = 0.1;

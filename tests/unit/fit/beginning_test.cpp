@@ -40,9 +40,9 @@ FitRun without_first(FitRun run, std::size_t k) {
 
 }  // namespace
 
-// The squares that go with the first records are those of two fits, with and without them. The
+// The squares that go with the first rows are those of two fits, with and without them. The
 // noise is that of the others or, where it is larger, that in the second differences of the first
-// k + 5 records, without those of a free roll.
+// k + 5 rows, without those of a free roll.
 TEST_CASE("beginning: the chance is that of Chow's F of two fits", "[fit]") {
   simulated::Noise noise(4);
   for (int i = 0; i < 5; ++i) {
@@ -50,18 +50,18 @@ TEST_CASE("beginning: the chance is that of Chow's F of two fits", "[fit]") {
     const auto found = disturbed_beginning(Route::position, {run}, {});
     REQUIRE(found);
     CHECK(found->run == 0);
-    CHECK(found->time == Approx(0.04 * static_cast<double>(found->records)));
-    const double k = static_cast<double>(found->records), left = 120 - 4 - k;
+    CHECK(found->time == Approx(0.04 * static_cast<double>(found->rows)));
+    const double k = static_cast<double>(found->rows), left = 120 - 4 - k;
     const double all = fit_route(Route::position, {run}, {}).minimum.rss,
-                 rest = fit_route(Route::position, {without_first(run, found->records)}, {})
-                            .minimum.rss;
-    const std::size_t near = found->records + 5;
+                 rest =
+                     fit_route(Route::position, {without_first(run, found->rows)}, {}).minimum.rss;
+    const std::size_t near = found->rows + 5;
     const double of_roll = -0.04 * 0.04 * 5.75e-4 * std::pow(0.5, 0.0244) * 9.81 / (1.5 * 0.04);
     double local = 0;
     for (std::size_t j = 2; j < near; ++j)
       local += std::pow(run.x[j] - 2 * run.x[j - 1] + run.x[j - 2] - of_roll, 2);
     const double variance = std::max(rest / left, local / (6 * static_cast<double>(near - 2)));
-    constexpr double tests = 5;  // the first 3, 5, 8, 13 and 21 records
+    constexpr double tests = 5;  // the first 3, 5, 8, 13 and 21 rows
     const double chance = tests * gsl_cdf_fdist_Q((all - rest) / variance / k, k, left);
     CHECK(std::log(found->significance) == Approx(std::log(chance)).epsilon(0.01));
   }
@@ -85,9 +85,9 @@ TEST_CASE("beginning: in joint fits a run is judged by its own law", "[fit]") {
     const auto alone = disturbed_beginning(Route::position, {run}, {}),
                found = disturbed_beginning(Route::position, {other, run}, {});
     REQUIRE(found.has_value() == alone.has_value());
-    if (!alone) continue;  // its other records do not look white
+    if (!alone) continue;  // its other rows do not look white
     CHECK(found->run == 1);
-    CHECK(found->records == alone->records);
+    CHECK(found->rows == alone->rows);
     CHECK(found->time == alone->time);
     CHECK(found->significance / alone->significance == Approx(2).epsilon(1e-6));
   }
@@ -157,9 +157,9 @@ TEST_CASE("beginning: in columns of known filters the test for white residuals s
   }
 }
 
-// Speeds of rolls of two to nine records and a long rest: without the first records nothing, or
+// Speeds of rolls of two to nine rows and a long rest: without the first rows nothing, or
 // nothing but rounding, determines the roll.
-TEST_CASE("beginning: records that alone determine the roll cannot be tested", "[fit]") {
+TEST_CASE("beginning: rows that alone determine the roll cannot be tested", "[fit]") {
   simulated::Noise noise(8);
   int found = 0;
   for (int k = 0; k < 300; ++k) {
@@ -171,7 +171,7 @@ TEST_CASE("beginning: records that alone determine the roll cannot be tested", "
     }
     try {
       found += disturbed_beginning(Route::velocity, {run}, {}).has_value();
-    } catch (const Error&) {  // two records do not always determine a roll
+    } catch (const Error&) {  // two rows do not always determine a roll
     }
   }
   CHECK(found <= 3);  // of 300 with a chance of 0.1 %

@@ -41,7 +41,7 @@ FitRun speeds(double b, simulated::Noise& noise, double size) {
 
 }  // namespace
 
-// The speed of the last record before the stop changes without bound as the stop passes it.
+// The speed of the last row before the stop changes without bound as the stop passes it.
 TEST_CASE("cusps: no exponent that is held fits speeds better than the one that is found",
           "[fit][many]") {
   simulated::Noise noise(46);

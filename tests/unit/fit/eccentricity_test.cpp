@@ -146,7 +146,7 @@ TEST_CASE("eccentricity: the noise of each run is its own", "[fit]") {
   CHECK(found <= 8);
 }
 
-TEST_CASE("eccentricity: it takes more than one record in each half turn", "[fit]") {
+TEST_CASE("eccentricity: it takes more than one row in each half turn", "[fit]") {
   // A half turn takes pi R/v = 0.25 s.
   CHECK(fitted(wobbling(e, 1e-6, 12, 0.24)).eccentricity);
   CHECK_FALSE(fitted(wobbling(e, 1e-6, 12, 0.27)).eccentricity);

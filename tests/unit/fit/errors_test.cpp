@@ -7,7 +7,7 @@
 
 using namespace rolling;
 
-// sum of squares of the records of each group over its square: HC3 of means is known by hand.
+// sum of squares of the rows of each group over its square: HC3 of means is known by hand.
 TEST_CASE("errors: HC3 of a mean of uneven noise is the sum of squares over (n - 1)^2", "[fit]") {
   simulated::Noise noise(9);
   FitRun run{};
@@ -152,7 +152,7 @@ TEST_CASE("errors: there are none where filters leave as many numbers as paramet
   }
 }
 
-// Of 8 records the fit of v0 and x0 takes a quarter of the noise, most of it at the ends.
+// Of 8 rows the fit of v0 and x0 takes a quarter of the noise, most of it at the ends.
 TEST_CASE("errors: many short runs of one noise are not said to have several", "[fit]") {
   const Body body{1.375, 0.04, 0.5};
   const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.5);

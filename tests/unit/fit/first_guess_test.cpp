@@ -42,27 +42,27 @@ TEST_CASE("first guess: near the law of exact runs, whatever the exponent, from 
     }
 }
 
-TEST_CASE("first guess: the means of many records are those of all of them, each once", "[fit]") {
+TEST_CASE("first guess: the means of many rows are those of all of them, each once", "[fit]") {
   ObservedRun run{};
   for (int i = 0; i < 10000; ++i) run.t.push_back(i), run.y.push_back(i * i % 97);
   const auto few = means_of_many({run});
   REQUIRE(few.size() == 1);
   const auto& t = few[0].t;
   REQUIRE(t.size() == 3334);  // blocks of three, for 10000 are more than twice 4096
-  // A block from t = first to t = last has its mean half way and its number of records between its
+  // A block from t = first to t = last has its mean half way and its number of rows between its
   // neighbours': the blocks end where the next ones begin.
   double end = 0, sum = 0;
   for (std::size_t i = 0; i < t.size(); ++i) {
-    const double records = 2 * (t[i] - end) + 1;
-    CHECK(records == (i + 1 < t.size() ? 3 : 1));
-    sum += few[0].y[i] * records;
-    end += records;
+    const double rows = 2 * (t[i] - end) + 1;
+    CHECK(rows == (i + 1 < t.size() ? 3 : 1));
+    sum += few[0].y[i] * rows;
+    end += rows;
   }
   CHECK(end == 10000);
   CHECK(sum == Approx(std::accumulate(run.y.begin(), run.y.end(), 0.0)).epsilon(1e-12));
 }
 
-TEST_CASE("first guess: of a long run all records count, where means of them come near", "[fit]") {
+TEST_CASE("first guess: of a long run all rows count, where means of them come near", "[fit]") {
   const double v0 = 0.5, a = 1.87e-3, b = 0.215;
   constexpr std::size_t n = 10000;
   const auto truth = simulated::roll(cylinder, a, b, v0);
@@ -99,7 +99,7 @@ TEST_CASE("first guess: of a long run all records count, where means of them com
 }
 
 TEST_CASE(
-    "first guess: a long record whose means have no minimum is refused for what the whole of it "
+    "first guess: a long row whose means have no minimum is refused for what the whole of it "
     "lacks",
     "[fit]") {
   const auto refused = [](double (*v)(int)) {

@@ -30,7 +30,7 @@ TEST_CASE("fit: correlated residuals are noticed, and the errors grow", "[fit]")
   CHECK(std::abs(variances / squares - 1) < 0.32);  // 3.3 times the scatter sqrt(2/200)
 }
 
-// Of 60 records with a correlation of a half one in five does not show it beyond doubt.
+// Of 60 rows with a correlation of a half one in five does not show it beyond doubt.
 TEST_CASE("fit: the errors allow for a correlation that is not sure enough for a warning",
           "[fit]") {
   simulated::Noise noise(6);
@@ -53,7 +53,7 @@ TEST_CASE("fit: the errors allow for a correlation that is not sure enough for a
   CHECK(covered > 0.74 * silent);  // 173 of 220; with errors of white noise 149
 }
 
-TEST_CASE("fit: fewer than 30 records have classical errors, whatever their residuals", "[fit]") {
+TEST_CASE("fit: fewer than 30 rows have classical errors, whatever their residuals", "[fit]") {
   FitRun run{};
   for (int i = 1; i < 30; ++i)
     run.v.push_back(i), run.D.push_back(i + (i < 10 || i > 20 ? 0.5 : -0.5));

@@ -18,7 +18,7 @@ double share(const FitResult& r, const std::string& of, double ErrorShare::*part
 }
 
 /// A noisy roll on rubber as positions or speeds, or as shifts whose filters are known.
-FitRun record(Route route, unsigned seed) {
+FitRun made_run(Route route, unsigned seed) {
   const auto truth = simulated::roll(cylinder, 1.87e-3, 0.215, 0.5);
   simulated::Noise noise(seed);
   FitRun run{};
@@ -41,7 +41,7 @@ FitRun record(Route route, unsigned seed) {
 TEST_CASE("given numbers: ln a moves by dK/(1 + K), dR/R and dg/g, b does not", "[fit]") {
   for (Route route : {Route::loglog, Route::shift, Route::velocity, Route::position})
     for (bool filters_known : {true, false}) {
-      FitRun run = record(route, 3);
+      FitRun run = made_run(route, 3);
       if (!filters_known) run.filters.clear();
       const auto r = fit(route, {run}, {});
       run.given = {};
@@ -67,9 +67,9 @@ TEST_CASE("given numbers: ln a moves by dK/(1 + K), dR/R and dg/g, b does not", 
 TEST_CASE("given numbers: on a level mat the shares are those of fits with other numbers",
           "[fit]") {
   for (Route route : {Route::loglog, Route::shift, Route::velocity, Route::position}) {
-    FitRun run = record(route, 3);
+    FitRun run = made_run(route, 3);
     const auto level = fit(route, {run}, {});
-    // A slope that changes nothing, but lets the numbers be moved and the records fitted again.
+    // A slope that changes nothing, but lets the numbers be moved and the rows fitted again.
     run.body.slope = 1e-12;
     if (run.shift_of) run.shift_of->body.slope = 1e-12;
     const auto all_but_level = fit(route, {run}, {});
@@ -85,12 +85,12 @@ TEST_CASE("given numbers: on a level mat the shares are those of fits with other
 }
 
 TEST_CASE("given numbers: runs of one body move together, those of two each by itself", "[fit]") {
-  std::vector<FitRun> runs{record(Route::position, 3), record(Route::position, 4)};
+  std::vector<FitRun> runs{made_run(Route::position, 3), made_run(Route::position, 4)};
   for (FitRun& run : runs) run.given = {.K = 0.005};
   const auto one = fit(Route::position, runs, {});
   REQUIRE(one.shares.size() == 2);
   CHECK(std::abs(share(one, "K", &ErrorShare::a) / one.a / (0.005 / 1.5) - 1) < 1e-3);
-  // The same records, as if of two bodies that are all but the same: each moves about half.
+  // The same rows, as if of two bodies that are all but the same: each moves about half.
   runs[1].body.K = 0.5 + 1e-9;
   const auto two = fit(Route::position, runs, {});
   REQUIRE(two.shares.size() == 3);
@@ -125,7 +125,7 @@ TEST_CASE("given numbers: where runs disagree their shares are those of the mean
 TEST_CASE("given numbers: what is held fixed has no error from them", "[fit]") {
   FitOptions options;
   options.a = 1.87e-3;
-  const auto r = fit(Route::position, {record(Route::position, 3)}, options);
+  const auto r = fit(Route::position, {made_run(Route::position, 3)}, options);
   CHECK(r.sigma_a == 0);
   CHECK(r.corr == 0);
   CHECK(r.sigma_b > share(r, "noise", &ErrorShare::b));

@@ -47,7 +47,7 @@ FitRun roll(Made law, Route route, double size) {
 
 }  // namespace
 
-TEST_CASE("laws: on every route the law that made the record is not beaten, and lesser laws are",
+TEST_CASE("laws: on every route the law that made the row is not beaten, and lesser laws are",
           "[fit]") {
   for (Route route : {Route::loglog, Route::shift, Route::velocity, Route::position})
     for (Made law : {power, constant, linear, quadratic}) {
@@ -118,7 +118,7 @@ TEST_CASE("laws: the row's a and b are those of the comparison; a slope is fitte
         4 * result.fits[2].coefficients[1].sigma);
 }
 
-TEST_CASE("laws: a law that the records cannot determine is not among those that win", "[fit]") {
+TEST_CASE("laws: a law that the rows cannot determine is not among those that win", "[fit]") {
   FitRun run{};
   run.body = unit;
   simulated::Noise noise(3);
@@ -143,9 +143,9 @@ TEST_CASE("laws: what is held stays held, and a robust comparison is refused", "
   CHECK_THROWS_AS(compare_laws(Route::velocity, {run}, options), Error);
 }
 
-TEST_CASE("laws: records with correlated noise count as the fewer that they are", "[fit]") {
+TEST_CASE("laws: rows with correlated noise count as the fewer that they are", "[fit]") {
   // A constant D with AR(1) noise: its slow part looks like other laws. Counted as 400 independent
-  // records nearly every run would show one of them to be better, by far.
+  // rows nearly every run would show one of them to be better, by far.
   int wrong = 0;
   for (unsigned seed = 1; seed <= 30; ++seed) {
     simulated::Noise noise(seed);
@@ -162,7 +162,7 @@ TEST_CASE("laws: records with correlated noise count as the fewer that they are"
   CHECK(wrong <= 6);
 }
 
-TEST_CASE("laws: of many records, which are compared by their means, all count", "[fit]") {
+TEST_CASE("laws: of many rows, which are compared by their means, all count", "[fit]") {
   // Under a constant D the place is a parabola: the textbook's least squares, u^2 less its mean
   // being orthogonal to 1 and u.
   constexpr int half = 10000;
@@ -191,7 +191,7 @@ TEST_CASE("laws: of many records, which are compared by their means, all count",
   const auto result = compare_laws(Route::position, {run}, {});
   const LawFit& constant_D = result.fits[number[constant]];
   const double sigma = 2 * std::sqrt(rss / (2 * half - 2) / squares) / (h * h);
-  // One record stands alone in the last block and counts as five.
+  // One row stands alone in the last block and counts as five.
   CHECK(std::abs(constant_D.coefficients[0].value + 2 * along / squares / (h * h)) < 0.1 * sigma);
   CHECK(constant_D.coefficients[0].sigma == Approx(sigma).epsilon(0.03));  // 1 in sqrt(8000)
   CHECK(constant_D.aicc < result.least() + 4);
@@ -217,7 +217,7 @@ TEST_CASE("laws: through known filters the coefficients are as precise as those 
   }
 }
 
-// A mean over 7 of 8 records has rank 5: the covariance of the smoothed speeds is singular.
+// A mean over 7 of 8 rows has rank 5: the covariance of the smoothed speeds is singular.
 TEST_CASE("laws: singular noise gives no negative variance, and no correlation above 1", "[fit]") {
   const Body body{1.375, 0.04, 0.5};
   constexpr std::size_t n = 8, width = 7;
@@ -237,7 +237,7 @@ TEST_CASE("laws: singular noise gives no negative variance, and no correlation a
     LawComparison found;
     try {
       found = compare_laws(Route::velocity, {run}, {});
-    } catch (const Error&) {  // the records do not determine a law
+    } catch (const Error&) {  // the rows do not determine a law
       continue;
     }
     ++fitted;

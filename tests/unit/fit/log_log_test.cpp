@@ -22,7 +22,7 @@ TEST_CASE("loglog: DanWood's line to 13 digits", "[fit]") {
   CHECK(std::abs(r.rms / std::sqrt(0.0002707997228804226607321 / 4) - 1) < 1e-13);
 }
 
-TEST_CASE("loglog: records without a logarithm are left out and counted; none left is refused",
+TEST_CASE("loglog: rows without a logarithm are left out and counted; none left is refused",
           "[fit]") {
   FitRun run{};
   run.v = {1, 2, 4, 0, -1, 3};
@@ -36,7 +36,7 @@ TEST_CASE("loglog: records without a logarithm are left out and counted; none le
   CHECK_THROWS_AS(fit(Route::loglog, {run}, {}), Error);
 }
 
-TEST_CASE("loglog: D <= 0 in more than one record of a hundred biases the line, whatever rms says",
+TEST_CASE("loglog: D <= 0 in more than one row of a hundred biases the line, whatever rms says",
           "[fit]") {
   std::mt19937 random(17);
   std::normal_distribution<double> noise;
@@ -147,10 +147,10 @@ TEST_CASE("loglog: with known filters the line is the same and its errors are th
 
 namespace {
 
-FitResult line_of(const simulated::Roll& truth, const Body& body, std::size_t records,
+FitResult line_of(const simulated::Roll& truth, const Body& body, std::size_t rows,
                   std::size_t width, double sd, simulated::Noise& noise) {
   std::vector<double> t, v;
-  for (std::size_t i = 0; i < records; ++i) {
+  for (std::size_t i = 0; i < rows; ++i) {
     t.push_back(0.04 * static_cast<double>(i));
     v.push_back(truth.v(t.back()) + noise(sd));
   }
@@ -233,7 +233,7 @@ FitResult line_of_positions(const Body& body, double until, double unit, unsigne
 
 }  // namespace
 
-TEST_CASE("loglog: the errors of a record with a rest do not depend on the unit of x", "[fit]") {
+TEST_CASE("loglog: the errors of a row with a rest do not depend on the unit of x", "[fit]") {
   const Body body{1, 0.04, 0.5};
   for (const double until : {2.4, 2.8, 3.2})
     for (unsigned seed = 1; seed <= 20; ++seed) {
@@ -248,14 +248,13 @@ TEST_CASE("loglog: the errors of a record with a rest do not depend on the unit 
     }
 }
 
-TEST_CASE("loglog: the records of a rest are left out and counted, and the intervals hold",
-          "[fit]") {
+TEST_CASE("loglog: the rows of a rest are left out and counted, and the intervals hold", "[fit]") {
   const Body body{1, 0.04, 0.5};
   constexpr int runs = 200;
   int a_held = 0, b_held = 0;
   for (unsigned seed = 1; seed <= runs; ++seed) {
     const auto r = line_of_positions(body, 3.2, 1, seed);
-    CHECK(r.n <= 57);  // the roll stops after 56 records
+    CHECK(r.n <= 57);  // the roll stops after 56 rows
     CHECK(r.n + r.left_out == 80);
     a_held += std::abs(std::log(r.a / 1.87e-3)) < 1.96 * r.sigma_a / r.a;
     b_held += std::abs(r.b - 0.215) < 1.96 * r.sigma_b;

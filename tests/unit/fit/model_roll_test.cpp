@@ -57,14 +57,14 @@ TEST_CASE("position: NIST's Misra1 sets are rolls under b = 1, 4/3, 3/2, 5/3", "
     FitOptions options;
     options.b = c.b;
     options.x0 = 0;
-    // x0 holds at the first record: one more at t = 0, which the model meets whatever its law.
+    // x0 holds at the first row: one more at t = 0, which the model meets whatever its law.
     run.t.insert(run.t.begin(), 0);
     run.x.insert(run.x.begin(), 0);
     const auto r = fit(Route::position, {run}, options);
     CHECK(std::abs(r.a / c.a - 1) < 1e-11);
     CHECK(std::abs(r.v0.at(0).value / c.v0 - 1) < 1e-11);
     CHECK(r.errors == Errors::classical);
-    // One record more changes n - p from 12 to 13.
+    // One row more changes n - p from 12 to 13.
     if (c.b == 1) CHECK(std::abs(r.sigma_a / c.sigma_a * std::sqrt(13.0 / 12) - 1) < 1e-9);
   }
 }
@@ -110,7 +110,7 @@ TEST_CASE("trajectory: one law for two bodies and two starts; held parameters st
 }
 
 TEST_CASE(
-    "trajectory: slow records leave by --min-speed, so that a backward roll does not pull at the "
+    "trajectory: slow rows leave by --min-speed, so that a backward roll does not pull at the "
     "law",
     "[fit]") {
   for (Route route : {Route::velocity, Route::position}) {
@@ -239,7 +239,7 @@ TEST_CASE("velocity: differences of x with their filter known are as good as x",
 
 TEST_CASE(
     "velocity: beside a cut nothing is fitted, on uneven times neither; v0 is that of the first "
-    "record",
+    "row",
     "[fit]") {
   const auto truth = simulated::roll(cylinder, 1.87e-3, 0.215, 0.5);
   std::vector<double> t, x;
@@ -277,7 +277,7 @@ TEST_CASE("trajectory: white noise, intervals that hold and no bias", "[fit]") {
     for (int k = 0; k < runs; ++k) {
       FitRun run{};
       run.body = cylinder;
-      for (int i = 0; i < 70; ++i) {  // some records of rest at the end
+      for (int i = 0; i < 70; ++i) {  // some rows of rest at the end
         const double t = 0.04 * i;
         run.t.push_back(t);
         if (route == Route::velocity) run.v.push_back(truth.v(t) + noise(0.0053));

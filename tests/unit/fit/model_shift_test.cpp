@@ -47,7 +47,7 @@ TEST_CASE("shift: DanWood to 12 digits, from NIST's starts and from none", "[fit
   }
 }
 
-// A record that is a thousand times slower than the others makes a narrow minimum beside a wide
+// A row that is a thousand times slower than the others makes a narrow minimum beside a wide
 // one.
 TEST_CASE("shift: no exponent that is held fits better than the one that is found", "[fit]") {
   simulated::Noise noise(45);
@@ -91,7 +91,7 @@ TEST_CASE("shift: exact data give the law back, with errors of rounding size", "
 }
 
 TEST_CASE(
-    "shift: one of a and b held; records at v <= 0 and below --min-speed are counted, D <= 0 is "
+    "shift: one of a and b held; rows at v <= 0 and below --min-speed are counted, D <= 0 is "
     "not left out",
     "[fit]") {
   FitRun run{};
@@ -197,9 +197,9 @@ TEST_CASE(
   }
 }
 
-// Of n records the noise of a second derivative spans n^4 in its covariance, more than double
+// Of n rows the noise of a second derivative spans n^4 in its covariance, more than double
 // precision holds. The shifts tell what the positions tell all the same.
-TEST_CASE("shift: as precise as the positions at any rate of the records", "[fit]") {
+TEST_CASE("shift: as precise as the positions at any rate of the rows", "[fit]") {
   const Body body{1.375, 0.04, 0.5};
   const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.5);
   for (const double rate : {25., 1000., 4000., 40000.}) {
@@ -345,7 +345,7 @@ TEST_CASE("shift: another unit of length gives the same law, the filters known",
 }
 
 TEST_CASE(
-    "shift: of many records all count, where few are enough to come near; of these few some may be "
+    "shift: of many rows all count, where few are enough to come near; of these few some may be "
     "worth nothing",
     "[fit]") {
   simulated::Noise noise(12);

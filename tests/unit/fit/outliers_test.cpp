@@ -42,8 +42,8 @@ TEST_CASE("fit: a robust fit of 20 positions finds the law beside false echoes",
   CHECK(covered >= 0.86 * runs);  // of 0.93: fewer by chance in 0.3 %
 }
 
-// With the median of all records for their scale a noisier run is an outlier as a whole: of these
-// 20 pairs of fits 15 are refused, as no record is left of a run, and 4 have two exponents.
+// With the median of all rows for their scale a noisier run is an outlier as a whole: of these
+// 20 pairs of fits 15 are refused, as no row is left of a run, and 4 have two exponents.
 TEST_CASE("fit: a robust joint fit of runs of different noise, in either order", "[fit]") {
   const Body body{1, 0.04, 0.5};
   const std::pair<int, double> sizes[] = {{100, 1e-4}, {12, 3e-3}, {80, 1e-3}};

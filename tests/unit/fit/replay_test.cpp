@@ -34,7 +34,7 @@ FitRun filtered(int seed, std::size_t n = 60) {
   return run;
 }
 
-/// Every k-th record.
+/// Every k-th row.
 FitRun thinned(const FitRun& run, std::size_t k) {
   FitRun few{};
   few.shift_of = run.shift_of;
@@ -43,7 +43,7 @@ FitRun thinned(const FitRun& run, std::size_t k) {
   return few;
 }
 
-/// The records from `first` to before `end`.
+/// The rows from `first` to before `end`.
 FitRun part(const FitRun& run, std::ptrdiff_t first, std::ptrdiff_t end) {
   FitRun some{};
   some.shift_of = run.shift_of;
@@ -52,7 +52,7 @@ FitRun part(const FitRun& run, std::ptrdiff_t first, std::ptrdiff_t end) {
   return some;
 }
 
-/// A record between each two, by linear interpolation.
+/// A row between each two, by linear interpolation.
 FitRun interpolated(const FitRun& run) {
   FitRun more{};
   more.shift_of = run.shift_of;
@@ -127,7 +127,7 @@ TEST_CASE("replay: a missing reading hides its windows alone", "[fit]") {
   }
 }
 
-TEST_CASE("replay: records that were cut off differ at that end alone", "[fit]") {
+TEST_CASE("replay: rows that were cut off differ at that end alone", "[fit]") {
   for (int seed = 1; seed <= 20; ++seed) {
     const FitRun run = filtered(seed);
     for (const auto& [first, end] : {std::pair(4, 60), {0, 55}, {9, 50}}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Joint fits of runs with hardly more records than parameters.
+// Joint fits of runs with hardly more rows than parameters.
 
 #include <algorithm>
 #include <random>
@@ -37,7 +37,7 @@ FitRun short_run(const Body& body, PowerLaw law, std::mt19937_64& random, simula
 
 }  // namespace
 
-// A run of so few records may have no variance that can be estimated. Its law is then no weight.
+// A run of so few rows may have no variance that can be estimated. Its law is then no weight.
 TEST_CASE("joint fit: the order of the runs does not matter, and the errors are above 0", "[fit]") {
   const Body body{1.375, 0.04, 0.5};
   int fitted = 0;

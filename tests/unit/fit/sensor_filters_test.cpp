@@ -58,11 +58,11 @@ TEST_CASE(
   CHECK(covered >= 42);  // fewer of 95 % by chance in 0.2 %
   CHECK(found[1] <= 4);
   CHECK(found[2] == 0);
-  CHECK(found[3] == 0);  // too few records
+  CHECK(found[3] == 0);  // too few rows
 }
 
 TEST_CASE(
-    "differences: those that the first records of a long run tell of are reckoned with in all of "
+    "differences: those that the first rows of a long run tell of are reckoned with in all of "
     "it",
     "[fit]") {
   const auto truth = simulated::roll(cylinder, 5.75e-4, 0.1, 0.5);

@@ -19,7 +19,7 @@ Rows all_of(std::size_t n) {
   return rows;
 }
 
-/// The slopes of the parabola through each record and its two neighbours, and of the line at the
+/// The slopes of the parabola through each row and its two neighbours, and of the line at the
 /// ends.
 std::vector<double> slopes(std::span<const double> t, std::span<const double> y) {
   const auto line = [&](std::size_t i) { return (y[i + 1] - y[i]) / (t[i + 1] - t[i]); };
@@ -73,8 +73,7 @@ TEST_CASE("smooth motion: a motion that is a polynomial in time comes out of its
       }
 }
 
-TEST_CASE("smooth motion: a few records are enough, and the direction is that of the body",
-          "[fit]") {
+TEST_CASE("smooth motion: a few rows are enough, and the direction is that of the body", "[fit]") {
   for (const std::size_t n : {1U, 2U, 3U, 7U, 8U})
     for (const double way : {1.0, -1.0}) {
       FitRun run{};

@@ -48,7 +48,7 @@ TEST_CASE("white share: that of white noise on differences is found", "[fit][man
   }
 }
 
-TEST_CASE("white share: differences alone seem to hold white noise in few records", "[fit]") {
+TEST_CASE("white share: differences alone seem to hold white noise in few rows", "[fit]") {
   simulated::Noise noise(12);
   int decisive = 0;
   for (int i = 0; i < 200; ++i) decisive += found_share(0, noise, 100).decisive();

@@ -40,7 +40,7 @@ TEST_CASE("minimise: no point is evaluated twice in succession", "[fit]") {
   CHECK(std::ranges::adjacent_find(points) == points.end());
 }
 
-TEST_CASE("minimise: as many records as parameters: the root, to round-off of its size", "[fit]") {
+TEST_CASE("minimise: as many rows as parameters: the root, to round-off of its size", "[fit]") {
   for (const double square : {3., 3e18, 5e18, 7e18}) {
     const System root = one_run(
         1, 1, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
@@ -114,9 +114,8 @@ TEST_CASE("spread: covariance of functions of the parameters", "[fit]") {
   CHECK(std::abs(spread({0, 1}, {0, 1}) - 4.0 / 64) < 1e-15);
 }
 
-TEST_CASE(
-    "minimise: a line through many records has the sums of the closed form, and R^T R = J^T J",
-    "[fit]") {
+TEST_CASE("minimise: a line through many rows has the sums of the closed form, and R^T R = J^T J",
+          "[fit]") {
   simulated::Noise noise(3);
   constexpr std::size_t n = 1000;  // several blocks, the last one short
   std::vector<double> t, y;

@@ -31,7 +31,7 @@ TEST_CASE("minimise_robust: a mean that outliers do not move, by hand", "[fit]")
 }
 
 TEST_CASE(
-    "minimise_robust: the pseudo-residuals are orthogonal to J, where the records are not "
+    "minimise_robust: the pseudo-residuals are orthogonal to J, where the rows are not "
     "symmetric",
     "[fit]") {
   // The estimating equation, sum_i psi(r_i/s) J_i = 0: it names neither the scale nor the weights
@@ -51,8 +51,7 @@ TEST_CASE(
 
 // Huber 1981, section 7.6: the pseudo-residuals are psi(r/s) K / mean(psi'), K = 1 + p/n var(psi')
 // / mean(psi')^2. The scale s and the factor follow from two of them: sqrt(f/r) is linear in r^2.
-TEST_CASE("minimise_robust: the pseudo-residuals of a short record are corrected for p/n",
-          "[fit]") {
+TEST_CASE("minimise_robust: the pseudo-residuals of a short row are corrected for p/n", "[fit]") {
   const std::vector<double> t{0, 1, 2, 3, 4, 5, 6, 7}, y{0, 1.2, 1.9, 3.8, 4.1, 4.2, 6.9, 50};
   const System line = line_through(t, y);
   const auto m = minimise_robust(line, {{0, 0}});
@@ -83,8 +82,8 @@ TEST_CASE("minimise_robust: every start leads to the same numbers", "[fit]") {
   }
 }
 
-// In some of them the median goes to and fro between two records.
-TEST_CASE("minimise_robust: short records converge", "[fit]") {
+// In some of them the median goes to and fro between two rows.
+TEST_CASE("minimise_robust: short rows converge", "[fit]") {
   for (unsigned seed = 0; seed < 200; ++seed) {
     simulated::Noise noise(seed);
     std::vector<double> t, y;
@@ -128,7 +127,7 @@ TEST_CASE("minimise_robust: as many outliers as can be told, at one end, do not 
   }
 }
 
-TEST_CASE("minimise_robust: where most records lie on one line, it is that line", "[fit]") {
+TEST_CASE("minimise_robust: where most rows lie on one line, it is that line", "[fit]") {
   const std::vector<double> t{0, 1, 2, 3, 4, 5, 6, 7, 8}, y{1, 2, 3, 4, 5, 6, 70, 80, 95};
   const auto m = minimise_robust(line_through(t, y), {{0, 0}});
   CHECK(m.theta == std::vector<double>{1, 1});

@@ -41,7 +41,7 @@ double unit_time(const Reference& r) {
 TEST_CASE("Roll: speed, distance and derivatives against quadrature with 40 digits", "[rolling]") {
   for (const Reference& r : references) {
     const auto s = roll(r).at(r.t);
-    // x of the first records is a millionth of the way, and its derivatives are the square of that.
+    // x of the first rows is a millionth of the way, and its derivatives are the square of that.
     const double T = unit_time(r), way = std::max(r.x, r.v0 * T);
     INFO("exact " << r.exact << " K " << r.K << " a " << r.a << " b " << r.b << " v0 " << r.v0
                   << " t " << r.t);

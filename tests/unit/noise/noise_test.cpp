@@ -98,8 +98,8 @@ TEST_CASE("noise: the least sources that explain residuals give them back", "[fi
 
 // The ranks are those of the singular values of these matrices.
 TEST_CASE("noise: as many innovations as the filters leave degrees of freedom", "[noise]") {
-  const auto innovations = [](std::size_t records, std::size_t width) {
-    const std::vector<double> at = simulated::times(records);
+  const auto innovations = [](std::size_t rows, std::size_t width) {
+    const std::vector<double> at = simulated::times(rows);
     const FilterMatrix H = FilterMatrix(probe(simulated::differentiate("x", "v"), at))
                                .then(probe(simulated::smooth_v(width), at));
     return Noise({H, H}).informative();

@@ -66,8 +66,7 @@ TEST_CASE("response: a filter that does the same everywhere is probed in a short
   }
 }
 
-TEST_CASE("response: between equal steps few rows are probed; lost records change theirs",
-          "[fit]") {
+TEST_CASE("response: between equal steps few rows are probed; lost rows change theirs", "[fit]") {
   std::size_t probed = 0;
   const LinearFilter slopes{"x", "v", 1, [&](std::span<const double> t, std::span<const double> x) {
                               probed = t.size();
@@ -130,7 +129,7 @@ TEST_CASE("response: a pass through the filters is the product with their matrix
   }
 }
 
-TEST_CASE("response: a filter that does not give a value for each record is refused", "[fit]") {
+TEST_CASE("response: a filter that does not give a value for each row is refused", "[fit]") {
   const LinearFilter short_one{"v", "v", 1, [](std::span<const double>, std::span<const double> y) {
                                  return std::vector<double>(y.begin() + 1, y.end());
                                }};

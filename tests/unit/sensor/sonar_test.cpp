@@ -17,15 +17,15 @@ namespace {
 
 ClosedForm roll() { return {{1.375, 0.04, 0.5}, {1.87e-3, 0.215}, 0.5, 7}; }
 
-std::vector<SonarSample> record(Motion& motion, const SonarOptions& options) {
+std::vector<SonarSample> run(Motion& motion, const SonarOptions& options) {
   std::vector<SonarSample> samples;
-  sonar_record(motion, options, [&](const SonarSample& sample) { samples.push_back(sample); });
+  sonar_run(motion, options, [&](const SonarSample& sample) { samples.push_back(sample); });
   return samples;
 }
 
-std::vector<SonarSample> record(const SonarOptions& options) {
+std::vector<SonarSample> run(const SonarOptions& options) {
   ClosedForm motion = roll();
-  return record(motion, options);
+  return run(motion, options);
 }
 
 SonarOptions perfect() {
@@ -43,7 +43,7 @@ bool same(const SonarSample& x, const SonarSample& y) {
 TEST_CASE("sonar: without noise it sees rest, push, free roll, rest", "[sensor]") {
   SonarOptions options = perfect();
   options.rate = 1000;
-  const auto samples = record(options);
+  const auto samples = run(options);
   ClosedForm motion = roll();
   const double stop = motion.stop_time();
   CHECK(samples.front().t == 0);
@@ -72,7 +72,7 @@ TEST_CASE("sonar: the noise is white, gaussian and as wide as asked", "[sensor]"
   options.resolution = 0;
   SonarOptions quiet = perfect();
   quiet.rate = 20000;
-  const auto samples = record(options), truth = record(quiet);
+  const auto samples = run(options), truth = run(quiet);
   REQUIRE(samples.size() == truth.size());
   std::vector<double> noise;
   for (std::size_t i = 0; i < samples.size(); ++i)
@@ -93,11 +93,11 @@ TEST_CASE("sonar: the noise is white, gaussian and as wide as asked", "[sensor]"
 }
 
 TEST_CASE("sonar: positions are multiples of the resolution, written without a tail", "[sensor]") {
-  for (const auto& s : record({}))
+  for (const auto& s : run({}))
     if (s.x) CHECK(*s.x == std::round(*s.x * 1000) / 1000);
   SonarOptions coarse = perfect();
   coarse.resolution = 0.03;
-  const auto samples = record(coarse), truth = record(perfect());
+  const auto samples = run(coarse), truth = run(perfect());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     CHECK(std::abs(std::remainder(*samples[i].x, 0.03)) < 1e-15);
     CHECK(std::abs(*samples[i].x - *truth[i].x) <= 0.015 + 1e-15);
@@ -108,7 +108,7 @@ TEST_CASE("sonar: the velocity is PASCO's, and missing with any of its four posi
           "[sensor]") {
   SonarOptions options;
   options.lost = 0.1;
-  const auto s = record(options);
+  const auto s = run(options);
   int missing = 0;
   for (std::size_t i = 0; i < s.size(); ++i) {
     const bool known =
@@ -122,24 +122,24 @@ TEST_CASE("sonar: the velocity is PASCO's, and missing with any of its four posi
   CHECK(missing > 0);
 }
 
-TEST_CASE("sonar: a seed gives one record, on every machine", "[sensor]") {
-  const auto first = record({}), again = record({});
+TEST_CASE("sonar: a seed gives one row, on every machine", "[sensor]") {
+  const auto first = run({}), again = run({});
   CHECK(std::equal(first.begin(), first.end(), again.begin(), again.end(), same));
   SonarOptions other;
   other.seed = 2;
-  const auto different = record(other);
+  const auto different = run(other);
   CHECK_FALSE(std::equal(first.begin(), first.end(), different.begin(), different.end(), same));
   // Lost echoes do not change the others.
   SonarOptions complete;
   complete.lost = 0;
-  const auto all = record(complete);
+  const auto all = run(complete);
   for (std::size_t i = 0; i < first.size(); ++i)
     if (first[i].x) CHECK(first[i].x == all[i].x);
   // Printed once by this program (GSL 2.7.1, x86-64); a difference here breaks everybody's seeds.
   SonarOptions fine;
   fine.resolution = 1e-5;
   fine.lost = 0.1;
-  const auto known = record(fine);
+  const auto known = run(fine);
   const double begin[] = {0.29985, 0.30016, 0.3, 0.30015, 0.29992, 0.30002, 0.3001, 0.30024};
   for (std::size_t i = 0; i < std::size(begin); ++i) CHECK(known[i].x == begin[i]);
   CHECK(known[40].x == 0.47413);
@@ -149,22 +149,22 @@ TEST_CASE("sonar: a seed gives one record, on every machine", "[sensor]") {
 TEST_CASE("sonar: until, never stopping, at rest all the time, refusals", "[sensor]") {
   SonarOptions options;
   options.until = 1;
-  CHECK(std::abs(record(options).back().t - 2.5) < 0.04);
+  CHECK(std::abs(run(options).back().t - 2.5) < 0.04);
   ClosedForm never({1.375, 0.04, 0.5}, {1.87e-3, 1.5}, 0.5, 0),
       still({1.375, 0.04, 0.5}, {1.87e-3, 0.2}, 0, 0);
   SonarOptions beyond;  // the stop
   beyond.until = 10;
-  CHECK(std::abs(record(beyond).back().t - 11.5) < 0.04);
+  CHECK(std::abs(run(beyond).back().t - 11.5) < 0.04);
   SonarOptions endless;
   endless.rate = 1e9, endless.until = 1e9;
-  CHECK_THROWS_AS(record(endless), Error);
-  CHECK_THROWS_AS(record(never, {}), Error);
-  CHECK(std::abs(record(never, options).back().t - 2.5) < 0.04);
-  for (const auto& s : record(still, perfect())) CHECK(s.x == 0.3);
+  CHECK_THROWS_AS(run(endless), Error);
+  CHECK_THROWS_AS(run(never, {}), Error);
+  CHECK(std::abs(run(never, options).back().t - 2.5) < 0.04);
+  for (const auto& s : run(still, perfect())) CHECK(s.x == 0.3);
   const auto refused = [](auto&& change) {
     SonarOptions bad;
     change(bad);
-    CHECK_THROWS_AS(record(bad), Error);
+    CHECK_THROWS_AS(run(bad), Error);
   };
   for (const double value : {-1.0, std::nan(""), HUGE_VAL}) {
     refused([&](SonarOptions& o) { o.rate = value; });

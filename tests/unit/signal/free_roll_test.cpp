@@ -22,8 +22,8 @@ double speed(double t) {
 }
 constexpr double release = 1.5, stop = 6.5;
 
-std::vector<Sample> record(double rate, double size, unsigned seed, bool positions,
-                           double sign = 1) {
+std::vector<Sample> made_run(double rate, double size, unsigned seed, bool positions,
+                             double sign = 1) {
   std::vector<Sample> run;
   double x = 0.3;
   const auto n = static_cast<std::size_t>(8 * rate);
@@ -41,14 +41,14 @@ std::vector<Sample> record(double rate, double size, unsigned seed, bool positio
 
 TEST_CASE("free_roll: from after the push up to the stop, speeds and positions, many seeds",
           "[signal]") {
-  // To end 2 records beyond the stop takes a window of 5 records at rest above twice its noise that
-  // is not more than 5 records behind the first window below it.
+  // To end 2 runs beyond the stop takes a window of 5 runs at rest above twice its noise that
+  // is not more than 5 runs behind the first window below it.
   int beyond = 0, late = 0;
   for (const double sign : {1.0, -1.0})
     for (const double rate : {25.0, 100.0})
       for (unsigned seed = 1; seed <= 100; ++seed) {
-        const auto v = record(rate, 0.004, seed, false, sign),
-                   x = record(rate, 0.0004, seed, true, sign);
+        const auto v = made_run(rate, 0.004, seed, false, sign),
+                   x = made_run(rate, 0.0004, seed, true, sign);
         for (const auto* run : {&v, &x}) {
           const auto [begin, end] = free_roll(*run, run == &x).kept;
           INFO((run == &x ? "x " : "v ") << rate << " Hz, seed " << seed << ": " << (*run)[begin].t
@@ -65,10 +65,10 @@ TEST_CASE("free_roll: from after the push up to the stop, speeds and positions, 
 }
 
 TEST_CASE(
-    "free_roll: a record that begins with the roll keeps its beginning, one that ends in it its "
+    "free_roll: a run that begins with the roll keeps its beginning, one that ends in it its "
     "end",
     "[signal]") {
-  const auto run = record(25, 0, 1, false);
+  const auto run = made_run(25, 0, 1, false);
   const std::span<const Sample> whole(run);
   const auto begins = free_roll(whole.subspan(40), false).kept;
   CHECK(begins.begin == 0);
@@ -76,14 +76,14 @@ TEST_CASE(
   CHECK(ends.end == 100);
 }
 
-// Else the records that are kept would be chosen by their noise, and a and b biased.
-TEST_CASE("free_roll: other noise of the last records that are kept does not move the end",
+// Else the runs that are kept would be chosen by their noise, and a and b biased.
+TEST_CASE("free_roll: other noise of the last runs that are kept does not move the end",
           "[signal]") {
   for (const bool positions : {false, true}) {
     int moved = 0;
     for (unsigned seed = 1; seed <= 200; ++seed) {
-      auto run = record(25, positions ? 0.0004 : 0.004, seed, positions);
-      const auto other = record(25, positions ? 0.0004 : 0.004, seed + 1000, positions);
+      auto run = made_run(25, positions ? 0.0004 : 0.004, seed, positions);
+      const auto other = made_run(25, positions ? 0.0004 : 0.004, seed + 1000, positions);
       const std::size_t end = free_roll(run, positions).kept.end;
       std::copy_n(&other[end - 5], 5, &run[end - 5]);
       const std::size_t again = free_roll(run, positions).kept.end;
@@ -95,7 +95,7 @@ TEST_CASE("free_roll: other noise of the last records that are kept does not mov
 }
 
 TEST_CASE("free_roll: without noise the roll ends where the speed is 0", "[signal]") {
-  const auto run = record(25, 0, 1, false);
+  const auto run = made_run(25, 0, 1, false);
   const auto [begin, end] = free_roll(run, false).kept;
   CHECK(std::abs(run[end - 1].t - stop) < 0.13);  // two rows are spared
   CHECK(run[end - 1].y > 0);
@@ -103,7 +103,7 @@ TEST_CASE("free_roll: without noise the roll ends where the speed is 0", "[signa
 }
 
 // v' = -c v^b, whose acceleration falls to 0 with the speed where b > 0.
-TEST_CASE("free_roll: a record without noise that ends at the stop keeps its end", "[signal]") {
+TEST_CASE("free_roll: a run without noise that ends at the stop keeps its end", "[signal]") {
   for (const double b : {0.0244, 0.215, 0.5})
     for (const double dt : {0.01, 0.02, 0.04})
       for (const bool positions : {false, true}) {
@@ -122,7 +122,7 @@ TEST_CASE("free_roll: a record without noise that ends at the stop keeps its end
 
 TEST_CASE("free_roll: the noise is that of the moving body, however still a long rest is",
           "[signal]") {
-  // The speed is four times the noise 0.8 s before the stop, and twice that of a mean of 5 records
+  // The speed is four times the noise 0.8 s before the stop, and twice that of a mean of 5 runs
   // 0.18 s before it.
   double end = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
@@ -163,7 +163,7 @@ TEST_CASE("free_roll: a short roll in a long rest, stopped by hand", "[signal]")
   }
 }
 
-TEST_CASE("free_roll: rest, noise alone and a handful of records have none", "[signal]") {
+TEST_CASE("free_roll: rest, noise alone and a handful of runs have none", "[signal]") {
   std::vector<Sample> run;
   for (const double y : Series(100, 0)) run.push_back({static_cast<double>(run.size()), y});
   CHECK_THROWS_AS(free_roll(run, false), Error);
@@ -223,12 +223,12 @@ TEST_CASE("free_roll: it begins after the last push or hold", "[signal]") {
     }
 }
 
-TEST_CASE("free_roll: a record that begins in mid-roll keeps its beginning, with noise too",
+TEST_CASE("free_roll: a run that begins in mid-roll keeps its beginning, with noise too",
           "[signal]") {
   int kept = 0;
   for (unsigned seed = 1; seed <= 100; ++seed)
     for (const bool positions : {false, true}) {
-      const auto run = record(25, positions ? 0.0004 : 0.008, seed, positions);
+      const auto run = made_run(25, positions ? 0.0004 : 0.008, seed, positions);
       kept += free_roll(std::span(run).subspan(45), positions).kept.begin == 0;
     }
   CHECK(kept >= 198);
@@ -236,7 +236,7 @@ TEST_CASE("free_roll: a record that begins in mid-roll keeps its beginning, with
 
 namespace {
 
-/// A record with a known release: rest for 1 s, a push of 0.4 s to 0.5 m/s, a hold, a roll under
+/// A run with a known release: rest for 1 s, a push of 0.4 s to 0.5 m/s, a hold, a roll under
 /// v' = -c v^b which would last `roll` seconds from 0.5 m/s, once more a push by 0.15 m/s when it
 /// is as slow as `again`, and rest for 1 s; or the roll alone, from its middle.
 struct Made {
@@ -282,7 +282,7 @@ struct Made {
   }
 
   /// The roll that is kept begins at most 0.1 s before the release, as the push fades and loses no
-  /// more than a quarter of the roll, or 0.8 s; it ends at most 4 records after the stop.
+  /// more than a quarter of the roll, or 0.8 s; it ends at most 4 runs after the stop.
   bool right(const Stretch& kept) const {
     const double late = run[kept.begin].t - release;
     return (middle ? kept.begin < 3 : late > -0.1 && late < std::max(0.8, roll / 4)) &&
@@ -303,7 +303,7 @@ TEST_CASE("free_roll: pushes, holds, noise and rounding: right, or told to be in
   unsigned seed = 7000;
   int told_of_good = 0, good = 0;
   for (Made& made : kinds) {
-    int records = 0, right = 0, told = 0;
+    int runs = 0, right = 0, told = 0;
     for (const auto& [noise, resolution] : noises)
       for (const auto& [b, roll] : laws)
         for (const bool positions : {true, false})
@@ -311,7 +311,7 @@ TEST_CASE("free_roll: pushes, holds, noise and rounding: right, or told to be in
             made.b = b, made.roll = roll, made.rate = rate, made.positions = positions;
             made.noise = noise, made.resolution = resolution;
             made.make(++seed);
-            ++records;
+            ++runs;
             const bool usual = made.hold + made.again == 0 && noise <= 5e-4 && resolution <= 1e-3;
             good += usual;
             try {
@@ -324,15 +324,15 @@ TEST_CASE("free_roll: pushes, holds, noise and rounding: right, or told to be in
             }
           }
     INFO("hold " << made.hold << " s, again at " << made.again << " m/s, middle " << made.middle
-                 << ": of " << records << " right " << right << ", told " << told);
-    CHECK(100 * (right + told) >= 90 * records);
-    CHECK(100 * right >= 85 * records);
+                 << ": of " << runs << " right " << right << ", told " << told);
+    CHECK(100 * (right + told) >= 90 * runs);
+    CHECK(100 * right >= 85 * runs);
   }
   INFO("told of " << told_of_good << " of " << good);
   CHECK(25 * told_of_good <= good);
 }
 
-// A reading then stays the same for many records, so that its rounding errors follow each other.
+// A reading then stays the same for many runs, so that its rounding errors follow each other.
 TEST_CASE("free_roll: fast sensors whose noise is below their resolution", "[signal][many]") {
   unsigned seed = 1;
   for (const double rate : {1000.0, 5000.0})
@@ -358,8 +358,8 @@ TEST_CASE("free_roll: fast sensors whose noise is below their resolution", "[sig
           }
 }
 
-TEST_CASE("free_roll: a long record keeps what a short one keeps", "[signal]") {
-  // 4e5 records of 10 kHz; those of 25 Hz of the same motion begin and end within two of theirs.
+TEST_CASE("free_roll: a long run keeps what a short one keeps", "[signal]") {
+  // 4e5 runs of 10 kHz; those of 25 Hz of the same motion begin and end within two of theirs.
   Made fine{.hold = 1, .b = 0.5, .roll = 36, .rate = 10000, .noise = 1e-3, .resolution = 0};
   fine.make(1);
   const Stretch kept = free_roll(fine.run, true).kept;
@@ -367,7 +367,7 @@ TEST_CASE("free_roll: a long record keeps what a short one keeps", "[signal]") {
   CHECK(fine.run[kept.begin].t < fine.release + 0.5);
   CHECK(fine.run[kept.end - 1].t < fine.stop);
   CHECK(fine.right(kept));
-  // The same rest for ten times as long: the roll is sought again in a part of the record.
+  // The same rest for ten times as long: the roll is sought again in a part of the run.
   std::vector<Sample> longer;
   const double before = 400;
   for (std::size_t i = 0; i < 4'000'000; ++i)
@@ -380,7 +380,7 @@ TEST_CASE("free_roll: a long record keeps what a short one keeps", "[signal]") {
 
 TEST_CASE("free_roll: a reading that does not belong is no push", "[signal]") {
   for (const double wrong : {0.0, -0.5, 0.45}) {
-    auto run = record(25, 0.004, 3, false);
+    auto run = made_run(25, 0.004, 3, false);
     run[100].y = wrong;
     CHECK(run[free_roll(run, false).kept.begin].t < release + 1);
   }
@@ -390,7 +390,7 @@ TEST_CASE("free_roll: one reading that is off, wherever it is, moves no end but 
           "[signal]") {
   for (const bool positions : {false, true})
     for (const double off : {0.2, -0.02}) {
-      const auto good = record(25, positions ? 3e-4 : 2e-3, 5, positions);
+      const auto good = run(25, positions ? 3e-4 : 2e-3, 5, positions);
       const Stretch whole = free_roll(good, positions).kept;
       for (std::size_t at = 1; at + 1 < good.size(); ++at) {
         auto run = good;
@@ -410,8 +410,8 @@ TEST_CASE("free_roll: one reading that is off, wherever it is, moves no end but 
 
 TEST_CASE("free_roll: the units of time and readings change nothing", "[signal]") {
   for (const bool positions : {false, true})
-    for (const double rate : {25.0, 5000.0}) {  // 5000: means of several records are searched first
-      const auto run = record(rate, positions ? 0.0004 : 0.004, 1, positions);
+    for (const double rate : {25.0, 5000.0}) {  // 5000: means of several runs are searched first
+      const auto run = made_run(rate, positions ? 0.0004 : 0.004, 1, positions);
       const FreeRoll expected = free_roll(run, positions);
       for (const auto& [of_t, of_y] : {std::pair{0, -900},
                                        {0, -560},

@@ -104,7 +104,7 @@ TEST_CASE("outliers: the last digit of rounded readings at rest makes no outlier
 
 TEST_CASE("outliers: nor does it in what a program computed from them", "[signal]") {
   // Central differences of positions, rounded to 1 mm, at 25 Hz: of a body that moves 1 mm from
-  // record to record, 0.025 with rounding errors; at rest behind it -0.0125, 0 or 0.0125.
+  // row to row, 0.025 with rounding errors; at rest behind it -0.0125, 0 or 0.0125.
   Series x;
   for (const double flicker : noise(400, 8))
     x.push_back(0.001 * std::min(100.0, static_cast<double>(x.size())) +

@@ -13,7 +13,7 @@ using namespace rolling;
 namespace {
 
 /// Speeds of a body that slows down by a share of its speed a second, at 25 Hz, with normal noise,
-/// rounded to a unit, each held for so many records.
+/// rounded to a unit, each held for so many rows.
 Series speeds(std::size_t held, double noise_size, double unit, double slowing, unsigned seed) {
   const Series e = noise(500, seed);
   Series v;
@@ -34,8 +34,8 @@ TEST_CASE("repeats: readings that were held are told, with how long", "[signal]"
       for (const double size : {0.001, 0.05})
         for (unsigned seed = 1; seed <= 20; ++seed) {
           if (size < 3 * unit && 0.01 * static_cast<double>(held) < 3 * unit) continue;
-          INFO(held << " records, unit " << unit << ", noise " << size << ", seed " << seed);
-          const double found = records_held(speeds(held, size, unit, 0.1, seed));
+          INFO(held << " rows, unit " << unit << ", noise " << size << ", seed " << seed);
+          const double found = rows_held(speeds(held, size, unit, 0.1, seed));
           CHECK(std::abs(found / static_cast<double>(held) - 1) < 0.2);
         }
 }
@@ -47,9 +47,9 @@ TEST_CASE("repeats: readings that are merely rounded, at rest or few are not hel
         for (unsigned seed = 1; seed <= 20; ++seed) {
           INFO("unit " << unit << ", noise " << size << ", slowing " << slowing << ", seed "
                        << seed);
-          CHECK(records_held(speeds(1, size, unit, slowing, seed)) == 1);
+          CHECK(rows_held(speeds(1, size, unit, slowing, seed)) == 1);
         }
-  // A roll that stops within the record, seen to 1 mm at 25 Hz: fast at first, at rest at the end.
+  // A roll that stops within the row, seen to 1 mm at 25 Hz: fast at first, at rest at the end.
   for (const double size : {0., 5e-5, 1e-4, 2e-4, 3e-4, 1e-3})
     for (unsigned seed = 1; seed <= 20; ++seed) {
       INFO("noise " << size << ", seed " << seed);
@@ -59,17 +59,17 @@ TEST_CASE("repeats: readings that are merely rounded, at rest or few are not hel
         const double left = std::max(0.0, 2 - 0.04 * static_cast<double>(i));
         x.push_back(std::round(1e3 * (0.5 - left * left / 4 + size * e[i])) / 1e3);
       }
-      CHECK(records_held(x) == 1);
+      CHECK(rows_held(x) == 1);
     }
   Series stopped;  // speeds with a rest between two pushes
   for (int i = 0; i < 40; ++i) stopped.push_back(std::round(1e3 * (0.5 - 0.0111 * i)) / 1e3);
   stopped.insert(stopped.end(), 100, 0);
   for (int i = 0; i < 40; ++i) stopped.push_back(std::round(1e3 * (0.5 - 0.0117 * i)) / 1e3);
-  CHECK(records_held(stopped) == 1);
-  CHECK(records_held({}) == 1);
-  CHECK(records_held(Series{1}) == 1);
-  CHECK(records_held(Series{1, 1}) == 1);
-  CHECK(records_held(Series{0, 0, 0, 0, 0, 1, 0.7, 0.3, 0, 0, 0, 0}) == 1);
+  CHECK(rows_held(stopped) == 1);
+  CHECK(rows_held({}) == 1);
+  CHECK(rows_held(Series{1}) == 1);
+  CHECK(rows_held(Series{1, 1}) == 1);
+  CHECK(rows_held(Series{0, 0, 0, 0, 0, 1, 0.7, 0.3, 0, 0, 0, 0}) == 1);
 }
 
 namespace {
@@ -110,7 +110,7 @@ TEST_CASE("repeats: differences of rounded positions are not held", "[signal]") 
             for (unsigned seed = 1; seed <= 10; ++seed) {
               INFO("rate " << rate << ", slowing " << slowing << ", unit " << unit << ", one in "
                            << lost << " lost, digits " << digits << ", seed " << seed);
-              CHECK(records_held(differences(rate, slowing, unit, lost, digits, seed)) == 1);
+              CHECK(rows_held(differences(rate, slowing, unit, lost, digits, seed)) == 1);
             }
 }
 
@@ -121,7 +121,7 @@ TEST_CASE("repeats: held readings are told on a grid of some units a step", "[si
       const Series now = speeds(1, 5 * unit, unit, 0.1, seed);
       Series twice;
       for (std::size_t i = 0; i < 1000; ++i) twice.push_back(written(now[i / 2], 5));
-      CHECK(std::abs(records_held(twice) - 2) < 0.4);
-      CHECK(records_held(now) == 1);
+      CHECK(std::abs(rows_held(twice) - 2) < 0.4);
+      CHECK(rows_held(now) == 1);
     }
 }

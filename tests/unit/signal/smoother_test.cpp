@@ -80,7 +80,7 @@ TEST_CASE(
         for (std::size_t i = 3; i + 3 < run.size(); ++i) {
           const std::size_t k = std::min({half, i, run.size() - 1 - i});
           long double n = 0, s = 0, ss = 0, y = 0,
-                      sy = 0;  // of the regression of y on s, the time from record i
+                      sy = 0;  // of the regression of y on s, the time from row i
           for (std::size_t j = i - k; j <= i + k; ++j) {
             if (std::max(i, j) - std::min(i, j) <= 2) continue;
             const long double from = static_cast<long double>(run[j].t) - run[i].t;
@@ -143,7 +143,7 @@ TEST_CASE("smoother: the best width of savgol is judged in its first and last wh
 
 TEST_CASE("smoother: the best width is not misled by the noise of central differences",
           "[signal]") {
-  // Their noise is bound at a distance of two; leaving out the one record alone would take it for a
+  // Their noise is bound at a distance of two; leaving out the one row alone would take it for a
   // signal.
   const Series t = even_times(300), e = noise(302, 5);
   std::vector<Sample> run;
@@ -168,7 +168,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("smoother: the best width of a long run, of which every tenth record is predicted",
+TEST_CASE("smoother: the best width of a long run, of which every tenth row is predicted",
           "[signal]") {
   const Series t = even_times(20000), e = noise(20000, 4);
   std::vector<Sample> line, wave;
@@ -178,7 +178,7 @@ TEST_CASE("smoother: the best width of a long run, of which every tenth record i
   }
   CHECK(best_width(line, {methods.at("mean")}) > 1000);
   CHECK(best_width(line, {methods.at("mean")}) <= 2001);
-  // As of its first 2000 records, all of which are predicted, to a step of the widths that are
+  // As of its first 2000 rows, all of which are predicted, to a step of the widths that are
   // tried.
   const auto whole = static_cast<double>(best_width(wave, {methods.at("mean")}));
   const auto part =

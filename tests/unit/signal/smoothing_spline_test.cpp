@@ -164,7 +164,7 @@ TEST_CASE("smoothing_spline: white noise: far better than differences", "[signal
 }
 
 TEST_CASE(
-    "smoothing_spline: in no record next to no smoothing, not where the noise of neighbours is "
+    "smoothing_spline: in no row next to no smoothing, not where the noise of neighbours is "
     "bound either",
     "[signal]") {
   const std::size_t n = 100;

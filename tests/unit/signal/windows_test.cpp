@@ -123,7 +123,7 @@ TEST_CASE("windows: of reversed times they are the reverse", "[signal]") {
         for (std::size_t i = n; i-- > 0;) back.push_back(-t[i]);
         std::vector<Window> all = windows(back, width, ends), forth(all.rbegin(), all.rend());
         for (Window& window : forth) window = {n - 1 - window.at, n - window.end, n - window.begin};
-        INFO(n << " records, width " << width.samples << " or " << width.seconds << " s");
+        INFO(n << " rows, width " << width.samples << " or " << width.seconds << " s");
         CHECK(windows(t, width, ends) == forth);
       }
 }

@@ -35,7 +35,7 @@ TEST_CASE("dialect: the form is the first of tab ; , outside quotes, else blanks
   CHECK(chosen("\"a,b\",\"say \"\"so\"\"\",7") == "<a,b><say \"so\"><7>");
   CHECK(chosen("\"a\"\"\tb\",1") == "<a\"\tb><1>");
   CHECK(chosen("Time (s),Velocity (m/s)") == "no number: <Time (s)><Velocity (m/s)>");
-  CHECK(chosen("\"0,5\",\"1,5\"") == "<0,5><1,5>");  // a record that is refused, not a heading
+  CHECK(chosen("\"0,5\",\"1,5\"") == "<0,5><1,5>");  // a row that is refused, not a heading
   CHECK(chosen("") == "no number: ");
 }
 

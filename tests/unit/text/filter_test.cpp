@@ -17,8 +17,8 @@ std::string base_names_as_FILE(std::string text) {
   return text;
 }
 
-/// What a filter prints that replaces v by -v, or appends `columns` of v, 2 v, ..., each record
-/// `late` records late.
+/// What a filter prints that replaces v by -v, or appends `columns` of v, 2 v, ..., each row
+/// `late` rows late.
 std::string filtered(const std::vector<std::string>& texts, const std::vector<Column>& append,
                      std::size_t late = 0) {
   std::vector<std::unique_ptr<TemporaryFile>> files;
@@ -74,7 +74,7 @@ TEST_CASE("filter: however late the numbers come, the rows come out the same", "
     }
 }
 
-TEST_CASE("filter: comments keep their place, also after the last record", "[text]") {
+TEST_CASE("filter: comments keep their place, also after the last row", "[text]") {
   for (std::size_t late = 0; late < 4; ++late) {
     INFO(late << " late");
     CHECK(
@@ -186,7 +186,7 @@ TEST_CASE("filter: rows left out before the first run with a history", "[text]")
         })) == "# between\n## run FILE 2\n## test it\n# t[s]\tv[m/s]\n0\t30\n2\t50\n");
 }
 
-TEST_CASE("filter: no record left is an error of its own", "[text]") {
+TEST_CASE("filter: no row left is an error of its own", "[text]") {
   const TemporaryFile file("0 1\n1 2\n");
   std::string message;
   printed([&] {
@@ -201,7 +201,7 @@ TEST_CASE("filter: no record left is an error of its own", "[text]") {
   CHECK(message == "no rows are left");
 }
 
-TEST_CASE("filter: no record with all its readings is an error", "[text]") {
+TEST_CASE("filter: no row with all its readings is an error", "[text]") {
   const TemporaryFile file("# t v\n0 NaN\n\n1 NaN\n");
   std::string message;
   printed([&] {

@@ -8,7 +8,7 @@ using namespace rolling;
 
 namespace {
 
-/// What stands before the first record: comments, the columns, and the record with its number.
+/// What stands before the first row: comments, the columns, and the row with its number.
 std::string head(std::string_view text, Sides sides = Sides::by_names) {
   const TemporaryFile file(text);
   std::string all;
@@ -83,13 +83,13 @@ TEST_CASE("head: commas with and without blanks are refused where both may be me
   CHECK(head("t, v, x\n1, 2,3\n") == " t v x in 1 of 3; 2: 1, 2,3");
 }
 
-TEST_CASE("head: runs side by side, or one record of all", "[text]") {
+TEST_CASE("head: runs side by side, or one row of all", "[text]") {
   const std::string text = "t Run 1,v Run 1,t Run 2,v Run 2\n0,1,0,2\n";
   CHECK(head(text) == " t v in 2 of 4; 2: 0,1,0,2");
   CHECK(head(text, Sides::one) == " t v t v in 1 of 4; 2: 0,1,0,2");
 }
 
-TEST_CASE("head: a record without readings is one, as wide as the names", "[text]") {
+TEST_CASE("head: a row without readings is one, as wide as the names", "[text]") {
   CHECK(head("t,v\n,\n0,1\n") == " t v in 1 of 2; 3: 0,1");  // a blank row is none
   CHECK(head("# t v\nNaN NaN\n") == " t v in 1 of 2; 2: NaN NaN");
   for (const std::string time : {"10:15:00.5", "2026-11-24 10:15:00", "2026-11-24T10:15:00.5Z"})
@@ -104,7 +104,7 @@ TEST_CASE("head: a record without readings is one, as wide as the names", "[text
         "# x of my cart| v t n c4 in 1 of 4; 3: 0;1;2;");
 }
 
-TEST_CASE("head: what ends a line of names alone is no column; what ends the record too is one",
+TEST_CASE("head: what ends a line of names alone is no column; what ends the row too is one",
           "[text]") {
   CHECK(head("t,v,\n0,1\n") == " t v in 1 of 2; 2: 0,1");
   CHECK(head("t,v\n0,1,\n") == " t v c3 in 1 of 3; 2: 0,1,");
@@ -151,8 +151,7 @@ TEST_CASE("head: no columns are refused, with the line", "[text]") {
   CHECK(head(words) == " no numbers in the first 100 lines");
 }
 
-TEST_CASE("head: where no line is a record, the last one with a digit is said to be none",
-          "[text]") {
+TEST_CASE("head: where no line is a row, the last one with a digit is said to be none", "[text]") {
   CHECK(head("0 1,\n1 2,\n2 3,\n") ==
         "3: no rows: '2 3,' is separated by ',', and no field of it is a number");
   CHECK(head("Time (ms)|Velocity (cm/s)\n0|1\n1|2\n") ==

@@ -6,19 +6,19 @@
 #include <array>
 #include <random>
 
-#include "unit/text/records.h"
+#include "unit/text/rows.h"
 
 using namespace rolling;
 
 namespace {
 
-/// A random file of one run or more, of three records with a t and a v each, and what these are in
+/// A random file of one run or more, of three rows with a t and a v each, and what these are in
 /// SI units.
 class RandomFile {
  public:
   explicit RandomFile(unsigned seed) : random_(seed) { make(); }
   std::string text;
-  std::vector<std::array<double, 2>> records;
+  std::vector<std::array<double, 2>> rows;
 
  private:
   struct Unit {
@@ -88,21 +88,21 @@ class RandomFile {
     return line + "\n";
   }
 
-  /// The records of a run, between these separators.
+  /// The rows of a run, between these separators.
   std::string data(const std::string& quantities, const std::vector<Made>& columns,
                    const std::string& separator, const std::string& end) {
     std::string lines;
     for (int i = 0; i < 3; ++i) {
-      std::array<double, 2> record{};
+      std::array<double, 2> row{};
       for (std::size_t c = 0; c < columns.size(); ++c) {
         // Numbers grow in all columns, so that none is refused as a time.
         const int number = 7 * (i + 1) + 3 * static_cast<int>(c);
         lines += fmt::format("{}{}", c ? separator : "", number);
-        if (quantities[c] == 't') record[0] = number * columns[c].size;
-        if (quantities[c] == 'v') record[1] = number * columns[c].size;
+        if (quantities[c] == 't') row[0] = number * columns[c].size;
+        if (quantities[c] == 'v') row[1] = number * columns[c].size;
       }
       lines += end + "\n";
-      records.push_back(record);
+      rows.push_back(row);
     }
     return lines;
   }
@@ -179,10 +179,9 @@ TEST_CASE("headings: random ones are read as they are meant, or refused", "[text
       continue;
     }
     ++read;
-    bool same = found.size() == made.records.size();
+    bool same = found.size() == made.rows.size();
     for (std::size_t i = 0; same && i < found.size(); ++i)
-      for (const int k : {0, 1})
-        same = same && std::abs(found[i][k] / made.records[i][k] - 1) < 1e-12;
+      for (const int k : {0, 1}) same = same && std::abs(found[i][k] / made.rows[i][k] - 1) < 1e-12;
     INFO(seed << ":\n" << made.text);
     CHECK(same);
   }

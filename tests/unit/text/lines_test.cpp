@@ -94,12 +94,12 @@ TEST_CASE("lines: what a line is", "[text]") {
   CHECK(kind_of("#N/Atlantic") == LineKind::comment);
   CHECK(kind_of("\t## a") == LineKind::history);
   CHECK(kind_of("\"## a\",,") == LineKind::history);
-  CHECK(kind_of("\"## a\",1") == LineKind::record);
-  CHECK(kind_of("#N/A\t1") == LineKind::record);
-  CHECK(kind_of("#REF!") == LineKind::record);
-  CHECK(kind_of("a # b") == LineKind::record);
-  CHECK(kind_of("\t#2\t1", '\t') == LineKind::record);  // the first field is blank
-  CHECK(kind_of(" \t## 2\t1", '\t') == LineKind::record);
+  CHECK(kind_of("\"## a\",1") == LineKind::row);
+  CHECK(kind_of("#N/A\t1") == LineKind::row);
+  CHECK(kind_of("#REF!") == LineKind::row);
+  CHECK(kind_of("a # b") == LineKind::row);
+  CHECK(kind_of("\t#2\t1", '\t') == LineKind::row);  // the first field is blank
+  CHECK(kind_of(" \t## 2\t1", '\t') == LineKind::row);
   CHECK(kind_of(" #2\t1", '\t') == LineKind::comment);
   CHECK(kind_of("\t#2\t1", ';') == LineKind::comment);
   CHECK(kind_of("\t\t", '\t') == LineKind::blank);
@@ -120,13 +120,13 @@ TEST_CASE(
 TEST_CASE("lines: blank cells make a blank row, a quote that is text or opens a field does not",
           "[text]") {
   for (const auto& [text, kinds] : {std::pair{",,\n\"\",\"\"\n", "blank blank "},
-                                    {"\"\"\"\",\n", "record "},
-                                    {",\"\n\"\n", "record "}}) {
+                                    {"\"\"\"\",\n", "row "},
+                                    {",\"\n\"\n", "row "}}) {
     const TemporaryFile file(text);
     Lines lines(file.name());
     lines.separate_by(',');
     std::string all;
-    while (lines.next()) all += lines.kind() == LineKind::blank ? "blank " : "record ";
+    while (lines.next()) all += lines.kind() == LineKind::blank ? "blank " : "row ";
     CHECK(all == kinds);
   }
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "unit/text/records.h"
+#include "unit/text/rows.h"
 
 using namespace rolling;
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs of records: one below another, in several files, side by side; their heads and names.
+// Runs of rows: one below another, in several files, side by side; their heads and names.
 #include "text/reader.h"
 
-#include "unit/text/records.h"
+#include "unit/text/rows.h"
 
 using namespace rolling;
 
 TEST_CASE("reader: a separator at the ends of lines may be left out in the second run too",
           "[text]") {
-  CHECK(records({"t,v,\n0,1,\n1,2\n\n2,3,\n3,4\n"}) == "0 1 | 1 2 || 2 3 | 3 4");
+  CHECK(rows({"t,v,\n0,1,\n1,2\n\n2,3,\n3,4\n"}) == "0 1 | 1 2 || 2 3 | 3 4");
 }
 
 TEST_CASE("reader: units that a comment gives to the columns of the second run alone", "[text]") {
@@ -17,28 +17,28 @@ TEST_CASE("reader: units that a comment gives to the columns of the second run a
 }
 
 TEST_CASE("reader: blank lines end a run, however many", "[text]") {
-  CHECK(records({"0 1\n1 2\n\n0 3\n"}) == "0 1 | 1 2 || 0 3");
-  CHECK(records({"\n\n0 1\n \n\t\n\n0 3\n\n\n"}) == "0 1 || 0 3");
-  CHECK(records({"0 1\n# a comment is no break\n1 2\n"}) == "0 1 | 1 2");
-  CHECK(records({"t,v\n0,1\n\nt,v\n0,2\n"}) == "0 1 || 0 2");  // each run under its own names line
-  CHECK(records({"t,v\n0,1\nt,v\n1,2\n"}) ==
+  CHECK(rows({"0 1\n1 2\n\n0 3\n"}) == "0 1 | 1 2 || 0 3");
+  CHECK(rows({"\n\n0 1\n \n\t\n\n0 3\n\n\n"}) == "0 1 || 0 3");
+  CHECK(rows({"0 1\n# a comment is no break\n1 2\n"}) == "0 1 | 1 2");
+  CHECK(rows({"t,v\n0,1\n\nt,v\n0,2\n"}) == "0 1 || 0 2");  // each run under its own names line
+  CHECK(rows({"t,v\n0,1\nt,v\n1,2\n"}) ==
         "FILE:3: field 1 (t): 't' is not a number; put a blank line before the names of "
         "another run");
 }
 
 TEST_CASE("reader: files in order, a run break between them", "[text]") {
-  CHECK(records({"0 1\n1 2\n", "0 3\n"}) == "0 1 | 1 2 || 0 3");
-  CHECK(records({"0 1", "0 3"}) == "0 1 || 0 3");
-  CHECK(records({"# t v\n0 1\n", "t,v\n0,3\n"}) ==
+  CHECK(rows({"0 1\n1 2\n", "0 3\n"}) == "0 1 | 1 2 || 0 3");
+  CHECK(rows({"0 1", "0 3"}) == "0 1 || 0 3");
+  CHECK(rows({"# t v\n0 1\n", "t,v\n0,3\n"}) ==
         "0 1 || 0 3");  // the form is each file's own, the columns are not
-  CHECK(records({"0 1\n\n", "\n0 3\n"}) == "0 1 || 0 3");
-  CHECK(records({"# t v\n0 1\n", "# v t\n0 3\n"}) == "0 1 || 3 0");
-  CHECK(records({"# t[s] v[m/s]\n0 1\n", "# t[ms] v[m/s]\n7 3\n"}) == "0 1 || 0.007 3");
-  CHECK(records({"# t v\n0 1\n", "0 3\n"}) ==
+  CHECK(rows({"0 1\n\n", "\n0 3\n"}) == "0 1 || 0 3");
+  CHECK(rows({"# t v\n0 1\n", "# v t\n0 3\n"}) == "0 1 || 3 0");
+  CHECK(rows({"# t[s] v[m/s]\n0 1\n", "# t[ms] v[m/s]\n7 3\n"}) == "0 1 || 0.007 3");
+  CHECK(rows({"# t v\n0 1\n", "0 3\n"}) ==
         "FILE: its columns are not those of FILE: those have names; give it a header");
-  CHECK(records({"0 1\n", "0 3 4\n"}) ==
+  CHECK(rows({"0 1\n", "0 3 4\n"}) ==
         "FILE: its columns are not those of FILE: 3, not 2; give it a header");
-  CHECK(records({"0 1\n", ""}) == "FILE: no rows");
+  CHECK(rows({"0 1\n", ""}) == "FILE: no rows");
 }
 
 TEST_CASE("reader: a second file that is not there is refused, and where() is still safe",
@@ -54,55 +54,55 @@ TEST_CASE("reader: a second file that is not there is refused, and where() is st
 }
 
 TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]") {
-  CHECK(records({"0 1\n\n0 2\n1 3\n\n0 4\n"}, run(2)) == "0 2 | 1 3");
-  CHECK(records({"0 1\n\n0 2\n"}, run(1)) == "0 1");
+  CHECK(rows({"0 1\n\n0 2\n1 3\n\n0 4\n"}, run(2)) == "0 2 | 1 3");
+  CHECK(rows({"0 1\n\n0 2\n"}, run(1)) == "0 1");
   // What is passed over is read as strictly, in the columns that are needed.
-  CHECK(records({"0 1\n\n0 bad\n\n0 4\n"}, run(3)) ==
+  CHECK(rows({"0 1\n\n0 bad\n\n0 4\n"}, run(3)) ==
         "FILE:3: field 2 (v): 'bad' is not a number; write NaN where a reading is missing");
-  CHECK(records({"0 1\n\n0 bad\n\n0 4\n"}, run(1)) ==
+  CHECK(rows({"0 1\n\n0 bad\n\n0 4\n"}, run(1)) ==
         "FILE:3: field 2 (v): 'bad' is not a number; write NaN where a reading is missing");
-  CHECK(records({"0 1\n\n0 bad\n\n0 4\n"}, run(3), {"t"}) == "0");
-  CHECK(records({"1 1\n1 2\n\n0 4\n"}, run(2)) == "FILE:2: field 1 (t): '1' does not come after 1");
-  CHECK(records({"1 1\n1 2\n\n0 4\n"}, run(2), {"v"}) == "4");
-  CHECK(records({"t,v (odd)\n0,1\n\nt,v\n0,4\n"}, run(2)).find("its unit 'odd'") < 60);
-  CHECK(records({"0 1\n0 1 2\n\n0 4\n"}, run(2)) == "FILE:2: 3 fields where the first row has 2");
-  CHECK(records({"0 1\n", "0 2\n", "0 3\n"}, run(2)) == "0 2");
-  CHECK(records({"Time (s) Run #7,Velocity (m/s) Run #7\n0,1\n"}, run(7)) == "0 1");
-  CHECK(records({"0 1\n\n0 2\n"}, run(3)) == "there is no run 3 (runs: 1, 2)");
-  CHECK(records({"t Run 2,v Run 2,t Run 4,v Run 4\n0,1,0,5\n"}, run(4)) == "0 5");
-  CHECK(records({"t Run 2,v Run 2,t Run 4,v Run 4\n0,1,0,5\n"}, run(3)) ==
+  CHECK(rows({"0 1\n\n0 bad\n\n0 4\n"}, run(3), {"t"}) == "0");
+  CHECK(rows({"1 1\n1 2\n\n0 4\n"}, run(2)) == "FILE:2: field 1 (t): '1' does not come after 1");
+  CHECK(rows({"1 1\n1 2\n\n0 4\n"}, run(2), {"v"}) == "4");
+  CHECK(rows({"t,v (odd)\n0,1\n\nt,v\n0,4\n"}, run(2)).find("its unit 'odd'") < 60);
+  CHECK(rows({"0 1\n0 1 2\n\n0 4\n"}, run(2)) == "FILE:2: 3 fields where the first row has 2");
+  CHECK(rows({"0 1\n", "0 2\n", "0 3\n"}, run(2)) == "0 2");
+  CHECK(rows({"Time (s) Run #7,Velocity (m/s) Run #7\n0,1\n"}, run(7)) == "0 1");
+  CHECK(rows({"0 1\n\n0 2\n"}, run(3)) == "there is no run 3 (runs: 1, 2)");
+  CHECK(rows({"t Run 2,v Run 2,t Run 4,v Run 4\n0,1,0,5\n"}, run(4)) == "0 5");
+  CHECK(rows({"t Run 2,v Run 2,t Run 4,v Run 4\n0,1,0,5\n"}, run(3)) ==
         "there is no run 3 (runs: 2, 4)");
   // Of files of several runs each, the numbers in the names of the runs.
-  CHECK(records({"t,v,t,v\n0,1,0,2\n", "t,v,t,v\n0,3,0,4\n"}, run(3)) ==
+  CHECK(rows({"t,v,t,v\n0,1,0,2\n", "t,v,t,v\n0,3,0,4\n"}, run(3)) ==
         "there is no run 3 (runs: 1, 2, 1, 2)");
-  CHECK(records({"## run a 7\n0 1\n\n## run b 1\n0 2\n"}, run(1)) == "0 2");
+  CHECK(rows({"## run a 7\n0 1\n\n## run b 1\n0 2\n"}, run(1)) == "0 2");
 }
 
 TEST_CASE("reader: --run picks one run and no other", "[text]") {
   const std::string second = ": another run 1; give the file of one of them alone";
   // Where names carry numbers, places do not count beside them.
-  CHECK(records({"Latest: t,Latest: v,Run 1: t,Run 1: v\n0,1,0,5\n"}, run(1)) == "0 5");
+  CHECK(rows({"Latest: t,Latest: v,Run 1: t,Run 1: v\n0,1,0,5\n"}, run(1)) == "0 5");
   // The number of one run and the place of another, in blocks of a file and in two files.
-  CHECK(records({"t,v\n0,1\n\nt Run #1,v Run #1\n0,7\n"}, run(1)) == "FILE:4" + second);
-  CHECK(records({"t,v\n0,1\n", "t Run #1,v Run #1\n0,7\n"}, run(1)) == "FILE:1" + second);
+  CHECK(rows({"t,v\n0,1\n\nt Run #1,v Run #1\n0,7\n"}, run(1)) == "FILE:4" + second);
+  CHECK(rows({"t,v\n0,1\n", "t Run #1,v Run #1\n0,7\n"}, run(1)) == "FILE:1" + second);
   // The same number twice.
-  CHECK(records({"t Run #1,v Run #1\n0,1\n\n0,7\n"}, run(1)) == "FILE:4" + second);
-  CHECK(records({"t Run 1,v Run 1,t Run 2,v Run 2\n0,1,0,2\n\n0,3,0,4\n"}, run(1)) ==
+  CHECK(rows({"t Run #1,v Run #1\n0,1\n\n0,7\n"}, run(1)) == "FILE:4" + second);
+  CHECK(rows({"t Run 1,v Run 1,t Run 2,v Run 2\n0,1,0,2\n\n0,3,0,4\n"}, run(1)) ==
         "FILE:4" + second);
 }
 
 TEST_CASE("reader: time increases within a run, and starts anew in the next", "[text]") {
-  CHECK(records({"0 1\n0 2\n"}) == "FILE:2: field 1 (t): '0' does not come after 0");
-  CHECK(records({"1 1\n0.5 2\n"}) ==
+  CHECK(rows({"0 1\n0 2\n"}) == "FILE:2: field 1 (t): '0' does not come after 0");
+  CHECK(rows({"1 1\n0.5 2\n"}) ==
         "FILE:2: field 1 (t): '0.5' does not come after 1; put a blank line before another run");
-  CHECK(records({"# t[ms] v\n500 1\n500 2\n"}) ==
+  CHECK(rows({"# t[ms] v\n500 1\n500 2\n"}) ==
         "FILE:3: field 1 (t): '500' does not come after 0.5 s");
-  CHECK(records({"5 1\n\n4 2\n"}) == "5 1 || 4 2");
-  CHECK(records({"-1e308 1\n1e308 2\n"}) == "-1e+308 1 | 1e+308 2");
-  CHECK(records({"0 1\n0 2\n"}, {}, {"v"}) == "1 | 2");  // who does not need t does not judge it
+  CHECK(rows({"5 1\n\n4 2\n"}) == "5 1 || 4 2");
+  CHECK(rows({"-1e308 1\n1e308 2\n"}) == "-1e+308 1 | 1e+308 2");
+  CHECK(rows({"0 1\n0 2\n"}, {}, {"v"}) == "1 | 2");  // who does not need t does not judge it
 }
 
-TEST_CASE("reader: comments pass, those in front of a run apart from those among its records",
+TEST_CASE("reader: comments pass, those in front of a run apart from those among its rows",
           "[text]") {
   const TemporaryFile file(
       "# by hand\n## smooth x mean width 3\n# t v\n0 1\n# among\n1 2\n# end\n\n# between\n0 3\n"
@@ -164,21 +164,21 @@ TEST_CASE("reader: --run gives the head of its run and nothing of another", "[te
 
 TEST_CASE("reader: names and units hold until others come", "[text]") {
   const std::string first = "# t[s]\tv[m/s]\n0\t1\n\n";
-  CHECK(records({first + "1\t2\n\n# t[ms]\tv[km/h]\n0\t36\n\n1000\t72\n"}) ==
+  CHECK(rows({first + "1\t2\n\n# t[ms]\tv[km/h]\n0\t36\n\n1000\t72\n"}) ==
         "0 1 || 1 2 || 0 10 || 1 20");
-  CHECK(records({first + "# v[m/s]\tt[s]\n5\t7\n"}) == "0 1 || 7 5");
-  CHECK(records({first + "# t[s]\tx[m]\tv[m/s]\n7\t8\t9\n"}) == "0 1 || 7 9");
-  CHECK(records({first + "# second run\n1\t2\n"}) == "0 1 || 1 2");  // a remark of two words
-  CHECK(records({first + "# t[s]\tx[m]\n1\t2\n"}) ==
+  CHECK(rows({first + "# v[m/s]\tt[s]\n5\t7\n"}) == "0 1 || 7 5");
+  CHECK(rows({first + "# t[s]\tx[m]\tv[m/s]\n7\t8\t9\n"}) == "0 1 || 7 9");
+  CHECK(rows({first + "# second run\n1\t2\n"}) == "0 1 || 1 2");  // a remark of two words
+  CHECK(rows({first + "# t[s]\tx[m]\n1\t2\n"}) ==
         "FILE:4: there is no column 'v' among t[s], x[m]; say --use v=COLUMN");
-  CHECK(records({first + "# t[s]\tv[furlong/s]\n1\t2\n"}) ==
+  CHECK(rows({first + "# t[s]\tv[furlong/s]\n1\t2\n"}) ==
         "FILE:4: column 'v[furlong/s]' cannot serve as v: its unit 'furlong/s' is not one of those "
         "known (m/s, mm/s, cm/s, km/h, mph, ft/s); convert it first or say --use 'v=2[UNIT]'");
-  CHECK(records({"# t w[rpm]\n0 1\n\n# t w[rad/s]\n0 2\n"}, {}, {"t", "w"}) ==
+  CHECK(rows({"# t w[rpm]\n0 1\n\n# t w[rad/s]\n0 2\n"}, {}, {"t", "w"}) ==
         "FILE:4: column w is in rad/s, and in rpm in the runs before");
-  CHECK(records({"# t w\n0 1\n\n# t u\n0 2\n"}, {}, {"t", "2"}) ==
+  CHECK(rows({"# t w\n0 1\n\n# t u\n0 2\n"}, {}, {"t", "2"}) ==
         "FILE:4: column 2 is u, and w in the runs before");
-  CHECK(records({first + "1\t2\t3\n"}) == "FILE:4: 3 fields where the first row has 2");
+  CHECK(rows({first + "1\t2\t3\n"}) == "FILE:4: 3 fields where the first row has 2");
 }
 
 TEST_CASE("reader: a run's name", "[text]") {
@@ -210,7 +210,7 @@ TEST_CASE("reader: a run's name", "[text]") {
   CHECK(run_names({}) == "<1><2>");
 }
 
-TEST_CASE("reader: where() is a record, behind the last one its run, and nothing around them",
+TEST_CASE("reader: where() is a row, behind the last one its run, and nothing around them",
           "[text]") {
   const TemporaryFile file("# t v\n0 1\n"), two("# t v\n0 1\n\n0 2\n");
   Reader in({.files = {file.name(), two.name()}}, {});
@@ -219,10 +219,10 @@ TEST_CASE("reader: where() is a record, behind the last one its run, and nothing
   const std::string places[][2] = {{file.name() + ":2", "run " + base(file.name())},
                                    {two.name() + ":2", "run " + base(two.name()) + " 1"},
                                    {two.name() + ":4", "run " + base(two.name()) + " 2"}};
-  for (const auto& [record, run] : places) {
+  for (const auto& [row, run] : places) {
     REQUIRE(in.next_run());
     REQUIRE(in.next());
-    CHECK(in.where() == record);
+    CHECK(in.where() == row);
     CHECK_FALSE(in.next());
     CHECK(in.where() == run);
   }
@@ -241,16 +241,16 @@ TEST_CASE(
   const std::string wide =
       "Time (s) Run #2,Velocity (m/s) Run #2,Time (s) Run #4,Velocity (m/s) Run "
       "#4\n0,1,0,5\n1,2,1,\n2,3,,\n";
-  CHECK(records({wide}) == "0 1 | 1 2 | 2 3 || 0 5");
-  CHECK(records({wide}, run(4)) == "0 5");
-  CHECK(records({wide}, run(2)) == "0 1 | 1 2 | 2 3");
-  CHECK(records({wide, "Time (s),Velocity (m/s)\n0,7\n", wide}) ==
+  CHECK(rows({wide}) == "0 1 | 1 2 | 2 3 || 0 5");
+  CHECK(rows({wide}, run(4)) == "0 5");
+  CHECK(rows({wide}, run(2)) == "0 1 | 1 2 | 2 3");
+  CHECK(rows({wide, "Time (s),Velocity (m/s)\n0,7\n", wide}) ==
         "0 1 | 1 2 | 2 3 || 0 5 || 0 7 || 0 1 | 1 2 | 2 3 || 0 5");
-  CHECK(records({wide}, strict) == "FILE:3: field 4 (v): a reading is missing");
-  CHECK(records({wide}, use({"t=3", "v=4"})) == "0 5");
-  CHECK(records({"Time (s),v Run 1,v Run 2\n0,1,5\n1,2,\n"}) == "0 1 | 1 2 || 0 5");
-  CHECK(records({"t v t v\n0 1 0 5\n1 2 1 6\n"}) == "0 1 | 1 2 || 0 5 | 1 6");
-  CHECK(records({"t;v;t;v\n0;1;0;5\n1;2\n"}) ==
+  CHECK(rows({wide}, strict) == "FILE:3: field 4 (v): a reading is missing");
+  CHECK(rows({wide}, use({"t=3", "v=4"})) == "0 5");
+  CHECK(rows({"Time (s),v Run 1,v Run 2\n0,1,5\n1,2,\n"}) == "0 1 | 1 2 || 0 5");
+  CHECK(rows({"t v t v\n0 1 0 5\n1 2 1 6\n"}) == "0 1 | 1 2 || 0 5 | 1 6");
+  CHECK(rows({"t;v;t;v\n0;1;0;5\n1;2\n"}) ==
         "0 1 | 1 2 || 0 5");  // a line that ends where the longer runs do
   const TemporaryFile torn("t,v,t,v\n0,1,5,3\n1,2\n2,3,7,4\n3,4\n");
   Reader in({.files = {torn.name()}}, {});
@@ -258,8 +258,8 @@ TEST_CASE(
   while (in.next_run())
     while (in.next()) continue;
   CHECK(in.left_out() == 1);  // data follows the torn row, so that it is no padding
-  CHECK(records({"t Run 1,v Run 1,t Run 2,v (km/h) Run 2,n Run 2\n0,1,0,36,7\n"}) == "0 1 || 0 10");
-  CHECK(records({"t Run 1,v Run 1,t Run 2,v Run 2\n0,1,0,x\n"}) ==
+  CHECK(rows({"t Run 1,v Run 1,t Run 2,v (km/h) Run 2,n Run 2\n0,1,0,36,7\n"}) == "0 1 || 0 10");
+  CHECK(rows({"t Run 1,v Run 1,t Run 2,v Run 2\n0,1,0,x\n"}) ==
         "FILE:2: field 4 (v): 'x' is not a number; write NaN where a reading is missing");
   CHECK(copies("Time (s) Run #2,v Run #2,Time (s) Run #4,v Run #4\n0.0,1,0.00,5\n") ==
         "<0.0\t1><0.00\t5>");
@@ -268,11 +268,11 @@ TEST_CASE(
 TEST_CASE("reader: stacked runs under repeated names keep their numbers", "[text]") {
   const std::string stacked =
       "Time (s) Run #3,v Run #3\n0,1\n\nTime (s) Run #5,v Run #5\n0,2\n1,3\n";
-  CHECK(records({stacked}) == "0 1 || 0 2 | 1 3");
-  CHECK(records({stacked}, run(5)) == "0 2 | 1 3");
-  CHECK(records({stacked}, run(1)) == "there is no run 1 (runs: 3, 5)");
-  CHECK(records({"v Run #3,t\n1,0\n\nv Run #5,t\n2,0\n"}, run(5), {"v"}) ==
+  CHECK(rows({stacked}) == "0 1 || 0 2 | 1 3");
+  CHECK(rows({stacked}, run(5)) == "0 2 | 1 3");
+  CHECK(rows({stacked}, run(1)) == "there is no run 1 (runs: 3, 5)");
+  CHECK(rows({"v Run #3,t\n1,0\n\nv Run #5,t\n2,0\n"}, run(5), {"v"}) ==
         "2");  // not every name has it
-  CHECK(records({"t,v\n0,1\n\nt,w\n0,2\n"}) ==
+  CHECK(rows({"t,v\n0,1\n\nt,w\n0,2\n"}) ==
         "FILE:4: there is no column 'v' among t, w; say --use v=COLUMN");
 }

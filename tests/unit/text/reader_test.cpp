@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "text/reader.h"
 
-#include "unit/text/records.h"
+#include "unit/text/rows.h"
 
 using namespace rolling;
 
@@ -9,72 +9,72 @@ using namespace rolling;
 static const std::string signs = "; write it with the digits 0 to 9, a hyphen and a point alone";
 
 TEST_CASE("reader: blanks, tabs, commas and semicolons separate", "[text]") {
-  CHECK(records({"0 1\n1 2\n"}) == "0 1 | 1 2");
-  CHECK(records({"  0   1  \n\t1 \t2\n"}) == "0 1 | 1 2");
-  CHECK(records({"0\t1\n1\t2\n"}) == "0 1 | 1 2");
-  CHECK(records({"0,1\n1,2\n"}) == "0 1 | 1 2");
-  CHECK(records({"0 , 1\n 1,\t2\n"}) == "0 1 | 1 2");
-  CHECK(records({"0;1\n1;2\n"}) == "0 1 | 1 2");
-  CHECK(records({"0 1\n1 2"}) == "0 1 | 1 2");
+  CHECK(rows({"0 1\n1 2\n"}) == "0 1 | 1 2");
+  CHECK(rows({"  0   1  \n\t1 \t2\n"}) == "0 1 | 1 2");
+  CHECK(rows({"0\t1\n1\t2\n"}) == "0 1 | 1 2");
+  CHECK(rows({"0,1\n1,2\n"}) == "0 1 | 1 2");
+  CHECK(rows({"0 , 1\n 1,\t2\n"}) == "0 1 | 1 2");
+  CHECK(rows({"0;1\n1;2\n"}) == "0 1 | 1 2");
+  CHECK(rows({"0 1\n1 2"}) == "0 1 | 1 2");
 }
 
-TEST_CASE("reader: the first record sets the separator, and the others have it", "[text]") {
-  CHECK(records({"0,1\n1;2\n"}) == "FILE:2: 1 field where the first row has 2");
-  CHECK(records({"0\t1\n1 2\n"}) == "FILE:2: 1 field where the first row has 2");
-  CHECK(records({"0 1\n1 2 3\n"}) == "FILE:2: 3 fields where the first row has 2");
-  CHECK(records({"0,1\n1,2,\n"}) ==
+TEST_CASE("reader: the first row sets the separator, and the others have it", "[text]") {
+  CHECK(rows({"0,1\n1;2\n"}) == "FILE:2: 1 field where the first row has 2");
+  CHECK(rows({"0\t1\n1 2\n"}) == "FILE:2: 1 field where the first row has 2");
+  CHECK(rows({"0 1\n1 2 3\n"}) == "FILE:2: 3 fields where the first row has 2");
+  CHECK(rows({"0,1\n1,2,\n"}) ==
         "FILE:2: 3 fields where the first row has 2; if some of its commas are decimal ones, "
         "make them points first");
 }
 
 TEST_CASE("reader: names in the last # line before the data", "[text]") {
-  CHECK(records({"# v[m/s]\tt[s]\n5 0\n"}) == "0 5");
-  CHECK(records({"# v t\n5,0\n"}) == "0 5");
-  CHECK(records({"# v, t\n5,0\n"}) == "0 5");
-  CHECK(records({"#v;t\n5;0\n"}) == "0 5");
-  CHECK(records({"# Velocity (m/s) Time (s)\n5 0\n"}) == "0 5");
-  CHECK(records({"# made by me\n# on a Monday\n# v t\n5 0\n"}) == "0 5");
-  CHECK(records({"# v t\n## smooth v mean width 3\n5 0\n"}) == "0 5");
-  CHECK(records({"# v t\n# three words here\n5 0\n"}) ==
+  CHECK(rows({"# v[m/s]\tt[s]\n5 0\n"}) == "0 5");
+  CHECK(rows({"# v t\n5,0\n"}) == "0 5");
+  CHECK(rows({"# v, t\n5,0\n"}) == "0 5");
+  CHECK(rows({"#v;t\n5;0\n"}) == "0 5");
+  CHECK(rows({"# Velocity (m/s) Time (s)\n5 0\n"}) == "0 5");
+  CHECK(rows({"# made by me\n# on a Monday\n# v t\n5 0\n"}) == "0 5");
+  CHECK(rows({"# v t\n## smooth v mean width 3\n5 0\n"}) == "0 5");
+  CHECK(rows({"# v t\n# three words here\n5 0\n"}) ==
         "0 5");  // a remark: not as many names as columns
-  CHECK(records({"#\n#\n5 0\n"}) == "5 0");
+  CHECK(rows({"#\n#\n5 0\n"}) == "5 0");
 }
 
 TEST_CASE("reader: names in a first line that is not numeric", "[text]") {
-  CHECK(records({"v t\n5 0\n"}) == "0 5");
-  CHECK(records({"Velocity (m/s),Time (s)\n5,0\n"}) == "0 5");
-  CHECK(records({"Velocity (m/s);Time (s)\n5;0\n"}) == "0 5");
-  CHECK(records({"Velocity (m/s)\tTime (s)\n5\t0\n"}) == "0 5");
-  CHECK(records({"# a comment\n\nv t\n\n5 0\n"}) == "0 5");
-  CHECK(records({"A preamble of words\nv t\n5 0\n"}) == "0 5");
-  CHECK(records({"t v a\n0 5\n"}) ==
+  CHECK(rows({"v t\n5 0\n"}) == "0 5");
+  CHECK(rows({"Velocity (m/s),Time (s)\n5,0\n"}) == "0 5");
+  CHECK(rows({"Velocity (m/s);Time (s)\n5;0\n"}) == "0 5");
+  CHECK(rows({"Velocity (m/s)\tTime (s)\n5\t0\n"}) == "0 5");
+  CHECK(rows({"# a comment\n\nv t\n\n5 0\n"}) == "0 5");
+  CHECK(rows({"A preamble of words\nv t\n5 0\n"}) == "0 5");
+  CHECK(rows({"t v a\n0 5\n"}) ==
         "FILE:2: 2 fields under a line of 3 names; if a name has blanks in it, put it in quotes");
-  CHECK(records({"t v\n0\n"}) ==
+  CHECK(rows({"t v\n0\n"}) ==
         "FILE:2: 1 field under a line of 2 names; if a name has blanks in it, put it in quotes");
-  CHECK(records({"t v\r\n0 5\r\n\x1A"}) == "0 5");
-  CHECK(records({"# t\tv\n0\t5\n\n# t v\n0 7\n"}) ==
+  CHECK(rows({"t v\r\n0 5\r\n\x1A"}) == "0 5");
+  CHECK(rows({"# t\tv\n0\t5\n\n# t v\n0 7\n"}) ==
         "FILE:5: '0 7' is separated by blanks, and the rows before by tabs; if it is a heading, "
         "begin it with #");
-  CHECK(records({"t v\n0 5\n\nt;v\n0,5;7\n"}) ==
+  CHECK(rows({"t v\n0 5\n\nt;v\n0,5;7\n"}) ==
         "FILE:5: '0,5;7' is separated by ';', and the rows before by blanks; if it is a "
         "heading, begin it with #");
-  CHECK(records({"t,v\n0,5\n\n0;\n"}) ==
+  CHECK(rows({"t,v\n0,5\n\n0;\n"}) ==
         "FILE:4: '0;' is separated by ';', and the rows before by ','; if it is a heading, "
         "begin it with #");
-  CHECK(records({"# t\tv\n0\t5\n\n0;7;note\n"}) ==
+  CHECK(rows({"# t\tv\n0\t5\n\n0;7;note\n"}) ==
         "FILE:4: '0;7;note' is separated by ';', and the rows before by tabs; if it is a "
         "heading, begin it with #");
-  CHECK(records({"t,v\n0,5\n\nRun 2\n\nThe end of 3 runs\n\n1. try\n"}) == "0 5");
+  CHECK(rows({"t,v\n0,5\n\nRun 2\n\nThe end of 3 runs\n\n1. try\n"}) == "0 5");
   const std::string hint = "; if this line is not a row, begin it with #";
-  // Quotes that are none in this file do not make a record a line of names, or a remark.
-  CHECK(records({"# t v\n\"0\" \"5\"\n1 6\n"}, use({"t=1", "v=2"})) ==
+  // Quotes that are none in this file do not make a row a line of names, or a remark.
+  CHECK(rows({"# t v\n\"0\" \"5\"\n1 6\n"}, use({"t=1", "v=2"})) ==
         "FILE:2: field 1 (t): '\"0\"' is not a number" + signs);
-  CHECK(records({"t,v\n'0','5'\n1,6\n"}) == "FILE:2: field 1 (t): ''0'' is not a number" + signs);
-  CHECK(records({"t v\n0 5\n\n\"1\" \"6\"\n"}) ==
+  CHECK(rows({"t,v\n'0','5'\n1,6\n"}) == "FILE:2: field 1 (t): ''0'' is not a number" + signs);
+  CHECK(rows({"t v\n0 5\n\n\"1\" \"6\"\n"}) ==
         "FILE:4: field 1 (t): '\"1\"' is not a number" + signs);
-  CHECK(records({"t,v\n0,5\n\nSecond\n0,5\n"}) ==
+  CHECK(rows({"t,v\n0,5\n\nSecond\n0,5\n"}) ==
         "FILE:5: 2 fields under a line of 1 name; if line 4 is a heading, begin it with #");
-  CHECK(records({"\"Velocity (m/s)\",\"Time (s)\"\n5,0\n"}) == "0 5");
+  CHECK(rows({"\"Velocity (m/s)\",\"Time (s)\"\n5,0\n"}) == "0 5");
 }
 
 TEST_CASE("reader: names of columns that no tool knows, and of none", "[text]") {
@@ -86,41 +86,40 @@ TEST_CASE("reader: names of columns that no tool knows, and of none", "[text]") 
 }
 
 TEST_CASE("reader: byte order mark, CR LF, quotes", "[text]") {
-  CHECK(records({"\xEF\xBB\xBF"
-                 "v,t\r\n5,0\r\n\r\n6,0\r\n"}) == "0 5 || 0 6");
-  CHECK(records({"\xEF\xBB\xBF"
-                 "5,0\r\n"}) == "5 0");
-  CHECK(records({"\xEF\xBB\xBFt,v\n0,5\n\n\xEF\xBB\xBFt,v\n0,6\n"}) == "0 5 || 0 6");
-  CHECK(records({"\"t\",\"v\"\n\"0\",\"5\"\n\"1\",6\n"}) == "0 5 | 1 6");
+  CHECK(rows({"\xEF\xBB\xBF"
+              "v,t\r\n5,0\r\n\r\n6,0\r\n"}) == "0 5 || 0 6");
+  CHECK(rows({"\xEF\xBB\xBF"
+              "5,0\r\n"}) == "5 0");
+  CHECK(rows({"\xEF\xBB\xBFt,v\n0,5\n\n\xEF\xBB\xBFt,v\n0,6\n"}) == "0 5 || 0 6");
+  CHECK(rows({"\"t\",\"v\"\n\"0\",\"5\"\n\"1\",6\n"}) == "0 5 | 1 6");
   CHECK(copies("t,v,note\n0,5,\"a, \"\"b\"\"\"\n") == "<0\t5\t\"a, \"\"b\"\"\">");
   CHECK(copies("t,v,u\n0,0,\"\"\"\"\n") == "<0\t0\t\"\"\"\">");  // quoted where it has to be
   CHECK(copies("u,t,v\n\"#1\",0,5\n\"a\tb\",1,5\n\"a\nb\",2,5\n") ==
         "<\"#1\"\t0\t5><\"a\tb\"\t1\t5><\"a\nb\"\t2\t5>");
-  CHECK(records({"t,v\n0,\"1\"5\n"}) == "FILE:2: field 2: text behind the quote that closes '1'");
+  CHECK(rows({"t,v\n0,\"1\"5\n"}) == "FILE:2: field 2: text behind the quote that closes '1'");
 }
 
 TEST_CASE("reader: a decimal comma where ; or tab separates", "[text]") {
-  CHECK(records({"t;v\n0,5;1,25\n1;2\n1,5;-3,5e2\n"}) == "0.5 1.25 | 1 2 | 1.5 -350");
-  CHECK(records({"t\tv\n0,5\t1,25\n"}) == "0.5 1.25");
+  CHECK(rows({"t;v\n0,5;1,25\n1;2\n1,5;-3,5e2\n"}) == "0.5 1.25 | 1 2 | 1.5 -350");
+  CHECK(rows({"t\tv\n0,5\t1,25\n"}) == "0.5 1.25");
   CHECK(copies("t;v\n0,50;+1,250\n") == "<0.50\t+1.250>");  // only the mark changes
 }
 
-TEST_CASE("reader: a first record that has decimal commas only is a record, not names", "[text]") {
-  CHECK(records({"0,0;1,5\n0,1;1,6\n"}) == "0 1.5 | 0.1 1.6");
-  CHECK(records({"Zeit (s);v (m/s)\n0,0;1,5\n1;1,6\n"}, use({"t=1"})) == "0 1.5 | 1 1.6");
-  CHECK(records({"t\tv\n0,0\t1,5\n1\t2\n"}) == "0 1.5 | 1 2");
+TEST_CASE("reader: a first row that has decimal commas only is a row, not names", "[text]") {
+  CHECK(rows({"0,0;1,5\n0,1;1,6\n"}) == "0 1.5 | 0.1 1.6");
+  CHECK(rows({"Zeit (s);v (m/s)\n0,0;1,5\n1;1,6\n"}, use({"t=1"})) == "0 1.5 | 1 1.6");
+  CHECK(rows({"t\tv\n0,0\t1,5\n1\t2\n"}) == "0 1.5 | 1 2");
 }
 
-TEST_CASE("reader: a first record whose readings are all missing is a record, not names",
-          "[text]") {
-  CHECK(records({"# t v\nNaN NaN\n0 1\n"}) == "0 1");
-  CHECK(records({"t,v\nNaN,nan\n0,1\n"}) == "0 1");
-  CHECK(records({"NaN NaN\n0 1\n"}) == "0 1");
-  CHECK(records({"t,v\n,\n0,1\n"}) == "0 1");
-  CHECK(records({"# v t\n;\n5;0\n"}) == "0 5");
-  CHECK(records({"# v t\n## smooth v mean width 3\n;\n5;0\n"}) == "0 5");
-  CHECK(records({"t,v\n,\n0,1\n"}, strict) == "0 1");    // a blank row is a run break
-  CHECK(records({"My cart,\n,\nt,v\n0,1\n"}) == "0 1");  // blank cells of a preamble
+TEST_CASE("reader: a first row whose readings are all missing is a row, not names", "[text]") {
+  CHECK(rows({"# t v\nNaN NaN\n0 1\n"}) == "0 1");
+  CHECK(rows({"t,v\nNaN,nan\n0,1\n"}) == "0 1");
+  CHECK(rows({"NaN NaN\n0 1\n"}) == "0 1");
+  CHECK(rows({"t,v\n,\n0,1\n"}) == "0 1");
+  CHECK(rows({"# v t\n;\n5;0\n"}) == "0 5");
+  CHECK(rows({"# v t\n## smooth v mean width 3\n;\n5;0\n"}) == "0 5");
+  CHECK(rows({"t,v\n,\n0,1\n"}, strict) == "0 1");    // a blank row is a run break
+  CHECK(rows({"My cart,\n,\nt,v\n0,1\n"}) == "0 1");  // blank cells of a preamble
 }
 
 TEST_CASE("reader: a row of blank cells is a run break, whatever separates them", "[text]") {
@@ -131,69 +130,68 @@ TEST_CASE("reader: a row of blank cells is a run break, whatever separates them"
         const auto row = [&](int t) { return fmt::format("{1}{0}{2}{0}3\n", separator, t, t + 1); };
         const std::string names = named ? "t" + separator + "v" + separator + "w\n" : "";
         INFO(names << blank);
-        CHECK(records({names + row(0) + row(1) + blank + row(0) + blank + blank + row(1) +
-                       blank}) == "0 1 | 1 2 || 0 1 || 1 2");
-        CHECK(records({blank + names + blank + row(0)}) == "0 1");
+        CHECK(rows({names + row(0) + row(1) + blank + row(0) + blank + blank + row(1) + blank}) ==
+              "0 1 | 1 2 || 0 1 || 1 2");
+        CHECK(rows({blank + names + blank + row(0)}) == "0 1");
       }
-  CHECK(records({"t,v,t,v\n0,1,0,5\n,,,\n2,3,2,6\n"}) == "0 1 || 0 5 || 2 3 || 2 6");
-  CHECK(records({"0 1\n,\n1 2\n"}).starts_with("FILE:2"));  // no separator of this file
+  CHECK(rows({"t,v,t,v\n0,1,0,5\n,,,\n2,3,2,6\n"}) == "0 1 || 0 5 || 2 3 || 2 6");
+  CHECK(rows({"0 1\n,\n1 2\n"}).starts_with("FILE:2"));  // no separator of this file
 }
 
 TEST_CASE("reader: what is no number is refused with what to do about it", "[text]") {
-  CHECK(records({"t,v\n0,1\n10:15:00.5,2\n"}) ==
+  CHECK(rows({"t,v\n0,1\n10:15:00.5,2\n"}) ==
         "FILE:3: field 1 (t): '10:15:00.5' is not a number; make it one number of seconds first "
         "(rolling-recipes(7))");
-  CHECK(records({"t,v\n0,1\n1 5,2\n"}) ==
+  CHECK(rows({"t,v\n0,1\n1 5,2\n"}) ==
         "FILE:3: field 1 (t): '1 5' is not a number; if a comma here is a decimal one, make it a "
         "point first");
-  CHECK(records({"t,v\n0,1\n1 x,2\n"}) ==
+  CHECK(rows({"t,v\n0,1\n1 x,2\n"}) ==
         "FILE:3: field 1 (t): '1 x' is not a number; write the number alone, and its unit into the "
         "header");
   for (const char* text : {"t;v\n1 000;2\n",
                            "t;v\n1\xE2\x80\xAF"
                            "000;2\n"})
-    CHECK(records({text}) == "FILE:2: field 1 (t): '1 000' is not a number" + signs);
-  CHECK(records({"t;v\n1.000,5;2\n"}) == "FILE:2: field 1 (t): '1.000,5' is not a number" + signs);
-  CHECK(records({"t v\n5\xC2\xA0 2\n"}) == "FILE:2: field 1 (t): '5 ' is not a number" + signs);
+    CHECK(rows({text}) == "FILE:2: field 1 (t): '1 000' is not a number" + signs);
+  CHECK(rows({"t;v\n1.000,5;2\n"}) == "FILE:2: field 1 (t): '1.000,5' is not a number" + signs);
+  CHECK(rows({"t v\n5\xC2\xA0 2\n"}) == "FILE:2: field 1 (t): '5 ' is not a number" + signs);
 }
 
 TEST_CASE("reader: two decimal marks in one file are refused", "[text]") {
-  CHECK(records({"t;v\n0,5;1\n1.5;2\n"}) ==
+  CHECK(rows({"t;v\n0,5;1\n1.5;2\n"}) ==
         "FILE:3: field 1: the decimal mark of '1.5' is not that of the numbers before it");
-  CHECK(records({"t;v\n0.5;1\n1,5;2\n"}) ==
+  CHECK(rows({"t;v\n0.5;1\n1,5;2\n"}) ==
         "FILE:3: field 1 (t): '1,5' is not a number; if a comma here is a decimal one, make it a "
         "point first");
-  CHECK(records({"0.5 1\n1,5 2\n"}) ==
+  CHECK(rows({"0.5 1\n1,5 2\n"}) ==
         "FILE:2: field 1 (t): '1,5' is not a number; if a comma here is a decimal one, make it a "
         "point first");
-  CHECK(records({"t\tv\n0\t998\n1\t1,002\n"}) ==
+  CHECK(rows({"t\tv\n0\t998\n1\t1,002\n"}) ==
         "FILE:3: field 2: '1,002' can be read in two ways: if its comma is a decimal one, replace "
         "it by "
         "a point, else remove it");
-  CHECK(records({"t\tv\n0,0\t1,002\n"}) == "0 1.002");
-  CHECK(records({"t;v\n0;1,234,567\n"}) ==
-        "FILE:2: field 2 (v): '1,234,567' is not a number" + signs);
-  CHECK(records({"t;v\n0;1,234.5\n"}) == "FILE:2: field 2 (v): '1,234.5' is not a number" + signs);
+  CHECK(rows({"t\tv\n0,0\t1,002\n"}) == "0 1.002");
+  CHECK(rows({"t;v\n0;1,234,567\n"}) == "FILE:2: field 2 (v): '1,234,567' is not a number" + signs);
+  CHECK(rows({"t;v\n0;1,234.5\n"}) == "FILE:2: field 2 (v): '1,234.5' is not a number" + signs);
 }
 
 TEST_CASE("reader: --use says which column serves, by name or number", "[text]") {
-  CHECK(records({"0 1 2\n1 3 4\n"}, use({"v=3"})) == "0 2 | 1 4");
-  CHECK(records({"# time_of_day speed_of_light\n0 1\n"},
-                use({"t=time_of_day", "v=speed_of_light"})) == "0 1");
-  CHECK(records({"# t v\n0 1\n"}, use({"t=v", "v=t"})) == "1 0");
-  CHECK(records({"# t w[rpm]\n0 1\n"}, use({"v=w"})) ==
+  CHECK(rows({"0 1 2\n1 3 4\n"}, use({"v=3"})) == "0 2 | 1 4");
+  CHECK(rows({"# time_of_day speed_of_light\n0 1\n"}, use({"t=time_of_day", "v=speed_of_light"})) ==
+        "0 1");
+  CHECK(rows({"# t v\n0 1\n"}, use({"t=v", "v=t"})) == "1 0");
+  CHECK(rows({"# t w[rpm]\n0 1\n"}, use({"v=w"})) ==
         "FILE: column 'w[rpm]' cannot serve as v: its unit 'rpm' is not one of those known (m/s, "
         "mm/s, cm/s, km/h, mph, ft/s); convert it first or say --use 'v=2[UNIT]'");
-  CHECK(records({"0 1 72\n"}, use({"v=3[km/h]"})) == "0 20");
-  CHECK(records({"# t w\n0 72\n"}, use({"v=w[MPH]"})) == "0 32.18688");
-  CHECK(records({"# t w[m/s]\n0 72\n"}, use({"v=w[km/h]"})) ==
+  CHECK(rows({"0 1 72\n"}, use({"v=3[km/h]"})) == "0 20");
+  CHECK(rows({"# t w\n0 72\n"}, use({"v=w[MPH]"})) == "0 32.18688");
+  CHECK(rows({"# t w[m/s]\n0 72\n"}, use({"v=w[km/h]"})) ==
         "FILE: --use v says km/h, but the column's name w[m/s]");
-  CHECK(records({"1 2 3 40\n"}, use({"t=4[ms]", "v=2"})) == "0.04 2");
-  CHECK(records({"1 2 3 40\n"}, use({"t=4"})) ==
+  CHECK(rows({"1 2 3 40\n"}, use({"t=4[ms]", "v=2"})) == "0.04 2");
+  CHECK(rows({"1 2 3 40\n"}, use({"t=4"})) ==
         "FILE:1: there is no column 'v' among 4 columns without names; if this line is a heading, "
         "begin it with #, or say --use v=COLUMN");
-  CHECK(records({"# t w[km/h]\n0 72\n"}, use({"v=w"})) == "0 20");
-  CHECK(records({"0 1 2\n"}, use({"Velocity=3"})) == "0 2");  // the long name is the same quantity
+  CHECK(rows({"# t w[km/h]\n0 72\n"}, use({"v=w"})) == "0 20");
+  CHECK(rows({"0 1 2\n"}, use({"Velocity=3"})) == "0 2");  // the long name is the same quantity
 }
 
 TEST_CASE("reader: a comma that may separate thousands is refused, whatever minus stands before it",
@@ -201,39 +199,39 @@ TEST_CASE("reader: a comma that may separate thousands is refused, whatever minu
   const std::string two_ways =
       "can be read in two ways: if its comma is a decimal one, replace it by a point, else remove "
       "it";
-  CHECK(records({"t\tv\n0\t-1,002\n"}) == "FILE:2: field 2: '-1,002' " + two_ways);
-  CHECK(records({"t\tv\n0\t\xE2\x88\x92"
-                 "1,002\n"}) == "FILE:2: field 2: '???1,002' " + two_ways);
+  CHECK(rows({"t\tv\n0\t-1,002\n"}) == "FILE:2: field 2: '-1,002' " + two_ways);
+  CHECK(rows({"t\tv\n0\t\xE2\x88\x92"
+              "1,002\n"}) == "FILE:2: field 2: '???1,002' " + two_ways);
   // In a column that is not needed it is text, but then no decimal comma may follow.
-  CHECK(records({"x\tt\tv\n1,002\t0\t1\n3\t1\t2\n"}) == "0 1 | 1 2");
-  CHECK(records({"x\tt\tv\n1,002\t0\t1\n3,5\t1\t2\n"}) ==
+  CHECK(rows({"x\tt\tv\n1,002\t0\t1\n3\t1\t2\n"}) == "0 1 | 1 2");
+  CHECK(rows({"x\tt\tv\n1,002\t0\t1\n3,5\t1\t2\n"}) ==
         "FILE:3: field 1: '3,5' has a decimal comma, and the comma of a number before it could be "
         "read in two ways: replace each decimal comma by a point, and remove each other comma");
 }
 
 TEST_CASE("reader: in a file separated by tabs, a tab in front is a blank field", "[text]") {
-  CHECK(records({"note\ttag\tt\tv\nx\t#1\t0\t1\n\t#2\t1\t2\n\t## 3\t2\t3\n"}) == "0 1 | 1 2 | 2 3");
-  CHECK(records({"note\ttag\tt\tv\n\t#1\t0\t1\n\t## 2\t1\t2\n"}) == "0 1 | 1 2");
-  CHECK(records({"# note\ttag\tt\tv\n\t#1\t0\t1\n\t## 2\t1\t2\n"}) == "0 1 | 1 2");
-  CHECK(records({"note\tt\tv\n\t# remark\nx\t0\t1\n"}) == "0 1");
-  CHECK(records({"t,v\n\t# remark\n0,1\n"}) == "0 1");
+  CHECK(rows({"note\ttag\tt\tv\nx\t#1\t0\t1\n\t#2\t1\t2\n\t## 3\t2\t3\n"}) == "0 1 | 1 2 | 2 3");
+  CHECK(rows({"note\ttag\tt\tv\n\t#1\t0\t1\n\t## 2\t1\t2\n"}) == "0 1 | 1 2");
+  CHECK(rows({"# note\ttag\tt\tv\n\t#1\t0\t1\n\t## 2\t1\t2\n"}) == "0 1 | 1 2");
+  CHECK(rows({"note\tt\tv\n\t# remark\nx\t0\t1\n"}) == "0 1");
+  CHECK(rows({"t,v\n\t# remark\n0,1\n"}) == "0 1");
 }
 
 TEST_CASE("reader: tabs between names separate the fields, though blanks stand between numbers",
           "[text]") {
-  CHECK(records({"# t\tv\tnote\n0\t1\t1 2\n1\t2\t3\n"}) == "0 1 | 1 2");
-  CHECK(records({"t\tv\tnote\n0\t1\t1 2\n1\t2\t3\n"}) == "0 1 | 1 2");
-  CHECK(records({"# t\tv x\n0\t1 2\n1\t2 3\n"}) == "0 1 | 1 2");
+  CHECK(rows({"# t\tv\tnote\n0\t1\t1 2\n1\t2\t3\n"}) == "0 1 | 1 2");
+  CHECK(rows({"t\tv\tnote\n0\t1\t1 2\n1\t2\t3\n"}) == "0 1 | 1 2");
+  CHECK(rows({"# t\tv x\n0\t1 2\n1\t2 3\n"}) == "0 1 | 1 2");
 }
 
 TEST_CASE("reader: a carriage return or a NUL within a line is refused wherever it stands",
           "[text]") {
   const std::string refused =
       "FILE:2: a carriage return within the line; make the line ends LF first (tr '\\r' '\\n')";
-  CHECK(records({"0 1 a\n1 2 b\rc\n"}) == refused);
-  CHECK(records({"0 1 a\n# b\rc\n1 2 a\n"}) == refused);
-  CHECK(records({"0,1,a\n1,2,\"b\rc\"\n"}) == refused);
-  CHECK(records({std::string("0 1 a\n1 2 \0\n", 12)}).starts_with("FILE:2: a NUL byte"));
+  CHECK(rows({"0 1 a\n1 2 b\rc\n"}) == refused);
+  CHECK(rows({"0 1 a\n# b\rc\n1 2 a\n"}) == refused);
+  CHECK(rows({"0,1,a\n1,2,\"b\rc\"\n"}) == refused);
+  CHECK(rows({std::string("0 1 a\n1 2 \0\n", 12)}).starts_with("FILE:2: a NUL byte"));
 }
 
 TEST_CASE("reader: a unit that only a comment gives is not passed over", "[text]") {
@@ -277,18 +275,18 @@ TEST_CASE("reader: no words about units are passed over, whatever names the colu
 }
 
 TEST_CASE("reader: units are converted, and go out converted", "[text]") {
-  CHECK(records({"# t[ms] v[km/h]\n0 72\n40 36\n"}) == "0 20 | 0.04 10");
+  CHECK(rows({"# t[ms] v[km/h]\n0 72\n40 36\n"}) == "0 20 | 0.04 10");
   CHECK(copies("# t[ms] v[km/h] x[mm]\n40 36 007\n") ==
         "<0.04\t10\t007>");  // x is not needed: as it came
   CHECK(
-      records({"# t[parsec] v\n0 1\n"}) ==
+      rows({"# t[parsec] v\n0 1\n"}) ==
       "FILE: column 't[parsec]' cannot serve as t: its unit 'parsec' is not one of those known (s, "
       "sec, ms, us, min, h); convert it first or say --use 't=1[UNIT]'");
-  CHECK(records({"# t[h] v\n1e308 1\n"}) ==
+  CHECK(rows({"# t[h] v\n1e308 1\n"}) ==
         "FILE:2: field 1 (t): '1e308' is beyond the range of a double in SI units");
 }
 
-TEST_CASE("reader: a missing reading leaves its record out, and is counted", "[text]") {
+TEST_CASE("reader: a missing reading leaves its row out, and is counted", "[text]") {
   const TemporaryFile file("t,v,x\n0,1,\n1,,5\n2,NaN,5\n3,nan,\n4,2,NaN\n");
   Reader in({.files = {file.name()}}, {});
   in.need_time();
@@ -298,36 +296,36 @@ TEST_CASE("reader: a missing reading leaves its record out, and is counted", "[t
     while (in.next()) ++seen;
   CHECK(seen == 2);
   CHECK(in.left_out() == 3);
-  CHECK(records({"t,v\n0,1\n1,\n2,3\n"}) == "0 1 | 2 3");
-  CHECK(records({"t,v\n0,1\n1,\n"}, strict) == "FILE:3: field 2 (v): a reading is missing");
-  CHECK(records({"t,v,x\n0,1,\n"}, strict) == "0 1");  // x is not needed
-  CHECK(records({"t v\n0 1\n1 NaN\n"}, strict) == "FILE:3: field 2 (v): a reading is missing");
+  CHECK(rows({"t,v\n0,1\n1,\n2,3\n"}) == "0 1 | 2 3");
+  CHECK(rows({"t,v\n0,1\n1,\n"}, strict) == "FILE:3: field 2 (v): a reading is missing");
+  CHECK(rows({"t,v,x\n0,1,\n"}, strict) == "0 1");  // x is not needed
+  CHECK(rows({"t v\n0 1\n1 NaN\n"}, strict) == "FILE:3: field 2 (v): a reading is missing");
 }
 
 TEST_CASE("reader: what is neither number nor missing is refused, and says where", "[text]") {
-  CHECK(records({"0 1\n1 abc\n"}) ==
+  CHECK(rows({"0 1\n1 abc\n"}) ==
         "FILE:2: field 2 (v): 'abc' is not a number; write NaN where a reading is missing");
-  CHECK(records({"0 1\n\n# c\n1 inf\n"}) ==
+  CHECK(rows({"0 1\n\n# c\n1 inf\n"}) ==
         "FILE:4: field 2 (v): 'inf' is not a number; write NaN where a reading is missing");
-  CHECK(records({"0 1\n1 1e400\n"}) == "FILE:2: field 2 (v): '1e400' is not a number");
+  CHECK(rows({"0 1\n1 1e400\n"}) == "FILE:2: field 2 (v): '1e400' is not a number");
   const auto begins = [](const std::string& row, const std::string& message) {
-    CHECK(records({"0 1\n" + row}).starts_with(message));
+    CHECK(rows({"0 1\n" + row}).starts_with(message));
   };
   begins("1 0x1\n", "FILE:2: field 2 (v): '0x1' is not a number");
   begins("1 " + std::string(50, '9') + "x\n",
          "FILE:2: field 2 (v): '" + std::string(40, '9') + "...' is not a number");
-  CHECK(records({"0 1\n1 \xE2\x88\x92"
-                 "1\n"}) == "FILE:2: field 2 (v): '???1' is not a number" + signs);
+  CHECK(rows({"0 1\n1 \xE2\x88\x92"
+              "1\n"}) == "FILE:2: field 2 (v): '???1' is not a number" + signs);
 }
 
 TEST_CASE("reader: an empty file, a header alone, words alone", "[text]") {
-  CHECK(records({""}) == "FILE: no rows");
-  CHECK(records({"\n\n"}) == "FILE: no rows");
-  CHECK(records({"# t v\n"}) == "FILE: no rows");
-  CHECK(records({"t,v\n"}) == "FILE: no rows");
+  CHECK(rows({""}) == "FILE: no rows");
+  CHECK(rows({"\n\n"}) == "FILE: no rows");
+  CHECK(rows({"# t v\n"}) == "FILE: no rows");
+  CHECK(rows({"t,v\n"}) == "FILE: no rows");
   std::string words;
   for (int i = 0; i < 200; ++i) words += "once upon a time\n";
-  CHECK(records({words}) == "FILE: no numbers in the first 100 lines");
+  CHECK(rows({words}) == "FILE: no numbers in the first 100 lines");
 }
 
 TEST_CASE("reader: a preamble becomes comments", "[text]") {
@@ -336,35 +334,35 @@ TEST_CASE("reader: a preamble becomes comments", "[text]") {
   CHECK(in.comments() == Texts{"# Motion sensor, hall 3"});
 }
 
-TEST_CASE("reader: the names are the last comment with as many fields as the records", "[text]") {
-  CHECK(records({"# t[ms] v[km/h]\n#----\n0 36\n"}) == "0 10");
-  CHECK(records({"# t[ms] v[km/h]\n# made on Tuesday\n0 36\n"}) == "0 10");
-  CHECK(records({"# t[ms], v[km/h]\n0 36\n"}) == "0 10");
-  CHECK(records({"# t[s] v[cm s^-1]\n0 100\n"}) == "0 1");
-  CHECK(records({"# t[ms] v[km/h] n\n# made on Tuesday\n0 36 1\n"}) == "0 10");
+TEST_CASE("reader: the names are the last comment with as many fields as the rows", "[text]") {
+  CHECK(rows({"# t[ms] v[km/h]\n#----\n0 36\n"}) == "0 10");
+  CHECK(rows({"# t[ms] v[km/h]\n# made on Tuesday\n0 36\n"}) == "0 10");
+  CHECK(rows({"# t[ms], v[km/h]\n0 36\n"}) == "0 10");
+  CHECK(rows({"# t[s] v[cm s^-1]\n0 100\n"}) == "0 1");
+  CHECK(rows({"# t[ms] v[km/h] n\n# made on Tuesday\n0 36 1\n"}) == "0 10");
   CHECK(
-      records({"# t[ms] v[km/h] x[m]\n0 36\n"}) ==
+      rows({"# t[ms] v[km/h] x[m]\n0 36\n"}) ==
       "FILE:1: '# t[ms] v[km/h] x[m]' may be the names of the columns, but has not one for each of "
       "2 columns");
   CHECK(told("# Speed (km/h) from GPS\n0 36\n") ==
         "t is column 1, taken in s; v is column 2, taken in m/s although line 1 says km/h");
-  CHECK(records({"# t[s] v[m/s]\n0 1\n# t[ms] v[km/h]\n1000 36\n"}) ==
+  CHECK(rows({"# t[s] v[m/s]\n0 1\n# t[ms] v[km/h]\n1000 36\n"}) ==
         "FILE:3: names among the rows; where another run begins, put a blank line before it");
 }
 
 TEST_CASE("reader: a separator at an end of the commented names begins no name", "[text]") {
   for (const char* names : {"# t[ms];v[km/h];", "#;t[ms];v[km/h]", "#;t[ms];v[km/h];;"})
-    CHECK(records({fmt::format("{}\n0;36\n", names)}) == "0 10");
-  CHECK(records({"#,v,x,t,\n1,2,3\n"}) == "3 1");
-  CHECK(records({"\"# t (ms)\",\"v (km/h)\"\n0,36\n"}) == "0 10");
+    CHECK(rows({fmt::format("{}\n0;36\n", names)}) == "0 10");
+  CHECK(rows({"#,v,x,t,\n1,2,3\n"}) == "3 1");
+  CHECK(rows({"\"# t (ms)\",\"v (km/h)\"\n0,36\n"}) == "0 10");
 }
 
-TEST_CASE("reader: names behind the records of a file that has none above are refused", "[text]") {
+TEST_CASE("reader: names behind the rows of a file that has none above are refused", "[text]") {
   for (const char* end : {"## p\n# v t\n", "\n# v t\n", "## p\n# v t\n# q\n"})
-    CHECK(records({fmt::format("1 0\n2 1\n{}", end), "2 3\n"}) ==
+    CHECK(rows({fmt::format("1 0\n2 1\n{}", end), "2 3\n"}) ==
           "FILE: the names of the columns stand behind the last row; put them above the first");
-  CHECK(records({"# t v\n1 0\n## p\n# v t\n"}) == "1 0");
-  CHECK(records({"1 0\n\n# made on Tuesday\n"}) == "1 0");
+  CHECK(rows({"# t v\n1 0\n## p\n# v t\n"}) == "1 0");
+  CHECK(rows({"1 0\n\n# made on Tuesday\n"}) == "1 0");
 }
 
 TEST_CASE("reader: a tool that ended with an error is refused, wherever it says so", "[text]") {
@@ -373,27 +371,27 @@ TEST_CASE("reader: a tool that ended with an error is refused, wherever it says 
         "0 1\n\n## smooth: ended with an error\n", "# t v\n## smooth: ended with an error\n0 1\n",
         "t,v\n0,1\n## smooth: ended with an error,\n"}) {
     INFO(text);
-    const std::string message = records({text});
+    const std::string message = rows({text});
     CHECK(message.substr(message.find(": ")) ==
           ": smooth ended with an error: the rows are not complete");
   }
-  CHECK(records({"## no error: ended with an error\n0 1\n"}) == "0 1");
+  CHECK(rows({"## no error: ended with an error\n0 1\n"}) == "0 1");
 }
 
 TEST_CASE("reader: what spreadsheets write for an error is no comment", "[text]") {
-  CHECK(records({"0\t1\n#N/A\t2\n"}) ==
+  CHECK(rows({"0\t1\n#N/A\t2\n"}) ==
         "FILE:2: field 1 (t): '#N/A' is not a number; write NaN for a "
         "missing reading");
-  CHECK(records({"0 1\n#DIV/0! 2\n"}) ==
+  CHECK(rows({"0 1\n#DIV/0! 2\n"}) ==
         "FILE:2: field 1 (t): '#DIV/0!' is not a number; write NaN for "
         "a missing reading");
-  CHECK(records({"0,1\n#1,2\n"}) == "0 1");  // a record that was taken out
+  CHECK(rows({"0,1\n#1,2\n"}) == "0 1");  // a row that was taken out
 }
 
 TEST_CASE("reader: what other programs write for a missing reading is told from other text",
           "[text]") {
   const auto is_told = [](const std::string& field) {
-    const std::string message = records({"t,v\n0," + field + "\n"});
+    const std::string message = rows({"t,v\n0," + field + "\n"});
     return message.ends_with("is not a number; write NaN for a missing reading");
   };
   for (const char* field : {"NA", "N/A", "n/a", "<NA>", "null", "NULL", "None", "-", "--", "?",
@@ -412,7 +410,7 @@ TEST_CASE("reader: what passes through passes byte for byte, its separator aside
   CHECK(copies("t;v;note\n0;1;caf\xC3\xA9 au lait \n") == "<0\t1\tcaf\xC3\xA9 au lait>");
 }
 
-TEST_CASE("reader: a record goes out without the text of a column, and says where it stood",
+TEST_CASE("reader: a row goes out without the text of a column, and says where it stood",
           "[text]") {
   const TemporaryFile file("00 1.50 xyz\n");
   Reader in({.files = {file.name()}}, {"t", "v"});
@@ -435,19 +433,19 @@ TEST_CASE("reader: a separator that ends every line is an empty last column", "[
   CHECK(copies("t\tv\t\n0\t1\t\n") == "<0\t1\t>");
   CHECK(copies("t\tv\t\n0\t1\t\n1\t2\n") == "<0\t1\t><1\t2\t>");
   CHECK(copies("t\tv\n0\t1\n1\t2\t\n") == "<0\t1><1\t2>");
-  CHECK(records({"t,v,\n0,1,\n1,2,\n"}) == "0 1 | 1 2");
-  CHECK(records({"t,v,\n0,1\n1,2,\n"}) == "0 1 | 1 2");
-  CHECK(records({"t,v\n0,1,\n1,2\n"}) == "0 1 | 1 2");
-  CHECK(records({"t,v\n0,1,7\n"}) ==
+  CHECK(rows({"t,v,\n0,1,\n1,2,\n"}) == "0 1 | 1 2");
+  CHECK(rows({"t,v,\n0,1\n1,2,\n"}) == "0 1 | 1 2");
+  CHECK(rows({"t,v\n0,1,\n1,2\n"}) == "0 1 | 1 2");
+  CHECK(rows({"t,v\n0,1,7\n"}) ==
         "FILE:2: 3 fields under a line of 2 names; if some of its commas are decimal ones, make "
         "them points first");
 }
 
 TEST_CASE("reader: a quoted field may hold separators and line ends", "[text]") {
-  CHECK(records({"\"t\",\"v, of\nthe cart\"\n0,1\n"}, {}, {"t", "v,_of_the_cart"}) == "0 1");
-  CHECK(records({"note,t,v\n\"one\ntwo, three\",0,1\nfour,1,x\n"}) ==
+  CHECK(rows({"\"t\",\"v, of\nthe cart\"\n0,1\n"}, {}, {"t", "v,_of_the_cart"}) == "0 1");
+  CHECK(rows({"note,t,v\n\"one\ntwo, three\",0,1\nfour,1,x\n"}) ==
         "FILE:4: field 3 (v): 'x' is not a number; write NaN where a reading is missing");
-  CHECK(records({"t,v,note\n0,1,\"open\n1,2,x\n"}) == "FILE:2: a quote that is not closed");
+  CHECK(rows({"t,v,note\n0,1,\"open\n1,2,x\n"}) == "FILE:2: a quote that is not closed");
 }
 
 TEST_CASE("reader: a column that is wanted but not needed may miss its readings", "[text]") {
@@ -461,6 +459,6 @@ TEST_CASE("reader: a column that is wanted but not needed may miss its readings"
   REQUIRE(in.next());
   CHECK(in[x] != in[x]);
   CHECK(in[v] == 2);
-  CHECK_THROWS_AS(in.next(), InputError);  // past the record without v, to one whose x is no number
+  CHECK_THROWS_AS(in.next(), InputError);  // past the row without v, to one whose x is no number
   CHECK(in.left_out() == 1);
 }

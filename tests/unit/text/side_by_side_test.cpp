@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "unit/text/records.h"
+#include "unit/text/rows.h"
 
 using namespace rolling;
 
@@ -51,7 +51,7 @@ TEST_CASE("side by side: comments stay with the first run", "[text]") {
   CHECK(apart("0,1,5,6\n# a\n,,7,8\n# b\n", two) == "|<2 0\t1><# a><# b>|<2 5\t6><4 7\t8>");
 }
 
-TEST_CASE("side by side: what is no record is refused with its line", "[text]") {
+TEST_CASE("side by side: what is no row is refused with its line", "[text]") {
   CHECK(apart("0,1,5,6\n1,2,3,4,5\n", two) ==
         "FILE:3: 5 fields where the first row has 4; if some of its commas are decimal ones, make "
         "them points first");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/shift_records.h"
+#include "fit/shift_rows.h"
 
 #include "base/error.h"
 #include "unit/catch.h"
@@ -23,11 +23,11 @@ FitRun run_of(std::vector<double> v, std::vector<double> D) {
 
 }  // namespace
 
-TEST_CASE("shift records: along the motion, v finite and positive, D positive for logarithms",
+TEST_CASE("shift rows: along the motion, v finite and positive, D positive for logarithms",
           "[fit]") {
   const std::vector<FitRun> runs{run_of({0.4, missing, 0.1, 0, 0.2}, {3, 2, -1, 1, missing}),
                                  run_of({-0.4, -0.1, 0.05}, {-3, -1, -1})};
-  const ShiftRecords all = shift_records(runs, {}, false);
+  const ShiftRows all = shift_rows(runs, {}, false);
   CHECK(all.y == std::vector<double>{3, -1, 3, 1});
   CHECK(shift_rows(runs[0], {}, false) == Rows{0, 2});
   CHECK(shift_rows(runs[1], {}, true) == Rows{0, 1});
@@ -37,7 +37,7 @@ TEST_CASE("shift records: along the motion, v finite and positive, D positive fo
   CHECK(all.v_ref == Approx(0.2).epsilon(1e-15));
   CHECK(all.v == std::vector<double>{0.4, 0.1, 0.4, 0.1});
 
-  const ShiftRecords positive = shift_records(runs, {}, true);
+  const ShiftRows positive = shift_rows(runs, {}, true);
   CHECK(positive.y == std::vector<double>{std::log(3), std::log(3), 0});
   CHECK(shift_rows(runs[0], {}, true) == Rows{0});
   CHECK(positive.left_out == 3);
@@ -45,19 +45,19 @@ TEST_CASE("shift records: along the motion, v finite and positive, D positive fo
   FitOptions fast;
   fast.min_speed = 0.3;
   fast.b = 1;  // with one speed alone b has to be held
-  CHECK(shift_records(runs, fast, false).y == std::vector<double>{3, 3});
+  CHECK(shift_rows(runs, fast, false).y == std::vector<double>{3, 3});
   fast.b.reset();
-  CHECK_THROWS_AS(shift_records(runs, fast, false), Error);
+  CHECK_THROWS_AS(shift_rows(runs, fast, false), Error);
 }
 
-TEST_CASE("shift records: what rounding leaves of a difference is 0", "[fit]") {
+TEST_CASE("shift rows: what rounding leaves of a difference is 0", "[fit]") {
   const std::vector<FitRun> runs{run_of({0.4, 0.3, 0.2, 3e-17, 0.1}, {3, 2e-15, 2, 1, 1e20})};
   CHECK(shift_rows(runs[0], {}, false) == Rows{0, 1, 2, 4});
   CHECK(shift_rows(runs[0], {}, true) == Rows{0, 2, 4});  // one large shift leaves the others
-  CHECK(shift_records(runs, {}, true).left_out == 2);
+  CHECK(shift_rows(runs, {}, true).left_out == 2);
 }
 
-TEST_CASE("shift records: the derivatives of the residuals are those of differences", "[fit]") {
+TEST_CASE("shift rows: the derivatives of the residuals are those of differences", "[fit]") {
   const std::vector<FitRun> runs{run_of({0.4, 0.2, 0.1, 0.05}, {3e-3, 2e-3, 2.5e-3, 1e-3})};
   for (const bool logarithms : {false, true})
     for (const bool hold_a : {false, true})
@@ -66,10 +66,9 @@ TEST_CASE("shift records: the derivatives of the residuals are those of differen
         FitOptions options;
         if (hold_a) options.a = 4e-3;
         if (hold_b) options.b = 0.3;
-        auto records =
-            std::make_shared<const ShiftRecords>(shift_records(runs, options, logarithms));
-        const Parameters q(options, logarithms, logarithms ? 1 : 3e-3, records->v_ref);
-        const System system = system_of(records, q);
+        auto rows = std::make_shared<const ShiftRows>(shift_rows(runs, options, logarithms));
+        const Parameters q(options, logarithms, logarithms ? 1 : 3e-3, rows->v_ref);
+        const System system = system_of(rows, q);
         const auto at = [&](const std::vector<double>& theta) {
           std::vector<double> all;
           system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
@@ -82,8 +81,8 @@ TEST_CASE("shift records: the derivatives of the residuals are those of differen
         REQUIRE(theta.size() == 2u - hold_a - hold_b);
         const auto f = at(theta);
         for (std::size_t i = 0; i < 4; ++i) {
-          const double D = 4e-3 * std::pow(records->v[i], 0.3);
-          CHECK(f[i] == Approx((logarithms ? std::log(D) : D) - records->y[i]).epsilon(1e-12));
+          const double D = 4e-3 * std::pow(rows->v[i], 0.3);
+          CHECK(f[i] == Approx((logarithms ? std::log(D) : D) - rows->y[i]).epsilon(1e-12));
         }
         for (std::size_t j = 0; j < theta.size(); ++j) {
           auto up = theta, down = theta;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The records (v, D) of the routes loglog and shift, and the law as their model.
+// The rows (v, D) of the routes loglog and shift, and the law as their model.
 #pragma once
 
 #include <limits>
@@ -10,35 +10,35 @@
 
 namespace rolling {
 
-/// The records that the routes loglog and shift use, all runs in sequence. A body that rolls
+/// The rows that the routes loglog and shift use, all runs in sequence. A body that rolls
 /// towards falling x has v < 0 and D < 0; both are taken positive along its direction of motion.
-struct ShiftRecords {
+struct ShiftRows {
   std::vector<double> v;          ///< [m/s]
   std::vector<double> y;          ///< D [m], or ln D for the route loglog
-  std::vector<std::size_t> runs;  ///< number of records of each run
+  std::vector<std::size_t> runs;  ///< number of rows of each run
   bool logarithms = false;
-  std::size_t left_out = 0;  ///< number of records that are not missing and not used
+  std::size_t left_out = 0;  ///< number of rows that are not missing and not used
   std::size_t negative = 0;  ///< number of those with D <= 0 alone, if logarithms are taken
   /// The geometric mean of v, where the estimates of ln D and b are uncorrelated.
   double v_ref = 0;
 };
 
-/// The records with finite v > 0 of at least options.min_speed, and with D > 0 if `logarithms`;
+/// The rows with finite v > 0 of at least options.min_speed, and with D > 0 if `logarithms`;
 /// what is no more than the rounding of a difference (base/rounding.h) counts as 0. `stops`, if not
-/// empty, has the time of each run from which on no record is used. Throws Error if the records do
+/// empty, has the time of each run from which on no row is used. Throws Error if the rows do
 /// not determine the parameters.
-ShiftRecords shift_records(const std::vector<FitRun>&, const FitOptions&, bool logarithms,
-                           const std::vector<double>& stops = {});
+ShiftRows shift_rows(const std::vector<FitRun>&, const FitOptions&, bool logarithms,
+                     const std::vector<double>& stops = {});
 
-/// The indices of the records of a run that are among these.
+/// The indices of the rows of a run that are among these.
 Rows shift_rows(const FitRun&, const FitOptions&, bool logarithms,
                 double stop = std::numeric_limits<double>::infinity());
 
-/// True if a record of the run has v > 0 and D > 0.
+/// True if a row of the run has v > 0 and D > 0.
 bool has_logarithm(const FitRun&, const FitOptions&);
 
-/// The least-squares problem of a law and these records. The residuals are passed on in blocks of
+/// The least-squares problem of a law and these rows. The residuals are passed on in blocks of
 /// at most 256, which fit into the cache.
-System system_of(std::shared_ptr<const ShiftRecords>, const Parameters&);
+System system_of(std::shared_ptr<const ShiftRows>, const Parameters&);
 
 }  // namespace rolling

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/shift_records.h"
+#include "fit/shift_rows.h"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@ double way_of(const FitRun& run) {
   return sum < 0 ? -1 : 1;
 }
 
-/// Which records of a run are fitted. v and D along the motion must exceed what is left where the
+/// Which rows of a run are fitted. v and D along the motion must exceed what is left where the
 /// terms of a sum cancel: rounding, whose logarithm is far from those of the others.
 class Used {
  public:
@@ -70,11 +70,11 @@ bool has_logarithm(const FitRun& run, const FitOptions& options) {
   return false;
 }
 
-ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& options,
-                           bool logarithms, const std::vector<double>& stops) {
-  ShiftRecords records;
-  records.logarithms = logarithms;
-  auto &y = records.y, &speeds = records.v;
+ShiftRows shift_rows(const std::vector<FitRun>& all, const FitOptions& options, bool logarithms,
+                     const std::vector<double>& stops) {
+  ShiftRows rows;
+  rows.logarithms = logarithms;
+  auto &y = rows.y, &speeds = rows.v;
   std::size_t most = 0;
   for (const auto& run : all) most += run.v.size();
   y.reserve(most), speeds.reserve(most);
@@ -88,49 +88,48 @@ ShiftRecords shift_records(const std::vector<FitRun>& all, const FitOptions& opt
     for (std::size_t i = 0; i < run.v.size(); ++i) {
       const double v = way * run.v[i], D = way * run.D[i];
       if (!used.allows(i, v, D)) {
-        records.left_out += std::isfinite(v) && std::isfinite(D);
-        records.negative += of_any_sign.allows(i, v, D);
+        rows.left_out += std::isfinite(v) && std::isfinite(D);
+        rows.negative += of_any_sign.allows(i, v, D);
         continue;
       }
       speeds.push_back(v);
       sum += std::log(v);
       y.push_back(logarithms ? std::log(D) : D);
     }
-    records.runs.push_back(y.size() - before);
+    rows.runs.push_back(y.size() - before);
   }
   const std::size_t n = y.size();
-  if (n == 0 && logarithms && records.left_out > 0)
+  if (n == 0 && logarithms && rows.left_out > 0)
     fail("no row has v > 0 and D > 0: there is no logarithm to fit");
-  require_records(n, !options.a + !options.b, n);
+  require_rows(n, !options.a + !options.b, n);
   if (!options.b && std::ranges::all_of(speeds, [&](double v) { return v == speeds[0]; }))
     fail("all speeds are equal: b cannot be determined");
-  records.v_ref = std::exp(sum / static_cast<double>(n));
-  return records;
+  rows.v_ref = std::exp(sum / static_cast<double>(n));
+  return rows;
 }
 
-System system_of(std::shared_ptr<const ShiftRecords> records, const Parameters& q) {
+System system_of(std::shared_ptr<const ShiftRows> rows, const Parameters& q) {
   const std::size_t p = q.columns();
-  const std::vector<std::size_t>& runs = records->runs;
-  return {
-      runs, 0, p,
-      [records = std::move(records), q, p](const std::vector<double>& theta, const TakeRows& take) {
+  const std::vector<std::size_t>& runs = rows->runs;
+  return {runs, 0, p,
+          [rows = std::move(rows), q, p](const std::vector<double>& theta, const TakeRows& take) {
     const Law law = q.law(theta);
     std::vector<double> f, J;
     std::size_t i = 0;
-    for (std::size_t r = 0; r < records->runs.size(); ++r)
-      for (const std::size_t end = i + records->runs[r]; i < end; take(r, f, J)) {
+    for (std::size_t r = 0; r < rows->runs.size(); ++r)
+      for (const std::size_t end = i + rows->runs[r]; i < end; take(r, f, J)) {
         f.resize(std::min<std::size_t>(end - i, 256));
         J.resize(f.size() * p);
         for (std::size_t k = 0; k < f.size(); ++k, ++i) {
           std::array<double, LawForm::most> by_c{};
-          const double D = law.at(records->v[i], by_c.data()).D;
-          f[k] = (records->logarithms ? std::log(D) : D) - records->y[i];
-          if (records->logarithms)
+          const double D = law.at(rows->v[i], by_c.data()).D;
+          f[k] = (rows->logarithms ? std::log(D) : D) - rows->y[i];
+          if (rows->logarithms)
             for (double& by : by_c) by /= D;
           q.chain(&J[k], f.size(), law.c(0), {by_c});
         }
       }
-      }};
+          }};
 }
 
 }  // namespace rolling

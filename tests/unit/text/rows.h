@@ -13,10 +13,10 @@ namespace rolling {
 
 using Texts = std::vector<std::string>;
 
-/// All that a reader gives of t and v (or `wanted`) in files of these texts: records as "t v", " |
+/// All that a reader gives of t and v (or `wanted`) in files of these texts: rows as "t v", " |
 /// " between them, " || " between runs; or the message that refuses them.
-inline std::string records(const Texts& texts, ReaderOptions options = {},
-                           const std::vector<std::string>& wanted = {"t", "v"}) {
+inline std::string rows(const Texts& texts, ReaderOptions options = {},
+                        const std::vector<std::string>& wanted = {"t", "v"}) {
   std::vector<std::unique_ptr<TemporaryFile>> files;
   for (const std::string& text : texts) {
     files.push_back(std::make_unique<TemporaryFile>(text));
@@ -56,7 +56,7 @@ inline std::string told(const std::string& text, ReaderOptions options = {}) {
   return message.empty() ? said : anonymous(message);
 }
 
-/// The records as they would pass through, lines in < >.
+/// The rows as they would pass through, lines in < >.
 inline std::string copies(const std::string& text, ReaderOptions options = {},
                           const std::vector<std::string>& wanted = {"t", "v"}) {
   const TemporaryFile file(text);
