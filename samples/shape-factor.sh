@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The shape factor K = J / (m R^2) of a body, measured (the paper's note 23). The body turns about a
-# fixed axis; a sensor records its angle while a weight on a thread drives it (FALL), and while it
+# fixed axis; a sensor reads its angle while a weight on a thread drives it (FALL), and while it
 # spins down freely without the weight (SPIN), which tells the friction of the bearing.
 #
 #   samples/shape-factor.sh FALL SPIN         prints K, for -K: 0.4991+-0.0018
-#   samples/shape-factor.sh make FOLDER SEED  makes such records, with a known answer
-#   samples/shape-factor.sh                   makes records of cylinder and shell, and uses their K
+#   samples/shape-factor.sh make FOLDER SEED  makes such runs, with a known answer
+#   samples/shape-factor.sh                   makes runs of cylinder and shell, and uses their K
 #
-# A record has the columns Time and Angle, as Time (s) and Angle (rad) or Angle (deg), in any form that
+# A run has the columns Time and Angle, as Time (s) and Angle (rad) or Angle (deg), in any form that
 # rolling-columns(5) describes; FALL begins after the weight is released and ends before it lands.
 set -euo pipefail
 export LC_ALL=C
@@ -24,7 +24,7 @@ measured='m = 1.375;  u_m = 0.001    # mass of the body [kg]
           w = 0.0500; u_w = 0.00005  # mass of the weight [kg]
           g = 9.81'
 
-# The record as smooth reads it, in seconds and radians. The angle stands for a position: the arc of a
+# The run as smooth reads it, in seconds and radians. The angle stands for a position: the arc of a
 # circle of 1 m. A film of the fall run backwards slows down.
 arc() {  # FILE forwards|backwards
   smooth -c Angle -w 1 -- "$1" | awk -F '\t' -v way="$2" '
@@ -38,7 +38,7 @@ arc() {  # FILE forwards|backwards
     }
     /^##/ { next }
     /^#/ { fields = split(substr($0, 3), head); next }
-    /^$/ { refuse("two runs in a record: smooth --run N picks one") }
+    /^$/ { refuse("two runs in a file: smooth --run N picks one") }
     !n {
       time = place("t"); column = place("Angle")
       if (unit == "deg" || unit == "°") size = atan2(0, -1) / 180
@@ -55,7 +55,7 @@ arc() {  # FILE forwards|backwards
     }'
 }
 
-# The angular acceleration in a record from rest or to rest: `a sigma_a`, in rad/s^2 / 1000.
+# The angular acceleration in a run from rest or to rest: `a sigma_a`, in rad/s^2 / 1000.
 # A constant deceleration is the motion of Eq. 12 with b = 0: v' = -g a / ((K + 1) R), so that
 # fitpower finds it, with its error; K = 0, R = 1 m and g = 1000 m/s^2 make it 1000 a.
 acceleration() {  # FILE forwards|backwards
@@ -94,10 +94,10 @@ shape_factor() {  # FALL SPIN
     }'
 }
 
-# Records with a known answer: K = 0.50 and 0.83, a friction of 0.3 mN m, 25 records a second of a
+# Runs with a known answer: K = 0.50 and 0.83, a friction of 0.3 mN m, 25 rows a second of a
 # wheel with 4000 marks that shakes by 1 mrad. The true mass, radii and weight are off the measured
 # ones, each by a draw from its uncertainty, as they are for whoever measures.
-make_records() {  # FOLDER SEED
+make_runs() {  # FOLDER SEED
   local body K
   for body in cylinder:0.50 shell:0.83; do
     K=${body#*:}
@@ -106,7 +106,7 @@ make_records() {  # FOLDER SEED
       function uniform() { seed = seed * 16807 % 2147483647; return seed / 2147483647 }
       function normal() { return sqrt(-2 * log(uniform())) * cos(6.283185307179586 * uniform()) }
       function round(x) { return x < 0 ? -int(0.5 - x) : int(x + 0.5) }
-      function record(name, start, speed, acceleration, end,   i, t, mark) {
+      function run(name, start, speed, acceleration, end,   i, t, mark) {
         mark = 6.283185307179586 / 4000
         name = file name
         print "Time (s),Angle (rad)" >name
@@ -124,20 +124,20 @@ make_records() {  # FOLDER SEED
         m += u_m * normal(); R += u_R * normal(); r += u_r * normal(); w += u_w * normal()
         J = K * m * R^2; friction = 3e-4
         alpha = (w * g * r - friction) / (J + w * r^2)
-        record("-fall.csv", 0.4, 0.3, alpha, 6)
-        record("-spin.csv", 1.1, 10, -friction / J, 15)
+        run("-fall.csv", 0.4, 0.3, alpha, 6)
+        run("-spin.csv", 1.1, 10, -friction / J, 15)
       }'
   done
 }
 
 case $#:${1-} in
-  3:make) make_records "$2" "$3" ;;
+  3:make) make_runs "$2" "$3" ;;
   2:*) shape_factor "$1" "$2" ;;
   0:)
     scratch=$(mktemp -d)
     trap 'rm -rf "$scratch"' EXIT
-    make_records "$scratch" 1
-    echo "Shape factors from made records, and the law of the rubber mat with them"
+    make_runs "$scratch" 1
+    echo "Shape factors from made runs, and the law of the rubber mat with them"
     for body in "cylinder 0.50 CR" "shell 0.83 SR"; do
       read -r name true sample <<<"$body"
       K=$(shape_factor "$scratch/$name-fall.csv" "$scratch/$name-spin.csv")

@@ -34,10 +34,10 @@ velocity() { roll "$1" | differentiate -q -c x | smooth -w 11; }
 fits() {
   fitted=$1
   shift
-  records='' shifts=''
+  rolls='' shifts=''
   for run; do
     roll "$run" >"$run.roll"
-    records="$records $run.roll" shifts="$shifts $run.D"
+    rolls="$rolls $run.roll" shifts="$shifts $run.D"
   done
   for all in '' .all; do
     shapes=''
@@ -50,7 +50,7 @@ fits() {
     # shellcheck disable=SC2086  # names without a blank
     fitpower -q $shifts >"$fitted.D$all.fit"
     # shellcheck disable=SC2086
-    fitpower -q --route position -K "$shapes" -R "$R" $records >"$fitted$all.fit"
+    fitpower -q --route position -K "$shapes" -R "$R" $rolls >"$fitted$all.fit"
   done
 }
 

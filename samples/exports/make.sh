@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# make.sh FOLDER: the sample records in the forms in which other programs export them
+# make.sh FOLDER: the sample runs in the forms in which other programs export them
 # (`make samples`).
 set -euo pipefail
 export LC_ALL=C

@@ -4,7 +4,7 @@
 #
 #   -t svg | pngcairo   the terminal of gnuplot (svg); the picture goes to standard output
 #   -K K[,K...] -R R[,R...] --slope S -c x|v --use NAME=COLUMN
-#                       as for the tools, where a figure draws records of your own
+#                       as for the tools, where a figure draws runs of your own
 #   -h                  print the comment at the top of the script
 #
 # and leave their operands in "$@". The tools are those of this source, or on the PATH. A script
@@ -40,13 +40,13 @@ shift $((OPTIND - 1))
 case $terminal in svg | pngcairo) ;; *) echo "$0: -t $terminal: svg or pngcairo" >&2; exit 2 ;; esac
 command -v gnuplot >/dev/null ||
   { echo "$0: gnuplot is not installed; make setup figures installs it" >&2; exit 2; }
-# What rolled in a record of your own is not guessed, nor which of its columns is to be drawn.
+# What rolled in a run of your own is not guessed, nor which of its columns is to be drawn.
 own_body() {
   [ "$K" ] && [ "$R" ] || { echo "$0: say what rolled: -K 0.5 -R 0.04" >&2; exit 2; }
   case $column in '' | x | v) ;; *) echo "$0: -c $column: x or v" >&2; exit 2 ;; esac
 }
-# The rows of a record with their column x or v.
-read_record() { smooth -q ${use[@]+"${use[@]}"} -c "$@"; }
+# The rows of a run with their column x or v.
+read_run() { smooth -q ${use[@]+"${use[@]}"} -c "$@"; }
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 figures=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -94,7 +94,7 @@ scene() {
 }
 
 # The rows of smooth -w 11 whose windows are whole: the first and last five means of each run are
-# over fewer records and noisier.
+# over fewer rows and noisier.
 whole_windows() {
   awk '
     function run_ends(  i) { for (i = 6; i <= n - 5; i++) print row[i]; n = 0 }

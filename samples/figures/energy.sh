@@ -17,7 +17,7 @@ set key at graph 0.98, 0.6
 set style line 1 lc rgb purple lw 2 dt 1 pt 7; set style line 2 lc rgb blue lw 2 dt 2 pt 2
 set style line 3 lc rgb vermilion lw 2 dt 4 pt 9; set style line 4 lc rgb black lw 2 dt 1 pt 4
 array what[4] = ['translational', 'rotational', 'dissipated', 'sum']
-# f is the field of E_trans; the measured record has two more columns before it, x and the velocity
+# f is the field of E_trans; the measured run has two more columns before it, x and the velocity
 # of the sensor.
 energy(i, f) = i == 1 ? column(f) : i == 2 ? column(f + 1) : i == 3 ? column(f + 9) : \
                column(f) + column(f + 1) + column(f + 9)

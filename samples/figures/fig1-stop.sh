@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Fig. 1 near the stop: the cylinder on rubber rolls backwards before it rests. The law D(v) alone
 # cannot show it; a bulge that remembers the last half millimetre does. This length is not fitted:
-# it is the one of which the record was made. `make figures/fig1-stop.svg`
+# it is the one of which the run was made. `make figures/fig1-stop.svg`
 . "$(dirname "$0")/draw.sh"
 roll() { simulate --law fit -K 0.5 -R 0.04 --columns t,x,v "$@"; }
 smooth -q --coast -c x -w 1 CR.csv >roll
@@ -11,7 +11,7 @@ roll --until 5.6 >law
 roll --until 5.6 --dt 0.005 --memory 5e-4 --damping 0.02 >memory
 differentiate -q -c x CR.csv >raw
 # Times are from the stop that the law alone predicts; positions from the place of rest, for the
-# record the mean of its last second.
+# run the mean of its last second.
 stop=$(roll | awk 'END { print $1 }')
 rest=$(tail -n 25 raw | awk '{ sum += $2 } END { print sum / NR }'
   for file in law memory; do awk 'END { print $2 }' "$file"; done)

@@ -4,32 +4,36 @@
 #
 #   fig4.sh [-t svg | pngcairo] >fig4.svg         the four experiments
 #   fig4.sh [-t ...] -K K[,K...] -R R[,R...] [--slope S] [-c x|v] [--use NAME=COLUMN]... FILE... >mine.svg
-#                                                 records of your own
+#                                                 runs of your own
 #
 # K is the shape factor, R the radius in metres; each is one for all files or one for each, and may have
-# an uncertainty, 0.5+-0.005. S is how the mat rises, in metres a metre along growing x (0). A file has
-# the columns t and x (Time, Position), or t and v (Time, Velocity); of one with both -c v takes v. Of
-# each run the free roll is taken; of one towards falling x the signs are turned. Up to four runs of
-# your own have their a and b in the picture, and one by itself the scatter of its points as bars.
-# `make figures/fig4.svg` draws the experiments.
+# an uncertainty, 0.5+-0.005. S is how the mat rises, in metres a metre along growing x (0); a roll that
+# turns needs it. A file has the columns t and x (Time, Position), or t and v (Time, Velocity); of one
+# with both -c v takes v. Of each run the free roll is taken; of one towards falling x the signs are
+# turned. Up to four runs of your own have their a and b in the picture, and one by itself the scatter
+# of its points as bars. `make figures/fig4.svg` draws the experiments.
 . "$(dirname "$0")/draw.sh"
 
 # D against v of run $1, the file $3, with the shape factor $2 and the radius $4, and the row of the
 # law.
 shifts() {
-  if [ "$column" = x ] || { [ -z "$column" ] && read_record x -w 1 "$3" >/dev/null 2>&1; }; then
-    read_record x --coast -w 1 "$3" | differentiate -c x | smooth -q -w 11
+  if [ "$column" = x ] || { [ -z "$column" ] && read_run x -w 1 "$3" >/dev/null 2>&1; }; then
+    read_run x --coast -w 1 "$3" | differentiate -c x | smooth -q -w 11
   else
-    read_record v --coast -w 11 "$3"
+    read_run v --coast -w 11 "$3"
   fi | differentiate -c v | shift-from-accel -q -K "$2" -R "$4" --slope "$slope" >"shift$1"
   fitpower -q "shift$1" >"fit$1"
   # The picture has the rows of whole windows alone; fitpower knows the noise of all of them.
   whole_windows <"shift$1" | awk -F'\t' '
     /^# / { for (i = 1; i <= NF; i++) { if ($i ~ /^v\[/) v = i; if ($i ~ /^D\[/) D = i } next }
-    /^[^#]/ {
-      if (!way) way = $v < 0 ? -1 : 1
-      print (way < 0 ? sprintf("%.17g", -$v) : $v) "\t" way * 1e3 * $D
-    }' >"points$1"
+    /^[^#]/ { if (!n) way = $v < 0 ? -1 : 1
+      speed[++n] = way * $v; shift[n] = way * 1e3 * $D
+      if (speed[n] < back) back = speed[n]; if (speed[n] > on) on = speed[n] }
+    END {  # of a roll that turns, the way back too
+      for (i = 1; i <= n; i++) {
+        sign = speed[i] < 0 && back < -0.1 * on ? -1 : 1
+        printf "%.17g\t%.6g\n", sign * speed[i], sign * shift[i]
+      } }' >"points$1"
   # The law and the scatter of these points about it [mm], as gnuplot reads them.
   { assignments <"fit$1" && awk -F'\t' '
       FNR == NR { if (!/^#/) { a = 1e3 * $1; b = $3 } next }
@@ -91,13 +95,16 @@ cut(name) = strlen(name) <= room ? name : \
   substr(name, 1, (room - 1)/2).'…'.substr(name, strlen(name) - room/2 + 1, strlen(name))
 array style[8] = [1, 3, 5, 7, 2, 4, 6, 8]  # every run of somebody's own in another colour
 line(i) = !own ? i : style[(i-1)%8 + 1]
+# "0.1004 ± 0.0006": three decimals, or as many as show the uncertainty
+decimals(s) = s > 0 && s < 1e-3 ? ceil(-log10(s)) : 3
+known(x, s) = sprintf(sprintf('%%.%df ± %%.%df', decimals(s), decimals(s)), x, s)
 array title[count]; array least[count]; array most[count]
 do for [i = count:1:-1] {
   eval system(sprintf('cat law%d', i))
   least[i] = low; most[i] = high
   title[i] = cut(system(sprintf('sed -n %dp names', i)))
-  if (told) { title[i] = title[i].sprintf(':  a = %.3f ± %.3f mm,  b = %.3f ± %.3f', \
-    1e3*a, 1e3*sigma_a, b, sigma_b) }
+  if (told) { title[i] = title[i].sprintf(':  a = %s mm,  b = %s', \
+    known(1e3*a, 1e3*sigma_a), known(b, sigma_b)) }
 }
 note = "Points: the free roll, less five rows at each end."
 if (own) { note = note."\n".given.";  a is D at 1 m/s" }

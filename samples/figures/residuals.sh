@@ -23,13 +23,13 @@ name=${file##*/} && name=${name%.*}
 
 rms='' t0=''
 route=position unit=mm
-if [ "$column" != v ] && read_record x -w 1 "$file" >readings 2>said; then column=x
+if [ "$column" != v ] && read_run x -w 1 "$file" >readings 2>said; then column=x
 else
   [ "$column" != x ] || { cat said >&2; exit 2; }
   route=velocity column=v unit=mm/s
-  read_record v -w 1 "$file" >readings
+  read_run v -w 1 "$file" >readings
 fi
-read_record $column --coast -w 1 "$file" >roll
+read_run $column --coast -w 1 "$file" >roll
 fitpower -q --route $route -K "$K" -R "$R" --slope "$slope" roll >fit
 eval "$(assignments <fit | sed "s/ = /=/g")"
 
@@ -48,7 +48,7 @@ paste <(of_name roll t) <(of_name roll $column) <(of_name law $column) <(of_name
     { printf "%s\t%.9g\t%.9g\n", $1, $4 < 0 ? -$4 : $4, 1e3 * way * ($2 - $3) }' >residuals
 
 # What the picture says. The scatter is the median of |residual|, over 0.6745 that of a normal one.
-missing=$(($(read_record t -w 1 "$file" | grep -c '^[^#]') - $(grep -c '^[^#]' readings)))
+missing=$(($(read_run t -w 1 "$file" | grep -c '^[^#]') - $(grep -c '^[^#]' readings)))
 scatter=$(awk '{ print ($3 < 0 ? -$3 : $3) }' residuals | sort -g |
   awk '{ r[NR] = $1 } END { print (r[int((NR + 1) / 2)] + r[int(NR / 2) + 1]) / 2 / 0.6745 }')
 awk -v scatter="$scatter" '{ r = $3 < 0 ? -$3 : $3 } r > 5 * scatter' residuals >outliers

@@ -21,7 +21,7 @@ runs = 'CR SR CF SF'
 array label[4] = ['C on rubber', 'S on rubber', 'C on felt', 'S on felt']
 array body[4] = ['C', 'S', 'C', 'S']
 number(x) = (x < 0 ? '−' : '').sprintf('%.3g', abs(x))
-# For records of somebody's own, after the four experiments.
+# For runs of somebody's own, after the four experiments.
 set style line 5 lc rgb '#009E73' lw 2 dt 1 pt 9 ps 0.6
 set style line 6 lc rgb '#009E73' lw 2 dt 2 pt 4 ps 0.55
 set style line 7 lc rgb '#CC79A7' lw 2 dt 1 pt 13 ps 0.7

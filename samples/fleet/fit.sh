@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# fit.sh -K K -R R [-c x|v] RECORD: the row that fitpower finds for one record, under its names, with the
-# name of the record in the column run. K is the shape factor, R the radius in metres; x (the default)
-# fits the positions of the record, v its velocities. What the tools tell goes to standard error, a line
+# fit.sh -K K -R R [-c x|v] RUN: the row that fitpower finds for one run, under its names, with the
+# name of the run in the column run. K is the shape factor, R the radius in metres; x (the default)
+# fits the positions of the run, v its velocities. What the tools tell goes to standard error, a line
 # each with the name in front. In the name, control characters are written as ?.
 set -euo pipefail
 export LC_ALL=C
@@ -18,7 +18,7 @@ while getopts K:R:c: option; do
 done
 shift $((OPTIND - 1))
 [ "$K" ] && [ "$R" ] || { echo "fit.sh: say what rolled: -K 0.5 -R 0.04" >&2; exit 2; }
-[ $# = 1 ] || { echo "fit.sh: one record, not $#" >&2; exit 2; }
+[ $# = 1 ] || { echo "fit.sh: one run, not $#" >&2; exit 2; }
 case $column in
   x) route=position ;;
   v) route=velocity ;;

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# awk -f pulls.awk truth.txt table.txt: (found - true)/error of a and of b over the records, their
+# awk -f pulls.awk truth.txt table.txt: (found - true)/error of a and of b over the runs, their
 # mean (0) and their standard deviation (1). The status is 1 if either is further off than four of
-# its standard errors and 0.2: fits of such short records may be biased by as much.
+# its standard errors and 0.2: fits of such short runs may be biased by as much.
 BEGIN { FS = "\t" }
 /^#/ { next }
 FILENAME == ARGV[1] { a[$1] = $2; b[$1] = $3; next }
-{ record = $NF; sub(/\.csv$/, "", record) }
-!(record in a) { print record " is not in " ARGV[1] >"/dev/stderr"; wrong = 1; exit }
-{ add("a", ($1 - a[record]) / $2); add("b", ($3 - b[record]) / $4); ++n }
+{ run = $NF; sub(/\.csv$/, "", run) }
+!(run in a) { print run " is not in " ARGV[1] >"/dev/stderr"; wrong = 1; exit }
+{ add("a", ($1 - a[run]) / $2); add("b", ($3 - b[run]) / $4); ++n }
 function add(what, pull) { sum[what] += pull; squares[what] += pull ^ 2 }
 END {
   if (n < 2 || wrong) exit 2

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# table.sh -K K -R R [-c x|v] FOLDER [OPTION-OF-parallel]...: one table of the fits of all records in
+# table.sh -K K -R R [-c x|v] FOLDER [OPTION-OF-parallel]...: one table of the fits of all runs in
 # FOLDER, by GNU parallel: as many at a time as there are processors, or as the options say. What is told
-# of several records is one line on standard error. On other machines too, if they have the tools on
+# of several runs is one line on standard error. On other machines too, if they have the tools on
 # their PATH:
 #   samples/fleet/table.sh -K 0.5 -R 0.04 run --sshlogin 8/ann,8/ben,: --transferfile {} \
 #     --basefile samples/fleet/fit.sh --cleanup

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# awk -f told.awk: of lines that fit.sh tells of many records, those that differ in the name of the record
+# awk -f told.awk: of lines that fit.sh tells of many runs, those that differ in the name of the run
 # and in numbers alone become one, the first, which says how many more there were.
 {
   kind = $0

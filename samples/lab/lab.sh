@@ -63,7 +63,9 @@ if [ "$slope" = fit ]; then
 fi
 fit --slope "$slope" --each results/rolls >results/table.txt
 if [ $# -gt 1 ]; then
-  fitpower --route fits -K "$K" -R "$R" results/table.txt >results/joint.txt
+  quiet=  # check tells of runs that disagree
+  [ "$goal" = all ] || quiet=-q
+  fitpower $quiet --route fits -K "$K" -R "$R" results/table.txt >results/joint.txt
   cat results/joint.txt
 else
   cat results/table.txt

@@ -379,6 +379,14 @@ for picture in fig4 run; do
     complain "samples/$picture.svg is not what samples/figures/fig4.sh draws: see $0"
 done
 
+# A roll up a slope and back: the points of both ways, and uncertainties that three decimals do not show.
+simulate -K 0.4 -R 0.0127 -a 2e-4 -b 0.1 --v0 0.7 --slope 0.03 --until 8 --sensor pasco --seed 5 |
+  cut -d , -f 1,2 >"$scratch/ball.csv"
+samples/figures/fig4.sh -K 0.4 -R 0.0127 --slope 0.03 "$scratch/ball.csv" >"$scratch/ball.svg" 2>"$scratch/said" &&
+  [ ! -s "$scratch/said" ] && grep -q 'a = 0\.200[01] ± 0\.0002 mm,  b = 0\.[0-9]* ± 0\.000[56]' "$scratch/ball.svg" ||
+  complain "up and back: $(cat "$scratch/said") $(grep -o 'a = [^<]*' "$scratch/ball.svg" | head -n 1)"
+[ "$(grep -c "href='#gpPt" "$scratch/ball.svg")" -gt 150 ] || complain 'up and back: few points'
+
 # What make would do: Fig. 5 needs two tools.
 needs() { make -nB "$1" 2>/dev/null | grep -oE -e '-o bin/[a-z-]+' | sort | tr -d '\n'; }
 [ "$(needs figures/fig5.svg)" = '-o bin/energy-ledger-o bin/simulate' ] ||
