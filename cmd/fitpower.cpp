@@ -50,8 +50,8 @@ void set_parameters(FitOptions& options, const std::vector<std::string>& fixed,
   set_parameters("--fix", fixed,
                  {{"a", &options.a}, {"b", &options.b}, {"v0", &options.v0}, {"x0", &options.x0}});
   set_parameters("--start", start, {{"a", &options.start_a}, {"b", &options.start_b}});
-  const auto once = [](const char* name, const auto& held, const auto& begin) {
-    if (held && begin) fail("--fix and --start are two values of {}: give one", name);
+  const auto once = [](const char* name, const auto& value, const auto& begin) {
+    if (value && begin) fail("--fix and --start are two values of {}: give one", name);
   };
   once("a", options.a, options.start_a);
   once("b", options.b, options.start_b);
@@ -158,10 +158,9 @@ struct Comments {
 
   void tell(Tool& tool, Route route, const FitResult& result, const std::vector<FitRun>& runs,
             const FitOptions& options) const {
-    warn_of(tool, route, result, runs, with_check);
-    if (!with_report && !with_check) return;
     std::optional<LawComparison> laws;  // AICc needs sums of squares
-    if (!options.robust) laws = compare_laws(route, runs, options);
+    if ((with_report || with_check) && !options.robust) laws = compare_laws(route, runs, options);
+    warn_of(tool, route, result, runs, laws, with_check);
     if (with_report && with_run) tool.say(fmt::format("run {}, the report:", runs.front().name));
     if (with_report) report(tool, runs, options, laws);
     if (with_check)

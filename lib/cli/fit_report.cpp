@@ -25,7 +25,7 @@ std::map<std::string, std::optional<Route>> fit_routes() {
 namespace {
 
 /// True if the residuals are rounding errors, to which no test of noise applies: rms is negligible
-/// beside D at 1 m/s, the initial speed or the radius. (sigma_a is 0 for an a that is held.)
+/// beside D at 1 m/s, the initial speed or the radius. (sigma_a is 0 for an a that is fixed.)
 bool exact(Route route, const FitResult& r, const std::vector<FitRun>& runs) {
   const double scale = route == Route::loglog     ? 1
                        : route == Route::shift    ? r.a
@@ -109,7 +109,7 @@ std::string disagreement(const Agreement& found, const std::vector<FitRun>& runs
   std::string line = fmt::format(
       "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees of freedom, {}): run "
       "{} stands out",
-      found.ratio, found.dof, p_of(found.significance), runs[found.run].name);
+      found.ratio, found.dof, p_of(found.p), runs[found.run].name);
   if (found.log_D.sigma > 0) {
     const double percent = 100 * std::abs(std::expm1(found.log_D.value));
     line += fmt::format(
@@ -261,8 +261,8 @@ void warn_of_residuals(Tool& tool, Route route, const FitResult& r,
         fmt::format("the speed changes once a turn ({}, in one good run of a hundred by chance), "
                     "as if the centre of mass lay {:.2g} +- {:.1g} mm off the axis, most ahead of "
                     "it at {:.0f} degrees: a and b are further off than sigma_a and sigma_b say; "
-                    "balance the body",
-                    p_of(found->significance), 1e3 * found->e, 1e3 * found->sigma,
+                    "balance the body, unless --report shows a better law",
+                    p_of(found->p), 1e3 * found->e, 1e3 * found->sigma,
                     std::fmod(found->phase * 180 / std::numbers::pi + 360, 360)));
   if (noise_is_correlated(r))
     tool.warn(run, fmt::format("the noise is correlated from row to row ({}), or the law is not "
@@ -280,13 +280,14 @@ void warn_of_residuals(Tool& tool, Route route, const FitResult& r,
 }  // namespace
 
 void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
-             bool check_comes) {
-  const bool noisy = !exact(route, r, runs);
+             const std::optional<LawComparison>& laws, bool check_comes) {
+  const bool noisy = !exact(route, r, runs),
+             other_law = laws && laws->against_power() >= levels::another_law;
   if (noisy && route == Route::loglog && logarithms_biased(r))
     tool.warn(of_run(runs),
               "the noise of D biases its logarithms by more than the uncertainty of "
               "the line: use --route shift");
-  if (!warn_of_causes(tool, route, r, runs, noisy, check_comes) && noisy)
+  if (!warn_of_causes(tool, route, r, runs, noisy, check_comes) && noisy && !other_law)
     warn_of_residuals(tool, route, r, runs);
   if (noisy && r.sigma_slope > 0 && runs.size() == 2)
     tool.warn("",
@@ -305,18 +306,18 @@ void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& optio
   if (!laws->possible())
     return tool.say("too few independent readings to compare a v^b with other laws");
   for (const LawFit& fit : laws->fits) tool.say(described(fit, laws->least()));
-  tool.say(laws->against_power() <= levels::adequate
+  tool.say(laws->against_power() <= levels::no_better_law
                ? "no law that was tried is better than D = a v^b"
                : "another law is better than D = a v^b");
 }
 
 void check(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
            const std::optional<LawComparison>& laws, const std::optional<Beginning>& beginning,
-           bool both_held) {
+           bool both_fixed) {
   const std::string run = of_run(runs);
   const bool noisy = !exact(route, r, runs);
   // check_failed() prints the first reason in full.
-  if (r.errors == Errors::none || (r.sigma_a == 0 && r.sigma_b == 0 && !both_held))
+  if (r.errors == Errors::none || (r.sigma_a == 0 && r.sigma_b == 0 && !both_fixed))
     tool.check_failed(run,
                       "nothing is left to tell standard uncertainties from: fit more readings");
   for (const Remark& reason : against(r, runs, noisy)) tool.check_failed(reason.run, reason.text);
@@ -325,7 +326,7 @@ void check(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun
         runs[beginning->run].name,
         fmt::format("the first {} rows do not go on as the others ({}), as if a hand were still "
                     "on: cut off {:.2g} s",
-                    beginning->rows, p_of(beginning->significance), beginning->time));
+                    beginning->rows, p_of(beginning->p), beginning->time));
   if (laws && laws->against_power() >= levels::another_law)
     tool.check_failed(run,
                       fmt::format("D = {} is better than a v^b by {:.1f} in AICc; see --report",

@@ -25,20 +25,22 @@ std::string disagreement(const Agreement&, const std::vector<FitRun>&, const std
 /// Why a route leaves rows out.
 std::string why_left_out(Route, const FitOptions&);
 
-/// Warns the user: of errors that are not those of white noise, of runs that disagree (unless
-/// check() follows, which reports it), of the bias of logarithms, of an eccentric body, of a shift
-/// beyond the radius, of an a whose error is not that of a normal distribution.
-void warn_of(Tool&, Route, const FitResult&, const std::vector<FitRun>&, bool check_comes);
+/// Warns of what spoils a fit: a shift beyond the radius, runs that disagree, readings that are off
+/// or repeat (unless check() follows, which tells it). Where there is none of it, and no law is
+/// better, also of what such a cause would bring with it: noise that is not white, an eccentric
+/// body, an a whose error is not that of a normal distribution.
+void warn_of(Tool&, Route, const FitResult&, const std::vector<FitRun>&,
+             const std::optional<LawComparison>&, bool check_comes);
 
 /// Reports the result and the computing time of each route, the coefficients of the laws, and
-/// whether a v^b is adequate.
+/// whether another law is better.
 void report(Tool&, const std::vector<FitRun>&, const FitOptions&,
             const std::optional<LawComparison>&);
 
-/// Reports a failed check if there are no standard errors (unless a and b are both held), the runs
+/// Reports a failed check if there are no standard errors (unless a and b are both fixed), the runs
 /// of a joint fit disagree, a reading is off, b is far below what mats have, another law is better
 /// by 10 in AICc, the beginning of a run is disturbed, or the residuals are not white.
 void check(Tool&, Route, const FitResult&, const std::vector<FitRun>&,
-           const std::optional<LawComparison>&, const std::optional<Beginning>&, bool both_held);
+           const std::optional<LawComparison>&, const std::optional<Beginning>&, bool both_fixed);
 
 }  // namespace rolling

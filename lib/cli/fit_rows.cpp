@@ -144,7 +144,7 @@ void write(Output& out, const JointLaw& joint, std::size_t n) {
   count(n);
   out.cell(joint.agreement.ratio);
   count(joint.agreement.dof);
-  out.cell(joint.agreement.significance);
+  out.cell(joint.agreement.p);
   out.end_line();
 }
 

@@ -12,10 +12,10 @@
 namespace rolling {
 namespace {
 
-/// The variance of ln a or b that rounding leaves in rows without noise; 0 if it is held fixed.
+/// The variance of ln a or b that rounding leaves in rows without noise; 0 if it is fixed.
 double rounding_of(const std::vector<double>& gradient) {
-  const bool held = std::ranges::all_of(gradient, [](double slope) { return slope == 0; });
-  return held ? 0 : 1e-26;
+  const bool fixed = std::ranges::all_of(gradient, [](double slope) { return slope == 0; });
+  return fixed ? 0 : 1e-26;
 }
 
 std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own) {
@@ -77,7 +77,7 @@ bool of_one_way(const std::vector<OwnLaw>& laws, const Fitted& joint) {
 }
 
 /// The logarithm of the speed to which the ln D of a run belongs: that at which D is known best;
-/// or, where b is held and the error of D is the same at all speeds, the mean speed of the roll, at
+/// or, where b is fixed and D has the same error at all speeds, the mean speed of the roll, at
 /// which a slope acts like more D.
 double log_v_of(const OwnLaw& one, const Fitted& joint) {
   if (one.covariance.bb > 0 || !joint.rolls) return one.best_log_v();
@@ -109,7 +109,7 @@ BySlope take_slope(std::vector<OwnLaw>& laws, double D, double freedom, NoiseErr
   errors.share.slope = student(freedom) * std::sqrt(line.chi2 / freedom / line.spread);
   BySlope lost;
   for (std::size_t i = 0; i < laws.size(); ++i) {
-    const double exponent = laws[i].covariance.bb > 0 ? joint.b.value : 0;  // a held one stays
+    const double exponent = laws[i].covariance.bb > 0 ? joint.b.value : 0;  // a fixed one stays
     lost.push_back({by_slope[i], -by_slope[i] * exponent});
     laws[i].law = laws[i].law - Pair{lost[i].a * line.slope, lost[i].b * line.slope};
   }

@@ -7,10 +7,10 @@
 namespace rolling {
 
 /// Compares the runs of a joint fit. Each run is fitted by itself, with a and b of its own (the
-/// slope of the mat is held at that of the joint fit); its law (ln a, b) is compared with the mean
-/// of all, weighted by the inverse covariances of the runs' own errors. The significance is that of
+/// slope of the mat is fixed at that of the joint fit); its law (ln a, b) is compared with the mean
+/// of all, weighted by the inverse covariances of the runs' own errors. Its p is that of
 /// the law with which all agree best. Returns nothing where fewer than two runs determine a law by
-/// themselves, or where a and b are held.
+/// themselves, or where a and b are fixed.
 ///
 /// `errors` are those of the joint fit. Where the runs agree, `errors` and `joint` stay as they
 /// are. Where they disagree, the law of `joint` becomes that of the mean of b and of the mean of

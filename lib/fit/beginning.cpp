@@ -85,7 +85,7 @@ struct Candidate {
   std::size_t parameters;    // of its fit
 };
 
-/// The beginnings of all runs that were tested, and the most significant one.
+/// The beginnings of all runs that were tested, and that of the smallest p.
 struct Search {
   double tests = 0;
   std::optional<Candidate> found;
@@ -112,7 +112,7 @@ struct Search {
       if (!(squares > 0)) continue;
       const double noise = std::max(squares / left, local_variance(changed(without, 0, k + 5))),
                    chance = gsl_cdf_fdist_Q(without.reduction / gone / noise, gone, left);
-      if (chance >= (found ? found->beginning.significance : levels::beginning)) continue;
+      if (chance >= (found ? found->beginning.p : levels::beginning)) continue;
       // Where the removed rows alone determine a parameter, nothing but rounding may remain: the
       // squares are then more than those of a fit.
       std::vector<double> others = changed(without, k, f.size());
@@ -142,9 +142,9 @@ std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitR
     }
   if (!search.found) return {};
   auto& [found, rest, parameters] = *search.found;
-  found.significance = std::min(1.0, found.significance * search.tests);
+  found.p = std::min(1.0, found.p * search.tests);
   const std::size_t size[] = {rest.size()};
-  if (found.significance > levels::beginning ||
+  if (found.p > levels::beginning ||
       ljung_box(rest, taken_by_few(parameters), size) <= levels::beginning_white)
     return {};
   return found;

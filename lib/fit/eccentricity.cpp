@@ -108,7 +108,7 @@ class Periodogram {
     return wobble.fastest() * longest < std::numbers::pi * R_;
   }
 
-  /// The amplitude of this response and its significance.
+  /// The amplitude of this response and its p.
   Eccentricity of(const Wobble& wobble) const {
     // The QR decomposition of J with the two columns of the response behind it: the last 2 x 2
     // block of R belongs to these columns after projection orthogonal to J, and theta holds their
@@ -229,13 +229,13 @@ std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRu
     const Wobble turns = spectrum.wobble(1);
     if (!spectrum.worth(turns)) continue;
     Eccentricity once_a_turn = spectrum.of(turns);
-    once_a_turn.significance *= static_cast<double>(runs.size());
-    if (once_a_turn.significance > levels::one_turn ||
-        (found && found->significance < once_a_turn.significance))
+    once_a_turn.p *= static_cast<double>(runs.size());
+    if (once_a_turn.p > levels::one_turn ||
+        (found && found->p < once_a_turn.p))
       continue;
-    const double near = std::min(spectrum.of(spectrum.wobble(0.7)).significance,
-                                 spectrum.of(spectrum.wobble(1.4)).significance);
-    if (once_a_turn.significance < near) found = once_a_turn;
+    const double near = std::min(spectrum.of(spectrum.wobble(0.7)).p,
+                                 spectrum.of(spectrum.wobble(1.4)).p);
+    if (once_a_turn.p < near) found = once_a_turn;
   }
   return found;
 }

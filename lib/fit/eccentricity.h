@@ -15,8 +15,8 @@ namespace rolling {
 /// white, of its own size in each run; `variance` is that of all runs. Dense rows are averaged
 /// over blocks that are short relative to one turn.
 ///
-/// The result is the run with the smallest significance. It is empty if no run reaches 1 % (after
-/// Bonferroni's correction), or if the period 0.7 or 1.4 times as long is as significant: the
+/// The result is the run with the smallest p. It is empty if no run reaches 1 % (after
+/// Bonferroni's correction), or if the period 0.7 or 1.4 times as long has as small a p: the
 /// residuals then have another cause. A run of less than one turn, or with less than two rows in
 /// a turn, is not tested.
 std::optional<Eccentricity> eccentricity_of(Route, const std::vector<FitRun>&, const Fitted&,

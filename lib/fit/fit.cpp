@@ -11,7 +11,7 @@
 #include "fit/agreement.h"
 #include "fit/eccentricity.h"
 #include "fit/errors.h"
-#include "fit/given_numbers.h"
+#include "fit/input_quantities.h"
 #include "fit/off_readings.h"
 #include "fit/roll_fit.h"
 #include "fit/route.h"

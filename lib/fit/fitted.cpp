@@ -31,7 +31,7 @@ void report_law(Fitted& fit, const Parameters& q) {
   const auto coefficient = [&](std::size_t j) {
     std::array<double, LawForm::most> by_c{};
     FittedNumber number{law.in_SI(j, by_c), std::vector<double>(q.columns())};
-    if (const auto fixed = q.held(j)) number.value = *fixed;
+    if (const auto fixed = q.fixed(j)) number.value = *fixed;
     else q.chain(number.gradient.data(), 1, law.c(0), {by_c});
     return number;
   };

@@ -10,7 +10,7 @@
 namespace rolling {
 
 /// A reported number and its gradient with respect to the parameters of its run, then the shared
-/// ones (zero for a number that is held fixed).
+/// ones (zero for a number that is fixed).
 struct FittedNumber {
   double value;
   std::vector<double> gradient;

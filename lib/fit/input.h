@@ -49,9 +49,9 @@ inline bool is_trajectory(Route route) {
 
 struct FitOptions {
   Geometry geometry = Geometry::approximate;
-  std::optional<double> a, b, v0, x0;      ///< parameters that are held fixed
+  std::optional<double> a, b, v0, x0;      ///< parameters that are fixed
   std::optional<double> start_a, start_b;  ///< starting values; without them they are estimated
-  std::optional<double> given_a() const { return a ? a : start_a; }  ///< held, or where to start
+  std::optional<double> given_a() const { return a ? a : start_a; }  ///< fixed, or where to start
   std::optional<double> given_b() const { return b ? b : start_b; }
   bool fit_slope = false;  ///< the slope of the mat is a further parameter, common to all runs
   double min_speed = 0;    ///< rows slower than this are not fitted [m/s]

@@ -14,7 +14,7 @@ namespace rolling {
 struct LawFit {
   const LawForm* law;
   /// The corrected Akaike information criterion (Burnham and Anderson 2002, Model Selection and
-  /// Multimodel Inference). Smaller is better; a difference below 2 is not significant. Infinite if
+  /// Multimodel Inference). Smaller is better; a difference below 2 says nothing. Infinite if
   /// the law cannot be fitted.
   double aicc;
   std::vector<Estimate> coefficients;  ///< in SI units; empty if the law cannot be fitted

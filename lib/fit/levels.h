@@ -35,8 +35,8 @@ inline constexpr double grid_of_rms = 0.5, repeats_of_grid = 1. / 3;
 /// Readings whose noise is that much larger than their small steps repeat in 6 % at most.
 inline constexpr double noise_over_grid = 5, repeats_of_noise = 0.15;
 /// AICc by which another law leaves a v^b no support (Burnham and Anderson 2002, section 2.6), and
-/// by which a v^b is called adequate.
-inline constexpr double another_law = 10, adequate = 2;
+/// by which a v^b is said to be as good as any other.
+inline constexpr double another_law = 10, no_better_law = 2;
 /// sigma_a/a above which a +- sigma_a is no interval: ln a has the normal distribution. There a +-
 /// 1.96 sigma_a holds the truth in 93.6 %, but misses it by 3 sigma_a six times too often.
 inline constexpr double uncertain_a = 0.3;

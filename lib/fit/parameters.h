@@ -14,7 +14,7 @@ namespace rolling {
 /// For each run, theta holds v0 in units of v_ref and x0 in units of x_ref. The parameters shared
 /// by all runs follow: the coefficients of the law in units of its own, and the slope of the mat in
 /// millimetres per metre. Of a v^b they are ln D or D at the unit of speed, in place of a, which is
-/// nearly collinear with b, and b. Parameters that are held fixed have no element in theta. v0 is
+/// nearly collinear with b, and b. Parameters that are fixed have no element in theta. v0 is
 /// the speed along the direction of motion and is not negative.
 class Parameters {
  public:
@@ -36,8 +36,8 @@ class Parameters {
     return other;
   }
 
-  /// The value of coefficient j in SI units if it is held fixed.
-  std::optional<double> held(std::size_t j) const {
+  /// The value of coefficient j in SI units if it is fixed.
+  std::optional<double> fixed(std::size_t j) const {
     return j == 0 ? a_ : j == 1 ? b_ : std::nullopt;
   }
   /// The number of free coefficients of the law.
@@ -68,7 +68,7 @@ class Parameters {
   }
   bool fits_slope() const { return slope_; }
   bool has_x0() const { return position_; }
-  /// The parameters of a single run on a mat whose slope is held.
+  /// The parameters of a single run on a mat whose slope is fixed.
   Parameters of_one_run() const {
     Parameters one = *this;
     one.runs_ = 1;
@@ -109,7 +109,7 @@ class Parameters {
     if (!v0_) put(by.v0 * v_ref_);
     if (free_x0()) put(by.x0 * x_ref_);
     for (std::size_t j = 0; j < form_->coefficients.size(); ++j) {
-      if (held(j)) continue;
+      if (fixed(j)) continue;
       put(j == 0 && logarithm_ ? c0 * by.by_c[0]
           : j == 1 && a_       ? by.by_c[1] + c0 * std::log(v_unit_) * by.by_c[0]
                                : by.by_c[j]);

@@ -25,7 +25,7 @@ enum class Errors { none, classical, filters, differences, uneven, autocorrelati
 /// beginning of the run.
 struct Eccentricity {
   std::size_t run;      ///< the number of the run, from 0
-  double significance;  ///< the probability that noise alone gives a signal as large
+  double p;  ///< the probability that noise alone gives a signal as large
   double e, sigma;      ///< the eccentricity and its standard error [m]
   double phase;         ///< [rad]
 };
@@ -57,13 +57,13 @@ struct FitResult {
   std::size_t n;  ///< number of fitted rows
   std::size_t left_out;  ///< number of rows, but for missing ones, that the route did not use
   std::size_t negative;  ///< of these, those with D <= 0 whose noise loglog does not know
-  double whiteness;      ///< significance of the autocorrelation of the noise (Ljung and Box); NaN
+  double whiteness;      ///< p of the autocorrelation of the noise (Ljung and Box); NaN
                          ///< where it is not tested
   std::vector<Estimate> v0 = {};      ///< at the first row [m/s], of each run (trajectory routes)
   std::vector<Estimate> x0 = {};      ///< likewise [m] (positions)
   double slope = 0, sigma_slope = 0;  ///< the slope of the mat, if it was fitted
   Errors errors;
-  std::optional<Eccentricity> eccentricity = {};  ///< of the run with the most significant signal
+  std::optional<Eccentricity> eccentricity = {};  ///< of the run with the signal of the smallest p
   std::optional<Agreement> agreement = {};        ///< for two or more runs
   std::optional<OffReadings> off = {};            ///< of the run with the reading furthest off
   std::vector<ErrorShare> shares = {};            ///< the noise first
@@ -72,7 +72,7 @@ struct FitResult {
 /// True if the data determine b.
 inline bool determines_b(double sigma_b) { return sigma_b <= levels::largest_sigma_b; }
 
-/// True if the noise is significantly autocorrelated and the standard errors allow for that.
+/// True if the noise is autocorrelated, by a small p, and the standard errors allow for that.
 inline bool noise_is_correlated(const FitResult& r) {
   return r.errors == Errors::autocorrelation && r.whiteness <= levels::not_white;
 }

@@ -17,11 +17,11 @@ namespace rolling {
 
 namespace {
 
-/// Throws Error if a v0 that is held has the other sign than the motion of a run.
+/// Throws Error if a v0 that is fixed has the other sign than the motion of a run.
 void require_ways(const std::vector<ObservedRun>& runs, const FitOptions& options) {
   for (const ObservedRun& run : runs)
     if (options.v0 && run.way * *options.v0 < 0)
-      fail("{}v0 = {} cannot be held: the body rolls towards {} x", run.place, *options.v0,
+      fail("{}v0 = {} cannot be fixed: the body rolls towards {} x", run.place, *options.v0,
            run.way > 0 ? "growing" : "falling");
 }
 

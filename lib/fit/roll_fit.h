@@ -15,7 +15,7 @@ Fitted fit_rolls(Route, const std::vector<FitRun>&, std::vector<Rows>, std::vect
                  const FitOptions&, AddedNoise = {});
 
 /// Fits one run of a joint fit of rolls separately: the same rows and weights, the slope of the
-/// mat held at the joint value. Throws Error if the run does not determine its parameters, or has
+/// mat fixed at the joint value. Throws Error if the run does not determine its parameters, or has
 /// none.
 Fitted fit_of_run(const Fitted& joint, std::size_t run, const FitOptions&);
 

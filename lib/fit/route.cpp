@@ -11,7 +11,7 @@ namespace rolling {
 
 Fitted fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   if (options.a && !(*options.a > 0))
-    fail("a = {} cannot be held: it must be positive", *options.a);
+    fail("a = {} cannot be fixed: it must be positive", *options.a);
   std::vector<Response> responses = responses_of(route, runs);
   const bool known = !responses.empty();
   if (options.fit_slope && (route == Route::loglog || (route == Route::shift && !known)))

@@ -85,7 +85,7 @@ Agreement compare(const std::vector<OwnLaw>& laws, Pair start, std::size_t param
   result.dof = parameters * (laws.size() - 1) - taken;
   result.ratio = std::min(least_from(start, laws, parameters), least_from(mean, laws, parameters));
   if (result.dof > 0)
-    result.significance = gsl_cdf_chisq_Q(result.ratio, static_cast<double>(result.dof));
+    result.p = gsl_cdf_chisq_Q(result.ratio, static_cast<double>(result.dof));
   return result;
 }
 
@@ -94,7 +94,7 @@ double common_log_v(const std::vector<OwnLaw>& laws,
   double log_v = 0, weights = 0;
   for (const OwnLaw& one : laws) {
     const double own = log_v_of(one), sigma = one.log_D(own).sigma,
-                 weight = sigma > 0 ? 1 / (sigma * sigma) : 1;  // without error if a is held
+                 weight = sigma > 0 ? 1 / (sigma * sigma) : 1;  // without error if a is fixed
     weights += weight;
     log_v += weight / weights * (own - log_v);
   }

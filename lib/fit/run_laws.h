@@ -25,14 +25,14 @@ struct Symmetric {
 
   Pair operator*(Pair x) const { return {aa * x.a + ab * x.b, ab * x.a + bb * x.b}; }
   double square(Pair x) const { return x.a * (aa * x.a + 2 * ab * x.b) + x.b * bb * x.b; }
-  /// A parameter that is held fixed has a row and a column of zeros; they stay zeros.
+  /// A parameter that is fixed has a row and a column of zeros; they stay zeros.
   Symmetric inverse() const {
     if (aa == 0 || bb == 0) return {aa == 0 ? 0 : 1 / aa, 0, bb == 0 ? 0 : 1 / bb};
     const double det = aa * bb - ab * ab;
     return {bb / det, -ab / det, aa / det};
   }
   bool is_finite() const { return std::isfinite(aa) && std::isfinite(ab) && std::isfinite(bb); }
-  /// True if no variance is negative; a parameter that is held fixed has none.
+  /// True if no variance is negative; a parameter that is fixed has none.
   bool is_positive() const { return aa >= 0 && bb >= 0 && aa * bb >= ab * ab; }
 };
 inline Pair operator+(Pair x, Pair y) { return {x.a + y.a, x.b + y.b}; }
@@ -81,14 +81,14 @@ struct Agreement {
   /// -2 ln of the ratio of likelihoods of one common law to laws of the runs' own, which is chi2
   /// but for what the noise of each run, an estimate, adds to that.
   double ratio = 0;
-  double significance = 1;  ///< the probability that noise alone makes `ratio` as large
+  double p = 1;  ///< the probability that noise alone makes `ratio` as large
   std::size_t runs = 0;     ///< the number of runs that determine a law
   std::size_t run = 0;      ///< the run that differs most from the others, from 0
   double speed = 1;         ///< the speed at which D of that run is known best [m/s]
   Estimate log_D = {};      ///< ln D of that run minus ln D of the others at that speed
   Estimate b = {};          ///< the exponent of that run minus the exponent of the others
 
-  bool agree() const { return significance > levels::runs_disagree; }
+  bool agree() const { return p > levels::runs_disagree; }
 };
 
 /// Compares two or more laws. `start` is a common law from which the search for that of the

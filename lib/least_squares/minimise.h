@@ -9,9 +9,8 @@ namespace rolling {
 
 /// The way out of data that no law fits.
 inline constexpr const char* choose_the_roll =
-    "are all of these rows of one free roll that slows down? Choose it with smooth --coast, or "
-    "with "
-    "--from and --to";
+    "are all of these rows of one free roll that slows down (up a slope and back: --slope fit)? "
+    "Choose it with smooth --coast, or with --from and --to";
 
 struct Minimum {
   std::vector<double> theta, f;

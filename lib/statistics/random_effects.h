@@ -41,7 +41,7 @@ double student(double freedom);
 /// 1/sum(weights) would not do: where one run is more precise than the others, few runs tell tau
 /// too roughly.
 struct RandomEffectsMean {
-  bool free;  ///< not all numbers are equal without errors, as those of a parameter that is held
+  bool free;  ///< not all numbers are equal without errors, as those of a parameter that is fixed
               ///< fixed are; else all others are 0
   double value;
   std::vector<double> shares;  ///< of the runs in the weights

@@ -53,8 +53,8 @@ Sums sums_of_products(std::span<const double> run, std::size_t lags) {
   return sums;
 }
 
-/// The smaller significance, for sums of products of n residuals and their variances.
-double significance(const Sums& sums, const Sums& variances, std::size_t lags, const Taken& taken,
+/// The smaller p, for sums of products of n residuals and their variances.
+double p_of_sums(const Sums& sums, const Sums& variances, std::size_t lags, const Taken& taken,
                     double n) {
   if (!(sums[0] > 0 && n > taken[0])) return 1;
   double Q = 0, least = 1;
@@ -79,7 +79,7 @@ double ljung_box(std::span<const double> r, const Taken& taken, std::span<const 
       if (k < run.size()) variances[k] += (n - static_cast<double>(k)) / (n * (n + 2)) * square;
     }
   }
-  return significance(all, variances, lags, taken, static_cast<double>(r.size()));
+  return p_of_sums(all, variances, lags, taken, static_cast<double>(r.size()));
 }
 
 double ljung_box_uneven(std::span<const double> r, const Taken& taken,
@@ -94,7 +94,7 @@ double ljung_box_uneven(std::span<const double> r, const Taken& taken,
   };
   for (const auto run : by_run(r, runs)) add(all, run);
   for (const auto run : by_run(squares, runs)) add(variances, run);
-  return significance(all, variances, lags, taken, static_cast<double>(r.size()));
+  return p_of_sums(all, variances, lags, taken, static_cast<double>(r.size()));
 }
 
 double breusch_pagan(std::span<const double> residuals, std::span<const std::size_t> runs) {

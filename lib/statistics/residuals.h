@@ -23,7 +23,7 @@ Taken taken_by(const Matrix& Q, std::span<const std::size_t> runs);
 /// The limit for runs that are much longer than the lags, of p parameters in all.
 Taken taken_by_few(std::size_t p);
 
-/// Significance of the autocorrelation of the residuals of a fit, after Ljung and Box (1978,
+/// The p of the autocorrelation of the residuals of a fit, after Ljung and Box (1978,
 /// Biometrika 65, 297): the smaller of the values for one lag and for n/10 lags (at least 1, at
 /// most 10). Corrected for what the fit has taken. The noise of each run has its own variance.
 double ljung_box(std::span<const double> residuals, const Taken&,
@@ -34,11 +34,11 @@ double ljung_box(std::span<const double> residuals, const Taken&,
 double ljung_box_uneven(std::span<const double> residuals, const Taken&,
                         std::span<const std::size_t> runs);
 
-/// Significance of a trend of the variance along the runs, linear and quadratic in the row
+/// The p of a trend of the variance along the runs, linear and quadratic in the row
 /// number: the studentised test of Breusch and Pagan (Koenker 1981, J. Econometrics 17, 107).
 double breusch_pagan(std::span<const double> residuals, std::span<const std::size_t> runs);
 
-/// Significance of a difference of the variance between the runs, by the same test; 1 for one run.
+/// The p of a difference of the variance between the runs, by the same test; 1 for one run.
 /// `left` is the share that a fit has left of the variance of each residual; without it all of it.
 double unequal_runs(std::span<const double> residuals, std::span<const std::size_t> runs,
                     std::span<const double> left = {});

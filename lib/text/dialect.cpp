@@ -100,7 +100,7 @@ bool Dialect::choose(std::string_view line, bool tabs) {
 bool Dialect::holds_number(std::string_view line) {
   const auto fields = split(line);
   // A decimal comma counts here even between commas: the line is then refused as a row, with a
-  // message that says what to do, and not taken for a line of names.
+  // message that says what to do, and not taken for a header.
   // So does a number in quotes that are none here.
   return std::any_of(fields.begin(), fields.end(), [](const Field& field) {
     std::string_view bare = field.text;

@@ -225,7 +225,7 @@ void HeadReader::note_sorted_history(std::size_t names) {
     comments_.push_back({fmt::format("## {}", lines_sorted), comments_.back().line});
 }
 
-/// The units in the line below the line of names, or the comment with them; empty if there is none.
+/// The units in the line below the header, or the comment with them; empty if there is none.
 std::vector<std::string> HeadReader::take_units() {
   if (preamble_.empty()) return {};
   auto units = names_in(preamble_.back().text, dialect_.separator());

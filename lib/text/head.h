@@ -16,11 +16,11 @@ namespace rolling {
 
 struct Head {
   /// Comments and history lines with their marks, in order. Other lines before the names have been
-  /// made comments. The line of names and the line `## run NAME` are not among them.
+  /// made comments. The header and the line `## run NAME` are not among them.
   std::vector<std::string> comments;
   std::vector<std::string> history;  ///< the `##` lines among them, without their marks
   std::string run;                   ///< NAME of the line `## run NAME`; empty without one
-  std::size_t line = 0;              ///< number of the line of names, else of the first row
+  std::size_t line = 0;              ///< number of the header, else of the first row
   bool named = false;                ///< the columns have names, from this head or an earlier one
   bool blank_end = false;            ///< the lines end with a separator, behind the last column
   SaidUnits said;                    ///< by comments, since the names

@@ -22,7 +22,7 @@ struct Layout {
 
   /// One run of all columns.
   static Layout one(const std::vector<Column>& line);
-  /// The runs in a line of names. There are several if more than one label brings a t, or the same
+  /// The runs in a header. There are several if more than one label brings a t, or the same
   /// needed quantity beside a common t, or if there is more than one t. A column of none of these
   /// labels, or whose name occurs only once, is shared.
   static Layout of(const std::vector<Column>& line);

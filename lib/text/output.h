@@ -22,7 +22,7 @@ class OutputError : public Error {
   using Error::Error;
 };
 
-/// The line of names: `# t[s]<TAB>v[m/s]`.
+/// The header: `# t[s]<TAB>v[m/s]`.
 std::string names_line(const std::vector<Column>&);
 
 inline void require_finite(double value) {
@@ -62,7 +62,7 @@ class Output {
     cells_ = 0;
     if (unbuffered || whole_ >= block) flush();
   }
-  void names(const std::vector<Column>&);    ///< the line of names
+  void names(const std::vector<Column>&);    ///< the header
   void row(std::span<const double> values);  ///< the cells and the end of a line
   /// Writes the buffer. Throws OutputError if the system reports an error.
   void flush();

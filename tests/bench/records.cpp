@@ -127,7 +127,7 @@ void slope(Rows& rows, int runs) {
 
 void given(Rows& rows, int runs) {
   rows.push_back([=] {
-    const auto all = studies::given_numbers(10 * runs, seed);
+    const auto all = studies::input_quantities(10 * runs, seed);
     std::string text = fmt::sprintf(
         "# %d draws of K, R, g and the slope: spread, and the error that is stated\n", 10 * runs);
     const auto add = [&](const char* name, double spread, double stated) {

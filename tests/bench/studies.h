@@ -75,7 +75,7 @@ struct GivenNumbers {
   double stated_a = 0, stated_b = 0, stated_v0 = 0, stated_corr = 0, corr = 0;
   FitResult first{};  ///< of the records that state errors
 };
-inline GivenNumbers given_numbers(int draws, unsigned seed) {
+inline GivenNumbers input_quantities(int draws, unsigned seed) {
   Body body = records::cylinder;
   body.slope = 0.002;
   const BodyUncertainty u{.R = 4e-4, .K = 0.01, .g = 0.01, .slope = 3e-4};

@@ -48,7 +48,7 @@ never '\b(names line|line of names)\b' header
 never 'standard errors|(its|the|their) standard error\b' 'standard uncertainty; of the stream: standard error output, or stderr' '^man/rolling-fits\.7|rolling-fits\(7\)'
 never '\bchance [0-9{]|\bsignificance\b|Ljung-Box p' p
 never '\bgiven (numbers|quantities)\b' 'input quantities'
-never 'held fixed|both held|\bis held\b|are held\b' fixed
+never 'held fixed|both held|\bbe held\b|\bis held\b|are held\b' fixed
 never 'held the truth|\bcovered\b' 'coverage probability'
 never 'runs that do not are told|by fainter signs|is (not )?adequate|errors allow for that' 'what was seen and what to do'
 

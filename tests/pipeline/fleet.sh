@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# samples/fleet on a few records: every one gets a row, whoever runs the jobs; the errors are as
+# samples/fleet on a few runs: every one gets a row, whoever runs the jobs; the errors are as
 # large as the distances from the truth; and the joint law and the scatter of the laws are those
-# that made the records.
+# that made the runs.
 set -eu
 export LC_ALL=C
 unset CDPATH
@@ -21,11 +21,11 @@ awk '!/^#/ || !names++' "$scratch"/run/part.* | sort >"$scratch/table"
   [ "$(head -n 1 "$scratch/table" | tr '\t' '\n' | sed -n '1p;$p' | xargs)" = '# a[m] run' ] ||
     fail "$(cat "$scratch/table")"
 awk -f samples/fleet/pulls.awk "$scratch/run/truth.txt" "$scratch/table"
-# What the runs tell is told, like things of many runs once: most of the records have lost an echo.
+# What the runs tell is told, like things of many runs once: most of the runs have lost an echo.
 told() { grep -c 'smooth: [0-9]* rows* left out: a reading is missing; and [0-9]* more like it$' "$1" || :; }
 [ "$(told "$scratch/told")" = 2 ] || fail "not a line of each task: $(cat "$scratch/told")"
 
-# A record that cannot be fitted is named, ends in an error, and the others have their rows.
+# A run that cannot be fitted is named, ends in an error, and the others have their rows.
 printf 't,x\n0,1\n1,1\n2,1\n' >"$scratch/run/still.csv"
 export SLURM_ARRAY_TASK_COUNT=1 SLURM_ARRAY_TASK_ID=0
 if samples/fleet/slurm.sh -K 0.5 -R 0.04 "$scratch/run" 2>"$scratch/told"; then fail 'still.csv is fitted'; fi
@@ -54,13 +54,13 @@ fitpower -q --route fits "$scratch/table" | awk '!/^#/ {
     print "joint:", $0; exit 1 } }'
 
 # One law for all: there is nothing that scatters, and the joint fit of the rows is that of fitpower
-# on all records at once.
+# on all runs at once.
 samples/fleet/make.sh "$scratch/class" 12 0
-for record in "$scratch"/class/*.csv; do samples/fleet/fit.sh -K 0.5 -R 0.04 "$record"; done 2>/dev/null | awk '!/^#/ || !names++' >"$scratch/table"
+for run in "$scratch"/class/*.csv; do samples/fleet/fit.sh -K 0.5 -R 0.04 "$run"; done 2>/dev/null | awk '!/^#/ || !names++' >"$scratch/table"
 smooth -q --coast -c x -w 1 "$scratch"/class/*.csv |
   fitpower -q --route position -K 0.5 -R 0.04 >"$scratch/joint"
 fitpower -q --route fits "$scratch/table" | tail -n 1 | cut -f 1-8 >"$scratch/of-rows"
 tail -n 1 "$scratch/joint" | paste "$scratch/of-rows" - | awk '{
   far_a = ($1 - $9) / $10; far_b = ($3 - $11) / $12; wide = $4 / $12
   if ($6 > 0.02 || far_a^2 > 0.04 || far_b^2 > 0.04 || wide < 0.8 || wide > 1.25) {
-    print "joint of the rows, and of the records:", $0; exit 1 } }'
+    print "joint of the rows, and of the runs:", $0; exit 1 } }'

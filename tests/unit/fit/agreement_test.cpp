@@ -190,7 +190,7 @@ TEST_CASE("agreement: the chance is that of the law with which the runs agree be
     for (const FitResult& r : own)
       smallest = std::min(smallest, least(sum, std::log(r.a) + r.b * log_v, r.b));
     const auto r = fit(Route::position, runs, options);
-    CHECK(r.agreement->significance ==
+    CHECK(r.agreement->p ==
           Approx(gsl_cdf_chisq_Q(smallest, static_cast<double>(r.agreement->dof))).epsilon(1e-5));
   }
 }

@@ -63,7 +63,7 @@ TEST_CASE("beginning: the chance is that of Chow's F of two fits", "[fit]") {
     const double variance = std::max(rest / left, local / (6 * static_cast<double>(near - 2)));
     constexpr double tests = 5;  // the first 3, 5, 8, 13 and 21 rows
     const double chance = tests * gsl_cdf_fdist_Q((all - rest) / variance / k, k, left);
-    CHECK(std::log(found->significance) == Approx(std::log(chance)).epsilon(0.01));
+    CHECK(std::log(found->p) == Approx(std::log(chance)).epsilon(0.01));
   }
 }
 
@@ -89,7 +89,7 @@ TEST_CASE("beginning: in joint fits a run is judged by its own law", "[fit]") {
     CHECK(found->run == 1);
     CHECK(found->rows == alone->rows);
     CHECK(found->time == alone->time);
-    CHECK(found->significance / alone->significance == Approx(2).epsilon(1e-6));
+    CHECK(found->p / alone->p == Approx(2).epsilon(1e-6));
   }
 }
 

@@ -34,7 +34,7 @@ FitRun wobbling(double size, double noise, double end = 4, double step = 0.03) {
 /// Least squares of x on 1, t, t^2, cos and sin of x/R, the periodogram at one period, by Gauss and
 /// Jordan's elimination in the normal equations.
 struct Harmonic {
-  double size, phase, sigma, significance;
+  double size, phase, sigma, p;
 };
 Harmonic harmonic(const FitRun& run) {
   constexpr std::size_t p = 5;
@@ -93,7 +93,7 @@ TEST_CASE("eccentricity: at a steady speed it is the periodogram over time", "[f
   CHECK(found->e == Approx(by_hand.size / unit).epsilon(0.003));
   CHECK(found->phase == Approx(by_hand.phase).margin(0.003));
   CHECK(found->sigma == Approx(by_hand.sigma / unit).epsilon(0.003));
-  CHECK(std::log(found->significance) == Approx(std::log(by_hand.significance)).epsilon(0.003));
+  CHECK(std::log(found->p) == Approx(std::log(by_hand.p)).epsilon(0.003));
   CHECK(std::abs(found->e - e) < 4 * found->sigma);
 }
 

@@ -86,7 +86,7 @@ TEST_CASE("joint law: p is that of chi2, for 760 rows too, and for rows of unequ
     for (int set = 0; set < 40; ++set) {
       const Agreement found = joint_law(rows(760, 0, 47, uneven), {}).agreement;
       CHECK(found.dof == 1518);
-      CHECK(found.significance == Approx(gsl_cdf_chisq_Q(found.ratio, 1518)));
+      CHECK(found.p == Approx(gsl_cdf_chisq_Q(found.ratio, 1518)));
       alarms += !found.agree();
     }
     CAPTURE(uneven);
@@ -110,8 +110,8 @@ TEST_CASE("joint law: rows say what a joint fit of their runs says", "[fit]") {
       const double sigma_a = std::exp(joint.law.a) * std::sqrt(joint.covariance.aa),
                    sigma_b = std::sqrt(joint.covariance.bb);
       CHECK(joint.agreement.run == r.agreement->run);
-      CHECK(joint.agreement.significance ==
-            Approx(r.agreement->significance).epsilon(0.05).margin(1e-6));
+      CHECK(joint.agreement.p ==
+            Approx(r.agreement->p).epsilon(0.05).margin(1e-6));
       const double a = (std::exp(joint.law.a) - r.a) / r.sigma_a,
                    b = (joint.law.b - r.b) / r.sigma_b;
       off += a * a + b * b;

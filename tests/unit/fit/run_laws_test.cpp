@@ -11,7 +11,7 @@ TEST_CASE("run laws: two laws whose errors are known, by hand", "[fit]") {
   const Agreement found = compare(laws, {0, 0.2}, 2, 0);
   CHECK(found.chi2 == Approx(0.03 * 0.03 / 2e-4));
   CHECK(found.ratio == Approx(found.chi2).epsilon(1e-4));
-  CHECK(found.significance == Approx(std::exp(-4.5 / 2)).epsilon(1e-4));
+  CHECK(found.p == Approx(std::exp(-4.5 / 2)).epsilon(1e-4));
   CHECK(found.run == 4);
   CHECK(found.log_D.value == Approx(-0.03));
 }

@@ -142,7 +142,7 @@ TEST_CASE("column: the SI unit of each quantity", "[text]") {
   CHECK(si_unit("w").empty());
 }
 
-TEST_CASE("column: a names line is one name a field", "[text]") {
+TEST_CASE("column: a header is one name a field", "[text]") {
   using Names = std::vector<std::string>;
   CHECK(split_names("t[s]\tv[m/s]", '\t') == Names{"t[s]", "v[m/s]"});
   CHECK(split_names("Time (s),Velocity (m/s)", ',') == Names{"Time (s)", "Velocity (m/s)"});

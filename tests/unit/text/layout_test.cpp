@@ -10,7 +10,7 @@ using namespace rolling;
 
 namespace {
 
-/// The runs of a names line as `label:fields`, each behind the names of its columns where they are
+/// The runs of a header as `label:fields`, each behind the names of its columns where they are
 /// others than those of the run before.
 std::string layout(const std::vector<std::string>& names) {
   std::vector<Column> line;
@@ -29,7 +29,7 @@ std::string layout(const std::vector<std::string>& names) {
 
 }  // namespace
 
-TEST_CASE("layout: a plain names line is one run", "[text]") {
+TEST_CASE("layout: a plain header is one run", "[text]") {
   CHECK(layout({"t", "x", "v"}) == "t x v :012 ");
   CHECK(layout({"Time (s) Run #2", "Velocity (m/s) Run #2"}) == "t[s] v[m/s] 2:01 ");
   CHECK(layout({"t", "v", "v"}) == "t v v :012 ");  // which v is for --use to say

@@ -20,7 +20,7 @@ TEST_CASE("reader: blank lines end a run, however many", "[text]") {
   CHECK(rows({"0 1\n1 2\n\n0 3\n"}) == "0 1 | 1 2 || 0 3");
   CHECK(rows({"\n\n0 1\n \n\t\n\n0 3\n\n\n"}) == "0 1 || 0 3");
   CHECK(rows({"0 1\n# a comment is no break\n1 2\n"}) == "0 1 | 1 2");
-  CHECK(rows({"t,v\n0,1\n\nt,v\n0,2\n"}) == "0 1 || 0 2");  // each run under its own names line
+  CHECK(rows({"t,v\n0,1\n\nt,v\n0,2\n"}) == "0 1 || 0 2");  // each run under its own header
   CHECK(rows({"t,v\n0,1\nt,v\n1,2\n"}) ==
         "FILE:3: field 1 (t): 't' is not a number; put a blank line before the names of "
         "another run");

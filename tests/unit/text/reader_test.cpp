@@ -66,7 +66,7 @@ TEST_CASE("reader: names in a first line that is not numeric", "[text]") {
         "heading, begin it with #");
   CHECK(rows({"t,v\n0,5\n\nRun 2\n\nThe end of 3 runs\n\n1. try\n"}) == "0 5");
   const std::string hint = "; if this line is not a row, begin it with #";
-  // Quotes that are none in this file do not make a row a line of names, or a remark.
+  // Quotes that are none in this file do not make a row a header, or a remark.
   CHECK(rows({"# t v\n\"0\" \"5\"\n1 6\n"}, use({"t=1", "v=2"})) ==
         "FILE:2: field 1 (t): '\"0\"' is not a number" + signs);
   CHECK(rows({"t,v\n'0','5'\n1,6\n"}) == "FILE:2: field 1 (t): ''0'' is not a number" + signs);

@@ -38,7 +38,7 @@ FitRun made_run(Route route, unsigned seed) {
 }  // namespace
 
 // With A = 1 only g/((1 + K) R) counts: D is proportional to (1 + K) R/g, on every route.
-TEST_CASE("given numbers: ln a moves by dK/(1 + K), dR/R and dg/g, b does not", "[fit]") {
+TEST_CASE("input quantities: ln a moves by dK/(1 + K), dR/R and dg/g, b does not", "[fit]") {
   for (Route route : {Route::loglog, Route::shift, Route::velocity, Route::position})
     for (bool filters_known : {true, false}) {
       FitRun run = made_run(route, 3);
@@ -64,7 +64,7 @@ TEST_CASE("given numbers: ln a moves by dK/(1 + K), dR/R and dg/g, b does not", 
     }
 }
 
-TEST_CASE("given numbers: on a level mat the shares are those of fits with other numbers",
+TEST_CASE("input quantities: on a level mat the shares are those of fits with other numbers",
           "[fit]") {
   for (Route route : {Route::loglog, Route::shift, Route::velocity, Route::position}) {
     FitRun run = made_run(route, 3);
@@ -84,7 +84,7 @@ TEST_CASE("given numbers: on a level mat the shares are those of fits with other
   }
 }
 
-TEST_CASE("given numbers: runs of one body move together, those of two each by itself", "[fit]") {
+TEST_CASE("input quantities: runs of one body move together, those of two apart", "[fit]") {
   std::vector<FitRun> runs{made_run(Route::position, 3), made_run(Route::position, 4)};
   for (FitRun& run : runs) run.given = {.K = 0.005};
   const auto one = fit(Route::position, runs, {});
@@ -101,7 +101,7 @@ TEST_CASE("given numbers: runs of one body move together, those of two each by i
 
 // The law of runs that disagree is the mean of theirs, in which runs that scatter by more than
 // their noise have equal weights. K of half of them moves ln a of each by dK/(1 + K), and no b.
-TEST_CASE("given numbers: where runs disagree their shares are those of the mean", "[fit]") {
+TEST_CASE("input quantities: where runs disagree their shares are those of the mean", "[fit]") {
   simulated::Noise noise(46);
   std::vector<FitRun> runs;
   for (const auto& [by, K] : {std::pair(0.95, 0.5), {1.07, 0.5}, {0.92, 0.83}, {1.04, 0.83}}) {
@@ -122,7 +122,7 @@ TEST_CASE("given numbers: where runs disagree their shares are those of the mean
   CHECK(share(r, "K", &ErrorShare::b) < 1e-3);
 }
 
-TEST_CASE("given numbers: what is held fixed has no error from them", "[fit]") {
+TEST_CASE("input quantities: what is held fixed has no error from them", "[fit]") {
   FitOptions options;
   options.a = 1.87e-3;
   const auto r = fit(Route::position, {made_run(Route::position, 3)}, options);
@@ -132,8 +132,8 @@ TEST_CASE("given numbers: what is held fixed has no error from them", "[fit]") {
 }
 
 // The short form of a table of `make coverage`. A spread of 2000 draws scatters by 1.6 %.
-TEST_CASE("given numbers: errors and correlation are those of Monte Carlo draws", "[fit][many]") {
-  const auto all = studies::given_numbers(2000, 8);
+TEST_CASE("input quantities: errors and correlation of Monte Carlo draws", "[fit][many]") {
+  const auto all = studies::input_quantities(2000, 8);
   CAPTURE(all.stated_a, all.a.sd(), all.stated_b, all.b.sd(), all.stated_v0, all.v0.sd(),
           all.stated_corr, all.corr);
   CHECK(std::abs(all.stated_a / all.a.sd() - 1) < 0.06);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/given_numbers.h"
+#include "fit/input_quantities.h"
 
 #include <fmt/core.h>
 
