@@ -390,7 +390,7 @@ TEST_CASE("free_roll: one reading that is off, wherever it is, moves no end but 
           "[signal]") {
   for (const bool positions : {false, true})
     for (const double off : {0.2, -0.02}) {
-      const auto good = run(25, positions ? 3e-4 : 2e-3, 5, positions);
+      const auto good = made_run(25, positions ? 3e-4 : 2e-3, 5, positions);
       const Stretch whole = free_roll(good, positions).kept;
       for (std::size_t at = 1; at + 1 < good.size(); ++at) {
         auto run = good;
