@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <string_view>
 #include <utility>
 
@@ -22,19 +19,6 @@ constexpr std::size_t largest_file = 1 << 16;
 constexpr std::array<std::string_view, 12> keys = {
     "mass",     "radius", "shape-factor", "gravity", "slope",  "coefficient",
     "exponent", "exact",  "v0",           "x0",      "memory", "damping"};
-
-std::string content(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) fail<InputError>("{}: {}", file, std::strerror(errno));
-  std::string text(largest_file + 1, '\0');
-  errno = 0;
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad()) fail<InputError>("{}: {}", file, std::strerror(errno));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > largest_file)
-    fail<InputError>("{}: a scene file is at most {} bytes", file, largest_file);
-  return text;
-}
 
 bool in_key(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
@@ -91,23 +75,22 @@ SceneValue read_line(std::string_view line) {
 }  // namespace
 
 std::vector<SceneValue> read_scene(const std::string& file) {
-  const std::string text = content(file);
+  Input input(file);
   std::vector<SceneValue> scene;
-  std::size_t at = 0;
-  for (std::size_t number = 1; at < text.size(); ++number) {
-    const auto end = std::min(text.find('\n', at), text.size());
-    std::string_view line = without_byte_order_marks(std::string_view(text).substr(at, end - at));
-    at = end + 1;
-    if (line.ends_with('\r')) line.remove_suffix(1);
+  std::size_t bytes = 0;
+  for (std::string_view line; input.next(line); ++bytes) {  // and its line feed
+    bytes += line.size();
+    if (bytes > largest_file)
+      fail<InputError>("{}: a scene file is at most {} bytes", file, largest_file);
     if (is_comment(line)) continue;
     try {
       SceneValue value = read_line(trim(line));
       for (const SceneValue& earlier : scene)
         if (earlier.key == value.key) fail("{} is in line {} too", value.key, earlier.line);
-      value.line = number;
+      value.line = input.line_number();
       scene.push_back(std::move(value));
     } catch (const Error& error) {
-      fail<InputError>("{}:{}: {}", file, number, error.what());
+      fail<InputError>("{}:{}: {}", file, input.line_number(), error.what());
     }
   }
   return scene;
