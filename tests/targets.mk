@@ -78,7 +78,7 @@ check-arm64: all
 	@$(call copy,build/arm64)
 	tests/arm64.sh build/arm64
 
-# build/rolling-VERSION-linux-aarch64.tar.xz, built likewise.
+# build/rolling-VERSION-linux-aarch64.tar.xz, built likewise; its Table 1 is compared.
 static-arm64: all
 	@$(call copy,build/arm64)
 	tests/arm64.sh build/arm64 $(tool:%=build/static/bin/%)

@@ -31,7 +31,7 @@ for goal; do
     figures | figures/* | report) need gnuplot-nox mandoc; continue ;;
     html) need mandoc; continue ;;
     static) need binutils xz-utils; continue ;;
-    static-arm64) need binutils xz-utils g++-aarch64-linux-gnu; continue ;;
+    static-arm64) need binutils xz-utils g++-aarch64-linux-gnu qemu-user; continue ;;
     deb) need dpkg-dev; continue ;;
     lint) need clang-format-14 clang-tidy-14 cppcheck shellcheck mandoc; continue ;;
     fuzz) need clang-14; continue ;;
