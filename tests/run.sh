@@ -45,7 +45,7 @@ scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 trap 'exit 130' INT TERM
 # A machine SLOWER times slower, as an emulator, has so much more time for each test, and leaves the
-# unit tests out that fit [many] records.
+# unit tests out that fit [many] rows.
 slower=${SLOWER:-1}
 export PATH="$root/bin:$PATH" TMPDIR="$scratch"
 

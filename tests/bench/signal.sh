@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# tests/bench/signal.sh FOLDER: the errors of smooth and differentiate on noisy records, as
+# tests/bench/signal.sh FOLDER: the errors of smooth and differentiate on noisy runs, as
 # FOLDER/signal.tsv, with SciPy's beside them where it is installed, and against window and run time
 # as FOLDER/signal{,-time}.{svg,png} where gnuplot is. Prints the best and the usual for each scene.
 set -euo pipefail
@@ -51,7 +51,7 @@ set output picture . "/signal" . suffix
 set multiplot layout 2,2 title "Error of D against the window, 25 Hz sonar \
 (thick: v' of the same fit; dashed: smoothed, then central)"
 set xrange [0:63]
-set xlabel "width [records]"
+set xlabel "width [rows]"
 set key outside right
 do for [scene in "CF CR SF SR"] {
   set title scene
@@ -67,12 +67,12 @@ do for [scene in "CF CR SF SR"] {
 unset multiplot
 
 set output picture . "/signal-time" . suffix
-set multiplot layout 2,2 title "Error of D against run time, windows of 5 to 61 records along the \
+set multiplot layout 2,2 title "Error of D against run time, windows of 5 to 61 rows along the \
 lines"
 set logscale x
 set xrange [0.005:20]
 set key samplen 2 font ",9"
-set xlabel "us a record"
+set xlabel "us a row"
 # What has no window is one point. SciPy's rows are there where it is installed.
 single = "pasco vernier spline spline_of_x+central"
 if (system('grep -c scipy "$TABLE"') > 0) { single = single . " scipy_savgol2 scipy_spline_of_x" }

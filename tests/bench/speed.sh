@@ -57,7 +57,7 @@ make_vD() {  # CORRELATION of the noise from one row to the next
     }
   }'
 }
-# Of white records one in twenty looks correlated at 10 %, which takes longer. The first one does
+# Of white runs one in twenty looks correlated at 10 %, which takes longer. The first one does
 # not (p = 0.27 for 10^6 rows); the other does.
 make_vD 0 >vD.txt
 make_vD 0.5 >vD-correlated.txt

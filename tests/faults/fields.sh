@@ -62,7 +62,7 @@ for token in 1 +1 1. .5e0 5E-1 010 1e+0 00.5; do
   accepted "smooth $token"
 done
 
-# name <tab> what the message holds <tab> the file, whose bad record begins with 77
+# name <tab> what the message holds <tab> the file, whose bad row begins with 77
 while IFS=$'\t' read -r name says file; do
   printf '%b' "$file" >"$scratch/in"
   for tool in $tools; do
@@ -70,7 +70,7 @@ while IFS=$'\t' read -r name says file; do
     attempt ${command[$tool]} - <"$scratch/in"
     refused "$tool $name" "$says"
     ! grep -q '^77' "$scratch/out" ||
-      complain "$tool: $name: a bad record went out: $(cat "$scratch/out")"
+      complain "$tool: $name: a bad row went out: $(cat "$scratch/out")"
   done
 done <<'END'
 empty	standard input is empty: did the tool before this one fail?	

@@ -21,8 +21,8 @@ for tool in $tools; do
   # shellcheck disable=SC2086
   each_allocation ${command[$tool]} "$scratch/good"
 done
-sed '7s/^/# a remark that needs more memory than the records before it have: '"$(printf '%999s' x)"'\n/' "$scratch/good" >"$scratch/remark"
-for file in good remark; do  # while a record or a remark is taken few fail
+sed '7s/^/# a remark that needs more memory than the rows before it have: '"$(printf '%999s' x)"'\n/' "$scratch/good" >"$scratch/remark"
+for file in good remark; do  # while a row or a remark is taken few fail
   step=1 each_allocation smooth -w 3 "$scratch/$file"
 done
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 0.5 --dt 0.1 --columns t,v --digits 3 |

@@ -85,17 +85,17 @@ fi
 if ! grep -q __asan_init bin/smooth; then
   good 1200000 >"$scratch/large"
   (ulimit -v 65536; exec fitpower --route velocity -K 0.5 -R 0.04 "$scratch/large") >"$scratch/out" 2>"$scratch/err"; status=$?
-  refused 'fitpower 1200000 records in 64 MB' 'out of memory'
+  refused 'fitpower 1200000 rows in 64 MB' 'out of memory'
   [ ! -s "$scratch/out" ] || complain 'fitpower out of memory prints something'
   for tool in smooth shift-from-accel simulate energy-ledger; do
     # shellcheck disable=SC2086
     (ulimit -d 8192; exec ${command[$tool]} "$scratch/large") 2>"$scratch/err" | tail -n 1 >"$scratch/out"; status=${PIPESTATUS[0]}
-    accepted "$tool 1200000 records in 8 MB of data"
+    accepted "$tool 1200000 rows in 8 MB of data"
     rm -f "$scratch/out"
   done
 fi
 
-# -u on a live source: a row goes out as soon as its window allows, before the next record comes.
+# -u on a live source: a row goes out as soon as its window allows, before the next row comes.
 live() {  # RECORDS-AHEAD COMMAND...
   local ahead=$1 i line rows=0
   shift
@@ -103,7 +103,7 @@ live() {  # RECORDS-AHEAD COMMAND...
   { for ((i = 1; i <= ahead + 3; ++i)); do
       printf '%s 0.5 -0.14 8.7e-4\n' "$i" >&"${COPROC[1]}"
       while [ $((i - rows)) -gt "$ahead" ]; do
-        IFS= read -r -t 20 -u "${COPROC[0]}" line || { complain "$*: after $i records row $((rows + 1)) has not come" && break 2; }
+        IFS= read -r -t 20 -u "${COPROC[0]}" line || { complain "$*: after $i rows row $((rows + 1)) has not come" && break 2; }
         [[ $line == '#'* ]] || rows=$((rows + 1))
       done
     done; } 2>/dev/null

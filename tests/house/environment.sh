@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Nothing in the environment changes what the scripts, the pages and the README give: a locale with
-# a decimal comma, CDPATH, folders and records whose names have blanks, quotes, signs of the shell.
+# a decimal comma, CDPATH, folders and runs whose names have blanks, quotes, signs of the shell.
 set -u
 export LC_ALL=C
 unset CDPATH
@@ -60,7 +60,7 @@ cp -R samples "$odd/samples"
 diff -r "$scratch/plain" "$odd/out" | cut -c 1-300 | head -n 40 | grep . &&
   complain "the scripts give something else in odd surroundings"
 [ "$(grep -vc '^#' "$scratch/plain/table")" = 5 ] ||
-  complain "not a row for each record: $(cut -f 1 "$scratch/plain/table")"
+  complain "not a row for each run: $(cut -f 1 "$scratch/plain/table")"
 [ "$(awk -F'\t' '{ print NF }' "$scratch/plain/table" | sort -u | wc -l)" = 1 ] ||
   complain "a name makes a column"
 [ ! -e hit ] && [ -z "$(find "$scratch" -name hit)" ] || complain "a name was run as code"

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # smooth --coast finds the free roll of the samples and of other seeds, in positions and in speeds:
 # it begins after the release at 1.5 s, and before 2.1 s; it ends at most 0.75 s before the stop and
-# 0.04 s after it (the closed form's times). So it does, in positions, on worse records: with noise
-# of 0.1 to 3 mm, one echo in twenty lost, 20 or 50 records a second, hardly any rest before and
+# 0.04 s after it (the closed form's times). So it does, in positions, on worse runs: with noise
+# of 0.1 to 3 mm, one echo in twenty lost, 20 or 50 rows a second, hardly any rest before and
 # after (0.4 s), a roll backwards at the end; with noise of 3 mm it begins before 2.5 s. What comes
 # without noise from simulate, and ends at the stop, loses three rows at most.
 set -eu

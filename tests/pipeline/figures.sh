@@ -191,13 +191,13 @@ for run in CR:0.5 SR:0.83 CF:0.5 SF:0.83; do
         complain "fig4: $run"
 done
 
-# Records of somebody's own: a picture of speeds alone, in another unit and under a name that is no
+# Runs of somebody's own: a picture of speeds alone, in another unit and under a name that is no
 # code, has the law of the route by D through the speeds as they are.
 sed 's/Time (s),.*/Time (s),Velocity (km\/h)/; 2,$s/,.*,\(.*\)/,\1/' samples/CR.csv |
   awk -F, -v OFS=, 'NR > 1 && $2 != "" { $2 *= 3.6 }
     { print }' >"$scratch/my_'run'; set label.1.csv"
 (cd "$scratch" && "$OLDPWD/samples/figures/fig4.sh" -K 0.5 -R 0.04 "my_'run'; set label.1.csv") \
-  >"$scratch/own.svg" || complain "fig4 of an own record: exit $?"
+  >"$scratch/own.svg" || complain "fig4 of an own run: exit $?"
 # A roll towards falling x has the picture of its mirror image.
 mkdir "$scratch/mirrored"
 awk -F, -v OFS=, 'NR > 1 && $2 != "" { $2 = -$2 } { print $1, $2 }' samples/CR.csv \
@@ -209,11 +209,11 @@ samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/mirrored/CR.csv" |
 mkdir "$scratch/swapped"
 awk -F, -v OFS=, '{ print $2, $1 }' "$scratch/CR.csv" >"$scratch/swapped/CR.csv"
 samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/swapped/CR.csv" |
-  cmp - "$scratch/towards-growing-x.svg" || complain "fig4 of a record with x before t"
+  cmp - "$scratch/towards-growing-x.svg" || complain "fig4 of a run with x before t"
 smooth -q --coast -c v -w 11 "$scratch/my_'run'; set label.1.csv" | differentiate -c v |
   shift-from-accel -q -K 0.5 -R 0.04 | fitpower -q | tail -n 1 >"$scratch/law"
 sed "s/&#39;/'/g" "$scratch/own.svg" | grep -qF "my_'ru…label.1:  a = " ||
-    complain "own record: its name is not there"
+    complain "own run: its name is not there"
 # The picture says a, b, K and R with their uncertainties.
 samples/figures/fig4.sh -K 0.50+-0.05 -R 0.04 "$scratch/CR.csv" >"$scratch/given.svg"
 smooth -q --coast -c x -w 1 "$scratch/CR.csv" | differentiate -c x | smooth | differentiate |
@@ -261,12 +261,12 @@ for i in {1..17}; do
   cp "$scratch/CR.csv" "${names[-1]}"
 done
 for n in 1 4 5 9 16 17; do
-  samples/figures/fig4.sh -K 0.5 -R 0.04 "${names[@]:0:n}" >"$scratch/names.svg" || complain "fig4 of $n records"
+  samples/figures/fig4.sh -K 0.5 -R 0.04 "${names[@]:0:n}" >"$scratch/names.svg" || complain "fig4 of $n runs"
   [ "$(grep -c '<title>a[^<]*…' "$scratch/names.svg")" = $((n > 16 ? 16 : n)) ] ||
-    complain "fig4 of $n records: $(grep -c '<title>a[^<]*…' "$scratch/names.svg") names"
+    complain "fig4 of $n runs: $(grep -c '<title>a[^<]*…' "$scratch/names.svg") names"
 done
 grep -q 'The key names the first 16 of 17 runs' "$scratch/names.svg" ||
-  complain 'fig4 of 17 records does not say that it names 16'
+  complain 'fig4 of 17 runs does not say that it names 16'
 { part own 3; part own 4; } | grep -oE '[ML][0-9.]+,[0-9.]+' | tr -d ML | tr ',' ' ' | awk -v frame="$(axes own)" '
   BEGIN { split(frame, f, " ") }
   FNR == NR { a = $1; b = $3; next }
@@ -274,7 +274,7 @@ grep -q 'The key names the first 16 of 17 runs' "$scratch/names.svg" ||
   END {  # from one speed to another the law grows by their ratio to the power b
     grows = (f[4] - y1) / (f[4] - y0); wide = (x1 - f[1]) / (x0 - f[1])
     exit !(n > 50 && (grows / wide^b - 1)^2 < 1e-4) }' "$scratch/law" - ||
-      complain "own record: its law"
+      complain "own run: its law"
 
 # The residuals, read off the picture at two of its ticks, are those of Eq. 13 with the row of
 # fitpower; the rms is that of the row; a row that is 20 mm off is named.

@@ -118,9 +118,9 @@ for line in 'the positions are not those of a law a v^b' 'the energy of run 1 do
 done
 [ "$(runs)" = run.csv ] || complain "the name of one run: $(runs)"
 
-# live.sh: a picture for every record but the last six: five wait for their window to be whole, one
-# for the difference with the next. A record comes at its own pace through a pseudo terminal.
-record() { awk 'BEGIN { for (i = 0; i < 30; i++) printf "%.2f %.4f\n", i / 25, 0.5 - 0.008 * i }'; }
+# live.sh: a picture for every row but the last six: five wait for their window to be whole, one
+# for the difference with the next. A row comes at its own pace through a pseudo terminal.
+row() { awk 'BEGIN { for (i = 0; i < 30; i++) printf "%.2f %.4f\n", i / 25, 0.5 - 0.008 * i }'; }
 pictures() { grep -ac 'v / (m/s)' "$1" 2>/dev/null || :; }
 await() {  # FILE PICTURES: so many have come, and no more do
   local i
@@ -131,7 +131,7 @@ await() {  # FILE PICTURES: so many have come, and no more do
   sleep 0.3
   [ "$(pictures "$1")" = "$2" ] || complain "live: $(pictures "$1") pictures instead of $2"
 }
-record >whole
+row >whole
 head -n 20 whole >grows
 ./live.sh -T dumb grows >said 2>&1 && complain 'live.sh goes on without K and R'
 grep -q 'say what rolled' said || complain "live.sh without K: $(cat said)"

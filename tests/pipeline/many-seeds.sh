@@ -1,14 +1,14 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Simulated records of many seeds, through the whole chain: a and b come back within the errors that
+# Simulated runs of many seeds, through the whole chain: a and b come back within the errors that
 # fitpower reports. Of 40 runs with honest 95 % intervals fewer than 33 hits have a chance of 1 in
 # 700; two normal scores beyond 5, of 1 in a million.
 set -eu
 export LC_ALL=C
 unset CDPATH
-record() { simulate --scene "samples/$1.toml" --memory 5e-4 --damping 0.02 --sensor pasco --seed "$2" | smooth -q --coast -c x -w 1; }
-by_position() { record "$1" "$2" | fitpower -q --route position -K 0.5 -R 0.04; }
-by_shift() { record "$1" "$2" | differentiate -c x | smooth -w 11 | differentiate |
+run() { simulate --scene "samples/$1.toml" --memory 5e-4 --damping 0.02 --sensor pasco --seed "$2" | smooth -q --coast -c x -w 1; }
+by_position() { run "$1" "$2" | fitpower -q --route position -K 0.5 -R 0.04; }
+by_shift() { run "$1" "$2" | differentiate -c x | smooth -w 11 | differentiate |
   shift-from-accel -K 0.5 -R 0.04 | fitpower -q; }
 for route in position shift; do
   for scene in "CF 5.75e-4 2.44e-2" "CR 1.87e-3 2.15e-1"; do

@@ -9,7 +9,7 @@ data=${NIST_DATA:-}
 [ -r "$data/NumAcc4.dat" ] ||
   { echo "skipped: NIST_DATA names no folder with the data files of NIST; see tests/recordings.md";
     exit 77; }
-mean() {  # SET MEAN, as certified, to 15 digits: of the middle row of an odd number of records; an even number gets the mean as one more
+mean() {  # SET MEAN, as certified, to 15 digits: of the middle row of an odd number of rows; an even number gets the mean as one more
   local numbers got
   numbers=$(awk -v mean="$2" 'data && NF == 1 { print n++, $1 } /^-+ *$/ { data = 1 }
     END { if (n % 2 == 0) print n++, mean }' "$data/$1.dat")

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# `make samples` makes the raw records again byte for byte.
+# `make samples` makes the raw runs again byte for byte.
 set -eu
 export LC_ALL=C
 unset CDPATH

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The shape factor comes back from made records with the error that is told, over 25 seeds of two
-# bodies; a caliper that is read wrong is noticed; and what is printed serves as -K. A record is read
+# The shape factor comes back from made runs with the error that is told, over 25 seeds of two
+# bodies; a caliper that is read wrong is noticed; and what is printed serves as -K. A run is read
 # as the tools read it.
 set -u
 export LC_ALL=C
@@ -28,9 +28,9 @@ awk '{ sum += $1; squares += $1^2 }
   END { print NR, sum / NR, squares; exit !(NR == 50 && squares > 28 && squares < 79 && (sum / NR)^2 < 0.13) }' \
   "$scratch/pulls" >"$scratch/said" || { echo "pulls: $(cat "$scratch/said")"; exit 1; }
 
-# A torque that is 2 % wrong; the records are made with the right one.
+# A torque that is 2 % wrong; the runs are made with the right one.
 cp samples/CR.csv samples/SR.csv "$scratch"
-sed '/^acceleration/,/^make_records/ s/w \* (g - r \* alpha) \* r/w * (g - r * alpha) * 1.02 * r/' \
+sed '/^acceleration/,/^make_runs/ s/w \* (g - r \* alpha) \* r/w * (g - r * alpha) * 1.02 * r/' \
   samples/shape-factor.sh >"$scratch/wrong.sh"
 cmp -s samples/shape-factor.sh "$scratch/wrong.sh" && { echo "nothing was changed"; exit 1; }
 chmod +x "$scratch/wrong.sh"
@@ -43,7 +43,7 @@ fall=$scratch/cylinder-fall.csv spin=$scratch/cylinder-spin.csv
 K=$(samples/shape-factor.sh "$fall" "$spin")
 wrong=0
 complain() { echo "$*" && wrong=1; }
-same() {  # TITLE AWK: both records, changed by awk, tell the same K
+same() {  # TITLE AWK: both runs, changed by awk, tell the same K
   awk -F, -v OFS=, "$2" "$fall" >"$scratch/a.csv"
   awk -F, -v OFS=, "$2" "$spin" >"$scratch/b.csv"
   local said

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Table 1 comes back from the raw records; and the script can fail: with another paper value it
+# Table 1 comes back from the raw runs; and the script can fail: with another paper value it
 # does.
 set -u
 scratch=$(mktemp -d)

@@ -92,9 +92,9 @@ BEGIN {
     printf "%s", head >file
     printf "%s%s%s%s", told, rem, his, tell_columns() >expected
     for (i = 1; i <= added; i++) print "COL " appended[i] >expected
-    # The records.
-    records = 2 + random(4)
-    for (k = 0; k < records; k++) {
+    # The rows.
+    rows = 2 + random(4)
+    for (k = 0; k < rows; k++) {
       row = out = ""
       missing = k > 1 && random(6) == 0
       for (i = 1; i <= width; i++) {

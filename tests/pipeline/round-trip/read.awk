@@ -30,7 +30,7 @@ BEGIN { in_head = 1 }
 pending != "" { $0 = pending "\n" $0; pending = "" }
 /^$/ { in_head = 1; run = rem = his = names = ""; next }
 /^## run / && in_head { run = "RUN " substr($0, 8) "\n"; next }
-/^##/ { if (!in_head) { print "a history line among the records: " $0; exit 1 } his = his "HIS " substr($0, 4) "\n"; next }
+/^##/ { if (!in_head) { print "a history line among the rows: " $0; exit 1 } his = his "HIS " substr($0, 4) "\n"; next }
 /^#/ {
   if (!in_head) { print "REM " shown($0); next }
   if (names != "") rem = rem "REM # " shown(names) "\n"
