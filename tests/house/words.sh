@@ -52,6 +52,14 @@ never 'held fixed|both held|\bbe held\b|\bis held\b|are held\b' fixed
 never 'held the truth|\bcovered\b' 'coverage probability'
 never 'runs that do not are told|by fainter signs|is (not )?adequate|errors allow for that' 'what was seen and what to do'
 
+# The same words in names and comments of the code, and in the scripts of samples.
+grep -nE '' -r lib cmd samples --include='*.h' --include='*.cpp' --include='*.sh' --include='*.awk' --include='*.gp' >"$scratch/texts"
+never '(\b|_)records?(\b|_)|Records?\b' 'row, or run' '^samples/lab/lab\.sh.*(records|\brecords=)'
+never '\b(names line|lines? of names)\b' header
+never 'significance\b' p
+never 'given[ _]numbers' 'input quantities'
+never 'held fixed|both_held' fixed
+
 # The look itself finds what it looks for.
 printf '%s\n' 'x: three records' 'x: a line of names' 'x: its standard error' 'x: chance 0.1' 'x: b is held' >"$scratch/texts"
 found=$(never '\brecords?\b' row; never 'line of names' header; never 'its standard error' s
