@@ -45,6 +45,8 @@ std::optional<Law> read_law(Tool& tool, const std::string& file, PowerLaw& law,
     return {};
   }
   tool.refuse({"coefficient", "exponent"}, "does not go with a table of v D");
+  if (!in.find("v") || !in.find("D"))
+    fail<InputError>("{}: neither a table of v and D nor a row of fitpower", shown(file));
   const auto v = in.need("v"), D = in.need("D");
   std::vector<double> speeds, shifts;
   while (in.next_run())

@@ -27,8 +27,12 @@ void require(const Range& range, double value, std::string_view text) {
   Estimate estimate;
   const std::string with_points = replace_all(text, ",", ".");
   const bool has_comma = with_points != text && parse_estimate(with_points, estimate);
+  const std::string number = text.substr(0, text.find_last_of("0123456789") + 1);
+  const bool has_unit = number != text && parse_estimate(number, estimate);
   fail("'{}' is not a number{}", shown(text),
-       has_comma ? "; its decimal mark has to be a point" : "");
+       has_comma  ? "; its decimal mark has to be a point"
+       : has_unit ? ": write it alone, in the unit of --help"
+                  : "");
 }
 
 Estimate to_estimate(const std::string& text, const Range& range) {

@@ -47,7 +47,8 @@ NeededColumns::NeededColumns(const std::vector<std::string>& use, bool has_use,
     if (si_unit(quantity).empty()) fail("--use: '{}' is not about t, x, v, a or D", shown(text));
     const std::string whole = text.substr(equals + 1);
     const Column column = read_column(whole);
-    if (!use_.emplace(quantity, Use{column.run.empty() ? column.name : whole, column.unit}).second)
+    const std::string& name = column.run.empty() ? column.name : whole;
+    if (!use_.emplace(quantity, Use{name, column.unit, whole}).second)
       fail("--use: '{}' comes after another for {}", shown(text), quantity);
   }
 }
@@ -77,7 +78,7 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits
     const auto at = find_column(use.column);
     if (!at)
       fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", place_, quantity,
-                       shown(use.column), shown(use.column), list());
+                       shown(use.text), shown(use.text), list());
     std::ranges::replace(quantities_, quantity, free_name(as_read_, quantity));
     quantities_[*at] = quantity;
   }

@@ -69,6 +69,7 @@ class NeededColumns {
  private:
   struct Use {
     std::string column, unit;  // the column by its number or name, with the run that it carries
+    std::string text;          // as it was given
   };
   std::optional<std::size_t> find_column(std::string_view name) const;
   std::size_t require(std::string_view name) const;
