@@ -181,7 +181,8 @@ TEST_CASE("headings: random ones are read as they are meant, or refused", "[text
     ++read;
     bool same = found.size() == made.rows.size();
     for (std::size_t i = 0; same && i < found.size(); ++i)
-      for (const int k : {0, 1}) same = same && std::abs(found[i][k] / made.rows[i][k] - 1) < 1e-12;
+      for (const std::size_t k : {0u, 1u})
+        same = same && std::abs(found[i][k] / made.rows[i][k] - 1) < 1e-12;
     INFO(seed << ":\n" << made.text);
     CHECK(same);
   }

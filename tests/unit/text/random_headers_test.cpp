@@ -159,7 +159,8 @@ TEST_CASE("random headers: every run and unit as an independent reader says, or 
     CHECK_FALSE(made.question);
     bool same = found.size() == made.rows.size();
     for (std::size_t i = 0; same && i < found.size(); ++i)
-      for (const int k : {0, 1}) same = same && std::abs(found[i][k] / made.rows[i][k] - 1) < 1e-12;
+      for (const std::size_t k : {0u, 1u})
+        same = same && std::abs(found[i][k] / made.rows[i][k] - 1) < 1e-12;
     CHECK(same);
   }
   CHECK(read > 2 * refused);
