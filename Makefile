@@ -80,7 +80,7 @@ endif
 table1: all
 	@PATH="$$PWD/bin:$$PATH" samples/table1.sh
 
-# The raw records: simulated, so that the answer is known; see samples/README.md.
+# The raw runs: simulated, so that the answer is known; see samples/README.md.
 sensor := --memory 5e-4 --damping 0.02 --sensor pasco
 samples: bin/simulate
 	bin/simulate --scene samples/CF.toml $(sensor) --seed 1 >samples/CF.csv

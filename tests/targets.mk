@@ -169,13 +169,13 @@ check-long: check
 	LONG=1 tests/house/reproducible.sh
 
 # How often the errors of fitpower hold, by case and route: 1000 simulated runs each. Then what it
-# says of records with one thing wrong, and which law it finds. Some 20 minutes of two processors.
+# says of runs with one thing wrong, and which law it finds. Some 20 minutes of two processors.
 build/tests/bench/coverage.o: CPPFLAGS += -Itests
 build/coverage: build/tests/bench/coverage.o build/lib.a
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) -pthread
-coverage: build/coverage build/bench/records
-	@{ echo 'Of build/coverage and build/bench/records, run by make coverage:'; build/coverage; \
-	  build/bench/records; } | tee samples/coverage.txt
+coverage: build/coverage build/bench/troubles
+	@{ echo 'Of build/coverage and build/bench/troubles, run by make coverage:'; build/coverage; \
+	  build/bench/troubles; } | tee samples/coverage.txt
 
 # Error against run time of all methods: some minutes; figures where gnuplot is installed. See
 # tests/bench/README.md.
@@ -196,7 +196,7 @@ work-precision: build/bench/ulp build/bench/work_precision
 	build/bench/work_precision build/work-precision
 	tests/bench/work-precision.sh build/work-precision | tee build/work-precision/failures.tsv
 
-# The errors of smooth and differentiate on noisy records, by method and window: some seconds.
+# The errors of smooth and differentiate on noisy runs, by method and window: some seconds.
 work-precision-signal: build/bench/signal
 	@mkdir -p build/work-precision
 	tests/bench/signal.sh build/work-precision

@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
       rows.push_back([=] { return row(what, scene, runs); });
     };
     for (const auto& scene : {coverage::CR, coverage::CF}) add(scene);
-    if (what.record)
+    if (what.whole)
       for (const auto& scene : {coverage::SR, coverage::SF}) add(scene);
     if (what.name == std::string("white x") || what.name == std::string("D from x, mean 11"))
       for (const auto& scene : coverage::exponents) add(scene);

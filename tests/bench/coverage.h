@@ -70,7 +70,7 @@ class Simulation {
       : c_(c), truth_(truth), scene_(scene),
         n_(static_cast<std::size_t>(truth.stop_time() / dt * c.finer) + 1), noise_(seed),
         random_(seed + 1) {}
-  std::size_t records() const { return n_; }
+  std::size_t rows() const { return n_; }
 
   /// The run of this number in a joint fit.
   rolling::FitRun next(int i) {
@@ -79,7 +79,7 @@ class Simulation {
     rolling::FitRun run{};
     run.body = scene_.body();
     const Column raw = c_.ending     ? pushed_roll(run.t)
-                       : c_.record   ? free_roll(run.t)
+                       : c_.whole    ? free_roll(run.t)
                        : c_.gate > 0 ? gates(run.t)
                                      : readings(run.t);
     run.x = run.v = run.D = raw;
@@ -181,7 +181,7 @@ class Simulation {
     sonar.seed = random_();
     std::vector<rolling::Sample> samples;
     rolling::sonar_run(*rolling::start(roll, rolling::best_method(roll), 1e-10), sonar,
-                          [&](const rolling::SonarSample& s) {
+                       [&](const rolling::SonarSample& s) {
       if (s.x) samples.push_back({s.t, *s.x});
     });
     return kept(samples, times);
@@ -281,7 +281,7 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
   row.percent_a = 100 * row.bias_a * sd_a / scene.a;
   row.sd_b = moments(bs, row.bias_b);
   if (c.bound)
-    row.over_bound = row.sd_b / bound_of_b(truth, simulation.records(), c.route == Route::position);
+    row.over_bound = row.sd_b / bound_of_b(truth, simulation.rows(), c.route == Route::position);
   row.sigma_a = std::sqrt(row.sigma_a / fits) / sd_a;
   row.sigma_b = std::sqrt(row.sigma_b / fits) / row.sd_b;
   for (double* cover : {row.covers_a, row.covers_b})

@@ -25,7 +25,7 @@ struct Case {
       nullptr;            ///< or v from x by a sensor's software, of which no line tells
   double resolution = 0;  ///< positions are rounded to this [m]
   double outliers = 0;    ///< share of readings that are false echoes
-  double lost = 0;        ///< share of records that are missing
+  double lost = 0;        ///< share of rows that are missing
   double growth = 0;      ///< the noise grows along the run by so many times its size
   double AR = 0;          ///< correlation of the noise from one reading to the next
   int runs = 1;           ///< that are fitted jointly
@@ -33,13 +33,13 @@ struct Case {
   int noisy = 0;          ///< the last so many runs have five times the noise
   int down = 0;           ///< the last so many roll down a slope, which is fitted (positions)
   int digits = 0;         ///< all columns are rounded to so many by the tools
-  bool record = false;    ///< the free roll is sought in the whole record of a sensor
-  enum Ending { none, stop, caught, braked, wall } ending = none;  ///< of a whole record, pushed
+  bool whole = false;     ///< the free roll is sought in the whole run of a sensor
+  enum Ending { none, stop, caught, braked, wall } ending = none;  ///< of a whole run, pushed
   double jitter = 0;  ///< standard deviation of the times of the readings, as a share of a step
   double gate = 0;    ///< the times are measured at which x is a multiple of this [m]
-  rolling::Bulge bulge{};  ///< of whole records
+  rolling::Bulge bulge{};  ///< of whole runs
   bool bound = false;      ///< white noise on the fitted column: the Cramer-Rao bound holds
-  int finer = 1;           ///< so many times as many records a second
+  int finer = 1;           ///< so many times as many rows a second
 };
 
 constexpr double dt = 0.04, noise_x = 3e-4,
@@ -65,7 +65,7 @@ inline Column capstone(const Column& x) {
   return v;
 }
 
-/// Speeds as Vernier Logger Pro exports them: slopes over 1, 2, 3 records to either side with
+/// Speeds as Vernier Logger Pro exports them: slopes over 1, 2, 3 rows to either side with
 /// weights 3, 2, 1.
 inline Column logger_pro(const Column& x) {
   Column v;
@@ -193,13 +193,13 @@ inline std::vector<Case> cases() {
       {.name = "caught in 0.3 s, x", .route = position, .ending = Case::caught},
       {.name = "braked, x", .route = position, .ending = Case::braked},
       {.name = "against a wall, x", .route = position, .ending = Case::wall},
-      {.name = "whole record, x", .route = position, .record = true},
-      {.name = "whole record, D", .route = shift, .history = mean_11, .record = true},
-      {.name = "whole record with memory, x", .route = position, .record = true, .bulge = mat},
-      {.name = "whole record with memory, D",
+      {.name = "whole run, x", .route = position, .whole = true},
+      {.name = "whole run, D", .route = shift, .history = mean_11, .whole = true},
+      {.name = "whole run with memory, x", .route = position, .whole = true, .bulge = mat},
+      {.name = "whole run with memory, D",
        .route = shift,
        .history = mean_11,
-       .record = true,
+       .whole = true,
        .bulge = mat},
       // Runs that agree, and runs that scatter by 2 %.
       {.name = "2 runs, x", .route = position, .runs = 2},

@@ -4,7 +4,7 @@
 // output; tests/bench/signal.sh runs it and draws the figure.
 //
 //   signal [SEEDS]          the table; 200 seeds
-//   signal records SEEDS    the records: scene, seed, t, x, and the true v and a
+//   signal runs SEEDS    the runs: scene, seed, t, x, and the true v and a
 //
 // From positions at 25 Hz (0.3 mm of noise, rounded to 1 mm) v comes by central differences, as
 // smooth(1) gets it. Then either v is smoothed and differentiated by central differences, or
@@ -55,7 +55,7 @@ Series apply(const SignalOptions& options, const Series& t, const Series& y) {
   return through(*make_signal(options), t, y);
 }
 
-/// The free roll of one record: from two records after the release, where the central difference
+/// The free roll of one run: from two rows after the release, where the central difference
 /// has left the push behind, to a tenth of the greatest speed.
 struct Roll {
   Series t, x, v, a;
@@ -66,10 +66,10 @@ Roll roll(const Scene& scene, unsigned long seed) {
   SonarOptions options;
   options.seed = seed, options.lost = 0;
   Roll out;
-  std::vector<SonarSample> record;
-  sonar_run(motion, options, [&](const SonarSample& s) { record.push_back(s); });
+  std::vector<SonarSample> run;
+  sonar_run(motion, options, [&](const SonarSample& s) { run.push_back(s); });
   motion.seek(0);
-  for (const SonarSample& s : record) {
+  for (const SonarSample& s : run) {
     const double t = s.t - options.rest_before - options.push;
     if (t < 1.5 / options.rate) continue;
     motion.seek(t);
@@ -82,7 +82,7 @@ Roll roll(const Scene& scene, unsigned long seed) {
 
 struct Method {
   std::string name;
-  double width;  // NaN: none, or one that differs from record to record
+  double width;  // NaN: none, or one that differs from run to run
   std::function<void(const Roll&, const Series& v, Series& smooth, Series& a)> apply;
 };
 
@@ -132,7 +132,7 @@ std::vector<Method> methods() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc > 2) {  // the records themselves, for others: tests/bench/signal_scipy.py
+  if (argc > 2) {  // the runs themselves, for others: tests/bench/signal_scipy.py
     const unsigned long count = std::strtoul(argv[2], nullptr, 10);
     for (const Scene& scene : scenes)
       for (unsigned long seed = 1; seed <= count; ++seed) {
@@ -144,9 +144,9 @@ int main(int argc, char** argv) {
   }
   const unsigned long seeds = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 200;
   fmt::print(
-      "# {} seeds each; errors are root mean squares over records and seeds, of D relative to its "
+      "# {} seeds each; errors are root mean squares over runs and seeds, of D relative to its "
       "truth; ends: the first\n"
-      "# and last five records; bias and scatter: of a inside, over records of the mean over seeds "
+      "# and last five rows; bias and scatter: of a inside, over runs of the mean over seeds "
       "and about it;\n"
       "# seconds: median over the seeds\n"
       "# "
@@ -156,7 +156,7 @@ int main(int argc, char** argv) {
   constexpr std::size_t ends = 5;
   for (const Scene& scene : scenes)
     for (const Method& method : methods()) {
-      std::vector<double> sum, squares, smooth, a, seconds;  // seconds: of each record, a row
+      std::vector<double> sum, squares, smooth, a, seconds;  // seconds: of each run, a row
       double v_errors = 0, inside = 0, outside = 0, relative = 0;
       std::size_t n = 0;
       for (unsigned long seed = 1; seed <= seeds; ++seed) {

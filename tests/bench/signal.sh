@@ -10,7 +10,7 @@ folder=$1
 table=$folder/signal.tsv
 build/bench/signal >"$table"
 if /usr/bin/python3 -c 'import scipy' 2>/dev/null; then
-  build/bench/signal records 200 | /usr/bin/python3 tests/bench/signal_scipy.py >>"$table"
+  build/bench/signal runs 200 | /usr/bin/python3 tests/bench/signal_scipy.py >>"$table"
 else
   echo "SciPy is not installed: its rows are left out" >&2
 fi

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The same records by SciPy: build/bench/signal records 50 | tests/bench/signal_scipy.py
+# The same runs by SciPy: build/bench/signal runs 50 | tests/bench/signal_scipy.py
 # Prints rows of the table of tests/bench/signal.cpp: savgol_filter and UnivariateSpline (its s from the known noise).
 import sys
 import time

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Do the answers of a joint fit hold: whether runs agree, the slope of the mat, what the given
-// numbers bring to the errors, and records that --min-speed leaves out? Simulated rolls, fitted
+// numbers bring to the errors, and rows that --min-speed leaves out? Simulated rolls, fitted
 // again and again. `make coverage` prints them; tests of tests/unit/fit take short forms.
 #pragma once
 
-#include "bench/records.h"
+#include "bench/troubles.h"
 #include "motion/roll.h"
 #include "unit/fit/rolls.h"
 
@@ -68,24 +68,24 @@ inline SlopePairs slope_pairs(PowerLaw law, double slope, int pairs, unsigned se
   return all;
 }
 
-/// Fits of records of a nominal body that take its numbers from their distributions: the spread of
-/// a, b and v0 beside the errors that a fit states, for every hundredth of the records.
-struct GivenNumbers {
+/// Fits of runs of a nominal body that take its numbers from their distributions: the spread of
+/// a, b and v0 beside the errors that a fit states, for every hundredth of the runs.
+struct InputQuantities {
   Tally a, b, v0;
   double stated_a = 0, stated_b = 0, stated_v0 = 0, stated_corr = 0, corr = 0;
-  FitResult first{};  ///< of the records that state errors
+  FitResult first{};  ///< of the runs that state errors
 };
-inline GivenNumbers input_quantities(int draws, unsigned seed) {
-  Body body = records::cylinder;
+inline InputQuantities input_quantities(int draws, unsigned seed) {
+  Body body = troubled::cylinder;
   body.slope = 0.002;
   const BodyUncertainty u{.R = 4e-4, .K = 0.01, .g = 0.01, .slope = 3e-4};
-  Roll truth(body, Geometry::exact, CR, records::v0);
+  Roll truth(body, Geometry::exact, CR, troubled::v0);
   FitOptions options;
   options.geometry = Geometry::exact;
   options.start_a = CR.a;
   options.start_b = CR.b;
   simulated::Noise noise(seed);
-  GivenNumbers all{{CR.a}, {CR.b}, {records::v0}};
+  InputQuantities all{{CR.a}, {CR.b}, {troubled::v0}};
   double ab = 0;
   const int stating = (draws + 99) / 100;
   for (int k = 0; k < draws; ++k) {
@@ -93,7 +93,7 @@ inline GivenNumbers input_quantities(int draws, unsigned seed) {
     run.body = body;
     for (double t = 0; t < 0.9 * truth.stop_time(); t += 0.05) {
       run.t.push_back(t);
-      run.x.push_back(truth.at(t).x + noise(records::noise));
+      run.x.push_back(truth.at(t).x + noise(troubled::noise));
     }
     if (k % 100 == 0) {
       run.given = u;
@@ -129,11 +129,11 @@ inline MinSpeed min_speed(PowerLaw law, double limit, int runs, unsigned seed) {
   MinSpeed all{{law.a}, {law.b}};
   FitOptions options;
   options.min_speed = limit;
-  Roll truth(records::cylinder, Geometry::approximate, law, records::v0);
+  Roll truth(troubled::cylinder, Geometry::approximate, law, troubled::v0);
   for (int k = 0; k < runs; ++k) {
     FitRun run{};
-    run.body = records::cylinder;
-    for (double t = 0; t < truth.stop_time(); t += records::dt) {
+    run.body = troubled::cylinder;
+    for (double t = 0; t < truth.stop_time(); t += troubled::dt) {
       run.t.push_back(t);
       run.v.push_back(truth.at(t).v + noise(sd));
     }
@@ -144,14 +144,14 @@ inline MinSpeed min_speed(PowerLaw law, double limit, int runs, unsigned seed) {
   return all;
 }
 
-/// a where something is done about a trouble of records.h: K 3 % wrong is given as 0.515 +- 0.015,
+/// a where something is done about a trouble of troubles.h: K 3 % wrong is given as 0.515 +- 0.015,
 /// and the 0.2 s of the hand are cut off.
-inline Tally remedied(const records::Trouble& wrong, PowerLaw law, int runs, unsigned seed) {
-  records::Readings readings(records::path(law, wrong), wrong, seed);
+inline Tally remedied(const troubled::Trouble& wrong, PowerLaw law, int runs, unsigned seed) {
+  troubled::Readings readings(troubled::path(law, wrong), wrong, seed);
   Tally a{law.a};
   for (int k = 0; k < runs; ++k) {
     FitRun run = readings.next();
-    if (wrong.K != records::cylinder.K) run.given.K = wrong.K - records::cylinder.K;
+    if (wrong.K != troubled::cylinder.K) run.given.K = wrong.K - troubled::cylinder.K;
     while (wrong.hand > 0 && run.t.front() < wrong.hand)
       run.t.erase(run.t.begin()), run.x.erase(run.x.begin());
     const FitResult r = fit(Route::position, {run}, {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The reader on any bytes: every record has as many fields as there are columns, finite numbers,
+// The reader on any bytes: every row has as many fields as there are columns, finite numbers,
 // rising times.
 #include "text/reader.h"
 

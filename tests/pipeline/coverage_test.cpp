@@ -26,7 +26,7 @@ TEST_CASE(
       {"v from x, known", Route::velocity},  {"x to 1 mm", Route::position},
       {"x, 1 % outliers", Route::position},  {"D from x, W 15", Route::shift},
       {"D from x, 10 % lost", Route::shift}, {"D from x, savgol 31", Route::shift},
-      {"whole record, D", Route::shift}};
+      {"whole run, D", Route::shift}};
   for (const auto& [name, route] : cases) {
     const auto row = coverage::measure(find(name, route), coverage::CR, 400, 42);
     CAPTURE(name, row.bias_a, row.bias_b, row.sd_b, row.cover_a, row.cover_b, row.refused,
@@ -70,8 +70,8 @@ TEST_CASE("coverage: differences that only the residuals show", "[fit]") {
   }
 }
 
-// Fig. 4's columns hold what the raw record held: the way by D is as precise as the trajectory,
-// whatever the rate of the records.
+// Fig. 4's columns hold what the raw run held: the way by D is as precise as the trajectory,
+// whatever the rate of the rows.
 TEST_CASE("coverage: the way by D is as precise as the positions", "[fit][many]") {
   using rolling::Route;
   for (const auto& scene : {coverage::CR, coverage::CF})

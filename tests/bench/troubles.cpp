@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Prints the tables of tests/bench/records.h and studies.h: records [RUNS [TABLE [TROUBLE]]], all
+// Prints the tables of tests/bench/troubles.h and studies.h: troubles [RUNS [TABLE [TROUBLE]]], all
 // of them or one of troubles, remedies, laws, agreement, slope, given, min-speed. `make coverage`.
-#include "bench/records.h"
+#include "bench/troubles.h"
 
 #include <fmt/printf.h>
 
@@ -25,26 +25,26 @@ void add_text(Rows& rows, std::string text) {
   rows.push_back([text = std::move(text)] { return text; });
 }
 
-std::string judged(const records::Trouble& trouble, const char* name, rolling::PowerLaw law,
+std::string judged(const troubled::Trouble& trouble, const char* name, rolling::PowerLaw law,
                    int runs) {
-  const auto v = records::judge(trouble, law, runs, seed);
+  const auto v = troubled::judge(trouble, law, runs, seed);
   return fmt::sprintf(
       "%-31s %-5s %+8.2f %7.3f %7.3f %8.3f %6.3f %9.3f %6.3f %9.3f %9.3f %9.3f %6.3f %6.3f %6.3f "
       "%7d\n",
       trouble.name, name, 100 * v.bias, v.cover_a, v.cover_b, v.adequate, v.noise, v.eccentric,
       1e3 * v.e, v.other_law, v.beginning, v.not_white, v.failed, v.told,
-      records::best_power(trouble, law), v.refused);
+      troubled::best_power(trouble, law), v.refused);
 }
 
 void troubles(Rows& rows, int runs) {
   add_text(rows,
-           fmt::sprintf("# What a record really has: %d records each, position route; shares of "
+           fmt::sprintf("# What a run really has: %d runs each, position route; shares of "
                         "them; best: what the most powerful test of the fit could find at 0.5 %%\n"
                         "%-31s %-5s %8s %7s %7s %8s %6s %9s %6s %9s %9s %9s %6s %6s %6s %7s\n",
                         runs, "# trouble", "scene", "%_of_a", "cover_a", "cover_b", "adequate",
                         "noise", "eccentric", "mm", "other_law", "beginning", "not_white", "check",
                         "told", "best", "refused"));
-  for (const auto& trouble : records::troubles())
+  for (const auto& trouble : troubled::troubles())
     for (const auto& scene : scenes)
       if (!only || std::strstr(trouble.name, only))
         rows.push_back([=] { return judged(trouble, scene.first, scene.second, runs); });
@@ -58,12 +58,12 @@ std::string line(const std::string& name, const studies::Tally& x) {
 }
 
 void remedies(Rows& rows, int runs) {
-  add_text(rows, fmt::sprintf("# a of %d records each, where something is done about the trouble\n",
-                              runs) +
-                     tally_names);
+  add_text(rows,
+           fmt::sprintf("# a of %d runs each, where something is done about the trouble\n", runs) +
+               tally_names);
   for (const auto& scene : scenes)
-    for (const auto& trouble : records::troubles()) {
-      const bool remedy = trouble.K != records::cylinder.K || trouble.hand > 0;
+    for (const auto& trouble : troubled::troubles()) {
+      const bool remedy = trouble.K != troubled::cylinder.K || trouble.hand > 0;
       if (!remedy && trouble.slope == 0) continue;
       rows.push_back([=] {
         return fmt::sprintf("# %s, %s\n", trouble.name,
@@ -77,8 +77,8 @@ void remedies(Rows& rows, int runs) {
     }
 }
 
-std::string contest(const records::Truth& truth, int runs) {
-  const auto c = records::contest(truth, runs, seed);
+std::string contest(const troubled::Truth& truth, int runs) {
+  const auto c = troubled::contest(truth, runs, seed);
   std::string text = fmt::sprintf("%-29s", rolling::laws()[truth.law].formula);
   for (std::size_t j = 0; j < c.won.size(); ++j)
     text += c.apart[j] == 0 ? fmt::sprintf(" %24s", "-")
@@ -89,13 +89,13 @@ std::string contest(const records::Truth& truth, int runs) {
 
 void laws(Rows& rows, int runs) {
   std::string head = fmt::sprintf(
-      "# Which law made the record: of %d records, those in which the AICc of the true law is 10 "
+      "# Which law made the run: of %d runs, those in which the AICc of the true law is 10 "
       "or more away from that of the other, and the share of them in which it is the smaller\n"
       "%-29s",
       runs, "# true law");
   for (const auto& law : rolling::laws()) head += fmt::sprintf(" %24s", law.formula);
   add_text(rows, head + fmt::sprintf(" %6s %12s\n", "cover", "undetermined"));
-  for (const auto& truth : records::truths()) rows.push_back([=] { return contest(truth, runs); });
+  for (const auto& truth : troubled::truths()) rows.push_back([=] { return contest(truth, runs); });
 }
 
 void agreement(Rows& rows, int runs) {
@@ -142,8 +142,7 @@ void given(Rows& rows, int runs) {
 }
 
 void min_speed(Rows& rows, int runs) {
-  add_text(rows,
-           fmt::sprintf("# %d records of noisy speeds, --min-speed 0.1\n", runs) + tally_names);
+  add_text(rows, fmt::sprintf("# %d runs of noisy speeds, --min-speed 0.1\n", runs) + tally_names);
   for (const auto& scene : scenes)
     rows.push_back([=] {
       const auto all = studies::min_speed(scene.second, 0.1, runs, seed);
@@ -163,5 +162,5 @@ int main(int argc, char** argv) {
   Rows rows;
   for (const auto& [name, add] : tables)
     if (argc < 3 || std::strcmp(argv[2], name) == 0) add(rows, runs);
-  bench::print_rows("records", std::move(rows));
+  bench::print_rows("troubles", std::move(rows));
 }

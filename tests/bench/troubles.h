@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a record really has: simulated records with one thing wrong in each, and what fitpower says
-// of them; and records under each law that it compares. `make coverage` prints both tables; a test
+// What a run really has: simulated runs with one thing wrong in each, and what fitpower says
+// of them; and runs under each law that it compares. `make coverage` prints both tables; a test
 // takes a short form.
 #pragma once
 
@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace records {
+namespace troubled {
 
 constexpr double dt = 0.04, noise = 3e-4, v0 = 0.5;  // a sonar at 25 Hz
 constexpr double better = 10;
@@ -38,7 +38,7 @@ struct Trouble {
   double hand = 0;      ///< a hand keeps the speed for so long [s]
 };
 
-/// Positions every dt, to the stop, under D(v); Runge-Kutta with 100 steps a record.
+/// Positions every dt, to the stop, under D(v); Runge-Kutta with 100 steps a row.
 inline std::vector<double> path(const std::function<double(double)>& D, const Trouble& wrong) {
   constexpr int steps = 100;
   constexpr double h = dt / steps, limit = 60;
@@ -96,7 +96,7 @@ class Readings {
   std::mt19937 random_;
 };
 
-/// What is said of records of the law D = a v^b with one trouble: shares of the runs.
+/// What is said of runs of the law D = a v^b with one trouble: shares of the runs.
 struct Verdict {
   double bias = 0;  ///< of a, in parts of a
   double cover_a = 0, cover_b = 0, adequate = 0;
@@ -149,7 +149,7 @@ inline Verdict judge(const Trouble& wrong, rolling::PowerLaw law, int runs, unsi
   return sum;
 }
 
-/// The share of records in which the most powerful test of whether the fitted roll is right finds
+/// The share of runs in which the most powerful test of whether the fitted roll is right finds
 /// the trouble, with one false alarm in 200: of its squares in units of the noise, where there is
 /// none, the root is so far above 0 (Neyman and Pearson). No test that knows less finds more.
 inline double best_power(const Trouble& wrong, rolling::PowerLaw law) {
@@ -187,7 +187,7 @@ inline std::vector<Truth> truths() {
           {6, {3e-4, 8e-4, 0.08}}};
 }
 
-/// For the records of one law: beside each law, in how many the AICc of the true one is 10 or more
+/// For the runs of one law: beside each law, in how many the AICc of the true one is 10 or more
 /// away from that of the other, and in how many of those it is the smaller.
 struct Contest {
   std::vector<int> apart, won;
@@ -227,4 +227,4 @@ inline Contest contest(const Truth& truth, int runs, unsigned seed) {
   return all;
 }
 
-}  // namespace records
+}  // namespace troubled
