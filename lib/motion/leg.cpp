@@ -33,18 +33,18 @@ double last_where(double lo, double hi, Predicate&& above) {
   return hi;
 }
 
-/// The integral of e^(-m r) from 0 to r.
-double integral_of_power(double m, double r) {
+/// The integral of e^(-m r) from 0 to r, where it ends at the value e.
+double integral_of_power(double m, double r, double e) {
   const double y = m * r;
-  return y == 0 ? r : -std::expm1(-y) / m;
+  return std::abs(y) > 0.01 ? (1 - e) / m : y == 0 ? r : -std::expm1(-y) / m;
 }
 
 /// The integral of r e^(-m r) from 0 to r.
-double integral_of_log(double m, double r) {
+double integral_of_log(double m, double r, double e) {
   const double y = m * r;
-  if (std::abs(y) > 1) return (-std::expm1(-y) - y * std::exp(-y)) / (m * m);
+  if (std::abs(y) > 0.3) return (1 - e - y * e) / (m * m);
   double sum = 0, term = 0.5;  // (-y)^k / (k + 2)!
-  for (int k = 0; k < 18; ++k) {
+  for (int k = 0; k < 12; ++k) {
     sum += (k + 1) * term;
     term *= -y / (k + 3);
   }
@@ -66,29 +66,33 @@ Leg::Leg(const Body& body, Geometry geometry, Law law, double v0)
   if (!power || geometry == Geometry::exact || body.slope != 0 || way_ < 0 || q0_ == 0) return;
   power_ = power->b;
   for (std::size_t j = 0; j <= law_.size(); ++j) q_c_[j] = start.q_c[j] / start.q;
-  sums_ = closed_sums(-std::log(slowest));
+  sums_ = closed_sums(-std::log(slowest), slowest);
   if (power->b < 1) end_ = End::stop, stop_ = sums_[0] = v0_ / q0_ / (1 - power->b);
 }
 
-/// Where the leg is at t, before the stop: t = v0/q0 (1 - e^(-s r))/s with s = 1 - b.
-double Leg::closed_r(double t) const {
-  const double s = 1 - *power_, y = q0_ / v0_ * t;
-  return s == 0 ? y : -std::log1p(-s * y) / s;
-}
-
-Leg::Sums Leg::closed_sums(double r) const {
+/// The sums up to r, with u/v0 = e^-r = E there.
+Leg::Sums Leg::closed_sums(double r, double E) const {
   const double b = *power_, unit = v0_ / q0_;
+  const double w = std::exp((b - 1) * r);  // part of t that is left until a stop
   Sums sums{};
   for (const int way : {0, 1}) {  // the second time the integrand has another factor u/v0
-    const double m = 1 - b + way;
+    const double m = 1 - b + way, e = way ? w * E : w;
     double* const c = &sums[2 + static_cast<std::size_t>(way) * most];
-    const double all = unit * integral_of_power(m, r);
+    const double all = unit * integral_of_power(m, r, e);
     sums[static_cast<std::size_t>(way)] = all;
     c[0] = q_c_[0] * all;
-    c[1] = q_c_[1] * all - unit * integral_of_log(m, r);  // q_b/q = ln(u/v_unit)
-    c[2] = q_c_[2] * unit * integral_of_power(m - b, r);  // q_S is constant
+    c[1] = q_c_[1] * all - unit * integral_of_log(m, r, e);          // q_b/q = ln(u/v_unit)
+    c[2] = q_c_[2] * unit * integral_of_power(m - b, r, e * w / E);  // q_S is constant
   }
   return sums;
+}
+
+/// The state at t: t = v0/q0 (1 - w)/s with s = 1 - b and w = (u/v0)^s.
+Leg::Point Leg::closed_point(double t) const {
+  const double s = 1 - *power_, y = q0_ / v0_ * t,
+               r = s == 0 ? y : -std::log1p(std::max(-s * y, -1.0)) / s, E = std::exp(-r);
+  if (E == 0) return point(sums_, 0, 0);
+  return point(closed_sums(r, E), v0_ * E, q0_ * E / (1 - s * y));
 }
 
 double Leg::speed(double r) const { return v0_ * std::exp(-way_ * r); }
@@ -254,10 +258,7 @@ Leg::Point Leg::at(double t) {
   if (t == 0) return point({}, v0_, q0_);
   reach(t);
   if (t >= stop_) return point(sums_, 0, 0);
-  if (power_) {
-    const double r = closed_r(t), v = speed(r);
-    return point(closed_sums(r), v, rate(v).q);
-  }
+  if (power_) return closed_point(t);
   if (t >= sums_[0]) {
     if (end_ == End::too_fast) fail("the speed has grown by a factor e^{}", fastest);
     const double since = t - sums_[0], v = speed(r_);

@@ -92,8 +92,8 @@ class Leg {
   void find_rest();
   void add_panel();
   bool try_panel(double width, bool to_radius, double& factor);
-  double closed_r(double t) const;
-  Sums closed_sums(double r) const;
+  Sums closed_sums(double r, double E) const;
+  Point closed_point(double t) const;
   void reach(double t);
   Point point(const Sums&, double v, double q) const;
 
