@@ -162,9 +162,6 @@ TEST_CASE("IntegratedRoll: rest, and what is refused", "[rolling]") {
   }
   CHECK(message == "at t = 0.717118 s the shift has grown to the radius 0.04 m");
   CHECK_THROWS_AS(start(scene(0.05, 0), {Method::solver, Stepper::rkf45}, 1e-8), Error);
-  CHECK_THROWS_AS(
-      start(scene(1e-3, 0.2, Geometry::approximate, -1), {Method::solver, Stepper::rkf45}, 1e-8),
-      Error);
   CHECK_THROWS_AS(start(scene(1e-3, 0.2, Geometry::approximate, std::nan("")),
                         {Method::solver, Stepper::rkf45}, 1e-8),
                   Error);

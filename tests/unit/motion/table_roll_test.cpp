@@ -104,8 +104,4 @@ TEST_CASE("Table: rest, and refusals", "[rolling]") {
   CHECK_THROWS_AS(rolled(Geometry::approximate, law, 1.1, 0), Error);
   CHECK_THROWS_AS(rolled(Geometry::approximate, law, 1, 0), Error);  // D > R
   CHECK_NOTHROW(rolled(Geometry::exact, law, 0.5, 0));
-  CHECK_THROWS_AS(rolled(Geometry::exact, law, -0.5, 0), Error);
-  CHECK_THROWS_AS(start({cylinder, Geometry::approximate, law, {0}, -0.5, 0},
-                        {Method::solver, Stepper::rk8pd}, 1e-10),
-                  Error);
 }
