@@ -45,7 +45,7 @@ of_name() {
 simulate -q --law fit -K "$K" -R "$R" --slope="$slope" --at roll >law
 paste <(of_name roll t) <(of_name roll $column) <(of_name law $column) <(of_name law v) |
   awk 'NR == 1 { way = $4 < 0 ? -1 : 1 }
-    { printf "%s\t%.9g\t%.9g\n", $1, $4 < 0 ? -$4 : $4, 1e3 * way * ($2 - $3) }' >residuals
+    { printf "%s\t%.9g\t%.9g\n", $1, ($4 < 0 ? -$4 : $4), 1e3 * way * ($2 - $3) }' >residuals
 
 # What the picture says. The scatter is the median of |residual|, over 0.6745 that of a normal one.
 missing=$(($(read_run t -w 1 "$file" | grep -c '^[^#]') - $(grep -c '^[^#]' readings)))
