@@ -100,10 +100,11 @@ Column read_column(std::string_view text) {
     name = trim(name.substr(0, open));
   }
   // Everything but the unit, where the label stands before it or behind it.
-  if (!column.run.empty())
-    column.labelled = name.data() == whole.data()
-                          ? fmt::format("{} Run {}", name, column.run)
-                          : whole.substr(0, static_cast<std::size_t>(name.end() - whole.begin()));
+  if (!column.run.empty()) {
+    const auto behind = static_cast<std::size_t>(name.data() + name.size() - whole.data());
+    column.labelled = name.data() == whole.data() ? fmt::format("{} Run {}", name, column.run)
+                                                  : whole.substr(0, behind);
+  }
   const auto slash = column.unit.empty() ? name.find('/') : std::string_view::npos;
   const std::string quantity = short_name(trim(name.substr(0, slash)));
   if (slash == std::string_view::npos) {
