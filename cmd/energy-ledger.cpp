@@ -53,22 +53,18 @@ constexpr Quantity<double (*)(const Moment&)> quantities[] = {
 struct Task {
   Body body{};
   Geometry geometry{};
-  PowerLaw power{};
-  std::optional<Law> points = {};  ///< instead of `power`
-  bool uses_law = false;           ///< instead of the column D
-  bool law_of_scene = false;       ///< it uses the law because the first run has no column D
+  Law law = {};
+  bool uses_law = false;      ///< instead of the column D
+  bool law_of_scene = false;  ///< it uses the law because the first run has no column D
   bool summary = false;
   double tolerance = not_given;  ///< NaN without --check
 
   /// The shift at a velocity.
   double shift(double v) const {
-    if (points && std::abs(v) > points->highest())
+    if (std::abs(v) > law.highest())
       fail("v = {:.6g} m/s is beyond the table of the law, which ends at {:.6g} m/s", v,
-           points->highest());
-    return points ? (*points)(v) : power(v);
-  }
-  std::string law_words() const {
-    return points ? "table" : fmt::format("a {} b {}", power.a, power.b);
+           law.highest());
+    return law(v);
   }
   bool shows_balance() const { return summary || !std::isnan(tolerance); }
 };
@@ -166,10 +162,11 @@ int main(int argc, char** argv) {
   using enum BodyOption;
   Tool tool("energy-ledger", "Append the energies and the flows of energy of a rolling body.");
   Task task;
+  PowerLaw power{};
   double temperature = not_given;
   std::string law_file, columns = "E_trans,E_rot,I_E1,I_E2,P_T1,P_R1,P_R2,P_T2,P_diss,E_diss";
   tool.body(task.body, {mass, radius, shape_factor, gravity, slope});
-  tool.law(task.power);
+  tool.law(power);
   tool.text("--law", law_file, "FILE",
             "file (- is standard input) with a row of fitpower or a table of v D: the law, instead "
             "of the column D");
@@ -192,17 +189,18 @@ int main(int argc, char** argv) {
     const auto row = chosen(columns, quantities);
     for (const auto& quantity : row)
       if (quantity.name == "Pi_S" && std::isnan(temperature)) fail("Pi_S needs --temperature");
-    if (!law_file.empty()) {
-      task.points = read_law(tool, law_file, task.power, {{"slope", &task.body.slope}});
-    }
+    std::optional<Law> other;
+    if (!law_file.empty())
+      other = read_law(tool, law_file, power, {{"slope", &task.body.slope}});
     tool.need({"mass", "radius", "shape-factor"});
     Reader& in = task.summary ? tool.read({"t", "v", "D"}) : tool.filter({"t", "v", "D"});
     // A law on the command line takes precedence over a column D, the law of a scene does not.
     const bool law_given = !law_file.empty() || tool.on_command_line("coefficient") ||
                            tool.on_command_line("exponent");
-    task.law_of_scene = !law_given && !std::isnan(task.power.a) && !in.find("D");
+    task.law_of_scene = !law_given && !std::isnan(power.a) && !in.find("D");
     task.uses_law = law_given || task.law_of_scene;
-    if (task.uses_law && !task.points) tool.need({"coefficient", "exponent"});
+    if (task.uses_law && !other) tool.need({"coefficient", "exponent"});
+    task.law = other ? *other : Law(power);
     Accounts accounts(tool, in, task);
     if (task.summary) {
       write_summary(tool.out, in, accounts, task);
@@ -211,7 +209,7 @@ int main(int argc, char** argv) {
     }
     Filter filter(
         in, tool.out,
-        fmt::format("energy-ledger {}{}", task.uses_law ? task.law_words() : "D",
+        fmt::format("energy-ledger {}{}", task.uses_law ? words_of(task.law) : "D",
                     task.body.slope == 0 ? "" : fmt::format(" slope {}", task.body.slope)));
     for (const auto& quantity : row) filter.append(quantity.column());
     while (filter.next_run()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fitpower - fit the power law D = a v^b to columns; see fitpower(1)
+// fitpower - fit the power law D = a v^b, or another law, to columns; see fitpower(1)
 #ifdef __linux__
 #include <malloc.h>
 #endif
@@ -10,6 +10,7 @@
 #include "cli/fit_report.h"
 #include "cli/fit_rows.h"
 #include "cli/fit_runs.h"
+#include "cli/law_file.h"
 #include "cli/linear_filters.h"
 #include "fit/fit.h"
 #include "text/estimate.h"
@@ -44,12 +45,18 @@ void set_parameters(const std::string& option, const std::vector<std::string>& s
   }
 }
 
-/// The values of --fix and --start.
-void set_parameters(FitOptions& options, const std::vector<std::string>& fixed,
-                    const std::vector<std::string>& start) {
-  set_parameters("--fix", fixed,
+/// The options that are words.
+struct Words {
+  std::vector<std::string> fixed, start;
+  std::string slope = "0", law = "a v^b";
+};
+
+/// The values of --law, --fix and --start.
+void set_law(FitOptions& options, const Words& words) {
+  options.law = &law_named(words.law);
+  set_parameters("--fix", words.fixed,
                  {{"a", &options.a}, {"b", &options.b}, {"v0", &options.v0}, {"x0", &options.x0}});
-  set_parameters("--start", start, {{"a", &options.start_a}, {"b", &options.start_b}});
+  set_parameters("--start", words.start, {{"a", &options.start_a}, {"b", &options.start_b}});
   const auto once = [](const char* name, const auto& value, const auto& begin) {
     if (value && begin) fail("--fix and --start are two values of {}: give one", name);
   };
@@ -65,11 +72,14 @@ void set_slope(const std::string& text, Body& body, BodyUncertainty& uncertainty
   uncertainty.slope = given.sigma;
 }
 
-void add_options(Tool& tool, FitOptions& options) {
+void add_options(Tool& tool, FitOptions& options, Words& words) {
   tool.geometry(options.geometry);
   tool.number("--min-speed", options.min_speed, not_negative, "leave slower rows out [m/s]");
   tool.flag("--robust", options.robust,
             "let outliers count little: bisquare loss instead of squares");
+  tool.text("--law", words.law, "LAW", "fit this law of those that --report compares: d0+d2*v^2");
+  tool.list("--fix", words.fixed, "NAME=VALUE", "hold a, b, v0 or x0 fixed");
+  tool.list("--start", words.start, "NAME=VALUE", "begin the search at this a or b");
 }
 
 void add_body(Tool& tool, std::vector<Estimate>& shape_factors, std::vector<Estimate>& radii) {
@@ -111,14 +121,23 @@ std::vector<std::optional<FitResult>> fit_all(Tool& tool, Route route,
 struct Table {
   Output& out;
   Route route;
+  const LawForm& law;
   bool of_one_run, with_slope, with_run;
 
   bool with_v0() const { return of_one_run && is_trajectory(route); }
   bool with_x0() const { return of_one_run && route == Route::position; }
 
   std::vector<Column> columns() const {
-    std::vector<Column> columns = {{"a", "m"}, {"sigma_a", "m"}, {"b"}, {"sigma_b"},
-                                   {"corr"},   {"rms"},          {"n"}};
+    std::vector<Column> columns;
+    for (const Column& c : columns_of(law))
+      columns.insert(columns.end(), {c, {"sigma_" + c.name, c.unit}});
+    for (std::size_t j = 1; j < law.coefficients.size(); ++j)
+      for (std::size_t i = 0; i < j; ++i)
+        columns.push_back(
+            {&law == &laws().front()
+                 ? "corr"
+                 : fmt::format("corr_{}_{}", law.coefficients[i].name, law.coefficients[j].name)});
+    columns.insert(columns.end(), {{"rms"}, {"n"}});
     if (with_v0()) columns.insert(columns.end(), {{"v0", "m/s"}, {"sigma_v0", "m/s"}});
     if (with_slope) columns.insert(columns.end(), {{"slope"}, {"sigma_slope"}});
     if (with_x0()) columns.insert(columns.end(), {{"x0", "m"}, {"sigma_x0", "m"}});
@@ -136,10 +155,13 @@ struct Table {
         const bool no_error = r.errors == Errors::none && std::isnan(value);
         no_error ? out.blank() : out.cell(value);
       };
-      for (const double value : {r.a, r.sigma_a, r.b, r.sigma_b, r.corr, r.rms}) cell(value);
+      const auto estimate = [&](const Estimate& x) { cell(x.value), cell(x.sigma); };
+      for (const Estimate& coefficient : r.coefficients) estimate(coefficient);
+      for (std::size_t j = 1; j < r.correlations.size(); ++j)
+        for (std::size_t i = 0; i < j; ++i) cell(r.correlations[i][j]);
+      cell(r.rms);
       out.blank();
       out.text(std::to_string(r.n));  // a count is never rounded to --digits
-      const auto estimate = [&](const Estimate& x) { cell(x.value), cell(x.sigma); };
       if (with_v0()) estimate(r.v0.front());
       if (with_slope) estimate({r.slope, r.sigma_slope});
       if (with_x0()) estimate(r.x0.front());
@@ -179,7 +201,7 @@ std::map<std::string, std::string> route_names() {
 int joint_of_rows(Tool& tool, const Body& body, const std::vector<Estimate>& shape_factors,
                   const std::vector<Estimate>& radii, const BodyUncertainty& uncertainty,
                   bool with_check) {
-  tool.refuse({"each", "exact", "fix", "min-speed", "report", "robust", "slope", "start"},
+  tool.refuse({"each", "exact", "fix", "law", "min-speed", "report", "robust", "slope", "start"},
               "is for the fits of the runs: --route fits reads their rows");
   return fit_rows(tool, body, shape_factors, radii, uncertainty, with_check);
 }
@@ -206,8 +228,7 @@ int main(int argc, char** argv) {
   Tool tool("fitpower", "Fit the power law D = a v^b to columns.");
   std::string route_name;
   std::vector<Estimate> shape_factors, radii;
-  std::vector<std::string> fixed, start;
-  std::string slope_text = "0";
+  Words words;
   Body body;
   BodyUncertainty uncertainty;
   FitOptions options;
@@ -218,12 +239,10 @@ int main(int argc, char** argv) {
       "if there is D, else position if x, else velocity");
   add_body(tool, shape_factors, radii);
   tool.body(body, {gravity}, &uncertainty);
-  tool.text("--slope", slope_text, "S|fit",
+  tool.text("--slope", words.slope, "S|fit",
             "the mat rises by S metres a metre along growing x; fit: find it, of all runs");
-  add_options(tool, options);
+  add_options(tool, options, words);
   tool.flag("--each", each, "fit each run by itself, a row for each");
-  tool.list("--fix", fixed, "NAME=VALUE", "hold a, b, v0 or x0 fixed");
-  tool.list("--start", start, "NAME=VALUE", "begin the search at this a or b");
   tool.flag("--report", with_report,
             "tell on standard error what each route finds, and whether another law is better");
   tool.flag("--check", with_check,
@@ -234,9 +253,9 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    set_parameters(options, fixed, start);
-    options.fit_slope = slope_text == "fit";
-    if (!options.fit_slope) set_slope(slope_text, body, uncertainty);
+    set_law(options, words);
+    options.fit_slope = words.slope == "fit";
+    if (!options.fit_slope) set_slope(words.slope, body, uncertainty);
     if (route_name == "fits")
       return joint_of_rows(tool, body, shape_factors, radii, uncertainty, with_check);
     const auto given_route = fit_routes()[route_name];
@@ -257,7 +276,8 @@ int main(int argc, char** argv) {
     set_bodies(runs, body, shape_factors, radii, uncertainty);
     if (!trajectory && !options.fit_slope) warn_of_unused_body(tool, runs, options.geometry);
     const auto fits = grouped(std::move(runs), each);
-    const Table table{tool.out, route, fits.front().size() == 1, options.fit_slope, each};
+    const Table table{tool.out,          route, *options.law, fits.front().size() == 1,
+                      options.fit_slope, each};
     const auto results = fit_all(tool, route, fits, options, each);
     const auto fitted = [](const auto& result) { return result.has_value(); };
     if (std::none_of(results.begin(), results.end(), fitted)) return 2;

@@ -109,15 +109,15 @@ struct Task {
 
   /// Reads the law, checks that nothing is missing, and chooses the method.
   void complete(Tool& tool) {
-    std::optional<Law> points;
+    std::optional<Law> other;
     if (!law_file.empty()) {
-      points =
+      other =
           read_law(tool, law_file, law,
                    {{"slope", &roll.body.slope}, {"v0", &roll.v0}, {"x0", &roll.x0}, {"t0", &t0}});
     }
-    roll.law = points ? *points : Law(law);
+    roll.law = other ? *other : Law(law);
     std::vector<std::string> needed = {"radius", "shape-factor", "v0"};
-    if (!points) needed.insert(needed.end(), {"coefficient", "exponent"});
+    if (!other) needed.insert(needed.end(), {"coefficient", "exponent"});
     tool.need(needed);
     if (!tool.on_command_line("method")) method = best_method(roll);
   }
@@ -207,8 +207,7 @@ class Rows {
 
   void write_header() const {
     const auto& [body, geometry, law, bulge, v0, x0] = task_.roll;
-    const auto power = law.power();
-    out_.text("## simulate " + (power ? fmt::format("a {} b {}", power->a, power->b) : "table") +
+    out_.text("## simulate " + words_of(law) +
               fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, v0) +
               (body.slope == 0 ? "" : fmt::format(" slope {}", body.slope)) +
               (task_.t0 == 0 ? "" : fmt::format(" t0 {}", task_.t0)));

@@ -28,7 +28,7 @@ namespace {
 /// beside D at 1 m/s, the initial speed or the radius. (sigma_a is 0 for an a that is fixed.)
 bool exact(Route route, const FitResult& r, const std::vector<FitRun>& runs) {
   const double scale = route == Route::loglog     ? 1
-                       : route == Route::shift    ? r.a
+                       : route == Route::shift    ? r.coefficients.front().value
                        : route == Route::velocity ? std::abs(r.v0.front().value)
                                                   : runs.front().body.R;
   return r.rms < 1e-9 * scale;
@@ -43,17 +43,20 @@ const std::map<Errors, const char*> kinds{{Errors::none, "none"},
 
 /// "sigma_a 1.9e-05: noise 1.2e-05, K 6.2e-06; sigma_b 0.0086: noise 0.0086, K 0"
 std::string budget(const FitResult& r) {
-  std::string a, b;
-  for (const ErrorShare& share : r.shares) {
-    // A contribution of the size of the rounding error is shown as 0.
-    const auto part = [](double x, double all) { return x < 1e-9 * all ? 0 : x; };
-    const char* const comma = a.empty() ? "" : ",";
-    a += fmt::format("{} {} {:.2g}", comma, share.of, part(share.a, r.sigma_a));
-    b += fmt::format("{} {} {:.2g}", comma, share.of, part(share.b, r.sigma_b));
+  std::string all;
+  for (std::size_t j = 0; j < r.coefficients.size(); ++j) {
+    const double sigma = r.coefficients[j].sigma;
+    all += fmt::format("{}sigma_{} {:.2g}{} of:", j == 0 ? "" : "; ",
+                       r.law.form().coefficients[j].name, sigma,
+                       j == 0 ? " is the root of the sum of squares" : ",");
+    for (const ErrorShare& share : r.shares) {
+      // A contribution of the size of the rounding error is shown as 0.
+      const double part = share.sigma(j);
+      all += fmt::format("{} {} {:.2g}", &share == &r.shares.front() ? "" : ",", share.of,
+                         part < 1e-9 * sigma ? 0 : part);
+    }
   }
-  return fmt::format(
-      "sigma_a {:.2g} is the root of the sum of squares of:{}; sigma_b {:.2g}, of:{}", r.sigma_a, a,
-      r.sigma_b, b);
+  return all;
 }
 
 /// The text with the value; nothing for NaN, as where there are as many parameters as rows.
@@ -71,9 +74,12 @@ void report_route(Tool& tool, const std::string& name, Route route, const std::v
   const auto begin = std::chrono::steady_clock::now();
   const FitResult r = fit(route, runs, options);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
-  tool.say(fmt::format("{}: a {:.5g}{}, b {:.5g}{}{}, n {}, errors {}{}, {:.2g} ms", name, r.a,
-                       known(" +- {:.2g}", r.sigma_a), r.b, known(" +- {:.2g}", r.sigma_b),
-                       known(", rms {:.3g}", r.rms), r.n, kinds.at(r.errors),
+  std::string law;
+  for (std::size_t j = 0; j < r.coefficients.size(); ++j)
+    law += fmt::format("{} {:.5g}{}, ", r.law.form().coefficients[j].name, r.coefficients[j].value,
+                       known(" +- {:.2g}", r.coefficients[j].sigma));
+  tool.say(fmt::format("{}: {}{}n {}, errors {}{}, {:.2g} ms", name, law,
+                       known("rms {:.3g}, ", r.rms), r.n, kinds.at(r.errors),
                        known(" (Ljung and Box: p = {:.2g})", r.whiteness), time.count()));
   if (r.shares.size() > 1 && r.errors != Errors::none) tool.say(budget(r));
 }
@@ -90,7 +96,7 @@ std::string described(const LawFit& fit, double least) {
     line += fmt::format(" {} = {:.6g}{}{}", names[i].name, c.value, known(" +- {:.2g}", c.sigma),
                         i + 1 < names.size() ? "," : ";");
     for (std::size_t j = 0; j < i; ++j)
-      if (const double value = fit.correlations[i * names.size() + j]; !std::isnan(value))
+      if (const double value = fit.correlations[i][j]; !std::isnan(value))
         corr += fmt::format("{} {} {} {:.3f}", corr.empty() ? " corr" : ",", names[j].name,
                             names[i].name, value);
   }
@@ -196,10 +202,11 @@ bool warn_of_repeats(Tool& tool, Route route, const FitResult& r, const std::vec
     const double small = nth_smallest(steps, steps.size() / 10);  // a grid, but for a few steps
     if (r.rms > levels::noise_over_grid * small && share > levels::repeats_of_noise) {
       tool.warn(run.name,
-                fmt::format("{:.0f} % of the {} repeat, which readings of such noise do not, but "
-                            "medians do, and a logger that holds them: sigma_a and sigma_b are too "
-                            "small; fit the readings before that filter",
-                            100 * share, what));
+                fmt::format(
+                    "{:.0f} % of the {} repeat, which readings of such noise do not, but "
+                    "medians do, and a logger that holds them: the standard uncertainties are too "
+                    "small; fit the readings before that filter",
+                    100 * share, what));
       return true;
     }
   }
@@ -228,7 +235,7 @@ bool warn_of_causes(Tool& tool, Route route, const FitResult& r, const std::vect
                     bool noisy, bool check_comes) {
   bool beyond = false, below = false;
   for (std::size_t i = 0; i < r.v0.size() && !beyond && !below; ++i) {
-    const double v0 = r.v0[i].value, D = r.a * std::pow(std::abs(v0), r.b), R = runs[i].body.R;
+    const double v0 = r.v0[i].value, D = r.law(std::abs(v0)), R = runs[i].body.R;
     beyond = D > R, below = std::abs(D) < levels::least_D_over_R * R;
     if (beyond || below)
       tool.warn(runs[i].name,
@@ -260,7 +267,7 @@ void warn_of_residuals(Tool& tool, Route route, const FitResult& r,
         runs[found->run].name,
         fmt::format("the speed changes once a turn ({}, in one good run of a hundred by chance), "
                     "as if the centre of mass lay {:.2g} +- {:.1g} mm off the axis, most ahead of "
-                    "it at {:.0f} degrees: a and b are further off than sigma_a and sigma_b say; "
+                    "it at {:.0f} degrees: the law is further off than its uncertainties say; "
                     "balance the body, unless --report shows a better law",
                     p_of(found->p), 1e3 * found->e, 1e3 * found->sigma,
                     std::fmod(found->phase * 180 / std::numbers::pi + 360, 360)));
@@ -273,7 +280,7 @@ void warn_of_residuals(Tool& tool, Route route, const FitResult& r,
                                                         : ""));
   if (r.errors == Errors::uneven)
     tool.warn(run,
-              "the noise is not of one size along the run, which sigma_a and sigma_b take "
+              "the noise is not of one size along the run, which its uncertainties take "
               "into account: look at the residuals");
 }
 
@@ -282,7 +289,7 @@ void warn_of_residuals(Tool& tool, Route route, const FitResult& r,
 void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
              const std::optional<LawComparison>& laws, bool check_comes) {
   const bool noisy = !exact(route, r, runs),
-             other_law = laws && laws->against_power() >= levels::another_law;
+             other_law = laws && laws->against(r.law.form()) >= levels::another_law;
   if (noisy && route == Route::loglog && logarithms_biased(r))
     tool.warn(of_run(runs),
               "the noise of D biases its logarithms by more than the uncertainty of "
@@ -303,12 +310,15 @@ void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& optio
       tool.say(fmt::format("{}: {}", name, error.what()));
     }
   if (!laws) return;
-  if (!laws->possible())
-    return tool.say("too few independent readings to compare a v^b with other laws");
+  const LawForm& law = *options.law;
+  if (!laws->possible(law))
+    return tool.say(
+        fmt::format("too few independent readings to compare {} with other laws", law.formula));
   for (const LawFit& fit : laws->fits) tool.say(described(fit, laws->least()));
-  tool.say(laws->against_power() <= levels::no_better_law
-               ? "no law that was tried is better than D = a v^b"
-               : "another law is better than D = a v^b");
+  tool.say(fmt::format(
+      "{} better than D = {}",
+      laws->against(law) <= levels::no_better_law ? "no law that was tried is" : "another law is",
+      law.formula));
 }
 
 void check(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
@@ -327,10 +337,11 @@ void check(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun
         fmt::format("the first {} rows do not go on as the others ({}), as if a hand were still "
                     "on: cut off {:.2g} s",
                     beginning->rows, p_of(beginning->p), beginning->time));
-  if (laws && laws->against_power() >= levels::another_law)
-    tool.check_failed(run,
-                      fmt::format("D = {} is better than a v^b by {:.1f} in AICc; see --report",
-                                  laws->best_other().law->formula, laws->against_power()));
+  const LawForm& law = r.law.form();
+  if (laws && laws->against(law) >= levels::another_law)
+    tool.check_failed(
+        run, fmt::format("D = {} is better than {} by {:.1f} in AICc; see --report",
+                         laws->best_other(law).law->formula, law.formula, laws->against(law)));
   if (noisy && r.whiteness <= levels::not_white)
     tool.check_failed(run,
                       fmt::format("the residuals are not white ({}): the law, or what is known "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/law_file.h"
 
+#include <algorithm>
 #include <map>
 
 #include "base/error.h"
@@ -9,41 +10,103 @@
 namespace rolling {
 namespace {
 
+/// A formula without what a person may write or leave out.
+std::string bare(std::string formula) {
+  std::erase_if(formula, [](char c) { return c == ' ' || c == '*'; });
+  std::ranges::replace(formula, 'n', 'b');
+  return formula;
+}
+
+/// The law with the most coefficients of those whose coefficients are all columns.
+const LawForm* law_of_columns(const Reader& in) {
+  const LawForm* found = nullptr;
+  for (const LawForm& form : laws())
+    if (std::ranges::all_of(form.coefficients,
+                            [&](const auto& c) { return in.find(c.name).has_value(); }) &&
+        (!found || form.coefficients.size() > found->coefficients.size()))
+      found = &form;
+  return found;
+}
+
+/// The known quantity that has the unit of a coefficient; empty if none has.
+std::string_view quantity_of(const std::string& unit) {
+  static const std::map<std::string, std::string_view> known{{"m", "D"}, {"m/s", "v"}, {"s", "t"}};
+  const auto found = known.find(unit);
+  return found == known.end() ? std::string_view() : found->second;
+}
+
 /// The row of fitpower in a file.
-void read_row(Tool& tool, Reader& in, const std::string& file, PowerLaw& law,
-              std::vector<RowNumber> numbers) {
-  struct Known {
-    const char *option, *quantity;
-  };
-  static const std::map<std::string, Known> known{
-      {"a", {"coefficient", "D"}}, {"b", {"exponent", ""}}, {"slope", {"slope", ""}},
-      {"v0", {"v0", "v"}},         {"x0", {"x0", "x"}},     {"t0", {"t0", "t"}}};
-  numbers.insert(numbers.end(), {{"a", &law.a}, {"b", &law.b}});
-  std::erase_if(numbers, [&](const RowNumber& number) { return !in.find(number.name); });
-  std::vector<RowColumn> columns;
+std::optional<Law> read_row(Tool& tool, Reader& in, const LawForm& form, PowerLaw& law,
+                            std::vector<RowNumber> numbers) {
+  static const std::map<std::string, std::string_view> quantities{
+      {"slope", ""}, {"v0", "v"}, {"x0", "x"}, {"t0", "t"}};
+  const bool power = &form == &laws().front();
+  if (!power)
+    tool.refuse({"coefficient", "exponent"}, fmt::format("does not go with D = {}", form.formula));
+  std::erase_if(numbers, [&](const RowNumber& number) {
+    return !in.find(number.name) || tool.on_command_line(number.name);
+  });
+  std::vector<RowColumn> columns, coefficients;
   for (const RowNumber& number : numbers)
-    columns.emplace_back(in, number.name, known.at(number.name).quantity);
-  if (!in.next_run() || !in.next()) fail<InputError>("{}: no row of fitpower", shown(file));
-  bool told = false;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (tool.on_command_line(known.at(numbers[i].name).option)) continue;
-    *numbers[i].value = columns[i].value();
-    told = true;
-    if (numbers[i].value == &law.a && !(law.a > 0)) fail("a = {} must be greater than 0", law.a);
-  }
-  if (!told) fail<OptionError>("--law tells nothing that is not on the command line: leave it out");
+    columns.emplace_back(in, number.name, quantities.at(number.name));
+  for (const Column& c : columns_of(form))
+    coefficients.emplace_back(in, c.name, quantity_of(c.unit), c.unit);
+  if (!in.next_run() || !in.next()) fail<InputError>("{}: no row of fitpower", in.where());
+  for (std::size_t i = 0; i < numbers.size(); ++i) *numbers[i].value = columns[i].value();
+  std::vector<double> written;
+  for (const RowColumn& coefficient : coefficients) written.push_back(coefficient.value());
+  const bool a_told = !tool.on_command_line("coefficient"),
+             b_told = !tool.on_command_line("exponent");
+  if (power && a_told) law.a = written[0];
+  if (power && b_told) law.b = written[1];
+  if (power && a_told && !(law.a > 0)) fail("a = {} must be greater than 0", law.a);
+  if (power && !a_told && !b_told && numbers.empty())
+    fail<OptionError>("--law tells nothing that is not on the command line: leave it out");
   if (in.next() || in.next_run()) fail("more than one row: a law is one row of fitpower");
+  if (power) return {};
+  return Law::as_written(form, written);
 }
 
 }  // namespace
 
+const LawForm& law_named(const std::string& formula) {
+  std::string known;
+  for (const LawForm& form : laws()) {
+    if (bare(form.formula) == bare(formula)) return form;
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", form.formula);
+  }
+  fail<OptionError>("--law: '{}' is none of {}", shown(formula), known);
+}
+
+std::vector<Column> columns_of(const LawForm& form) {
+  std::vector<Column> all;
+  for (const LawForm::Coefficient& c : form.coefficients) {
+    const int m = c.D + c.v, s = -c.v;  // m^m s^s
+    const auto power = [](const char* unit, int p) {
+      return p == 0 ? "" : p == 1 ? unit : fmt::format("{}^{}", unit, p);
+    };
+    const std::string above = power("m", std::max(m, 0)) + power("s", std::max(s, 0)),
+                      below = power("m", std::max(-m, 0)) + power("s", std::max(-s, 0));
+    all.push_back({c.name, above + (below.empty() ? "" : "/" + below)});
+  }
+  return all;
+}
+
+std::string words_of(const Law& law) {
+  if (law.has_points()) return "table";
+  std::string words;
+  for (std::size_t j = 0; j < law.size(); ++j) {
+    std::array<double, LawForm::most> unused;
+    words += fmt::format("{}{} {}", j == 0 ? "" : " ", law.form().coefficients[j].name,
+                         law.in_SI(j, unused));
+  }
+  return words;
+}
+
 std::optional<Law> read_law(Tool& tool, const std::string& file, PowerLaw& law,
                             const std::vector<RowNumber>& numbers) {
   Reader& in = tool.read_file(file, {"v", "D"});
-  if (in.find("a") && in.find("b")) {
-    read_row(tool, in, file, law, numbers);
-    return {};
-  }
+  if (const LawForm* form = law_of_columns(in)) return read_row(tool, in, *form, law, numbers);
   tool.refuse({"coefficient", "exponent"}, "does not go with a table of v D");
   if (!in.find("v") || !in.find("D"))
     fail<InputError>("{}: neither a table of v and D nor a row of fitpower", shown(file));

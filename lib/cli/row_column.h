@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "text/reader.h"
 
@@ -13,9 +14,11 @@ namespace rolling {
 /// acceleration there), so it is read without conversion and converted here.
 class RowColumn {
  public:
-  /// `quantity`: the known one in whose unit it is; nothing for a number without a unit.
-  RowColumn(Reader& in, const std::string& name, std::string_view quantity = {})
-      : in_(in), name_(name), quantity_(quantity), slot_(in.need_as_is(name)) {
+  /// `quantity`: the known one in whose unit it is; nothing for a number of this unit alone.
+  RowColumn(Reader& in, const std::string& name, std::string_view quantity = {},
+            std::string unit = {})
+      : in_(in), name_(name), quantity_(quantity), unit_(std::move(unit)),
+        slot_(in.need_as_is(name)) {
     value_of(0);
   }
   double value() const { return value_of(in_[slot_]); }
@@ -24,14 +27,16 @@ class RowColumn {
   double value_of(double number) const {
     const Column& column = in_.columns()[in_.column_of(slot_)];
     if (!quantity_.empty()) return conversion_to_si(quantity_, column)(number);
-    if (!column.unit.empty())
-      fail("column '{}': {} is a number without a unit", shown(to_text(column)), name_);
+    if (column.unit != unit_)
+      fail("column '{}': {} is a number {}", shown(to_text(column)), name_,
+           unit_.empty() ? "without a unit" : "in " + unit_);
     return number;
   }
 
   Reader& in_;
   std::string name_;
   std::string_view quantity_;
+  std::string unit_;
   std::size_t slot_;
 };
 

@@ -38,8 +38,8 @@ Shift square(const double* c, double v, double* by_c) {
   return {s.D, 2 * s.by_log_v};
 }
 
-/// d0 + a v^n as h + s (v^n - 1)/n (Box and Cox 1964, J. R. Stat. Soc. B 26, 211): where n is
-/// small, d0 and a are large and nearly cancel, while h, s and n stay what they are.
+/// d0 + a v^b as h + s (v^b - 1)/b (Box and Cox 1964, J. R. Stat. Soc. B 26, 211): where b is
+/// small, d0 and a are large and nearly cancel, while h, s and b stay what they are.
 Shift constant_and_power(const double* c, double v, double* by_c) {
   const double n = c[2], log = std::log(v), x = n * log,
                B = std::abs(x) < 1e-5 ? log * (1 + x / 2) : std::expm1(x) / n,
@@ -56,6 +56,10 @@ void written_constant_and_power(const double* c, double* d, double* by_c) {
   d[0] = h - s / n, d[1] = s / n, d[2] = n;
   const double J[]{1, -1 / n, s / (n * n), 0, 1 / n, -s / (n * n), 0, 0, 1};
   std::copy(std::begin(J), std::end(J), by_c);
+}
+
+void taken_constant_and_power(const double* d, double* c) {
+  c[0] = d[0] + d[1], c[1] = d[1] * d[2], c[2] = d[2];
 }
 
 Shift peak(const double* c, double v, double* by_c) {
@@ -79,24 +83,27 @@ void written_peak(const double* c, double* d, double* by_c) {
 const std::vector<LawForm>& laws() {
   constexpr int per_speed = -1, per_square = -2;
   static const std::vector<LawForm> all{
-      {"a v^b", {{"a", 1, 0, 1}, {"b", 0}}, power, nullptr, {{1, 0.3}}, true},
-      {"d0", {{"d0"}}, constant, nullptr, {{1}}, true},
-      {"d0 + d1 v", {{"d0"}, {"d1", 1, per_speed}}, line, nullptr, {{1, 0}}},
+      {"a v^b", {{"a", 1, 0, 1}, {"b", 0}}, power, nullptr, nullptr, {{1, 0.3}}, true},
+      {"d0", {{"d0"}}, constant, nullptr, nullptr, {{1}}, true},
+      {"d0 + d1 v", {{"d0"}, {"d1", 1, per_speed}}, line, nullptr, nullptr, {{1, 0}}},
       {"d0 + d1 v + d2 v^2",
        {{"d0"}, {"d1", 1, per_speed}, {"d2", 1, per_square}},
        parabola,
        nullptr,
+       nullptr,
        {{1, 0, 0}}},
-      {"d0 + d2 v^2", {{"d0"}, {"d2", 1, per_square}}, square, nullptr, {{1, 0}}},
-      {"d0 + a v^n",
-       {{"d0"}, {"a", 1, 0, 2}, {"n", 0}},
+      {"d0 + d2 v^2", {{"d0"}, {"d2", 1, per_square}}, square, nullptr, nullptr, {{1, 0}}},
+      {"d0 + a v^b",
+       {{"d0"}, {"a", 1, 0, 2}, {"b", 0}},
        constant_and_power,
        written_constant_and_power,
+       taken_constant_and_power,
        {{1, 0.3, 0.5}, {1, 0.3, 2}}},
       {"d0 + 2 p v w/(v^2 + w^2)",
        {{"d0"}, {"p"}, {"w", 0, 1}},
        peak,
        written_peak,
+       nullptr,
        {{0.5, 0.5, 0.2}, {0.5, 0.5, 0.6}, {0.5, 0.5, 2}}},
   };
   return all;

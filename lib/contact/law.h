@@ -5,6 +5,7 @@
 
 #include "contact/table_law.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -48,6 +49,8 @@ struct LawForm {
   /// The coefficients that the formula names, in the same units, of those that `shift` takes, and
   /// their derivatives row by row; none where they are the same.
   void (*written)(const double* c, double* as_written, double* by_c);
+  /// The inverse: the coefficients that `shift` takes, of those that the formula names.
+  void (*taken)(const double* as_written, double* c);
   /// Starting points of a search, for a D of order one at speeds up to 1.
   std::vector<std::vector<double>> starts;
   bool is_power = false;  ///< a v^b itself, or a special case of it
@@ -58,7 +61,7 @@ struct LawForm {
 /// a v^b first, then the laws that are compared with it:
 ///   d0, d0 + d1 v, d0 + d1 v + d2 v^2, d0 + d2 v^2: rolling resistance and drag, as coast-down
 ///     tests fit them (SAE J1263; 40 CFR 1066.310);
-///   d0 + a v^n: dry friction beside a power law;
+///   d0 + a v^b: dry friction beside a power law;
 ///   d0 + 2 p v w/(v^2 + w^2): a mat of one relaxation time, whose loss has a maximum p at the
 ///     speed w. Resistance rises with the speed of deformation and falls where the mat has no time
 ///     to give way: Flom and Bueche (1959), J. Appl. Phys. 30, 1725; May, Morris and Atack (1959),
@@ -76,6 +79,14 @@ class Law {
   Law(const LawForm& form, std::span<const double> c, double D_unit = 1, double v_unit = 1)
       : form_(&form), D_unit_(D_unit), v_unit_(v_unit) {
     for (std::size_t j = 0; j < size(); ++j) c_[j] = c[j];
+  }
+
+  /// The law of a formula with these coefficients, as they are written, in SI units.
+  static Law as_written(const LawForm& form, std::span<const double> written) {
+    std::array<double, LawForm::most> c{};
+    if (form.taken) form.taken(written.data(), c.data());
+    else std::ranges::copy(written, c.begin());
+    return {form, c};
   }
 
   /// The law a v^b that this is, if it is one.

@@ -2,6 +2,7 @@
 #include "fit/agreement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/error.h"
@@ -18,20 +19,52 @@ double rounding_of(const std::vector<double>& gradient) {
   return fixed ? 0 : 1e-26;
 }
 
-std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own) {
+/// ln a and b, with their gradients: of another law, of the v^b with the same D at this speed and
+/// at a quarter of it.
+struct LocalPower {
+  FittedNumber log_a, b;
+};
+LocalPower local_power(const Fitted& fit, double v) {
+  const Law law = fit.parameters->law(fit.minimum.theta);
+  const std::size_t n = fit.parameters->columns();
+  if (law.power()) {
+    FittedNumber log_a{std::log(fit.coefficients[0].value), fit.coefficients[0].gradient};
+    for (double& slope : log_a.gradient) slope /= fit.coefficients[0].value;
+    return {std::move(log_a), fit.coefficients[1]};
+  }
+  const auto log_D = [&](double speed) {
+    std::array<double, LawForm::most> by_c{};
+    const double D = law.at(speed, by_c.data()).D;
+    for (double& by : by_c) by /= D;
+    FittedNumber number{std::log(D), std::vector<double>(n)};
+    fit.parameters->chain(number.gradient.data(), 1, law.c(0), {by_c});
+    return number;
+  };
+  const FittedNumber fast = log_D(v), slow = log_D(v / 4);
+  LocalPower power{fast, fast};
+  const auto set = [&](double& log_a, double& b, double of_fast, double of_slow) {
+    b = (of_fast - of_slow) / std::log(4.0);
+    log_a = of_fast - b * std::log(v);
+  };
+  set(power.log_a.value, power.b.value, fast.value, slow.value);
+  for (std::size_t i = 0; i < n; ++i)
+    set(power.log_a.gradient[i], power.b.gradient[i], fast.gradient[i], slow.gradient[i]);
+  return power;
+}
+
+/// The laws of the runs that determine one, compared at speeds up to v.
+std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own, double v) {
   std::vector<OwnLaw> laws;
   for (std::size_t r = 0; r < own.size(); ++r) {
     if (!own[r] || own[r]->degrees_left() == 0) continue;
     const Fitted& fit = *own[r];
     const Spread covariance = uncertainty_of(fit).covariance;
-    auto by_log_a = fit.a.gradient;
-    for (double& slope : by_log_a) slope /= fit.a.value;
-    const Symmetric C{covariance(by_log_a, by_log_a) + rounding_of(by_log_a),
-                      covariance(by_log_a, fit.b.gradient),
-                      covariance(fit.b.gradient, fit.b.gradient) + rounding_of(fit.b.gradient)};
+    const auto [log_a, b] = local_power(fit, v);
+    const auto &by_a = log_a.gradient, &by_b = b.gradient;
+    const Symmetric C{covariance(by_a, by_a) + rounding_of(by_a), covariance(by_a, by_b),
+                      covariance(by_b, by_b) + rounding_of(by_b)};
     if (C.is_positive() && C.inverse().is_finite() && determines_b(std::sqrt(C.bb)))
-      laws.push_back(
-          {r, {std::log(fit.a.value), fit.b.value}, C, static_cast<double>(fit.degrees_left())});
+      laws.push_back({r, {log_a.value, b.value}, C, static_cast<double>(fit.degrees_left())});
   }
   return laws;
 }
@@ -109,7 +142,8 @@ BySlope take_slope(std::vector<OwnLaw>& laws, double D, double freedom, NoiseErr
   errors.share.slope = student(freedom) * std::sqrt(line.chi2 / freedom / line.spread);
   BySlope lost;
   for (std::size_t i = 0; i < laws.size(); ++i) {
-    const double exponent = laws[i].covariance.bb > 0 ? joint.b.value : 0;  // a fixed one stays
+    const double exponent =
+        laws[i].covariance.bb > 0 ? joint.coefficients[1].value : 0;  // a fixed one stays
     lost.push_back({by_slope[i], -by_slope[i] * exponent});
     laws[i].law = laws[i].law - Pair{lost[i].a * line.slope, lost[i].b * line.slope};
   }
@@ -120,7 +154,8 @@ BySlope take_slope(std::vector<OwnLaw>& laws, double D, double freedom, NoiseErr
 /// which the runs agree best.
 void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, Fitted& joint) {
   const double log_v = common_log_v(laws, [&](const OwnLaw& one) { return log_v_of(one, joint); });
-  const double common_D = joint.a.value * std::exp(joint.b.value * log_v);
+  auto &a = joint.coefficients[0].value, &b = joint.coefficients[1].value;
+  const double common_D = a * std::exp(b * log_v);
   for (OwnLaw& one : laws) one = one.in_unit(log_v);
   BySlope by_slope(laws.size());
   if (joint.slope) by_slope = take_slope(laws, common_D, freedom, errors, joint);
@@ -130,11 +165,9 @@ void take_means(std::vector<OwnLaw> laws, double freedom, NoiseErrors& errors, F
     lost = lost + Pair{mean.D.shares[i] * by_slope[i].a, mean.b.shares[i] * by_slope[i].b};
   const double by = errors.share.slope;
   const Symmetric C = mean.covariance() + mean.square(lost.a * by, lost.b * by);
-  if (mean.b.free) joint.b.value = mean.b.value;
-  if (mean.D.free) joint.a.value = std::exp(mean.D.value - log_v * joint.b.value);
-  const double a = joint.a.value;
-  errors.share.a = a * std::sqrt(C.aa), errors.share.b = std::sqrt(C.bb);
-  errors.share.together = a * C.ab;
+  if (mean.b.free) b = mean.b.value;
+  if (mean.D.free) a = std::exp(mean.D.value - log_v * b);
+  errors.share.law = {{a * a * C.aa, a * C.ab}, {a * C.ab, C.bb}};
 }
 
 /// Each run fitted by itself; nothing for one that does not determine a law.
@@ -155,7 +188,9 @@ std::vector<std::optional<Fitted>> own_fits(Route route, const std::vector<FitRu
 bool follow_means(std::vector<OwnLaw> laws, const FitOptions& options, NoiseErrors& errors,
                   Fitted& joint) {
   const double freedom = static_cast<double>(laws.size()) - 1 - options.fit_slope;
-  if (freedom < 1 || (options.fit_slope && (options.a || of_one_way(laws, joint)))) return false;
+  if (freedom < 1 || !options.fits_power() ||
+      (options.fit_slope && (options.a || of_one_way(laws, joint))))
+    return false;
   take_means(std::move(laws), freedom, errors, joint);
   return true;
 }
@@ -167,19 +202,22 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
                                       Fitted& joint) {
   if (runs.size() < 2 || errors.kind == Errors::none || (options.a && options.b)) return {};
   const auto own = own_fits(route, runs, options, joint);
-  const auto laws = own_laws(own);
+  const auto laws = own_laws(own, joint.fastest());
   if (laws.size() < 2) return {};
-  const Pair common{std::log(joint.a.value), joint.b.value};
-  const Agreement found = compare(laws, common, !options.a + !options.b, options.fit_slope);
+  const auto [log_a, b] = local_power(joint, joint.fastest());
+  const bool b_held = options.b || joint.coefficients.size() < 2;
+  const Agreement found =
+      compare(laws, {log_a.value, b.value}, !options.a + !b_held, options.fit_slope);
   if (found.agree()) return found;
   const Fitted around_own = with_own_noise(joint, own);
   errors = noise_errors(around_own, uncertainty_of(around_own));
   // The bias of logarithms comes from the noise too.
-  joint.bias_a = joint.bias_b = 0;
-  for (const OwnLaw& one : laws) {
-    joint.bias_a += own[one.run]->bias_a / static_cast<double>(laws.size());
-    joint.bias_b += own[one.run]->bias_b / static_cast<double>(laws.size());
-  }
+  joint.bias.clear();
+  for (const OwnLaw& one : laws)
+    for (std::size_t j = 0; j < own[one.run]->bias.size(); ++j) {
+      joint.bias.resize(joint.coefficients.size());
+      joint.bias[j] += own[one.run]->bias[j] / static_cast<double>(laws.size());
+    }
   if (!follow_means(laws, options, errors, joint))
     errors.multiply(std::max(1.0, std::sqrt(found.chi2 / static_cast<double>(found.dof))));
   return found;
@@ -188,7 +226,8 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
 Fitted fit_of_disagreeing(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   Fitted joint = fit_route(route, runs, options);
   NoiseErrors unused{};
-  follow_means(own_laws(own_fits(route, runs, options, joint)), options, unused, joint);
+  follow_means(own_laws(own_fits(route, runs, options, joint), joint.fastest()), options, unused,
+               joint);
   return joint;
 }
 

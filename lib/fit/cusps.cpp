@@ -82,8 +82,9 @@ void search_around(const RollModel& rolls, const System& system, std::size_t run
 /// True if the second derivative of the speed before the stop is unbounded. On a slope the body
 /// slows down at a rate that is not 0 at the stop, as with b = 0.
 bool has_cusps(const RollModel& rolls, const std::vector<double>& theta, std::size_t run) {
+  const auto law = rolls.parameters().law(theta).power();  // another stops as a constant one
   return !rolls.runs()[run].raw_is_position &&
-         (rolls.parameters().law(theta).c(1) < 0.5 || rolls.slope(theta, run) != 0) &&
+         (law.value_or(PowerLaw{1, 0}).b < 0.5 || rolls.slope(theta, run) != 0) &&
          !rolls.roll(theta, run).turns();  // it does not rest: v goes on through 0
 }
 

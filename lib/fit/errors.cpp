@@ -253,22 +253,38 @@ Uncertainty uncertainty_of(const Fitted& fit) {
 }
 
 NoiseErrors noise_errors(const Fitted& fit, const Uncertainty& by) {
-  const auto sigma = [&](const FittedNumber& x, std::size_t run = 0) {
-    const bool fixed =
-        std::all_of(x.gradient.begin(), x.gradient.end(), [](double slope) { return slope == 0; });
-    return fixed ? 0 : std::sqrt(by.covariance(x.gradient, x.gradient, run));
+  const auto is_fixed = [](const FittedNumber& x) {
+    return std::ranges::all_of(x.gradient, [](double slope) { return slope == 0; });
   };
-  ErrorShare share{"noise", sigma(fit.a), sigma(fit.b)};
-  if (share.a != 0 && share.b != 0) share.together = by.covariance(fit.a.gradient, fit.b.gradient);
+  const auto sigma = [&](const FittedNumber& x, std::size_t run = 0) {
+    return is_fixed(x) ? 0 : std::sqrt(by.covariance(x.gradient, x.gradient, run));
+  };
+  ErrorShare share{"noise"};
+  for (const FittedNumber& x : fit.coefficients) {
+    std::vector<double>& row = share.law.emplace_back();
+    for (const FittedNumber& y : fit.coefficients)
+      row.push_back(is_fixed(x) || is_fixed(y) ? 0 : by.covariance(x.gradient, y.gradient));
+  }
   if (fit.slope) share.slope = sigma(*fit.slope);
   for (std::size_t r = 0; r < fit.v0.size(); ++r) share.v0.push_back(sigma(fit.v0[r], r));
   for (std::size_t r = 0; r < fit.x0.size(); ++r) share.x0.push_back(sigma(fit.x0[r], r));
   return {by.kind, by.whiteness, std::move(share)};
 }
 
+Matrix correlations_of(const Matrix& covariance) {
+  Matrix all = covariance;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = 0; j < all.size(); ++j) {
+      const double sigmas = std::sqrt(covariance[i][i]) * std::sqrt(covariance[j][j]);
+      all[i][j] = covariance[i][j] == 0 ? 0 : covariance[i][j] / sigmas;
+    }
+  return all;
+}
+
 void NoiseErrors::multiply(double factor) {
-  for (double* error : {&share.a, &share.b, &share.slope}) *error *= factor;
-  share.together *= factor * factor;
+  for (std::vector<double>& row : share.law)
+    for (double& covariance : row) covariance *= factor * factor;
+  share.slope *= factor;
   for (std::vector<double>* of_runs : {&share.v0, &share.x0})
     for (double& error : *of_runs) error *= factor;
 }

@@ -49,6 +49,9 @@ struct NoiseErrors {
 };
 NoiseErrors noise_errors(const Fitted&, const Uncertainty&);
 
+/// 0 where a variance is 0, as that of a number that is held.
+Matrix correlations_of(const Matrix& covariance);
+
 /// The noise of the raw column of a fit with known filters; without the B of its sources.
 RawNoise raw_noise_of(const Fitted&);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <tuple>
 
 #include "base/error.h"
 #include "base/rounding.h"
@@ -35,20 +36,33 @@ FitResult result_of(const Fitted& found, double rms, const NoiseErrors& noise,
     for (const ErrorShare& share : shares) square += part(share) * part(share);
     return std::sqrt(square);
   };
-  FitResult result{.a = found.a.value,
-                   .sigma_a = total([](const ErrorShare& of) { return of.a; }),
-                   .b = found.b.value,
-                   .sigma_b = total([](const ErrorShare& of) { return of.b; }),
-                   .corr = 0,
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  FitResult result{.law = found.law(),
+                   .coefficients = {},
+                   .correlations = {},
+                   .a = nan,
+                   .sigma_a = nan,
+                   .b = nan,
+                   .sigma_b = nan,
+                   .corr = nan,
                    .rms = rms,
                    .n = found.rows,
                    .left_out = found.left_out,
                    .negative = found.negative,
                    .whiteness = noise.whiteness,
                    .errors = noise.kind};
-  double together = 0;
-  for (const ErrorShare& share : shares) together += share.together;
-  if (together != 0) result.corr = together / (result.sigma_a * result.sigma_b);
+  Matrix covariance(result.law.size(), std::vector<double>(result.law.size(), 0));
+  for (const ErrorShare& share : shares)
+    for (std::size_t i = 0; i < covariance.size(); ++i)
+      for (std::size_t j = 0; j < covariance.size(); ++j) covariance[i][j] += share.law[i][j];
+  for (std::size_t j = 0; j < covariance.size(); ++j)
+    result.coefficients.push_back({found.coefficients[j].value, std::sqrt(covariance[j][j])});
+  result.correlations = correlations_of(covariance);
+  if (result.law.power()) {
+    const auto& [a, b] = std::tie(result.coefficients[0], result.coefficients[1]);
+    result.a = a.value, result.sigma_a = a.sigma, result.b = b.value, result.sigma_b = b.sigma;
+    result.corr = result.correlations[0][1];
+  }
   for (std::size_t r = 0; r < found.v0.size(); ++r)
     result.v0.push_back({found.v0[r].value, total([r](const ErrorShare& of) { return of.v0[r]; })});
   for (std::size_t r = 0; r < found.x0.size(); ++r)
@@ -61,23 +75,55 @@ FitResult result_of(const Fitted& found, double rms, const NoiseErrors& noise,
   return result;
 }
 
-/// Throws Error if the data do not determine a, b or the slope.
-void require_determined(const FitResult& result, const FitOptions& options) {
-  for (double x : {result.a, result.b})
-    if (!std::isfinite(x)) fail("the fit gives no finite a and b");
-  if (result.errors != Errors::none)
-    for (double x : {result.sigma_a, result.sigma_b, result.corr, result.rms})
-      if (!std::isfinite(x)) fail("the fit gives no finite errors of a and b: {}", choose_the_roll);
-  // Large errors of a nonlinear fit are not reliable themselves; hence these limits on them.
+/// "a and b", "d0, a and b": the coefficients of a law; with values, "a = 0.002 and b = -0.5".
+std::string names_of(const LawForm& form, const std::vector<FittedNumber>& values = {}) {
+  std::string all;
+  for (std::size_t j = 0; j < form.coefficients.size(); ++j) {
+    all += j == 0 ? "" : j + 1 < form.coefficients.size() ? ", " : " and ";
+    all += form.coefficients[j].name;
+    if (!values.empty()) all += fmt::format(" = {:.4g}", values[j].value);
+  }
+  return all;
+}
+
+/// Throws Error if a slope of the mat, which slows the body down as the law does, is not told from
+/// it by runs in one direction.
+void require_slope(const FitResult& result, const std::vector<FitRun>& runs) {
   const auto backwards = [](const Estimate& v0) { return v0.value < 0; };
-  const bool one_way = std::ranges::adjacent_find(result.v0, std::ranges::not_equal_to(),
-                                                  backwards) == result.v0.end();
-  if (options.fit_slope && one_way &&
-      (!(result.sigma_a < result.a / 10) || !(result.sigma_b < 0.1)))
-    fail(
-        "a slope of the mat and its law slow the body down alike, and these runs do not tell them "
-        "apart (a comes out as {:.3g}{}): add runs in the other direction",
-        result.a, result.errors == Errors::none ? "" : fmt::format(" +- {:.2g}", result.sigma_a));
+  if (std::ranges::adjacent_find(result.v0, std::ranges::not_equal_to(), backwards) !=
+      result.v0.end())
+    return;
+  const Estimate first = result.coefficients.front();
+  const double R = runs.front().body.R, D = result.law.at(std::abs(result.v0.front().value)).D;
+  if (result.law.power() ? first.sigma < first.value / 10 && result.sigma_b < 0.1
+                         : R * result.sigma_slope < D / 10)
+    return;
+  fail(
+      "a slope of the mat and its law slow the body down alike, and these runs do not tell them "
+      "apart ({} comes out as {:.3g}{}): add runs in the other direction",
+      result.law.form().coefficients.front().name, first.value,
+      result.errors == Errors::none ? "" : fmt::format(" +- {:.2g}", first.sigma));
+}
+
+/// Throws Error if the data do not determine the law or the slope.
+void require_determined(const FitResult& result, const std::vector<FitRun>& runs,
+                        const FitOptions& options) {
+  const LawForm& form = result.law.form();
+  double sum = 0, errors = result.rms;
+  for (const Estimate& c : result.coefficients) sum += c.value, errors += c.sigma;
+  for (const std::vector<double>& row : result.correlations)
+    for (const double correlation : row) errors += correlation;
+  if (!std::isfinite(sum)) fail("the fit gives no finite {}", names_of(form));
+  if (result.errors != Errors::none && !std::isfinite(errors))
+    fail("the fit gives no finite errors of {}: {}", names_of(form), choose_the_roll);
+  // Large errors of a nonlinear fit are not reliable themselves; hence these limits on them.
+  if (options.fit_slope) require_slope(result, runs);
+  for (std::size_t j = 0; j < form.coefficients.size() && !options.fits_power(); ++j)
+    if (const auto& of = form.coefficients[j];
+        of.D == 0 && of.v == 0 && !determines_b(result.coefficients[j].sigma))
+      fail("the rows do not determine {} of D = {}, which comes out as {:.3g} +- {:.3g}", of.name,
+           form.formula, result.coefficients[j].value, result.coefficients[j].sigma);
+  if (!options.fits_power()) return;
   if (result.errors != Errors::none && !determines_b(result.sigma_b))
     fail(
         "the data do not determine b, which comes out as {:.3g} +- {:.3g}: {}; or fix it, --fix "
@@ -96,7 +142,7 @@ void require_seen(const Fitted& found, const std::vector<FitRun>& all) {
     const ObservedRun& run = runs[r];
     const std::string place = runs.size() > 1 ? fmt::format("run {}: ", all[r].name) : "";
     Roll roll = found.rolls->roll(found.minimum.theta, r);
-    const double v0 = std::abs(found.v0[r].value), D = found.a.value * std::pow(v0, found.b.value);
+    const double v0 = std::abs(found.v0[r].value), D = found.law().at(v0).D;
     if (run.body.slope == 0 && !found.slope && std::abs(D) < program_rounding * run.body.R)
       fail("{}the body does not slow down: D comes out as {:.2g} m", place, D);
     double fastest = 0;
@@ -122,10 +168,11 @@ void require_law(const Fitted& found, const std::vector<FitRun>& all) {
     const double last = runs[r].t.back();
     if (roll.radius_time(last) < last && roll.radius_speed() > rest * std::abs(found.v0[r].value))
       fail(
-          "{}a = {:.4g} and b = {:.4g} have no meaning below {:.2g} m/s, where D is beyond the "
-          "radius {} m: leave the rows out that follow, or fit with A = 1",
-          runs.size() > 1 ? fmt::format("run {}: ", all[r].name) : "", found.a.value, found.b.value,
-          roll.radius_speed(), runs[r].body.R);
+          "{}{} have no meaning below {:.2g} m/s, where D is beyond the radius {} m: leave the "
+          "rows out that follow, or fit with A = 1",
+          runs.size() > 1 ? fmt::format("run {}: ", all[r].name) : "",
+          names_of(found.parameters->form(), found.coefficients), roll.radius_speed(),
+          runs[r].body.R);
   }
 }
 
@@ -139,14 +186,12 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   std::vector<ErrorShare> shares{noise.share};
   const double rms = rms_of(found);
   require_seen(found, runs);
-  require_determined(result_of(found, rms, noise, shares), options);
+  require_determined(result_of(found, rms, noise, shares), runs, options);
   require_law(found, runs);
   for (ErrorShare& share :
        shares_of_given(route, runs, options, found, !agreement || agreement->agree()))
     shares.push_back(std::move(share));
-  if (found.bias_a != 0 || found.bias_b != 0)
-    shares.push_back(
-        {"bias", std::abs(found.bias_a), std::abs(found.bias_b), found.bias_a * found.bias_b});
+  if (!found.bias.empty()) shares.push_back({"bias", outer_square(found.bias)});
   FitResult result = result_of(found, rms, noise, std::move(shares));
   if (!is_trajectory(route)) result.v0 = {};
   result.agreement = agreement;
@@ -158,7 +203,8 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
 }  // namespace
 
 FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
-  if (!options.start_a && !options.start_b) return fit_from_start(route, runs, options);
+  if ((!options.start_a && !options.start_b) || !options.fits_power())
+    return fit_from_start(route, runs, options);
   try {
     return fit_from_start(route, runs, options);
   } catch (const Error&) {  // of the data, or of the start alone

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "fit/shift_rows.h"
 #include "least_squares/robust.h"
 
 namespace rolling {
@@ -27,16 +28,28 @@ std::size_t Fitted::degrees_left() const {
 }
 
 void report_law(Fitted& fit, const Parameters& q) {
+  fit.parameters = q;
+  fit.coefficients.clear();
   const Law law = q.law(fit.minimum.theta);
-  const auto coefficient = [&](std::size_t j) {
+  for (std::size_t j = 0; j < law.size(); ++j) {
     std::array<double, LawForm::most> by_c{};
-    FittedNumber number{law.in_SI(j, by_c), std::vector<double>(q.columns())};
+    FittedNumber& number = fit.coefficients.emplace_back(
+        FittedNumber{law.in_SI(j, by_c), std::vector<double>(q.columns())});
     if (const auto fixed = q.fixed(j)) number.value = *fixed;
     else q.chain(number.gradient.data(), 1, law.c(0), {by_c});
-    return number;
-  };
-  fit.a = coefficient(0);
-  fit.b = coefficient(1);
+  }
+}
+
+Law Fitted::law() const {
+  std::array<double, LawForm::most> written{};
+  for (std::size_t j = 0; j < coefficients.size(); ++j) written[j] = coefficients[j].value;
+  return Law::as_written(parameters->form(), std::span(written).first(coefficients.size()));
+}
+
+double Fitted::fastest() const {
+  double speed = shifts ? std::ranges::max(shifts->v) : 0;
+  for (const FittedNumber& number : v0) speed = std::max(speed, std::abs(number.value));
+  return speed;
 }
 
 Minimum solve(const System& system, const std::vector<std::vector<double>>& starts,

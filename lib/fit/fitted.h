@@ -47,9 +47,10 @@ struct Fitted {
   std::shared_ptr<const Noise> noise = std::make_shared<const Noise>();  ///< of the weights
   std::optional<RawNoise> raw_noise = {};  ///< if another fit has estimated it (loglog)
   std::size_t rows = 0, left_out = 0;
-  std::size_t negative = 0;  ///< see FitResult
-  FittedNumber a = {}, b = {};
-  double bias_a = 0, bias_b = 0;  ///< the expected bias of a and b; 0 where it is not known
+  std::size_t negative = 0;                     ///< see FitResult
+  std::optional<Parameters> parameters = {};    ///< theta of the minimum
+  std::vector<FittedNumber> coefficients = {};  ///< of the law, as its formula names them
+  std::vector<double> bias = {};  ///< the expected bias of each; empty where it is not known
   std::optional<FittedNumber> slope = {};       ///< if it is a parameter
   std::vector<FittedNumber> v0 = {};            ///< one for each run, if the model is a roll
   std::vector<FittedNumber> x0 = {};            ///< likewise, if positions are fitted
@@ -57,6 +58,9 @@ struct Fitted {
   std::optional<Taken> taken = {};  ///< see taken_of(); if other fits have left these residuals
   std::shared_ptr<const ShiftRows> shifts = {};  ///< the rows, if the model is a law D(v)
 
+  Law law() const;
+  /// The highest speed that was fitted.
+  double fastest() const;
   std::size_t means_taken() const {
     return rolls ? rolling::means_taken(rolls->runs(), rolls->parameters()) : 0;
   }
@@ -70,7 +74,7 @@ struct Fitted {
   bool filters_known() const { return raw_noise || noise->from_sources_alone(); }
 };
 
-/// Writes a and b with their gradients into the fit.
+/// Writes the coefficients of the law with their gradients into the fit.
 void report_law(Fitted&, const Parameters&);
 
 /// Minimises by the loss that the options name: squares from the first start.

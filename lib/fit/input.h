@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The input of a fit of the power law D(v) = a v^b: the rows of the runs, and what is fitted.
+// The input of a fit of a law D(v), of D = a v^b if no other is named: the rows of the runs, and
+// what is fitted.
 #pragma once
 
 #include "contact/contact.h"
+#include "contact/law.h"
 #include "noise/filter.h"
 
 #include <optional>
@@ -48,6 +50,8 @@ inline bool is_trajectory(Route route) {
 }
 
 struct FitOptions {
+  const LawForm* law = &laws().front();  ///< a v^b, or the law that is fitted instead
+  bool fits_power() const { return law == &laws().front(); }
   Geometry geometry = Geometry::approximate;
   std::optional<double> a, b, v0, x0;      ///< parameters that are fixed
   std::optional<double> start_a, start_b;  ///< starting values; without them they are estimated

@@ -46,7 +46,7 @@ Fitted fit_with(Route route, std::vector<FitRun> runs, const FitOptions& options
   return agree ? fit_route(route, runs, options) : fit_of_disagreeing(route, runs, options);
 }
 
-/// True if all runs have this value, and a alone depends on it, in proportion to (K + 1) R/g. With
+/// True if all runs have this value, and D alone depends on it, in proportion to (K + 1) R/g. With
 /// A = 1 on a level mat v and x depend on a g/((K + 1) R) (Eq. 12), and D is (K + 1) R/g times the
 /// deceleration (Eq. 11).
 bool scales_a(Route route, const std::vector<FitRun>& runs, const FitOptions& options,
@@ -63,8 +63,8 @@ bool scales_a(Route route, const std::vector<FitRun>& runs, const FitOptions& op
 std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& runs,
                                         const FitOptions& options, const Fitted& fit, bool agree) {
   FitOptions warm = options;
-  warm.start_a = fit.a.value;
-  warm.start_b = fit.b.value;
+  if (options.fits_power())
+    warm.start_a = fit.coefficients[0].value, warm.start_b = fit.coefficients[1].value;
   std::vector<ErrorShare> all;
   for (const UncertainNumber& number : uncertain_numbers) {
     std::vector<Estimate> values;
@@ -88,15 +88,20 @@ std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& 
           body.*number.value += by;
           return (body.K + 1) * body.R / body.g;
         };
-        share.a = fit.a.value * std::abs(change(unit(step), unit(-step))) / unit(0);
+        std::vector<double> changes;
+        for (std::size_t j = 0; j < fit.coefficients.size(); ++j)
+          changes.push_back(options.law->coefficients[j].D * fit.coefficients[j].value *
+                            change(unit(step), unit(-step)) / unit(0));
+        share.law = outer_square(changes);
         share.v0.assign(fit.v0.size(), 0), share.x0.assign(fit.x0.size(), 0);
         continue;
       }
       const Fitted above = fit_with(route, runs, warm, agree, number, value, step),
                    below = fit_with(route, runs, warm, agree, number, value, -step);
-      const double a = change(above.a.value, below.a.value),
-                   b = change(above.b.value, below.b.value);
-      share.a = std::abs(a), share.b = std::abs(b), share.together = a * b;
+      std::vector<double> changes;
+      for (std::size_t j = 0; j < fit.coefficients.size(); ++j)
+        changes.push_back(change(above.coefficients[j].value, below.coefficients[j].value));
+      share.law = outer_square(changes);
       share.slope = fit.slope ? change(above.slope->value, below.slope->value) : 0;
       for (std::size_t r = 0; r < fit.v0.size(); ++r)
         share.v0.push_back(change(above.v0[r].value, below.v0[r].value));

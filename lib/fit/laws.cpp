@@ -21,23 +21,25 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// The fit of one law: its minimum, and the coefficients that its `shift` takes.
+struct Candidate {
+  const LawForm* law;
+  Minimum minimum;
+  std::vector<double> c;
+
+  bool found() const { return std::isfinite(minimum.rss); }
+};
+
 /// The rows and weights of a fit of a v^b, applied to other laws. theta holds the own parameters
 /// of each run (v0, x0) as in that fit, then the coefficients of the law, then the slope if it is
 /// fitted.
 class FittedRows {
  public:
   explicit FittedRows(Fitted power)
-      : power_(std::move(power)), law_{power_.a.value, power_.b.value} {
-    if (power_.shifts) v_unit_ = std::ranges::max(power_.shifts->v);
-    for (const auto& q : power_.v0) v_unit_ = std::max(v_unit_, std::abs(q.value));
-  }
+      : power_(std::move(power)), law_(*power_.law().power()), v_unit_(power_.fastest()) {}
 
   const Fitted& power() const { return power_; }
-  /// The parameters of a fit of another law, in units in which shifts and speeds are of order one.
-  Parameters parameters(const LawForm& form) const {
-    const Parameters q = power_.rolls ? power_.rolls->parameters() : Parameters({}, false, 1, 1);
-    return q.with(form, law_(v_unit_), v_unit_);
-  }
+  Candidate of_power() const { return {&laws().front(), power_.minimum, {1, law_.b}}; }
 
   /// theta with v0, x0 and the slope of the fitted a v^b, and with these coefficients.
   std::vector<double> theta(const std::vector<double>& c) const {
@@ -50,25 +52,36 @@ class FittedRows {
     return all;
   }
 
-  System system(const LawForm& form) const {
-    const Parameters q = parameters(form);
-    if (!power_.rolls) return system_of(power_.shifts, q);
-    return system_of(std::make_shared<const RollModel>(power_.rolls->runs(), q), power_.noise);
+  /// The fit of another law before its minimum is found, in units in which shifts and speeds are of
+  /// order one.
+  Fitted unsolved(const LawForm& form) const {
+    Fitted fit;
+    fit.noise = power_.noise, fit.shifts = power_.shifts;
+    fit.rows = power_.rows, fit.left_out = power_.left_out;
+    const Parameters q = power_.rolls ? power_.rolls->parameters() : Parameters({}, false, 1, 1);
+    fit.parameters = q.with(form, law_(v_unit_), v_unit_);
+    if (power_.rolls) {
+      fit.rolls = std::make_shared<const RollModel>(power_.rolls->runs(), *fit.parameters);
+      fit.system = system_of(fit.rolls, fit.noise);
+    } else {
+      fit.system = system_of(fit.shifts, *fit.parameters);
+    }
+    return fit;
+  }
+
+  /// The fit of a law that was found.
+  Fitted solved(const Candidate& found) const {
+    if (found.law == &laws().front()) return power_;
+    Fitted fit = unsolved(*found.law);
+    fit.minimum = found.minimum;
+    fit.rolls ? report_roll(fit) : report_law(fit, *fit.parameters);
+    return fit;
   }
 
  private:
   Fitted power_;
   PowerLaw law_;
-  double v_unit_ = 0;
-};
-
-/// The fit of one law.
-struct Candidate {
-  const LawForm* law;
-  Minimum minimum;
-  std::vector<double> c;
-
-  bool found() const { return std::isfinite(minimum.rss); }
+  double v_unit_;
 };
 
 /// The coefficients that bring a law closest to another one, by least squares over the speeds, from
@@ -100,7 +113,7 @@ std::vector<std::vector<double>> closest(const LawForm& law, const Candidate& ot
 /// without a peak, a law with a peak has another minimum than at its peak.
 Candidate fit_law(const FittedRows& rows, const LawForm& law,
                   const std::vector<Candidate>& before) {
-  const System system = rows.system(law);
+  const System system = rows.unsolved(law).system;
   std::vector<std::pair<double, std::vector<double>>> starts;
   for (const Candidate& other : before) {
     if (!other.found()) continue;
@@ -139,6 +152,14 @@ Candidate fit_law(const FittedRows& rows, const LawForm& law,
   return best;
 }
 
+/// The fits of the laws before this one in the table, each of which the next begins from, and of
+/// this one.
+std::vector<Candidate> fits_up_to(const FittedRows& rows, const LawForm& last) {
+  std::vector<Candidate> all{rows.of_power()};
+  while (all.back().law != &last) all.push_back(fit_law(rows, laws()[all.size()], all));
+  return all;
+}
+
 /// The number of independent rows, from the law that leaves the smallest autocorrelation.
 double independent_rows(const std::vector<Candidate>& all, const std::vector<std::size_t>& runs) {
   const double n = static_cast<double>(all.front().minimum.f.size());
@@ -151,61 +172,51 @@ double independent_rows(const std::vector<Candidate>& all, const std::vector<std
 
 /// Writes the coefficients with their standard errors, estimated as in fit(), and their
 /// correlations.
-void report_coefficients(LawFit& result, const FittedRows& rows, const Candidate& found) {
-  Fitted fit = rows.power();
-  std::vector<FittedNumber> values{fit.a, fit.b};
-  if (found.law != &laws().front()) {
-    values.clear();
-    fit.system = rows.system(*found.law);
-    fit.minimum = found.minimum;
-    const Parameters q = rows.parameters(*found.law);
-    const Law law = q.law(found.minimum.theta);
-    for (std::size_t j = 0; j < law.size(); ++j) {
-      FittedNumber number{0, std::vector<double>(fit.system.columns())};
-      std::array<double, LawForm::most> by_c{};
-      number.value = law.in_SI(j, by_c);
-      q.chain(number.gradient.data(), 1, law.c(0), {by_c});
-      values.push_back(std::move(number));
-    }
-  }
-  const Uncertainty errors = uncertainty_of(fit);
-  for (const FittedNumber& x : values)
-    result.coefficients.push_back({x.value, std::sqrt(errors.covariance(x.gradient, x.gradient))});
-  for (std::size_t i = 0; i < values.size(); ++i)
-    for (std::size_t j = 0; j < values.size(); ++j) {
-      const double sigmas = result.coefficients[i].sigma * result.coefficients[j].sigma;
-      result.correlations.push_back(
-          sigmas == 0 ? 0 : errors.covariance(values[i].gradient, values[j].gradient) / sigmas);
-    }
+void report_coefficients(LawFit& result, const Fitted& fit) {
+  const Matrix covariance = noise_errors(fit, uncertainty_of(fit)).share.law;
+  for (std::size_t j = 0; j < covariance.size(); ++j)
+    result.coefficients.push_back({fit.coefficients[j].value, std::sqrt(covariance[j][j])});
+  result.correlations = correlations_of(covariance);
 }
 
 }  // namespace
 
 double LawComparison::least() const { return std::ranges::min(fits, {}, &LawFit::aicc).aicc; }
 
-const LawFit& LawComparison::best_other() const {
-  return *std::ranges::min_element(
-      fits, {}, [](const LawFit& fit) { return std::pair(fit.law->is_power, fit.aicc); });
+const LawFit& LawComparison::best_other(const LawForm& law) const {
+  return *std::ranges::min_element(fits, {}, [&](const LawFit& fit) {
+    return std::pair(fit.law == &law || (fit.law->is_power && law.is_power), fit.aicc);
+  });
 }
 
-double LawComparison::against_power() const {
-  return possible() ? fits.front().aicc - best_other().aicc : 0;
+double LawComparison::against(const LawForm& law) const {
+  return possible(law) ? std::ranges::find(fits, &law, &LawFit::law)->aicc - best_other(law).aicc
+                       : 0;
 }
 
-bool LawComparison::possible() const {
-  return std::isfinite(fits.front().aicc) && std::isfinite(best_other().aicc);
+bool LawComparison::possible(const LawForm& law) const {
+  return std::isfinite(std::ranges::find(fits, &law, &LawFit::law)->aicc) &&
+         std::isfinite(best_other(law).aicc);
 }
 
-LawComparison compare_laws(Route route, const std::vector<FitRun>& runs,
-                           const FitOptions& options) {
+Fitted fit_of_law(Fitted power, const LawForm& law) {
+  const char* const slope =
+      power.slope ? " and the slope of the mat: add runs in the other direction" : "";
+  const FittedRows rows(std::move(power));
+  const Candidate found = fits_up_to(rows, law).back();
+  if (!found.found()) fail("the rows do not determine D = {}{}", law.formula, slope);
+  return rows.solved(found);
+}
+
+LawComparison compare_laws(Route route, const std::vector<FitRun>& runs, FitOptions options) {
   if (options.robust) fail("laws are compared by squares only");
   // The mean of ln D is not the logarithm of the mean of D if D is noisy; other laws would fit the
   // difference.
   if (route == Route::loglog) route = Route::shift;
+  options.law = &laws().front();
   const FittedRows rows(of_means(fit_route(route, runs, options), options));
   const Fitted& power = rows.power();
-  std::vector<Candidate> all{{&laws().front(), power.minimum, {1, power.b.value}}};
-  for (std::size_t i = 1; i < laws().size(); ++i) all.push_back(fit_law(rows, laws()[i], all));
+  const std::vector<Candidate> all = fits_up_to(rows, laws().back());
   const double n = static_cast<double>(power.minimum.f.size()),
                independent = independent_rows(all, power.system.runs);
   LawComparison result;
@@ -218,7 +229,7 @@ LawComparison compare_laws(Route route, const std::vector<FitRun>& runs,
         2 * k * (k + 1) / (independent - k - 1);
     LawFit& of_law = result.fits.emplace_back(
         LawFit{found.law, found.found() && independent > k + 1 ? aicc : infinity, {}, {}});
-    if (found.found()) report_coefficients(of_law, rows, found);
+    if (found.found()) report_coefficients(of_law, rows.solved(found));
   }
   return result;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/estimate.h"
+#include "base/matrix.h"
 #include "contact/law.h"
 #include "fit/input.h"
 
@@ -18,7 +19,7 @@ struct LawFit {
   /// the law cannot be fitted.
   double aicc;
   std::vector<Estimate> coefficients;  ///< in SI units; empty if the law cannot be fitted
-  std::vector<double> correlations;  ///< matrix of the correlations of the coefficients, row by row
+  Matrix correlations = {};
 };
 
 /// The fits of all laws of contact/law.h, a v^b first.
@@ -26,14 +27,19 @@ struct LawComparison {
   std::vector<LawFit> fits;
 
   double least() const;  ///< AICc of the best law
-  /// The best law that is neither a v^b nor a special case of it; a special case is no evidence
-  /// against a v^b.
-  const LawFit& best_other() const;
-  /// AICc of a v^b minus AICc of best_other(); 0 if the comparison is not possible().
-  double against_power() const;
+  /// The best law beside this one; a special case of a v^b is no evidence against that.
+  const LawFit& best_other(const LawForm&) const;
+  /// AICc of this law minus AICc of best_other(); 0 if the comparison is not possible().
+  double against(const LawForm&) const;
   /// False if there are too few independent rows for the AICc of two laws.
-  bool possible() const;
+  bool possible(const LawForm&) const;
 };
+
+struct Fitted;
+
+/// The fit of this law to the rows, with the weights, of a fit of a v^b, from which the search
+/// begins. Throws Error if the rows do not determine it.
+Fitted fit_of_law(Fitted power, const LawForm&);
 
 /// Fits every law to the same rows with the same weights that fit() uses for a v^b; the model is
 /// a roll on the routes where fit() uses a roll. Correlated residuals count as n (1 - r)/(1 + r)
@@ -42,6 +48,6 @@ struct LawComparison {
 /// Suppl. 8, 184). For loglog the laws are compared on D itself, as for shift. Of more than 4096
 /// rows a run block means are compared (of_means()). Throws Error for a robust fit, and if the
 /// fit of a v^b itself is not possible.
-LawComparison compare_laws(Route, const std::vector<FitRun>&, const FitOptions&);
+LawComparison compare_laws(Route, const std::vector<FitRun>&, FitOptions);
 
 }  // namespace rolling

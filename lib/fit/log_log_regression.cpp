@@ -143,8 +143,8 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
     const Rows rows = shift_rows(runs[r], options, true, known.stops[r]);
     const FilterMatrix D_of = known.responses[r].of.at("D").of_rows(rows),
                        v_of = known.responses[r].of.at("v").of_rows(rows);
-    const Points points = points_of(D_of, v_of, raw, {roll.a.value, roll.b.value}, shift,
-                                    std::sqrt(known.raw_noise.variance));
+    const Points points =
+        points_of(D_of, v_of, raw, *roll.law().power(), shift, std::sqrt(known.raw_noise.variance));
     for (std::size_t j = 0; j < Q.size(); ++j) {
       const std::size_t first = B[j].size();
       B[j].resize(first + D_of.columns());
@@ -160,8 +160,8 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
     solve_transposed(line.minimum.R.data(), gradient);
     return dot(gradient, along);
   };
-  line.bias_a = bias_of(line.a.gradient);
-  line.bias_b = bias_of(line.b.gradient);
+  for (const FittedNumber& number : line.coefficients)
+    line.bias.push_back(bias_of(number.gradient));
 }
 
 /// The law of the straight line through the rows.

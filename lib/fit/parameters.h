@@ -36,6 +36,7 @@ class Parameters {
     return other;
   }
 
+  const LawForm& form() const { return *form_; }
   /// The value of coefficient j in SI units if it is fixed.
   std::optional<double> fixed(std::size_t j) const {
     return j == 0 ? a_ : j == 1 ? b_ : std::nullopt;

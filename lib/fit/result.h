@@ -3,6 +3,8 @@
 #pragma once
 
 #include "base/estimate.h"
+#include "base/matrix.h"
+#include "contact/law.h"
 #include "fit/run_laws.h"
 
 #include <cmath>
@@ -24,10 +26,10 @@ enum class Errors { none, classical, filters, differences, uneven, autocorrelati
 /// torque of period one turn, as if the shift were D + e cos(x/R - phase), with x = 0 at the
 /// beginning of the run.
 struct Eccentricity {
-  std::size_t run;      ///< the number of the run, from 0
-  double p;  ///< the probability that noise alone gives a signal as large
-  double e, sigma;      ///< the eccentricity and its standard error [m]
-  double phase;         ///< [rad]
+  std::size_t run;  ///< the number of the run, from 0
+  double p;         ///< the probability that noise alone gives a signal as large
+  double e, sigma;  ///< the eccentricity and its standard error [m]
+  double phase;     ///< [rad]
 };
 
 /// Single readings that are off the motion of the others, see off_readings().
@@ -44,15 +46,27 @@ struct OffReadings {
 struct ErrorShare {
   /// "noise"; the name of a given number, "K", or "K 0.5" where the runs have several; or "bias"
   std::string of;
-  double a = 0, b = 0;  ///< not negative
-  double together = 0;  ///< contribution to the covariance of a and b
+  Matrix law = {};  ///< contribution to the covariance of the coefficients of the law
   double slope = 0;
   std::vector<double> v0 = {}, x0 = {};  ///< one for each run, if Fitted has them
+
+  double sigma(std::size_t coefficient) const { return std::sqrt(law[coefficient][coefficient]); }
 };
 
+/// The covariance that a change brings when it has a standard uncertainty of one.
+inline Matrix outer_square(const std::vector<double>& change) {
+  Matrix all;
+  for (const double x : change)
+    for (all.emplace_back(); const double y : change) all.back().push_back(x * y);
+  return all;
+}
+
 struct FitResult {
-  double a, sigma_a, b, sigma_b;  ///< a [m (s/m)^b]
-  double corr;                    ///< correlation of a and b; 0 where one of them is fixed
+  Law law;
+  std::vector<Estimate> coefficients;  ///< as the formula of the law names them, in SI units
+  Matrix correlations;                 ///< 0 where one of the two is fixed
+  /// The same of a v^b, a in m (s/m)^b; NaN for another law.
+  double a, sigma_a, b, sigma_b, corr;
   double rms;     ///< sqrt(RSS / (n - p)) in the unit of the fitted column (of ln D for loglog)
   std::size_t n;  ///< number of fitted rows
   std::size_t left_out;  ///< number of rows, but for missing ones, that the route did not use

@@ -56,8 +56,9 @@ double squares_of_shifts(const RollModel& rolls, const std::vector<double>& thet
   return sum * run.shifts->unit * run.shifts->unit;
 }
 
-/// Writes a, b, the slope, v0 and x0 with their gradients, and the number of rows, into the fit.
-void report(Fitted& fit) {
+}  // namespace
+
+void report_roll(Fitted& fit) {
   const std::vector<double>& theta = fit.minimum.theta;
   const Parameters& q = fit.rolls->parameters();
   const std::array<double, LawForm::most> none{};
@@ -67,6 +68,7 @@ void report(Fitted& fit) {
     return result;
   };
   report_law(fit, q);
+  fit.v0.clear(), fit.x0.clear(), fit.rows = 0;
   if (q.fits_slope()) fit.slope = quantity(q.slope(theta, 0), 0, 0, 1);
   const auto& runs = fit.rolls->runs();
   for (std::size_t r = 0; r < runs.size(); ++r) {
@@ -76,6 +78,8 @@ void report(Fitted& fit) {
     fit.rows += runs[r].shifts ? runs[r].shifts->fitted : runs[r].y.size();
   }
 }
+
+namespace {
 
 /// Every k-th row of each run, at most 4096 of them.
 std::vector<ObservedRun> some_of(std::vector<ObservedRun> runs) {
@@ -153,7 +157,7 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   require_rows(run.y.size(), own.count(), informative_rows({run}, own, *noise));
   Fitted fit =
       minimum_of({std::move(run)}, std::move(noise), {own, all.theta_of_run(theta, r)}, options);
-  report(fit);
+  report_roll(fit);
   return fit;
 }
 
@@ -163,7 +167,7 @@ Fitted of_means(Fitted fit, const FitOptions& options) {
   if (few.empty()) return fit;
   Fitted means = minimum_of(std::move(few), fit.noise,
                             {fit.rolls->parameters(), fit.minimum.theta, {}}, options);
-  report(means);
+  report_roll(means);
   return means;
 }
 
@@ -199,7 +203,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       break;
   }
   allow_for_rounding(fit, options);
-  report(fit);
+  report_roll(fit);
   for (const Rows& of_run : usable(route, all)) fit.left_out += of_run.size();
   fit.left_out -= fit.rows;
   return fit;

@@ -2,6 +2,7 @@
 #include "fit/route.h"
 
 #include "base/error.h"
+#include "fit/laws.h"
 #include "fit/log_log_regression.h"
 #include "fit/model_shift.h"
 #include "fit/roll_fit.h"
@@ -9,7 +10,10 @@
 
 namespace rolling {
 
-Fitted fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+namespace {
+
+/// Fits a v^b.
+Fitted fit_power(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   if (options.a && !(*options.a > 0))
     fail("a = {} cannot be fixed: it must be positive", *options.a);
   std::vector<Response> responses = responses_of(route, runs);
@@ -28,6 +32,21 @@ Fitted fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions&
       fit.minimum.f.size() >= 30)
     if (auto differences = fit_differences(runs, options, fit)) return *std::move(differences);
   return fit;
+}
+
+}  // namespace
+
+Fitted fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+  if (options.fits_power()) return fit_power(route, runs, options);
+  if (route == Route::loglog)
+    fail("a straight line of logarithms is a law a v^b: fit D = {} with --route shift",
+         options.law->formula);
+  if (options.robust)
+    fail("D = {} is fitted by squares only, not with --robust", options.law->formula);
+  if (options.a || options.b || options.start_a || options.start_b)
+    fail("a and b are fixed, or have a start, in a law a v^b alone, not in D = {}",
+         options.law->formula);
+  return fit_of_law(fit_power(route, runs, options), *options.law);
 }
 
 }  // namespace rolling

@@ -161,7 +161,7 @@ std::unique_ptr<Motion> start(const Scene& scene, Method method, double rtol,
     check_shift(body, law.largest_shift(v0));
   }
   if (bulge.length > 0) {
-    if (!power) fail("the memory goes with a law a v^b, not with a table");
+    if (!power) fail("the memory goes with a law a v^b alone");
     if (method.kind != Method::solver)
       fail(
           "a bulge with memory has no closed form and no integral over speed: its methods are the "
@@ -179,7 +179,7 @@ std::unique_ptr<Motion> start(const Scene& scene, Method method, double rtol,
           "closed");
     return std::make_unique<SpeedRoll>(scene);
   }
-  if (!power) fail("the method closed goes with a law a v^b: a table has no closed form");
+  if (!power) fail("the method closed goes with a law a v^b: no other has a closed form here");
   if (geometry == Geometry::exact)
     fail("the method closed goes with A = 1: the exact geometry has no closed form");
   if (body.slope != 0)

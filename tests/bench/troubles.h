@@ -128,7 +128,8 @@ inline Verdict judge(const Trouble& wrong, rolling::PowerLaw law, int runs, unsi
       }
       double against = 0;
       if (!options.robust)
-        against = rolling::compare_laws(rolling::Route::position, {run}, options).against_power();
+        against = rolling::compare_laws(rolling::Route::position, {run}, options)
+                      .against(rolling::laws().front());
       sum.adequate += against <= 2;
       const bool other = against >= better, coloured = r.whiteness <= rolling::levels::not_white,
                  hand = !options.robust &&
@@ -197,15 +198,8 @@ struct Contest {
 
 inline Contest contest(const Truth& truth, int runs, unsigned seed) {
   const rolling::LawForm& law = rolling::laws()[truth.law];
-  std::vector<double> c = truth.c;
-  if (truth.law == 5) c = {c[0] + c[1], c[1] * c[2], c[2]};  // h, s, n of d0 + a v^n
-  Readings readings(path(
-                        [&](double v) {
-    double by_c[rolling::LawForm::most];
-    return law.shift(c.data(), v, by_c).D;
-                        },
-                        {}),
-                    {.name = ""}, seed);
+  const auto made = rolling::Law::as_written(law, truth.c);
+  Readings readings(path([&](double v) { return made.at(v).D; }, {}), {.name = ""}, seed);
   Contest all{std::vector<int>(rolling::laws().size()), std::vector<int>(rolling::laws().size())};
   for (int i = 0; i < runs; ++i) {
     const auto fits = rolling::compare_laws(rolling::Route::position, {readings.next()}, {}).fits;

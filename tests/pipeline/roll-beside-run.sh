@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The roll of a fitted row stands beside the run that it was fitted to, row by row: the residuals of
 # `simulate --law fit --at run` have the rms of the row, whenever and wherever the run begins, towards
-# growing and falling x, on a slope and over a turning point.
+# growing and falling x, on a slope and over a turning point, and under laws that are no power of v.
 set -u
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
@@ -46,6 +46,12 @@ for t0 in -12.5 0 1.72 1e4; do
       # shellcheck disable=SC2086
       run x 3e-4 $law --v0 ${way}0.5 --t0 "$t0" --x0 -2 "${slope[@]}" && beside x 4 "${slope[@]}"
     done
+    slope=()
+    for law in 'd0[m] d2[s^2/m]|1e-3 2e-3|d0 + d2 v^2' 'd0[m] d1[s]|8e-4 1.2e-3|d0+d1*v' 'd0[m] p[m] w[m/s]|4e-4 5e-4 0.2|d0 + 2 p v w/(v^2 + w^2)'; do
+      IFS='|' read -r names values form <<<"$law"
+      printf '%s\n' "$names" "$values" >row
+      run x 3e-4 --law row --v0 ${way}0.6 --t0 "$t0" && beside x $((2 + $(wc -w <<<"$names"))) --law "$form"
+    done
     # Up, the turning point and back; the slope is in the row.
     slope=()
     run x 3e-4 -a 5e-4 -b 0.1 --v0 ${way}0.5 --t0 "$t0" --slope ${way}0.05 --x0 0.3 --until "$(awk "BEGIN { print $t0 + 3 }")" &&
@@ -53,4 +59,4 @@ for t0 in -12.5 0 1.72 1e4; do
   done
 done
 echo "$tried runs, $wrong wrong"
-[ "$wrong" = 0 ] && [ "$tried" = 56 ]
+[ "$wrong" = 0 ] && [ "$tried" = 80 ]

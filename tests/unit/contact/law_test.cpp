@@ -46,6 +46,8 @@ TEST_CASE("law: the coefficients of the formula, in SI units, give the law again
         CAPTURE(laws()[k].formula, v);
         CHECK(law.at(v).D == Approx(by_hand(k, SI, v)).epsilon(1e-12));
         CHECK(law(-v) == -law(v));
+        CHECK(Law::as_written(laws()[k], std::span(SI).first(law.size())).at(v).D ==
+              Approx(law.at(v).D).epsilon(1e-12));
       }
       CHECK(law(0) == 0);
     }
@@ -79,7 +81,7 @@ TEST_CASE("law: derivatives are limits of differences", "[law]") {
     }
 }
 
-TEST_CASE("law: where n is small d0 + a v^n tends to a logarithm", "[law]") {
+TEST_CASE("law: where b is small d0 + a v^b tends to a logarithm", "[law]") {
   const LawForm& law = laws()[5];
   double by_c[LawForm::most];
   for (double n : {0.0, 1e-9, 1e-5, -1e-5, 1e-4, 1e-3}) {

@@ -17,11 +17,11 @@ const Body cylinder{1.375, 0.04, 0.5};
 double lower_by_another_exponent(Route route, const FitRun& run) {
   const Fitted found = fit_route(route, {run}, {});
   const auto n = static_cast<double>(found.minimum.f.size() - found.minimum.theta.size());
-  const double sigma = noise_errors(found, uncertainty_of(found)).share.b;
+  const double sigma = noise_errors(found, uncertainty_of(found)).share.sigma(1);
   double most = 0;
   for (double step = -2; step <= 2; step += 0.25) {
     FitOptions held;
-    held.b = found.b.value + step * sigma;
+    held.b = found.coefficients[1].value + step * sigma;
     const double rss = fit_route(route, {run}, held).minimum.rss;
     most = std::max(most, (1 - rss / found.minimum.rss) * n);
   }
@@ -92,6 +92,6 @@ TEST_CASE("cusps: a roll whose shift is just within the radius keeps its minimum
   }
   REQUIRE(run.v.back() == 0);
   const Fitted found = fit_route(Route::velocity, {run}, {});
-  CHECK(found.a.value == Approx(D).epsilon(1e-6));
-  CHECK(std::abs(found.b.value) < 1e-6);
+  CHECK(found.coefficients[0].value == Approx(D).epsilon(1e-6));
+  CHECK(std::abs(found.coefficients[1].value) < 1e-6);
 }

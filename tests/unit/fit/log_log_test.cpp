@@ -166,8 +166,8 @@ TEST_CASE("loglog: the bias by known filters without noise is all of the differe
   REQUIRE(r.shares.size() == 2);
   CHECK(r.shares[1].of == "bias");
   CHECK(std::abs(r.b - 0.215) > 1e-3);
-  CHECK(std::abs(r.shares[1].b / std::abs(r.b - 0.215) - 1) < 1e-3);
-  CHECK(std::abs(r.shares[1].a / r.a / std::abs(std::log(r.a / 1.87e-3)) - 1) < 1e-3);
+  CHECK(std::abs(r.shares[1].sigma(1) / std::abs(r.b - 0.215) - 1) < 1e-3);
+  CHECK(std::abs(r.shares[1].sigma(0) / r.a / std::abs(std::log(r.a / 1.87e-3)) - 1) < 1e-3);
   CHECK(std::abs(r.sigma_b / std::abs(r.b - 0.215) - 1) < 1e-3);
 }
 
@@ -184,9 +184,9 @@ TEST_CASE("loglog: the errors allow for the bias of the logarithms of noise", "[
     const double error = r.a - 5.75e-4;
     off += error / runs;
     squares += error * error / runs;
-    expected -= r.shares[1].a / runs;
+    expected -= r.shares[1].sigma(0) / runs;
     covered += std::abs(error) < 1.96 * r.sigma_a;
-    by_noise += std::abs(error) < 1.96 * r.shares[0].a;
+    by_noise += std::abs(error) < 1.96 * r.shares[0].sigma(0);
   }
   const double sd = std::sqrt(squares - off * off);
   CAPTURE(off / sd, expected / sd, covered, by_noise);
