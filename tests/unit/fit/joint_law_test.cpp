@@ -6,6 +6,7 @@
 #include <random>
 
 #include "unit/catch.h"
+#include "unit/normal.h"
 #include "unit/fit/rolls.h"
 
 using namespace rolling;
@@ -46,7 +47,7 @@ class Rows {
 
  private:
   std::mt19937_64 random_;
-  std::normal_distribution<> normal_;
+  Normal normal_;
   std::uniform_real_distribution<> uniform_{0, 1};
 };
 
@@ -110,8 +111,7 @@ TEST_CASE("joint law: rows say what a joint fit of their runs says", "[fit]") {
       const double sigma_a = std::exp(joint.law.a) * std::sqrt(joint.covariance.aa),
                    sigma_b = std::sqrt(joint.covariance.bb);
       CHECK(joint.agreement.run == r.agreement->run);
-      CHECK(joint.agreement.p ==
-            Approx(r.agreement->p).epsilon(0.05).margin(1e-6));
+      CHECK(joint.agreement.p == Approx(r.agreement->p).epsilon(0.05).margin(1e-6));
       const double a = (std::exp(joint.law.a) - r.a) / r.sigma_a,
                    b = (joint.law.b - r.b) / r.sigma_b;
       off += a * a + b * b;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "unit/catch.h"
+#include "unit/normal.h"
 #include "unit/signal/through.h"
 
 using namespace rolling;
@@ -253,7 +254,7 @@ struct Made {
     constexpr int steps = 40;
     const double h = 1 / (rate * steps), c = std::pow(0.5, 1 - b) / (roll * (1 - b));
     std::mt19937_64 random(seed);
-    std::normal_distribution<double> any;
+    Normal any;
     std::vector<double> x;
     double at = 0.3, v = middle ? 0.5 : 0, since = 1;
     enum { rest, push, held, pushed_again, free, stopped } now = middle ? free : rest;

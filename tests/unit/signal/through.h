@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "signal/signal.h"
+#include "unit/normal.h"
 
 using Series = std::vector<double>;
 
@@ -36,7 +37,7 @@ inline Series uneven_times(std::size_t n, double step = 0.04) {
 
 inline Series noise(std::size_t n, unsigned seed) {
   std::mt19937_64 random(seed);
-  std::normal_distribution<double> any;
+  Normal any;
   Series y;
   while (y.size() < n) y.push_back(any(random));
   return y;
