@@ -107,8 +107,10 @@ TEST_CASE("Extremes: random scenes end with finite numbers or one line, and neve
         const double a = motion->acceleration(), D = motion->shift();
         // Beyond the range of double the tools refuse to print: see Output::number.
         if (!std::isfinite(v + x + a + D)) fail("beyond the range");
+        // A bulge that lags behind the body may push it beyond v0.
+        if (memory) continue;
         if (scene.body.slope >= 0) REQUIRE(v <= scene.v0);
-        if (scene.bulge.length == 0 && !motion->turns()) REQUIRE(v >= 0);
+        if (!motion->turns()) REQUIRE(v >= 0);
       }
       INFO("evaluations " << motion->evaluations() << " expected " << expected);
       REQUIRE(static_cast<double>(motion->evaluations()) < 3e6 + 80 * expected);
