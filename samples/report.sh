@@ -213,6 +213,12 @@ is dissipated from the fitted shift, that is from the forces; lines are the same
 motion. Their sum stays level only if the shift is right. The rotation of the cylinder has half the
 energy of its translation, at any speed: that is its <i>K</i>.
 HTML
+drawn turn "Up an incline, and back" <<'HTML'
+A ball that is sent up 2 cm a metre, turns and comes back. The shift is against the motion both ways,
+gravity is not: one such run tells the slope from the law. It comes back slower than it went, and what
+is missing has been dissipated. <i>To discuss:</i> why is the line of the velocity steeper on the way
+up?
+HTML
 cat <<'HTML'
 <div class="section"><h3>The check</h3>
 <p>The measured loss of each run beside what the shift of Table 1 dissipates; the closure is their

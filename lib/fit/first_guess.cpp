@@ -51,6 +51,7 @@ ObservedRun without_outliers(ObservedRun run) {
 struct Thinned {
   ObservedRun run;
   double v0;
+  double way;  ///< the largest distance from its beginning
   bool turns;  ///< it has come back
 };
 
@@ -83,15 +84,15 @@ Thinned thinned(const ObservedRun& run, const FitOptions& options) {
   const double v0 = options.v0 ? std::abs(*options.v0) : 0.6 * most / half_time;
   if (!(v0 > 0) || !std::isfinite(v0))
     fail("{}the body does not move: a and b cannot be determined", run.place);
-  // The way back of a body that turns is used as well.
-  const std::size_t used = distance < 0.8 * most
+  // The way back of a body that turns is used as well, and may be slow.
+  const std::size_t used = options.fit_slope || distance < 0.8 * most
                                ? n
                                : std::min(n, end + std::max<std::size_t>(end / 3, 8)),
                     block = (used + 63) / 64;
   std::vector<std::size_t> edges;
   for (std::size_t i = 0; i < used; i += block) edges.push_back(i);
   edges.push_back(used);
-  return {means(run, edges), v0, distance < 0.8 * most};
+  return {means(run, edges), v0, most, distance < 0.8 * most};
 }
 
 /// A law with the v0 and x0 of each run, and the sum of squares of the thinned runs.
@@ -115,7 +116,7 @@ Shape shape_of(const std::vector<Thinned>& thin, double b) {
   Shape shape{
       {std::pow(v0, 1 - b) * (first.body.K + 1) * first.body.R / first.body.g / first.t.back(), b},
       {}};
-  for (const auto& [run, scale, turns] : thin) {
+  for (const auto& [run, scale, way, turns] : thin) {
     Body level = run.body;
     level.slope = 0;
     shape.rolls.emplace_back(level, Geometry::approximate, shape.law, scale);
@@ -155,6 +156,24 @@ void add_run(Candidate& candidate, const Thinned& of, const Shape& shape, Roll& 
   candidate.x0.push_back(options.x0.value_or(y_mean - factor * m_mean));
 }
 
+/// Throws Error if a run comes back although its mat is level, and the nearest roll is far from it,
+/// as false echoes alone do not make it.
+void require_level(const std::vector<Thinned>& thin, const Candidate& nearest,
+                   const FitOptions& options) {
+  constexpr double far = 0.1;  // of the way or of v0
+  double square = 0;
+  for (const Thinned& of : thin)
+    square += std::pow(far * (of.run.raw_is_position ? of.way : of.v0), 2) *
+              static_cast<double>(of.run.t.size());
+  for (const auto& [run, scale, way, turns] : thin)
+    if (turns && run.body.slope == 0 && !options.fit_slope && !options.robust &&
+        nearest.rss > square)
+      fail(
+          "{}the body comes back, which a level mat does not do: on a slope, --slope S or --slope "
+          "fit; else the roll alone (smooth --coast, or --to)",
+          run.place);
+}
+
 /// Starting points, best first: for each b of a grid, the best a of a grid. The grid of a is
 /// uniform in the logarithm of the first run's duration divided by its initial time scale
 /// v/|dv/dt|.
@@ -187,7 +206,7 @@ std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions
 std::optional<Candidate> of_constant_acceleration(const std::vector<Thinned>& thin) {
   Candidate start{0, {0, 0}, {}, {}};
   bool speeds_up = false;
-  for (const auto& [run, v0_scale, turns] : thin) {
+  for (const auto& [run, v0_scale, way, turns] : thin) {
     const std::size_t n = run.t.size();
     if (n < 6 || run.body.slope == 0) return {};
     const ObservedRun third = means(run, {0, n / 3, 2 * n / 3, n});
@@ -248,34 +267,40 @@ BothWays closest_both_ways(const ObservedRun& run) {
 }
 
 /// The starts where bodies turn and roll back, which no roll on a level mat resembles: constant
-/// decelerations on both ways. Where the slope is a parameter, they tell it.
+/// decelerations on both ways, which an exponent and the mean speeds make a law and a slope.
 std::vector<Candidate> of_both_ways(const std::vector<Thinned>& thin, const FitOptions& options) {
-  Candidate start{0, {0, 0}, {}, {}, 0};
-  double turned = 0;
-  if (std::ranges::none_of(thin, &Thinned::turns)) return {};
-  for (const auto& [run, scale, turns] : thin) {
-    if (run.t.size() < 8 || (run.body.slope == 0 && !options.fit_slope)) return {};
-    const BothWays roll = closest_both_ways(run);
-    start.v0.push_back(std::max(roll.up * roll.T, 0.05 * scale));
-    start.x0.push_back(run.way * (roll.x_turn - roll.up * roll.T * roll.T / 2));
-    if (!(roll.T < run.t.back() && roll.up > 0 && roll.back > 0)) continue;
-    // Up g (D + R S)/((K + 1) R), back g (R S - D)/((K + 1) R).
-    const Body& body = run.body;
-    const double unit = (body.K + 1) / body.g, S = (roll.up + roll.back) / 2 * unit,
-                 D = std::max(options.fit_slope ? (roll.up - roll.back) / 2 * unit
-                                                : roll.up * unit - std::abs(body.slope),
-                              1e-3 * S) *
-                     body.R;
-    start.law.a += D, start.slope += run.way * S, ++turned;
-  }
-  if (turned == 0) return {};
+  if (!options.fit_slope && std::ranges::none_of(thin, &Thinned::turns)) return {};
   // Under b < 0 no slope brings a body back: the starts are not at that edge.
   std::vector<Candidate> all;
-  for (const double b : {0.1, 0.5, 1.0}) {
-    Candidate& one = all.emplace_back(start);
-    one.law.b = options.given_b().value_or(b);
-    one.law.a *= std::pow(thin.front().v0 / 2, -one.law.b) / turned, one.slope /= turned;
+  for (const double b : {0.1, 0.3, 0.6, 1.0}) {
+    all.push_back({0, {0, options.given_b().value_or(b)}, {}, {}, 0});
   }
+  double turned = 0;
+  for (const auto& [run, scale, way, turns] : thin) {
+    if (run.t.size() < 8 || (run.body.slope == 0 && !options.fit_slope)) return {};
+    const BothWays roll = closest_both_ways(run);
+    for (Candidate& start : all) {
+      start.v0.push_back(std::max(roll.up * roll.T, 0.05 * scale));
+      start.x0.push_back(run.way * (roll.x_turn - roll.up * roll.T * roll.T / 2));
+    }
+    const double left = run.t.back() - roll.T;
+    if (!(left > 0 && roll.up > 0 && roll.back > 0)) continue;
+    // Up g (D + R S)/((K + 1) R), back g (R S - D)/((K + 1) R).
+    const Body& body = run.body;
+    const double unit = (body.K + 1) / body.g, v_up = roll.up * roll.T / 2,
+                 v_back = roll.back * left / 2, least = 1e-3 * roll.up;
+    for (Candidate& start : all) {
+      const double D = std::pow(v_up, start.law.b), D_back = std::pow(v_back, start.law.b);
+      const double a = options.fit_slope
+                           ? std::max(roll.up - roll.back, least) / (D + D_back)
+                           : std::max(roll.up - std::abs(body.slope) / unit, least) / D;
+      start.law.a += a * unit * body.R;
+      start.slope += run.way * (roll.up - a * D) * unit;
+    }
+    ++turned;
+  }
+  if (turned == 0) return {};
+  for (Candidate& start : all) start.law.a /= turned, start.slope /= turned;
   return all;
 }
 
@@ -318,12 +343,15 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
 
   // The three best starting points lead to minima of the thinned runs; the best of these is taken.
   auto candidates = starts(thin, options);
+  if (!candidates.empty()) require_level(thin, candidates.front(), options);
   const auto theta_of = [&](const Candidate& c) { return q.theta(c.law, c.v0, c.x0, c.slope); };
   std::vector<std::vector<double>> others;
   if (options.robust) std::ranges::transform(candidates, std::back_inserter(others), theta_of);
   if (candidates.size() > 3) candidates.resize(3);
   if (auto start = of_constant_acceleration(thin)) candidates.push_back(std::move(*start));
-  std::ranges::move(of_both_ways(thin, options), std::back_inserter(candidates));
+  auto turning = of_both_ways(thin, options);
+  if (std::ranges::all_of(thin, &Thinned::turns) && !turning.empty()) candidates.clear();
+  std::ranges::move(turning, std::back_inserter(candidates));
   if (candidates.empty()) fail("no law a v^b comes near the data: {}", choose_the_roll);
   std::vector<double> theta = theta_of(candidates.front());
   if (candidates.size() > 1) {

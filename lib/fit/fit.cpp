@@ -86,13 +86,21 @@ std::string names_of(const LawForm& form, const std::vector<FittedNumber>& value
   return all;
 }
 
+/// True if the runs together roll up the slope and down.
+bool both_ways(const Fitted& found) {
+  if (!found.rolls) return false;
+  const auto& runs = found.rolls->runs();
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    Roll roll = found.rolls->roll(found.minimum.theta, r);
+    if (runs[r].way != runs[0].way || (roll.turns() && roll.at(runs[r].t.back()).v < 0))
+      return true;
+  }
+  return false;
+}
+
 /// Throws Error if a slope of the mat, which slows the body down as the law does, is not told from
 /// it by runs in one direction.
 void require_slope(const FitResult& result, const std::vector<FitRun>& runs) {
-  const auto backwards = [](const Estimate& v0) { return v0.value < 0; };
-  if (std::ranges::adjacent_find(result.v0, std::ranges::not_equal_to(), backwards) !=
-      result.v0.end())
-    return;
   const Estimate first = result.coefficients.front();
   const double R = runs.front().body.R, D = result.law.at(std::abs(result.v0.front().value)).D;
   if (result.law.power() ? first.sigma < first.value / 10 && result.sigma_b < 0.1
@@ -107,7 +115,7 @@ void require_slope(const FitResult& result, const std::vector<FitRun>& runs) {
 
 /// Throws Error if the data do not determine the law or the slope.
 void require_determined(const FitResult& result, const std::vector<FitRun>& runs,
-                        const FitOptions& options) {
+                        const FitOptions& options, const Fitted& found) {
   const LawForm& form = result.law.form();
   double sum = 0, errors = result.rms;
   for (const Estimate& c : result.coefficients) sum += c.value, errors += c.sigma;
@@ -117,7 +125,7 @@ void require_determined(const FitResult& result, const std::vector<FitRun>& runs
   if (result.errors != Errors::none && !std::isfinite(errors))
     fail("the fit gives no finite errors of {}: {}", names_of(form), choose_the_roll);
   // Large errors of a nonlinear fit are not reliable themselves; hence these limits on them.
-  if (options.fit_slope) require_slope(result, runs);
+  if (options.fit_slope && !both_ways(found)) require_slope(result, runs);
   for (std::size_t j = 0; j < form.coefficients.size() && !options.fits_power(); ++j)
     if (const auto& of = form.coefficients[j];
         of.D == 0 && of.v == 0 && !determines_b(result.coefficients[j].sigma))
@@ -186,7 +194,7 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   std::vector<ErrorShare> shares{noise.share};
   const double rms = rms_of(found);
   require_seen(found, runs);
-  require_determined(result_of(found, rms, noise, shares), runs, options);
+  require_determined(result_of(found, rms, noise, shares), runs, options, found);
   require_law(found, runs);
   for (ErrorShare& share :
        shares_of_given(route, runs, options, found, !agreement || agreement->agree()))

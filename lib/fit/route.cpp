@@ -18,7 +18,9 @@ Fitted fit_power(Route route, const std::vector<FitRun>& runs, const FitOptions&
     fail("a = {} cannot be fixed: it must be positive", *options.a);
   std::vector<Response> responses = responses_of(route, runs);
   const bool known = !responses.empty();
-  if (options.fit_slope && (route == Route::loglog || (route == Route::shift && !known)))
+  if (options.fit_slope && route == Route::loglog)
+    fail("the slope shows in a roll alone, not in a line through ln D: --route shift");
+  if (options.fit_slope && route == Route::shift && !known)
     fail("the slope shows in a roll alone: on this route `##` lines must tell how D was made");
   if (options.robust && known)
     fail(

@@ -17,11 +17,11 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// The sign of the velocities of a run.
-double way_of(const FitRun& run) {
+/// The sign of the velocities of a run up to a stop or a turning point.
+double way_of(const FitRun& run, double stop) {
   double sum = 0;
-  for (double v : run.v)
-    if (std::isfinite(v)) sum += v;
+  for (std::size_t i = 0; i < run.v.size(); ++i)
+    if (std::isfinite(run.v[i]) && (stop == never || run.t[i] < stop)) sum += run.v[i];
   return sum < 0 ? -1 : 1;
 }
 
@@ -54,7 +54,7 @@ class Used {
 }  // namespace
 
 Rows shift_rows(const FitRun& run, const FitOptions& options, bool logarithms, double stop) {
-  const double way = way_of(run);
+  const double way = way_of(run, stop);
   const Used used(run, options, logarithms, stop);
   Rows rows;
   for (std::size_t i = 0; i < run.v.size(); ++i)
@@ -63,7 +63,7 @@ Rows shift_rows(const FitRun& run, const FitOptions& options, bool logarithms, d
 }
 
 bool has_logarithm(const FitRun& run, const FitOptions& options) {
-  const double way = way_of(run);
+  const double way = way_of(run, never);
   const Used used(run, options, true, never);
   for (std::size_t i = 0; i < run.v.size(); ++i)
     if (used.allows(i, way * run.v[i], way * run.D[i])) return true;
@@ -82,8 +82,7 @@ ShiftRows shift_rows(const std::vector<FitRun>& all, const FitOptions& options, 
   for (std::size_t r = 0; r < all.size(); ++r) {
     const FitRun& run = all[r];
     const std::size_t before = y.size();
-    const double way = way_of(run);
-    const double stop = stops.empty() ? never : stops[r];
+    const double stop = stops.empty() ? never : stops[r], way = way_of(run, stop);
     const Used used(run, options, logarithms, stop), of_any_sign(run, options, false, stop);
     for (std::size_t i = 0; i < run.v.size(); ++i) {
       const double v = way * run.v[i], D = way * run.D[i];

@@ -102,9 +102,11 @@ class Search {
   /// Of noise alone, a piece in some thousand would.
   bool stands_out(const Piece<P>& a, const Piece<P>& b) const {
     if (!positions_) return std::abs(a.v(a.from).value) > 5 * noise_;
-    const double way = std::max(std::abs(b.y(b.to).value - a.y(a.from).value),
-                                std::abs(a.y(a.to).value - a.y(a.from).value));
-    return way > 12 * noise_;
+    return std::max({way(a, b, b.to), way(a, a, a.to), way(a, a, a.middle())}) > 12 * noise_;
+  }
+  /// Between the beginning of a piece and t, which may be in another.
+  double way(const Piece<P>& from, const Piece<P>& to, double t) const {
+    return std::abs(to.y(t).value - from.y(from.from).value);
   }
   /// Whether the body slows down, or turns and comes back.
   bool is_roll(const Piece<P>& p) const {
@@ -116,7 +118,9 @@ class Search {
   }
   bool comes_back(const Piece<P>& p, double way) const {
     const auto v = p.v(p.to);
-    return v.is_known() && v.value * way > 0.15 * fastest_;
+    if (!v.is_known()) return false;
+    if (!positions_) return v.value * way > 0.15 * fastest_;
+    return v.value * way > 0.05 * fastest_ && stands_out(p, p);
   }
 
   /// Whether the motion of a goes on in b under one law, whatever lies between.
@@ -131,9 +135,9 @@ class Search {
     if (!(ratio > 0)) return false;
     const bool turns = std::abs(va.value) < 0.25 * fastest_ && comes_back(b, way);
     if (jump(va, vb) > 4 * error(va, vb) + (turns ? 0.1 : 0.03) * fastest_) return false;
-    const double passed = jump(a.y(a.from), b.y(b.to));
+    const double passed = std::max(jump(a.y(a.from), ya), jump(yb, b.y(b.to)));
     if (positions_ && jump(ya, yb) > 5 * error(ya, yb) + 0.02 * passed) return false;
-    if (turns) return ratio > 0.25 && ratio < 4;
+    if (turns) return ratio < 1.2;  // D is against the motion on both ways
     const bool stops = mb.is_known() && std::abs(b.v(b.to).value) < 0.03 * fastest_;
     if (va.value * way < 0 && !stops && !is_roll(b)) return false;
     const auto ea = a.a(a.to), eb = b.a(b.from);

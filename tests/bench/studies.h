@@ -68,6 +68,49 @@ inline SlopePairs slope_pairs(PowerLaw law, double slope, int pairs, unsigned se
   return all;
 }
 
+/// Runs of a sonar up a slope, over the turning point and back at 25 Hz, towards growing and
+/// falling x in turn, with the slope as a parameter.
+struct Turning {
+  const char* name;
+  double K, R;
+  PowerLaw law;
+};
+constexpr Turning turning[] = {{"ball", 0.4, 0.0127, {5e-5, 0.1}},
+                               {"cart", 0.05, 0.02, {2e-4, 0.3}},
+                               {"cylinder", 0.5, 0.04, CR}};
+struct TurningRuns {
+  Tally a, b, slope;
+  int refused = 0;
+};
+inline TurningRuns turning_runs(const Turning& body, double slope, Route route, int runs,
+                                unsigned seed) {
+  simulated::Noise noise(seed);
+  TurningRuns all{{body.law.a}, {body.law.b}, {slope}};
+  FitOptions options;
+  options.fit_slope = true;
+  Roll roll({1, body.R, body.K, 9.81, slope}, Geometry::approximate, body.law, 0.5);
+  const double turn = roll.stop_time();
+  for (int k = 0; k < runs; ++k) {
+    const double way = k % 2 ? 1 : -1;
+    FitRun run;
+    run.body = {1, body.R, body.K};
+    for (double t = 0; t < turn || (t < 3 * turn && roll.at(t).x > 0.02); t += 0.04) {
+      run.t.push_back(t);
+      run.x.push_back(way * roll.at(t).x + noise(3e-4));
+      run.v.push_back(way * roll.at(t).v + noise(5.3e-3));
+    }
+    try {
+      const FitResult r = fit(route, {run}, options);
+      all.a.add(r.a, r.sigma_a);
+      all.b.add(r.b, r.sigma_b);
+      all.slope.add(way * r.slope, r.sigma_slope);
+    } catch (const Error&) {
+      ++all.refused;
+    }
+  }
+  return all;
+}
+
 /// Fits of runs of a nominal body that take its numbers from their distributions: the spread of
 /// a, b and v0 beside the errors that a fit states, for every hundredth of the runs.
 struct InputQuantities {

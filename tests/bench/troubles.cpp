@@ -125,6 +125,25 @@ void slope(Rows& rows, int runs) {
     });
 }
 
+void turns(Rows& rows, int runs) {
+  add_text(rows,
+           fmt::sprintf("# %d runs up a slope and back: sigma_a/a, sigma_b, and the shares of the "
+                        "intervals that hold, of the runs that are not refused\n"
+                        "%-9s %5s %9s %7s %7s %5s %5s %5s %8s\n",
+                        runs, "# body", "slope", "route", "sigma_a", "sigma_b", "a", "b", "slope",
+                        "refused"));
+  for (const auto& body : studies::turning)
+    for (const double slope : {0.01, 0.02, 0.05, 0.1})
+      for (const auto route : {rolling::Route::position, rolling::Route::velocity})
+        rows.push_back([=] {
+          const auto all = studies::turning_runs(body, slope, route, runs, seed);
+          return fmt::sprintf("%-9s %5.2f %9s %7.4f %7.4f %5.3f %5.3f %5.3f %8d\n", body.name,
+                              slope, route == rolling::Route::position ? "position" : "velocity",
+                              all.a.sigma() / body.law.a, all.b.sigma(), all.a.cover(),
+                              all.b.cover(), all.slope.cover(), all.refused);
+        });
+}
+
 void given(Rows& rows, int runs) {
   rows.push_back([=] {
     const auto all = studies::input_quantities(10 * runs, seed);
@@ -158,7 +177,7 @@ int main(int argc, char** argv) {
   if (argc > 3) only = argv[3];
   constexpr std::pair<const char*, void (*)(Rows&, int)> tables[] = {
       {"troubles", troubles}, {"laws", laws},           {"agreement", agreement}, {"slope", slope},
-      {"given", given},       {"min-speed", min_speed}, {"remedies", remedies}};
+      {"given", given},       {"min-speed", min_speed}, {"remedies", remedies},   {"turns", turns}};
   Rows rows;
   for (const auto& [name, add] : tables)
     if (argc < 3 || std::strcmp(argv[2], name) == 0) add(rows, runs);

@@ -35,7 +35,7 @@ all_scripts() {
   "$samples/table1.sh" >"$out/table1"
   mkdir "$out/exports" && "$samples/exports/make.sh" "$out/exports"
   if command -v gnuplot >/dev/null; then
-    for name in fig1 fig1-stop fig2 fig3 fig4 fig5 energy; do
+    for name in fig1 fig1-stop fig2 fig3 fig4 fig5 energy turn; do
       "$samples/figures/$name.sh" >"$out/$name.svg"
     done
     "$samples/report.sh" "$out" >"$out/report.html"

@@ -64,7 +64,7 @@ everything() {
   samples/law.sh "$2/lab" >"$2/law" || complain law.sh
   if command -v mandoc >/dev/null; then cmd/install/html.sh "$2/man" || complain html.sh; fi
   if command -v gnuplot >/dev/null; then
-    for name in fig1 fig1-stop fig2 fig3 fig4 fig5 energy; do
+    for name in fig1 fig1-stop fig2 fig3 fig4 fig5 energy turn; do
       samples/figures/$name.sh >"$2/$name.svg" || complain "$name.sh"
     done
     samples/figures/residuals.sh -K 0.5 -R 0.04 samples/CR.csv >"$2/residuals.svg" ||

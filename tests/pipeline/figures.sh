@@ -53,6 +53,8 @@ has fig4 'velocity v / (m/s)' 'shift D / mm' 'C on rubber' 'S on rubber' 'C on f
   'Points: the free roll, less five rows at each end.'
 kept=$(smooth -q --coast -c x samples/CR.csv | grep -c '^[^#]')
 has residuals 'residual / mm' 'time t / s' 'velocity v / (m/s)' "$kept of 156 rows, 2 without a reading; no outlier"
+has turn 'energy / mJ' 'velocity v / (m/s)' 'time t / s' translational rotational dissipated lifted sum \
+  measured fitted
 has energy 'energy / J' 'time t / s' translational rotational dissipated sum \
   'points: measured velocities' 'lines: fitted trajectory'
 
@@ -354,7 +356,7 @@ for e in elements:
         to = e.getAttribute(attribute)
         if to and to != "#_" and not (to.startswith("#") and to[1:] in names):
             wrong.append(f"{e.tagName} refers to {to}")
-wrong += [f"no svg in {f}" for f in ("fig1", "fig1-stop", "fig2", "fig3", "fig4", "fig5", "energy", "residuals")
+wrong += [f"no svg in {f}" for f in ("fig1", "fig1-stop", "fig2", "fig3", "fig4", "fig5", "energy", "turn", "residuals")
           if not any(e.getElementsByTagName("svg") for e in elements if e.getAttribute("id") == f and e.tagName == "figure")]
 print(*wrong, sep="\n")
 sys.exit(bool(wrong))
