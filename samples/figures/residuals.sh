@@ -66,9 +66,11 @@ awk -v unit=$unit -v rms="$rms" -v scatter="$scatter" -v rows="$(wc -l <residual
     scatter, unit, rows, readings + missing, missing,
     (outliers == 0 ? "no outlier" : outliers == 1 ? "1 outlier" : outliers " outliers") }' >>heading
 
+last=$(tail -n 1 residuals | cut -f 1)
+left_out() { of_name readings t | awk -v first="$t0" -v last="$last" "\$1 $1 { ++n } END { print n + 0 }"; }
 title="Residuals of $(head -n 1 heading | sed 's/[&<>\\|]/./g')"
-draw 520 640 "unit = '$unit'; first = $t0; last = $(tail -n 1 residuals | cut -f 1); rms = 1e3*$rms; \
-  outliers = $(wc -l <outliers)" <<'PLOT'
+draw 520 640 "unit = '$unit'; first = $t0; last = $last; rms = 1e3*$rms; \
+  before = $(left_out '< first'); after = $(left_out '> last'); outliers = $(wc -l <outliers)" <<'PLOT'
 set multiplot layout 2,1 margins 0.16,0.97,0.09,0.88 spacing 0.12
 stats 'residuals' using 3 nooutput
 most = 1.25*(STATS_max > -STATS_min ? STATS_max : -STATS_min); if (most < 2.5*rms) { most = 2.5*rms }
@@ -79,10 +81,14 @@ set arrow 2 from graph 0, first -rms to graph 1, first -rms nohead dt 2 lc rgb g
 set label 2 'rms' at graph 1, first rms right offset 0, 0.5 textcolor rgb 0x606060 font ',12'
 margin = 0.12*(last - first)
 set xlabel 'time t / s'; set xrange [first - margin:last + margin]
-set object 1 rectangle from graph 0, 0 to first first - 0.1*margin, graph 1 fc rgb pale fs solid noborder
-set object 2 rectangle from first last + 0.1*margin, graph 0 to graph 1, 1 fc rgb pale fs solid noborder
-set label 3 "left\nout" at graph 0.01, 0.12 left font ',12'
-set label 4 "left\nout" at graph 0.99, 0.12 right font ',12'
+if (before) {
+  set object 1 rectangle from graph 0, 0 to first first - 0.1*margin, graph 1 fc rgb pale fs solid noborder
+  set label 3 "left\nout" at graph 0.01, 0.12 left font ',12'
+}
+if (after) {
+  set object 2 rectangle from first last + 0.1*margin, graph 0 to graph 1, 1 fc rgb pale fs solid noborder
+  set label 4 "left\nout" at graph 0.99, 0.12 right font ',12'
+}
 named(t) = sprintf('t = %s s', t)
 marks(x) = outliers == 0 ? '' : sprintf("'outliers' using %d:3 with points pt 6 ps 1.2 lw 1.5 lc rgb black notitle, ", x). \
   sprintf("'outliers' using %d:3:(named(strcol(1))) with labels offset 0, 0.9 font ',11' notitle", x)
