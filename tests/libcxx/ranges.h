@@ -53,10 +53,9 @@ template <class R, class C = std::less<>, class P = std::identity>
 auto max(R&& range, C compare = {}, P p = {}) {
   return *ranges::max_element(range, compare, p);
 }
-template <class R>
-auto minmax(R&& range) {
-  const auto [least, most] = std::minmax_element(std::begin(range), std::end(range));
-  return std::pair(*least, *most);
+template <class R, class C = std::less<>, class P = std::identity>
+auto minmax(R&& range, C compare = {}, P p = {}) {
+  return std::pair(ranges::min(range, compare, p), ranges::max(range, compare, p));
 }
 
 template <class R, class F = std::equal_to<>, class P = std::identity>
