@@ -68,7 +68,13 @@ TEST_CASE("no standard uncertainty is below what the rounding of the readings le
   run.body = {1, 0.0125, 0.03};
   run.t = {0, .05, .1, .15, .2, .25};
   run.x = {2.906, 2.914, 2.917, 2.917, 2.917, 2.917};
-  CHECK_THROWS_WITH(fitted(run), Catch::Matchers::Contains("do not determine b"));
+  std::string message;
+  try {
+    fitted(run);
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  CHECK(message.find("do not determine b") < message.size());
   double squares = 0;
   int fits = 0;
   for (int phase = 0; phase < 100; ++phase) {
