@@ -63,8 +63,9 @@ for prefix in '' roll-; do
   [ "$(find "$root/bin" -name "${prefix}*" ! -name smoother -type f -perm 755 | wc -l)" = "$(find cmd/*.cpp | wc -l)" ] || complain "other programs than those of cmd/: $(ls "$root/bin")"
   [ -z "$(find "$root/share" -type f ! -name mine ! -name other ! -name '*.sh' ! -perm 644)" ] ||
     complain "modes: $(find "$root/share" -type f ! -perm 644)"
-  # They are stripped: no more than a megabyte each.
-  [ -z "$(find "$root/bin" -size +1500k)" ] || complain "large programs: $(ls -s "$root/bin")"
+  for program in "$root/bin/${prefix}"*; do
+    nm "$program" 2>/dev/null | grep -q ' [TtBbDd] ' && complain "$program is not stripped"
+  done
   # The words of the history stay: fitpower reads them.
   "$root/bin/${prefix}smooth" -q samples/CR.csv | grep -q '^## smooth v mean width 11$' ||
     complain "${prefix}smooth does not write ## smooth"
