@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/enumeration.h"
 #include "cli/tool.h"
 #include "signal/selection.h"
 #include "signal/smoother.h"

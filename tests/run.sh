@@ -127,7 +127,7 @@ plan() {  # KIND PATH GROUP
 }
 plan_cases() {  # FILE.cases [NAME]
   local folder number line name found=false of=${1#"$root"/}
-  folder=$(mktemp -d "$scratch/cases.XXXXXX") && ln -s "$root/samples" "$folder" &&
+  folder=$(mktemp -d) && ln -s "$root/samples" "$folder" &&
     number=$(grep -c '^=== ' "$1") && (cd "$folder" && eval "mkdir {1..$number}") &&
     awk -v into="$folder" -f "$root/tests/cases.awk" "$1" >"$folder.list" || exit 2
   while read -r number line name; do

@@ -11,6 +11,7 @@
 #include <exception>
 #include <new>
 
+#include "base/enumeration.h"
 #include "base/error.h"
 
 namespace rolling {
@@ -41,13 +42,6 @@ std::string some_of(std::vector<std::string> names) {
 }
 
 }  // namespace
-
-std::string enumeration(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
-  return text;
-}
 
 void LinesOfRuns::add(const std::string& run, const std::string& text) {
   std::string alike = text;

@@ -17,9 +17,6 @@ inline constexpr int trouble = 2;  ///< the exit status after an error
 /// before main() or while a message is being made, are reported by such a line too.)
 void write_message(std::string_view name, std::string_view text);
 
-/// "a, b and c"
-std::string enumeration(const std::vector<std::string>& words);
-
 /// Lines about runs: those of several runs that differ in their numbers alone are one, as
 /// `run a.csv (and b.csv, c.csv, d.csv and 4 more): sigma_a is 0.62 times a: ...`.
 class LinesOfRuns {

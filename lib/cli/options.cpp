@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "cli/messages.h"
+#include "base/enumeration.h"
 #include "cli/scene.h"
 #include "signal/savitzky_golay.h"
 #include "text/column.h"
@@ -203,8 +203,8 @@ void Options::scene() {
        "TOML file with the long names of a scene's options; the command line wins");
 }
 
-void Options::take_scene() {
-  if (scene_file_.empty()) return;
+bool Options::take_scene() {
+  if (scene_file_.empty()) return false;
   refuse_output(scene_file_);
   for (const SceneValue& scene : read_scene(scene_file_)) {
     const auto option = options_.find(scene.key);
@@ -216,6 +216,7 @@ void Options::take_scene() {
       fail("{}:{}: {}: {}", scene_file_, scene.line, scene.key, error.what());
     }
   }
+  return scene_file_ == "-";
 }
 
 void Options::need(const std::vector<std::string>& options) const {

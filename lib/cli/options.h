@@ -101,8 +101,8 @@ class Options {
   void add(const std::string& names, const std::string& type, const std::string& help, Set set,
            std::function<bool()> missing = {});
   /// Sets the options that are not on the command line from the scene file; ignores keys without
-  /// an option in this tool.
-  void take_scene();
+  /// an option in this tool. True if the scene was standard input.
+  bool take_scene();
 
   CommandLine command_line_;
 

@@ -147,7 +147,7 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
       case CommandLine::Asked::work:
         break;
     }
-    take_scene();
+    standard_input_taken_ = take_scene();
     if (!quiet_) progress.start(name_);
     if (::isatty(STDOUT_FILENO))
       out.before_write = [this] { progress.stop(); };  // rows on the terminal show the progress

@@ -7,6 +7,7 @@
 #include <limits>
 #include <tuple>
 
+#include "base/enumeration.h"
 #include "base/error.h"
 #include "base/rounding.h"
 #include "fit/agreement.h"
@@ -77,13 +78,11 @@ FitResult result_of(const Fitted& found, double rms, const NoiseErrors& noise,
 
 /// "a and b", "d0, a and b": the coefficients of a law; with values, "a = 0.002 and b = -0.5".
 std::string names_of(const LawForm& form, const std::vector<FittedNumber>& values = {}) {
-  std::string all;
-  for (std::size_t j = 0; j < form.coefficients.size(); ++j) {
-    all += j == 0 ? "" : j + 1 < form.coefficients.size() ? ", " : " and ";
-    all += form.coefficients[j].name;
-    if (!values.empty()) all += fmt::format(" = {:.4g}", values[j].value);
-  }
-  return all;
+  std::vector<std::string> all;
+  for (std::size_t j = 0; j < form.coefficients.size(); ++j)
+    all.push_back(form.coefficients[j].name +
+                  (values.empty() ? "" : fmt::format(" = {:.4g}", values[j].value)));
+  return enumeration(all);
 }
 
 /// True if the runs together roll up the slope and down.

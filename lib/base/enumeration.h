@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Words in a row, as a sentence has them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace rolling {
+
+/// "a, b and c"
+inline std::string enumeration(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
+  return text;
+}
+
+}  // namespace rolling
