@@ -190,8 +190,7 @@ int main(int argc, char** argv) {
     for (const auto& quantity : row)
       if (quantity.name == "Pi_S" && std::isnan(temperature)) fail("Pi_S needs --temperature");
     std::optional<Law> other;
-    if (!law_file.empty())
-      other = read_law(tool, law_file, power, {{"slope", &task.body.slope}});
+    if (!law_file.empty()) other = read_law(tool, law_file, power, {{"slope", &task.body.slope}});
     tool.need({"mass", "radius", "shape-factor"});
     Reader& in = task.summary ? tool.read({"t", "v", "D"}) : tool.filter({"t", "v", "D"});
     // A law on the command line takes precedence over a column D, the law of a scene does not.

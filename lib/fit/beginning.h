@@ -11,10 +11,10 @@ namespace rolling {
 /// A disturbed beginning: the first rows of a run do not follow the motion of the other ones,
 /// because of a hand that still pushes or of sliding.
 struct Beginning {
-  std::size_t run;      ///< the number of the run, from 0
-  std::size_t rows;     ///< number of disturbed rows
-  double time;          ///< from the first disturbed row to the first undisturbed one [s]
-  double p;  ///< the probability that noise alone gives such rows
+  std::size_t run;   ///< the number of the run, from 0
+  std::size_t rows;  ///< number of disturbed rows
+  double time;       ///< from the first disturbed row to the first undisturbed one [s]
+  double p;          ///< the probability that noise alone gives such rows
 };
 
 /// Chow's predictive test (1960, Econometrica 28, 591) asks whether the first 3, 5, 8, 13, ...

@@ -230,11 +230,9 @@ std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRu
     if (!spectrum.worth(turns)) continue;
     Eccentricity once_a_turn = spectrum.of(turns);
     once_a_turn.p *= static_cast<double>(runs.size());
-    if (once_a_turn.p > levels::one_turn ||
-        (found && found->p < once_a_turn.p))
-      continue;
-    const double near = std::min(spectrum.of(spectrum.wobble(0.7)).p,
-                                 spectrum.of(spectrum.wobble(1.4)).p);
+    if (once_a_turn.p > levels::one_turn || (found && found->p < once_a_turn.p)) continue;
+    const double near =
+        std::min(spectrum.of(spectrum.wobble(0.7)).p, spectrum.of(spectrum.wobble(1.4)).p);
     if (once_a_turn.p < near) found = once_a_turn;
   }
   return found;

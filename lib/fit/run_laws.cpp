@@ -84,8 +84,7 @@ Agreement compare(const std::vector<OwnLaw>& laws, Pair start, std::size_t param
   }
   result.dof = parameters * (laws.size() - 1) - taken;
   result.ratio = std::min(least_from(start, laws, parameters), least_from(mean, laws, parameters));
-  if (result.dof > 0)
-    result.p = gsl_cdf_chisq_Q(result.ratio, static_cast<double>(result.dof));
+  if (result.dof > 0) result.p = gsl_cdf_chisq_Q(result.ratio, static_cast<double>(result.dof));
   return result;
 }
 

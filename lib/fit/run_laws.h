@@ -81,12 +81,12 @@ struct Agreement {
   /// -2 ln of the ratio of likelihoods of one common law to laws of the runs' own, which is chi2
   /// but for what the noise of each run, an estimate, adds to that.
   double ratio = 0;
-  double p = 1;  ///< the probability that noise alone makes `ratio` as large
-  std::size_t runs = 0;     ///< the number of runs that determine a law
-  std::size_t run = 0;      ///< the run that differs most from the others, from 0
-  double speed = 1;         ///< the speed at which D of that run is known best [m/s]
-  Estimate log_D = {};      ///< ln D of that run minus ln D of the others at that speed
-  Estimate b = {};          ///< the exponent of that run minus the exponent of the others
+  double p = 1;          ///< the probability that noise alone makes `ratio` as large
+  std::size_t runs = 0;  ///< the number of runs that determine a law
+  std::size_t run = 0;   ///< the run that differs most from the others, from 0
+  double speed = 1;      ///< the speed at which D of that run is known best [m/s]
+  Estimate log_D = {};   ///< ln D of that run minus ln D of the others at that speed
+  Estimate b = {};       ///< the exponent of that run minus the exponent of the others
 
   bool agree() const { return p > levels::runs_disagree; }
 };

@@ -17,7 +17,7 @@ struct Scene {
   Geometry geometry;
   Law law;
   Bulge bulge{0};  ///< of length 0: no memory
-  double v0, x0;    ///< at t = 0; v0 < 0 towards falling x
+  double v0, x0;   ///< at t = 0; v0 < 0 towards falling x
 };
 
 /// closed: ClosedForm. exact: integrals over speed, by Roll. solver: a differential equation, by

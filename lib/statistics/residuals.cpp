@@ -55,7 +55,7 @@ Sums sums_of_products(std::span<const double> run, std::size_t lags) {
 
 /// The smaller p, for sums of products of n residuals and their variances.
 double p_of_sums(const Sums& sums, const Sums& variances, std::size_t lags, const Taken& taken,
-                    double n) {
+                 double n) {
   if (!(sums[0] > 0 && n > taken[0])) return 1;
   double Q = 0, least = 1;
   for (std::size_t k = 1; k <= lags; ++k) {

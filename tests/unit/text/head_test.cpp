@@ -104,8 +104,7 @@ TEST_CASE("head: a row without readings is one, as wide as the names", "[text]")
         "# x of my cart| v t n c4 in 1 of 4; 3: 0;1;2;");
 }
 
-TEST_CASE("head: what ends a header alone is no column; what ends the row too is one",
-          "[text]") {
+TEST_CASE("head: what ends a header alone is no column; what ends the row too is one", "[text]") {
   CHECK(head("t,v,\n0,1\n") == " t v in 1 of 2; 2: 0,1");
   CHECK(head("t,v\n0,1,\n") == " t v c3 in 1 of 3; 2: 0,1,");
   CHECK(head("t,v,\n0,1,\n") == " t v c3 in 1 of 3; 2: 0,1,");
