@@ -74,4 +74,12 @@ done < <(find Makefile .ci/run tests/faults/tools cmd lib man tests samples -typ
   -o -name '*.gp' -o -name '*.py' -o -name '*.mk' -o -name Makefile -o -name run -o -name tools \) \
   ! -path '*/records/*' ! -path '*/results/*')
 [ "$count" -gt 450 ] || complain "only $count files were found"
+
+if command -v clang-format-14 >/dev/null; then
+  while IFS= read -r file; do
+    complain "$file is not as clang-format-14 leaves it"
+  done < <(find lib cmd tests \( -name '*.cpp' -o -name '*.h' \) \
+    -exec clang-format-14 --dry-run {} + 2>&1 |
+    sed -n 's/:[0-9]*:[0-9]*: warning: .*//p' | sort -u)
+fi
 exit $wrong
