@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // energy-ledger - append where the energy goes (Eqs. 1 to 23); see energy-ledger(1)
+#include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "cli/history.h"
 #include "cli/law_file.h"
@@ -19,6 +19,7 @@ struct Moment {
   const Ledger& now;
   const Balance& balance;
   double temperature;
+  const LawOfFile& law;
 };
 
 constexpr Quantity<double (*)(const Moment&)> quantities[] = {
@@ -27,6 +28,7 @@ constexpr Quantity<double (*)(const Moment&)> quantities[] = {
     {"L", "N m s", [](const Moment& m) { return m.now.L(); }},
     {"A", "", [](const Moment& m) { return m.now.A(); }},
     {"D", "m", [](const Moment& m) { return m.now.D(); }},
+    {"sigma_D", "m", [](const Moment& m) { return m.law.sigma(m.now.v()); }},
     {"F_N", "N", [](const Moment& m) { return m.now.F_N(); }},
     {"F_H", "N", [](const Moment& m) { return m.now.F_H(); }},
     {"tau_N", "N m", [](const Moment& m) { return m.now.tau_N(); }},
@@ -53,7 +55,7 @@ constexpr Quantity<double (*)(const Moment&)> quantities[] = {
 struct Task {
   Body body{};
   Geometry geometry{};
-  Law law = {};
+  LawOfFile law = {};
   bool uses_law = false;      ///< instead of the column D
   bool law_of_scene = false;  ///< it uses the law because the first run has no column D
   bool summary = false;
@@ -61,10 +63,10 @@ struct Task {
 
   /// The shift at a velocity.
   double shift(double v) const {
-    if (std::abs(v) > law.highest())
+    if (std::abs(v) > law.law.highest())
       fail("v = {:.6g} m/s is beyond the table of the law, which ends at {:.6g} m/s", v,
-           law.highest());
-    return law(v);
+           law.law.highest());
+    return law.law(v);
   }
   bool shows_balance() const { return summary || !std::isnan(tolerance); }
 };
@@ -187,10 +189,15 @@ int main(int argc, char** argv) {
     if (task.summary)
       tool.refuse({"columns"}, "does not go with --summary, which has its own columns");
     const auto row = chosen(columns, quantities);
-    for (const auto& quantity : row)
-      if (quantity.name == "Pi_S" && std::isnan(temperature)) fail("Pi_S needs --temperature");
-    std::optional<Law> other;
-    if (!law_file.empty()) other = read_law(tool, law_file, power, {{"slope", &task.body.slope}});
+    const auto is_chosen = [&](std::string_view name) {
+      return std::ranges::count(row, name, [](const auto& quantity) { return quantity.name; }) > 0;
+    };
+    if (is_chosen("Pi_S") && std::isnan(temperature)) fail("Pi_S needs --temperature");
+    if (is_chosen("sigma_D") && law_file.empty())
+      fail("sigma_D is that of a law: it needs --law and a row of fitpower");
+    if (!law_file.empty())
+      task.law = read_law(tool, law_file, power, {{"slope", &task.body.slope}},
+                          is_chosen("sigma_D") ? Uncertainties::needed : Uncertainties::ignored);
     tool.need({"mass", "radius", "shape-factor"});
     Reader& in = task.summary ? tool.read({"t", "v", "D"}) : tool.filter({"t", "v", "D"});
     // A law on the command line takes precedence over a column D, the law of a scene does not.
@@ -198,8 +205,10 @@ int main(int argc, char** argv) {
                            tool.on_command_line("exponent");
     task.law_of_scene = !law_given && !std::isnan(power.a) && !in.find("D");
     task.uses_law = law_given || task.law_of_scene;
-    if (task.uses_law && !other) tool.need({"coefficient", "exponent"});
-    task.law = other ? *other : Law(power);
+    if (law_file.empty()) {
+      if (task.uses_law) tool.need({"coefficient", "exponent"});
+      task.law.law = power;
+    }
     Accounts accounts(tool, in, task);
     if (task.summary) {
       write_summary(tool.out, in, accounts, task);
@@ -208,14 +217,15 @@ int main(int argc, char** argv) {
     }
     Filter filter(
         in, tool.out,
-        fmt::format("energy-ledger {}{}", task.uses_law ? words_of(task.law) : "D",
+        fmt::format("energy-ledger {}{}", task.uses_law ? words_of(task.law.law) : "D",
                     task.body.slope == 0 ? "" : fmt::format(" slope {}", task.body.slope)));
     for (const auto& quantity : row) filter.append(quantity.column());
     while (filter.next_run()) {
       Balance balance = accounts.open();
       while (filter.next()) {
         const Ledger now = accounts.enter(balance);
-        for (const auto& quantity : row) filter.put(quantity.of({now, balance, temperature}));
+        for (const auto& quantity : row)
+          filter.put(quantity.of({now, balance, temperature, task.law}));
       }
       accounts.close(balance);
     }

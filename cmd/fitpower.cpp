@@ -131,12 +131,7 @@ struct Table {
     std::vector<Column> columns;
     for (const Column& c : columns_of(law))
       columns.insert(columns.end(), {c, {"sigma_" + c.name, c.unit}});
-    for (std::size_t j = 1; j < law.coefficients.size(); ++j)
-      for (std::size_t i = 0; i < j; ++i)
-        columns.push_back(
-            {&law == &laws().front()
-                 ? "corr"
-                 : fmt::format("corr_{}_{}", law.coefficients[i].name, law.coefficients[j].name)});
+    for (const std::string& name : correlations_of(law)) columns.push_back({name});
     columns.insert(columns.end(), {{"rms"}, {"n"}});
     if (with_v0()) columns.insert(columns.end(), {{"v0", "m/s"}, {"sigma_v0", "m/s"}});
     if (with_slope) columns.insert(columns.end(), {{"slope"}, {"sigma_slope"}});

@@ -109,15 +109,16 @@ struct Task {
 
   /// Reads the law, checks that nothing is missing, and chooses the method.
   void complete(Tool& tool) {
-    std::optional<Law> other;
-    if (!law_file.empty()) {
-      other =
-          read_law(tool, law_file, law,
-                   {{"slope", &roll.body.slope}, {"v0", &roll.v0}, {"x0", &roll.x0}, {"t0", &t0}});
-    }
-    roll.law = other ? *other : Law(law);
     std::vector<std::string> needed = {"radius", "shape-factor", "v0"};
-    if (!other) needed.insert(needed.end(), {"coefficient", "exponent"});
+    if (law_file.empty()) {
+      needed.insert(needed.end(), {"coefficient", "exponent"});
+      roll.law = law;
+    } else {
+      roll.law =
+          read_law(tool, law_file, law,
+                   {{"slope", &roll.body.slope}, {"v0", &roll.v0}, {"x0", &roll.x0}, {"t0", &t0}})
+              .law;
+    }
     tool.need(needed);
     if (!tool.on_command_line("method")) method = best_method(roll);
   }

@@ -2,6 +2,7 @@
 #include "cli/law_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "base/error.h"
@@ -36,8 +37,8 @@ std::string_view quantity_of(const std::string& unit) {
 }
 
 /// The row of fitpower in a file.
-std::optional<Law> read_row(Tool& tool, Reader& in, const LawForm& form, PowerLaw& law,
-                            std::vector<RowNumber> numbers) {
+LawOfFile read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& given,
+                   std::vector<RowNumber> numbers, Uncertainties uncertainties) {
   static const std::map<std::string, std::string_view> quantities{
       {"slope", ""}, {"v0", "v"}, {"x0", "x"}, {"t0", "t"}};
   const bool power = &form == &laws().front();
@@ -46,25 +47,37 @@ std::optional<Law> read_row(Tool& tool, Reader& in, const LawForm& form, PowerLa
   std::erase_if(numbers, [&](const RowNumber& number) {
     return !in.find(number.name) || tool.on_command_line(number.name);
   });
-  std::vector<RowColumn> columns, coefficients;
+  std::vector<RowColumn> columns, coefficients, sigmas, correlations;
   for (const RowNumber& number : numbers)
     columns.emplace_back(in, number.name, quantities.at(number.name));
-  for (const Column& c : columns_of(form))
+  for (const Column& c : columns_of(form)) {
     coefficients.emplace_back(in, c.name, quantity_of(c.unit), c.unit);
+    if (uncertainties == Uncertainties::needed)
+      sigmas.emplace_back(in, "sigma_" + c.name, quantity_of(c.unit), c.unit);
+  }
+  if (uncertainties == Uncertainties::needed)
+    for (const std::string& name : correlations_of(form)) correlations.emplace_back(in, name);
   if (!in.next_run() || !in.next()) fail<InputError>("{}: no row of fitpower", in.where());
   for (std::size_t i = 0; i < numbers.size(); ++i) *numbers[i].value = columns[i].value();
   std::vector<double> written;
   for (const RowColumn& coefficient : coefficients) written.push_back(coefficient.value());
+  LawOfFile row{};
+  for (std::size_t j = 0; j < sigmas.size(); ++j) {
+    row.coefficients.push_back({written[j], sigmas[j].value()});
+    row.correlations.emplace_back();
+    for (std::size_t i = 0; i < j; ++i)
+      row.correlations[j].push_back(correlations[j * (j - 1) / 2 + i].value());
+  }
   const bool a_told = !tool.on_command_line("coefficient"),
              b_told = !tool.on_command_line("exponent");
-  if (power && a_told) law.a = written[0];
-  if (power && b_told) law.b = written[1];
-  if (power && a_told && !(law.a > 0)) fail("a = {} must be greater than 0", law.a);
+  if (power && a_told && !(written[0] > 0)) fail("a = {} must be greater than 0", written[0]);
   if (power && !a_told && !b_told && numbers.empty())
     fail<OptionError>("--law tells nothing that is not on the command line: leave it out");
   if (in.next() || in.next_run()) fail("more than one row: a law is one row of fitpower");
-  if (power) return {};
-  return Law::as_written(form, written);
+  if (!a_told) written[0] = given.a;
+  if (!b_told) written[1] = given.b;
+  row.law = Law::as_written(form, written);
+  return row;
 }
 
 }  // namespace
@@ -92,6 +105,16 @@ std::vector<Column> columns_of(const LawForm& form) {
   return all;
 }
 
+std::vector<std::string> correlations_of(const LawForm& form) {
+  if (&form == &laws().front()) return {"corr"};
+  std::vector<std::string> all;
+  for (std::size_t j = 1; j < form.coefficients.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i)
+      all.push_back(
+          fmt::format("corr_{}_{}", form.coefficients[i].name, form.coefficients[j].name));
+  return all;
+}
+
 std::string words_of(const Law& law) {
   if (law.has_points()) return "table";
   std::string words;
@@ -103,22 +126,47 @@ std::string words_of(const Law& law) {
   return words;
 }
 
-std::optional<Law> read_law(Tool& tool, const std::string& file, PowerLaw& law,
-                            const std::vector<RowNumber>& numbers) {
+LawOfFile read_law(Tool& tool, const std::string& file, const PowerLaw& given,
+                   const std::vector<RowNumber>& numbers, Uncertainties uncertainties) {
   Reader& in = tool.read_file(file, {"v", "D"});
-  if (const LawForm* form = law_of_columns(in)) return read_row(tool, in, *form, law, numbers);
+  if (const LawForm* form = law_of_columns(in))
+    return read_row(tool, in, *form, given, numbers, uncertainties);
   tool.refuse({"coefficient", "exponent"}, "does not go with a table of v D");
   if (!in.find("v") || !in.find("D"))
     fail<InputError>("{}: neither a table of v and D nor a row of fitpower", shown(file));
+  if (uncertainties == Uncertainties::needed)
+    fail("{}: a table of v and D has no uncertainties: give a row of fitpower", shown(file));
   const auto v = in.need("v"), D = in.need("D");
   std::vector<double> speeds, shifts;
   while (in.next_run())
     while (in.next()) speeds.push_back(in[v]), shifts.push_back(in[D]);
   try {
-    return TableLaw(std::move(speeds), std::move(shifts));
+    return {TableLaw(std::move(speeds), std::move(shifts))};
   } catch (const Error& error) {
     fail<InputError>("{}: {}", file, error.what());
   }
+}
+
+double LawOfFile::sigma(double v) const {
+  if (coefficients.empty()) return not_given;
+  std::vector<double> part;  // what each coefficient brings
+  for (std::size_t j = 0; j < coefficients.size(); ++j) {
+    // a central difference, since the law is known by its formula's coefficients alone
+    constexpr double step = 1e-3;
+    const auto moved = [&](double by) {
+      std::vector<double> written;
+      for (const Estimate& c : coefficients) written.push_back(c.value);
+      written[j] += by * coefficients[j].sigma;
+      return Law::as_written(law.form(), written)(v);
+    };
+    part.push_back((moved(step) - moved(-step)) / (2 * step));
+  }
+  double variance = 0;
+  for (std::size_t j = 0; j < part.size(); ++j) {
+    variance += part[j] * part[j];
+    for (std::size_t i = 0; i < j; ++i) variance += 2 * correlations[j][i] * part[i] * part[j];
+  }
+  return std::sqrt(std::max(variance, 0.0));
 }
 
 }  // namespace rolling

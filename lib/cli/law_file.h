@@ -2,10 +2,10 @@
 // Laws D(v) as people write them, and the file of the option --law.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/matrix.h"
 #include "cli/tool.h"
 #include "contact/law.h"
 #include "text/column.h"
@@ -19,6 +19,9 @@ const LawForm& law_named(const std::string& formula);
 /// The columns of the coefficients of a law: d0[m], d2[s^2/m].
 std::vector<Column> columns_of(const LawForm&);
 
+/// The columns of their correlations, row by row below the diagonal: corr of a v^b, corr_d0_d2.
+std::vector<std::string> correlations_of(const LawForm&);
+
 /// "a 0.00187 b 0.215", "d0 0.001 d2 0.0004" or "table", for `##` lines.
 std::string words_of(const Law&);
 
@@ -28,13 +31,28 @@ struct RowNumber {
   double* value;     ///< SI units
 };
 
-/// Reads a table of v and D, which is returned, or a row of fitpower, which sets these numbers: a
-/// file with the columns of the coefficients of a law. Those of a v^b are set, another law is
-/// returned. `-` is standard input. A number keeps its value where the row has no such column, or
-/// where the command line gives it, which takes precedence. Columns with units are converted to SI.
-/// Throws Error for any other file, for more than one row, for a row that sets nothing, and for
-/// another law than a v^b beside -a or -b.
-std::optional<Law> read_law(Tool&, const std::string& file, PowerLaw&,
-                            const std::vector<RowNumber>&);
+/// A law as a file tells it.
+struct LawOfFile {
+  Law law;
+  /// Of a row, where they are asked for: the coefficients of the formula in SI units, and their
+  /// correlations row by row below the diagonal.
+  std::vector<Estimate> coefficients = {};
+  Matrix correlations = {};
+
+  /// The standard uncertainty of D [m] at a velocity: that of a function of quantities that are
+  /// correlated (GUM, Eq. 16). NaN where the law is not a row with its uncertainties.
+  double sigma(double v) const;
+};
+
+/// Whether the uncertainties of a row are needed.
+enum class Uncertainties { ignored, needed };
+
+/// Reads a table of v and D, or a row of fitpower, a file with the columns of the coefficients of a
+/// law, which sets these numbers too. `-` is standard input. What the command line gives takes
+/// precedence: a and b of this law, and the numbers; these keep their values where the row has no
+/// such column. Columns with units are converted to SI. Throws Error for any other file, for more
+/// than one row, for a row that sets nothing, and for another law than a v^b beside -a or -b.
+LawOfFile read_law(Tool&, const std::string& file, const PowerLaw& given,
+                   const std::vector<RowNumber>&, Uncertainties = Uncertainties::ignored);
 
 }  // namespace rolling

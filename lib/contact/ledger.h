@@ -24,6 +24,7 @@ class Ledger {
     F_H_ = 0 - (D * incline_.cos - c.K * c.R * incline_.sin) * c.m * c.g / ((c.K + A_) * c.R);
   }
 
+  double v() const { return v_; }  ///< velocity [m/s]
   // 0 - x instead of -x, and 0 + x where a factor may be 0: the result is then +0, not "-0".
   double omega() const { return omega_; }                            ///< [rad/s] (Eq. 1)
   double p() const { return body_.m * v_; }                          ///< momentum [N s]

@@ -25,6 +25,15 @@ awk '
       print "at " v " the bands hold " near / N " and " far / N; bad = 1 } }
   rows == 3 && v != 0.5 { print "the last v is " v; bad = 1 }
   END { exit bad || !names || rows != 3 }' "$scratch/law" || wrong=1
+# Another law, which is linear in its coefficients: sigma_D = sqrt(C00 + 2 C02 v^2 + C22 v^4).
+printf '# d0[m]\tsigma_d0[m]\td2[s^2/m]\tsigma_d2[s^2/m]\tcorr_d0_d2\n1e-3\t2e-5\t4e-4\t1e-4\t-0.7\n' |
+  "$law" -f 0.1 -t 2 -n 20 | awk -F '\t' '
+    /^#/ { next }
+    { D = 1e-3 + 4e-4 * $1^2; s = sqrt(4e-10 - 2.8e-9 * $1^2 + 1e-8 * $1^4); rows++
+      for (i = 2; i <= 6; i++) {
+        want = i == 2 ? D : D * exp((i % 2 ? -1 : 1) * (i < 5 ? 1 : 1.96) * s / D)
+        if (($i / want - 1)^2 > 1e-10) { print "d0 + d2 v^2 at " $1 ": " $i " for " want; bad = 1 } } }
+    END { exit bad || rows != 20 }' || wrong=1
 "$law" </dev/null 2>"$scratch/said" && complain 'law.sh: no row passes'
 grep -q 'no row' "$scratch/said" || complain "law.sh says: $(cat "$scratch/said")"
 echo '1 2' | "$law" 2>/dev/null && complain 'law.sh: no names pass'
