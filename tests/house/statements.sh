@@ -125,6 +125,6 @@ for more in 0 1; do
 done
 
 # simulate(1): the table of tests/reference.
-says man/simulate.1 'instants of 113 rolls'
+says man/simulate.1 'the instants of 113 rolls'
 [ "$(tail -n +2 tests/reference/rolls.tsv | cut -f 2-10 | sort -u | wc -l)" -eq 113 ] || complain 'rolls.tsv: not 113 rolls'
 exit $wrong
