@@ -9,6 +9,7 @@
 #include "least_squares/triangles.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -19,15 +20,60 @@
 namespace rolling {
 namespace {
 
-/// The run whose rows are block means, from each edge to the next.
-ObservedRun means(const ObservedRun& run, const std::vector<std::size_t>& edges) {
+/// Calls put(j, T_j, dT_j/dt) with each Chebyshev polynomial T_j below `end`; t is scaled from
+/// 0 <= t <= 2 half.
+void for_each_polynomial(double t, double half, std::size_t end, auto&& put) {
+  const double u = t / half - 1;
+  double T = 1, next = u, slope = 0, next_slope = 1;
+  for (std::size_t j = 0; j < end; ++j) {
+    put(j, T, slope / half);
+    slope = std::exchange(next_slope, 2 * next + 2 * u * next_slope - slope);
+    T = std::exchange(next, 2 * u * next - T);
+  }
+}
+
+/// The polynomial in time whose filtered values have the least weighted sum of squares from the
+/// rows of a run: a sum of Chebyshev polynomials from number `first` on.
+class Polynomial {
+ public:
+  Polynomial(const ObservedRun& run, std::size_t terms, std::size_t first, const Noise& noise,
+             std::size_t number)
+      : first_(first), half_(std::max(run.t.back() / 2, std::numeric_limits<double>::min())) {
+    Triangles R(1, terms, 0);
+    const auto raw = [&](double t, double* to, std::size_t stride) {
+      for_each_polynomial(t, half_, first + terms, [&](std::size_t j, double T, double) {
+        if (j >= first) to[(j - first) * stride] = T;
+      });
+      return 0.0;
+    };
+    evaluate(run, number, terms, noise, raw,
+             [&](std::size_t, std::span<double> f, std::span<double> J) { R.add(0, f, J); });
+    R.join();
+    c_ = R.solve();
+  }
+  /// Its value and slope.
+  std::array<double, 2> operator()(double t) const {
+    std::array<double, 2> y{};
+    for_each_polynomial(t, half_, first_ + c_.size(), [&](std::size_t j, double T, double slope) {
+      if (j >= first_) y[0] += c_[j - first_] * T, y[1] += c_[j - first_] * slope;
+    });
+    return y;
+  }
+
+ private:
+  std::size_t first_;
+  double half_;
+  std::vector<double> c_;
+};
+
+/// The run whose rows are means of blocks of so many of the first n rows; the last may be shorter.
+ObservedRun means(const ObservedRun& run, std::size_t n, std::size_t size) {
   ObservedRun thin{run.place,           run.body, run.geometry, run.way, run.origin,
                    run.raw_is_position, {},       {},           {}};
-  for (auto edge = edges.begin(); edge + 1 != edges.end(); ++edge) {
+  for (std::size_t i = 0; i < n; i += size) {
+    const std::size_t rows = std::min(size, n - i);
     const auto mean = [&](const std::vector<double>& x) {
-      return std::accumulate(x.begin() + static_cast<std::ptrdiff_t>(edge[0]),
-                             x.begin() + static_cast<std::ptrdiff_t>(edge[1]), 0.0) /
-             static_cast<double>(edge[1] - edge[0]);
+      return std::accumulate(&x[i], &x[i] + rows, 0.0) / static_cast<double>(rows);
     };
     thin.t.push_back(mean(run.t));
     thin.y.push_back(mean(run.y));
@@ -46,262 +92,183 @@ ObservedRun without_outliers(ObservedRun run) {
   return run;
 }
 
+/// The speeds of a run along its motion: those of a polynomial through its rows, which is stiff
+/// where outliers may be left. On a level mat a body rests from where they become 0.
+std::vector<double> speeds_of(const ObservedRun& run, const FitOptions& options) {
+  const bool level = run.body.slope == 0 && !options.fit_slope;
+  const std::size_t most = options.robust ? 4 : 7;
+  const Polynomial motion(run, std::min(most, 2 + run.t.size() / 4), 0, Noise(), 0);
+  std::vector<double> speeds;
+  bool rests = false;
+  for (const double t : run.t) {
+    const double v = run.way * motion(t)[run.raw_is_position];
+    rests |= level && v <= 0 && !speeds.empty() && speeds.back() > 0;
+    speeds.push_back(rests || (level && v < 0) ? 0 : v);
+  }
+  return speeds;
+}
+
 /// A run reduced to at most 64 block means, without a long rest at its end, and a rough estimate of
 /// v0.
 struct Thinned {
   ObservedRun run;
   double v0;
-  double way;  ///< the largest distance from its beginning
-  bool turns;  ///< it has come back
+  double way;                       ///< the largest distance from its beginning
+  bool turns;                       ///< it has come back
+  std::vector<double> speeds = {};  ///< see speeds_of()
 };
 
 /// Estimates v0 from the time of half the distance. v0 times that time is 0.59 of the whole
 /// distance for uniform deceleration to the stop (b = 0) and 0.69 for exponential decay (b = 1).
-/// For larger b there is no such constant; v0 is then only the unit in which add_run() finds the
-/// best value.
+/// For larger b there is no such constant; v0 is then only a unit.
 Thinned thinned(const ObservedRun& run, const FitOptions& options) {
   const std::size_t n = run.t.size();
   const bool position = run.raw_is_position;
   const double x0 = options.x0.value_or(position ? run.y[0] : 0);
-  double most = 0, distance = 0;
-  // The first row at which the distance has reached the goal. If none has, the result is n and
-  // `most` is the largest distance.
-  const auto reached = [&](double goal) {
-    double way = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (position) way = run.way * (run.y[i] - x0);
-      else if (i) way += run.way * (run.y[i] + run.y[i - 1]) / 2 * (run.t[i] - run.t[i - 1]);
-      if (way >= goal) return i;
-      most = std::max(most, way);
-    }
-    distance = way;
-    return n;
+  std::vector<double> way(n);
+  for (std::size_t i = 0; i < n; ++i)
+    if (position) way[i] = run.way * (run.y[i] - x0);
+    else if (i)
+      way[i] = way[i - 1] + run.way * (run.y[i] + run.y[i - 1]) / 2 * (run.t[i] - run.t[i - 1]);
+  const double most = std::max(0.0, std::ranges::max(way));
+  const auto reached = [&](double part) {  // the first row there
+    return static_cast<std::size_t>(
+        std::ranges::find_if(way, [&](double x) { return x >= part * most; }) - way.begin());
   };
-  reached(std::numeric_limits<double>::infinity());
-  const std::size_t half = reached(0.5 * most), end = reached(0.95 * most);
   const double half_time =
-      run.t[std::max<std::size_t>(half, n > 1)] - (position && options.x0 ? 0 : run.t[0]);
+      run.t[std::max<std::size_t>(reached(0.5), n > 1)] - (position && options.x0 ? 0 : run.t[0]);
   const double v0 = options.v0 ? std::abs(*options.v0) : 0.6 * most / half_time;
   if (!(v0 > 0) || !std::isfinite(v0))
     fail("{}the body does not move: a and b cannot be determined", run.place);
   // The way back of a body that turns is used as well, and may be slow.
-  const std::size_t used = options.fit_slope || distance < 0.8 * most
+  const bool turns = way.back() < 0.8 * most;
+  const std::size_t end = reached(0.95),
+                    used = options.fit_slope || turns
                                ? n
-                               : std::min(n, end + std::max<std::size_t>(end / 3, 8)),
-                    block = (used + 63) / 64;
-  std::vector<std::size_t> edges;
-  for (std::size_t i = 0; i < used; i += block) edges.push_back(i);
-  edges.push_back(used);
-  return {means(run, edges), v0, most, distance < 0.8 * most};
+                               : std::min(n, end + std::max<std::size_t>(end / 3, 8));
+  ObservedRun few = means(run, used, (used + 63) / 64);
+  std::vector<double> speeds = speeds_of(few, options);
+  return {std::move(few), v0, most, turns, std::move(speeds)};
 }
 
 /// A law with the v0 and x0 of each run, and the sum of squares of the thinned runs.
 struct Candidate {
-  double rss;
+  double rss = 0;
   PowerLaw law;
-  std::vector<double> v0, x0;
+  std::vector<double> v0 = {}, x0 = {};
   double slope = 0;  ///< of the mat along growing x, where it is a parameter
 };
 
-/// The rolls of the runs on a level mat with A = 1 under an exponent b: those of any a are the same
-/// with another unit of time and of distance, since the acceleration is proportional to a.
-struct Shape {
-  PowerLaw law;             // of the rolls
-  std::vector<Roll> rolls;  // of each run, with its rough v0
+/// What an exponent makes of speeds: v = v0 - g/((K + 1) R) int (a u^b + R S) dt is linear in v0, a
+/// and the slope S, and so is x, where the speeds u of the law are those of the polynomials.
+class LinearRoll {
+ public:
+  LinearRoll(const ObservedRun& run, double v_unit, double b)
+      : position_(run.raw_is_position), k_(run.body.g / ((run.body.K + 1) * run.body.R)),
+        R_(run.body.R), v_unit_(v_unit), b_(b) {}
+  /// The derivatives of x, or of v, at the next row by v0, by a v_unit^b and by S.
+  std::array<double, 3> next(double t, double speed) {
+    constexpr double slowest = 0.02;  // b may be negative
+    const double u = speed / v_unit_, h = t - t_,
+                 law = u == 0 ? 0 : std::copysign(std::pow(std::max(std::abs(u), slowest), b_), u);
+    if (t_ == 0) law_ = law;
+    by_x_ += h * by_v_ + h * h * (2 * law_ + law) / 6;  // the law is a line in between
+    by_v_ += h * (law_ + law) / 2;
+    t_ = t, law_ = law;
+    return position_ ? std::array{t, -k_ * by_x_, -k_ * R_ * t * t / 2}
+                     : std::array{1., -k_ * by_v_, -k_ * R_ * t};
+  }
+
+ private:
+  bool position_;
+  double k_, R_, v_unit_, b_;
+  double t_ = 0, law_ = 0, by_v_ = 0, by_x_ = 0;
 };
 
-Shape shape_of(const std::vector<Thinned>& thin, double b) {
+/// The candidate of an exponent by linear least squares. `slope`: S is a parameter. None if these
+/// numbers are not determined, or if the law would not slow the body down while S might.
+std::optional<Candidate> candidate_of(const std::vector<Thinned>& thin, double b, bool slope,
+                                      const FitOptions& options) {
   const ObservedRun& first = thin.front().run;
-  const double v0 = thin.front().v0;
-  Shape shape{
-      {std::pow(v0, 1 - b) * (first.body.K + 1) * first.body.R / first.body.g / first.t.back(), b},
-      {}};
-  for (const auto& [run, scale, way, turns] : thin) {
-    Body level = run.body;
-    level.slope = 0;
-    shape.rolls.emplace_back(level, Geometry::approximate, shape.law, scale);
+  const double v_unit = thin.front().v0;
+  const bool x0 = first.raw_is_position && !options.x0;
+  const auto a = options.given_a();
+  const std::size_t own = !options.v0 + x0, q = own + !a + slope;
+  const double unit = std::pow(v_unit, -b), fixed_v0 = std::abs(options.v0.value_or(0)),
+               fixed_x0 = first.raw_is_position ? options.x0.value_or(0) : 0;
+  Triangles all(thin.size(), own, q - own);
+  double squares = 0;
+  for (std::size_t r = 0; r < thin.size(); ++r) {
+    const ObservedRun& run = thin[r].run;
+    LinearRoll roll(run, v_unit, b);
+    for (std::size_t i = 0; i < run.t.size(); ++i) {
+      const auto [by_v0, by_a, by_S] = roll.next(run.t[i], thin[r].speeds[i]);
+      double J[4], *next = J;
+      if (!options.v0) *next++ = by_v0;
+      if (x0) *next++ = run.way;
+      if (!a) *next++ = by_a;
+      if (slope) *next++ = by_S * run.way;
+      double f = run.way * (fixed_x0 - run.y[i]) + by_v0 * fixed_v0 + by_a * a.value_or(0) / unit +
+                 (slope ? 0 : by_S * run.way * run.body.slope);
+      squares += f * f;
+      all.add(r, {&f, 1}, std::span(J).first(q));
+    }
   }
-  return shape;
+  all.join();
+  if (q > 0 && !(all.smallest_sine() > 1e-9)) return {};
+  const std::vector<double> c = all.solve();
+  const Body& body = first.body;
+  const double least =
+                   1e-3 * unit * body.R *
+                   std::max(std::abs(body.slope), v_unit * (body.K + 1) / body.g / first.t.back()),
+               best = a ? *a : c[thin.size() * own] * unit;
+  if (slope && best < least) return {};
+  Candidate found{squares - all.reduction(), {std::max(best, least), b}};
+  for (std::size_t r = 0; r < thin.size(); ++r) {
+    const double* const of_run = c.data() + r * own;
+    found.v0.push_back(options.v0 ? fixed_v0 : std::max(*of_run, 0.05 * thin[r].v0));
+    found.x0.push_back(x0 ? of_run[!options.v0] : fixed_x0);
+  }
+  if (slope) found.slope = c.back();
+  return found;
 }
 
-/// Adds a run to a candidate, with v0 (a factor) and x0 at their least-squares values.
-void add_run(Candidate& candidate, const Thinned& of, const Shape& shape, Roll& roll,
-             const FitOptions& options) {
-  const ObservedRun& thin = of.run;
-  const bool position = thin.raw_is_position;
-  const double faster = candidate.law.a / shape.law.a;
-  double mm = 0, my = 0, m_mean = 0, y_mean = 0;
-  std::vector<double> m, y;
-  for (std::size_t i = 0; i < thin.t.size(); ++i) {
-    const Roll::Point p = roll.at(thin.t[i] * faster);
-    m.push_back(thin.way * (position ? p.x / faster : p.v));
-    y.push_back(thin.y[i] - (position ? options.x0.value_or(0) : 0));
+/// Starting points, best first: of each exponent of a grid.
+std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions& options) {
+  std::vector<double> exponents{-0.5, 0, 0.1, 0.25, 0.5, 1, 1.5, 2, 3};
+  if (const auto given = options.given_b()) exponents = {*given};
+  std::vector<Candidate> all;
+  for (const double b : exponents) {
+    auto found = options.fit_slope ? candidate_of(thin, b, true, options) : std::nullopt;
+    if (!found) found = candidate_of(thin, b, false, options);
+    if (found) all.push_back(std::move(*found));
   }
-  const double n = static_cast<double>(m.size());
-  if (position && !options.x0) {
-    m_mean = std::accumulate(m.begin(), m.end(), 0.0) / n;
-    y_mean = std::accumulate(y.begin(), y.end(), 0.0) / n;
-  }
-  for (std::size_t i = 0; i < m.size(); ++i)
-    mm += (m[i] - m_mean) * (m[i] - m_mean), my += (m[i] - m_mean) * (y[i] - y_mean);
-  const double factor = options.v0 ? 1 : my / mm;
-  if (!(factor > 0)) fail("rolls the wrong way");
-  double rss = 0;
-  for (std::size_t i = 0; i < m.size(); ++i) {
-    const double f = factor * (m[i] - m_mean) - (y[i] - y_mean);
-    rss += f * f;
-  }
-  candidate.rss += rss;
-  candidate.v0.push_back(factor * of.v0);
-  candidate.x0.push_back(options.x0.value_or(y_mean - factor * m_mean));
+  std::ranges::sort(all, {}, &Candidate::rss);
+  return all;
 }
 
-/// Throws Error if a run comes back although its mat is level, and the nearest roll is far from it,
-/// as false echoes alone do not make it.
-void require_level(const std::vector<Thinned>& thin, const Candidate& nearest,
-                   const FitOptions& options) {
+/// Throws Error if the best roll, of this sum of squares, is no nearer than rest, or if a run comes
+/// back although its mat is level, and the roll is far from it, as false echoes alone do not make
+/// it.
+void require_near(const std::vector<Thinned>& thin, double rss, const FitOptions& options) {
   constexpr double far = 0.1;  // of the way or of v0
-  double square = 0;
-  for (const Thinned& of : thin)
-    square += std::pow(far * (of.run.raw_is_position ? of.way : of.v0), 2) *
-              static_cast<double>(of.run.t.size());
-  for (const auto& [run, scale, way, turns] : thin)
-    if (turns && run.body.slope == 0 && !options.fit_slope && !options.robust &&
-        nearest.rss > square)
+  double square = 0, at_rest = 0;
+  for (const auto& [run, v0, way, turns, speeds] : thin) {
+    const double n = static_cast<double>(run.t.size()),
+                 x = run.raw_is_position
+                         ? options.x0.value_or(std::accumulate(run.y.begin(), run.y.end(), 0.0) / n)
+                         : 0;
+    square += std::pow(far * (run.raw_is_position ? way : v0), 2) * n;
+    for (const double y : run.y) at_rest += (y - x) * (y - x);
+  }
+  for (const auto& [run, v0, way, turns, speeds] : thin)
+    if (turns && run.body.slope == 0 && !options.fit_slope && !options.robust && rss > square)
       fail(
           "{}the body comes back, which a level mat does not do: on a slope, --slope S or --slope "
           "fit; else the roll alone (smooth --coast, or --to)",
           run.place);
-}
-
-/// Starting points, best first: for each b of a grid, the best a of a grid. The grid of a is
-/// uniform in the logarithm of the first run's duration divided by its initial time scale
-/// v/|dv/dt|.
-std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions& options) {
-  std::vector<double> exponents{-0.5, 0, 0.25, 0.5, 1, 1.5, 2, 3};
-  if (const auto given = options.given_b()) exponents = {*given};
-  std::vector<Candidate> best;
-  for (double b : exponents) {
-    Shape shape = shape_of(thin, b);
-    std::vector<double> as;
-    if (const auto given = options.given_a()) as = {*given};
-    else
-      for (double x = 0.01; x < 1000; x *= 1.3) as.push_back(x * shape.law.a);
-    Candidate nearest{std::numeric_limits<double>::infinity(), {}, {}, {}};
-    for (double a : as) try {
-        Candidate candidate{0, {a, b}, {}, {}};
-        for (std::size_t r = 0; r < thin.size(); ++r)
-          add_run(candidate, thin[r], shape, shape.rolls[r], options);
-        if (candidate.rss < nearest.rss) nearest = std::move(candidate);
-      } catch (const Error&) {  // no roll has this law and these data
-      }
-    if (std::isfinite(nearest.rss)) best.push_back(std::move(nearest));
-  }
-  std::ranges::sort(best, {}, &Candidate::rss);
-  return best;
-}
-
-/// The start where a body speeds up on its slope, which no roll on a level mat resembles: the
-/// constant acceleration between the means of the thirds of each run, and so b = 0.
-std::optional<Candidate> of_constant_acceleration(const std::vector<Thinned>& thin) {
-  Candidate start{0, {0, 0}, {}, {}};
-  bool speeds_up = false;
-  for (const auto& [run, v0_scale, way, turns] : thin) {
-    const std::size_t n = run.t.size();
-    if (n < 6 || run.body.slope == 0) return {};
-    const ObservedRun third = means(run, {0, n / 3, 2 * n / 3, n});
-    const auto& t = third.t;
-    const auto& y = third.y;
-    const bool position = run.raw_is_position;
-    const double rise = run.way * (y[1] - y[0]) / (t[1] - t[0]),
-                 next = run.way * (y[2] - y[1]) / (t[2] - t[1]),
-                 a = position ? 2 * (next - rise) / (t[2] - t[0]) : (rise + next) / 2,
-                 v0 = position ? rise - a * (t[0] + t[1]) / 2 : run.way * y[0] - a * t[0];
-    Body body = run.body;
-    body.slope *= run.way;
-    const double least = 1e-3 * body.R * std::abs(body.slope),
-                 D = shift_from_acceleration(body, Geometry::approximate, a);
-    start.law.a += std::max(D, least) / static_cast<double>(thin.size());
-    start.v0.push_back(std::max(v0, 0.05 * v0_scale));
-    start.x0.push_back(position ? y[0] - run.way * (v0 + a * t[0] / 2) * t[0] : 0);
-    speeds_up |= a > 0;
-  }
-  return speeds_up ? std::optional(std::move(start)) : std::nullopt;
-}
-
-/// A roll of constant decelerations up to the time T and back from there.
-struct BothWays {
-  double rss, T, up, back, x_turn;
-};
-
-/// The closest such roll to a run, over a grid of T.
-BothWays closest_both_ways(const ObservedRun& run) {
-  const std::size_t terms = run.raw_is_position ? 3 : 2, n = run.t.size();
-  BothWays best{std::numeric_limits<double>::infinity(), 0, 0, 0, 0};
-  for (std::size_t k = 1; k < 2 * n; ++k) {
-    const double T = run.t.back() * static_cast<double>(k) / static_cast<double>(n);
-    Triangles all(1, terms, 0);
-    const auto row = [&](std::size_t i, double* J) {
-      const double t = run.t[i] - T, part = run.raw_is_position ? -t * t / 2 : -t;
-      J[0] = t < 0 ? part : 0, J[1] = t < 0 ? 0 : part, J[2] = 1;
-    };
-    double J[3];
-    for (std::size_t i = 0; i < n; ++i) {
-      row(i, J);
-      double f = -run.way * run.y[i];  // solve() makes f + J c least
-      all.add(0, {&f, 1}, std::span(J).first(terms));
-    }
-    all.join();
-    std::vector<double> c = all.solve();
-    c.resize(3);
-    double rss = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      row(i, J);
-      const double off =
-          run.way * run.y[i] - dot(std::span(J).first(terms), std::span(c).first(terms));
-      rss += off * off;
-    }
-    if (rss < best.rss) best = {rss, T, c[0], c[1], c[2]};
-  }
-  return best;
-}
-
-/// The starts where bodies turn and roll back, which no roll on a level mat resembles: constant
-/// decelerations on both ways, which an exponent and the mean speeds make a law and a slope.
-std::vector<Candidate> of_both_ways(const std::vector<Thinned>& thin, const FitOptions& options) {
-  if (!options.fit_slope && std::ranges::none_of(thin, &Thinned::turns)) return {};
-  // Under b < 0 no slope brings a body back: the starts are not at that edge.
-  std::vector<Candidate> all;
-  for (const double b : {0.1, 0.3, 0.6, 1.0}) {
-    all.push_back({0, {0, options.given_b().value_or(b)}, {}, {}, 0});
-  }
-  double turned = 0;
-  for (const auto& [run, scale, way, turns] : thin) {
-    if (run.t.size() < 8 || (run.body.slope == 0 && !options.fit_slope)) return {};
-    const BothWays roll = closest_both_ways(run);
-    for (Candidate& start : all) {
-      start.v0.push_back(std::max(roll.up * roll.T, 0.05 * scale));
-      start.x0.push_back(run.way * (roll.x_turn - roll.up * roll.T * roll.T / 2));
-    }
-    const double left = run.t.back() - roll.T;
-    if (!(left > 0 && roll.up > 0 && roll.back > 0)) continue;
-    // Up g (D + R S)/((K + 1) R), back g (R S - D)/((K + 1) R).
-    const Body& body = run.body;
-    const double unit = (body.K + 1) / body.g, v_up = roll.up * roll.T / 2,
-                 v_back = roll.back * left / 2, least = 1e-3 * roll.up;
-    for (Candidate& start : all) {
-      const double D = std::pow(v_up, start.law.b), D_back = std::pow(v_back, start.law.b);
-      const double a = options.fit_slope
-                           ? std::max(roll.up - roll.back, least) / (D + D_back)
-                           : std::max(roll.up - std::abs(body.slope) / unit, least) / D;
-      start.law.a += a * unit * body.R;
-      start.slope += run.way * (roll.up - a * D) * unit;
-    }
-    ++turned;
-  }
-  if (turned == 0) return {};
-  for (Candidate& start : all) start.law.a /= turned, start.slope /= turned;
-  return all;
+  if (std::isfinite(rss) && rss >= at_rest * (1 - 1e-9))
+    fail("no law a v^b comes near the data: {}", choose_the_roll);
 }
 
 System unweighted(std::vector<ObservedRun> runs, const Parameters& q) {
@@ -309,7 +276,35 @@ System unweighted(std::vector<ObservedRun> runs, const Parameters& q) {
                    std::make_shared<const Noise>());
 }
 
+ObservedRun smooth_motion(Route route, const ObservedRun& run, std::size_t number,
+                          const Noise& noise, const FitOptions& options) {
+  const bool position = route == Route::position;
+  // Filters that turn positions into speeds do not see a constant.
+  const bool slopes = run.raw_is_position && !position;
+  const std::size_t n = run.y.size();
+  std::size_t informative = 0;
+  for (std::size_t i = 0; i < n; ++i) informative += noise.whitener(number).informative(i);
+  const std::size_t terms = std::min<std::size_t>(1 + informative / (slopes ? 3 : 2), 7);
+  const Polynomial motion(run, terms, slopes, noise, number);
+  ObservedRun smooth{run.place, run.body, run.geometry, 1, run.origin, position, {}, {}, {}};
+  const std::size_t begin = run.H->columns_of(0).first, end = run.H->columns_of(n - 1).end;
+  for (std::size_t i = begin; i < end; i += (end - begin + 255) / 256) {
+    smooth.t.push_back(run.t[i]);
+    smooth.y.push_back(motion(run.t[i])[slopes]);
+  }
+  smooth.way = way_of(position, smooth.t, smooth.y, options);
+  return smooth;
+}
+
 }  // namespace
+
+std::vector<ObservedRun> smooth_motion(Route route, const std::vector<ObservedRun>& runs,
+                                       const Noise& noise, const FitOptions& options) {
+  std::vector<ObservedRun> smooth;
+  for (const ObservedRun& run : runs)
+    smooth.push_back(smooth_motion(route, run, smooth.size(), noise, options));
+  return smooth;
+}
 
 std::vector<ObservedRun> means_of_many(const std::vector<ObservedRun>& runs) {
   constexpr std::size_t longest = 4096;
@@ -319,10 +314,7 @@ std::vector<ObservedRun> means_of_many(const std::vector<ObservedRun>& runs) {
   std::vector<ObservedRun> few;
   for (const ObservedRun& run : runs) {
     const std::size_t rows = run.t.size(), size = (rows + longest - 1) / longest;
-    std::vector<std::size_t> edges;  // blocks of equal size: the means have equal weights
-    for (std::size_t i = 0; i < rows; i += size) edges.push_back(i);
-    edges.push_back(rows);
-    few.push_back(means(run, edges));
+    few.push_back(means(run, rows, size));  // of equal size: the means have equal weights
   }
   return few;
 }
@@ -343,24 +335,18 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
 
   // The three best starting points lead to minima of the thinned runs; the best of these is taken.
   auto candidates = starts(thin, options);
-  if (!candidates.empty()) require_level(thin, candidates.front(), options);
+  if (candidates.empty()) fail("no law a v^b comes near the data: {}", choose_the_roll);
   const auto theta_of = [&](const Candidate& c) { return q.theta(c.law, c.v0, c.x0, c.slope); };
   std::vector<std::vector<double>> others;
   if (options.robust) std::ranges::transform(candidates, std::back_inserter(others), theta_of);
   if (candidates.size() > 3) candidates.resize(3);
-  if (auto start = of_constant_acceleration(thin)) candidates.push_back(std::move(*start));
-  auto turning = of_both_ways(thin, options);
-  if (std::ranges::all_of(thin, &Thinned::turns) && !turning.empty()) candidates.clear();
-  std::ranges::move(turning, std::back_inserter(candidates));
-  if (candidates.empty()) fail("no law a v^b comes near the data: {}", choose_the_roll);
   std::vector<double> theta = theta_of(candidates.front());
-  if (candidates.size() > 1) {
-    const System system = unweighted(std::move(thin_runs), q);
-    double least = std::numeric_limits<double>::infinity();
-    for (const Candidate& candidate : candidates)
-      if (Minimum minimum = attempt(system, theta_of(candidate)); minimum.rss < least)
-        least = minimum.rss, theta = std::move(minimum.theta);
-  }
+  const System system = unweighted(std::move(thin_runs), q);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Candidate& candidate : candidates)
+    if (Minimum minimum = attempt(system, theta_of(candidate)); minimum.rss < least)
+      least = minimum.rss, theta = std::move(minimum.theta);
+  require_near(thin, least, options);
   if (!few.empty()) theta = attempt(unweighted(std::move(few), q), theta).theta;
   return {q, std::move(theta), std::move(others)};
 }

@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "fit/cusps.h"
 #include "fit/first_guess.h"
-#include "fit/smooth_motion.h"
 #include "fit/white_share.h"
 
 namespace rolling {

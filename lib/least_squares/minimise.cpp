@@ -147,17 +147,22 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
                      std::max(best.rss - best.reduction, 0.0));
   };
   const auto determined = [&] { return best.angle > undetermined; };
-  const auto converged = [&] { return determined() && (best.size < 1e-7 || offset() < 1e-3); };
+  const auto converged = [&] {
+    return determined() && (best.size < 1e-7 || (freedom > 0 && offset() < 1e-3));
+  };
   for (int round = 0; !converged(); ++round) {
     const double before = best.rss, size = best.size;
-    best = polish(system, descend(system, std::move(best)), 0);
+    Point next = polish(system, descend(system, best), 0);
+    // Parameters as many as residuals may move on to where they are not determined.
+    if (freedom == 0 && !(next.angle > undetermined)) break;
+    best = std::move(next);
     if (converged()) break;
     const double gain = 1 - best.rss / before;
     // The minimum of a trajectory fit may lie on a kink, where the time of the stop coincides with
     // a row: no step reduces the sum of squares noticeably, but the gradient on either side is
     // not zero. The search ends there, unless the remaining step is more than a standard deviation
     // and changes a parameter by more than its own size.
-    const bool near = offset() < 1 || best.size < 1;
+    const bool near = freedom == 0 || offset() < 1 || best.size < 1;
     if (!determined() || (gain < std::max(1e-8, 1e-3 / freedom) && near)) break;
     // If all steps of a round reduce the sum of squares by less than one standard deviation would,
     // and yet the next step changes a parameter by more than its own size, and by more than in the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/smooth_motion.h"
+#include "fit/first_guess.h"
 
 #include <numeric>
 #include <random>
