@@ -12,8 +12,7 @@ namespace rolling {
 /// cosine of x/R are shifts; they are carried through the equation of motion (to first order around
 /// the fitted roll, A = 1) and through the filters of the data, and made orthogonal to the columns
 /// of the Jacobian, because the fit can follow those. The noise before the filters is assumed
-/// white, of its own size in each run; `variance` is that of all runs. Dense rows are averaged
-/// over blocks that are short relative to one turn.
+/// white, of its own size in each run; `variance` is that of all runs.
 ///
 /// The result is the run with the smallest p. It is empty if no run reaches 1 % (after
 /// Bonferroni's correction), or if the period 0.7 or 1.4 times as long has as small a p: the
