@@ -31,37 +31,15 @@ struct Without {
 
 /// f_S are the first k residuals, Q_S their rows of the orthonormal Q. A = I - Q_S^T Q_S is the
 /// normal matrix of the other rows. Then c = A^-1 Q_S^T f_S, and the reduction is |f_S|^2 +
-/// f_S^T Q_S c. The sums over S grow with k.
-class First {
- public:
-  First(const Matrix& Q, const std::vector<double>& f)
-      : Q_(Q), f_(f), A_(Q.size() * Q.size()), g_(Q.size()) {
-    for (std::size_t i = 0; i < A_.size(); i += Q.size() + 1) A_[i] = 1;
+/// f_S^T Q_S c.
+Without without(std::size_t k, const Matrix& Q, const std::vector<double>& f) {
+  const std::size_t q = Q.size();
+  std::vector<double> A(q * q), g(q);
+  for (std::size_t i = 0; i < q; ++i) {
+    for (std::size_t j = 0; j < q; ++j) A[i * q + j] = (i == j) - dot(Q[i].data(), Q[j].data(), k);
+    g[i] = dot(Q[i].data(), f.data(), k);
   }
-  Without without(std::size_t k) {
-    const std::size_t q = Q_.size(), more = k - k_;
-    for (std::size_t i = 0; i < q; ++i) {
-      for (std::size_t j = 0; j < q; ++j) A_[i * q + j] -= dot(&Q_[i][k_], &Q_[j][k_], more);
-      g_[i] += dot(&Q_[i][k_], &f_[k_], more);
-    }
-    squares_ += dot(&f_[k_], &f_[k_], more);
-    k_ = k;
-    return solved(A_, g_, squares_);
-  }
-
- private:
-  static Without solved(std::vector<double> A, const std::vector<double>& g, double squares);
-
-  const Matrix& Q_;
-  const std::vector<double>& f_;
-  std::vector<double> A_, g_;
-  double squares_ = 0;
-  std::size_t k_ = 0;
-};
-
-Without First::solved(std::vector<double> A, const std::vector<double>& g, double squares) {
-  const std::size_t q = g.size();
-  Without result{squares, g};
+  Without result{dot(f.data(), f.data(), k), g};
   gsl_matrix_view normal = gsl_matrix_view_array(A.data(), q, q);
   gsl_vector_view c = gsl_vector_view_array(result.c.data(), q);
   // A is not positive definite if the removed rows alone determine a parameter.
@@ -96,26 +74,25 @@ struct Search {
     const auto& t = fit.rolls->runs().front().t;
     const Matrix Q = orthonormal(fit);
     const std::size_t q = Q.size();
-    First first(Q, f);
-    const auto changed = [&](const Without& without, std::size_t from, std::size_t end) {
+    const auto changed = [&](const Without& by, std::size_t from, std::size_t end) {
       std::vector<double> rest(f.begin() + static_cast<std::ptrdiff_t>(from),
                                f.begin() + static_cast<std::ptrdiff_t>(end));
       for (std::size_t j = 0; j < q; ++j)
-        for (std::size_t i = from; i < end; ++i) rest[i - from] += without.c[j] * Q[j][i];
+        for (std::size_t i = from; i < end; ++i) rest[i - from] += by.c[j] * Q[j][i];
       return rest;
     };
     for (std::size_t k = 3, next = 5; 4 * k <= f.size(); k = std::exchange(next, k + next)) {
       ++tests;
-      const Without without = first.without(k);
-      const double gone = static_cast<double>(k), squares = fit.minimum.rss - without.reduction,
+      const Without by = without(k, Q, f);
+      const double gone = static_cast<double>(k), squares = fit.minimum.rss - by.reduction,
                    left = static_cast<double>(f.size() - q - k);
       if (!(squares > 0)) continue;
-      const double noise = std::max(squares / left, local_variance(changed(without, 0, k + 5))),
-                   chance = gsl_cdf_fdist_Q(without.reduction / gone / noise, gone, left);
+      const double noise = std::max(squares / left, local_variance(changed(by, 0, k + 5))),
+                   chance = gsl_cdf_fdist_Q(by.reduction / gone / noise, gone, left);
       if (chance >= (found ? found->beginning.p : levels::beginning)) continue;
       // Where the removed rows alone determine a parameter, nothing but rounding may remain: the
       // squares are then more than those of a fit.
-      std::vector<double> others = changed(without, k, f.size());
+      std::vector<double> others = changed(by, k, f.size());
       if (!(dot(others, others) < 1.01 * squares)) continue;
       found = {{run, k, t[k] - t[0], chance}, std::move(others), q};
     }

@@ -86,10 +86,10 @@ std::vector<FitRun> with_logarithms(const std::vector<FitRun>& all, const FitOpt
   std::vector<FitRun> runs;
   std::vector<Response> theirs;
   for (std::size_t r = 0; r < responses.size(); ++r)
-    if (has_logarithm(all[r], options)) theirs.push_back(responses[r]);
+    if (!shift_rows(all[r], options, true).empty()) theirs.push_back(responses[r]);
   if (theirs.size() == responses.size()) return runs;
   for (const FitRun& run : all)
-    if (has_logarithm(run, options)) runs.push_back(run);
+    if (!shift_rows(run, options, true).empty()) runs.push_back(run);
   responses = std::move(theirs);
   return runs;
 }
@@ -112,15 +112,6 @@ std::optional<KnownRoll> known_roll(const std::vector<FitRun>& runs, const FitOp
     roll.stops.push_back(roll.fit.rolls->runs()[r].origin +
                          roll.fit.rolls->roll(roll.fit.minimum.theta, r).stop_time());
   return roll;
-}
-
-/// The number of rows that are not missing.
-std::size_t readings(const std::vector<FitRun>& all) {
-  std::size_t count = 0;
-  for (const FitRun& run : all)
-    for (std::size_t i = 0; i < run.v.size(); ++i)
-      count += std::isfinite(run.v[i]) && std::isfinite(run.D[i]);
-  return count;
 }
 
 /// Adds the noise and the bias of ln D - b ln v to a line: those of the roll, observed through the
@@ -164,18 +155,6 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
     line.bias.push_back(bias_of(number.gradient));
 }
 
-/// The law of the straight line through the rows.
-PowerLaw line_through(const ShiftRows& rows) {
-  double mean = 0, xx = 0, xy = 0;
-  for (std::size_t i = 0; i < rows.y.size(); ++i) {
-    const double x = std::log(rows.v[i] / rows.v_ref);  // its mean is 0
-    mean += rows.y[i] / static_cast<double>(rows.y.size());
-    xx += x * x, xy += x * rows.y[i];
-  }
-  const double b = xx > 0 ? xy / xx : 0;
-  return {std::exp(mean) * std::pow(rows.v_ref, -b), b};
-}
-
 }  // namespace
 
 Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
@@ -190,8 +169,13 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
   line.rows = rows->y.size();
   line.left_out = rows->left_out;
   if (!roll) line.negative = rows->negative;
-  if (!some.empty()) line.left_out += readings(all) - readings(some);
-  line.minimum = solve(line.system, {q.theta(line_through(*rows), {}, {})}, options);
+  if (!some.empty())
+    for (const FitRun& run : all)
+      if (shift_rows(run, options, true).empty()) line.left_out += readings(run);
+  // The residuals are linear: any start will do.
+  const double mean =
+      std::accumulate(rows->y.begin(), rows->y.end(), 0.0) / static_cast<double>(rows->y.size());
+  line.minimum = solve(line.system, {q.theta({std::exp(mean), 0}, {}, {})}, options);
   report_law(line, q);
   if (roll) carry_noise(line, runs, std::move(*roll), options);
   return line;

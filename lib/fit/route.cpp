@@ -4,9 +4,9 @@
 #include "base/error.h"
 #include "fit/laws.h"
 #include "fit/log_log_regression.h"
-#include "fit/model_shift.h"
 #include "fit/roll_fit.h"
 #include "fit/sensor_filters.h"
+#include "fit/shift_rows.h"
 
 namespace rolling {
 

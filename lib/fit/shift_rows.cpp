@@ -12,7 +12,6 @@
 #include "base/rounding.h"
 
 namespace rolling {
-
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -25,86 +24,108 @@ double way_of(const FitRun& run, double stop) {
   return sum < 0 ? -1 : 1;
 }
 
-/// Which rows of a run are fitted. v and D along the motion must exceed what is left where the
-/// terms of a sum cancel: rounding, whose logarithm is far from those of the others.
-class Used {
- public:
-  Used(const FitRun& run, const FitOptions& options, bool logarithms, double stop)
-      : t_(run.t), v_(rounding_of(run.v)),
-        D_(logarithms ? rounding_of(run.D) : -std::numeric_limits<double>::infinity()),
-        min_speed_(options.min_speed), stop_(stop) {}
-  bool allows(std::size_t i, double v, double D) const {
-    return v > v_ && v >= min_speed_ && std::isfinite(v) && std::isfinite(D) && D > D_ &&
-           (stop_ == never || t_[i] < stop_);
-  }
+/// What is left where the terms of a sum cancel: a share of the median size, which no single
+/// reading can shift, of about a thousand readings.
+double rounding_of(const std::vector<double>& column) {
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < column.size(); i += 1 + column.size() / 1000)
+    if (std::isfinite(column[i])) sizes.push_back(std::abs(column[i]));
+  return sizes.empty() ? 0 : program_rounding * median(sizes);
+}
 
- private:
-  /// A share of the median, which no single reading can shift, of about a thousand readings.
-  static double rounding_of(const std::vector<double>& column) {
-    std::vector<double> sizes;
-    for (std::size_t i = 0; i < column.size(); i += 1 + column.size() / 1000)
-      if (std::isfinite(column[i])) sizes.push_back(std::abs(column[i]));
-    return sizes.empty() ? 0 : program_rounding * median(sizes);
+/// Every k-th row, with k the smallest that leaves at most `most` rows.
+ShiftRows thinned(const ShiftRows& rows, std::size_t most) {
+  ShiftRows few;
+  few.v_ref = rows.v_ref;
+  const std::size_t n = rows.y.size();
+  for (std::size_t i = 0, step = (n + most - 1) / most; i < n; i += step) {
+    few.y.push_back(rows.y[i]);
+    few.v.push_back(rows.v[i]);
   }
+  few.runs = {few.y.size()};
+  return few;
+}
 
-  const std::vector<double>& t_;
-  double v_, D_, min_speed_, stop_;
-};
+/// A starting point: the exponent of a coarse grid with the smallest sum of squares (the height
+/// follows by linear least squares), or the values that the user gives. From one exponent of the
+/// grid to the next no D changes by more than a factor e^(1/2) relative to D at the mean of ln v.
+PowerLaw power_start(const ShiftRows& few, const FitOptions& options) {
+  const auto a_given = options.given_a(), b_given = options.given_b();
+  std::vector<double> exponents;
+  if (b_given) exponents = {*b_given};
+  else {
+    double widest = 2;
+    for (const double v : few.v) widest = std::max(widest, std::abs(std::log(v / few.v_ref)));
+    for (double b = -4; b <= 8; b += 0.5 / widest) exponents.push_back(b);
+  }
+  double least = std::numeric_limits<double>::infinity();
+  PowerLaw best{0, 0};
+  for (double b : exponents) {
+    double mm = 0, mD = 0, rss = 0;
+    const PowerLaw unit{std::pow(few.v_ref, -b), b};
+    for (std::size_t i = 0; i < few.y.size(); ++i) {
+      const double m = unit(few.v[i]);
+      mm += m * m;
+      mD += m * few.y[i];
+    }
+    const double a = a_given.value_or(unit.a * mD / mm);
+    for (std::size_t i = 0; i < few.y.size(); ++i) {
+      const double f = PowerLaw{a, b}(few.v[i]) - few.y[i];
+      rss += f * f;
+    }
+    if (rss < least || exponents.size() == 1) least = rss, best = {a, b};
+  }
+  return best;
+}
 
 }  // namespace
 
 Rows shift_rows(const FitRun& run, const FitOptions& options, bool logarithms, double stop) {
-  const double way = way_of(run, stop);
-  const Used used(run, options, logarithms, stop);
+  const double way = way_of(run, stop), least_v = rounding_of(run.v),
+               least_D = logarithms ? rounding_of(run.D) : -std::numeric_limits<double>::infinity();
   Rows rows;
-  for (std::size_t i = 0; i < run.v.size(); ++i)
-    if (used.allows(i, way * run.v[i], way * run.D[i])) rows.push_back(i);
+  for (std::size_t i = 0; i < run.v.size(); ++i) {
+    const double v = way * run.v[i], D = way * run.D[i];
+    if (v > least_v && v >= options.min_speed && std::isfinite(v) && std::isfinite(D) &&
+        D > least_D && (stop == never || run.t[i] < stop))
+      rows.push_back(i);
+  }
   return rows;
-}
-
-bool has_logarithm(const FitRun& run, const FitOptions& options) {
-  const double way = way_of(run, never);
-  const Used used(run, options, true, never);
-  for (std::size_t i = 0; i < run.v.size(); ++i)
-    if (used.allows(i, way * run.v[i], way * run.D[i])) return true;
-  return false;
 }
 
 ShiftRows shift_rows(const std::vector<FitRun>& all, const FitOptions& options, bool logarithms,
                      const std::vector<double>& stops) {
   ShiftRows rows;
   rows.logarithms = logarithms;
-  auto &y = rows.y, &speeds = rows.v;
-  std::size_t most = 0;
-  for (const auto& run : all) most += run.v.size();
-  y.reserve(most), speeds.reserve(most);
   double sum = 0;
   for (std::size_t r = 0; r < all.size(); ++r) {
     const FitRun& run = all[r];
-    const std::size_t before = y.size();
     const double stop = stops.empty() ? never : stops[r], way = way_of(run, stop);
-    const Used used(run, options, logarithms, stop), of_any_sign(run, options, false, stop);
-    for (std::size_t i = 0; i < run.v.size(); ++i) {
-      const double v = way * run.v[i], D = way * run.D[i];
-      if (!used.allows(i, v, D)) {
-        rows.left_out += std::isfinite(v) && std::isfinite(D);
-        rows.negative += of_any_sign.allows(i, v, D);
-        continue;
-      }
-      speeds.push_back(v);
-      sum += std::log(v);
-      y.push_back(logarithms ? std::log(D) : D);
+    const Rows used = shift_rows(run, options, logarithms, stop);
+    if (logarithms) rows.negative += shift_rows(run, options, false, stop).size() - used.size();
+    for (const std::size_t i : used) {
+      rows.v.push_back(way * run.v[i]);
+      rows.y.push_back(logarithms ? std::log(way * run.D[i]) : way * run.D[i]);
+      sum += std::log(rows.v.back());
     }
-    rows.runs.push_back(y.size() - before);
+    rows.runs.push_back(used.size());
+    rows.left_out += readings(run) - used.size();
   }
-  const std::size_t n = y.size();
+  const std::size_t n = rows.y.size();
   if (n == 0 && logarithms && rows.left_out > 0)
     fail("no row has v > 0 and D > 0: there is no logarithm to fit");
   require_rows(n, !options.a + !options.b, n);
-  if (!options.b && std::ranges::all_of(speeds, [&](double v) { return v == speeds[0]; }))
+  if (!options.b && std::ranges::all_of(rows.v, [&](double v) { return v == rows.v[0]; }))
     fail("all speeds are equal: b cannot be determined");
   rows.v_ref = std::exp(sum / static_cast<double>(n));
   return rows;
+}
+
+std::size_t readings(const FitRun& run) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < run.v.size(); ++i)
+    count += std::isfinite(run.v[i]) && std::isfinite(run.D[i]);
+  return count;
 }
 
 System system_of(std::shared_ptr<const ShiftRows> rows, const Parameters& q) {
@@ -129,6 +150,29 @@ System system_of(std::shared_ptr<const ShiftRows> rows, const Parameters& q) {
         }
       }
           }};
+}
+
+Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
+  auto rows = std::make_shared<const ShiftRows>(shift_rows(all, options, false));
+  double unit = 0;
+  for (double D : rows->y) unit = std::max(unit, std::abs(D));
+  if (unit == 0) fail("all shifts are 0: b cannot be determined");
+  const Parameters q(options, false, unit, rows->v_ref);
+  // For many rows, a few thousand of them give a starting point close to the minimum.
+  constexpr std::size_t most = 4096;
+  const std::size_t n = rows->y.size();
+  auto few = std::make_shared<const ShiftRows>(thinned(*rows, options.robust ? n : most));
+  std::vector<double> theta = q.theta(power_start(*few, options), {}, {});
+  if (few->y.size() < n) theta = attempt(system_of(std::move(few), q), theta).theta;
+
+  System system = system_of(rows, q);
+  Minimum minimum = solve(system, {theta}, options);
+  Fitted result{.system = std::move(system), .minimum = std::move(minimum)};
+  result.rows = n;
+  result.left_out = rows->left_out;
+  report_law(result, q);
+  result.shifts = std::move(rows);
+  return result;
 }
 
 }  // namespace rolling

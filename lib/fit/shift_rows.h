@@ -34,11 +34,16 @@ ShiftRows shift_rows(const std::vector<FitRun>&, const FitOptions&, bool logarit
 Rows shift_rows(const FitRun&, const FitOptions&, bool logarithms,
                 double stop = std::numeric_limits<double>::infinity());
 
-/// True if a row of the run has v > 0 and D > 0.
-bool has_logarithm(const FitRun&, const FitOptions&);
+/// The number of rows of a run that are not missing.
+std::size_t readings(const FitRun&);
 
 /// The least-squares problem of a law and these rows. The residuals are passed on in blocks of
 /// at most 256, which fit into the cache.
 System system_of(std::shared_ptr<const ShiftRows>, const Parameters&);
+
+/// Unweighted least squares on D (or the robust loss) for rows whose filters are not known. D
+/// and a are in metres, v in m/s; runs that roll towards falling x are reflected. Throws Error if
+/// the rows do not determine the parameters.
+Fitted fit_shift(const std::vector<FitRun>&, const FitOptions&);
 
 }  // namespace rolling
