@@ -15,27 +15,18 @@ Shift power(const double* c, double v, double* by_c) {
   return {D, c[1] * D};
 }
 
-Shift constant(const double* c, double, double* by_c) {
-  by_c[0] = 1;
-  return {c[0], 0};
-}
-
-Shift parabola(const double* c, double v, double* by_c) {
-  by_c[0] = 1;
-  by_c[1] = v;
-  by_c[2] = v * v;
-  return {c[0] + v * (c[1] + c[2] * v), v * (c[1] + 2 * c[2] * v)};
-}
-
-Shift line(const double* c, double v, double* by_c) {
-  by_c[0] = 1;
-  by_c[1] = v;
-  return {c[0] + c[1] * v, c[1] * v};
-}
-
-Shift square(const double* c, double v, double* by_c) {
-  const Shift s = line(c, v * v, by_c);
-  return {s.D, 2 * s.by_log_v};
+/// A sum of these powers of v, times the coefficients.
+template <int... n>
+Shift powers(const double* c, double v, double* by_c) {
+  Shift s{};
+  const auto add = [&](int power) {
+    double x = 1;
+    for (int i = 0; i < power; ++i) x *= v;
+    *by_c++ = x;
+    s.D += *c * x, s.by_log_v += power * *c++ * x;
+  };
+  (add(n), ...);
+  return s;
 }
 
 /// d0 + a v^b as h + s (v^b - 1)/b (Box and Cox 1964, J. R. Stat. Soc. B 26, 211): where b is
@@ -84,15 +75,15 @@ const std::vector<LawForm>& laws() {
   constexpr int per_speed = -1, per_square = -2;
   static const std::vector<LawForm> all{
       {"a v^b", {{"a", 1, 0, 1}, {"b", 0}}, power, nullptr, nullptr, {{1, 0.3}}, true},
-      {"d0", {{"d0"}}, constant, nullptr, nullptr, {{1}}, true},
-      {"d0 + d1 v", {{"d0"}, {"d1", 1, per_speed}}, line, nullptr, nullptr, {{1, 0}}},
+      {"d0", {{"d0"}}, powers<0>, nullptr, nullptr, {{1}}, true},
+      {"d0 + d1 v", {{"d0"}, {"d1", 1, per_speed}}, powers<0, 1>, nullptr, nullptr, {{1, 0}}},
       {"d0 + d1 v + d2 v^2",
        {{"d0"}, {"d1", 1, per_speed}, {"d2", 1, per_square}},
-       parabola,
+       powers<0, 1, 2>,
        nullptr,
        nullptr,
        {{1, 0, 0}}},
-      {"d0 + d2 v^2", {{"d0"}, {"d2", 1, per_square}}, square, nullptr, nullptr, {{1, 0}}},
+      {"d0 + d2 v^2", {{"d0"}, {"d2", 1, per_square}}, powers<0, 2>, nullptr, nullptr, {{1, 0}}},
       {"d0 + a v^b",
        {{"d0"}, {"a", 1, 0, 2}, {"b", 0}},
        constant_and_power,

@@ -88,22 +88,17 @@ class FittedRows {
 /// each of its starting points. If the other law is a special case of this one, the result is
 /// exact.
 std::vector<std::vector<double>> closest(const LawForm& law, const Candidate& other) {
-  constexpr std::size_t points = 20;
-  const System curve{{points},
-                     0,
-                     law.coefficients.size(),
-                     [&](const std::vector<double>& c, const TakeRows& take) {
-    std::vector<double> f(points), J(points * c.size());
-    for (std::size_t i = 0; i < points; ++i) {
-      const double u = static_cast<double>(i + 1) / points;
-      double by_c[LawForm::most], by_other[LawForm::most];
-      f[i] = law.shift(c.data(), u, by_c).D - other.law->shift(other.c.data(), u, by_other).D;
-      for (std::size_t j = 0; j < c.size(); ++j) J[j * points + i] = by_c[j];
-    }
-    take(0, f, J);
-                     }};
+  ShiftRows curve;
+  for (int i = 1; i <= 20; ++i) {
+    double by_c[LawForm::most];
+    curve.v.push_back(i / 20.);
+    curve.y.push_back(other.law->shift(other.c.data(), curve.v.back(), by_c).D);
+  }
+  curve.runs = {curve.v.size()};
+  const System system = system_of(std::make_shared<const ShiftRows>(std::move(curve)),
+                                  Parameters({}, false, 1, 1).with(law, 1, 1));
   std::vector<std::vector<double>> all;
-  for (const auto& start : law.starts) all.push_back(attempt(curve, start).theta);
+  for (const auto& start : law.starts) all.push_back(attempt(system, start).theta);
   return all;
 }
 

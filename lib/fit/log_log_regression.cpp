@@ -79,21 +79,6 @@ struct KnownRoll {
   std::vector<double> stops;
 };
 
-/// Copies of the runs that have a logarithm, and their responses; none if all runs have one, or if
-/// the filters are unknown.
-std::vector<FitRun> with_logarithms(const std::vector<FitRun>& all, const FitOptions& options,
-                                    std::vector<Response>& responses) {
-  std::vector<FitRun> runs;
-  std::vector<Response> theirs;
-  for (std::size_t r = 0; r < responses.size(); ++r)
-    if (!shift_rows(all[r], options, true).empty()) theirs.push_back(responses[r]);
-  if (theirs.size() == responses.size()) return runs;
-  for (const FitRun& run : all)
-    if (!shift_rows(run, options, true).empty()) runs.push_back(run);
-  responses = std::move(theirs);
-  return runs;
-}
-
 /// The best-fitting roll; nothing if the filters are unknown or no roll fits. It is fitted to all
 /// rows; a selection of those with D > 0 would select by their noise.
 std::optional<KnownRoll> known_roll(const std::vector<FitRun>& runs, const FitOptions& options,
@@ -159,19 +144,27 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
 
 Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
                    std::vector<Response> responses) {
-  const std::vector<FitRun> some = with_logarithms(all, options, responses);
-  const std::vector<FitRun>& runs = some.empty() ? all : some;
-  std::optional<KnownRoll> roll = known_roll(runs, options, std::move(responses));
+  std::vector<FitRun> runs;  // that have a logarithm
+  std::vector<Response> theirs;
+  std::size_t left_out = 0;  // of the others
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    if (shift_rows(all[r], options, true).empty()) {
+      left_out += readings(all[r]);
+      continue;
+    }
+    runs.push_back(all[r]);
+    if (!responses.empty()) theirs.push_back(std::move(responses[r]));
+  }
+  if (runs.empty() && left_out > 0)
+    fail("no row has v > 0 and D > 0: there is no logarithm to fit");
+  std::optional<KnownRoll> roll = known_roll(runs, options, std::move(theirs));
   auto rows = std::make_shared<const ShiftRows>(
       shift_rows(runs, options, true, roll ? roll->stops : std::vector<double>()));
   const Parameters q(options, true, 1, rows->v_ref);
   Fitted line{.system = system_of(rows, q), .minimum = {}};
   line.rows = rows->y.size();
-  line.left_out = rows->left_out;
+  line.left_out = left_out + rows->left_out;
   if (!roll) line.negative = rows->negative;
-  if (!some.empty())
-    for (const FitRun& run : all)
-      if (shift_rows(run, options, true).empty()) line.left_out += readings(run);
   // The residuals are linear: any start will do.
   const double mean =
       std::accumulate(rows->y.begin(), rows->y.end(), 0.0) / static_cast<double>(rows->y.size());

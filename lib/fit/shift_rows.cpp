@@ -112,8 +112,6 @@ ShiftRows shift_rows(const std::vector<FitRun>& all, const FitOptions& options, 
     rows.left_out += readings(run) - used.size();
   }
   const std::size_t n = rows.y.size();
-  if (n == 0 && logarithms && rows.left_out > 0)
-    fail("no row has v > 0 and D > 0: there is no logarithm to fit");
   require_rows(n, !options.a + !options.b, n);
   if (!options.b && std::ranges::all_of(rows.v, [&](double v) { return v == rows.v[0]; }))
     fail("all speeds are equal: b cannot be determined");
