@@ -8,7 +8,6 @@
 
 #include "base/dot.h"
 #include "base/error.h"
-#include "fit/cusps.h"
 #include "fit/first_guess.h"
 #include "fit/white_share.h"
 
@@ -89,6 +88,70 @@ std::vector<ObservedRun> some_of(std::vector<ObservedRun> runs) {
     run.t.resize((n + step - 1) / step), run.y.resize(run.t.size());
   }
   return runs;
+}
+
+/// Times in the interval between two rows that holds the stop, and in those beside it: most of
+/// them close to the row before, where the speed of that row changes fastest. None if the
+/// stop is beyond all rows.
+std::vector<double> other_stops(const std::vector<double>& t, double stop) {
+  const auto n = t.size(),
+             next = static_cast<std::size_t>(std::ranges::upper_bound(t, stop) - t.begin());
+  std::vector<double> stops;
+  if (n < 2 || !(stop < 2 * t[n - 1] - t[n - 2])) return stops;
+  for (std::size_t i = std::max<std::size_t>(next, 2) - 1; i <= std::min(next + 1, n); ++i) {
+    const double step = i < n ? t[i] - t[i - 1] : t[i - 1] - t[i - 2];
+    for (const double share : {1.0 / 64, 1.0 / 8, 1.0 / 2})
+      stops.push_back(t[i - 1] + share * step);
+  }
+  return stops;
+}
+
+/// Searches again from starts around the stop of one run. Throws Error, and leaves `best` as it is,
+/// if the roll has no stop close to this one.
+void search_around(const RollModel& rolls, const System& system, std::size_t run, Minimum& best) {
+  const std::vector<double> from = best.theta;
+  const double stop = rolls.roll(from, run).stop_time();
+  const std::vector<double> stops = other_stops(rolls.runs()[run].t, stop);
+  if (stops.empty()) return;
+  // The body stops later with a larger v0 or, where that is fixed, under a weaker law.
+  const Roll::Point first = rolls.roll(from, run).at(0);
+  for (const double other : stops) {
+    std::vector<double> start = from;
+    start[system.place(run, 0)] *=
+        system.own ? 1 - (other - stop) * first.a / first.v : stop / other;
+    if (Minimum found = attempt(system, start); found.rss < best.rss) best = std::move(found);
+  }
+}
+
+/// True if the second derivative of the speed before the stop is unbounded. On a slope the body
+/// slows down at a rate that is not 0 at the stop, as with b = 0.
+bool has_cusps(const RollModel& rolls, const std::vector<double>& theta, std::size_t run) {
+  const auto law = rolls.parameters().law(theta).power();  // another stops as a constant one
+  return !rolls.runs()[run].raw_is_position &&
+         (law.value_or(PowerLaw{1, 0}).b < 0.5 || rolls.slope(theta, run) != 0) &&
+         !rolls.roll(theta, run).turns();  // it does not rest: v goes on through 0
+}
+
+/// The sum of the squares of speeds, as a function of the time T of the stop, has a cusp at each
+/// row where b < 1/2: the speed just before the stop grows like (T - t)^(1/(1 - b)), whose
+/// second derivative is unbounded. So the sum may have a minimum in each interval between two
+/// rows, and Gauss-Newton steps do not leave it. This function starts the search again with T in
+/// the interval of the minimum and in those beside it, until no such start leads to a smaller sum.
+/// Positions are smoother by one order, and nothing is done.
+///
+/// The minima differ the less the more rows there are: above 2048 rows times runs nothing is
+/// done.
+Minimum beyond_cusps(const RollModel& rolls, const System& system, Minimum best) {
+  constexpr std::size_t many = 2048;  // rows times runs
+  if (system.residuals() * system.runs.size() > many) return best;
+  for (double before = std::numeric_limits<double>::infinity(); best.rss < before * (1 - 1e-6);) {
+    before = best.rss;
+    for (std::size_t r = 0; r < system.runs.size(); ++r) try {
+        if (has_cusps(rolls, best.theta, r)) search_around(rolls, system, r, best);
+      } catch (const Error&) {  // the roll has no stop near this one: its minimum stays
+      }
+  }
+  return best;
 }
 
 /// The minimum of the system of these rolls. The robust loss ignores what the cusps make. Of many
