@@ -8,7 +8,7 @@
 #include "cli/fit_report.h"
 #include "cli/fit_runs.h"
 #include "cli/row_column.h"
-#include "contact/uncertain_number.h"
+#include "contact/body.h"
 #include "fit/joint_law.h"
 
 namespace rolling {

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "cli/linear_filters.h"
-#include "contact/uncertain_number.h"
+#include "contact/body.h"
 #include "fit/replay.h"
 #include "signal/derivative.h"
 #include "signal/smoother.h"

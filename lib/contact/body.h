@@ -2,6 +2,8 @@
 // The rolling body, and the geometry of its contact.
 #pragma once
 
+#include <array>
+
 namespace rolling {
 
 /// A round body that rolls without sliding; J = K m R^2 (Eq. 2).
@@ -20,6 +22,18 @@ struct BodyUncertainty {
   double g = 0;      ///< [m/s^2]
   double slope = 0;  ///< of tan(theta)
 };
+
+/// The numbers of a body that may have a standard uncertainty.
+struct UncertainNumber {
+  const char* name;
+  double Body::*value;
+  double BodyUncertainty::*sigma;
+};
+inline constexpr std::array<UncertainNumber, 4> uncertain_numbers = {
+    {{"K", &Body::K, &BodyUncertainty::K},
+     {"R", &Body::R, &BodyUncertainty::R},
+     {"g", &Body::g, &BodyUncertainty::g},
+     {"slope", &Body::slope, &BodyUncertainty::slope}}};
 
 /// The arm of F_H is A R. In the approximate geometry A = 1, as in the paper's simulations (Eqs. 11
 /// to 13); in the exact one A = sqrt(1 - D^2/R^2) (Eq. 8).

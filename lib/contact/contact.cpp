@@ -24,9 +24,22 @@ double arm_factor(const Body& c, Geometry geometry, double D) {
 
 double acceleration_from_shift(const Body& c, Geometry geometry, double D) {
   check_shift(c, D);
+  return trial_acceleration(c, geometry, D);
+}
+
+double trial_acceleration(const Body& c, Geometry geometry, double D) {
   const auto [cos, sin] = incline(c);
-  const double A = arm_factor(c, geometry, D);
+  const double A =
+      std::abs(D) < c.R ? arm_factor(c, geometry, D) : geometry == Geometry::approximate;
   return 0 - c.g * (D * cos + A * c.R * sin) / ((c.K + A) * c.R);
+}
+
+double trial_acceleration_slope(const Body& c, Geometry geometry, double D) {
+  const auto [cos, sin] = incline(c);
+  if (geometry == Geometry::approximate) return -c.g * cos / ((c.K + 1) * c.R);
+  // of (d cos + A sin) / (K + A) by d, with dA/dd = -d/A
+  const double d = D / c.R, A = std::sqrt(std::max(1e-30, 1 - d * d));
+  return -c.g / c.R * (cos * (c.K + A) + d / A * (d * cos - c.K * sin)) / ((c.K + A) * (c.K + A));
 }
 
 double shift_from_acceleration(const Body& c, Geometry geometry, double a) {

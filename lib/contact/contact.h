@@ -30,6 +30,10 @@ double arm_factor(const Body&, Geometry, double D);
 ///     v' = -g (D cos theta + A R sin theta) / ((K + A) R)
 /// Throws Error when |D| > R.
 double acceleration_from_shift(const Body&, Geometry, double D);
+/// The same, but continued beyond |D| = R with A = 0 instead of throwing: the error control of a
+/// solver then rejects the step. And its derivative by D [1/s^2].
+double trial_acceleration(const Body&, Geometry, double D);
+double trial_acceleration_slope(const Body&, Geometry, double D);
 
 /// Shift D [m] from an observed acceleration a [m/s^2], the inverse of acceleration_from_shift().
 /// With A = 1 this is Eq. 11, which gives a shift for any acceleration, beyond the radius too. In

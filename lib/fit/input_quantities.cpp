@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "contact/contact.h"
-#include "contact/uncertain_number.h"
+#include "contact/body.h"
 #include "fit/agreement.h"
 #include "fit/route.h"
 

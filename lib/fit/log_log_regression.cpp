@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/log_log_regression.h"
+#include "fit/shift_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,6 @@
 #include "contact/law.h"
 #include "fit/errors.h"
 #include "fit/roll_fit.h"
-#include "fit/shift_rows.h"
 #include "statistics/logarithm_of_noise.h"
 
 namespace rolling {

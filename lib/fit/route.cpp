@@ -3,7 +3,6 @@
 
 #include "base/error.h"
 #include "fit/laws.h"
-#include "fit/log_log_regression.h"
 #include "fit/roll_fit.h"
 #include "fit/sensor_filters.h"
 #include "fit/shift_rows.h"

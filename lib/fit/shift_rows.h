@@ -46,4 +46,11 @@ System system_of(std::shared_ptr<const ShiftRows>, const Parameters&);
 /// the rows do not determine the parameters.
 Fitted fit_shift(const std::vector<FitRun>&, const FitOptions&);
 
+/// The log-log regression line of ln D on ln v through all rows with v > 0 and D > 0, with equal
+/// weights, as one would draw it through a plot. If the filters are known (`responses`), the errors
+/// are those of the noise of the raw column, propagated through the filters and the logarithms, and
+/// the expected bias of the line is reported. Throws Error if the rows do not determine the
+/// parameters.
+Fitted fit_log_log(const std::vector<FitRun>&, const FitOptions&, std::vector<Response> responses);
+
 }  // namespace rolling

@@ -9,7 +9,6 @@
 
 #include "base/error.h"
 #include "contact/contact.h"
-#include "contact/trial.h"
 
 namespace rolling {
 

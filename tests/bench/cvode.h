@@ -18,7 +18,7 @@
 #include "base/gsl.h"
 #include "motion/motion.h"
 #include "motion/scene.h"
-#include "contact/trial.h"
+#include "contact/contact.h"
 
 namespace rolling {
 

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "base/error.h"
-#include "contact/trial.h"
 #include "unit/catch.h"
 
 using namespace rolling;
