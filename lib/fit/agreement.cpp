@@ -69,38 +69,37 @@ std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own, doub
   return laws;
 }
 
-/// The joint fit with the residuals that the runs have around their own laws. The residuals around
-/// the common law contain the disagreement of the runs too, and would be taken for correlated or
-/// uneven noise. For loglog only the innovations matter: its errors are then those of the means.
-Fitted with_own_noise(const Fitted& joint, const std::vector<std::optional<Fitted>>& own) {
-  Fitted fit = joint;
-  fit.minimum.f.clear();
-  if (fit.raw_noise) fit.raw_noise->innovations.clear(), fit.raw_noise->innovation_runs.clear();
-  fit.taken.emplace();
-  double rss = 0;
+/// The noise that the runs show around their own laws. The residuals around the common law contain
+/// the disagreement of the runs too, and would be taken for correlated or uneven noise. That noise,
+/// where not all runs have a law.
+SeenNoise noise_around_own(const Fitted& joint, const std::vector<std::optional<Fitted>>& own) {
+  const SeenNoise of_joint = seen_noise(joint);
+  SeenNoise all = of_joint;
+  all.innovations.clear(), all.runs.clear(), all.left.clear(), all.e.clear();
+  all.taken = {}, all.variance = 0;
   std::size_t left = 0;
   const auto append = [](auto& to, const auto& more) {
     to.insert(to.end(), more.begin(), more.end());
   };
   for (const auto& one : own) {
-    if (!one || one->raw_noise.has_value() != joint.raw_noise.has_value()) return joint;
-    append(fit.minimum.f, one->minimum.f);
-    rss += one->minimum.rss;
-    left += one->degrees_left();
-    const Taken taken = taken_of(*one);
-    std::transform(taken.begin(), taken.end(), fit.taken->begin(), fit.taken->begin(), std::plus());
-    if (!one->raw_noise) continue;
-    append(fit.raw_noise->innovations, one->raw_noise->innovations);
-    append(fit.raw_noise->innovation_runs, one->raw_noise->innovation_runs);
+    if (!one) return of_joint;
+    const SeenNoise seen = seen_noise(*one);
+    append(all.innovations, seen.innovations);
+    append(all.runs, seen.runs);
+    append(all.e, seen.e);
+    std::ranges::transform(seen.taken, all.taken, all.taken.begin(), std::plus());
+    all.variance += seen.variance * static_cast<double>(seen.freedom);
+    left += seen.freedom;
   }
-  if (fit.minimum.f.size() != joint.minimum.f.size() || left == 0) return joint;
-  // The runs' own fits have more parameters in all than the joint one, and leave smaller residuals:
-  // rss/left is the variance. Whoever takes the joint fit divides by its own degrees of freedom,
-  // and HC3 takes the residuals themselves.
-  const double more = static_cast<double>(joint.degrees_left()) / static_cast<double>(left);
-  for (double& x : fit.minimum.f) x *= std::sqrt(more);
-  fit.minimum.rss = rss * more;
-  return fit;
+  if (all.innovations.size() != of_joint.innovations.size() || all.e.size() != of_joint.e.size() ||
+      left == 0)
+    return of_joint;
+  all.variance /= static_cast<double>(left);
+  // The runs' own fits have more parameters in all than the joint one, and leave smaller residuals,
+  // which HC3 takes themselves.
+  const double more = static_cast<double>(of_joint.freedom) / static_cast<double>(left);
+  for (double& x : all.e) x *= std::sqrt(more);
+  return all;
 }
 
 bool of_one_way(const std::vector<OwnLaw>& laws, const Fitted& joint) {
@@ -209,8 +208,7 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
   const Agreement found =
       compare(laws, {log_a.value, b.value}, !options.a + !b_held, options.fit_slope);
   if (found.agree()) return found;
-  const Fitted around_own = with_own_noise(joint, own);
-  errors = noise_errors(around_own, uncertainty_of(around_own));
+  errors = noise_errors(joint, uncertainty_of(joint, noise_around_own(joint, own)));
   // The bias of logarithms comes from the noise too.
   joint.bias.clear();
   for (const OwnLaw& one : laws)

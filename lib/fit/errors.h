@@ -28,15 +28,22 @@ struct Uncertainty {
   Spread covariance;
 };
 
+/// The noise that the residuals of a fit show; of a log-log line behind known filters, that of the
+/// roll that made its rows.
+SeenNoise seen_noise(const Fitted&);
+/// The same of the sources before the filters that are known (`filtered`), or of the residuals.
+SeenNoise seen_noise(const Fitted&, bool filtered);
+/// B^T B of each run for noise with the B of its sources.
+std::vector<double> meat_of(const SeenNoise&);
+
 /// The covariance of a fit. For known filters it is the exact sandwich, otherwise the classical s^2
 /// (J^T J)^-1. With 30 or more rows the noise is tested (for known filters the noise of the raw
 /// column). If it is not white (Ljung and Box), the covariance is that of Newey and West, already
 /// at 10 % if neighbouring residuals are positively correlated; otherwise, if the variance is
 /// uneven at 1 %, along the runs or between them, it is HC3.
 Uncertainty uncertainty_of(const Fitted&);
-
-/// What the fit has taken of the innovations, or of the residuals if no filters are known.
-Taken taken_of(const Fitted&);
+/// The same with noise that other fits of the same rows have shown.
+Uncertainty uncertainty_of(const Fitted&, const SeenNoise&);
 
 /// The standard errors of the reported numbers that are due to the noise.
 struct NoiseErrors {
@@ -51,9 +58,6 @@ NoiseErrors noise_errors(const Fitted&, const Uncertainty&);
 
 /// 0 where a variance is 0, as that of a number that is held.
 Matrix correlations_of(const Matrix& covariance);
-
-/// The noise of the raw column of a fit with known filters; without the B of its sources.
-RawNoise raw_noise_of(const Fitted&);
 
 /// Q = J R^-1 at the minimum. The meat M of the covariance R^-1 M R^-T is a quadratic form of the
 /// rows of Q.

@@ -24,7 +24,7 @@ std::size_t Fitted::degrees_left() const {
   const std::size_t n = rolls ? informative_rows(rolls->runs(), rolls->parameters(), *noise)
                               : minimum.f.size(),
                     p = minimum.theta.size(), left = n > p ? n - p : 0;
-  return raw_noise ? std::min(left, raw_noise->freedom) : left;
+  return noise_of_roll ? std::min(left, noise_of_roll->freedom) : left;
 }
 
 void report_law(Fitted& fit, const Parameters& q) {

@@ -16,25 +16,26 @@ struct FittedNumber {
   std::vector<double> gradient;
 };
 
-/// The independent sources of the noise of a fit: theta - truth = -R^-1 sum B(s) e(s) over the
-/// sources s.
-struct Sources {
-  std::vector<double> e;          ///< estimated noise of each source
-  std::vector<std::size_t> runs;  ///< number of sources of each run
-  Matrix B;                       ///< one row for each source, as many columns as R
-  std::size_t means_taken = 0;    ///< see means_taken() of model_roll.h
-};
-
-/// The noise of the raw column, as estimated from the residuals of a fit with known filters.
-struct RawNoise {
-  double variance;
-  std::size_t freedom;  ///< degrees of freedom of the variance
+/// The noise of independent sources, as the residuals of a fit show it: theta - truth is
+/// -R^-1 sum B(s) e(s) over the sources s. For known filters they are the rows of the raw column.
+/// White noise beside it makes the weighted residuals those of independent noise, as if nothing had
+/// been filtered: then, and without filters, the residuals are the sources, and B is Q.
+struct SeenNoise {
+  bool filtered;                          ///< the sources lie before filters
+  std::size_t freedom;                    ///< degrees of freedom of the variance
+  double variance = 0;                    ///< of the sources
+  std::vector<double> e = {};             ///< the estimated noise of each source
+  std::vector<std::size_t> sources = {};  ///< their number in each run
+  Matrix B = {};                          ///< one row for each source; empty for that of the fit
+  std::vector<double> meat = {};          ///< B^T B of each run
+  std::size_t means_taken = 0;            ///< see means_taken() of model_roll.h
   /// The weighted residuals that are not determined by those before them (see
-  /// Noise::innovations()); they are white if the noise of the raw column is white.
-  std::vector<double> innovations;
-  std::vector<std::size_t> innovation_runs;
-  Taken taken;  ///< of the innovations, by the fit
-  Sources sources = {};
+  /// Noise::innovations()), which are white if the noise is; and their number in each run.
+  std::vector<double> innovations = {};
+  std::vector<std::size_t> runs = {};
+  Taken taken = {};               ///< of them, by the fit
+  std::vector<double> left = {};  ///< the share of the variance of each that the fit has left;
+                                  ///< empty where that is nearly all, and behind filters
 };
 
 struct ShiftRows;
@@ -45,17 +46,16 @@ struct Fitted {
   System system;  ///< weighted
   Minimum minimum;
   std::shared_ptr<const Noise> noise = std::make_shared<const Noise>();  ///< of the weights
-  std::optional<RawNoise> raw_noise = {};  ///< if another fit has estimated it (loglog)
+  std::optional<SeenNoise> noise_of_roll = {};  ///< that made the rows of a log-log line
   std::size_t rows = 0, left_out = 0;
   std::size_t negative = 0;                     ///< see FitResult
   std::optional<Parameters> parameters = {};    ///< theta of the minimum
   std::vector<FittedNumber> coefficients = {};  ///< of the law, as its formula names them
   std::vector<double> bias = {};  ///< the expected bias of each; empty where it is not known
-  std::optional<FittedNumber> slope = {};       ///< if it is a parameter
-  std::vector<FittedNumber> v0 = {};            ///< one for each run, if the model is a roll
-  std::vector<FittedNumber> x0 = {};            ///< likewise, if positions are fitted
-  std::shared_ptr<const RollModel> rolls = {};  ///< the model, if it is a roll
-  std::optional<Taken> taken = {};  ///< see taken_of(); if other fits have left these residuals
+  std::optional<FittedNumber> slope = {};        ///< if it is a parameter
+  std::vector<FittedNumber> v0 = {};             ///< one for each run, if the model is a roll
+  std::vector<FittedNumber> x0 = {};             ///< likewise, if positions are fitted
+  std::shared_ptr<const RollModel> rolls = {};   ///< the model, if it is a roll
   std::shared_ptr<const ShiftRows> shifts = {};  ///< the rows, if the model is a law D(v)
 
   Law law() const;
@@ -68,10 +68,6 @@ struct Fitted {
   /// are no errors. Filters at the ends of a short run may leave fewer than its rows less the
   /// mean.
   std::size_t degrees_left() const;
-  /// True if the noise is that of the raw column alone, through filters that the data name. White
-  /// noise beside it makes the weighted residuals those of independent noise, as if nothing had
-  /// been filtered.
-  bool filters_known() const { return raw_noise || noise->from_sources_alone(); }
 };
 
 /// Writes the coefficients of the law with their gradients into the fit.

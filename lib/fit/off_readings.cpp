@@ -116,7 +116,7 @@ OffReadings of_run(Others others, std::size_t n, double& most_off) {
 }
 
 std::optional<OffReadings> around(const Fitted& fit, double& most_off) {
-  const bool known = fit.filters_known();
+  const bool known = fit.noise->from_sources_alone();
   const auto raw = [&](std::vector<double> x) {
     return known ? fit.noise->to_sources(std::move(x)) : x;
   };

@@ -184,7 +184,7 @@ Fitted minimum_of(std::vector<ObservedRun> runs, std::shared_ptr<const Noise> no
 /// True if the weighted sum of squares is more than four times what the unweighted residuals and
 /// the filters predict, that is, if the columns hold noise that did not pass the filters.
 bool rounded(const Fitted& fit) {
-  if (!fit.filters_known()) return false;
+  if (!fit.noise->from_sources_alone()) return false;
   double variances = 0;
   const auto plain = fit.noise->without_weights(fit.minimum.f);
   for (std::size_t r = 0; r < fit.system.runs.size(); ++r)

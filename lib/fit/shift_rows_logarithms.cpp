@@ -72,7 +72,7 @@ void add_transposed(const FilterMatrix& H, std::span<const double> x,
 struct KnownRoll {
   std::vector<Response> responses;
   Fitted fit;  ///< without its system and weights, which are large
-  RawNoise raw_noise;
+  SeenNoise noise;
   /// When it stops, for each run. Behind the stop v and D are noise alone, and where both happen to
   /// be positive their logarithms are far from the line.
   std::vector<double> stops;
@@ -89,7 +89,7 @@ std::optional<KnownRoll> known_roll(const std::vector<FitRun>& runs, const FitOp
   } catch (const Error&) {
     return {};
   }
-  roll.raw_noise = raw_noise_of(roll.fit);
+  roll.noise = seen_noise(roll.fit, true);
   roll.fit.system = {}, roll.fit.noise = {};
   roll.responses = std::move(responses);
   for (std::size_t r = 0; r < runs.size(); ++r)
@@ -105,7 +105,7 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
   const Fitted& roll = known.fit;
   Matrix Q = orthonormal(line);
   const auto Q_of = rows_by_run(Q, line.system.runs);
-  Matrix& B = known.raw_noise.sources.B;
+  Matrix& B = known.noise.B;
   B.resize(Q.size());
   std::vector<double> along(Q.size());  // Q^T bias
   for (std::size_t r = 0; r < runs.size(); ++r) {
@@ -119,7 +119,7 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
     const FilterMatrix D_of = known.responses[r].of.at("D").of_rows(rows),
                        v_of = known.responses[r].of.at("v").of_rows(rows);
     const Points points =
-        points_of(D_of, v_of, raw, *roll.law().power(), shift, std::sqrt(known.raw_noise.variance));
+        points_of(D_of, v_of, raw, *roll.law().power(), shift, std::sqrt(known.noise.variance));
     for (std::size_t j = 0; j < Q.size(); ++j) {
       const std::size_t first = B[j].size();
       B[j].resize(first + D_of.columns());
@@ -129,7 +129,8 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
       along[j] += dot(Q_of[r][j], points.bias);
     }
   }
-  line.raw_noise = std::move(known.raw_noise);
+  known.noise.meat = meat_of(known.noise);
+  line.noise_of_roll = std::move(known.noise);
   // The bias of theta is R^-1 Q^T bias.
   const auto bias_of = [&](std::vector<double> gradient) {
     solve_transposed(line.minimum.R.data(), gradient);

@@ -49,7 +49,7 @@ TEST_CASE("noise: its variance and the covariance of the parameters, whatever th
       Fitted fit{.system = line(data, noise), .minimum = {}};
       fit.minimum = minimise(fit.system, {0, 0});
       fit.noise = noise;
-      variances += raw_noise_of(fit).variance / runs;
+      variances += seen_noise(fit, true).variance / runs;
       squares += (fit.minimum.theta[1] - 0.5) * (fit.minimum.theta[1] - 0.5) / runs;
       if (k > 0) continue;
       const auto Q = orthonormal(fit);
