@@ -312,7 +312,9 @@ FreeRoll roll_of(std::span<const Sample> readings, bool positions, double step) 
   std::size_t i = 0;
   const auto take = [&](std::span<const Judged> judged) {
     for (const Judged& s : judged) {
-      if (s.kept) samples.push_back(units({s.t - readings[0].t, s.y})), index.push_back(i);
+      // The last reading is beyond its neighbours: a stop there looks like an outlier.
+      if (s.kept || i + 1 == readings.size())
+        samples.push_back(units({s.t - readings[0].t, s.y})), index.push_back(i);
       ++i;
     }
   };

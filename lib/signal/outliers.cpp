@@ -17,8 +17,8 @@ constexpr std::size_t near = 11;  // samples that show the local motion: the one
 /// samples about their parabola, over sqrt(8), and the median of that of the best seven of ten.
 constexpr double quartile = 0.79, of_seven = 0.346;
 
-Width at_least_61(Width width) {
-  constexpr std::size_t least = 61;
+Width at_least_151(Width width) {
+  constexpr std::size_t least = 151;
   width.least = least;
   if (width.seconds == 0) width.samples = std::max(width.samples, least);
   return width;
@@ -59,12 +59,20 @@ struct Neighbours {
     without(without, none, 0);
     return best;
   }
+  /// Through those that lie within `most` of a parabola.
+  Polynomial<3> near_parabola(const Polynomial<3>& motion, double most) const {
+    Polynomial<3> fit;
+    for (std::size_t i = 0; i < size; ++i)
+      if (std::abs(at[i].y - motion.derivative(0, at[i].t).value) <= most)
+        fit.add(at[i].t, at[i].y);
+    return fit.size() < motion.size() ? motion : fit;
+  }
 };
 
 }  // namespace
 
 Outliers::Outliers(Width width, double threshold)
-    : near_({near, 0}, Windows::Ends::stay), scatter_(at_least_61(width), Windows::Ends::cut),
+    : near_({near, 0}, Windows::Ends::stay), scatter_(at_least_151(width), Windows::Ends::cut),
       threshold_(threshold) {}
 
 std::span<const Judged> Outliers::push(double t, double y) {
@@ -116,6 +124,7 @@ bool Outliers::belongs(std::size_t i, double noise) const {
     const double own = scatter() / of_seven;
     if (few()) noise = std::max(noise, 1.5 * own);
     else if (own > 3.5 * noise) noise = own;
+    motion = others.near_parabola(motion, 4 * noise);
   }
   const auto [value, error] = motion.derivative(0, 0);
   return std::abs(value) <= threshold_ * noise * std::sqrt(1 + error * error);

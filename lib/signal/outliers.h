@@ -21,13 +21,14 @@ struct Judged {
 /// The local motion is the parabola through the ten nearest readings without the one in question,
 /// five on either side, at the ends of a run the first or last ten; where they scatter, through
 /// those seven of them that lie on a parabola best (least trimmed squares, Rousseeuw 1984, J. Am.
-/// Stat. Assoc. 79, 871), so that a burst of three does not decide. The scatter is that of the
-/// readings of the window about their parabolas (its lower quartile, which outliers hardly move);
-/// that of the seven, if it is 3.5 times as large: a push or a stop bends the motion itself.
+/// Stat. Assoc. 79, 871), and then all within four standard deviations of it, so that a burst of
+/// three does not decide. The scatter is that of the readings of the window about their parabolas
+/// (its lower quartile, which outliers hardly move); that of the seven, if it is 3.5 times as
+/// large: a push or a stop bends the motion itself.
 /// It is at least a third of the smallest first or second difference so far, which is the last
 /// digit of readings that are rounded, however fast the body moves: a step of it is no outlier. In
 /// a window of less than 33 samples it is 1.5 times that of the seven. Windows are cut off at the
-/// ends of a run and hold 61 samples or more, because the scatter of few is often far too small.
+/// ends of a run and hold 151 samples or more, because the scatter of few is often far too small.
 /// About 1 us for a sample, 30 us where it scatters.
 class Outliers {
  public:

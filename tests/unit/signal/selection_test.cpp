@@ -12,7 +12,7 @@ TEST_CASE("selection: times, then outliers, then the roll; nothing reaches into 
   const Series e = noise(200, 3);
   for (std::size_t i = 0; i < 200; ++i) {
     const double t = 0.04 * static_cast<double>(i);
-    run.push_back({t, (t < 1 || t > 6.5 ? 0 : t < 1.5 ? t - 1 : 0.1 * (6.5 - t)) + 0.002 * e[i]});
+    run.push_back({t, (t < 1 || t > 6.5 ? 0 : t < 1.5 ? t - 1 : 0.1 * (6.5 - t)) + 0.008 * e[i]});
   }
   run[20].y = 9, run[100].y = 9;  // the greatest speeds by far
   SelectionOptions options;
