@@ -120,7 +120,7 @@ class Search {
     const auto v = p.v(p.to);
     if (!v.is_known()) return false;
     if (!positions_) return v.value * way > 0.15 * fastest_;
-    return v.value * way > 0.05 * fastest_ && stands_out(p, p);
+    return v.value * way > 0.03 * fastest_ && stands_out(p, p);
   }
 
   /// Whether the motion of a goes on in b under one law, whatever lies between.
@@ -132,8 +132,9 @@ class Search {
     const auto va = a.v(t), vb = b.v(t), ya = a.y(t), yb = b.y(t);
     const auto ma = a.a(a.middle()), mb = b.a(b.middle());
     const double ratio = mb.value / ma.value, way = sign(ma.value);
-    if (!(ratio > 0)) return false;
-    const bool turns = std::abs(va.value) < 0.25 * fastest_ && comes_back(b, way);
+    // On a slight slope the way back is steady: D is as large as the slope allows.
+    const bool turns = va.value * way > -0.25 * fastest_ && comes_back(b, way);
+    if (!(ratio > 0) && !(turns && std::abs(mb.value) <= 3 * mb.error)) return false;
     if (jump(va, vb) > 4 * error(va, vb) + (turns ? 0.1 : 0.03) * fastest_) return false;
     const double passed = std::max(jump(a.y(a.from), ya), jump(yb, b.y(b.to)));
     if (positions_ && jump(ya, yb) > 5 * error(ya, yb) + 0.02 * passed) return false;
@@ -152,6 +153,9 @@ class Search {
     const Piece<P>& last = pieces_[c.last];
     if (last.end == samples_.size()) return FreeRoll::End::goes_on;
     const auto v = last.v(last.to);
+    const auto back = last.v(last.middle());
+    if (back.is_known() && back.value * pieces_[c.first].v(pieces_[c.first].from).value < 0)
+      return FreeRoll::End::is_ended;
     return std::abs(v.value) < std::max(3 * v.error, slow * c.fastest) ? FreeRoll::End::by_itself
                                                                        : FreeRoll::End::is_ended;
   }
