@@ -65,12 +65,14 @@ Rows read_rows(Tool& tool) {
     const auto name = in.find("run");
     const bool sized = in.find("rms") && in.find("n");
     const auto rms = in.want("rms"), n = in.want("n");
-    // a, b, and v0, x0 and the slope where they were fitted
-    double parameters = 2;
-    for (const char* number : {"v0", "x0", "slope"}) parameters += in.find(number) ? 1 : 0;
+    std::vector<std::size_t> sigmas;
+    for (const char* number : {"sigma_a", "sigma_b", "sigma_v0", "sigma_x0", "sigma_slope"})
+      if (in.find(number)) sigmas.push_back(in.want(number));
     while (in.next()) {
       rows.add(name ? std::string(in.text(*name)) : in.where(), {a.value(), sigma_a.value()},
                {b.value(), sigma_b.value()}, corr.value());
+      const auto parameters = static_cast<double>(  // what is fixed has no error
+          std::ranges::count_if(sigmas, [&](std::size_t sigma) { return in[sigma] > 0; }));
       if (!sized || !(in[n] > parameters) || !(in[rms] > 0)) continue;
       rows.laws.back().rms = in[rms];
       rows.laws.back().own.freedom = in[n] - parameters;
