@@ -19,15 +19,11 @@ class SortedWindow {
   /// The median (the mean of the two middle readings for an even number). The window must not be
   /// empty.
   double median() const;
-  /// The median absolute deviation from `median`.
-  double median_distance(double median) const;
 
  private:
   std::size_t block_of(double) const;
-  double nth_distance(double median, std::size_t rank) const;
 
   std::vector<std::vector<double>> blocks_;  // no block is empty
-  std::vector<std::size_t> first_;           // rank of the first reading of each block
   std::size_t size_ = 0;
 };
 
