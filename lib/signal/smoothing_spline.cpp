@@ -30,41 +30,40 @@ double SplineDerivative::solve(double alpha) {
     D_[j] = (h_[j] + h_[j + 1]) / 3 + alpha * q0_[j];
     L1_[j] = h_[j + 1] / 6 + alpha * q1_[j];
     L2_[j] = alpha * q2_[j];
-    bend_[j] = qy_[j];
+    g_[j + 1] = qy_[j];
     if (j >= 1) {
       D_[j] -= L1_[j - 1] * L1_[j - 1] * D_[j - 1];
       L1_[j] -= L1_[j - 1] * L2_[j - 1] * D_[j - 1];
-      bend_[j] -= L1_[j - 1] * bend_[j - 1];
+      g_[j + 1] -= L1_[j - 1] * g_[j];
     }
     if (j >= 2) {
       D_[j] -= L2_[j - 2] * L2_[j - 2] * D_[j - 2];
-      bend_[j] -= L2_[j - 2] * bend_[j - 2];
+      g_[j + 1] -= L2_[j - 2] * g_[j - 1];
     }
     L1_[j] /= D_[j];
     L2_[j] /= D_[j];
   }
   // Backward substitution: the solution and the three bands of B^-1 that the trace needs (s01 is
-  // the element (j, j+1)).
+  // the element (j, j+1)); beyond the last row they are 0.
   double trace = 0, s11 = 0, s12 = 0, s22 = 0;
   for (std::size_t j = m; j-- > 0;) {
-    bend_[j] = bend_[j] / D_[j] - (j + 1 < m ? L1_[j] * bend_[j + 1] : 0) -
-               (j + 2 < m ? L2_[j] * bend_[j + 2] : 0);
+    g_[j + 1] = g_[j + 1] / D_[j] - L1_[j] * g_[j + 2] - L2_[j] * g_[j + 3];
     const double s01 = -L1_[j] * s11 - L2_[j] * s12, s02 = -L1_[j] * s12 - L2_[j] * s22;
     const double s00 = 1 / D_[j] - L1_[j] * s01 - L2_[j] * s02;
-    trace += q0_[j] * s00 + (j + 1 < m ? 2 * q1_[j] * s01 : 0) + (j + 2 < m ? 2 * q2_[j] * s02 : 0);
+    trace += q0_[j] * s00 + 2 * q1_[j] * s01 + 2 * q2_[j] * s02;
     s22 = s11, s12 = s01, s11 = s00;
   }
   double square = 0;
-  for (std::size_t i = 0; i < m + 2; ++i) {
-    double Qg = 0;
-    if (i < m) Qg += bend_[i] / h_[i];
-    if (i >= 1 && i <= m) Qg -= bend_[i - 1] * (1 / h_[i - 1] + 1 / h_[i]);
-    if (i >= 2) Qg += bend_[i - 2] / h_[i - 1];
-    square += Qg * Qg;
-  }
+  for (std::size_t i = 0; i < m + 2; ++i) square += Qg(i) * Qg(i);
   constexpr double weight = 1.4;
   const double freedom = weight * trace - (weight - 1) * static_cast<double>(m + 2) / alpha;
   return freedom > 0 ? square / (freedom * freedom) : std::numeric_limits<double>::infinity();
+}
+
+/// An element of Q g: how much the third derivative jumps at a knot.
+double SplineDerivative::Qg(std::size_t i) const {
+  const auto third = [this](std::size_t k) { return (g_[k + 1] - g_[k]) / h_[k]; };
+  return (i < h_.size() ? third(i) : 0) - (i > 0 ? third(i - 1) : 0);
 }
 
 std::span<const double> SplineDerivative::finish() {
@@ -78,8 +77,8 @@ std::span<const double> SplineDerivative::finish() {
   const double unit = (run_.back().t - run_.front().t) / static_cast<double>(n - 1);
   for (std::size_t i = 0; i + 1 < n; ++i) h_.push_back(step(i) / unit);
   const std::size_t m = n - 2;
-  qy_.resize(m), q0_.resize(m), q1_.resize(m), q2_.resize(m), D_.resize(m), L1_.resize(m),
-      L2_.resize(m), bend_.resize(m);
+  for (auto* numbers : {&qy_, &q0_, &q1_, &q2_, &D_, &L1_, &L2_}) numbers->resize(m);
+  g_.resize(n + 1);
   const auto inverse = [this](std::size_t i) { return i < h_.size() ? 1 / h_[i] : 0; };
   for (std::size_t j = 0; j < m; ++j) {
     const double a = inverse(j), b = inverse(j + 1), c = inverse(j + 2);
@@ -101,20 +100,14 @@ std::span<const double> SplineDerivative::finish() {
   const double alpha = std::pow(10, best.at);
   solve(alpha);
 
-  const auto bend = [&](std::size_t i) { return i >= 1 && i <= m ? bend_[i - 1] : 0; };
-  const auto over = [&](double rise, std::size_t i) { return i < h_.size() ? rise / h_[i] : 0; };
-  const auto Qg = [&](std::size_t i) {
-    const double sum = over(bend(i + 1) - bend(i), i);
-    return i > 0 ? sum - over(bend(i) - bend(i - 1), i - 1) : sum;
-  };
   // A difference of readings, unlike one of values, loses no digits to what they have in common.
   const auto rise = [&](std::size_t i) {
     return (difference(i) - alpha * (Qg(i + 1) - Qg(i))) / h_[i];
   };
   slopes_.reserve(n);
   for (std::size_t i = 0; i + 1 < n; ++i)
-    slopes_.push_back((rise(i) - h_[i] * (2 * bend(i) + bend(i + 1)) / 6) / unit);
-  slopes_.push_back((rise(n - 2) + h_[n - 2] * (bend(n - 2) + 2 * bend(n - 1)) / 6) / unit);
+    slopes_.push_back((rise(i) - h_[i] * (2 * g_[i] + g_[i + 1]) / 6) / unit);
+  slopes_.push_back((rise(n - 2) + h_[n - 2] * g_[n - 2] / 6) / unit);
   for (double& slope : slopes_) slope = std::ldexp(slope, units.y - units.t);
   return slopes_;
 }

@@ -20,14 +20,15 @@ class SplineDerivative : public Signal {
   std::span<const double> finish() override;
 
  private:
-  double solve(double parameter);
+  double solve(double alpha);
+  double Qg(std::size_t i) const;
 
   std::vector<Sample> run_;
   std::vector<double> slopes_;
   std::vector<double> h_;                  // time steps in units of their mean
   std::vector<double> qy_, q0_, q1_, q2_;  // Q^T y, and the bands of Q^T Q (Green and Silverman)
-  std::vector<double> D_, L1_, L2_,
-      bend_;  // B = R + parameter Q^T Q = L D L^T; the spline's second derivatives
+  std::vector<double> D_, L1_, L2_;        // B = R + alpha Q^T Q = L D L^T
+  std::vector<double> g_;  // the spline's second derivatives; 0 at both ends, and behind
 };
 
 }  // namespace rolling
