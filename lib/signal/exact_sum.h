@@ -4,8 +4,9 @@
 // does not drift, and an outlier leaves no trace.
 #pragma once
 
-#include <array>
+#include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "base/double_double.h"
 
@@ -24,29 +25,31 @@ class ExactSum {
   }
   /// The sum divided by n, within 1 ulp of the exact quotient; -0 if all n terms are -0. n is 1 to
   /// 2^30.
-  double over(std::size_t n);
+  double over(std::size_t n) const;
 
  private:
-  __extension__ typedef __int128 int128;
-
-  void add_zero(double zero, int sign);
-  void add_term(double y) {
-    const DoubleDouble high = two_sum(pair_.hi, y), low = two_sum(pair_.lo, high.lo);
-    if (low.lo != 0) return add_beyond(y, high.hi, low);  // NaN too
-    pair_ = {high.hi, low.hi};
+  /// Doubles whose digits do not overlap, the smallest first; their sum is exact (Shewchuk 1997,
+  /// Discrete Comput. Geom. 18, 305).
+  using Parts = std::vector<double>;
+  static void grow(Parts& parts, double y) {
+    std::size_t size = 0;
+    for (const double part : parts) {
+      const DoubleDouble sum = two_sum(y, part);
+      if (sum.lo != 0) parts[size++] = sum.lo;
+      y = sum.hi;
+    }
+    parts.resize(size);
+    if (y != 0) parts.push_back(y);
   }
-  void add_beyond(double y, double high, DoubleDouble low);
-  void to_limbs(double y);
-  double limbs_over(std::size_t n);
+  void add_zero(double zero, int sign) {
+    negative_zeros_ += static_cast<std::size_t>(std::signbit(zero) ? sign : 0);
+  }
+  void add_term(double y) {
+    if (std::abs(y) < 0x1p900) grow(parts_, y);
+    else grow(large_, y * 0x1p-100);
+  }
 
-  // The sum has two parts. pair_ holds sums of ordinary readings exactly. limb_ holds what pair_
-  // cannot: a fixed-point number with the unit 2^-1074 in overlapping limbs 32 bits apart. A term
-  // is added as a whole to the limb in which it begins, without carries; a limb has room for 2^43
-  // terms (after Kulisch's long accumulator).
-  DoubleDouble pair_;
-  static constexpr std::size_t limbs = 64;
-  std::array<int128, limbs> limb_{};
-  std::size_t low_ = limbs, high_ = 0;  // limbs outside [low_, high_) are 0
+  Parts parts_, large_;  // large_ holds terms whose sum could overflow, times 2^-100
   std::size_t negative_zeros_ = 0;
 };
 

@@ -89,7 +89,7 @@ TEST_CASE("integral: third order in the spacing", "[contact]") {
 
 TEST_CASE("integral: a million steps do not drift from the exact sum of them", "[contact]") {
   Integral integral;
-  Expansion exact;
+  FixedPoint exact;
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> power(-1, 1);
   double t_older = 0, y_older = 0, t_before = 0, y_before = 0, sum = 0, magnitude = 0;

@@ -219,7 +219,7 @@ double largest_error_in_ulps(std::size_t rows) {
     double most = 0;
     for (const double v : y) most = std::max(most, std::abs(v));
     const double scale = most > 1e300 ? std::ldexp(1, -20) : most < 1e-300 ? std::ldexp(1, 300) : 1;
-    Expansion off;
+    FixedPoint off;
     for (const double v : y) off.add(scale * v);
     off.add_product(-static_cast<double>(width), scale * value);
     const double ulp =
