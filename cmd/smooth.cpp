@@ -191,10 +191,10 @@ int main(int argc, char** argv) {
         if (select.all()) filter.put(smoother->push(filter[t], filter[y])), ++kept;
         else take(selection.push(filter[t], filter[y]));
       }
-      selection.finish();
+      const auto decided = selection.finish();
       selected.add(selection, in.run_name());
       if (!choose) tell();
-      for (auto more = selection.rest(); !more.empty(); more = selection.rest()) take(more);
+      take(decided);
       const auto rest = smoother->finish();
       if (choose && kept > 0) {  // the first run with rows decides for all
         options = static_cast<AutoSmoother&>(*smoother).options();

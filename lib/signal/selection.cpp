@@ -2,7 +2,6 @@
 #include "signal/selection.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace rolling {
 
@@ -13,48 +12,40 @@ Selection::Selection(const SelectionOptions& options) : options_(options) {
 void Selection::take(std::span<const Judged> samples) {
   for (const Judged& s : samples)
     if (!s.kept) outliers_.push_back(s.t);
-  for (const Judged& s : samples) wait(s);
-}
-
-void Selection::wait(const Judged& s) {
-  if (!options_.coast) return decided_.push_back(s);
-  in_run_.push_back(s.kept);
-  if (s.kept) run_.append({s.t, s.y});
+  decided_.insert(decided_.end(), samples.begin(), samples.end());
 }
 
 std::span<const Judged> Selection::push(double t, double y) {
-  decided_.clear();
+  if (!options_.coast) decided_.clear();
   const bool within = t >= options_.from && t <= options_.to;
   if (test_ && t > options_.to) take(test_->finish());
   if (test_ && within) take(test_->push(t, y));
-  else wait({t, y, within});
-  return decided_;
+  else decided_.push_back({t, y, within});
+  return options_.coast ? std::span<const Judged>() : decided_;
 }
 
-void Selection::finish() {
-  decided_.clear();
+std::span<const Judged> Selection::finish() {
+  if (!options_.coast) decided_.clear();
   if (test_) take(test_->finish());
-  if (!options_.coast || run_.empty()) return;
-  const FreeRoll found = free_roll({run_.data(), run_.size()}, options_.positions);
-  kept_ = found.kept;
-  const auto first = [&](std::size_t i) { return run_[std::min(i, run_.size() - 1)].t; };
-  const auto last = [&](std::size_t end) { return run_[end - 1].t; };
-  roll_ = Roll{kept_.end - kept_.begin, in_run_.size(),     found.how, first(kept_.begin),
-               last(kept_.end),         first(found.after), {}};
-  if (found.other) roll_->other = {first(found.other->begin), last(found.other->end)};
+  if (options_.coast) keep_roll();
+  return decided_;
 }
 
-std::span<const Judged> Selection::rest() {
-  if (!options_.coast && std::exchange(any_rest_, false)) return decided_;
-  constexpr std::size_t at_a_time = 1024;
-  decided_.clear();
-  for (; out_ < in_run_.size() && decided_.size() < at_a_time; ++out_) {
-    const std::size_t i = out_of_run_;
-    if (in_run_[out_]) ++out_of_run_;
-    const bool kept = in_run_[out_] && i >= kept_.begin && i < kept_.end;
-    decided_.push_back(kept ? Judged{run_[i].t, run_[i].y, true} : Judged{0, 0, false});
-  }
-  return decided_;
+void Selection::keep_roll() {
+  std::vector<Sample> run;
+  run.reserve(decided_.size());
+  for (const Judged& s : decided_)
+    if (s.kept) run.push_back({s.t, s.y});
+  if (run.empty()) return;
+  const auto [kept, how, after, other] = free_roll(run, options_.positions);
+  std::size_t i = 0;
+  for (Judged& s : decided_)
+    if (s.kept) s.kept = i >= kept.begin && i < kept.end, ++i;
+  const auto first = [&](std::size_t at) { return run[std::min(at, run.size() - 1)].t; };
+  const auto last = [&](std::size_t end) { return run[end - 1].t; };
+  roll_ = Roll{kept.end - kept.begin, decided_.size(), how, first(kept.begin),
+               last(kept.end),        first(after),    {}};
+  if (other) roll_->other = {first(other->begin), last(other->end)};
 }
 
 }  // namespace rolling

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/growing.h"
 #include "signal/free_roll.h"
 #include "signal/outliers.h"
 
@@ -32,13 +31,10 @@ class Selection {
  public:
   explicit Selection(const SelectionOptions&);
 
-  /// The samples for which the decision is now known, in order. Valid until the next call.
+  /// As in Signal: the samples for which the decision is now known, in order.
   std::span<const Judged> push(double t, double y);
-  /// Ends the run. Throws Error as free_roll does.
-  void finish();
-  /// After finish(): the remaining samples in order, in blocks; empty when there are no more. t and
-  /// y of samples that are left out are not set. Valid until the next call.
-  std::span<const Judged> rest();
+  /// Throws Error as free_roll does.
+  std::span<const Judged> finish();
   const std::vector<double>& outliers() const { return outliers_; }  ///< their times so far
   /// After finish(), for coast: the free roll, and the times [s] of its first and last sample, of
   /// that with which something else begins, and those of another roll.
@@ -52,19 +48,12 @@ class Selection {
 
  private:
   void take(std::span<const Judged>);
-  void wait(const Judged&);
+  void keep_roll();
 
   SelectionOptions options_;
   std::optional<Outliers> test_;
-  std::vector<Judged> decided_;
-  bool any_rest_ = true;
+  std::vector<Judged> decided_;  // for coast all of the run
   std::vector<double> outliers_;
-  // For coast: run_ holds the samples of the run that are between the two times and not outliers;
-  // in_run_ says for each sample whether it is one of them.
-  Growing<Sample> run_;
-  std::vector<bool> in_run_;
-  Stretch kept_{0, 0};
-  std::size_t out_ = 0, out_of_run_ = 0;  // by rest()
   std::optional<Roll> roll_;
 };
 

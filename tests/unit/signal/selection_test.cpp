@@ -24,10 +24,7 @@ TEST_CASE("selection: times, then outliers, then the roll; nothing reaches into 
   Selection selection(options);
   for (const Sample& s : run)
     CHECK(selection.push(s.t, s.y).empty());  // it waits for the whole run
-  selection.finish();
-  std::vector<Judged> all;
-  for (auto more = selection.rest(); !more.empty(); more = selection.rest())
-    all.insert(all.end(), more.begin(), more.end());
+  const auto all = selection.finish();
   REQUIRE(all.size() == run.size());
   CHECK(selection.outliers() == std::vector<double>{run[20].t, run[100].t});
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -47,16 +44,14 @@ TEST_CASE("selection: without the roll it waits for no more than a window", "[si
     REQUIRE(now.size() == 1);
     CHECK(now[0].kept == (i >= 2 && i <= 7));
   }
-  times.finish();
-  CHECK(times.rest().empty());
+  CHECK(times.finish().empty());
   options.outliers = 3, options.width = {5, 0};
   Selection both(options);
   std::vector<std::size_t> counts;
   for (int i = 0; i < 10; ++i) counts.push_back(both.push(i, 0).size());
   CHECK(counts == std::vector<std::size_t>{1, 1, 0, 0, 0, 0, 0, 0, 7,
                                            1});  // the window ends with the selection
-  both.finish();
-  CHECK(both.rest().empty());
+  CHECK(both.finish().empty());
 }
 
 namespace {
@@ -90,8 +85,7 @@ std::pair<std::vector<bool>, std::string> selected(const std::vector<Sample>& ru
     for (const Judged& s : samples) kept.push_back(s.kept);
   };
   for (const Sample& s : run) take(selection.push(s.t, s.y));
-  selection.finish();
-  for (auto more = selection.rest(); !more.empty(); more = selection.rest()) take(more);
+  take(selection.finish());
   std::string told;
   if (const auto& roll = selection.roll())
     told = std::to_string(static_cast<int>(roll->how)) + (roll->other ? ", or another" : "");
