@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "base/rounding.h"
@@ -31,13 +32,17 @@ struct Neighbours {
 
   double unit = 0, length = 0;
 
-  /// Without the sample `but`, if it is one of them.
-  Neighbours(auto begin, auto end, const Sample& origin, const Sample* but) {
+  /// Those of `origin` for which use() holds.
+  Neighbours(auto begin, auto end, const auto& origin, auto&& use) {
     for (auto s = begin; s != end; ++s) unit = std::max(unit, std::abs(s->y - origin.y));
     unit = unit > 0 ? std::ldexp(1.0, std::ilogb(unit)) : 1;
     length = (end - 1)->t - begin->t;
     for (auto s = begin; s != end; ++s)
-      if (&*s != but) at[size++] = {(s->t - origin.t) / length, (s->y - origin.y) / unit};
+      if (use(*s)) at[size++] = {(s->t - origin.t) / length, (s->y - origin.y) / unit};
+  }
+  /// The scatter about a polynomial of them.
+  double scatter(const Polynomial<3>& motion) const {
+    return std::sqrt(motion.rss() / static_cast<double>(motion.size() - 3));
   }
   Polynomial<3> parabola() const {
     Polynomial<3> fit;
@@ -93,6 +98,7 @@ std::span<const Judged> Outliers::finish() {
   scatter_.finish();
   auto judged = std::move(judged_);
   judge();
+  judge_before(count_);
   judged.insert(judged.end(), judged_.begin(), judged_.end());
   judged_ = std::move(judged);
   return judged_;
@@ -103,31 +109,41 @@ double Outliers::least_scatter() const { return std::max(step_ / 3, program_roun
 /// Whether one outlier is in so many windows that these do not tell the scatter of the others.
 bool Outliers::few() const { return sorted_.size() < 3 * near; }
 
-/// Whether sample i is on the motion of its neighbours, whose noise is known.
-bool Outliers::belongs(std::size_t i, double noise) const {
+/// Whether sample i is on the motion of its neighbours. `again`: the neighbours that are outliers
+/// are known, and their fellow in a burst is on no motion of the others.
+bool Outliers::belongs(std::size_t i, bool again) const {
   const std::size_t begin = std::max(first_, std::min(i - std::min(i, near / 2),
                                                       count_ - std::min(count_, near))),
                     end = std::min(std::max(i + near / 2 + 1, begin + near), count_);
   const auto at = [&](std::size_t j) {
     return samples_.begin() + static_cast<std::ptrdiff_t>(j - first_);
   };
-  const Sample& s = *at(i);
-  const Neighbours others(at(begin), at(end), s, &s);
+  const Tested& s = *at(i);
+  if (again && std::all_of(at(begin), at(end), std::mem_fn(&Tested::kept))) return true;
+  const Neighbours others(at(begin), at(end), s,
+                          [&](const Tested& of) { return &of != &s && (!again || of.kept); });
   if (others.size < 4) return true;
-  noise = (few() ? least_scatter() : noise) / others.unit;
+  double noise = (few() ? least_scatter() : s.noise) / others.unit;
   Polynomial<3> motion = others.parabola();
-  const auto scatter = [&] {
-    return std::sqrt(motion.rss() / static_cast<double>(motion.size() - 3));
-  };
-  if (scatter() > 1.7 * noise) {  // of normal noise, one in 200
+  if (others.scatter(motion) > 1.7 * noise) {  // of normal noise, one in 200
+    if (again) return true;
     motion = others.best_parabola();
-    const double own = scatter() / of_seven;
+    const double own = others.scatter(motion) / of_seven;
     if (few()) noise = std::max(noise, 1.5 * own);
     else if (own > 3.5 * noise) noise = own;
     motion = others.near_parabola(motion, 4 * noise);
   }
   const auto [value, error] = motion.derivative(0, 0);
   return std::abs(value) <= threshold_ * noise * std::sqrt(1 + error * error);
+}
+
+/// Judges, now that the neighbours of the samples before `end` have been tested.
+void Outliers::judge_before(std::size_t end) {
+  for (; next_ < end; ++next_) {
+    Tested& s = samples_[next_ - first_];
+    judged_.push_back({s.t, s.y, s.kept && (few() || belongs(next_, true))});
+  }
+  for (; next_ > first_ + near; ++first_) samples_.pop_front();
 }
 
 std::span<const Judged> Outliers::judge() {
@@ -137,7 +153,7 @@ std::span<const Judged> Outliers::judge() {
     std::array<Sample, near> window;
     for (std::size_t i = 0; i < near_.size(); ++i) window[i] = near_.sample(near_.begin() + i);
     const Neighbours all(window.begin(), window.begin() + static_cast<std::ptrdiff_t>(near_.size()),
-                         s, nullptr);
+                         s, [](const Sample&) { return true; });
     scatter_.push(s.t, std::sqrt(all.parabola().rss()) * all.unit);
   }
   while (scatter_.next()) {
@@ -145,14 +161,14 @@ std::span<const Judged> Outliers::judge() {
         begin_, end_, [this](const Sample& s) { sorted_.insert(s.y); },
         [this](const Sample& s) { sorted_.erase(s.y); });
     const std::size_t i = scatter_.at();
-    const double noise =
+    Tested& s = samples_[i - first_];
+    s.noise =
         std::max(sorted_[sorted_.size() / 4] / std::sqrt(static_cast<double>(near - 3)) / quartile,
                  least_scatter());
     // No reading is further from the motion than the root of the RSS, in standard errors.
-    const bool near_all = !few() && scatter_.sample(i).y <= threshold_ * noise;
-    const Sample& s = samples_[i - first_];
-    judged_.push_back({s.t, s.y, near_all || belongs(i, noise)});
-    for (; i > first_ + near; ++first_) samples_.pop_front();
+    const bool near_all = !few() && scatter_.sample(i).y <= threshold_ * s.noise;
+    s.kept = near_all || belongs(i, false);
+    judge_before(i + 1 - std::min(i + 1, near / 2));
   }
   return judged_;
 }

@@ -24,7 +24,8 @@ struct Judged {
 /// Stat. Assoc. 79, 871), and then all within four standard deviations of it, so that a burst of
 /// three does not decide. The scatter is that of the readings of the window about their parabolas
 /// (its lower quartile, which outliers hardly move); that of the seven, if it is 3.5 times as
-/// large: a push or a stop bends the motion itself.
+/// large: a push or a stop bends the motion itself. What passes beside an outlier is tested again
+/// without it: of a burst each hides the others.
 /// It is at least a third of the smallest first or second difference so far, which is the last
 /// digit of readings that are rounded, however fast the body moves: a step of it is no outlier. In
 /// a window of less than 33 samples it is 1.5 times that of the seven. Windows are cut off at the
@@ -40,7 +41,8 @@ class Outliers {
 
  private:
   std::span<const Judged> judge();
-  bool belongs(std::size_t i, double noise) const;
+  bool belongs(std::size_t i, bool again) const;
+  void judge_before(std::size_t end);
   double least_scatter() const;
   bool few() const;
 
@@ -52,8 +54,13 @@ class Outliers {
   double step_ = 0;               // the smallest difference so far
   SortedWindow sorted_;
   std::size_t begin_ = 0, end_ = 0;  // range of the samples in sorted_
-  std::deque<Sample> samples_;       // of the run, from the index first_ on
-  std::size_t first_ = 0, count_ = 0;
+  struct Tested {
+    double t, y;
+    double noise = 0;  // of its neighbours
+    bool kept = true;  // it is on the motion of its neighbours
+  };
+  std::deque<Tested> samples_;  // of the run, from the index first_ on
+  std::size_t first_ = 0, next_ = 0, count_ = 0;
   std::vector<Judged> judged_;
 };
 
