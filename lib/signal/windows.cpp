@@ -38,28 +38,33 @@ void Windows::make_room() {
 
 /// next(), where the ends of the run may matter.
 bool Windows::near_end() {
-  if (!(width_.seconds > 0 ? by_time(next_) : by_count(next_))) return false;
+  const std::size_t i = next_;
+  auto [begin, end, known] = width_.seconds > 0 ? by_time(i) : by_count(i);
+  if (ends_ == Ends::cut) {
+    begin = std::min(begin, i - std::min(i, width_.least / 2));
+    end = std::min(std::max(end, i + width_.least / 2 + 1), count_);
+    known &= i + width_.least / 2 < count_ || finished_;
+  } else if (ends_ == Ends::shrink) {
+    const std::size_t behind = i - begin, k = std::min(behind, end - 1 - i);
+    known |= k == behind;
+    begin = i - k;
+    end = i + k + 1;
+  }
+  if (!known) return false;  // the samples of the last window are still needed
+  begin_ = begin;
+  end_ = end;
   ++next_;
   return true;
 }
 
-bool Windows::by_count(std::size_t i) {
-  const std::size_t ahead = ends_ == Ends::shrink ? std::min(i, half_) : half_;
+Windows::Within Windows::by_count(std::size_t i) const {
   const std::size_t middle = ends_ == Ends::stay ? std::max(i, half_) : i;
-  if (!finished_ && count_ <= middle + ahead) return false;
-  if (ends_ == Ends::shrink) {
-    const std::size_t k = std::min(ahead, count_ - 1 - i);
-    begin_ = i - k;
-    end_ = i + k + 1;
-    return true;
-  }
-  begin_ = middle - std::min(middle, half_);
-  if (ends_ == Ends::stay) begin_ = std::min(begin_, count_ - std::min(count_, width_.samples));
-  end_ = std::min(middle + half_ + 1, count_);
-  return true;
+  std::size_t begin = middle - std::min(middle, half_);
+  if (ends_ == Ends::stay) begin = std::min(begin, count_ - std::min(count_, width_.samples));
+  return {begin, std::min(middle + half_ + 1, count_), middle + half_ < count_ || finished_};
 }
 
-bool Windows::by_time(std::size_t i) {
+Windows::Within Windows::by_time(std::size_t i) {
   constexpr double late = 1.0 / 16;  // of a step; see Width
   const double half = width_.seconds / 2, newest = sample(count_ - 1).t;
   double middle = sample(i).t;
@@ -69,25 +74,10 @@ bool Windows::by_time(std::size_t i) {
   right_ = std::max(right_, i + 1);
   while (right_ < count_ && sample(right_).t - late * step(right_ - 1) <= to) ++right_;
   const bool complete = right_ < count_ || finished_;
-  if (!complete && ends_ == Ends::stay) return false;  // the window may yet reach further back
-  if (finished_ && ends_ == Ends::stay && to > newest) from = newest - width_.seconds;
+  if (ends_ == Ends::stay && !complete) return {};  // the window may yet reach further back
+  if (ends_ == Ends::stay && finished_ && to > newest) from = newest - width_.seconds;
   while (left_ < i && sample(left_).t + late * step(left_) < from) ++left_;
-  std::size_t begin = left_, end = right_;
-  bool known = complete;
-  if (ends_ == Ends::cut) {
-    begin = std::min(begin, i - std::min(i, width_.least / 2));
-    end = std::min(std::max(end, i + width_.least / 2 + 1), count_);
-    known &= i + width_.least / 2 < count_ || finished_;
-  } else if (ends_ == Ends::shrink) {
-    const std::size_t k = std::min(i - left_, right_ - 1 - i);
-    begin = i - k;
-    end = i + k + 1;
-    known |= k == i - left_;
-  }
-  if (!known) return false;  // the samples of the last window are still needed
-  begin_ = begin;
-  end_ = end;
-  return true;
+  return {left_, right_, complete};
 }
 
 }  // namespace rolling

@@ -73,10 +73,15 @@ class Windows {
   }
 
  private:
+  /// The samples [begin, end) within the width around one of them, and whether no more will be.
+  struct Within {
+    std::size_t begin, end;
+    bool complete;
+  };
   void make_room();
   bool near_end();
-  bool by_count(std::size_t i);
-  bool by_time(std::size_t i);
+  Within by_count(std::size_t i) const;
+  Within by_time(std::size_t i);
 
   Width width_;
   Ends ends_;
