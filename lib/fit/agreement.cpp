@@ -88,6 +88,7 @@ SeenNoise noise_around_own(const Fitted& joint, const std::vector<std::optional<
     append(all.runs, seen.runs);
     append(all.e, seen.e);
     std::ranges::transform(seen.taken, all.taken, all.taken.begin(), std::plus());
+    if (seen.freedom == 0) continue;  // it shows no noise
     all.variance += seen.variance * static_cast<double>(seen.freedom);
     left += seen.freedom;
   }

@@ -31,6 +31,22 @@ TEST_CASE("agreement: a mat that is 1 mm a metre off level shows in two directio
   }
 }
 
+// Their errors are those of the joint fit, times the root of chi^2/dof.
+TEST_CASE("agreement: a run with as many rows as parameters shows no noise", "[fit]") {
+  simulated::Noise noise(46);
+  FitOptions options;
+  options.fit_slope = true;
+  std::vector<FitRun> runs{roll({0.8 * rubber.a, rubber.b}, 1e-3, 1, noise),
+                           roll(rubber, 1e-3, -1, noise)};
+  const auto two = fit(Route::position, runs, options);
+  runs.push_back(roll(rubber, 1e-3, 1, noise));
+  for (auto* column : {&runs[2].t, &runs[2].x}) column->resize(4);
+  const auto three = fit(Route::position, runs, options);
+  CHECK_FALSE(three.agreement->agree());
+  CHECK(std::abs(three.sigma_a / two.sigma_a - 1) < 0.2);
+  CHECK(std::abs(three.sigma_slope / two.sigma_slope - 1) < 0.2);
+}
+
 TEST_CASE("agreement: runs of which only the common slope is unknown have no law to compare",
           "[fit]") {
   simulated::Noise noise(45);
