@@ -2,7 +2,6 @@
 // simulate - roll a body under a law D(v); see simulate(1)
 #include <cmath>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "cli/law_file.h"
@@ -188,23 +187,12 @@ void add_options(Tool& tool, SonarOptions& sonar) {
               "share of lost echoes (0.01)");
 }
 
-/// Writes the rows of a roll: these quantities at each time. They are formatted 32 at a time: the
-/// computations of different rows overlap in the processor, the steps of one wait for each other.
+/// Writes the rows of a roll: these quantities at each time.
 class Rows {
  public:
   Rows(Output& out, const Task& task, const std::string& columns)
       : out_(out), task_(task), row_(chosen(columns, quantities)),
-        only_t_(row_.size() == 1 && row_[0].name == "t"),
-        numbers_(row_.size() * (out.unbuffered ? 1 : 32)) {}
-  /// If an Error ends the work early, writes the rows that are complete.
-  ~Rows() {
-    try {
-      format();
-    } catch (const Error&) {  // the error that ended the work is reported, not this one
-    }
-  }
-  Rows(const Rows&) = delete;
-  Rows& operator=(const Rows&) = delete;
+        only_t_(row_.size() == 1 && row_[0].name == "t"), numbers_(row_.size()) {}
 
   void write_header() const {
     const auto& [body, geometry, law, bulge, v0, x0] = task_.roll;
@@ -218,17 +206,8 @@ class Rows {
 
   void write(double t, Motion& motion) {
     if (!only_t_) motion.seek(t - task_.t0);
-    std::size_t end = count_;
-    for (const auto& quantity : row_) numbers_[end++] = quantity.of(t, motion);
-    count_ = end;
-    if (count_ == numbers_.size()) format();
-  }
-
-  /// Writes the rows that wait.
-  void format() {
-    const std::span rows(numbers_.data(), std::exchange(count_, 0));
-    for (std::size_t i = 0; i < rows.size(); i += row_.size())
-      out_.row(rows.subspan(i, row_.size()));
+    for (std::size_t i = 0; i < row_.size(); ++i) numbers_[i] = row_[i].of(t, motion);
+    out_.row(numbers_);
   }
 
   /// At the times in the column t of a file; each run of the file starts the roll anew.
@@ -248,7 +227,6 @@ class Rows {
         }
         write(in[t], *motion);
       }
-      format();
     }
   }
 
@@ -262,7 +240,6 @@ class Rows {
     write_header();
     for (double k = 0; k <= steps; ++k) write(clock.at(k), motion);
     if (to_the_stop) write(end, motion);
-    format();
   }
 
  private:
@@ -270,8 +247,7 @@ class Rows {
   const Task& task_;
   std::vector<Quantity<double (*)(double t, Motion&)>> row_;
   bool only_t_;
-  std::vector<double> numbers_;  // the rows that wait, and space for more
-  std::size_t count_ = 0;        // numbers that wait
+  std::vector<double> numbers_;
 };
 
 }  // namespace
