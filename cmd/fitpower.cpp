@@ -65,11 +65,11 @@ void set_law(FitOptions& options, const Words& words) {
 }
 
 /// A slope that is not `fit`.
-void set_slope(const std::string& text, Body& body, BodyUncertainty& uncertainty) {
+void set_slope(const std::string& text, Bodies& bodies) {
   Estimate given;
   if (!parse_estimate(text, given)) fail("--slope: '{}' is no number, and not `fit`", shown(text));
-  body.slope = given.value;
-  uncertainty.slope = given.sigma;
+  bodies.body.slope = given.value;
+  bodies.uncertainty.slope = given.sigma;
 }
 
 void add_options(Tool& tool, FitOptions& options, Words& words) {
@@ -80,12 +80,6 @@ void add_options(Tool& tool, FitOptions& options, Words& words) {
   tool.text("--law", words.law, "LAW", "fit this law of those that --report compares: d0+d2*v^2");
   tool.list("--fix", words.fixed, "NAME=VALUE", "hold a, b, v0 or x0 fixed");
   tool.list("--start", words.start, "NAME=VALUE", "begin the search at this a or b");
-}
-
-void add_body(Tool& tool, std::vector<Estimate>& shape_factors, std::vector<Estimate>& radii) {
-  tool.numbers("-K,--shape-factor", shape_factors, not_negative,
-               "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
-  tool.numbers("-R,--radius", radii, positive, "radius [m]; one, or one for each run");
 }
 
 /// The groups of runs that are fitted together: one group of all runs, or one for each run.
@@ -155,8 +149,7 @@ struct Table {
       for (std::size_t j = 1; j < r.correlations.size(); ++j)
         for (std::size_t i = 0; i < j; ++i) cell(r.correlations[i][j]);
       cell(r.rms);
-      out.blank();
-      out.text(std::to_string(r.n));  // a count is never rounded to --digits
+      out.cell(std::to_string(r.n));  // a count is never rounded to --digits
       if (with_v0()) estimate(r.v0.front());
       if (with_slope) estimate({r.slope, r.sigma_slope});
       if (with_x0()) estimate(r.x0.front());
@@ -186,26 +179,24 @@ struct Comments {
   }
 };
 
-/// The values of --route.
-std::map<std::string, std::string> route_names() {
-  std::map<std::string, std::string> names{{"fits", "fits"}};
-  for (const auto& [name, route] : fit_routes()) names[name] = name;
-  return names;
+/// The values of --route, `fits` without a route.
+std::map<std::string, std::optional<Route>> route_choices() {
+  std::map<std::string, std::optional<Route>> choices{{"fits", {}}};
+  for (const RouteWords& words : all_routes()) choices[words.name] = words.route;
+  return choices;
 }
 
-int joint_of_rows(Tool& tool, const Body& body, const std::vector<Estimate>& shape_factors,
-                  const std::vector<Estimate>& radii, const BodyUncertainty& uncertainty,
-                  bool with_check) {
+int joint_of_rows(Tool& tool, const Bodies& bodies, bool with_check) {
   tool.refuse({"each", "exact", "fix", "law", "min-speed", "report", "robust", "slope", "start"},
               "is for the fits of the runs: --route fits reads their rows");
-  return fit_rows(tool, body, shape_factors, radii, uncertainty, with_check);
+  return fit_rows(tool, bodies, with_check);
 }
 
 /// The columns of a file without names. If --use says where t is and there is no --route, the route
 /// is a trajectory: no column then counts as v or D by its position.
 std::vector<std::string> order_without_names(std::optional<Route> given, bool times_given) {
   if (!given && times_given) return {};
-  return fitted_columns(given.value_or(Route::shift));
+  return words_of(given.value_or(Route::shift)).columns;
 }
 
 /// The route without --route, by the columns of the input.
@@ -221,19 +212,19 @@ int main(int argc, char** argv) {
   using enum BodyOption;
   keep_freed_memory();
   Tool tool("fitpower", "Fit the power law D = a v^b to columns.");
-  std::string route_name;
-  std::vector<Estimate> shape_factors, radii;
+  std::optional<Route> given_route;
   Words words;
-  Body body;
-  BodyUncertainty uncertainty;
+  Bodies bodies;
   FitOptions options;
   bool each = false, with_report = false, with_check = false;
   tool.choice(
-      "--route", route_name, route_names(),
+      "--route", given_route, route_choices(),
       "D of v (loglog, shift), v of t, x of t, or rows of fitpower (fits); without it shift "
       "if there is D, else position if x, else velocity");
-  add_body(tool, shape_factors, radii);
-  tool.body(body, {gravity}, &uncertainty);
+  tool.numbers("-K,--shape-factor", bodies.shape_factors, not_negative,
+               "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
+  tool.numbers("-R,--radius", bodies.radii, positive, "radius [m]; one, or one for each run");
+  tool.body(bodies.body, {gravity}, &bodies.uncertainty);
   tool.text("--slope", words.slope, "S|fit",
             "the mat rises by S metres a metre along growing x; fit: find it, of all runs");
   add_options(tool, options, words);
@@ -250,10 +241,9 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     set_law(options, words);
     options.fit_slope = words.slope == "fit";
-    if (!options.fit_slope) set_slope(words.slope, body, uncertainty);
-    if (route_name == "fits")
-      return joint_of_rows(tool, body, shape_factors, radii, uncertainty, with_check);
-    const auto given_route = fit_routes()[route_name];
+    if (!options.fit_slope) set_slope(words.slope, bodies);
+    if (tool.on_command_line("route") && !given_route)
+      return joint_of_rows(tool, bodies, with_check);
     Reader& in = tool.read(order_without_names(given_route, tool.used("t")));
     Route route = given_route ? *given_route : default_route(in);
     options.possible_filters = filters_of_sensors();
@@ -268,7 +258,7 @@ int main(int argc, char** argv) {
         read_runs(tool, in, route, with_report ? Columns::of_all_routes : Columns::of_route);
     if (!each) warn_of_copies(tool, route, runs);
     if (route == Route::velocity && take_pulses(tool, runs)) route = Route::position;
-    set_bodies(runs, body, shape_factors, radii, uncertainty);
+    bodies.give_to(runs);
     if (!trajectory && !options.fit_slope) warn_of_unused_body(tool, runs, options.geometry);
     const auto fits = grouped(std::move(runs), each);
     const Table table{tool.out,          route, *options.law, fits.front().size() == 1,

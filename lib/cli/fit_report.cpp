@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "base/grid.h"
@@ -13,14 +14,6 @@
 #include "signal/repeats.h"
 
 namespace rolling {
-
-std::map<std::string, std::optional<Route>> fit_routes() {
-  static constexpr std::pair<const char*, Route> routes[] = {{"loglog", Route::loglog},
-                                                             {"shift", Route::shift},
-                                                             {"velocity", Route::velocity},
-                                                             {"position", Route::position}};
-  return {std::begin(routes), std::end(routes)};
-}
 
 namespace {
 
@@ -64,10 +57,11 @@ std::string known(const char* text, double value) {
   return std::isnan(value) ? "" : fmt::format(fmt::runtime(text), value);
 }
 
-void report_route(Tool& tool, const std::string& name, Route route, const std::vector<FitRun>& runs,
+void report_route(Tool& tool, const RouteWords& words, const std::vector<FitRun>& runs,
                   const FitOptions& options) {
+  const Route route = words.route;
   for (const FitRun& run : runs)
-    for (const std::string& needed : fitted_columns(route))
+    for (const std::string& needed : words.columns)
       if ((run.*column_of(needed)).empty()) fail("there is no column {}", needed);
   if (is_trajectory(route) && std::isnan(runs.front().body.R)) fail("--radius is not given");
   if (is_trajectory(route) && std::isnan(runs.front().body.K)) fail("--shape-factor is not given");
@@ -78,7 +72,7 @@ void report_route(Tool& tool, const std::string& name, Route route, const std::v
   for (std::size_t j = 0; j < r.coefficients.size(); ++j)
     law += fmt::format("{} {:.5g}{}, ", r.law.form().coefficients[j].name, r.coefficients[j].value,
                        known(" +- {:.2g}", r.coefficients[j].sigma));
-  tool.say(fmt::format("{}: {}{}n {}, errors {}{}, {:.2g} ms", name, law,
+  tool.say(fmt::format("{}: {}{}n {}, errors {}{}, {:.2g} ms", words.name, law,
                        known("rms {:.3g}, ", r.rms), r.n, kinds.at(r.errors),
                        known(" (Ljung and Box: p = {:.2g})", r.whiteness), time.count()));
   if (r.shares.size() > 1 && r.errors != Errors::none) tool.say(budget(r));
@@ -216,13 +210,7 @@ bool warn_of_repeats(Tool& tool, Route route, const FitResult& r, const std::vec
 }  // namespace
 
 std::string why_left_out(Route route, const FitOptions& options) {
-  const std::map<Route, std::string> reasons{
-      {Route::loglog, "v or D is not above 0, or the body has stopped"},
-      {Route::shift, "v is not above 0"},
-      {Route::velocity,
-       "they lie beside an end or a lost reading, where a sensor's speeds are not to be trusted"},
-      {Route::position, ""}};
-  const std::string& reason = reasons.at(route);
+  const std::string reason = words_of(route).why_left_out;
   if (options.min_speed <= 0) return reason;
   return (reason.empty() ? "" : reason + ", or ") + "slower than --min-speed";
 }
@@ -304,10 +292,10 @@ void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitR
 
 void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& options,
             const std::optional<LawComparison>& laws) {
-  for (const auto& [name, route] : fit_routes()) try {
-      report_route(tool, name, *route, runs, options);
+  for (const RouteWords& words : all_routes()) try {
+      report_route(tool, words, runs, options);
     } catch (const Error& error) {
-      tool.say(fmt::format("{}: {}", name, error.what()));
+      tool.say(fmt::format("{}: {}", words.name, error.what()));
     }
   if (!laws) return;
   const LawForm& law = *options.law;

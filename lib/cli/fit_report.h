@@ -2,7 +2,6 @@
 // The messages of fitpower in addition to its row: warnings, the report, and the checks of the fit.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 
@@ -12,10 +11,6 @@
 #include "fit/result.h"
 
 namespace rolling {
-
-/// The routes by their names on the command line. The name that leaves the choice to the columns
-/// has no route.
-std::map<std::string, std::optional<Route>> fit_routes();
 
 /// "the runs disagree ...: run 3 stands out, its D(0.21 m/s) is 4.1 +- 0.4 % less than that of the
 /// others, its b 0.012 +- 0.004 more; this test takes K as exact; ...". `given` names the numbers

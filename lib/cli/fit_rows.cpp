@@ -6,7 +6,6 @@
 #include <map>
 
 #include "cli/fit_report.h"
-#include "cli/fit_runs.h"
 #include "cli/row_column.h"
 #include "contact/body.h"
 #include "fit/joint_law.h"
@@ -139,25 +138,19 @@ void write(Output& out, const JointLaw& joint, std::size_t n) {
        {a, a * std::sqrt(C.aa), joint.law.b, std::sqrt(C.bb),
         C.ab != 0 ? C.ab / std::sqrt(C.aa * C.bb) : 0, joint.scatter_log_a, joint.scatter_b})
     out.cell(value);
-  const auto count = [&](std::size_t number) {  // never rounded to --digits
-    out.blank();
-    out.text(std::to_string(number));
-  };
-  count(n);
+  out.cell(std::to_string(n));  // a count is never rounded to --digits
   out.cell(joint.agreement.ratio);
-  count(joint.agreement.dof);
+  out.cell(std::to_string(joint.agreement.dof));
   out.cell(joint.agreement.p);
   out.end_line();
 }
 
 }  // namespace
 
-int fit_rows(Tool& tool, const Body& body, const std::vector<Estimate>& shape_factors,
-             const std::vector<Estimate>& radii, const BodyUncertainty& uncertainty,
-             bool with_check) {
+int fit_rows(Tool& tool, const Bodies& bodies, bool with_check) {
   Rows rows = read_rows(tool);
   warn_of_copies(tool, rows);
-  set_bodies(rows.runs, body, shape_factors, radii, uncertainty);
+  bodies.give_to(rows.runs);
   const auto common = take_common(rows);
   const JointLaw joint = joint_law(rows.laws, common);
   write(tool.out, joint, rows.laws.size());

@@ -17,7 +17,7 @@ namespace {
 class Slots {
  public:
   Slots(Reader& in, Route route, Columns columns) : in_(in) {
-    for (const std::string& name : fitted_columns(route))
+    for (const std::string& name : words_of(route).columns)
       if (name != "t") add(in.need(name), name);
     if (is_trajectory(route)) add_time();
     if (columns == Columns::of_all_routes) add_others();
@@ -79,7 +79,7 @@ void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
   if (run.t.empty() && change_numbers(history_of(in.history(), std::array{0.0}).filters))
     history.doubt = "it has no times, without which its `##` lines tell nothing";
   run.shift_of = history.shift_of;
-  history = known_windows(compared(std::move(history), run), run, fitted_columns(route).back());
+  history = known_windows(compared(std::move(history), run), run, words_of(route).columns.back());
   run.filters = std::move(history.filters);
   run.shift_of = history.shift_of;
   if (!history.doubt.empty())
@@ -93,7 +93,7 @@ void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
 
 /// Drops the columns that the route does not fit.
 void drop_others(FitRun& run, Route route) {
-  const auto fitted = fitted_columns(route);
+  const auto fitted = words_of(route).columns;
   for (const char* name : {"x", "v", "D"})
     if (std::ranges::find(fitted, name) == fitted.end())
       std::vector<double>().swap(run.*column_of(name));
@@ -114,15 +114,20 @@ void warn_of_lost_history(Tool& tool, const std::vector<FitRun>& runs,
 
 }  // namespace
 
-std::vector<std::string> fitted_columns(Route route) {
-  switch (route) {
-    case Route::velocity:
-      return {"t", "v"};
-    case Route::position:
-      return {"t", "x"};
-    default:
-      return {"v", "D"};
-  }
+const std::vector<RouteWords>& all_routes() {
+  static const std::vector<RouteWords> routes{
+      {Route::loglog, "loglog", {"v", "D"}, "v or D is not above 0, or the body has stopped"},
+      {Route::position, "position", {"t", "x"}, ""},
+      {Route::shift, "shift", {"v", "D"}, "v is not above 0"},
+      {Route::velocity,
+       "velocity",
+       {"t", "v"},
+       "they lie beside an end or a lost reading, where a sensor's speeds are not to be trusted"}};
+  return routes;
+}
+
+const RouteWords& words_of(Route route) {
+  return *std::ranges::find(all_routes(), route, &RouteWords::route);
 }
 
 std::vector<double> FitRun::*column_of(std::string_view name) {
@@ -184,9 +189,7 @@ Estimate of_run(const std::vector<Estimate>& values, const char* option, std::si
 
 }  // namespace
 
-void set_bodies(std::vector<FitRun>& runs, const Body& body,
-                const std::vector<Estimate>& shape_factors, const std::vector<Estimate>& radii,
-                const BodyUncertainty& uncertainty) {
+void Bodies::give_to(std::vector<FitRun>& runs) const {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Estimate K = of_run(shape_factors, "shape-factor", i, runs.size()),
                    R = of_run(radii, "radius", i, runs.size());
@@ -198,7 +201,7 @@ void set_bodies(std::vector<FitRun>& runs, const Body& body,
 }
 
 void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
-  const auto columns = fitted_columns(route);
+  const auto columns = words_of(route).columns;
   const auto less = [&](std::size_t i, std::size_t j) {  // by their bytes
     for (const std::string& name : columns) {
       const auto &x = runs[i].*column_of(name), &y = runs[j].*column_of(name);

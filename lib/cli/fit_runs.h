@@ -11,8 +11,16 @@
 
 namespace rolling {
 
-/// The columns that a route fits, by their short names.
-std::vector<std::string> fitted_columns(Route);
+/// A route as the command line and the columns know it.
+struct RouteWords {
+  Route route;
+  const char* name;
+  std::vector<std::string> columns;  ///< that it fits, by their short names
+  const char* why_left_out;          ///< why it leaves rows out
+};
+/// In the order of their names.
+const std::vector<RouteWords>& all_routes();
+const RouteWords& words_of(Route);
 
 /// The column of a run with this short name: t, x, v or D.
 std::vector<double> FitRun::*column_of(std::string_view name);
@@ -30,10 +38,15 @@ std::vector<FitRun> read_runs(Tool&, Reader&, Route, Columns);
 /// measured.
 bool take_pulses(Tool&, std::vector<FitRun>&);
 
-/// Gives the runs their bodies. There is one shape factor, or one for each run, or none; and so one
-/// radius.
-void set_bodies(std::vector<FitRun>&, const Body&, const std::vector<Estimate>& shape_factors,
-                const std::vector<Estimate>& radii, const BodyUncertainty&);
+/// The bodies as the command line gives them: one shape factor, or one for each run, or none; and
+/// so one radius.
+struct Bodies {
+  Body body = {};  ///< but for K and R
+  BodyUncertainty uncertainty = {};
+  std::vector<Estimate> shape_factors = {}, radii = {};
+
+  void give_to(std::vector<FitRun>&) const;
+};
 
 /// Warns of a run that was given twice: in a joint fit it makes the errors too small. All columns
 /// that are fitted are those of the other run: gates and speed bands fix x or v, and measure t.

@@ -7,10 +7,11 @@
 using namespace rolling;
 
 TEST_CASE("fit report: each route has a name and its columns", "[fit]") {
-  CHECK(fit_routes().size() == 4);
-  for (const auto& [name, route] : fit_routes()) {
-    const auto columns = fitted_columns(*route);
+  CHECK(all_routes().size() == 4);
+  for (const auto& [route, name, columns, why] : all_routes()) {
+    CHECK(&words_of(route).columns == &columns);
     CHECK(columns.size() == 2);
-    CHECK((columns[0] == "t") == (name == "velocity" || name == "position"));
+    CHECK((columns[0] == "t") ==
+          (name == std::string("velocity") || name == std::string("position")));
   }
 }
