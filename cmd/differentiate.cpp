@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // differentiate - append the time derivative of a column; see differentiate(1)
+#include "cli/history.h"
 #include "cli/tool.h"
 #include "signal/derivative.h"
 #include "text/filter.h"
-
-namespace {
-
-/// v from x, a from v, dNAME from any other.
-rolling::Column derivative_of(const rolling::Column& column) {
-  if (column.name == "x") return {"v", "m/s"};
-  if (column.name == "v") return {"a", "m/s^2"};
-  return {"d" + column.name, column.unit.empty() ? "" : column.unit + "/s"};
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   using namespace rolling;

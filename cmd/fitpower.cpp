@@ -48,7 +48,7 @@ void set_parameters(const std::string& option, const std::vector<std::string>& s
 /// The options that are words.
 struct Words {
   std::vector<std::string> fixed, start;
-  std::string slope = "0", law = "a v^b";
+  std::string law = "a v^b";
 };
 
 /// The values of --law, --fix and --start.
@@ -64,15 +64,16 @@ void set_law(FitOptions& options, const Words& words) {
   once("b", options.b, options.start_b);
 }
 
-/// A slope that is not `fit`.
-void set_slope(const std::string& text, Bodies& bodies) {
-  Estimate given;
-  if (!parse_estimate(text, given)) fail("--slope: '{}' is no number, and not `fit`", shown(text));
-  bodies.body.slope = given.value;
-  bodies.uncertainty.slope = given.sigma;
-}
-
-void add_options(Tool& tool, FitOptions& options, Words& words) {
+void add_options(Tool& tool, FitOptions& options, Bodies& bodies, Words& words) {
+  tool.add("--slope", "S|fit",
+           "the mat rises by S metres a metre along growing x; fit: find it, of all runs",
+           [&](const std::string& text) {
+    Estimate slope;
+    options.fit_slope = text == "fit";
+    if (!options.fit_slope && !parse_estimate(text, slope))
+      fail("'{}' is no number, and not `fit`", shown(text));
+    bodies.body.slope = slope.value, bodies.uncertainty.slope = slope.sigma;
+  });
   tool.geometry(options.geometry);
   tool.number("--min-speed", options.min_speed, not_negative, "leave slower rows out [m/s]");
   tool.flag("--robust", options.robust,
@@ -225,9 +226,7 @@ int main(int argc, char** argv) {
                "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
   tool.numbers("-R,--radius", bodies.radii, positive, "radius [m]; one, or one for each run");
   tool.body(bodies.body, {gravity}, &bodies.uncertainty);
-  tool.text("--slope", words.slope, "S|fit",
-            "the mat rises by S metres a metre along growing x; fit: find it, of all runs");
-  add_options(tool, options, words);
+  add_options(tool, options, bodies, words);
   tool.flag("--each", each, "fit each run by itself, a row for each");
   tool.flag("--report", with_report,
             "tell on standard error what each route finds, and whether another law is better");
@@ -240,8 +239,6 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     set_law(options, words);
-    options.fit_slope = words.slope == "fit";
-    if (!options.fit_slope) set_slope(words.slope, bodies);
     if (tool.on_command_line("route") && !given_route)
       return joint_of_rows(tool, bodies, with_check);
     Reader& in = tool.read(order_without_names(given_route, tool.used("t")));

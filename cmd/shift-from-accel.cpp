@@ -3,37 +3,20 @@
 // shift-from-accel(1)
 #include <cmath>
 
+#include "cli/history.h"
 #include "cli/tool.h"
 #include "contact/contact.h"
-#include "text/estimate.h"
 #include "text/filter.h"
 
-using namespace rolling;
-
-namespace {
-
-/// The `##` line for fitpower: the numbers from which D was computed, with their uncertainties.
-std::string history(const Body& body, const BodyUncertainty& given, Geometry geometry) {
-  std::string line =
-      fmt::format("shift-from-accel {}K {} R {} g {}", geometry == Geometry::exact ? "exact " : "",
-                  to_text(Estimate{body.K, given.K}), to_text(Estimate{body.R, given.R}),
-                  to_text(Estimate{body.g, given.g}));
-  if (body.slope != 0 || given.slope != 0)
-    line += " slope " + to_text(Estimate{body.slope, given.slope});
-  return line;
-}
-
-}  // namespace
-
 int main(int argc, char** argv) {
+  using namespace rolling;
   using enum BodyOption;
   Tool tool("shift-from-accel",
             "Append the forward shift D of the contact force, from the acceleration.");
-  Body body;
-  BodyUncertainty given;
-  Geometry geometry;
-  tool.body(body, {radius, shape_factor, gravity, slope}, &given);
-  tool.geometry(geometry);
+  ShiftOf by{};
+  const Body& body = by.body;
+  tool.body(by.body, {radius, shape_factor, gravity, slope}, &by.given);
+  tool.geometry(by.geometry);
   tool.scene();
   tool.input();
   tool.output();
@@ -42,12 +25,12 @@ int main(int argc, char** argv) {
     tool.need({"radius", "shape-factor"});
     Reader& in = tool.filter({"t", "v", "a"});
     const auto a = in.need("a");
-    Filter filter(in, tool.out, history(body, given, geometry));
+    Filter filter(in, tool.out, line_of(by));
     filter.append({"D", "m"});
     std::size_t beyond = 0;
     while (filter.next_run())
       while (filter.next()) {
-        const double D = shift_from_acceleration(body, geometry, filter[a]);
+        const double D = shift_from_acceleration(body, by.geometry, filter[a]);
         beyond += std::abs(D) > body.R;
         filter.put(D);
       }

@@ -41,10 +41,6 @@ std::optional<ShiftOf> shift_line(std::span<const std::string> words) {
   return of;
 }
 
-std::string derivative_of(const std::string& column) {
-  return column == "x" ? "v" : column == "v" ? "a" : "d" + column;
-}
-
 /// Builds the chain line by line.
 class Chain {
  public:
@@ -114,7 +110,7 @@ class Chain {
     const auto options = signal_options(methods, method);
     if (!options) return doubt(line);
     if (!options->method->linear) return unknown();
-    const std::string &column = words[0], to = derivative ? derivative_of(column) : column;
+    const std::string &column = words[0], to = derivative ? derivative_of({column}).name : column;
     if (derivative) forget(to);
     append(linear(column, to, *options, reach(*options, t_)));
     reach_ += history_.filters.back().reach;
@@ -131,6 +127,23 @@ class Chain {
 };
 
 }  // namespace
+
+Column derivative_of(const Column& column) {
+  if (column.name == "x") return {"v", "m/s"};
+  if (column.name == "v") return {"a", "m/s^2"};
+  return {"d" + column.name, column.unit.empty() ? "" : column.unit + "/s"};
+}
+
+std::string line_of(const ShiftOf& of) {
+  std::string line = "shift-from-accel";
+  if (of.geometry == Geometry::exact) line += " exact";
+  for (const UncertainNumber& number : uncertain_numbers) {
+    const Estimate x{of.body.*number.value, of.given.*number.sigma};
+    if (number.value != &Body::slope || x.value != 0 || x.sigma != 0)
+      line += fmt::format(" {} {}", number.name, to_text(x));
+  }
+  return line;
+}
 
 History history_of(const std::vector<std::string>& lines, std::span<const double> t) {
   Chain chain(t);

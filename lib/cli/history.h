@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parses the `##` lines, in which the tools describe what they did to the columns, and constructs
-// the filters from them.
+// The `##` lines, in which the tools describe what they did to the columns: what they say, and the
+// filters that are constructed from them.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,15 @@
 #include <vector>
 
 #include "fit/input.h"
+#include "text/column.h"
 
 namespace rolling {
+
+/// The column of a derivative: v of x, a of v, dNAME of any other.
+Column derivative_of(const Column&);
+
+/// The line of shift-from-accel: the numbers from which D was computed, with their uncertainties.
+std::string line_of(const ShiftOf&);
 
 /// The content of the `##` lines of a run.
 struct History {

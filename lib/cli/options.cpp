@@ -93,13 +93,6 @@ void Options::number(const std::string& names, double& value, const Range& range
       [&value] { return std::isnan(value); });
 }
 
-void Options::count(const std::string& names, std::size_t& value, const Range& range,
-                    const std::string& help) {
-  add(names, "N", help, [&value, range](const std::string& text) {
-    value = static_cast<std::size_t>(to_number(text, range));
-  });
-}
-
 void Options::estimate(const std::string& names, double& value, double& sigma, const Range& range,
                        const std::string& help) {
   add(
@@ -150,14 +143,11 @@ void Options::list(const std::string& names, std::vector<std::string>& values,
 
 void Options::one_of(const std::string& names, const std::vector<std::string>& choices,
                      const std::string& help, const Set& set) {
-  std::string all, type;
-  for (const std::string& choice : choices) {
-    all += (all.empty() ? "" : ", ") + choice;
-    type += (type.empty() ? "" : ",") + choice;
-  }
-  add(names, '{' + type + '}', help, [choices, all, set](const std::string& text) {
-    if (std::find(choices.begin(), choices.end(), text) == choices.end())
-      fail("'{}' is not one of {}", shown(text), all);
+  std::string all;
+  for (const std::string& choice : choices) all += (all.empty() ? "" : ",") + choice;
+  add(names, '{' + all + '}', help, [choices, all, set](const std::string& text) {
+    if (std::ranges::count(choices, text) == 0)
+      fail("'{}' is not one of {}", shown(text), replace_all(all, ",", ", "));
     set(text);
   });
 }
@@ -166,24 +156,25 @@ void Options::body(Body& body, std::initializer_list<BodyOption> options,
                    BodyUncertainty* uncertainty) {
   body = {not_given, not_given, not_given};
   BodyUncertainty& u = uncertainty ? *uncertainty : ignored_;
-  for (const BodyOption option : options) switch (option) {
-      case BodyOption::mass:
-        number("-m,--mass", body.m, positive, "mass m [kg]");
-        break;
-      case BodyOption::radius:
-        estimate("-R,--radius", body.R, u.R, positive, "radius R [m]");
-        break;
-      case BodyOption::shape_factor:
-        estimate("-K,--shape-factor", body.K, u.K, not_negative, "shape factor K of J = K m R^2");
-        break;
-      case BodyOption::gravity:
-        estimate("-g,--gravity", body.g, u.g, positive, "gravity g [m/s^2] (9.81)");
-        break;
-      case BodyOption::slope:
-        estimate("--slope", body.slope, u.slope, any_number,
-                 "rise of the mat in metres per metre of growing x (0)");
-        break;
-    }
+  static constexpr struct {
+    const char* names;
+    double Body::*value;
+    double BodyUncertainty::*sigma;
+    Range range;
+    const char* help;
+  } all[] = {// in the order of BodyOption
+             {"-m,--mass", &Body::m, nullptr, positive, "mass m [kg]"},
+             {"-R,--radius", &Body::R, &BodyUncertainty::R, positive, "radius R [m]"},
+             {"-K,--shape-factor", &Body::K, &BodyUncertainty::K, not_negative,
+              "shape factor K of J = K m R^2"},
+             {"-g,--gravity", &Body::g, &BodyUncertainty::g, positive, "gravity g [m/s^2] (9.81)"},
+             {"--slope", &Body::slope, &BodyUncertainty::slope, any_number,
+              "rise of the mat in metres per metre of growing x (0)"}};
+  for (const BodyOption option : options) {
+    const auto& [names, value, sigma, range, help] = all[static_cast<std::size_t>(option)];
+    if (sigma) estimate(names, body.*value, u.*sigma, range, help);
+    else number(names, body.*value, range, help);
+  }
 }
 
 void Options::law(PowerLaw& law) {

@@ -51,13 +51,21 @@ enum class BodyOption { mass, radius, shape_factor, gravity, slope };
 
 class Options {
  public:
+  using Set = CommandLine::Set;
+
   Options(const std::string& name, const std::string& purpose);
 
   // Options of one tool. `names` in the notation of CLI11: "-w,--width". Each option may be given
   // once. Its value must be a number in the syntax of rolling-columns(5) and within the range.
   void flag(const std::string& names, bool& value, const std::string& help);
   void number(const std::string& names, double& value, const Range&, const std::string& help);
-  void count(const std::string& names, std::size_t& value, const Range&, const std::string& help);
+  template <typename Integer>
+  void count(const std::string& names, Integer& value, const Range& range,
+             const std::string& help) {
+    add(names, "N", help, [&value, range](const std::string& text) {
+      value = static_cast<Integer>(to_number(text, range));
+    });
+  }
   /// One number or several, separated by commas; each may have an uncertainty: 0.5+-0.005,0.83
   void numbers(const std::string& names, std::vector<Estimate>& values, const Range&,
                const std::string& help);
@@ -68,6 +76,11 @@ class Options {
   template <typename T>
   void choice(const std::string& names, T& value, const std::map<std::string, T>& choices,
               const std::string& help);
+
+  /// An option of any kind; `set` receives the text of its value, and its Errors do not name the
+  /// option. `missing` is asked by need(); it is empty for an option that has a default.
+  void add(const std::string& names, const std::string& type, const std::string& help, Set set,
+           std::function<bool()> missing = {});
 
   // Options that tools share.
   /// The named ones of -m -R -K -g --slope. Before they are read, Body has not_given, 9.81 for g,
@@ -94,12 +107,6 @@ class Options {
   }
 
  protected:
-  using Set = CommandLine::Set;
-
-  /// An option of any kind; `set` receives the text of its value, and its Errors do not name the
-  /// option. `missing` is asked by need(); it is empty for an option that has a default.
-  void add(const std::string& names, const std::string& type, const std::string& help, Set set,
-           std::function<bool()> missing = {});
   /// Sets the options that are not on the command line from the scene file; ignores keys without
   /// an option in this tool. True if the scene was standard input.
   bool take_scene();

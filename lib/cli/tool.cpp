@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cfenv>
-#include <cmath>
 #include <csignal>
 #include <exception>
 #include <new>
@@ -37,18 +36,15 @@ void Tool::input() {
   command_line_.operands("input files, read in order; - or none is standard input", input_.files);
   list("--use", input_.use, "NAME=COLUMN",
        "the column (a name or a number from 1) that serves as t, x, v, a or D");
-  add("--run", "N", "read this run only: by the number in its header, else by its place",
-      [this](const std::string& text) { input_.run = static_cast<int>(to_number(text, whole)); });
+  count("--run", input_.run, whole,
+        "read this run only: by the number in its header, else by its place");
   flag("--strict", input_.strict, "a missing reading is an error");
 }
 
 void Tool::output() {
-  add("--digits", "N", "round computed numbers to this many significant digits",
-      [this](const std::string& text) {
-    out.digits = static_cast<int>(to_number(text, {"a whole number from 1 to 17", [](double x) {
-                                                     return x >= 1 && x <= 17 && x == std::floor(x);
-                                                   }}));
-  });
+  count("--digits", out.digits,
+        {"a whole number from 1 to 17", [](double x) { return whole.holds(x) && x <= 17; }},
+        "round computed numbers to this many significant digits");
   flag("-u,--unbuffered", out.unbuffered, "write each row at once");
 }
 
