@@ -15,21 +15,14 @@ using namespace rolling;
 
 namespace {
 
-const std::map<std::string, Method> methods = {
-    {"closed", {Method::closed}},
-    {"exact", {Method::exact}},
-    {"rk2", {Method::solver, Stepper::rk2}},
-    {"rk4", {Method::solver, Stepper::rk4}},
-    {"rkf45", {Method::solver, Stepper::rkf45}},
-    {"rkck", {Method::solver, Stepper::rkck}},
-    {"rk8pd", {Method::solver, Stepper::rk8pd}},
-    {"msadams", {Method::solver, Stepper::msadams}},
-    {"rk1imp", {Method::solver, Stepper::rk1imp}},
-    {"rk2imp", {Method::solver, Stepper::rk2imp}},
-    {"rk4imp", {Method::solver, Stepper::rk4imp}},
-    {"bsimp", {Method::solver, Stepper::bsimp}},
-    {"msbdf", {Method::solver, Stepper::msbdf}},
-};
+const std::map<std::string, Method> methods = [] {
+  std::map<std::string, Method> all{{"closed", {Method::closed}}, {"exact", {Method::exact}}};
+  for (std::size_t i = 0; i < steppers; ++i) {
+    const auto stepper = static_cast<Stepper>(i);
+    all[name_of(stepper)] = {Method::solver, stepper};
+  }
+  return all;
+}();
 
 constexpr Quantity<double (*)(double t, Motion&)> quantities[] = {
     {"t", "s", [](double t, Motion&) { return t; }},

@@ -97,8 +97,6 @@ class Options {
   /// Throws an OptionError, "--NAME why", for the first of these options (long names) that is on
   /// the command line. For options without effect beside the other ones.
   void refuse(std::initializer_list<const char*> options, std::string_view why) const;
-  /// True if this tool has an option with this long name, given or not.
-  bool has(const std::string& option) const { return options_.contains(option); }
   /// True if the option with this long name is on the command line (not only in the scene).
   bool on_command_line(std::string_view option) const { return command_line_.given(option); }
   /// True if it has a value from the command line or from the scene.

@@ -54,7 +54,7 @@ struct Integrator::Problem {
 namespace {
 
 const gsl_odeiv2_step_type* gsl_type(Stepper stepper) {
-  const gsl_odeiv2_step_type* const types[] = {
+  const gsl_odeiv2_step_type* const types[steppers] = {
       // in the order of Stepper
       gsl_odeiv2_step_rk2,    gsl_odeiv2_step_rk4,    gsl_odeiv2_step_rkf45,
       gsl_odeiv2_step_rkck,   gsl_odeiv2_step_rk8pd,  gsl_odeiv2_step_msadams,
@@ -64,6 +64,8 @@ const gsl_odeiv2_step_type* gsl_type(Stepper stepper) {
 }
 
 }  // namespace
+
+const char* name_of(Stepper stepper) { return gsl_type(stepper)->name; }
 
 Integrator::Integrator(OdeSystem system, const OdeOptions& options, double t, std::vector<double> y)
     : problem_(std::make_shared<Problem>()), max_steps_(options.max_steps), t_(t),

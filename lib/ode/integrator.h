@@ -22,6 +22,8 @@ struct OdeSystem {
 
 /// GSL's names.
 enum class Stepper { rk2, rk4, rkf45, rkck, rk8pd, msadams, rk1imp, rk2imp, rk4imp, bsimp, msbdf };
+inline constexpr std::size_t steppers = 11;
+const char* name_of(Stepper);  ///< as GSL has it: "rk8pd"
 inline bool is_explicit(Stepper stepper) { return stepper < Stepper::rk1imp; }
 
 struct OdeOptions {
