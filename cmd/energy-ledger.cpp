@@ -87,9 +87,8 @@ class Accounts {
           in_.run_name());
     tests_nothing_ |= task_.shows_balance() && !task_.uses_law && shifts_of_speeds(in_.history());
     const auto shift_of = history_of(in_.history(), {}).shift_of;
-    if (const auto others = task_.uses_law ? "" : other_body(shift_of, task_.body);
-        !others.empty() && other_body_.empty())
-      other_body_ = fmt::format("run {}: D was computed with {}", in_.run_name(), others);
+    if (const auto others = other_body(shift_of, task_.body); !task_.uses_law && !others.empty())
+      tool_.warn(in_.run_name(), "D was computed with " + others);
     return Balance(task_.body);
   }
 
@@ -122,7 +121,6 @@ class Accounts {
     if (beyond_ > 0)
       tool_.warn(fmt::format("{} shift{} beyond the radius {} m", beyond_,
                              beyond_ == 1 ? " is" : "s are", task_.body.R));
-    if (!other_body_.empty()) tool_.warn(other_body_);
     if (tests_nothing_)
       tool_.warn(
           "D was computed from the derivative of the same v: the balance compares v with itself "
@@ -135,7 +133,6 @@ class Accounts {
   const Task& task_;
   std::size_t t_, v_, D_, beyond_ = 0;
   bool tests_nothing_ = false;
-  std::string other_body_ = {};  // the first warning of other numbers of the body
 };
 
 /// Writes the table of --summary: a row for each run.

@@ -104,12 +104,11 @@ void warn_of_lost_history(Tool& tool, const std::vector<FitRun>& runs,
                           const std::vector<bool>& has_history) {
   const auto first =
       std::ranges::find_if(runs, [](const FitRun& run) { return change_numbers(run.filters); });
-  const auto without = std::ranges::find(has_history, false);
-  if (first != runs.end() && without != has_history.end())
-    tool.warn(fmt::format(
-        "run {}: no `##` lines tell how it was made, as those of run {} do: it is fitted as if no "
-        "filter were known",
-        runs[static_cast<std::size_t>(without - has_history.begin())].name, first->name));
+  if (first == runs.end()) return;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (!has_history[i])
+      tool.warn(runs[i].name, "no `##` lines tell how it was made, as those of run " + first->name +
+                                  " do: it is fitted as if no filter were known");
 }
 
 }  // namespace
@@ -234,9 +233,9 @@ void warn_of_unused_body(Tool& tool, const std::vector<FitRun>& runs, Geometry g
       for (const char* option : {"shape-factor", "radius", "gravity", "slope", "exact"})
         if (tool.on_command_line(option) && !tool.on_command_line("report"))
           unused += fmt::format("{}--{}", unused.empty() ? "" : ", ", option);
-      if (unused.empty()) continue;
-      return tool.warn(fmt::format("run {}: not used: {}: no `##` line tells how D was computed",
-                                   run.name, unused));
+      if (!unused.empty())
+        tool.warn(run.name, "not used: " + unused + ": no `##` line tells how D was computed");
+      continue;
     }
     Body given = run.body;
     if (!tool.given("gravity")) given.g = not_given;
@@ -244,10 +243,8 @@ void warn_of_unused_body(Tool& tool, const std::vector<FitRun>& runs, Geometry g
     std::string others = other_body(run.shift_of, given, run.given);
     if (geometry == Geometry::exact && run.shift_of->geometry != geometry)
       others += fmt::format("{}A = 1 (here --exact)", others.empty() ? "" : ", ");
-    if (others.empty()) continue;
-    tool.warn(fmt::format("run {}: D was computed with {}: the fit uses the numbers of D", run.name,
-                          others));
-    return;
+    if (!others.empty())
+      tool.warn(run.name, "D was computed with " + others + ": the fit uses the numbers of D");
   }
 }
 
