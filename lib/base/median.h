@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numeric>
 #include <span>
+#include <vector>
 
 namespace rolling {
 
@@ -24,6 +25,17 @@ inline double median(std::span<double> values) {
   if (values.size() % 2 == 1) return upper;
   return std::midpoint(*std::max_element(values.begin(), values.begin() + std::ptrdiff_t(half)),
                        upper);
+}
+
+/// The median of each value and the two on either side, as far as there are some.
+inline std::vector<double> medians_of_five(const std::vector<double>& values) {
+  std::vector<double> medians;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t first = i < 2 ? 0 : i - 2, end = std::min(i + 3, values.size());
+    std::vector<double> near(&values[first], &values[first] + (end - first));
+    medians.push_back(median(near));
+  }
+  return medians;
 }
 
 /// The standard deviation of normal numbers with outliers, from how far they are from their mean:

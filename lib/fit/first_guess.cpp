@@ -83,12 +83,7 @@ ObservedRun means(const ObservedRun& run, std::size_t n, std::size_t size) {
 
 /// The run after a moving median of five rows, which suppresses false echoes.
 ObservedRun without_outliers(ObservedRun run) {
-  const std::vector<double> y = run.y;
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    const std::size_t first = i < 2 ? 0 : i - 2, end = std::min(i + 3, y.size());
-    std::vector<double> near(&y[first], &y[first] + (end - first));
-    run.y[i] = median(near);
-  }
+  run.y = medians_of_five(run.y);
   return run;
 }
 
@@ -292,7 +287,8 @@ ObservedRun smooth_motion(Route route, const ObservedRun& run, std::size_t numbe
     smooth.t.push_back(run.t[i]);
     smooth.y.push_back(motion(run.t[i])[slopes]);
   }
-  smooth.way = way_of(position, smooth.t, smooth.y, options);
+  constexpr double bends = 0.05;  // so much of the way by itself
+  smooth.way = way_of(position, smooth.t, smooth.y, options, bends);
   return smooth;
 }
 

@@ -2,10 +2,8 @@
 #include "fit/model_roll.h"
 
 #include "base/chebyshev.h"
-#include "base/dot.h"
 #include "base/error.h"
-#include "least_squares/minimise.h"
-#include "least_squares/triangles.h"
+#include "base/median.h"
 
 #include <algorithm>
 #include <array>
@@ -48,42 +46,25 @@ Rows rows_of_speeds(Route route, const FitRun& run, Rows rows) {
 
 }  // namespace
 
-/// The sign of the speed of a body that turns, before it does; 0 if none does. It turns if the
-/// speeds at both ends have different signs, in the parabola through the positions or the line
-/// through the speeds, and the first one is not due to noise.
-double way_before_turn(bool position, const std::vector<double>& t,
-                       const std::vector<double>& rows) {
-  constexpr double errors = 5;  // the first speed is so many of its standard errors
-  const std::size_t terms = position ? 3 : 2;
-  if (rows.size() < terms + 3) return 0;
-  const double first = t.front(), half = (t.back() - first) / 2;
-  Triangles all(1, terms, 0);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double u = (t[i] - first) / half - 1;
-    double f = -rows[i], J[]{1, u, u * u};  // solve() makes f + J c least
-    all.add(0, {&f, 1}, std::span(J).first(terms));
-  }
-  all.join();
-  const std::vector<double> c = all.solve(), R = all.without_f();
-  // The speed at u = -1 or 1, in the unit of u: its coefficients.
-  const auto speed = [&](double u) { return position ? c[1] + 2 * u * c[2] : c[0] + u * c[1]; };
-  std::vector<double> g = position ? std::vector{0., 1., -2.} : std::vector{1., -1.};
-  double rss = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double u = (t[i] - first) / half - 1,
-                 off = rows[i] - c[0] - u * (c[1] + (position ? u * c[2] : 0));
-    rss += off * off;
-  }
-  solve_transposed(R.data(), g);
-  const double sigma = std::sqrt(dot(g, g) * rss / static_cast<double>(rows.size() - terms));
-  const double begin = speed(-1), end = speed(1);
-  return begin * end < 0 && std::abs(begin) > errors * sigma ? std::copysign(1.0, begin) : 0;
-}
-
 double way_of(bool position, const std::vector<double>& t, const std::vector<double>& rows,
-              const FitOptions& options) {
-  if (const double way = way_before_turn(position, t, rows); way != 0) return way;
-  const auto sum = [](auto begin, auto end) { return std::accumulate(begin, end, 0.0); };
+              const FitOptions& options, double least_back) {
+  constexpr std::size_t most = 2000;  // a direction needs no more
+  std::vector<double> x;
+  double way = 0;
+  for (std::size_t i = 0, step = 1 + rows.size() / most; i < rows.size(); ++i) {
+    if (!position && i > 0) way += (rows[i] + rows[i - 1]) / 2 * (t[i] - t[i - 1]);
+    if (i % step == 0) x.push_back(position ? rows[i] : way);
+  }
+  const std::vector<double> smooth = medians_of_five(x);
+  const auto [least, greatest] = std::ranges::minmax(smooth);
+  const double begin = smooth.front(), end = smooth.back();
+  const double up = std::min(greatest - begin, greatest - end),
+               down = std::min(begin - least, end - least);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::abs(x[i] - smooth[i]);
+  const double errors = position ? 10 : 3 * std::sqrt(static_cast<double>(x.size()));  // a sum
+  if (std::max(up, down) > least_back * (greatest - least) + errors * deviation(x))    // it turns
+    return up > down ? 1 : -1;
+  const auto sum = [](auto first, auto last) { return std::accumulate(first, last, 0.0); };
   const double all = sum(rows.begin(), rows.end());
   if (!position) return all < 0 ? -1 : 1;
   if (options.x0) return all < static_cast<double>(rows.size()) * *options.x0 ? -1 : 1;

@@ -8,7 +8,7 @@
 # without noise from simulate, and ends at the stop, loses four rows at most. A body that is pushed
 # up a slope, turns, comes back and is caught keeps both ways, but for the time in which noise hides
 # the hand (20 of its standard deviations of way), and their fit is right within 4 standard errors.
-set -eu
+set -euo pipefail
 within() {  # NAME FILE COLUMN EARLIEST LATEST-START EARLIEST-END LATEST
   smooth -q --coast -c "$3" -w 1 "$2" |
     awk -v name="$1 $3" -v a="$4" -v b="$5" -v c="$6" -v d="$7" '
@@ -92,7 +92,9 @@ while read -r K R a b slopes; do
       [ "$slope" = 0.1 ] || smooth -q --coast "$scratch" | fitpower -q -K "$K" -R "$R" --slope fit |
         awk -v a="$a" -v b="$b" -v slope="$slope" '!/^#/ {
           if (($1 - a)^2 > 16 * $2^2 || ($3 - b)^2 > 16 * $4^2 || ($10 - slope)^2 > 16 * $11^2) {
-            print "K, slope, seed '"$K $slope $seed"': " $0; exit 1 } }'
+            print "K, slope, seed '"$K $slope $seed"': " $0; exit 1 }
+          found = 1 }
+          END { exit !found }'
     done
   done
 done <<'EOF'

@@ -21,7 +21,7 @@ struct Scene {
 
 }  // namespace
 
-// Of 96 numbers of each kind, each beyond 1.96 of its errors in 1 of 20: more than 12 in 1 of 1000.
+// Of 128 numbers of each kind, each beyond 1.96 of its errors in 1 of 20: more than 15 in 1 of 1000.
 TEST_CASE("turning run: both ways determine the slope, and a and b, towards falling x too",
           "[fit]") {
   const Scene scenes[] = {{"ball", 0.4, 0.0127, 5e-5, 0.1, 0.02, 6.2},
@@ -29,6 +29,8 @@ TEST_CASE("turning run: both ways determine the slope, and a and b, towards fall
                           {"cylinder", 0.5, 0.04, 1.87e-3, 0.215, 0.1, 1.6},
                           {"ball, hardly determined", 0.4, 0.0127, 5e-5, 0.1, 0.05, 2.7},
                           {"cylinder, slow way back", 0.5, 0.04, 1.87e-3, 0.215, 0.02, 4.4},
+                          {"cylinder, long way back", 0.5, 0.04, 1.87e-3, 0.215, 0.02, 16},
+                          {"cart, beyond its start", 0.05, 0.02, 2e-4, 0.3, 0.03, 6},
                           {"cylinder, 1 mm/s back", 0.5, 0.04, 1.87e-3, 0.215, 0.01, 5.4}};
   int off_a = 0, off_b = 0, off_slope = 0;
   for (const Scene& scene : scenes)
@@ -55,9 +57,9 @@ TEST_CASE("turning run: both ways determine the slope, and a and b, towards fall
         off_b += std::abs(r.b - scene.b) > 1.96 * r.sigma_b;
         off_slope += std::abs(r.slope - way * scene.slope) > 1.96 * r.sigma_slope;
       }
-  CHECK(off_a <= 12);
-  CHECK(off_b <= 12);
-  CHECK(off_slope <= 12);
+  CHECK(off_a <= 15);
+  CHECK(off_b <= 15);
+  CHECK(off_slope <= 15);
 }
 
 TEST_CASE("turning run: without a slope it is refused, and told what it needs", "[fit]") {
