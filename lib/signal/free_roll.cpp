@@ -307,8 +307,11 @@ std::vector<Sample> means(std::span<const Sample> samples, std::size_t size) {
 constexpr std::size_t at_once = 1000;
 
 /// The roll in at most at_once samples.
-FreeRoll roll_of(std::span<const Sample> readings, bool positions, double step) {
+FreeRoll roll_of(std::span<const Sample> run, bool positions, double step) {
   constexpr double off = 6;  // standard errors
+  const Sample origin{run[0].t, positions ? run[0].y : 0};
+  std::vector<Sample> readings;
+  for (const Sample& s : run) readings.push_back({s.t - origin.t, s.y - origin.y});
   const Units units(readings);
   std::vector<Sample> samples;
   std::vector<std::size_t> index;  // of the samples that are on the motion of their neighbours
@@ -318,7 +321,7 @@ FreeRoll roll_of(std::span<const Sample> readings, bool positions, double step) 
     for (const Judged& s : judged) {
       // The last reading is beyond its neighbours: a stop there looks like an outlier.
       if (s.kept || i + 1 == readings.size())
-        samples.push_back(units({s.t - readings[0].t, s.y})), index.push_back(i);
+        samples.push_back(units({s.t, s.y})), index.push_back(i);
       ++i;
     }
   };
@@ -328,7 +331,7 @@ FreeRoll roll_of(std::span<const Sample> readings, bool positions, double step) 
   const auto found =
       positions ? Search<4>(samples, noise, true).roll() : Search<3>(samples, noise, false).roll();
   if (!found) {
-    const auto [low, high] = std::ranges::minmax(readings, {}, &Sample::y);
+    const auto [low, high] = std::ranges::minmax(run, {}, &Sample::y);
     fail(
         "no free roll is found: the readings go from {:.4g} to {:.4g}, and no motion in them that "
         "slows down stands out of their noise of {:.1g}{}",

@@ -122,6 +122,7 @@ TEST_CASE("selection: units, origins and the direction of x do not matter", "[si
           check(run, options, [](Sample s) { return Sample{s.t + 1e5, s.y}; });
           if (!positions) continue;  // a speed has no other origin
           check(run, options, [](Sample s) { return Sample{s.t, 0.9 - s.y}; });
+          check(run, options, [](Sample s) { return Sample{s.t, s.y + 1000}; });
         }
 }
 
