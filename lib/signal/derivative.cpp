@@ -12,19 +12,24 @@ namespace rolling {
 // Newton's form of the parabola through three samples: slopes s1, s2 over steps h1, h2, and the
 // divided difference c = (s2 - s1) / (h1 + h2). The derivatives are s1 - c h1 at the first sample,
 // s1 + c h1 = s2 - c h2 at the middle one, and s2 + c h2 at the last.
-double CentralDerivative::value(const Windows& window) {
-  if (window.size() == 1) fail("a run of one row has no derivative");
-  const std::size_t first = window.begin(), i = window.at() - first;
-  const auto rise = [&](std::size_t k) {
-    const Sample &a = window.sample(first + k), &b = window.sample(first + k + 1);
-    return Sample{b.t - a.t, b.y - a.y};
-  };
-  const Sample one = rise(0);
-  const double s1 = one.y / one.t;
-  if (window.size() == 2) return s1;
-  const Sample two = rise(1);
-  const double s2 = two.y / two.t, c = (s2 - s1) / (one.t + two.t);
-  return i == 0 ? s1 - c * one.t : i == 1 ? s1 + c * one.t : s2 + c * two.t;
+std::span<const double> CentralDerivative::push(double t, double y) {
+  const double step = t - t_, slope = (y - y_) / step;
+  ++count_;
+  std::size_t known = 0;
+  if (count_ >= 3) {
+    bend_ = (slope - slope_) / (step_ + step);
+    if (count_ == 3) known_[known++] = slope_ - bend_ * step_;
+    known_[known++] = slope_ + bend_ * step_;
+  }
+  t_ = t, y_ = y, step_ = step, slope_ = slope;
+  return {known_.data(), known};
+}
+
+std::span<const double> CentralDerivative::finish() {
+  if (count_ == 0) return {};
+  if (count_ == 1) fail("a run of one row has no derivative");
+  known_[0] = known_[1] = slope_ + bend_ * step_;  // bend_ is 0 in a run of two
+  return {known_.data(), count_ == 2 ? std::size_t{2} : std::size_t{1}};
 }
 
 // The order of operations is that of Vernier's programs, so that the results agree to the last bit:

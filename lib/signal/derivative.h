@@ -3,6 +3,7 @@
 // of one sample.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "signal/method.h"
@@ -12,10 +13,17 @@ namespace rolling {
 /// The derivative of the parabola through three neighbouring samples at any spacing: at the middle
 /// sample inside the run (the central difference), at the outer one at the ends. Second order in
 /// the spacing, exact on a parabola. For a run of two samples it is their slope.
-class CentralDerivative : public WindowedSignal<CentralDerivative> {
+class CentralDerivative : public Signal {
  public:
-  CentralDerivative() : WindowedSignal({3, 0}, Windows::Ends::stay) {}
-  double value(const Windows&);
+  std::span<const double> push(double t, double y) override;
+  std::span<const double> finish() override;
+
+ private:
+  std::size_t count_ = 0;
+  double t_ = 0, y_ = 0;         // the last sample
+  double step_ = 0, slope_ = 0;  // from the last but one sample to the last
+  double bend_ = 0;              // half of the second derivative of the parabola
+  std::array<double, 2> known_{};
 };
 
 /// The derivative of Vernier's programs: the slopes over one, two and three samples to either side,
