@@ -4,9 +4,9 @@
 // does not drift, and an outlier leaves no trace.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 #include "base/double_double.h"
 
@@ -30,23 +30,28 @@ class ExactSum {
  private:
   /// Doubles whose digits do not overlap, the smallest first; their sum is exact (Shewchuk 1997,
   /// Discrete Comput. Geom. 18, 305).
-  using Parts = std::vector<double>;
-  static void grow(Parts& parts, double y) {
+  struct Parts {
     std::size_t size = 0;
-    for (const double part : parts) {
-      const DoubleDouble sum = two_sum(y, part);
-      if (sum.lo != 0) parts[size++] = sum.lo;
-      y = sum.hi;
+    std::array<double, 42> at;  // of 53 digits each, of 2098 in all
+
+    void add(double y) {
+      std::size_t left = 0;
+      for (std::size_t i = 0; i < size; ++i) {
+        const DoubleDouble sum = two_sum(y, at[i]);
+        if (sum.lo != 0) at[left++] = sum.lo;
+        y = sum.hi;
+      }
+      if (y != 0) at[left++] = y;
+      size = left;
     }
-    parts.resize(size);
-    if (y != 0) parts.push_back(y);
-  }
+    double over(std::size_t n) const;
+  };
   void add_zero(double zero, int sign) {
     negative_zeros_ += static_cast<std::size_t>(std::signbit(zero) ? sign : 0);
   }
   void add_term(double y) {
-    if (std::abs(y) < 0x1p900) grow(parts_, y);
-    else grow(large_, y * 0x1p-100);
+    if (std::abs(y) < 0x1p900) parts_.add(y);
+    else large_.add(y * 0x1p-100);
   }
 
   Parts parts_, large_;  // large_ holds terms whose sum could overflow, times 2^-100
