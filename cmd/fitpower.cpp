@@ -28,43 +28,23 @@ void keep_freed_memory() {
 #endif
 }
 
-/// The values of NAME=VALUE, repeated.
-void set_parameters(const std::string& option, const std::vector<std::string>& settings,
-                    const std::map<std::string, std::optional<double>*>& parameters) {
-  for (const std::string& setting : settings) {
+/// Sets one of these parameters to the value of a text NAME=VALUE.
+CommandLine::Set setter_of(std::map<std::string, std::optional<double>*> parameters) {
+  return [parameters = std::move(parameters)](const std::string& setting) {
     const auto equals = setting.find('=');
     const auto parameter = parameters.find(setting.substr(0, equals));
     double value;
     if (equals == std::string::npos || parameter == parameters.end())
-      fail("{}: '{}' is not NAME=VALUE with a name that it knows", option, shown(setting));
+      fail("'{}' is not NAME=VALUE with a name that it knows", shown(setting));
     if (!parse_number(std::string_view(setting).substr(equals + 1), value))
-      fail("{}: the value in '{}' is not a number", option, shown(setting));
+      fail("the value in '{}' is not a number", shown(setting));
     if (*parameter->second)
-      fail("{}: '{}' comes after another for {}", option, shown(setting), parameter->first);
+      fail("'{}' comes after another for {}", shown(setting), parameter->first);
     *parameter->second = value;
-  }
-}
-
-/// The options that are words.
-struct Words {
-  std::vector<std::string> fixed, start;
-  std::string law = "a v^b";
-};
-
-/// The values of --law, --fix and --start.
-void set_law(FitOptions& options, const Words& words) {
-  options.law = &law_named(words.law);
-  set_parameters("--fix", words.fixed,
-                 {{"a", &options.a}, {"b", &options.b}, {"v0", &options.v0}, {"x0", &options.x0}});
-  set_parameters("--start", words.start, {{"a", &options.start_a}, {"b", &options.start_b}});
-  const auto once = [](const char* name, const auto& value, const auto& begin) {
-    if (value && begin) fail("--fix and --start are two values of {}: give one", name);
   };
-  once("a", options.a, options.start_a);
-  once("b", options.b, options.start_b);
 }
 
-void add_options(Tool& tool, FitOptions& options, Bodies& bodies, Words& words) {
+void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
   tool.add("--slope", "S|fit",
            "the mat rises by S metres a metre along growing x; fit: find it, of all runs",
            [&](const std::string& text) {
@@ -78,9 +58,13 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies, Words& words) 
   tool.number("--min-speed", options.min_speed, not_negative, "leave slower rows out [m/s]");
   tool.flag("--robust", options.robust,
             "let outliers count little: bisquare loss instead of squares");
-  tool.text("--law", words.law, "LAW", "fit this law of those that --report compares: d0+d2*v^2");
-  tool.list("--fix", words.fixed, "NAME=VALUE", "hold a, b, v0 or x0 fixed");
-  tool.list("--start", words.start, "NAME=VALUE", "begin the search at this a or b");
+  tool.add("--law", "LAW", "fit this law of those that --report compares: d0+d2*v^2",
+           [&](const std::string& text) { options.law = &law_named(text); });
+  tool.list(
+      "--fix", "NAME=VALUE", "hold a, b, v0 or x0 fixed",
+      setter_of({{"a", &options.a}, {"b", &options.b}, {"v0", &options.v0}, {"x0", &options.x0}}));
+  tool.list("--start", "NAME=VALUE", "begin the search at this a or b",
+            setter_of({{"a", &options.start_a}, {"b", &options.start_b}}));
 }
 
 /// The groups of runs that are fitted together: one group of all runs, or one for each run.
@@ -214,7 +198,6 @@ int main(int argc, char** argv) {
   keep_freed_memory();
   Tool tool("fitpower", "Fit the power law D = a v^b to columns.");
   std::optional<Route> given_route;
-  Words words;
   Bodies bodies;
   FitOptions options;
   bool each = false, with_report = false, with_check = false;
@@ -226,7 +209,7 @@ int main(int argc, char** argv) {
                "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
   tool.numbers("-R,--radius", bodies.radii, positive, "radius [m]; one, or one for each run");
   tool.body(bodies.body, {gravity}, &bodies.uncertainty);
-  add_options(tool, options, bodies, words);
+  add_options(tool, options, bodies);
   tool.flag("--each", each, "fit each run by itself, a row for each");
   tool.flag("--report", with_report,
             "tell on standard error what each route finds, and whether another law is better");
@@ -238,7 +221,9 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    set_law(options, words);
+    for (const auto& [fixed, begin, name] :
+         {std::tuple(options.a, options.start_a, "a"), {options.b, options.start_b, "b"}})
+      if (fixed && begin) fail("--fix and --start are two values of {}: give one", name);
     if (tool.on_command_line("route") && !given_route)
       return joint_of_rows(tool, bodies, with_check);
     Reader& in = tool.read(order_without_names(given_route, tool.used("t")));

@@ -84,12 +84,13 @@ std::string wrong_count(const CLI::App& app, const std::string& message) {
 
 struct CommandLine::Parser {
   CLI::App app;
-  /// The lists are filled after parsing: the values that CLI11 writes itself still have the mark.
-  std::list<std::pair<const CLI::Option*, std::vector<std::string>*>> lists;
+  /// The setters of lists are called after parsing.
+  std::list<std::pair<const CLI::Option*, Set>> lists;
+  std::vector<std::string> unused;  ///< the values that CLI11 writes itself still have the mark
 };
 
 CommandLine::CommandLine(const std::string& name, const std::string& purpose)
-    : parser_(new Parser{CLI::App(purpose, name), {}}) {
+    : parser_(new Parser{CLI::App(purpose, name), {}, {}}) {
   CLI::App& app = parser_->app;
   app.set_help_flag("-h,--help", "print this and exit")->disable_flag_override();
   app.set_version_flag("--version", "", "print the version and exit")->disable_flag_override();
@@ -115,14 +116,16 @@ void CommandLine::flag(const std::string& names, const std::string& help,
 }
 
 void CommandLine::list(const std::string& names, const std::string& type, const std::string& help,
-                       std::vector<std::string>& values) {
-  const CLI::Option* option =
-      parser_->app.add_option(names, values, help)->allow_extra_args(false)->type_name(type);
-  parser_->lists.emplace_back(option, &values);
+                       Set set) {
+  const CLI::Option* option = parser_->app.add_option(names, parser_->unused, help)
+                                  ->allow_extra_args(false)
+                                  ->type_name(type);
+  parser_->lists.emplace_back(option, std::move(set));
 }
 
-void CommandLine::operands(const std::string& help, std::vector<std::string>& values) {
-  parser_->lists.emplace_back(parser_->app.add_option("FILE", values, help), &values);
+void CommandLine::operands(const std::string& help, Set set) {
+  parser_->lists.emplace_back(parser_->app.add_option("FILE", parser_->unused, help),
+                              std::move(set));
 }
 
 CommandLine::Asked CommandLine::parse(int argc, const char* const* argv) {
@@ -143,10 +146,8 @@ CommandLine::Asked CommandLine::parse(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     fail("{}(see --help)", one_line(error.what()));
   }
-  for (const auto& [option, values] : parser_->lists) {
-    values->clear();
-    for (const std::string& word : option->results()) values->push_back(unmarked(word));
-  }
+  for (const auto& [option, set] : parser_->lists)
+    for (const std::string& word : option->results()) set(unmarked(word));
   return Asked::work;
 }
 

@@ -24,11 +24,10 @@ class CommandLine {
   // A setter receives the value as it was typed; its exceptions leave parse().
   void option(const std::string& names, const std::string& type, const std::string& help, Set);
   void flag(const std::string& names, const std::string& help, std::function<void()> set);
-  /// An option that may be repeated.
-  void list(const std::string& names, const std::string& type, const std::string& help,
-            std::vector<std::string>& values);
+  /// An option that may be repeated; its setter receives one value after the other.
+  void list(const std::string& names, const std::string& type, const std::string& help, Set);
   /// The words of the command line that are not options: the input files.
-  void operands(const std::string& help, std::vector<std::string>& values);
+  void operands(const std::string& help, Set);
 
   enum class Asked { work, help, version };
   /// Throws Error for unknown options and for values that are missing or too many.

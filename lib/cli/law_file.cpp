@@ -88,7 +88,7 @@ const LawForm& law_named(const std::string& formula) {
     if (bare(form.formula) == bare(formula)) return form;
     known += fmt::format("{}{}", known.empty() ? "" : ", ", form.formula);
   }
-  fail<OptionError>("--law: '{}' is none of {}", shown(formula), known);
+  fail("'{}' is none of {}", shown(formula), known);
 }
 
 std::vector<Column> columns_of(const LawForm& form) {

@@ -47,6 +47,17 @@ std::string long_name(const std::string& names) {
   return at == std::string::npos ? std::string() : names.substr(at + 2);
 }
 
+/// A setter whose Errors name the option.
+CommandLine::Set named(const std::string& names, const CommandLine::Set& set) {
+  return [names, set](const std::string& text) {
+    try {
+      set(text);
+    } catch (const Error& error) {
+      fail("{}: {}", names, error.what());
+    }
+  };
+}
+
 }  // namespace
 
 double to_number(const std::string& text, const Range& range) {
@@ -61,13 +72,7 @@ Options::Options(const std::string& name, const std::string& purpose)
 
 void Options::add(const std::string& names, const std::string& type, const std::string& help,
                   Set set, std::function<bool()> missing) {
-  command_line_.option(names, type, help, [names, set](const std::string& text) {
-    try {
-      set(text);
-    } catch (const Error& error) {
-      fail("{}: {}", names, error.what());
-    }
-  });
+  command_line_.option(names, type, help, named(names, set));
   options_[long_name(names)] = {std::move(set), std::move(missing)};
 }
 
@@ -136,9 +141,9 @@ void Options::text(const std::string& names, std::string& value, const std::stri
   });
 }
 
-void Options::list(const std::string& names, std::vector<std::string>& values,
-                   const std::string& type, const std::string& help) {
-  command_line_.list(names, type, help, values);
+void Options::list(const std::string& names, const std::string& type, const std::string& help,
+                   Set set) {
+  command_line_.list(names, type, help, named(names, set));
 }
 
 void Options::one_of(const std::string& names, const std::vector<std::string>& choices,

@@ -71,8 +71,8 @@ class Options {
                const std::string& help);
   void text(const std::string& names, std::string& value, const std::string& type,
             const std::string& help);
-  void list(const std::string& names, std::vector<std::string>& values, const std::string& type,
-            const std::string& help);  ///< may be repeated
+  void list(const std::string& names, const std::string& type, const std::string& help,
+            Set);  ///< may be repeated
   template <typename T>
   void choice(const std::string& names, T& value, const std::map<std::string, T>& choices,
               const std::string& help);

@@ -33,9 +33,14 @@ Tool::Tool(std::string name, const std::string& purpose)
 Tool::~Tool() = default;
 
 void Tool::input() {
-  command_line_.operands("input files, read in order; - or none is standard input", input_.files);
-  list("--use", input_.use, "NAME=COLUMN",
-       "the column (a name or a number from 1) that serves as t, x, v, a or D");
+  const auto append_to = [](std::vector<std::string>& words) {
+    return [&words](const std::string& word) { words.push_back(word); };
+  };
+  command_line_.operands("input files, read in order; - or none is standard input",
+                         append_to(input_.files));
+  list("--use", "NAME=COLUMN",
+       "the column (a name or a number from 1) that serves as t, x, v, a or D",
+       append_to(input_.use));
   count("--run", input_.run, whole,
         "read this run only: by the number in its header, else by its place");
   flag("--strict", input_.strict, "a missing reading is an error");

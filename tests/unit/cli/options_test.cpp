@@ -26,7 +26,7 @@ TEST_CASE("options: what is given about a body, on the command line and in a sce
     Tool tool("tool", "");
     tool.body(body, {mass, radius, shape_factor, gravity, slope}, &sigma);
     tool.scene();
-    tool.list("--word", operands, "WORD", "");
+    tool.list("--word", "WORD", "", [&](const auto& word) { operands.push_back(word); });
     const int status = tool.run(static_cast<int>(words.size()), arguments.data(), [&] {
       tool.need(needed);
       return 0;
