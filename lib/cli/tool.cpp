@@ -8,6 +8,7 @@
 #include <csignal>
 #include <exception>
 #include <new>
+#include <typeinfo>
 #include <utility>
 
 #include "text/column.h"
@@ -133,6 +134,11 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   name_.erase(0, name_.rfind('/') + 1);
   // A write beyond the limit of the file size then fails, which flush() reports.
   std::signal(SIGXFSZ, SIG_IGN);
+  const auto print = [this](const std::string& text) {
+    out.text(text);
+    out.flush();
+    return 0;
+  };
   try {
     error_line_ = error_line(name_);
     end_output_on_signals(out, error_line_);
@@ -153,14 +159,10 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
     if (::isatty(STDOUT_FILENO))
       out.before_write = [this] { progress.stop(); };  // rows on the terminal show the progress
     return finish(work());
-  } catch (const OutputError& error) {
-    say(error.what());
-  } catch (const OptionError& error) {
-    say(error.what());
-  } catch (const Error& error) {
-    const bool located = dynamic_cast<const InputError*>(&error) || readers_.empty() ||
-                         readers_.back()->where().empty();
-    say(located ? error.what() : readers_.back()->where() + ": " + error.what());
+  } catch (const Error& error) {  // one of no class of its own is about the present row
+    const bool of_row =
+        typeid(error) == typeid(Error) && !readers_.empty() && !readers_.back()->where().empty();
+    say(of_row ? readers_.back()->where() + ": " + error.what() : error.what());
   } catch (const std::bad_alloc&) {
     say("out of memory");
   } catch (const std::exception& error) {
@@ -169,18 +171,6 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   // The rows before the error remain; this line tells the next tool of a pipe that it ended.
   out.end_with(error_line_);
   return trouble;
-}
-
-/// Writes `text` to standard output; returns the exit status.
-int Tool::print(const std::string& text) {
-  try {
-    out.text(text);
-    out.flush();
-    return 0;
-  } catch (const Error& error) {
-    say(error.what());
-    return trouble;
-  }
 }
 
 }  // namespace rolling

@@ -64,7 +64,6 @@ class Tool : public Options {
  private:
   Reader& open(ReaderOptions, std::vector<std::string> order);
   int finish(int status);
-  int print(const std::string& text);
 
   std::string name_, error_line_;
   ReaderOptions input_;
