@@ -103,6 +103,8 @@ TEST_CASE("Roll: on the way back its derivatives are limits of differences", "[r
     check(p.v_c[1], p.x_c[1], 1e-4, [&](double h) { return at({r.a, r.b + h}, r.S, 0.5); });
     check(p.v_c[2], p.x_c[2], 1e-3 * r.S, [&](double h) { return at(law, r.S + h, 0.5); });
     check(p.v_v0, p.x_v0, 1e-3, [&](double h) { return at(law, r.S, 0.5 + h); });
+    Roll same({1, r.R, r.K, 9.81, r.S}, r.geometry, law, 0.5);
+    check(p.a, p.v, 1e-2, [&](double h) { return same.at(5 + h); });
   }
 }
 
