@@ -142,7 +142,7 @@ void Options::text(const std::string& names, std::string& value, const std::stri
 }
 
 void Options::list(const std::string& names, const std::string& type, const std::string& help,
-                   Set set) {
+                   const Set& set) {
   command_line_.list(names, type, help, named(names, set));
 }
 

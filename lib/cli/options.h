@@ -72,7 +72,7 @@ class Options {
   void text(const std::string& names, std::string& value, const std::string& type,
             const std::string& help);
   void list(const std::string& names, const std::string& type, const std::string& help,
-            Set);  ///< may be repeated
+            const Set&);  ///< may be repeated
   template <typename T>
   void choice(const std::string& names, T& value, const std::map<std::string, T>& choices,
               const std::string& help);

@@ -73,7 +73,7 @@ std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own, doub
 /// the disagreement of the runs too, and would be taken for correlated or uneven noise. That noise,
 /// where not all runs have a law.
 SeenNoise noise_around_own(const Fitted& joint, const std::vector<std::optional<Fitted>>& own) {
-  const SeenNoise of_joint = seen_noise(joint);
+  SeenNoise of_joint = seen_noise(joint);
   SeenNoise all = of_joint;
   all.innovations.clear(), all.runs.clear(), all.left.clear(), all.e.clear();
   all.taken = {}, all.variance = 0;

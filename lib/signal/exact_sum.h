@@ -4,9 +4,9 @@
 // does not drift, and an outlier leaves no trace.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "base/double_double.h"
 
@@ -32,7 +32,7 @@ class ExactSum {
   /// Discrete Comput. Geom. 18, 305).
   struct Parts {
     std::size_t size = 0;
-    std::array<double, 42> at;  // of 53 digits each, of 2098 in all
+    std::vector<double> at = std::vector<double>(4);  // with room behind them
 
     void add(double y) {
       std::size_t left = 0;
@@ -41,8 +41,9 @@ class ExactSum {
         if (sum.lo != 0) at[left++] = sum.lo;
         y = sum.hi;
       }
-      if (y != 0) at[left++] = y;
-      size = left;
+      size = y == 0 ? left : left + 1;
+      if (size > at.size()) at.resize(2 * size);
+      if (y != 0) at[left] = y;
     }
     double over(std::size_t n) const;
   };

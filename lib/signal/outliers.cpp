@@ -96,7 +96,7 @@ std::span<const Judged> Outliers::finish() {
   near_.finish();
   judge();
   scatter_.finish();
-  auto judged = std::move(judged_);
+  auto judged = std::exchange(judged_, {});
   judge();
   judge_before(count_);
   judged.insert(judged.end(), judged_.begin(), judged_.end());

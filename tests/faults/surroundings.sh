@@ -114,7 +114,7 @@ live 0 smooth -u -w 1
 live 1 smooth -u -w 3
 live 2 smooth -u -w 5
 live 1 smooth -u -w 3 -M median
-live 35 smooth -u -w 1 --outliers 9  # five neighbours, and the scatter over 61 rows
+live 85 smooth -u -w 1 --outliers 9  # five neighbours twice, and the scatter over 151 rows
 live 4 differentiate -u -M savgol -w 5  # its first rows wait for a whole window
 live 2 differentiate -u  # the first row is of second order too: it takes three
 live 0 shift-from-accel -u -K 0.5 -R 0.04 --use a=3

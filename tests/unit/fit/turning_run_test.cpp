@@ -21,7 +21,7 @@ struct Scene {
 
 }  // namespace
 
-// Of 128 numbers of each kind, each beyond 1.96 of its errors in 1 of 20: more than 15 in 1 of 1000.
+// Of 128 numbers of each kind, each beyond 1.96 of its errors in 1 of 20: rarely more than 15.
 TEST_CASE("turning run: both ways determine the slope, and a and b, towards falling x too",
           "[fit]") {
   const Scene scenes[] = {{"ball", 0.4, 0.0127, 5e-5, 0.1, 0.02, 6.2},
