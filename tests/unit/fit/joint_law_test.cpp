@@ -154,3 +154,17 @@ TEST_CASE("joint law: b that all rows hold fixed", "[fit]") {
   CHECK(joint.law.b == Approx(0.2));
   CHECK(joint.covariance.bb == 0);
 }
+
+// Five rows of three degrees of freedom, one of another variance: Bartlett's chi^2 is
+// (15 ln((4 + variance)/5) - 3 ln variance)/(1 + (5/3 - 1/15)/12), 12.4 and 19.0 for 19 and 40; of
+// four degrees of freedom 1 % of chi^2 are beyond 13.3. Covariances in units of the variance of
+// their rows.
+TEST_CASE("joint law: noise of one size by Bartlett's test, by hand", "[fit]") {
+  for (const double variance : {19.0, 40.0}) {
+    std::vector<LawRow> rows;
+    for (const double of_row : {1.0, 1.0, 1.0, 1.0, variance})
+      rows.push_back({{rows.size(), {0, 0.2}, {0, 0, 1e-4 * of_row}, 3}, std::sqrt(of_row)});
+    const double weights = variance < 30 ? 5 / ((4 + variance) / 5) : 4 + 1 / variance;
+    CHECK(joint_law(rows, {}).covariance.bb == Approx(1e-4 / weights).epsilon(1e-12));
+  }
+}
