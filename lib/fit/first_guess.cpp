@@ -288,7 +288,7 @@ ObservedRun smooth_motion(Route route, const ObservedRun& run, std::size_t numbe
     smooth.y.push_back(motion(run.t[i])[slopes]);
   }
   constexpr double bends = 0.05;  // so much of the way by itself
-  smooth.way = way_of(position, smooth.t, smooth.y, options, bends);
+  smooth.way = way_of(position, smooth.t, smooth.y, run.body.slope, options, bends);
   return smooth;
 }
 

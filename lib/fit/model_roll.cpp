@@ -46,8 +46,9 @@ Rows rows_of_speeds(Route route, const FitRun& run, Rows rows) {
 
 }  // namespace
 
-double way_of(bool position, const std::vector<double>& t, const std::vector<double>& rows,
-              const FitOptions& options, double least_back) {
+/// The direction before the furthest place, from which the body comes back; 0 if it does not.
+double way_before_turn(bool position, const std::vector<double>& t, const std::vector<double>& rows,
+                       double least_back) {
   constexpr std::size_t most = 2000;  // a direction needs no more
   std::vector<double> x;
   double way = 0;
@@ -57,13 +58,19 @@ double way_of(bool position, const std::vector<double>& t, const std::vector<dou
   }
   const std::vector<double> smooth = medians_of_five(x);
   const auto [least, greatest] = std::ranges::minmax(smooth);
-  const double begin = smooth.front(), end = smooth.back();
-  const double up = std::min(greatest - begin, greatest - end),
+  const double begin = smooth.front(), end = smooth.back(),
+               up = std::min(greatest - begin, greatest - end),
                down = std::min(begin - least, end - least);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::abs(x[i] - smooth[i]);
-  const double errors = position ? 10 : 3 * std::sqrt(static_cast<double>(x.size()));  // a sum
-  if (std::max(up, down) > least_back * (greatest - least) + errors * deviation(x))    // it turns
-    return up > down ? 1 : -1;
+  const double errors = position ? 10 : 3 * std::sqrt(static_cast<double>(x.size())),  // of a sum
+      limit = least_back * (greatest - least) + errors * deviation(x);
+  return std::max(up, down) > limit ? std::copysign(1.0, up - down) : 0;
+}
+
+double way_of(bool position, const std::vector<double>& t, const std::vector<double>& rows,
+              double slope, const FitOptions& options, double least_back) {
+  if (slope != 0 || options.fit_slope)
+    if (const double way = way_before_turn(position, t, rows, least_back); way != 0) return way;
   const auto sum = [](auto first, auto last) { return std::accumulate(first, last, 0.0); };
   const double all = sum(rows.begin(), rows.end());
   if (!position) return all < 0 ? -1 : 1;
@@ -123,7 +130,8 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
       seen.t = taken(run.t, rows[r]);
     }
     for (double& t : seen.t) t -= seen.origin;
-    seen.way = way_of(route == Route::position, taken(run.t, fitted), seen.y, options);
+    seen.way =
+        way_of(route == Route::position, taken(run.t, fitted), seen.y, seen.body.slope, options);
     runs.push_back(std::move(seen));
   }
   return runs;
