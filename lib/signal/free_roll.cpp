@@ -184,11 +184,17 @@ class Search {
         --s.end;
     }
     if (std::abs(last.v(last.to).value) < slow * c.fastest) s.end = std::min(s.end, before_stop(c));
-    // What a sensor makes of several positions knows of two rows behind the joint; and the rows
-    // that decided are not kept, which would bias a and b.
-    const std::size_t spare = std::min<std::size_t>(2, (s.end - s.begin) / 25);
-    if (s.begin > 0) s.begin += positions_ ? spare / 2 : spare;
+    // The rows that decided are not kept, which would bias a and b; and what a sensor makes of
+    // several positions knows of a row behind the joint.
+    const std::size_t spare = std::min<std::size_t>(positions_ ? 1 : 2, (s.end - s.begin) / 25);
+    if (s.begin > 0) s.begin += spare;
     if (s.end < samples_.size()) s.end -= spare;
+    // A step of rounded readings tells the place of the body; amid equal ones their errors cancel.
+    const auto equal = [&](std::size_t i) { return samples_[i].y == samples_[i - 1].y; };
+    std::size_t from = s.end - 1, to = s.end;
+    while (from > s.begin && equal(from)) --from;
+    while (to < samples_.size() && equal(to)) ++to;
+    s.end = std::min(s.end, (from + to + 1) / 2);
     return s;
   }
 
