@@ -55,7 +55,7 @@ class FittedRows {
   /// The fit of another law before its minimum is found, in units in which shifts and speeds are of
   /// order one.
   Fitted unsolved(const LawForm& form) const {
-    Fitted fit;
+    Fitted fit{};
     fit.noise = power_.noise, fit.shifts = power_.shifts;
     fit.rows = power_.rows, fit.left_out = power_.left_out;
     const Parameters q = power_.rolls ? power_.rolls->parameters() : Parameters({}, false, 1, 1);
