@@ -2,8 +2,6 @@
 #include "fit/beginning.h"
 
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_linalg.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include "base/gsl.h"
 #include "fit/errors.h"
 #include "fit/fitted.h"
+#include "fit/left_out.h"
 #include "fit/levels.h"
 #include "fit/roll_fit.h"
 #include "fit/route.h"
@@ -21,34 +20,6 @@
 
 namespace rolling {
 namespace {
-
-/// The change of a fit when the first rows of one run are removed, to first order: the residuals
-/// f = model - data change by Q c, and the sum of squares falls by `reduction`.
-struct Without {
-  double reduction;
-  std::vector<double> c;
-};
-
-/// f_S are the first k residuals, Q_S their rows of the orthonormal Q. A = I - Q_S^T Q_S is the
-/// normal matrix of the other rows. Then c = A^-1 Q_S^T f_S, and the reduction is |f_S|^2 +
-/// f_S^T Q_S c.
-Without without(std::size_t k, const Matrix& Q, const std::vector<double>& f) {
-  const std::size_t q = Q.size();
-  std::vector<double> A(q * q), g(q);
-  for (std::size_t i = 0; i < q; ++i) {
-    for (std::size_t j = 0; j < q; ++j) A[i * q + j] = (i == j) - dot(Q[i].data(), Q[j].data(), k);
-    g[i] = dot(Q[i].data(), f.data(), k);
-  }
-  Without result{dot(f.data(), f.data(), k), g};
-  gsl_matrix_view normal = gsl_matrix_view_array(A.data(), q, q);
-  gsl_vector_view c = gsl_vector_view_array(result.c.data(), q);
-  // A is not positive definite if the removed rows alone determine a parameter.
-  if (gsl_linalg_cholesky_decomp1(&normal.matrix) != GSL_SUCCESS ||
-      gsl_linalg_cholesky_svx(&normal.matrix, &c.vector) != GSL_SUCCESS)
-    return {0, std::vector<double>(q, 0)};
-  result.reduction += dot(g, result.c);
-  return result;
-}
 
 /// The variance of white noise from its second differences, which a smooth deviation hardly has.
 double local_variance(std::span<const double> f) {
@@ -73,28 +44,27 @@ struct Search {
     const auto& f = fit.minimum.f;
     const auto& t = fit.rolls->runs().front().t;
     const Matrix Q = orthonormal(fit);
-    const std::size_t q = Q.size();
-    const auto changed = [&](const Without& by, std::size_t from, std::size_t end) {
-      std::vector<double> rest(f.begin() + static_cast<std::ptrdiff_t>(from),
-                               f.begin() + static_cast<std::ptrdiff_t>(end));
-      for (std::size_t j = 0; j < q; ++j)
-        for (std::size_t i = from; i < end; ++i) rest[i - from] += by.c[j] * Q[j][i];
+    const std::size_t q = Q.size(), n = f.size();
+    LeftOut others(f, {Q.begin(), Q.end()});
+    const auto residuals = [&](std::size_t from, std::size_t end) {
+      std::vector<double> rest;
+      for (std::size_t i = from; i < end; ++i) rest.push_back(others.residual(i));
       return rest;
     };
-    for (std::size_t k = 3, next = 5; 4 * k <= f.size(); k = std::exchange(next, k + next)) {
+    std::size_t out = 0;
+    for (std::size_t k = 3, next = 5; 4 * k <= n; k = std::exchange(next, k + next)) {
       ++tests;
-      const Without by = without(k, Q, f);
-      const double gone = static_cast<double>(k), squares = fit.minimum.rss - by.reduction,
-                   left = static_cast<double>(f.size() - q - k);
+      for (; out < k; ++out) {
+        if (!(others.left(out) > 1e-6)) return;  // they alone determine a parameter
+        others.leave_out(out);
+      }
+      const double gone = static_cast<double>(k), squares = others.squares(),
+                   left = static_cast<double>(n - q - k);
       if (!(squares > 0)) continue;
-      const double noise = std::max(squares / left, local_variance(changed(by, 0, k + 5))),
-                   chance = gsl_cdf_fdist_Q(by.reduction / gone / noise, gone, left);
+      const double noise = std::max(squares / left, local_variance(residuals(0, k + 5))),
+                   chance = gsl_cdf_fdist_Q((fit.minimum.rss - squares) / gone / noise, gone, left);
       if (chance >= (found ? found->beginning.p : levels::beginning)) continue;
-      // Where the removed rows alone determine a parameter, nothing but rounding may remain: the
-      // squares are then more than those of a fit.
-      std::vector<double> others = changed(by, k, f.size());
-      if (!(dot(others, others) < 1.01 * squares)) continue;
-      found = {{run, k, t[k] - t[0], chance}, std::move(others), q};
+      found = {{run, k, t[k] - t[0], chance}, residuals(k, n), q};
     }
   }
 };

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/by_run.h"
 #include "base/dot.h"
 #include "base/error.h"
 #include "fit/errors.h"
+#include "fit/left_out.h"
 #include "fit/levels.h"
 #include "fit/route.h"
 #include "least_squares/robust.h"
@@ -17,100 +19,66 @@
 namespace rolling {
 namespace {
 
-/// The residuals of a run, and the linear model around the fit, while readings are left out.
-class Others {
- public:
-  /// `of_run`: the columns of B = J R^-1 for this run; none where no reading determines the fit.
-  Others(std::span<const double> e, const std::vector<std::span<double>>& B, double freedom)
-      : B_(B), e_(e.begin(), e.end()), squares_(dot(e, e)), freedom_(freedom), left_(e.size(), 1),
-        out_(e.size()) {
-    for (const auto column : B_)
-      for (std::size_t i = 0; i < left_.size(); ++i) left_[i] -= column[i] * column[i];
-    const std::size_t q = B_.size();
-    P_.assign(q * q, 0);
-    for (std::size_t j = 0; j < q; ++j) P_[j * q + j] = 1;
-  }
+/// Below this share of its variance in a residual, a reading decides the fit alone.
+constexpr double least_left = 1e-3;
 
-  /// How far a reading is off the motion of the others; 0 where the others do not tell.
-  double size(std::size_t i) const {
-    if (left_[i] < 1e-3) return 0;
-    const double square = e_[i] * e_[i] / left_[i], rest = squares_ - square;
-    return rest > 1e-12 * squares_ ? std::sqrt(square / rest * (freedom_ - 1)) : 0;
-  }
-  std::size_t furthest() const {
-    std::size_t most = 0;
-    double largest = -1;
-    for (std::size_t i = 0; i < e_.size(); ++i)
-      if (const double x = out_[i] ? -1 : std::abs(e_[i]) / std::sqrt(std::max(left_[i], 1e-3));
-          x > largest)
-        largest = x, most = i;
-    return most;
-  }
-  /// Sherman and Morrison's formula.
-  void leave_out(std::size_t i) {
-    const std::size_t q = B_.size();
-    std::vector<double> c(q);
-    for (std::size_t j = 0; j < q; ++j)
-      for (std::size_t k = 0; k < q; ++k) c[j] += P_[j * q + k] * B_[k][i];
-    const double left = left_[i], e = e_[i];
-    squares_ -= e * e / left, freedom_ -= 1, out_[i] = true;
-    if (q == 0) return;
-    for (std::size_t r = 0; r < e_.size(); ++r) {
-      double h = 0;
-      for (std::size_t k = 0; k < q; ++k) h += B_[k][r] * c[k];
-      e_[r] += h * e / left;
-      left_[r] -= h * h / left;
-    }
-    for (std::size_t j = 0; j < q; ++j)
-      for (std::size_t k = 0; k < q; ++k) P_[j * q + k] += c[j] * c[k] / left;
-  }
-  double freedom() const { return freedom_; }
-  /// The correlation of the residuals of the others with those of the reading before.
-  double correlation() const {
-    double sum = 0, squares = 0, before = 0;
-    for (std::size_t i = 0; i < e_.size(); ++i) {
-      if (out_[i]) continue;
-      sum += e_[i] * before, squares += e_[i] * e_[i];
-      before = e_[i];
-    }
-    return sum / squares;
-  }
-  /// The distance of a reading that was left out, in standard deviations of the others.
-  double distance(std::size_t i) const {
-    return std::abs(e_[i]) / std::sqrt(std::max(squares_, 0.0) / freedom_);
-  }
+/// How far a reading is off the motion of the others, in standard deviations; 0 where the others do
+/// not tell.
+double size_of(const LeftOut& others, std::size_t i, double freedom) {
+  const double left = others.left(i);
+  if (left < least_left) return 0;
+  const double e = others.residual(i), square = e * e / left, rest = others.squares() - square;
+  return rest > 1e-12 * others.squares() ? std::sqrt(square / rest * (freedom - 1)) : 0;
+}
 
- private:
-  std::vector<std::span<double>> B_;
-  std::vector<double> e_;
-  double squares_, freedom_;
-  std::vector<double> left_, P_;  // left_: 1 - leverage; P_: the inverse of B^T B of the others
-  std::vector<bool> out_;
-};
+std::size_t furthest(const LeftOut& others, const std::vector<bool>& is_out) {
+  std::size_t most = 0;
+  double largest = -1;
+  for (std::size_t i = 0; i < others.rows(); ++i) {
+    if (is_out[i]) continue;
+    const double x = std::abs(others.residual(i)) / std::sqrt(std::max(others.left(i), least_left));
+    if (x > largest) largest = x, most = i;
+  }
+  return most;
+}
+
+/// The correlation of the residuals of the others with those of the reading before.
+double correlation_of(const LeftOut& others, const std::vector<bool>& is_out) {
+  double sum = 0, squares = 0, before = 0;
+  for (std::size_t i = 0; i < others.rows(); ++i) {
+    if (is_out[i]) continue;
+    const double e = others.residual(i);
+    sum += e * std::exchange(before, e), squares += e * e;
+  }
+  return sum / squares;
+}
 
 /// The time is the number of the reading here. `most_off`: becomes the distance of the first
 /// reading that is left out, if that is larger.
-OffReadings of_run(Others others, std::size_t n, double& most_off) {
+OffReadings of_run(LeftOut others, double freedom, double& most_off) {
   OffReadings found{};
+  const std::size_t n = others.rows(), most = std::min<std::size_t>(n / 10 + 1, 100);
   std::vector<std::size_t> out;
-  const std::size_t most = std::min<std::size_t>(n / 10 + 1, 100);
+  std::vector<bool> is_out(n);
   const double by_chance = std::sqrt(2 * std::log(static_cast<double>(n)));
-  while (out.size() < most && others.freedom() > 12) {
-    const std::size_t i = others.furthest();
-    const double size = others.size(i), freedom = others.freedom() - 1;
+  while (out.size() < most && freedom > 12) {
+    const std::size_t i = furthest(others, is_out);
+    const double size = size_of(others, i, freedom);
     most_off = std::max(most_off, size);
     if (size < by_chance) break;
     others.leave_out(i);
-    out.push_back(i);
+    out.push_back(i), is_out[i] = true;
+    --freedom;
     // Smooth residuals are those of another law, which no single reading makes.
-    if (size < levels::off || others.correlation() > 0.5 ||
+    if (size < levels::off || correlation_of(others, is_out) > 0.5 ||
         static_cast<double>(n) * gsl_cdf_tdist_Q(size, freedom) > levels::off_chance / 2)
       continue;
-    found = {};
+    found = {.run = 0, .count = out.size(), .time = 0};
+    const double deviation = std::sqrt(std::max(others.squares(), 0.0) / freedom);
     for (const std::size_t k : out)
-      if (const double distance = others.distance(k); distance > found.distance)
+      if (const double distance = std::abs(others.residual(k)) / deviation;
+          distance > found.distance)
         found.distance = distance, found.time = static_cast<double>(k);
-    found.count = out.size();
   }
   return found;
 }
@@ -137,14 +105,12 @@ std::optional<OffReadings> around(const Fitted& fit, double& most_off) {
   }
   std::optional<OffReadings> found;
   const auto e_of = by_run(e, sizes);
-  const auto B_of = rows_by_run(B, sizes);
+  const auto B_of = rows_by_run(std::as_const(B), sizes);
   for (std::size_t r = 0; r < sizes.size(); ++r) {
     const double freedom =
         static_cast<double>(sizes[r]) - static_cast<double>(fit.system.columns());
     if (freedom < 13) continue;
-    OffReadings off =
-        of_run({e_of[r], B_of.empty() ? std::vector<std::span<double>>() : B_of[r], freedom},
-               sizes[r], most_off);
+    OffReadings off = of_run({e_of[r], B_of[r]}, freedom, most_off);
     if (off.count == 0 || (found && found->distance > off.distance)) continue;
     const ObservedRun& run = fit.rolls->runs()[r];
     off.run = r;
