@@ -210,7 +210,7 @@ bool warn_of_repeats(Tool& tool, Route route, const FitResult& r, const std::vec
 }  // namespace
 
 std::string why_left_out(Route route, const FitOptions& options) {
-  const std::string reason = words_of(route).why_left_out;
+  std::string reason = words_of(route).why_left_out;
   if (options.min_speed <= 0) return reason;
   return (reason.empty() ? "" : reason + ", or ") + "slower than --min-speed";
 }

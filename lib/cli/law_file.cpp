@@ -98,9 +98,11 @@ std::vector<Column> columns_of(const LawForm& form) {
     const auto power = [](const char* unit, int p) {
       return p == 0 ? "" : p == 1 ? unit : fmt::format("{}^{}", unit, p);
     };
-    const std::string above = power("m", std::max(m, 0)) + power("s", std::max(s, 0)),
-                      below = power("m", std::max(-m, 0)) + power("s", std::max(-s, 0));
-    all.push_back({c.name, above + (below.empty() ? "" : "/" + below)});
+    const auto product = [&](int of_m, int of_s) {
+      return power("m", std::max(of_m, 0)) + power("s", std::max(of_s, 0));
+    };
+    const std::string below = product(-m, -s);
+    all.push_back({c.name, fmt::format("{}{}{}", product(m, s), below.empty() ? "" : "/", below)});
   }
   return all;
 }
