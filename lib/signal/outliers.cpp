@@ -130,7 +130,7 @@ bool Outliers::belongs(std::size_t i, bool again) const {
     motion = others.best_parabola();
     const double own = others.scatter(motion) / of_seven;
     if (few()) noise = std::max(noise, 1.5 * own);
-    else if (own > 3.5 * noise) noise = own;
+    else if (own > 4.5 * noise) noise = own;
     motion = others.near_parabola(motion, 4 * noise);
   }
   const auto [value, error] = motion.derivative(0, 0);
