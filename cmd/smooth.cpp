@@ -191,10 +191,10 @@ int main(int argc, char** argv) {
         if (select.all()) filter.put(smoother->push(filter[t], filter[y])), ++kept;
         else take(selection.push(filter[t], filter[y]));
       }
-      const auto decided = selection.finish();
+      selection.finish();
       selected.add(selection, in.run_name());
       if (!choose) tell();
-      take(decided);
+      for (auto more = selection.next(); !more.empty(); more = selection.next()) take(more);
       const auto rest = smoother->finish();
       if (choose && kept > 0) {  // the first run with rows decides for all
         options = static_cast<AutoSmoother&>(*smoother).options();

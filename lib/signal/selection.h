@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/growing.h"
 #include "signal/free_roll.h"
 #include "signal/outliers.h"
 
@@ -33,8 +34,10 @@ class Selection {
 
   /// As in Signal: the samples for which the decision is now known, in order.
   std::span<const Judged> push(double t, double y);
-  /// Throws Error as free_roll does.
-  std::span<const Judged> finish();
+  /// Ends the run. Throws Error as free_roll does.
+  void finish();
+  /// The next samples for which the decision is known; behind the last one, none.
+  std::span<const Judged> next();
   const std::vector<double>& outliers() const { return outliers_; }  ///< their times so far
   /// After finish(), for coast: the free roll, and the times [s] of its first and last sample, of
   /// that with which something else begins, and those of another roll.
@@ -52,7 +55,13 @@ class Selection {
 
   SelectionOptions options_;
   std::optional<Outliers> test_;
-  std::vector<Judged> decided_;  // for coast all of the run
+  // Samples that next() has not returned, for coast the whole run; and the indices of those that
+  // are not kept, whatever the roll is.
+  Growing<Sample> run_;
+  std::vector<std::size_t> off_;
+  std::size_t next_ = 0, next_off_ = 0;
+  Stretch kept_{0, std::numeric_limits<std::size_t>::max()};  // of the others
+  std::vector<Judged> decided_;
   std::vector<double> outliers_;
   std::optional<Roll> roll_;
 };

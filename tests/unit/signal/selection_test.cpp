@@ -24,7 +24,8 @@ TEST_CASE("selection: times, then outliers, then the roll; nothing reaches into 
   Selection selection(options);
   for (const Sample& s : run)
     CHECK(selection.push(s.t, s.y).empty());  // it waits for the whole run
-  const auto all = selection.finish();
+  selection.finish();
+  const auto all = selection.next();
   REQUIRE(all.size() == run.size());
   CHECK(selection.outliers() == std::vector<double>{run[20].t, run[100].t});
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -33,6 +34,31 @@ TEST_CASE("selection: times, then outliers, then the roll; nothing reaches into 
     if (t < 1.55 || t > 4.3 || i == 100) CHECK(!all[i].kept);
     else if (t > 2) CHECK((all[i].kept && all[i].t == t && all[i].y == run[i].y));
   }
+}
+
+TEST_CASE("selection: of a long run that begins later, each sample once and the same roll",
+          "[signal]") {
+  std::vector<Sample> run;
+  const Series e = noise(3500, 5);
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    const double t = 0.004 * static_cast<double>(i);
+    run.push_back({t, (t < 3 || t > 12 ? 0 : 0.05 * (12 - t)) + 0.004 * e[i]});
+  }
+  constexpr std::size_t late = 250;
+  SelectionOptions options;
+  options.coast = true, options.from = run[late].t;
+  Selection selection(options);
+  for (const Sample& s : run) CHECK(selection.push(s.t, s.y).empty());
+  selection.finish();
+  const Stretch roll = free_roll(std::span(run).subspan(late), false).kept;
+  std::size_t i = 0;
+  for (auto more = selection.next(); !more.empty(); more = selection.next())
+    for (const Judged& s : more) {
+      CHECK((s.t == run[i].t && s.y == run[i].y));
+      CHECK(s.kept == (i >= late + roll.begin && i < late + roll.end));
+      ++i;
+    }
+  CHECK(i == run.size());
 }
 
 TEST_CASE("selection: without the roll it waits for no more than a window", "[signal]") {
@@ -44,14 +70,16 @@ TEST_CASE("selection: without the roll it waits for no more than a window", "[si
     REQUIRE(now.size() == 1);
     CHECK(now[0].kept == (i >= 2 && i <= 7));
   }
-  CHECK(times.finish().empty());
+  times.finish();
+  CHECK(times.next().empty());
   options.outliers = 3, options.width = {5, 0};
   Selection both(options);
   std::vector<std::size_t> counts;
   for (int i = 0; i < 10; ++i) counts.push_back(both.push(i, 0).size());
   CHECK(counts == std::vector<std::size_t>{1, 1, 0, 0, 0, 0, 0, 0, 7,
                                            1});  // the window ends with the selection
-  CHECK(both.finish().empty());
+  both.finish();
+  CHECK(both.next().empty());
 }
 
 namespace {
@@ -85,7 +113,8 @@ std::pair<std::vector<bool>, std::string> selected(const std::vector<Sample>& ru
     for (const Judged& s : samples) kept.push_back(s.kept);
   };
   for (const Sample& s : run) take(selection.push(s.t, s.y));
-  take(selection.finish());
+  selection.finish();
+  for (auto more = selection.next(); !more.empty(); more = selection.next()) take(more);
   std::string told;
   if (const auto& roll = selection.roll())
     told = std::to_string(static_cast<int>(roll->how)) + (roll->other ? ", or another" : "");
