@@ -207,7 +207,7 @@ bench: all build/bench/speed
 	@PATH="$$PWD/bin:$$PATH" tests/bench/speed.sh
 	@PATH="$$PWD/bin:$$PATH" tests/bench/profile.sh
 
-# Static analysis; .clang-tidy says what is checked.
+# Static analysis; .clang-tidy says what is checked. No function of lib/ is without a tool that calls it.
 lint:
 	clang-format-14 --dry-run --Werror $$(find lib cmd tests -name '*.cpp' -o -name '*.h')
 	mandoc -Tlint -Wwarning man/*
@@ -222,4 +222,5 @@ lint:
 	printf '%s\n' $(source) $(wildcard cmd/*.cpp tests/*/*.cpp tests/*/*/*.cpp) | \
 	  xargs -P $$(nproc) -n 4 \
 	  clang++-14 -fsyntax-only -Werror '-DTOOL=""' $(CPPFLAGS) -Itests $(CXXFLAGS)
+	tests/unused.sh
 

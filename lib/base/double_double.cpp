@@ -159,10 +159,6 @@ Scaled::Scaled(DoubleDouble x) {
   m.lo = std::ldexp(x.lo, -exponent);
 }
 
-DoubleDouble Scaled::value() const {
-  return {std::ldexp(m.hi, exponent), std::ldexp(m.lo, exponent)};
-}
-
 Scaled operator*(const Scaled& a, const Scaled& b) {
   Scaled product(a.m * b.m);
   product.exponent += a.exponent + b.exponent;

@@ -144,7 +144,6 @@ struct Scaled {
 
   Scaled(DoubleDouble x);
   Scaled(double x) : Scaled(DoubleDouble(x)) {}
-  DoubleDouble value() const;  ///< 0 or infinite beyond the range
 };
 Scaled operator*(const Scaled&, const Scaled&);
 Scaled operator/(const Scaled&, const Scaled&);

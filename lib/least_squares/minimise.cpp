@@ -204,14 +204,6 @@ void solve_transposed(const double* R, std::span<double> g) {
   }
 }
 
-void solve_upper(const double* R, std::span<double> w) {
-  const std::size_t q = w.size();
-  for (std::size_t j = q; j-- > 0;) {
-    for (std::size_t k = j + 1; k < q; ++k) w[j] -= R[j * q + k] * w[k];
-    w[j] /= R[j * q + j];
-  }
-}
-
 double restricted_likelihood(const System& system, const std::vector<double>& theta) {
   Point at(system);
   evaluate_at(system, at, theta);

@@ -38,8 +38,6 @@ Minimum evaluated(const System&, std::vector<double> theta);
 
 /// Replaces g by R^-T g, for the triangle R of one run of a Minimum, of as many rows as g has.
 void solve_transposed(const double* R, std::span<double> g);
-/// Replaces w by R^-1 w.
-void solve_upper(const double* R, std::span<double> w);
 
 /// ln of the restricted likelihood (Patterson and Thompson 1971, Biometrika 58, 545) of normal
 /// white residuals, up to a constant, with the model linear around theta: -(n - p)/2 ln RSS - ln
