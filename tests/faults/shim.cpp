@@ -3,10 +3,10 @@
 //   FAULT_READ=1     one byte a read, and every second call interrupted or told to try again
 //   FAULT_WRITE=1    a few bytes a write, and every second call interrupted or told to try again
 //   FAULT_MALLOC=once | on   runs the tool again and again: with its first allocation failing, its
-//   second, ... (`on`: that one
-//                    and all after it; with /N, only every N-th run), and checks that each is
-//                    refused in one line on standard error with 2, whole rows only, all of them
-//                    rows of the run without a fault.
+//                    second, ... (`on`: that one and all after it; with /N, only every N-th run),
+//                    and checks that each is refused with 2 in one line on standard error, behind
+//                    its warnings, and prints whole rows only, all of them rows of the run without
+//                    a fault.
 //   FAULT_DENORMALS=1  denormal numbers are 0 when the tool starts, as -ffast-math has it where it
 //                    links
 // No C++ library here: the shim must not allocate, nor be initialised after anything that does.
@@ -78,14 +78,24 @@ bool same_as_whole() {
          memcmp(run.err, whole.err, static_cast<size_t>(run.err_size)) == 0;
 }
 
+/// What a run says behind the warnings that the run without a fault gives too.
+const char* behind_warnings() {
+  long same = 0;
+  for (long i = 0; i < run.err_size && i < whole.err_size && run.err[i] == whole.err[i]; ++i)
+    if (run.err[i] == '\n') same = i + 1;
+  return run.err + same;
+}
+
 const char* what_is_wrong(const char* tool) {
   const long prefix = static_cast<long>(strlen(tool));
   if (WIFSIGNALED(run.status)) return "was killed by a signal";
   if (same_as_whole()) return nullptr;  // it did without
   if (WEXITSTATUS(run.status) != 2) return "does not exit with 2";
-  if (run.err_size < prefix + 3 || memcmp(run.err, tool, static_cast<size_t>(prefix)) != 0)
+  const char* why = behind_warnings();
+  const long length = run.err + run.err_size - why;
+  if (length < prefix + 3 || memcmp(why, tool, static_cast<size_t>(prefix)) != 0)
     return "does not say why";
-  if (memchr(run.err, '\n', static_cast<size_t>(run.err_size)) != run.err + run.err_size - 1)
+  if (memchr(why, '\n', static_cast<size_t>(length)) != why + length - 1)
     return "does not say why in one line";
   const char end[] = ": ended with an error\n";  // which a tool says when it has begun to print
   const long last = 3 + prefix + static_cast<long>(sizeof end) - 1;
