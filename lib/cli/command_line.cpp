@@ -6,7 +6,6 @@
 #include <CLI/Formatter.hpp>
 
 #include <list>
-#include <sstream>
 #include <utility>
 
 #include "base/error.h"
@@ -60,21 +59,13 @@ std::string synopsis(const CLI::Option& option) {
   return text;
 }
 
-/// CLI11's message on one line, with long words cut.
-std::string one_line(const std::string& message) {
-  std::istringstream words(message);
-  std::string text;
-  for (std::string word; words >> word;) text += shown(word) + ' ';
-  return text;
-}
-
 /// What is wrong with the number of values of an option. CLI11's message begins with its long name,
 /// that of a flag without hyphens.
 std::string wrong_count(const CLI::App& app, const std::string& message) {
   const auto begin = message.find_first_not_of('-');
   const std::string name = "--" + message.substr(begin, message.find_first_of(": ", begin) - begin);
   const CLI::Option* const option = app.get_option_no_throw(name);
-  if (!option) return one_line(message);
+  if (!option) return shown(message) + " ";
   if (option->count() > 1 && !may_repeat(*option)) return name + " is given more than once ";
   if (option->get_items_expected_max() == 0) return name + " takes no value ";
   return name + " needs a value, " + option->get_type_name() + ' ';
@@ -144,7 +135,7 @@ CommandLine::Asked CommandLine::parse(int argc, const char* const* argv) {
       if (word.starts_with('-')) fail("there is no option {} (see --help)", shown(unmarked(word)));
     fail("there are no operands (see --help)");
   } catch (const CLI::ParseError& error) {
-    fail("{}(see --help)", one_line(error.what()));
+    fail("{} (see --help)", shown(error.what()));
   }
   for (const auto& [option, set] : parser_->lists)
     for (const std::string& word : option->results()) set(unmarked(word));

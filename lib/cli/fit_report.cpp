@@ -165,44 +165,29 @@ std::vector<Remark> against(const FitResult& r, const std::vector<FitRun>& runs,
   return all;
 }
 
-/// Warns of readings that repeat, as roundings more coarse than the motion, medians and held
-/// readings do: their errors hang together in a way that residuals of few rows do not show.
-/// Returns true if it does, or read_runs() has.
+/// Warns of readings that repeat since they are rounded to steps that the body hardly makes: their
+/// errors hang together in a way that residuals of few rows do not show. Returns true if it does,
+/// or read_runs() has.
 bool warn_of_repeats(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs) {
   for (const FitRun& run : runs) {
     const std::vector<double>& y = route == Route::position ? run.x : run.v;
     if (rows_held(y) > 1) return true;
     if (!run.filters.empty()) continue;
     std::size_t rows = 0, repeats = 0, waiting = 0;
-    std::vector<double> steps;
     for (std::size_t i = 1; i < y.size(); ++i) {  // without the rest at the end
       ++waiting;
-      if (y[i] == y[i - 1]) continue;
-      rows += waiting, repeats += waiting - 1, waiting = 0;
-      steps.push_back(std::abs(y[i] - y[i - 1]));
+      if (y[i] != y[i - 1]) rows += waiting, repeats += std::exchange(waiting, 0) - 1;
     }
     const double grid = grid_of(y),
                  share = static_cast<double>(repeats) / static_cast<double>(rows);
-    const char* const what = route == Route::position ? "positions" : "speeds";
-    if (repeats < 10) continue;
-    if (r.rms < levels::grid_of_rms * grid && share > levels::repeats_of_grid) {
-      tool.warn(run.name,
-                fmt::format("{:.0f} % of the {} repeat, on a grid of {:.3g} that is coarser than "
-                            "their noise: errors of rounding hang together, and sigma_a and "
-                            "sigma_b may be too small; keep only the rows in which a new one comes",
-                            100 * share, what, grid));
-      return true;
-    }
-    const double small = nth_smallest(steps, steps.size() / 10);  // a grid, but for a few steps
-    if (r.rms > levels::noise_over_grid * small && share > levels::repeats_of_noise) {
-      tool.warn(run.name,
-                fmt::format(
-                    "{:.0f} % of the {} repeat, which readings of such noise do not, but "
-                    "medians do, and a logger that holds them: the standard uncertainties are too "
-                    "small; fit the readings before that filter",
-                    100 * share, what));
-      return true;
-    }
+    if (repeats < 10 || r.rms >= levels::grid_of_rms * grid || share <= levels::repeats_of_grid)
+      continue;
+    tool.warn(run.name,
+              fmt::format("{:.0f} % of the {} repeat, on a grid of {:.3g} that is coarser than "
+                          "their noise: errors of rounding hang together, and sigma_a and sigma_b "
+                          "may be too small; keep only the rows in which a new one comes",
+                          100 * share, route == Route::position ? "positions" : "speeds", grid));
+    return true;
   }
   return false;
 }

@@ -98,13 +98,10 @@ bool both_ways(const Fitted& found) {
 }
 
 /// Throws Error if a slope of the mat, which slows the body down as the law does, is not told from
-/// it by runs in one direction.
-void require_slope(const FitResult& result, const std::vector<FitRun>& runs) {
+/// it by runs in one direction, as a constant d0 never is.
+void require_slope(const FitResult& result) {
   const Estimate first = result.coefficients.front();
-  const double R = runs.front().body.R, D = result.law.at(std::abs(result.v0.front().value)).D;
-  if (result.law.power() ? first.sigma < first.value / 10 && result.sigma_b < 0.1
-                         : R * result.sigma_slope < D / 10)
-    return;
+  if (result.law.power() && first.sigma < first.value / 10 && result.sigma_b < 0.1) return;
   fail(
       "a slope of the mat and its law slow the body down alike, and these runs do not tell them "
       "apart ({} comes out as {:.3g}{}): add runs in the other direction",
@@ -113,8 +110,7 @@ void require_slope(const FitResult& result, const std::vector<FitRun>& runs) {
 }
 
 /// Throws Error if the data do not determine the law or the slope.
-void require_determined(const FitResult& result, const std::vector<FitRun>& runs,
-                        const FitOptions& options, const Fitted& found) {
+void require_determined(const FitResult& result, const FitOptions& options, const Fitted& found) {
   const LawForm& form = result.law.form();
   double sum = 0, errors = result.rms;
   for (const Estimate& c : result.coefficients) sum += c.value, errors += c.sigma;
@@ -124,7 +120,7 @@ void require_determined(const FitResult& result, const std::vector<FitRun>& runs
   if (result.errors != Errors::none && !std::isfinite(errors))
     fail("the fit gives no finite errors of {}: {}", names_of(form), choose_the_roll);
   // Large errors of a nonlinear fit are not reliable themselves; hence these limits on them.
-  if (options.fit_slope && !both_ways(found)) require_slope(result, runs);
+  if (options.fit_slope && !both_ways(found)) require_slope(result);
   for (std::size_t j = 0; j < form.coefficients.size() && !options.fits_power(); ++j)
     if (const auto& of = form.coefficients[j];
         of.D == 0 && of.v == 0 && !determines_b(result.coefficients[j].sigma))
@@ -193,7 +189,7 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   std::vector<ErrorShare> shares{noise.share};
   const double rms = rms_of(found);
   require_seen(found, runs);
-  require_determined(result_of(found, rms, noise, shares), runs, options, found);
+  require_determined(result_of(found, rms, noise, shares), options, found);
   require_law(found, runs);
   for (ErrorShare& share :
        shares_of_given(route, runs, options, found, !agreement || agreement->agree()))

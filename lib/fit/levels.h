@@ -32,8 +32,6 @@ inline constexpr double off = 10, off_chance = 1e-4;
 inline constexpr double not_rounded = 0.001;
 /// Readings on a grid repeat where they move by less than it, and rms is near 0.29 of it.
 inline constexpr double grid_of_rms = 0.5, repeats_of_grid = 1. / 3;
-/// Readings whose noise is that much larger than their small steps repeat in 6 % at most.
-inline constexpr double noise_over_grid = 5, repeats_of_noise = 0.15;
 /// AICc by which another law leaves a v^b no support (Burnham and Anderson 2002, section 2.6), and
 /// by which a v^b is said to be as good as any other.
 inline constexpr double another_law = 10, no_better_law = 2;

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "contact/contact.h"
+#include "motion/roll.h"
 
 namespace rolling {
 
@@ -28,8 +29,7 @@ double floor_of(const Law& law, Rest rest, double v0) {
 }
 
 OdeSystem equations(const Body& body, Geometry geometry, const Law& law, double floor, double v0) {
-  if (!(v0 >= 0 && std::isfinite(v0)))
-    fail("the initial velocity v0 = {} must be a number that is not negative", v0);
+  check_numbers(body, law, v0);
   if (v0 > 0) check_shift(body, law(v0));
   // Below the floor D is constant, so that v crosses the floor: nothing attracts the solver to v =
   // 0.

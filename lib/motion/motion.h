@@ -11,8 +11,6 @@ class Motion {
   virtual ~Motion() = default;
   /// The time from which on v is 0 [s], or of the turning point; infinity if there is none.
   virtual double stop_time() = 0;
-  /// True if the body rolls back after stop_time().
-  virtual bool turns() const { return false; }
   /// The limit of v if the body never rests [m/s], which may be infinite.
   virtual double last_speed() { return 0; }
   /// Sets the time t [s] >= 0, which must not decrease from call to call.

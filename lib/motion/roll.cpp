@@ -15,7 +15,7 @@ constexpr double first_part = 1e-18;  // of v0: the way back begins there
 
 }  // namespace
 
-void check_numbers(const Body& body, double v0) {
+void check_numbers(const Body& body, const Law& law, double v0) {
   const auto check = [](const char* name, double value, bool positive) {
     if (!(value >= 0 && std::isfinite(value)) || (positive && value == 0))
       fail("{} = {} must be a {}", name, value,
@@ -26,23 +26,26 @@ void check_numbers(const Body& body, double v0) {
   check("gravity g", body.g, true);
   check("the initial velocity v0", v0, false);
   if (!std::isfinite(body.slope)) fail("the slope {} must be finite", body.slope);
+  if (v0 > law.highest())
+    fail("the initial velocity v0 = {} is above the table of the law, which ends at {}", v0,
+         law.highest());
 }
 
-void check_roll(const Body& body, PowerLaw law, double v0) {
-  check_numbers(body, v0);
-  if (!(law.a > 0 && std::isfinite(law.a)))
-    fail("the coefficient a = {} must be a positive number", law.a);
-  if (!(std::abs(law.b) <= 1000)) fail("the exponent b = {} is beyond -1000 to 1000", law.b);
-  if (!std::isfinite(law(v0))) fail("the shift at v0 = {} m/s has no finite value", v0);
-  check_shift(body, law(v0));
+void check_roll(const Body& body, const Law& law, double v0) {
+  check_numbers(body, law, v0);
+  const auto power = law.power();
+  if (!power) return check_shift(body, law.largest_shift(v0));
+  if (!(power->a > 0 && std::isfinite(power->a)))
+    fail("the coefficient a = {} must be a positive number", power->a);
+  if (!(std::abs(power->b) <= 1000)) fail("the exponent b = {} is beyond -1000 to 1000", power->b);
+  const double D = (*power)(v0);
+  if (!std::isfinite(D)) fail("the shift at v0 = {} m/s has no finite value", v0);
+  check_shift(body, D);
 }
 
 Roll::Roll(const Body& body, Geometry geometry, Law law, double v0)
     : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0) {
-  check_numbers(body, v0);
-  if (v0 > law_.highest())
-    fail("the initial velocity v0 = {} is above the table of the law, which ends at {}", v0,
-         law_.highest());
+  check_numbers(body, law_, v0);
   if (v0 > 0) leg_.emplace(body, geometry, law_, v0);
   turns_ = (v0 == 0 || (body.slope > 0 && leg_->slows())) && rolls_down();
 }

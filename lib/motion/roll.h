@@ -10,10 +10,12 @@
 
 namespace rolling {
 
-/// Throws Error unless R > 0, g > 0, K >= 0, v0 >= 0, all of them and the slope finite.
-void check_numbers(const Body&, double v0);
-/// The same, and unless a > 0, |b| <= 1000 and D(v0) <= R.
-void check_roll(const Body&, PowerLaw, double v0);
+/// Throws Error unless R > 0, g > 0, K >= 0, v0 >= 0, all of them and the slope finite, and unless
+/// the law, which may be a table, reaches up to v0.
+void check_numbers(const Body&, const Law&, double v0);
+/// The same, and unless a v^b has a > 0 and |b| <= 1000, and D <= R at v0, or at all points of a
+/// table up to there.
+void check_roll(const Body&, const Law&, double v0);
 
 /// A roll is one leg, or two. Where the mat rises along the motion more than the law can hold at
 /// rest, A R S > D(0), the body rolls back from its turning point: D always acts against the

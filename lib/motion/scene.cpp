@@ -30,7 +30,6 @@ class SpeedRoll final : public Motion {
     const double stop = roll_.stop_time();
     return std::isfinite(stop) && roll_.radius_time(stop) < stop ? infinity : stop;
   }
-  bool turns() const override { return roll_.turns(); }
   double last_speed() override { return roll_.last_speed(); }
   void seek(double t) override {
     state_ = roll_.at(t);
@@ -73,7 +72,6 @@ class MirroredRoll final : public Motion {
   explicit MirroredRoll(std::unique_ptr<Motion> image) : image_(std::move(image)) {}
 
   double stop_time() override { return image_->stop_time(); }
-  bool turns() const override { return image_->turns(); }
   double last_speed() override { return 0 - image_->last_speed(); }
   void seek(double t) override { image_->seek(t); }
   double position() override { return 0 - image_->position(); }
@@ -98,7 +96,6 @@ class SolvedBothWays final : public Motion {
         way_(scene.body.slope > 0 ? -1 : 1) {}
 
   double stop_time() override { return up_.stop_time(); }
-  bool turns() const override { return true; }
   void seek(double t) override {
     const double T = stop_time();
     up_.seek(std::min(t, T));
@@ -152,14 +149,7 @@ std::unique_ptr<Motion> start(const Scene& scene, Method method, double rtol,
   const auto& [body, geometry, law, bulge, v0, x0] = scene;
   if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
   const auto power = law.power();
-  if (power) check_roll(body, *power, v0);
-  else {
-    check_numbers(body, v0);
-    if (v0 > law.highest())
-      fail("the initial velocity v0 = {} is above the table of the law, which ends at {}", v0,
-           law.highest());
-    check_shift(body, law.largest_shift(v0));
-  }
+  check_roll(body, law, v0);
   if (bulge.length > 0) {
     if (!power) fail("the memory goes with a law a v^b alone");
     if (method.kind != Method::solver)

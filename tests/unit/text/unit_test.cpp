@@ -31,6 +31,8 @@ TEST_CASE("unit: every spelling of lengths and times, and of their quotients", "
                            {"msec", 1e-3},
                            {"milliseconds", 1e-3},
                            {"Milliseconds", 1e-3},
+                           {"millis", 1e-3},
+                           {"micros", 1e-6},
                            {"us", 1e-6},
                            {"usec", 1e-6},
                            {"\xC2\xB5s", 1e-6},
