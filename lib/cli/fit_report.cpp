@@ -90,9 +90,8 @@ std::string described(const LawFit& fit, double least) {
     line += fmt::format(" {} = {:.6g}{}{}", names[i].name, c.value, known(" +- {:.2g}", c.sigma),
                         i + 1 < names.size() ? "," : ";");
     for (std::size_t j = 0; j < i; ++j)
-      if (const double value = fit.correlations[i][j]; !std::isnan(value))
-        corr += fmt::format("{} {} {} {:.3f}", corr.empty() ? " corr" : ",", names[j].name,
-                            names[i].name, value);
+      corr += fmt::format("{} {} {} {:.3f}", corr.empty() ? " corr" : ",", names[j].name,
+                          names[i].name, fit.correlations[i][j]);
   }
   return line + (corr.empty() ? "" : corr + ";") +
          (std::isfinite(fit.aicc) ? fmt::format(" AICc {:.1f} above the least", fit.aicc - least)

@@ -85,9 +85,8 @@ std::string names_of(const LawForm& form, const std::vector<FittedNumber>& value
   return enumeration(all);
 }
 
-/// True if the runs together roll up the slope and down.
+/// True if the rolls together go up the slope and down.
 bool both_ways(const Fitted& found) {
-  if (!found.rolls) return false;
   const auto& runs = found.rolls->runs();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     Roll roll = found.rolls->roll(found.minimum.theta, r);

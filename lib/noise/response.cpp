@@ -40,7 +40,6 @@ constexpr double rounding = 1e-9;
 Short shortened(const LinearFilter& filter, std::span<const double> t) {
   const std::size_t n = t.size(), end = 2 * filter.reach + 1, most = 3 * end;
   Short few;
-  if (n == 0) return few;
   few.row.reserve(n);
   double origin = t[0];
   for (std::size_t first = 0, last; first + 1 < n; first = last) {
@@ -110,7 +109,6 @@ BandMatrix probe(const LinearFilter& filter, std::span<const double> times) {
 
 Response response_of(const FilterChain& chain, std::span<const double> t) {
   Response response;
-  if (chain.empty()) return response;
   response.source = chain.front().from;
   response.of.emplace(response.source, BandMatrix::identity(t.size()));
   for (const auto& filter : chain) {

@@ -64,13 +64,14 @@ struct Neighbours {
     without(without, none, 0);
     return best;
   }
-  /// Through those that lie within `most` of a parabola.
+  /// Through those that lie within `most` of a parabola, as all do that it was fitted to: none of
+  /// n is further off than the root of n - 3 of their scatter.
   Polynomial<3> near_parabola(const Polynomial<3>& motion, double most) const {
     Polynomial<3> fit;
     for (std::size_t i = 0; i < size; ++i)
       if (std::abs(at[i].y - motion.derivative(0, at[i].t).value) <= most)
         fit.add(at[i].t, at[i].y);
-    return fit.size() < motion.size() ? motion : fit;
+    return fit;
   }
 };
 

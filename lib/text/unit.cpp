@@ -181,10 +181,7 @@ std::string_view si_unit(std::string_view quantity) {
   return q ? q->si : std::string_view();
 }
 
-std::string_view known_units(std::string_view quantity) {
-  const KnownQuantity* q = known(quantity);
-  return q ? q->units : std::string_view();
-}
+std::string_view known_units(std::string_view quantity) { return known(quantity)->units; }
 
 std::optional<Conversion> unit_of(std::string_view quantity, std::string_view unit) {
   if (!known(quantity)) return {};
