@@ -167,7 +167,9 @@ class Search {
     if (s.begin > 0) {
       const Piece<P>& before = pieces_[c.first - 1];
       const auto cost = cost_of_joints(before.begin, before.order, first.order, first.end);
-      s.begin = before.begin + inner_joint(cost, before.size(), first.size() / 3, 1);
+      // No further than by as much again: a longer piece could be of the roll itself.
+      const std::size_t far = std::min(first.size() / 3, before.size());
+      s.begin = before.begin + inner_joint(cost, before.size(), far, 1);
       s.begin = std::max(s.begin, first.end - agreeing(first.end - 1, first.begin));
       const double t = samples_[s.begin].t +
                        std::max(unseen(first, samples_[s.begin].t), unseen_push(before, first));
