@@ -82,7 +82,7 @@ namespace {
 /// Every k-th row of each run, at most 4096 of them.
 std::vector<ObservedRun> some_of(std::vector<ObservedRun> runs) {
   for (ObservedRun& run : runs) {
-    const std::size_t n = run.y.size(), step = (n + 4095) / 4096;
+    const std::size_t n = run.y.size(), step = 1 + n / 4096;
     for (std::size_t i = 0; i * step < n; ++i)
       run.t[i] = run.t[i * step], run.y[i] = run.y[i * step];
     run.t.resize((n + step - 1) / step), run.y.resize(run.t.size());
