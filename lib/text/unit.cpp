@@ -15,9 +15,9 @@
 namespace rolling {
 namespace {
 
-enum class Dimension { length, time };
+enum class Dimension { length, time, speed };
 
-/// A unit of length or time, by its spellings. Those of SI units may have a prefix.
+/// A unit with a name of its own, by its spellings. Those of SI units may have a prefix.
 struct Unit {
   Dimension dimension;
   Conversion to_si;
@@ -33,6 +33,11 @@ constexpr Unit units[] = {
     {Dimension::time, {}, true, {"s", "sec", "secs", "second", "seconds"}},
     {Dimension::time, {60, 1}, false, {"min", "mins", "minute", "minutes"}},
     {Dimension::time, {3600, 1}, false, {"h", "hr", "hrs", "hour", "hours"}},
+    {Dimension::speed, {}, false, {"mps"}},
+    {Dimension::speed, {5, 18}, false, {"km/h", "kmh", "kph", "kmph"}},
+    {Dimension::speed, {1397, 3125}, false, {"mph"}},
+    {Dimension::speed, {381, 1250}, false, {"fps"}},
+    {Dimension::speed, {463, 900}, false, {"kn", "kt", "kts", "knot", "knots"}},
 };
 struct Prefix {
   std::string_view letter, word;
@@ -41,13 +46,6 @@ struct Prefix {
 constexpr Prefix prefixes[] = {{"k", "kilo", {1e3, 1}},  {"d", "deci", {1, 1e1}},
                                {"c", "centi", {1, 1e2}}, {"m", "milli", {1, 1e3}},
                                {"u", "micro", {1, 1e6}}, {"n", "nano", {1, 1e9}}};
-
-/// Speeds that have a name of their own, in any case.
-constexpr std::pair<std::string_view, std::string_view> named_speeds[] = {
-    {"mph", "mi/h"},  {"km/h", "km/h"}, {"kmh", "km/h"}, {"kph", "km/h"},
-    {"kmph", "km/h"}, {"mps", "m/s"},   {"fps", "ft/s"}};
-constexpr std::array<std::string_view, 5> knots = {"kn", "kt", "kts", "knot", "knots"};
-constexpr Conversion knot{463, 900};
 
 struct KnownQuantity {
   std::string_view name, si, units;
@@ -91,8 +89,6 @@ std::optional<Conversion> spelled(Dimension dimension, std::string_view word) {
         if (unit.prefixed && word.starts_with(front) && is_one_of(unit, word.substr(front.size())))
           return product(prefix.size, unit.to_si);
   }
-  if (dimension == Dimension::time && (word == "millis" || word == "micros"))
-    return Conversion{1, word == "millis" ? 1e3 : 1e6};
   return {};
 }
 
@@ -140,12 +136,10 @@ std::optional<Conversion> rate(std::string_view text, int power) {
   return power == 2 ? quotient(speed, *time) : speed;
 }
 
+/// Case does not matter in the names of speeds.
 std::optional<Conversion> speed(const std::string& text) {
-  const std::string small = lower(text);
-  if (std::ranges::count(knots, small) > 0) return knot;
-  for (const auto& [name, unit] : named_speeds)
-    if (small == name) return rate(unit, 1);
-  return rate(text, 1);
+  const auto named = spelled(Dimension::speed, lower(text));
+  return named ? named : rate(text, 1);
 }
 
 /// Words of English, and signs in the names of columns.
