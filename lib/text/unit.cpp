@@ -19,25 +19,25 @@ enum class Dimension { length, time, speed };
 
 /// A unit with a name of its own, by its spellings. Those of SI units may have a prefix.
 struct Unit {
-  Dimension dimension;
   Conversion to_si;
-  bool prefixed;
   std::array<std::string_view, 5> spellings;
+  Dimension dimension;
+  bool prefixed = false;
 };
 constexpr Unit units[] = {
-    {Dimension::length, {}, true, {"m", "meter", "meters", "metre", "metres"}},
-    {Dimension::length, {127, 5000}, false, {"in", "inch", "inches"}},
-    {Dimension::length, {381, 1250}, false, {"ft", "foot", "feet"}},
-    {Dimension::length, {1143, 1250}, false, {"yd", "yard", "yards"}},
-    {Dimension::length, {201168, 125}, false, {"mi", "mile", "miles"}},
-    {Dimension::time, {}, true, {"s", "sec", "secs", "second", "seconds"}},
-    {Dimension::time, {60, 1}, false, {"min", "mins", "minute", "minutes"}},
-    {Dimension::time, {3600, 1}, false, {"h", "hr", "hrs", "hour", "hours"}},
-    {Dimension::speed, {}, false, {"mps"}},
-    {Dimension::speed, {5, 18}, false, {"km/h", "kmh", "kph", "kmph"}},
-    {Dimension::speed, {1397, 3125}, false, {"mph"}},
-    {Dimension::speed, {381, 1250}, false, {"fps"}},
-    {Dimension::speed, {463, 900}, false, {"kn", "kt", "kts", "knot", "knots"}},
+    {{}, {"m", "meter", "meters", "metre", "metres"}, Dimension::length, true},
+    {{127, 5000}, {"in", "inch", "inches"}, Dimension::length},
+    {{381, 1250}, {"ft", "foot", "feet"}, Dimension::length},
+    {{1143, 1250}, {"yd", "yard", "yards"}, Dimension::length},
+    {{201168, 125}, {"mi", "mile", "miles"}, Dimension::length},
+    {{}, {"s", "sec", "secs", "second", "seconds"}, Dimension::time, true},
+    {{60, 1}, {"min", "mins", "minute", "minutes"}, Dimension::time},
+    {{3600, 1}, {"h", "hr", "hrs", "hour", "hours"}, Dimension::time},
+    {{}, {"mps"}, Dimension::speed},
+    {{5, 18}, {"km/h", "kmh", "kph", "kmph"}, Dimension::speed},
+    {{1397, 3125}, {"mph"}, Dimension::speed},
+    {{381, 1250}, {"fps"}, Dimension::speed},
+    {{463, 900}, {"kn", "kt", "kts", "knot", "knots"}, Dimension::speed},
 };
 struct Prefix {
   std::string_view letter, word;
@@ -203,7 +203,7 @@ std::string unit_at_end(std::string_view quantity, std::string_view name) {
        at = name.find_first_of(between, at + 1)) {
     std::string end(name.substr(at + 1));
     std::ranges::replace(end, '_', ' ');
-    const std::string unit = bare_unit(trim(end));
+    std::string unit = bare_unit(trim(end));
     if (unit != "in" && unit_of(quantity, unit)) return unit;
   }
   const auto slash = name.rfind('/');
