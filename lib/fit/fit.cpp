@@ -202,11 +202,27 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   return result;
 }
 
+/// The fit. Where single readings spoil it, the error names them and not what came of them.
+FitResult fit_or_name(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+  constexpr std::size_t single = 3;
+  try {
+    return fit_from_start(route, runs, options);
+  } catch (const Error&) {
+    const auto off = off_robust_roll(route, runs, options);
+    if (!off || off->count > single) throw;
+    fail(
+        "{}the reading at t = {:.6g} s is {:.2g} standard deviations off the roll of the others: "
+        "look at it, and leave it out (smooth --outliers), or fit with --robust",
+        runs.size() > 1 ? fmt::format("run {}: ", runs[off->run].name) : "", off->time,
+        off->distance);
+  }
+}
+
 }  // namespace
 
 FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   if ((!options.start_a && !options.start_b) || !options.fits_power())
-    return fit_from_start(route, runs, options);
+    return fit_or_name(route, runs, options);
   try {
     return fit_from_start(route, runs, options);
   } catch (const Error&) {  // of the data, or of the start alone

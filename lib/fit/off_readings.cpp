@@ -127,18 +127,31 @@ std::optional<OffReadings> around(const Fitted& fit, double& most_off) {
 
 }  // namespace
 
+std::optional<OffReadings> off_robust_roll(Route route, const std::vector<FitRun>& runs,
+                                           FitOptions options) {
+  if (!is_trajectory(route) || options.robust) return {};
+  options.robust = true;
+  try {
+    Fitted straight = fit_route(route, runs, options);
+    straight.minimum = evaluated(straight.system, straight.minimum.theta);
+    double most_off = 0;
+    return around(straight, most_off);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 std::optional<OffReadings> off_readings(Route route, const std::vector<FitRun>& runs,
                                         const FitOptions& options, const Fitted& fit) {
   if (!fit.rolls || fit.degrees_left() == 0 || options.robust) return {};
   double most_off = 0;
   auto found = around(fit, most_off);
   if (found || most_off < 5) return found;
-  try {  // a reading far off may have bent the roll to itself, away from where it is linear
-    FitOptions robust = options;
-    robust.robust = true;
-    Fitted straight = fit.noise->known() ? fit : fit_route(route, runs, robust);
-    if (fit.noise->known())
-      straight.minimum = minimise_robust(straight.system, {fit.minimum.theta});
+  // A reading far off may have bent the roll to itself, away from where it is linear.
+  if (!fit.noise->known()) return off_robust_roll(route, runs, options);
+  try {
+    Fitted straight = fit;
+    straight.minimum = minimise_robust(straight.system, {fit.minimum.theta});
     straight.minimum = evaluated(straight.system, straight.minimum.theta);
     return around(straight, most_off);
   } catch (const Error&) {

@@ -17,4 +17,7 @@ namespace rolling {
 std::optional<OffReadings> off_readings(Route, const std::vector<FitRun>&, const FitOptions&,
                                         const Fitted&);
 
+/// The same around the robust roll, for unfiltered runs of which no fit by squares need be known.
+std::optional<OffReadings> off_robust_roll(Route, const std::vector<FitRun>&, FitOptions);
+
 }  // namespace rolling
