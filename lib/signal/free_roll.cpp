@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,8 @@ namespace {
 
 /// Share of the largest speed below which a body may come to rest by itself.
 constexpr double slow = 0.15;
+
+constexpr double three_sigma = 9;  // in RSS
 
 constexpr const char* choose = ": choose the roll by its times (--from, --to)";
 
@@ -164,6 +167,7 @@ class Search {
   Stretch kept(const Chain& c) const {
     const Piece<P>&first = pieces_[c.first], &last = pieces_[c.last];
     Stretch s{first.begin, last.end};
+    double sudden = std::numeric_limits<double>::infinity();  // RSS of an end with a jump
     if (s.begin > 0) {
       const Piece<P>& before = pieces_[c.first - 1];
       const auto cost = cost_of_joints(before.begin, before.order, first.order, first.end);
@@ -178,6 +182,7 @@ class Search {
     if (s.end < samples_.size()) {
       const Piece<P>& next = pieces_[c.last + 1];
       const auto cost = cost_of_joints(last.begin, last.order, next.order, next.end);
+      sudden = *std::min_element(cost.begin(), cost.end());
       s.end = last.begin + inner_joint(cost, last.size(), last.size() / 3, -1);
       s.end = std::min(s.end, last.begin + agreeing(last.begin, last.end - 1));
       const double t = samples_[s.end - 1].t - unseen(last, samples_[s.end - 1].t);
@@ -185,7 +190,10 @@ class Search {
              samples_[s.end - 1].t > t)
         --s.end;
     }
-    if (std::abs(last.v(last.to).value) < slow * c.fastest) s.end = std::min(s.end, before_stop(c));
+    if (std::abs(last.v(last.to).value) < slow * c.fastest) {
+      const auto [end, rss] = before_stop(c);
+      s.end = rss < sudden + three_sigma ? end : std::min(s.end, end);
+    }
     // The rows that decided are not kept, which would bias a and b; and what a sensor makes of
     // several positions knows of a row behind the joint.
     const std::size_t spare = std::min<std::size_t>(positions_ ? 1 : 2, (s.end - s.begin) / 25);
@@ -202,7 +210,8 @@ class Search {
 
   /// The end of a roll whose body comes to rest by itself, at s: its speed falls to 0 without a
   /// jump, so that its positions are y + sum c_k (s - t)^k, k > 1, before s and y from then on.
-  std::size_t before_stop(const Chain& c) const {
+  /// Also the RSS of the best s.
+  std::pair<std::size_t, double> before_stop(const Chain& c) const {
     const Piece<P>& last = pieces_[c.last];
     const std::size_t end = last.end < samples_.size() ? pieces_[c.last + 1].end : last.end;
     const std::size_t least = last.begin + last.size() / 2;
@@ -221,7 +230,7 @@ class Search {
     }
     const auto lowest = std::min_element(cost.begin(), cost.end());
     const auto best = static_cast<std::size_t>(lowest - cost.begin());
-    return least + inner_joint(cost, best, best, -1);
+    return {least + inner_joint(cost, best, best, -1), *lowest};
   }
 
   /// The time for which positions do not show a change: a body that a hand moves from rest to v, or
@@ -266,7 +275,6 @@ class Search {
   /// errors of the best.
   static std::size_t inner_joint(const std::vector<double>& cost, std::size_t joint,
                                  std::size_t far, int inwards) {
-    constexpr double three_sigma = 9;
     const auto at = [&](std::size_t k) { return inwards > 0 ? joint + k : joint - k; };
     double least = cost[joint];
     for (std::size_t k = 1; k <= far; ++k) least = std::min(least, cost[at(k)]);
