@@ -107,8 +107,9 @@ std::string disagreement(const Agreement& found, const std::vector<FitRun>& runs
   const auto more = [](double x) { return x < 0 ? "less" : "more"; };
   std::string line = fmt::format(
       "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees of freedom, {}): run "
-      "{} stands out",
-      found.ratio, found.dof, p_of(found.p), runs[found.run].name);
+      "{} {}",
+      found.ratio, found.dof, p_of(found.p), runs[found.run].name,
+      found.runs > 2 ? "stands out" : "is not like the other");
   if (found.log_D.sigma > 0) {
     const double percent = 100 * std::abs(std::expm1(found.log_D.value));
     line += fmt::format(
