@@ -238,7 +238,7 @@ void warn_of_residuals(Tool& tool, Route route, const FitResult& r,
   if (const auto& found = r.eccentricity)
     return tool.warn(
         runs[found->run].name,
-        fmt::format("the speed changes once a turn ({}, in one good run of a hundred by chance), "
+        fmt::format("the speed changes once a turn ({}; one good run in a hundred is told so too), "
                     "as if the centre of mass lay {:.2g} +- {:.1g} mm off the axis, most ahead of "
                     "it at {:.0f} degrees: the law is further off than its uncertainties say; "
                     "balance the body, unless --report shows a better law",
