@@ -44,6 +44,8 @@ command -v gnuplot >/dev/null ||
 own_body() {
   [ "$K" ] && [ "$R" ] || { echo "$0: say what rolled: -K 0.5 -R 0.04" >&2; exit 2; }
   case $column in '' | x | v) ;; *) echo "$0: -c $column: x or v" >&2; exit 2 ;; esac
+  case $slope in *[!-+.0-9eE]*)
+    echo "$0: --slope $slope: a number, which fitpower --slope fit finds" >&2; exit 2 ;; esac
 }
 # The rows of a run with their column x or v.
 read_run() { smooth -q ${use[@]+"${use[@]}"} -c "$@"; }

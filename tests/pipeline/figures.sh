@@ -374,6 +374,9 @@ missing=$(comm -23 "$scratch/in-table" "$scratch/in-page")
 grep -qF 'cut -d , -f 1,2 samples/CR.csv >run.csv' README.md || complain 'README: no run.csv'
 cut -d , -f 1,2 samples/CR.csv >"$scratch/run.csv"
 samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/run.csv" >"$scratch/run.svg"
+[ "$(samples/figures/fig4.sh -K 0.5 -R 0.04 --slope fit "$scratch/run.csv" 2>&1)" = \
+  'samples/figures/fig4.sh: --slope fit: a number, which fitpower --slope fit finds' ] ||
+  complain 'fig4.sh --slope fit is not refused in its own words'
 for picture in fig4 run; do
   drawn_by=$(grep -o 'GNUPLOT [0-9.]*' "samples/$picture.svg")
   [ "$drawn_by" = "GNUPLOT $(gnuplot --version | cut -d ' ' -f 2)" ] || continue
