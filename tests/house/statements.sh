@@ -36,6 +36,11 @@ for scene in CF CR SF SR; do
 0.1 5e-5 2e-3'
 done
 
+# rolling(7): the law that the first example gives, in words.
+cut -d , -f 1,2 samples/CR.csv >"$scratch/run.csv"
+says man/rolling.7 "$(smooth -q --coast "$scratch/run.csv" | fitpower -q -K 0.5 -R 0.04 | awk '!/^#/ {
+  printf "So a = (%.2f \\(+- %.2f) mm is the shift D at 1 m/s, and b = %.3f \\(+- %.3f.", 1e3 * $1, 1e3 * $2, $3, $4 }')"
+
 # rolling-motion(7), shift-from-accel(1): A = 1 beside the exact geometry.
 says man/rolling-motion.7 "0.054 % or less at 0.5 m/s, and 0.005 to 0.035 % of the time to the stop"
 says man/shift-from-accel.1 '0.054 % for the cylinder on rubber at 0.5 m/s'
