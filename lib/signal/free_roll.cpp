@@ -201,10 +201,13 @@ class Search {
     if (s.end < samples_.size()) s.end -= spare;
     // A step of rounded readings tells the place of the body; amid equal ones their errors cancel.
     const auto equal = [&](std::size_t i) { return samples_[i].y == samples_[i - 1].y; };
-    std::size_t from = s.end - 1, to = s.end;
-    while (from > s.begin && equal(from)) --from;
-    while (to < samples_.size() && equal(to)) ++to;
-    s.end = std::min(s.end, (from + to + 1) / 2);
+    for (std::size_t end = s.end, from, to = end; end > s.begin; end = to = from) {
+      for (from = end - 1; from > s.begin && equal(from);) --from;
+      while (to < samples_.size() && equal(to)) ++to;
+      if ((from + to + 1) / 2 > s.end) continue;
+      s.end = (from + to + 1) / 2;
+      break;
+    }
     return s;
   }
 
