@@ -180,15 +180,14 @@ Scaled power(double x, DoubleDouble p) {
   return result;
 }
 
-double ScaledFactor::operator*(DoubleDouble x) const {
-  const DoubleDouble product = m * x;
-  return scale(product.hi + product.lo, exponent);
+double times(const Scaled& f, DoubleDouble x) {
+  const DoubleDouble product = quick_product(f.m, x);
+  return scale(product.hi + product.lo, f.exponent);
 }
 
-double times_exp(const ScaledFactor& f, DoubleDouble x) {
+double times_exp(const Scaled& f, DoubleDouble x) {
   const Reduced e = reduce(x);
-  const double hi = f.m.hi * e.power().hi,
-               lo = f.m.lo * e.power().hi + (f.m.hi + f.m.lo) * e.power().lo;  // hi is exact
+  const auto [hi, lo] = quick_product(f.m, e.power());
   return scale(hi + (lo + (hi + lo) * e.expm1), f.exponent + e.exponent());
 }
 

@@ -53,13 +53,13 @@ constexpr DoubleDouble split(double a) {
   return {hi, a - hi};
 }
 
-/// a b, exactly; `parts` is split(a).
-constexpr DoubleDouble two_product(double a, DoubleDouble parts, double b) {
+/// a b, exactly.
+constexpr DoubleDouble two_product(double a, double b) {
   const double p = a * b;
+  const auto [a1, a2] = split(a);
   const auto [b1, b2] = split(b);
-  return {p, ((parts.hi * b1 - p) + parts.hi * b2 + parts.lo * b1) + parts.lo * b2};
+  return {p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2};
 }
-constexpr DoubleDouble two_product(double a, double b) { return two_product(a, split(a), b); }
 
 constexpr DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
   const DoubleDouble s = two_sum(a.hi, b.hi), t = two_sum(a.lo, b.lo),
@@ -103,31 +103,10 @@ constexpr double cut(double x, int bits) {
 // The functions below are faster. Their results are not renormalised: |lo| may reach 2^-16 |hi|.
 // They accept such arguments; the operators above do not.
 
-/// A constant factor. hi has 26 bits, so that its product with another number of 26 bits is exact
-/// without splitting.
-struct Factor {
-  double hi = 0, lo = 0;
-
-  Factor() = default;
-  Factor(DoubleDouble x) : hi(cut(x.hi, 27)), lo((x.hi - hi) + x.lo) {}
-};
-/// Relative error below 2^-68.
-inline DoubleDouble operator*(Factor f, DoubleDouble x) {
-  const double top = cut(x.hi, 27);
-  return {f.hi * top, f.hi * ((x.hi - top) + x.lo) + f.lo * (x.hi + x.lo)};
-}
-
-/// A constant factor with full precision; the parts of hi are computed once.
-struct SplitFactor {
-  DoubleDouble value, parts;
-
-  SplitFactor() = default;
-  SplitFactor(DoubleDouble x) : value(x), parts(split(x.hi)) {}
-};
-/// As exact as DoubleDouble times double.
-inline DoubleDouble operator*(const SplitFactor& f, double x) {
-  const DoubleDouble p = two_product(f.value.hi, f.parts, x);
-  return {p.hi, p.lo + f.value.lo * x};
+/// a b with a relative error below 2^-68: the product of the 26 upper bits of each is exact.
+inline DoubleDouble quick_product(DoubleDouble a, DoubleDouble b) {
+  const double a1 = cut(a.hi, 27), b1 = cut(b.hi, 27), a2 = (a.hi - a1) + a.lo;
+  return {a1 * b1, a1 * ((b.hi - b1) + b.lo) + a2 * (b.hi + b.lo)};
 }
 
 /// ln(1 + r)/r for |r| <= 1/128: relative error below 2^-66.
@@ -142,6 +121,7 @@ struct Scaled {
   DoubleDouble m;
   int exponent = 0;
 
+  Scaled() = default;
   Scaled(DoubleDouble x);
   Scaled(double x) : Scaled(DoubleDouble(x)) {}
 };
@@ -150,18 +130,10 @@ Scaled operator/(const Scaled&, const Scaled&);
 /// x^p for x > 0: relative error about 1e-31 max(1, |p|).
 Scaled power(double x, DoubleDouble p);
 
-/// A constant factor m 2^exponent.
-struct ScaledFactor {
-  Factor m;
-  int exponent = 0;
-
-  ScaledFactor() = default;
-  ScaledFactor(const Scaled& x) : m(x.m), exponent(x.exponent) {}
-  double operator*(DoubleDouble x) const;  ///< rounded
-};
-
+/// f x, rounded.
+double times(const Scaled& f, DoubleDouble x);
 /// f e^x: within 0.51 ulp; |x| below 1e5.
-double times_exp(const ScaledFactor& f, DoubleDouble x);
+double times_exp(const Scaled& f, DoubleDouble x);
 /// 1 - e^x: relative error below 2^-55 for |x| > 1/32.
 DoubleDouble one_minus_exp(DoubleDouble x);
 /// (e^x - 1)/x for |x| <= 1/32: relative error below 2^-57.

@@ -19,7 +19,7 @@ constexpr double gone = -1e4;     // for L below it, v = 0 in a double
 }  // namespace
 
 ClosedForm::ClosedForm(const Body& body, PowerLaw law, double v0, double x0)
-    : body_(body), b_(law.b), v0_(v0), x0_(x0), exponent_(law.b) {
+    : body_(body), b_(law.b), v0_(v0), x0_(x0) {
   check_roll(body, law, v0);
   if (v0 == 0) return;
   const DoubleDouble s = two_sum(1, -law.b), s1 = two_sum(2, -law.b);
@@ -49,17 +49,17 @@ void ClosedForm::seek(double t) {
   const double q = t * unit1_ * unit2_;  // rate t = -minus_rate_ q
   log_ = 0;
   if (q > beyond) {
-    log_ = slope_.value.hi > 0 ? far_log(t) : DoubleDouble(gone);
+    log_ = slope_.hi > 0 ? far_log(t) : DoubleDouble(gone);
     return;
   }
   if (q < unseen) return;
   const DoubleDouble minus_sq = slope_ * q;
   if (std::abs(minus_sq.hi) < 0x1p-7) {
-    log_ = minus_rate_ * (log1p_ratio(minus_sq) * q);
+    log_ = quick_product(minus_rate_, log1p_ratio(minus_sq) * q);
   } else {
     const DoubleDouble w = minus_sq + 1;
     rolls_ = w.hi > 0;
-    if (rolls_) log_ = inverse_s_ * quick_log(w);
+    if (rolls_) log_ = quick_product(inverse_s_, quick_log(w));
   }
   if (log_.hi < gone) log_ = gone;
 }
@@ -69,25 +69,25 @@ void ClosedForm::seek(double t) {
 DoubleDouble ClosedForm::far_log(double t) const {
   int exponent = 0;
   const DoubleDouble product = slope_ * std::frexp(t, &exponent);
-  const DoubleDouble log_w = quick_log(quick_two_sum(product.hi, product.lo)) +
-                             quick_log(2.0) * (exponent + std::log2(unit1_) + std::log2(unit2_));
-  const DoubleDouble L = inverse_s_ * log_w;
+  const DoubleDouble log_w =
+      quick_log(product) + quick_log(2.0) * (exponent + std::log2(unit1_) + std::log2(unit2_));
+  const DoubleDouble L = quick_product(inverse_s_, log_w);
   return L.hi < gone ? DoubleDouble(gone) : L;
 }
 
 double ClosedForm::velocity() { return rolls_ ? times_exp(speed_, log_) : 0; }
 
 double ClosedForm::position() {
-  if (!rolls_) return x0_ + (v0_ == 0 ? 0 : distance_ * DoubleDouble(1));
+  if (!rolls_) return x0_ + times(distance_, 1);
   if (log_.hi == 0) return x0_ + v0_ * t_;
-  const DoubleDouble y = s1_ * log_;
-  return x0_ + (std::abs(y.hi) < 1. / 32 ? length_ * (-log_ * expm1_ratio(y))
-                                         : distance_ * one_minus_exp(y));
+  const DoubleDouble y = quick_product(s1_, log_);
+  return x0_ + (std::abs(y.hi) < 1. / 32 ? times(length_, -log_ * expm1_ratio(y))
+                                         : times(distance_, one_minus_exp(y)));
 }
 
 double ClosedForm::shift() {
   if (!rolls_) return 0;
-  const double D = times_exp(shift_, exponent_ * log_);
+  const double D = times_exp(shift_, quick_product(b_, log_));
   if (b_ < 0) check_shift(body_, D);  // for b >= 0, D falls from D(v0), which was checked
   return D;
 }
@@ -95,7 +95,7 @@ double ClosedForm::shift() {
 double ClosedForm::acceleration() {
   if (!rolls_) return 0;
   if (b_ < 0) shift();
-  return 0 - times_exp(deceleration_, exponent_ * log_);
+  return 0 - times_exp(deceleration_, quick_product(b_, log_));
 }
 
 }  // namespace rolling

@@ -37,11 +37,10 @@ class ClosedForm final : public Motion {
   double b_, v0_, x0_, stop_time_ = 0;
   // -s rate = slope_ unit1_ unit2_. There are two powers of two, because a single one could
   // overflow.
-  SplitFactor slope_;
   double unit1_ = 1, unit2_ = 1;
-  Factor minus_rate_, inverse_s_, s1_, exponent_;       // -rate / (unit1_ unit2_), 1/s, 1 + s, b
-  ScaledFactor speed_, shift_, deceleration_, length_;  // v0, a v0^b, k v0^b, v0/rate
-  ScaledFactor distance_;                               // v0/rate / (1+s)
+  DoubleDouble slope_, minus_rate_, inverse_s_, s1_;  // minus_rate_: -rate / (unit1_ unit2_)
+  Scaled speed_, shift_, deceleration_, length_;      // v0, a v0^b, k v0^b, v0/rate
+  Scaled distance_;                                   // v0/rate / (1+s)
 
   double t_ = 0;
   DoubleDouble log_;  // L
