@@ -47,14 +47,15 @@ void ClosedForm::seek(double t) {
   rolls_ = t < stop_time_;
   if (!rolls_) return;
   const double q = t * unit1_ * unit2_;  // rate t = -minus_rate_ q
-  log_ = 0;
-  if (q > beyond) {
-    log_ = slope_.hi > 0 ? far_log(t) : DoubleDouble(gone);
-    return;
-  }
-  if (q < unseen) return;
   const DoubleDouble minus_sq = slope_ * q;
-  if (std::abs(minus_sq.hi) < 0x1p-7) {
+  if (q < unseen) {
+    log_ = 0;
+  } else if (q > beyond && slope_.hi > 0) {  // b > 1: w = -s rate t in a double
+    log_ = quick_product(inverse_s_,
+                         quick_log(slope_) + quick_log(t) + quick_log(unit1_) + quick_log(unit2_));
+  } else if (q > beyond) {
+    log_ = gone;
+  } else if (std::abs(minus_sq.hi) < 0x1p-7) {
     log_ = quick_product(minus_rate_, log1p_ratio(minus_sq) * q);
   } else {
     const DoubleDouble w = minus_sq + 1;
@@ -62,17 +63,6 @@ void ClosedForm::seek(double t) {
     if (rolls_) log_ = quick_product(inverse_s_, quick_log(w));
   }
   if (log_.hi < gone) log_ = gone;
-}
-
-/// L for b > 1 and large rate t, where w = -s rate t in a double. The logarithm is the sum of those
-/// of the mantissa and of the powers of two.
-DoubleDouble ClosedForm::far_log(double t) const {
-  int exponent = 0;
-  const DoubleDouble product = slope_ * std::frexp(t, &exponent);
-  const DoubleDouble log_w =
-      quick_log(product) + quick_log(2.0) * (exponent + std::log2(unit1_) + std::log2(unit2_));
-  const DoubleDouble L = quick_product(inverse_s_, log_w);
-  return L.hi < gone ? DoubleDouble(gone) : L;
 }
 
 double ClosedForm::velocity() { return rolls_ ? times_exp(speed_, log_) : 0; }

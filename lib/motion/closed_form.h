@@ -31,8 +31,6 @@ class ClosedForm final : public Motion {
   double shift() override;
 
  private:
-  DoubleDouble far_log(double t) const;
-
   Body body_;
   double b_, v0_, x0_, stop_time_ = 0;
   // -s rate = slope_ unit1_ unit2_. There are two powers of two, because a single one could
