@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "signal/joints.h"
 #include "signal/outliers.h"
 #include "signal/piece.h"
 #include "signal/resolution.h"
@@ -19,7 +20,7 @@ namespace {
 /// Share of the largest speed below which a body may come to rest by itself.
 constexpr double slow = 0.15;
 
-constexpr double three_sigma = 9;  // in RSS
+constexpr double five_sigma = 25;  // in RSS
 
 constexpr const char* choose = ": choose the roll by its times (--from, --to)";
 
@@ -33,7 +34,8 @@ template <std::size_t P>
 class Search {
  public:
   Search(std::span<const Sample> samples, double noise, bool positions)
-      : samples_(samples), noise_(noise), positions_(positions) {
+      : samples_(samples), noise_(noise), positions_(positions),
+        joints_(samples, noise, positions) {
     const auto joints = Partition<P>(samples, noise).joints();
     for (std::size_t i = 1; i < joints.size(); ++i) add(joints[i - 1], joints[i]);
     for (const auto& p : pieces_)
@@ -49,7 +51,7 @@ class Search {
     const auto longer = [&](const Chain& a, const Chain& b) { return rank(a) > rank(b); };
     std::sort(chains.begin(), chains.end(), longer);
     const Chain& best = chains[0];
-    FreeRoll found{kept(best), end_of(best), pieces_[best.last].end};
+    FreeRoll found = kept(best);
     // A rest at the end of the run may be too short for a piece of its own.
     if (found.how == FreeRoll::End::goes_on && found.kept.end < samples_.size())
       found.how = FreeRoll::End::by_itself;
@@ -58,7 +60,7 @@ class Search {
                                (c.duration > 0.1 * best.duration && c.last + 1 == best.first));
     };
     const auto other = std::find_if(chains.begin() + 1, chains.end(), may_be);
-    if (other != chains.end()) found.other = kept(*other);
+    if (other != chains.end()) found.other = kept(*other).kept;
     return found;
   }
 
@@ -73,7 +75,7 @@ class Search {
     const bool turns = p.v(p.from).value * p.v(p.to).value < 0,
                bends = a0.value * a1.value < 0 && a0.is_known() && a1.is_known();
     if (!bends || turns || p.size() < 12) return void(pieces_.push_back(p));
-    const auto cost = cost_of_joints(begin, P, P, end);
+    const auto cost = joints_.costs(begin, P, P, end);
     const auto least = std::min_element(cost.begin() + 5, cost.end() - 5);
     const auto joint = static_cast<std::size_t>(least - cost.begin());
     for (const std::size_t half : {begin, begin + joint})
@@ -164,35 +166,38 @@ class Search {
   }
 
   /// The samples that belong to a roll whatever their noise.
-  Stretch kept(const Chain& c) const {
+  FreeRoll kept(const Chain& c) const {
     const Piece<P>&first = pieces_[c.first], &last = pieces_[c.last];
     Stretch s{first.begin, last.end};
+    FreeRoll::End how = end_of(c);
     double sudden = std::numeric_limits<double>::infinity();  // RSS of an end with a jump
     if (s.begin > 0) {
       const Piece<P>& before = pieces_[c.first - 1];
-      const auto cost = cost_of_joints(before.begin, before.order, first.order, first.end);
+      const auto cost = joints_.costs(before.begin, before.order, first.order, first.end);
       // No further than by as much again: a longer piece could be of the roll itself.
       const std::size_t far = std::min(first.size() / 3, before.size());
-      s.begin = before.begin + inner_joint(cost, before.size(), far, 1);
-      s.begin = std::max(s.begin, first.end - agreeing(first.end - 1, first.begin));
+      s.begin = before.begin + joints_.inner(cost, before.size(), far, 1);
+      s.begin = std::max(s.begin, first.end - joints_.agreeing(first.end - 1, first.begin));
       const double t = samples_[s.begin].t +
                        std::max(unseen(first, samples_[s.begin].t), unseen_push(before, first));
       while (s.begin + 1 < first.end && samples_[s.begin].t < t) ++s.begin;
     }
     if (s.end < samples_.size()) {
       const Piece<P>& next = pieces_[c.last + 1];
-      const auto cost = cost_of_joints(last.begin, last.order, next.order, next.end);
+      const auto cost = joints_.costs(last.begin, last.order, next.order, next.end);
       sudden = *std::min_element(cost.begin(), cost.end());
-      s.end = last.begin + inner_joint(cost, last.size(), last.size() / 3, -1);
-      s.end = std::min(s.end, last.begin + agreeing(last.begin, last.end - 1));
-      const double t = samples_[s.end - 1].t - unseen(last, samples_[s.end - 1].t);
-      while (end_of(c) == FreeRoll::End::is_ended && s.end > std::max(last.begin, s.begin) + 1 &&
-             samples_[s.end - 1].t > t)
-        --s.end;
+      s.end = last.begin + joints_.inner(cost, last.size(), last.size() / 3, -1);
+      s.end = std::min(s.end, last.begin + joints_.agreeing(last.begin, last.end - 1));
     }
-    if (std::abs(last.v(last.to).value) < slow * c.fastest) {
-      const auto [end, rss] = before_stop(c);
-      s.end = rss < sudden + three_sigma ? end : std::min(s.end, end);
+    if (how != FreeRoll::End::is_ended && std::abs(last.v(last.to).value) < slow * c.fastest) {
+      const std::size_t end = s.end < samples_.size() ? pieces_[c.last + 1].end : last.end;
+      const auto [stop, rss] = joints_.before_stop(last.begin, last.end, end);
+      if (rss < sudden + five_sigma) s.end = stop;
+      else how = FreeRoll::End::is_ended;
+    }
+    if (how == FreeRoll::End::is_ended) {
+      const double t = samples_[s.end - 1].t - unseen(last, samples_[s.end - 1].t);
+      while (s.end > std::max(last.begin, s.begin) + 1 && samples_[s.end - 1].t > t) --s.end;
     }
     // The rows that decided are not kept, which would bias a and b; and what a sensor makes of
     // several positions knows of a row behind the joint.
@@ -208,32 +213,7 @@ class Search {
       s.end = (from + to + 1) / 2;
       break;
     }
-    return s;
-  }
-
-  /// The end of a roll whose body comes to rest by itself, at s: its speed falls to 0 without a
-  /// jump, so that its positions are y + sum c_k (s - t)^k, k > 1, before s and y from then on.
-  /// Also the RSS of the best s.
-  std::pair<std::size_t, double> before_stop(const Chain& c) const {
-    const Piece<P>& last = pieces_[c.last];
-    const std::size_t end = last.end < samples_.size() ? pieces_[c.last + 1].end : last.end;
-    const std::size_t least = last.begin + last.size() / 2;
-    std::vector<double> cost;
-    for (std::size_t joint = least; joint <= end; ++joint) {
-      Polynomial<P> fit;
-      for (std::size_t i = last.begin; i < end; ++i) {
-        const double u = joint < end ? std::min(samples_[i].t - samples_[joint].t, 0.0)
-                                     : samples_[i].t - samples_[end - 1].t;
-        std::array<double, P> row{1, u};
-        const std::size_t lowest = joint < end && positions_ ? 2 : 1;
-        for (std::size_t k = 1; k < P; ++k) row[k] = k == 1 ? std::pow(u, lowest) : row[k - 1] * u;
-        fit.add(row, samples_[i].y / noise_);
-      }
-      cost.push_back(fit.rss());
-    }
-    const auto lowest = std::min_element(cost.begin(), cost.end());
-    const auto best = static_cast<std::size_t>(lowest - cost.begin());
-    return {least + inner_joint(cost, best, best, -1), *lowest};
+    return {s, how, last.end};
   }
 
   /// The time for which positions do not show a change: a body that a hand moves from rest to v, or
@@ -253,58 +233,10 @@ class Search {
     return std::min({s, T / 2, roll.duration() / 8});
   }
 
-  /// RSS of the samples from `from` to `to`, forwards or backwards, of the first k for each k.
-  template <std::size_t Q>
-  std::vector<double> sums(std::size_t from, std::size_t to, auto of) const {
-    Polynomial<Q> fit;
-    std::vector<double> sums{0};
-    for (std::size_t i = from;; i += to > from ? 1 : std::size_t(-1)) {
-      fit.add(samples_[i].t - samples_[from].t, samples_[i].y / noise_);
-      sums.push_back(of(fit));
-      if (i == to) return sums;
-    }
-  }
-  /// The RSS of the samples [begin, end) as two polynomials of these numbers of coefficients, of
-  /// which the first has k samples, for each k.
-  std::vector<double> cost_of_joints(std::size_t begin, std::size_t order, std::size_t order_after,
-                                     std::size_t end) const {
-    const auto rss = [](std::size_t n) { return [n](const auto& fit) { return fit.rss(n); }; };
-    auto cost = sums<P>(begin, end - 1, rss(order));
-    const auto after = sums<P>(end - 1, begin, rss(order_after));
-    for (std::size_t k = 0; k < cost.size(); ++k) cost[k] += after[cost.size() - 1 - k];
-    return cost;
-  }
-  /// From `joint`, at most `far` inwards (+1 or -1): the furthest joint within three standard
-  /// errors of the best.
-  static std::size_t inner_joint(const std::vector<double>& cost, std::size_t joint,
-                                 std::size_t far, int inwards) {
-    const auto at = [&](std::size_t k) { return inwards > 0 ? joint + k : joint - k; };
-    double least = cost[joint];
-    for (std::size_t k = 1; k <= far; ++k) least = std::min(least, cost[at(k)]);
-    while (far > 0 && cost[at(far)] > least + three_sigma) --far;
-    return at(far);
-  }
-  /// The number of samples, of those from `from` to `to`, that agree with one another: the last
-  /// half may be left out at twice the mean share of chi square.
-  std::size_t agreeing(std::size_t from, std::size_t to) const {
-    const double weight = 0.75 * std::log(static_cast<double>(samples_.size()));
-    const auto cost = sums<P + 1>(from, to, [&](const auto& fit) {
-      double least = fit.rss(1) + weight;
-      for (std::size_t k = 2; k <= P + 1; ++k)
-        least = std::min(least, fit.rss(k) + weight * static_cast<double>(k));
-      return least;
-    });
-    const std::size_t n = cost.size() - 1;
-    const double unit = n > P ? 2 * std::max(1.0, cost[n] / static_cast<double>(n - P)) : 2;
-    std::size_t best = n;
-    for (std::size_t k = n; k > n / 2; --k)
-      if (cost[k] - cost[best] + unit * static_cast<double>(best - k) < 0) best = k;
-    return best;
-  }
-
   std::span<const Sample> samples_;
   double noise_, fastest_ = 0;
   bool positions_;
+  Joints<P> joints_;
   std::vector<Piece<P>> pieces_;
 };
 

@@ -40,9 +40,9 @@ struct FreeRoll {
 /// A joint is as uncertain as noise makes it. Kept are the samples of the roll that belong to it
 /// wherever the joint lies within three standard errors, less those at its ends that do not agree
 /// with the rest of it, less the time in which a push or a hand stays within two standard
-/// deviations of the noise. Where the roll is slow at its end, and the readings fit as well, the
-/// joint is that of a body that stops by itself, whose speed does not jump: a short rest, too,
-/// shows when.
+/// deviations of the noise. Where the roll is slow at its end, the joint is that of a body that
+/// stops by itself, whose speed does not jump: a short rest, too, shows when. If the readings speak
+/// against that by five standard errors, something else ended the roll.
 ///
 /// A run of more than 1000 samples is reduced to means of equal numbers of samples; if the roll is
 /// short, the search is repeated around it. O(n). Throws Error if nothing moves or no roll is

@@ -15,7 +15,7 @@ using namespace rolling;
 namespace {
 
 /// Rest for 1 s, a push of 0.5 s up to 0.5 m/s, a roll that slows by 0.1 m/s^2 and stops at 6.5 s,
-/// rest until 8 s.
+/// rest until 8 s. A clock may begin later than that by `phase` [s].
 double speed(double t) {
   return t < 1 || t > 6.5 ? 0
          : t < 1.5        ? 0.5 * std::pow(std::sin(3.14159265358979 * (t - 1)), 2)
@@ -24,7 +24,7 @@ double speed(double t) {
 constexpr double release = 1.5, stop = 6.5;
 
 std::vector<Sample> made_run(double rate, double size, unsigned seed, bool positions,
-                             double sign = 1) {
+                             double sign = 1, double phase = 0) {
   std::vector<Sample> run;
   double x = 0.3;
   const auto n = static_cast<std::size_t>(8 * rate);
@@ -32,8 +32,8 @@ std::vector<Sample> made_run(double rate, double size, unsigned seed, bool posit
   for (std::size_t i = 0; i < n; ++i) {
     const double t = static_cast<double>(i) / rate;
     if (i > 0)
-      for (int k = 0; k < 20; ++k) x += speed(t - (k + 0.5) / (20 * rate)) / (20 * rate);
-    run.push_back({t, sign * (positions ? x : speed(t)) + size * e[i]});
+      for (int k = 0; k < 20; ++k) x += speed(t + phase - (k + 0.5) / (20 * rate)) / (20 * rate);
+    run.push_back({t, sign * (positions ? x : speed(t + phase)) + size * e[i]});
   }
   return run;
 }
@@ -96,6 +96,33 @@ TEST_CASE("free_roll: other noise of the last runs that are kept does not move t
 }
 
 // A step tells the place of the body: an end at a step would bias the last position by half of it.
+TEST_CASE("free_roll: a slow body that a hand stops does not end by itself", "[signal]") {
+  // The roll of made_run, up to where a hand stops it within 0.2 s at a tenth of its speed.
+  constexpr double caught = 6, in = 0.2;
+  unsigned by_itself = 0, is_ended = 0;
+  for (unsigned seed = 1; seed <= 100; ++seed)
+    for (const bool positions : {true, false}) {
+      const double phase = seed / 2500.;  // of the clock, so that the stop lies between readings
+      auto natural = made_run(25, positions ? 3e-4 : 2e-3, seed, positions, 1, phase),
+           hand = natural;
+      for (Sample& s : hand)
+        if (const double t = s.t + phase; t > caught) {
+          const double u = std::min(t - caught, in), v = speed(caught), pi = std::acos(-1),
+                       moved = v * (u + in / pi * std::sin(pi * u / in)) / 2,
+                       now = v * (1 + std::cos(pi * u / in)) / 2, left = 6.5 - t;
+          s.y += positions ? moved - v * v / 0.2 + (left > 0 ? 0.05 * left * left : 0)
+                           : now - speed(t);
+        }
+      by_itself += free_roll(natural, positions).how == FreeRoll::End::by_itself;
+      const auto [kept, how, after, other] = free_roll(hand, positions);
+      if (how != FreeRoll::End::is_ended) continue;
+      ++is_ended;
+      CHECK(hand[kept.end - 1].t + phase < caught + 0.06);
+    }
+  CHECK(by_itself == 200);
+  CHECK(is_ended >= 190);
+}
+
 TEST_CASE("free_roll: positions to whole centimetres end amid equal readings", "[signal]") {
   double sum = 0;
   constexpr unsigned runs = 100;

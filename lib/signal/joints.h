@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the joint between two smooth pieces of a motion may lie.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "signal/polynomial.h"
+#include "signal/windows.h"
+
+namespace rolling {
+
+/// The joints of samples of this noise, which are polynomials of up to P coefficients on either
+/// side. Each RSS is in units of the variance of the noise.
+template <std::size_t P>
+class Joints {
+ public:
+  Joints(std::span<const Sample> samples, double noise, bool positions)
+      : samples_(samples), noise_(noise), positions_(positions) {}
+
+  /// The RSS of the samples [begin, end) as two polynomials of these numbers of coefficients, of
+  /// which the first has k samples, for each k.
+  std::vector<double> costs(std::size_t begin, std::size_t order, std::size_t order_after,
+                            std::size_t end) const {
+    const auto rss = [](std::size_t n) { return [n](const auto& fit) { return fit.rss(n); }; };
+    auto cost = sums<P>(begin, end - 1, rss(order));
+    const auto after = sums<P>(end - 1, begin, rss(order_after));
+    for (std::size_t k = 0; k < cost.size(); ++k) cost[k] += after[cost.size() - 1 - k];
+    return cost;
+  }
+  /// From `joint`, at most `far` inwards (+1 or -1): the furthest joint within three standard
+  /// errors of the best.
+  static std::size_t inner(const std::vector<double>& cost, std::size_t joint, std::size_t far,
+                           int inwards) {
+    const auto at = [&](std::size_t k) { return inwards > 0 ? joint + k : joint - k; };
+    double least = cost[joint];
+    for (std::size_t k = 1; k <= far; ++k) least = std::min(least, cost[at(k)]);
+    while (far > 0 && cost[at(far)] > least + three_sigma) --far;
+    return at(far);
+  }
+  /// The number of samples, of those from `from` to `to`, that agree with one another: the last
+  /// half may be left out at twice the mean share of chi square.
+  std::size_t agreeing(std::size_t from, std::size_t to) const {
+    const double weight = 0.75 * std::log(static_cast<double>(samples_.size()));
+    const auto cost = sums<P + 1>(from, to, [&](const auto& fit) {
+      double least = fit.rss(1) + weight;
+      for (std::size_t k = 2; k <= P + 1; ++k)
+        least = std::min(least, fit.rss(k) + weight * static_cast<double>(k));
+      return least;
+    });
+    const std::size_t n = cost.size() - 1;
+    const double unit = n > P ? 2 * std::max(1.0, cost[n] / static_cast<double>(n - P)) : 2;
+    std::size_t best = n;
+    for (std::size_t k = n; k > n / 2; --k)
+      if (cost[k] - cost[best] + unit * static_cast<double>(best - k) < 0) best = k;
+    return best;
+  }
+  /// The end of a roll whose body comes to rest by itself, at s: its speed falls to 0 without a
+  /// jump, so that its positions are y + sum c_k (s - t)^k, k > 1, before s and y from then on, but
+  /// for the rounding that all readings of the rest share. Also the RSS of the best s.
+  std::pair<std::size_t, double> before_stop(std::size_t begin, std::size_t roughly,
+                                             std::size_t end) const {
+    const std::size_t least = begin + (roughly - begin) / 2;
+    const auto rss = [&](std::size_t joint, double stop) {
+      Polynomial<P + 1> fit;
+      std::array<double, P + 1> row{};
+      row[P] = 1;
+      fit.add(row, 0);
+      for (std::size_t i = begin; i < end; ++i) {
+        const double u = i < joint ? samples_[i].t - stop : 0;
+        row = {1, positions_ ? u * u : u};
+        for (std::size_t k = 2; k < P; ++k) row[k] = row[k - 1] * u;
+        row[P] = positions_ && i >= joint;
+        fit.add(row, samples_[i].y / noise_);
+      }
+      return fit.rss();
+    };
+    std::vector<double> cost;
+    for (std::size_t joint = least; joint < end; ++joint) {
+      cost.push_back(std::numeric_limits<double>::infinity());
+      for (const double part : {0.0, 0.25, 0.5, 0.75})
+        cost.back() = std::min(
+            cost.back(), rss(joint, std::lerp(samples_[joint - 1].t, samples_[joint].t, part)));
+    }
+    cost.push_back(sums<P>(begin, end - 1, [](const auto& fit) { return fit.rss(); }).back());
+    const auto lowest = std::min_element(cost.begin(), cost.end());
+    const auto best = static_cast<std::size_t>(lowest - cost.begin());
+    return {least + inner(cost, best, best, -1), *lowest};
+  }
+
+ private:
+  static constexpr double three_sigma = 9;
+
+  /// RSS of the samples from `from` to `to`, forwards or backwards, of the first k for each k.
+  template <std::size_t Q>
+  std::vector<double> sums(std::size_t from, std::size_t to, auto of) const {
+    Polynomial<Q> fit;
+    std::vector<double> sums{0};
+    for (std::size_t i = from;; i += to > from ? 1 : std::size_t(-1)) {
+      fit.add(samples_[i].t - samples_[from].t, samples_[i].y / noise_);
+      sums.push_back(of(fit));
+      if (i == to) return sums;
+    }
+  }
+
+  std::span<const Sample> samples_;
+  double noise_;
+  bool positions_;
+};
+
+}  // namespace rolling
