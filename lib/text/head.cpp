@@ -138,7 +138,7 @@ bool HeadReader::is_missing_row(std::string_view line) {
   if (before_) return !text && fields.size() == before_->layout.width;
   if (preamble_.empty())
     return any([](const Field& f) { return f.text.empty(); }) && !holds_known_name(line) &&
-           !any([](const Field& f) { return unit_kind(f.text) != UnitKind::none; }) &&
+           !any([](const Field& f) { return is_unit(f.text); }) &&
            is_named_by_comment(fields.size());
   const std::string& above = preamble_.back().text;
   return !text && holds_known_name(above) &&
@@ -341,7 +341,7 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
     if (i < units.size())
       add_unit(columns.back(), units[i], fmt::format("{}:{}", lines_.name(), head_.line));
   }
-  head_.layout = sides == Sides::one ? Layout::one(columns) : Layout::of(columns);
+  head_.layout = Layout::of(columns, sides);
   const bool side_by_side = head_.layout.side_by_side();
   if (head_.named && (side_by_side ? width > names.size() : width != names.size()))
     fail("{} field{} under a line of {} name{}{}", width, width == 1 ? "" : "s", names.size(),

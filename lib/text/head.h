@@ -30,9 +30,6 @@ struct Head {
 /// The `##` line that stands at the end of a history whose lines have been put in another order.
 inline constexpr std::string_view lines_sorted = "lines sorted";
 
-/// Whether the names may tell several runs side by side, or each line is one row.
-enum class Sides { by_names, one };
-
 /// Reads up to the next row, which is then the present line again. `before` is the previous head
 /// of the file: its names and units hold until there are others. It is null for the first head,
 /// where the dialect is chosen by the row and `order` names the columns if the file does not.

@@ -70,37 +70,28 @@ void refuse_unclear(const std::vector<Column>& line, std::map<std::string, std::
 
 }  // namespace
 
-Layout Layout::one(const std::vector<Column>& of) {
-  const auto labels = labels_of_runs(of);
-  const auto line = without_other_labels(of, labels);
-  Layout layout{{Run()}, line.size(), std::vector<bool>(line.size())};
-  if (!labels.empty()) layout.runs.front().label = labels.front();
-  for (std::size_t i = 0; i < line.size(); ++i) add(layout, line, i, 0);
-  return layout;
-}
-
-Layout Layout::of(const std::vector<Column>& named) {
+Layout Layout::of(const std::vector<Column>& named, Sides sides) {
   const auto labels = labels_of_runs(named);
   const auto line = without_other_labels(named, labels);
-  Layout layout{{}, line.size(), std::vector<bool>(line.size())};
-  std::map<std::string, std::size_t> count;  // of a name
+  std::map<std::string, std::size_t> count, seen;  // of a name
   for (const Column& column : line) ++count[column.name];
-  if (labels.size() > 1) {
-    refuse_unclear(line, count, true);
-    for (const std::string& label : labels) layout.runs.push_back({label, {}, {}});
-    for (std::size_t i = 0; i < line.size(); ++i)
-      add(layout, line, i,
-          static_cast<std::size_t>(std::ranges::find(labels, line[i].run) - labels.begin()));
-  } else if (labels.empty() && count["t"] > 1) {
-    refuse_unclear(line, count, false);
-    layout.runs = std::vector<Layout::Run>(count["t"]);
-    std::map<std::string, std::size_t> seen;
-    for (std::size_t i = 0; i < line.size(); ++i)
-      add(layout, line, i,
-          count[line[i].name] == 1 ? layout.runs.size()
-                                   : std::min(seen[line[i].name]++, layout.runs.size() - 1));
-  } else {
-    return one(named);
+  const bool labelled = sides == Sides::by_names && labels.size() > 1,
+             counted = sides == Sides::by_names && labels.empty() && count["t"] > 1;
+  if (labelled || counted) refuse_unclear(line, count, labelled);
+  Layout layout{std::vector<Run>(labelled  ? labels.size()
+                                 : counted ? count["t"]
+                                           : 1),
+                line.size(), std::vector<bool>(line.size())};
+  const std::size_t all = layout.runs.size();
+  for (std::size_t r = 0; r < std::min(all, labels.size()); ++r) layout.runs[r].label = labels[r];
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const std::string& name = line[i].name;
+    const auto label =
+        static_cast<std::size_t>(std::ranges::find(labels, line[i].run) - labels.begin());
+    add(layout, line, i,
+        labelled                     ? label
+        : counted && count[name] > 1 ? std::min(seen[name]++, all - 1)
+                                     : all);
   }
   return layout;
 }

@@ -9,6 +9,9 @@
 
 namespace rolling {
 
+/// Whether the names may tell several runs side by side, or each line is one row.
+enum class Sides { by_names, one };
+
 struct Layout {
   struct Run {
     std::string label;                ///< Column::run of its columns: 2 for `Run #2`; may be empty
@@ -20,12 +23,10 @@ struct Layout {
   std::vector<bool> shared;  ///< for each field: it belongs to every run
   bool side_by_side() const { return runs.size() > 1; }
 
-  /// One run of all columns.
-  static Layout one(const std::vector<Column>& line);
   /// The runs in a header. There are several if more than one label brings a t, or the same
   /// needed quantity beside a common t, or if there is more than one t. A column of none of these
   /// labels, or whose name occurs only once, is shared.
-  static Layout of(const std::vector<Column>& line);
+  static Layout of(const std::vector<Column>& line, Sides);
 };
 
 }  // namespace rolling

@@ -16,7 +16,7 @@ std::string layout(const std::vector<std::string>& names) {
   std::vector<Column> line;
   for (const std::string& name : names) line.push_back(read_column(name));
   std::string text, before;
-  for (const Layout::Run& r : Layout::of(line).runs) {
+  for (const Layout::Run& r : Layout::of(line, Sides::by_names).runs) {
     std::string columns;
     for (const Column& column : r.columns) columns += to_text(column) + ' ';
     if (std::exchange(before, columns) != columns) text += columns;
