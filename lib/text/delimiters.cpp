@@ -14,9 +14,7 @@ const char* closing_quote(const char* at, const char* end) {
   }
 }
 
-namespace {
-
-Unquoted unquoted(std::string_view text, std::string_view between, bool field_begins) {
+Unquoted outside_quotes(std::string_view text, std::string_view between, bool field_begins) {
   Unquoted outside;
   const char *at = text.data(), *const end = at + text.size();
   for (; at != end; ++at) {
@@ -31,16 +29,6 @@ Unquoted unquoted(std::string_view text, std::string_view between, bool field_be
     field_begins = between.find(*at) != std::string_view::npos || (field_begins && is_blank(*at));
   }
   return outside;
-}
-
-}  // namespace
-
-Unquoted outside_quotes(std::string_view text, std::string_view between) {
-  return unquoted(text, between, true);
-}
-
-Unquoted behind_quote(std::string_view text, std::string_view between) {
-  return unquoted(text, between, false);
 }
 
 bool needs_quotes(std::string_view field) {

@@ -27,11 +27,10 @@ struct Unquoted {
   std::string text;
   bool ends_within = false;  ///< a quoted field is still open at the end
 };
-/// `text` begins at the beginning of a field. A quote opens a quoted field only where a field
-/// begins: there, and behind one of these separators.
-Unquoted outside_quotes(std::string_view text, std::string_view separators);
-/// The same for a text that begins behind a closing quote.
-Unquoted behind_quote(std::string_view text, std::string_view separators);
+/// A quote opens a quoted field only where a field begins: behind one of these separators, and at
+/// the beginning of `text` if a field begins there.
+Unquoted outside_quotes(std::string_view text, std::string_view separators,
+                        bool field_begins = true);
 
 /// True for a field that must be quoted in a tab-separated line: it contains a tab, a line end or a
 /// quote, or begins with #.

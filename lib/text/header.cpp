@@ -197,7 +197,6 @@ std::optional<ChosenNames> choose_names(const std::vector<Comment>& comments,
 }
 
 bool are_units_of(const std::vector<std::string>& names, const std::vector<std::string>& fields) {
-  const auto is_unit = [](const std::string& text) { return unit_kind(text) != UnitKind::none; };
   const auto units = std::ranges::count_if(fields, is_unit);
   return names.size() == fields.size() && std::ranges::none_of(fields, is_known_name) &&
          units + std::ranges::any_of(names, is_known_name) > 1;

@@ -93,7 +93,7 @@ void Lines::join_quoted() {
       fail<InputError>("{}:{}: a quote that is not closed", name(), number_);
     (joined_ += '\n') += text_;
     const char *const end = text_.data() + text_.size(), *close = closing_quote(text_.data(), end);
-    open = close == end || behind_quote({close + 1, end}, separators_).ends_within;
+    open = close == end || outside_quotes({close + 1, end}, separators_, false).ends_within;
   }
   text_ = joined_;
 }

@@ -206,7 +206,7 @@ Column NeededColumns::with_unit(std::size_t column, const std::string& quantity)
   if (use == use_.end() || use->second.unit.empty()) return read;
   // The unit that --use gives stands for one that no tool knows.
   const auto own = unit_of(quantity, read.unit), given = unit_of(quantity, use->second.unit);
-  if (named_ && unit_kind(read.unit) != UnitKind::none && !(own && given && *own == *given))
+  if (named_ && is_unit(read.unit) && !(own && given && *own == *given))
     fail<InputError>("{}: --use {} says {}, but the column's name {}", place_, quantity,
                      shown(use->second.unit), shown(to_text(read)));
   read.unit = use->second.unit;

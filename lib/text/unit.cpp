@@ -188,12 +188,10 @@ std::optional<Conversion> unit_of(std::string_view quantity, std::string_view un
   return !found && unit.starts_with(in) ? unit_of(quantity, unit.substr(in.size())) : found;
 }
 
-UnitKind unit_kind(std::string_view text) {
-  const std::string unit = bare_unit(text);
-  for (const std::string_view quantity : {"t", "x", "v", "a"})
-    if (const auto found = unit_of(quantity, unit))
-      return found->changes() ? UnitKind::other : UnitKind::si;
-  return UnitKind::none;
+bool is_unit(std::string_view text) {
+  return std::ranges::any_of(quantities, [unit = bare_unit(text)](const KnownQuantity& of) {
+    return unit_of(of.name, unit).has_value();
+  });
 }
 
 std::string unit_at_end(std::string_view quantity, std::string_view name) {
@@ -224,9 +222,9 @@ void note_units(std::string_view comment, std::size_t line, SaidUnits& said) {
     const bool of_value =
         (i > 0 && is_number(words[i - 1])) || (i + 1 < words.size() && is_number(words[i + 1]));
     if (of_value || is_ambiguous(words[i])) continue;
-    for (const std::string_view quantity : {"t", "x", "v", "a", "D"})
-      if (const auto found = unit_of(quantity, words[i]); found && found->changes())
-        said[std::string(quantity)] = {words[i], line};
+    for (const KnownQuantity& of : quantities)
+      if (const auto found = unit_of(of.name, words[i]); found && found->changes())
+        said[std::string(of.name)] = {words[i], line};
   }
 }
 

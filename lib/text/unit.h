@@ -35,8 +35,7 @@ std::string_view known_units(std::string_view quantity);
 std::optional<Conversion> unit_of(std::string_view quantity, std::string_view unit);
 
 /// Whether a text is a unit, perhaps in brackets, in which t, x, v, a or D can be read.
-enum class UnitKind { none, si, other };
-UnitKind unit_kind(std::string_view text);
+bool is_unit(std::string_view text);
 
 /// The unit of `quantity` that the name of a column ends with, behind `_` or `/`: `t_ms`, `x/cm`,
 /// `Speed_in_km/h`; or else what a slash divides, which may be an unknown unit. Empty without one,
