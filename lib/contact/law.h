@@ -28,11 +28,6 @@ struct PowerLaw {
   }
 };
 
-/// D at a speed, and its derivative by ln v.
-struct Shift {
-  double D, by_log_v;
-};
-
 /// A form of a law D(v; c) for v > 0, with the properties that a fit needs.
 struct LawForm {
   /// A coefficient. Its unit is that of D to the power `D`, times that of v to the power `v`; or,
@@ -100,10 +95,10 @@ class Law {
   const LawForm& form() const { return *form_; }
   /// Coefficient j that `shift` of the form takes, in the law's units.
   double c(std::size_t j) const { return c_[j]; }
-  /// D [m] and v dD/dv [m] at v >= 0 [m/s], and the derivatives of D by the coefficients. Above
-  /// highest() the points continue with their last slope, only for the trial steps of a solver.
+  /// D and v dD/dv at v >= 0 [m/s], and the derivatives of D by the coefficients. Above highest()
+  /// the points continue, only for the trial steps of a solver.
   Shift at(double v, double* by_c) const {
-    if (points_) return {(*points_)(v), v * points_->slope(v)};
+    if (points_) return points_->at(v);
     Shift s = form_->shift(c_.data(), v / v_unit_, by_c);
     for (std::size_t j = 0; j < size(); ++j) by_c[j] *= D_unit_;
     return {D_unit_ * s.D, D_unit_ * s.by_log_v};
@@ -119,9 +114,9 @@ class Law {
   /// The limit of D for v -> 0, which may be infinite.
   double at_rest() const { return at(0).D; }
   /// The largest speed for which the law is defined.
-  double highest() const { return points_ ? points_->highest() : infinity; }
-  /// The largest |D| at speeds up to v, of a law that has points or rises or falls all the way.
-  double largest_shift(double v) const { return points_ ? points_->largest_shift(v) : at(v).D; }
+  double highest() const {
+    return points_ ? points_->speeds().back() : std::numeric_limits<double>::infinity();
+  }
   /// The speeds, in increasing order, where a derivative of the law jumps.
   std::span<const double> corners() const {
     return points_ ? std::span<const double>(points_->speeds()) : std::span<const double>();
@@ -130,8 +125,6 @@ class Law {
   double in_SI(std::size_t j, std::span<double> by_c) const;
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-
   const LawForm* form_ = nullptr;
   std::shared_ptr<const TableLaw> points_;
   std::array<double, LawForm::most> c_{};

@@ -46,32 +46,15 @@ TableLaw::TableLaw(std::vector<double> v, std::vector<double> D) {
   }
 }
 
-TableLaw::Place TableLaw::place(double v) const {
+Shift TableLaw::at(double v) const {
+  if (v < v_.front() || v_.size() == 1) return {D_.front(), 0};
+  if (v > v_.back()) return {D_.back() + c1_.back() * (v - v_.back()), v * c1_.back()};
   const auto above = std::upper_bound(v_.begin() + 1, v_.end() - 1, v);
   const auto i = static_cast<std::size_t>(above - v_.begin()) - 1;
-  return {i, v - v_[i]};
-}
-
-double TableLaw::operator()(double v) const {
-  if (v <= v_.front() || v_.size() == 1) return D_.front();
-  if (v > highest()) return D_.back() + c1_.back() * (v - highest());
-  const auto [i, s] = place(v);
-  const auto [least, most] = std::minmax(D_[i], D_[i + 1]);
-  return std::clamp(D_[i] + s * (c1_[i] + s * (c2_[i] + s * c3_[i])), least,
-                    most);  // rounding may lead beyond them
-}
-
-double TableLaw::slope(double v) const {
-  if (v < v_.front() || v_.size() == 1) return 0;
-  if (v > highest()) return c1_.back();
-  const auto [i, s] = place(v);
-  return c1_[i] + s * (2 * c2_[i] + 3 * s * c3_[i]);
-}
-
-double TableLaw::largest_shift(double v) const {
-  double largest = std::max(D_.front(), (*this)(v));
-  for (std::size_t i = 0; i < v_.size() && v_[i] <= v; ++i) largest = std::max(largest, D_[i]);
-  return largest;
+  const double s = v - v_[i], c1 = c1_[i], c2 = c2_[i], c3 = c3_[i];
+  const auto [least, most] = std::minmax(D_[i], D_[i + 1]);  // rounding may lead beyond them
+  return {std::clamp(D_[i] + s * (c1 + s * (c2 + s * c3)), least, most),
+          v * (c1 + s * (2 * c2 + 3 * s * c3))};
 }
 
 }  // namespace rolling

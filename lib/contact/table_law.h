@@ -7,6 +7,11 @@
 
 namespace rolling {
 
+/// D at a speed, and its derivative by ln v [m].
+struct Shift {
+  double D, by_log_v;
+};
+
 /// Interpolates by cubics with the slopes of Steffen (1990, Astron. Astrophys. 239, 443), and at
 /// the first and the last point with that of the line to the next one: monotone between two points,
 /// with a continuous derivative. Below the lowest point D is constant; above the highest point the
@@ -16,22 +21,12 @@ class TableLaw {
   /// Points in any order, with v [m/s] >= 0, D [m] > 0 and all v different; else it throws Error.
   TableLaw(std::vector<double> v, std::vector<double> D);
 
-  /// D [m] and dD/dv [s] at 0 <= v <= highest(). Above that D continues with the last slope, only
-  /// for the trial steps of a solver.
-  double operator()(double v) const;
-  double slope(double v) const;
-
+  /// At v [m/s] >= 0. Above the highest speed D continues with a constant slope, only for the trial
+  /// steps of a solver.
+  Shift at(double v) const;
   const std::vector<double>& speeds() const { return v_; }  ///< increasing [m/s]
-  double highest() const { return v_.back(); }
-  double largest_shift(double v) const;  ///< largest D at speeds up to v [m]
 
  private:
-  struct Place {
-    std::size_t i;
-    double s;  // v - v_[i]
-  };
-  Place place(double v) const;
-
   std::vector<double> v_, D_;
   std::vector<double> c1_, c2_, c3_;  // D = D_[i] + s (c1 + s (c2 + s c3))
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "motion/roll.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -34,7 +35,12 @@ void check_numbers(const Body& body, const Law& law, double v0) {
 void check_roll(const Body& body, const Law& law, double v0) {
   check_numbers(body, law, v0);
   const auto power = law.power();
-  if (!power) return check_shift(body, law.largest_shift(v0));
+  if (!power) {
+    double largest = law.at(v0).D;
+    for (const double v : law.corners())
+      if (v < v0) largest = std::max(largest, law.at(v).D);
+    return check_shift(body, largest);
+  }
   if (!(power->a > 0 && std::isfinite(power->a)))
     fail("the coefficient a = {} must be a positive number", power->a);
   if (!(std::abs(power->b) <= 1000)) fail("the exponent b = {} is beyond -1000 to 1000", power->b);

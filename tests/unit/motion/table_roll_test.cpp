@@ -104,4 +104,7 @@ TEST_CASE("Table: rest, and refusals", "[rolling]") {
   CHECK_THROWS_AS(rolled(Geometry::approximate, law, 1.1, 0), Error);
   CHECK_THROWS_AS(rolled(Geometry::approximate, law, 1, 0), Error);  // D > R
   CHECK_NOTHROW(rolled(Geometry::exact, law, 0.5, 0));
+  const TableLaw high({0.1, 0.5, 1}, {1e-3, 0.05, 1e-3});
+  CHECK_THROWS_AS(rolled(Geometry::approximate, high, 1, 0), Error);  // D > R on the way
+  CHECK_NOTHROW(rolled(Geometry::approximate, high, 0.2, 0));
 }
