@@ -130,21 +130,16 @@ void Integrator::step(double t) {
     fail("the integration cannot go on at t = {:.6g} s: its step is below the rounding of t", t_);
 }
 
-void Integrator::run(double t) {
-  while (t_ < t) step(t);
-}
-
 bool Integrator::advance(double t, const Event& event) {
   steps_left_ = max_steps_;
   double before = event(y_);
   while (t_ < t) {
     const double t_before = t_;
-    const std::vector<double> y_before = y_;
     step(t);
     const double now = event(y_);
     if (now == 0 && before != 0) return true;
     if (before != 0 && (before < 0) != (now < 0)) {
-      locate(t_before, y_before, before, event);
+      locate(t_before, before, event);
       return true;
     }
     before = now;
@@ -154,8 +149,8 @@ bool Integrator::advance(double t, const Event& event) {
 
 /// Locates the sign change within the last step by the Illinois form of regula falsi. Each trial
 /// integrates anew from the beginning of the step, so its state is as accurate as any other.
-void Integrator::locate(double t_before, const std::vector<double>& y_before, double value_before,
-                        const Event& event) {
+void Integrator::locate(double t_before, double value_before, const Event& event) {
+  const std::vector<double> y_before = before_;
   double lo = t_before, f_lo = value_before, hi = t_, f_hi = event(y_);
   const double rounding = 2 * std::numeric_limits<double>::epsilon() * std::abs(hi), h = h_;
   for (int i = 0, side = 0; i < 100 && hi - lo > rounding; ++i) {
@@ -163,7 +158,7 @@ void Integrator::locate(double t_before, const std::vector<double>& y_before, do
     t_ = t_before;
     restart(y_before);
     h_ = std::min(h, t - t_before);
-    run(t);
+    while (t_ < t) step(t);
     const double f = event(y_);
     if (f == 0 || std::abs(t - last) <= rounding) break;
     if ((f < 0) == (f_lo < 0)) {

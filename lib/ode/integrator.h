@@ -57,14 +57,12 @@ class Integrator {
  private:
   struct Problem;  // the system and the objects of GSL, which have pointers to it
   void step(double t);
-  void run(double t);
-  void locate(double t_before, const std::vector<double>& y_before, double value_before,
-              const Event&);
+  void locate(double t_before, double value_before, const Event&);
 
   std::shared_ptr<Problem> problem_;
   unsigned long max_steps_, steps_left_ = 0;
   double t_;
-  std::vector<double> y_, before_;  // before_: at the beginning of a step
+  std::vector<double> y_, before_;  // before_: at the beginning of the last step
   // A first guess, or less where the state changes faster; the error control corrects it.
   double h_ = 1e-6;
 };
