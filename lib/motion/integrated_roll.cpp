@@ -22,10 +22,10 @@ constexpr double last_part = 1e-10;  // of the time; in a smaller one, rounding 
 
 /// The speed at which the solver ends: what is left of the time is like v^(1-b). 0 if the body
 /// never stops.
-double floor_of(const Law& law, Rest rest, double v0) {
+double floor_of(const Law& law, std::optional<double> rest, double v0) {
   const auto power = law.power();
   const double b = power ? std::min(power->b, 0.0) : 0;
-  return rest.reached ? std::max(std::pow(last_part, 1 / (1 - b)) * v0, rest.speed) : 0;
+  return rest ? std::max(std::pow(last_part, 1 / (1 - b)) * v0, *rest) : 0;
 }
 
 OdeSystem equations(const Body& body, Geometry geometry, const Law& law, double floor, double v0) {
@@ -57,8 +57,9 @@ OdeSystem equations(const Body& body, Geometry geometry, const Law& law, double 
 
 }  // namespace
 
-IntegratedRoll::IntegratedRoll(const Body& body, Geometry geometry, Law law, Rest rest, double v0,
-                               double x0, Stepper stepper, double rtol, unsigned long most_steps)
+IntegratedRoll::IntegratedRoll(const Body& body, Geometry geometry, Law law,
+                               std::optional<double> rest, double v0, double x0, Stepper stepper,
+                               double rtol, unsigned long most_steps)
     : SolvedRoll(body, geometry, equations(body, geometry, law, floor_of(law, rest, v0), v0),
                  {stepper, rounding, v0 > 0 ? rtol * last_part * v0 : 1, rtol, most_steps},
                  {x0, v0}),
@@ -81,7 +82,7 @@ IntegratedRoll::Tail IntegratedRoll::tail(const Integrator& ode) const {
   // so that v may be above or below the floor.
   bool grows_to_R = geometry_ == Geometry::exact && (R - D) * floor_ < std::abs(v - floor_) * R;
   Tail tail{t, 0, v, 0};
-  if (!grows_to_R && rest_.speed != floor_) {
+  if (!grows_to_R && rest_ != floor_) {
     const double a = trial_acceleration(body_, geometry_, D), power = law_.at(v).by_log_v / D;
     tail.q = D * trial_acceleration_slope(body_, geometry_, D) * power / a;
     tail.duration = v / ((1 - tail.q) * -a);
@@ -93,7 +94,7 @@ IntegratedRoll::Tail IntegratedRoll::tail(const Integrator& ode) const {
 }
 
 double IntegratedRoll::stop_time() {
-  if (v0() > 0 && !rest_.reached) return infinity;
+  if (v0() > 0 && !rest_) return infinity;
   if (!tail_) {
     Integrator ode = from_start();
     ode.advance(infinity, floor_event());

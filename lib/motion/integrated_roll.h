@@ -11,13 +11,6 @@
 
 namespace rolling {
 
-/// Whether a roll comes to rest in finite time, and the speed below which it counts as at rest
-/// [m/s].
-struct Rest {
-  bool reached = true;
-  double speed = 0;
-};
-
 /// Solves for the state (x, v) with v' = -g D(v) / ((K + A) R) (Eq. 12) and, on a slope, the
 /// component of gravity. rtol is the error of x and v that a step may have, relative to their
 /// change in it, so that the sum is a part of the way and of v0, however many steps there are.
@@ -31,11 +24,11 @@ struct Rest {
 /// exactly 0.
 class IntegratedRoll final : public SolvedRoll {
  public:
-  /// Throws Error for R, g, v0 and K as check_roll does. seek() and stop_time() throw the errors of
-  /// the solver: more than most_steps steps in one call, D above R, and v above the range of the
-  /// law.
-  IntegratedRoll(const Body&, Geometry, Law, Rest, double v0, double x0, Stepper, double rtol,
-                 unsigned long most_steps = 1'000'000);
+  /// `rest` is the speed that counts as rest [m/s]; none for a body that rolls for ever. Throws
+  /// Error for R, g, v0 and K as check_roll does. seek() and stop_time() throw the errors of the
+  /// solver: more than most_steps steps in one call, D above R, and v above the range of the law.
+  IntegratedRoll(const Body&, Geometry, Law, std::optional<double> rest, double v0, double x0,
+                 Stepper, double rtol, unsigned long most_steps = 1'000'000);
 
   /// The first call integrates to the stop, independently of seek().
   double stop_time() override;
@@ -55,7 +48,7 @@ class IntegratedRoll final : public SolvedRoll {
   bool at_rest() override { return velocity() == 0; }
 
   Law law_;
-  Rest rest_;
+  std::optional<double> rest_;
   double floor_;  // 0: the body never stops
   double t_ = 0;
   std::optional<Tail> tail_;

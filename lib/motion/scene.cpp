@@ -89,9 +89,9 @@ class MirroredRoll final : public Motion {
 class SolvedBothWays final : public Motion {
  public:
   SolvedBothWays(const Scene& scene, Stepper stepper, double rtol, unsigned long most_steps)
-      : up_(scene.body, scene.geometry, scene.law, {}, scene.v0, scene.x0, stepper, rtol,
+      : up_(scene.body, scene.geometry, scene.law, 0.0, scene.v0, scene.x0, stepper, rtol,
             most_steps),
-        back_(turned(scene.body), scene.geometry, scene.law, {false, 0},
+        back_(turned(scene.body), scene.geometry, scene.law, {},
               first_part * (scene.v0 > 0 ? scene.v0 : 1), 0, stepper, rtol, most_steps),
         way_(scene.body.slope > 0 ? -1 : 1) {}
 
@@ -126,7 +126,8 @@ std::unique_ptr<Motion> solved(const Scene& scene, Stepper stepper, double rtol,
                                unsigned long most_steps) {
   Roll roll(scene.body, scene.geometry, scene.law, scene.v0);
   if (roll.turns()) return std::make_unique<SolvedBothWays>(scene, stepper, rtol, most_steps);
-  const Rest rest{std::isfinite(roll.stop_time()), roll.rest_speed()};
+  const auto rest =
+      std::isfinite(roll.stop_time()) ? std::optional(roll.rest_speed()) : std::nullopt;
   return std::make_unique<IntegratedRoll>(scene.body, scene.geometry, scene.law, rest, scene.v0,
                                           scene.x0, stepper, rtol, most_steps);
 }

@@ -176,7 +176,7 @@ TEST_CASE("IntegratedRoll: the units of length and time do not matter", "[rollin
         INFO(static_cast<int>(stepper) << ", 2^" << length << " m, 2^" << time << " s");
         const double R = std::ldexp(0.04, length), D = R / 10, v0 = std::ldexp(0.5, length - time);
         const Body body{1, R, 0.5, std::ldexp(9.81, length - 2 * time)};
-        IntegratedRoll motion(body, geometry, PowerLaw{D, 0}, {}, v0, 0, stepper, 1e-10);
+        IntegratedRoll motion(body, geometry, PowerLaw{D, 0}, 0.0, v0, 0, stepper, 1e-10);
         const double stop = -v0 / acceleration_from_shift(body, geometry, D);
         CHECK(std::abs(motion.stop_time() / stop - 1) < 1e-9);
       }
