@@ -18,6 +18,7 @@ constexpr double unseen = 1e-17;      // what is left of a sum below it does not
 constexpr double slowest = 1e-290;    // speeds below it, as a part of v0, count as 0
 constexpr double least_part = 1e-40;  // of the time: a smaller part of a coefficient in it is none
 constexpr double fastest = 345;       // speeds above v0 e^345 are refused
+constexpr double nearly_last = 1e-7;  // part of a last speed below which q is linear
 constexpr double negligible = 1e-6;   // last speeds below it, as a part of v0, count as rest
 constexpr std::size_t most_panels = 2000;  // beside the corners of the law
 
@@ -72,11 +73,11 @@ double integral_of_log(double m, double r, double e) {
 Leg::Leg(const Body& body, Geometry geometry, Law law, double v0)
     : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0), cos_(incline(body).cos),
       sin_(incline(body).sin), way_(1) {
-  const Rate start = rate(v0);
-  way_ = start.q < 0 ? -1 : 1;
+  Rate start = rate(v0);
+  if (start.q < 0) way_ = -1, start = rate(v0);
   q0_ = std::abs(start.q);
   if (!std::isfinite(q0_)) fail("the deceleration at v0 = {} m/s has no finite value", v0);
-  if (q0_ == 0 || start.balanced) end_ = End::constant_speed;
+  if (q0_ == 0 || start.balanced() || above_last_speed(v0, start) != 0) end_ = End::constant_speed;
   else if (way_ > 0 && body.slope < 0) find_rest();
   const auto power = law_.power();
   if (!power || geometry == Geometry::exact || body.slope != 0 || way_ < 0 || q0_ == 0) return;
@@ -136,7 +137,7 @@ Leg::Rate Leg::rate(double u) const {
   const bool exact = geometry_ == Geometry::exact;
   if (exact && D >= R && (u < v0_ || D > R)) {
     if (u >= v0_) check_shift(body_, D);
-    r = {way_ * g * cos_ / body_.K, 1, 0, false, {}};
+    r = {way_ * g * cos_ / body_.K, 0, 1, 0, 1, {}};
     if (body_.K > 0) r.q_c[law_.size()] = -r.q * body_.slope * cos_ * cos_;
     return r;
   }
@@ -146,9 +147,10 @@ Leg::Rate Leg::rate(double u) const {
   const double terms_of_net = std::abs(D) + std::abs(lift) + std::abs(D_by_log_u);
   r.noise = terms_of_net / std::abs(net) + (exact ? 1 / (A * A) : 0);
   r.steepness = D == 0 ? 0 : std::abs(D_by_log_u / D);
-  r.balanced = std::abs(net) <= 20 * eps * terms_of_net;
+  r.imbalance = terms_of_net > 0 ? std::abs(net) / terms_of_net : 0;
   const double A_D = exact ? -D / (R * R * A) : 0,
                by_D = unit * (cos_ + A_D * R * sin_ - net * cos_ / arm * A_D);
+  r.q_v = by_D * D_by_log_u / u;
   for (std::size_t j = 0; j < law_.size(); ++j) r.q_c[j] *= by_D;
   r.q_c[law_.size()] = unit * cos_ * cos_ * (A * R * cos_ - D * sin_);  // by S = tan theta
   return r;
@@ -240,7 +242,7 @@ void Leg::add_panel() {
   }
   const double u = speed(r_);
   const Rate now = rate(u);
-  if (now.balanced || !(now.q > 0)) end_ = End::constant_speed;
+  if (now.balanced() || !(now.q > 0) || above_last_speed(u, now) != 0) end_ = End::constant_speed;
   else if (way_ < 0 && r_ >= fastest) end_ = End::too_fast;
   if (end_ != End::none || way_ < 0) return;
   const double left = u / now.q;
@@ -270,6 +272,38 @@ Leg::Point Leg::point(const Sums& sum, double v, double q) const {
   return p;
 }
 
+/// By how much the speed u is above the last one, if it is nearly that; else 0.
+double Leg::above_last_speed(double u, const Rate& at) const {
+  const bool nears =
+      at.q > 0 && !at.balanced() && at.imbalance < 1e-6 && at.q < nearly_last * way_ * at.q_v * u;
+  return nears ? at.q / at.q_v : 0;
+}
+
+/// By v' = -way q_v (v - u) with the last speed u. The derivatives follow from
+/// v_c' = -way (q_v v_c + q_c), where q_v and q_c, too, are linear functions of the speed.
+Leg::Point Leg::beyond_panels(double since) const {
+  const double v = speed(r_);
+  const Rate now = rate(v);
+  const double above = above_last_speed(v, now);
+  Point p = point(sums_, v, now.q);
+  const Rate last = rate(v - above);
+  // At an unstable balance the derivatives grow without bound, but not beyond a double.
+  const double k = way_ * last.q_v, s = k < 0 ? std::min(since, fastest / -k) : since,
+               fade = std::exp(-k * s), once = integral_of_power(k, s, fade),
+               of_log = integral_of_log(k, s, fade), twice = s * once - of_log;
+  p.v = v - above * (1 - fade);
+  p.x += (v - above) * since + above * once;
+  p.a *= fade;
+  p.x_v0 += p.v_v0 * once;
+  p.v_v0 *= fade;
+  for (std::size_t j = 0; j <= law_.size(); ++j) {
+    const double change = above == 0 ? 0 : now.q_c[j] - last.q_c[j] * now.q_v / last.q_v;
+    p.x_c[j] += p.v_c[j] * once - way_ * (last.q_c[j] * twice + change * of_log);
+    p.v_c[j] = p.v_c[j] * fade - way_ * (last.q_c[j] * once + change * s * fade);
+  }
+  return p;
+}
+
 Leg::Point Leg::at(double t) {
   if (t == 0) return point({}, v0_, q0_);
   reach(t);
@@ -277,13 +311,8 @@ Leg::Point Leg::at(double t) {
   if (power_) return closed_point(t);
   if (t >= sums_[0]) {
     if (end_ == End::too_fast) fail("the speed has grown by a factor e^{}", fastest);
-    const double since = t - sums_[0], v = speed(r_);
-    if (end_ == End::stop) return point(sums_, v, 0);  // the last part does not show in x
-    Point p = point(sums_, v, panels_.empty() ? q0_ : rate(v).q);
-    p.x += v * since;
-    p.x_v0 += p.v_v0 * since;
-    for (std::size_t j = 0; j <= law_.size(); ++j) p.x_c[j] += p.v_c[j] * since;
-    return p;
+    // The last part before a stop does not show in x.
+    return end_ == End::stop ? point(sums_, speed(r_), 0) : beyond_panels(t - sums_[0]);
   }
   const auto after =
       std::upper_bound(panels_.begin() + 1, panels_.end(), t,
@@ -327,7 +356,9 @@ double Leg::radius_time(double t) {
 
 double Leg::last_speed() {
   if (way_ < 0 || body_.slope < 0) reach(infinity);
-  return end_ == End::constant_speed ? speed(r_) : end_ == End::too_fast ? infinity : 0;
+  const double v = speed(r_);
+  if (end_ == End::constant_speed) return v - above_last_speed(v, rate(v));
+  return end_ == End::too_fast ? infinity : 0;
 }
 
 Leg::Derivatives Leg::stop_time_by_c() {

@@ -17,6 +17,8 @@ namespace rolling {
 ///   t = int du/|q|,   x = int u du/|q|,
 /// and the derivatives by the coefficients c of the law and by the slope are
 ///   u_c = -q G,   x_c = u G - U,   G = int q_c/(q |q|) du,   U = int u q_c/(q |q|) du.
+/// Where the speed tends to one that stays, with q = 0, panels end when it differs from that by a
+/// part of 1e-7; from there on q is a linear function of the speed.
 /// The variable of integration is r = |ln(u0/u)|. The integrands are Chebyshev series over panels
 /// of r, whose lengths follow from the last terms of the series, so that they suit the scale of any
 /// law; u(t) is the inverse of the first integral by Newton's method. Panels are added when a time
@@ -66,11 +68,14 @@ class Leg {
   using Series = ChebyshevSeries<values, terms>;
   using Sums = Series::Values;
   struct Rate {
-    double q;          // |dv/dt|, negative where the leg would end
+    double q;  // |dv/dt|, negative where the leg would end
+    double q_v;
     double noise;      // its rounding, in units of eps q
     double steepness;  // |dlnD/dlnu|
-    bool balanced;     // q is rounding alone
+    double imbalance;  // q beside its terms
     Derivatives q_c;
+
+    bool balanced() const { return imbalance <= 20 * std::numeric_limits<double>::epsilon(); }
   };
   /// A piece of the way from r on. Its variable is z = 0 to width; where D = R at its end, A has a
   /// root there, of which r - r(end) = (z - width)^2/width leaves nothing in the integrands.
@@ -95,6 +100,8 @@ class Leg {
   Sums closed_sums(double r, double E) const;
   Point closed_point(double t) const;
   void reach(double t);
+  double above_last_speed(double u, const Rate&) const;
+  Point beyond_panels(double since) const;
   Point point(const Sums&, double v, double q) const;
 
   Body body_;

@@ -94,6 +94,76 @@ TEST_CASE("Roll: after the stop the speed is 0, and the place is where the deriv
     }
 }
 
+TEST_CASE("Roll: at the last speed of a falling mat the derivatives are those of differences",
+          "[rolling]") {
+  // a u^b = R |slope| at the last speed u, so that it changes by -u/(a b) with a, and x with it.
+  const double a = 1e-3, b = 0.5, slope = -0.0125, h = 1e-5;
+  const auto at = [&](double by_a, double by_b, double by_slope, double by_v0, double t) {
+    Body body{1, 0.04, 0.5};
+    body.slope = slope + by_slope;
+    return Roll(body, Geometry::approximate, PowerLaw{a + by_a, b + by_b}, 0.5 + by_v0).at(t);
+  };
+  for (const double t : {10., 1e3, 1e5}) {
+    const auto s = at(0, 0, 0, 0, t);
+    if (t > 10) CHECK(std::abs(s.v - 0.25) < 1e-12);
+    const auto close = [&](double derivative, double of, const auto& more, const auto& less) {
+      const double difference = (more.x - less.x) / (2 * of);
+      CHECK(std::abs(derivative - difference) < 1e-6 * std::abs(difference));
+    };
+    close(s.x_c[0], h * a, at(h * a, 0, 0, 0, t), at(-h * a, 0, 0, 0, t));
+    close(s.x_c[1], h, at(0, h, 0, 0, t), at(0, -h, 0, 0, t));
+    close(s.x_c[2], h * slope, at(0, 0, h * slope, 0, t), at(0, 0, -h * slope, 0, t));
+    close(s.x_v0, h, at(0, 0, 0, h, t), at(0, 0, 0, -h, t));
+  }
+}
+
+TEST_CASE("Roll: D = a v on a falling mat, with its derivatives, is the closed form", "[rolling]") {
+  // v' = -k (v - u), k = g cos a/(R (K + 1)), with the last speed u = R |S|/a.
+  const double a = 1e-3, S = -0.0125;
+  Body body{1, 0.04, 0.5};
+  body.slope = S;
+  const double u = -body.R * S / a, k = body.g / std::sqrt(1 + S * S) * a / body.R / (body.K + 1);
+  for (const double v0 : {1.5, 0.1, u, u * (1 + 1e-9), u * (1 - 1e-12)}) {
+    Roll roll(body, Geometry::approximate, PowerLaw{a, 1}, v0);
+    CHECK(std::abs(roll.last_speed() / u - 1) < 1e-14);
+    for (double kt = 0.1; kt < 1e6; kt *= 1.2) {
+      const double t = kt / k, fade = std::exp(-kt), once = -std::expm1(-kt) / k, w = v0 - u;
+      const double v_a = -(once * k * u + w * kt * fade) / a,
+                   x_a = -(u * t - u * once) / a + w * (t * fade - once) / a;
+      const auto s = roll.at(t);
+      INFO("v0 " << v0 << " kt " << kt);
+      CHECK(std::abs(s.v - (u + w * fade)) < 1e-13);
+      CHECK(std::abs(s.x - (u * t + w * once)) < 1e-13 * (v0 + u) * t);
+      CHECK(std::abs(s.v_v0 - fade) < 1e-9);
+      CHECK(std::abs(s.x_v0 - once) < 1e-9 * once);
+      CHECK(std::abs(s.v_c[0] - v_a) < 1e-9 * (v0 + u) / a);
+      CHECK(std::abs(s.x_c[0] - x_a) < 1e-9 * (v0 + u) / a * t);
+    }
+  }
+}
+
+TEST_CASE("Roll: D = a sqrt v on a falling mat, with its derivatives, is the closed form",
+          "[rolling]") {
+  // w = sqrt v falls as w' = -k (w - s)/(2 w), with s = R |S|/a; its time and what follows from it
+  // are closed in L = ln((w - s)/(w0 - s)).
+  const double a = 1e-3, S = -0.0125;
+  Body body{1, 0.04, 0.5};
+  body.slope = S;
+  const double s = -body.R * S / a, k = body.g / std::sqrt(1 + S * S) * a / body.R / (body.K + 1);
+  for (const double w0 : {1.5 * s, 0.7 * s, s * (1 + 1e-9)}) {
+    Roll roll(body, Geometry::approximate, PowerLaw{a, 0.5}, w0 * w0);
+    for (double L = -0.1; L > -60; L -= 0.37) {
+      const double d = (w0 - s) * std::exp(L), w = s + d, kt = -2 * (d - (w0 - s) + s * L),
+                   v_a = (-kt * d + 2 * s * (d * L - s + d * s / (w0 - s))) / a;
+      const auto at = roll.at(kt / k);
+      INFO("w0 " << w0 << " L " << L);
+      CHECK(std::abs(at.v - w * w) < 1e-13);
+      CHECK(std::abs(at.v_v0 - std::exp(L)) < 1e-8);
+      CHECK(std::abs(at.v_c[0] - v_a) < 2e-8 * w0 * w0 / a);
+    }
+  }
+}
+
 TEST_CASE("Roll: at t = 0 it is where it starts", "[rolling]") {
   for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
     for (const double a : {1e-3, 0.04}) {
