@@ -23,7 +23,7 @@ constexpr std::pair<std::string_view, std::string_view> long_names[] = {
 /// them, is none of a label: `Clock (hh:mm:ss)`.
 std::string take_run(std::string_view& name) {
   const auto number_at_end = [](std::string_view text) {
-    return text.substr(text.find_last_not_of("0123456789") + 1);
+    return text.substr(text.find_last_not_of(decimal_digits) + 1);
   };
   std::string_view prefix;
   if (const auto colon = name.find(':'); colon < name.find_first_of("([")) {
@@ -85,7 +85,7 @@ std::string short_name(std::string_view name) {
 
 Column read_column(std::string_view text) {
   Column column;
-  std::string line = replace_all(std::string(text), "\xC2\xA0", " ");  // no-break spaces
+  std::string line = with_plain_blanks(text);
   line = replace_all(replace_all(line, "\xEF\xBC\x88", "("), "\xEF\xBC\x89", ")");  // full width
   std::replace(line.begin(), line.end(), '\n', ' ');  // a quoted name may go over two lines
   std::string_view name = trim(line);
@@ -96,7 +96,7 @@ Column read_column(std::string_view text) {
                     : close == ']' ? name.rfind('[')
                                    : std::string_view::npos;
   if (open != std::string_view::npos && open > 0) {
-    column.unit = plain_unit(std::string(trim(name.substr(open + 1, name.size() - open - 2))));
+    column.unit = plain_unit(trim(name.substr(open + 1, name.size() - open - 2)));
     name = trim(name.substr(0, open));
   }
   // Everything but the unit, where the label stands before it or behind it.
@@ -131,10 +131,10 @@ std::string free_name(const std::vector<Column>& columns, std::string name) {
   return name;
 }
 
-bool is_known(const Column& column) { return !si_unit(column.name).empty(); }
+bool is_known(const Column& column) { return is_quantity(column.name); }
 
 Conversion conversion_to_si(std::string_view quantity, const Column& column) {
-  if (si_unit(quantity).empty() || column.unit.empty()) return {};
+  if (!is_quantity(quantity) || column.unit.empty()) return {};
   if (const auto found = unit_of(quantity, column.unit)) return *found;
   fail("column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); {}",
        shown(to_text(column)), quantity, shown(column.unit), known_units(quantity),

@@ -53,7 +53,7 @@ std::string way_out_of_commas(std::string_view line, char separator, std::size_t
   for (std::size_t at = 1; at + 1 < line.size(); ++at)
     if (line[at] == ',' && is_digit(line[at - 1]) && is_digit(line[at + 1])) {
       ++decimal;
-      at = std::min(line.find_first_not_of("0123456789", at + 1), line.size());
+      at = std::min(line.find_first_not_of(decimal_digits, at + 1), line.size());
     }
   return separator == ',' && more > 0 && decimal >= more
              ? "; if some of its commas are decimal ones, make them points first"

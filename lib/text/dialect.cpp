@@ -40,15 +40,13 @@ std::string_view without_sign(std::string_view field) {
   return field;
 }
 
-constexpr std::string_view digits = "0123456789";
-
 /// True for `1,002`, whose mark may separate thousands: one to three digits, of which the first is
 /// not 0, before the mark, and three behind it.
 bool may_be_thousands(std::string_view field, char mark) {
   field = without_sign(field);
   const auto at = field.find(mark);
   return at >= 1 && at <= 3 && field.size() == at + 4 && field.front() != '0' &&
-         field.find_first_not_of(digits) == at && field.find_first_not_of(digits, at + 1) == npos;
+         is_whole(field.substr(0, at)) && is_whole(field.substr(at + 1));
 }
 
 /// The characters of plain text: no separator, no quote, and none that only numbers with a decimal
@@ -250,11 +248,11 @@ bool Dialect::may_be_grouped(const Field& field) {
   if (seen_.size() < count_) seen_.resize(count_);
   const std::string_view size = without_sign(field.text);
   const bool is_grouped = may_be_thousands(field.text, '.'),
-             is_whole = !size.empty() && size.size() <= 3 && size.find_first_not_of(digits) == npos;
-  if (!field.wanted || !(is_grouped || is_whole)) return is_grouped;
+             is_small = size.size() <= 3 && is_whole(size);
+  if (!field.wanted || !(is_grouped || is_small)) return is_grouped;
   Seen& seen = seen_[count_ - 1];
-  seen.whole |= is_whole;
-  seen.three_digits |= is_whole && size.size() == 3;
+  seen.whole |= is_small;
+  seen.three_digits |= is_small && size.size() == 3;
   seen.grouped |= is_grouped;
   seen.zero_at_the_end |= is_grouped && size.ends_with('0');
   if (seen.whole && seen.grouped && (seen.three_digits || seen.zero_at_the_end))

@@ -263,7 +263,7 @@ std::vector<std::string> HeadReader::take_names(std::size_t width, bool blank_en
 /// Says what is wrong in the last line with a digit, which may have been meant as a row.
 void HeadReader::refuse_without_rows(const std::string& what) const {
   const auto has_digit = [](const Comment& line) {
-    return line.text.find_first_of("0123456789") != std::string::npos;
+    return line.text.find_first_of(decimal_digits) != std::string::npos;
   };
   const auto last = std::find_if(preamble_.rbegin(), preamble_.rend(), has_digit);
   if (last == preamble_.rend()) fail<InputError>("{}: {}", lines_.name(), what);
@@ -334,8 +334,7 @@ Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
   std::vector<Column> columns;
   for (std::size_t i = 0; i < std::max(width, names.size()); ++i) {
     if (i < names.size()) columns.push_back(read_column(names[i]));
-    else if (i < order.size() && !head_.named)
-      columns.push_back({order[i], std::string(si_unit(order[i]))});
+    else if (i < order.size() && !head_.named) columns.push_back({order[i]});
     else columns.emplace_back();
     if (columns.back().name.empty()) columns.back().name = fmt::format("c{}", i + 1);
     if (i < units.size())

@@ -11,10 +11,6 @@
 namespace rolling {
 namespace {
 
-bool is_column_number(std::string_view name) {
-  return name.find_first_not_of("0123456789") == std::string_view::npos;
-}
-
 /// A word of the name begins with Time, or the name is t and a number.
 bool says_time(const std::string& name) {
   const std::string small = lower(name);
@@ -44,7 +40,7 @@ NeededColumns::NeededColumns(const std::vector<std::string>& use, bool has_use,
     if (!unit.empty() || !of.run.empty())
       fail("--use: '{}': a unit goes behind the column: {}=COLUMN[{}]", shown(text), quantity,
            shown(unit));
-    if (si_unit(quantity).empty()) fail("--use: '{}' is not about t, x, v, a or D", shown(text));
+    if (!is_quantity(quantity)) fail("--use: '{}' is not about t, x, v, a or D", shown(text));
     const std::string whole = text.substr(equals + 1);
     const Column column = read_column(whole);
     const std::string& name = column.run.empty() ? column.name : whole;
@@ -86,9 +82,20 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits
     if (const auto at = find_column(use.column); quantities_[*at] != quantity)
       fail<InputError>("{}: --use: column {} cannot serve as both {} and {}", place_, *at + 1,
                        quantity, quantities_[*at]);
-    else if (!use.unit.empty()) as_read_[*at].unit = with_unit(*at, quantity).unit;
+    else if (!use.unit.empty()) give_unit(*at, quantity, use.unit);
   serve_by_units();
   resolve();
+}
+
+/// Gives a column the unit of --use, which stands for one of its name that no tool knows.
+void NeededColumns::give_unit(std::size_t column, const std::string& quantity,
+                              const std::string& unit) {
+  Column& read = as_read_[column];
+  const auto own = unit_of(quantity, read.unit), given = unit_of(quantity, unit);
+  if (is_unit(read.unit) && !(own && given && *own == *given))
+    fail<InputError>("{}: --use {} says {}, but the column's name {}", place_, quantity,
+                     shown(unit), shown(to_text(read)));
+  read.unit = unit;
 }
 
 /// Headers in other languages: the only column in a unit of time serves as t, and where none is x
@@ -104,7 +111,7 @@ void NeededColumns::serve_by_units() {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < as_read_.size(); ++i)
       if (!as_read_[i].unit.empty() && unit_of(quantity, as_read_[i].unit) &&
-          si_unit(quantities_[i]).empty())
+          !is_quantity(quantities_[i]))
         found.push_back(i);
     if (found.size() == 1) quantities_[found.front()] = quantity;
   }
@@ -114,7 +121,7 @@ void NeededColumns::serve_by_units() {
 bool NeededColumns::may_be_time(std::size_t i) const {
   const Column& column = as_read_[i];
   return quantities_[i] == "t" ||
-         (si_unit(quantities_[i]).empty() && !column.name.ends_with("_in") &&
+         (!is_quantity(quantities_[i]) && !column.name.ends_with("_in") &&
           (says_time(column.name) || (!column.unit.empty() && unit_of("t", column.unit))));
 }
 
@@ -136,13 +143,13 @@ std::optional<std::size_t> NeededColumns::find(std::string_view name) const {
       !at && quantity == name && by_unit != quantities_.end())
     at = static_cast<std::size_t>(by_unit - quantities_.begin());
   // The column of this name serves as another quantity.
-  if (at && !si_unit(quantity).empty() && quantities_[*at] != quantity) return {};
+  if (at && is_quantity(quantity) && quantities_[*at] != quantity) return {};
   if (at && quantity == "t" && named_) refuse_other_times(*at);
   return at;
 }
 
 std::optional<std::size_t> NeededColumns::find_column(std::string_view name) const {
-  if (double number; is_column_number(name) && parse_number(name, number))
+  if (double number; is_whole(name) && parse_number(name, number))
     return number >= 1 && number <= static_cast<double>(as_read_.size())
                ? std::optional(static_cast<std::size_t>(number) - 1)
                : std::nullopt;
@@ -190,27 +197,12 @@ std::size_t NeededColumns::require(std::string_view name) const {
     if (const auto by = appended_by_.find(std::string(name)); by != appended_by_.end())
       way_out = fmt::format("; {} appends it", by->second);
     if (!named_) way_out += "; if this line is a heading, begin it with #";
-    if (has_use_ && !si_unit(read_column(name).name).empty())
+    if (has_use_ && is_quantity(read_column(name).name))
       way_out += fmt::format("{} say --use {}=COLUMN", way_out.empty() ? ";" : ", or", name);
     fail<InputError>("{}: there is no column '{}' among {}{}", place_, shown(name), list(),
                      way_out);
   }
   return *column;
-}
-
-/// A column with the unit of its name, or with the unit that --use gives.
-Column NeededColumns::with_unit(std::size_t column, const std::string& quantity) const {
-  Column read = as_read_[column];
-  if (!named_) read.unit.clear();  // Layout has the SI unit of the tool's order
-  const auto use = use_.find(quantity);
-  if (use == use_.end() || use->second.unit.empty()) return read;
-  // The unit that --use gives stands for one that no tool knows.
-  const auto own = unit_of(quantity, read.unit), given = unit_of(quantity, use->second.unit);
-  if (named_ && is_unit(read.unit) && !(own && given && *own == *given))
-    fail<InputError>("{}: --use {} says {}, but the column's name {}", place_, quantity,
-                     shown(use->second.unit), shown(to_text(read)));
-  read.unit = use->second.unit;
-  return read;
 }
 
 void NeededColumns::resolve(Needed& needed) {
@@ -219,22 +211,21 @@ void NeededColumns::resolve(Needed& needed) {
   needed.to_si = {};
   if (!found) return;
   const bool first = needed.quantity.empty();
-  const Column read = with_unit(*found, needed.quantity);
+  const Column& read = as_read_[*found];
   const std::string& quantity = quantities_[*found];
   if (first) needed.quantity = quantity, needed.unit = read.unit;
   if (quantity != needed.quantity)
     fail<InputError>("{}: column {} is {}, and {} in the runs before", place_, *found + 1,
                      shown(quantity), shown(needed.quantity));
   if (needed.kind == Kind::as_is) return;
-  if (si_unit(quantity).empty() && read.unit != needed.unit)
+  if (!is_quantity(quantity) && read.unit != needed.unit)
     fail<InputError>("{}: column {} is in {}, and in {} in the runs before", place_,
                      shown(quantity), read.unit.empty() ? "no unit" : shown(read.unit),
                      needed.unit.empty() ? "no unit" : shown(needed.unit));
-  const Column meant = with_unit(*found, quantity);
   if (const std::string asked = read_column(needed.name).unit;
-      first && !asked.empty() && asked != meant.unit && asked != si_unit(quantity))
+      first && !asked.empty() && asked != read.unit && asked != si_unit(quantity))
     fail<InputError>("{}: '{}' is asked for, but column {} is '{}'", place_, shown(needed.name),
-                     *found + 1, shown(to_text(meant)));
+                     *found + 1, shown(to_text(read)));
   needed.to_si = conversion(*found, quantity);
 }
 
@@ -242,11 +233,11 @@ void NeededColumns::resolve(Needed& needed) {
 /// a column without one is in SI units, which is noted where its name does not say so. Refuses a
 /// unit that is not known, and names the other columns that are refused for the same reason.
 Conversion NeededColumns::conversion(std::size_t at, const std::string& quantity) {
-  Column meant = with_unit(at, quantity);
+  Column meant = as_read_[at];
   const bool named = named_ && meant.name == quantity;
   if (meant.unit.empty() && named_) meant.unit = unit_at_end(quantity, meant.name);
   if (const auto said = said_.find(quantity);
-      meant.unit.empty() && !si_unit(quantity).empty() && (!named || said != said_.end())) {
+      meant.unit.empty() && is_quantity(quantity) && (!named || said != said_.end())) {
     std::string line = fmt::format("{} is column {}", quantity, at + 1);
     if (named_) line += fmt::format(", '{}'", shown(meant.name));
     line += fmt::format(", taken in {}", si_unit(quantity));
@@ -261,7 +252,7 @@ Conversion NeededColumns::conversion(std::size_t at, const std::string& quantity
     std::string others;
     for (std::size_t i = 0; i < as_read_.size(); ++i)
       if (const Column& c = as_read_[i]; i != at && !c.unit.empty() && named_ &&
-                                         !si_unit(quantities_[i]).empty() &&
+                                         is_quantity(quantities_[i]) &&
                                          !unit_of(quantities_[i], c.unit))
         others += fmt::format("; nor can '{}' as {}", shown(to_text(c)), quantities_[i]);
     fail<InputError>("{}: {}{}{}", place_, error.what(),
@@ -281,6 +272,8 @@ void NeededColumns::resolve() {
 
 void NeededColumns::name_columns() {
   in_output_ = as_read_;
+  for (Column& column : in_output_)
+    if (!named_ && column.unit.empty()) column.unit = si_unit(column.name);
   for (const Needed& needed : needed_) {
     if (!serves(needed)) continue;
     for (std::size_t i = 0; i < as_read_.size(); ++i)

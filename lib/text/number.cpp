@@ -135,9 +135,6 @@ char* write_number(char* to, double value, int digits) {
   return write_shortest(to, value);
 }
 
-namespace {
-
-/// With a plain blank for each no-break or thin one (U+00A0, U+2009, U+202F).
 std::string with_plain_blanks(std::string_view text) {
   std::string out;
   while (!text.empty()) {
@@ -149,8 +146,6 @@ std::string with_plain_blanks(std::string_view text) {
   }
   return out;
 }
-
-}  // namespace
 
 std::string shown(std::string_view text) {
   std::string out = with_plain_blanks(text);

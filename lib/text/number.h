@@ -21,6 +21,13 @@ inline bool is_number(std::string_view field) {
   return parse_number(field, value);
 }
 
+inline constexpr std::string_view decimal_digits = "0123456789";
+
+/// True for digits and nothing else.
+inline bool is_whole(std::string_view text) {
+  return !text.empty() && text.find_first_not_of(decimal_digits) == std::string_view::npos;
+}
+
 /// True for a missing reading: an empty field, or NaN in upper or lower case.
 bool is_missing(std::string_view field);
 
@@ -36,6 +43,9 @@ inline constexpr std::size_t longest_number = 32;
 
 /// `text` as a message shows it: printable ASCII only, at most 40 characters.
 std::string shown(std::string_view text);
+
+/// With a plain blank for each no-break or thin one (U+00A0, U+2009, U+202F).
+std::string with_plain_blanks(std::string_view text);
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
 

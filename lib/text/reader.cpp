@@ -213,7 +213,7 @@ void Reader::reject(std::size_t column, std::string_view why) const {
 /// reading, a time of day, a decimal comma, signs that are none of a number, the names of another
 /// run, a line of text.
 std::string Reader::way_out(std::size_t column) const {
-  constexpr std::string_view digits = "0123456789", plain = "+-.0123456789";
+  constexpr std::string_view plain = "+-.0123456789";
   const std::string_view field = fields_[column].text;
   if (means_missing(field) && !is_missing(field)) return "; write NaN for a missing reading";
   const bool word = !field.empty() && plain.find(field.front()) == std::string_view::npos;
@@ -229,10 +229,10 @@ std::string Reader::way_out(std::size_t column) const {
     return "; if a comma here is a decimal one, make it a point first";
   const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0; };
   if (field.find_first_not_of(plain) < field.size() && std::ranges::none_of(field, is_letter) &&
-      (wide || field.find_first_of(digits) < field.size()))
+      (wide || field.find_first_of(decimal_digits) < field.size()))
     return "; write it with the digits 0 to 9, a hyphen and a point alone";
   if (!word)
-    return field.find_first_of(digits) < field.size() &&
+    return field.find_first_of(decimal_digits) < field.size() &&
                    field.find_first_not_of("+-.0123456789eE") < field.size()
                ? "; write the number alone, and its unit into the header"
                : "";

@@ -11,10 +11,6 @@
 namespace rolling {
 namespace {
 
-bool is_whole(std::string_view text) {
-  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
-}
-
 /// The key of what is wrong with the order of the times of a run that was passed over.
 constexpr const char* order_of_times = "order of t";
 

@@ -150,7 +150,8 @@ bool is_ambiguous(std::string_view word) {
 
 }  // namespace
 
-std::string plain_unit(std::string unit) {
+std::string plain_unit(std::string_view text) {
+  std::string unit = with_plain_blanks(text);
   for (const auto& [from, to] : {std::pair{"\xE2\x81\xBB\xC2\xB9", "^-1"},
                                  {"\xE2\x81\xBB\xC2\xB2", "^-2"},
                                  {"\xC2\xB2", "^2"},
@@ -158,7 +159,6 @@ std::string plain_unit(std::string unit) {
                                  {"\xC2\xB5", "u"},
                                  {"\xCE\xBC", "u"},
                                  {"\xB5", "u"},
-                                 {"\xC2\xA0", " "},
                                  {"\n", " "}})
     unit = replace_all(std::move(unit), from, to);
   return replace_all(std::move(unit), "s2", "s^2");
@@ -167,8 +167,10 @@ std::string plain_unit(std::string unit) {
 std::string bare_unit(std::string_view text) {
   if (text.size() > 1 && (text.front() == '[' || text.front() == '('))
     text = text.substr(1, text.size() - 2);
-  return std::string(trim(plain_unit(std::string(text))));
+  return std::string(trim(plain_unit(text)));
 }
+
+bool is_quantity(std::string_view name) { return known(name) != nullptr; }
 
 std::string_view si_unit(std::string_view quantity) {
   const KnownQuantity* q = known(quantity);
@@ -178,8 +180,8 @@ std::string_view si_unit(std::string_view quantity) {
 std::string_view known_units(std::string_view quantity) { return known(quantity)->units; }
 
 std::optional<Conversion> unit_of(std::string_view quantity, std::string_view unit) {
-  if (!known(quantity)) return {};
-  const std::string text = as_quotient(plain_unit(std::string(unit)));
+  if (!is_quantity(quantity)) return {};
+  const std::string text = as_quotient(plain_unit(unit));
   const auto found = quantity == "t"   ? base_unit(Dimension::time, text)
                      : quantity == "v" ? speed(text)
                      : quantity == "a" ? rate(text, 2)
@@ -195,7 +197,7 @@ bool is_unit(std::string_view text) {
 }
 
 std::string unit_at_end(std::string_view quantity, std::string_view name) {
-  if (!known(quantity)) return {};
+  if (!is_quantity(quantity)) return {};
   constexpr std::string_view between = "_/";
   for (auto at = name.find_first_of(between); at != std::string_view::npos;
        at = name.find_first_of(between, at + 1)) {
@@ -212,7 +214,7 @@ std::string unit_at_end(std::string_view quantity, std::string_view name) {
 
 void note_units(std::string_view comment, std::size_t line, SaidUnits& said) {
   if (comment.starts_with("##")) return;
-  std::string text = plain_unit(std::string(comment));
+  std::string text = plain_unit(comment);
   for (const std::string_view per : {" per ", " / "}) text = replace_all(std::move(text), per, "/");
   std::ranges::replace_if(
       text, [](unsigned char c) { return c < 0x80 && !std::isalnum(c) && c != '/' && c != '^'; },

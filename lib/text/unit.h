@@ -18,13 +18,17 @@ struct Conversion {
   bool operator==(const Conversion&) const = default;
 };
 
-/// A unit in ASCII: superscripts in UTF-8 or Latin-1 become ^2 and ^-1, micro signs become u.
-std::string plain_unit(std::string unit);
+/// A unit in ASCII: superscripts in UTF-8 or Latin-1 become ^2 and ^-1, micro signs become u, and
+/// no-break blanks plain ones.
+std::string plain_unit(std::string_view text);
 
 /// The same without the brackets around it.
 std::string bare_unit(std::string_view text);
 
-/// The SI unit of a known quantity (t, x, v, a, D); empty for any other name.
+/// Whether a name is that of a known quantity: t, x, v, a or D.
+bool is_quantity(std::string_view name);
+
+/// The SI unit of a known quantity; empty for any other name.
 std::string_view si_unit(std::string_view quantity);
 
 /// The units of a known quantity, by their common spellings, as a message shows them.

@@ -27,6 +27,7 @@ TEST_CASE("column: a name says its quantity and its unit", "[text]") {
       {"TIME", {"t", "", ""}},
       {"Time\n(s)", {"t", "s", ""}},
       {"Time\xC2\xA0(\xC2\xA0s\xC2\xA0)", {"t", "s", ""}},
+      {"Time\xE2\x80\xAF(\xE2\x80\x89ms)", {"t", "ms", ""}},  // thin blanks
       {"Position (m)", {"x", "m", ""}},
       {"Acceleration (m/s^2)", {"a", "m/s^2", ""}},
       {"Acceleration (m/s2)", {"a", "m/s^2", ""}},
