@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
-#include <iterator>
 #include <utility>
 
 #include "base/error.h"
@@ -87,8 +86,8 @@ class HeadReader {
   const Head* before_;
   const CommentHook& pass_;
   Head head_;
-  std::vector<Comment> comments_;
-  std::deque<Comment> last_;       // behind them, while lines are read
+  std::deque<Comment> comments_;
+  std::size_t far_ = 0;            // of them stand too far from the row but are kept
   std::vector<Comment> preamble_;  // lines that are neither comments nor rows
 };
 
@@ -98,8 +97,10 @@ void HeadReader::take_history() {
   const std::string_view text = trim(std::string_view(line).substr(2));
   if (text.starts_with("run ")) {  // the `##` lines above belong to a run without rows
     head_.run = trim(text.substr(4));
-    std::erase_if(comments_, std::mem_fn(&Comment::is_history));
-    std::erase_if(last_, std::mem_fn(&Comment::is_history));
+    const auto far = comments_.begin() + static_cast<std::ptrdiff_t>(far_);
+    const auto is_history = std::mem_fn(&Comment::is_history);
+    far_ -= static_cast<std::size_t>(std::count_if(comments_.begin(), far, is_history));
+    std::erase_if(comments_, is_history);
   } else {
     keep(line);
   }
@@ -108,24 +109,21 @@ void HeadReader::take_history() {
 /// Keeps a comment, and passes one on that is too far from the row: a sensor that idles may
 /// write millions.
 void HeadReader::keep(std::string comment) {
-  last_.push_back({std::move(comment), lines_.number()});
+  comments_.push_back({std::move(comment), lines_.number()});
   constexpr std::size_t most = 100;
-  if (last_.size() <= most) return;
-  Comment& first = last_.front();
-  if (!pass_ || first.is_history() ||
-      (comments_.size() < most &&
-       (first.text.find('\t') != std::string::npos || holds_known_name(first.text))))
-    comments_.push_back(std::move(first));
-  else pass_(first.text);
-  last_.pop_front();
+  if (!pass_ || comments_.size() - far_ <= most) return;
+  const auto first = comments_.begin() + static_cast<std::ptrdiff_t>(far_);
+  if (first->is_history() || (far_ < most && (first->text.find('\t') != std::string::npos ||
+                                              holds_known_name(first->text))))
+    ++far_;
+  else pass_(first->text), comments_.erase(first);
 }
 
 /// True if a comment has names for so many columns, one of them known.
 bool HeadReader::is_named_by_comment(std::size_t width) const {
-  const auto names_them = [&](const Comment& comment) {
+  return std::ranges::any_of(comments_, [&](const Comment& comment) {
     return !comment.is_history() && names_in_comment(comment.text, {width}).known > 0;
-  };
-  return std::ranges::any_of(comments_, names_them) || std::ranges::any_of(last_, names_them);
+  });
 }
 
 /// True for a first row with missing readings: a field is NaN, which is no name of a column; or
@@ -154,7 +152,7 @@ bool HeadReader::has_tabs_of_names(std::string_view line) const {
     return names.find(' ') == std::string_view::npos && std::ranges::count(names, '\t') == tabs;
   };
   return tabs > 0 && ((!preamble_.empty() && agrees(preamble_.back())) ||
-                      std::ranges::any_of(comments_, agrees) || std::ranges::any_of(last_, agrees));
+                      std::ranges::any_of(comments_, agrees));
 }
 
 /// Goes to the first row; false if there is none.
@@ -301,8 +299,6 @@ std::string HeadReader::way_out(std::size_t width, std::size_t names) const {
 
 Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
   const bool found = find_row();
-  std::ranges::move(last_, std::back_inserter(comments_));
-  last_.clear();
   if (!found) {
     const bool empty = lines_.name() == "-" && comments_.empty() && preamble_.empty();
     if (!before_ && empty)

@@ -155,7 +155,7 @@ CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns& 
   return found;
 }
 
-std::optional<ChosenNames> choose_names(const std::vector<Comment>& comments,
+std::optional<ChosenNames> choose_names(const std::deque<Comment>& comments,
                                         const UnnamedColumns& columns, bool first,
                                         std::string_view file) {
   std::vector<CommentedNames> all;

@@ -3,6 +3,7 @@
 // units that may stand in a line below them.
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -58,7 +59,7 @@ struct ChosenNames {
 /// last; in the first head of a file (`first`) one without known names, too. Nothing if there is
 /// none. Throws InputError if another line may be meant, or if the chosen one may be a sentence
 /// that would move known columns of the run before.
-std::optional<ChosenNames> choose_names(const std::vector<Comment>&, const UnnamedColumns&,
+std::optional<ChosenNames> choose_names(const std::deque<Comment>&, const UnnamedColumns&,
                                         bool first, std::string_view file);
 
 /// Whether the fields of the line above the rows are the units of the names in the line above
