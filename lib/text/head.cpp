@@ -56,6 +56,11 @@ void refuse_two_readings(const std::string& line) {
         shown(line));
 }
 
+/// True if the comment has names for these columns, one of them known.
+bool names_some(const Comment& comment, const UnnamedColumns& columns) {
+  return !comment.is_history() && names_in_comment(comment.text, columns).known > 0;
+}
+
 /// The comments and other lines in front of the first row.
 class HeadReader {
  public:
@@ -70,7 +75,6 @@ class HeadReader {
   void keep(std::string comment);
   void take_history();
   bool is_missing_row(std::string_view line);
-  bool is_named_by_comment(std::size_t width) const;
   std::vector<std::string> take_units();
   std::vector<std::string> take_names(std::size_t width, bool blank_end);
   bool is_named_below(const UnnamedColumns& columns) const;
@@ -119,13 +123,6 @@ void HeadReader::keep(std::string comment) {
   else pass_(first->text), comments_.erase(first);
 }
 
-/// True if a comment has names for so many columns, one of them known.
-bool HeadReader::is_named_by_comment(std::size_t width) const {
-  return std::ranges::any_of(comments_, [&](const Comment& comment) {
-    return !comment.is_history() && names_in_comment(comment.text, {width}).known > 0;
-  });
-}
-
 /// True for a first row with missing readings: a field is NaN, which is no name of a column; or
 /// all are blank, dates or times below known names; or one is blank below those of a comment.
 bool HeadReader::is_missing_row(std::string_view line) {
@@ -137,7 +134,9 @@ bool HeadReader::is_missing_row(std::string_view line) {
   if (preamble_.empty())
     return any([](const Field& f) { return f.text.empty(); }) && !holds_known_name(line) &&
            !any([](const Field& f) { return is_unit(f.text); }) &&
-           is_named_by_comment(fields.size());
+           std::ranges::any_of(comments_, [&](const Comment& comment) {
+             return names_some(comment, {fields.size()});
+           });
   const std::string& above = preamble_.back().text;
   return !text && holds_known_name(above) &&
          names_in(above, dialect_.separator()).size() == fields.size();
@@ -191,8 +190,7 @@ bool HeadReader::find_row() {
 bool HeadReader::is_named_below(const UnnamedColumns& columns) const {
   const auto has_name = [](const Comment& line) { return holds_known_name(line.text); };
   const auto names_columns = [&](const Comment& comment) {
-    return comment.line > preamble_.back().line && !comment.is_history() &&
-           names_in_comment(comment.text, columns).known > 0;
+    return comment.line > preamble_.back().line && names_some(comment, columns);
   };
   return std::ranges::none_of(preamble_, has_name) && std::ranges::any_of(comments_, names_columns);
 }
@@ -230,11 +228,11 @@ std::vector<std::string> HeadReader::take_units() {
   std::vector<std::string> above;
   if (preamble_.size() > 1)
     above = names_in(preamble_[preamble_.size() - 2].text, dialect_.separator());
+  const UnnamedColumns columns{units.size(), units.back().empty()};
   for (const Comment& comment : comments_)
-    if (preamble_.size() == 1 && comment.line < preamble_.back().line && !comment.is_history())
-      if (auto found = names_in_comment(comment.text, {units.size(), units.back().empty()});
-          found.known > 0)
-        above = std::move(found.names);
+    if (preamble_.size() == 1 && comment.line < preamble_.back().line &&
+        names_some(comment, columns))
+      above = names_in_comment(comment.text, columns).names;
   if (!are_units_of(above, units)) return {};
   preamble_.pop_back();
   return units;

@@ -55,7 +55,7 @@ bool Reader::next_line() {
 bool Reader::next_kept_line() {
   while (next_kept_ < kept_.size()) {
     const Kept& kept = kept_[next_kept_++];
-    line_ = {kept_text_.data() + kept.begin, kept.size};
+    line_ = kept.text;
     line_number_ = kept.number;
     if (kept.kind == LineKind::comment && side_ == 0) remarks_.emplace_back(line_);
     if (kept.kind == LineKind::row && next_kept_ <= kept_end_) return true;

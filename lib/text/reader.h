@@ -170,9 +170,9 @@ class Reader {
   /// The lines of runs side by side, which are read once for each of them.
   struct Kept {
     LineKind kind;
-    std::size_t number, begin, size;
+    std::size_t number;
+    std::string text;
   };
-  Bytes kept_text_;
   std::vector<Kept> kept_;                    // else empty
   std::size_t next_kept_ = 0, kept_end_ = 0;  // which is behind the last reading of this run
   Dialect dialect_;

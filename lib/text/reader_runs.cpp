@@ -122,16 +122,13 @@ void Reader::take_head(Head head) {
 
 /// Keeps the lines of runs side by side, up to a run break.
 void Reader::keep_rows() {
-  kept_text_.truncate(0);
   while (lines_->next() && lines_->kind() != LineKind::blank) {
-    const std::string_view text = lines_->text();
     if (lines_->kind() == LineKind::history) {
       refuse_error_line(*lines_);
       lines_->put_back();
       break;
     }
-    kept_.push_back({lines_->kind(), lines_->number(), kept_text_.size(), text.size()});
-    kept_text_.append(text);
+    kept_.push_back({lines_->kind(), lines_->number(), std::string(lines_->text())});
   }
 }
 
@@ -168,7 +165,7 @@ void Reader::begin_rows() {
   for (kept_end_ = kept_.size(); kept_end_ > 0; --kept_end_) {
     const Kept& kept = kept_[kept_end_ - 1];
     line_number_ = kept.number;
-    fields_ = split({kept_text_.data() + kept.begin, kept.size});
+    fields_ = split(kept.text);
     if (kept.kind == LineKind::row && std::ranges::any_of(layout().fields, is_reading)) break;
   }
   line_number_ = number;
