@@ -75,9 +75,8 @@ bool Dialect::choose(std::string_view line, bool tabs) {
   const auto first = std::find_if(separators.begin(), separators.end(),
                                   [&](char separator) { return outside.find(separator) != npos; });
   separator_ = first == separators.end() ? '\0' : *first;
-  foreign_numbers_ = separator_ == '\t' || separator_ == ';';
   decimal_mark_ = '\0';
-  asks_ = foreign_numbers_;
+  asks_ = allows_foreign();
   grouped_ = passed_thousands_ = false;
   seen_.clear();
   fields_.clear();
@@ -147,7 +146,7 @@ std::span<const Field> Dialect::split(std::string_view line) {
 }
 
 const char* Dialect::split_plain(std::string_view text, std::span<const Field>& fields) {
-  if (separator_ == '\0' || (foreign_numbers_ && decimal_mark_ == '\0')) return nullptr;
+  if (separator_ == '\0' || (allows_foreign() && decimal_mark_ == '\0')) return nullptr;
   return decimal_mark_ == ',' ? split_with_commas(text, fields) : split_with_points(text, fields);
 }
 
@@ -220,7 +219,7 @@ const char* Dialect::take_text(const char* at, const char* end, Field& field) {
     as_it_stands_ &= field.text.size() == static_cast<std::size_t>(at - first);
   }
   if (needs_quotes(field.text)) may_need_quotes_ = true, as_it_stands_ = false;
-  if (foreign_numbers_ && rewrite(field)) return at;
+  if (allows_foreign() && rewrite(field)) return at;
   if (field.wanted && !parse_number(field.text, field.number)) field.number = Field().number;
   return at;
 }

@@ -54,8 +54,10 @@ class Dialect {
   char separator() const { return separator_; }  ///< '\0' for blanks
 
  private:
-  /// The next number may have a decimal comma or a minus sign U+2212.
-  bool foreign() const { return foreign_numbers_ && decimal_mark_ != '.'; }
+  /// The separator allows decimal commas, and the minus sign U+2212.
+  bool allows_foreign() const { return separator_ == '\t' || separator_ == ';'; }
+  /// The next number may have one of them.
+  bool foreign() const { return allows_foreign() && decimal_mark_ != '.'; }
   Field& next_field() {
     if (count_ == fields_.size()) fields_.emplace_back();
     return fields_[count_++];
@@ -76,7 +78,6 @@ class Dialect {
   };
 
   char separator_ = '\0';
-  bool foreign_numbers_ = false;   // the separator allows decimal commas and U+2212
   char decimal_mark_ = '\0';       // of the numbers so far; '\0' if none had one
   bool asks_ = false;              // a point may separate thousands
   bool grouped_ = false;           // one that may has been read as a decimal one

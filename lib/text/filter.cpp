@@ -58,16 +58,15 @@ std::vector<Column> Filter::columns() const {
 
 /// The head of the present run waits like a row.
 void Filter::take_head() {
-  Head& head = heads_.emplace();
-  for (const std::string& comment : in_.comments()) (head.comments += comment) += '\n';
-  if (in_.renames() && !in_.history().empty())
-    head.comments += fmt::format("## {}\n", columns_renamed);
-  head.names = names_line(columns());
-  wait({Kind::head, 0, 0});
+  std::string comments;
+  for (const std::string& comment : in_.comments()) (comments += comment) += '\n';
+  if (in_.renames() && !in_.history().empty()) comments += fmt::format("## {}\n", columns_renamed);
+  wait(Kind::head, comments + names_line(columns()), comments.size());
   if (replaced_ != Reader::no_column) cut_ = in_.column_of(replaced_);
 }
 
-void Filter::wait(Row row, std::string_view text) {
+void Filter::wait(Kind kind, std::string_view text, std::size_t place) {
+  const Row row{kind, static_cast<std::uint32_t>(text.size()), static_cast<std::uint32_t>(place)};
   changing_ = true;
   rows_.append({reinterpret_cast<const char*>(&row), sizeof row});
   rows_.append(text);
@@ -75,8 +74,7 @@ void Filter::wait(Row row, std::string_view text) {
 }
 
 void Filter::take_remarks(const std::vector<std::string>& remarks) {
-  for (const std::string& remark : remarks)
-    wait({Kind::remark, static_cast<std::uint32_t>(remark.size()), 0}, remark);
+  for (const std::string& remark : remarks) wait(Kind::remark, remark);
   if (!remarks.empty()) write_rows();
 }
 
@@ -156,10 +154,9 @@ void Filter::write_rows() {
       any_row_ = true;
       ++done_;
     } else if (row.kind == Kind::head) {
-      const std::string before = head_ ? remarks_of(head_->comments) : "";
-      head_ = std::move(heads_.front());
-      head_->comments.insert(0, before);
-      heads_.pop();
+      std::string comments = head_ ? remarks_of(head_->comments) : "";
+      comments += text.substr(0, row.place);
+      head_ = {std::move(comments), std::string(text.substr(row.place))};
     } else if (head_) {
       head_->comments.append(text) += '\n';
     } else {

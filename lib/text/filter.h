@@ -70,8 +70,8 @@ class Filter {
   /// --coast): they are kept small. No line is as long as 2^32.
   struct Row {
     Kind kind;
-    std::uint32_t size;   // of its text; a head has it elsewhere
-    std::uint32_t place;  // of the numbers of a row in its text
+    std::uint32_t size;   // of its text
+    std::uint32_t place;  // in it, of the numbers of a row, or of the names of a head
   };
   struct Head {
     std::string comments, names;
@@ -84,7 +84,7 @@ class Filter {
   void write_rows();
   void write_head();
   void write_row(std::string_view text, std::size_t place, std::span<const double> numbers);
-  void wait(Row, std::string_view text = {});  // appends both to the buffer
+  void wait(Kind, std::string_view text, std::size_t place = 0);  // appends it to the buffer
 
   Reader& in_;
   Output& out_;
@@ -94,7 +94,6 @@ class Filter {
   std::size_t cut_ = Reader::no_column;       // its column in this run
   Bytes rows_;                                // from front_ on: rows that are not written yet
   std::size_t front_ = 0;
-  std::queue<Head> heads_;           // heads of the runs that begin among these rows
   std::queue<std::size_t> dropped_;  // indices of the rows among rows_ to leave out
   Growing<double> numbers_;          // of these rows, in order
   std::size_t enough_;               // put() writes rows at this count of numbers

@@ -70,19 +70,19 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits
   place_ = std::move(place);
   quantities_.clear();
   for (const Column& column : as_read_) quantities_.push_back(column.name);
+  for (const auto& [quantity, use] : use_)
+    std::ranges::replace(quantities_, quantity, free_name(as_read_, quantity));
   for (const auto& [quantity, use] : use_) {
     const auto at = find_column(use.column);
     if (!at)
       fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", place_, quantity,
                        shown(use.text), shown(use.text), list());
-    std::ranges::replace(quantities_, quantity, free_name(as_read_, quantity));
-    quantities_[*at] = quantity;
-  }
-  for (const auto& [quantity, use] : use_)
-    if (const auto at = find_column(use.column); quantities_[*at] != quantity)
+    if (use_.contains(quantities_[*at]))
       fail<InputError>("{}: --use: column {} cannot serve as both {} and {}", place_, *at + 1,
-                       quantity, quantities_[*at]);
-    else if (!use.unit.empty()) give_unit(*at, quantity, use.unit);
+                       quantities_[*at], quantity);
+    quantities_[*at] = quantity;
+    if (!use.unit.empty()) give_unit(*at, quantity, use.unit);
+  }
   serve_by_units();
   resolve();
 }
