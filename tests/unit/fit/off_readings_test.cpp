@@ -91,6 +91,25 @@ TEST_CASE("no standard uncertainty is below what the rounding of the readings le
   CHECK(squares / fits < 1.3);
 }
 
+TEST_CASE("the floor of rounding holds where no reading repeats, but not for gates") {
+  const auto truth = simulated::roll(cylinder, felt.a, felt.b, 0.5);
+  const auto sigma = [&](double off) {  // positions on a grid of 1 mm, met to this part of it
+    FitRun run{};
+    run.body = cylinder;
+    for (int i = 1; i <= 12; ++i) {
+      const double x = 1e-3 * (100 * i + 37 * i % 10), part = off * 1e-3 * (i % 2 ? 1 : -1);
+      double t = 0.3 * i;
+      for (int step = 0; step < 50; ++step) t += (x + part - truth.x(t)) / truth.v(t);
+      run.t.push_back(t), run.x.push_back(x);
+    }
+    return fitted(run).sigma_b;
+  };
+  // Rounding leaves 0.29 of a step: residuals of 0.2 do not speak against it, and have its errors.
+  const double rounded = sigma(0.2);
+  CHECK(std::abs(sigma(0.25) / rounded - 1) < 0.03);  // b itself is not the same
+  CHECK(sigma(0.02) < 0.1 * rounded);
+}
+
 TEST_CASE("a v0 that no reading comes near is refused") {
   for (const double off : {0.005, 0.02, 0.1, 0.5, 3.0})
     for (const PowerLaw law : {rubber, felt}) {
