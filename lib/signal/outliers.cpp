@@ -82,6 +82,7 @@ Outliers::Outliers(Width width, double threshold)
       threshold_(threshold) {}
 
 std::span<const Judged> Outliers::push(double t, double y) {
+  judged_.clear();
   if (count_++ > 0) large_ = std::max(large_, std::min(std::abs(y), std::abs(last_)));
   const double least = program_rounding * large_, step = y - last_, before = last_ - before_;
   for (const double digit :
@@ -90,18 +91,17 @@ std::span<const Judged> Outliers::push(double t, double y) {
   before_ = std::exchange(last_, y);
   near_.push(t, y);
   samples_.push_back({t, y});
-  return judge();
+  judge();
+  return judged_;
 }
 
 std::span<const Judged> Outliers::finish() {
+  judged_.clear();
   near_.finish();
   judge();
   scatter_.finish();
-  auto judged = std::exchange(judged_, {});
   judge();
   judge_before(count_);
-  judged.insert(judged.end(), judged_.begin(), judged_.end());
-  judged_ = std::move(judged);
   return judged_;
 }
 
@@ -119,10 +119,10 @@ bool Outliers::belongs(std::size_t i, bool again) const {
   const auto at = [&](std::size_t j) {
     return samples_.begin() + static_cast<std::ptrdiff_t>(j - first_);
   };
-  const Tested& s = *at(i);
-  if (again && std::all_of(at(begin), at(end), std::mem_fn(&Tested::kept))) return true;
+  const Judged& s = *at(i);
+  if (again && std::all_of(at(begin), at(end), std::mem_fn(&Judged::kept))) return true;
   const Neighbours others(at(begin), at(end), s,
-                          [&](const Tested& of) { return &of != &s && (!again || of.kept); });
+                          [&](const Judged& of) { return &of != &s && (!again || of.kept); });
   if (others.size < 4) return true;
   double noise = (few() ? least_scatter() : s.noise) / others.unit;
   Polynomial<3> motion = others.parabola();
@@ -141,14 +141,14 @@ bool Outliers::belongs(std::size_t i, bool again) const {
 /// Judges, now that the neighbours of the samples before `end` have been tested.
 void Outliers::judge_before(std::size_t end) {
   for (; next_ < end; ++next_) {
-    Tested& s = samples_[next_ - first_];
-    judged_.push_back({s.t, s.y, s.kept && (few() || belongs(next_, true))});
+    Judged s = samples_[next_ - first_];
+    s.kept = s.kept && (few() || belongs(next_, true));
+    judged_.push_back(s);
   }
   for (; next_ > first_ + near; ++first_) samples_.pop_front();
 }
 
-std::span<const Judged> Outliers::judge() {
-  judged_.clear();
+void Outliers::judge() {
   while (near_.next()) {
     const Sample& s = near_.sample(near_.at());
     std::array<Sample, near> window;
@@ -162,7 +162,7 @@ std::span<const Judged> Outliers::judge() {
         begin_, end_, [this](const Sample& s) { sorted_.insert(s.y); },
         [this](const Sample& s) { sorted_.erase(s.y); });
     const std::size_t i = scatter_.at();
-    Tested& s = samples_[i - first_];
+    Judged& s = samples_[i - first_];
     s.noise =
         std::max(sorted_[sorted_.size() / 4] / std::sqrt(static_cast<double>(near - 3)) / quartile,
                  least_scatter());
@@ -171,7 +171,6 @@ std::span<const Judged> Outliers::judge() {
     s.kept = near_all || belongs(i, false);
     judge_before(i + 1 - std::min(i + 1, near / 2));
   }
-  return judged_;
 }
 
 }  // namespace rolling

@@ -12,7 +12,8 @@ namespace rolling {
 /// A sample and the result of the test.
 struct Judged {
   double t, y;
-  bool kept;
+  bool kept = true;
+  double noise = 0;  ///< of its neighbours
 };
 
 /// A reading is an outlier if it lies further from the local motion than `threshold` standard
@@ -40,7 +41,7 @@ class Outliers {
   std::span<const Judged> finish();
 
  private:
-  std::span<const Judged> judge();
+  void judge();
   bool belongs(std::size_t i, bool again) const;
   void judge_before(std::size_t end);
   double least_scatter() const;
@@ -54,12 +55,7 @@ class Outliers {
   double step_ = 0;               // the smallest difference so far
   SortedWindow sorted_;
   std::size_t begin_ = 0, end_ = 0;  // range of the samples in sorted_
-  struct Tested {
-    double t, y;
-    double noise = 0;  // of its neighbours
-    bool kept = true;  // it is on the motion of its neighbours
-  };
-  std::deque<Tested> samples_;  // of the run, from the index first_ on
+  std::deque<Judged> samples_;       // of the run, from the index first_ on, tested once
   std::size_t first_ = 0, next_ = 0, count_ = 0;
   std::vector<Judged> judged_;
 };

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <numeric>
 #include <vector>
 
 #include "base/median.h"
@@ -56,18 +55,14 @@ double unit_of(std::span<const double> all_steps, double place, double rounding)
 }  // namespace
 
 double rows_held(std::span<const double> readings) {
-  const double largest = std::transform_reduce(
-      readings.begin(), readings.end(), 0.0, [](double x, double y) { return std::max(x, y); },
-      [](double y) { return std::abs(y); });
+  double largest = 0;
+  for (const double y : readings) largest = std::max(largest, std::abs(y));
   const double rounding = program_rounding * largest;
   const auto step = [&](std::size_t i) { return std::abs(readings[i] - readings[i - 1]); };
-  std::size_t changes = 0;
-  for (std::size_t i = 1; i < readings.size(); ++i) changes += step(i) > rounding;
-  if (changes == 0 || 4 * changes >= 3 * readings.size()) return 1;
   std::vector<double> steps;  // other than 0
-  steps.reserve(changes);
   for (std::size_t i = 1; i < readings.size(); ++i)
     if (step(i) > rounding) steps.push_back(step(i));
+  if (steps.empty() || 4 * steps.size() >= 3 * readings.size()) return 1;
   const double unit = unit_of(steps, last_place(readings, largest, rounding), rounding);
   std::size_t waiting = 0, held = 0, stretches = 0;  // held between two jumps
   bool after_jump = false;
