@@ -9,7 +9,6 @@
 
 #include "base/error.h"
 #include "contact/contact.h"
-#include "motion/roll.h"
 
 namespace rolling {
 
@@ -28,9 +27,7 @@ double floor_of(const Law& law, std::optional<double> rest, double v0) {
   return rest ? std::max(std::pow(last_part, 1 / (1 - b)) * v0, *rest) : 0;
 }
 
-OdeSystem equations(const Body& body, Geometry geometry, const Law& law, double floor, double v0) {
-  check_numbers(body, law, v0);
-  if (v0 > 0) check_shift(body, law(v0));
+OdeSystem equations(const Body& body, Geometry geometry, const Law& law, double floor) {
   // Below the floor D is constant, so that v crosses the floor: nothing attracts the solver to v =
   // 0.
   const auto shift = [law, floor](double v) {
@@ -60,7 +57,7 @@ OdeSystem equations(const Body& body, Geometry geometry, const Law& law, double 
 IntegratedRoll::IntegratedRoll(const Body& body, Geometry geometry, Law law,
                                std::optional<double> rest, double v0, double x0, Stepper stepper,
                                double rtol, unsigned long most_steps)
-    : SolvedRoll(body, geometry, equations(body, geometry, law, floor_of(law, rest, v0), v0),
+    : SolvedRoll(body, geometry, equations(body, geometry, law, floor_of(law, rest, v0)),
                  {stepper, rounding, v0 > 0 ? rtol * last_part * v0 : 1, rtol, most_steps},
                  {x0, v0}),
       law_(std::move(law)), rest_(rest), floor_(floor_of(law_, rest, v0)) {

@@ -24,9 +24,9 @@ namespace rolling {
 /// exactly 0.
 class IntegratedRoll final : public SolvedRoll {
  public:
-  /// `rest` is the speed that counts as rest [m/s]; none for a body that rolls for ever. Throws
-  /// Error for R, g, v0 and K as check_roll does. seek() and stop_time() throw the errors of the
-  /// solver: more than most_steps steps in one call, D above R, and v above the range of the law.
+  /// For what check_roll accepts. `rest` is the speed that counts as rest [m/s]; none for a body
+  /// that rolls for ever. seek() and stop_time() throw the errors of the solver: more than
+  /// most_steps steps in one call, D above R, and v above the range of the law.
   IntegratedRoll(const Body&, Geometry, Law, std::optional<double> rest, double v0, double x0,
                  Stepper, double rtol, unsigned long most_steps = 1'000'000);
 
@@ -45,7 +45,6 @@ class IntegratedRoll final : public SolvedRoll {
   Tail tail(const Integrator&) const;
   Integrator::Event floor_event() const;
   double left() const;  // remaining fraction of the tail, 1 to 0
-  bool at_rest() override { return velocity() == 0; }
 
   Law law_;
   std::optional<double> rest_;

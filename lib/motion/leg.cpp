@@ -19,7 +19,6 @@ constexpr double slowest = 1e-290;    // speeds below it, as a part of v0, count
 constexpr double least_part = 1e-40;  // of the time: a smaller part of a coefficient in it is none
 constexpr double fastest = 345;       // speeds above v0 e^345 are refused
 constexpr double nearly_last = 1e-7;  // part of a last speed below which q is linear
-constexpr double negligible = 1e-6;   // last speeds below it, as a part of v0, count as rest
 constexpr std::size_t most_panels = 2000;  // beside the corners of the law
 
 /// The r > lo where `above` ceases to hold, by bisection.

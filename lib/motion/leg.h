@@ -29,6 +29,7 @@ namespace rolling {
 class Leg {
  public:
   static constexpr std::size_t most = LawForm::most + 1;
+  static constexpr double negligible = 1e-6;     ///< speeds below it, as a part of v0, are rest
   using Derivatives = std::array<double, most>;  ///< by the coefficients, then by the slope
   struct Point {
     double v, x;

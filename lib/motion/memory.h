@@ -60,7 +60,6 @@ class MemoryRoll final : public SolvedRoll {
   double shift() override;
 
  private:
-  bool at_rest() override { return at_rest_; }
   double expected_evaluations(double t) const;         // throws Error if the work is too much
   double fastest(const std::vector<double>& y) const;  // the bound of |v| from this state on
   /// Integrates to t or to the rest, whichever is earlier, and returns true at rest. `crept` is the

@@ -11,7 +11,6 @@
 namespace rolling {
 namespace {
 
-constexpr double negligible = 1e-6;   // speeds below it, as a part of v0, count as rest
 constexpr double first_part = 1e-18;  // of v0: the way back begins there
 
 }  // namespace
@@ -63,7 +62,7 @@ bool Roll::rolls_down() const {
     if (geometry_ == Geometry::approximate) return D >= lift;
     return D >= body_.R || D >= arm_factor(body_, geometry_, D) * lift;
   };
-  return lift > 0 && !holds(law_.at_rest()) && !holds(law_.at(negligible * v0_).D);
+  return lift > 0 && !holds(law_.at_rest()) && !holds(law_.at(Leg::negligible * v0_).D);
 }
 
 /// The way down from rest. Up to a speed that is not seen the acceleration is constant.

@@ -12,14 +12,15 @@
 
 namespace rolling {
 
-/// The state vector begins with x and v; further elements and the condition for rest belong to the
-/// derived class. There are two integrations of the same equations: seek() advances one of them; a
+/// The state vector begins with x and v; further elements belong to the derived class. At rest v
+/// and D are 0. There are two integrations of the same equations: seek() advances one of them; a
 /// second one determines the time of the stop when it is requested, because seek() only goes
 /// forward.
 class SolvedRoll : public Motion {
  public:
   double acceleration() override {
-    return at_rest() ? 0 : acceleration_from_shift(body_, geometry_, shift());
+    const double D = shift();
+    return D == 0 && velocity() == 0 ? 0 : acceleration_from_shift(body_, geometry_, D);
   }
   unsigned long evaluations() const override { return ode_.evaluations(); }
 
@@ -36,9 +37,6 @@ class SolvedRoll : public Motion {
       fail("the initial velocity v0 = {} is too small for a solver: the least is {:g} m/s", v0(),
            least_speed);
   }
-  /// True if the body has come to rest: then dv/dt is exactly 0.
-  virtual bool at_rest() = 0;
-
   Integrator from_start() const { return {equations_, options_, 0, start_}; }
   double v0() const { return start_[1]; }
   double x() const { return ode_.state()[0]; }
