@@ -21,16 +21,6 @@ class ChebyshevSeries {
  public:
   using Values = std::array<double, N>;
 
- private:
-  using Pairs = std::array<double, N + N % 2>;  // two values fill one vector register
-
-  /// A fold, since -O2 does not unroll a loop: the sums then stay in registers.
-  template <std::size_t... i>
-  static void add(Pairs& sum, double T, const Pairs& term, std::index_sequence<i...>) {
-    ((sum[i] += T * term[i]), ...);
-  }
-
- public:
   ChebyshevSeries() = default;
   /// The series for from <= t <= to. The nodes lie between these limits.
   template <typename Function>
@@ -43,16 +33,12 @@ class ChebyshevSeries {
       return all;
     }();
     const auto cosine = [](std::size_t halves) { return cosines[halves % (4 * terms)]; };
-    std::array<Pairs, terms> y{};
-    for (std::size_t k = 0; k < terms; ++k) {
-      const Values at = f(from + (to - from) * (1 + cosine(2 * k + 1)) / 2);
-      std::copy_n(at.begin(), N, y[k].begin());
-    }
+    std::array<Values, terms> y;
+    for (std::size_t k = 0; k < terms; ++k)
+      y[k] = f(from + (to - from) * (1 + cosine(2 * k + 1)) / 2);
     for (std::size_t j = 0; j < terms; ++j) {
-      Pairs sum{};
-      for (std::size_t k = 0; k < terms; ++k)
-        add(sum, cosine(j * (2 * k + 1)), y[k],
-            std::make_index_sequence<std::tuple_size_v<Pairs>>());
+      Values sum{};
+      for (std::size_t k = 0; k < terms; ++k) add(sum, cosine(j * (2 * k + 1)), y[k]);
       for (double& x : sum) x *= (j == 0 ? 1. : 2.) / terms;
       terms_[j] = sum;
     }
@@ -64,7 +50,7 @@ class ChebyshevSeries {
     sum.from_ = from_, sum.to_ = to_;
     for (std::size_t j = 1; j < terms; ++j) {
       const double unit = (to_ - from_) / 4 / static_cast<double>(j), first = j == 1 ? 2 : 1;
-      for (std::size_t i = 0; i < std::tuple_size_v<Pairs>; ++i) {
+      for (std::size_t i = 0; i < N; ++i) {
         const double term =
             unit * (first * terms_[j - 1][i] - (j + 1 < terms ? terms_[j + 1][i] : 0));
         sum.terms_[j][i] = term;
@@ -90,14 +76,12 @@ class ChebyshevSeries {
   Values operator()(double t) const {
     const double x = 2 * (t - from_) / (to_ - from_) - 1;
     double T = 1, next = x;  // the polynomials T_j and T_j+1
-    Pairs sum = terms_[0];
+    Values sum = terms_[0];
     for (std::size_t j = 1; j < terms; ++j) {
       T = std::exchange(next, 2 * x * next - T);
-      add(sum, T, terms_[j], std::make_index_sequence<std::tuple_size_v<Pairs>>());
+      add(sum, T, terms_[j]);
     }
-    Values y;
-    std::copy_n(sum.begin(), N, y.begin());
-    return y;
+    return sum;
   }
   /// The larger of the last two terms of value i (of an even or odd function, every second one is
   /// 0), and its largest term.
@@ -106,7 +90,7 @@ class ChebyshevSeries {
   }
   double largest(std::size_t i) const {
     double most = 0;
-    for (const Pairs& term : terms_) most = std::max(most, std::abs(term[i]));
+    for (const Values& term : terms_) most = std::max(most, std::abs(term[i]));
     return most;
   }
   /// True if the last terms of each value are at most `tolerance` times its largest term.
@@ -117,8 +101,14 @@ class ChebyshevSeries {
   }
 
  private:
+  static void add(Values& sum, double T, const Values& term) {
+    // -O2 alone does not unroll the loop: the sums then stay in registers.
+#pragma GCC unroll 32
+    for (std::size_t i = 0; i < N; ++i) sum[i] += T * term[i];
+  }
+
   double from_ = 0, to_ = -1;
-  std::array<Pairs, terms> terms_{};
+  std::array<Values, terms> terms_{};
 };
 
 /// A function of time, with an array of values, at times that are dense: a Chebyshev series takes
