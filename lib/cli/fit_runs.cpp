@@ -25,10 +25,8 @@ class Slots {
 
   /// Reads the rows of the present run; with all columns if it has `##` lines, which are
   /// compared with them.
-  void read(FitRun& run, bool first) {
+  void read(FitRun& run) {
     if (!in_.history().empty()) add_others();
-    const std::size_t room = first ? in_.rows_ahead() : 0;  // most files are one run
-    for (const auto& [slot, column] : all_) (run.*column).reserve(room);
     while (in_.next())
       for (const auto& [slot, column] : all_) (run.*column).push_back(in_[slot]);
   }
@@ -144,7 +142,7 @@ std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, Columns colum
     FitRun& run = runs.emplace_back();
     has_history.push_back(!in.history().empty());
     run.name = in.run_name();
-    slots.read(run, runs.size() == 1);
+    slots.read(run);
     warn_of_held(tool, route, run, in.history());
     set_filters(tool, in, route, run);
     if (columns == Columns::of_route) drop_others(run, route);

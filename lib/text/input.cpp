@@ -96,15 +96,6 @@ const char* Input::end_of_line() {
   return at_ == end_ ? nullptr : end_;
 }
 
-std::size_t Input::lines_ahead() const {
-  const std::string_view some = ahead().substr(0, 4096);
-  const double left = std::max(size_ - read_, 0.0) + static_cast<double>(end_ - at_),
-               feeds = static_cast<double>(std::count(some.begin(), some.end(), '\n'));
-  return some.empty()
-             ? 0
-             : static_cast<std::size_t>(1.125 * left * (feeds / static_cast<double>(some.size())));
-}
-
 bool Input::next(std::string_view& line) {
   const char* feed =
       static_cast<const char*>(std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_)));

@@ -45,10 +45,6 @@ class Input {
     ++line_number_;
   }
 
-  /// An estimate of the number of lines that are left, and an eighth more, from the next lines and
-  /// the size of the file (for a pipe: of ahead()).
-  std::size_t lines_ahead() const;
-
   bool has_size() const { return size_ > 0; }        ///< it is a regular file, and not empty
   const std::string& name() const { return name_; }  ///< as the user gave it
   std::size_t line_number() const { return line_number_; }

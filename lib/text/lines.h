@@ -63,7 +63,6 @@ class Lines {
     number_ = input_.line_number();
   }
 
-  std::size_t lines_ahead() const { return input_.lines_ahead(); }
   /// True for a regular file with a blank line, and a row below it, in memory behind the present
   /// line.
   bool another_run() const;

@@ -81,9 +81,6 @@ class Reader {
   bool next_run();
   /// Goes to the next row of this run; false at its end.
   bool next();
-  /// An estimate of the number of rows that are left in this file, and an eighth more; for a
-  /// pipe, of those in memory.
-  std::size_t rows_ahead() const { return lines_->lines_ahead(); }
   /// The number in a needed column [SI].
   double operator[](std::size_t slot) const { return values_[slot]; }
   /// The text of a column of the present row.

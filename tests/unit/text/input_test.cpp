@@ -103,26 +103,3 @@ TEST_CASE("input: a pipe may give one byte at a time", "[text]") {
   CHECK_FALSE(input.next(line));
   ::close(ends[0]);
 }
-
-TEST_CASE(
-    "input: how many lines are left is all but known of a file, an eighth more for lines that get "
-    "shorter",
-    "[text]") {
-  std::string text;
-  for (int i = 0; i < 100000; ++i)
-    text += "0.123\t4.5" + std::string(static_cast<std::size_t>(i % 3), '6') + '\n';
-  const TemporaryFile file(text), none("");
-  Input input(file.name());
-  CHECK(input.lines_ahead() == 0);  // nothing has been read yet
-  std::string_view line;
-  for (std::size_t left = 100000; left-- > 0;) {
-    REQUIRE(input.next(line));
-    if (left % 10000 != 0) continue;
-    const double share =
-        static_cast<double>(input.lines_ahead()) / std::max(1.0, static_cast<double>(left));
-    CHECK((left == 0 ? share == 0 : share > 1.1 && share < 1.15));
-  }
-  Input empty(none.name());
-  CHECK_FALSE(empty.next(line));
-  CHECK(empty.lines_ahead() == 0);
-}
