@@ -18,11 +18,9 @@ struct Field {
   bool wanted = false;  ///< the number of this field is needed
 };
 
+/// Blanks separate fields until choose() finds another separator.
 class Dialect {
  public:
-  /// Blanks separate fields until choose() finds another separator.
-  Dialect() = default;
-
   /// Chooses the separator from a line: the first of the separators that the line contains outside
   /// quotes, else blanks; also if blanks and tabs both separate numbers, unless `tabs` says that
   /// tabs separate the names. True if the line contains a number.

@@ -75,7 +75,6 @@ bool Input::fill() {
   const ssize_t count = read_some(fd_, to, std::min(block, longest_line - kept));
   at_ = buffer_.data(), end_ = to;
   if (count < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
-  quotes_ = quotes_ || std::memchr(to, '"', static_cast<std::size_t>(count));
   buffer_.set_end(to + count);
   end_ += count;
   read_ += static_cast<double>(count);

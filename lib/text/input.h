@@ -48,7 +48,6 @@ class Input {
   bool has_size() const { return size_ > 0; }        ///< it is a regular file, and not empty
   const std::string& name() const { return name_; }  ///< as the user gave it
   std::size_t line_number() const { return line_number_; }
-  bool quotes() const { return quotes_; }  ///< a " has been read so far
 
  private:
   bool fill();
@@ -61,7 +60,7 @@ class Input {
   Bytes buffer_;
   const char *at_, *end_;  // ahead()
   std::size_t line_number_ = 0;
-  bool at_end_ = false, quotes_ = false;
+  bool at_end_ = false;
 };
 
 }  // namespace rolling

@@ -30,7 +30,7 @@ class Lines {
     if (std::exchange(again_, false)) return true;
     if (!input_.next(text_)) return false;
     number_ = input_.line_number();
-    if (input_.quotes() && !separators_.empty()) join_quoted();
+    if (!separators_.empty()) join_quoted();
     check_bytes();
     return true;
   }

@@ -20,8 +20,6 @@ Reader::Reader(ReaderOptions options, std::vector<std::string> order)
   find_run();
 }
 
-Reader::~Reader() = default;
-
 /// Goes to the next line of this run that is a row; false at its end.
 bool Reader::next_line() {
   if (!kept_.empty()) return next_kept_line();

@@ -37,7 +37,6 @@ class Reader {
   /// Reads up to the first row of the first run. `order` names the columns of a file without
   /// names, up to the first column that --use assigns to another place.
   Reader(ReaderOptions, std::vector<std::string> order);
-  ~Reader();
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
