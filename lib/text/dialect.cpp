@@ -14,23 +14,17 @@ namespace {
 constexpr std::size_t npos = std::string_view::npos;
 constexpr std::string_view minus = "\xE2\x88\x92";  // U+2212
 
-/// The places of the characters in which numbers of other countries may differ.
-struct Marks {
-  std::size_t first_minus, comma, point;
-};
-Marks marks_in(std::string_view field) {
-  return {field.find(minus[0]), field.find(','), field.find('.')};
-}
+bool holds(std::string_view text, char c) { return text.find(c) != npos; }
 
 /// Appends a number with a decimal point and a hyphen: `1,5` as `1.5`, U+2212 as `-`. Returns the
 /// appended text.
-std::string_view append_plain(std::string& to, std::string_view field, Marks marks) {
+std::string_view append_plain(std::string& to, std::string_view field) {
   const auto from = to.size();
   to += field;
-  if (marks.comma != npos && marks.point == npos) to[from + marks.comma] = '.';
-  if (marks.first_minus != npos)
-    for (auto at = to.find(minus, from); at != npos; at = to.find(minus, at))
-      to.erase(at + 1, minus.size() - 1)[at] = '-';
+  if (const auto comma = field.find(','); comma != npos && !holds(field, '.'))
+    to[from + comma] = '.';
+  for (auto at = to.find(minus, from); at != npos; at = to.find(minus, at))
+    to.erase(at + 1, minus.size() - 1)[at] = '-';
   return std::string_view(to).substr(from);
 }
 
@@ -73,7 +67,7 @@ const char* read_plain(const char* at, const char* end, Field& field) {
 bool Dialect::choose(std::string_view line, bool tabs) {
   const std::string outside = outside_quotes(line, separators).text;
   const auto first = std::find_if(separators.begin(), separators.end(),
-                                  [&](char separator) { return outside.find(separator) != npos; });
+                                  [&](char separator) { return holds(outside, separator); });
   separator_ = first == separators.end() ? '\0' : *first;
   decimal_mark_ = '\0';
   asks_ = allows_foreign();
@@ -82,9 +76,8 @@ bool Dialect::choose(std::string_view line, bool tabs) {
   fields_.clear();
   if (separator_ == '\t' && !tabs) {
     const auto fields = split(line);
-    const bool has_blanks = std::any_of(fields.begin(), fields.end(), [](const Field& field) {
-      return field.text.find(' ') != npos;
-    });
+    const bool has_blanks = std::any_of(fields.begin(), fields.end(),
+                                        [](const Field& field) { return holds(field.text, ' '); });
     separator_ = '\0';  // where tabs and blanks both separate numbers, any blank separates
     const auto words = has_blanks ? split(line) : std::span<const Field>();
     if (words.empty() || !std::all_of(words.begin(), words.end(),
@@ -104,7 +97,7 @@ bool Dialect::holds_number(std::string_view line) {
     while (!bare.empty() && (bare.front() == quote || bare.front() == '\'')) bare.remove_prefix(1);
     while (!bare.empty() && (bare.back() == quote || bare.back() == '\'')) bare.remove_suffix(1);
     std::string text;
-    return is_number(append_plain(text, bare, marks_in(bare)));
+    return is_number(append_plain(text, bare));
   });
 }
 
@@ -265,13 +258,12 @@ bool Dialect::may_be_grouped(const Field& field) {
 /// Reads a number with a decimal comma or U+2212 and puts its form with point and hyphen into the
 /// field. False for any other text, which is left unchanged.
 bool Dialect::rewrite(Field& field) {
-  const Marks marks = marks_in(field.text);
   if (asks_ && decimal_mark_ == '\0' && may_be_grouped(field)) {
     grouped_ |= field.wanted;
     return field.wanted && parse_number(field.text, field.number);
   }
-  const bool other_minus = marks.first_minus != npos, comma = marks.comma != npos,
-             point = marks.point != npos;
+  const bool other_minus = holds(field.text, minus[0]), comma = holds(field.text, ','),
+             point = holds(field.text, '.');
   if (!other_minus && (decimal_mark_ == '.' || (!comma && !point))) return false;
   if (separator_ == '\t' && decimal_mark_ == '\0' && may_be_thousands(field.text, ',')) {
     if (field.wanted)
@@ -283,7 +275,7 @@ bool Dialect::rewrite(Field& field) {
     return false;
   }
   const bool is_plain = !other_minus && !comma;
-  const std::string_view text = is_plain ? field.text : append_plain(made_, field.text, marks);
+  const std::string_view text = is_plain ? field.text : append_plain(made_, field.text);
   double number;
   if (!parse_number(text, number)) return false;
   if (comma || point) {
