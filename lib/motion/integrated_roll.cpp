@@ -49,7 +49,7 @@ OdeSystem equations(const Body& body, Geometry geometry, const Law& law, double 
     const double v = std::max(y[1], floor);
     return v > 0 ? v / (2 * std::abs(trial_acceleration(body, geometry, shift(v)))) : infinity;
   };
-  return {2, derivative, jacobian, longest};
+  return {derivative, jacobian, longest};
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ OdeSystem equations(const Body& body, Geometry geometry, PowerLaw law, Bulge bul
     std::copy(rows, rows + 9, dfdy);
     dfdt[0] = dfdt[1] = dfdt[2] = 0;
   };
-  return {3, derivative, jacobian};
+  return {derivative, jacobian};
 }
 
 }  // namespace

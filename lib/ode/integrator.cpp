@@ -70,8 +70,6 @@ const char* name_of(Stepper stepper) { return gsl_type(stepper)->name; }
 Integrator::Integrator(OdeSystem system, const OdeOptions& options, double t, std::vector<double> y)
     : problem_(std::make_shared<Problem>()), max_steps_(options.max_steps), t_(t),
       y_(std::move(y)) {
-  if (y_.size() != system.dimension)
-    fail("a state of {} numbers for a system of {}", y_.size(), system.dimension);
   const std::vector<double> units =
       options.units.empty() ? std::vector<double>(y_.size(), 1) : options.units;
   if (units.size() != y_.size())

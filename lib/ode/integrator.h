@@ -10,9 +10,9 @@
 
 namespace rolling {
 
-/// Both functions may throw; the exception leaves Integrator::advance().
+/// y is the state, of as many numbers as the one that the integrator begins with. All functions may
+/// throw; the exception leaves Integrator::advance().
 struct OdeSystem {
-  std::size_t dimension;
   std::function<void(double t, const double* y, double* dydt)> derivative;
   /// df/dy row by row, and df/dt; needed by the implicit steppers.
   std::function<void(double t, const double* y, double* dfdy, double* dfdt)> jacobian = {};

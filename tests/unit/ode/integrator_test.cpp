@@ -15,8 +15,7 @@ using namespace rolling;
 namespace {
 
 /// x'' = -x
-const OdeSystem pendulum{2,
-                         [](double, const double* y, double* dydt) {
+const OdeSystem pendulum{[](double, const double* y, double* dydt) {
   dydt[0] = y[1];
   dydt[1] = -y[0];
                          },
@@ -104,8 +103,7 @@ TEST_CASE("Integrator: an event that is far from a line", "[ode]") {
 }
 
 TEST_CASE("Integrator: a stiff system needs few evaluations of an implicit stepper", "[ode]") {
-  const OdeSystem stiff{1,
-                        [](double t, const double* y, double* dydt) {
+  const OdeSystem stiff{[](double t, const double* y, double* dydt) {
     dydt[0] = -1e6 * (y[0] - std::cos(t)) - std::sin(t);
                         },
                         [](double t, const double*, double* dfdy, double* dfdt) {
@@ -122,7 +120,7 @@ TEST_CASE("Integrator: a stiff system needs few evaluations of an implicit stepp
 
 TEST_CASE("Integrator: trouble becomes an Error", "[ode]") {
   const auto system = [](auto f) {
-    return OdeSystem{1, [f](double t, const double* y, double* dydt) { dydt[0] = f(t, y[0]); }};
+    return OdeSystem{[f](double t, const double* y, double* dydt) { dydt[0] = f(t, y[0]); }};
   };
   // y' = y^2 is infinite at t = 1
   Integrator infinite(system([](double, double y) { return y * y; }), {}, 0, {1});
@@ -144,14 +142,12 @@ TEST_CASE("Integrator: trouble becomes an Error", "[ode]") {
 }
 
 TEST_CASE("Integrator: wrong arguments are refused", "[ode]") {
-  CHECK_THROWS_AS(Integrator(pendulum, {}, 0, {1}), Error);
   for (const double rtol : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
     CHECK_THROWS_AS(Integrator(pendulum, with(Stepper::rkf45, rtol), 0, {1, 0}), Error);
   CHECK_THROWS_AS(Integrator(pendulum, with(Stepper::rkf45, 0), 0, {1, 0}), Error);
-  CHECK_THROWS_AS(Integrator({2, pendulum.derivative}, with(Stepper::msbdf, 1e-6), 0, {1, 0}),
-                  Error);
+  CHECK_THROWS_AS(Integrator({pendulum.derivative}, with(Stepper::msbdf, 1e-6), 0, {1, 0}), Error);
   OdeOptions one_unit;
   one_unit.units = {1};
   CHECK_THROWS_AS(Integrator(pendulum, one_unit, 0, {1, 0}), Error);
-  CHECK_NOTHROW(Integrator({2, pendulum.derivative}, with(Stepper::msadams, 1e-6), 0, {1, 0}));
+  CHECK_NOTHROW(Integrator({pendulum.derivative}, with(Stepper::msadams, 1e-6), 0, {1, 0}));
 }
