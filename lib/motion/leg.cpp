@@ -24,12 +24,11 @@ constexpr std::size_t most_panels = 2000;  // beside the corners of the law
 /// The r > lo where `above` ceases to hold, by bisection.
 template <typename Predicate>
 double last_where(double lo, double hi, Predicate&& above) {
-  for (int i = 0; i < 200 && hi - lo > 0; ++i) {
+  for (;;) {
     const double middle = lo + (hi - lo) / 2;
-    if (middle == lo || middle == hi) break;
+    if (!(middle > lo && middle < hi)) return hi;
     (above(middle) ? lo : hi) = middle;
   }
-  return hi;
 }
 
 /// Root between lo and hi of an increasing function: Newton's method from x, bisection where that
