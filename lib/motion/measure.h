@@ -28,8 +28,7 @@ struct Measured {
   double v_error = 0;     ///< largest |v - reference| / v0
   double stop_error = 0;  ///< relative; 0 if there is no stop
   unsigned long evaluations = 0;
-  double seconds =
-      0;  ///< of the processor per sample, its motion set up included: median of the repeats
+  double seconds = 0;   ///< of the processor per sample, with the start: median of the repeats
   double scatter = 0;   ///< half of the interquartile range [s]
   std::string failure;  ///< message of the Error that ended the measurement, or empty
 };
