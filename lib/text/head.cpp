@@ -57,7 +57,7 @@ void refuse_two_readings(const std::string& line) {
 }
 
 /// True if the comment has names for these columns, one of them known.
-bool names_some(const Comment& comment, const UnnamedColumns& columns) {
+bool holds_names(const Comment& comment, const UnnamedColumns& columns) {
   return !comment.is_history() && names_in_comment(comment.text, columns).known > 0;
 }
 
@@ -135,7 +135,7 @@ bool HeadReader::is_missing_row(std::string_view line) {
     return any([](const Field& f) { return f.text.empty(); }) && !holds_known_name(line) &&
            !any([](const Field& f) { return is_unit(f.text); }) &&
            std::ranges::any_of(comments_, [&](const Comment& comment) {
-             return names_some(comment, {fields.size()});
+             return holds_names(comment, {fields.size()});
            });
   const std::string& above = preamble_.back().text;
   return !text && holds_known_name(above) &&
@@ -190,7 +190,7 @@ bool HeadReader::find_row() {
 bool HeadReader::is_named_below(const UnnamedColumns& columns) const {
   const auto has_name = [](const Comment& line) { return holds_known_name(line.text); };
   const auto names_columns = [&](const Comment& comment) {
-    return comment.line > preamble_.back().line && names_some(comment, columns);
+    return comment.line > preamble_.back().line && holds_names(comment, columns);
   };
   return std::ranges::none_of(preamble_, has_name) && std::ranges::any_of(comments_, names_columns);
 }
@@ -231,7 +231,7 @@ std::vector<std::string> HeadReader::take_units() {
   const UnnamedColumns columns{units.size(), units.back().empty()};
   for (const Comment& comment : comments_)
     if (preamble_.size() == 1 && comment.line < preamble_.back().line &&
-        names_some(comment, columns))
+        holds_names(comment, columns))
       above = names_in_comment(comment.text, columns).names;
   if (!are_units_of(above, units)) return {};
   preamble_.pop_back();
@@ -265,8 +265,8 @@ void HeadReader::refuse_without_rows(const std::string& what) const {
   if (last == preamble_.rend()) fail<InputError>("{}: {}", lines_.name(), what);
   Dialect dialect;
   dialect.choose(last->text);
-  fail<InputError>("{}: {}: '{}' is separated by {}, and no field of it is a number",
-                   fmt::format("{}:{}", lines_.name(), last->line), what, shown(last->text),
+  fail<InputError>("{}:{}: {}: '{}' is separated by {}, and no field of it is a number",
+                   lines_.name(), last->line, what, shown(last->text),
                    name_of(dialect.separator()));
 }
 

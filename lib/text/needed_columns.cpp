@@ -188,21 +188,17 @@ std::string NeededColumns::list() const {
 }
 
 std::size_t NeededColumns::require(std::string_view name) const {
-  const auto column = find(name), of_name = column ? column : find_column(name);
-  if (!column && of_name)
+  if (const auto column = find(name)) return *column;
+  if (const auto of_name = find_column(name))
     fail<InputError>("{}: column {} cannot serve as both {} and {}", place_, *of_name + 1,
                      quantities_[*of_name], name);
-  if (!column) {
-    std::string way_out;
-    if (const auto by = appended_by_.find(std::string(name)); by != appended_by_.end())
-      way_out = fmt::format("; {} appends it", by->second);
-    if (!named_) way_out += "; if this line is a heading, begin it with #";
-    if (has_use_ && is_quantity(read_column(name).name))
-      way_out += fmt::format("{} say --use {}=COLUMN", way_out.empty() ? ";" : ", or", name);
-    fail<InputError>("{}: there is no column '{}' among {}{}", place_, shown(name), list(),
-                     way_out);
-  }
-  return *column;
+  std::string way_out;
+  if (const auto by = appended_by_.find(std::string(name)); by != appended_by_.end())
+    way_out = fmt::format("; {} appends it", by->second);
+  if (!named_) way_out += "; if this line is a heading, begin it with #";
+  if (has_use_ && is_quantity(read_column(name).name))
+    way_out += fmt::format("{} say --use {}=COLUMN", way_out.empty() ? ";" : ", or", name);
+  fail<InputError>("{}: there is no column '{}' among {}{}", place_, shown(name), list(), way_out);
 }
 
 void NeededColumns::resolve(Needed& needed) {
