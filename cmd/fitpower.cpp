@@ -207,7 +207,8 @@ int main(int argc, char** argv) {
       "if there is D, else position if x, else velocity");
   tool.numbers("-K,--shape-factor", bodies.shape_factors, not_negative,
                "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
-  tool.numbers("-R,--radius", bodies.radii, positive, "radius [m]; one, or one for each run");
+  tool.numbers("-R,--radius", bodies.radii, radius_in_metres,
+               "radius [m]; one, or one for each run");
   tool.body(bodies.body, {gravity}, &bodies.uncertainty);
   add_options(tool, options, bodies);
   tool.flag("--each", each, "fit each run by itself, a row for each");

@@ -35,13 +35,6 @@ void require(const Range& range, double value, std::string_view text) {
                   : "");
 }
 
-Estimate to_estimate(const std::string& text, const Range& range) {
-  Estimate estimate;
-  if (!parse_estimate(text, estimate)) refuse_number(text);
-  require(range, estimate.value, text);
-  return estimate;
-}
-
 std::string long_name(const std::string& names) {
   const auto at = names.find("--");
   return at == std::string::npos ? std::string() : names.substr(at + 2);
@@ -65,6 +58,15 @@ double to_number(const std::string& text, const Range& range) {
   if (!parse_number(text, value)) refuse_number(text);
   require(range, value, text);
   return value;
+}
+
+Estimate Options::to_estimate(const std::string& text, const Range& range) {
+  Estimate estimate;
+  if (!parse_estimate(text, estimate)) refuse_number(text);
+  require(range, estimate.value, text);
+  if (std::string doubt = range.doubt(estimate.value); !doubt.empty())
+    doubts_.insert(std::move(doubt));
+  return estimate;
 }
 
 Options::Options(const std::string& name, const std::string& purpose)
@@ -102,7 +104,7 @@ void Options::estimate(const std::string& names, double& value, double& sigma, c
                        const std::string& help) {
   add(
       names, "NUMBER", help,
-      [&value, &sigma, range](const std::string& text) {
+      [this, &value, &sigma, range](const std::string& text) {
     const Estimate estimate = to_estimate(text, range);
     value = estimate.value;
     sigma = estimate.sigma;
@@ -114,7 +116,7 @@ void Options::numbers(const std::string& names, std::vector<Estimate>& values, c
                       const std::string& help) {
   add(
       names, "NUMBER,...", help,
-      [&values, range](const std::string& text) {
+      [this, &values, range](const std::string& text) {
     const auto parts = split_names(text, ',');
     const auto is_whole = [](const std::string& part) {
       return part.find_first_not_of("0123456789") == std::string::npos;
@@ -169,7 +171,7 @@ void Options::body(Body& body, std::initializer_list<BodyOption> options,
     const char* help;
   } all[] = {// in the order of BodyOption
              {"-m,--mass", &Body::m, nullptr, positive, "mass m [kg]"},
-             {"-R,--radius", &Body::R, &BodyUncertainty::R, positive, "radius R [m]"},
+             {"-R,--radius", &Body::R, &BodyUncertainty::R, radius_in_metres, "radius R [m]"},
              {"-K,--shape-factor", &Body::K, &BodyUncertainty::K, not_negative,
               "shape factor K of J = K m R^2"},
              {"-g,--gravity", &Body::g, &BodyUncertainty::g, positive, "gravity g [m/s^2] (9.81)"},

@@ -24,9 +24,15 @@ namespace rolling {
 struct Range {
   const char* text;  ///< in the message "must be ...": "greater than 0"
   bool (*holds)(double);
+  /// What to ask about a value that holds but is hardly meant; empty for any other.
+  std::string (*doubt)(double) = [](double) { return std::string(); };
 };
 inline constexpr Range any_number{"a number", [](double) { return true; }};
 inline constexpr Range positive{"greater than 0", [](double x) { return x > 0; }};
+inline constexpr Range radius_in_metres{positive.text, positive.holds,
+                                        [](double R) {
+  return R > 1 ? fmt::format("R = {} m: is it in millimetres?", R) : std::string();
+                                        }};
 inline constexpr Range not_negative{"0 or more", [](double x) { return x >= 0; }};
 inline constexpr Range whole{"a whole number from 1 to 1e9", [](double x) {
                                return x >= 1 && x <= 1e9 &&
@@ -110,6 +116,7 @@ class Options {
   bool take_scene();
 
   CommandLine command_line_;
+  std::set<std::string> doubts_;  ///< about the values, as Range::doubt() tells them
 
  private:
   struct Option {
@@ -117,6 +124,7 @@ class Options {
     std::function<bool()> missing;
   };
 
+  Estimate to_estimate(const std::string& text, const Range&);
   void add_flag(const std::string& names, const std::string& help,
                 const std::function<void(bool)>& set);
   void estimate(const std::string& names, double& value, double& sigma, const Range&,

@@ -155,6 +155,7 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
         break;
     }
     standard_input_taken_ = take_scene();
+    for (const std::string& doubt : doubts_) warn(doubt);
     if (!quiet_) progress.start(name_);
     if (::isatty(STDOUT_FILENO))
       out.before_write = [this] { progress.stop(); };  // rows on the terminal show the progress
