@@ -179,7 +179,7 @@ std::optional<ChosenNames> choose_names(const std::deque<Comment>& comments,
         "{}:{}: '{}' may be the names of the columns, {}", file, comments[i].line,
         shown(comments[i].text),
         history ? "but it begins with ##, as history does; leave one # there"
-        : all[i].names.empty() || i == chosen
+        : all[i].names.empty() || i == chosen || chosen == none
             ? fmt::format("but has not one for each of {} column{}", columns.count,
                           columns.count == 1 ? "" : "s")
             : fmt::format("and so may line {}: give one of them another number of words",

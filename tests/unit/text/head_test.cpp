@@ -118,6 +118,18 @@ TEST_CASE("head: units in a line of their own belong to the names above it", "[t
   CHECK(head("t,F\nms,N\n0,1\n") == " t[ms] F[N] in 1 of 2; 3: 0,1");
 }
 
+TEST_CASE("head: what may be names of one column above a later run is refused", "[text]") {
+  const TemporaryFile file("0\n\n# t [ms]: time, v [cm/s]\n0\n");
+  Lines lines(file.name());
+  Dialect dialect;
+  const Head first = read_head(lines, dialect, nullptr, {}, Sides::by_names);
+  REQUIRE(lines.next());
+  CHECK_THROWS_WITH(read_head(lines, dialect, &first, {}, Sides::by_names),
+                    file.name() +
+                        ":3: '# t [ms]: time, v [cm/s]' may be the names of the columns, "
+                        "but has not one for each of 1 column");
+}
+
 TEST_CASE("head: text behind the last run becomes comments of one line each", "[text]") {
   const TemporaryFile file("t,v\n0,1\n\n\"the\nend\",x\n");
   Lines lines(file.name());
