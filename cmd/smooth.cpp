@@ -88,9 +88,12 @@ class Told {
     if (runs_ == 1) tool_.warn(one_);
     if (runs_ > 1) {
       std::vector<std::string> ends;
-      constexpr std::array how{"end by themselves", "are ended", "go on to the end of their runs"};
-      for (std::size_t i = 0; i < how.size(); ++i)
-        if (ends_[i] > 0) ends.push_back(fmt::format("{} {}", ends_[i], how[i]));
+      constexpr const char* how[][2] = {
+          {"ends by itself", "end by themselves"},
+          {"is ended", "are ended"},
+          {"goes on to the end of its run", "go on to the end of their runs"}};
+      for (std::size_t i = 0; i < ends_.size(); ++i)
+        if (ends_[i] > 0) ends.push_back(fmt::format("{} {}", ends_[i], how[i][ends_[i] > 1]));
       tool_.warn(fmt::format("--coast keeps {} of {} rows of {} runs; of the rolls {}", kept_,
                              rows_, runs_, enumeration(ends)));
     }
