@@ -19,7 +19,7 @@ class Slots {
   Slots(Reader& in, Route route, Columns columns) : in_(in) {
     for (const std::string& name : words_of(route).columns)
       if (name != "t") add(in.need(name), name);
-    if (is_trajectory(route)) add_time();
+    if (is_trajectory(route)) add(in.need_time(), "t");
     if (columns == Columns::of_all_routes) add_others();
   }
 
@@ -38,14 +38,10 @@ class Slots {
   };
 
   void add(std::size_t number, std::string_view name) { all_.push_back({number, column_of(name)}); }
-  void add_time() { add(in_.need_time(), "t"); }
   void add_others() {
-    if (in_.find("t") && !has(&FitRun::t)) add_time();
-    for (const char* name : {"x", "v", "D"})
-      if (in_.find(name) && !has(column_of(name))) add(in_.want(name), name);
-  }
-  bool has(std::vector<double> FitRun::*column) const {
-    return std::ranges::find(all_, column, &Slot::column) != all_.end();
+    for (const char* name : {"t", "x", "v", "D"})
+      if (in_.find(name) && std::ranges::count(all_, column_of(name), &Slot::column) == 0)
+        add(*name == 't' ? in_.need_time() : in_.want(name), name);
   }
 
   Reader& in_;

@@ -44,27 +44,32 @@ std::optional<ShiftOf> shift_line(std::span<const std::string> words) {
 /// Builds the chain line by line.
 class Chain {
  public:
-  explicit Chain(std::span<const double> t) : t_(t) {}
+  explicit Chain(std::span<const double> t) : t_(t), known_(!t.empty()) {}
   History take() && { return std::move(history_); }
 
-  /// Adds a line; false if the chain is unknown from here on.
-  bool add(const std::string& line) {
+  /// Adds a line. The numbers of shift-from-accel are known even if the filters before it are not.
+  void add(const std::string& line) {
     const auto words = split_names(line, '\0');
-    if (words.size() < 2) return true;
+    if (words.empty() || !history_.doubt.empty()) return;
     const std::span<const std::string> rest = std::span(words).subspan(1);
+    if (words[0] == "shift-from-accel") history_.shift_of = shift_line(rest);
+    if (known_ && !rest.empty()) known_ = extend(line, words[0], rest);
+  }
+
+ private:
+  /// False if the chain is unknown from here on.
+  bool extend(const std::string& line, const std::string& tool, std::span<const std::string> rest) {
     if (line == columns_renamed) return unknown();
     if (line == lines_sorted)
       return distrust("its `##` lines were sorted, so that their order tells nothing");
-    if (words[0] == "smooth") return smooth(line, rest);
-    if (words[0] == "differentiate") return filter(line, derivative_methods, rest, true);
-    if (words[0] == "shift-from-accel") {
-      if (!shift_line(rest)) return doubt(line);
+    if (tool == "smooth") return smooth(line, rest);
+    if (tool == "differentiate") return filter(line, derivative_methods, rest, true);
+    if (tool == "shift-from-accel") {
+      if (!history_.shift_of) return doubt(line);
       append(identity("a", "D"));
     }
     return true;
   }
-
- private:
   bool distrust(std::string why) {
     history_ = {.doubt = std::move(why)};
     return false;
@@ -73,7 +78,7 @@ class Chain {
     return distrust(fmt::format("`## {}` is not what its tool writes", shown(line)));
   }
   bool unknown() {
-    history_ = {};
+    history_ = {.shift_of = history_.shift_of};
     return false;
   }
   /// Removes the filters of a column and of what was made of it: a derivative of the same name has
@@ -124,6 +129,7 @@ class Chain {
   std::span<const double> t_;
   History history_;
   std::size_t reach_ = 0;
+  bool known_;  ///< the filters depend on the times
 };
 
 }  // namespace
@@ -147,16 +153,8 @@ std::string line_of(const ShiftOf& of) {
 
 History history_of(const std::vector<std::string>& lines, std::span<const double> t) {
   Chain chain(t);
-  for (const std::string& line : lines)
-    if (t.empty() || !chain.add(line)) break;  // the filters depend on the times
-  History history = std::move(chain).take();
-  // The numbers of shift-from-accel are known even if the filters before it are not.
-  for (const std::string& line : lines) {
-    const auto words = split_names(line, '\0');
-    if (history.doubt.empty() && !words.empty() && words[0] == "shift-from-accel")
-      history.shift_of = shift_line(std::span(words).subspan(1));
-  }
-  return history;
+  for (const std::string& line : lines) chain.add(line);
+  return std::move(chain).take();
 }
 
 std::string other_body(const std::optional<ShiftOf>& shift_of, const Body& body,
