@@ -188,7 +188,13 @@ std::string NeededColumns::list() const {
 }
 
 std::size_t NeededColumns::require(std::string_view name) const {
-  if (const auto column = find(name)) return *column;
+  const auto column = find(name);
+  if (!column) refuse(name);
+  return *column;
+}
+
+/// Says why there is no such column.
+void NeededColumns::refuse(std::string_view name) const {
   if (const auto of_name = find_column(name))
     fail<InputError>("{}: column {} cannot serve as both {} and {}", place_, *of_name + 1,
                      quantities_[*of_name], name);

@@ -73,6 +73,7 @@ class NeededColumns {
   };
   std::optional<std::size_t> find_column(std::string_view name) const;
   std::size_t require(std::string_view name) const;
+  void refuse(std::string_view name) const;
   void give_unit(std::size_t column, const std::string& quantity, const std::string& unit);
   bool may_be_time(std::size_t column) const;
   void serve_by_units();

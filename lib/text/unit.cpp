@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstdint>
-#include <numeric>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -66,8 +65,8 @@ const KnownQuantity* known(std::string_view name) {
 
 /// In the lowest terms, so that a product with a short number is exact.
 Conversion reduced(double multiply, double divide) {
-  const auto common = static_cast<double>(
-      std::gcd(static_cast<std::int64_t>(multiply), static_cast<std::int64_t>(divide)));
+  double common = multiply;  // by Euclid: fmod is exact, and in/ns^2 is beyond an integer's range
+  for (double rest = divide; rest != 0;) common = std::exchange(rest, std::fmod(common, rest));
   return {multiply / common, divide / common};
 }
 Conversion product(Conversion a, Conversion b) {
