@@ -65,7 +65,7 @@ const KnownQuantity* known(std::string_view name) {
 
 /// In the lowest terms, so that a product with a short number is exact.
 Conversion reduced(double multiply, double divide) {
-  double common = multiply;  // by Euclid: fmod is exact, and in/ns^2 is beyond an integer's range
+  double common = multiply;  // by Euclid: fmod is exact, and km/ns^2 is beyond an integer's range
   for (double rest = divide; rest != 0;) common = std::exchange(rest, std::fmod(common, rest));
   return {multiply / common, divide / common};
 }
