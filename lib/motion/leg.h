@@ -17,12 +17,14 @@ namespace rolling {
 ///   t = int du/|q|,   x = int u du/|q|,
 /// and the derivatives by the coefficients c of the law and by the slope are
 ///   u_c = -q G,   x_c = u G - U,   G = int q_c/(q |q|) du,   U = int u q_c/(q |q|) du.
-/// Where the speed tends to one that stays, with q = 0, panels end when it differs from that by a
-/// part of 1e-7; from there on q is a linear function of the speed.
 /// The variable of integration is r = |ln(u0/u)|. The integrands are Chebyshev series over panels
 /// of r, whose lengths follow from the last terms of the series, so that they suit the scale of any
 /// law; u(t) is the inverse of the first integral by Newton's method. Panels are added when a time
 /// is asked for. Times and ways count from the beginning of the leg, along the motion.
+///
+/// Where the speed tends to a last one, at which q = 0, rounding spoils q and with it G and U. The
+/// panels end when the speed is within 1e-7 of the last one, relatively; from there on q, q_v and
+/// q_c are linear functions of the speed, and the motion is an exponential function of time.
 ///
 /// For a v^b on a level mat with A = 1, where q is a power of u, all of these are closed forms: no
 /// panels are needed (Eq. 13 is their inverse).
@@ -69,11 +71,11 @@ class Leg {
   using Series = ChebyshevSeries<values, terms>;
   using Sums = Series::Values;
   struct Rate {
-    double q;  // |dv/dt|, negative where the leg would end
-    double q_v;
+    double q;          // |dv/dt|, negative where the leg would end
+    double q_v;        // dq/dv
     double noise;      // its rounding, in units of eps q
     double steepness;  // |dlnD/dlnu|
-    double imbalance;  // q beside its terms
+    double imbalance;  // |q| over the sum of the sizes of its terms
     Derivatives q_c;
 
     bool balanced() const { return imbalance <= 20 * std::numeric_limits<double>::epsilon(); }
@@ -102,7 +104,7 @@ class Leg {
   Point closed_point(double t) const;
   void reach(double t);
   double above_last_speed(double u, const Rate&) const;
-  Point beyond_panels(double since) const;
+  Point beyond_panels(double since) const;  // since the end of the last panel [s]
   Point point(const Sums&, double v, double q) const;
 
   Body body_;

@@ -25,10 +25,10 @@ void check_roll(const Body&, const Law&, double v0);
 /// In the exact geometry D may grow to R as the body slows down. There it stays, so that A = 0 and
 /// v' = -g cos(theta)/K (Eq. 12) down to the stop; with A = 1, Eq. 12 holds for any D.
 ///
-/// v and x are within 1e-13 of v0 and of the way, derivatives within 1e-9, but for 2e-8 where the
-/// speed comes near to its last one. x and v0 count along the
-/// motion, so the slope of the Body is the one that this roll sees: whoever describes a roll
-/// towards falling x by v0 > 0 turns the sign of the slope.
+/// v and x are within 1e-13 of v0 and of the way, derivatives within 1e-9, but within 2e-8 where
+/// the speed comes near to its last one. x and v0 count along the motion, so the slope of the Body
+/// is the one that this roll sees: whoever describes a roll towards falling x by v0 > 0 turns the
+/// sign of the slope.
 class Roll {
  public:
   using Point = Leg::Point;

@@ -15,7 +15,7 @@ using namespace rolling;
 namespace {
 
 /// Rest for 1 s, a push of 0.5 s up to 0.5 m/s, a roll that slows by 0.1 m/s^2 and stops at 6.5 s,
-/// rest until 8 s. A clock may begin later than that by `phase` [s].
+/// rest until 8 s.
 double speed(double t) {
   return t < 1 || t > 6.5 ? 0
          : t < 1.5        ? 0.5 * std::pow(std::sin(3.14159265358979 * (t - 1)), 2)
@@ -23,6 +23,7 @@ double speed(double t) {
 }
 constexpr double release = 1.5, stop = 6.5;
 
+/// Its readings, by a clock that begins `phase` [s] later.
 std::vector<Sample> made_run(double rate, double size, unsigned seed, bool positions,
                              double sign = 1, double phase = 0) {
   std::vector<Sample> run;
@@ -95,7 +96,6 @@ TEST_CASE("free_roll: other noise of the last runs that are kept does not move t
   }
 }
 
-// A step tells the place of the body: an end at a step would bias the last position by half of it.
 TEST_CASE("free_roll: a slow body that a hand stops does not end by itself", "[signal]") {
   // The roll of made_run, up to where a hand stops it within 0.2 s at a tenth of its speed.
   constexpr double caught = 6, in = 0.2;
@@ -123,6 +123,7 @@ TEST_CASE("free_roll: a slow body that a hand stops does not end by itself", "[s
   CHECK(is_ended >= 190);
 }
 
+// A step tells the place of the body: an end at a step would bias the last position by half of it.
 TEST_CASE("free_roll: positions to whole centimetres end amid equal readings", "[signal]") {
   double sum = 0;
   constexpr unsigned runs = 100;
