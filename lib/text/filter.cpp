@@ -66,7 +66,7 @@ void Filter::take_head() {
 }
 
 void Filter::wait(Kind kind, std::string_view text, std::size_t place) {
-  const Row row{kind, static_cast<std::uint32_t>(text.size()), static_cast<std::uint32_t>(place)};
+  const Row row(kind, text.size(), place);
   changing_ = true;
   rows_.append({reinterpret_cast<const char*>(&row), sizeof row});
   rows_.append(text);
@@ -98,8 +98,8 @@ bool Filter::next() {
   const std::size_t row = rows_.size(), text = row + sizeof(Row);
   changing_ = true;  // should memory run out, the destructor does not look at half a row
   rows_.set_end(rows_.reserve(sizeof(Row)) + sizeof(Row));
-  const auto place = static_cast<std::uint32_t>(in_.append_text(rows_, cut_));
-  const Row waiting{Kind::row, static_cast<std::uint32_t>(rows_.size() - text), place};
+  const std::size_t place = in_.append_text(rows_, cut_);
+  const Row waiting(Kind::row, rows_.size() - text, place);
   std::memcpy(rows_.data() + row, &waiting, sizeof waiting);
   changing_ = false;
   ++read_;
@@ -141,7 +141,7 @@ void Filter::write_rows() {
   changing_ = true;
   const std::size_t each = std::max<std::size_t>(appended_.size(), 1);
   std::span<const double> numbers(numbers_.data(), numbers_.size());
-  for (Row row; front_ < rows_.size(); front_ += sizeof row + row.size) {
+  for (Row row(Kind::row, 0, 0); front_ < rows_.size(); front_ += sizeof row + row.size) {
     std::memcpy(&row, rows_.data() + front_, sizeof row);
     const std::string_view text(rows_.data() + front_ + sizeof row, row.size);
     if (row.kind == Kind::row && !dropped_.empty() && dropped_.front() == done_) {

@@ -67,11 +67,13 @@ class Filter {
  private:
   enum class Kind : std::uint8_t { row, remark, head };
   /// A row that waits to be written; its text follows it in the buffer. Many rows may wait (smooth
-  /// --coast): they are kept small. No line is as long as 2^32.
+  /// --coast): they are kept small. No line is as long as 2^30.
   struct Row {
-    Kind kind;
-    std::uint32_t size;   // of its text
-    std::uint32_t place;  // in it, of the numbers of a row, or of the names of a head
+    Row(Kind k, std::size_t size_of_text, std::size_t at)
+        : kind(k), size(size_of_text & 0x3fffffff), place(static_cast<std::uint32_t>(at)) {}
+    Kind kind : 2;
+    std::uint32_t size : 30;  // of its text
+    std::uint32_t place;      // in it, of the numbers of a row, or of the names of a head
   };
   struct Head {
     std::string comments, names;
