@@ -31,7 +31,8 @@ inline constexpr Range any_number{"a number", [](double) { return true; }};
 inline constexpr Range positive{"greater than 0", [](double x) { return x > 0; }};
 inline constexpr Range radius_in_metres{positive.text, positive.holds,
                                         [](double R) {
-  return R > 1 ? fmt::format("R = {} m: is it in millimetres?", R) : std::string();
+  return R > 1 ? fmt::format("R = {} m: if that is millimetres, write {}", R, R / 1000)
+               : std::string();
                                         }};
 inline constexpr Range not_negative{"0 or more", [](double x) { return x >= 0; }};
 inline constexpr Range whole{"a whole number from 1 to 1e9", [](double x) {

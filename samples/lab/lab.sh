@@ -45,7 +45,7 @@ with_use() {
   set +f
   "$command" "$@"
 }
-fit() { fitpower --route $route -K "$K" -R "$R" "$@"; }
+fit() { fitpower --digits 6 --route $route -K "$K" -R "$R" "$@"; }
 # Of a list, K or R, the value of run number $2.
 of_run() { printf '%s\n' "$1" | awk -F, -v i="$2" '{ print (NF > 1 ? $i : $1) }'; }
 velocity() {
@@ -65,7 +65,7 @@ fit --slope "$slope" --each results/rolls >results/table.txt
 if [ $# -gt 1 ]; then
   quiet=  # check tells of runs that disagree
   [ "$goal" = all ] || quiet=-q
-  fitpower $quiet --route fits -K "$K" -R "$R" results/table.txt >results/joint.txt
+  fitpower $quiet --digits 6 --route fits -K "$K" -R "$R" results/table.txt >results/joint.txt
   cat results/joint.txt
 else
   cat results/table.txt
