@@ -107,7 +107,7 @@ do for [i = count:1:-1] {
     known(1e3*a, 1e3*sigma_a), known(b, sigma_b)) }
 }
 note = "Points: the free roll, less five rows at each end."
-if (own) { note = note."\n".given.";  a is D at 1 m/s" }
+if (own) { note = note."\n".given.(told ? ";  a is D at 1 m/s" : "") }
 note = (own && count == 1 ? "Band: 95 % confidence of the law. Bars: scatter.\n" : \
   "Bands: 95 % confidence of the law, not of the points.\n").note
 if (named < count) { note = sprintf("The key names the first %d of %d runs.\n", named, count).note }
