@@ -178,8 +178,10 @@ class Search {
       const std::size_t far = std::min(first.size() / 3, before.size());
       s.begin = before.begin + joints_.inner(cost, before.size(), far, 1);
       s.begin = std::max(s.begin, first.end - joints_.agreeing(first.end - 1, first.begin));
-      const double t = samples_[s.begin].t +
-                       std::max(unseen(first, samples_[s.begin].t), unseen_push(before, first));
+      // A speed is made of positions on either side of its time, also of one before the joint.
+      const double begin = samples_[s.begin].t,
+                   joint = positions_ ? std::midpoint(samples_[s.begin - 1].t, begin) : begin,
+                   t = joint + std::max(unseen(first, begin), unseen_push(before, first));
       while (s.begin + 1 < first.end && samples_[s.begin].t < t) ++s.begin;
     }
     if (s.end < samples_.size()) {
