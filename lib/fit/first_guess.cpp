@@ -234,7 +234,8 @@ std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions
   if (const auto given = options.given_b()) exponents = {*given};
   std::vector<Candidate> all;
   for (const double b : exponents) {
-    auto found = options.fit_slope ? candidate_of(thin, b, true, options) : std::nullopt;
+    std::optional<Candidate> found;
+    if (options.fit_slope) found = candidate_of(thin, b, true, options);
     if (!found) found = candidate_of(thin, b, false, options);
     if (found) all.push_back(std::move(*found));
   }

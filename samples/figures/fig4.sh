@@ -113,7 +113,7 @@ note = (own && count == 1 ? "Band: 95 % confidence of the law. Bars: scatter.\n"
 if (named < count) { note = sprintf("The key names the first %d of %d runs.\n", named, count).note }
 set label note at graph 0.98, (named < count ? 0.145 : own ? 0.105 : 0.065) right font ',12' \
   noenhanced
-if (!own) { set label 'rubber' at 0.495, 1.74 right; set label 'felt' at 0.495, 0.68 right }
+if (!own) { set label 'rubber' at 0.495, 1.74 right; set label 'felt' at 0.495, 0.77 right }
 file(name, i) = sprintf('%s%d', name, i)
 inside(i, v) = v >= least[i] && v <= most[i] ? v : NaN
 outside(i, v) = v >= least[i] && v <= most[i] ? NaN : v
