@@ -77,9 +77,8 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
   std::vector<bool> outliers;
   for (const double size : u) outliers.push_back(trimmed && size > 30);
   for (const auto influence : {huber, bisquare}) {
-    const double least = influence == huber ? 1e-8 : 1e-9;  // Huber's minimum tells the scale alone
     double change = influence == huber ? 1 : 0.01;
-    for (int round = 0; change > least; ++round) {
+    for (int round = 0; change > 1e-9; ++round) {
       if (round == 200) fail("the robust fit does not converge");
       if (!(at.scale > 0)) return exact_fit(system, theta);
       double squares = 0, slopes = 0;  // sums of the weights and of psi'

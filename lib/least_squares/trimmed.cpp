@@ -138,11 +138,7 @@ std::vector<double> trimmed_step(const Linear& model) {
     for (int step = 0; step < 2; ++step) found = best_half(model, model.fit(found.rows));
     if (found.squares < best.squares) best = std::move(found);
   }
-  for (;;) {
-    Half next = best_half(model, model.fit(best.rows));
-    if (!(next.squares < best.squares)) return best.delta;
-    best = std::move(next);
-  }
+  return best.delta;
 }
 
 struct Point {
