@@ -78,7 +78,7 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
   for (const double size : u) outliers.push_back(trimmed && size > 30);
   for (const auto influence : {huber, bisquare}) {
     double change = influence == huber ? 1 : 0.01;
-    for (int round = 0; change > 1e-9; ++round) {
+    for (int round = 0; change > 1e-8; ++round) {
       if (round == 200) fail("the robust fit does not converge");
       if (!(at.scale > 0)) return exact_fit(system, theta);
       double squares = 0, slopes = 0;  // sums of the weights and of psi'
