@@ -64,8 +64,9 @@ Estimate Options::to_estimate(const std::string& text, const Range& range) {
   Estimate estimate;
   if (!parse_estimate(text, estimate)) refuse_number(text);
   require(range, estimate.value, text);
-  if (std::string doubt = range.doubt(estimate.value); !doubt.empty())
-    doubts_.insert(std::move(doubt));
+  if (estimate.value > range.doubted)
+    doubts_.insert(fmt::format("R = {} m: if that is millimetres, write {}", estimate.value,
+                               estimate.value / 1000));
   return estimate;
 }
 
@@ -93,21 +94,13 @@ void Options::flag(const std::string& names, bool& value, const std::string& hel
 }
 
 void Options::number(const std::string& names, double& value, const Range& range,
-                     const std::string& help) {
+                     const std::string& help, double* sigma) {
   add(
       names, "NUMBER", help,
-      [&value, range](const std::string& text) { value = to_number(text, range); },
-      [&value] { return std::isnan(value); });
-}
-
-void Options::estimate(const std::string& names, double& value, double& sigma, const Range& range,
-                       const std::string& help) {
-  add(
-      names, "NUMBER", help,
-      [this, &value, &sigma, range](const std::string& text) {
-    const Estimate estimate = to_estimate(text, range);
-    value = estimate.value;
-    sigma = estimate.sigma;
+      [this, &value, range, sigma](const std::string& text) {
+    const Estimate read = sigma ? to_estimate(text, range) : Estimate{to_number(text, range)};
+    value = read.value;
+    if (sigma) *sigma = read.sigma;
       },
       [&value] { return std::isnan(value); });
 }
@@ -148,17 +141,6 @@ void Options::list(const std::string& names, const std::string& type, const std:
   command_line_.list(names, type, help, named(names, set));
 }
 
-void Options::one_of(const std::string& names, const std::vector<std::string>& choices,
-                     const std::string& help, const Set& set) {
-  std::string all;
-  for (const std::string& choice : choices) all += (all.empty() ? "" : ",") + choice;
-  add(names, '{' + all + '}', help, [choices, all, set](const std::string& text) {
-    if (std::ranges::count(choices, text) == 0)
-      fail("'{}' is not one of {}", shown(text), replace_all(all, ",", ", "));
-    set(text);
-  });
-}
-
 void Options::body(Body& body, std::initializer_list<BodyOption> options,
                    BodyUncertainty* uncertainty) {
   body = {not_given, not_given, not_given};
@@ -179,8 +161,7 @@ void Options::body(Body& body, std::initializer_list<BodyOption> options,
               "rise of the mat in metres per metre of growing x (0)"}};
   for (const BodyOption option : options) {
     const auto& [names, value, sigma, range, help] = all[static_cast<std::size_t>(option)];
-    if (sigma) estimate(names, body.*value, u.*sigma, range, help);
-    else number(names, body.*value, range, help);
+    number(names, body.*value, range, help, sigma ? &(u.*sigma) : nullptr);
   }
 }
 

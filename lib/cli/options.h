@@ -17,6 +17,8 @@
 #include "cli/command_line.h"
 #include "contact/body.h"
 #include "contact/law.h"
+#include "text/column.h"
+#include "text/number.h"
 
 namespace rolling {
 
@@ -24,16 +26,12 @@ namespace rolling {
 struct Range {
   const char* text;  ///< in the message "must be ...": "greater than 0"
   bool (*holds)(double);
-  /// What to ask about a value that holds but is hardly meant; empty for any other.
-  std::string (*doubt)(double) = [](double) { return std::string(); };
+  /// A radius above it is hardly meant in metres.
+  double doubted = std::numeric_limits<double>::infinity();
 };
 inline constexpr Range any_number{"a number", [](double) { return true; }};
 inline constexpr Range positive{"greater than 0", [](double x) { return x > 0; }};
-inline constexpr Range radius_in_metres{positive.text, positive.holds,
-                                        [](double R) {
-  return R > 1 ? fmt::format("R = {} m: if that is millimetres, write {}", R, R / 1000)
-               : std::string();
-                                        }};
+inline constexpr Range radius_in_metres{positive.text, positive.holds, 1};
 inline constexpr Range not_negative{"0 or more", [](double x) { return x >= 0; }};
 inline constexpr Range whole{"a whole number from 1 to 1e9", [](double x) {
                                return x >= 1 && x <= 1e9 &&
@@ -65,7 +63,9 @@ class Options {
   // Options of one tool. `names` in the notation of CLI11: "-w,--width". Each option may be given
   // once. Its value must be a number in the syntax of rolling-columns(5) and within the range.
   void flag(const std::string& names, bool& value, const std::string& help);
-  void number(const std::string& names, double& value, const Range&, const std::string& help);
+  /// With `sigma` the number may have an uncertainty (0.5+-0.005).
+  void number(const std::string& names, double& value, const Range&, const std::string& help,
+              double* sigma = nullptr);
   template <typename Integer>
   void count(const std::string& names, Integer& value, const Range& range,
              const std::string& help) {
@@ -117,7 +117,7 @@ class Options {
   bool take_scene();
 
   CommandLine command_line_;
-  std::set<std::string> doubts_;  ///< about the values, as Range::doubt() tells them
+  std::set<std::string> doubts_;  ///< what to ask about values that are hardly meant
 
  private:
   struct Option {
@@ -128,10 +128,6 @@ class Options {
   Estimate to_estimate(const std::string& text, const Range&);
   void add_flag(const std::string& names, const std::string& help,
                 const std::function<void(bool)>& set);
-  void estimate(const std::string& names, double& value, double& sigma, const Range&,
-                const std::string& help);
-  void one_of(const std::string& names, const std::vector<std::string>& choices,
-              const std::string& help, const Set& set);
 
   std::map<std::string, Option> options_;  // by long name
   std::set<std::string> in_scene_;         // the keys of the scene that are options of this tool
@@ -142,10 +138,14 @@ class Options {
 template <typename T>
 void Options::choice(const std::string& names, T& value, const std::map<std::string, T>& choices,
                      const std::string& help) {
-  std::vector<std::string> all;
-  for (const auto& choice : choices) all.push_back(choice.first);
-  one_of(names, all, help,
-         [&value, choices](const std::string& text) { value = choices.at(text); });
+  std::string all;
+  for (const auto& choice : choices) all += (all.empty() ? "" : ",") + choice.first;
+  add(names, '{' + all + '}', help, [&value, choices, all](const std::string& text) {
+    const auto found = choices.find(text);
+    if (found == choices.end())
+      fail("'{}' is not one of {}", shown(text), replace_all(all, ",", ", "));
+    value = found->second;
+  });
 }
 
 }  // namespace rolling
