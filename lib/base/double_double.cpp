@@ -80,26 +80,6 @@ constexpr auto exp_table = [] {
 constexpr double step1 = cut(ln2.hi / exp_size, 21),
                  step2 = (ln2.hi / exp_size - step1) + ln2.lo / exp_size;  // n step1 is exact
 
-}  // namespace
-
-DoubleDouble exp(DoubleDouble x) {
-  const double n = std::round(x.hi / ln2.hi);
-  const DoubleDouble series = exp_series(x - ln2 * n);
-  const int half = static_cast<int>(n / 2), other = static_cast<int>(n) - half;
-  return {std::ldexp(std::ldexp(series.hi, half), other),
-          std::ldexp(std::ldexp(series.lo, half), other)};
-}
-
-DoubleDouble log(DoubleDouble x) {
-  int k = 0;
-  const double m = std::frexp(x.hi, &k);
-  const DoubleDouble mantissa(m, std::ldexp(x.lo, -k));
-  const DoubleDouble first = std::log(m);  // one step of Newton's method follows
-  return first + (mantissa * exp(-first) - 1.0) + ln2 * static_cast<double>(k);
-}
-
-namespace {
-
 /// ln(1 + x) - x + x^2/2
 double log1p_cubic(double x) {
   const double x2 = x * x;
@@ -107,29 +87,6 @@ double log1p_cubic(double x) {
          ((1. / 3 - x * (1. / 4)) +
           x2 * ((1. / 5 - x * (1. / 6)) + x2 * ((1. / 7 - x * (1. / 8)) + x2 * (1. / 9))));
 }
-
-}  // namespace
-
-DoubleDouble log1p_ratio(DoubleDouble r) {
-  const DoubleDouble line = quick_two_sum(1, -r.hi / 2);
-  return quick_two_sum(line.hi, line.lo + (r.hi == 0 ? 0 : log1p_cubic(r.hi) / r.hi) - r.lo / 2);
-}
-
-DoubleDouble quick_log(DoubleDouble x) {
-  const std::uint64_t bits = std::bit_cast<std::uint64_t>(x.hi), above = bits - log_offset;
-  const int k = static_cast<int>(static_cast<std::int64_t>(above) >> 52);
-  const auto& [inverse, log_c] = log_table[(above >> (52 - log_bits)) % log_size];
-  const double m = std::bit_cast<double>(bits - (static_cast<std::uint64_t>(k) << 52)),
-               top = cut(m, 32);
-  // m/c - 1 = r1 + r2 and ln(1 + r) = r - r^2/2 + cubic. These are exact: r1 (23 bits) and its
-  // square, r2, k log_2.hi + ln c + r1, and r2 - r1^2/2.
-  const double r1 = top * inverse - 1, r2 = (m - top) * inverse, r = r1 + r2;
-  const DoubleDouble sum = quick_two_sum(k * log_2.hi + log_c.hi + r1, r2 - r1 * r1 / 2);
-  return {sum.hi, sum.lo + (x.lo / x.hi + (k * log_2.lo + log_c.lo) +
-                            (log1p_cubic(r) - r2 * (r1 + r) / 2))};
-}
-
-namespace {
 
 /// m 2^exponent, rounded once but for the denormals.
 double scale(double m, int exponent) {
@@ -153,6 +110,41 @@ Reduced reduce(DoubleDouble x) {
 }
 
 }  // namespace
+
+DoubleDouble exp(DoubleDouble x) {
+  const double n = std::round(x.hi / ln2.hi);
+  const DoubleDouble series = exp_series(x - ln2 * n);
+  const int half = static_cast<int>(n / 2), other = static_cast<int>(n) - half;
+  return {std::ldexp(std::ldexp(series.hi, half), other),
+          std::ldexp(std::ldexp(series.lo, half), other)};
+}
+
+DoubleDouble log(DoubleDouble x) {
+  int k = 0;
+  const double m = std::frexp(x.hi, &k);
+  const DoubleDouble mantissa(m, std::ldexp(x.lo, -k));
+  const DoubleDouble first = std::log(m);  // one step of Newton's method follows
+  return first + (mantissa * exp(-first) - 1.0) + ln2 * static_cast<double>(k);
+}
+
+DoubleDouble log1p_ratio(DoubleDouble r) {
+  const DoubleDouble line = quick_two_sum(1, -r.hi / 2);
+  return quick_two_sum(line.hi, line.lo + (r.hi == 0 ? 0 : log1p_cubic(r.hi) / r.hi) - r.lo / 2);
+}
+
+DoubleDouble quick_log(DoubleDouble x) {
+  const std::uint64_t bits = std::bit_cast<std::uint64_t>(x.hi), above = bits - log_offset;
+  const int k = static_cast<int>(static_cast<std::int64_t>(above) >> 52);
+  const auto& [inverse, log_c] = log_table[(above >> (52 - log_bits)) % log_size];
+  const double m = std::bit_cast<double>(bits - (static_cast<std::uint64_t>(k) << 52)),
+               top = cut(m, 32);
+  // m/c - 1 = r1 + r2 and ln(1 + r) = r - r^2/2 + cubic. These are exact: r1 (23 bits) and its
+  // square, r2, k log_2.hi + ln c + r1, and r2 - r1^2/2.
+  const double r1 = top * inverse - 1, r2 = (m - top) * inverse, r = r1 + r2;
+  const DoubleDouble sum = quick_two_sum(k * log_2.hi + log_c.hi + r1, r2 - r1 * r1 / 2);
+  return {sum.hi, sum.lo + (x.lo / x.hi + (k * log_2.lo + log_c.lo) +
+                            (log1p_cubic(r) - r2 * (r1 + r) / 2))};
+}
 
 Scaled::Scaled(DoubleDouble x) {
   m.hi = std::frexp(x.hi, &exponent);
