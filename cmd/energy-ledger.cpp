@@ -109,8 +109,8 @@ class Accounts {
     if (!(std::abs(balance.closure()) <= tolerance))
       beyond = fmt::format("closure {:.4g}", balance.closure());
     if (!(balance.imbalance() <= tolerance))
-      beyond += fmt::format("{}imbalance {:.4g} at t = {:.6g} s", beyond.empty() ? "" : ", ",
-                            balance.imbalance(), balance.time_of_imbalance());
+      add_item(beyond, fmt::format("imbalance {:.4g} at t = {:.6g} s", balance.imbalance(),
+                                   balance.time_of_imbalance()));
     if (!beyond.empty())
       tool_.check_failed(in_.run_name(),
                          fmt::format("the check does not hold: {}: beyond {}", beyond, tolerance));
@@ -193,7 +193,7 @@ int main(int argc, char** argv) {
     if (is_chosen("sigma_D") && law_file.empty())
       fail("sigma_D is that of a law: it needs --law and a row of fitpower");
     if (!law_file.empty())
-      task.law = read_law(tool, law_file, power, {{"slope", &task.body.slope}},
+      task.law = read_law(tool, law_file, power, {{"slope", "", &task.body.slope}},
                           is_chosen("sigma_D") ? Uncertainties::needed : Uncertainties::ignored);
     tool.need({"mass", "radius", "shape-factor"});
     Reader& in = task.summary ? tool.read({"t", "v", "D"}) : tool.filter({"t", "v", "D"});

@@ -106,10 +106,12 @@ struct Task {
       needed.insert(needed.end(), {"coefficient", "exponent"});
       roll.law = law;
     } else {
-      roll.law =
-          read_law(tool, law_file, law,
-                   {{"slope", &roll.body.slope}, {"v0", &roll.v0}, {"x0", &roll.x0}, {"t0", &t0}})
-              .law;
+      roll.law = read_law(tool, law_file, law,
+                          {{"slope", "", &roll.body.slope},
+                           {"v0", "v", &roll.v0},
+                           {"x0", "x", &roll.x0},
+                           {"t0", "t", &t0}})
+                     .law;
     }
     tool.need(needed);
     if (!tool.on_command_line("method")) method = best_method(roll);
@@ -194,7 +196,9 @@ class Rows {
               (body.slope == 0 ? "" : fmt::format(" slope {}", body.slope)) +
               (task_.t0 == 0 ? "" : fmt::format(" t0 {}", task_.t0)));
     out_.end_line();
-    out_.names(columns_of(row_));
+    std::vector<Column> header;
+    for (const auto& quantity : row_) header.push_back(quantity.column());
+    out_.names(header);
   }
 
   void write(double t, Motion& motion) {

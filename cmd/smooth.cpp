@@ -48,9 +48,7 @@ bool asks_to_smooth(const Tool& tool) {
 std::string history(const std::string& column, const SelectionOptions& selected,
                     const SignalOptions& smoothed) {
   std::string lines;
-  const auto add = [&](const std::string& line) {
-    (lines += lines.empty() ? "" : "\n## ") += "smooth " + line;
-  };
+  const auto add = [&](const std::string& line) { add_item(lines, "smooth " + line, "\n## "); };
   if (std::isfinite(selected.from)) add(fmt::format("t from {}", selected.from));
   if (std::isfinite(selected.to)) add(fmt::format("t to {}", selected.to));
   if (selected.outliers > 0) add(fmt::format("{} outliers {}", column, selected.outliers));
@@ -68,7 +66,7 @@ class Told {
 
   void add(const Selection& selection, const std::string& run) {
     for (const double t : selection.outliers())
-      if (++outliers_ <= 10) times_ += fmt::format("{}{:.6g}", times_.empty() ? "" : ", ", t);
+      if (++outliers_ <= 10) add_item(times_, fmt::format("{:.6g}", t));
     if (!selection.roll()) return;
     const Selection::Roll& roll = *selection.roll();
     ++runs_, kept_ += roll.samples, rows_ += roll.of;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rolling {
@@ -13,6 +14,12 @@ inline std::string enumeration(const std::vector<std::string>& words) {
   for (std::size_t i = 0; i < words.size(); ++i)
     text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
   return text;
+}
+
+/// Appends an item to a list like "a, b".
+inline void add_item(std::string& list, std::string_view item, std::string_view separator = ", ") {
+  if (!list.empty()) list += separator;
+  list += item;
 }
 
 }  // namespace rolling

@@ -100,37 +100,10 @@ std::string described(const LawFit& fit, double least) {
 
 std::string p_of(double p) { return p < 1e-300 ? "p < 1e-300" : fmt::format("p = {:.1g}", p); }
 
-}  // namespace
-
-std::string disagreement(const Agreement& found, const std::vector<FitRun>& runs,
-                         const std::string& given) {
-  const auto more = [](double x) { return x < 0 ? "less" : "more"; };
-  std::string line = fmt::format(
-      "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees of freedom, {}): run "
-      "{} {}",
-      found.ratio, found.dof, p_of(found.p), runs[found.run].name,
-      found.runs > 2 ? "stands out" : "is not like the other");
-  if (found.log_D.sigma > 0) {
-    const double percent = 100 * std::abs(std::expm1(found.log_D.value));
-    line += fmt::format(
-        ", its D({:.2g} m/s) is {} +- {:.1g} % {} than that of the other{}", found.speed,
-        percent < 100 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent),
-        100 * found.log_D.sigma, more(found.log_D.value), found.runs > 2 ? "s" : "");
-  }
-  if (found.b.sigma > 0)
-    line += fmt::format(", its b {:.2g} +- {:.1g} {}", std::abs(found.b.value), found.b.sigma,
-                        more(found.b.value));
-  if (!given.empty()) line += fmt::format("; this test takes {} as exact", given);
-  return line + "; the row is their mean, with their scatter in its uncertainties";
-}
-
-namespace {
-
 std::string disagreement(const FitResult& r, const std::vector<FitRun>& runs) {
   std::string given;
   for (const ErrorShare& share : r.shares)
-    if (share.of != "noise" && share.of != "bias")
-      given += fmt::format("{}{}", given.empty() ? "" : ", ", share.of);
+    if (share.of != "noise" && share.of != "bias") add_item(given, share.of);
   return disagreement(*r.agreement, runs, given) +
          "; where they rolled in both directions, --slope fit; where bodies differ, a K for each";
 }
@@ -192,16 +165,6 @@ bool warn_of_repeats(Tool& tool, Route route, const FitResult& r, const std::vec
   return false;
 }
 
-}  // namespace
-
-std::string why_left_out(Route route, const FitOptions& options) {
-  std::string reason = words_of(route).why_left_out;
-  if (options.min_speed <= 0) return reason;
-  return (reason.empty() ? "" : reason + ", or ") + "slower than --min-speed";
-}
-
-namespace {
-
 /// Warns of what spoils a fit: of a shift that no body has, and of what speaks against the row
 /// (unless check() follows, which tells it). Returns true if there is any of it.
 bool warn_of_causes(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
@@ -258,6 +221,34 @@ void warn_of_residuals(Tool& tool, Route route, const FitResult& r,
 }
 
 }  // namespace
+
+std::string disagreement(const Agreement& found, const std::vector<FitRun>& runs,
+                         const std::string& given) {
+  const auto more = [](double x) { return x < 0 ? "less" : "more"; };
+  std::string line = fmt::format(
+      "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees of freedom, {}): run "
+      "{} {}",
+      found.ratio, found.dof, p_of(found.p), runs[found.run].name,
+      found.runs > 2 ? "stands out" : "is not like the other");
+  if (found.log_D.sigma > 0) {
+    const double percent = 100 * std::abs(std::expm1(found.log_D.value));
+    line += fmt::format(
+        ", its D({:.2g} m/s) is {} +- {:.1g} % {} than that of the other{}", found.speed,
+        percent < 100 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent),
+        100 * found.log_D.sigma, more(found.log_D.value), found.runs > 2 ? "s" : "");
+  }
+  if (found.b.sigma > 0)
+    line += fmt::format(", its b {:.2g} +- {:.1g} {}", std::abs(found.b.value), found.b.sigma,
+                        more(found.b.value));
+  if (!given.empty()) line += fmt::format("; this test takes {} as exact", given);
+  return line + "; the row is their mean, with their scatter in its uncertainties";
+}
+
+std::string why_left_out(Route route, const FitOptions& options) {
+  std::string reason = words_of(route).why_left_out;
+  if (options.min_speed <= 0) return reason;
+  return (reason.empty() ? "" : reason + ", or ") + "slower than --min-speed";
+}
 
 void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
              const std::optional<LawComparison>& laws, bool check_comes) {

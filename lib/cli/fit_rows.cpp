@@ -17,29 +17,28 @@ struct Rows {
   std::vector<LawRow> laws;
   std::vector<FitRun> runs;  ///< the names and bodies of the runs, without readings
   bool a_fixed = false, b_fixed = false;
+  std::string common;  ///< "K, R": the numbers of take_common()
 
-  void add(std::string name, Estimate a, Estimate b, double corr);
+  /// Throws Error for a row that is none of a fit with errors.
+  void add(std::string name, Estimate a, Estimate b, double corr) {
+    if (!(a.value > 0)) fail("a = {} must be greater than 0", a.value);
+    if (a.sigma < 0 || b.sigma < 0 || std::abs(corr) > 1)
+      fail("sigma_a, sigma_b or corr is not one of a fit");
+    if (a.sigma == 0 && b.sigma == 0) fail("a and b have no errors: were both fixed?");
+    if (laws.empty()) a_fixed = a.sigma == 0, b_fixed = b.sigma == 0;
+    if (a_fixed != (a.sigma == 0) || b_fixed != (b.sigma == 0))
+      fail("{} is fixed in some rows only", a_fixed != (a.sigma == 0) ? "a" : "b");
+    if (!laws.empty() && ((a_fixed && std::log(a.value) != laws.front().own.law.a) ||
+                          (b_fixed && b.value != laws.front().own.law.b)))
+      fail("{} is fixed at another value than in the first row", a_fixed ? "a" : "b");
+    const double log_a = a.sigma / a.value;
+    const Symmetric C{log_a * log_a, corr * log_a * b.sigma, b.sigma * b.sigma};
+    if (!C.inverse().is_finite() || !(C.aa * C.bb >= C.ab * C.ab))
+      fail("corr = {}: its digits do not tell a from b: write the rows with more", corr);
+    laws.push_back({{laws.size(), {std::log(a.value), b.value}, C, known_errors}});
+    runs.emplace_back().name = std::move(name);
+  }
 };
-
-/// Throws Error for a row that is none of a fit with errors.
-void Rows::add(std::string name, Estimate a, Estimate b, double corr) {
-  if (!(a.value > 0)) fail("a = {} must be greater than 0", a.value);
-  if (a.sigma < 0 || b.sigma < 0 || std::abs(corr) > 1)
-    fail("sigma_a, sigma_b or corr is not one of a fit");
-  if (a.sigma == 0 && b.sigma == 0) fail("a and b have no errors: were both fixed?");
-  if (laws.empty()) a_fixed = a.sigma == 0, b_fixed = b.sigma == 0;
-  if (a_fixed != (a.sigma == 0) || b_fixed != (b.sigma == 0))
-    fail("{} is fixed in some rows only", a_fixed != (a.sigma == 0) ? "a" : "b");
-  if (!laws.empty() && ((a_fixed && std::log(a.value) != laws.front().own.law.a) ||
-                        (b_fixed && b.value != laws.front().own.law.b)))
-    fail("{} is fixed at another value than in the first row", a_fixed ? "a" : "b");
-  const double log_a = a.sigma / a.value;
-  const Symmetric C{log_a * log_a, corr * log_a * b.sigma, b.sigma * b.sigma};
-  if (!C.inverse().is_finite() || !(C.aa * C.bb >= C.ab * C.ab))
-    fail("corr = {}: its digits do not tell a from b: write the rows with more", corr);
-  laws.push_back({{laws.size(), {std::log(a.value), b.value}, C, known_errors}});
-  runs.emplace_back().name = std::move(name);
-}
 
 /// A row that is there twice would count twice.
 void warn_of_copies(Tool& tool, const Rows& rows) {
@@ -105,19 +104,10 @@ std::vector<CommonError> take_common(Rows& rows) {
             "and -R as for the fits of the rows",
             rows.runs[i].name, number.name);
     }
+    if (!by_value.empty()) add_item(rows.common, number.name);
     for (auto& [value, common] : by_value) all.push_back(std::move(common));
   }
   return all;
-}
-
-/// "K, R": the numbers that have uncertainties.
-std::string common_numbers(const Rows& rows) {
-  std::string names;
-  for (const UncertainNumber& number : uncertain_numbers)
-    if (std::ranges::any_of(rows.runs,
-                            [&](const FitRun& run) { return run.given.*number.sigma > 0; }))
-      names += fmt::format("{}{}", names.empty() ? "" : ", ", number.name);
-  return names;
 }
 
 void write(Output& out, const JointLaw& joint, std::size_t n) {
@@ -156,7 +146,7 @@ int fit_rows(Tool& tool, const Bodies& bodies, bool with_check) {
   write(tool.out, joint, rows.laws.size());
   tool.out.flush();
   if (joint.agreement.agree()) return 0;
-  const std::string text = disagreement(joint.agreement, rows.runs, common_numbers(rows));
+  const std::string text = disagreement(joint.agreement, rows.runs, rows.common);
   with_check ? tool.check_failed("", text) : tool.warn(text);
   return 0;
 }

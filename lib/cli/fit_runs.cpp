@@ -85,14 +85,6 @@ void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
                           history.left_out));
 }
 
-/// Drops the columns that the route does not fit.
-void drop_others(FitRun& run, Route route) {
-  const auto fitted = words_of(route).columns;
-  for (const char* name : {"x", "v", "D"})
-    if (std::ranges::find(fitted, name) == fitted.end())
-      std::vector<double>().swap(run.*column_of(name));
-}
-
 /// Warns of a run without history beside one with filters: a run break takes the `##` lines away.
 void warn_of_lost_history(Tool& tool, const std::vector<FitRun>& runs,
                           const std::vector<bool>& has_history) {
@@ -103,6 +95,17 @@ void warn_of_lost_history(Tool& tool, const std::vector<FitRun>& runs,
     if (!has_history[i])
       tool.warn(runs[i].name, "no `##` lines tell how it was made, as those of run " + first->name +
                                   " do: it is fitted as if no filter were known");
+}
+
+/// A number of the body for run i of n.
+Estimate of_run(const std::vector<Estimate>& values, const char* option, std::size_t i,
+                std::size_t n) {
+  if (values.size() > 1 && values.size() != n)
+    fail(
+        "--{} gives {} values for {} run{}: give one for all, or one for each, with decimal points",
+        option, values.size(), n, n == 1 ? "" : "s");
+  if (values.empty()) return {not_given};
+  return values[values.size() > 1 ? i : 0];
 }
 
 }  // namespace
@@ -141,7 +144,6 @@ std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, Columns colum
     slots.read(run);
     warn_of_held(tool, route, run, in.history());
     set_filters(tool, in, route, run);
-    if (columns == Columns::of_route) drop_others(run, route);
   }
   warn_of_lost_history(tool, runs, has_history);
   return runs;
@@ -166,21 +168,6 @@ bool take_pulses(Tool& tool, std::vector<FitRun>& runs) {
       ways[0]));
   return true;
 }
-
-namespace {
-
-/// A number of the body for run i of n.
-Estimate of_run(const std::vector<Estimate>& values, const char* option, std::size_t i,
-                std::size_t n) {
-  if (values.size() > 1 && values.size() != n)
-    fail(
-        "--{} gives {} values for {} run{}: give one for all, or one for each, with decimal points",
-        option, values.size(), n, n == 1 ? "" : "s");
-  if (values.empty()) return {not_given};
-  return values[values.size() > 1 ? i : 0];
-}
-
-}  // namespace
 
 void Bodies::give_to(std::vector<FitRun>& runs) const {
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -226,7 +213,7 @@ void warn_of_unused_body(Tool& tool, const std::vector<FitRun>& runs, Geometry g
       std::string unused;
       for (const char* option : {"shape-factor", "radius", "gravity", "slope", "exact"})
         if (tool.on_command_line(option) && !tool.on_command_line("report"))
-          unused += fmt::format("{}--{}", unused.empty() ? "" : ", ", option);
+          add_item(unused, std::string("--") + option);
       if (!unused.empty())
         tool.warn(run.name, "not used: " + unused + ": no `##` line tells how D was computed");
       continue;
@@ -236,7 +223,7 @@ void warn_of_unused_body(Tool& tool, const std::vector<FitRun>& runs, Geometry g
     if (!tool.given("slope")) given.slope = not_given;
     std::string others = other_body(run.shift_of, given, run.given);
     if (geometry == Geometry::exact && run.shift_of->geometry != geometry)
-      others += fmt::format("{}A = 1 (here --exact)", others.empty() ? "" : ", ");
+      add_item(others, "A = 1 (here --exact)");
     if (!others.empty())
       tool.warn(run.name, "D was computed with " + others + ": the fit uses the numbers of D");
   }

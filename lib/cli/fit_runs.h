@@ -25,7 +25,7 @@ const RouteWords& words_of(Route);
 /// The column of a run with this short name: t, x, v or D.
 std::vector<double> FitRun::*column_of(std::string_view name);
 
-/// The columns that are kept: those that the route fits, or those of the other routes too.
+/// The columns that are read: those that the route fits, or those of the other routes too.
 enum class Columns { of_route, of_all_routes };
 
 /// Reads all runs with their names and their filters, but without the numbers of the body. Warns

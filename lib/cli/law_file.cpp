@@ -39,8 +39,6 @@ std::string_view quantity_of(const std::string& unit) {
 /// The row of fitpower in a file.
 LawOfFile read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& given,
                    std::vector<RowNumber> numbers, Uncertainties uncertainties) {
-  static const std::map<std::string, std::string_view> quantities{
-      {"slope", ""}, {"v0", "v"}, {"x0", "x"}, {"t0", "t"}};
   const bool power = &form == &laws().front();
   if (!power)
     tool.refuse({"coefficient", "exponent"}, fmt::format("does not go with D = {}", form.formula));
@@ -48,8 +46,7 @@ LawOfFile read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& 
     return !in.find(number.name) || tool.on_command_line(number.name);
   });
   std::vector<RowColumn> columns, coefficients, sigmas, correlations;
-  for (const RowNumber& number : numbers)
-    columns.emplace_back(in, number.name, quantities.at(number.name));
+  for (const RowNumber& number : numbers) columns.emplace_back(in, number.name, number.quantity);
   for (const Column& c : columns_of(form)) {
     coefficients.emplace_back(in, c.name, quantity_of(c.unit), c.unit);
     if (uncertainties == Uncertainties::needed)
@@ -86,7 +83,7 @@ const LawForm& law_named(const std::string& formula) {
   std::string known;
   for (const LawForm& form : laws()) {
     if (bare(form.formula) == bare(formula)) return form;
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", form.formula);
+    add_item(known, form.formula);
   }
   fail("'{}' is none of {}", shown(formula), known);
 }

@@ -27,8 +27,9 @@ std::string words_of(const Law&);
 
 /// A number that a row of fitpower may have, under the name of an option of the tool.
 struct RowNumber {
-  const char* name;  ///< slope, v0, x0 or t0
-  double* value;     ///< SI units
+  const char* name;           ///< slope, v0, x0 or t0
+  std::string_view quantity;  ///< in whose unit it is
+  double* value;              ///< SI units
 };
 
 /// A law as a file tells it.

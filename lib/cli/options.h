@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/enumeration.h"
 #include "base/error.h"
 #include "base/estimate.h"
 #include "cli/command_line.h"
@@ -139,7 +140,7 @@ template <typename T>
 void Options::choice(const std::string& names, T& value, const std::map<std::string, T>& choices,
                      const std::string& help) {
   std::string all;
-  for (const auto& choice : choices) all += (all.empty() ? "" : ",") + choice.first;
+  for (const auto& choice : choices) add_item(all, choice.first, ",");
   add(names, '{' + all + '}', help, [&value, choices, all](const std::string& text) {
     const auto found = choices.find(text);
     if (found == choices.end())

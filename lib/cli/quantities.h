@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/enumeration.h"
 #include "base/error.h"
 #include "text/column.h"
 #include "text/number.h"
@@ -34,21 +35,13 @@ std::vector<Quantity<Function>> chosen(const std::string& list,
     const auto found = std::find_if(all, all + count, same);
     if (found == all + count) {
       std::string names;
-      for (const auto& quantity : all) (names += names.empty() ? "" : ", ") += quantity.name;
+      for (const auto& quantity : all) add_item(names, quantity.name);
       fail("--columns: '{}' is none of {}", shown(name), names);
     }
     if (std::any_of(chosen.begin(), chosen.end(), same)) fail("--columns: {} is there twice", name);
     chosen.push_back(*found);
   }
   return chosen;
-}
-
-/// The columns of these quantities.
-template <typename Function>
-std::vector<Column> columns_of(const std::vector<Quantity<Function>>& quantities) {
-  std::vector<Column> columns;
-  for (const auto& quantity : quantities) columns.push_back(quantity.column());
-  return columns;
 }
 
 }  // namespace rolling

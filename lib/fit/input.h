@@ -30,7 +30,7 @@ inline double acceleration_of(const ShiftOf& by, double D) {
 
 /// The data of one run in SI units: t [s], x [m], v [m/s], D [m], one element for each row. The
 /// routes loglog and shift read v and D (and t, where the filters are known); velocity reads t and
-/// v; position reads t and x. Columns that the route does not read are empty.
+/// v; position reads t and x.
 struct FitRun {
   std::vector<double> t, x, v, D;
   Body body;            ///< the body and its mat: K, R, g and slope (trajectory routes only)
