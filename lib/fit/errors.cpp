@@ -68,6 +68,14 @@ std::vector<double> times(double factor, std::vector<double> M) {
   return M;
 }
 
+/// B of a fit (see Noise::to_sources). Q^T Q minus the part of the added noise is B^T B in fewer
+/// steps, but a difference: where the covariance is nearly singular, rounding makes variances
+/// negative.
+Matrix at_sources(const Fitted& fit, Matrix Q) {
+  for (std::vector<double>& column : Q) column = fit.noise->to_sources(std::move(column));
+  return Q;
+}
+
 /// Q^T Q of a fit whose sources are its residuals, with the shared parameters in its first run.
 std::vector<double> identity(const System& system) {
   const std::size_t q = system.columns();
@@ -107,9 +115,9 @@ SeenNoise seen_noise(const Fitted& fit, bool filtered) {
   if (filtered || short_runs) Q = orthonormal(fit);
   SeenNoise seen{.filtered = filtered, .freedom = fit.degrees_left()};
   if (filtered) {
-    seen.meat = fit.noise->meat(Q);
-    seen.variance = variance_of_sources(fit, seen.meat);
     seen.e = fit.noise->to_sources(f), seen.sources = fit.noise->sources();
+    seen.meat = products(at_sources(fit, Q), seen.sources);
+    seen.variance = variance_of_sources(fit, seen.meat);
     seen.means_taken = fit.means_taken();
   } else {
     seen.meat = identity(fit.system);
@@ -137,8 +145,7 @@ namespace {
 /// The meat that allows for noise that is uneven (HC3 for single rows) or correlated.
 std::vector<double> consistent_meat(const Fitted& fit, const SeenNoise& seen, Errors kind) {
   Matrix B = seen.B.empty() ? orthonormal(fit) : seen.B;
-  if (seen.B.empty() && seen.filtered)
-    for (std::vector<double>& column : B) column = fit.noise->to_sources(std::move(column));
+  if (seen.B.empty() && seen.filtered) B = at_sources(fit, std::move(B));
   // HC3: the fit multiplies the noise of a residual by 1 - h, with h its leverage (MacKinnon and
   // White 1985, J. Econometrics 29, 305).
   const bool by_leverage = kind == Errors::uneven && !seen.filtered;

@@ -2,7 +2,6 @@
 #include "noise/filter_matrix.h"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 #include "base/dot.h"
@@ -201,47 +200,6 @@ void FilterPass::multiply(const Stage& s, double* out) const {
     out[c] = sum[0] + sum[2];
     out[c + 1] = sum[1] + sum[3];
   }
-}
-
-TransposedPass::TransposedPass(const FilterMatrix& H, std::size_t columns,
-                               std::function<void(const double* row)> take)
-    : columns_(columns), take_(std::move(take)) {
-  for (auto L = H.factors_.rbegin(); L != H.factors_.rend(); ++L)
-    stages_.push_back({L->get(), std::vector<double>(std::bit_ceil((*L)->window()) * columns)});
-}
-
-double* TransposedPass::sum(Stage& s, std::size_t row) {
-  return &s.sums[(row & (std::bit_ceil(s.L->window()) - 1)) * columns_];
-}
-
-/// Passes the output rows before `end` to the next stage.
-void TransposedPass::pass_on(std::size_t stage, std::size_t end) {
-  Stage& s = stages_[stage];
-  for (; s.done < end; ++s.done) {
-    double* const row = sum(s, s.done);
-    push(stage + 1, row);
-    std::fill_n(row, columns_, 0.0);
-  }
-}
-
-/// The elements of this row and of later ones lie within the window before the last column that has
-/// been reached: the sums of the columns before it are complete.
-void TransposedPass::push(std::size_t stage, const double* in) {
-  if (stage == stages_.size()) return take_(in);
-  Stage& s = stages_[stage];
-  const auto row = s.L->row(s.row);
-  const std::size_t first = s.L->first(s.row);
-  s.reached = std::max(s.reached, s.L->end(s.row++));
-  if (s.reached > s.L->window()) pass_on(stage, s.reached - s.L->window());
-  for (std::size_t k = 0; k < row.size(); ++k) {
-    double* const to = sum(s, first + k);
-    for (std::size_t c = 0; c < columns_; ++c) to[c] += row[k] * in[c];
-  }
-}
-
-void TransposedPass::finish() {
-  for (std::size_t stage = 0; stage < stages_.size(); ++stage)
-    pass_on(stage, stages_[stage].reached);
 }
 
 }  // namespace rolling

@@ -96,7 +96,6 @@ class FilterMatrix {
 
  private:
   friend class FilterPass;
-  friend class TransposedPass;
   std::size_t columns_;
   std::vector<std::shared_ptr<const BandMatrix>> factors_;  // in the order of application
 };
@@ -131,34 +130,6 @@ class FilterPass {
   std::vector<Stage> stages_;
   std::vector<double> product_;  // the last row
   std::function<void(double* row)> take_;
-};
-
-/// Multiplies the transposed filter matrix by a matrix of `columns` columns, row by row as
-/// FilterPass does.
-class TransposedPass {
- public:
-  /// The callback receives the rows of the product in order, up to the last that may not be 0.
-  TransposedPass(const FilterMatrix&, std::size_t columns,
-                 std::function<void(const double* row)> take);
-  /// Takes the next row of the input, and passes those of the product that it completes to the
-  /// callback.
-  void push(const double* row) { push(0, row); }
-  /// Passes the others to the callback, after the last row of the input.
-  void finish();
-
- private:
-  struct Stage {
-    const BandMatrix* L;
-    std::vector<double> sums;  // a ring of the output rows from `done` on
-    std::size_t done = 0, reached = 0, row = 0;
-  };
-  void push(std::size_t stage, const double* row);
-  void pass_on(std::size_t stage, std::size_t end);
-  double* sum(Stage&, std::size_t row);
-
-  std::size_t columns_;
-  std::vector<Stage> stages_;  // the last filter first
-  std::function<void(const double* row)> take_;
 };
 
 }  // namespace rolling

@@ -47,24 +47,6 @@ std::vector<double> Noise::to_sources(std::vector<double> x) const {
   });
 }
 
-std::vector<double> Noise::meat(Matrix Q) const {
-  const std::size_t q = Q.size();
-  return each(rows_by_run(Q, rows_), [&](std::size_t r, const auto& Q_of) {
-    for (const auto x : Q_of) whiteners_[r].apply_transposed(x);
-    std::vector<double> M(q * q), row(q);
-    TransposedPass B(E_[r], q, [&](const double* b) {
-      for (std::size_t i = 0; i < q; ++i)
-        for (std::size_t j = 0; j < q; ++j) M[i * q + j] += b[i] * b[j];
-    });
-    for (std::size_t k = 0; k < rows_[r]; ++k) {
-      for (std::size_t j = 0; j < q; ++j) row[j] = Q_of[j][k];
-      B.push(row.data());
-    }
-    B.finish();
-    return M;
-  });
-}
-
 std::size_t Noise::informative() const {
   std::size_t count = 0;
   for (std::size_t r = 0; r < rows_.size(); ++r)

@@ -37,10 +37,6 @@ class Noise {
   /// columns for Q = J R^-1 of a fit with these weights: the error of the parameters is -R^-1 B^T
   /// e, with e the noise of the sources, whatever the weights are.
   std::vector<double> to_sources(std::vector<double> x) const;
-  /// The meat B^T B of the sandwich covariance of each run, run after run, row by row. B is not
-  /// stored. (Q^T Q minus the part of F is the same in fewer steps, but a difference: where the
-  /// covariance is nearly singular rounding makes variances negative.)
-  std::vector<double> meat(Matrix Q) const;
   /// tr W E E^T W^T: the expected weighted sum of squares for sources of variance one without a
   /// fit.
   double trace() const;

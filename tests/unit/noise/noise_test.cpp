@@ -53,7 +53,7 @@ TEST_CASE("noise: its variance and the covariance of the parameters, whatever th
       squares += (fit.minimum.theta[1] - 0.5) * (fit.minimum.theta[1] - 0.5) / runs;
       if (k > 0) continue;
       const auto Q = orthonormal(fit);
-      const auto M = noise->meat(Q);
+      const auto M = seen_noise(fit, true).meat;
       const Matrix B{noise->to_sources(Q[0]), noise->to_sources(Q[1])};
       const auto& R = fit.minimum.R;  // of which the slope needs the last element alone
       REQUIRE(B[1].size() == noise->sources()[0]);
