@@ -13,12 +13,6 @@
 namespace rolling {
 namespace {
 
-/// The variance of ln a or b that rounding leaves in rows without noise; 0 if it is fixed.
-double rounding_of(const std::vector<double>& gradient) {
-  const bool fixed = std::ranges::all_of(gradient, [](double slope) { return slope == 0; });
-  return fixed ? 0 : 1e-26;
-}
-
 /// ln a and b, with their gradients: of another law, of the v^b with the same D at this speed and
 /// at a quarter of it.
 struct LocalPower {
@@ -60,9 +54,11 @@ std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own, doub
     const Fitted& fit = *own[r];
     const Spread covariance = uncertainty_of(fit).covariance;
     const auto [log_a, b] = local_power(fit, v);
-    const auto &by_a = log_a.gradient, &by_b = b.gradient;
-    const Symmetric C{covariance(by_a, by_a) + rounding_of(by_a), covariance(by_a, by_b),
-                      covariance(by_b, by_b) + rounding_of(by_b)};
+    const auto variance = [&](const FittedNumber& x) {
+      constexpr double of_rounding = 1e-26;  // in rows without noise
+      return covariance(x.gradient, x.gradient) + (x.fixed() ? 0 : of_rounding);
+    };
+    const Symmetric C{variance(log_a), covariance(log_a.gradient, b.gradient), variance(b)};
     if (C.is_positive() && C.inverse().is_finite() && determines_b(std::sqrt(C.bb)))
       laws.push_back({r, {log_a.value, b.value}, C, static_cast<double>(fit.degrees_left())});
   }

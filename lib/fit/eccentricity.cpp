@@ -134,8 +134,7 @@ double cut_off(std::span<double> f) {
 
 }  // namespace
 
-std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRun>& runs,
-                                            const Fitted& fit, double variance) {
+std::optional<Eccentricity> eccentricity_of(const Fitted& fit, double variance) {
   if (!fit.rolls || fit.minimum.f.size() < fit.minimum.theta.size() + 10) return {};
   std::optional<Eccentricity> found;
   Column f = fit.minimum.f;
@@ -143,24 +142,24 @@ std::optional<Eccentricity> eccentricity_of(Route route, const std::vector<FitRu
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size();
   const double of_all = fit.minimum.rss / static_cast<double>(n - p);
   const auto residuals = by_run(fit.minimum.f, fit.system.runs);
-  for (std::size_t r = 0; r < runs.size(); ++r) {
+  for (std::size_t r = 0; r < residuals.size(); ++r) {
     const double squares = dot(residuals[r], residuals[r]) * cut_off(f_of[r]),
                  freedom = static_cast<double>(residuals[r].size()) -
                            static_cast<double>(fit.system.columns());
     if (!(freedom > 2 && squares > 0)) continue;
     const RunNoise noise{squares, freedom, variance * (squares / freedom) / of_all};
-    const double R = route == Route::shift ? runs[r].shift_of->body.R : runs[r].body.R;
     const auto signal = [&](const Wobble& wobble) {
       return amplitude(fit, r, wobble, noise, f_of[r]);
     };
     const ObservedRun& run = fit.rolls->runs()[r];
+    const double R = run.body.R;
     const auto wobble = [&](double stretch) {
       return Wobble(run, fit.rolls->roll(fit.minimum.theta, r), stretch * R);
     };
     const Wobble turns = wobble(1);
     if (!turns.worth(run, f_of[r].size(), R)) continue;
     Eccentricity once_a_turn = signal(turns);
-    once_a_turn.p *= static_cast<double>(runs.size());
+    once_a_turn.p *= static_cast<double>(residuals.size());
     if (once_a_turn.p > levels::one_turn || (found && found->p < once_a_turn.p)) continue;
     if (once_a_turn.p < std::min(signal(wobble(0.7)).p, signal(wobble(1.4)).p)) found = once_a_turn;
   }

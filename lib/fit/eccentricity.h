@@ -18,7 +18,6 @@ namespace rolling {
 /// Bonferroni's correction), or if the period 0.7 or 1.4 times as long has as small a p: the
 /// residuals then have another cause. A run of less than one turn, or with less than two rows in
 /// a turn, is not tested.
-std::optional<Eccentricity> eccentricity_of(Route, const std::vector<FitRun>&, const Fitted&,
-                                            double variance);
+std::optional<Eccentricity> eccentricity_of(const Fitted&, double variance);
 
 }  // namespace rolling

@@ -232,17 +232,14 @@ Uncertainty uncertainty_of(const Fitted& fit, const SeenNoise& seen) {
 Uncertainty uncertainty_of(const Fitted& fit) { return uncertainty_of(fit, seen_noise(fit)); }
 
 NoiseErrors noise_errors(const Fitted& fit, const Uncertainty& by) {
-  const auto is_fixed = [](const FittedNumber& x) {
-    return std::ranges::all_of(x.gradient, [](double slope) { return slope == 0; });
-  };
   const auto sigma = [&](const FittedNumber& x, std::size_t run = 0) {
-    return is_fixed(x) ? 0 : std::sqrt(by.covariance(x.gradient, x.gradient, run));
+    return x.fixed() ? 0 : std::sqrt(by.covariance(x.gradient, x.gradient, run));
   };
   ErrorShare share{"noise"};
   for (const FittedNumber& x : fit.coefficients) {
     std::vector<double>& row = share.law.emplace_back();
     for (const FittedNumber& y : fit.coefficients)
-      row.push_back(is_fixed(x) || is_fixed(y) ? 0 : by.covariance(x.gradient, y.gradient));
+      row.push_back(x.fixed() || y.fixed() ? 0 : by.covariance(x.gradient, y.gradient));
   }
   if (fit.slope) share.slope = sigma(*fit.slope);
   for (std::size_t r = 0; r < fit.v0.size(); ++r) share.v0.push_back(sigma(fit.v0[r], r));

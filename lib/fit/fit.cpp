@@ -182,7 +182,7 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   Fitted found = fit_route(route, runs, options);
   const Uncertainty uncertainty = uncertainty_of(found);
   NoiseErrors noise = noise_errors(found, uncertainty);
-  const auto eccentricity = eccentricity_of(route, runs, found, uncertainty.variance);
+  const auto eccentricity = eccentricity_of(found, uncertainty.variance);
   const auto off = off_readings(route, runs, options, found);
   const auto agreement = agreement_of(route, runs, options, noise, found);
   std::vector<ErrorShare> shares{noise.share};

@@ -3,6 +3,8 @@
 // their gradients with respect to the parameters.
 #pragma once
 
+#include <algorithm>
+
 #include "fit/model_roll.h"
 #include "least_squares/minimise.h"
 #include "statistics/residuals.h"
@@ -14,6 +16,10 @@ namespace rolling {
 struct FittedNumber {
   double value;
   std::vector<double> gradient;
+
+  bool fixed() const {
+    return std::ranges::all_of(gradient, [](double slope) { return slope == 0; });
+  }
 };
 
 /// The noise of independent sources, as the residuals of a fit show it: theta - truth is
@@ -33,7 +39,7 @@ struct SeenNoise {
   /// Noise::innovations()), which are white if the noise is; and their number in each run.
   std::vector<double> innovations = {};
   std::vector<std::size_t> runs = {};
-  Taken taken = {};               ///< of them, by the fit
+  LagSums taken = {};             ///< of them, by the fit
   std::vector<double> left = {};  ///< the share of the variance of each that the fit has left;
                                   ///< empty where that is nearly all, and behind filters
 };

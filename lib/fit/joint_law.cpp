@@ -85,9 +85,7 @@ JointLaw joint_law(std::vector<LawRow> rows, const std::vector<CommonError>& com
     Pair share{};
     for (const std::size_t row : error.rows)
       share = share + covariances[row].inverse() * Pair{error.log_a, 0};
-    share = V * share;
-    joint.covariance =
-        joint.covariance + Symmetric{share.a * share.a, share.a * share.b, share.b * share.b};
+    joint.covariance = joint.covariance + outer_square(V * share);
   }
   return joint;
 }

@@ -118,8 +118,7 @@ ScatteredMean::ScatteredMean(const std::vector<OwnLaw>& laws, double unit, doubl
           laws, [](const OwnLaw& one) { return one.b(); }, freedom)) {}
 
 Symmetric ScatteredMean::square(double log_D, double exponent) const {
-  const double log_a = log_D - log_v * exponent;
-  return {log_a * log_a, log_a * exponent, exponent * exponent};
+  return outer_square({log_D - log_v * exponent, exponent});
 }
 
 Symmetric ScatteredMean::covariance() const {

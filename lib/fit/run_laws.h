@@ -35,6 +35,7 @@ struct Symmetric {
   /// True if no variance is negative; a parameter that is fixed has none.
   bool is_positive() const { return aa >= 0 && bb >= 0 && aa * bb >= ab * ab; }
 };
+inline Symmetric outer_square(Pair x) { return {x.a * x.a, x.a * x.b, x.b * x.b}; }
 inline Pair operator+(Pair x, Pair y) { return {x.a + y.a, x.b + y.b}; }
 inline Pair operator-(Pair x, Pair y) { return {x.a - y.a, x.b - y.b}; }
 inline Symmetric operator+(Symmetric X, Symmetric Y) {

@@ -21,32 +21,31 @@ double lagged(std::span<const double> r, std::span<const std::size_t> runs, std:
   return sum;
 }
 
-Taken taken_by(const Matrix& Q, std::span<const std::size_t> runs) {
-  Taken taken{};
+LagSums taken_by(const Matrix& Q, std::span<const std::size_t> runs) {
+  LagSums taken{};
   for (const auto& column : Q)
     for (std::size_t k = 0; k < taken.size(); ++k) taken[k] += lagged(column, runs, k);
   return taken;
 }
 
-Taken taken_by_few(std::size_t p) {
-  Taken taken;
+LagSums taken_by_few(std::size_t p) {
+  LagSums taken;
   taken.fill(static_cast<double>(p));
   return taken;
 }
 
 namespace {
 
-constexpr std::size_t most_lags = std::tuple_size_v<Taken> - 1;
-using Sums = std::array<double, most_lags + 1>;  // by lag, from 0
+constexpr std::size_t most_lags = std::tuple_size_v<LagSums> - 1;
 
 std::size_t lags_of(std::span<const double> r) {
   return std::clamp<std::size_t>(r.size() / 10, 1, most_lags);
 }
 
 /// The sums of products of the residuals of a run.
-Sums sums_of_products(std::span<const double> run, std::size_t lags) {
+LagSums sums_of_products(std::span<const double> run, std::size_t lags) {
   constexpr std::size_t block = 1024;  // stays in the cache for all lags
-  Sums sums{};
+  LagSums sums{};
   for (std::size_t i = 0; i < run.size(); i += block)
     for (std::size_t k = 0; k <= lags && i + k < run.size(); ++k)
       sums[k] += dot(&run[i], &run[i + k], std::min(block, run.size() - i - k));
@@ -54,8 +53,8 @@ Sums sums_of_products(std::span<const double> run, std::size_t lags) {
 }
 
 /// The smaller p, for sums of products of n residuals and their variances.
-double p_of_sums(const Sums& sums, const Sums& variances, std::size_t lags, const Taken& taken,
-                 double n) {
+double p_of_sums(const LagSums& sums, const LagSums& variances, std::size_t lags,
+                 const LagSums& taken, double n) {
   if (!(sums[0] > 0 && n > taken[0])) return 1;
   double Q = 0, least = 1;
   for (std::size_t k = 1; k <= lags; ++k) {
@@ -68,11 +67,12 @@ double p_of_sums(const Sums& sums, const Sums& variances, std::size_t lags, cons
 
 }  // namespace
 
-double ljung_box(std::span<const double> r, const Taken& taken, std::span<const std::size_t> runs) {
+double ljung_box(std::span<const double> r, const LagSums& taken,
+                 std::span<const std::size_t> runs) {
   const std::size_t lags = lags_of(r);
-  Sums all{}, variances{};
+  LagSums all{}, variances{};
   for (const auto run : by_run(r, runs)) {
-    const Sums sums = sums_of_products(run, lags);
+    const LagSums sums = sums_of_products(run, lags);
     const double n = static_cast<double>(run.size()), square = sums[0] * sums[0];
     for (std::size_t k = 0; k <= lags; ++k) {
       all[k] += sums[k];
@@ -82,14 +82,14 @@ double ljung_box(std::span<const double> r, const Taken& taken, std::span<const 
   return p_of_sums(all, variances, lags, taken, static_cast<double>(r.size()));
 }
 
-double ljung_box_uneven(std::span<const double> r, const Taken& taken,
+double ljung_box_uneven(std::span<const double> r, const LagSums& taken,
                         std::span<const std::size_t> runs) {
   const std::size_t lags = lags_of(r);
   std::vector<double> squares(r.begin(), r.end());
   for (double& x : squares) x *= x;
-  Sums all{}, variances{};
-  const auto add = [lags](Sums& to, std::span<const double> run) {
-    const Sums sums = sums_of_products(run, lags);
+  LagSums all{}, variances{};
+  const auto add = [lags](LagSums& to, std::span<const double> run) {
+    const LagSums sums = sums_of_products(run, lags);
     std::ranges::transform(to, sums, to.begin(), std::plus());
   };
   for (const auto run : by_run(r, runs)) add(all, run);

@@ -12,26 +12,25 @@
 
 namespace rolling {
 
-/// What a fit takes of the sums of the products of residuals that are 0, 1, 2, ... rows apart,
-/// in units of their variance.
-using Taken = std::array<double, 11>;
+/// The sums of the products of numbers that are 0, 1, 2, ... rows apart.
+using LagSums = std::array<double, 11>;
 
-/// Those sums for residuals (I - Q Q^T) e of white noise e: the sums of the products of the rows of
-/// Q. Q has orthonormal columns: those that belong to the parameters of the run of a row and to the
-/// shared ones.
-Taken taken_by(const Matrix& Q, std::span<const std::size_t> runs);
+/// What a fit takes of those of its residuals, in units of their variance: for residuals (I - Q
+/// Q^T) e of white noise e, the sums of the products of the rows of Q. Q has orthonormal columns:
+/// those that belong to the parameters of the run of a row and to the shared ones.
+LagSums taken_by(const Matrix& Q, std::span<const std::size_t> runs);
 /// The limit for runs that are much longer than the lags, of p parameters in all.
-Taken taken_by_few(std::size_t p);
+LagSums taken_by_few(std::size_t p);
 
 /// The p of the autocorrelation of the residuals of a fit, after Ljung and Box (1978,
 /// Biometrika 65, 297): the smaller of the values for one lag and for n/10 lags (at least 1, at
 /// most 10). Corrected for what the fit has taken. The noise of each run has its own variance.
-double ljung_box(std::span<const double> residuals, const Taken&,
+double ljung_box(std::span<const double> residuals, const LagSums&,
                  std::span<const std::size_t> runs);
 /// The same for residuals of which not even those of one run are of one size: the variance of each
 /// sum of products is the sum of their squares (Lobato, Nankervis and Savin 2001, Int. Econ. Rev.
 /// 42, 187).
-double ljung_box_uneven(std::span<const double> residuals, const Taken&,
+double ljung_box_uneven(std::span<const double> residuals, const LagSums&,
                         std::span<const std::size_t> runs);
 
 /// The p of a trend of the variance along the runs, linear and quadratic in the row

@@ -14,7 +14,7 @@ TEST_CASE("residuals: Ljung-Box tells white residuals from correlated ones", "[s
   for (int i = 0; i < 200; ++i) white.push_back(noise(1));
   smooth = simulated::mean(white, 5);
   const std::size_t one[] = {200}, two[] = {100, 100};
-  const Taken taken = taken_by_few(1);
+  const LagSums taken = taken_by_few(1);
   CHECK(ljung_box(white, taken, one) > 0.01);
   CHECK(ljung_box(white, taken, two) > 0.01);
   CHECK(ljung_box(smooth, taken, one) < 1e-6);
