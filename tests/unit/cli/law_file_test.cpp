@@ -41,13 +41,12 @@ Given law_of(const std::string& text, std::vector<std::string> words = {},
     const Redirect to_file(STDERR_FILENO, errors.name());
     given.status = tool.run(static_cast<int>(words.size()), arguments.data(), [&] {
       given.slope = body.slope;
-      given.file = read_law(
-          tool, file.name(), given.law,
-          {{"slope", "", &given.slope},
-           {"v0", "v", &given.v0},
-           {"x0", "x", &given.x0},
-           {"t0", "t", &given.t0}},
-          uncertainties);
+      given.file = read_law(tool, file.name(), given.law,
+                            {{"slope", "", &given.slope},
+                             {"v0", "v", &given.v0},
+                             {"x0", "x", &given.x0},
+                             {"t0", "t", &given.t0}},
+                            uncertainties);
       given.law = given.file.law.power().value_or(given.law);
       return 0;
     });
