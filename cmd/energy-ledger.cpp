@@ -68,7 +68,6 @@ struct Task {
            law.law.highest());
     return law.law(v);
   }
-  bool shows_balance() const { return summary || !std::isnan(tolerance); }
 };
 
 /// The energy balances of the runs, and the warnings after the last one.
@@ -85,7 +84,8 @@ class Accounts {
           "run {} has a column D, and the runs before it have none: choose the law by -a and -b, "
           "or give the runs one by one",
           in_.run_name());
-    tests_nothing_ |= task_.shows_balance() && !task_.uses_law && shifts_of_speeds(in_.history());
+    const bool shows_balance = task_.summary || !std::isnan(task_.tolerance);
+    tests_nothing_ |= shows_balance && !task_.uses_law && shifts_of_speeds(in_.history());
     const auto shift_of = history_of(in_.history(), {}).shift_of;
     if (const auto others = other_body(shift_of, task_.body); !task_.uses_law && !others.empty())
       tool_.warn(in_.run_name(), "D was computed with " + others);

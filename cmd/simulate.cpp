@@ -32,14 +32,6 @@ constexpr Quantity<double (*)(double t, Motion&)> quantities[] = {
     {"D", "m", [](double, Motion& motion) { return motion.shift(); }},
 };
 
-/// The times 0, dt, 2 dt, ... after t0. If 1/dt is a whole number (25 Hz), each is the double
-/// nearest to k/rate, but for t0.
-struct Clock {
-  double t0, dt, rate = std::round(1 / dt);
-  bool whole = rate * dt == 1;
-  double at(double k) const { return t0 + (whole ? k / rate : k * dt); }
-};
-
 /// A run in the form that the software of such a sensor exports: comma-separated, with a line of
 /// names and blank cells.
 void write_run(Output& out, Motion& motion, const SonarOptions& sonar) {
@@ -230,12 +222,14 @@ class Rows {
   /// Every dt up to `end`, and there too if it is the stop.
   void write_every(double dt, Motion& motion, double end, bool to_the_stop) {
     // The margin keeps rounding of end / dt from adding a row beside the stop or losing the last.
-    const Clock clock{task_.t0, dt};
-    const double most = (end - clock.t0) / dt, margin = 1e-9 + 1e-15 * most,
+    const double most = (end - task_.t0) / dt, margin = 1e-9 + 1e-15 * most,
                  steps = std::floor(most + (to_the_stop ? -margin : margin));
     if (steps > 1e9) fail("these are {:.3g} rows; the most is 1e9: --dt is too small", steps);
     write_header();
-    for (double k = 0; k <= steps; ++k) write(clock.at(k), motion);
+    // If 1/dt is a whole number (25 Hz), the times after t0 are the doubles nearest to k/rate.
+    const double rate = std::round(1 / dt);
+    for (double k = 0; k <= steps; ++k)
+      write(task_.t0 + (rate * dt == 1 ? k / rate : k * dt), motion);
     if (to_the_stop) write(end, motion);
   }
 

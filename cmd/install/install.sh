@@ -144,16 +144,9 @@ uninstall_all() {
   fi
   : >"$scratch/nothing"
   remove_listed "$scratch/nothing"
-  # Folders of the samples, the innermost first, unless they hold something else.
-  while IFS= read -r path; do
-    path=${path%/*}
-    while [ "$path" != "$docdir" ] && [ "${path#"$docdir"/}" != "$path" ]; do
-      printf '%s\n' "$path"
-      path=${path%/*}
-    done
-  done <"$scratch/listed" | sort -ru >"$scratch/folders"
-  while IFS= read -r path; do rmdir "$root$path" 2>/dev/null || true; done <"$scratch/folders"
   rm -f "$list"
+  # Folders of the samples, the innermost first, unless they hold something else.
+  find "$root$docdir/samples" -depth -type d -exec rmdir {} \; 2>/dev/null || true
   rmdir "$root$docdir" 2>/dev/null || true
   printf 'removed what was listed in %s\n' "$list"
 }

@@ -108,15 +108,9 @@ void CommandLine::flag(const std::string& names, const std::string& help,
 
 void CommandLine::list(const std::string& names, const std::string& type, const std::string& help,
                        Set set) {
-  const CLI::Option* option = parser_->app.add_option(names, parser_->unused, help)
-                                  ->allow_extra_args(false)
-                                  ->type_name(type);
+  CLI::Option* option = parser_->app.add_option(names, parser_->unused, help)->type_name(type);
+  if (option->nonpositional()) option->allow_extra_args(false);
   parser_->lists.emplace_back(option, std::move(set));
-}
-
-void CommandLine::operands(const std::string& help, Set set) {
-  parser_->lists.emplace_back(parser_->app.add_option("FILE", parser_->unused, help),
-                              std::move(set));
 }
 
 CommandLine::Asked CommandLine::parse(int argc, const char* const* argv) {

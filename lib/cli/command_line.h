@@ -24,10 +24,9 @@ class CommandLine {
   // A setter receives the value as it was typed; its exceptions leave parse().
   void option(const std::string& names, const std::string& type, const std::string& help, Set);
   void flag(const std::string& names, const std::string& help, std::function<void()> set);
-  /// An option that may be repeated; its setter receives one value after the other.
+  /// An option that may be repeated; its setter receives one value after the other. A name without
+  /// hyphens is that of the words that are not options: the input files.
   void list(const std::string& names, const std::string& type, const std::string& help, Set);
-  /// The words of the command line that are not options: the input files.
-  void operands(const std::string& help, Set);
 
   enum class Asked { work, help, version };
   /// Throws Error for unknown options and for values that are missing or too many.

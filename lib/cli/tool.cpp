@@ -37,8 +37,8 @@ void Tool::input() {
   const auto append_to = [](std::vector<std::string>& words) {
     return [&words](const std::string& word) { words.push_back(word); };
   };
-  command_line_.operands("input files, read in order; - or none is standard input",
-                         append_to(input_.files));
+  command_line_.list("FILE", "", "input files, read in order; - or none is standard input",
+                     append_to(input_.files));
   list("--use", "NAME=COLUMN",
        "the column (a name or a number from 1) that serves as t, x, v, a or D",
        append_to(input_.use));

@@ -13,8 +13,6 @@ namespace {
 
 constexpr double first_part = 1e-18;  // of v0: the way back begins there
 
-}  // namespace
-
 void check_numbers(const Body& body, const Law& law, double v0) {
   const auto check = [](const char* name, double value, bool positive) {
     if (!(value >= 0 && std::isfinite(value)) || (positive && value == 0))
@@ -30,6 +28,8 @@ void check_numbers(const Body& body, const Law& law, double v0) {
     fail("the initial velocity v0 = {} is above the table of the law, which ends at {}", v0,
          law.highest());
 }
+
+}  // namespace
 
 void check_roll(const Body& body, const Law& law, double v0) {
   check_numbers(body, law, v0);

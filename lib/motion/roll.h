@@ -10,11 +10,8 @@
 
 namespace rolling {
 
-/// Throws Error unless R > 0, g > 0, K >= 0, v0 >= 0, all of them and the slope finite, and unless
-/// the law, which may be a table, reaches up to v0.
-void check_numbers(const Body&, const Law&, double v0);
-/// The same, and unless a v^b has a > 0 and |b| <= 1000, and D <= R at v0, or at all points of a
-/// table up to there.
+/// Throws Error as Roll does, and unless a v^b has a > 0 and |b| <= 1000, and D <= R at v0, or at
+/// all points of a table up to there.
 void check_roll(const Body&, const Law&, double v0);
 
 /// A roll is one leg, or two. Where the mat rises along the motion more than the law can hold at
@@ -34,8 +31,9 @@ class Roll {
   using Point = Leg::Point;
   static constexpr std::size_t most = Leg::most;
 
-  /// Throws Error as check_numbers does, where the law has no finite value at v0 or is not defined,
-  /// and in the exact geometry for D(v0) > R.
+  /// Throws Error unless R > 0, g > 0, K >= 0, v0 >= 0, all of them and the slope finite; where the
+  /// law, which may be a table, does not reach up to v0 or has no finite value there; and in the
+  /// exact geometry for D(v0) > R.
   Roll(const Body&, Geometry, Law, double v0);
 
   /// The state at t >= 0 [s], x counted from 0, and its partial derivatives at fixed t: by v0, by
