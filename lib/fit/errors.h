@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The standard errors of a fit: every question about an error bar is answered here.
+// The standard errors of a fit that come from the noise of its rows.
 #pragma once
 
 #include "fit/fitted.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fit of the power law D(v) = a v^b to rows by one of four routes.
+// The fit of a law D(v) to rows by one of four routes.
 #pragma once
 
 #include "fit/input.h"

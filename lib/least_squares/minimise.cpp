@@ -205,8 +205,7 @@ void solve_transposed(const double* R, std::span<double> g) {
 }
 
 double restricted_likelihood(const System& system, const std::vector<double>& theta) {
-  Point at(system);
-  evaluate_at(system, at, theta);
+  const Point at = at_start(system, theta);
   const double freedom =
       static_cast<double>(system.residuals()) - static_cast<double>(system.parameters());
   return -0.5 * freedom * std::log(at.rss - at.reduction) - at.R.log_determinant();

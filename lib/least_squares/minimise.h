@@ -41,7 +41,7 @@ void solve_transposed(const double* R, std::span<double> g);
 
 /// ln of the restricted likelihood (Patterson and Thompson 1971, Biometrika 58, 545) of normal
 /// white residuals, up to a constant, with the model linear around theta: -(n - p)/2 ln RSS - ln
-/// |det R|, J = Q R.
+/// |det R|, J = Q R. Throws Error where the law has no finite values.
 double restricted_likelihood(const System&, const std::vector<double>& theta);
 
 }  // namespace rolling
