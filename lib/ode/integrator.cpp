@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <utility>
 
@@ -20,21 +21,33 @@ struct Integrator::Problem {
   std::unique_ptr<gsl_odeiv2_driver, void (*)(gsl_odeiv2_driver*)> driver{nullptr,
                                                                           gsl_odeiv2_driver_free};
   unsigned long evaluations = 0;
+  std::exception_ptr thrown;  // of the system; it is rethrown behind GSL, which is C
+
+  template <typename Call>
+  int guard(Call&& call) {
+    try {
+      call();
+      return GSL_SUCCESS;
+    } catch (...) {
+      thrown = std::current_exception();
+      return GSL_EBADFUNC;
+    }
+  }
 
   static int derivative(double t, const double* y, double* dydt, void* self) {
     auto& p = *static_cast<Problem*>(self);
     ++p.evaluations;
-    p.system.derivative(t, y, dydt);
+    const int status = p.guard([&] { p.system.derivative(t, y, dydt); });
     // A step to a state without a finite derivative is halved. GSL would accept it whatever its
     // error: the scale of the error is then NaN.
     const bool finite = std::all_of(dydt, dydt + p.gsl.dimension,
                                     [](double slope) { return std::isfinite(slope); });
-    return finite ? GSL_SUCCESS : GSL_FAILURE;
+    return status == GSL_SUCCESS && !finite ? GSL_FAILURE : status;
   }
 
   static int jacobian(double t, const double* y, double* dfdy, double* dfdt, void* self) {
-    static_cast<Problem*>(self)->system.jacobian(t, y, dfdy, dfdt);
-    return GSL_SUCCESS;
+    auto& p = *static_cast<Problem*>(self);
+    return p.guard([&] { p.system.jacobian(t, y, dfdy, dfdt); });
   }
 };
 
@@ -100,6 +113,7 @@ void Integrator::step(double t) {
   for (;;) {
     const int status = gsl_odeiv2_evolve_apply(driver.e, driver.c, driver.s, &problem_->gsl, &t_, t,
                                                &h_, y_.data());
+    if (problem_->thrown) std::rethrow_exception(std::exchange(problem_->thrown, nullptr));
     if (status != GSL_SUCCESS)
       fail("the integration fails at t = {:.6g} s: no step is short enough", t_);
     if (finite()) break;

@@ -11,7 +11,7 @@
 namespace rolling {
 
 /// y is the state, of as many numbers as the one that the integrator begins with. All functions may
-/// throw; the exception leaves Integrator::advance(), through the C code of GSL as in gsl.cpp.
+/// throw; the exception leaves Integrator::advance().
 struct OdeSystem {
   std::function<void(double t, const double* y, double* dydt)> derivative;
   /// df/dy row by row, and df/dt; needed by the implicit steppers.
