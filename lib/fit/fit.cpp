@@ -137,16 +137,15 @@ void require_determined(const FitResult& result, const FitOptions& options, cons
 
 /// Throws Error if the roll has no shift, as a body at rest, or if it has lost nearly all of v0
 /// before the second reading, as where the first one is wrong.
-void require_seen(const Fitted& found, const std::vector<FitRun>& all) {
+void require_seen(const Fitted& found) {
   if (!found.rolls) return;
   const auto& runs = found.rolls->runs();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const ObservedRun& run = runs[r];
-    const std::string place = runs.size() > 1 ? fmt::format("run {}: ", all[r].name) : "";
     Roll roll = found.rolls->roll(found.minimum.theta, r);
     const double v0 = std::abs(found.v0[r].value), D = found.law().at(v0).D;
     if (run.body.slope == 0 && !found.slope && std::abs(D) < program_rounding * run.body.R)
-      fail("{}the body does not slow down: D comes out as {:.2g} m", place, D);
+      fail("{}the body does not slow down: D comes out as {:.2g} m", run.place, D);
     double fastest = 0;
     for (std::size_t i = 0; i + 1 < run.t.size() && fastest <= v0 / levels::v0_over_speeds; ++i)
       fastest = std::max(
@@ -155,13 +154,13 @@ void require_seen(const Fitted& found, const std::vector<FitRun>& all) {
       fail(
           "{}no reading comes near v0 = {:.3g} m/s: is the first one, at t = {} s, of the roll? "
           "Leave it out (smooth --outliers or --from), or fit with --robust",
-          place, found.v0[r].value, run.origin);
+          run.place, found.v0[r].value, run.origin);
   }
 }
 
 /// Throws Error if rows follow after D has reached R (exact geometry, b < 0) at a speed that is
 /// not next to rest. There the model lets D be R, which serves the search, but is not the law.
-void require_law(const Fitted& found, const std::vector<FitRun>& all) {
+void require_law(const Fitted& found) {
   if (!found.rolls) return;
   constexpr double rest = 1e-3;  // of v0; below it MemoryRoll, too, counts a body as at rest
   const auto& runs = found.rolls->runs();
@@ -172,9 +171,8 @@ void require_law(const Fitted& found, const std::vector<FitRun>& all) {
       fail(
           "{}{} have no meaning below {:.2g} m/s, where D is beyond the radius {} m: leave the "
           "rows out that follow, or fit with A = 1",
-          runs.size() > 1 ? fmt::format("run {}: ", all[r].name) : "",
-          names_of(found.parameters->form(), found.coefficients), roll.radius_speed(),
-          runs[r].body.R);
+          runs[r].place, names_of(found.parameters->form(), found.coefficients),
+          roll.radius_speed(), runs[r].body.R);
   }
 }
 
@@ -187,9 +185,9 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   const auto agreement = agreement_of(route, runs, options, noise, found);
   std::vector<ErrorShare> shares{noise.share};
   const double rms = rms_of(found);
-  require_seen(found, runs);
+  require_seen(found);
   require_determined(result_of(found, rms, noise, shares), options, found);
-  require_law(found, runs);
+  require_law(found);
   for (ErrorShare& share :
        shares_of_given(route, runs, options, found, !agreement || agreement->agree()))
     shares.push_back(std::move(share));
