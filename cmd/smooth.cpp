@@ -29,12 +29,6 @@ std::string default_column(const Reader& in, std::size_t t) {
   return in.find("v") || in.columns().size() == 1 ? "v" : in.column_of(t) == 0 ? "2" : "1";
 }
 
-/// Refuses options that exclude each other.
-void check(const Tool& tool, const SignalOptions& options) {
-  if (options.width.seconds > 0) tool.refuse({"width"}, "does not go with --seconds: give one");
-  if (!options.method->has_order) tool.refuse({"order"}, "goes with --method savgol");
-}
-
 void need_motion(const std::string& name) {
   if (name != "x" && name != "v")
     fail("--coast needs x or v, not {}: say --use v=COLUMN, or --use x=COLUMN -c x", shown(name));
@@ -112,19 +106,15 @@ class Told {
   LinesOfRuns doubts_;
 };
 
-/// The times of the rows, for the error where a selection keeps none of them.
-class Times {
- public:
-  explicit Times(Filter& filter) {
-    filter.say_why_none([this] {
-      return fmt::format(": the times of the file go from {:.6g} to {:.6g} s", first_, last_);
-    });
-  }
-  void take(double t) { first_ = std::min(first_, t), last_ = std::max(last_, t); }
-
- private:
-  double first_ = INFINITY, last_ = -INFINITY;
-};
+void add_options(Tool& tool, SelectionOptions& select) {
+  tool.number(
+      "--outliers", select.outliers, positive,
+      "leave out readings that are this many times the scatter off their neighbours' motion");
+  tool.flag("--coast", select.coast,
+            "keep the free roll only: without push, hold, hand, brake and rest");
+  tool.number("--from", select.from, any_number, "leave out the rows before this time [s]");
+  tool.number("--to", select.to, any_number, "leave out the rows after this time [s]");
+}
 
 }  // namespace
 
@@ -144,18 +134,13 @@ int main(int argc, char** argv) {
   tool.number("--seconds", options.width.seconds, positive,
               "width of the window in seconds, instead");
   tool.count("--order", options.order, polynomial, "order of savgol's polynomial (2)");
-  tool.number(
-      "--outliers", select.outliers, positive,
-      "leave out readings that are this many times the scatter off their neighbours' motion");
-  tool.flag("--coast", select.coast,
-            "keep the free roll only: without push, hold, hand, brake and rest");
-  tool.number("--from", select.from, any_number, "leave out the rows before this time [s]");
-  tool.number("--to", select.to, any_number, "leave out the rows after this time [s]");
+  add_options(tool, select);
   tool.input();
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    check(tool, options);
+    if (options.width.seconds > 0) tool.refuse({"width"}, "does not go with --seconds: give one");
+    if (!options.method->has_order) tool.refuse({"order"}, "goes with --method savgol");
     bool choose = width == "auto";
     if (!choose) options.width.samples = odd_number(width);
     select.width = options.width;
@@ -173,7 +158,10 @@ int main(int argc, char** argv) {
     auto tell = [&, told = false]() mutable {
       if (!std::exchange(told, true)) filter.set_history(history(name, select, options));
     };
-    Times times(filter);
+    double first = INFINITY, last = -INFINITY;
+    filter.say_why_none([&] {
+      return fmt::format(": the times of the file go from {:.6g} to {:.6g} s", first, last);
+    });
     Told selected(tool);
     while (filter.next_run()) {
       if (!choose && !select.coast) tell();  // else the first run may still be refused
@@ -188,7 +176,8 @@ int main(int argc, char** argv) {
           ++row;
         }
       };
-      for (; filter.next(); times.take(filter[t])) {
+      while (filter.next()) {
+        first = std::min(first, filter[t]), last = std::max(last, filter[t]);
         if (select.all()) filter.put(smoother->push(filter[t], filter[y])), ++kept;
         else take(selection.push(filter[t], filter[y]));
       }

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/rounding.h"
-
 namespace rolling {
 
 double grid_of(std::span<const double> readings) {

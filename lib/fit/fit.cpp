@@ -9,7 +9,7 @@
 
 #include "base/enumeration.h"
 #include "base/error.h"
-#include "base/rounding.h"
+#include "base/grid.h"
 #include "fit/agreement.h"
 #include "fit/eccentricity.h"
 #include "fit/errors.h"

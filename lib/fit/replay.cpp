@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/median.h"
-#include "base/rounding.h"
+#include "base/grid.h"
 #include "contact/contact.h"
 
 namespace rolling {

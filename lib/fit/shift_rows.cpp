@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/median.h"
-#include "base/rounding.h"
+#include "base/grid.h"
 
 namespace rolling {
 namespace {

@@ -24,7 +24,7 @@ struct ShiftRows {
 };
 
 /// The rows with finite v > 0 of at least options.min_speed, and with D > 0 if `logarithms`;
-/// what is no more than the rounding of a difference (base/rounding.h) counts as 0. `stops`, if not
+/// what is no more than the rounding of a difference (base/grid.h) counts as 0. `stops`, if not
 /// empty, has the time of each run from which on no row is used. Throws Error if the rows do
 /// not determine the parameters.
 ShiftRows shift_rows(const std::vector<FitRun>&, const FitOptions&, bool logarithms,

@@ -10,7 +10,7 @@
 #include "base/by_run.h"
 #include "base/dot.h"
 #include "base/error.h"
-#include "base/rounding.h"
+#include "base/grid.h"
 #include "base/median.h"
 #include "least_squares/minimise.h"
 #include "least_squares/triangles.h"

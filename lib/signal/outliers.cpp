@@ -6,7 +6,7 @@
 #include <functional>
 #include <utility>
 
-#include "base/rounding.h"
+#include "base/grid.h"
 #include "signal/polynomial.h"
 
 namespace rolling {

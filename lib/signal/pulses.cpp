@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "base/median.h"
-#include "base/rounding.h"
 #include "base/grid.h"
 
 namespace rolling {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/median.h"
-#include "base/rounding.h"
+#include "base/grid.h"
 #include "signal/polynomial.h"
 
 namespace rolling {
