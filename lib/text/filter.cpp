@@ -2,7 +2,6 @@
 #include "text/filter.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 #include "base/error.h"
@@ -30,7 +29,7 @@ Filter::Filter(Reader& in, Output& out, std::string history)
 
 Filter::~Filter() {
   try {
-    if (!changing_) write_rows();
+    if (!writing_) write_rows();
   } catch (...) {  // the error that ended the work is reported, not this one
   }
 }
@@ -61,20 +60,12 @@ void Filter::take_head() {
   std::string comments;
   for (const std::string& comment : in_.comments()) (comments += comment) += '\n';
   if (in_.renames() && !in_.history().empty()) comments += fmt::format("## {}\n", columns_renamed);
-  wait(Kind::head, comments + names_line(columns()), comments.size());
+  above_.push({read_, std::move(comments), names_line(columns())});
   if (replaced_ != Reader::no_column) cut_ = in_.column_of(replaced_);
 }
 
-void Filter::wait(Kind kind, std::string_view text, std::size_t place) {
-  const Row row(kind, text.size(), place);
-  changing_ = true;
-  rows_.append({reinterpret_cast<const char*>(&row), sizeof row});
-  rows_.append(text);
-  changing_ = false;
-}
-
 void Filter::take_remarks(const std::vector<std::string>& remarks) {
-  for (const std::string& remark : remarks) wait(Kind::remark, remark);
+  for (const std::string& remark : remarks) above_.push({read_, remark, {}});
   if (!remarks.empty()) write_rows();
 }
 
@@ -95,13 +86,9 @@ bool Filter::next() {
   const bool more = in_.next();
   if (!in_.remarks().empty()) take_remarks(in_.remarks());
   if (!more) return false;
-  const std::size_t row = rows_.size(), text = row + sizeof(Row);
-  changing_ = true;  // should memory run out, the destructor does not look at half a row
-  rows_.set_end(rows_.reserve(sizeof(Row)) + sizeof(Row));
-  const std::size_t place = in_.append_text(rows_, cut_);
-  const Row waiting(Kind::row, rows_.size() - text, place);
-  std::memcpy(rows_.data() + row, &waiting, sizeof waiting);
-  changing_ = false;
+  const std::size_t begin = texts_.size(), place = in_.append_text(texts_, cut_);
+  rows_.append(
+      {static_cast<std::uint32_t>(texts_.size() - begin), static_cast<std::uint32_t>(place)});
   ++read_;
   return true;
 }
@@ -135,38 +122,48 @@ inline void Filter::write_row(std::string_view text, std::size_t place,
   out_.end_line();
 }
 
+/// Writes the remarks above the next row. Its head waits until a row of its run is written.
+void Filter::take_above() {
+  for (; !above_.empty() && above_.front().row == done_; above_.pop()) {
+    Head& above = above_.front();
+    if (!above.names.empty()) {
+      if (head_) above.comments.insert(0, remarks_of(head_->comments));
+      head_ = std::move(above);
+    } else if (head_) {
+      (head_->comments += above.comments) += '\n';
+    } else {
+      out_.text(above.comments), out_.end_line();
+    }
+  }
+}
+
 /// Writes all rows before the first one that lacks a number.
 void Filter::write_rows() {
   if (!history_) return;
-  changing_ = true;
+  writing_ = true;
   const std::size_t each = std::max<std::size_t>(appended_.size(), 1);
   std::span<const double> numbers(numbers_.data(), numbers_.size());
-  for (Row row(Kind::row, 0, 0); front_ < rows_.size(); front_ += sizeof row + row.size) {
-    std::memcpy(&row, rows_.data() + front_, sizeof row);
-    const std::string_view text(rows_.data() + front_ + sizeof row, row.size);
-    if (row.kind == Kind::row && !dropped_.empty() && dropped_.front() == done_) {
-      dropped_.pop(), ++done_;
-    } else if (row.kind == Kind::row) {
+  for (take_above(); first_ < rows_.size(); take_above()) {
+    const Row& row = rows_[first_];
+    if (!dropped_.empty() && dropped_.front() == done_) {
+      dropped_.pop();
+    } else {
       if (numbers.size() < each) break;
       write_head();
-      write_row(text, row.place, numbers.first(each));
+      write_row({texts_.data() + front_, row.size}, row.place, numbers.first(each));
       numbers = numbers.subspan(each);
       any_row_ = true;
-      ++done_;
-    } else if (row.kind == Kind::head) {
-      std::string comments = head_ ? remarks_of(head_->comments) : "";
-      comments += text.substr(0, row.place);
-      head_ = {std::move(comments), std::string(text.substr(row.place))};
-    } else if (head_) {
-      head_->comments.append(text) += '\n';
-    } else {
-      out_.text(text), out_.end_line();
     }
+    front_ += row.size;
+    ++first_, ++done_;
   }
   numbers_.erase_front(numbers_.size() - numbers.size());
   // Amortised, each row is moved at most once.
-  if (2 * front_ >= rows_.size()) rows_.erase_front(std::exchange(front_, 0));
-  changing_ = false;
+  if (2 * first_ >= rows_.size()) {
+    rows_.erase_front(std::exchange(first_, 0));
+    texts_.erase_front(std::exchange(front_, 0));
+  }
+  writing_ = false;
 }
 
 }  // namespace rolling

@@ -65,17 +65,14 @@ class Filter {
   void drop(std::size_t i);
 
  private:
-  enum class Kind : std::uint8_t { row, remark, head };
-  /// A row that waits to be written; its text follows it in the buffer. Many rows may wait (smooth
-  /// --coast): they are kept small. No line is as long as 2^30.
+  /// A row that waits to be written. Many rows may wait (smooth --coast): they are kept small. No
+  /// line is as long as 2^32.
   struct Row {
-    Row(Kind k, std::size_t size_of_text, std::size_t at)
-        : kind(k), size(size_of_text & 0x3fffffff), place(static_cast<std::uint32_t>(at)) {}
-    Kind kind : 2;
-    std::uint32_t size : 30;  // of its text
-    std::uint32_t place;      // in it, of the numbers of a row, or of the names of a head
+    std::uint32_t size, place;  // of its text; in it, of the numbers
   };
+  /// What stands above the row with this index: the head of a run or, without names, a remark.
   struct Head {
+    std::size_t row;
     std::string comments, names;
   };
 
@@ -83,10 +80,10 @@ class Filter {
   std::vector<Column> columns() const;
   void take_head();
   void take_remarks(const std::vector<std::string>&);
+  void take_above();
   void write_rows();
   void write_head();
   void write_row(std::string_view text, std::size_t place, std::span<const double> numbers);
-  void wait(Kind, std::string_view text, std::size_t place = 0);  // appends it to the buffer
 
   Reader& in_;
   Output& out_;
@@ -94,8 +91,10 @@ class Filter {
   std::vector<Column> appended_;
   std::size_t replaced_ = Reader::no_column;  // a slot
   std::size_t cut_ = Reader::no_column;       // its column in this run
-  Bytes rows_;                                // from front_ on: rows that are not written yet
-  std::size_t front_ = 0;
+  Growing<Row> rows_;                         // from first_ on: those that are not written yet
+  Bytes texts_;                               // of the rows; from front_ on, of those
+  std::size_t first_ = 0, front_ = 0;
+  std::queue<Head> above_;
   std::queue<std::size_t> dropped_;  // indices of the rows among rows_ to leave out
   Growing<double> numbers_;          // of these rows, in order
   std::size_t enough_;               // put() writes rows at this count of numbers
@@ -104,7 +103,7 @@ class Filter {
   std::optional<Head> head_;  // of a run none of whose rows has been written
   bool any_row_ = false;
   std::function<std::string()> why_none_;
-  bool changing_ = false;  // the rows; true for good when that has failed
+  bool writing_ = false;  // rows; true for good when that has failed
 };
 
 }  // namespace rolling
