@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "base/enumeration.h"
 #include "base/error.h"
 #include "cli/linear_filters.h"
 #include "contact/body.h"
@@ -111,7 +112,7 @@ class Chain {
               std::span<const std::string> words, bool derivative) {
     if (words.size() < 2) return doubt(line);
     std::string method;
-    for (const std::string& word : words.subspan(1)) method += (method.empty() ? "" : " ") + word;
+    for (const std::string& word : words.subspan(1)) add_item(method, word, " ");
     const auto options = signal_options(methods, method);
     if (!options) return doubt(line);
     if (!options->method->linear) return unknown();
@@ -167,8 +168,7 @@ std::string other_body(const std::optional<ShiftOf>& shift_of, const Body& body,
     if (std::isnan(now.value) ||
         (then.value == now.value && (then.sigma == now.sigma || now.sigma == 0)))
       continue;
-    others += fmt::format("{}{} {} (here {})", others.empty() ? "" : ", ", number.name,
-                          to_text(then), to_text(now));
+    add_item(others, fmt::format("{} {} (here {})", number.name, to_text(then), to_text(now)));
   }
   return others;
 }

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "text/estimate.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 
 #include "text/number.h"
 
 namespace rolling {
-namespace {
-
-std::string shortest(double value) {
-  char digits[longest_number];
-  return {digits, write_number(digits, value)};
-}
-
-}  // namespace
-
 bool parse_estimate(std::string_view text, Estimate& estimate) {
   const auto sign = text.find("+-");
   const auto value_text = text.substr(0, sign);
@@ -33,9 +26,8 @@ bool parse_estimate(std::string_view text, Estimate& estimate) {
 }
 
 std::string to_text(const Estimate& estimate) {
-  std::string text = shortest(estimate.value);
-  if (estimate.sigma > 0) text += "+-" + shortest(estimate.sigma);
-  return text;
+  return estimate.sigma > 0 ? fmt::format("{}+-{}", estimate.value, estimate.sigma)
+                            : fmt::format("{}", estimate.value);
 }
 
 }  // namespace rolling

@@ -24,7 +24,7 @@ std::string remarks_of(const std::string& comments) {
 
 Filter::Filter(Reader& in, Output& out, std::string history)
     : in_(in), out_(out), enough_(rows_at_once()) {
-  if (!history.empty()) history_ = "## " + std::move(history) + '\n';
+  if (!history.empty()) set_history(std::move(history));
 }
 
 Filter::~Filter() {

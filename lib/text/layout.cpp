@@ -11,17 +11,6 @@
 namespace rolling {
 namespace {
 
-/// Adds the column of `field` to the run `r`, or to all runs if `r` is their number.
-void add(Layout& layout, const std::vector<Column>& line, std::size_t field, std::size_t r) {
-  const auto put = [&](Layout::Run& run) {
-    run.fields.push_back(field);
-    run.columns.push_back(line[field]);
-  };
-  layout.shared[field] = r == layout.runs.size();
-  if (!layout.shared[field]) put(layout.runs[r]);
-  else std::for_each(layout.runs.begin(), layout.runs.end(), put);
-}
-
 /// The labels that make runs: those of a t; without one, those of a known quantity that another
 /// label brings too (or of any other column, if they are numbers); else the only one, if it is of a
 /// known quantity or a number.
@@ -88,10 +77,15 @@ Layout Layout::of(const std::vector<Column>& named, Sides sides) {
     const std::string& name = line[i].name;
     const auto label =
         static_cast<std::size_t>(std::ranges::find(labels, line[i].run) - labels.begin());
-    add(layout, line, i,
-        labelled                     ? label
-        : counted && count[name] > 1 ? std::min(seen[name]++, all - 1)
-                                     : all);
+    const std::size_t own = labelled                     ? label
+                            : counted && count[name] > 1 ? std::min(seen[name]++, all - 1)
+                                                         : all;
+    layout.shared[i] = own == all;
+    for (std::size_t r = 0; r < all; ++r)
+      if (r == own || own == all) {
+        layout.runs[r].fields.push_back(i);
+        layout.runs[r].columns.push_back(line[i]);
+      }
   }
   return layout;
 }

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <utility>
 
+#include "base/enumeration.h"
 #include "base/error.h"
 #include "text/number.h"
 
@@ -180,17 +181,10 @@ std::string NeededColumns::list() const {
   if (!named_) return fmt::format("{} column{} without names", n, n == 1 ? "" : "s");
   std::string list;
   for (const Column& column : as_read_) {
-    if (!list.empty()) list += ", ";
-    list += shown(to_text(column));
+    add_item(list, shown(to_text(column)));
     if (list.size() > 200) return list + ", ...";
   }
   return list;
-}
-
-std::size_t NeededColumns::require(std::string_view name) const {
-  const auto column = find(name);
-  if (!column) refuse(name);
-  return *column;
 }
 
 /// Says why there is no such column.
@@ -208,7 +202,8 @@ void NeededColumns::refuse(std::string_view name) const {
 }
 
 void NeededColumns::resolve(Needed& needed) {
-  const auto found = needed.kind == Kind::wanted ? find(needed.name) : require(needed.name);
+  const auto found = find(needed.name);
+  if (!found && needed.kind != Kind::wanted) refuse(needed.name);
   needed.column = found.value_or(no_column);
   needed.to_si = {};
   if (!found) return;
@@ -245,8 +240,7 @@ Conversion NeededColumns::conversion(std::size_t at, const std::string& quantity
     line += fmt::format(", taken in {}", si_unit(quantity));
     if (said != said_.end())
       line += fmt::format(" although line {} says {}", said->second.line, shown(said->second.unit));
-    if (taken_in_si_.find(line) == std::string::npos)
-      taken_in_si_ += (taken_in_si_.empty() ? "" : "; ") + line;
+    if (taken_in_si_.find(line) == std::string::npos) add_item(taken_in_si_, line, "; ");
   }
   try {
     return conversion_to_si(quantity, meant);

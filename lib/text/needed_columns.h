@@ -72,7 +72,6 @@ class NeededColumns {
     std::string text;          // as it was given
   };
   std::optional<std::size_t> find_column(std::string_view name) const;
-  std::size_t require(std::string_view name) const;
   void refuse(std::string_view name) const;
   void give_unit(std::size_t column, const std::string& quantity, const std::string& unit);
   bool may_be_time(std::size_t column) const;

@@ -17,13 +17,11 @@ namespace rolling {
 
 namespace {
 
-template <typename T, std::size_t count>
-constexpr std::array<T, count> powers_of_ten() {
-  std::array<T, count> powers{1};
-  for (std::size_t i = 1; i < count; ++i) powers[i] = 10 * powers[i - 1];
+constexpr auto power_of_ten = [] {
+  std::array<double, 23> powers{1};  // all that are exact
+  for (std::size_t i = 1; i < powers.size(); ++i) powers[i] = 10 * powers[i - 1];
   return powers;
-}
-constexpr auto power_of_ten = powers_of_ten<double, 23>();  // all that are exact
+}();
 
 /// digits / 10^decimals, correctly rounded; false if this method cannot decide the rounding. The
 /// remainder of the quotient is exact, so the sum of both has an error of 2^-52 of its last bit:

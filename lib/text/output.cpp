@@ -47,17 +47,6 @@ void Output::names(const std::vector<Column>& columns) {
   end_line();
 }
 
-void Output::row(std::span<const double> values) {
-  char* to = buffer_.reserve(values.size() * (longest_number + 1));
-  for (const double value : values) {
-    require_finite(value);
-    to = write_number(to, value, digits);
-    *to++ = '\t';
-  }
-  buffer_.set_end(to - 1);
-  end_line();
-}
-
 void Output::flush() {
   if (before_write && !buffer_.empty()) before_write();
   const SignalsWait waiting;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/enumeration.h"
 #include "text/number.h"
 #include "text/reader.h"
 
@@ -28,7 +29,7 @@ bool Reader::asked_for() {
     if (std::ranges::any_of(head_.layout.runs, is_label)) return false;
     number = fmt::format("{}", run_);
   }
-  runs_ += (runs_.empty() ? "" : ", ") + number;
+  add_item(runs_, number);
   return number == fmt::format("{}", *options_.run);
 }
 
