@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -127,7 +128,8 @@ bool means_missing(std::string_view field) {
 
 char* write_number(char* to, double value, int digits) {
   if (digits > 0) {
-    char* const end = write_digits(to, value, digits);
+    char* const end =
+        std::to_chars(to, to + longest_number, value, std::chars_format::general, digits).ptr;
     if (std::abs(value) < 1e308 || is_number({to, end})) return end;
   }
   return write_shortest(to, value);

@@ -34,44 +34,25 @@ struct Power {
   std::uint64_t high, low;
 };
 
-/// Computes the powers by repeated multiplication and division from 1 in 256 bits. Each of the 324
-/// steps truncates less than 2^-254 of the number, so that more than 240 bits remain correct.
+/// Computes the powers from the greatest one by repeated division in 256 bits. Each of the 616
+/// steps truncates less than 2^-254 of the number; the first one is too large by 2^-246 of it, so
+/// that the exact ones do not fall below themselves. More than 240 bits remain correct.
 constexpr auto powers_of_ten = [] {
   std::array<Power, greatest_power - least_power + 1> powers{};
-  using Limbs = std::array<std::uint64_t, 4>;  // the lowest first; the highest bit is set
-  constexpr Limbs one = {0, 0, 0, std::uint64_t{1} << 63};
-  const auto normalised = [](Limbs x) {
-    const int bits = std::countl_zero(x[3]);
-    for (std::size_t i = 3; bits > 0 && i > 0; --i) x[i] = x[i] << bits | x[i - 1] >> (64 - bits);
-    x[0] <<= bits;
-    return x;
-  };
-  const auto shifted = [](const Limbs& x, std::size_t i, int bits) {  // limb i of x >> bits
-    return x[i] >> bits | (i < 3 ? x[i + 1] << (64 - bits) : 0);
-  };
-  const auto by_five_eighths = [&](const Limbs& x) {
-    Limbs product{};
-    Wide sum = 0;
-    for (std::size_t i = 0; i < 4; ++i, sum >>= 64) {
-      sum += Wide{shifted(x, i, 1)} + shifted(x, i, 3);
-      product[i] = static_cast<std::uint64_t>(sum);
-    }
-    return normalised(product);
-  };
-  const auto by_a_fifth = [&](const Limbs& x) {
-    Limbs quotient{};
+  // The highest bits of 5^324, plus 1024; the lowest 64 first.
+  std::array<std::uint64_t, 4> x = {0xaefc86c50710d1c9, 0x4944d9f52cd0dec2, 0x6c07a2c26a8346d1,
+                                    0x9e19db92b4e31ba9};
+  for (std::size_t n = powers.size(); n-- > 0;) {
+    powers[n] = {x[3], x[2]};
     std::uint64_t rest = 0;
     for (std::size_t i = 4; i-- > 0;) {
       const Wide part = Wide{rest} << 64 | x[i];
-      quotient[i] = static_cast<std::uint64_t>(part / 5);
+      x[i] = static_cast<std::uint64_t>(part / 5);
       rest = static_cast<std::uint64_t>(part % 5);
     }
-    return normalised(quotient);
-  };
-  Limbs up = one, down = one;
-  for (int n = 0; n <= greatest_power; ++n, up = by_five_eighths(up), down = by_a_fifth(down)) {
-    powers[static_cast<std::size_t>(n - least_power)] = {up[3], up[2]};
-    if (-n >= least_power) powers[static_cast<std::size_t>(-n - least_power)] = {down[3], down[2]};
+    const int bits = std::countl_zero(x[3]);  // 2 or 3: the highest bit is set again
+    for (std::size_t i = 3; i > 0; --i) x[i] = x[i] << bits | x[i - 1] >> (64 - bits);
+    x[0] <<= bits;
   }
   return powers;
 }();
@@ -166,10 +147,6 @@ char* write_shortest(char* to, double value) {
   *to++ = point < 1 ? '-' : '+';
   if (exponent < 10) *to++ = '0';
   return std::to_chars(to, to + 3, exponent).ptr;
-}
-
-char* write_digits(char* to, double value, int digits) {
-  return std::to_chars(to, to + 32, value, std::chars_format::general, digits).ptr;
 }
 
 }  // namespace rolling

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A double as text: the shortest decimal number that reads back to it, or so many digits.
+// A double as text: the shortest decimal number that reads back to it.
 #pragma once
 
 namespace rolling {
@@ -8,8 +8,5 @@ namespace rolling {
 /// closest to it, in the form of fmt's "{}": 0.001, 1.5, 1e-04, 1e+16. The value is finite.
 /// Returns the end of the text, at most 24 bytes behind `to`; writes up to 32 bytes.
 char* write_shortest(char* to, double value);
-
-/// The same with so many significant digits, in the form of fmt's "{:.{}g}".
-char* write_digits(char* to, double value, int digits);
 
 }  // namespace rolling
