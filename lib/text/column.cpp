@@ -145,33 +145,26 @@ Conversion conversion_to_si(std::string_view quantity, const Column& column) {
 
 std::vector<std::string> split_names(std::string_view line, char separator) {
   std::vector<std::string> names;
-  if (separator) {
-    for (std::size_t at = 0; at <= line.size();) {
-      while (at < line.size() && line[at] != separator && is_blank(line[at])) ++at;
-      if (auto quoted = take_quoted(line, at, separator)) {
-        names.push_back(std::move(*quoted));
-        ++at;
-        continue;
-      }
-      const auto end = std::min(line.find(separator, at), line.size());
-      names.emplace_back(trim(line.substr(at, end - at)));
-      at = end + 1;
-    }
-    return names;
-  }
+  const std::string between = separator ? std::string(1, separator) : " \t";
   const auto closing = line.find_last_of(")]");
-  bool open = false;  // the last name has an open bracket
-  for (std::size_t at = 0; (at = line.find_first_not_of(" \t", at)) != std::string_view::npos;) {
+  bool open = false;  // the last name has an open bracket; between blanks
+  for (std::size_t at = 0;; at += separator != '\0') {
+    while (at < line.size() && line[at] != separator && is_blank(line[at])) ++at;
+    if (separator ? at > line.size() : at == line.size()) return names;
     if (auto quoted = open ? std::nullopt : take_quoted(line, at, separator)) {
       names.push_back(std::move(*quoted));
       continue;
     }
-    const auto end = std::min(line.find_first_of(" \t", at), line.size());
-    const std::string_view word = line.substr(at, end - at);
+    const auto begin = std::exchange(at, std::min(line.find_first_of(between, at), line.size()));
+    const std::string_view word = line.substr(begin, at - begin);
+    if (separator) {
+      names.emplace_back(trim(word));
+      continue;
+    }
     const bool opens = word.front() == '(' || word.front() == '[';
     // Behind a name that is a bracket itself, as in a line of units, another name begins.
     if (!names.empty() && ((opens && names.back().find_first_of("([") != 0) ||
-                           (open && closing != std::string_view::npos && closing >= at))) {
+                           (open && closing != std::string_view::npos && closing >= begin))) {
       names.back().append(" ").append(word);
     } else {
       names.emplace_back(word);
@@ -180,9 +173,7 @@ std::vector<std::string> split_names(std::string_view line, char separator) {
     if (const auto last = word.find_last_of("(["); last != std::string_view::npos)
       open = word.find_first_of(")]", last) == std::string_view::npos;
     else if (word.find_first_of(")]") != std::string_view::npos) open = false;
-    at = end;
   }
-  return names;
 }
 
 }  // namespace rolling
