@@ -196,18 +196,18 @@ bool HeadReader::is_named_below(const UnnamedColumns& columns) const {
 }
 
 std::vector<std::string> HeadReader::take_commented_names(const UnnamedColumns& columns) {
-  auto chosen = choose_names(comments_, columns, !before_, lines_.name());
+  const auto chosen = choose_names(comments_, columns, !before_, lines_.name());
   if (!chosen) return {};
-  const Comment& names = comments_[chosen->place];
+  const Comment names = comments_[*chosen];
   if (!preamble_.empty() && preamble_.back().line > names.line)
     fail<InputError>("{}:{}: '{}' below the names is neither a row nor a unit for each of them",
                      lines_.name(), preamble_.back().line, shown(preamble_.back().text));
   if (names.text.starts_with("# ") && names.text.find('\t') != std::string::npos)
     dialect_.has_points();
   head_.line = names.line;
-  note_sorted_history(chosen->place);
-  comments_.erase(comments_.begin() + static_cast<std::ptrdiff_t>(chosen->place));
-  return std::move(chosen->names);
+  note_sorted_history(*chosen);
+  comments_.erase(comments_.begin() + static_cast<std::ptrdiff_t>(*chosen));
+  return names_in_comment(names.text, columns).names;
 }
 
 /// Notes that several `##` lines were sorted, if one stands below the comment with the names: the

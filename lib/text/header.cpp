@@ -155,7 +155,7 @@ CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns& 
   return found;
 }
 
-std::optional<ChosenNames> choose_names(const std::deque<Comment>& comments,
+std::optional<std::size_t> choose_names(const std::deque<Comment>& comments,
                                         const UnnamedColumns& columns, bool first,
                                         std::string_view file) {
   std::vector<CommentedNames> all;
@@ -193,7 +193,7 @@ std::optional<ChosenNames> choose_names(const std::deque<Comment>& comments,
         "{}:{}: '{}' can be names of the columns or a sentence: put tabs between names, or give "
         "the sentence another number of words",
         file, comments[chosen].line, shown(comments[chosen].text));
-  return ChosenNames{chosen, all[chosen].names};
+  return chosen;
 }
 
 bool are_units_of(const std::vector<std::string>& names, const std::vector<std::string>& fields) {

@@ -49,17 +49,11 @@ bool is_date(std::string_view text);
 /// True if t, x, v, a or D is a word of the line, by its short name or its long one.
 bool holds_known_name(std::string_view line);
 
-/// The names of the columns and the place of the comment that has them.
-struct ChosenNames {
-  std::size_t place;
-  std::vector<std::string> names;
-};
-
-/// The comment for which most speaks (tabs, then known names and their units), of equal ones the
-/// last; in the first head of a file (`first`) one without known names, too. Nothing if there is
-/// none. Throws InputError if another line may be meant, or if the chosen one may be a sentence
-/// that would move known columns of the run before.
-std::optional<ChosenNames> choose_names(const std::deque<Comment>&, const UnnamedColumns&,
+/// The place of the comment for which most speaks (tabs, then known names and their units), of
+/// equal ones the last; in the first head of a file (`first`) one without known names, too. Nothing
+/// if there is none. Throws InputError if another line may be meant, or if the chosen one may be a
+/// sentence that would move known columns of the run before.
+std::optional<std::size_t> choose_names(const std::deque<Comment>&, const UnnamedColumns&,
                                         bool first, std::string_view file);
 
 /// Whether the fields of the line above the rows are the units of the names in the line above

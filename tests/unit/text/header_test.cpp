@@ -24,7 +24,8 @@ std::string chosen(const std::vector<std::string>& texts, const UnnamedColumns& 
   std::string all;
   const std::string message = refusal([&] {
     if (const auto found = choose_names(comments, columns, first, "f"))
-      all = fmt::format("{} {}", found->place + 1, in_brackets(found->names));
+      all = fmt::format("{} {}", *found + 1,
+                        in_brackets(names_in_comment(texts[*found], columns).names));
   });
   return message.empty() ? all : message;
 }
