@@ -43,12 +43,6 @@ void refuse_output(const std::string& name) {
     fail<InputError>("{}: this input is the output too", name);
 }
 
-std::string_view without_byte_order_marks(std::string_view text) {
-  constexpr std::string_view mark = "\xEF\xBB\xBF";
-  while (text.starts_with(mark)) text.remove_prefix(mark.size());
-  return text;
-}
-
 Input::Input(std::string name, BlockHook on_block)
     : name_(std::move(name)), on_block_(std::move(on_block)), fd_(open_for_reading(name_)),
       at_(buffer_.reserve(block)), end_(at_) {
@@ -103,7 +97,9 @@ bool Input::next(std::string_view& line) {
   at_ = feed == end_ ? feed : feed + 1;
   if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
   ++line_number_;
-  line = without_byte_order_marks(line);
+  // Joined files have a byte order mark each, and one that has nothing else leaves two together.
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  while (line.starts_with(mark)) line.remove_prefix(mark.size());
   return true;
 }
 

@@ -18,10 +18,6 @@ inline constexpr std::size_t longest_line = 1 << 20;
 /// or append its output to its input.
 void refuse_output(const std::string& name);
 
-/// The text without the byte order marks before it: joined files have one each, and a file that has
-/// nothing else leaves two of them together.
-std::string_view without_byte_order_marks(std::string_view text);
-
 /// Called after each block of a file of known size, with the name of the file and the fraction of
 /// it that has been read.
 using BlockHook = std::function<void(const std::string& name, double part)>;

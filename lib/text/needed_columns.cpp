@@ -129,10 +129,10 @@ bool NeededColumns::may_be_time(std::size_t i) const {
 /// Refuses t in `column` where another one may be it too.
 void NeededColumns::refuse_other_times(std::size_t column) const {
   for (std::size_t i = 0; i < as_read_.size(); ++i)
-    if (i != column && may_be_time(i))
+    if (const auto [one, other] = std::minmax({i, column}); one != other && may_be_time(i))
       fail<InputError>("{}: columns {}, '{}', and {}, '{}', may both be t; say --use t=N", place_,
-                       std::min(i, column) + 1, shown(to_text(as_read_[std::min(i, column)])),
-                       std::max(i, column) + 1, shown(to_text(as_read_[std::max(i, column)])));
+                       one + 1, shown(to_text(as_read_[one])), other + 1,
+                       shown(to_text(as_read_[other])));
 }
 
 std::optional<std::size_t> NeededColumns::find(std::string_view name) const {
