@@ -67,23 +67,255 @@ class HeadReader {
   HeadReader(Lines& lines, Dialect& dialect, const Head* before, const CommentHook& pass)
       : lines_(lines), dialect_(dialect), before_(before), pass_(pass) {}
 
-  Head read(const std::vector<std::string>& order, Sides sides);
+  Head read(const std::vector<std::string>& order, Sides sides) {
+    const bool found = find_row();
+    if (!found) {
+      const bool empty = lines_.name() == "-" && comments_.empty() && preamble_.empty();
+      if (!before_ && empty)
+        fail<InputError>("standard input is empty: did the tool before this one fail?");
+      if (!before_) refuse_without_rows("no rows");
+      comment_preamble();
+      return finish();
+    }
+    lines_.put_back();
+    lines_.separate_by(dialect_.separator());
+    head_.line = lines_.number();
+    const auto fields = dialect_.split(lines_.text());
+    const std::size_t width = fields.size();
+    const bool blank_field = fields.back().text.empty();
+    const auto units = take_units();
+    const auto names = take_names(width, blank_field);
+    if (names.empty() && before_) head_.said = before_->said;
+    for (const Comment& comment : comments_) note_units(comment.text, comment.line, head_.said);
+    if (names.empty() && before_) {
+      head_.named = before_->named;
+      head_.blank_end = before_->blank_end;
+      head_.layout = before_->layout;
+      return finish();
+    }
+    head_.named = !names.empty();
+    if (!head_.named && dialect_.separator() == ',')
+      refuse_two_readings(std::string(lines_.text()));
+    head_.blank_end =
+        blank_field && width > 1 && (names.size() < width ? !head_.named : names.back().empty());
+    std::vector<Column> columns;
+    for (std::size_t i = 0; i < std::max(width, names.size()); ++i) {
+      if (i < names.size()) columns.push_back(read_column(names[i]));
+      else if (i < order.size() && !head_.named) columns.push_back({order[i]});
+      else columns.emplace_back();
+      if (columns.back().name.empty()) columns.back().name = fmt::format("c{}", i + 1);
+      if (i < units.size())
+        add_unit(columns.back(), units[i], fmt::format("{}:{}", lines_.name(), head_.line));
+    }
+    head_.layout = Layout::of(columns, sides);
+    const bool side_by_side = head_.layout.side_by_side();
+    if (head_.named && (side_by_side ? width > names.size() : width != names.size()))
+      fail("{} field{} under a line of {} name{}{}", width, width == 1 ? "" : "s", names.size(),
+           names.size() == 1 ? "" : "s", way_out(width, names.size()));
+    return finish();
+  }
 
  private:
-  bool has_tabs_of_names(std::string_view line) const;
-  bool find_row();
-  void keep(std::string comment);
-  void take_history();
-  bool is_missing_row(std::string_view line);
-  std::vector<std::string> take_units();
-  std::vector<std::string> take_names(std::size_t width, bool blank_end);
-  bool is_named_below(const UnnamedColumns& columns) const;
-  std::vector<std::string> take_commented_names(const UnnamedColumns& columns);
-  void note_sorted_history(std::size_t names);
-  [[noreturn]] void refuse_without_rows(const std::string& what) const;
-  void comment_preamble();
-  Head finish();
-  std::string way_out(std::size_t width, std::size_t names) const;
+  void take_history() {
+    refuse_error_line(lines_);
+    const std::string line = history_line(lines_.text());
+    const std::string_view text = trim(std::string_view(line).substr(2));
+    if (text.starts_with("run ")) {  // the `##` lines above belong to a run without rows
+      head_.run = trim(text.substr(4));
+      const auto far = comments_.begin() + static_cast<std::ptrdiff_t>(far_);
+      const auto is_history = std::mem_fn(&Comment::is_history);
+      far_ -= static_cast<std::size_t>(std::count_if(comments_.begin(), far, is_history));
+      std::erase_if(comments_, is_history);
+    } else {
+      keep(line);
+    }
+  }
+
+  /// Keeps a comment, and passes one on that is too far from the row: a sensor that idles may
+  /// write millions.
+  void keep(std::string comment) {
+    comments_.push_back({std::move(comment), lines_.number()});
+    constexpr std::size_t most = 100;
+    if (!pass_ || comments_.size() - far_ <= most) return;
+    const auto first = comments_.begin() + static_cast<std::ptrdiff_t>(far_);
+    if (first->is_history() || (far_ < most && (first->text.find('\t') != std::string::npos ||
+                                                holds_known_name(first->text))))
+      ++far_;
+    else pass_(first->text), comments_.erase(first);
+  }
+
+  /// True for a first row with missing readings: a field is NaN, which is no name of a column; or
+  /// all are blank, dates or times below known names; or one is blank below those of a comment.
+  bool is_missing_row(std::string_view line) {
+    const auto fields = dialect_.split(line);
+    const auto any = [&](auto&& is) { return std::ranges::any_of(fields, is); };
+    if (any([](const Field& f) { return is_missing(f.text) && !f.text.empty(); })) return true;
+    const bool text = any([](const Field& f) { return !f.text.empty() && !is_date(f.text); });
+    if (before_) return !text && fields.size() == before_->layout.width;
+    if (preamble_.empty())
+      return any([](const Field& f) { return f.text.empty(); }) && !holds_known_name(line) &&
+             !any([](const Field& f) { return is_unit(f.text); }) &&
+             std::ranges::any_of(comments_, [&](const Comment& comment) {
+               return holds_names(comment, {fields.size()});
+             });
+    const std::string& above = preamble_.back().text;
+    return !text && holds_known_name(above) &&
+           names_in(above, dialect_.separator()).size() == fields.size();
+  }
+
+  /// True if a line or comment above, whose names are separated by tabs and contain no blanks, has
+  /// as many tabs as this line.
+  bool has_tabs_of_names(std::string_view line) const {
+    const auto tabs = std::ranges::count(line, '\t');
+    const auto agrees = [tabs](const Comment& above) {
+      const std::string_view names = trim(without_marks(above.text));
+      return names.find(' ') == std::string_view::npos && std::ranges::count(names, '\t') == tabs;
+    };
+    return tabs > 0 && ((!preamble_.empty() && agrees(preamble_.back())) ||
+                        std::ranges::any_of(comments_, agrees));
+  }
+
+  /// Goes to the first row; false if there is none.
+  bool find_row() {
+    while (lines_.next()) {
+      const std::string line(lines_.text());
+      const LineKind kind = lines_.kind();
+      // Below names between tabs, a tab at the beginning of the line is a blank field.
+      if ((kind == LineKind::comment || kind == LineKind::history) && !before_ &&
+          line.starts_with('\t') && has_tabs_of_names(line) && dialect_.choose(line, true))
+        return true;
+      switch (kind) {
+        case LineKind::blank:
+          break;
+        case LineKind::history:
+          take_history();
+          break;
+        case LineKind::comment:
+          keep(line.substr(line.find('#')));
+          break;
+        case LineKind::row:
+          if ((before_ ? dialect_.holds_number(line)
+                       : dialect_.choose(line, has_tabs_of_names(line))) ||
+              is_missing_row(line))
+            return true;
+          if (before_) refuse_other_separator(line, dialect_.separator());
+          preamble_.push_back({line, lines_.number()});
+          if (preamble_.size() > longest_preamble)
+            refuse_without_rows(fmt::format("no numbers in the first {} lines", longest_preamble));
+      }
+    }
+    return false;
+  }
+
+  /// True if no line of the preamble has a known name, and a comment below it has some.
+  bool is_named_below(const UnnamedColumns& columns) const {
+    const auto has_name = [](const Comment& line) { return holds_known_name(line.text); };
+    const auto names_columns = [&](const Comment& comment) {
+      return comment.line > preamble_.back().line && holds_names(comment, columns);
+    };
+    return std::ranges::none_of(preamble_, has_name) &&
+           std::ranges::any_of(comments_, names_columns);
+  }
+
+  std::vector<std::string> take_commented_names(const UnnamedColumns& columns) {
+    const auto chosen = choose_names(comments_, columns, !before_, lines_.name());
+    if (!chosen) return {};
+    const Comment names = comments_[*chosen];
+    if (!preamble_.empty() && preamble_.back().line > names.line)
+      fail<InputError>("{}:{}: '{}' below the names is neither a row nor a unit for each of them",
+                       lines_.name(), preamble_.back().line, shown(preamble_.back().text));
+    if (names.text.starts_with("# ") && names.text.find('\t') != std::string::npos)
+      dialect_.has_points();
+    head_.line = names.line;
+    note_sorted_history(*chosen);
+    comments_.erase(comments_.begin() + static_cast<std::ptrdiff_t>(*chosen));
+    return names_in_comment(names.text, columns).names;
+  }
+
+  /// Notes that several `##` lines were sorted, if one stands below the comment with the names: the
+  /// tools write the names last, and what sorts rows by a column puts `# t` before `##`.
+  void note_sorted_history(std::size_t names) {
+    const auto count = [&](std::size_t from) {
+      return std::count_if(comments_.begin() + static_cast<std::ptrdiff_t>(from), comments_.end(),
+                           std::mem_fn(&Comment::is_history));
+    };
+    if (count(names) > 0 && count(0) > 1)
+      comments_.push_back({fmt::format("## {}", lines_sorted), comments_.back().line});
+  }
+
+  /// The units in the line below the header, or the comment with them; empty if there is none.
+  std::vector<std::string> take_units() {
+    if (preamble_.empty()) return {};
+    auto units = names_in(preamble_.back().text, dialect_.separator());
+    std::vector<std::string> above;
+    if (preamble_.size() > 1)
+      above = names_in(preamble_[preamble_.size() - 2].text, dialect_.separator());
+    const UnnamedColumns columns{units.size(), units.back().empty()};
+    for (const Comment& comment : comments_)
+      if (preamble_.size() == 1 && comment.line < preamble_.back().line &&
+          holds_names(comment, columns))
+        above = names_in_comment(comment.text, columns).names;
+    if (!are_units_of(above, units)) return {};
+    preamble_.pop_back();
+    return units;
+  }
+
+  /// The names of `width` columns, empty if there are none here. `blank_end`: the row ends blank.
+  std::vector<std::string> take_names(std::size_t width, bool blank_end) {
+    const UnnamedColumns columns{
+        width, blank_end, before_ ? before_->layout.runs.front().columns : std::vector<Column>()};
+    if (preamble_.empty() || is_named_below(columns)) {
+      auto names = take_commented_names(columns);
+      comment_preamble();
+      return names;
+    }
+    auto names = names_in(preamble_.back().text, dialect_.separator());
+    head_.line = preamble_.back().line;
+    preamble_.pop_back();
+    comment_preamble();
+    if (names.size() == width + 1 && names.back().empty()) names.pop_back();
+    else if (names.size() + 1 == width && blank_end) names.emplace_back();
+    return names;
+  }
+
+  /// Says what is wrong in the last line with a digit, which may have been meant as a row.
+  [[noreturn]] void refuse_without_rows(const std::string& what) const {
+    const auto has_digit = [](const Comment& line) {
+      return line.text.find_first_of(decimal_digits) != std::string::npos;
+    };
+    const auto last = std::find_if(preamble_.rbegin(), preamble_.rend(), has_digit);
+    if (last == preamble_.rend()) fail<InputError>("{}: {}", lines_.name(), what);
+    Dialect dialect;
+    dialect.choose(last->text);
+    fail<InputError>("{}:{}: {}: '{}' is separated by {}, and no field of it is a number",
+                     lines_.name(), last->line, what, shown(last->text),
+                     name_of(dialect.separator()));
+  }
+
+  /// Makes comments of the lines that are neither names nor units.
+  void comment_preamble() {
+    for (Comment& line : preamble_) {
+      std::replace(line.text.begin(), line.text.end(), '\n', ' ');
+      comments_.push_back({"# " + std::move(line.text), line.line});
+    }
+  }
+
+  Head finish() {
+    for (Comment& comment : comments_) {
+      if (comment.is_history())
+        head_.history.emplace_back(trim(std::string_view(comment.text).substr(2)));
+      head_.comments.push_back(std::move(comment.text));
+    }
+    return std::move(head_);
+  }
+
+  /// What to do about a row of another number of fields than there are names.
+  std::string way_out(std::size_t width, std::size_t names) const {
+    if (before_) return fmt::format("; if line {} is a heading, begin it with #", head_.line);
+    if (names > width)
+      return dialect_.separator() == '\0' ? "; if a name has blanks in it, put it in quotes" : "";
+    return way_out_of_commas(lines_.text(), dialect_.separator(), width - names);
+  }
 
   Lines& lines_;
   Dialect& dialect_;
@@ -94,253 +326,6 @@ class HeadReader {
   std::size_t far_ = 0;            // of them stand too far from the row but are kept
   std::vector<Comment> preamble_;  // lines that are neither comments nor rows
 };
-
-void HeadReader::take_history() {
-  refuse_error_line(lines_);
-  const std::string line = history_line(lines_.text());
-  const std::string_view text = trim(std::string_view(line).substr(2));
-  if (text.starts_with("run ")) {  // the `##` lines above belong to a run without rows
-    head_.run = trim(text.substr(4));
-    const auto far = comments_.begin() + static_cast<std::ptrdiff_t>(far_);
-    const auto is_history = std::mem_fn(&Comment::is_history);
-    far_ -= static_cast<std::size_t>(std::count_if(comments_.begin(), far, is_history));
-    std::erase_if(comments_, is_history);
-  } else {
-    keep(line);
-  }
-}
-
-/// Keeps a comment, and passes one on that is too far from the row: a sensor that idles may
-/// write millions.
-void HeadReader::keep(std::string comment) {
-  comments_.push_back({std::move(comment), lines_.number()});
-  constexpr std::size_t most = 100;
-  if (!pass_ || comments_.size() - far_ <= most) return;
-  const auto first = comments_.begin() + static_cast<std::ptrdiff_t>(far_);
-  if (first->is_history() || (far_ < most && (first->text.find('\t') != std::string::npos ||
-                                              holds_known_name(first->text))))
-    ++far_;
-  else pass_(first->text), comments_.erase(first);
-}
-
-/// True for a first row with missing readings: a field is NaN, which is no name of a column; or
-/// all are blank, dates or times below known names; or one is blank below those of a comment.
-bool HeadReader::is_missing_row(std::string_view line) {
-  const auto fields = dialect_.split(line);
-  const auto any = [&](auto&& is) { return std::ranges::any_of(fields, is); };
-  if (any([](const Field& f) { return is_missing(f.text) && !f.text.empty(); })) return true;
-  const bool text = any([](const Field& f) { return !f.text.empty() && !is_date(f.text); });
-  if (before_) return !text && fields.size() == before_->layout.width;
-  if (preamble_.empty())
-    return any([](const Field& f) { return f.text.empty(); }) && !holds_known_name(line) &&
-           !any([](const Field& f) { return is_unit(f.text); }) &&
-           std::ranges::any_of(comments_, [&](const Comment& comment) {
-             return holds_names(comment, {fields.size()});
-           });
-  const std::string& above = preamble_.back().text;
-  return !text && holds_known_name(above) &&
-         names_in(above, dialect_.separator()).size() == fields.size();
-}
-
-/// True if a line or comment above, whose names are separated by tabs and contain no blanks, has as
-/// many tabs as this line.
-bool HeadReader::has_tabs_of_names(std::string_view line) const {
-  const auto tabs = std::ranges::count(line, '\t');
-  const auto agrees = [tabs](const Comment& above) {
-    const std::string_view names = trim(without_marks(above.text));
-    return names.find(' ') == std::string_view::npos && std::ranges::count(names, '\t') == tabs;
-  };
-  return tabs > 0 && ((!preamble_.empty() && agrees(preamble_.back())) ||
-                      std::ranges::any_of(comments_, agrees));
-}
-
-/// Goes to the first row; false if there is none.
-bool HeadReader::find_row() {
-  while (lines_.next()) {
-    const std::string line(lines_.text());
-    const LineKind kind = lines_.kind();
-    // Below names between tabs, a tab at the beginning of the line is a blank field.
-    if ((kind == LineKind::comment || kind == LineKind::history) && !before_ &&
-        line.starts_with('\t') && has_tabs_of_names(line) && dialect_.choose(line, true))
-      return true;
-    switch (kind) {
-      case LineKind::blank:
-        break;
-      case LineKind::history:
-        take_history();
-        break;
-      case LineKind::comment:
-        keep(line.substr(line.find('#')));
-        break;
-      case LineKind::row:
-        if ((before_ ? dialect_.holds_number(line)
-                     : dialect_.choose(line, has_tabs_of_names(line))) ||
-            is_missing_row(line))
-          return true;
-        if (before_) refuse_other_separator(line, dialect_.separator());
-        preamble_.push_back({line, lines_.number()});
-        if (preamble_.size() > longest_preamble)
-          refuse_without_rows(fmt::format("no numbers in the first {} lines", longest_preamble));
-    }
-  }
-  return false;
-}
-
-/// True if no line of the preamble has a known name, and a comment below it has some.
-bool HeadReader::is_named_below(const UnnamedColumns& columns) const {
-  const auto has_name = [](const Comment& line) { return holds_known_name(line.text); };
-  const auto names_columns = [&](const Comment& comment) {
-    return comment.line > preamble_.back().line && holds_names(comment, columns);
-  };
-  return std::ranges::none_of(preamble_, has_name) && std::ranges::any_of(comments_, names_columns);
-}
-
-std::vector<std::string> HeadReader::take_commented_names(const UnnamedColumns& columns) {
-  const auto chosen = choose_names(comments_, columns, !before_, lines_.name());
-  if (!chosen) return {};
-  const Comment names = comments_[*chosen];
-  if (!preamble_.empty() && preamble_.back().line > names.line)
-    fail<InputError>("{}:{}: '{}' below the names is neither a row nor a unit for each of them",
-                     lines_.name(), preamble_.back().line, shown(preamble_.back().text));
-  if (names.text.starts_with("# ") && names.text.find('\t') != std::string::npos)
-    dialect_.has_points();
-  head_.line = names.line;
-  note_sorted_history(*chosen);
-  comments_.erase(comments_.begin() + static_cast<std::ptrdiff_t>(*chosen));
-  return names_in_comment(names.text, columns).names;
-}
-
-/// Notes that several `##` lines were sorted, if one stands below the comment with the names: the
-/// tools write the names last, and what sorts rows by a column puts `# t` before `##`.
-void HeadReader::note_sorted_history(std::size_t names) {
-  const auto count = [&](std::size_t from) {
-    return std::count_if(comments_.begin() + static_cast<std::ptrdiff_t>(from), comments_.end(),
-                         std::mem_fn(&Comment::is_history));
-  };
-  if (count(names) > 0 && count(0) > 1)
-    comments_.push_back({fmt::format("## {}", lines_sorted), comments_.back().line});
-}
-
-/// The units in the line below the header, or the comment with them; empty if there is none.
-std::vector<std::string> HeadReader::take_units() {
-  if (preamble_.empty()) return {};
-  auto units = names_in(preamble_.back().text, dialect_.separator());
-  std::vector<std::string> above;
-  if (preamble_.size() > 1)
-    above = names_in(preamble_[preamble_.size() - 2].text, dialect_.separator());
-  const UnnamedColumns columns{units.size(), units.back().empty()};
-  for (const Comment& comment : comments_)
-    if (preamble_.size() == 1 && comment.line < preamble_.back().line &&
-        holds_names(comment, columns))
-      above = names_in_comment(comment.text, columns).names;
-  if (!are_units_of(above, units)) return {};
-  preamble_.pop_back();
-  return units;
-}
-
-/// The names of `width` columns, empty if there are none here. `blank_end`: the row ends blank.
-std::vector<std::string> HeadReader::take_names(std::size_t width, bool blank_end) {
-  const UnnamedColumns columns{
-      width, blank_end, before_ ? before_->layout.runs.front().columns : std::vector<Column>()};
-  if (preamble_.empty() || is_named_below(columns)) {
-    auto names = take_commented_names(columns);
-    comment_preamble();
-    return names;
-  }
-  auto names = names_in(preamble_.back().text, dialect_.separator());
-  head_.line = preamble_.back().line;
-  preamble_.pop_back();
-  comment_preamble();
-  if (names.size() == width + 1 && names.back().empty()) names.pop_back();
-  else if (names.size() + 1 == width && blank_end) names.emplace_back();
-  return names;
-}
-
-/// Says what is wrong in the last line with a digit, which may have been meant as a row.
-void HeadReader::refuse_without_rows(const std::string& what) const {
-  const auto has_digit = [](const Comment& line) {
-    return line.text.find_first_of(decimal_digits) != std::string::npos;
-  };
-  const auto last = std::find_if(preamble_.rbegin(), preamble_.rend(), has_digit);
-  if (last == preamble_.rend()) fail<InputError>("{}: {}", lines_.name(), what);
-  Dialect dialect;
-  dialect.choose(last->text);
-  fail<InputError>("{}:{}: {}: '{}' is separated by {}, and no field of it is a number",
-                   lines_.name(), last->line, what, shown(last->text),
-                   name_of(dialect.separator()));
-}
-
-/// Makes comments of the lines that are neither names nor units.
-void HeadReader::comment_preamble() {
-  for (Comment& line : preamble_) {
-    std::replace(line.text.begin(), line.text.end(), '\n', ' ');
-    comments_.push_back({"# " + std::move(line.text), line.line});
-  }
-}
-
-Head HeadReader::finish() {
-  for (Comment& comment : comments_) {
-    if (comment.is_history())
-      head_.history.emplace_back(trim(std::string_view(comment.text).substr(2)));
-    head_.comments.push_back(std::move(comment.text));
-  }
-  return std::move(head_);
-}
-
-/// What to do about a row of another number of fields than there are names.
-std::string HeadReader::way_out(std::size_t width, std::size_t names) const {
-  if (before_) return fmt::format("; if line {} is a heading, begin it with #", head_.line);
-  if (names > width)
-    return dialect_.separator() == '\0' ? "; if a name has blanks in it, put it in quotes" : "";
-  return way_out_of_commas(lines_.text(), dialect_.separator(), width - names);
-}
-
-Head HeadReader::read(const std::vector<std::string>& order, Sides sides) {
-  const bool found = find_row();
-  if (!found) {
-    const bool empty = lines_.name() == "-" && comments_.empty() && preamble_.empty();
-    if (!before_ && empty)
-      fail<InputError>("standard input is empty: did the tool before this one fail?");
-    if (!before_) refuse_without_rows("no rows");
-    comment_preamble();
-    return finish();
-  }
-  lines_.put_back();
-  lines_.separate_by(dialect_.separator());
-  head_.line = lines_.number();
-  const auto fields = dialect_.split(lines_.text());
-  const std::size_t width = fields.size();
-  const bool blank_field = fields.back().text.empty();
-  const auto units = take_units();
-  const auto names = take_names(width, blank_field);
-  if (names.empty() && before_) head_.said = before_->said;
-  for (const Comment& comment : comments_) note_units(comment.text, comment.line, head_.said);
-  if (names.empty() && before_) {
-    head_.named = before_->named;
-    head_.blank_end = before_->blank_end;
-    head_.layout = before_->layout;
-    return finish();
-  }
-  head_.named = !names.empty();
-  if (!head_.named && dialect_.separator() == ',') refuse_two_readings(std::string(lines_.text()));
-  head_.blank_end =
-      blank_field && width > 1 && (names.size() < width ? !head_.named : names.back().empty());
-  std::vector<Column> columns;
-  for (std::size_t i = 0; i < std::max(width, names.size()); ++i) {
-    if (i < names.size()) columns.push_back(read_column(names[i]));
-    else if (i < order.size() && !head_.named) columns.push_back({order[i]});
-    else columns.emplace_back();
-    if (columns.back().name.empty()) columns.back().name = fmt::format("c{}", i + 1);
-    if (i < units.size())
-      add_unit(columns.back(), units[i], fmt::format("{}:{}", lines_.name(), head_.line));
-  }
-  head_.layout = Layout::of(columns, sides);
-  const bool side_by_side = head_.layout.side_by_side();
-  if (head_.named && (side_by_side ? width > names.size() : width != names.size()))
-    fail("{} field{} under a line of {} name{}{}", width, width == 1 ? "" : "s", names.size(),
-         names.size() == 1 ? "" : "s", way_out(width, names.size()));
-  return finish();
-}
 
 }  // namespace
 
