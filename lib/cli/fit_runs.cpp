@@ -13,40 +13,18 @@
 namespace rolling {
 namespace {
 
-/// The slots of the reader and the columns of a run that they fill.
-class Slots {
- public:
-  Slots(Reader& in, Route route, Columns columns) : in_(in) {
-    for (const std::string& name : words_of(route).columns)
-      if (name != "t") add(in.need(name), name);
-    if (is_trajectory(route)) add(in.need_time(), "t");
-    if (columns == Columns::of_all_routes) add_others();
-  }
-
-  /// Reads the rows of the present run; with all columns if it has `##` lines, which are
-  /// compared with them.
-  void read(FitRun& run) {
-    if (!in_.history().empty()) add_others();
-    while (in_.next())
-      for (const auto& [slot, column] : all_) (run.*column).push_back(in_[slot]);
-  }
-
- private:
-  struct Slot {
-    std::size_t number;
-    std::vector<double> FitRun::*column;
-  };
-
-  void add(std::size_t number, std::string_view name) { all_.push_back({number, column_of(name)}); }
-  void add_others() {
-    for (const char* name : {"t", "x", "v", "D"})
-      if (in_.find(name) && std::ranges::count(all_, column_of(name), &Slot::column) == 0)
-        add(*name == 't' ? in_.need_time() : in_.want(name), name);
-  }
-
-  Reader& in_;
-  std::vector<Slot> all_;
+/// A slot of the reader, and the column of a run that it fills.
+struct Slot {
+  std::size_t number;
+  std::vector<double> FitRun::*column;
 };
+
+/// Adds the columns of the other routes, as far as there are any.
+void add_others(Reader& in, std::vector<Slot>& slots) {
+  for (const char* name : {"t", "x", "v", "D"})
+    if (in.find(name) && std::ranges::count(slots, column_of(name), &Slot::column) == 0)
+      slots.push_back({*name == 't' ? in.need_time() : in.want(name), column_of(name)});
+}
 
 /// Warns of readings that a logger held: the fit counts each repetition as a new reading. Speeds
 /// that were made of positions are no readings.
@@ -134,14 +112,20 @@ std::vector<double> FitRun::*column_of(std::string_view name) {
 }
 
 std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, Columns columns) {
-  Slots slots(in, route, columns);
+  std::vector<Slot> slots;
+  for (const std::string& name : words_of(route).columns)
+    if (name != "t") slots.push_back({in.need(name), column_of(name)});
+  if (is_trajectory(route)) slots.push_back({in.need_time(), &FitRun::t});
+  if (columns == Columns::of_all_routes) add_others(in, slots);
   std::vector<FitRun> runs;
   std::vector<bool> has_history;
   while (in.next_run()) {
     FitRun& run = runs.emplace_back();
     has_history.push_back(!in.history().empty());
     run.name = in.run_name();
-    slots.read(run);
+    if (!in.history().empty()) add_others(in, slots);  // the `##` lines are compared with them
+    while (in.next())
+      for (const auto& [slot, column] : slots) (run.*column).push_back(in[slot]);
     warn_of_held(tool, route, run, in.history());
     set_filters(tool, in, route, run);
   }
