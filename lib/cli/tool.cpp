@@ -18,20 +18,10 @@ namespace rolling {
 
 constexpr std::string_view version = "1.0.0";
 
-namespace {
-
-bool reads_standard_input(const ReaderOptions& options) {
-  return options.files.empty() || std::ranges::count(options.files, "-") > 0;
-}
-
-}  // namespace
-
 Tool::Tool(std::string name, const std::string& purpose)
     : Options(name, purpose), name_(std::move(name)) {
   flag("-q,--quiet", quiet_, "print no warnings, counts or progress on standard error");
 }
-
-Tool::~Tool() = default;
 
 void Tool::input() {
   const auto append_to = [](std::vector<std::string>& words) {
@@ -77,7 +67,7 @@ Reader& Tool::read_file(const std::string& file, std::vector<std::string> order)
 }
 
 Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
-  if (reads_standard_input(options)) {
+  if (options.files.empty() || std::ranges::count(options.files, "-") > 0) {
     if (std::exchange(standard_input_taken_, true))
       fail("standard input cannot be read twice: name a file for one of the two");
     if (::isatty(STDIN_FILENO)) warn("reading columns from the terminal; end with Ctrl-D");

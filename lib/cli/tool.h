@@ -18,7 +18,6 @@ namespace rolling {
 class Tool : public Options {
  public:
   Tool(std::string name, const std::string& purpose);
-  ~Tool();
 
   // Options of the input and the output.
   void input();  ///< operands, --use --run --strict
