@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "text/delimiters.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
-#include "text/column.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -35,12 +32,19 @@ Unquoted outside_quotes(std::string_view text, std::string_view between, bool fi
 }
 
 bool needs_quotes(std::string_view field) {
-  return field.starts_with('#') || field.find_first_of("\"\t\n") != std::string_view::npos;
+  return field.starts_with('#') || std::any_of(field.begin(), field.end(), [](char c) {
+           return c == quote || c == '\t' || c == '\n';
+         });
 }
 
 void append_field(Bytes& line, std::string_view field) {
   if (!needs_quotes(field)) return line.append(field);
-  line.append(fmt::format("\"{}\"", replace_all(std::string(field), "\"", "\"\"")));
+  line.append(quote);
+  for (const char c : field) {
+    if (c == quote) line.append(quote);
+    line.append(c);
+  }
+  line.append(quote);
 }
 
 std::string way_out_of_commas(std::string_view line, char separator, std::size_t more) {
