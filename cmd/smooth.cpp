@@ -60,17 +60,17 @@ class Told {
 
   void add(const Selection& selection, const std::string& run) {
     for (const double t : selection.outliers())
-      if (++outliers_ <= 10) add_item(times_, fmt::format("{:.6g}", t));
+      if (++outliers_ <= 10) add_item(times_, fmt::format("{:.12g}", t));
     if (!selection.roll()) return;
     const Selection::Roll& roll = *selection.roll();
     ++runs_, kept_ += roll.samples, rows_ += roll.of;
     ++ends_[static_cast<std::size_t>(roll.how)];
-    one_ = fmt::format("--coast keeps {:.6g} to {:.6g} s ({} of {} rows); the roll {}", roll.from,
+    one_ = fmt::format("--coast keeps {:.12g} to {:.12g} s ({} of {} rows); the roll {}", roll.from,
                        roll.to, roll.samples, roll.of, end(roll));
     if (roll.other)
       doubts_.add(run,
-                  fmt::format("the free roll may also be {:.6g} to {:.6g} s, and not {:.6g} to "
-                              "{:.6g} s: choose with --from and --to",
+                  fmt::format("the free roll may also be {:.12g} to {:.12g} s, and not {:.12g} to "
+                              "{:.12g} s: choose with --from and --to",
                               roll.other->first, roll.other->second, roll.from, roll.to));
   }
   void say() const {
@@ -96,7 +96,7 @@ class Told {
   static std::string end(const Selection::Roll& roll) {
     if (roll.how == FreeRoll::End::by_itself) return "ends by itself";
     if (roll.how == FreeRoll::End::goes_on) return "goes on to the end of the run";
-    return fmt::format("is ended at {:.6g} s", roll.after);
+    return fmt::format("is ended at {:.12g} s", roll.after);
   }
 
   Tool& tool_;
@@ -160,7 +160,7 @@ int main(int argc, char** argv) {
     };
     double first = INFINITY, last = -INFINITY;
     filter.say_why_none([&] {
-      return fmt::format(": the times of the file go from {:.6g} to {:.6g} s", first, last);
+      return fmt::format(": the times of the file go from {:.12g} to {:.12g} s", first, last);
     });
     Told selected(tool);
     while (filter.next_run()) {

@@ -124,7 +124,7 @@ std::vector<Remark> against(const FitResult& r, const std::vector<FitRun>& runs,
     all.push_back(
         {runs[r.off->run].name,
          fmt::format(
-             "the reading at t = {:.6g} s is {:.2g} standard deviations off the roll{}: look at "
+             "the reading at t = {:.12g} s is {:.2g} standard deviations off the roll{}: look at "
              "it, and leave it out (smooth --outliers), or fit the raw column with --robust",
              r.off->time, r.off->distance,
              r.off->count > 1 ? fmt::format(", and {} more are off", r.off->count - 1) : "")});

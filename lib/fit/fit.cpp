@@ -209,7 +209,7 @@ FitResult fit_or_name(Route route, const std::vector<FitRun>& runs, const FitOpt
     const auto off = off_robust_roll(route, runs, options);
     if (!off || off->count > single) throw;
     fail(
-        "{}the reading at t = {:.6g} s is {:.2g} standard deviations off the roll of the others: "
+        "{}the reading at t = {:.12g} s is {:.2g} standard deviations off the roll of the others: "
         "look at it, and leave it out (smooth --outliers), or fit with --robust",
         runs.size() > 1 ? fmt::format("run {}: ", runs[off->run].name) : "", off->time,
         off->distance);
