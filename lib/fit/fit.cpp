@@ -48,7 +48,6 @@ FitResult result_of(const Fitted& found, double rms, const NoiseErrors& noise,
                    .corr = nan,
                    .rms = rms,
                    .n = found.rows,
-                   .left_out = found.left_out,
                    .negative = found.negative,
                    .whiteness = noise.whiteness,
                    .errors = noise.kind};
@@ -194,6 +193,8 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   if (!found.bias.empty()) shares.push_back({"bias", outer_square(found.bias)});
   FitResult result = result_of(found, rms, noise, std::move(shares));
   if (!is_trajectory(route)) result.v0 = {};
+  for (const Rows& readings : usable(route, runs)) result.left_out += readings.size();
+  result.left_out -= result.n;
   result.agreement = agreement;
   result.eccentricity = eccentricity;
   result.off = off;

@@ -53,7 +53,7 @@ struct Fitted {
   Minimum minimum;
   std::shared_ptr<const Noise> noise = std::make_shared<const Noise>();  ///< of the weights
   std::optional<SeenNoise> noise_of_roll = {};  ///< that made the rows of a log-log line
-  std::size_t rows = 0, left_out = 0;
+  std::size_t rows = 0;
   std::size_t negative = 0;                     ///< see FitResult
   std::optional<Parameters> parameters = {};    ///< theta of the minimum
   std::vector<FittedNumber> coefficients = {};  ///< of the law, as its formula names them

@@ -57,7 +57,7 @@ class FittedRows {
   Fitted unsolved(const LawForm& form) const {
     Fitted fit{};
     fit.noise = power_.noise, fit.shifts = power_.shifts;
-    fit.rows = power_.rows, fit.left_out = power_.left_out;
+    fit.rows = power_.rows;
     const Parameters q = power_.rolls ? power_.rolls->parameters() : Parameters({}, false, 1, 1);
     fit.parameters = q.with(form, law_(v_unit_), v_unit_);
     if (power_.rolls) {

@@ -69,10 +69,10 @@ struct FitResult {
   double a, sigma_a, b, sigma_b, corr;
   double rms;     ///< sqrt(RSS / (n - p)) in the unit of the fitted column (of ln D for loglog)
   std::size_t n;  ///< number of fitted rows
-  std::size_t left_out;  ///< number of rows, but for missing ones, that the route did not use
-  std::size_t negative;  ///< of these, those with D <= 0 whose noise loglog does not know
-  double whiteness;      ///< p of the autocorrelation of the noise (Ljung and Box); NaN
-                         ///< where it is not tested
+  std::size_t left_out = 0;  ///< number of rows, but for missing ones, that the route did not use
+  std::size_t negative;      ///< of these, those with D <= 0 whose noise loglog does not know
+  double whiteness;          ///< p of the autocorrelation of the noise (Ljung and Box); NaN
+                             ///< where it is not tested
   std::vector<Estimate> v0 = {};      ///< at the first row [m/s], of each run (trajectory routes)
   std::vector<Estimate> x0 = {};      ///< likewise [m] (positions)
   double slope = 0, sigma_slope = 0;  ///< the slope of the mat, if it was fitted

@@ -266,8 +266,6 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
   }
   allow_for_rounding(fit, options);
   report_roll(fit);
-  for (const Rows& of_run : usable(route, all)) fit.left_out += of_run.size();
-  fit.left_out -= fit.rows;
   return fit;
 }
 
@@ -278,7 +276,7 @@ std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
     Rows& of_run = rows.emplace_back();
     of_run.reserve(y.size());
     for (std::size_t i = 0; i < y.size(); ++i)
-      if (std::isfinite(y[i]) && (route != Route::shift || std::isfinite(run.D[i])))
+      if (std::isfinite(y[i]) && (is_trajectory(route) || std::isfinite(run.D[i])))
         of_run.push_back(i);
   }
   return rows;

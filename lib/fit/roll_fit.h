@@ -6,8 +6,9 @@
 
 namespace rolling {
 
-/// The rows of each run that can be fitted to a roll: those with finite values. For shift, a
-/// row with v <= 0 counts too: to select by noisy speeds would be to select by their noise.
+/// The rows of each run in which no reading is missing: those with finite values. For a roll under
+/// shifts a row with v <= 0 counts too: to select by noisy speeds would be to select by their
+/// noise.
 std::vector<Rows> usable(Route, const std::vector<FitRun>&);
 
 /// Fits a roll: position, velocity, and shift with known filters (`responses`).

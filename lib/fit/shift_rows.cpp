@@ -109,7 +109,6 @@ ShiftRows shift_rows(const std::vector<FitRun>& all, const FitOptions& options, 
       sum += std::log(rows.v.back());
     }
     rows.runs.push_back(used.size());
-    rows.left_out += readings(run) - used.size();
   }
   const std::size_t n = rows.y.size();
   require_rows(n, !options.a + !options.b, n);
@@ -117,13 +116,6 @@ ShiftRows shift_rows(const std::vector<FitRun>& all, const FitOptions& options, 
     fail("all speeds are equal: b cannot be determined");
   rows.v_ref = std::exp(sum / static_cast<double>(n));
   return rows;
-}
-
-std::size_t readings(const FitRun& run) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < run.v.size(); ++i)
-    count += std::isfinite(run.v[i]) && std::isfinite(run.D[i]);
-  return count;
 }
 
 System system_of(std::shared_ptr<const ShiftRows> rows, const Parameters& q) {
@@ -167,7 +159,6 @@ Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   Minimum minimum = solve(system, {theta}, options);
   Fitted result{.system = std::move(system), .minimum = std::move(minimum)};
   result.rows = n;
-  result.left_out = rows->left_out;
   report_law(result, q);
   result.shifts = std::move(rows);
   return result;

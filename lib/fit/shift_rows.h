@@ -17,8 +17,7 @@ struct ShiftRows {
   std::vector<double> y;          ///< D [m], or ln D for the route loglog
   std::vector<std::size_t> runs;  ///< number of rows of each run
   bool logarithms = false;
-  std::size_t left_out = 0;  ///< number of rows that are not missing and not used
-  std::size_t negative = 0;  ///< number of those with D <= 0 alone, if logarithms are taken
+  std::size_t negative = 0;  ///< number of rows that only D <= 0 leaves out, for logarithms
   /// The geometric mean of v, where the estimates of ln D and b are uncorrelated.
   double v_ref = 0;
 };
@@ -33,9 +32,6 @@ ShiftRows shift_rows(const std::vector<FitRun>&, const FitOptions&, bool logarit
 /// The indices of the rows of a run that are among these.
 Rows shift_rows(const FitRun&, const FitOptions&, bool logarithms,
                 double stop = std::numeric_limits<double>::infinity());
-
-/// The number of rows of a run that are not missing.
-std::size_t readings(const FitRun&);
 
 /// The least-squares problem of a law and these rows. The residuals are passed on in blocks of
 /// at most 256, which fit into the cache.

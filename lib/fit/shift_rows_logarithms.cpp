@@ -146,16 +146,13 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
                    std::vector<Response> responses) {
   std::vector<FitRun> runs;  // that have a logarithm
   std::vector<Response> theirs;
-  std::size_t left_out = 0;  // of the others
   for (std::size_t r = 0; r < all.size(); ++r) {
-    if (shift_rows(all[r], options, true).empty()) {
-      left_out += readings(all[r]);
-      continue;
-    }
+    if (shift_rows(all[r], options, true).empty()) continue;
     runs.push_back(all[r]);
     if (!responses.empty()) theirs.push_back(std::move(responses[r]));
   }
-  if (runs.empty() && left_out > 0)
+  const auto some = [](const Rows& readings) { return !readings.empty(); };
+  if (runs.empty() && std::ranges::any_of(usable(Route::loglog, all), some))
     fail("no row has v > 0 and D > 0: there is no logarithm to fit");
   std::optional<KnownRoll> roll = known_roll(runs, options, std::move(theirs));
   auto rows = std::make_shared<const ShiftRows>(
@@ -163,7 +160,6 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
   const Parameters q(options, true, 1, rows->v_ref);
   Fitted line{.system = system_of(rows, q), .minimum = {}};
   line.rows = rows->y.size();
-  line.left_out = left_out + rows->left_out;
   if (!roll) line.negative = rows->negative;
   // The residuals are linear: any start will do.
   const double mean =

@@ -26,14 +26,14 @@ TEST_CASE("loglog: DanWood's line to 13 digits", "[fit]") {
 TEST_CASE("loglog: rows without a logarithm are left out and counted; none left is refused",
           "[fit]") {
   FitRun run{};
-  run.v = {1, 2, 4, 0, -1, 3};
-  run.D = {3, 6, 12, 1, 1, -1};
+  run.v = {1, 2, 4, 0, -1, 3, NAN};  // the last one is missing
+  run.D = {3, 6, 12, 1, 1, -1, 1};
   const auto r = fit(Route::loglog, {run}, {});
   CHECK(r.n == 3);
   CHECK(r.left_out == 3);
   CHECK(std::abs(r.a - 3) < 1e-13);
   CHECK(std::abs(r.b - 1) < 1e-13);
-  run.D = {-3, -6, 0, 1, 1, -1};
+  run.D = {-3, -6, 0, 1, 1, -1, 1};
   CHECK_THROWS_AS(fit(Route::loglog, {run}, {}), Error);
 }
 
