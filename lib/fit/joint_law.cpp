@@ -34,22 +34,16 @@ std::vector<Symmetric> covariances_of(const std::vector<LawRow>& rows) {
   return all;
 }
 
-double scatter_of(const std::vector<OwnLaw>& laws, Estimate (*number)(const OwnLaw&)) {
-  std::vector<Estimate> x;
-  for (const OwnLaw& one : laws) x.push_back(number(one));
-  return std::sqrt(
-      random_effects_line(x, std::vector<double>(x.size(), 0), static_cast<double>(x.size()) - 1)
-          .tau_square);
-}
-
 /// Rows that do not agree: their mean, and how much they scatter.
 void take_scatter(JointLaw& joint, std::vector<OwnLaw> laws,
                   const std::vector<CommonError>& common) {
-  joint.scatter_log_a = scatter_of(laws, [](const OwnLaw& one) { return one.log_D(0); });
-  joint.scatter_b = scatter_of(laws, [](const OwnLaw& one) { return one.b(); });
+  const double freedom = static_cast<double>(laws.size()) - 1;
+  const ScatteredMean at_unit_speed(laws, 0, freedom);
+  joint.scatter_log_a = std::sqrt(at_unit_speed.D.tau_square);
+  joint.scatter_b = std::sqrt(at_unit_speed.b.tau_square);
   const double log_v = common_log_v(laws, [](const OwnLaw& one) { return one.best_log_v(); });
   for (OwnLaw& one : laws) one = one.in_unit(log_v);
-  const ScatteredMean mean(laws, log_v, static_cast<double>(laws.size()) - 1);
+  const ScatteredMean mean(laws, log_v, freedom);
   if (mean.b.free) joint.law.b = mean.b.value;
   if (mean.D.free) joint.law.a = mean.D.value - log_v * joint.law.b;
   joint.covariance = mean.covariance();

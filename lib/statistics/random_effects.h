@@ -41,9 +41,9 @@ double student(double freedom);
 /// 1/sum(weights) would not do: where one run is more precise than the others, few runs tell tau
 /// too roughly.
 struct RandomEffectsMean {
-  bool free;  ///< not all numbers are equal without errors, as those of a parameter that is fixed
-              ///< fixed are; else all others are 0
-  double value;
+  bool free;  ///< not all numbers are equal without errors, as those of a fixed parameter are; else
+              ///< the value is NaN, and all others are 0
+  double value, tau_square;
   std::vector<double> shares;  ///< of the runs in the weights
   std::vector<double> parts;   ///< of the runs in the error, with their signs
 };
