@@ -56,7 +56,7 @@ struct NoiseErrors {
 };
 NoiseErrors noise_errors(const Fitted&, const Uncertainty&);
 
-/// 0 where a variance is 0, as that of a number that is held.
+/// 0 where a variance is 0, as that of a number that is fixed.
 Matrix correlations_of(const Matrix& covariance);
 
 /// Q = J R^-1 at the minimum. The meat M of the covariance R^-1 M R^-T is a quadratic form of the

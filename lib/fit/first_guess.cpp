@@ -81,12 +81,6 @@ ObservedRun means(const ObservedRun& run, std::size_t n, std::size_t size) {
   return thin;
 }
 
-/// The run after a moving median of five rows, which suppresses false echoes.
-ObservedRun without_outliers(ObservedRun run) {
-  run.y = medians_of_five(run.y);
-  return run;
-}
-
 /// The speeds of a run along its motion: those of a polynomial through its rows, which is stiff
 /// where outliers may be left. On a level mat a body rests from where they become 0.
 std::vector<double> speeds_of(const ObservedRun& run, const FitOptions& options) {
@@ -320,9 +314,9 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
   std::vector<Thinned> thin;
   std::vector<ObservedRun> thin_runs,
       few = options.robust ? std::vector<ObservedRun>() : means_of_many(runs);
-  for (const ObservedRun& run : few.empty() ? runs : few) {
-    thin.push_back(options.robust ? thinned(without_outliers(run), options)
-                                  : thinned(run, options));
+  for (ObservedRun run : few.empty() ? runs : few) {
+    if (options.robust) run.y = medians_of_five(run.y);  // suppresses false echoes
+    thin.push_back(thinned(run, options));
     thin_runs.push_back(thin.back().run);
   }
   const bool position = runs.front().raw_is_position;

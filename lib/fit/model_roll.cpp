@@ -44,8 +44,6 @@ Rows rows_of_speeds(Route route, const FitRun& run, Rows rows) {
   return read;
 }
 
-}  // namespace
-
 /// The direction before the furthest place, from which the body comes back; 0 if it does not.
 double way_before_turn(bool position, const std::vector<double>& t, const std::vector<double>& rows,
                        double least_back) {
@@ -66,6 +64,8 @@ double way_before_turn(bool position, const std::vector<double>& t, const std::v
       limit = least_back * (greatest - least) + errors * deviation(x);
   return std::max(up, down) > limit ? std::copysign(1.0, up - down) : 0;
 }
+
+}  // namespace
 
 double way_of(bool position, const std::vector<double>& t, const std::vector<double>& rows,
               double slope, const FitOptions& options, double least_back) {

@@ -40,18 +40,13 @@ bool leave_out_slow(const RollModel& model, const std::vector<double>& theta,
 
 /// The sum of squares of model - data for the shifts of a run.
 double squares_of_shifts(const RollModel& rolls, const std::vector<double>& theta, std::size_t r) {
-  const ObservedRun& run = rolls.runs()[r];
-  auto measured = run.shifts->accelerations.begin();
+  const ObservedRun::Shifts& shifts = *rolls.runs()[r].shifts;
+  const std::vector<double> fitted = shifts.H.times(rolls.raw_column(theta, r));
   double sum = 0;
-  FilterPass accelerations(run.shifts->H, 1, [&](const double* fitted) {
-    const double residual = *fitted - *measured++;
-    if (!std::isnan(residual)) sum += residual * residual;
-  });
-  for (const double raw : rolls.raw_column(theta, r)) {
-    *accelerations.place() = raw;
-    accelerations.push();
-  }
-  return sum * run.shifts->unit * run.shifts->unit;
+  for (std::size_t i = 0; i < fitted.size(); ++i)
+    if (const double residual = fitted[i] - shifts.accelerations[i]; !std::isnan(residual))
+      sum += residual * residual;
+  return sum * shifts.unit * shifts.unit;
 }
 
 }  // namespace

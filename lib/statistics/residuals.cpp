@@ -154,9 +154,8 @@ double correlation_of_neighbours(std::span<const double> r, std::span<const std:
 
 /// The cumulative sums of x, from 0 to that of all.
 std::vector<double> cumulative(std::span<const double> x) {
-  std::vector<double> sums{0};
-  sums.reserve(x.size() + 1);
-  for (const double value : x) sums.push_back(sums.back() + value);
+  std::vector<double> sums(x.size() + 1);
+  std::partial_sum(x.begin(), x.end(), sums.begin() + 1);
   return sums;
 }
 
