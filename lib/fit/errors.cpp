@@ -192,26 +192,29 @@ Tested tested(const Fitted& fit, const SeenNoise& seen) {
   return {whiteness, near ? Errors::autocorrelation : white};
 }
 
-/// The mean variance that the rounding of the readings leaves them; 0 behind filters. Gates fix x
-/// or v, and t is measured: readings on a grid that are far closer to the roll than rounding would
-/// leave them, and of which none repeats, are not rounded.
-double variance_of_rounding(const Fitted& fit, const SeenNoise& seen) {
-  if (!fit.rolls || fit.noise->known()) return 0;
-  double sum = 0;
-  bool repeats = false;
-  for (const ObservedRun& run : fit.rolls->runs()) {
-    sum += std::pow(grid_of(run.y), 2) / 12 * static_cast<double>(run.y.size());
-    repeats |= std::ranges::adjacent_find(run.y) != run.y.end();
-  }
-  const double variance = sum / static_cast<double>(fit.minimum.f.size()),
-               freedom = static_cast<double>(seen.freedom);
-  return repeats ||
-                 gsl_cdf_chisq_P(seen.variance * freedom / variance, freedom) > levels::not_rounded
-             ? variance
-             : 0;
+/// True if all times are whole multiples of one step from the first: those of a clock.
+bool by_a_clock(const std::vector<double>& t) {
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < t.size(); ++i) step = std::min(step, t[i] - t[i - 1]);
+  return grid_of(t) > 0.99 * step;
 }
 
 }  // namespace
+
+double variance_of_rounding(const Fitted& fit) {
+  if (!fit.rolls || fit.noise->known()) return 0;
+  double sum = 0;
+  bool rounded = false;
+  for (const ObservedRun& run : fit.rolls->runs()) {
+    sum += std::pow(grid_of(run.y), 2) / 12 * static_cast<double>(run.y.size());
+    rounded |= by_a_clock(run.t) || std::ranges::adjacent_find(run.y) != run.y.end();
+  }
+  const double variance = sum / static_cast<double>(fit.minimum.f.size());
+  return rounded || gsl_cdf_chisq_P(fit.minimum.rss / variance,
+                                    static_cast<double>(fit.degrees_left())) > levels::not_rounded
+             ? variance
+             : 0;
+}
 
 Uncertainty uncertainty_of(const Fitted& fit, const SeenNoise& seen) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -221,7 +224,7 @@ Uncertainty uncertainty_of(const Fitted& fit, const SeenNoise& seen) {
     return Uncertainty{kind, whiteness, variance, {fit.minimum.R, std::move(M), q}};
   };
   if (seen.freedom == 0) return with(Errors::none, nan, nan, times(nan, seen.meat));
-  const double floor = variance_of_rounding(fit, seen);
+  const double floor = variance_of_rounding(fit);
   if (seen.variance < floor) return with(Errors::classical, nan, floor, times(floor, seen.meat));
   const auto [whiteness, kind] = tested(fit, seen);
   const bool consistent = kind == Errors::autocorrelation || kind == Errors::uneven;

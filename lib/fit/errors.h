@@ -45,6 +45,11 @@ Uncertainty uncertainty_of(const Fitted&);
 /// The same with noise that other fits of the same rows have shown.
 Uncertainty uncertainty_of(const Fitted&, const SeenNoise&);
 
+/// The mean variance that the rounding of the readings leaves them; 0 behind filters. Gates fix x
+/// or v, and t is measured: readings on a grid that are far closer to the roll than rounding would
+/// leave them, of which none repeats and whose times are not those of a clock, are not rounded.
+double variance_of_rounding(const Fitted&);
+
 /// The standard errors of the reported numbers that are due to the noise.
 struct NoiseErrors {
   Errors kind;

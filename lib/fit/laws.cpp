@@ -213,15 +213,15 @@ LawComparison compare_laws(Route route, const std::vector<FitRun>& runs, FitOpti
   const Fitted& power = rows.power();
   const std::vector<Candidate> all = fits_up_to(rows, laws().back());
   const double n = static_cast<double>(power.minimum.f.size()),
-               independent = independent_rows(all, power.system.runs);
+               independent = independent_rows(all, power.system.runs),
+               least = std::max(variance_of_rounding(power), std::numeric_limits<double>::min());
   LawComparison result;
   for (const Candidate& found : all) {
     const Minimum& m = found.minimum;
     const double k =
         static_cast<double>(m.theta.size()) + 1;  // the variance of the noise is a parameter, too
-    const double aicc =
-        independent * std::log(std::max(m.rss, std::numeric_limits<double>::min()) / n) + 2 * k +
-        2 * k * (k + 1) / (independent - k - 1);
+    const double aicc = independent * std::log(std::max(m.rss / n, least)) + 2 * k +
+                        2 * k * (k + 1) / (independent - k - 1);
     LawFit& of_law = result.fits.emplace_back(
         LawFit{found.law, found.found() && independent > k + 1 ? aicc : infinity, {}, {}});
     if (found.found()) report_coefficients(of_law, rows.solved(found));
