@@ -107,6 +107,13 @@ struct Thinned {
   std::vector<double> speeds = {};  ///< see speeds_of()
 };
 
+[[noreturn]] void refuse_way_back(const ObservedRun& run) {
+  fail(
+      "{}the body comes back, which a level mat does not do: on a slope, --slope S or --slope "
+      "fit; else the roll alone (smooth --coast, or --to)",
+      run.place);
+}
+
 /// Estimates v0 from the time of half the distance. v0 times that time is 0.59 of the whole
 /// distance for uniform deceleration to the stop (b = 0) and 0.69 for exponential decay (b = 1).
 /// For larger b there is no such constant; v0 is then only a unit.
@@ -127,6 +134,7 @@ Thinned thinned(const ObservedRun& run, const FitOptions& options) {
   const double half_time =
       run.t[std::max<std::size_t>(reached(0.5), n > 1)] - (position && options.x0 ? 0 : run.t[0]);
   const double v0 = options.v0 ? std::abs(*options.v0) : 0.6 * most / half_time;
+  if (most == 0 && std::ranges::min(way) < 0) refuse_way_back(run);  // beyond its beginning
   if (!(v0 > 0) || !std::isfinite(v0))
     fail("{}the body does not move: a and b cannot be determined", run.place);
   // The way back of a body that turns is used as well, and may be slow.
@@ -253,10 +261,7 @@ void require_near(const std::vector<Thinned>& thin, double rss, const FitOptions
   }
   for (const auto& [run, v0, way, turns, speeds] : thin)
     if (turns && run.body.slope == 0 && !options.fit_slope && !options.robust && rss > square)
-      fail(
-          "{}the body comes back, which a level mat does not do: on a slope, --slope S or --slope "
-          "fit; else the roll alone (smooth --coast, or --to)",
-          run.place);
+      refuse_way_back(run);
   if (std::isfinite(rss) && rss >= at_rest * (1 - 1e-9))
     fail("no law a v^b comes near the data: {}", choose_the_roll);
 }

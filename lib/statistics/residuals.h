@@ -15,9 +15,9 @@ namespace rolling {
 /// The sums of the products of numbers that are 0, 1, 2, ... rows apart.
 using LagSums = std::array<double, 11>;
 
-/// What a fit takes of those of its residuals, in units of their variance: for residuals (I - Q
-/// Q^T) e of white noise e, the sums of the products of the rows of Q. Q has orthonormal columns:
-/// those that belong to the parameters of the run of a row and to the shared ones.
+/// The bias of these sums for the residuals (I - Q Q^T) e of a fit, with white noise e of variance
+/// one: the fit lowers them by the sums of the products of the rows of Q. Q has orthonormal
+/// columns: those that belong to the parameters of the run of a row and to the shared ones.
 LagSums taken_by(const Matrix& Q, std::span<const std::size_t> runs);
 /// The limit for runs that are much longer than the lags, of p parameters in all.
 LagSums taken_by_few(std::size_t p);

@@ -91,8 +91,8 @@ class Filter {
   std::vector<Column> appended_;
   std::size_t replaced_ = Reader::no_column;  // a slot
   std::size_t cut_ = Reader::no_column;       // its column in this run
-  Growing<Row> rows_;                         // from first_ on: those that are not written yet
-  Bytes texts_;                               // of the rows; from front_ on, of those
+  Growing<Row> rows_;                         // those from first_ on are not written yet
+  Bytes texts_;                               // one after the other; that of first_ is at front_
   std::size_t first_ = 0, front_ = 0;
   std::queue<Head> above_;
   std::queue<std::size_t> dropped_;  // indices of the rows among rows_ to leave out
@@ -103,7 +103,7 @@ class Filter {
   std::optional<Head> head_;  // of a run none of whose rows has been written
   bool any_row_ = false;
   std::function<std::string()> why_none_;
-  bool writing_ = false;  // rows; true for good when that has failed
+  bool writing_ = false;  // write_rows() is at work; stays true if it has failed
 };
 
 }  // namespace rolling
