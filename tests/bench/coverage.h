@@ -68,8 +68,9 @@ class Simulation {
  public:
   Simulation(const Case& c, rolling::Roll& truth, const Scene& scene, unsigned seed)
       : c_(c), truth_(truth), scene_(scene),
-        n_(static_cast<std::size_t>(truth.stop_time() / dt * c.finer) + 1), noise_(seed),
-        random_(seed + 1) {}
+        n_(c.few > 0 ? c.few : static_cast<std::size_t>(truth.stop_time() / dt * c.finer) + 1),
+        step_(c.few > 0 ? truth.stop_time() / static_cast<double>(c.few) : dt / c.finer),
+        noise_(seed), random_(seed + 1) {}
   std::size_t rows() const { return n_; }
 
   /// The run of this number in a joint fit.
@@ -113,7 +114,7 @@ class Simulation {
     Column raw;
     double error = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      const double t = i == 0 ? 0 : dt * (static_cast<double>(i) + noise_(c_.jitter)) / c_.finer,
+      const double t = i == 0 ? 0 : step_ * (static_cast<double>(i) + noise_(c_.jitter)),
                    share = t / truth.stop_time();
       const auto s = truth.at(t);
       const double size =
@@ -228,6 +229,7 @@ class Simulation {
   rolling::Roll& truth_;
   const Scene& scene_;
   std::size_t n_;
+  double step_;  // of time
   double way_ = 1, times_the_noise_ = 1;
   simulated::Noise noise_;
   std::mt19937 random_;

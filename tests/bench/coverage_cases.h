@@ -40,6 +40,7 @@ struct Case {
   rolling::Bulge bulge{};  ///< of whole runs
   bool bound = false;      ///< white noise on the fitted column: the Cramer-Rao bound holds
   int finer = 1;           ///< so many times as many rows a second
+  std::size_t few = 0;     ///< or so many rows in all, evenly from the beginning on
 };
 
 constexpr double dt = 0.04, noise_x = 3e-4,
@@ -189,6 +190,10 @@ inline std::vector<Case> cases() {
        .history = mean_11,
        .lost = 0.01,
        .finer = 160},
+      {.name = "x, 15 rows", .route = position, .few = 15},
+      {.name = "x, 8 rows", .route = position, .few = 8},
+      {.name = "x, 6 rows", .route = position, .few = 6},
+      {.name = "x, 5 rows", .route = position, .few = 5},
       {.name = "pushed, to the stop, x", .route = position, .ending = Case::stop},
       {.name = "caught in 0.3 s, x", .route = position, .ending = Case::caught},
       {.name = "braked, x", .route = position, .ending = Case::braked},
