@@ -19,8 +19,9 @@ namespace rolling {
 namespace {
 
 constexpr auto power_of_ten = [] {
-  std::array<double, 23> powers{1};  // all that are exact
-  for (std::size_t i = 1; i < powers.size(); ++i) powers[i] = 10 * powers[i - 1];
+  std::array<double, 23> powers{};  // all that are exact
+  double power = 1;
+  for (double& entry : powers) entry = power, power *= 10;
   return powers;
 }();
 
