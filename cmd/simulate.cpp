@@ -175,9 +175,9 @@ void add_options(Tool& tool, SonarOptions& sonar) {
 }
 
 /// Writes the rows of a roll: these quantities at each time.
-class Rows {
+class RowWriter {
  public:
-  Rows(Output& out, const Task& task, const std::string& columns)
+  RowWriter(Output& out, const Task& task, const std::string& columns)
       : out_(out), task_(task), row_(chosen(columns, quantities)),
         only_t_(row_.size() == 1 && row_[0].name == "t"), numbers_(row_.size()) {}
 
@@ -267,7 +267,7 @@ int main(int argc, char** argv) {
     task.complete(tool);
     check_options(tool, task);
     // The columns, the method and the end are checked before the report.
-    Rows rows(tool.out, task, columns);
+    RowWriter rows(tool.out, task, columns);
     const auto motion = task.start();
     const bool to_the_stop = std::isnan(until);
     const double end = times_file.empty() ? last_time(task, *motion, until) : not_given;

@@ -13,7 +13,7 @@
 namespace rolling {
 namespace {
 
-struct Rows {
+struct FitRows {
   std::vector<LawRow> laws;
   std::vector<FitRun> runs;  ///< the names and bodies of the runs, without readings
   bool a_fixed = false, b_fixed = false;
@@ -41,7 +41,7 @@ struct Rows {
 };
 
 /// A row that is there twice would count twice.
-void warn_of_copies(Tool& tool, const Rows& rows) {
+void warn_of_same_rows(Tool& tool, const FitRows& rows) {
   std::map<std::vector<double>, std::size_t> different;
   for (std::size_t i = 0; i < rows.laws.size(); ++i) {
     const OwnLaw& one = rows.laws[i].own;
@@ -53,12 +53,12 @@ void warn_of_copies(Tool& tool, const Rows& rows) {
   }
 }
 
-Rows read_rows(Tool& tool) {
+FitRows read_rows(Tool& tool) {
   Reader& in = tool.read({});
   if (!in.find("sigma_a")) fail("no rows of fitpower: there is no column sigma_a");
   const RowColumn a(in, "a", "D"), sigma_a(in, "sigma_a", "D"), b(in, "b"), sigma_b(in, "sigma_b"),
       corr(in, "corr");
-  Rows rows;
+  FitRows rows;
   while (in.next_run()) {
     const auto name = in.find("run");
     const bool sized = in.find("rms") && in.find("n");
@@ -84,7 +84,7 @@ Rows read_rows(Tool& tool) {
 
 /// What K, R and g have brought to ln a of all rows (a goes as (K + 1) R/g, Eq. 12) is taken out of
 /// the rows: it is not noise.
-std::vector<CommonError> take_common(Rows& rows) {
+std::vector<CommonError> take_common(FitRows& rows) {
   std::vector<CommonError> all;
   for (const UncertainNumber& number : uncertain_numbers) {
     std::map<std::pair<double, double>, CommonError> by_value;
@@ -138,8 +138,8 @@ void write(Output& out, const JointLaw& joint, std::size_t n) {
 }  // namespace
 
 int fit_rows(Tool& tool, const Bodies& bodies, bool with_check) {
-  Rows rows = read_rows(tool);
-  warn_of_copies(tool, rows);
+  FitRows rows = read_rows(tool);
+  warn_of_same_rows(tool, rows);
   bodies.give_to(rows.runs);
   const auto common = take_common(rows);
   const JointLaw joint = joint_law(rows.laws, common);

@@ -43,9 +43,9 @@ std::optional<ShiftOf> shift_line(std::span<const std::string> words) {
 }
 
 /// Builds the chain line by line.
-class Chain {
+class ChainBuilder {
  public:
-  explicit Chain(std::span<const double> t) : t_(t), known_(!t.empty()) {}
+  explicit ChainBuilder(std::span<const double> t) : t_(t), known_(!t.empty()) {}
   History take() && { return std::move(history_); }
 
   /// Adds a line. The numbers of shift-from-accel are known even if the filters before it are not.
@@ -153,7 +153,7 @@ std::string line_of(const ShiftOf& of) {
 }
 
 History history_of(const std::vector<std::string>& lines, std::span<const double> t) {
-  Chain chain(t);
+  ChainBuilder chain(t);
   for (const std::string& line : lines) chain.add(line);
   return std::move(chain).take();
 }

@@ -19,7 +19,7 @@ static_assert(polynomial.holds(SavitzkyGolay::most_order) &&
               !polynomial.holds(SavitzkyGolay::most_order + 1));
 namespace {
 
-void require(const Range& range, double value, std::string_view text) {
+void require(const Domain& range, double value, std::string_view text) {
   if (!range.holds(value)) fail("'{}' must be {}", shown(text), range.text);
 }
 
@@ -53,14 +53,14 @@ CommandLine::Set named(const std::string& names, const CommandLine::Set& set) {
 
 }  // namespace
 
-double to_number(const std::string& text, const Range& range) {
+double to_number(const std::string& text, const Domain& range) {
   double value;
   if (!parse_number(text, value)) refuse_number(text);
   require(range, value, text);
   return value;
 }
 
-Estimate Options::to_estimate(const std::string& text, const Range& range) {
+Estimate Options::to_estimate(const std::string& text, const Domain& range) {
   Estimate estimate;
   if (!parse_estimate(text, estimate)) refuse_number(text);
   require(range, estimate.value, text);
@@ -93,7 +93,7 @@ void Options::flag(const std::string& names, bool& value, const std::string& hel
   add_flag(names, help, [&value](bool on) { value = on; });
 }
 
-void Options::number(const std::string& names, double& value, const Range& range,
+void Options::number(const std::string& names, double& value, const Domain& range,
                      const std::string& help, double* sigma) {
   add(
       names, "NUMBER", help,
@@ -105,7 +105,7 @@ void Options::number(const std::string& names, double& value, const Range& range
       [&value] { return std::isnan(value); });
 }
 
-void Options::numbers(const std::string& names, std::vector<Estimate>& values, const Range& range,
+void Options::numbers(const std::string& names, std::vector<Estimate>& values, const Domain& range,
                       const std::string& help) {
   add(
       names, "NUMBER,...", help,
@@ -149,7 +149,7 @@ void Options::body(Body& body, std::initializer_list<BodyOption> options,
     const char* names;
     double Body::*value;
     double BodyUncertainty::*sigma;
-    Range range;
+    Domain range;
     const char* help;
   } all[] = {// in the order of BodyOption
              {"-m,--mass", &Body::m, nullptr, positive, "mass m [kg]"},

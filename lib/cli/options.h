@@ -24,31 +24,31 @@
 namespace rolling {
 
 /// The values that a numeric option accepts.
-struct Range {
+struct Domain {
   const char* text;  ///< in the message "must be ...": "greater than 0"
   bool (*holds)(double);
   /// A radius above it is hardly meant in metres.
   double doubted = std::numeric_limits<double>::infinity();
 };
-inline constexpr Range any_number{"a number", [](double) { return true; }};
-inline constexpr Range positive{"greater than 0", [](double x) { return x > 0; }};
-inline constexpr Range radius_in_metres{positive.text, positive.holds, 1};
-inline constexpr Range not_negative{"0 or more", [](double x) { return x >= 0; }};
-inline constexpr Range whole{"a whole number from 1 to 1e9", [](double x) {
-                               return x >= 1 && x <= 1e9 &&
-                                      x == static_cast<double>(static_cast<std::int64_t>(x));
-                             }};
+inline constexpr Domain any_number{"a number", [](double) { return true; }};
+inline constexpr Domain positive{"greater than 0", [](double x) { return x > 0; }};
+inline constexpr Domain radius_in_metres{positive.text, positive.holds, 1};
+inline constexpr Domain not_negative{"0 or more", [](double x) { return x >= 0; }};
+inline constexpr Domain whole{"a whole number from 1 to 1e9", [](double x) {
+                                return x >= 1 && x <= 1e9 &&
+                                       x == static_cast<double>(static_cast<std::int64_t>(x));
+                              }};
 
-inline constexpr Range odd{"an odd whole number from 1 to 1e9", [](double x) {
-                             return whole.holds(x) && static_cast<std::int64_t>(x) % 2 == 1;
-                           }};
+inline constexpr Domain odd{"an odd whole number from 1 to 1e9", [](double x) {
+                              return whole.holds(x) && static_cast<std::int64_t>(x) % 2 == 1;
+                            }};
 
 /// The order of the polynomial of SavitzkyGolay.
-inline constexpr Range polynomial{"a whole number from 1 to 10",
-                                  [](double x) { return whole.holds(x) && x <= 10; }};
+inline constexpr Domain polynomial{"a whole number from 1 to 10",
+                                   [](double x) { return whole.holds(x) && x <= 10; }};
 
 /// The number in a text. Throws Error for another text and for a number outside the range.
-double to_number(const std::string& text, const Range&);
+double to_number(const std::string& text, const Domain&);
 
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
@@ -65,17 +65,17 @@ class Options {
   // once. Its value must be a number in the syntax of rolling-columns(5) and within the range.
   void flag(const std::string& names, bool& value, const std::string& help);
   /// With `sigma` the number may have an uncertainty (0.5+-0.005).
-  void number(const std::string& names, double& value, const Range&, const std::string& help,
+  void number(const std::string& names, double& value, const Domain&, const std::string& help,
               double* sigma = nullptr);
   template <typename Integer>
-  void count(const std::string& names, Integer& value, const Range& range,
+  void count(const std::string& names, Integer& value, const Domain& range,
              const std::string& help) {
     add(names, "N", help, [&value, range](const std::string& text) {
       value = static_cast<Integer>(to_number(text, range));
     });
   }
   /// One number or several, separated by commas; each may have an uncertainty: 0.5+-0.005,0.83
-  void numbers(const std::string& names, std::vector<Estimate>& values, const Range&,
+  void numbers(const std::string& names, std::vector<Estimate>& values, const Domain&,
                const std::string& help);
   void text(const std::string& names, std::string& value, const std::string& type,
             const std::string& help);
@@ -126,7 +126,7 @@ class Options {
     std::function<bool()> missing;
   };
 
-  Estimate to_estimate(const std::string& text, const Range&);
+  Estimate to_estimate(const std::string& text, const Domain&);
   void add_flag(const std::string& names, const std::string& help,
                 const std::function<void(bool)>& set);
 

@@ -28,16 +28,16 @@ double local_variance(std::span<const double> f) {
   return squares / (6 * static_cast<double>(f.size() - 2));
 }
 
-struct Candidate {
+struct TestedBeginning {
   Beginning beginning;
   std::vector<double> rest;  // the residuals of the other rows of the run
   std::size_t parameters;    // of its fit
 };
 
 /// The beginnings of all runs that were tested, and that of the smallest p.
-struct Search {
+struct BeginningSearch {
   double tests = 0;
-  std::optional<Candidate> found;
+  std::optional<TestedBeginning> found;
 
   /// `fit` is that of this run by itself.
   void add(const Fitted& fit, std::size_t run) {
@@ -80,7 +80,7 @@ std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitR
   const Fitted joint = fit_route(route, runs, options);
   if (!joint.rolls || joint.noise->known()) return {};
   const std::size_t fewest = 20 + joint.rolls->parameters().of_one_run().count();
-  Search search;
+  BeginningSearch search;
   for (std::size_t r = 0; r < runs.size(); ++r) try {
       if (joint.system.runs[r] < fewest) continue;
       else if (runs.size() == 1 && !options.fit_slope) search.add(joint, r);

@@ -19,8 +19,6 @@
 namespace rolling {
 namespace {
 
-using Column = std::vector<double>;
-
 double square(double x) { return x * x; }
 
 /// The response of the raw column to an eccentricity of one metre, to first order: to dD = cos(x/r)
@@ -74,7 +72,7 @@ class Wobble {
   }
 
  private:
-  Column t_;
+  std::vector<double> t_;
   std::vector<std::array<double, 2>> of_t_;
   double fastest_ = 0, way_ = 0;
 };
@@ -106,7 +104,7 @@ Eccentricity amplitude(const Fitted& fit, std::size_t run, const Wobble& wobble,
   };
   evaluate(fit.rolls->runs()[run], run, q, *fit.noise, with_wobble, take);
   all.join();
-  const Column R = all.without_f(), theta = all.solve();
+  const std::vector<double> R = all.without_f(), theta = all.solve();
   const double cc = R[(q - 2) * q + q - 2], cs = R[(q - 2) * q + q - 1], ss = R[q * q - 1],
                by_cos = theta[q - 2], by_sin = theta[q - 1];
   if (!(ss * ss > 1e-12 * (cs * cs + ss * ss))) return {run, 1, 0, 0, 0};
@@ -124,7 +122,7 @@ Eccentricity amplitude(const Fitted& fit, std::size_t run, const Wobble& wobble,
 /// what is left of the sum of their squares, as a share.
 double cut_off(std::span<double> f) {
   const double before = dot(f, f);
-  Column sizes(f.begin(), f.end());
+  std::vector<double> sizes(f.begin(), f.end());
   for (double& x : sizes) x = std::abs(x);
   const double most = levels::cut_off * deviation(sizes);
   if (!(most > 0)) return 1;
@@ -137,7 +135,7 @@ double cut_off(std::span<double> f) {
 std::optional<Eccentricity> eccentricity_of(const Fitted& fit, double variance) {
   if (!fit.rolls || fit.minimum.f.size() < fit.minimum.theta.size() + 10) return {};
   std::optional<Eccentricity> found;
-  Column f = fit.minimum.f;
+  std::vector<double> f = fit.minimum.f;
   const auto f_of = by_run(f, fit.system.runs);
   const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size();
   const double of_all = fit.minimum.rss / static_cast<double>(n - p);

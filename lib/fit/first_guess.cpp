@@ -34,10 +34,10 @@ void for_each_polynomial(double t, double half, std::size_t end, auto&& put) {
 
 /// The polynomial in time whose filtered values have the least weighted sum of squares from the
 /// rows of a run: a sum of Chebyshev polynomials from number `first` on.
-class Polynomial {
+class FilteredPolynomial {
  public:
-  Polynomial(const ObservedRun& run, std::size_t terms, std::size_t first, const Noise& noise,
-             std::size_t number)
+  FilteredPolynomial(const ObservedRun& run, std::size_t terms, std::size_t first,
+                     const Noise& noise, std::size_t number)
       : first_(first), half_(std::max(run.t.back() / 2, std::numeric_limits<double>::min())) {
     Triangles R(1, terms, 0);
     const auto raw = [&](double t, double* to, std::size_t stride) {
@@ -86,7 +86,7 @@ ObservedRun means(const ObservedRun& run, std::size_t n, std::size_t size) {
 std::vector<double> speeds_of(const ObservedRun& run, const FitOptions& options) {
   const bool level = run.body.slope == 0 && !options.fit_slope;
   const std::size_t most = options.robust ? 4 : 7;
-  const Polynomial motion(run, std::min(most, 2 + run.t.size() / 4), 0, Noise(), 0);
+  const FilteredPolynomial motion(run, std::min(most, 2 + run.t.size() / 4), 0, Noise(), 0);
   std::vector<double> speeds;
   bool rests = false;
   for (const double t : run.t) {
@@ -149,7 +149,7 @@ Thinned thinned(const ObservedRun& run, const FitOptions& options) {
 }
 
 /// A law with the v0 and x0 of each run, and the sum of squares of the thinned runs.
-struct Candidate {
+struct StartingPoint {
   double rss = 0;
   PowerLaw law;
   std::vector<double> v0 = {}, x0 = {};
@@ -184,8 +184,8 @@ class LinearRoll {
 
 /// The candidate of an exponent by linear least squares. `slope`: S is a parameter. None if these
 /// numbers are not determined, or if the law would not slow the body down while S might.
-std::optional<Candidate> candidate_of(const std::vector<Thinned>& thin, double b, bool slope,
-                                      const FitOptions& options) {
+std::optional<StartingPoint> candidate_of(const std::vector<Thinned>& thin, double b, bool slope,
+                                          const FitOptions& options) {
   const ObservedRun& first = thin.front().run;
   const double v_unit = thin.front().v0;
   const bool x0 = first.raw_is_position && !options.x0;
@@ -220,7 +220,7 @@ std::optional<Candidate> candidate_of(const std::vector<Thinned>& thin, double b
                    std::max(std::abs(body.slope), v_unit * (body.K + 1) / body.g / first.t.back()),
                best = a ? *a : c[thin.size() * own] * unit;
   if (slope && best < least) return {};
-  Candidate found{squares - all.reduction(), {std::max(best, least), b}};
+  StartingPoint found{squares - all.reduction(), {std::max(best, least), b}};
   for (std::size_t r = 0; r < thin.size(); ++r) {
     const double* const of_run = c.data() + r * own;
     found.v0.push_back(options.v0 ? fixed_v0 : std::max(*of_run, 0.05 * thin[r].v0));
@@ -231,17 +231,17 @@ std::optional<Candidate> candidate_of(const std::vector<Thinned>& thin, double b
 }
 
 /// Starting points, best first: of each exponent of a grid.
-std::vector<Candidate> starts(const std::vector<Thinned>& thin, const FitOptions& options) {
+std::vector<StartingPoint> starts(const std::vector<Thinned>& thin, const FitOptions& options) {
   std::vector<double> exponents{-0.5, 0, 0.1, 0.25, 0.5, 1, 1.5, 2, 3};
   if (const auto given = options.given_b()) exponents = {*given};
-  std::vector<Candidate> all;
+  std::vector<StartingPoint> all;
   for (const double b : exponents) {
-    std::optional<Candidate> found;
+    std::optional<StartingPoint> found;
     if (options.fit_slope) found = candidate_of(thin, b, true, options);
     if (!found) found = candidate_of(thin, b, false, options);
     if (found) all.push_back(std::move(*found));
   }
-  std::ranges::sort(all, {}, &Candidate::rss);
+  std::ranges::sort(all, {}, &StartingPoint::rss);
   return all;
 }
 
@@ -280,7 +280,7 @@ ObservedRun smooth_motion(Route route, const ObservedRun& run, std::size_t numbe
   std::size_t informative = 0;
   for (std::size_t i = 0; i < n; ++i) informative += noise.whitener(number).informative(i);
   const std::size_t terms = std::min<std::size_t>(1 + informative / (slopes ? 3 : 2), 7);
-  const Polynomial motion(run, terms, slopes, noise, number);
+  const FilteredPolynomial motion(run, terms, slopes, noise, number);
   ObservedRun smooth{run.place, run.body, run.geometry, 1, run.origin, position, {}, {}, {}};
   const std::size_t begin = run.H->columns_of(0).first, end = run.H->columns_of(n - 1).end;
   for (std::size_t i = begin; i < end; i += (end - begin + 255) / 256) {
@@ -332,14 +332,14 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
   // The three best starting points lead to minima of the thinned runs; the best of these is taken.
   auto candidates = starts(thin, options);
   if (candidates.empty()) fail("no law a v^b comes near the data: {}", choose_the_roll);
-  const auto theta_of = [&](const Candidate& c) { return q.theta(c.law, c.v0, c.x0, c.slope); };
+  const auto theta_of = [&](const StartingPoint& c) { return q.theta(c.law, c.v0, c.x0, c.slope); };
   std::vector<std::vector<double>> others;
   if (options.robust) std::ranges::transform(candidates, std::back_inserter(others), theta_of);
   if (candidates.size() > 3) candidates.resize(3);
   std::vector<double> theta = theta_of(candidates.front());
   const System system = unweighted(std::move(thin_runs), q);
   double least = std::numeric_limits<double>::infinity();
-  for (const Candidate& candidate : candidates)
+  for (const StartingPoint& candidate : candidates)
     if (Minimum minimum = attempt(system, theta_of(candidate)); minimum.rss < least)
       least = minimum.rss, theta = std::move(minimum.theta);
   require_near(thin, least, options);

@@ -22,7 +22,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The fit of one law: its minimum, and the coefficients that its `shift` takes.
-struct Candidate {
+struct LawMinimum {
   const LawForm* law;
   Minimum minimum;
   std::vector<double> c;
@@ -39,7 +39,7 @@ class FittedRows {
       : power_(std::move(power)), law_(*power_.law().power()), v_unit_(power_.fastest()) {}
 
   const Fitted& power() const { return power_; }
-  Candidate of_power() const { return {&laws().front(), power_.minimum, {1, law_.b}}; }
+  LawMinimum of_power() const { return {&laws().front(), power_.minimum, {1, law_.b}}; }
 
   /// theta with v0, x0 and the slope of the fitted a v^b, and with these coefficients.
   std::vector<double> theta(const std::vector<double>& c) const {
@@ -70,7 +70,7 @@ class FittedRows {
   }
 
   /// The fit of a law that was found.
-  Fitted solved(const Candidate& found) const {
+  Fitted solved(const LawMinimum& found) const {
     if (found.law == &laws().front()) return power_;
     Fitted fit = unsolved(*found.law);
     fit.minimum = found.minimum;
@@ -87,7 +87,7 @@ class FittedRows {
 /// The coefficients that bring a law closest to another one, by least squares over the speeds, from
 /// each of its starting points. If the other law is a special case of this one, the result is
 /// exact.
-std::vector<std::vector<double>> closest(const LawForm& law, const Candidate& other) {
+std::vector<std::vector<double>> closest(const LawForm& law, const LawMinimum& other) {
   ShiftRows curve;
   for (int i = 1; i <= 20; ++i) {
     double by_c[LawForm::most];
@@ -106,11 +106,11 @@ std::vector<std::vector<double>> closest(const LawForm& law, const Candidate& ot
 /// closest to a v^b and to the laws fitted before, so that it never ends above a special case of
 /// the law. If the law has several starts of its own, they are tried as well: close to a law
 /// without a peak, a law with a peak has another minimum than at its peak.
-Candidate fit_law(const FittedRows& rows, const LawForm& law,
-                  const std::vector<Candidate>& before) {
+LawMinimum fit_law(const FittedRows& rows, const LawForm& law,
+                   const std::vector<LawMinimum>& before) {
   const System system = rows.unsolved(law).system;
   std::vector<std::pair<double, std::vector<double>>> starts;
-  for (const Candidate& other : before) {
+  for (const LawMinimum& other : before) {
     if (!other.found()) continue;
     for (const auto& c : closest(law, other)) {
       // v0 and x0 come from the fit of the law that is approximated.
@@ -133,7 +133,7 @@ Candidate fit_law(const FittedRows& rows, const LawForm& law,
     return y.first - x.first <= 1e-9 * x.first;
   };
   starts.erase(std::unique(starts.begin(), starts.end(), same), starts.end());
-  Candidate best{&law, {{}, {}, {}, infinity}, {}};
+  LawMinimum best{&law, {{}, {}, {}, infinity}, {}};
   const auto try_from = [&](const std::vector<double>& theta) {
     if (Minimum m = attempt(system, theta); m.rss < best.minimum.rss) best.minimum = std::move(m);
   };
@@ -149,17 +149,17 @@ Candidate fit_law(const FittedRows& rows, const LawForm& law,
 
 /// The fits of the laws before this one in the table, each of which the next begins from, and of
 /// this one.
-std::vector<Candidate> fits_up_to(const FittedRows& rows, const LawForm& last) {
-  std::vector<Candidate> all{rows.of_power()};
+std::vector<LawMinimum> fits_up_to(const FittedRows& rows, const LawForm& last) {
+  std::vector<LawMinimum> all{rows.of_power()};
   while (all.back().law != &last) all.push_back(fit_law(rows, laws()[all.size()], all));
   return all;
 }
 
 /// The number of independent rows, from the law that leaves the smallest autocorrelation.
-double independent_rows(const std::vector<Candidate>& all, const std::vector<std::size_t>& runs) {
+double independent_rows(const std::vector<LawMinimum>& all, const std::vector<std::size_t>& runs) {
   const double n = static_cast<double>(all.front().minimum.f.size());
   double r = 1;
-  for (const Candidate& law : all)
+  for (const LawMinimum& law : all)
     if (const Minimum& m = law.minimum; m.rss > 0 && law.found())
       r = std::min(r, lagged(m.f, runs, 1) / m.rss);
   return r > 0 && r < 1 ? n * (1 - r) / (1 + r) : n;
@@ -198,7 +198,7 @@ Fitted fit_of_law(Fitted power, const LawForm& law) {
   const char* const slope =
       power.slope ? " and the slope of the mat: add runs in the other direction" : "";
   const FittedRows rows(std::move(power));
-  const Candidate found = fits_up_to(rows, law).back();
+  const LawMinimum found = fits_up_to(rows, law).back();
   if (!found.found()) fail("the rows do not determine D = {}{}", law.formula, slope);
   return rows.solved(found);
 }
@@ -211,12 +211,12 @@ LawComparison compare_laws(Route route, const std::vector<FitRun>& runs, FitOpti
   options.law = &laws().front();
   const FittedRows rows(of_means(fit_route(route, runs, options), options));
   const Fitted& power = rows.power();
-  const std::vector<Candidate> all = fits_up_to(rows, laws().back());
+  const std::vector<LawMinimum> all = fits_up_to(rows, laws().back());
   const double n = static_cast<double>(power.minimum.f.size()),
                independent = independent_rows(all, power.system.runs),
                least = std::max(variance_of_rounding(power), std::numeric_limits<double>::min());
   LawComparison result;
-  for (const Candidate& found : all) {
+  for (const LawMinimum& found : all) {
     const Minimum& m = found.minimum;
     const double k =
         static_cast<double>(m.theta.size()) + 1;  // the variance of the noise is a parameter, too

@@ -16,7 +16,7 @@ namespace rolling {
 namespace {
 
 /// A column that is computed again, and how many rows on either side it has read.
-struct Column {
+struct Recomputed {
   std::vector<double> values;  ///< empty if it is not known
   std::size_t reach = 0;
 };
@@ -30,14 +30,14 @@ std::vector<double> column_of_run(const FitRun& run, const std::string& name) {
 }
 
 /// The output of a filter. What may have read a missing reading is missing, too.
-Column applied(const LinearFilter& filter, std::span<const double> t, Column input) {
+Recomputed applied(const LinearFilter& filter, std::span<const double> t, Recomputed input) {
   std::vector<double>& y = input.values;
   const std::size_t n = t.size(), reach = 2 * filter.reach;
   if (y.size() != n || n == 0) return {};
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < n; ++i)
     if (!std::isfinite(y[i])) missing.push_back(i), y[i] = i > 0 ? y[i - 1] : 0;
-  Column output{filter.apply(t, y), input.reach + filter.reach};
+  Recomputed output{filter.apply(t, y), input.reach + filter.reach};
   for (const std::size_t i : missing)
     for (std::size_t k = i - std::min(i, reach); k < std::min(i + reach + 1, n); ++k)
       output.values[k] = std::numeric_limits<double>::quiet_NaN();
@@ -86,7 +86,7 @@ class WhiteNoise {
     columns_[filter.to] = filter.apply(t_, input);
   }
   /// The median size of the noise in a column: its roughness tells how large the white noise was.
-  double noise_in(const Column& column, const std::string& name) const {
+  double noise_in(const Recomputed& column, const std::string& name) const {
     const std::vector<double>& white = columns_.at(name);
     const double rough = typical_size(roughness(t_, white));
     return rough > 0 ? typical_size(roughness(t_, column.values)) / rough * typical_size(white) : 0;
@@ -106,7 +106,7 @@ double last_place(double y, double least) {
 }
 
 /// Compares a column that was computed again with that of the run. `noise`: its median size.
-void compare(const Column& computed, const std::vector<double>& given, double noise,
+void compare(const Recomputed& computed, const std::vector<double>& given, double noise,
              Mismatch& result) {
   const std::size_t n = given.size(), reach = computed.reach;
   if (n < 2 * reach + 3) return;
@@ -147,7 +147,7 @@ void compare(const Column& computed, const std::vector<double>& given, double no
 
 Mismatch mismatch(const FilterChain& filters, const FitRun& run) {
   Mismatch result;
-  std::map<std::string, Column> columns;
+  std::map<std::string, Recomputed> columns;
   WhiteNoise white(run.t);
   for (std::size_t k = 0; k < filters.size(); ++k) {
     const LinearFilter& filter = filters[k];
@@ -155,7 +155,7 @@ Mismatch mismatch(const FilterChain& filters, const FitRun& run) {
       return std::any_of(filters.begin() + static_cast<std::ptrdiff_t>(first), filters.end(),
                          [&](const LinearFilter& later) { return later.to == name; });
     };
-    Column input = columns[filter.from];
+    Recomputed input = columns[filter.from];
     if (!changed_from(k, filter.from))
       if (auto of_run = column_of_run(run, filter.from); !of_run.empty()) {
         if (filter.from == "D")
@@ -163,12 +163,12 @@ Mismatch mismatch(const FilterChain& filters, const FitRun& run) {
         input = {std::move(of_run)};
       }
     white.apply(filter);
-    const Column& output = columns[filter.to] = applied(filter, run.t, std::move(input));
+    const Recomputed& output = columns[filter.to] = applied(filter, run.t, std::move(input));
     const std::vector<double> given = column_of_run(run, filter.to);
     if (output.reach == 0 || output.values.empty() || given.empty() ||
         changed_from(k + 1, filter.to))
       continue;
-    Column computed = output;
+    Recomputed computed = output;
     if (filter.to == "D")  // the filters speak of the acceleration
       for (double& y : computed.values)
         y = shift_from_acceleration(run.shift_of->body, run.shift_of->geometry, y);

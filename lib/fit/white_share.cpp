@@ -14,15 +14,15 @@ namespace {
 
 /// The unweighted residuals at the beginning of a run, their Jacobian, and the covariance of their
 /// noise.
-struct Linear {
+struct Linearised {
   Covariance noise;
   std::vector<double> columns;  // f, then the columns of J
 };
 
 /// Takes as many residuals of each run as the system has.
-std::vector<Linear> linear_around(const std::vector<double>& theta, const System& system,
-                                  const RollModel& model) {
-  std::vector<Linear> runs;
+std::vector<Linearised> linear_around(const std::vector<double>& theta, const System& system,
+                                      const RollModel& model) {
+  std::vector<Linearised> runs;
   for (std::size_t r = 0; r < system.runs.size(); ++r)
     runs.push_back({Covariance(*model.runs()[r].H, system.runs[r]),
                     std::vector<double>(system.runs[r] * (1 + system.columns()))});
@@ -42,7 +42,7 @@ WhiteShare most_likely_share(const std::shared_ptr<const RollModel>& model,
                              const std::vector<double>& theta, double least, double most) {
   System system = system_of(model, std::make_shared<const Noise>());
   for (std::size_t& rows : system.runs) rows = std::min(rows, searched_for_white_noise);
-  const std::vector<Linear> runs = linear_around(theta, system, *model);
+  const std::vector<Linearised> runs = linear_around(theta, system, *model);
   const auto likelihood = [&](double share) {
     double log_size = 0;
     system.evaluate = [&](const std::vector<double>&, const TakeRows& take) {

@@ -20,8 +20,8 @@ constexpr double unseen = 1e-11;        // negligible step / (standard deviation
 /// The residuals at one theta and the Gauss-Newton step from there. The step comes from the QR
 /// decomposition of J, because the condition number of the normal equations is the square of that
 /// of J.
-struct Point {
-  explicit Point(const System& system) : R(system.runs.size(), system.own, system.shared) {
+struct Iterate {
+  explicit Iterate(const System& system) : R(system.runs.size(), system.own, system.shared) {
     f.reserve(system.residuals());
   }
 
@@ -42,7 +42,7 @@ struct Point {
 };
 
 /// Evaluates the system at theta; false if theta is not allowed or the residuals are not finite.
-bool evaluate_at(const System& system, Point& at, std::vector<double> theta) {
+bool evaluate_at(const System& system, Iterate& at, std::vector<double> theta) {
   at.theta = std::move(theta);
   at.f.clear();
   at.R = Triangles(system.runs.size(), system.own, system.shared);
@@ -75,8 +75,8 @@ std::vector<double> moved(std::vector<double> theta, const std::vector<double>& 
 /// Levenberg-Marquardt steps, scaled after More (1978, Lecture Notes in Mathematics 630, 105) and
 /// damped after Nielsen (1999, IMM-REP-1999-05), until they make no further progress. The caller
 /// tests whether the result is a minimum.
-Point descend(const System& system, Point at) {
-  Point next(system);
+Iterate descend(const System& system, Iterate at) {
+  Iterate next(system);
   double mu = 1e-3, growth = 2;
   std::vector<double> D = at.lengths;
   for (double& d : D)
@@ -105,13 +105,13 @@ Point descend(const System& system, Point at) {
   return at;
 }
 
-Minimum minimum_at(Point at) {
+Minimum minimum_at(Iterate at) {
   return {std::move(at.theta), std::move(at.f), at.R.without_f(), at.rss};
 }
 
 /// Evaluates the system at a start; throws Error where it has no finite values.
-Point at_start(const System& system, std::vector<double> theta) {
-  Point start(system);
+Iterate at_start(const System& system, std::vector<double> theta) {
+  Iterate start(system);
   if (!evaluate_at(system, start, std::move(theta)))
     fail("the fit cannot start: the law has no finite values at the starting point");
   return start;
@@ -119,8 +119,8 @@ Point at_start(const System& system, std::vector<double> theta) {
 
 /// Gauss-Newton steps down to the limit of rounding, as long as each step reduces the sum of
 /// squares by at least the fraction `share` of the reduction that the linear model predicts.
-Point polish(const System& system, Point best, double share) {
-  Point next(system);
+Iterate polish(const System& system, Iterate best, double share) {
+  Iterate next(system);
   for (int i = 0; i < 100 && best.angle > undetermined && !best.negligible(); ++i) {
     if (!evaluate_at(system, next, moved(best.theta, best.step)) ||
         !(next.rss <= best.rss * (1 + 1e-10) - share * best.reduction))
@@ -136,7 +136,7 @@ Point polish(const System& system, Point best, double share) {
 Minimum minimise(const System& system, const std::vector<double>& start) {
   // If the residuals are linear or nearly linear between the start and the minimum, Gauss-Newton
   // steps are sufficient.
-  Point best = polish(system, at_start(system, start), 0.9);
+  Iterate best = polish(system, at_start(system, start), 0.9);
   // Convergence after Bates and Watts (1981, Technometrics 23, 179): the component of the residuals
   // in the tangent plane is small relative to the orthogonal component. An exact fit has no
   // orthogonal component; there the step itself must vanish.
@@ -152,7 +152,7 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
   };
   for (int round = 0; !converged(); ++round) {
     const double before = best.rss, size = best.size;
-    Point next = polish(system, descend(system, best), 0);
+    Iterate next = polish(system, descend(system, best), 0);
     // Parameters as many as residuals may move on to where they are not determined.
     if (freedom == 0 && !(next.angle > undetermined)) break;
     best = std::move(next);
@@ -187,7 +187,7 @@ Minimum attempt(const System& system, const std::vector<double>& start) {
 }
 
 std::vector<double> stepped(const System& system, std::vector<double> theta, double longer) {
-  Point at = at_start(system, std::move(theta));
+  Iterate at = at_start(system, std::move(theta));
   for (double& x : at.step) x *= longer;
   return moved(std::move(at.theta), at.step);
 }
@@ -205,7 +205,7 @@ void solve_transposed(const double* R, std::span<double> g) {
 }
 
 double restricted_likelihood(const System& system, const std::vector<double>& theta) {
-  const Point at = at_start(system, theta);
+  const Iterate at = at_start(system, theta);
   const double freedom =
       static_cast<double>(system.residuals()) - static_cast<double>(system.parameters());
   return -0.5 * freedom * std::log(at.rss - at.reduction) - at.R.log_determinant();

@@ -48,11 +48,11 @@ Residuals residuals_at(const System& system, const std::vector<double>& theta) {
 namespace {
 
 /// The residuals f + J delta of a model that is linear in delta. J is stored row by row.
-class Linear {
+class LinearModel {
  public:
   const System& system;
 
-  Linear(const System& of, const std::vector<double>& theta)
+  LinearModel(const System& of, const std::vector<double>& theta)
       : system(of), p_(of.parameters()), J_(of.residuals() * p_) {
     system.evaluate(theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
       double* const row = &J_[f_.size() * p_];
@@ -89,7 +89,7 @@ struct Half {
   std::vector<std::size_t> rows = {};
 };
 
-Half best_half(const Linear& model, std::vector<double> delta) {
+Half best_half(const LinearModel& model, std::vector<double> delta) {
   Half found{std::move(delta)};
   std::size_t first = 0;
   for (const std::size_t n : model.system.runs) {
@@ -111,7 +111,7 @@ Half best_half(const Linear& model, std::vector<double> delta) {
 
 /// As many rows as there are parameters, far apart: of each run those of its own parameters, and of
 /// the longest those of the shared ones as well, one of each of as many equal parts of the run.
-std::vector<std::size_t> drawn(const Linear& model, std::mt19937& random) {
+std::vector<std::size_t> drawn(const LinearModel& model, std::mt19937& random) {
   const auto& runs = model.system.runs;
   const auto longest = static_cast<std::size_t>(std::ranges::max_element(runs) - runs.begin());
   std::vector<std::size_t> rows;
@@ -129,7 +129,7 @@ std::vector<std::size_t> drawn(const Linear& model, std::mt19937& random) {
 
 /// The least trimmed squares, as far as exact fits of random rows and the fits of their best halves
 /// lead to them (Rousseeuw and Van Driessen 2006, Data Min. Knowl. Discov. 12, 29).
-std::vector<double> trimmed_step(const Linear& model) {
+std::vector<double> trimmed_step(const LinearModel& model) {
   constexpr int draws = 100;
   std::mt19937 random;  // with the seed of the standard: the same draws in each run
   Half best = best_half(model, std::vector<double>(model.system.parameters()));
@@ -141,13 +141,13 @@ std::vector<double> trimmed_step(const Linear& model) {
   return best.delta;
 }
 
-struct Point {
+struct Trial {
   std::vector<double> theta;
   double scale;
 };
 
 /// An infinite scale if theta is not allowed.
-Point point_at(const System& system, std::vector<double> theta) try {
+Trial point_at(const System& system, std::vector<double> theta) try {
   const double scale = residuals_at(system, theta).scale;
   return {std::move(theta), scale};
 } catch (const Error&) {
@@ -155,11 +155,11 @@ Point point_at(const System& system, std::vector<double> theta) try {
 }
 
 /// Steps of least trimmed squares, halved where necessary, as long as they lower the scale.
-Point descend(const System& system, Point at) {
+Trial descend(const System& system, Trial at) {
   constexpr int rounds = 20, halvings = 5;
   for (int round = 0; round < rounds && std::isfinite(at.scale); ++round) {
     const std::vector<double> step = trimmed_step({system, at.theta});
-    Point next = at;
+    Trial next = at;
     double share = 1;
     for (int k = 0; k < halvings && !(next.scale < 0.99 * at.scale); ++k, share /= 2) {
       std::vector<double> theta = at.theta;
@@ -176,9 +176,9 @@ Point descend(const System& system, Point at) {
 
 std::vector<double> least_trimmed(const System& system,
                                   const std::vector<std::vector<double>>& starts) {
-  Point best = point_at(system, starts.front());
+  Trial best = point_at(system, starts.front());
   for (const auto& start : starts)
-    if (Point found = descend(system, point_at(system, start)); found.scale < best.scale)
+    if (Trial found = descend(system, point_at(system, start)); found.scale < best.scale)
       best = std::move(found);
   if (best.theta.empty()) evaluated(system, starts.front());  // throws
   return best.theta;

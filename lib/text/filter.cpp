@@ -125,7 +125,7 @@ inline void Filter::write_row(std::string_view text, std::size_t place,
 /// Writes the remarks above the next row. Its head waits until a row of its run is written.
 void Filter::take_above() {
   for (; !above_.empty() && above_.front().row == done_; above_.pop()) {
-    Head& above = above_.front();
+    Above& above = above_.front();
     if (!above.names.empty()) {
       if (head_) above.comments.insert(0, remarks_of(head_->comments));
       head_ = std::move(above);

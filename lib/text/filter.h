@@ -71,7 +71,7 @@ class Filter {
     std::uint32_t size, place;  // of its text; in it, of the numbers
   };
   /// What stands above the row with this index: the head of a run or, without names, a remark.
-  struct Head {
+  struct Above {
     std::size_t row;
     std::string comments, names;
   };
@@ -94,13 +94,13 @@ class Filter {
   Growing<Row> rows_;                         // those from first_ on are not written yet
   Bytes texts_;                               // one after the other; that of first_ is at front_
   std::size_t first_ = 0, front_ = 0;
-  std::queue<Head> above_;
+  std::queue<Above> above_;
   std::queue<std::size_t> dropped_;  // indices of the rows among rows_ to leave out
   Growing<double> numbers_;          // of these rows, in order
   std::size_t enough_;               // put() writes rows at this count of numbers
   // Counts of the rows of all runs: read; read before this run; written or left out.
   std::size_t read_ = 0, run_begins_ = 0, done_ = 0;
-  std::optional<Head> head_;  // of a run none of whose rows has been written
+  std::optional<Above> head_;  // of a run none of whose rows has been written
   bool any_row_ = false;
   std::function<std::string()> why_none_;
   bool writing_ = false;  // write_rows() is at work; stays true if it has failed

@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   check_contract(ran, "scene");
   if (ran.status != 0) return 0;
-  const auto holds = [](double value, const Range& range) {
+  const auto holds = [](double value, const Domain& range) {
     return std::isnan(value) || (std::isfinite(value) && range.holds(value));
   };
   require(holds(body.m, positive) && holds(body.R, positive) && holds(body.K, not_negative) &&
