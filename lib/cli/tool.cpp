@@ -97,7 +97,7 @@ int Tool::finish(int status) {
   out.flush();
   say("");
   for (const auto& reader : readers_)
-    if (!reader->taken_in_si().empty()) warn(reader->taken_in_si());
+    if (!reader->assumed().empty()) warn(reader->assumed());
   std::size_t left_out = 0;
   bool coarse_time = false, distant_time = false;
   for (const auto& reader : readers_) {

@@ -107,6 +107,7 @@ void NeededColumns::serve_by_units() {
     return std::ranges::count(quantities_, quantity) > 0;
   };
   const bool moves = names("x") || names("v");
+  by_unit_.clear();
   for (const std::string quantity : {"t", "x", "v"}) {
     if (quantity == "t" ? names("t") : moves) continue;
     std::vector<std::size_t> found;
@@ -114,7 +115,9 @@ void NeededColumns::serve_by_units() {
       if (!as_read_[i].unit.empty() && unit_of(quantity, as_read_[i].unit) &&
           !is_quantity(quantities_[i]))
         found.push_back(i);
-    if (found.size() == 1) quantities_[found.front()] = quantity;
+    if (found.size() != 1) continue;
+    quantities_[found.front()] = quantity;
+    if (quantity != "t") by_unit_.push_back(found.front());
   }
 }
 
@@ -226,6 +229,14 @@ void NeededColumns::resolve(Needed& needed) {
   needed.to_si = conversion(*found, quantity);
 }
 
+/// Notes what is assumed of a column that serves as `quantity`, once for all runs.
+void NeededColumns::assume(std::size_t at, std::string_view quantity, std::string_view what) {
+  std::string line = fmt::format("{} is column {}", quantity, at + 1);
+  if (named_) line += fmt::format(", '{}'", shown(as_read_[at].name));
+  line += what;
+  if (assumed_.find(line) == std::string::npos) add_item(assumed_, line, "; ");
+}
+
 /// The conversion of a column that serves as `quantity`. Its unit may stand at the end of its name;
 /// a column without one is in SI units, which is noted where its name does not say so. Refuses a
 /// unit that is not known, and names the other columns that are refused for the same reason.
@@ -234,14 +245,16 @@ Conversion NeededColumns::conversion(std::size_t at, const std::string& quantity
   const bool named = named_ && meant.name == quantity;
   if (meant.unit.empty() && named_) meant.unit = unit_at_end(quantity, meant.name);
   if (const auto said = said_.find(quantity);
-      meant.unit.empty() && is_quantity(quantity) && (!named || said != said_.end())) {
-    std::string line = fmt::format("{} is column {}", quantity, at + 1);
-    if (named_) line += fmt::format(", '{}'", shown(meant.name));
-    line += fmt::format(", taken in {}", si_unit(quantity));
-    if (said != said_.end())
-      line += fmt::format(" although line {} says {}", said->second.line, shown(said->second.unit));
-    if (taken_in_si_.find(line) == std::string::npos) add_item(taken_in_si_, line, "; ");
-  }
+      meant.unit.empty() && is_quantity(quantity) && (!named || said != said_.end()))
+    assume(at, quantity,
+           fmt::format(", taken in {}{}", si_unit(quantity),
+                       said == said_.end()
+                           ? ""
+                           : fmt::format(" although line {} says {}", said->second.line,
+                                         shown(said->second.unit))));
+  // A length beside a speed may be its accuracy.
+  if (by_unit_.size() > 1 && std::ranges::count(by_unit_, at) > 0)
+    assume(at, quantity, ", by its unit alone");
   try {
     return conversion_to_si(quantity, meant);
   } catch (const Error& error) {

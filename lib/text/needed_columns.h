@@ -63,8 +63,9 @@ class NeededColumns {
   /// A needed column of this run has another name in the file.
   bool renames() const;
   /// The quantities so far whose columns say neither quantity nor unit, or have no unit where a
-  /// comment says one: `t is column 1, 'Frame', taken in s; ...`. Empty if there is none.
-  const std::string& taken_in_si() const { return taken_in_si_; }
+  /// comment says one, or of which both x and v are told by their units alone: `t is column 1,
+  /// 'Frame', taken in s; ...`. Empty if there is none.
+  const std::string& assumed() const { return assumed_; }
 
  private:
   struct Use {
@@ -80,6 +81,7 @@ class NeededColumns {
   std::string list() const;
   void resolve();
   void resolve(Needed&);
+  void assume(std::size_t column, std::string_view quantity, std::string_view what);
   Conversion conversion(std::size_t column, const std::string& quantity);
   void name_columns();
 
@@ -88,11 +90,12 @@ class NeededColumns {
   std::map<std::string, std::string> appended_by_;
   std::vector<Needed> needed_;
   bool converts_ = false;
-  std::string taken_in_si_;
+  std::string assumed_;
 
   // The run.
   std::vector<Column> as_read_, in_output_;
   std::vector<std::string> quantities_;
+  std::vector<std::size_t> by_unit_;  // the columns of x and v that only their units tell
   bool named_ = false;
   SaidUnits said_;
   std::string place_;

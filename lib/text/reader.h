@@ -109,7 +109,7 @@ class Reader {
   /// Number of rows that were left out because a needed reading was missing.
   std::size_t left_out() const { return left_out_; }
   /// See NeededColumns.
-  const std::string& taken_in_si() const { return needed_.taken_in_si(); }
+  const std::string& assumed() const { return needed_.assumed(); }
   /// True if times are so large that a double keeps fewer than four digits of the step between two
   /// rows.
   bool coarse_time() const { return coarse_time_; }

@@ -51,7 +51,7 @@ inline std::string told(const std::string& text, ReaderOptions options = {}) {
     in.need("v");
     while (in.next_run())
       while (in.next()) continue;
-    said = in.taken_in_si();
+    said = in.assumed();
   });
   return message.empty() ? said : anonymous(message);
 }
