@@ -96,21 +96,11 @@ int Tool::finish(int status) {
   if (status == trouble) out.end_with(error_line_);
   out.flush();
   say("");
-  for (const auto& reader : readers_)
-    if (!reader->assumed().empty()) warn(reader->assumed());
   std::size_t left_out = 0;
-  bool coarse_time = false, distant_time = false;
   for (const auto& reader : readers_) {
+    for (const std::string& warning : reader->warnings()) warn(warning);
     left_out += reader->left_out();
-    coarse_time |= reader->coarse_time();
-    distant_time |= reader->distant_time();
   }
-  if (coarse_time && !quiet_)
-    say("the times are so large that the time between rows keeps fewer than four digits; "
-        "subtract the first");
-  if (distant_time && !quiet_)
-    say("the times are beyond 1e11 s, some 3000 years: if they are in ms or us, write that in "
-        "brackets behind the name of their column");
   count_left_out(left_out, "a reading is missing");
   if (failed_.empty()) return status;
   say(failed_.first_and_count());

@@ -37,15 +37,7 @@ FitResult result_of(const Fitted& found, double rms, const NoiseErrors& noise,
     for (const ErrorShare& share : shares) square += part(share) * part(share);
     return std::sqrt(square);
   };
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   FitResult result{.law = found.law(),
-                   .coefficients = {},
-                   .correlations = {},
-                   .a = nan,
-                   .sigma_a = nan,
-                   .b = nan,
-                   .sigma_b = nan,
-                   .corr = nan,
                    .rms = rms,
                    .n = found.rows,
                    .negative = found.negative,

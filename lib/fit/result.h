@@ -63,10 +63,10 @@ inline Matrix outer_square(const std::vector<double>& change) {
 
 struct FitResult {
   Law law;
-  std::vector<Estimate> coefficients;  ///< as the formula of the law names them, in SI units
-  Matrix correlations;                 ///< 0 where one of the two is fixed
+  std::vector<Estimate> coefficients = {};  ///< as the formula of the law names them, in SI units
+  Matrix correlations = {};                 ///< 0 where one of the two is fixed
   /// The same of a v^b, a in m (s/m)^b; NaN for another law.
-  double a, sigma_a, b, sigma_b, corr;
+  double a = NAN, sigma_a = NAN, b = NAN, sigma_b = NAN, corr = NAN;
   double rms;     ///< sqrt(RSS / (n - p)) in the unit of the fitted column (of ln D for loglog)
   std::size_t n;  ///< number of fitted rows
   std::size_t left_out = 0;  ///< number of rows, but for missing ones, that the route did not use

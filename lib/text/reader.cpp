@@ -240,6 +240,20 @@ std::string Reader::way_out(std::size_t column) const {
                      : "; write NaN where a reading is missing";
 }
 
+std::vector<std::string> Reader::warnings() const {
+  std::vector<std::string> all;
+  if (!needed_.assumed().empty()) all.push_back(needed_.assumed());
+  if (coarse_time_)
+    all.emplace_back(
+        "the times are so large that the time between rows keeps fewer than four digits; subtract "
+        "the first");
+  if (distant_time_)
+    all.emplace_back(
+        "the times are beyond 1e11 s, some 3000 years: if they are in ms or us, write that in "
+        "brackets behind the name of their column");
+  return all;
+}
+
 std::string Reader::here() const { return fmt::format("{}:{}", lines_->name(), line_number_); }
 
 std::string Reader::where() const {

@@ -108,13 +108,10 @@ class Reader {
   std::string where() const;
   /// Number of rows that were left out because a needed reading was missing.
   std::size_t left_out() const { return left_out_; }
-  /// See NeededColumns.
-  const std::string& assumed() const { return needed_.assumed(); }
-  /// True if times are so large that a double keeps fewer than four digits of the step between two
-  /// rows.
-  bool coarse_time() const { return coarse_time_; }
-  /// True if a time is beyond 3000 years, where milliseconds since 1970 are.
-  bool distant_time() const { return distant_time_; }
+  /// What to tell of the input at its end: what was assumed of columns (see NeededColumns), times so
+  /// large that a double keeps fewer than four digits of the step between two rows, and times beyond
+  /// 3000 years, where milliseconds since 1970 are.
+  std::vector<std::string> warnings() const;
 
  private:
   enum class State { found, in_run, between, ended };

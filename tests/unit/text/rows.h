@@ -51,7 +51,7 @@ inline std::string told(const std::string& text, ReaderOptions options = {}) {
     in.need("v");
     while (in.next_run())
       while (in.next()) continue;
-    said = in.assumed();
+    said = in.warnings().empty() ? "" : in.warnings().front();
   });
   return message.empty() ? said : anonymous(message);
 }
