@@ -13,7 +13,7 @@
 #include "cli/law_file.h"
 #include "cli/linear_filters.h"
 #include "fit/fit.h"
-#include "text/estimate.h"
+#include "text/number.h"
 
 using namespace rolling;
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <new>
+#include <string_view>
 #include <type_traits>
 
 namespace rolling {
@@ -55,6 +56,13 @@ class Growing {
   }
 
   T *data_ = nullptr, *end_ = nullptr, *limit_ = nullptr;
+};
+
+/// Text that grows at its end.
+class Bytes : public Growing<char> {
+ public:
+  using Growing::append;
+  void append(std::string_view text) { append(text.data(), text.data() + text.size()); }
 };
 
 }  // namespace rolling

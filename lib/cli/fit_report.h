@@ -6,9 +6,9 @@
 #include <string>
 
 #include "cli/tool.h"
-#include "fit/beginning.h"
+#include "fit/diagnostics.h"
 #include "fit/laws.h"
-#include "fit/result.h"
+#include "fit/fit.h"
 
 namespace rolling {
 

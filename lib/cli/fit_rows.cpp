@@ -6,9 +6,9 @@
 #include <map>
 
 #include "cli/fit_report.h"
-#include "cli/row_column.h"
+#include "cli/law_file.h"
 #include "contact/body.h"
-#include "fit/joint_law.h"
+#include "fit/run_laws.h"
 
 namespace rolling {
 namespace {

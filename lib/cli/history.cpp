@@ -15,7 +15,6 @@
 #include "signal/derivative.h"
 #include "signal/smoother.h"
 #include "text/column.h"
-#include "text/estimate.h"
 #include "text/filter.h"
 #include "text/head.h"
 #include "text/number.h"

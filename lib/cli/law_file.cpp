@@ -6,7 +6,6 @@
 #include <map>
 
 #include "base/error.h"
-#include "cli/row_column.h"
 
 namespace rolling {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "noise/filter.h"
+#include "noise/response.h"
 #include "signal/method.h"
 
 namespace rolling {

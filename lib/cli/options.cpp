@@ -9,7 +9,6 @@
 #include "cli/scene.h"
 #include "signal/savitzky_golay.h"
 #include "text/column.h"
-#include "text/estimate.h"
 #include "text/input.h"
 #include "text/number.h"
 

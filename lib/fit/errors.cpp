@@ -9,8 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "base/by_run.h"
-#include "base/dot.h"
+#include "base/matrix.h"
 #include "base/grid.h"
 #include "statistics/residuals.h"
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The standard errors of a fit that come from the noise of its rows.
+// The standard errors of a fit: from the noise of its rows, from runs that disagree, and from the
+// input quantities, which are the K, R, g and slope that are given.
 #pragma once
 
+#include "fit/fit.h"
 #include "fit/fitted.h"
-#include "fit/result.h"
 
 namespace rolling {
 
@@ -67,5 +68,38 @@ Matrix correlations_of(const Matrix& covariance);
 /// Q = J R^-1 at the minimum. The meat M of the covariance R^-1 M R^-T is a quadratic form of the
 /// rows of Q.
 Matrix orthonormal(const Fitted&);
+
+/// Compares the runs of a joint fit. Each run is fitted by itself, with a and b of its own (the
+/// slope of the mat is fixed at that of the joint fit); its law (ln a, b) is compared with the mean
+/// of all, weighted by the inverse covariances of the runs' own errors. Its p is that of
+/// the law with which all agree best. Returns nothing where fewer than two runs determine a law by
+/// themselves, or where a and b are fixed.
+///
+/// `errors` are those of the joint fit. Where the runs agree, `errors` and `joint` stay as they
+/// are. Where they disagree, the law of `joint` becomes that of the mean of b and of the mean of
+/// ln D at the speed at which the runs know D best: one common law would bend between them, and 2 %
+/// of scatter in a would shift b by its error. Values and errors are those of
+/// statistics/random_effects.h. The law does not depend on the units.
+///
+/// A fitted slope of the mat becomes the one at which the runs of both directions agree best in
+/// ln D, by the same weights, and takes a degree of freedom. Two runs then have none left, and runs
+/// of one direction do not tell a slope by their scatter: a, b and the slope stay those of the
+/// joint fit, and all errors are multiplied by the root of chi^2/dof.
+std::optional<Agreement> agreement_of(Route, const std::vector<FitRun>&, const FitOptions&,
+                                      NoiseErrors& errors, Fitted& joint);
+
+/// The joint fit of runs that are known to disagree, with the values that agreement_of() gives it.
+Fitted fit_of_disagreeing(Route, const std::vector<FitRun>&, const FitOptions&);
+
+/// The contribution of each given number with an uncertainty. Runs with the same value and
+/// uncertainty have the same body; they change together. The derivative is a central difference of
+/// two fits, with the number one standard uncertainty (or a tenth of the number, if that is less)
+/// above and below its value. On the routes that read D, which was computed with these numbers, D
+/// is computed again from the same accelerations. Where the runs do not agree, their law is that of
+/// their means (see agreement_of()) for the changed number too. If a alone depends on the number,
+/// in proportion to (K + 1) R/g, nothing is fitted again. Throws Error if the fit itself is not
+/// possible.
+std::vector<ErrorShare> shares_of_given(Route, const std::vector<FitRun>&, const FitOptions&,
+                                        const Fitted&, bool agree);
 
 }  // namespace rolling

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/first_guess.h"
 
-#include "base/dot.h"
+#include "base/matrix.h"
 #include "base/error.h"
 #include "base/median.h"
 #include "contact/contact.h"

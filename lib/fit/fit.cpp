@@ -10,13 +10,10 @@
 #include "base/enumeration.h"
 #include "base/error.h"
 #include "base/grid.h"
-#include "fit/agreement.h"
-#include "fit/eccentricity.h"
+#include "fit/diagnostics.h"
 #include "fit/errors.h"
-#include "fit/input_quantities.h"
-#include "fit/off_readings.h"
+#include "fit/fitted.h"
 #include "fit/roll_fit.h"
-#include "fit/route.h"
 
 namespace rolling {
 

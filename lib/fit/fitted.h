@@ -86,4 +86,8 @@ Minimum solve(const System&, const std::vector<std::vector<double>>& starts, con
 /// parameters, or if p = 0.
 void require_rows(std::size_t n, std::size_t p, std::size_t independent);
 
+/// Fits by one route, without the errors. Throws Error as fit() does, except for the limits on the
+/// standard errors.
+Fitted fit_route(Route, const std::vector<FitRun>&, const FitOptions&);
+
 }  // namespace rolling

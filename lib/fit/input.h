@@ -5,7 +5,7 @@
 
 #include "contact/contact.h"
 #include "contact/law.h"
-#include "noise/filter.h"
+#include "noise/response.h"
 
 #include <optional>
 #include <vector>

@@ -7,12 +7,12 @@
 #include <limits>
 #include <utility>
 
-#include "base/by_run.h"
+#include "base/matrix.h"
 #include "base/error.h"
 #include "fit/errors.h"
 #include "fit/first_guess.h"
 #include "fit/roll_fit.h"
-#include "fit/route.h"
+#include "fit/fitted.h"
 #include "fit/shift_rows.h"
 #include "statistics/residuals.h"
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "base/dot.h"
+#include "base/matrix.h"
 
 namespace rolling {
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "base/dot.h"
 #include "base/error.h"
+#include "base/matrix.h"
 #include "fit/first_guess.h"
-#include "fit/white_share.h"
+#include "fit/inferred_noise.h"
 
 namespace rolling {
 

@@ -8,8 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/by_run.h"
-#include "base/dot.h"
+#include "base/matrix.h"
 #include "base/error.h"
 #include "contact/contact.h"
 #include "contact/law.h"

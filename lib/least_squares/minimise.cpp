@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "least_squares/minimise.h"
 
-#include "base/dot.h"
-#include "base/error.h"
-#include "least_squares/triangles.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "base/error.h"
+#include "base/matrix.h"
+#include "least_squares/triangles.h"
 
 namespace rolling {
 namespace {

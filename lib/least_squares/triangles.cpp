@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "least_squares/triangles.h"
 
-#include "base/dot.h"
+#include "base/matrix.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/dot.h"
 #include "base/error.h"
+#include "base/matrix.h"
 
 namespace rolling {
 

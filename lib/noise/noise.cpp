@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "noise/noise.h"
 
-#include "base/by_run.h"
-#include "base/dot.h"
-
 #include <utility>
+
+#include "base/matrix.h"
 
 namespace rolling {
 namespace {

@@ -2,13 +2,30 @@
 // The columns of a run as linear functions of the one raw column that the sensor recorded.
 #pragma once
 
-#include "noise/filter.h"
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
 #include "noise/filter_matrix.h"
 
-#include <map>
-#include <string>
-
 namespace rolling {
+
+/// One linear filter of a chain: column `to` = L times column `from`. Row i of L is zero further
+/// than `reach` samples from i (further than 2 * reach at the ends of a run, where a row may be
+/// one-sided).
+struct LinearFilter {
+  std::string from, to;  ///< short names of the columns
+  std::size_t reach;
+  std::function<std::vector<double>(std::span<const double> t, std::span<const double> y)> apply;
+  /// L[i][j] depends on i - j alone, except in the 2 reach + 1 rows at either end.
+  bool shift_invariant = false;
+};
+
+/// The filters in the order in which they were applied; the first one reads the raw column.
+using FilterChain = std::vector<LinearFilter>;
 
 /// The matrix of a filter for rows at the times t, measured as its response to combs of unit
 /// impulses. Throws Error if the filter does not return one value for each row.

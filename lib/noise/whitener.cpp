@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "noise/whitener.h"
 
-#include "base/dot.h"
-#include "base/error.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "base/error.h"
+#include "base/matrix.h"
 
 namespace rolling {
 namespace {

@@ -9,8 +9,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "base/by_run.h"
-#include "base/dot.h"
+#include "base/matrix.h"
 
 namespace rolling {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "text/bytes.h"
+#include "base/growing.h"
 
 namespace rolling {
 

@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "base/growing.h"
-#include "text/bytes.h"
 #include "text/output.h"
 #include "text/reader.h"
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers as text: reading and writing.
+// Numbers as text, with an uncertainty (0.50+-0.005) or without: reading and writing.
 #pragma once
 
 #include <string>
 #include <string_view>
+
+#include "base/estimate.h"
 
 namespace rolling {
 
@@ -55,5 +57,13 @@ inline std::string_view trim(std::string_view field) {
   while (!field.empty() && is_blank(field.back())) field.remove_suffix(1);
   return field;
 }
+
+/// Reads the whole of `text`: a number, or a number, `+-` and the standard uncertainty, which has
+/// no sign. Blanks may stand around `+-`. Both numbers have the syntax of number.h. Returns false
+/// for any other text and then leaves `estimate` unchanged.
+bool parse_estimate(std::string_view text, Estimate& estimate);
+
+/// The shortest text that reads back to the same numbers: `0.5+-0.005`, or `0.5` if sigma is 0.
+std::string to_text(const Estimate&);
 
 }  // namespace rolling

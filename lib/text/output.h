@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "text/bytes.h"
+#include "base/growing.h"
 #include "text/column.h"
 #include "text/delimiters.h"
 #include "text/number.h"

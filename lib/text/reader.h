@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "text/bytes.h"
+#include "base/growing.h"
 #include "text/dialect.h"
 #include "text/head.h"
 #include "text/lines.h"
@@ -108,9 +108,9 @@ class Reader {
   std::string where() const;
   /// Number of rows that were left out because a needed reading was missing.
   std::size_t left_out() const { return left_out_; }
-  /// What to tell of the input at its end: what was assumed of columns (see NeededColumns), times so
-  /// large that a double keeps fewer than four digits of the step between two rows, and times beyond
-  /// 3000 years, where milliseconds since 1970 are.
+  /// What to tell of the input at its end: what was assumed of columns (see NeededColumns), times
+  /// so large that a double keeps fewer than four digits of the step between two rows, and times
+  /// beyond 3000 years, where milliseconds since 1970 are.
   std::vector<std::string> warnings() const;
 
  private:

@@ -7,8 +7,8 @@
 #include "base/error.h"
 #include "contact/law.h"
 #include "contact/law.h"
-#include "fit/beginning.h"
-#include "fit/route.h"
+#include "fit/diagnostics.h"
+#include "fit/fitted.h"
 #include "fit/laws.h"
 #include "unit/fit/simulated.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/beginning.h"
+#include "fit/diagnostics.h"
 
 #include <gsl/gsl_cdf.h>
 
 #include <cmath>
 #include <functional>
 
-#include "fit/route.h"
+#include "fit/fitted.h"
 #include "base/error.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"

@@ -2,7 +2,7 @@
 #include "fit/roll_fit.h"
 
 #include "fit/errors.h"
-#include "fit/route.h"
+#include "fit/fitted.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
 

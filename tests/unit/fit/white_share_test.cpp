@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/white_share.h"
+#include "fit/inferred_noise.h"
 
 #include "fit/roll_fit.h"
 #include "unit/catch.h"

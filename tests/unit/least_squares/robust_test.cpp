@@ -2,7 +2,6 @@
 #include "least_squares/robust.h"
 
 #include "base/error.h"
-#include "least_squares/trimmed.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
 #include "unit/least_squares/systems.h"

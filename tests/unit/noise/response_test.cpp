@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "noise/response.h"
 
-#include "base/dot.h"
+#include "base/matrix.h"
 #include "base/error.h"
 #include "unit/noise/dense.h"
 #include "unit/fit/simulated.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "noise/whitener.h"
 
-#include "base/dot.h"
+#include "base/matrix.h"
 #include "base/error.h"
 #include "noise/noise.h"
 #include "noise/response.h"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "base/dot.h"
+#include "base/matrix.h"
 #include "unit/catch.h"
 
 using namespace rolling;

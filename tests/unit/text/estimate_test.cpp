@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "text/estimate.h"
+#include "text/number.h"
 
 #include <cmath>
 #include <random>

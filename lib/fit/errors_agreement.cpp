@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/agreement.h"
+#include "fit/errors.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "base/error.h"
+#include "fit/fitted.h"
 #include "fit/roll_fit.h"
-#include "fit/route.h"
 #include "fit/run_laws.h"
 
 namespace rolling {

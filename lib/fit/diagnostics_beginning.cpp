@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/beginning.h"
+#include "fit/diagnostics.h"
 
 #include <gsl/gsl_cdf.h>
 
@@ -7,15 +7,14 @@
 #include <cmath>
 #include <utility>
 
-#include "base/dot.h"
 #include "base/error.h"
 #include "base/gsl.h"
+#include "base/matrix.h"
 #include "fit/errors.h"
 #include "fit/fitted.h"
 #include "fit/left_out.h"
 #include "fit/levels.h"
 #include "fit/roll_fit.h"
-#include "fit/route.h"
 #include "statistics/residuals.h"
 
 namespace rolling {

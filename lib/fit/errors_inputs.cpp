@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/input_quantities.h"
+#include "fit/errors.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "contact/contact.h"
 #include "contact/body.h"
-#include "fit/agreement.h"
-#include "fit/route.h"
+#include "contact/contact.h"
+#include "fit/fitted.h"
 
 namespace rolling {
 

@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The white noise that the residuals of a roll hold in addition to the filtered noise: rounding.
+// What residuals tell of noise that no line names: speeds that the software of a sensor has made as
+// differences of positions, and white noise that rounding has added behind filters.
 #pragma once
 
+#include "fit/fitted.h"
 #include "fit/levels.h"
 #include "fit/model_roll.h"
 
 namespace rolling {
+
+/// The velocity fit with the difference filter of options.possible_filters, and the share of white
+/// noise, that have the largest restricted likelihood; the likelihood is computed around `plain`, a
+/// fit without a filter. None if white noise alone, or a mean of speeds, is nearly as likely or
+/// more likely, or if the residuals of the new fit are not white or are uneven along the runs.
+std::optional<Fitted> fit_differences(const std::vector<FitRun>&, const FitOptions&,
+                                      const Fitted& plain);
 
 /// An estimate of the share of white noise (the share of Noise).
 struct WhiteShare {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/off_readings.h"
+#include "fit/diagnostics.h"
 
 #include <gsl/gsl_cdf.h>
 
@@ -7,13 +7,12 @@
 #include <cmath>
 #include <utility>
 
-#include "base/by_run.h"
-#include "base/dot.h"
 #include "base/error.h"
+#include "base/matrix.h"
 #include "fit/errors.h"
+#include "fit/fitted.h"
 #include "fit/left_out.h"
 #include "fit/levels.h"
-#include "fit/route.h"
 #include "least_squares/robust.h"
 
 namespace rolling {

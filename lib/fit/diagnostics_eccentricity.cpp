@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/eccentricity.h"
+#include "fit/diagnostics.h"
 
 #include <gsl/gsl_cdf.h>
 
@@ -9,8 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "base/by_run.h"
-#include "base/dot.h"
+#include "base/matrix.h"
 #include "base/median.h"
 #include "contact/contact.h"
 #include "fit/levels.h"
