@@ -2,7 +2,8 @@
 # What only those need who develop: the tests and how they are built, other compilers and machines,
 # analysis, measurements. The Makefile includes it.
 test   := $(wildcard tests/unit/*/*.cpp tests/pipeline/*.cpp)
-static_libc := $(wildcard /usr/lib/*/libgsl.a)
+# A sanitizer does not link statically.
+static_libc := $(if $(findstring -fsanitize,$(CXXFLAGS)),,$(wildcard /usr/lib/*/libgsl.a))
 target := number reader scene $(tool)
 
 .PHONY: check-arm64 check-clang check-libcxx check-long static-arm64 fuzz sanitize coverage-lines \
