@@ -17,10 +17,9 @@ namespace rolling {
 /// of the Jacobian, because the fit can follow those. The noise before the filters is assumed
 /// white, of its own size in each run; `variance` is that of all runs.
 ///
-/// The result is the run with the smallest p. It is empty if no run reaches 1 % (after
-/// Bonferroni's correction), or if the period 0.7 or 1.4 times as long has as small a p: the
-/// residuals then have another cause. A run of less than one turn, or with less than two rows in
-/// a turn, is not tested.
+/// The result is the run with the smallest p. It is empty if no run reaches 1 % (after Bonferroni's
+/// correction), or if the period 0.7 or 1.4 times as long has as small a p: the residuals then have
+/// another cause. A run of less than one turn, or with less than two rows in a turn, is not tested.
 std::optional<Eccentricity> eccentricity_of(const Fitted&, double variance);
 
 /// The readings of a roll that lie ten standard deviations off the motion of the others or further:

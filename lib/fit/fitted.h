@@ -71,8 +71,7 @@ struct Fitted {
     return rolls ? rolling::means_taken(rolls->runs(), rolls->parameters()) : 0;
   }
   /// The number of degrees of freedom that are left for the size of the noise; with none left there
-  /// are no errors. Filters at the ends of a short run may leave fewer than its rows less the
-  /// mean.
+  /// are no errors. Filters at the ends of a short run may leave fewer than its rows less the mean.
   std::size_t degrees_left() const;
 };
 

@@ -134,8 +134,7 @@ bool has_cusps(const RollModel& rolls, const std::vector<double>& theta, std::si
 /// the interval of the minimum and in those beside it, until no such start leads to a smaller sum.
 /// Positions are smoother by one order, and nothing is done.
 ///
-/// The minima differ the less the more rows there are: above 2048 rows times runs nothing is
-/// done.
+/// The minima differ the less the more rows there are: above 2048 rows times runs nothing is done.
 Minimum beyond_cusps(const RollModel& rolls, const System& system, Minimum best) {
   constexpr std::size_t many = 2048;  // rows times runs
   if (system.residuals() * system.runs.size() > many) return best;

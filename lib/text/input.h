@@ -10,8 +10,7 @@
 
 namespace rolling {
 
-/// Bytes. A row of motion data has tens of bytes; a file with longer lines is not one of
-/// columns.
+/// Bytes. A row of motion data has tens of bytes; a file with longer lines is not one of columns.
 inline constexpr std::size_t longest_line = 1 << 20;
 
 /// Throws InputError if standard output is this regular file: the tool would read what it writes,
