@@ -148,7 +148,7 @@ class Search {
     if (va.value * way < 0 && !stops && !is_roll(b)) return false;
     const auto ea = a.a(a.to), eb = b.a(b.from);
     const double larger = std::max(std::abs(ea.value), std::abs(eb.value));
-    const double most = std::abs(eb.value) > std::abs(ea.value) ? 0.2 : 0.4;
+    const double most = ratio > 1 ? 0.2 : 0.4;
     if (error(ea, eb) < 0.15 * larger)
       return ratio > 0.2 && ratio < 5 && jump(ea, eb) < std::max(most * larger, 3 * error(ea, eb));
     return ratio > 0.55 && ratio < 1.5;

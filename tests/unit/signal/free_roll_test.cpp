@@ -96,6 +96,33 @@ TEST_CASE("free_roll: other noise of the last runs that are kept does not move t
   }
 }
 
+TEST_CASE("free_roll: under the drag of air one law has more than one parabola of speeds",
+          "[signal]") {
+  // A bicycle by a satellite receiver: v' = -(A + B v^2), so that the deceleration falls from 0.5
+  // to 0.06 m/s^2 in one roll, which ends at (atan(v0 sqrt(B/A)))/sqrt(A B).
+  constexpr double A = 0.06, B = 0.0045, v0 = 10, begin = 30;
+  const double root = std::sqrt(A * B), stop_time = std::atan(v0 * std::sqrt(B / A)) / root;
+  int whole = 0;
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    const Series e = noise(120, seed);
+    std::vector<Sample> run;
+    for (std::size_t i = 0; i < 120; ++i) {
+      const double t = static_cast<double>(i), s = t - begin,
+                   v = s > 0    ? std::sqrt(A / B) * std::tan(root * std::max(0.0, stop_time - s))
+                       : t > 22 ? v0
+                       : t > 8  ? v0 * std::pow(std::sin(3.14159265358979 * (t - 8) / 28), 2)
+                                : 0;
+      run.push_back({t, v == 0 ? 0 : std::round((v + 0.055 * e[i]) * 36) / 36});
+    }
+    const auto [from, to] = free_roll(run, false).kept;
+    INFO("seed " << seed << ": " << run[from].t << " to " << run[to - 1].t);
+    CHECK(run[from].t >= begin - 1);
+    CHECK(run[to - 1].t <= begin + stop_time + 2);
+    whole += run[to - 1].t - run[from].t > 0.8 * stop_time;
+  }
+  CHECK(whole >= 90);
+}
+
 TEST_CASE("free_roll: a slow body that a hand stops does not end by itself", "[signal]") {
   // The roll of made_run, up to where a hand stops it within 0.2 s at a tenth of its speed.
   constexpr double caught = 6, in = 0.2;
