@@ -11,6 +11,7 @@
 #include "signal/joints.h"
 #include "signal/outliers.h"
 #include "signal/piece.h"
+#include "signal/repeats.h"
 #include "signal/resolution.h"
 #include "signal/units.h"
 
@@ -264,21 +265,26 @@ FreeRoll roll_of(std::span<const Sample> run, bool positions, double step) {
   constexpr double off = 6;  // standard errors
   const Sample origin{run[0].t, positions ? run[0].y : 0};
   std::vector<Sample> readings;
-  for (const Sample& s : run) readings.push_back({s.t - origin.t, s.y - origin.y});
+  std::vector<double> y;
+  for (const Sample& s : run)
+    readings.push_back({s.t - origin.t, s.y - origin.y}), y.push_back(s.y);
   const Units units(readings);
+  const bool held = rows_held(y) > 1;
   std::vector<Sample> samples;
   std::vector<std::size_t> index;  // of the samples that are on the motion of their neighbours
   Outliers outliers({201, 0}, off);
   std::size_t i = 0;
   const auto take = [&](std::span<const Judged> judged) {
     for (const Judged& s : judged) {
+      while (readings[i].t < s.t) ++i;
       // The last reading is beyond its neighbours: a stop there looks like an outlier.
       if (s.kept || i + 1 == readings.size())
         samples.push_back(units({s.t, s.y})), index.push_back(i);
-      ++i;
     }
   };
-  for (const Sample& s : readings) take(outliers.push(s.t, s.y));
+  for (std::size_t k = 0; k < y.size(); ++k)  // of held readings the first alone is one
+    if (!held || k == 0 || k + 1 == y.size() || y[k] != y[k - 1])
+      take(outliers.push(readings[k].t, readings[k].y));
   take(outliers.finish());
   const double noise = noise_of(samples, positions, std::ldexp(step, -units.y));
   const auto found =
