@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "signal/joints.h"
 #include "signal/outliers.h"
-#include "signal/piece.h"
+#include "signal/partition.h"
 #include "signal/repeats.h"
 #include "signal/resolution.h"
 #include "signal/units.h"
