@@ -72,10 +72,7 @@ class Piece {
       fit_.add(s.t - middle(), s.y / noise_);
     order = Partition<P>::cost_of(fit_, samples.size()).second;
   }
-  struct Value {
-    double value, error;
-    bool is_known() const { return std::abs(value) > 3 * error; }
-  };
+  using Value = typename Polynomial<P>::Estimate;
   Value y(double t) const { return derivative(0, t); }
   Value v(double t) const { return derivative(speed_, t); }
   Value a(double t) const { return derivative(speed_ + 1, t); }

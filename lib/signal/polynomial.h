@@ -47,6 +47,8 @@ class Polynomial {
   /// the readings do not determine the polynomial.
   struct Estimate {
     double value, error;
+
+    bool is_known() const { return std::abs(value) > 3 * error; }
   };
   Estimate derivative(std::size_t order, double u, std::size_t size = P) const {
     if (size_ < size) return {0, std::numeric_limits<double>::infinity()};

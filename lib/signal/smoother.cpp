@@ -74,11 +74,6 @@ std::size_t best_width(std::span<const Sample> run, const SignalOptions& options
   return 2 * best + 1;
 }
 
-std::span<const double> AutoSmoother::push(double t, double y) {
-  run_.push_back({t, y});
-  return {};
-}
-
 std::span<const double> AutoSmoother::finish() {
   options_.width = {best_width(run_, options_), 0};
   return smooth_ = output_of(*make_signal(options_), run_.size(),

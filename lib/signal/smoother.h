@@ -25,16 +25,14 @@ extern const std::span<const SignalMethod> smoothing_methods;
 std::size_t best_width(std::span<const Sample> run, const SignalOptions&);
 
 /// Smooths with the best width of the run, which is computed when the run is complete.
-class AutoSmoother : public Signal {
+class AutoSmoother : public WholeRunSignal {
  public:
   explicit AutoSmoother(const SignalOptions& options) : options_(options) {}
-  std::span<const double> push(double t, double y) override;
   std::span<const double> finish() override;
   const SignalOptions& options() const { return options_; }  ///< with that width after finish()
 
  private:
   SignalOptions options_;
-  std::vector<Sample> run_;
   std::vector<double> smooth_;
 };
 

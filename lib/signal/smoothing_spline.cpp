@@ -15,11 +15,6 @@ namespace rolling {
 // section 2.3. The second derivatives g at the inner knots solve (R + alpha Q^T Q) g = Q^T y; the
 // values of the spline are y - alpha Q g.
 
-std::span<const double> SplineDerivative::push(double t, double y) {
-  run_.push_back({t, y});
-  return {};
-}
-
 /// Solves for the second derivatives and returns the score of the modified generalised
 /// cross-validation, RSS / (n - 1.4 tr A)^2, where A is the matrix of the smoother; infinite if the
 /// root of the denominator is not positive. RSS = alpha^2 |Q g|^2 and n - tr A = alpha tr(B^-1 Q^T
