@@ -13,7 +13,7 @@ inline constexpr double not_white = 0.003;
 inline constexpr double nearly_white = 0.1;
 /// Unequal variance, along one run and in several: 1 %.
 inline constexpr double uneven = 0.01, uneven_runs = 0.005;
-/// Runs of a joint fit disagree: 1 % (tests/unit/fit/agreement_test.cpp).
+/// Runs of a joint fit disagree: 1 % (tests/unit/fit/errors_agreement_test.cpp).
 inline constexpr double runs_disagree = 0.01;
 /// The beginning is disturbed, after Bonferroni's correction: 0.1 %. The others must be white.
 inline constexpr double beginning = 0.001, beginning_white = 0.005;
