@@ -72,9 +72,10 @@ void report_route(Tool& tool, const RouteWords& words, const std::vector<FitRun>
   for (std::size_t j = 0; j < r.coefficients.size(); ++j)
     law += fmt::format("{} {:.5g}{}, ", r.law.form().coefficients[j].name, r.coefficients[j].value,
                        known(" +- {:.2g}", r.coefficients[j].sigma));
-  tool.say(fmt::format("{}: {}{}n {}, errors {}{}, {:.2g} ms", words.name, law,
-                       known("rms {:.3g}, ", r.rms), r.n, kinds.at(r.errors),
-                       known(" (Ljung and Box: p = {:.2g})", r.whiteness), time.count()));
+  tool.say(fmt::format("{}: {}{}n {} ({} degree{} of freedom), errors {}{}, {:.2g} ms", words.name,
+                       law, known("rms {:.3g}, ", r.rms), r.n, r.freedom, r.freedom == 1 ? "" : "s",
+                       kinds.at(r.errors), known(" (Ljung and Box: p = {:.2g})", r.whiteness),
+                       time.count()));
   if (r.shares.size() > 1 && r.errors != Errors::none) tool.say(budget(r));
 }
 

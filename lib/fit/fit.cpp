@@ -37,6 +37,7 @@ FitResult result_of(const Fitted& found, double rms, const NoiseErrors& noise,
   FitResult result{.law = found.law(),
                    .rms = rms,
                    .n = found.rows,
+                   .freedom = found.degrees_left(),
                    .negative = found.negative,
                    .whiteness = noise.whiteness,
                    .errors = noise.kind};

@@ -70,6 +70,7 @@ struct FitResult {
   double a = NAN, sigma_a = NAN, b = NAN, sigma_b = NAN, corr = NAN;
   double rms;     ///< sqrt(RSS / (n - p)) in the unit of the fitted column (of ln D for loglog)
   std::size_t n;  ///< number of fitted rows
+  std::size_t freedom;       ///< degrees of freedom of the errors, see Fitted::degrees_left()
   std::size_t left_out = 0;  ///< number of rows, but for missing ones, that the route did not use
   std::size_t negative;      ///< of these, those with D <= 0 whose noise loglog does not know
   double whiteness;          ///< p of the autocorrelation of the noise (Ljung and Box); NaN
