@@ -19,6 +19,7 @@
 #include "unit/fit/simulated.h"
 
 #include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -33,7 +34,7 @@ struct Row {
   double sd_b = 0, over_bound = 0;  ///< of b; over the Cramer-Rao bound, 0 where it does not apply
   double percent_a = 0;             ///< bias of a in per cent of a
   /// Shares of runs whose intervals of these levels hold the truth.
-  static constexpr double quantiles[] = {0.67449, 0.99446, 1.95996, 2.57583};  // 50 68 95 99 %
+  static constexpr double levels[] = {0.50, 0.68, 0.95, 0.99};
   double covers_a[4] = {}, covers_b[4] = {};
   double cover_a = 0, cover_b = 0;  ///< those of 95 %
   double cover_slope = 0;
@@ -253,8 +254,11 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
       const auto r = rolling::fit(pulses ? Route::position : c.route, joint, options);
       const double a = (r.a - scene.a) / r.sigma_a, b = (r.b - scene.b) / r.sigma_b;
       for (std::size_t i = 0; i < 4; ++i) {
-        row.covers_a[i] += std::abs(a) < Row::quantiles[i];
-        row.covers_b[i] += std::abs(b) < Row::quantiles[i];
+        const double P = (1 + Row::levels[i]) / 2,
+                     most = c.student ? gsl_cdf_tdist_Pinv(P, static_cast<double>(r.freedom))
+                                      : gsl_cdf_ugaussian_Pinv(P);
+        row.covers_a[i] += std::abs(a) < most;
+        row.covers_b[i] += std::abs(b) < most;
       }
       row.cover_slope += c.down > 0 && std::abs(r.slope - slope) < 1.96 * r.sigma_slope;
       row.far += std::abs(b) > 6 || std::abs(a) > 6;

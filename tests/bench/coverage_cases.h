@@ -41,6 +41,7 @@ struct Case {
   bool bound = false;      ///< white noise on the fitted column: the Cramer-Rao bound holds
   int finer = 1;           ///< so many times as many rows a second
   std::size_t few = 0;     ///< or so many rows in all, evenly from the beginning on
+  bool student = false;    ///< the intervals are Student's, for the degrees of freedom of the fit
 };
 
 constexpr double dt = 0.04, noise_x = 3e-4,
@@ -190,6 +191,10 @@ inline std::vector<Case> cases() {
        .history = mean_11,
        .lost = 0.01,
        .finer = 160},
+      {.name = "x, 15 rows, Student's t", .route = position, .few = 15, .student = true},
+      {.name = "x, 8 rows, Student's t", .route = position, .few = 8, .student = true},
+      {.name = "x, 6 rows, Student's t", .route = position, .few = 6, .student = true},
+      {.name = "x, 5 rows, Student's t", .route = position, .few = 5, .student = true},
       {.name = "x, 15 rows", .route = position, .few = 15},
       {.name = "x, 8 rows", .route = position, .few = 8},
       {.name = "x, 6 rows", .route = position, .few = 6},
