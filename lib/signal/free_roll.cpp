@@ -183,7 +183,7 @@ class Search {
       const double begin = samples_[s.begin].t,
                    joint = positions_ ? std::midpoint(samples_[s.begin - 1].t, begin) : begin,
                    t = joint + std::max(unseen(first, begin), unseen_push(before, first));
-      while (s.begin + 1 < first.end && samples_[s.begin].t < t) ++s.begin;
+      while (samples_[s.begin].t < std::min(t, first.to)) ++s.begin;
     }
     if (s.end < samples_.size()) {
       const Piece<P>& next = pieces_[c.last + 1];
