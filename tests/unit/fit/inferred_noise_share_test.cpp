@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/inferred_noise.h"
 
+#include "fit/errors.h"
 #include "fit/roll_fit.h"
+#include "least_squares/minimise.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
 
@@ -53,4 +55,29 @@ TEST_CASE("white share: differences alone seem to hold white noise in few rows",
   int decisive = 0;
   for (int i = 0; i < 200; ++i) decisive += found_share(0, noise, 100).decisive();
   CHECK(decisive <= 6);  // more than 6 of 200 at 1 % come by chance in 0.4 %
+}
+
+// Speeds that a filter has left as they were: more white noise is more of the same, and its share
+// does not change the likelihood, which is that of white noise without a filter.
+TEST_CASE("white share: of a filter that changes nothing each is as likely as none", "[fit]") {
+  simulated::Noise noise(13);
+  FitRun run{};
+  run.body = {1, 0.04, 0.5};
+  const auto truth = simulated::roll(run.body, 2e-4, 0.2, 1.5);
+  run.t = simulated::times(60);
+  for (const double t : run.t) run.v.push_back(truth.v(t) + noise(0.01));
+  const std::vector<FitRun> read{run};
+  run.filters = {simulated::smooth_v(1)};
+  const std::vector<FitRun> runs{run};
+  const auto rows = usable(Route::velocity, runs);
+  const Fitted fit =
+      fit_rolls(Route::velocity, runs, rows, responses_of(Route::velocity, runs), {});
+  REQUIRE(fit.noise->known());
+  const auto plain = std::make_shared<const RollModel>(observe(Route::velocity, read, rows, {}, {}),
+                                                       fit.rolls->parameters());
+  const double of_white_noise =
+      restricted_likelihood(system_of(plain, std::make_shared<const Noise>()), fit.minimum.theta);
+  const WhiteShare found = most_likely_share(fit.rolls, fit.minimum.theta, 1e-3, 10);
+  CHECK(found.likelihood == Approx(of_white_noise).epsilon(0).margin(1e-9));
+  CHECK(found.gain == Approx(0).margin(1e-9));
 }
