@@ -96,7 +96,7 @@ TEST_CASE("Exact geometry: b < 0, where the roll ends as D reaches R", "[rolling
   CHECK((stops > 0 && stops < 20));  // b so near 0 that nobody sees D reach R, and others
 }
 
-TEST_CASE("Exact geometry: the stopping times of model.md", "[rolling]") {
+TEST_CASE("Exact geometry: the stopping times of the paper's scenes", "[rolling]") {
   CHECK(std::abs(exact_roll(cylinder, {1.87e-3, 0.215}, 0.5)->stop_time() - 2.41718911155359) <
         5e-15 * 2.4);
   CHECK(std::abs(exact_roll(shell, {1.78e-3, 0.255}, 0.5)->stop_time() - 3.35660676251978) <

@@ -45,7 +45,7 @@ Backwards backwards(Motion& motion, double t) {
 
 }  // namespace
 
-TEST_CASE("MemoryRoll: the roll backwards of model.md", "[rolling]") {
+TEST_CASE("MemoryRoll: the roll backwards before the rest", "[rolling]") {
   MemoryRoll millimetre = roll({1e-3});
   const Backwards b = backwards(millimetre, 2.3);
   CHECK(std::abs(b.begin - 2.3722) < 5e-5 + 2e-5);
