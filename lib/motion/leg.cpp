@@ -166,8 +166,9 @@ double Leg::next_break() const {
   return next;
 }
 
-/// Adds a panel of this length if its series converge. `factor` is how much longer it might be.
-bool Leg::try_panel(double width, bool to_radius, double& factor) {
+/// Adds a panel of this length if its series converge. Returns whether they do, and how much longer
+/// it might be.
+std::pair<bool, double> Leg::try_panel(double width, bool to_radius) {
   Panel p{r_, width, to_radius, sums_, {}, 0, 0};
   double noise = 1, largest = 0;
   bool positive = true;
@@ -186,8 +187,7 @@ bool Leg::try_panel(double width, bool to_radius, double& factor) {
     }
     return f;
   });
-  factor = 0.5;
-  if (!positive) return false;
+  if (!positive) return {false, 0.5};
   for (std::size_t i = 0; i < values; ++i) {
     const double scale = rates.largest(i) + std::abs(sums_[i]) / width;
     const std::size_t j = (i - 2) % most;  // of a derivative
@@ -197,24 +197,24 @@ bool Leg::try_panel(double width, bool to_radius, double& factor) {
   }
   const double allowed = tolerance + 4 * eps * noise;
   // Terms that are rounding alone do not tell how much longer the panel might be.
-  factor = largest <= 4 * eps * noise
-               ? 3
-               : std::clamp(0.9 * std::pow(allowed / largest, 1.0 / terms), 0.1, 3.0);
-  if (!(largest <= allowed) && width > narrowest * (1 + r_)) return false;
+  const double factor = largest <= 4 * eps * noise
+                            ? 3
+                            : std::clamp(0.9 * std::pow(allowed / largest, 1.0 / terms), 0.1, 3.0);
+  if (!(largest <= allowed) && width > narrowest * (1 + r_)) return {false, factor};
   p.sums = rates.integral();
   p.begin = rates(0)[0];
   p.decay = to_radius ? 0 : std::log(p.begin / rates(width)[0]) / width;
   const Sums over = p.sums(width);
   for (std::size_t i = 0; i < values; ++i) sums_[i] += over[i];
   panels_.push_back(p);
-  return true;
+  return {true, factor};
 }
 
 void Leg::add_panel() {
   if (panels_.size() > most_panels + law_.corners().size())
     fail("the law is too steep to be rolled");
   const double limit = next_break();
-  double width = width_, factor = 1;
+  double width = width_;
   for (;;) {
     double to = std::min(r_ + width, limit);
     const auto below = [&](double r) { return law_.at(speed(r)).D < body_.R; };
@@ -228,7 +228,8 @@ void Leg::add_panel() {
       end_ = End::constant_speed;
       return;
     }
-    if (try_panel(to - r_, deepens, factor)) {
+    const auto [converges, factor] = try_panel(to - r_, deepens);
+    if (converges) {
       r_ = to;
       width_ = (to < limit || deepens ? to - panels_.back().r : width) * std::max(factor, 0.2);
       if (deepens) radius_time_ = sums_[0], radius_speed_ = speed(r_);

@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/chebyshev.h"
@@ -99,7 +100,7 @@ class Leg {
   double next_break() const;
   void find_rest();
   void add_panel();
-  bool try_panel(double width, bool to_radius, double& factor);
+  std::pair<bool, double> try_panel(double width, bool to_radius);
   Sums closed_sums(double r, double E) const;
   Point closed_point(double t) const;
   void reach(double t);
