@@ -123,6 +123,30 @@ TEST_CASE("free_roll: under the drag of air one law has more than one parabola o
   CHECK(whole >= 90);
 }
 
+TEST_CASE("free_roll: a deceleration that grows up to the stop is of one roll", "[signal]") {
+  // v' = -c v^b with b < 0, so that v = v0 (1 - s/T)^(1/(1 - b)), behind the push of made_run.
+  constexpr double T = 10;
+  for (const double b : {-0.5, -1.0, -2.0}) {
+    int whole = 0;
+    for (unsigned seed = 1; seed <= 50; ++seed) {
+      const Series e = noise(625, seed);
+      std::vector<Sample> run;
+      for (std::size_t i = 0; i < e.size(); ++i) {
+        const double t = static_cast<double>(i) / 50, s = (t - release) / T,
+                     v = s < 0   ? speed(t)
+                         : s < 1 ? 0.5 * std::pow(1 - s, 1 / (1 - b))
+                                 : 0;
+        run.push_back({t, v + 0.001 * e[i]});
+      }
+      const auto [from, to] = free_roll(run, false).kept;
+      whole += run[from].t > release - 0.01 && run[to - 1].t < release + T + 0.08 &&
+               run[to - 1].t - run[from].t > 0.8 * T;
+    }
+    INFO("b " << b);
+    CHECK(whole >= 45);
+  }
+}
+
 TEST_CASE("free_roll: readings that a logger held count once", "[signal]") {
   // Rest, a push of 0.4 s from 1 s on, a roll that slows by 0.28 m/s^2 from 0.5 m/s, rest;
   // positions every 80 ms, which stand in four rows each.
