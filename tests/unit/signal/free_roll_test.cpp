@@ -76,6 +76,12 @@ TEST_CASE(
   CHECK(begins.begin == 0);
   const auto ends = free_roll(whole.subspan(0, 100), false).kept;
   CHECK(ends.end == 100);
+  const auto fine = made_run(500, 0, 1, false);  // means of several runs are searched first
+  for (const std::size_t n : {1999, 2000, 2001, 2002}) {
+    INFO(n << " runs");
+    const auto all = free_roll(std::span(fine).subspan(800, n), false).kept;
+    CHECK((all.begin == 0 && all.end == n));
+  }
 }
 
 // Else the runs that are kept would be chosen by their noise, and a and b biased.
