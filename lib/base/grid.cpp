@@ -27,7 +27,7 @@ double grid_of(std::span<const double> readings) {
       }
       rest = std::exchange(grid, std::abs(next));
     }
-    if (grid > 0 && grid < 100 * rounding) return 0;
+    if (grid > 0 && grid < finest_grid * largest) return 0;
   }
   return grid;
 }

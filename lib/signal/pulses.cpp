@@ -3,32 +3,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <vector>
 
-#include "base/median.h"
 #include "base/grid.h"
 
 namespace rolling {
 namespace {
 
-/// `row`: 1 where the speed of a row is that since the row before, 0 where it is that to the next.
+/// The last place of the readings, or what it is below at most.
+double place_of(std::span<const double> readings) {
+  const auto [least, most] = std::ranges::minmax(readings);
+  return std::max(grid_of(readings), finest_grid * std::max(std::abs(least), std::abs(most)));
+}
+
+/// The way that all rows allow, each by the rounding of its numbers. `row`: 1 where the speed of a
+/// row is that since the row before, 0 where it is that to the next.
 std::optional<double> way_by(std::span<const double> t, std::span<const double> v,
                              std::size_t row) {
-  const double of_t = grid_of(t), of_v = grid_of(v);
-  std::vector<double> ways, rounding, steps;
+  std::vector<double> since_first(t.begin(), t.end());
+  for (double& time : since_first) time -= t[0];
+  const double of_t = place_of(since_first) + std::numeric_limits<double>::epsilon() * t.back(),
+               of_v = place_of(v);
+  double least = -std::numeric_limits<double>::infinity(), most = -least, coarsest = 0;
+  std::vector<double> steps;
   for (std::size_t i = 0; i + 1 < t.size(); ++i) {
-    const double step = t[i + 1] - t[i], speed = v[i + row];
+    const double step = t[i + 1] - t[i], speed = v[i + row],
+                 rounding = std::abs(speed) * of_t + step * of_v / 2;
+    if (std::isnan(speed)) return {};
     steps.push_back(step);
-    ways.push_back(speed * step);
-    rounding.push_back(std::abs(speed) * (of_t + program_rounding * std::abs(t[i])) +
-                       step * (of_v / 2 + program_rounding * std::abs(speed)));
+    coarsest = std::max(coarsest, rounding);
+    least = std::max(least, speed * step - rounding),
+    most = std::min(most, speed * step + rounding);
   }
-  auto sorted = ways;
-  const double way = median(sorted);
-  for (std::size_t i = 0; i < ways.size(); ++i)
-    if (!(std::abs(ways[i] - way) <= rounding[i])) return {};
-  const auto [least, most] = std::ranges::minmax(steps);
-  return *std::ranges::max_element(rounding) < 0.05 * std::abs(way) && most > 1.3 * least
+  const double way = std::midpoint(least, most);
+  const auto [shortest, longest] = std::ranges::minmax(steps);
+  return least <= most && coarsest < 0.05 * std::abs(way) && longest > 1.3 * shortest
              ? std::optional(way)
              : std::nullopt;
 }
