@@ -139,10 +139,11 @@ std::vector<Remark> against(const FitResult& r, const std::vector<FitRun>& runs,
   return all;
 }
 
-/// Warns of readings that repeat since they are rounded to steps that the body hardly makes: their
-/// errors hang together in a way that residuals of few rows do not show. Returns true if it does,
-/// or read_runs() has.
-bool warn_of_repeats(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs) {
+/// Warns of readings that repeat since they are rounded to steps that the body hardly makes, or
+/// that have hardly any other noise: their errors hang together in a way that residuals of few rows
+/// do not show. Returns true if it does, or read_runs() has.
+bool warn_of_rounding(Tool& tool, Route route, const FitResult& r,
+                      const std::vector<FitRun>& runs) {
   for (const FitRun& run : runs) {
     const std::vector<double>& y = route == Route::position ? run.x : run.v;
     if (rows_held(y) > 1) return true;
@@ -152,15 +153,25 @@ bool warn_of_repeats(Tool& tool, Route route, const FitResult& r, const std::vec
       ++waiting;
       if (y[i] != y[i - 1]) rows += waiting, repeats += std::exchange(waiting, 0) - 1;
     }
+    const bool differences = r.errors == Errors::differences;  // of two readings
     const double grid = grid_of(y),
+                 of_grid = r.rms / grid / (differences ? std::numbers::sqrt2 : 1),
                  share = static_cast<double>(repeats) / static_cast<double>(rows);
-    if (repeats < 10 || r.rms >= levels::grid_of_rms * grid || share <= levels::repeats_of_grid)
-      continue;
-    tool.warn(run.name,
-              fmt::format("{:.0f} % of the {} repeat, on a grid of {:.3g} that is coarser than "
-                          "their noise: errors of rounding hang together, and sigma_a and sigma_b "
-                          "may be too small; keep only the rows in which a new one comes",
-                          100 * share, route == Route::position ? "positions" : "speeds", grid));
+    const bool bare = of_grid > levels::gates_of_grid && of_grid < levels::rounding_of_grid,
+               repeat = repeats >= 10 && of_grid < levels::grid_of_rms &&
+                        share > levels::repeats_of_grid;
+    if (!bare && !repeat) continue;
+    const char* readings = route == Route::position ? "positions" : "speeds";
+    tool.warn(
+        run.name,
+        (repeat ? fmt::format("{:.0f} % of the {} repeat, on a grid of {:.3g} that is coarser "
+                              "than their noise",
+                              100 * share, readings, grid)
+                : fmt::format("the {} have hardly any noise beside their rounding to {:.3g}",
+                              readings, grid)) +
+            fmt::format(": errors of rounding hang together, and sigma_a and sigma_b "
+                        "may be too small{}",
+                        repeat ? "; keep only the rows in which a new one comes" : ""));
     return true;
   }
   return false;
@@ -187,7 +198,7 @@ bool warn_of_causes(Tool& tool, Route route, const FitResult& r, const std::vect
   const auto reasons = against(r, runs, noisy);
   if (!check_comes)
     for (const Remark& reason : reasons) tool.warn(reason.run, reason.text);
-  const bool repeats = noisy && is_trajectory(route) && warn_of_repeats(tool, route, r, runs);
+  const bool repeats = noisy && is_trajectory(route) && warn_of_rounding(tool, route, r, runs);
   return beyond || r.a < 0 || !reasons.empty() || repeats;
 }
 

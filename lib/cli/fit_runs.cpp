@@ -146,7 +146,7 @@ bool take_pulses(Tool& tool, std::vector<FitRun>& runs) {
     std::vector<double>().swap(runs[r].v);
   }
   tool.warn(fmt::format(
-      "run {}{}: each speed is {:.6g} m over the time between two rows: the rows are pulses, and "
+      "run {}{}: each speed is {:.4g} m over the time between two rows: the rows are pulses, and "
       "their positions are fitted",
       runs[0].name, runs.size() > 1 ? fmt::format(" and {} others", runs.size() - 1) : "",
       ways[0]));

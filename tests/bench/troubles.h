@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "contact/law.h"
-#include "contact/law.h"
 #include "fit/diagnostics.h"
 #include "fit/fitted.h"
 #include "fit/laws.h"
