@@ -96,56 +96,56 @@ std::vector<std::optional<FitResult>> fit_all(Tool& tool, Route route,
   return results;
 }
 
-/// The output: a row for each fit.
-struct Table {
-  Output& out;
-  Route route;
-  const LawForm& law;
-  bool of_one_run, with_slope, with_run;
+/// A number of the row of a fit, and its column.
+struct Cell {
+  Column column;
+  double value;
+};
 
-  bool with_v0() const { return of_one_run && is_trajectory(route); }
-  bool with_x0() const { return of_one_run && route == Route::position; }
+/// The row of a fit of these runs.
+std::vector<Cell> row_of(const FitResult& r, const std::vector<FitRun>& runs, bool with_slope) {
+  std::vector<Cell> row;
+  const auto estimate = [&](const Column& c, const Estimate& x) {
+    row.insert(row.end(), {{c, x.value}, {{"sigma_" + c.name, c.unit}, x.sigma}});
+  };
+  const auto columns = columns_of(r.law.form());
+  for (std::size_t j = 0; j < columns.size(); ++j) estimate(columns[j], r.coefficients[j]);
+  const auto names = correlations_of(r.law.form());
+  for (std::size_t j = 1, k = 0; j < columns.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i) row.push_back({{names[k++]}, r.correlations[i][j]});
+  row.insert(row.end(), {{{"rms"}, r.rms}, {{"n"}, static_cast<double>(r.n)}});
+  const bool roll = r.v0.size() == 1;  // the numbers of one of several are no columns
+  if (roll) estimate({"v0", "m/s"}, r.v0.front());
+  if (with_slope) estimate({"slope"}, {r.slope, r.sigma_slope});
+  if (r.x0.size() == 1) estimate({"x0", "m"}, r.x0.front());
+  if (roll) row.push_back({{"t0", "s"}, runs.front().t.front()});
+  return row;
+}
 
-  std::vector<Column> columns() const {
-    std::vector<Column> columns;
-    for (const Column& c : columns_of(law))
-      columns.insert(columns.end(), {c, {"sigma_" + c.name, c.unit}});
-    for (const std::string& name : correlations_of(law)) columns.push_back({name});
-    columns.insert(columns.end(), {{"rms"}, {"n"}});
-    if (with_v0()) columns.insert(columns.end(), {{"v0", "m/s"}, {"sigma_v0", "m/s"}});
-    if (with_slope) columns.insert(columns.end(), {{"slope"}, {"sigma_slope"}});
-    if (with_x0()) columns.insert(columns.end(), {{"x0", "m"}, {"sigma_x0", "m"}});
-    if (with_v0()) columns.push_back({"t0", "s"});
-    if (with_run) columns.push_back({"run"});
-    return columns;
-  }
-  void write_names() const { out.names(columns()); }
-
-  /// A run that could not be fitted has blank cells, and so have errors that do not exist.
-  void write(const std::optional<FitResult>& result, const FitRun& run) const {
-    if (result) {
-      const FitResult& r = *result;
-      const auto cell = [&](double value) {
-        const bool no_error = r.errors == Errors::none && std::isnan(value);
-        no_error ? out.blank() : out.cell(value);
-      };
-      const auto estimate = [&](const Estimate& x) { cell(x.value), cell(x.sigma); };
-      for (const Estimate& coefficient : r.coefficients) estimate(coefficient);
-      for (std::size_t j = 1; j < r.correlations.size(); ++j)
-        for (std::size_t i = 0; i < j; ++i) cell(r.correlations[i][j]);
-      cell(r.rms);
-      out.cell(std::to_string(r.n));  // a count is never rounded to --digits
-      if (with_v0()) estimate(r.v0.front());
-      if (with_slope) estimate({r.slope, r.sigma_slope});
-      if (with_x0()) estimate(r.x0.front());
-      if (with_v0()) cell(run.t.front());
-    } else {
-      for (std::size_t i = 1; i < columns().size(); ++i) out.blank();
-    }
-    if (with_run) out.cell(run.name);
+/// Writes a row for each fit, of which `first` is one that succeeded. A run that could not be
+/// fitted has blank cells, and so have errors that do not exist.
+void write(Output& out, const std::vector<std::optional<FitResult>>& results, std::size_t first,
+           const std::vector<std::vector<FitRun>>& fits, bool with_slope, bool with_run) {
+  std::vector<Column> columns;
+  for (const Cell& cell : row_of(*results[first], fits[first], with_slope))
+    columns.push_back(cell.column);
+  const std::size_t cells = columns.size();
+  if (with_run) columns.push_back({"run"});
+  out.names(columns);
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (!results[i])
+      for (std::size_t j = 0; j < cells; ++j) out.blank();
+    else
+      for (const auto& [column, value] : row_of(*results[i], fits[i], with_slope)) {
+        if (column.name == "n") out.cell(std::to_string(results[i]->n));  // not by --digits
+        else if (results[i]->errors == Errors::none && std::isnan(value)) out.blank();
+        else out.cell(value);
+      }
+    if (with_run) out.cell(fits[i].front().name);
     out.end_line();
   }
-};
+  out.flush();  // the rows stand above the report
+}
 
 /// What is said about a fit, below its row.
 struct Comments {
@@ -244,27 +244,25 @@ int main(int argc, char** argv) {
     bodies.give_to(runs);
     if (!trajectory && !options.fit_slope) warn_of_unused_body(tool, runs, options.geometry);
     const auto fits = grouped(std::move(runs), each);
-    const Table table{tool.out,          route, *options.law, fits.front().size() == 1,
-                      options.fit_slope, each};
     const auto results = fit_all(tool, route, fits, options, each);
     const auto fitted = [](const auto& result) { return result.has_value(); };
-    if (std::none_of(results.begin(), results.end(), fitted)) return 2;
+    const auto first = std::ranges::find_if(results, fitted);
+    if (first == results.end()) return 2;
 
-    table.write_names();
-    std::size_t left_out = 0;
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      table.write(results[i], fits[i].front());
-      if (results[i]) left_out += results[i]->left_out;
-    }
-    tool.out.flush();  // the rows stand above the report
+    write(tool.out, results, static_cast<std::size_t>(first - results.begin()), fits,
+          options.fit_slope, each);
     if (options.robust && (with_report || with_check))
       tool.warn(
           "neither other laws nor the beginning are looked at with --robust: this needs sums "
           "of squares");
     const Comments comments{with_report, with_check, each};
+    std::size_t left_out = 0;
     for (std::size_t i = 0; i < fits.size(); ++i)
-      if (results[i]) comments.tell(tool, route, *results[i], fits[i], options);
+      if (results[i]) {
+        left_out += results[i]->left_out;
+        comments.tell(tool, route, *results[i], fits[i], options);
+      }
     tool.count_left_out(left_out, why_left_out(route, options));
-    return std::all_of(results.begin(), results.end(), fitted) ? 0 : 2;
+    return std::ranges::all_of(results, fitted) ? 0 : 2;
   });
 }
