@@ -155,12 +155,9 @@ struct Comments {
             const FitOptions& options) const {
     std::optional<LawComparison> laws;  // AICc needs sums of squares
     if ((with_report || with_check) && !options.robust) laws = compare_laws(route, runs, options);
-    warn_of(tool, route, result, runs, laws, with_check);
+    remark(tool, route, result, runs, options, laws, with_check);
     if (with_report && with_run) tool.say(fmt::format("run {}, the report:", runs.front().name));
     if (with_report) report(tool, runs, options, laws);
-    if (with_check)
-      check(tool, route, result, runs, laws, disturbed_beginning(route, runs, options),
-            options.a && options.b);
   }
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 
@@ -112,31 +113,30 @@ std::string disagreement(const FitResult& r, const std::vector<FitRun>& runs) {
 /// The run that a message about the fit names: none of several.
 std::string of_run(const std::vector<FitRun>& runs) { return runs.size() == 1 ? runs[0].name : ""; }
 
-struct Remark {
-  std::string run, text;
-};
+/// Takes a remark on a run: a warning, or with --check a reason why the check does not hold.
+using Tell = std::function<void(const std::string& run, const std::string& text)>;
 
-/// What a reader of the row alone would not know and what speaks against it: a warning, or a reason
-/// why the check does not hold. A reason that no other one causes comes first.
-std::vector<Remark> against(const FitResult& r, const std::vector<FitRun>& runs, bool noisy) {
-  std::vector<Remark> all;
-  if (r.agreement && !r.agreement->agree()) all.push_back({"", disagreement(r, runs)});
-  if (r.off && noisy)
-    all.push_back(
-        {runs[r.off->run].name,
+/// Tells what a reader of the row alone would not know and what speaks against it, first what no
+/// other of these causes. Returns true if there is any of it.
+bool tell_against(const FitResult& r, const std::vector<FitRun>& runs, bool noisy,
+                  const Tell& tell) {
+  const bool disagree = r.agreement && !r.agreement->agree(), off = r.off && noisy,
+             steep = r.b + levels::below_least_b * r.sigma_b < levels::least_b && noisy;
+  if (disagree) tell("", disagreement(r, runs));
+  if (off)
+    tell(runs[r.off->run].name,
          fmt::format(
              "the reading at t = {:.12g} s is {:.2g} standard deviations off the roll{}: look at "
              "it, and leave it out (smooth --outliers), or fit the raw column with --robust",
              r.off->time, r.off->distance,
-             r.off->count > 1 ? fmt::format(", and {} more are off", r.off->count - 1) : "")});
-  if (r.b + levels::below_least_b * r.sigma_b < levels::least_b && noisy)
-    all.push_back(
-        {of_run(runs),
+             r.off->count > 1 ? fmt::format(", and {} more are off", r.off->count - 1) : ""));
+  if (steep)
+    tell(of_run(runs),
          fmt::format("b is {:.3g} +- {:.2g}: no mat resists so much more as the body slows down, "
                      "but a hand, a wall, an incline or a magnet at the end of the roll does; cut "
                      "it off",
-                     r.b, r.sigma_b)});
-  return all;
+                     r.b, r.sigma_b));
+  return disagree || off || steep;
 }
 
 /// Warns of readings that repeat since they are rounded to steps that the body hardly makes, or
@@ -177,10 +177,10 @@ bool warn_of_rounding(Tool& tool, Route route, const FitResult& r,
   return false;
 }
 
-/// Warns of what spoils a fit: of a shift that no body has, and of what speaks against the row
-/// (unless check() follows, which tells it). Returns true if there is any of it.
+/// Warns of what spoils a fit: of a shift that no body has, and of what speaks against the row,
+/// which `tell` takes. Returns true if there is any of it.
 bool warn_of_causes(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
-                    bool noisy, bool check_comes) {
+                    bool noisy, const Tell& tell) {
   bool beyond = false, below = false;
   for (std::size_t i = 0; i < r.v0.size() && !beyond && !below; ++i) {
     const double v0 = r.v0[i].value, D = r.law(std::abs(v0)), R = runs[i].body.R;
@@ -195,11 +195,9 @@ bool warn_of_causes(Tool& tool, Route route, const FitResult& r, const std::vect
     tool.warn(of_run(runs),
               "a is negative: D has the other sign than v, as if the mat drove the "
               "body on, which simulate refuses");
-  const auto reasons = against(r, runs, noisy);
-  if (!check_comes)
-    for (const Remark& reason : reasons) tool.warn(reason.run, reason.text);
+  const bool reasons = tell_against(r, runs, noisy, tell);
   const bool repeats = noisy && is_trajectory(route) && warn_of_rounding(tool, route, r, runs);
-  return beyond || r.a < 0 || !reasons.empty() || repeats;
+  return beyond || r.a < 0 || reasons || repeats;
 }
 
 /// Warns of what the residuals show. A body out of balance makes the rest of it.
@@ -232,6 +230,29 @@ void warn_of_residuals(Tool& tool, Route route, const FitResult& r,
               "into account: look at the residuals");
 }
 
+/// Tells why the check of a fit does not hold, but for what tell_against() tells.
+void tell_of_check(Route route, const FitResult& r, const std::vector<FitRun>& runs,
+                   const FitOptions& options, const std::optional<LawComparison>& laws, bool noisy,
+                   const Tell& tell) {
+  const std::string run = of_run(runs);
+  if (r.errors == Errors::none || (r.sigma_a == 0 && r.sigma_b == 0 && !(options.a && options.b)))
+    tell(run, "nothing is left to tell standard uncertainties from: fit more readings");
+  const auto beginning = disturbed_beginning(route, runs, options);
+  if (noisy && beginning)
+    tell(runs[beginning->run].name,
+         fmt::format("the first {} rows do not go on as the others ({}), as if a hand were still "
+                     "on: cut off {:.2g} s",
+                     beginning->rows, p_of(beginning->p), beginning->time));
+  const LawForm& law = r.law.form();
+  if (laws && laws->against(law) >= levels::another_law)
+    tell(run, fmt::format("D = {} is better than {} by {:.1f} in AICc; see --report",
+                          laws->best_other(law).law->formula, law.formula, laws->against(law)));
+  if (noisy && r.whiteness <= levels::not_white)
+    tell(run, fmt::format("the residuals are not white ({}): the law, or what is known of the "
+                          "noise, is not right",
+                          p_of(r.whiteness)));
+}
+
 }  // namespace
 
 std::string disagreement(const Agreement& found, const std::vector<FitRun>& runs,
@@ -262,20 +283,24 @@ std::string why_left_out(Route route, const FitOptions& options) {
   return (reason.empty() ? "" : reason + ", or ") + "slower than --min-speed";
 }
 
-void warn_of(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
-             const std::optional<LawComparison>& laws, bool check_comes) {
+void remark(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
+            const FitOptions& options, const std::optional<LawComparison>& laws, bool with_check) {
   const bool noisy = !exact(route, r, runs),
              other_law = laws && laws->against(r.law.form()) >= levels::another_law;
   if (noisy && route == Route::loglog && logarithms_biased(r))
     tool.warn(of_run(runs),
               "the noise of D biases its logarithms by more than the uncertainty of "
               "the line: use --route shift");
-  if (!warn_of_causes(tool, route, r, runs, noisy, check_comes) && noisy && !other_law)
+  const Tell tell = [&](const std::string& run, const std::string& text) {
+    with_check ? tool.check_failed(run, text) : tool.warn(run, text);
+  };
+  if (!warn_of_causes(tool, route, r, runs, noisy, tell) && noisy && !other_law)
     warn_of_residuals(tool, route, r, runs);
   if (noisy && r.sigma_slope > 0 && runs.size() == 2)
     tool.warn("",
               "two rolls alone tell the slope: what their laws differ by counts as slope, and "
               "its standard uncertainty does not hold that; add rolls in both directions");
+  if (with_check) tell_of_check(route, r, runs, options, laws, noisy, tell);
 }
 
 void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& options,
@@ -295,34 +320,6 @@ void report(Tool& tool, const std::vector<FitRun>& runs, const FitOptions& optio
       "{} better than D = {}",
       laws->against(law) <= levels::no_better_law ? "no law that was tried is" : "another law is",
       law.formula));
-}
-
-void check(Tool& tool, Route route, const FitResult& r, const std::vector<FitRun>& runs,
-           const std::optional<LawComparison>& laws, const std::optional<Beginning>& beginning,
-           bool both_fixed) {
-  const std::string run = of_run(runs);
-  const bool noisy = !exact(route, r, runs);
-  // check_failed() prints the first reason in full.
-  if (r.errors == Errors::none || (r.sigma_a == 0 && r.sigma_b == 0 && !both_fixed))
-    tool.check_failed(run,
-                      "nothing is left to tell standard uncertainties from: fit more readings");
-  for (const Remark& reason : against(r, runs, noisy)) tool.check_failed(reason.run, reason.text);
-  if (noisy && beginning)
-    tool.check_failed(
-        runs[beginning->run].name,
-        fmt::format("the first {} rows do not go on as the others ({}), as if a hand were still "
-                    "on: cut off {:.2g} s",
-                    beginning->rows, p_of(beginning->p), beginning->time));
-  const LawForm& law = r.law.form();
-  if (laws && laws->against(law) >= levels::another_law)
-    tool.check_failed(
-        run, fmt::format("D = {} is better than {} by {:.1f} in AICc; see --report",
-                         laws->best_other(law).law->formula, law.formula, laws->against(law)));
-  if (noisy && r.whiteness <= levels::not_white)
-    tool.check_failed(run,
-                      fmt::format("the residuals are not white ({}): the law, or what is known "
-                                  "of the noise, is not right",
-                                  p_of(r.whiteness)));
 }
 
 }  // namespace rolling

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The messages of fitpower in addition to its row: warnings, the report, and the checks of the fit.
+// The messages of fitpower in addition to its row: warnings, the report, and the check of the fit.
 #pragma once
 
 #include <optional>
@@ -21,21 +21,18 @@ std::string disagreement(const Agreement&, const std::vector<FitRun>&, const std
 std::string why_left_out(Route, const FitOptions&);
 
 /// Warns of what spoils a fit: a shift beyond the radius, runs that disagree, readings that are off
-/// or repeat (unless check() follows, which tells it). Where there is none of it, and no law is
-/// better, also of what such a cause would bring with it: noise that is not white, an eccentric
-/// body, an a whose error is not that of a normal distribution.
-void warn_of(Tool&, Route, const FitResult&, const std::vector<FitRun>&,
-             const std::optional<LawComparison>&, bool check_comes);
+/// or repeat, a b far below what mats have. Where there is none of it, and no law is better, also
+/// of what such a cause would bring with it: noise that is not white, an eccentric body, an a whose
+/// error is not that of a normal distribution. With a check, runs that disagree, a reading that is
+/// off and such a b make it fail; so do standard errors that do not exist (unless a and b are both
+/// fixed), another law that is better by 10 in AICc, the beginning of a run that is disturbed, and
+/// residuals that are not white.
+void remark(Tool&, Route, const FitResult&, const std::vector<FitRun>&, const FitOptions&,
+            const std::optional<LawComparison>&, bool with_check);
 
 /// Reports the result and the computing time of each route, the coefficients of the laws, and
 /// whether another law is better.
 void report(Tool&, const std::vector<FitRun>&, const FitOptions&,
             const std::optional<LawComparison>&);
-
-/// Reports a failed check if there are no standard errors (unless a and b are both fixed), the runs
-/// of a joint fit disagree, a reading is off, b is far below what mats have, another law is better
-/// by 10 in AICc, the beginning of a run is disturbed, or the residuals are not white.
-void check(Tool&, Route, const FitResult&, const std::vector<FitRun>&,
-           const std::optional<LawComparison>&, const std::optional<Beginning>&, bool both_fixed);
 
 }  // namespace rolling
