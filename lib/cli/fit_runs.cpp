@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
-#include <set>
+#include <map>
 
 #include "cli/history.h"
 #include "signal/pulses.h"
@@ -165,25 +164,19 @@ void Bodies::give_to(std::vector<FitRun>& runs) const {
 }
 
 void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
-  const auto columns = words_of(route).columns;
-  const auto less = [&](std::size_t i, std::size_t j) {  // by their bytes
-    for (const std::string& name : columns) {
-      const auto &x = runs[i].*column_of(name), &y = runs[j].*column_of(name);
-      if (x.size() != y.size()) return x.size() < y.size();
-      const int order = std::memcmp(x.data(), y.data(), x.size() * sizeof(double));
-      if (order != 0) return order < 0;
-    }
-    return false;
-  };
-  std::set<std::size_t, decltype(less)> different(less);
+  std::map<std::vector<std::string_view>, std::string> different;  // names by the readings' bytes
   std::string copy;
   std::size_t copies = 0;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if ((runs[i].*column_of(columns.back())).size() < 10) continue;
-    const auto [same, inserted] = different.insert(i);
+  for (const FitRun& run : runs) {
+    std::vector<std::string_view> readings;
+    for (const std::string& name : words_of(route).columns) {
+      const std::vector<double>& x = run.*column_of(name);
+      readings.emplace_back(reinterpret_cast<const char*>(x.data()), x.size() * sizeof(double));
+    }
+    if (readings.back().size() < 10 * sizeof(double)) continue;
+    const auto [same, inserted] = different.emplace(std::move(readings), run.name);
     if (!inserted && ++copies == 1)
-      copy =
-          fmt::format("run {}: its readings are those of run {}", runs[i].name, runs[*same].name);
+      copy = fmt::format("run {}: its readings are those of run {}", run.name, same->second);
   }
   if (copies > 0)
     tool.warn(
