@@ -17,13 +17,6 @@ namespace {
 
 using namespace rolling;
 
-std::size_t odd_number(const std::string& text) {
-  double value;
-  if (!parse_number(text, value)) fail("-w,--width: '{}' is not a number", shown(text));
-  if (!odd.holds(value)) fail("-w,--width: '{}' must be {}", shown(text), odd.text);
-  return static_cast<std::size_t>(value);
-}
-
 /// The column to smooth where none is given: v, else the first column that is not t.
 std::string default_column(const Reader& in, std::size_t t) {
   return in.find("v") || in.columns().size() == 1 ? "v" : in.column_of(t) == 0 ? "2" : "1";
@@ -106,6 +99,14 @@ class Told {
   LinesOfRuns doubts_;
 };
 
+void add_width(Tool& tool, std::size_t& samples, bool& choose) {
+  tool.add("-w,--width", "N", "width of the window, an odd number of samples (11), or auto",
+           [&](const std::string& text) {
+    choose = text == "auto";
+    if (!choose) samples = static_cast<std::size_t>(to_number(text, odd));
+  });
+}
+
 void add_options(Tool& tool, SelectionOptions& select) {
   tool.number(
       "--outliers", select.outliers, positive,
@@ -122,15 +123,15 @@ int main(int argc, char** argv) {
   Tool tool("smooth",
             "Replace a column by its mean over a moving window, or smooth it otherwise; select its "
             "rows.");
-  std::string column, width = "11";
+  std::string column;
+  bool choose = false;
   SelectionOptions select;
   auto methods = by_name(smoothing_methods);
   SignalOptions options{methods["mean"]};
   tool.text("-c,--column", column, "COLUMN",
             "the column to smooth (v, else the first that is not t)");
   tool.choice("-M,--method", options.method, methods, "what takes the place of a reading (mean)");
-  tool.text("-w,--width", width, "N",
-            "width of the window, an odd number of samples (11), or auto");
+  add_width(tool, options.width.samples, choose);
   tool.number("--seconds", options.width.seconds, positive,
               "width of the window in seconds, instead");
   tool.count("--order", options.order, polynomial, "order of savgol's polynomial (2)");
@@ -141,8 +142,6 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     if (options.width.seconds > 0) tool.refuse({"width"}, "does not go with --seconds: give one");
     if (!options.method->has_order) tool.refuse({"order"}, "goes with --method savgol");
-    bool choose = width == "auto";
-    if (!choose) options.width.samples = odd_number(width);
     select.width = options.width;
     if (!select.all() && !asks_to_smooth(tool)) options.width.samples = 1;
     make_signal(options);  // refuses wrong options before anything is read

@@ -18,8 +18,8 @@ static_assert(polynomial.holds(SavitzkyGolay::most_order) &&
               !polynomial.holds(SavitzkyGolay::most_order + 1));
 namespace {
 
-void require(const Domain& range, double value, std::string_view text) {
-  if (!range.holds(value)) fail("'{}' must be {}", shown(text), range.text);
+void require(const Domain& domain, double value, std::string_view text) {
+  if (!domain.holds(value)) fail("'{}' must be {}", shown(text), domain.text);
 }
 
 [[noreturn]] void refuse_number(const std::string& text) {
@@ -52,18 +52,18 @@ CommandLine::Set named(const std::string& names, const CommandLine::Set& set) {
 
 }  // namespace
 
-double to_number(const std::string& text, const Domain& range) {
+double to_number(const std::string& text, const Domain& domain) {
   double value;
   if (!parse_number(text, value)) refuse_number(text);
-  require(range, value, text);
+  require(domain, value, text);
   return value;
 }
 
-Estimate Options::to_estimate(const std::string& text, const Domain& range) {
+Estimate Options::to_estimate(const std::string& text, const Domain& domain) {
   Estimate estimate;
   if (!parse_estimate(text, estimate)) refuse_number(text);
-  require(range, estimate.value, text);
-  if (estimate.value > range.doubted)
+  require(domain, estimate.value, text);
+  if (estimate.value > domain.doubted)
     doubts_.insert(fmt::format("R = {} m: if that is millimetres, write {}", estimate.value,
                                estimate.value / 1000));
   return estimate;
@@ -92,23 +92,23 @@ void Options::flag(const std::string& names, bool& value, const std::string& hel
   add_flag(names, help, [&value](bool on) { value = on; });
 }
 
-void Options::number(const std::string& names, double& value, const Domain& range,
+void Options::number(const std::string& names, double& value, const Domain& domain,
                      const std::string& help, double* sigma) {
   add(
       names, "NUMBER", help,
-      [this, &value, range, sigma](const std::string& text) {
-    const Estimate read = sigma ? to_estimate(text, range) : Estimate{to_number(text, range)};
+      [this, &value, domain, sigma](const std::string& text) {
+    const Estimate read = sigma ? to_estimate(text, domain) : Estimate{to_number(text, domain)};
     value = read.value;
     if (sigma) *sigma = read.sigma;
       },
       [&value] { return std::isnan(value); });
 }
 
-void Options::numbers(const std::string& names, std::vector<Estimate>& values, const Domain& range,
+void Options::numbers(const std::string& names, std::vector<Estimate>& values, const Domain& domain,
                       const std::string& help) {
   add(
       names, "NUMBER,...", help,
-      [this, &values, range](const std::string& text) {
+      [this, &values, domain](const std::string& text) {
     const auto parts = split_names(text, ',');
     const auto is_whole = [](const std::string& part) {
       return part.find_first_not_of("0123456789") == std::string::npos;
@@ -122,7 +122,7 @@ void Options::numbers(const std::string& names, std::vector<Estimate>& values, c
           "write whole numbers with one, as 1.0,2.0",
           shown(text));
     values.clear();
-    for (const std::string& part : parts) values.push_back(to_estimate(part, range));
+    for (const std::string& part : parts) values.push_back(to_estimate(part, domain));
       },
       [&values] { return values.empty(); });
 }
@@ -148,7 +148,7 @@ void Options::body(Body& body, std::initializer_list<BodyOption> options,
     const char* names;
     double Body::*value;
     double BodyUncertainty::*sigma;
-    Domain range;
+    Domain domain;
     const char* help;
   } all[] = {// in the order of BodyOption
              {"-m,--mass", &Body::m, nullptr, positive, "mass m [kg]"},
@@ -159,8 +159,8 @@ void Options::body(Body& body, std::initializer_list<BodyOption> options,
              {"--slope", &Body::slope, &BodyUncertainty::slope, any_number,
               "rise of the mat in metres per metre of growing x (0)"}};
   for (const BodyOption option : options) {
-    const auto& [names, value, sigma, range, help] = all[static_cast<std::size_t>(option)];
-    number(names, body.*value, range, help, sigma ? &(u.*sigma) : nullptr);
+    const auto& [names, value, sigma, domain, help] = all[static_cast<std::size_t>(option)];
+    number(names, body.*value, domain, help, sigma ? &(u.*sigma) : nullptr);
   }
 }
 

@@ -47,7 +47,7 @@ inline constexpr Domain odd{"an odd whole number from 1 to 1e9", [](double x) {
 inline constexpr Domain polynomial{"a whole number from 1 to 10",
                                    [](double x) { return whole.holds(x) && x <= 10; }};
 
-/// The number in a text. Throws Error for another text and for a number outside the range.
+/// The number in a text. Throws Error for another text and for a number outside the domain.
 double to_number(const std::string& text, const Domain&);
 
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
@@ -62,16 +62,16 @@ class Options {
   Options(const std::string& name, const std::string& purpose);
 
   // Options of one tool. `names` in the notation of CLI11: "-w,--width". Each option may be given
-  // once. Its value must be a number in the syntax of rolling-columns(5) and within the range.
+  // once. Its value must be a number in the syntax of rolling-columns(5) and within the domain.
   void flag(const std::string& names, bool& value, const std::string& help);
   /// With `sigma` the number may have an uncertainty (0.5+-0.005).
   void number(const std::string& names, double& value, const Domain&, const std::string& help,
               double* sigma = nullptr);
   template <typename Integer>
-  void count(const std::string& names, Integer& value, const Domain& range,
+  void count(const std::string& names, Integer& value, const Domain& domain,
              const std::string& help) {
-    add(names, "N", help, [&value, range](const std::string& text) {
-      value = static_cast<Integer>(to_number(text, range));
+    add(names, "N", help, [&value, domain](const std::string& text) {
+      value = static_cast<Integer>(to_number(text, domain));
     });
   }
   /// One number or several, separated by commas; each may have an uncertainty: 0.5+-0.005,0.83

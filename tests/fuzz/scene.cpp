@@ -27,8 +27,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   check_contract(ran, "scene");
   if (ran.status != 0) return 0;
-  const auto holds = [](double value, const Domain& range) {
-    return std::isnan(value) || (std::isfinite(value) && range.holds(value));
+  const auto holds = [](double value, const Domain& domain) {
+    return std::isnan(value) || (std::isfinite(value) && domain.holds(value));
   };
   require(holds(body.m, positive) && holds(body.R, positive) && holds(body.K, not_negative) &&
               holds(body.g, positive),
