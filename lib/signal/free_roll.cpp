@@ -38,7 +38,8 @@ class Search {
       : samples_(samples), noise_(noise), positions_(positions),
         joints_(samples, noise, positions) {
     const auto joints = Partition<P>(samples, noise).joints();
-    for (std::size_t i = 1; i < joints.size(); ++i) add(joints[i - 1], joints[i]);
+    for (std::size_t i = 1; i < joints.size(); ++i)
+      pieces_.emplace_back(samples, joints[i - 1], joints[i], noise, positions);
     for (const auto& p : pieces_)
       for (const double t : {p.from, p.middle(), p.to})
         if (const auto v = p.v(t); !p.is_short())
@@ -67,21 +68,6 @@ class Search {
 
  private:
   static double sign(double a) { return a < 0 ? -1 : 1; }
-
-  /// A cubic may pass for a roll and the rest behind it, or for a push and the roll; but no smooth
-  /// motion speeds up and slows down, unless it turns.
-  void add(std::size_t begin, std::size_t end) {
-    const Piece<P> p(samples_, begin, end, noise_, positions_);
-    const auto a0 = p.a(p.from), a1 = p.a(p.to);
-    const bool turns = p.v(p.from).value * p.v(p.to).value < 0,
-               bends = a0.value * a1.value < 0 && a0.is_known() && a1.is_known();
-    if (!bends || turns || p.size() < 12) return void(pieces_.push_back(p));
-    const auto cost = joints_.costs(begin, P, P, end);
-    const auto least = std::min_element(cost.begin() + 5, cost.end() - 5);
-    const auto joint = static_cast<std::size_t>(least - cost.begin());
-    for (const std::size_t half : {begin, begin + joint})
-      pieces_.emplace_back(samples_, half, half == begin ? begin + joint : end, noise_, positions_);
-  }
 
   std::vector<Chain> rolls() const {
     std::vector<Chain> chains;
