@@ -239,7 +239,7 @@ void NeededColumns::assume(std::size_t at, std::string_view quantity, std::strin
 
 /// The conversion of a column that serves as `quantity`. Its unit may stand at the end of its name;
 /// a column without one is in SI units, which is noted where its name does not say so. Refuses a
-/// unit that is not known, and names the other columns that are refused for the same reason.
+/// unit that is not known.
 Conversion NeededColumns::conversion(std::size_t at, const std::string& quantity) {
   Column meant = as_read_[at];
   const bool named = named_ && meant.name == quantity;
@@ -258,15 +258,8 @@ Conversion NeededColumns::conversion(std::size_t at, const std::string& quantity
   try {
     return conversion_to_si(quantity, meant);
   } catch (const Error& error) {
-    std::string others;
-    for (std::size_t i = 0; i < as_read_.size(); ++i)
-      if (const Column& c = as_read_[i]; i != at && !c.unit.empty() && named_ &&
-                                         is_quantity(quantities_[i]) &&
-                                         !unit_of(quantities_[i], c.unit))
-        others += fmt::format("; nor can '{}' as {}", shown(to_text(c)), quantities_[i]);
-    fail<InputError>("{}: {}{}{}", place_, error.what(),
-                     has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", quantity, at + 1) : "",
-                     others);
+    fail<InputError>("{}: {}{}", place_, error.what(),
+                     has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", quantity, at + 1) : "");
   }
 }
 
