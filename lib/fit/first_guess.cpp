@@ -182,10 +182,10 @@ class LinearRoll {
   double t_ = 0, law_ = 0, by_v_ = 0, by_x_ = 0;
 };
 
-/// The candidate of an exponent by linear least squares. `slope`: S is a parameter. None if these
-/// numbers are not determined, or if the law would not slow the body down while S might.
-std::optional<StartingPoint> candidate_of(const std::vector<Thinned>& thin, double b, bool slope,
-                                          const FitOptions& options) {
+/// The starting point for an exponent, by linear least squares. `slope`: S is a parameter. None if
+/// these numbers are not determined, or if the law would not slow the body down while S might.
+std::optional<StartingPoint> starting_point(const std::vector<Thinned>& thin, double b, bool slope,
+                                            const FitOptions& options) {
   const ObservedRun& first = thin.front().run;
   const double v_unit = thin.front().v0;
   const bool x0 = first.raw_is_position && !options.x0;
@@ -237,8 +237,8 @@ std::vector<StartingPoint> starts(const std::vector<Thinned>& thin, const FitOpt
   std::vector<StartingPoint> all;
   for (const double b : exponents) {
     std::optional<StartingPoint> found;
-    if (options.fit_slope) found = candidate_of(thin, b, true, options);
-    if (!found) found = candidate_of(thin, b, false, options);
+    if (options.fit_slope) found = starting_point(thin, b, true, options);
+    if (!found) found = starting_point(thin, b, false, options);
     if (found) all.push_back(std::move(*found));
   }
   std::ranges::sort(all, {}, &StartingPoint::rss);

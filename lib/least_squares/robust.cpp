@@ -146,7 +146,7 @@ struct Trial {
 };
 
 /// An infinite scale if theta is not allowed.
-Trial point_at(const System& system, std::vector<double> theta) try {
+Trial trial_at(const System& system, std::vector<double> theta) try {
   const double scale = residuals_at(system, theta).scale;
   return {std::move(theta), scale};
 } catch (const Error&) {
@@ -163,7 +163,7 @@ Trial descend(const System& system, Trial at) {
     for (int k = 0; k < halvings && !(next.scale < 0.99 * at.scale); ++k, share /= 2) {
       std::vector<double> theta = at.theta;
       for (std::size_t j = 0; j < step.size(); ++j) theta[j] += share * step[j];
-      next = point_at(system, std::move(theta));
+      next = trial_at(system, std::move(theta));
     }
     if (!(next.scale < 0.99 * at.scale)) break;
     at = std::move(next);
@@ -175,9 +175,9 @@ Trial descend(const System& system, Trial at) {
 
 std::vector<double> least_trimmed(const System& system,
                                   const std::vector<std::vector<double>>& starts) {
-  Trial best = point_at(system, starts.front());
+  Trial best = trial_at(system, starts.front());
   for (const auto& start : starts)
-    if (Trial found = descend(system, point_at(system, start)); found.scale < best.scale)
+    if (Trial found = descend(system, trial_at(system, start)); found.scale < best.scale)
       best = std::move(found);
   if (best.theta.empty()) evaluated(system, starts.front());  // throws
   return best.theta;
