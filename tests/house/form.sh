@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The form of the code: the lengths of functions and of lines, a header for each source, and the
-# licence line at the top of each file that is code or a page.
+# The form of the code: the lengths of files, functions and lines, a header for each source, and
+# the licence line at the top of each file that is code or a page.
 #
 #   tests/house/form.sh            complains
 #   tests/house/form.sh table      prints the figures of each part instead
@@ -47,6 +47,11 @@ mapfile -t files < <(find cmd lib tests -name '*.cpp' -o -name '*.h')
 while read -r place; do
   complain "$place: a line of more than 100 characters"
 done < <(LC_ALL=C.UTF-8 grep -HnoE '^.{101}' "${files[@]}" | cut -d : -f 1,2)
+
+while read -r length file; do
+  [ "$length" -le 400 ] || complain "$file: $length lines; at most 400"
+done < <(find cmd lib tests -type f \( -name '*.cpp' -o -name '*.h' -o -name '*.sh' -o -name '*.awk' \
+  -o -name '*.py' \) -exec wc -l {} + | grep -v ' total$')
 
 count=0
 while read -r length place; do

@@ -393,9 +393,8 @@ samples/figures/fig4.sh -K 0.4 -R 0.0127 --slope 0.03 "$scratch/ball.csv" >"$scr
 [ "$(grep -c "href='#gpPt" "$scratch/ball.svg")" -gt 150 ] || complain 'up and back: few points'
 
 # What make would do: Fig. 5 needs two tools.
-needs() { make -nB "$1" 2>/dev/null | grep -oE -e '-o bin/[a-z-]+' | sort | tr -d '\n'; }
-[ "$(needs figures/fig5.svg)" = '-o bin/energy-ledger-o bin/simulate' ] ||
-  complain "fig5.svg needs $(needs figures/fig5.svg)"
-[ "$(needs figures/fig4.png)" = '-o bin/differentiate-o bin/fitpower-o bin/shift-from-accel-o bin/smooth' ] ||
-  complain "fig4.png needs $(needs figures/fig4.png)"
+needed() { make -nB "$1" 2>/dev/null | grep -oE -e '-o bin/[a-z-]+' | cut -c 8- | sort | xargs; }
+needs() { [ "$(needed "$1")" = "$2" ] || complain "$1 needs $(needed "$1")"; }
+needs figures/fig5.svg 'energy-ledger simulate'
+needs figures/fig4.png 'differentiate fitpower shift-from-accel smooth'
 exit $wrong

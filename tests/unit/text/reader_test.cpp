@@ -111,17 +111,6 @@ TEST_CASE("reader: a first row that has decimal commas only is a row, not names"
   CHECK(rows({"t\tv\n0,0\t1,5\n1\t2\n"}) == "0 1.5 | 1 2");
 }
 
-TEST_CASE("reader: a first row whose readings are all missing is a row, not names", "[text]") {
-  CHECK(rows({"# t v\nNaN NaN\n0 1\n"}) == "0 1");
-  CHECK(rows({"t,v\nNaN,nan\n0,1\n"}) == "0 1");
-  CHECK(rows({"NaN NaN\n0 1\n"}) == "0 1");
-  CHECK(rows({"t,v\n,\n0,1\n"}) == "0 1");
-  CHECK(rows({"# v t\n;\n5;0\n"}) == "0 5");
-  CHECK(rows({"# v t\n## smooth v mean width 3\n;\n5;0\n"}) == "0 5");
-  CHECK(rows({"t,v\n,\n0,1\n"}, strict) == "0 1");    // a blank row is a run break
-  CHECK(rows({"My cart,\n,\nt,v\n0,1\n"}) == "0 1");  // blank cells of a preamble
-}
-
 TEST_CASE("reader: a row of blank cells is a run break, whatever separates them", "[text]") {
   for (const std::string separator : {"\t", ",", ";"})
     for (const std::string blanks : {"", " ", "\"\""})
@@ -286,22 +275,6 @@ TEST_CASE("reader: units are converted, and go out converted", "[text]") {
         "FILE:2: field 1 (t): '1e308' is beyond the range of a double in SI units");
 }
 
-TEST_CASE("reader: a missing reading leaves its row out, and is counted", "[text]") {
-  const TemporaryFile file("t,v,x\n0,1,\n1,,5\n2,NaN,5\n3,nan,\n4,2,NaN\n");
-  Reader in({.files = {file.name()}}, {});
-  in.need_time();
-  in.need("v");
-  std::size_t seen = 0;
-  while (in.next_run())
-    while (in.next()) ++seen;
-  CHECK(seen == 2);
-  CHECK(in.left_out() == 3);
-  CHECK(rows({"t,v\n0,1\n1,\n2,3\n"}) == "0 1 | 2 3");
-  CHECK(rows({"t,v\n0,1\n1,\n"}, strict) == "FILE:3: field 2 (v): a reading is missing");
-  CHECK(rows({"t,v,x\n0,1,\n"}, strict) == "0 1");  // x is not needed
-  CHECK(rows({"t v\n0 1\n1 NaN\n"}, strict) == "FILE:3: field 2 (v): a reading is missing");
-}
-
 TEST_CASE("reader: what is neither number nor missing is refused, and says where", "[text]") {
   CHECK(rows({"0 1\n1 abc\n"}) ==
         "FILE:2: field 2 (v): 'abc' is not a number; write NaN where a reading is missing");
@@ -378,33 +351,6 @@ TEST_CASE("reader: a tool that ended with an error is refused, wherever it says 
   CHECK(rows({"## no error: ended with an error\n0 1\n"}) == "0 1");
 }
 
-TEST_CASE("reader: what spreadsheets write for an error is no comment", "[text]") {
-  CHECK(rows({"0\t1\n#N/A\t2\n"}) ==
-        "FILE:2: field 1 (t): '#N/A' is not a number; write NaN for a "
-        "missing reading");
-  CHECK(rows({"0 1\n#DIV/0! 2\n"}) ==
-        "FILE:2: field 1 (t): '#DIV/0!' is not a number; write NaN for "
-        "a missing reading");
-  CHECK(rows({"0,1\n#1,2\n"}) == "0 1");  // a row that was taken out
-}
-
-TEST_CASE("reader: what other programs write for a missing reading is told from other text",
-          "[text]") {
-  const auto is_told = [](const std::string& field) {
-    const std::string message = rows({"t,v\n0," + field + "\n"});
-    return message.ends_with("is not a number; write NaN for a missing reading");
-  };
-  for (const char* field : {"NA", "N/A", "n/a", "<NA>", "null", "NULL", "None", "-", "--", "?",
-                            "-nan", "nan(ind)", "#VALUE!"}) {
-    INFO(field);
-    CHECK(is_told(field));
-  }
-  for (const char* field : {"abc", "nano", "inf", "5-", "-.-1", "1.#QNAN", "off"}) {
-    INFO(field);
-    CHECK_FALSE(is_told(field));
-  }
-}
-
 TEST_CASE("reader: what passes through passes byte for byte, its separator aside", "[text]") {
   CHECK(copies("0.500   +1e0 x_y -0 1E-400\n") == "<0.500\t+1e0\tx_y\t-0\t1E-400>");
   CHECK(copies("t;v;note\n0;1;caf\xC3\xA9 au lait \n") == "<0\t1\tcaf\xC3\xA9 au lait>");
@@ -446,19 +392,4 @@ TEST_CASE("reader: a quoted field may hold separators and line ends", "[text]") 
   CHECK(rows({"note,t,v\n\"one\ntwo, three\",0,1\nfour,1,x\n"}) ==
         "FILE:4: field 3 (v): 'x' is not a number; write NaN where a reading is missing");
   CHECK(rows({"t,v,note\n0,1,\"open\n1,2,x\n"}) == "FILE:2: a quote that is not closed");
-}
-
-TEST_CASE("reader: a column that is wanted but not needed may miss its readings", "[text]") {
-  const TemporaryFile file("t,v,x\n0,1,2\n1,2,\n2,,4\n3,4,y\n");
-  Reader in({.files = {file.name()}}, {});
-  const auto v = in.need("v"), x = in.want("x"), again = in.want("v");
-  REQUIRE(in.next_run());
-  REQUIRE(in.next());
-  CHECK(in[x] == 2);
-  CHECK(again == v);
-  REQUIRE(in.next());
-  CHECK(in[x] != in[x]);
-  CHECK(in[v] == 2);
-  CHECK_THROWS_AS(in.next(), InputError);  // past the row without v, to one whose x is no number
-  CHECK(in.left_out() == 1);
 }
