@@ -12,7 +12,7 @@
 namespace rolling {
 namespace {
 
-/// The last place of the readings, or what it is below at most.
+/// The last place that was written of the readings, or an upper bound where grid_of() tells none.
 double place_of(std::span<const double> readings) {
   const auto [least, most] = std::ranges::minmax(readings);
   return std::max(grid_of(readings), finest_grid * std::max(std::abs(least), std::abs(most)));
@@ -24,8 +24,9 @@ std::optional<double> way_by(std::span<const double> t, std::span<const double> 
                              std::size_t row) {
   std::vector<double> since_first(t.begin(), t.end());
   for (double& time : since_first) time -= t[0];
-  const double of_t = place_of(since_first) + std::numeric_limits<double>::epsilon() * t.back(),
-               of_v = place_of(v);
+  const double of_clock = std::numeric_limits<double>::epsilon() *
+                          (std::abs(t.front()) + std::abs(t.back())),
+               of_t = place_of(since_first) + of_clock, of_v = place_of(v);
   double least = -std::numeric_limits<double>::infinity(), most = -least, coarsest = 0;
   std::vector<double> steps;
   for (std::size_t i = 0; i + 1 < t.size(); ++i) {
