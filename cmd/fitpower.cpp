@@ -100,6 +100,7 @@ std::vector<std::optional<FitResult>> fit_all(Tool& tool, Route route,
 struct Cell {
   Column column;
   double value;
+  bool is_count = false;  ///< not rounded to --digits
 };
 
 /// The row of a fit of these runs.
@@ -113,7 +114,7 @@ std::vector<Cell> row_of(const FitResult& r, const std::vector<FitRun>& runs, bo
   const auto names = correlations_of(r.law.form());
   for (std::size_t j = 1, k = 0; j < columns.size(); ++j)
     for (std::size_t i = 0; i < j; ++i) row.push_back({{names[k++]}, r.correlations[i][j]});
-  row.insert(row.end(), {{{"rms"}, r.rms}, {{"n"}, static_cast<double>(r.n)}});
+  row.insert(row.end(), {{{"rms"}, r.rms}, {{"n"}, static_cast<double>(r.n), true}});
   const bool roll = r.v0.size() == 1;  // the numbers of one of several are no columns
   if (roll) estimate({"v0", "m/s"}, r.v0.front());
   if (with_slope) estimate({"slope"}, {r.slope, r.sigma_slope});
@@ -136,8 +137,8 @@ void write(Output& out, const std::vector<std::optional<FitResult>>& results, st
     if (!results[i])
       for (std::size_t j = 0; j < cells; ++j) out.blank();
     else
-      for (const auto& [column, value] : row_of(*results[i], fits[i], with_slope)) {
-        if (column.name == "n") out.cell(std::to_string(results[i]->n));  // not by --digits
+      for (const auto& [column, value, is_count] : row_of(*results[i], fits[i], with_slope)) {
+        if (is_count) out.cell(std::to_string(static_cast<std::size_t>(value)));
         else if (results[i]->errors == Errors::none && std::isnan(value)) out.blank();
         else out.cell(value);
       }
