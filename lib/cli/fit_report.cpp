@@ -140,8 +140,8 @@ bool tell_against(const FitResult& r, const std::vector<FitRun>& runs, bool nois
 }
 
 /// Warns of readings that repeat since they are rounded to steps that the body hardly makes, or
-/// that have hardly any other noise: their errors hang together in a way that residuals of few rows
-/// do not show. Returns true if it does, or read_runs() has.
+/// that have hardly any other noise: rounding errors are correlated then, which residuals of few
+/// rows do not show. Returns true if it does, or read_runs() has.
 bool warn_of_rounding(Tool& tool, Route route, const FitResult& r,
                       const std::vector<FitRun>& runs) {
   for (const FitRun& run : runs) {
@@ -161,17 +161,22 @@ bool warn_of_rounding(Tool& tool, Route route, const FitResult& r,
                repeat = repeats >= 10 && of_grid < levels::grid_of_rms &&
                         share > levels::repeats_of_grid;
     if (!bare && !repeat) continue;
-    const char* readings = route == Route::position ? "positions" : "speeds";
-    tool.warn(
-        run.name,
-        (repeat ? fmt::format("{:.0f} % of the {} repeat, on a grid of {:.3g} that is coarser "
-                              "than their noise",
-                              100 * share, readings, grid)
-                : fmt::format("the {} have hardly any noise beside their rounding to {:.3g}",
-                              readings, grid)) +
-            fmt::format(": errors of rounding hang together, and sigma_a and sigma_b "
-                        "may be too small{}",
-                        repeat ? "; keep only the rows in which a new one comes" : ""));
+    const bool positions = route == Route::position;
+    const std::string readings = positions ? "positions" : "speeds",
+                      step = fmt::format("{:.3g} {}", grid, positions ? "m" : "m/s");
+    const auto warn = [&](const std::string& seen, const char* way_out) {
+      tool.warn(run.name, fmt::format("{}: rounding errors are then correlated, and sigma_a and "
+                                      "sigma_b may be too small; {}",
+                                      seen, way_out));
+    };
+    if (repeat)
+      warn(
+          fmt::format("{:.0f} % of the {} repeat, on a grid of {} that is coarser than their noise",
+                      100 * share, readings, step),
+          "keep only the rows in which a new one comes");
+    else
+      warn(fmt::format("the {} have hardly any noise beside their rounding to {}", readings, step),
+           "the scatter of several runs shows by how much");
     return true;
   }
   return false;
@@ -237,8 +242,7 @@ void tell_of_check(Route route, const FitResult& r, const std::vector<FitRun>& r
   const std::string run = of_run(runs);
   if (r.errors == Errors::none || (r.sigma_a == 0 && r.sigma_b == 0 && !(options.a && options.b)))
     tell(run, "nothing is left to tell standard uncertainties from: fit more readings");
-  const auto beginning = disturbed_beginning(route, runs, options);
-  if (noisy && beginning)
+  if (const auto beginning = disturbed_beginning(route, runs, options); noisy && beginning)
     tell(runs[beginning->run].name,
          fmt::format("the first {} rows do not go on as the others ({}), as if a hand were still "
                      "on: cut off {:.2g} s",

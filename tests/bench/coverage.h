@@ -111,6 +111,7 @@ class Simulation {
             ? rolling::Roll(body, rolling::Geometry::approximate,
                             rolling::PowerLaw{scene_.a * (1 + noise_(c_.scatter)), scene_.b}, 0.5)
             : truth_;
+    const double origin = c_.only_rounded ? c_.resolution * uniform() : 0;
     const std::size_t n = c_.down > 0 ? static_cast<std::size_t>(truth.stop_time() / dt) + 1 : n_;
     Column raw;
     double error = 0;
@@ -118,10 +119,11 @@ class Simulation {
       const double t = i == 0 ? 0 : step_ * (static_cast<double>(i) + noise_(c_.jitter)),
                    share = t / truth.stop_time();
       const auto s = truth.at(t);
-      const double size =
-          (c_.raw == Case::x ? noise_x : noise_v) * times_the_noise_ * (1 + c_.growth * share);
+      const double size = c_.only_rounded ? 0
+                                          : (c_.raw == Case::x ? noise_x : noise_v) *
+                                                times_the_noise_ * (1 + c_.growth * share);
       error = c_.AR * error + noise_(i == 0 ? 1 : std::sqrt(1 - c_.AR * c_.AR));
-      double y = way_ * (c_.raw == Case::x ? s.x : s.v) + size * error;
+      double y = origin + way_ * (c_.raw == Case::x ? s.x : s.v) + size * error;
       if (c_.resolution > 0) y = c_.resolution * std::round(y / c_.resolution);
       if (uniform() < c_.outliers) y += uniform() - 0.5;
       if (i > 0 && (uniform() < c_.lost || t <= times.back())) continue;

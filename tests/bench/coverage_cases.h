@@ -22,18 +22,19 @@ struct Case {
   enum Raw { x, v } raw = x;              ///< the column that carries white noise
   std::vector<std::string> history = {};  ///< the filters, as the `##` lines tell them
   Column (*unknown)(const Column& x) =
-      nullptr;            ///< or v from x by a sensor's software, of which no line tells
-  double resolution = 0;  ///< positions are rounded to this [m]
-  double outliers = 0;    ///< share of readings that are false echoes
-  double lost = 0;        ///< share of rows that are missing
-  double growth = 0;      ///< the noise grows along the run by so many times its size
-  double AR = 0;          ///< correlation of the noise from one reading to the next
-  int runs = 1;           ///< that are fitted jointly
-  double scatter = 0;     ///< of a from run to run, as a share
-  int noisy = 0;          ///< the last so many runs have five times the noise
-  int down = 0;           ///< the last so many roll down a slope, which is fitted (positions)
-  int digits = 0;         ///< all columns are rounded to so many by the tools
-  bool whole = false;     ///< the free roll is sought in the whole run of a sensor
+      nullptr;                ///< or v from x by a sensor's software, of which no line tells
+  double resolution = 0;      ///< positions are rounded to this [m]
+  bool only_rounded = false;  ///< and have no other noise
+  double outliers = 0;        ///< share of readings that are false echoes
+  double lost = 0;            ///< share of rows that are missing
+  double growth = 0;          ///< the noise grows along the run by so many times its size
+  double AR = 0;              ///< correlation of the noise from one reading to the next
+  int runs = 1;               ///< that are fitted jointly
+  double scatter = 0;         ///< of a from run to run, as a share
+  int noisy = 0;              ///< the last so many runs have five times the noise
+  int down = 0;               ///< the last so many roll down a slope, which is fitted (positions)
+  int digits = 0;             ///< all columns are rounded to so many by the tools
+  bool whole = false;         ///< the free roll is sought in the whole run of a sensor
   enum Ending { none, stop, caught, braked, wall } ending = none;  ///< of a whole run, pushed
   double jitter = 0;  ///< standard deviation of the times of the readings, as a share of a step
   double gate = 0;    ///< the times are measured at which x is a multiple of this [m]
@@ -151,6 +152,10 @@ inline std::vector<Case> cases() {
       {.name = "v by a spreadsheet", .route = velocity, .unknown = since_the_row_before},
       {.name = "v, medians of 5", .route = velocity, .raw = Case::v, .unknown = medians_of_5},
       {.name = "x to 1 mm", .route = position, .resolution = 1e-3},
+      {.name = "x to 0.2 mm, no other noise",
+       .route = position,
+       .resolution = 2e-4,
+       .only_rounded = true},
       {.name = "x to 1 cm, 50 Hz", .route = position, .resolution = 1e-2, .finer = 2},
       {.name = "x, jitter .3 of a step", .route = position, .jitter = 0.3},
       {.name = "D from x, jitter .3 of a step", .route = shift, .history = mean_11, .jitter = 0.3},
