@@ -83,8 +83,6 @@ std::vector<std::optional<FitResult>> fit_all(Tool& tool, Route route,
                                               const FitOptions& options, bool each) {
   std::vector<std::optional<FitResult>> results;
   for (const auto& runs : fits) {
-    const double done = static_cast<double>(results.size()) / static_cast<double>(fits.size());
-    tool.progress.at("fitting", fits.size() == 1 ? not_given : done);
     try {
       results.emplace_back(fit(route, runs, options));
     } catch (const Error& error) {

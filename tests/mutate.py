@@ -176,7 +176,7 @@ def stages(tree, path, near):
         ("all", ["tests/run.sh", *scripts("pipeline")]),
         (
             f"all build/shim.so {replay}",
-            ["tests/run.sh", *scripts("faults"), *scripts("house", "progress")],
+            ["tests/run.sh", *scripts("faults"), *scripts("house", "terminal")],
         ),
     ]
 

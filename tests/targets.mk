@@ -116,7 +116,7 @@ copy = mkdir -p $1 && rm -rf $(addprefix $1/,cmd lib man samples tests) && \
 # the sizes of programs do not.
 check_in = $(MAKE) -C $1 check SLOWER=5 \
            TESTS='build/unit tests/tools tests/pipeline/*.sh tests/faults/*.sh \
-                  tests/house/progress.sh'
+                  tests/house/terminal.sh'
 SECONDS ?= 60
 sanitized := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined \
              -fno-sanitize-recover=all

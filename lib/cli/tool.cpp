@@ -20,7 +20,7 @@ constexpr std::string_view version = "1.0.0";
 
 Tool::Tool(std::string name, const std::string& purpose)
     : Options(name, purpose), name_(std::move(name)) {
-  flag("-q,--quiet", quiet_, "print no warnings, counts or progress on standard error");
+  flag("-q,--quiet", quiet_, "print no warnings or counts on standard error");
 }
 
 void Tool::input() {
@@ -74,14 +74,10 @@ Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
   }
   if (!options.on_comment) options.on_comment = [](std::string_view) {};
   options.appended_by = {{"a", "differentiate"}, {"D", "shift-from-accel"}};
-  options.on_block = [this](const std::string& name, double part) {
-    progress.at(name == "-" ? "standard input" : name, part);
-  };
   return *readers_.emplace_back(std::make_unique<Reader>(std::move(options), std::move(order)));
 }
 
 void Tool::say(const std::string& text) {
-  progress.stop();
   for (const std::string& line : std::exchange(waiting_, {}).all()) write_message(name_, line);
   if (!text.empty()) write_message(name_, text);
 }
@@ -136,9 +132,6 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
     }
     standard_input_taken_ = take_scene();
     for (const std::string& doubt : doubts_) warn(doubt);
-    if (!quiet_) progress.start(name_);
-    if (::isatty(STDOUT_FILENO))
-      out.before_write = [this] { progress.stop(); };  // rows on the terminal show the progress
     return finish(work());
   } catch (const Error& error) {  // one of no class of its own is about the present row
     const bool of_row =

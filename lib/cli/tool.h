@@ -9,7 +9,6 @@
 
 #include "cli/messages.h"
 #include "cli/options.h"
-#include "cli/progress.h"
 #include "text/output.h"
 #include "text/reader.h"
 
@@ -58,7 +57,6 @@ class Tool : public Options {
   void check_failed(const std::string& run, const std::string& text) { failed_.add(run, text); }
 
   Output out;
-  Progress progress;  ///< Readers update it; a tool does for longer computations of its own
 
  private:
   Reader& open(ReaderOptions, std::vector<std::string> order);

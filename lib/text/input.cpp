@@ -43,17 +43,15 @@ void refuse_output(const std::string& name) {
     fail<InputError>("{}: this input is the output too", name);
 }
 
-Input::Input(std::string name, BlockHook on_block)
-    : name_(std::move(name)), on_block_(std::move(on_block)), fd_(open_for_reading(name_)),
-      at_(buffer_.reserve(block)), end_(at_) {
+Input::Input(std::string name)
+    : name_(std::move(name)), fd_(open_for_reading(name_)), at_(buffer_.reserve(block)), end_(at_) {
   if (fd_ < 0) fail<InputError>("{}: {}", name_.empty() ? "''" : name_, std::strerror(errno));
 #ifdef F_SETPIPE_SZ
   // A larger pipe lets the tools of a chain wait less for each other. Failure does no harm.
   ::fcntl(fd_, F_SETPIPE_SZ, 1 << 20);
 #endif
   struct stat status;
-  if (::fstat(fd_, &status) == 0 && S_ISREG(status.st_mode))
-    size_ = static_cast<double>(status.st_size);
+  has_size_ = ::fstat(fd_, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0;
 }
 
 Input::~Input() {
@@ -71,8 +69,6 @@ bool Input::fill() {
   if (count < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
   buffer_.set_end(to + count);
   end_ += count;
-  read_ += static_cast<double>(count);
-  if (on_block_ && size_ > 0) on_block_(name_, std::min(read_ / size_, 1.0));
   return count > 0;
 }
 

@@ -2,7 +2,6 @@
 // The lines of one input file, which is read in blocks.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <string_view>
 
@@ -17,14 +16,10 @@ inline constexpr std::size_t longest_line = 1 << 20;
 /// or append its output to its input.
 void refuse_output(const std::string& name);
 
-/// Called after each block of a file of known size, with the name of the file and the fraction of
-/// it that has been read.
-using BlockHook = std::function<void(const std::string& name, double part)>;
-
 class Input {
  public:
   /// Opens a file; `-` is standard input. Throws Error when it cannot be read.
-  explicit Input(std::string name, BlockHook = {});
+  explicit Input(std::string name);
   ~Input();
   Input(const Input&) = delete;
   Input& operator=(const Input&) = delete;
@@ -40,7 +35,7 @@ class Input {
     ++line_number_;
   }
 
-  bool has_size() const { return size_ > 0; }        ///< it is a regular file, and not empty
+  bool has_size() const { return has_size_; }        ///< it is a regular file, and not empty
   const std::string& name() const { return name_; }  ///< as the user gave it
   std::size_t line_number() const { return line_number_; }
 
@@ -49,9 +44,8 @@ class Input {
   const char* end_of_line();
 
   std::string name_;
-  BlockHook on_block_;
   int fd_;
-  double size_ = 0, read_ = 0;  // bytes; a size of 0 is unknown
+  bool has_size_;
   Bytes buffer_;
   const char *at_, *end_;  // ahead()
   std::size_t line_number_ = 0;

@@ -21,8 +21,7 @@ std::string history_line(std::string_view line);
 class Lines {
  public:
   /// Opens the file, see Input.
-  explicit Lines(std::string name, BlockHook on_block = {})
-      : input_(std::move(name), std::move(on_block)) {}
+  explicit Lines(std::string name) : input_(std::move(name)) {}
 
   /// Goes to the next line; false at the end. Throws InputError for a quote that is not closed, and
   /// for a NUL or a carriage return within the line.

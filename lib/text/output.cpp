@@ -48,7 +48,6 @@ void Output::names(const std::vector<Column>& columns) {
 }
 
 void Output::flush() {
-  if (before_write && !buffer_.empty()) before_write();
   const SignalsWait waiting;
   for (std::string_view left(buffer_.data(), buffer_.size()); !left.empty();) {
     const ssize_t count = ::write(STDOUT_FILENO, left.data(), left.size());

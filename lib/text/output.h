@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cmath>
-#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -33,7 +32,6 @@ class Output {
  public:
   int digits = 0;  ///< significant digits of computed numbers; 0: the shortest text that reads back
   bool unbuffered = false;  ///< each line is written at once
-  std::function<void()> before_write;
 
   // These append to the current line.
   void text(std::string_view text) { buffer_.append(text); }

@@ -24,7 +24,6 @@ struct ReaderOptions {
   std::vector<std::string> use = {};    ///< NAME=COLUMN, or NAME=COLUMN[UNIT]
   std::optional<int> run = {};          ///< the only run to be read
   bool strict = false;                  ///< a missing reading is an error
-  BlockHook on_block = {};              ///< is called with the progress of reading a file
   /// Gets most of very many comments in front of the first run, see read_head(); not with `run`.
   CommentHook on_comment = {};
   bool has_use = true;  ///< the option --use applies to these files

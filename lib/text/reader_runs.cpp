@@ -105,7 +105,7 @@ bool Reader::next_file() {
   if (next_file_ == options_.files.size()) return false;
   line_number_ = 0;
   run_in_file_ = 0;
-  lines_.emplace(options_.files[next_file_++], options_.on_block);
+  lines_.emplace(options_.files[next_file_++]);
   return file_open_ = true;
 }
 

@@ -59,5 +59,5 @@ int main(int argc, char** argv) {
       "# case", "route", "scene", "bias_a", "%_of_a", "bias_b", "sd_b", "sd/bound", "sigma_a",
       "sigma_b", "a50", "a68", "a95", "a99", "b50", "b68", "b95", "b99", "slope", "told", "differ",
       "far", "refused", "ms");
-  bench::print_rows("coverage", std::move(rows));
+  bench::print_rows(std::move(rows));
 }

@@ -3,10 +3,6 @@
 // printed in order, each as soon as it and those before it are there.
 #pragma once
 
-#include "cli/progress.h"
-
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
@@ -19,7 +15,7 @@
 namespace bench {
 
 /// Each function returns the text of a row, with the ends of its lines.
-inline void print_rows(const char* what, std::vector<std::function<std::string()>> rows) {
+inline void print_rows(std::vector<std::function<std::string()>> rows) {
   std::vector<std::packaged_task<std::string()>> tasks;
   std::vector<std::future<std::string>> texts;
   for (auto& row : rows) texts.push_back(tasks.emplace_back(std::move(row)).get_future());
@@ -27,14 +23,11 @@ inline void print_rows(const char* what, std::vector<std::function<std::string()
   const auto work = [&] {
     for (std::size_t i; (i = next++) < tasks.size();) tasks[i]();
   };
-  rolling::Progress progress;
-  if (!::isatty(STDOUT_FILENO)) progress.start(what);  // else its rows show it
   std::vector<std::jthread> threads;
   for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
     threads.emplace_back(work);
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    progress.at("rows", static_cast<double>(i) / static_cast<double>(texts.size()));
-    std::fputs(texts[i].get().c_str(), stdout);
+  for (auto& text : texts) {
+    std::fputs(text.get().c_str(), stdout);
     std::fflush(stdout);
   }
 }

@@ -181,5 +181,5 @@ int main(int argc, char** argv) {
   Rows rows;
   for (const auto& [name, add] : tables)
     if (argc < 3 || std::strcmp(argv[2], name) == 0) add(rows, runs);
-  bench::print_rows("troubles", std::move(rows));
+  bench::print_rows(std::move(rows));
 }

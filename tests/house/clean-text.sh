@@ -37,7 +37,7 @@ for source in lib/*/*.cpp; do
   name=${source#lib/}
   name=${name%.cpp}
   case $name in
-    cli/command_line | cli/progress) continue ;;
+    cli/command_line) continue ;;
   esac
   [ -e "tests/unit/${name}_test.cpp" ] || grep -qxF "$name" <<<"$tested" ||
     complain "$source: no unit test of it"
