@@ -83,8 +83,8 @@ class HeadReader {
     const auto fields = dialect_.split(lines_.text());
     const std::size_t width = fields.size();
     const bool blank_field = fields.back().text.empty();
-    const auto units = take_units();
-    const auto names = take_names(width, blank_field);
+    auto units = take_units();
+    const auto names = take_names(width, blank_field, units);
     if (names.empty() && before_) head_.said = before_->said;
     for (const Comment& comment : comments_) note_units(comment.text, comment.line, head_.said);
     if (names.empty() && before_) {
@@ -217,19 +217,28 @@ class HeadReader {
            std::ranges::any_of(comments_, names_columns);
   }
 
-  std::vector<std::string> take_commented_names(const UnnamedColumns& columns) {
+  /// The names in a comment, and the units if another one below it has them.
+  std::vector<std::string> take_commented_names(const UnnamedColumns& columns,
+                                                std::vector<std::string>& units) {
     const auto chosen = choose_names(comments_, columns, !before_, lines_.name());
     if (!chosen) return {};
-    const Comment names = comments_[*chosen];
-    if (!preamble_.empty() && preamble_.back().line > names.line)
+    const Comment header = comments_[*chosen];
+    if (!preamble_.empty() && preamble_.back().line > header.line)
       fail<InputError>("{}:{}: '{}' below the names is neither a row nor a unit for each of them",
                        lines_.name(), preamble_.back().line, shown(preamble_.back().text));
-    if (names.text.starts_with("# ") && names.text.find('\t') != std::string::npos)
+    if (header.text.starts_with("# ") && header.text.find('\t') != std::string::npos)
       dialect_.has_points();
-    head_.line = names.line;
+    head_.line = header.line;
     note_sorted_history(*chosen);
-    comments_.erase(comments_.begin() + static_cast<std::ptrdiff_t>(*chosen));
-    return names_in_comment(names.text, columns).names;
+    const auto names = names_in_comment(header.text, columns).names;
+    std::erase_if(comments_, [&](const Comment& comment) {
+      if (comment.line <= header.line) return comment.line == header.line;
+      auto below = names_in_comment(comment.text, columns).names;
+      const bool has_units = units.empty() && are_units_of(names, below);
+      if (has_units) units = std::move(below);
+      return has_units;
+    });
+    return names;
   }
 
   /// Notes that several `##` lines were sorted, if one stands below the comment with the names: the
@@ -261,11 +270,12 @@ class HeadReader {
   }
 
   /// The names of `width` columns, empty if there are none here. `blank_end`: the row ends blank.
-  std::vector<std::string> take_names(std::size_t width, bool blank_end) {
+  std::vector<std::string> take_names(std::size_t width, bool blank_end,
+                                      std::vector<std::string>& units) {
     const UnnamedColumns columns{
         width, blank_end, before_ ? before_->layout.runs.front().columns : std::vector<Column>()};
     if (preamble_.empty() || is_named_below(columns)) {
-      auto names = take_commented_names(columns);
+      auto names = take_commented_names(columns, units);
       comment_preamble();
       return names;
     }

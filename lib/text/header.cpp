@@ -12,8 +12,6 @@
 namespace rolling {
 namespace {
 
-constexpr std::size_t none = static_cast<std::size_t>(-1);
-
 bool is_known_name(const std::string& text) { return is_known(read_column(text)); }
 
 /// The text without separators at its end.
@@ -25,19 +23,18 @@ std::string_view without_end(std::string_view text) {
 /// or if some are blank, unless one is known or `blanks` allows it.
 CommentedNames names_between(char separator, std::string_view text, const UnnamedColumns& columns,
                              bool blanks) {
-  CommentedNames found{split_names(text, separator), separator == '\t' && columns.count > 1,
-                       separator == '\0'};
+  CommentedNames found{split_names(text, separator), separator};
   auto& names = found.names;
   while (names.size() > columns.count && names.back().empty()) names.pop_back();
   while (names.size() > columns.count && names.front().empty()) names.erase(names.begin());
+  const bool words = separator == '\0';
   bool sentence = false;
   for (const std::string& name : names) {
-    sentence |= found.words && std::string_view(",;:").find(name.back()) != std::string_view::npos;
+    sentence |= words && std::string_view(",;:").find(name.back()) != std::string_view::npos;
+    if (words && names.size() > 1 && name == "a") continue;  // the article, perhaps
     const Column column = read_column(name);
-    if (found.words && names.size() > 1 && name == "a") continue;  // the article, perhaps
     found.known +=
         is_known(column) || std::ranges::count(columns.before, column.name, &Column::name);
-    found.units += is_known(column) && !column.unit.empty();
   }
   const bool is_blank = std::ranges::count(names, "") > 0;
   return names.size() != columns.count || sentence || (is_blank && !blanks && found.known == 0)
@@ -58,19 +55,13 @@ std::vector<Column> words_of(std::string_view line) {
   return words;
 }
 
-/// The number of known quantities with units in a comment.
-std::size_t names_with_units(std::string_view comment) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      words_of(without_marks(comment)),
-      [](const Column& word) { return is_known(word) && !word.unit.empty(); }));
-}
-
 /// True for a comment of nothing but known quantities, or that gives two of them units. One word
 /// without a unit may be a label.
 bool looks_like_names(std::string_view comment) {
   const std::vector<Column> words = words_of(without_marks(comment));
-  const std::size_t units = names_with_units(comment);
-  return units > 1 || (words.size() + units > 1 && std::ranges::all_of(words, is_known));
+  const auto units = std::ranges::count_if(
+      words, [](const Column& word) { return is_known(word) && !word.unit.empty(); });
+  return units > 1 || ((words.size() > 1 || units > 0) && std::ranges::all_of(words, is_known));
 }
 
 /// True if each known quantity is in the same place in both, in the same unit.
@@ -92,28 +83,6 @@ bool moves_known(const std::vector<std::string>& names, const std::vector<Column
     if (now.name != before[i].name && (is_known(now) || is_known(before[i]))) return true;
   }
   return false;
-}
-
-/// What speaks for names: those that are known, and their units; before all, tabs.
-std::size_t weight(const CommentedNames& of) {
-  return of.known + of.units + (of.tabs ? 2 * of.names.size() + 1 : 0);
-}
-
-/// True if they can hardly be a sentence.
-bool is_sure(const CommentedNames& of, const UnnamedColumns& columns) {
-  return of.known > 0 && (of.tabs || of.known + columns.blank_end >= columns.count);
-}
-
-/// True if the comment `i` may be names as well as the chosen one: it is below it, or as likely, or
-/// its names are as many as the columns once were.
-bool is_other(const std::vector<CommentedNames>& all, std::size_t i, std::size_t chosen, bool sure,
-              const Comment& comment) {
-  const CommentedNames& of = all[i];
-  if (chosen != none && agree(of.names, all[chosen].names)) return false;
-  const bool alone = looks_like_names(comment.text), likely = alone || of.known > 1;
-  if (comment.is_history() || chosen == none) return likely && (alone || comment.is_history());
-  if (i > chosen) return likely || of.tabs || (!sure && of.known > 0);
-  return !sure && (of.names.empty() ? alone : of.known > 1 && weight(of) >= weight(all[chosen]));
 }
 
 }  // namespace
@@ -160,39 +129,41 @@ std::optional<std::size_t> choose_names(const std::deque<Comment>& comments,
                                         std::string_view file) {
   std::vector<CommentedNames> all;
   for (const Comment& of : comments) all.push_back(names_in_comment(of.text, columns));
-  std::size_t chosen = none;
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  std::optional<std::size_t> chosen;
+  const auto may_be_chosen = [&](std::size_t i) {
     const auto is_figure = [](const std::string& s) { return is_number(s) || is_date(s); };
-    if (!comments[i].is_history() && !all[i].names.empty() &&
-        (weight(all[i]) > 0 || (first && std::ranges::none_of(all[i].names, is_figure))) &&
-        (chosen == none || weight(all[i]) >= weight(all[chosen])))
-      chosen = i;
-  }
-  const bool sure = chosen != none && is_sure(all[chosen], columns);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const bool history = comments[i].is_history();
-    if (i == chosen
-            ? all[i].tabs || names_with_units(comments[i].text) <= std::max(all[i].units, 1UL)
-            : !is_other(all, i, chosen, sure, comments[i]))
-      continue;
-    fail<InputError>(
-        "{}:{}: '{}' may be the names of the columns, {}", file, comments[i].line,
-        shown(comments[i].text),
-        history ? "but it begins with ##, as history does; leave one # there"
-        : all[i].names.empty() || i == chosen || chosen == none
-            ? fmt::format("but has not one for each of {} column{}", columns.count,
-                          columns.count == 1 ? "" : "s")
-            : fmt::format("and so may line {}: give one of them another number of words",
-                          comments[chosen].line));
-  }
-  if (chosen == none) return {};
-  const bool article = all[chosen].known == 0 && std::ranges::count(all[chosen].names, "a") > 0;
-  if (!sure && all[chosen].words && all[chosen].units == 0 &&
-      (article || moves_known(all[chosen].names, columns.before)))
+    return !comments[i].is_history() &&
+           (all[i].known > 0 ||
+            (first && (!chosen || all[*chosen].known == 0) && !all[i].names.empty() &&
+             std::ranges::none_of(all[i].names, is_figure)));
+  };
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (may_be_chosen(i)) chosen = i;
+  const CommentedNames names = chosen ? all[*chosen] : CommentedNames();
+  if (names.known > 0 &&
+      (names.separator == '\t' || names.known + columns.blank_end >= columns.count))
+    return chosen;
+  const auto is_other = [&](std::size_t i) {
+    if (i == chosen || (chosen && agree(all[i].names, names.names))) return false;
+    return looks_like_names(comments[i].text) ||
+           (all[i].known > comments[i].is_history() && all[i].known >= names.known);
+  };
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (is_other(i))
+      fail<InputError>(
+          "{}:{}: '{}' may be the names of the columns, {}", file, comments[i].line,
+          shown(comments[i].text),
+          comments[i].is_history() ? "but it begins with ##, as history does; leave one # there"
+          : chosen ? fmt::format("and so may line {}: give one of them another number of words",
+                                 comments[*chosen].line)
+                   : fmt::format("but has not one for each of {} column{}", columns.count,
+                                 columns.count == 1 ? "" : "s"));
+  const bool article = names.known == 0 && std::ranges::count(names.names, "a") > 0;
+  if (names.separator == '\0' && (article || moves_known(names.names, columns.before)))
     fail<InputError>(
         "{}:{}: '{}' can be names of the columns or a sentence: put tabs between names, or give "
         "the sentence another number of words",
-        file, comments[chosen].line, shown(comments[chosen].text));
+        file, comments[*chosen].line, shown(comments[*chosen].text));
   return chosen;
 }
 

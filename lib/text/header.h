@@ -35,10 +35,8 @@ struct UnnamedColumns {
 /// A comment that is read as the names of columns.
 struct CommentedNames {
   std::vector<std::string> names = {};  ///< empty if the comment has another number of words
-  bool tabs = false;                    ///< tabs separate them
-  bool words = false;                   ///< blanks separate them, as in a sentence
+  char separator = '\0';                ///< of the names; 0 for blanks, as in a sentence
   std::size_t known = 0;  ///< number that are t, x, v, a, D or names of the run before
-  std::size_t units = 0;  ///< number of known quantities that have a unit
 };
 /// The names are separated by the first of tabs, ; , and blanks that gives one for each column.
 CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns&);
@@ -49,10 +47,10 @@ bool is_date(std::string_view text);
 /// True if t, x, v, a or D is a word of the line, by its short name or its long one.
 bool holds_known_name(std::string_view line);
 
-/// The place of the comment for which most speaks (tabs, then known names and their units), of
-/// equal ones the last; in the first head of a file (`first`) one without known names, too. Nothing
-/// if there is none. Throws InputError if another line may be meant, or if the chosen one may be a
-/// sentence that would move known columns of the run before.
+/// The place of the last comment that has one name for each column, one of them known; in the first
+/// head of a file (`first`), else of the last without known names. Nothing if there is none. Throws
+/// InputError, unless tabs separate the names or all are known, if another comment may be meant, or
+/// if words between blanks would move known columns of the run before.
 std::optional<std::size_t> choose_names(const std::deque<Comment>&, const UnnamedColumns&,
                                         bool first, std::string_view file);
 
