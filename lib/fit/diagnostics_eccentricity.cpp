@@ -97,8 +97,7 @@ Eccentricity amplitude(const Fitted& fit, std::size_t run, const Wobble& wobble,
     return model(t, slopes, stride);
   };
   const TakeRows take = [&](std::size_t, std::span<double> of_rows, std::span<double> J) {
-    std::ranges::copy(f.first(of_rows.size()), of_rows.begin());
-    f = f.subspan(of_rows.size());
+    std::ranges::copy(f, of_rows.begin());
     all.add(0, of_rows, J);
   };
   evaluate(fit.rolls->runs()[run], run, q, *fit.noise, with_wobble, take);

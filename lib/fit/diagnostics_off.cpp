@@ -114,10 +114,8 @@ std::optional<OffReadings> around(const Fitted& fit, double& most_off) {
     const ObservedRun& run = fit.rolls->runs()[r];
     off.run = r;
     auto at = static_cast<std::size_t>(off.time);
-    if (run.H && !known) {  // the middle of what a filtered reading has read
-      const auto [first, end] = run.H->columns_of(at);
-      at = (first + end) / 2;
-    }
+    if (run.H && !known)  // the middle of what a filtered reading has read
+      at = (run.H->first(at) + run.H->end(at)) / 2;
     off.time = run.origin + run.t[at];
     found = off;
   }

@@ -282,7 +282,7 @@ ObservedRun smooth_motion(Route route, const ObservedRun& run, std::size_t numbe
   const std::size_t terms = std::min<std::size_t>(1 + informative / (slopes ? 3 : 2), 7);
   const FilteredPolynomial motion(run, terms, slopes, noise, number);
   ObservedRun smooth{run.place, run.body, run.geometry, 1, run.origin, position, {}, {}, {}};
-  const std::size_t begin = run.H->columns_of(0).first, end = run.H->columns_of(n - 1).end;
+  const std::size_t begin = run.H->first(0), end = run.H->end(n - 1);
   for (std::size_t i = begin; i < end; i += (end - begin + 255) / 256) {
     smooth.t.push_back(run.t[i]);
     smooth.y.push_back(motion(run.t[i])[slopes]);

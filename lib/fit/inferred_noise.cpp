@@ -28,15 +28,14 @@ struct Linearised {
 std::vector<Linearised> linear_around(const std::vector<double>& theta, const System& system,
                                       const RollModel& model) {
   std::vector<Linearised> runs;
-  for (std::size_t r = 0; r < system.runs.size(); ++r)
-    runs.push_back({Covariance(*model.runs()[r].H, system.runs[r]),
-                    std::vector<double>(system.runs[r] * (1 + system.columns()))});
-  std::vector<std::size_t> done(runs.size());
   system.evaluate(theta, [&](std::size_t r, std::span<double> f, std::span<double> J) {
-    const std::size_t n = system.runs[r], few = std::min(f.size(), n - done[r]);
-    double* to = runs[r].columns.data() + std::exchange(done[r], done[r] + few);
-    std::copy_n(f.begin(), few, to);
-    for (std::size_t j = 0; j < J.size(); j += f.size()) std::copy_n(&J[j], few, to += n);
+    const std::size_t n = system.runs[r], all = f.size();
+    std::vector<double> columns;
+    const auto begin_of = [&](std::span<double> x) {
+      columns.insert(columns.end(), x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n));
+    };
+    for (begin_of(f); !J.empty(); J = J.subspan(all)) begin_of(J);
+    runs.push_back({Covariance(*model.runs()[r].H, n), std::move(columns)});
   });
   return runs;
 }

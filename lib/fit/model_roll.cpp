@@ -16,9 +16,9 @@ namespace rolling {
 namespace {
 
 /// The rows of the matrix of a column for the fitted rows.
-FilterMatrix filters_of_rows(const Response& response, const char* column, const Rows& rows) {
-  const FilterMatrix& H = response.of.at(column);
-  return rows.size() == H.rows() ? H : H.of_rows(rows);
+Filters filters_of_rows(const Response& response, const char* column, const Rows& rows) {
+  const Filters& H = response.of.at(column);
+  return rows.size() == H->rows() ? H : std::make_shared<const BandMatrix>(H->of_rows(rows));
 }
 
 std::vector<double> taken(const std::vector<double>& column, const Rows& rows) {
@@ -144,8 +144,8 @@ std::size_t means_taken(const std::vector<ObservedRun>& runs, const Parameters& 
 
 std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>& runs, AddedNoise added) {
   if (!runs.front().H) return std::make_shared<const Noise>();
-  std::vector<FilterMatrix> all;
-  for (const ObservedRun& run : runs) all.push_back(*run.H);
+  std::vector<Filters> all;
+  for (const ObservedRun& run : runs) all.push_back(run.H);
   return std::make_shared<const Noise>(std::move(all), added);
 }
 
@@ -213,40 +213,13 @@ std::vector<double> RollModel::raw_column(const std::vector<double>& theta, std:
 
 void evaluate(const ObservedRun& run, std::size_t number, std::size_t parameters,
               const Noise& noise, const RawModel& raw, const TakeRows& take) {
-  std::vector<double> f, J;
-  std::size_t done = 0, k = 0;
-  const auto begin_block = [&] {
-    done += std::exchange(k, 0);
-    f.resize(std::min<std::size_t>(run.y.size() - done, 256));
-    J.resize(f.size() * parameters);
-  };
-  const auto end_row = [&] {
-    if (++k < f.size()) return;
-    take(number, f, J);
-    begin_block();
-  };
-  begin_block();
-  if (!run.H) {
-    for (double t : run.t) {
-      f[k] = raw(t, &J[k], f.size()) - run.y[done + k];
-      end_row();
-    }
-    return;
-  }
-  std::optional<Whitener::Pass> whitener;
-  if (noise.known()) whitener.emplace(noise.whitener(number), FilterPass::stride(parameters + 1));
-  FilterPass filters(*run.H, parameters + 1, [&](double* row) {
-    row[0] -= run.y[done + k];
-    if (whitener) whitener->push(row);
-    f[k] = row[0];
-    for (std::size_t j = 0; j < parameters; ++j) J[j * f.size() + k] = row[1 + j];
-    end_row();
-  });
-  for (double t : run.t) {
-    double* const row = filters.place();
-    row[0] = raw(t, row + 1, 1);
-    filters.push();
-  }
+  const std::size_t n = run.t.size(), rows = run.y.size();
+  std::vector<double> all(n * (1 + parameters));  // the residuals, then the columns of J
+  for (std::size_t i = 0; i < n; ++i) all[i] = raw(run.t[i], &all[n + i], n);
+  if (run.H) all = run.H->times(all);
+  for (std::size_t i = 0; i < rows; ++i) all[i] -= run.y[i];
+  if (noise.known()) noise.whitener(number).apply(all);
+  take(number, std::span(all).first(rows), std::span(all).subspan(rows));
 }
 
 System system_of(std::shared_ptr<const RollModel> model, std::shared_ptr<const Noise> noise) {

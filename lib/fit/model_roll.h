@@ -45,13 +45,13 @@ struct ObservedRun {
   double way = 1;     ///< direction of motion: -1 if the body rolls towards falling x (v < 0)
   double origin = 0;  ///< the time of the first row [s]: v0 and x0 hold there, t counts from it
   bool raw_is_position = false;
-  std::vector<double> t;          ///< times of the raw column, at which the model is evaluated [s]
-  std::optional<FilterMatrix> H;  ///< y = H raw; without H, y is the raw column itself
-  std::vector<double> y;          ///< the fitted rows
+  std::vector<double> t;  ///< times of the raw column, at which the model is evaluated [s]
+  Filters H;              ///< y = H raw; without H, y is the raw column itself
+  std::vector<double> y;  ///< the fitted rows
   /// For shift: the accelerations of the shifts of all rows are H raw; those that are not fitted
   /// are NaN. A shift is `unit` times an acceleration.
   struct Shifts {
-    FilterMatrix H;
+    Filters H;
     std::vector<double> accelerations;
     std::size_t fitted;  ///< number of shifts that are fitted
     double unit;
@@ -84,8 +84,7 @@ std::size_t informative_rows(const std::vector<ObservedRun>&, const Parameters&,
 using RawModel = std::function<double(double t, double* slopes, std::size_t stride)>;
 
 /// Passes the residuals H raw - y of one run and their derivatives, whitened if the noise is known,
-/// to the callback, in blocks of at most 256 rows, which fit into the cache. `number` is the
-/// index of the run, `parameters` the number of columns of J.
+/// to the callback. `number` is the index of the run, `parameters` the number of columns of J.
 void evaluate(const ObservedRun& run, std::size_t number, std::size_t parameters, const Noise&,
               const RawModel& raw, const TakeRows&);
 

@@ -41,7 +41,7 @@ bool leave_out_slow(const RollModel& model, const std::vector<double>& theta,
 /// The sum of squares of model - data for the shifts of a run.
 double squares_of_shifts(const RollModel& rolls, const std::vector<double>& theta, std::size_t r) {
   const ObservedRun::Shifts& shifts = *rolls.runs()[r].shifts;
-  const std::vector<double> fitted = shifts.H.times(rolls.raw_column(theta, r));
+  const std::vector<double> fitted = shifts.H->times(rolls.raw_column(theta, r));
   double sum = 0;
   for (std::size_t i = 0; i < fitted.size(); ++i)
     if (const double residual = fitted[i] - shifts.accelerations[i]; !std::isnan(residual))

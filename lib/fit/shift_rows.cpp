@@ -124,21 +124,19 @@ System system_of(std::shared_ptr<const ShiftRows> rows, const Parameters& q) {
   return {runs, 0, p,
           [rows = std::move(rows), q, p](const std::vector<double>& theta, const TakeRows& take) {
     const Law law = q.law(theta);
-    std::vector<double> f, J;
     std::size_t i = 0;
-    for (std::size_t r = 0; r < rows->runs.size(); ++r)
-      for (const std::size_t end = i + rows->runs[r]; i < end; take(r, f, J)) {
-        f.resize(std::min<std::size_t>(end - i, 256));
-        J.resize(f.size() * p);
-        for (std::size_t k = 0; k < f.size(); ++k, ++i) {
-          std::array<double, LawForm::most> by_c{};
-          const double D = law.at(rows->v[i], by_c.data()).D;
-          f[k] = (rows->logarithms ? std::log(D) : D) - rows->y[i];
-          if (rows->logarithms)
-            for (double& by : by_c) by /= D;
-          q.chain(&J[k], f.size(), law.c(0), {by_c});
-        }
+    for (std::size_t r = 0; r < rows->runs.size(); ++r) {
+      std::vector<double> f(rows->runs[r]), J(f.size() * p);
+      for (std::size_t k = 0; k < f.size(); ++k, ++i) {
+        std::array<double, LawForm::most> by_c{};
+        const double D = law.at(rows->v[i], by_c.data()).D;
+        f[k] = (rows->logarithms ? std::log(D) : D) - rows->y[i];
+        if (rows->logarithms)
+          for (double& by : by_c) by /= D;
+        q.chain(&J[k], f.size(), law.c(0), {by_c});
       }
+      take(r, f, J);
+    }
           }};
 }
 

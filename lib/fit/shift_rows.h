@@ -33,8 +33,7 @@ ShiftRows shift_rows(const std::vector<FitRun>&, const FitOptions&, bool logarit
 Rows shift_rows(const FitRun&, const FitOptions&, bool logarithms,
                 double stop = std::numeric_limits<double>::infinity());
 
-/// The least-squares problem of a law and these rows. The residuals are passed on in blocks of
-/// at most 256, which fit into the cache.
+/// The least-squares problem of a law and these rows.
 System system_of(std::shared_ptr<const ShiftRows>, const Parameters&);
 
 /// Unweighted least squares on D (or the robust loss) for rows whose filters are not known. D

@@ -31,24 +31,22 @@ struct Points {
 /// motion), shift() converts an acceleration to D, and sigma is the standard deviation of the raw
 /// noise. The bias has two causes: smoothing bends the curve D(v), and the logarithm of a noisy
 /// number is too low on average. Its noise is also smaller than the relative noise of D.
-Points points_of(const FilterMatrix& D, const FilterMatrix& v, std::span<const double> raw,
+Points points_of(const BandMatrix& D, const BandMatrix& v, std::span<const double> raw,
                  PowerLaw law, const std::function<double(double)>& shift, double sigma) {
   const std::vector<double> accelerations = D.times(raw), speeds = v.times(raw);
   Points points;
-  FilterMatrix::Row D_row, v_row;
   LogarithmOfNoise logarithm;
   for (std::size_t i = 0; i < speeds.size(); ++i) {
     constexpr double step = 1e-4;
     const double a_i = accelerations[i], v_i = speeds[i], D_i = shift(a_i);
-    D.row(i, D_row), v.row(i, v_row);
     // Minus the derivative of ln D - b ln v by the raw column; that of ln D is a difference
     // quotient. Where D of the roll is not positive, its relative noise is infinite; 1e100 stands
     // for that.
     const double by_D = D_i > 0 ? (shift((1 - step) * a_i) / D_i - 1) / (step * a_i) : 1e100,
                  by_v = v_i > 0 ? law.b / v_i : 0,
-                 s = sigma * std::sqrt(by_D * by_D * dot(D_row, D_row) +
-                                       2 * by_D * by_v * dot(D_row, v_row) +
-                                       by_v * by_v * dot(v_row, v_row));
+                 s = sigma *
+                     std::sqrt(by_D * by_D * dot(D, i, D, i) + 2 * by_D * by_v * dot(D, i, v, i) +
+                               by_v * by_v * dot(v, i, v, i));
     const Estimate log_noise = s > 0 && std::isfinite(s) ? logarithm(s) : Estimate{};
     const double factor = log_noise.sigma > 0 ? log_noise.sigma / s : 0;
     points.by_D.push_back(by_D * factor);
@@ -60,11 +58,11 @@ Points points_of(const FilterMatrix& D, const FilterMatrix& v, std::span<const d
 }
 
 /// Adds H^T (x factors) to `to`, where x factors is the product element by element.
-void add_transposed(const FilterMatrix& H, std::span<const double> x,
+void add_transposed(const BandMatrix& H, std::span<const double> x,
                     const std::vector<double>& factors, std::span<double> to) {
   std::vector<double> scaled(x.begin(), x.end());
   std::ranges::transform(scaled, factors, scaled.begin(), std::multiplies());
-  std::ranges::transform(H.transposed_times(std::move(scaled)), to, to.begin(), std::plus());
+  std::ranges::transform(H.transposed_times(scaled), to, to.begin(), std::plus());
 }
 
 /// The roll that made the rows of a line, for known filters.
@@ -115,8 +113,8 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
       return run.way * shift_from_acceleration(by.body, by.geometry, run.way * a);
     };
     const Rows rows = shift_rows(runs[r], options, true, known.stops[r]);
-    const FilterMatrix D_of = known.responses[r].of.at("D").of_rows(rows),
-                       v_of = known.responses[r].of.at("v").of_rows(rows);
+    const BandMatrix D_of = known.responses[r].of.at("D")->of_rows(rows),
+                     v_of = known.responses[r].of.at("v")->of_rows(rows);
     const Points points =
         points_of(D_of, v_of, raw, *roll.law().power(), shift, std::sqrt(known.noise.variance));
     for (std::size_t j = 0; j < Q.size(); ++j) {

@@ -12,8 +12,8 @@
 
 namespace rolling {
 
-/// A callback that receives the next residuals f of a run (model - data, weighted; n numbers) and J
-/// = df/dtheta, stored column by column: the parameters of that run, then the shared ones. It may
+/// A callback that receives the residuals f of a run (model - data, weighted; n numbers) and J =
+/// df/dtheta, stored column by column: the parameters of that run, then the shared ones. It may
 /// overwrite both.
 using TakeRows = std::function<void(std::size_t run, std::span<double> f, std::span<double> J)>;
 
@@ -23,7 +23,7 @@ using TakeRows = std::function<void(std::size_t run, std::span<double> f, std::s
 struct System {
   std::vector<std::size_t> runs;  ///< number of residuals of each run
   std::size_t own, shared;
-  /// Passes the residuals at theta to the callback, in order, in blocks of any size.
+  /// Passes the residuals at theta to the callback, run by run.
   std::function<void(const std::vector<double>& theta, const TakeRows&)> evaluate;
 
   std::size_t columns() const { return own + shared; }  ///< columns of J

@@ -10,11 +10,11 @@ namespace rolling {
 namespace {
 
 /// Updates the triangle R (q columns of J and one of f, row by row) with m further rows of [J f],
-/// given column by column, by Householder reflections: R becomes the triangle of [R; J f]. Columns
-/// of zeros cost nothing.
-void fold(double* R, std::size_t q, double* J, double* f, std::size_t m) {
+/// given column by column, the columns of J `stride` apart, by Householder reflections: R becomes
+/// the triangle of [R; J f]. Columns of zeros cost nothing.
+void fold(double* R, std::size_t q, double* J, double* f, std::size_t m, std::size_t stride) {
   for (std::size_t j = 0; j < q; ++j) {
-    const double* const x = J + j * m;
+    const double* const x = J + j * stride;
     const double below = dot(x, x, m);
     if (below == 0) continue;
     double* const row = R + j * (q + 1);
@@ -22,7 +22,7 @@ void fold(double* R, std::size_t q, double* J, double* f, std::size_t m) {
                  head = row[j] - length;
     row[j] = length;
     for (std::size_t k = j + 1; k <= q; ++k) {
-      double* const y = k < q ? J + k * m : f;
+      double* const y = k < q ? J + k * stride : f;
       const double w = (head * row[k] + dot(x, y, m)) / (length * head);
       row[k] += w * head;
       if (w != 0)
@@ -34,7 +34,9 @@ void fold(double* R, std::size_t q, double* J, double* f, std::size_t m) {
 }  // namespace
 
 void Triangles::add(std::size_t run, std::span<double> f, std::span<double> J) {
-  fold(of(run), q(), J.data(), f.data(), f.size());
+  constexpr std::size_t block = 256;  // stays in the cache for all columns
+  for (std::size_t i = 0; i < f.size(); i += block)
+    fold(of(run), q(), J.data() + i, &f[i], std::min(block, f.size() - i), f.size());
 }
 
 void Triangles::join(std::vector<double> common) {
@@ -45,7 +47,7 @@ void Triangles::join(std::vector<double> common) {
       for (std::size_t j = 0; j < shared_; ++j) J[j * shared_ + i] = row[j];
       f[i] = row[shared_];
     }
-    fold(common.data(), shared_, J.data(), f.data(), shared_);
+    fold(common.data(), shared_, J.data(), f.data(), shared_, shared_);
   }
   for (std::size_t r = 0; r < runs_; ++r)
     for (std::size_t i = 0; i < shared_; ++i)
@@ -63,7 +65,7 @@ Triangles Triangles::damped(const std::vector<double>& D, double mu) const {
     std::vector<double> J(count * columns), f(count);
     for (std::size_t i = 0; i < count; ++i)
       J[i * count + i] = std::sqrt(mu) * D[place(run, first + i)];
-    fold(R, columns, J.data(), f.data(), count);
+    fold(R, columns, J.data(), f.data(), count, count);
   };
   diagonal(0, own_, shared_, shared_, common.data());
   for (std::size_t r = 0; r < runs_; ++r) {

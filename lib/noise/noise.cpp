@@ -21,11 +21,11 @@ std::vector<double> each(const auto& parts, auto&& function) {
 
 }  // namespace
 
-Noise::Noise(std::vector<FilterMatrix> E, AddedNoise added) : E_(std::move(E)), added_(added) {
-  for (const FilterMatrix& E_of_run : E_) {
-    rows_.push_back(E_of_run.rows());
-    sources_.push_back(E_of_run.columns());
-    whiteners_.emplace_back(Covariance(E_of_run), added.share);
+Noise::Noise(std::vector<Filters> E, AddedNoise added) : E_(std::move(E)), added_(added) {
+  for (const Filters& E_of_run : E_) {
+    rows_.push_back(E_of_run->rows());
+    sources_.push_back(E_of_run->columns());
+    whiteners_.emplace_back(Covariance(*E_of_run), added.share);
   }
 }
 
@@ -42,7 +42,7 @@ std::vector<double> Noise::without_weights(const std::vector<double>& f) const {
 std::vector<double> Noise::to_sources(std::vector<double> x) const {
   return each(by_run(x, rows_), [&](std::size_t r, auto of_run) {
     whiteners_[r].apply_transposed(of_run);
-    return E_[r].transposed_times({of_run.begin(), of_run.end()});
+    return E_[r]->transposed_times(of_run);
   });
 }
 

@@ -22,7 +22,7 @@ class Noise {
   /// An unknown covariance: the residuals have no weights.
   Noise() = default;
   /// The weight matrix is the inverse of E E^T + F, where F is the covariance of the added noise.
-  explicit Noise(std::vector<FilterMatrix> E, AddedNoise added = {});
+  explicit Noise(std::vector<Filters> E, AddedNoise added = {});
 
   bool known() const { return !E_.empty(); }
   const AddedNoise& added() const { return added_; }
@@ -50,7 +50,7 @@ class Noise {
   const std::vector<std::size_t>& sources() const { return sources_; }
 
  private:
-  std::vector<FilterMatrix> E_;
+  std::vector<Filters> E_;
   std::vector<Whitener> whiteners_;
   std::vector<std::size_t> rows_, sources_;  // numbers of each run
   AddedNoise added_;

@@ -98,8 +98,7 @@ BandMatrix probe(const LinearFilter& filter, std::span<const double> times) {
         if (rows.first(i) <= j && j < rows.end(i)) all[start[i] + j - rows.first(i)] = response[i];
     }
   }
-  BandMatrix L;
-  L.reserve(times.size(), all.size());
+  BandMatrix L(times.size());
   for (std::size_t i = 0; i < times.size(); ++i) {
     const std::size_t k = few.row[i];
     L.append(rows.first(k) + i - k, std::span(all).subspan(start[k], start[k + 1] - start[k]));
@@ -110,15 +109,13 @@ BandMatrix probe(const LinearFilter& filter, std::span<const double> times) {
 Response response_of(const FilterChain& chain, std::span<const double> t) {
   Response response;
   response.source = chain.front().from;
-  response.of.emplace(response.source, BandMatrix::identity(t.size()));
+  response.of[response.source] = std::make_shared<const BandMatrix>(BandMatrix::identity(t.size()));
   for (const auto& filter : chain) {
     const auto input = response.of.find(filter.from);
     if (input == response.of.end())
       fail("the filters start from two columns, {} and {}: their noises are not known together",
            response.source, filter.from);
-    BandMatrix L = probe(filter, t);
-    response.of.insert_or_assign(
-        filter.to, L.is_identity() ? input->second : input->second.then(std::move(L)));
+    response.of[filter.to] = std::make_shared<const BandMatrix>(probe(filter, t) * *input->second);
   }
   return response;
 }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "noise/filter_matrix.h"
+#include "noise/band_matrix.h"
 
 namespace rolling {
 
@@ -35,7 +35,7 @@ BandMatrix probe(const LinearFilter&, std::span<const double> t);
 struct Response {
   std::string source;  ///< name of the raw column, whose noise is assumed white
   /// The matrix of each column, the raw one included: one row for each reading of the run.
-  std::map<std::string, FilterMatrix> of;
+  std::map<std::string, Filters> of;
 };
 
 /// The response of a chain on the times t of a run. Throws Error for a chain that starts from more

@@ -14,39 +14,26 @@ namespace {
 
 /// The width of the upper band of E E^T: one more than the largest distance between two of the
 /// first n rows of E with a common column.
-std::size_t band_of(const FilterMatrix& E, std::size_t n) {
-  std::vector<std::uint32_t> first_row(E.columns(), UINT32_MAX);  // of each column
+std::size_t band_of(const BandMatrix& E, std::size_t n) {
+  std::vector<std::size_t> first_row(E.columns(), n);  // of each column
   std::size_t band = 1;
-  FilterMatrix::Range columns{};
-  for (std::size_t i = 0; i < n; ++i) {
-    if (E.repeats(i)) ++columns.first, ++columns.end;
-    else columns = E.columns_of(i);
-    for (std::size_t j = columns.first; j < columns.end; ++j) {
-      first_row[j] = std::min(first_row[j], static_cast<std::uint32_t>(i));
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = E.first(i); j < E.end(i); ++j) {
+      first_row[j] = std::min(first_row[j], i);
       band = std::max(band, i - first_row[j] + 1);
     }
-  }
   return band;
 }
 
 }  // namespace
 
-Covariance::Covariance(const FilterMatrix& E, std::size_t n_rows)
+Covariance::Covariance(const BandMatrix& E, std::size_t n_rows)
     : n(n_rows), band(band_of(E, n)), rows(n * band) {
-  std::vector<FilterMatrix::Row> last(band);  // a ring of rows of E
   std::size_t same = 0;  // number of rows up to this one that repeat the row before
   for (std::size_t i = 0; i < n; ++i) {
-    FilterMatrix::Row& row = last[i % band];
-    if (E.repeats(i)) {
-      row = last[(i - 1) % band];
-      ++row.first, ++same;
-    } else {
-      E.row(i, row);
-      same = 0;
-    }
+    same = E.repeats(i) ? same + 1 : 0;
     for (std::size_t j = i < band ? 0 : i - band + 1; j <= i; ++j)
-      rows[j * band + i - j] =
-          i - j < same ? rows[(j - 1) * band + i - j] : dot(row, last[j % band]);
+      rows[j * band + i - j] = i - j < same ? rows[(j - 1) * band + i - j] : dot(E, i, E, j);
   }
 }
 
@@ -72,43 +59,15 @@ double Whitener::variance(std::size_t i) const {
   return sum / (1 + white_);
 }
 
-Whitener::Pass::Pass(const Whitener& by, std::size_t stride)
-    : by_(by), stride_(stride), done_((by.band_ + 256) * stride) {}
-
-void Whitener::Pass::push(double* row) {
-  const std::size_t band = by_.band_;
-  if ((k_ - base_ + 1) * stride_ > done_.size()) {
-    const std::size_t kept = band - 1;
-    std::copy_n(done_.end() - static_cast<std::ptrdiff_t>(kept * stride_), kept * stride_,
-                done_.begin());
-    base_ = k_ - kept;
-  }
-  const double* const R = &by_.R_[k_ * band];
-  double* const last = &done_[(k_ - base_) * stride_];
-  for (std::size_t c = 0; c < stride_; c += 2) {  // two columns fill one vector register
-    double x = row[c], y = row[c + 1];
-    const double* above = R;  // up the column of R
-    const double* of = last + c;
-    for (std::size_t j = std::min(k_ + 1, band); j-- > 1;) {
-      above -= band - 1;
-      of -= stride_;
-      x -= *above * of[0];
-      y -= *above * of[1];
-    }
-    last[c] = row[c] = x / R[0];
-    last[c + 1] = row[c + 1] = y / R[0];
-  }
-  ++k_;
-}
-
 void Whitener::apply(std::span<double> X) const {
-  const std::size_t columns = X.size() / n_, stride = FilterPass::stride(columns);
-  Pass pass(*this, stride);
-  std::vector<double> row(stride);
-  for (std::size_t i = 0; i < n_; ++i) {
-    for (std::size_t c = 0; c < columns; ++c) row[c] = X[c * n_ + i];
-    pass.push(row.data());
-    for (std::size_t c = 0; c < columns; ++c) X[c * n_ + i] = row[c];
+  for (std::size_t k = 0; k < n_; ++k) {
+    const double* const R = &R_[k * band_];
+    const std::size_t end = std::min(band_, n_ - k);
+    for (std::size_t at = k; at < X.size(); at += n_) {
+      double* const x = &X[at];
+      x[0] /= R[0];
+      for (std::size_t j = 1; j < end; ++j) x[j] -= R[j] * x[0];
+    }
   }
 }
 

@@ -2,15 +2,15 @@
 // Whitening: a linear map that makes correlated noise white.
 #pragma once
 
-#include "noise/filter_matrix.h"
+#include "noise/band_matrix.h"
 
 namespace rolling {
 
 /// The covariance E E^T of the noise that E makes from white noise of variance one: a band matrix.
 struct Covariance {
   /// The covariance of the first `rows` residuals.
-  Covariance(const FilterMatrix& E, std::size_t rows);
-  explicit Covariance(const FilterMatrix& E) : Covariance(E, E.rows()) {}
+  Covariance(const BandMatrix& E, std::size_t rows);
+  explicit Covariance(const BandMatrix& E) : Covariance(E, E.rows()) {}
 
   std::size_t n, band;       // number of rows, and width of the upper band
   std::vector<double> rows;  // row k holds columns k .. k + band - 1
@@ -28,8 +28,6 @@ class Whitener {
  public:
   /// Throws Error for a residual without noise.
   Whitener(Covariance of_E, double share);
-  /// Replaces X by R^-T X row by row, for rows that come one after another.
-  class Pass;
   /// Replaces X by R^-T X; X holds its columns one after another.
   void apply(std::span<double> X) const;
   /// Replaces x by R^-1 x.
@@ -53,18 +51,6 @@ class Whitener {
   std::size_t n_, band_;   // as in Covariance
   double white_;           // F is white_ times the diagonal of E E^T
   std::vector<double> R_;  // row k holds columns k .. k + band - 1
-};
-
-class Whitener::Pass {
- public:
-  /// `stride`: the number of elements in a row, an even number.
-  Pass(const Whitener&, std::size_t stride);
-  void push(double* row);
-
- private:
-  const Whitener& by_;
-  std::size_t stride_, k_ = 0, base_ = 0;
-  std::vector<double> done_;  // the whitened rows base_ .. k_ - 1
 };
 
 }  // namespace rolling

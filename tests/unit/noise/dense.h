@@ -2,18 +2,16 @@
 // A band matrix with its zeros, row by row.
 #pragma once
 
-#include "noise/filter_matrix.h"
+#include "noise/band_matrix.h"
+
+#include <algorithm>
 
 namespace rolling {
 
-inline std::vector<double> dense(const FilterMatrix& M, std::size_t columns) {
-  std::vector<double> all(M.rows() * columns, 0);
-  FilterMatrix::Row row;
-  for (std::size_t i = 0; i < M.rows(); ++i) {
-    M.row(i, row);
-    for (std::size_t j = 0; j < row.values.size(); ++j)
-      all[i * columns + row.first + j] = row.values[j];
-  }
+inline std::vector<double> dense(const BandMatrix& M) {
+  std::vector<double> all(M.rows() * M.columns());
+  for (std::size_t i = 0; i < M.rows(); ++i)
+    std::ranges::copy(M.row(i), &all[i * M.columns() + M.first(i)]);
   return all;
 }
 

@@ -13,8 +13,9 @@ namespace {
 
 constexpr std::size_t n = 40;
 const std::vector<double> t = simulated::times(n);
-const FilterMatrix E = FilterMatrix(probe(simulated::smooth_v(5), t))
-                           .then(probe(simulated::differentiate("v", "a"), t));
+const BandMatrix E =
+    probe(simulated::differentiate("v", "a"), t) * probe(simulated::smooth_v(5), t);
+const Filters filters = std::make_shared<const BandMatrix>(E);
 
 /// A straight line through data whose noise is E times white noise, with a share of white noise in
 /// the weights.
@@ -37,8 +38,7 @@ System line(const std::vector<double>& data, std::shared_ptr<const Noise> noise)
 // line is R^-1 B^T B R^-T.
 TEST_CASE("noise: its variance and the covariance of the parameters, whatever the share", "[fit]") {
   for (const double share : {1e-3, 0.1, 1.0, 30.0}) {
-    const auto noise =
-        std::make_shared<const Noise>(std::vector<FilterMatrix>{E}, AddedNoise{share});
+    const auto noise = std::make_shared<const Noise>(std::vector{filters}, AddedNoise{share});
     simulated::Noise random(7);
     double variances = 0, squares = 0, covariance = 0;
     constexpr int runs = 2000;
@@ -72,7 +72,7 @@ TEST_CASE("noise: its variance and the covariance of the parameters, whatever th
 }
 
 TEST_CASE("noise: the least sources that explain residuals give them back", "[fit]") {
-  const Noise noise({E});
+  const Noise noise({filters});
   simulated::Noise random(3);
   std::vector<double> e;
   for (std::size_t i = 0; i < n; ++i) e.push_back(random(1));
@@ -100,8 +100,8 @@ TEST_CASE("noise: the least sources that explain residuals give them back", "[fi
 TEST_CASE("noise: as many innovations as the filters leave degrees of freedom", "[noise]") {
   const auto innovations = [](std::size_t rows, std::size_t width) {
     const std::vector<double> at = simulated::times(rows);
-    const FilterMatrix H = FilterMatrix(probe(simulated::differentiate("x", "v"), at))
-                               .then(probe(simulated::smooth_v(width), at));
+    const auto H = std::make_shared<const BandMatrix>(
+        probe(simulated::smooth_v(width), at) * probe(simulated::differentiate("x", "v"), at));
     return Noise({H, H}).informative();
   };
   CHECK(innovations(7, 3) == 2 * 5);

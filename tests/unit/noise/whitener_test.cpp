@@ -19,7 +19,7 @@ TEST_CASE("whitener: a share of white noise is noise of its own", "[fit]") {
   const BandMatrix E = probe(simulated::smooth_v(3), simulated::times(6));
   const Whitener whitener(Covariance(E), 0.5);
   // C = E E^T + 0.25 diag(E E^T), so (W x).(W x) = x^T C^-1 x; for x = C y that is y^T C y
-  const auto e = dense(E, 6);
+  const auto e = dense(E);
   std::vector<double> y{1, -2, 0.5, 3, -1, 2}, x(6, 0);
   double expected = 0;
   for (std::size_t i = 0; i < 6; ++i) {
@@ -46,9 +46,9 @@ TEST_CASE(
     "[fit]") {
   constexpr std::size_t n = 40;
   const auto t = simulated::times(n);
-  const FilterMatrix E = FilterMatrix(probe(simulated::smooth_v(7), t))
-                             .then(probe(simulated::differentiate("v", "a"), t));
-  const auto dense_E = dense(E, n);
+  const BandMatrix E =
+      probe(simulated::differentiate("v", "a"), t) * probe(simulated::smooth_v(7), t);
+  const auto dense_E = dense(E);
   const Covariance EE(E);
   const double width = static_cast<double>(EE.band),
                least = width * width * std::numeric_limits<double>::epsilon();
@@ -103,7 +103,7 @@ TEST_CASE(
 // would take half of |W J|^2 at n = 20000.
 TEST_CASE("whitener: differences of a slow motion weigh as much as the motion itself", "[fit]") {
   for (const std::size_t n : {10U, 1000U, 100000U}) {
-    BandMatrix E;
+    BandMatrix E(n);
     for (std::size_t i = 0; i + 1 < n; ++i) E.append(i, std::vector<double>{-1, 1});
     std::vector<double> J;
     double mean = 0, squares = 0;
@@ -127,8 +127,8 @@ TEST_CASE("whitener: rounding leaves every covariance of filters positive defini
       const auto t = simulated::times(n);
       const BandMatrix difference = probe(simulated::differentiate("x", "v"), t),
                        mean = probe(simulated::smooth_v(width), t);
-      const FilterMatrix E = FilterMatrix(difference).then(mean);
-      for (const FilterMatrix& filters : {E, E.then(mean), E.then(difference)}) {
+      const BandMatrix E = mean * difference;
+      for (const BandMatrix& filters : {E, mean * E, difference * E}) {
         CAPTURE(width, n);
         const Whitener whitener(Covariance(filters), 0);
         CHECK(whitener.trace() > 0.9 * static_cast<double>(n) - 2 * static_cast<double>(width));
@@ -138,7 +138,7 @@ TEST_CASE("whitener: rounding leaves every covariance of filters positive defini
 }
 
 TEST_CASE("whitener: a column that the filters leave without noise is refused", "[fit]") {
-  BandMatrix E;
+  BandMatrix E(2);
   E.append(0, std::vector<double>{0, 0});
   E.append(0, std::vector<double>{0, 0});
   CHECK_THROWS_AS(Whitener(Covariance(E), 0), Error);
