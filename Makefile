@@ -55,7 +55,7 @@ build/lib.a: $(call object,$(source))
 	rm -f $@ && $(AR) rcs $@ $^
 
 # CLI11 runs once, and at -O2 it takes as long to compile as five other sources.
-build/lib/cli/command_line.o: override CXXFLAGS := $(CXXFLAGS:-O2=-Og)
+build/lib/cli/options.o: override CXXFLAGS := $(CXXFLAGS:-O2=-Og)
 
 build/%.o: %.cpp
 	@mkdir -p $(@D)
@@ -66,7 +66,7 @@ build/%.o: %.cpp
 ifeq ($(origin CXX)$(filter Darwin FreeBSD,$(system)),default)
 common  := $(patsubst %,<%>,algorithm array cmath cstddef functional limits map memory numeric \
              optional span string string_view utility vector fmt/core.h)
-of_tool := $(call object,$(filter-out %/command_line.cpp,$(source)) $(wildcard cmd/*.cpp))
+of_tool := $(call object,$(filter-out %/options.cpp,$(source)) $(wildcard cmd/*.cpp))
 $(of_tool): parsed := -include build/common.h
 $(of_tool): | build/common.h.gch
 build/common.h.gch:

@@ -29,7 +29,7 @@ void keep_freed_memory() {
 }
 
 /// Sets one of these parameters to the value of a text NAME=VALUE.
-CommandLine::Set setter_of(std::map<std::string, std::optional<double>*> parameters) {
+Options::Set setter_of(std::map<std::string, std::optional<double>*> parameters) {
   return [parameters = std::move(parameters)](const std::string& setting) {
     const auto equals = setting.find('=');
     const auto parameter = parameters.find(setting.substr(0, equals));
@@ -60,11 +60,12 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
             "let outliers count little: bisquare loss instead of squares");
   tool.add("--law", "LAW", "fit this law of those that --report compares: d0+d2*v^2",
            [&](const std::string& text) { options.law = &law_named(text); });
-  tool.list(
+  tool.add(
       "--fix", "NAME=VALUE", "hold a, b, v0 or x0 fixed",
-      setter_of({{"a", &options.a}, {"b", &options.b}, {"v0", &options.v0}, {"x0", &options.x0}}));
-  tool.list("--start", "NAME=VALUE", "begin the search at this a or b",
-            setter_of({{"a", &options.start_a}, {"b", &options.start_b}}));
+      setter_of({{"a", &options.a}, {"b", &options.b}, {"v0", &options.v0}, {"x0", &options.x0}}),
+      Options::Values::many);
+  tool.add("--start", "NAME=VALUE", "begin the search at this a or b",
+           setter_of({{"a", &options.start_a}, {"b", &options.start_b}}), Options::Values::many);
 }
 
 /// The groups of runs that are fitted together: one group of all runs, or one for each run.

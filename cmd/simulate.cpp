@@ -93,7 +93,7 @@ struct Task {
 
   /// Reads the law, checks that nothing is missing, and chooses the method.
   void complete(Tool& tool) {
-    std::vector<std::string> needed = {"radius", "shape-factor", "v0"};
+    std::vector<std::string> needed = {"radius", "shape-factor"};
     if (law_file.empty()) {
       needed.insert(needed.end(), {"coefficient", "exponent"});
       roll.law = law;
@@ -105,6 +105,7 @@ struct Task {
                            {"t0", "t", &t0}})
                      .law;
     }
+    if (std::isnan(roll.v0)) needed.push_back("v0");
     tool.need(needed);
     if (!tool.on_command_line("method")) method = best_method(roll);
   }

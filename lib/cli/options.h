@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The options of a tool: values from the command line, else from its scene file.
+// The options of a tool: values from the command line, else from its scene file, as CLI11 reads
+// them.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <initializer_list>
 #include <limits>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -15,11 +17,14 @@
 #include "base/enumeration.h"
 #include "base/error.h"
 #include "base/estimate.h"
-#include "cli/command_line.h"
 #include "contact/body.h"
 #include "contact/law.h"
 #include "text/column.h"
 #include "text/number.h"
+
+namespace CLI {
+class App;  // only options.cpp includes CLI11, which needs several seconds to compile
+}
 
 namespace rolling {
 
@@ -57,9 +62,13 @@ enum class BodyOption { mass, radius, shape_factor, gravity, slope };
 
 class Options {
  public:
-  using Set = CommandLine::Set;
+  /// Receives the value of an option as it was typed.
+  using Set = std::function<void(const std::string&)>;
 
   Options(const std::string& name, const std::string& purpose);
+  ~Options();
+  Options(const Options&) = delete;
+  Options& operator=(const Options&) = delete;
 
   // Options of one tool. `names` in the notation of CLI11: "-w,--width". Each option may be given
   // once. Its value must be a number in the syntax of rolling-columns(5) and within the domain.
@@ -79,16 +88,16 @@ class Options {
                const std::string& help);
   void text(const std::string& names, std::string& value, const std::string& type,
             const std::string& help);
-  void list(const std::string& names, const std::string& type, const std::string& help,
-            const Set&);  ///< may be repeated
   template <typename T>
   void choice(const std::string& names, T& value, const std::map<std::string, T>& choices,
               const std::string& help);
 
-  /// An option of any kind; `set` receives the text of its value, and its Errors do not name the
-  /// option. `missing` is asked by need(); it is empty for an option that has a default.
+  enum class Values { none, one, many };
+  /// An option of any kind. One with many values may be repeated, and `set` receives one after the
+  /// other; without a value it receives `true`. A name without hyphens is that of the words that
+  /// are not options: the input files. Errors of `set` need not name the option.
   void add(const std::string& names, const std::string& type, const std::string& help, Set set,
-           std::function<bool()> missing = {});
+           Values values = Values::one);
 
   // Options that tools share.
   /// The named ones of -m -R -K -g --slope. Before they are read, Body has not_given, 9.81 for g,
@@ -99,39 +108,36 @@ class Options {
   void geometry(Geometry&);  ///< --exact
   void scene();              ///< --scene, whose keys are listed in scene.cpp
 
-  /// Throws one Error that lists those of these options (long names of number(), numbers(), body()
-  /// and law()) which have a value neither on the command line nor in the scene.
+  /// Throws one Error that lists those of these options (long names) which have a value neither on
+  /// the command line nor in the scene.
   void need(const std::vector<std::string>& options) const;
   /// Throws an OptionError, "--NAME why", for the first of these options (long names) that is on
   /// the command line. For options without effect beside the other ones.
   void refuse(std::initializer_list<const char*> options, std::string_view why) const;
-  /// True if the option with this long name is on the command line (not only in the scene).
-  bool on_command_line(std::string_view option) const { return command_line_.given(option); }
-  /// True if it has a value from the command line or from the scene.
-  bool given(const std::string& option) const {
-    return on_command_line(option) || in_scene_.contains(option);
+  /// True if the option with this long name has a value from the command line or from the scene.
+  bool given(const std::string& option) const;
+  /// True if it is on the command line.
+  bool on_command_line(const std::string& option) const {
+    return given(option) && !in_scene_.contains(option);
   }
 
  protected:
+  enum class Asked { work, help, version };
+  /// Throws Error for unknown options and for values that are missing, too many or wrong.
+  Asked parse(int argc, const char* const* argv);
+  /// The text of --help for a program of this name; cmd/install/completion.awk reads it.
+  std::string help(const std::string& name) const;
   /// Sets the options that are not on the command line from the scene file; ignores keys without
   /// an option in this tool. True if the scene was standard input.
   bool take_scene();
 
-  CommandLine command_line_;
   std::set<std::string> doubts_;  ///< what to ask about values that are hardly meant
 
  private:
-  struct Option {
-    Set set;
-    std::function<bool()> missing;
-  };
-
   Estimate to_estimate(const std::string& text, const Domain&);
-  void add_flag(const std::string& names, const std::string& help,
-                const std::function<void(bool)>& set);
 
-  std::map<std::string, Option> options_;  // by long name
-  std::set<std::string> in_scene_;         // the keys of the scene that are options of this tool
+  std::unique_ptr<CLI::App> app_;
+  std::set<std::string> in_scene_;  // the keys of the scene that are options of this tool
   std::string scene_file_;
   BodyUncertainty ignored_;
 };

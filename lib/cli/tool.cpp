@@ -27,11 +27,11 @@ void Tool::input() {
   const auto append_to = [](std::vector<std::string>& words) {
     return [&words](const std::string& word) { words.push_back(word); };
   };
-  command_line_.list("FILE", "", "input files, read in order; - or none is standard input",
-                     append_to(input_.files));
-  list("--use", "NAME=COLUMN",
-       "the column (a name or a number from 1) that serves as t, x, v, a or D",
-       append_to(input_.use));
+  add("FILE", "", "input files, read in order; - or none is standard input",
+      append_to(input_.files), Values::many);
+  add("--use", "NAME=COLUMN",
+      "the column (a name or a number from 1) that serves as t, x, v, a or D",
+      append_to(input_.use), Values::many);
   count("--run", input_.run, whole,
         "read this run only: by the number in its header, else by its place");
   flag("--strict", input_.strict, "a missing reading is an error");
@@ -118,16 +118,12 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   try {
     error_line_ = error_line(name_);
     end_output_on_signals(out, error_line_);
-    switch (command_line_.parse(argc, argv)) {
-      case CommandLine::Asked::help: {
-        const std::string text = command_line_.help(name_);
-        // CLI11 writes into streams, which lose text silently when memory runs out.
-        if (text != command_line_.help(name_)) throw std::bad_alloc();
-        return print(text);
-      }
-      case CommandLine::Asked::version:
+    switch (parse(argc, argv)) {
+      case Asked::help:
+        return print(help(name_));
+      case Asked::version:
         return print(fmt::format("{} (rolling) {}\n", name_, version));
-      case CommandLine::Asked::work:
+      case Asked::work:
         break;
     }
     standard_input_taken_ = take_scene();

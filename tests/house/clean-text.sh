@@ -36,9 +36,6 @@ done
 for source in lib/*/*.cpp; do
   name=${source#lib/}
   name=${name%.cpp}
-  case $name in
-    cli/command_line) continue ;;
-  esac
   [ -e "tests/unit/${name}_test.cpp" ] || grep -qxF "$name" <<<"$tested" ||
     complain "$source: no unit test of it"
 done

@@ -114,7 +114,6 @@ limit() {  # WHAT STATUS WANTED
 }
 says man/rolling-columns.5 'has at most 1048576 bytes'
 says man/rolling-columns.5 'a preamble, at most 100 lines'
-says man/rolling-columns.5 'TOML of at most 64 KiB'
 says man/rolling-columns.5 'N significant digits, 1 to 17'
 for more in 0 1; do
   { echo 't v c'; head -c $((1048576 - 5 + more)) /dev/zero | tr '\0' x | sed 's/^/0 1 /'; echo; } |
@@ -122,9 +121,6 @@ for more in 0 1; do
   limit "a line of 1048576 + $more bytes" $? $((2 * more))
   { seq $((99 + more)) | sed 's/^/a word /; s/[0-9]//g'; printf 't,v\n0,1\n1,2\n'; } | smooth -w 1 >/dev/null 2>&1
   limit "a preamble of 100 + $more lines" $? $((2 * more))
-  { echo 'radius = 0.04'; head -c $((65536 - 15 + more)) /dev/zero | tr '\0' x | sed 's/^/#/'; } >"$scratch/scene.toml"
-  simulate --scene "$scratch/scene.toml" -K 0.5 -a 1e-3 -b 0 --v0 0.1 >/dev/null 2>&1
-  limit "a scene of 65536 + $more bytes" $? $((2 * more))
   printf 't v\n0 1\n' | smooth -w 1 --digits $((17 + more)) >/dev/null 2>&1
   limit "--digits 17 + $more" $? $((2 * more))
 done
