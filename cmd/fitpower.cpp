@@ -68,31 +68,27 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
            setter_of({{"a", &options.start_a}, {"b", &options.start_b}}), Options::Values::many);
 }
 
-/// The groups of runs that are fitted together: one group of all runs, or one for each run.
-std::vector<std::vector<FitRun>> grouped(std::vector<FitRun> runs, bool each) {
-  std::vector<std::vector<FitRun>> groups;
-  if (each)
-    for (FitRun& run : runs) groups.push_back({std::move(run)});
-  else groups.push_back(std::move(runs));
-  return groups;
-}
+/// Runs that are fitted together, and their fit, if they can be fitted.
+struct Group {
+  std::vector<FitRun> runs = {};
+  std::optional<FitResult> result = {};
+};
 
-/// Fits each group of runs. With `each` a group is one run: if it cannot be fitted, a message names
-/// it and the others are fitted all the same.
-std::vector<std::optional<FitResult>> fit_all(Tool& tool, Route route,
-                                              const std::vector<std::vector<FitRun>>& fits,
-                                              const FitOptions& options, bool each) {
-  std::vector<std::optional<FitResult>> results;
-  for (const auto& runs : fits) {
-    try {
-      results.emplace_back(fit(route, runs, options));
+/// Fits all runs together, or with `each` every run by itself: if one cannot be fitted, a message
+/// names it and the others are fitted all the same.
+std::vector<Group> fit_all(Tool& tool, Route route, std::vector<FitRun> runs,
+                           const FitOptions& options, bool each) {
+  std::vector<Group> groups;
+  if (each)
+    for (FitRun& run : runs) groups.emplace_back().runs.push_back(std::move(run));
+  else groups.push_back({std::move(runs)});
+  for (Group& group : groups) try {
+      group.result = fit(route, group.runs, options);
     } catch (const Error& error) {
       if (!each) throw;
-      tool.say(runs.front().name, error.what());
-      results.emplace_back();
+      tool.say(group.runs.front().name, error.what());
     }
-  }
-  return results;
+  return groups;
 }
 
 /// A number of the row of a fit, and its column.
@@ -102,8 +98,9 @@ struct Cell {
   bool is_count = false;  ///< not rounded to --digits
 };
 
-/// The row of a fit of these runs.
-std::vector<Cell> row_of(const FitResult& r, const std::vector<FitRun>& runs, bool with_slope) {
+/// The row of a fit.
+std::vector<Cell> row_of(const Group& group, bool with_slope) {
+  const FitResult& r = *group.result;
   std::vector<Cell> row;
   const auto estimate = [&](const Column& c, const Estimate& x) {
     row.insert(row.end(), {{c, x.value}, {{"sigma_" + c.name, c.unit}, x.sigma}});
@@ -118,48 +115,33 @@ std::vector<Cell> row_of(const FitResult& r, const std::vector<FitRun>& runs, bo
   if (roll) estimate({"v0", "m/s"}, r.v0.front());
   if (with_slope) estimate({"slope"}, {r.slope, r.sigma_slope});
   if (r.x0.size() == 1) estimate({"x0", "m"}, r.x0.front());
-  if (roll) row.push_back({{"t0", "s"}, runs.front().t.front()});
+  if (roll) row.push_back({{"t0", "s"}, group.runs.front().t.front()});
   return row;
 }
 
-/// Writes a row for each fit, of which `first` is one that succeeded. A run that could not be
-/// fitted has blank cells, and so have errors that do not exist.
-void write(Output& out, const std::vector<std::optional<FitResult>>& results, std::size_t first,
-           const std::vector<std::vector<FitRun>>& fits, bool with_slope, bool with_run) {
+/// Writes a row for each group, of which `one` has been fitted. A run that could not be fitted has
+/// blank cells, and so have errors that do not exist.
+void write(Output& out, const std::vector<Group>& groups, const Group& one, bool with_slope,
+           bool with_run) {
   std::vector<Column> columns;
-  for (const Cell& cell : row_of(*results[first], fits[first], with_slope))
-    columns.push_back(cell.column);
+  for (const Cell& cell : row_of(one, with_slope)) columns.push_back(cell.column);
   const std::size_t cells = columns.size();
   if (with_run) columns.push_back({"run"});
   out.names(columns);
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    if (!results[i])
+  for (const Group& group : groups) {
+    if (!group.result)
       for (std::size_t j = 0; j < cells; ++j) out.blank();
     else
-      for (const auto& [column, value, is_count] : row_of(*results[i], fits[i], with_slope)) {
+      for (const auto& [column, value, is_count] : row_of(group, with_slope)) {
         if (is_count) out.cell(std::to_string(static_cast<std::size_t>(value)));
-        else if (results[i]->errors == Errors::none && std::isnan(value)) out.blank();
+        else if (group.result->errors == Errors::none && std::isnan(value)) out.blank();
         else out.cell(value);
       }
-    if (with_run) out.cell(fits[i].front().name);
+    if (with_run) out.cell(group.runs.front().name);
     out.end_line();
   }
   out.flush();  // the rows stand above the report
 }
-
-/// What is said about a fit, below its row.
-struct Comments {
-  bool with_report, with_check, with_run;
-
-  void tell(Tool& tool, Route route, const FitResult& result, const std::vector<FitRun>& runs,
-            const FitOptions& options) const {
-    std::optional<LawComparison> laws;  // AICc needs sums of squares
-    if ((with_report || with_check) && !options.robust) laws = compare_laws(route, runs, options);
-    remark(tool, route, result, runs, options, laws, with_check);
-    if (with_report && with_run) tool.say(fmt::format("run {}, the report:", runs.front().name));
-    if (with_report) report(tool, runs, options, laws);
-  }
-};
 
 /// The values of --route, `fits` without a route.
 std::map<std::string, std::optional<Route>> route_choices() {
@@ -240,26 +222,29 @@ int main(int argc, char** argv) {
     if (route == Route::velocity && take_pulses(tool, runs)) route = Route::position;
     bodies.give_to(runs);
     if (!trajectory && !options.fit_slope) warn_of_unused_body(tool, runs, options.geometry);
-    const auto fits = grouped(std::move(runs), each);
-    const auto results = fit_all(tool, route, fits, options, each);
-    const auto fitted = [](const auto& result) { return result.has_value(); };
-    const auto first = std::ranges::find_if(results, fitted);
-    if (first == results.end()) return 2;
+    const auto groups = fit_all(tool, route, std::move(runs), options, each);
+    const auto fitted = [](const Group& group) { return group.result.has_value(); };
+    const auto one = std::ranges::find_if(groups, fitted);
+    if (one == groups.end()) return 2;
 
-    write(tool.out, results, static_cast<std::size_t>(first - results.begin()), fits,
-          options.fit_slope, each);
-    if (options.robust && (with_report || with_check))
+    write(tool.out, groups, *one, options.fit_slope, each);
+    const bool compares = with_report || with_check;
+    if (options.robust && compares)
       tool.warn(
           "neither other laws nor the beginning are looked at with --robust: this needs sums "
           "of squares");
-    const Comments comments{with_report, with_check, each};
     std::size_t left_out = 0;
-    for (std::size_t i = 0; i < fits.size(); ++i)
-      if (results[i]) {
-        left_out += results[i]->left_out;
-        comments.tell(tool, route, *results[i], fits[i], options);
-      }
+    for (const auto& [grouped, result] : groups) {
+      if (!result) continue;
+      left_out += result->left_out;
+      std::optional<LawComparison> laws;  // AICc needs sums of squares
+      if (compares && !options.robust) laws = compare_laws(route, grouped, options);
+      remark(tool, route, *result, grouped, options, laws, with_check);
+      if (!with_report) continue;
+      if (each) tool.say(fmt::format("run {}, the report:", grouped.front().name));
+      report(tool, grouped, options, laws);
+    }
     tool.count_left_out(left_out, why_left_out(route, options));
-    return std::ranges::all_of(results, fitted) ? 0 : 2;
+    return std::ranges::all_of(groups, fitted) ? 0 : 2;
   });
 }

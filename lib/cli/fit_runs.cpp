@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <set>
 
 #include "cli/history.h"
 #include "signal/pulses.h"
@@ -49,10 +49,7 @@ void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
     history = {.doubt = "--use takes other columns than its `##` lines speak of"};
   if (run.t.empty() && change_numbers(history_of(in.history(), std::array{0.0}).filters))
     history.doubt = "it has no times, without which its `##` lines tell nothing";
-  run.shift_of = history.shift_of;
-  history = known_windows(compared(std::move(history), run), run, words_of(route).columns.back());
-  run.filters = std::move(history.filters);
-  run.shift_of = history.shift_of;
+  history = give_filters(std::move(history), run, words_of(route).columns.back());
   if (!history.doubt.empty())
     tool.warn(run.name, history.doubt + ": the fit goes on as if no filter were known");
   if (history.left_out > 0)
@@ -164,24 +161,18 @@ void Bodies::give_to(std::vector<FitRun>& runs) const {
 }
 
 void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
-  std::map<std::vector<std::string_view>, std::string> different;  // names by the readings' bytes
-  std::string copy;
-  std::size_t copies = 0;
+  std::set<std::vector<std::string_view>> different;  // the readings, as their bytes
   for (const FitRun& run : runs) {
     std::vector<std::string_view> readings;
     for (const std::string& name : words_of(route).columns) {
       const std::vector<double>& x = run.*column_of(name);
       readings.emplace_back(reinterpret_cast<const char*>(x.data()), x.size() * sizeof(double));
     }
-    if (readings.back().size() < 10 * sizeof(double)) continue;
-    const auto [same, inserted] = different.emplace(std::move(readings), run.name);
-    if (!inserted && ++copies == 1)
-      copy = fmt::format("run {}: its readings are those of run {}", run.name, same->second);
+    if (readings.back().size() >= 10 * sizeof(double) && !different.insert(readings).second)
+      tool.warn(run.name,
+                "its readings are those of a run before it: leave copies out, for each counts as "
+                "one more roll");
   }
-  if (copies > 0)
-    tool.warn(
-        fmt::format("{}{}: leave copies out, for each counts as one more roll", copy,
-                    copies > 1 ? fmt::format(", the first of {} copies", copies) : std::string()));
 }
 
 void warn_of_unused_body(Tool& tool, const std::vector<FitRun>& runs, Geometry geometry) {

@@ -191,27 +191,25 @@ bool shifts_of_speeds(const std::vector<std::string>& lines) {
   return D_of_v;
 }
 
-History compared(History history, const FitRun& run) {
-  const Mismatch found = mismatch(history.filters, run);
-  if (found.inside) return {.doubt = "the columns are not what the `##` lines say"};
-  history.cut_begin |= found.begin;
-  history.cut_end |= found.end;
-  return history;
-}
-
 // How many rows were removed is not known, nor at which times, and thus not the windows at the
 // former end. Further inside, they are those of the times of the run.
-History known_windows(History history, FitRun& run, const std::string& column) {
-  if (!history.cut_begin && !history.cut_end) return history;
+History give_filters(History history, FitRun& run, const std::string& column) {
+  run.shift_of = history.shift_of;
+  const Mismatch found = mismatch(history.filters, run);
+  history.cut_begin |= found.begin;
+  history.cut_end |= found.end;
   std::map<std::string, std::size_t> windows;  // the rows on either side that a column has read
   for (const LinearFilter& filter : history.filters)
     windows[filter.to] = windows[filter.from] + filter.reach;
   history.left_out = windows[column] * (std::size_t{history.cut_begin} + history.cut_end);
-  if (history.left_out > 0 && run.t.size() < history.left_out + 10)
-    return {.shift_of = history.shift_of,
-            .doubt =
-                "it was cut after the filters that its `##` lines name, and fewer than 10 rows "
-                "are far enough from the cut"};
+  if (found.inside) history = {.doubt = "the columns are not what the `##` lines say"};
+  else if (history.left_out > 0 && run.t.size() < history.left_out + 10)
+    history = {.shift_of = history.shift_of,
+               .doubt =
+                   "it was cut after the filters that its `##` lines name, and fewer than 10 rows "
+                   "are far enough from the cut"};
+  run.filters = history.filters;
+  run.shift_of = history.shift_of;
   const std::pair<const char*, std::vector<double>*> columns[] = {
       {"x", &run.x}, {"v", &run.v}, {"D", &run.D}};
   for (const auto& [name, readings] : columns) {

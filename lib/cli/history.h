@@ -25,7 +25,7 @@ struct History {
   std::optional<ShiftOf> shift_of = {};
   std::string doubt = {};  ///< the reason why the lines are not trusted; otherwise empty
   bool cut_begin = false, cut_end = false;  ///< rows were removed there after a filter
-  std::size_t left_out = 0;                 ///< number of rows that known_windows() left out
+  std::size_t left_out = 0;                 ///< number of rows that give_filters() left out
 };
 
 /// The filters in the `##` lines of a run (smooth, differentiate, shift-from-accel), for rows at
@@ -45,14 +45,11 @@ bool speeds_of_positions(const std::vector<std::string>& lines);
 /// True if, by the lines, D was computed from the derivative of the speeds in the file.
 bool shifts_of_speeds(const std::vector<std::string>& lines);
 
-/// Compares the columns of the run with what the filters make of each other. If they differ only at
-/// an end, rows were removed there after the filters, as the lines may tell, too. If they differ
-/// elsewhere, the lines are not trusted.
-History compared(History, const FitRun&);
-
-/// Leaves out the readings whose windows may have reached to rows that were removed: they become
-/// NaN in x, v and D. `column` is the one that is fitted, whose readings left_out counts; the
-/// filters are unknown if fewer than 10 of them remain.
-History known_windows(History, FitRun&, const std::string& column);
+/// Gives the run its filters, as far as its columns are what the filters make of each other. If
+/// they differ only at an end, rows were removed there after the filters, as the lines may tell,
+/// too: the readings whose windows may have reached to them become NaN in x, v and D. If they
+/// differ elsewhere, or if fewer than 10 readings of the column that is fitted remain, the lines
+/// are not trusted. Returns the history as far as it is.
+History give_filters(History, FitRun&, const std::string& column);
 
 }  // namespace rolling
