@@ -100,9 +100,9 @@ struct Task {
     } else {
       roll.law = read_law(tool, law_file, law,
                           {{"slope", "", &roll.body.slope},
-                           {"v0", "v", &roll.v0},
-                           {"x0", "x", &roll.x0},
-                           {"t0", "t", &t0}})
+                           {"v0", "m/s", &roll.v0},
+                           {"x0", "m", &roll.x0},
+                           {"t0", "s", &t0}})
                      .law;
     }
     if (std::isnan(roll.v0)) needed.push_back("v0");

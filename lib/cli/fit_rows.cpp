@@ -56,7 +56,7 @@ void warn_of_same_rows(Tool& tool, const FitRows& rows) {
 FitRows read_rows(Tool& tool) {
   Reader& in = tool.read({});
   if (!in.find("sigma_a")) fail("no rows of fitpower: there is no column sigma_a");
-  const RowColumn a(in, "a", "D"), sigma_a(in, "sigma_a", "D"), b(in, "b"), sigma_b(in, "sigma_b"),
+  const RowColumn a(in, "a", "m"), sigma_a(in, "sigma_a", "m"), b(in, "b"), sigma_b(in, "sigma_b"),
       corr(in, "corr");
   FitRows rows;
   while (in.next_run()) {

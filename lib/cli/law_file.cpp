@@ -28,13 +28,6 @@ const LawForm* law_of_columns(const Reader& in) {
   return found;
 }
 
-/// The known quantity that has the unit of a coefficient; empty if none has.
-std::string_view quantity_of(const std::string& unit) {
-  static const std::map<std::string, std::string_view> known{{"m", "D"}, {"m/s", "v"}, {"s", "t"}};
-  const auto found = known.find(unit);
-  return found == known.end() ? std::string_view() : found->second;
-}
-
 /// The row of fitpower in a file.
 LawOfFile read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& given,
                    std::vector<RowNumber> numbers, Uncertainties uncertainties) {
@@ -45,11 +38,10 @@ LawOfFile read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& 
     return !in.find(number.name) || tool.on_command_line(number.name);
   });
   std::vector<RowColumn> columns, coefficients, sigmas, correlations;
-  for (const RowNumber& number : numbers) columns.emplace_back(in, number.name, number.quantity);
+  for (const RowNumber& number : numbers) columns.emplace_back(in, number.name, number.unit);
   for (const Column& c : columns_of(form)) {
-    coefficients.emplace_back(in, c.name, quantity_of(c.unit), c.unit);
-    if (uncertainties == Uncertainties::needed)
-      sigmas.emplace_back(in, "sigma_" + c.name, quantity_of(c.unit), c.unit);
+    coefficients.emplace_back(in, c.name, c.unit);
+    if (uncertainties == Uncertainties::needed) sigmas.emplace_back(in, "sigma_" + c.name, c.unit);
   }
   if (uncertainties == Uncertainties::needed)
     for (const std::string& name : correlations_of(form)) correlations.emplace_back(in, name);
@@ -77,6 +69,16 @@ LawOfFile read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& 
 }
 
 }  // namespace
+
+Conversion RowColumn::to_si() const {
+  static const std::map<std::string, std::string> quantities{{"m", "D"}, {"m/s", "v"}, {"s", "t"}};
+  const Column& column = in_.columns()[in_.column_of(slot_)];
+  if (const auto quantity = quantities.find(unit_); quantity != quantities.end())
+    return conversion_to_si(quantity->second, column);
+  if (column.unit == unit_) return {};
+  fail("column '{}': {} is a number {}", shown(to_text(column)), name_,
+       unit_.empty() ? "without a unit" : "in " + unit_);
+}
 
 const LawForm& law_named(const std::string& formula) {
   std::string known;

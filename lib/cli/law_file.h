@@ -15,33 +15,21 @@
 
 namespace rolling {
 
-/// A column of a row of fitpower. In a file of readings its name may mean another quantity (a is an
-/// acceleration there), so it is read without conversion and converted here.
+/// A column of a row of fitpower, in this SI unit. In a file of readings its name may mean another
+/// quantity (a is an acceleration there), so it is read without conversion and converted here.
 class RowColumn {
  public:
-  /// `quantity`: the known one in whose unit it is; nothing for a number of this unit alone.
-  RowColumn(Reader& in, const std::string& name, std::string_view quantity = {},
-            std::string unit = {})
-      : in_(in), name_(name), quantity_(quantity), unit_(std::move(unit)),
-        slot_(in.need_as_is(name)) {
-    value_of(0);
+  RowColumn(Reader& in, const std::string& name, const std::string& unit = {})
+      : in_(in), name_(name), unit_(unit), slot_(in.need_as_is(name)) {
+    to_si();
   }
-  double value() const { return value_of(in_[slot_]); }
+  double value() const { return to_si()(in_[slot_]); }
 
  private:
-  double value_of(double number) const {
-    const Column& column = in_.columns()[in_.column_of(slot_)];
-    if (!quantity_.empty()) return conversion_to_si(quantity_, column)(number);
-    if (column.unit != unit_)
-      fail("column '{}': {} is a number {}", shown(to_text(column)), name_,
-           unit_.empty() ? "without a unit" : "in " + unit_);
-    return number;
-  }
+  Conversion to_si() const;  // of the present run
 
   Reader& in_;
-  std::string name_;
-  std::string_view quantity_;
-  std::string unit_;
+  std::string name_, unit_;
   std::size_t slot_;
 };
 
@@ -60,9 +48,9 @@ std::string words_of(const Law&);
 
 /// A number that a row of fitpower may have, under the name of an option of the tool.
 struct RowNumber {
-  const char* name;           ///< slope, v0, x0 or t0
-  std::string_view quantity;  ///< in whose unit it is
-  double* value;              ///< SI units
+  const char* name;  ///< slope, v0, x0 or t0
+  const char* unit;
+  double* value;
 };
 
 /// A law as a file tells it.

@@ -68,18 +68,6 @@ std::vector<std::string> LinesOfRuns::all() const {
   return all;
 }
 
-std::string LinesOfRuns::first_and_count() const {
-  const Line& first = lines_.front();
-  if (lines_.size() == 1) return first.all();
-  std::vector<std::string> others;
-  for (const Line& line : lines_)
-    for (const std::string& run : line.runs)
-      if (std::ranges::count(first.runs, run) + std::ranges::count(others, run) == 0)
-        others.push_back(run);
-  return fmt::format("{} (and {} more{}{})", first.all(), lines_.size() - 1,
-                     others.empty() ? "" : ", of ", some_of(others));
-}
-
 namespace {
 
 /// The terminate handler. It reports exceptions that nothing catches: before main(), from a static

@@ -25,9 +25,6 @@ class LinesOfRuns {
   void add(const std::string& run, const std::string& text);
   /// The lines in the order of their first runs.
   std::vector<std::string> all() const;
-  /// The first line, how many more there are, and the runs of which they are.
-  std::string first_and_count() const;
-  bool empty() const { return lines_.empty(); }
 
  private:
   struct Line {

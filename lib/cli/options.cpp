@@ -23,6 +23,7 @@ static_assert(polynomial.holds(SavitzkyGolay::most_order) &&
               !polynomial.holds(SavitzkyGolay::most_order + 1));
 namespace {
 
+constexpr std::string_view version = "1.0.0";
 constexpr std::size_t page_width = 79, help_column = 30;
 
 /// Refuses a text that is not a number of the domain.
@@ -213,19 +214,19 @@ void Options::scene() {
        "TOML file with the long names of a scene's options; the command line wins");
 }
 
-Options::Asked Options::parse(int argc, const char* const* argv) {
+std::string Options::parse(const std::string& name, int argc, const char* const* argv) {
   try {
     app_->parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    return Asked::help;
+    return help(name);
   } catch (const CLI::CallForVersion&) {
-    return Asked::version;
+    return fmt::format("{} (rolling) {}\n", name, version);
   } catch (const CLI::ExtrasError&) {
     fail("no such option or operand: {} (see --help)", shown(app_->remaining().front()));
   } catch (const CLI::ParseError& error) {
     fail("{} (see --help)", error.what());
   }
-  return Asked::work;
+  return {};
 }
 
 bool Options::take_scene() {

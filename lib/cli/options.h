@@ -106,7 +106,7 @@ class Options {
   void body(Body&, std::initializer_list<BodyOption>, BodyUncertainty* uncertainty = nullptr);
   void law(PowerLaw&);       ///< -a -b
   void geometry(Geometry&);  ///< --exact
-  void scene();              ///< --scene, whose keys are listed in scene.cpp
+  void scene();              ///< --scene, whose keys are listed in options.cpp
 
   /// Throws one Error that lists those of these options (long names) which have a value neither on
   /// the command line nor in the scene.
@@ -122,11 +122,10 @@ class Options {
   }
 
  protected:
-  enum class Asked { work, help, version };
-  /// Throws Error for unknown options and for values that are missing, too many or wrong.
-  Asked parse(int argc, const char* const* argv);
-  /// The text of --help for a program of this name; cmd/install/completion.awk reads it.
-  std::string help(const std::string& name) const;
+  /// Returns what a program of this name prints for --help or --version, if one is given; else an
+  /// empty text. Throws Error for unknown options and for values that are missing, too many or
+  /// wrong.
+  std::string parse(const std::string& name, int argc, const char* const* argv);
   /// Sets the options that are not on the command line from the scene file; ignores keys without
   /// an option in this tool. True if the scene was standard input.
   bool take_scene();
@@ -135,6 +134,8 @@ class Options {
 
  private:
   Estimate to_estimate(const std::string& text, const Domain&);
+  /// The text of --help; cmd/install/completion.awk reads it.
+  std::string help(const std::string& name) const;
 
   std::unique_ptr<CLI::App> app_;
   std::set<std::string> in_scene_;  // the keys of the scene that are options of this tool

@@ -16,8 +16,6 @@
 
 namespace rolling {
 
-constexpr std::string_view version = "1.0.0";
-
 Tool::Tool(std::string name, const std::string& purpose)
     : Options(name, purpose), name_(std::move(name)) {
   flag("-q,--quiet", quiet_, "print no warnings or counts on standard error");
@@ -87,7 +85,7 @@ void Tool::count_left_out(std::size_t count, const std::string& why) {
     say(fmt::format("{} row{} left out: {}", count, count == 1 ? "" : "s", why));
 }
 
-/// Flushes the output and prints the counts and failed checks; returns the exit status.
+/// Flushes the output and prints the counts; returns the exit status.
 int Tool::finish(int status) {
   if (status == trouble) out.end_with(error_line_);
   out.flush();
@@ -98,9 +96,7 @@ int Tool::finish(int status) {
     left_out += reader->left_out();
   }
   count_left_out(left_out, "a reading is missing");
-  if (failed_.empty()) return status;
-  say(failed_.first_and_count());
-  return std::max(status, 1);  // trouble is more than a check that does not hold
+  return std::max(status, failed_ ? 1 : 0);  // trouble is more than a check that does not hold
 }
 
 int Tool::run(int argc, char** argv, const std::function<int()>& work) {
@@ -110,21 +106,13 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   name_.erase(0, name_.rfind('/') + 1);
   // A write beyond the limit of the file size then fails, which flush() reports.
   std::signal(SIGXFSZ, SIG_IGN);
-  const auto print = [this](const std::string& text) {
-    out.text(text);
-    out.flush();
-    return 0;
-  };
   try {
     error_line_ = error_line(name_);
     end_output_on_signals(out, error_line_);
-    switch (parse(argc, argv)) {
-      case Asked::help:
-        return print(help(name_));
-      case Asked::version:
-        return print(fmt::format("{} (rolling) {}\n", name_, version));
-      case Asked::work:
-        break;
+    if (const std::string asked = parse(name_, argc, argv); !asked.empty()) {
+      out.text(asked);
+      out.flush();
+      return 0;
     }
     standard_input_taken_ = take_scene();
     for (const std::string& doubt : doubts_) warn(doubt);

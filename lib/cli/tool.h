@@ -51,10 +51,11 @@ class Tool : public Options {
   /// Prints how many rows were left out and why, unless -q is given.
   void count_left_out(std::size_t count, const std::string& why);
 
-  /// Reports that a check of a run, or of all, does not hold. When `work` has returned, run()
-  /// prints the first of these texts and how many followed, and returns 1. If `work` ends with an
-  /// error, that is printed alone.
-  void check_failed(const std::string& run, const std::string& text) { failed_.add(run, text); }
+  /// Reports that a check of a run, or of all, does not hold: run() returns 1.
+  void check_failed(const std::string& run, const std::string& text) {
+    say(run, text);
+    failed_ = true;
+  }
 
   Output out;
 
@@ -66,7 +67,8 @@ class Tool : public Options {
   ReaderOptions input_;
   bool quiet_ = false;
   bool standard_input_taken_ = false;  // a Reader reads it; a second one cannot
-  LinesOfRuns waiting_, failed_;
+  bool failed_ = false;                // a check
+  LinesOfRuns waiting_;
   std::vector<std::unique_ptr<Reader>> readers_;
 };
 

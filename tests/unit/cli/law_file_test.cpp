@@ -43,9 +43,9 @@ Given law_of(const std::string& text, std::vector<std::string> words = {},
       given.slope = body.slope;
       given.file = read_law(tool, file.name(), given.law,
                             {{"slope", "", &given.slope},
-                             {"v0", "v", &given.v0},
-                             {"x0", "x", &given.x0},
-                             {"t0", "t", &given.t0}},
+                             {"v0", "m/s", &given.v0},
+                             {"x0", "m", &given.x0},
+                             {"t0", "s", &given.t0}},
                             uncertainties);
       given.law = given.file.law.power().value_or(given.law);
       return 0;
