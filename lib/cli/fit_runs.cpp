@@ -30,7 +30,10 @@ void add_others(Reader& in, std::vector<Slot>& slots) {
 void warn_of_held(Tool& tool, Route route, const FitRun& run,
                   const std::vector<std::string>& history) {
   const bool position = route == Route::position;
-  if (!position && speeds_of_positions(history)) return;
+  if (!position && std::ranges::any_of(history, [](const std::string& line) {
+        return line.starts_with("differentiate x ");
+      }))
+    return;
   const double held = rows_held(position ? run.x : run.v);
   if (held > 1)
     tool.warn(run.name, fmt::format("{} repeat: each stands in {:.2g} rows on average; keep only "

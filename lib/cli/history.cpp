@@ -66,7 +66,8 @@ class ChainBuilder {
     if (tool == "differentiate") return filter(line, derivative_methods, rest, true);
     if (tool == "shift-from-accel") {
       if (!history_.shift_of) return doubt(line);
-      append(identity("a", "D"));
+      append({"a", "D", 0, [](auto, auto a) { return std::vector<double>(a.begin(), a.end()); },
+              true});
     }
     return true;
   }
@@ -170,11 +171,6 @@ std::string other_body(const std::optional<ShiftOf>& shift_of, const Body& body,
     add_item(others, fmt::format("{} {} (here {})", number.name, to_text(then), to_text(now)));
   }
   return others;
-}
-
-bool speeds_of_positions(const std::vector<std::string>& lines) {
-  return std::ranges::any_of(
-      lines, [](const std::string& line) { return line.starts_with("differentiate x "); });
 }
 
 bool shifts_of_speeds(const std::vector<std::string>& lines) {

@@ -39,9 +39,6 @@ History history_of(const std::vector<std::string>& lines, std::span<const double
 /// NaN is not known.
 std::string other_body(const std::optional<ShiftOf>&, const Body&, const BodyUncertainty& = {});
 
-/// True if one of the lines says that the speeds are differences of positions.
-bool speeds_of_positions(const std::vector<std::string>& lines);
-
 /// True if, by the lines, D was computed from the derivative of the speeds in the file.
 bool shifts_of_speeds(const std::vector<std::string>& lines);
 

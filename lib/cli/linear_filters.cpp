@@ -7,10 +7,6 @@
 
 namespace rolling {
 
-LinearFilter identity(const std::string& from, const std::string& to) {
-  return {from, to, 0, [](auto, auto y) { return std::vector<double>(y.begin(), y.end()); }, true};
-}
-
 LinearFilter linear(const std::string& from, const std::string& to, const SignalOptions& options,
                     std::size_t reach) {
   return {from, to, reach,

@@ -10,9 +10,6 @@
 
 namespace rolling {
 
-/// A filter that leaves its column as it is.
-LinearFilter identity(const std::string& from, const std::string& to);
-
 /// A streaming filter as one of whole columns.
 LinearFilter linear(const std::string& from, const std::string& to, const SignalOptions&,
                     std::size_t reach);

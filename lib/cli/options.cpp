@@ -254,10 +254,7 @@ void Options::need(const std::vector<std::string>& options) const {
   std::vector<std::string> missing;
   for (const std::string& option : options)
     if (!given(option)) missing.push_back("--" + option);
-  if (missing.size() == 1)
-    fail<OptionError>("{} is not given, nor is it in a scene", missing.front());
-  if (missing.size() > 1)
-    fail<OptionError>("{} are not given, nor are they in a scene", enumeration(missing));
+  if (!missing.empty()) fail<OptionError>("neither given nor in a scene: {}", enumeration(missing));
 }
 
 void Options::refuse(std::initializer_list<const char*> options, std::string_view why) const {

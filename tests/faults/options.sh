@@ -109,8 +109,8 @@ shift-from-accel -R 1 -K 0.5 -g 0 @|'0' must be greater than 0
 shift-from-accel -R 1 -K 0.5 -g -9.81 @|'-9.81' must be greater than 0
 shift-from-accel --exact -R 1 -K 100 @|within the radius
 shift-from-accel --exact -R 1e-300 -K 1e308 @|
-shift-from-accel -K 0.5 @|--radius is not given
-shift-from-accel -R 1 @|--shape-factor is not given
+shift-from-accel -K 0.5 @|neither given nor in a scene: --radius
+shift-from-accel -R 1 @|neither given nor in a scene: --shape-factor
 fitpower --route velocity -K -1 -R 1 @|'-1' must be 0 or more
 fitpower --route velocity -K 0.5, -R 1 @|'' is not a number
 fitpower --route velocity -K 0.5,0.8 -R 1 @|gives 2 values for 1 run: give one
@@ -152,7 +152,7 @@ energy-ledger -m 0 -K 0.5 -R 0.04 @|'0' must be greater than 0
 energy-ledger -m -1 -K 0.5 -R 0.04 @|'-1' must be greater than 0
 energy-ledger -m 1e308 -K 1e308 -R 0.04 @|not a finite number
 energy-ledger -m 1 -K 0.5 -R 0.04 --check -1 @|'-1' must be 0 or more
-energy-ledger -m 1 -K 0.5 -R 0.04 -a 1e-3 @|--exponent is not given
+energy-ledger -m 1 -K 0.5 -R 0.04 -a 1e-3 @|neither given nor in a scene: --exponent
 smooth /nowhere|/nowhere: No such file or directory
 smooth .|.: Is a directory
 simulate -K 0.5 -R 0.04 --v0 1 --law /nowhere|/nowhere: No such file or directory

@@ -41,11 +41,11 @@ TEST_CASE("options: what is given about a body, on the command line and in a sce
   CHECK(body.g == 9.81);
   CHECK(body.slope == 0);
   CHECK(given({"-R", "0.04"}, {"radius"}) == "0 ");
-  CHECK(given({}, {"radius"}) == "2 tool: --radius is not given, nor is it in a scene\n");
+  CHECK(given({}, {"radius"}) == "2 tool: neither given nor in a scene: --radius\n");
   CHECK(given({"-K", "1"}, {"mass", "radius", "shape-factor"}) ==
-        "2 tool: --mass and --radius are not given, nor are they in a scene\n");
+        "2 tool: neither given nor in a scene: --mass and --radius\n");
   CHECK(given({}, {"mass", "radius", "shape-factor"}) ==
-        "2 tool: --mass, --radius and --shape-factor are not given, nor are they in a scene\n");
+        "2 tool: neither given nor in a scene: --mass, --radius and --shape-factor\n");
 
   const TemporaryFile scene(
       "shape-factor = \"0.50 +- 0.005\"\nradius = 0.04\nslope = '1e-3+-1e-4'\n");
