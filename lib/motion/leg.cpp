@@ -76,7 +76,6 @@ Leg::Leg(const Body& body, Geometry geometry, Law law, double v0)
   q0_ = std::abs(start.q);
   if (!std::isfinite(q0_)) fail("the deceleration at v0 = {} m/s has no finite value", v0);
   if (q0_ == 0 || start.balanced() || above_last_speed(v0, start) != 0) end_ = End::constant_speed;
-  else if (way_ > 0 && body.slope < 0) find_rest();
   const auto power = law_.power();
   if (!power || geometry == Geometry::exact || body.slope != 0 || way_ < 0 || q0_ == 0) return;
   power_ = power->b;
@@ -119,15 +118,6 @@ double Leg::net(double u) const {
   return D + arm_factor(body_, geometry_, D) * body_.R * body_.slope;
 }
 
-/// Where the law is too weak at rest to hold the body on a falling mat, it leaves a speed.
-void Leg::find_rest() {
-  if (law_.at_rest() >= -body_.R * body_.slope || net(negligible * v0_) <= 0) return;
-  const double r =
-      last_where(-std::log(negligible), 690, [&](double at) { return net(speed(at)) > 0; });
-  rest_ = 2 * speed(r);
-  end_r_ = r - std::numbers::ln2;
-}
-
 Leg::Rate Leg::rate(double u) const {
   Rate r{};
   const double R = body_.R, g = body_.g;
@@ -156,7 +146,7 @@ Leg::Rate Leg::rate(double u) const {
 
 /// The end of what is smooth beyond r_: a corner of the law, or the end of the leg.
 double Leg::next_break() const {
-  double next = way_ > 0 ? std::min(end_r_, -std::log(slowest)) : fastest;
+  double next = way_ > 0 ? -std::log(slowest) : fastest;
   const auto corners = law_.corners();
   for (const double v : corners) {
     if (v == 0) continue;
@@ -210,6 +200,13 @@ std::pair<bool, double> Leg::try_panel(double width, bool to_radius) {
   return {true, factor};
 }
 
+/// A last speed that is negligible counts as rest.
+void Leg::end_at_last_speed() {
+  end_ = End::constant_speed;
+  if (way_ > 0 && speed(r_) < negligible * v0_)
+    end_ = End::stop, stop_ = sums_[0], rest_ = speed(r_);
+}
+
 void Leg::add_panel() {
   if (panels_.size() > most_panels + law_.corners().size())
     fail("the law is too steep to be rolled");
@@ -224,10 +221,7 @@ void Leg::add_panel() {
       radius_time_ = sums_[0], radius_speed_ = speed(r_);
       continue;
     }
-    if (to - r_ <= narrowest * (1 + r_) && net(speed(to)) * way_ <= 0) {
-      end_ = End::constant_speed;
-      return;
-    }
+    if (to - r_ <= narrowest * (1 + r_) && net(speed(to)) * way_ <= 0) return end_at_last_speed();
     const auto [converges, factor] = try_panel(to - r_, deepens);
     if (converges) {
       r_ = to;
@@ -241,13 +235,11 @@ void Leg::add_panel() {
   }
   const double u = speed(r_);
   const Rate now = rate(u);
-  if (now.balanced() || !(now.q > 0) || above_last_speed(u, now) != 0) end_ = End::constant_speed;
+  if (now.balanced() || !(now.q > 0) || above_last_speed(u, now) != 0) end_at_last_speed();
   else if (way_ < 0 && r_ >= fastest) end_ = End::too_fast;
   if (end_ != End::none || way_ < 0) return;
   const double left = u / now.q;
-  if (r_ >= end_r_) {
-    end_ = End::stop, stop_ = sums_[0];
-  } else if (left <= unseen * sums_[0] || u <= 1.1 * slowest * v0_) {
+  if (left <= unseen * sums_[0] || u <= 1.1 * slowest * v0_) {
     // The rest of the way follows the power of v that q has there.
     const Shift s = law_.at(u);
     const double power = body_.slope == 0 && s.D < body_.R ? s.by_log_v / s.D : 0;
@@ -306,7 +298,11 @@ Leg::Point Leg::beyond_panels(double since) const {
 Leg::Point Leg::at(double t) {
   if (t == 0) return point({}, v0_, q0_);
   reach(t);
-  if (t >= stop_) return point(sums_, 0, 0);
+  if (t >= stop_) {
+    Point p = point(sums_, rest_, 0);
+    p.v = 0;
+    return p;
+  }
   if (power_) return closed_point(t);
   if (t >= sums_[0]) {
     if (end_ == End::too_fast) fail("the speed has grown by a factor e^{}", fastest);

@@ -47,14 +47,14 @@ class Leg {
   /// The state at t >= 0, and its derivatives at fixed t. From the stop on, v = 0 and its
   /// derivatives are 0. Throws Error where the speed has grown by a factor e^345.
   Point at(double t);
-  /// When v becomes 0 [s]; infinity if it never does. If a falling mat leaves a speed below 1e-6
-  /// v0, that counts as rest, from the moment when v is twice as large.
+  /// When v becomes 0 [s]; infinity if it never does. A last speed below 1e-6 v0, which a falling
+  /// mat may leave, counts as rest from where it is reached to within 1e-7.
   double stop_time();
   /// The stop if it is not later than t, else infinity.
   double stop_until(double t);
   /// The limit of the speed of a body that never stops; infinity if it grows without bound.
   double last_speed();
-  /// The speed that counts as rest: 0, or that of the moment just named.
+  /// The speed at the stop: 0, or that just named.
   double rest_speed() const { return rest_; }
   /// In the exact geometry a D that has grown to R stays R. When that begins, up to the time t, and
   /// the speed there; infinity and 0 if it does not.
@@ -98,7 +98,7 @@ class Leg {
   double net(double u) const;
   double speed(double r) const;
   double next_break() const;
-  void find_rest();
+  void end_at_last_speed();
   void add_panel();
   std::pair<bool, double> try_panel(double width, bool to_radius);
   Sums closed_sums(double r, double E) const;
@@ -119,7 +119,6 @@ class Leg {
   double r_ = 0, width_ = 2;  // where the next panel begins, and how long it may be
   Sums sums_{};               // up to there
   End end_ = End::none;
-  double end_r_ = infinity;  // of a stop at a speed that counts as rest
   double rest_ = 0, stop_ = infinity;
   double radius_time_ = infinity, radius_speed_ = 0;
 };

@@ -42,8 +42,8 @@ class Roll {
   Point at(double t);
 
   /// When v first becomes 0: the stop or the turning point [s]; infinity if it never does. On a
-  /// falling mat the speed may tend to last_speed(); one below 1e-6 v0 counts as rest, from the
-  /// moment when v is twice as large.
+  /// falling mat the speed may tend to last_speed(); one below 1e-6 v0 counts as rest, from where
+  /// v is within 1e-7 of it.
   double stop_time() { return leg_ ? leg_->stop_time() : 0; }
   /// The same if it is not later than t, else infinity: what takes no longer than at(t).
   double stop_until(double t) { return leg_ ? leg_->stop_until(t) : 0; }
@@ -51,7 +51,7 @@ class Roll {
   bool turns() const { return turns_; }
   /// The limit of v for a body that rolls for ever [m/s], which may be infinite; else 0.
   double last_speed();
-  /// The speed that counts as rest [m/s]: 0, or that of the moment named above.
+  /// The speed at the stop [m/s]: 0, or that just named.
   double rest_speed() const { return leg_ ? leg_->rest_speed() : 0; }
   /// When D reaches R, if that is not later than t, else infinity; and the speed there.
   double radius_time(double t) { return leg_ ? leg_->radius_time(t) : infinity; }

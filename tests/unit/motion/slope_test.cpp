@@ -196,8 +196,10 @@ TEST_CASE("Slope: what never stops, what counts as rest, and rest itself", "[rol
   CHECK(std::isfinite(roll(1e-3, 1e-3, 1.5, 0.5).stop_time()));  // uphill even b >= 1 stops
   auto rest = roll(-1e-3, 1.87e-3, 0.215, 0.5);
   const double negligible = std::pow(0.04 * 0.001 / 1.87e-3, 1 / 0.215);
-  CHECK(std::abs(rest.rest_speed() / (2 * negligible) - 1) < 1e-13);
-  CHECK(std::abs(rest.at(rest.stop_time() * (1 - 1e-12)).v / (2 * negligible) - 1) < 1e-4);
+  const double stop = rest.stop_time();
+  CHECK(std::abs(rest.rest_speed() / negligible - 1) < 2e-7);
+  CHECK(std::abs(rest.at(stop * (1 - 1e-12)).v / negligible - 1) < 2e-7);
+  CHECK(std::abs(rest.at(stop).x_c[0] / rest.at(stop * (1 - 1e-12)).x_c[0] - 1) < 1e-9);
   CHECK(rest.at(rest.stop_time()).v == 0);
   CHECK(roll(0.5, 1e-3, -0.2, 0).at(3).v == 0);
   CHECK_THROWS_AS(roll(infinity, 1e-3, 0.2, 0.5), Error);
