@@ -4,10 +4,11 @@
 // that have neither.
 #pragma once
 
-#include "contact/law.h"
-#include "motion/solved_roll.h"
-
+#include <algorithm>
 #include <optional>
+
+#include "motion/scene.h"
+#include "motion/solved_roll.h"
 
 namespace rolling {
 
@@ -16,41 +17,39 @@ namespace rolling {
 /// change in it, so that the sum is a part of the way and of v0, however many steps there are.
 ///
 /// At v = 0 the derivative of the right-hand side is unbounded, and the steps of a solver become
-/// ever shorter. None is longer than half of v/|v'|: none passes over the stop, where an estimate
-/// of the error would mean nothing. The solver ends at v = 1e-10 v0 (for b < 0 where 1e-10 of the
-/// time is left), located as an event. From there on dv/dt is assumed proportional to -v^q, with
-/// the local exponent q, so that the body stops v / ((1 - q) |dv/dt|) later. That time is not small
-/// if q is near 1: for b = 0.9 it is 10 % of the whole roll. From the stop on v, D and dv/dt are
-/// exactly 0.
+/// ever shorter. None is longer than half of |v/v'|: none passes over the stop, where an estimate
+/// of the error would mean nothing. The floor, v = 1e-10 v0 (for b < 0 where 1e-10 of the time is
+/// left), is located as an event. From there the body rests, with v, D and dv/dt exactly 0, or it
+/// begins the way back. Below the floor dv/dt is about -v^q with the local exponent q: the stop is
+/// v / ((1 - q) |dv/dt|) later: for q near 1 that is not small.
 class IntegratedRoll final : public SolvedRoll {
  public:
-  /// For what check_roll accepts. `rest` is the speed that counts as rest [m/s]; none for a body
-  /// that rolls for ever. seek() and stop_time() throw the errors of the solver: more than
+  /// For what check_roll accepts. seek() and stop_time() throw the errors of the solver: more than
   /// most_steps steps in one call, D above R, and v above the range of the law.
-  IntegratedRoll(const Body&, Geometry, Law, std::optional<double> rest, double v0, double x0,
-                 Stepper, double rtol, unsigned long most_steps = 1'000'000);
+  IntegratedRoll(const Scene&, Stepper, double rtol, unsigned long most_steps);
 
   /// The first call integrates to the stop, independently of seek().
   double stop_time() override;
   void seek(double t) override;
-  double position() override;
-  double velocity() override;
+  double position() override { return x(); }
+  double velocity() override { return at_rest_ ? 0 : turned_ ? v() : std::max(0.0, v()); }
   double shift() override;
 
  private:
-  /// The last part of the roll, under a power law of dv/dt.
-  struct Tail {
-    double begin, duration, v, q;  // begin and duration [s], speed at begin, exponent
+  /// How the first part of the roll ends.
+  struct End {
+    double floor;  // 0: never
+    bool creeps;   // at the floor, which counts as rest
+    bool turns;
   };
-  Tail tail(const Integrator&) const;
-  Integrator::Event floor_event() const;
-  double left() const;  // remaining fraction of the tail, 1 to 0
+  static End end_of(const Scene&);
+  IntegratedRoll(const Scene&, End, Stepper, double rtol, unsigned long most_steps);
+  bool reaches_floor(Integrator&, double t);
 
   Law law_;
-  std::optional<double> rest_;
-  double floor_;  // 0: the body never stops
-  double t_ = 0;
-  std::optional<Tail> tail_;
+  End end_;
+  bool turned_, at_rest_;
+  std::optional<double> stop_time_;
 };
 
 }  // namespace rolling

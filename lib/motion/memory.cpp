@@ -148,7 +148,7 @@ bool MemoryRoll::advance(Integrator& ode, double& crept, double t) const {
     std::vector<double> y = ode.state();
     if (crept > 0 && fastest(y) - crept <= way * y[1]) return true;
     y[1] = 0;
-    ode.restart(y);
+    ode.restart(ode.time(), y);
     if (rests && crept > 0 && fastest(y) <= rest_fraction * v0()) return true;
     if (rests && crept == 0) crept = rest_fraction * fastest(y);
     const unsigned long taken = ode.evaluations() - before;

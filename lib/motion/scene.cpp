@@ -84,54 +84,6 @@ class MirroredRoll final : public Motion {
   std::unique_ptr<Motion> image_;
 };
 
-/// A roll that a solver computes in two parts: up to the turning point, and back from a speed that
-/// is not seen.
-class SolvedBothWays final : public Motion {
- public:
-  SolvedBothWays(const Scene& scene, Stepper stepper, double rtol, unsigned long most_steps)
-      : up_(scene.body, scene.geometry, scene.law, 0.0, scene.v0, scene.x0, stepper, rtol,
-            most_steps),
-        back_(turned(scene.body), scene.geometry, scene.law, {},
-              first_part * (scene.v0 > 0 ? scene.v0 : 1), 0, stepper, rtol, most_steps),
-        way_(scene.body.slope > 0 ? -1 : 1) {}
-
-  double stop_time() override { return up_.stop_time(); }
-  void seek(double t) override {
-    const double T = stop_time();
-    up_.seek(std::min(t, T));
-    is_back_ = t > T;
-    if (is_back_) back_.seek(t - T);
-  }
-  double position() override { return up_.position() + (is_back_ ? way_ * back_.position() : 0); }
-  double velocity() override { return is_back_ ? way_ * back_.velocity() : up_.velocity(); }
-  double acceleration() override {
-    return is_back_ ? way_ * back_.acceleration() : up_.acceleration();
-  }
-  double shift() override { return is_back_ ? way_ * back_.shift() : up_.shift(); }
-  unsigned long evaluations() const override { return up_.evaluations() + back_.evaluations(); }
-
- private:
-  static constexpr double first_part = 1e-13;
-  static Body turned(Body body) {
-    body.slope = -std::abs(body.slope);
-    return body;
-  }
-
-  IntegratedRoll up_, back_;
-  double way_;
-  bool is_back_ = false;
-};
-
-std::unique_ptr<Motion> solved(const Scene& scene, Stepper stepper, double rtol,
-                               unsigned long most_steps) {
-  Roll roll(scene.body, scene.geometry, scene.law, scene.v0);
-  if (roll.turns()) return std::make_unique<SolvedBothWays>(scene, stepper, rtol, most_steps);
-  const auto rest =
-      std::isfinite(roll.stop_time()) ? std::optional(roll.rest_speed()) : std::nullopt;
-  return std::make_unique<IntegratedRoll>(scene.body, scene.geometry, scene.law, rest, scene.v0,
-                                          scene.x0, stepper, rtol, most_steps);
-}
-
 }  // namespace
 
 Method best_method(const Scene& scene) {
@@ -162,7 +114,8 @@ std::unique_ptr<Motion> start(const Scene& scene, Method method, double rtol,
     return std::make_unique<MemoryRoll>(body, geometry, *power, bulge, v0, x0, method.stepper, rtol,
                                         most_steps);
   }
-  if (method.kind == Method::solver) return solved(scene, method.stepper, rtol, most_steps);
+  if (method.kind == Method::solver)
+    return std::make_unique<IntegratedRoll>(scene, method.stepper, rtol, most_steps);
   if (method.kind == Method::exact) {
     if (power && geometry == Geometry::approximate && body.slope == 0)
       fail(

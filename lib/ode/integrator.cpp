@@ -121,8 +121,7 @@ void Integrator::step(double t) {
     // estimate is 0.
     h_ = std::min(t_ - before, std::numeric_limits<double>::max()) / 10;
     if (!(before + h_ > before)) fail("the state is no longer finite after t = {:.6g} s", before);
-    t_ = before;
-    restart(before_);
+    restart(before, before_);
   }
   if (t_ == before)
     fail("the integration cannot go on at t = {:.6g} s: its step is below the rounding of t", t_);
@@ -153,8 +152,7 @@ void Integrator::locate(double t_before, double value_before, const Event& event
   const double rounding = 2 * std::numeric_limits<double>::epsilon() * std::abs(hi), h = h_;
   for (int i = 0, side = 0; i < 100 && hi - lo > rounding; ++i) {
     const double last = t_, t = std::clamp(hi - f_hi * (hi - lo) / (f_hi - f_lo), lo, hi);
-    t_ = t_before;
-    restart(y_before);
+    restart(t_before, y_before);
     h_ = std::min(h, t - t_before);
     while (t_ < t) step(t);
     const double f = event(y_);
@@ -172,8 +170,8 @@ void Integrator::locate(double t_before, double value_before, const Event& event
   h_ = h;
 }
 
-void Integrator::restart(std::vector<double> y) {
-  y_ = std::move(y);
+void Integrator::restart(double t, std::vector<double> y) {
+  t_ = t, y_ = std::move(y);
   gsl_odeiv2_evolve_reset(problem_->driver->e);
   gsl_odeiv2_step_reset(problem_->driver->s);
 }

@@ -50,9 +50,8 @@ class Integrator {
   /// of the event (located to rounding) and then returns true. t may be infinite. Throws Error if
   /// GSL fails, if the state is no longer finite, or after max_steps.
   bool advance(double t, const Event&);
-  /// Continues from another state at the same time: at a kink of the derivative, restart on its
-  /// other side.
-  void restart(std::vector<double> y);
+  /// Continues from another time and state: at a kink of the derivative, restart on its other side.
+  void restart(double t, std::vector<double> y);
 
  private:
   struct Problem;  // the system and the objects of GSL, which have pointers to it

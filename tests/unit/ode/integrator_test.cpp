@@ -85,7 +85,7 @@ TEST_CASE("Integrator: events are located to rounding, by every stepper", "[ode]
       REQUIRE(ode.advance(std::numeric_limits<double>::infinity(), x));
       CHECK(std::abs(ode.time() - n * std::numbers::pi) < 1e-5);
       CHECK(std::abs(ode.state()[0]) < 1e-14);
-      ode.restart({0, ode.state()[1]});
+      ode.restart(ode.time(), {0, ode.state()[1]});
     }
     CHECK_FALSE(ode.advance(10.5, x));
     CHECK(ode.time() == 10.5);
