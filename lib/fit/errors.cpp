@@ -25,17 +25,22 @@ double Spread::operator()(std::vector<double> g, std::vector<double> h, std::siz
 }
 
 Matrix orthonormal(const Fitted& fit) {
-  Matrix Q = jacobian(fit.system, fit.minimum.theta);
-  const std::size_t q = Q.size();
+  const std::size_t q = fit.system.columns();
   const double* R = fit.minimum.R.data();
-  for (const auto& run : rows_by_run(Q, fit.system.runs)) {
-    for (std::size_t j = 0; j < q; ++j)
-      for (std::size_t i = 0; i < run[j].size(); ++i) {
-        for (std::size_t k = 0; k < j; ++k) run[j][i] -= R[k * q + j] * run[k][i];
-        run[j][i] /= R[j * q + j];
+  Matrix Q(q);
+  fit.system.evaluate(fit.minimum.theta,
+                      [&](std::size_t, std::span<double> f, std::span<double> J) {
+    const std::size_t n = f.size();
+    for (std::size_t j = 0; j < q; ++j) {
+      const auto column = J.subspan(j * n, n);
+      for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t k = 0; k < j; ++k) column[i] -= R[k * q + j] * J[k * n + i];
+        column[i] /= R[j * q + j];
       }
+      Q[j].insert(Q[j].end(), column.begin(), column.end());
+    }
     R += q * q;
-  }
+  });
   return Q;
 }
 

@@ -8,8 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "base/matrix.h"
-
 namespace rolling {
 
 /// A callback that receives the residuals f of a run (model - data, weighted; n numbers) and J =
@@ -36,9 +34,5 @@ struct System {
     return std::accumulate(runs.begin(), runs.end(), std::size_t{0});
   }
 };
-
-/// J at theta: one row for each residual, of the columns of its run. It is large, and a search does
-/// not keep it: an evaluation costs less than its memory.
-Matrix jacobian(const System&, const std::vector<double>& theta);
 
 }  // namespace rolling
