@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <utility>
 
@@ -13,7 +14,6 @@
 #include "base/matrix.h"
 #include "base/median.h"
 #include "least_squares/minimise.h"
-#include "least_squares/triangles.h"
 
 namespace rolling {
 namespace {
@@ -26,115 +26,126 @@ double median_scale(std::vector<double> residuals, std::size_t p) {
   return nth_smallest(residuals, first + (residuals.size() - first) / 2) / 0.6745;
 }
 
-}  // namespace
+/// The residuals at theta, and the root of the mean square of the scales of the runs: of the median
+/// size of the residuals of a run, divided by that of a standard normal variable (0.6745). So a run
+/// of much noise is no outlier as a whole. A scale of its own would be known to a fifth for a run
+/// of 30 rows, and few rows that outliers have drawn away would take them for their noise. Runs
+/// without noise, as at rest, do not count. Where most rows lie on the model, the scale is above
+/// rounding, as theta is of order one.
+struct Residuals {
+  std::vector<double> f;
+  double scale = 0;
+};
 
+/// Throws Error if the model has no finite values at theta.
 Residuals residuals_at(const System& system, const std::vector<double>& theta) {
   Residuals at;
   at.f.reserve(system.residuals());
-  system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double>) {
-    at.f.insert(at.f.end(), f.begin(), f.end());
-  });
-  if (!std::isfinite(dot(at.f, at.f))) fail("the law has no finite values");
   std::vector<double> scales;
-  for (const auto f : by_run(at.f, system.runs))
+  double squares = 0;  // of J
+  system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
+    at.f.insert(at.f.end(), f.begin(), f.end());
     scales.push_back(median_scale({f.begin(), f.end()}, system.columns()));
+    squares += dot(J, J);
+  });
+  const double n = static_cast<double>(at.f.size());
+  if (!std::isfinite(dot(at.f, at.f))) fail("the law has no finite values");
   const double least = program_rounding * std::ranges::max(scales);
   std::erase_if(scales, [&](double scale) { return scale < least; });
-  at.scale = std::sqrt(dot(scales, scales) / static_cast<double>(scales.size()));
+  at.scale = std::max(std::sqrt(dot(scales, scales) / static_cast<double>(scales.size())),
+                      1e-13 * std::sqrt(squares / n));
   return at;
 }
 
-namespace {
-
-/// The residuals f + J delta of a model that is linear in delta. J is stored row by row.
-class LinearModel {
- public:
-  const System& system;
-
-  LinearModel(const System& of, const std::vector<double>& theta)
-      : system(of), p_(of.parameters()), J_(of.residuals() * p_) {
-    system.evaluate(theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
-      double* const row = &J_[f_.size() * p_];
-      for (std::size_t k = 0; k < J.size(); ++k)
-        row[k % f.size() * p_ + system.place(run, k / f.size())] = J[k];
-      f_.insert(f_.end(), f.begin(), f.end());
-    });
-  }
-  double residual(std::size_t i, const std::vector<double>& delta) const {
-    return f_[i] + dot(&J_[i * p_], delta.data(), p_);
-  }
-  /// The delta of the least squares of these rows; not finite if they do not determine it.
-  std::vector<double> fit(const std::vector<std::size_t>& rows) const {
-    const std::size_t n = rows.size();
-    std::vector<double> f, J(n * p_);
-    for (std::size_t k = 0; k < n; ++k) {
-      f.push_back(f_[rows[k]]);
-      for (std::size_t j = 0; j < p_; ++j) J[j * n + k] = J_[rows[k] * p_ + j];
+/// The system that is linear in its parameters, which are 0 at theta, with the residuals and the J
+/// that the system has there. It refers to the system.
+System linearised(const System& system, const std::vector<double>& theta) {
+  std::vector<std::pair<std::vector<double>, std::vector<double>>> runs;  // f and J
+  system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
+    runs.push_back({{f.begin(), f.end()}, {J.begin(), J.end()}});
+  });
+  return {
+      system.runs, system.own, system.shared,
+      [&system, runs = std::move(runs)](const std::vector<double>& delta, const TakeRows& take) {
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      auto [f, J] = runs[r];
+      for (std::size_t j = 0; j < system.columns(); ++j)
+        for (std::size_t i = 0; i < f.size(); ++i)
+          f[i] += J[j * f.size() + i] * delta[system.place(r, j)];
+      take(r, f, J);
     }
-    Triangles R(1, p_, 0);
-    R.add(0, f, J);
-    return R.solve();
-  }
+      }};
+}
 
- private:
-  std::size_t p_;
-  std::vector<double> f_, J_;
-};
+/// The system whose residuals are multiplied by these factors. It refers to both.
+System weighted(const System& system, const std::vector<double>& factors) {
+  return {system.runs, system.own, system.shared,
+          [&](const std::vector<double>& theta, const TakeRows& take) {
+    auto factor = factors.begin();
+    system.evaluate(theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
+      for (std::size_t i = 0; i < f.size(); ++i, ++factor) {
+        f[i] *= *factor;
+        for (std::size_t k = i; k < J.size(); k += f.size()) J[k] *= *factor;
+      }
+      take(run, f, J);
+    });
+          }};
+}
 
-/// The half of the rows of each run that a delta fits best, and the sum of their squares.
+/// The half of the rows of each run that a delta fits best, as factors 1 and 0 of all rows, and
+/// the sum of their squares.
 struct Half {
   std::vector<double> delta;
   double squares = 0;
-  std::vector<std::size_t> rows = {};
+  std::vector<double> factors = {};
 };
 
-Half best_half(const LinearModel& model, std::vector<double> delta) {
+Half best_half(const System& linear, std::vector<double> delta) {
   Half found{std::move(delta)};
-  std::size_t first = 0;
-  for (const std::size_t n : model.system.runs) {
-    std::vector<std::pair<double, std::size_t>> squares;
-    for (std::size_t i = first; i < first + n; ++i) {
-      const double r = model.residual(i, found.delta);
-      squares.emplace_back(std::isfinite(r) ? r * r : std::numeric_limits<double>::infinity(), i);
-    }
-    std::ranges::sort(squares);
-    const std::size_t half = (n + model.system.columns() + 1) / 2;
-    for (const auto& [square, row] : std::span(squares).first(std::min(n, half))) {
-      found.squares += square;
-      found.rows.push_back(row);
-    }
-    first += n;
-  }
+  linear.evaluate(found.delta, [&](std::size_t, std::span<double> f, std::span<double>) {
+    for (double& x : f) x = std::isfinite(x) ? x * x : std::numeric_limits<double>::infinity();
+    std::vector<double> squares(f.begin(), f.end());
+    const std::size_t half = std::min(f.size(), (f.size() + linear.columns() + 1) / 2);
+    const double most = nth_smallest(squares, half - 1);
+    found.squares = std::accumulate(&squares[0], &squares[0] + half, found.squares);
+    for (const double square : f) found.factors.push_back(square <= most);
+  });
   return found;
 }
 
-/// As many rows as there are parameters, far apart: of each run those of its own parameters, and of
-/// the longest those of the shared ones as well, one of each of as many equal parts of the run.
-std::vector<std::size_t> drawn(const LinearModel& model, std::mt19937& random) {
-  const auto& runs = model.system.runs;
+/// The factor 1 for as many rows as there are parameters, far apart: of each run those of its own
+/// parameters, and of the longest those of the shared ones as well, one of each of as many equal
+/// parts of the run.
+std::vector<double> drawn(const System& system, std::mt19937& random) {
+  const auto& runs = system.runs;
   const auto longest = static_cast<std::size_t>(std::ranges::max_element(runs) - runs.begin());
-  std::vector<std::size_t> rows;
+  std::vector<double> factors(system.residuals());
   std::size_t of_run = 0;
   for (std::size_t r = 0; r < runs.size(); of_run += runs[r++]) {
-    const std::size_t n = runs[r], few = std::min(n, model.system.own +
-                                                         (r == longest ? model.system.shared : 0));
+    const std::size_t n = runs[r],
+                      few = std::min(n, system.own + (r == longest ? system.shared : 0));
     for (std::size_t j = 0; j < few; ++j) {
       const std::size_t first = j * n / few, end = (j + 1) * n / few;
-      rows.push_back(of_run + first + random() % (end - first));
+      factors[of_run + first + random() % (end - first)] = 1;
     }
   }
-  return rows;
+  return factors;
 }
 
 /// The least trimmed squares, as far as exact fits of random rows and the fits of their best halves
 /// lead to them (Rousseeuw and Van Driessen 2006, Data Min. Knowl. Discov. 12, 29).
-std::vector<double> trimmed_step(const LinearModel& model) {
+std::vector<double> trimmed_step(const System& system, const std::vector<double>& theta) {
   constexpr int draws = 100;
+  const System linear = linearised(system, theta);
+  const std::vector<double> start(system.parameters());
+  const auto half_of_fit = [&](const std::vector<double>& factors) {
+    return best_half(linear, stepped(weighted(linear, factors), start, 1));
+  };
   std::mt19937 random;  // with the seed of the standard: the same draws in each run
-  Half best = best_half(model, std::vector<double>(model.system.parameters()));
+  Half best = best_half(linear, start);
   for (int draw = 0; draw < draws; ++draw) {
-    Half found = best_half(model, model.fit(drawn(model, random)));
-    for (int step = 0; step < 2; ++step) found = best_half(model, model.fit(found.rows));
+    Half found = half_of_fit(drawn(system, random));
+    for (int step = 0; step < 2; ++step) found = half_of_fit(found.factors);
     if (found.squares < best.squares) best = std::move(found);
   }
   return best.delta;
@@ -157,7 +168,7 @@ Trial trial_at(const System& system, std::vector<double> theta) try {
 Trial descend(const System& system, Trial at) {
   constexpr int rounds = 20, halvings = 5;
   for (int round = 0; round < rounds && std::isfinite(at.scale); ++round) {
-    const std::vector<double> step = trimmed_step({system, at.theta});
+    const std::vector<double> step = trimmed_step(system, at.theta);
     Trial next = at;
     double share = 1;
     for (int k = 0; k < halvings && !(next.scale < 0.99 * at.scale); ++k, share /= 2) {
@@ -171,8 +182,10 @@ Trial descend(const System& system, Trial at) {
   return at;
 }
 
-}  // namespace
-
+/// The theta with the smallest scale of all that steps of least trimmed squares reach from these
+/// starts. Least trimmed squares fit half of the rows of each run, those that they fit best
+/// (Rousseeuw 1984, J. Am. Stat. Assoc. 79, 871). The cost grows with the cube of the number of
+/// parameters. Throws Error if the model has no finite values at any of the starts.
 std::vector<double> least_trimmed(const System& system,
                                   const std::vector<std::vector<double>>& starts) {
   Trial best = trial_at(system, starts.front());
@@ -182,8 +195,6 @@ std::vector<double> least_trimmed(const System& system,
   if (best.theta.empty()) evaluated(system, starts.front());  // throws
   return best.theta;
 }
-
-namespace {
 
 /// psi(u)/u and psi'(u) of a loss with influence function psi.
 struct Influence {
@@ -206,38 +217,6 @@ std::vector<double> sizes_of(const Residuals& at) {
   return sizes;
 }
 
-/// The system whose residuals are multiplied by these factors. It refers to both.
-System weighted(const System& system, const std::vector<double>& factors) {
-  return {system.runs, system.own, system.shared,
-          [&](const std::vector<double>& theta, const TakeRows& take) {
-    auto factor = factors.begin();
-    system.evaluate(theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
-      for (std::size_t i = 0; i < f.size(); ++i, ++factor) {
-        f[i] *= *factor;
-        for (std::size_t k = i; k < J.size(); k += f.size()) J[k] *= *factor;
-      }
-      take(run, f, J);
-    });
-          }};
-}
-
-/// The fit from a theta that fits most rows exactly: of those alone that it fits to rounding,
-/// since theta is of order one.
-Minimum exact_fit(const System& system, const std::vector<double>& theta) {
-  std::vector<double> kept;
-  system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
-    for (std::size_t i = 0; i < f.size(); ++i) {
-      double size = 0;
-      for (std::size_t k = i; k < J.size(); k += f.size()) size += std::abs(J[k]);
-      kept.push_back(std::abs(f[i]) <= 1e-13 * size);
-    }
-  });
-  Minimum minimum = evaluated(system, minimise(weighted(system, kept), theta).theta);
-  std::ranges::transform(minimum.f, kept, minimum.f.begin(), std::multiplies());
-  minimum.rss = dot(minimum.f, minimum.f);
-  return minimum;
-}
-
 }  // namespace
 
 Minimum minimise_robust(const System& system, const std::vector<std::vector<double>>& starts) {
@@ -253,7 +232,6 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
     double change = influence == huber ? 1 : 0.01;
     for (int round = 0; change > 1e-8; ++round) {
       if (round == 200) fail("the robust fit does not converge");
-      if (!(at.scale > 0)) return exact_fit(system, theta);
       double squares = 0, slopes = 0;  // sums of the weights and of psi'
       for (std::size_t i = 0; i < u.size(); ++i) {
         const bool out = influence == huber && outliers[i];
