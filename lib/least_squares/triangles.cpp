@@ -39,8 +39,8 @@ void Triangles::add(std::size_t run, std::span<double> f, std::span<double> J) {
     fold(of(run), q(), J.data() + i, &f[i], std::min(block, f.size() - i), f.size());
 }
 
-void Triangles::join(std::vector<double> common) {
-  std::vector<double> J(shared_ * shared_), f(shared_);
+void Triangles::join() {
+  std::vector<double> common(shared_ * (shared_ + 1)), J(shared_ * shared_), f(shared_);
   for (std::size_t r = 0; r < runs_; ++r) {
     for (std::size_t i = 0; i < shared_; ++i) {
       const double* const row = of(r) + (own_ + i) * (q() + 1) + own_;
@@ -56,23 +56,15 @@ void Triangles::join(std::vector<double> common) {
 
 Triangles Triangles::damped(const std::vector<double>& D, double mu) const {
   Triangles all = *this;
-  std::vector<double> common;
-  for (std::size_t i = 0; i < shared_; ++i)
-    common.insert(common.end(), of(0) + (own_ + i) * (q() + 1) + own_,
-                  of(0) + (own_ + i + 1) * (q() + 1));
-  const auto diagonal =
-      [&](std::size_t run, std::size_t first, std::size_t count, std::size_t columns, double* R) {
-    std::vector<double> J(count * columns), f(count);
-    for (std::size_t i = 0; i < count; ++i)
-      J[i * count + i] = std::sqrt(mu) * D[place(run, first + i)];
-    fold(R, columns, J.data(), f.data(), count, count);
-  };
-  diagonal(0, own_, shared_, shared_, common.data());
   for (std::size_t r = 0; r < runs_; ++r) {
-    std::fill(all.of(r) + own_ * (q() + 1), all.of(r) + triangle(), 0.0);
-    diagonal(r, 0, own_, q(), all.of(r));
+    // The first run alone keeps the shared rows, which the others have too.
+    if (r > 0) std::fill(all.of(r) + own_ * (q() + 1), all.of(r) + triangle(), 0.0);
+    const std::size_t count = r > 0 ? own_ : q();
+    std::vector<double> J(count * q()), f(count);
+    for (std::size_t i = 0; i < count; ++i) J[i * count + i] = std::sqrt(mu) * D[place(r, i)];
+    all.add(r, f, J);
   }
-  all.join(std::move(common));
+  all.join();
   return all;
 }
 

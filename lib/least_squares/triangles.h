@@ -21,7 +21,7 @@ class Triangles {
   /// J.
   void add(std::size_t run, std::span<double> f, std::span<double> J);
   /// Combines the shared blocks of all triangles into one; call it after the last row.
-  void join() { join(std::vector<double>(shared_ * (shared_ + 1))); }
+  void join();
   /// The triangles of [J; sqrt(mu) D] and [f; 0], D diagonal: those of a Levenberg-Marquardt step.
   Triangles damped(const std::vector<double>& D, double mu) const;
 
@@ -40,7 +40,6 @@ class Triangles {
   std::vector<double> without_f() const;
 
  private:
-  void join(std::vector<double> common);
   template <typename Row>
   void rows(Row&& row) const;
   std::size_t q() const { return own_ + shared_; }
