@@ -17,14 +17,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rest_fraction = 1e-3;  // of v0
 constexpr double stiff = 3e4;           // measured: above it an implicit solver is faster
-constexpr double most_swings = 1e5, most_relaxations = 2e7;
-
-/// The time in which the body slows down from v0. With z near the law, the shift z + damping z' of
-/// a body that slows down is smaller than z, by the factor 1 + damping c dD/dv.
-double slowing_time(const Body& body, PowerLaw law, Bulge bulge, double v0) {
-  const double q = std::abs(trial_acceleration(body, Geometry::approximate, law(v0)));
-  return v0 / q + bulge.damping * law.b;
-}
 
 OdeSystem equations(const Body& body, Geometry geometry, PowerLaw law, Bulge bulge, double v0) {
   check_roll(body, law, v0);
@@ -63,34 +55,12 @@ OdeSystem equations(const Body& body, Geometry geometry, PowerLaw law, Bulge bul
 }  // namespace
 
 Stepper memory_stepper(const Body& body, PowerLaw law, Bulge bulge, double v0) {
+  // With z near the law, the shift z + damping z' of a body that slows down is smaller than z, by
+  // the factor 1 + damping c dD/dv.
   const double q = std::abs(trial_acceleration(body, Geometry::approximate, law(v0))),
+               slowing = v0 / q + bulge.damping * law.b,
                following = bulge.length / (v0 + bulge.damping * q);
-  return slowing_time(body, law, bulge, v0) > stiff * following ? Stepper::rk4imp : Stepper::rk8pd;
-}
-
-// Swings: about v = 0 the bulge is a spring, v'' = -w^2 v with w^2 = c a u^b / length at the speed
-// u. E falls by a factor e over each length of path, and a swing has the path u/w: that makes
-// w length/u swings while u falls by a factor e, and u is about length/t at the time t. Most swings
-// are those at the lowest speed: that of rest, or the one that the body creeps down a slope with.
-// With the damping it is a damped spring, which rests after about 1/(damping w) swings.
-//
-// Relaxations: z follows v at the rate |v|/length, and v follows z at the rate c damping a
-// |v|^b/length. Both are integrated over the roll under the law, and over the creep.
-MemoryWork memory_work(const Body& body, PowerLaw law, Bulge bulge, double v0, double t) {
-  const double c = body.g / ((body.K + 1) * body.R), L = bulge.length, grade = std::abs(body.slope);
-  const double creep =
-      grade == 0 ? 0
-                 : std::min(std::pow(body.R * grade / law.a, 1 / law.b), v0 + body.g * grade * t);
-  const double rest = law.b < 2 && grade == 0 ? rest_fraction * v0 : 0;
-  const double log_u = std::log(std::max({rest, creep, L / t})),
-               log_w = (std::log(c) + std::log(law.a) + law.b * log_u - std::log(L)) / 2,
-               swings = std::exp(log_w + std::log(L) - log_u);
-  const double q = c * law(v0),
-               to_rest = law.b < 2 ? slowing_time(body, law, bulge, v0) / (2 - law.b) : infinity;
-  double path = v0 * std::min(t, to_rest), lost = std::min(v0 + bulge.damping * law.b * q, q * t);
-  if (creep > 0) path += creep * t, lost += c * law(creep) * t;
-  return {std::min(swings, 2 / (bulge.damping * std::exp(log_w))),
-          (path + bulge.damping * lost) / L};
+  return slowing > stiff * following ? Stepper::rk4imp : Stepper::rk8pd;
 }
 
 // The unit of z is the largest shift on a level mat or, on a slope, one that balances gravity if
@@ -104,26 +74,10 @@ MemoryRoll::MemoryRoll(const Body& body, Geometry geometry, PowerLaw law, Bulge 
            rtol,
            1e-3 * rtol,
            0,
-           most_steps * (is_explicit(stepper) ? 20 : 1),
+           most_steps,
            {bulge.length, v0, std::max({law(v0), body.R * std::abs(body.slope), least_speed})}},
           {x0, v0, law(v0)}),
-      law_(law), bulge_(bulge), spare_evaluations_(5.0 * static_cast<double>(most_steps)),
-      at_rest_(v0 == 0) {}
-
-double MemoryRoll::expected_evaluations(double t) const {
-  const MemoryWork work = memory_work(body_, law_, bulge_, v0(), t);
-  if (work.swings > most_swings)
-    fail(
-        "with a memory over {:.4g} m the body swings about {:.2g} times; the most is {:g}: a "
-        "shorter length, an earlier end or a damping",
-        bulge_.length, work.swings, most_swings);
-  if (work.relaxations > most_relaxations && is_explicit(options_.stepper))
-    fail(
-        "the memory over {:.4g} m is stiff: about {:.2g} relaxations, and the most for an explicit "
-        "solver is {:g} (rk4imp is an implicit one)",
-        bulge_.length, work.relaxations, most_relaxations);
-  return 300 * work.swings + 4 * (is_explicit(options_.stepper) ? work.relaxations : 0);
-}
+      law_(law), bulge_(bulge), most_evaluations_(40 * most_steps), at_rest_(v0 == 0) {}
 
 double MemoryRoll::fastest(const std::vector<double>& y) const {
   const double z = y[2], c = body_.g / ((body_.K + arm_factor(body_, geometry_, z)) * body_.R),
@@ -134,7 +88,6 @@ double MemoryRoll::fastest(const std::vector<double>& y) const {
 }
 
 bool MemoryRoll::advance(Integrator& ode, double& crept, double t) const {
-  const double most = ode.time() < t ? spare_evaluations_ + 10 * expected_evaluations(t) : 0;
   const unsigned long before = ode.evaluations();
   const bool rests = law_.b < 2 && body_.slope == 0;
   // The right-hand side has a kink at v = 0; therefore each zero is located, and the integration
@@ -151,10 +104,11 @@ bool MemoryRoll::advance(Integrator& ode, double& crept, double t) const {
     ode.restart(ode.time(), y);
     if (rests && crept > 0 && fastest(y) <= rest_fraction * v0()) return true;
     if (rests && crept == 0) crept = rest_fraction * fastest(y);
-    const unsigned long taken = ode.evaluations() - before;
-    if (static_cast<double>(taken) > most)
-      fail("the bulge still rings at t = {:.6g} s, after {} evaluations of its equation",
-           ode.time(), taken);
+    if (ode.evaluations() - before > most_evaluations_)
+      fail(
+          "the bulge of the memory still rings at t = {:.6g} s, after {} evaluations: a shorter "
+          "length, an earlier end or a damping",
+          ode.time(), ode.evaluations() - before);
   }
 }
 

@@ -23,15 +23,6 @@ struct Bulge {
 /// these times exceeds 3e4 the system is stiff: the result is rk4imp, otherwise rk8pd.
 Stepper memory_stepper(const Body&, PowerLaw, Bulge, double v0);
 
-/// The work of any solver from the start to the time t, or to the rest if that is earlier. The
-/// estimates are good to a factor of about 4.
-struct MemoryWork {
-  double swings;       ///< number of turning points: each takes some 100 evaluations
-  double relaxations;  ///< number of relaxation times of the bulge: an explicit solver takes two to
-                       ///< four evaluations for each
-};
-MemoryWork memory_work(const Body&, PowerLaw, Bulge, double v0, double t);
-
 /// x' = v, v' = -g D / ((K + A) R) (Eq. 12), z as in Bulge; z = D(v0) at t = 0.
 ///
 /// Rest: with c = g / ((K + A) R),  E = c z^2 / 2 + a |v|^(2+b) / ((2+b) length)  never grows
@@ -46,9 +37,8 @@ class MemoryRoll final : public SolvedRoll {
  public:
   /// Throws Error as check_roll does, and for b < 0 (no finite shift at rest), length <= 0 or
   /// damping < 0. `rtol` is the relative error of x, v and z that a step may have. seek() and
-  /// stop_time() throw the errors of the solver. More than 1e5 swings, or with an explicit solver
-  /// more than 2e7 relaxations, are refused before the integration begins; the work of one call is
-  /// bounded by that and by most_steps.
+  /// stop_time() throw the errors of the solver, and after more than 40 most_steps evaluations in
+  /// one call.
   MemoryRoll(const Body&, Geometry, PowerLaw, Bulge, double v0, double x0, Stepper, double rtol,
              unsigned long most_steps = 1'000'000);
 
@@ -60,7 +50,6 @@ class MemoryRoll final : public SolvedRoll {
   double shift() override;
 
  private:
-  double expected_evaluations(double t) const;         // throws Error if the work is too much
   double fastest(const std::vector<double>& y) const;  // the bound of |v| from this state on
   /// Integrates to t or to the rest, whichever is earlier, and returns true at rest. `crept` is the
   /// bound of |v| at which creep counts as rest; 0 up to the first zero of v.
@@ -68,7 +57,7 @@ class MemoryRoll final : public SolvedRoll {
 
   PowerLaw law_;
   Bulge bulge_;
-  double spare_evaluations_;  // of one call, in addition to ten times the expected number
+  unsigned long most_evaluations_;  // of one call
   double crept_ = 0;
   bool at_rest_ = false;
   std::optional<double> stop_time_;

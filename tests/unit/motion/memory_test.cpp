@@ -273,49 +273,24 @@ TEST_CASE("MemoryRoll: at rest from the start, never at rest, and refusals", "[r
   CHECK_THROWS_AS(roll({1e-3}, Geometry::exact, rubber, -0.5), Error);
 }
 
-TEST_CASE("MemoryRoll: the work is known before it begins, and refused where it is too much",
-          "[rolling]") {
-  // The number of swings that the estimate gives is that of the roll, to a factor of 4.
-  for (const double length : {1e-3, 1e-2, 0.1, 1.0, 10.0}) {
-    MemoryRoll motion = roll({length});
-    const double stop = motion.stop_time(),
-                 swings = memory_work(cylinder, rubber, {length}, 0.5, stop).swings;
-    int zeros = 0;
-    double before = 0.5;
-    const double dt = stop / (100 * swings);
-    for (double t = 0; t < stop; t += dt) {
-      motion.seek(t);
-      const double v = motion.velocity();
-      if ((v < 0) != (before < 0)) ++zeros;
-      before = v;
-    }
-    INFO("length " << length << " zeros " << zeros << " estimate " << swings);
-    CHECK((zeros < 4 * swings && zeros > swings / 4));
-  }
+TEST_CASE("MemoryRoll: too much work is refused", "[rolling]") {
   // An explicit solver is slow where the bulge is short, and is let do it.
   MemoryRoll slow(cylinder, Geometry::approximate, rubber, {1e-6}, 0.5, 0, Stepper::rk8pd, 1e-6);
   CHECK(std::abs(slow.stop_time() / roll({1e-6}).stop_time() - 1) < 1e-5);
-  const double lengths = memory_work(cylinder, rubber, {1e-6}, 0.5, 10).relaxations;
-  CHECK(std::abs(lengths - 0.5317e6) < 100);  // the way of simulate(1)
-  slow.seek(10);
-  const auto evaluations = static_cast<double>(slow.evaluations());
-  CHECK((evaluations > 2 * lengths && evaluations < 4 * lengths));
-  // No evaluation is spent on what is refused.
   MemoryRoll never_done(cylinder, Geometry::approximate, rubber, {1e-9}, 0.5, 0, Stepper::rk8pd,
-                        1e-10);
+                        1e-10, 10'000);
   CHECK_THROWS_AS(never_done.stop_time(), Error);
   CHECK_THROWS_AS(never_done.seek(2), Error);
-  CHECK(never_done.evaluations() == 0);
-  MemoryRoll rings = roll({1e300});
+  MemoryRoll rings(cylinder, Geometry::approximate, rubber, {1e300}, 0.5, 0, Stepper::rk8pd, 1e-10,
+                   10'000);
   CHECK_THROWS_AS(rings.stop_time(), Error);
   rings.seek(1);  // the roll before it
-  CHECK(rings.evaluations() > 0);
+  CHECK((rings.evaluations() > 0 && rings.evaluations() < 500'000));
 }
 
 // The bulge takes up speed: v' = -c (z + damping z') with z near D(v) slows the body down by the
 // factor 1 + damping c D'(v) less, and v follows z at the rate damping c D / length.
-TEST_CASE("MemoryRoll: a strong damping makes the roll long and stiff, which is known before",
-          "[rolling]") {
+TEST_CASE("MemoryRoll: a strong damping makes the roll long and stiff", "[rolling]") {
   for (const double damping : {3.0, 30.0}) {
     const Bulge bulge{1e-4, damping};
     INFO("damping " << damping);
@@ -324,18 +299,5 @@ TEST_CASE("MemoryRoll: a strong damping makes the roll long and stiff, which is 
     const double stop = motion.stop_time();
     motion.seek(stop);
     CHECK(motion.evaluations() < 500000);  // rk8pd: 6e6
-    MemoryRoll slow(cylinder, Geometry::approximate, rubber, bulge, 0.5, 0, Stepper::rk8pd, 1e-6);
-    const double end = stop / 100,
-                 expected = memory_work(cylinder, rubber, bulge, 0.5, end).relaxations;
-    slow.seek(end);
-    const auto evaluations = static_cast<double>(slow.evaluations());
-    INFO("estimate " << expected << " evaluations " << evaluations);
-    // Two to four evaluations for each relaxation, and the factor of 4 of the estimate.
-    CHECK((evaluations > 2 / 4. * expected && evaluations < 4 * 4 * expected));
   }
-  // No evaluation is spent on what is refused.
-  MemoryRoll never_done(cylinder, Geometry::approximate, rubber, {1e-4, 1000}, 0.5, 0,
-                        Stepper::rk8pd, 1e-10);
-  CHECK_THROWS_AS(never_done.stop_time(), Error);
-  CHECK(never_done.evaluations() == 0);
 }

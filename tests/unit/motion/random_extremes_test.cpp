@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Random extreme scenes: every roll ends within a bounded number of evaluations, with finite
-// numbers or with an Error of one line, and on a mat that does not fall v is never above v0. What a
-// bulge with memory takes is known before it begins: it is refused at once, or takes no more.
+// numbers or with an Error of one line, and on a mat that does not fall v is never above v0.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -62,12 +61,6 @@ class Extremes {
   std::mt19937_64 random_;
 };
 
-/// The evaluations that a bulge with memory is expected to take, to the time t.
-double expected_evaluations(const Scene& roll, Method method, double t) {
-  const MemoryWork work = memory_work(roll.body, *roll.law.power(), roll.bulge, roll.v0, t);
-  return 300 * work.swings + (method.stepper < Stepper::rk1imp ? 4 * work.relaxations : 0);
-}
-
 void check_message(const Error& error) {
   const std::string text = error.what();
   CHECK((!text.empty() && text.size() < 400 && text.find('\n') == std::string::npos));
@@ -90,11 +83,7 @@ TEST_CASE("Extremes: random scenes end with finite numbers or one line, and neve
       const Method method = extremes.method(scene);
       const auto motion = start(scene, method, 1e-6, 10'000);
       const double other = extremes.power(-9, 300);
-      const bool memory = scene.bulge.length > 0, to_stop = extremes.one_in(2),
-                 rests = !memory || (law.b < 2 && scene.body.slope == 0);
-      const double expected =
-          memory ? expected_evaluations(scene, method, to_stop && rests ? infinity : 2 * other) : 0;
-      if (memory && expected > 3e4 && expected < 1e9) continue;  // some seconds each
+      const bool memory = scene.bulge.length > 0, to_stop = extremes.one_in(2);
       const double stop = to_stop ? motion->stop_time() : other;
       if (std::isnan(stop)) fail("beyond the range");
       REQUIRE(stop >= 0);
@@ -112,8 +101,8 @@ TEST_CASE("Extremes: random scenes end with finite numbers or one line, and neve
         if (scene.body.slope >= 0) REQUIRE(v <= scene.v0);
         if (scene.body.slope <= 0) REQUIRE(v >= 0);  // it never comes back
       }
-      INFO("evaluations " << motion->evaluations() << " expected " << expected);
-      REQUIRE(static_cast<double>(motion->evaluations()) < 3e6 + 80 * expected);
+      INFO("evaluations " << motion->evaluations());
+      REQUIRE(motion->evaluations() < 3'000'000);
       ++finished;
     } catch (const Error& error) {
       check_message(error);
