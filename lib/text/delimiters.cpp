@@ -47,17 +47,4 @@ void append_field(Bytes& line, std::string_view field) {
   line.append(quote);
 }
 
-std::string way_out_of_commas(std::string_view line, char separator, std::size_t more) {
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  std::size_t decimal = 0;
-  for (std::size_t at = 1; at + 1 < line.size(); ++at)
-    if (line[at] == ',' && is_digit(line[at - 1]) && is_digit(line[at + 1])) {
-      ++decimal;
-      at = std::min(line.find_first_not_of(decimal_digits, at + 1), line.size());
-    }
-  return separator == ',' && more > 0 && decimal >= more
-             ? "; if some of its commas are decimal ones, make them points first"
-             : "";
-}
-
 }  // namespace rolling

@@ -39,8 +39,9 @@ bool needs_quotes(std::string_view field);
 /// Appends a field to a tab-separated line, in quotes if it needs them.
 void append_field(Bytes& line, std::string_view field);
 
-/// What to do about a line with `more` fields too many, if so many of its commas may be decimal
-/// ones: each stands between two digits, and no two of them in one number. Else nothing.
-std::string way_out_of_commas(std::string_view line, char separator, std::size_t more);
+/// What to do about a line with too many fields.
+constexpr const char* way_out_of_commas(char separator) {
+  return separator == ',' ? "; if some of its commas are decimal ones, make them points first" : "";
+}
 
 }  // namespace rolling

@@ -150,41 +150,32 @@ class HeadReader {
     const auto fields = dialect_.split(line);
     const auto any = [&](auto&& is) { return std::ranges::any_of(fields, is); };
     if (any([](const Field& f) { return is_missing(f.text) && !f.text.empty(); })) return true;
-    const bool text = any([](const Field& f) { return !f.text.empty() && !is_date(f.text); });
-    if (before_) return !text && fields.size() == before_->layout.width;
-    if (preamble_.empty())
+    if (preamble_.empty() && !before_)
       return any([](const Field& f) { return f.text.empty(); }) && !holds_known_name(line) &&
-             !any([](const Field& f) { return is_unit(f.text); }) &&
              std::ranges::any_of(comments_, [&](const Comment& comment) {
                return holds_names(comment, {fields.size()});
              });
+    if (any([](const Field& f) { return !f.text.empty() && !is_date(f.text); })) return false;
+    if (before_) return fields.size() == before_->layout.width;
     const std::string& above = preamble_.back().text;
-    return !text && holds_known_name(above) &&
-           names_in(above, dialect_.separator()).size() == fields.size();
+    return holds_known_name(above) && names_in(above, dialect_.separator()).size() == fields.size();
   }
 
-  /// True if a line or comment above, whose names are separated by tabs and contain no blanks, has
-  /// as many tabs as this line.
-  bool has_tabs_of_names(std::string_view line) const {
+  /// True if a comment, or the last other line, has as many tabs as this line.
+  bool has_tabs_above(std::string_view line) const {
     const auto tabs = std::ranges::count(line, '\t');
     const auto agrees = [tabs](const Comment& above) {
-      const std::string_view names = trim(without_marks(above.text));
-      return names.find(' ') == std::string_view::npos && std::ranges::count(names, '\t') == tabs;
+      return std::ranges::count(above.text, '\t') == tabs;
     };
-    return tabs > 0 && ((!preamble_.empty() && agrees(preamble_.back())) ||
-                        std::ranges::any_of(comments_, agrees));
+    return std::ranges::any_of(comments_, agrees) ||
+           (!preamble_.empty() && agrees(preamble_.back()));
   }
 
   /// Goes to the first row; false if there is none.
   bool find_row() {
     while (lines_.next()) {
       const std::string line(lines_.text());
-      const LineKind kind = lines_.kind();
-      // Below names between tabs, a tab at the beginning of the line is a blank field.
-      if ((kind == LineKind::comment || kind == LineKind::history) && !before_ &&
-          line.starts_with('\t') && has_tabs_of_names(line) && dialect_.choose(line, true))
-        return true;
-      switch (kind) {
+      switch (lines_.kind()) {
         case LineKind::blank:
           break;
         case LineKind::history:
@@ -195,7 +186,7 @@ class HeadReader {
           break;
         case LineKind::row:
           if ((before_ ? dialect_.holds_number(line)
-                       : dialect_.choose(line, has_tabs_of_names(line))) ||
+                       : dialect_.choose(line, has_tabs_above(line))) ||
               is_missing_row(line))
             return true;
           if (before_) refuse_other_separator(line, dialect_.separator());
@@ -223,9 +214,6 @@ class HeadReader {
     const auto chosen = choose_names(comments_, columns, !before_, lines_.name());
     if (!chosen) return {};
     const Comment header = comments_[*chosen];
-    if (!preamble_.empty() && preamble_.back().line > header.line)
-      fail<InputError>("{}:{}: '{}' below the names is neither a row nor a unit for each of them",
-                       lines_.name(), preamble_.back().line, shown(preamble_.back().text));
     if (header.text.starts_with("# ") && header.text.find('\t') != std::string::npos)
       dialect_.has_points();
     head_.line = header.line;
@@ -252,19 +240,12 @@ class HeadReader {
       comments_.push_back({fmt::format("## {}", lines_sorted), comments_.back().line});
   }
 
-  /// The units in the line below the header, or the comment with them; empty if there is none.
+  /// The units in the line below the header; empty if there is none.
   std::vector<std::string> take_units() {
-    if (preamble_.empty()) return {};
+    if (preamble_.size() < 2) return {};
     auto units = names_in(preamble_.back().text, dialect_.separator());
-    std::vector<std::string> above;
-    if (preamble_.size() > 1)
-      above = names_in(preamble_[preamble_.size() - 2].text, dialect_.separator());
-    const UnnamedColumns columns{units.size(), units.back().empty()};
-    for (const Comment& comment : comments_)
-      if (preamble_.size() == 1 && comment.line < preamble_.back().line &&
-          holds_names(comment, columns))
-        above = names_in_comment(comment.text, columns).names;
-    if (!are_units_of(above, units)) return {};
+    if (!are_units_of(names_in(preamble_[preamble_.size() - 2].text, dialect_.separator()), units))
+      return {};
     preamble_.pop_back();
     return units;
   }
@@ -324,7 +305,7 @@ class HeadReader {
     if (before_) return fmt::format("; if line {} is a heading, begin it with #", head_.line);
     if (names > width)
       return dialect_.separator() == '\0' ? "; if a name has blanks in it, put it in quotes" : "";
-    return way_out_of_commas(lines_.text(), dialect_.separator(), width - names);
+    return way_out_of_commas(dialect_.separator());
   }
 
   Lines& lines_;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -112,20 +111,6 @@ bool parse_number(std::string_view field, double& value) {
 bool is_missing(std::string_view field) {
   return field.empty() || (field.size() == 3 && (field[0] | 32) == 'n' && (field[1] | 32) == 'a' &&
                            (field[2] | 32) == 'n');
-}
-
-bool means_missing(std::string_view field) {
-  if (field.starts_with('#'))
-    return field.size() > 1 && std::isupper(static_cast<unsigned char>(field[1]));
-  std::string letters;
-  for (std::size_t i = 0; i < field.size(); ++i) {
-    const auto c = static_cast<unsigned char>(field[i]);
-    if (std::isdigit(c) || (c > 0x7F && c != 0xE2)) return false;  // a letter of another script
-    if (std::isalpha(c)) letters += static_cast<char>(std::tolower(c));
-    else if (c == 0xE2) i += 2;  // dashes and other signs: U+2000 to U+2FFF
-  }
-  constexpr std::array<std::string_view, 6> words = {"", "na", "nan", "nanind", "null", "none"};
-  return std::ranges::count(words, letters) > 0;
 }
 
 char* write_number(char* to, double value, int digits) {

@@ -33,10 +33,6 @@ inline bool is_whole(std::string_view text) {
 /// True for a missing reading: an empty field, or NaN in upper or lower case.
 bool is_missing(std::string_view field);
 
-/// True for what other programs write for a missing reading, and the tools refuse: NA, N/A, null,
-/// None, -nan, signs without a letter or digit, and the error values of spreadsheets, as #DIV/0!.
-bool means_missing(std::string_view field);
-
 /// Writes the shortest text that reads back to the same double, or `digits` significant digits if
 /// digits > 0 and they are not beyond the largest double. Returns the end of the text, which has at
 /// most longest_number characters.

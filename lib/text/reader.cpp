@@ -2,7 +2,6 @@
 #include "text/reader.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -123,9 +122,9 @@ void Reader::take_fields() {
   const bool more = count == width + 1 && fields_.back().text.empty() && head_.named,
              less = count + 1 == width && head_.blank_end;
   if (side_by_side ? count > width : !more && !less)
-    fail<InputError>(
-        "{}: {} field{} where the first row has {}{}", here(), count, count == 1 ? "" : "s", width,
-        way_out_of_commas(line_, dialect_.separator(), std::max(count, width) - width));
+    fail<InputError>("{}: {} field{} where the first row has {}{}", here(), count,
+                     count == 1 ? "" : "s", width,
+                     count > width ? way_out_of_commas(dialect_.separator()) : "");
   changed_fields_.clear();
   for (const std::size_t i : layout().fields)
     changed_fields_.push_back(i < count ? fields_[i] : Field());
@@ -207,37 +206,23 @@ void Reader::reject(std::size_t column, std::string_view why) const {
   fail<InputError>("{}", wrong(column, columns()[column].name, why));
 }
 
-/// What to do about a field that is not a number, where its text shows the likely reason: a missing
-/// reading, a time of day, a decimal comma, signs that are none of a number, the names of another
-/// run, a line of text.
+/// What to do about a field that is not a number, where its text shows the likely reason: a time of
+/// day, a decimal comma, the names of another run; else a missing reading or a line of text.
 std::string Reader::way_out(std::size_t column) const {
-  constexpr std::string_view plain = "+-.0123456789";
   const std::string_view field = fields_[column].text;
-  if (means_missing(field) && !is_missing(field)) return "; write NaN for a missing reading";
-  const bool word = !field.empty() && plain.find(field.front()) == std::string_view::npos;
-  if (!word && field.find(':') < field.size())
+  const bool digits =
+      !field.starts_with('#') && field.find_first_of(decimal_digits) < field.size();  // #DIV/0!
+  if (digits && field.find(':') < field.size())
     return "; make it one number of seconds first (rolling-recipes(7))";
-  const auto blank = field.find(' '), comma = field.find(',');
-  const bool beside = dialect_.separator() == ',' && blank < field.size() &&
-                      is_number(field.substr(0, blank)) && is_number(trim(field.substr(blank)));
-  const auto is_wide = [](char c) { return static_cast<unsigned char>(c) > 0x7F; };
-  const bool wide = std::ranges::any_of(field, is_wide);
-  if (beside || (comma == field.rfind(',') && comma < field.size() && !wide &&
-                 field.find_first_of(". '") == std::string_view::npos))
+  const auto blank = field.find(' ');
+  if (digits &&
+      (field.find(',') < field.size() ||  // or the field of 0 1,5 between commas
+       (dialect_.separator() == ',' && blank < field.size() && is_number(field.substr(blank + 1)))))
     return "; if a comma here is a decimal one, make it a point first";
-  const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0; };
-  if (field.find_first_not_of(plain) < field.size() && std::ranges::none_of(field, is_letter) &&
-      (wide || field.find_first_of(decimal_digits) < field.size()))
-    return "; write it with the digits 0 to 9, a hyphen and a point alone";
-  if (!word)
-    return field.find_first_of(decimal_digits) < field.size() &&
-                   field.find_first_not_of("+-.0123456789eE") < field.size()
-               ? "; write the number alone, and its unit into the header"
-               : "";
   if (head_.named && read_column(field).name == layout().columns[column].name)
     return "; put a blank line before the names of another run";
-  return column == 0 ? "; if this line is not a row, begin it with #"
-                     : "; write NaN where a reading is missing";
+  return digits ? "; write the number alone, with the digits 0 to 9, a hyphen and a point"
+                : "; write NaN for a missing reading, and # before a line that is no row";
 }
 
 std::vector<std::string> Reader::warnings() const {

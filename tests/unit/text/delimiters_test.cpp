@@ -37,19 +37,3 @@ TEST_CASE("delimiters: a field is quoted where it cannot stand bare", "[text]") 
   CHECK(appended("#1") == "\"#1\"");
   CHECK(appended("5\"") == "\"5\"\"\"");
 }
-
-TEST_CASE("delimiters: commas that may be decimal ones stand between digits", "[text]") {
-  const auto may_be = [](std::string_view line, std::size_t more, char separator = ',') {
-    return !way_out_of_commas(line, separator, more).empty();
-  };
-  CHECK(may_be("0,5,1,5", 2));  // 0.5 and 1.5
-  CHECK(may_be("0,5,-1,5,2", 1));
-  CHECK(may_be("0,0 0,5", 2));
-  CHECK_FALSE(may_be("0,5,1,5", 3));
-  CHECK_FALSE(may_be("0,1,,", 2));
-  CHECK_FALSE(may_be("0,1,a,b", 2));
-  CHECK_FALSE(may_be(",,1", 1));
-  CHECK_FALSE(may_be("0,5", 0));
-  CHECK_FALSE(may_be("0,5;1,5", 1, ';'));
-  CHECK_FALSE(may_be("", 1));
-}

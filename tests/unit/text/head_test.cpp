@@ -147,7 +147,9 @@ TEST_CASE("head: no columns are refused, with the line", "[text]") {
   CHECK(head("t,v\n0,1,2\n") ==
         "2: 3 fields under a line of 2 names; if some of its commas are decimal ones, make them "
         "points first");
-  CHECK(head("t,v\n0,1,,\n") == "2: 4 fields under a line of 2 names");
+  CHECK(head("t,v\n0,1,,\n") ==
+        "2: 4 fields under a line of 2 names; if some of its commas are decimal ones, make them "
+        "points first");
   CHECK(head("t,v,a\n0,1\n") == "2: 2 fields under a line of 3 names");
   CHECK(head("t v\n0\n") ==
         "2: 1 field under a line of 2 names; if a name has blanks in it, put it in quotes");
