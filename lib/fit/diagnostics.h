@@ -22,6 +22,14 @@ namespace rolling {
 /// another cause. A run of less than one turn, or with less than two rows in a turn, is not tested.
 std::optional<Eccentricity> eccentricity_of(const Fitted&, double variance);
 
+/// The probability that white noise turns back as few of the steps from reading to reading, against
+/// the motion of the fitted roll, as these readings do. A median of readings turns back hardly any,
+/// and leaves hardly an autocorrelation where the body moves faster than its noise from row to row.
+/// The number is taken as Poisson's, of the sum of the chances of the steps; neighbours exclude
+/// each other, which makes few less likely than that. 1 where noise is known by its filters, and
+/// for laws that are no roll.
+double few_reversals(const Fitted&);
+
 /// The readings of a roll that lie ten standard deviations off the motion of the others or further:
 /// one after another the reading that is furthest off is left out, to first order, up to a tenth of
 /// the run, and those up to the last that is so far off count (Rosner 1983, Technometrics 25, 165):

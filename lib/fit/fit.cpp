@@ -188,6 +188,7 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   result.agreement = agreement;
   result.eccentricity = eccentricity;
   result.off = off;
+  if (!options.robust) result.reversals = few_reversals(found);
   return result;
 }
 

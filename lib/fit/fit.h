@@ -75,6 +75,7 @@ struct FitResult {
   std::size_t negative;      ///< of these, those with D <= 0 whose noise loglog does not know
   double whiteness;          ///< p of the autocorrelation of the noise (Ljung and Box); NaN
                              ///< where it is not tested
+  double reversals = 1;      ///< p of so few steps against the motion, see few_reversals()
   std::vector<Estimate> v0 = {};      ///< at the first row [m/s], of each run (trajectory routes)
   std::vector<Estimate> x0 = {};      ///< likewise [m] (positions)
   double slope = 0, sigma_slope = 0;  ///< the slope of the mat, if it was fitted

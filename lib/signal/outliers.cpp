@@ -12,11 +12,15 @@
 namespace rolling {
 namespace {
 
-constexpr std::size_t near = 11;  // samples that show the local motion: the one and its neighbours
+/// The samples that show the local motion: the one in question and its neighbours; at the ends of a
+/// run, where the parabola goes beyond its samples, it needs more of them.
+constexpr std::size_t near = 11, near_end = 26;
 
 /// Of normal noise, found in 4000 windows: the lower quartile of the root of the RSS of `near`
-/// samples about their parabola, over sqrt(8), and the median of that of the best seven of ten.
-constexpr double quartile = 0.79, of_seven = 0.346;
+/// samples about their parabola, over sqrt(8), and the median of that of all but the three worst of
+/// n, to 0.02 for n from 10 to 25.
+constexpr double quartile = 0.79;
+double of_best(std::size_t n) { return std::max(0.346, 1 - 6.5 / static_cast<double>(n)); }
 
 Width at_least_151(Width width) {
   constexpr std::size_t least = 151;
@@ -28,7 +32,7 @@ Width at_least_151(Width width) {
 /// The neighbours of a sample in units in which they and their times are of order one.
 struct Neighbours {
   std::size_t size = 0;
-  std::array<Sample, near> at;
+  std::array<Sample, near_end> at;
 
   double unit = 0, length = 0;
 
@@ -110,28 +114,31 @@ double Outliers::least_scatter() const { return std::max(step_ / 3, program_roun
 /// Whether one outlier is in so many windows that these do not tell the scatter of the others.
 bool Outliers::few() const { return sorted_.size() < 3 * near; }
 
-/// Whether sample i is on the motion of its neighbours. `again`: the neighbours that are outliers
-/// are known, and their fellow in a burst is on no motion of the others.
+/// Whether sample i is on the motion of its neighbours. `again`: outliers beside it are known,
+/// which may have hidden it.
 bool Outliers::belongs(std::size_t i, bool again) const {
-  const std::size_t begin = std::max(first_, std::min(i - std::min(i, near / 2),
-                                                      count_ - std::min(count_, near))),
-                    end = std::min(std::max(i + near / 2 + 1, begin + near), count_);
+  const bool inside = i >= near / 2 && i + near / 2 < count_;
+  const std::size_t size = inside ? near : near_end,
+                    begin = std::max(first_, std::min(i - std::min(i, near / 2),
+                                                      count_ - std::min(count_, size))),
+                    end = std::min(std::max(i + near / 2 + 1, begin + size), count_);
   const auto at = [&](std::size_t j) {
     return samples_.begin() + static_cast<std::ptrdiff_t>(j - first_);
   };
   const Judged& s = *at(i);
-  if (again && std::all_of(at(begin), at(end), std::mem_fn(&Judged::kept))) return true;
+  if (again && std::all_of(at(i - std::min(i - begin, std::size_t{1})), at(std::min(i + 2, end)),
+                           std::mem_fn(&Judged::kept)))
+    return true;
   const Neighbours others(at(begin), at(end), s,
                           [&](const Judged& of) { return &of != &s && (!again || of.kept); });
   if (others.size < 4) return true;
   double noise = (few() ? least_scatter() : s.noise) / others.unit;
   Polynomial<3> motion = others.parabola();
   if (others.scatter(motion) > 1.7 * noise) {  // of normal noise, one in 200
-    if (again) return true;
     motion = others.best_parabola();
-    const double own = others.scatter(motion) / of_seven;
+    const double own = others.scatter(motion) / of_best(others.size);
     if (few()) noise = std::max(noise, 1.5 * own);
-    else if (own > 4.5 * noise) noise = own;
+    else if (own > 4 * noise) noise = own;
     motion = others.near_parabola(motion, 4 * noise);
   }
   const auto [value, error] = motion.derivative(0, 0);
@@ -145,7 +152,7 @@ void Outliers::judge_before(std::size_t end) {
     s.kept = s.kept && (few() || belongs(next_, true));
     judged_.push_back(s);
   }
-  for (; next_ > first_ + near; ++first_) samples_.pop_front();
+  for (; next_ > first_ + near_end; ++first_) samples_.pop_front();
 }
 
 void Outliers::judge() {

@@ -20,18 +20,18 @@ struct Judged {
 /// errors of a prediction.
 ///
 /// The local motion is the parabola through the ten nearest readings without the one in question,
-/// five on either side, at the ends of a run the first or last ten; where they scatter, through
-/// those seven of them that lie on a parabola best (least trimmed squares, Rousseeuw 1984, J. Am.
-/// Stat. Assoc. 79, 871), and then all within four standard deviations of it, so that a burst of
-/// three does not decide. The scatter is that of the readings of the window about their parabolas
-/// (its lower quartile, which outliers hardly move); that of the seven, if it is 4.5 times as
-/// large: a push or a stop bends the motion itself. What passes beside an outlier is tested again
-/// without it: of a burst each hides the others.
-/// It is at least a third of the smallest first or second difference so far, which is the last
-/// digit of readings that are rounded, however fast the body moves: a step of it is no outlier. In
-/// a window of less than 33 samples it is 1.5 times that of the seven. Windows are cut off at the
-/// ends of a run and hold 151 samples or more, because the scatter of few is often far too small.
-/// About 1 us for a sample, 30 us where it scatters.
+/// five on either side, at the ends of a run the first or last 25; where they scatter, through
+/// all but three of them, those that lie on a parabola best (least trimmed squares, Rousseeuw 1984,
+/// J. Am. Stat. Assoc. 79, 871), and then all within four standard deviations of it, so that a
+/// burst of three does not decide. The scatter is that of the readings of the window about their
+/// parabolas (its lower quartile, which outliers hardly move); that of the best, if it is four
+/// times as large: a push or a stop bends the motion itself. What passes next to an outlier is
+/// tested again without it: of a burst each hides the others. It is at least a third of the
+/// smallest first or second difference so far, which is the last digit of readings that are
+/// rounded, however fast the body moves: a step of it is no outlier. In a window of less than 33
+/// samples it is 1.5 times that of the best. Windows are cut off at the ends of a run and hold 151
+/// samples or more, because the scatter of few is often far too small. About 1 us for a sample, 30
+/// us where it scatters.
 class Outliers {
  public:
   Outliers(Width, double threshold);

@@ -39,7 +39,7 @@ struct Row {
   double cover_a = 0, cover_b = 0;  ///< those of 95 %
   double cover_slope = 0;
   double sigma_a = 0, sigma_b = 0;  ///< root of the mean square of the standard errors, over the sd
-  double told = 0;  ///< share of runs whose errors are not those of white noise through the filters
+  double told = 0;  ///< share of runs of which is told that their noise is not white through the filters
   double differ = 0;  ///< share of joint fits whose runs are said to disagree
   int far = 0;        ///< runs further than 6 of their own standard errors from the truth
   int refused = 0;
@@ -265,6 +265,7 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
       row.cover_slope += c.down > 0 && std::abs(r.slope - slope) < 1.96 * r.sigma_slope;
       row.far += std::abs(b) > 6 || std::abs(a) > 6;
       row.told += rolling::noise_is_correlated(r) || r.errors == rolling::Errors::uneven ||
+                  r.reversals <= rolling::levels::few_reversals ||
                   (c.route == Route::loglog && rolling::logarithms_biased(r));
       row.differ += r.agreement && !r.agreement->agree();
       row.sigma_a += r.sigma_a * r.sigma_a;
