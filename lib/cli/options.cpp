@@ -226,6 +226,10 @@ std::string Options::parse(const std::string& name, int argc, const char* const*
   } catch (const CLI::ParseError& error) {
     fail("{} (see --help)", error.what());
   }
+  if (const CLI::Option* const files = app_->get_option_no_throw("FILE"))
+    for (const std::string& file : files->results())
+      if (std::count(argv, argv + argc, file) == 0)  // CLI11 reads an operand [a,b] as a and b
+        fail("'{}' is from a name in brackets: write ./ before it", shown(file));
   return {};
 }
 
