@@ -17,6 +17,14 @@ TEST_CASE("reader: a first row whose readings are all missing is a row, not name
   CHECK(rows({"My cart,\n,\nt,v\n0,1\n"}) == "0 1");  // blank cells of a preamble
 }
 
+TEST_CASE("reader: a first row with a blank cell before one that begins with # is a row",
+          "[text]") {
+  for (const char* const row : {"\t#\t2\n", "\t\t#\n", "\t#\t\n"})
+    CHECK(rows({std::string("# t\tx\tv\n") + row + "0\t1\t2\n"}, strict) ==
+          "FILE:2: field 1 (t): a reading is missing");
+  CHECK(rows({"\t# a comment\n# t v\n\t# another\n0 1\n"}) == "0 1");
+}
+
 TEST_CASE("reader: a missing reading leaves its row out, and is counted", "[text]") {
   const TemporaryFile file("t,v,x\n0,1,\n1,,5\n2,NaN,5\n3,nan,\n4,2,NaN\n");
   Reader in({.files = {file.name()}}, {});
