@@ -64,8 +64,7 @@ Stepper memory_stepper(const Body& body, PowerLaw law, Bulge bulge, double v0) {
 }
 
 // The unit of z is the largest shift on a level mat or, on a slope, one that balances gravity if
-// that is larger. most_steps limits the steps from one turning point to the next. An explicit
-// solver needs about half a step for each relaxation, of which most_relaxations are allowed.
+// that is larger. advance() counts evaluations, of which a step takes one at least.
 MemoryRoll::MemoryRoll(const Body& body, Geometry geometry, PowerLaw law, Bulge bulge, double v0,
                        double x0, Stepper stepper, double rtol, unsigned long most_steps)
     : SolvedRoll(
@@ -74,7 +73,7 @@ MemoryRoll::MemoryRoll(const Body& body, Geometry geometry, PowerLaw law, Bulge 
            rtol,
            1e-3 * rtol,
            0,
-           most_steps,
+           40 * most_steps,
            {bulge.length, v0, std::max({law(v0), body.R * std::abs(body.slope), least_speed})}},
           {x0, v0, law(v0)}),
       law_(law), bulge_(bulge), most_evaluations_(40 * most_steps), at_rest_(v0 == 0) {}
@@ -94,8 +93,14 @@ bool MemoryRoll::advance(Integrator& ode, double& crept, double t) const {
   // restarts from v = 0 exactly. The bulge pushes the body away from there, against z.
   for (;;) {
     const double v = ode.state()[1], way = v > 0 || (v == 0 && ode.state()[2] < 0) ? 1 : -1;
-    if (!ode.advance(t, [&](const std::vector<double>& y) {
-          return std::min(way * y[1], crept > 0 ? fastest(y) - crept : infinity);
+    if (!ode.advance(t,
+                     [&](const std::vector<double>& y) {
+      if (ode.evaluations() - before > most_evaluations_)
+        fail(
+            "the roll with memory takes more than {} evaluations, at t = {:.6g} s: msbdf, if the "
+            "problem is stiff, an earlier end, another length or a damping",
+            most_evaluations_, ode.time());
+      return std::min(way * y[1], crept > 0 ? fastest(y) - crept : infinity);
         }))
       return false;
     std::vector<double> y = ode.state();
@@ -104,11 +109,6 @@ bool MemoryRoll::advance(Integrator& ode, double& crept, double t) const {
     ode.restart(ode.time(), y);
     if (rests && crept > 0 && fastest(y) <= rest_fraction * v0()) return true;
     if (rests && crept == 0) crept = rest_fraction * fastest(y);
-    if (ode.evaluations() - before > most_evaluations_)
-      fail(
-          "the bulge of the memory still rings at t = {:.6g} s, after {} evaluations: a shorter "
-          "length, an earlier end or a damping",
-          ode.time(), ode.evaluations() - before);
   }
 }
 

@@ -37,8 +37,7 @@ class MemoryRoll final : public SolvedRoll {
  public:
   /// Throws Error as check_roll does, and for b < 0 (no finite shift at rest), length <= 0 or
   /// damping < 0. `rtol` is the relative error of x, v and z that a step may have. seek() and
-  /// stop_time() throw the errors of the solver, and after more than 40 most_steps evaluations in
-  /// one call.
+  /// stop_time() throw the errors of the solver, and after 40 most_steps evaluations in one call.
   MemoryRoll(const Body&, Geometry, PowerLaw, Bulge, double v0, double x0, Stepper, double rtol,
              unsigned long most_steps = 1'000'000);
 
