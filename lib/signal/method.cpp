@@ -2,33 +2,12 @@
 #include "signal/method.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
+#include <locale>
+#include <sstream>
 
-#include "base/decimal.h"
 #include "base/error.h"
 
 namespace rolling {
-namespace {
-
-/// Removes the text up to the next blank from `words` and returns it.
-std::string_view next_word(std::string_view& words) {
-  const std::string_view word = words.substr(0, words.find(' '));
-  words.remove_prefix(std::min(word.size() + 1, words.size()));
-  return word;
-}
-
-bool read(std::string_view word, double& number) {
-  const char* const end = word.data() + word.size();
-  return !word.empty() && read_decimal(word.data(), end, number) == end && std::isfinite(number);
-}
-bool read(std::string_view word, std::size_t& number) {
-  const char* const end = word.data() + word.size();
-  const auto [behind, error] = std::from_chars(word.data(), end, number);
-  return error == std::errc() && behind == end;
-}
-
-}  // namespace
 
 std::unique_ptr<Signal> make_signal(const SignalOptions& options) {
   return options.method->make(options);
@@ -46,22 +25,20 @@ std::string describe(const SignalOptions& options) {
 
 std::optional<SignalOptions> signal_options(std::span<const SignalMethod> methods,
                                             std::string_view words) {
-  std::string_view rest = words;
-  const std::string_view name = next_word(rest);
+  std::istringstream in{std::string(words)};
+  in.imbue(std::locale::classic());
+  std::string name, key;
+  in >> name;
   const auto method = std::find_if(methods.begin(), methods.end(),
                                    [&](const SignalMethod& m) { return m.name == name; });
   if (method == methods.end()) return {};
   SignalOptions options{&*method};
-  while (!rest.empty()) {
-    const std::string_view key = next_word(rest), value = next_word(rest);
-    if (!(key == "width"     ? read(value, options.width.samples)
-          : key == "seconds" ? read(value, options.width.seconds)
-          : key == "order"   ? read(value, options.order)
-                             : false))
-      return {};
-  }
-  if (describe(options) != words)
-    return {};  // a parameter is missing, superfluous or not in its shortest form
+  while (in >> key)
+    if (key == "width") in >> options.width.samples;
+    else if (key == "seconds") in >> options.width.seconds;
+    else if (key == "order") in >> options.order;
+  // A word is unknown, or a parameter missing, superfluous or not in its shortest form.
+  if (describe(options) != words) return {};
   try {
     make_signal(options);
   } catch (const Error&) {
