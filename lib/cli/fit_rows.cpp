@@ -93,9 +93,7 @@ std::vector<CommonError> take_common(FitRows& rows) {
                    sigma = rows.runs[i].given.*number.sigma;
       if (!(sigma > 0)) continue;
       const double log_a = sigma / (number.value == &Body::K ? value + 1 : value);
-      CommonError& common =
-          by_value.try_emplace({value, sigma}, CommonError{log_a, {}}).first->second;
-      common.rows.push_back(i);
+      by_value.try_emplace({value, sigma}, rows.runs.size()).first->second[i] = {log_a, 0};
       Symmetric& C = rows.laws[i].own.covariance;
       C.aa -= log_a * log_a;
       if (!rows.a_fixed && !(C.aa > 0 && C.aa * C.bb >= C.ab * C.ab))

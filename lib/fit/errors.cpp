@@ -15,15 +15,6 @@
 
 namespace rolling {
 
-double Spread::operator()(std::vector<double> g, std::vector<double> h, std::size_t run) const {
-  const std::size_t first = run * q_ * q_;
-  solve_transposed(&R_[first], g), solve_transposed(&R_[first], h);
-  double sum = 0;
-  for (std::size_t i = 0; i < q_; ++i)
-    for (std::size_t j = 0; j < q_; ++j) sum += g[i] * M_[first + i * q_ + j] * h[j];
-  return sum;
-}
-
 Matrix orthonormal(const Fitted& fit) {
   const std::size_t q = fit.system.columns();
   const double* R = fit.minimum.R.data();
@@ -46,16 +37,24 @@ Matrix orthonormal(const Fitted& fit) {
 
 namespace {
 
-/// Adds, over the runs, the block of the shared parameters of each run's matrix in M, and writes
-/// the sum to every run's block.
-void add_shared(std::vector<double>& M, std::size_t columns, std::size_t shared) {
-  const std::size_t square = columns * columns;
-  for (std::size_t i = columns - shared; i < columns; ++i)
-    for (std::size_t j = columns - shared; j < columns; ++j) {
-      double sum = 0;
-      for (std::size_t at = i * columns + j; at < M.size(); at += square) sum += M[at];
-      for (std::size_t at = i * columns + j; at < M.size(); at += square) M[at] = sum;
+/// The covariance R^-1 M R^-T of the numbers of a fit, of the meat M of each run. The meat of the
+/// parameters that the runs share is the sum over the runs.
+Matrix covariance_of(const Fitted& fit, std::vector<double> M) {
+  const std::size_t q = fit.system.columns();
+  for (std::size_t i = fit.system.own; i < q; ++i)
+    for (std::size_t j = fit.system.own; j < q; ++j)
+      for (std::size_t at = i * q + j + q * q; at < M.size(); at += q * q) M[i * q + j] += M[at];
+  auto numbers = fit.numbers();
+  for (FittedNumber& x : numbers) solve_transposed(fit.minimum.R.data(), x.gradient);
+  Matrix C(numbers.size(), std::vector<double>(numbers.size(), 0));
+  for (std::size_t a = 0; a < numbers.size(); ++a)
+    for (std::size_t b = 0; b < numbers.size(); ++b) {
+      if (numbers[a].fixed() || numbers[b].fixed()) continue;
+      for (std::size_t i = 0; i < q; ++i)
+        for (std::size_t j = 0; j < q; ++j)
+          C[a][b] += numbers[a].gradient[i] * M[i * q + j] * numbers[b].gradient[j];
     }
+  return C;
 }
 
 /// The products U^T U of the rows of each run, row by row, run by run.
@@ -220,12 +219,11 @@ double variance_of_rounding(const Fitted& fit) {
              : 0;
 }
 
-Uncertainty uncertainty_of(const Fitted& fit, const SeenNoise& seen) {
+Uncertainty uncertainty_of(const Fitted& fit) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::size_t q = fit.system.columns();
+  const SeenNoise seen = seen_noise(fit);
   const auto with = [&](Errors kind, double whiteness, double variance, std::vector<double> M) {
-    add_shared(M, q, fit.system.shared);
-    return Uncertainty{kind, whiteness, variance, {fit.minimum.R, std::move(M), q}};
+    return Uncertainty{kind, whiteness, variance, covariance_of(fit, std::move(M))};
   };
   if (seen.freedom == 0) return with(Errors::none, nan, nan, times(nan, seen.meat));
   const double floor = variance_of_rounding(fit);
@@ -236,40 +234,13 @@ Uncertainty uncertainty_of(const Fitted& fit, const SeenNoise& seen) {
               consistent ? consistent_meat(fit, seen, kind) : times(seen.variance, seen.meat));
 }
 
-Uncertainty uncertainty_of(const Fitted& fit) { return uncertainty_of(fit, seen_noise(fit)); }
-
-NoiseErrors noise_errors(const Fitted& fit, const Uncertainty& by) {
-  const auto sigma = [&](const FittedNumber& x, std::size_t run = 0) {
-    return x.fixed() ? 0 : std::sqrt(by.covariance(x.gradient, x.gradient, run));
-  };
-  ErrorShare share{"noise"};
-  for (const FittedNumber& x : fit.coefficients) {
-    std::vector<double>& row = share.law.emplace_back();
-    for (const FittedNumber& y : fit.coefficients)
-      row.push_back(x.fixed() || y.fixed() ? 0 : by.covariance(x.gradient, y.gradient));
-  }
-  if (fit.slope) share.slope = sigma(*fit.slope);
-  for (std::size_t r = 0; r < fit.v0.size(); ++r) share.v0.push_back(sigma(fit.v0[r], r));
-  for (std::size_t r = 0; r < fit.x0.size(); ++r) share.x0.push_back(sigma(fit.x0[r], r));
-  return {by.kind, by.whiteness, std::move(share)};
-}
-
-Matrix correlations_of(const Matrix& covariance) {
-  Matrix all = covariance;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    for (std::size_t j = 0; j < all.size(); ++j) {
-      const double sigmas = std::sqrt(covariance[i][i]) * std::sqrt(covariance[j][j]);
-      all[i][j] = covariance[i][j] == 0 ? 0 : covariance[i][j] / sigmas;
-    }
+Matrix correlations_of(const Matrix& covariance, std::size_t n) {
+  Matrix all(n, std::vector<double>(n, 0));
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      if (const double both = covariance[i][j]; both != 0)
+        all[i][j] = both / (std::sqrt(covariance[i][i]) * std::sqrt(covariance[j][j]));
   return all;
-}
-
-void NoiseErrors::multiply(double factor) {
-  for (std::vector<double>& row : share.law)
-    for (double& covariance : row) covariance *= factor * factor;
-  share.slope *= factor;
-  for (std::vector<double>* of_runs : {&share.v0, &share.x0})
-    for (double& error : *of_runs) error *= factor;
 }
 
 }  // namespace rolling

@@ -8,25 +8,12 @@
 
 namespace rolling {
 
-/// The sandwich covariance R^-1 M R^-T of the parameters of each run together with the shared ones.
-/// M is the meat of the sandwich.
-class Spread {
- public:
-  Spread(std::vector<double> R, std::vector<double> M, std::size_t columns)
-      : R_(std::move(R)), M_(std::move(M)), q_(columns) {}
-  /// The covariance of two functions of the parameters of a run, given by their gradients.
-  double operator()(std::vector<double> g, std::vector<double> h, std::size_t run = 0) const;
-
- private:
-  std::vector<double> R_, M_;
-  std::size_t q_;
-};
-
+/// What the noise of a fit does to its numbers.
 struct Uncertainty {
   Errors kind;
-  double whiteness;  ///< as in FitResult
-  double variance;   ///< variance of the noise: of the raw column if the filters are known
-  Spread covariance;
+  double whiteness;   ///< as in FitResult
+  double variance;    ///< variance of the noise: of the raw column if the filters are known
+  Matrix covariance;  ///< of Fitted::numbers(); 0 for one that is fixed
 };
 
 /// The noise that the residuals of a fit show; of a log-log line behind known filters, that of the
@@ -37,33 +24,21 @@ SeenNoise seen_noise(const Fitted&, bool filtered);
 /// B^T B of each run for noise with the B of its sources.
 std::vector<double> meat_of(const SeenNoise&);
 
-/// The covariance of a fit. For known filters it is the exact sandwich, otherwise the classical s^2
-/// (J^T J)^-1. With 30 or more rows the noise is tested (for known filters the noise of the raw
-/// column). If it is not white (Ljung and Box), the covariance is that of Newey and West, already
-/// at 10 % if neighbouring residuals are positively correlated; otherwise, if the variance is
-/// uneven at 1 %, along the runs or between them, it is HC3.
+/// The covariance of a fit, R^-1 M R^-T with the meat M of the sandwich. For known filters it is
+/// exact, otherwise the classical s^2 (J^T J)^-1. With 30 or more rows the noise is tested (for
+/// known filters the noise of the raw column). If it is not white (Ljung and Box), the covariance
+/// is that of Newey and West, already at 10 % if neighbouring residuals are positively correlated;
+/// otherwise, if the variance is uneven at 1 %, along the runs or between them, it is HC3.
 Uncertainty uncertainty_of(const Fitted&);
-/// The same with noise that other fits of the same rows have shown.
-Uncertainty uncertainty_of(const Fitted&, const SeenNoise&);
 
 /// The mean variance that the rounding of the readings leaves them; 0 behind filters. Gates fix x
 /// or v, and t is measured: readings on a grid that are far closer to the roll than rounding would
 /// leave them, of which none repeats and whose times are not those of a clock, are not rounded.
 double variance_of_rounding(const Fitted&);
 
-/// The standard errors of the reported numbers that are due to the noise.
-struct NoiseErrors {
-  Errors kind;
-  double whiteness;
-  ErrorShare share;
-
-  /// Multiplies all standard errors by a factor.
-  void multiply(double factor);
-};
-NoiseErrors noise_errors(const Fitted&, const Uncertainty&);
-
-/// 0 where a variance is 0, as that of a number that is fixed.
-Matrix correlations_of(const Matrix& covariance);
+/// The correlations of the first n numbers; 0 where a variance is 0, as that of a number that is
+/// fixed.
+Matrix correlations_of(const Matrix& covariance, std::size_t n);
 
 /// Q = J R^-1 at the minimum. The meat M of the covariance R^-1 M R^-T is a quadratic form of the
 /// rows of Q.
@@ -86,7 +61,7 @@ Matrix orthonormal(const Fitted&);
 /// of one direction do not tell a slope by their scatter: a, b and the slope stay those of the
 /// joint fit, and all errors are multiplied by the root of chi^2/dof.
 std::optional<Agreement> agreement_of(Route, const std::vector<FitRun>&, const FitOptions&,
-                                      NoiseErrors& errors, Fitted& joint);
+                                      Uncertainty& errors, Fitted& joint);
 
 /// The joint fit of runs that are known to disagree, with the values that agreement_of() gives it.
 Fitted fit_of_disagreeing(Route, const std::vector<FitRun>&, const FitOptions&);

@@ -64,6 +64,7 @@ std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& 
   FitOptions warm = options;
   if (options.fits_power())
     warm.start_a = fit.coefficients[0].value, warm.start_b = fit.coefficients[1].value;
+  const auto numbers = fit.numbers();
   std::vector<ErrorShare> all;
   for (const UncertainNumber& number : uncertain_numbers) {
     std::vector<Estimate> values;
@@ -76,8 +77,7 @@ std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& 
       const double step = value.value == 0 || number.value == &Body::slope
                               ? value.sigma
                               : std::min(value.sigma, 0.1 * std::abs(value.value));
-      ErrorShare& share = all.emplace_back();
-      share.of = values.size() == 1 ? number.name : fmt::format("{} {}", number.name, value.value);
+      std::vector<double> changes(numbers.size(), 0);
       const auto change = [&](double high, double low) {
         return (high - low) / 2 * value.sigma / step;
       };
@@ -87,25 +87,18 @@ std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& 
           body.*number.value += by;
           return (body.K + 1) * body.R / body.g;
         };
-        std::vector<double> changes;
         for (std::size_t j = 0; j < fit.coefficients.size(); ++j)
-          changes.push_back(options.law->coefficients[j].D * fit.coefficients[j].value *
-                            change(unit(step), unit(-step)) / unit(0));
-        share.law = outer_square(changes);
-        share.v0.assign(fit.v0.size(), 0), share.x0.assign(fit.x0.size(), 0);
-        continue;
+          changes[j] = options.law->coefficients[j].D * fit.coefficients[j].value *
+                       change(unit(step), unit(-step)) / unit(0);
+      } else {
+        const auto above = fit_with(route, runs, warm, agree, number, value, step).numbers(),
+                   below = fit_with(route, runs, warm, agree, number, value, -step).numbers();
+        for (std::size_t j = 0; j < numbers.size(); ++j)
+          changes[j] = change(above[j].value, below[j].value);
       }
-      const Fitted above = fit_with(route, runs, warm, agree, number, value, step),
-                   below = fit_with(route, runs, warm, agree, number, value, -step);
-      std::vector<double> changes;
-      for (std::size_t j = 0; j < fit.coefficients.size(); ++j)
-        changes.push_back(change(above.coefficients[j].value, below.coefficients[j].value));
-      share.law = outer_square(changes);
-      share.slope = fit.slope ? change(above.slope->value, below.slope->value) : 0;
-      for (std::size_t r = 0; r < fit.v0.size(); ++r)
-        share.v0.push_back(change(above.v0[r].value, below.v0[r].value));
-      for (std::size_t r = 0; r < fit.x0.size(); ++r)
-        share.x0.push_back(change(above.x0[r].value, below.x0[r].value));
+      all.push_back(
+          {values.size() == 1 ? number.name : fmt::format("{} {}", number.name, value.value),
+           outer_square(changes)});
     }
   }
   return all;

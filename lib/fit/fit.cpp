@@ -27,13 +27,8 @@ double rms_of(const Fitted& found) {
 }
 
 /// The result, with standard errors that combine the contributions.
-FitResult result_of(const Fitted& found, double rms, const NoiseErrors& noise,
+FitResult result_of(const Fitted& found, double rms, const Uncertainty& noise,
                     std::vector<ErrorShare> shares) {
-  const auto total = [&](auto&& part) {
-    double square = 0;
-    for (const ErrorShare& share : shares) square += part(share) * part(share);
-    return std::sqrt(square);
-  };
   FitResult result{.law = found.law(),
                    .rms = rms,
                    .n = found.rows,
@@ -41,26 +36,32 @@ FitResult result_of(const Fitted& found, double rms, const NoiseErrors& noise,
                    .negative = found.negative,
                    .whiteness = noise.whiteness,
                    .errors = noise.kind};
-  Matrix covariance(result.law.size(), std::vector<double>(result.law.size(), 0));
+  Matrix covariance(noise.covariance.size(), std::vector<double>(noise.covariance.size(), 0));
   for (const ErrorShare& share : shares)
     for (std::size_t i = 0; i < covariance.size(); ++i)
-      for (std::size_t j = 0; j < covariance.size(); ++j) covariance[i][j] += share.law[i][j];
-  for (std::size_t j = 0; j < covariance.size(); ++j)
-    result.coefficients.push_back({found.coefficients[j].value, std::sqrt(covariance[j][j])});
-  result.correlations = correlations_of(covariance);
+      for (std::size_t j = 0; j < covariance.size(); ++j)
+        covariance[i][j] += share.covariance[i][j];
+  std::size_t number = 0;
+  const auto next = [&](double value) {
+    const double variance = covariance[number][number];
+    ++number;
+    return Estimate{value, std::sqrt(variance)};
+  };
+  for (const FittedNumber& c : found.coefficients) result.coefficients.push_back(next(c.value));
+  result.correlations = correlations_of(covariance, result.law.size());
   if (result.law.power()) {
     const auto& [a, b] = std::tie(result.coefficients[0], result.coefficients[1]);
     result.a = a.value, result.sigma_a = a.sigma, result.b = b.value, result.sigma_b = b.sigma;
     result.corr = result.correlations[0][1];
   }
-  for (std::size_t r = 0; r < found.v0.size(); ++r)
-    result.v0.push_back({found.v0[r].value, total([r](const ErrorShare& of) { return of.v0[r]; })});
-  for (std::size_t r = 0; r < found.x0.size(); ++r)
-    result.x0.push_back({found.x0[r].value, total([r](const ErrorShare& of) { return of.x0[r]; })});
   if (found.slope) {
-    result.slope = found.slope->value;
-    result.sigma_slope = total([](const ErrorShare& of) { return of.slope; });
+    const Estimate slope = next(found.slope->value);
+    result.slope = slope.value, result.sigma_slope = slope.sigma;
   }
+  for (const auto& [of_runs, estimates] :
+       {std::pair(&found.v0, &result.v0), {&found.x0, &result.x0}})
+    for (const FittedNumber& of_run : *of_runs)
+      estimates->push_back(estimates->empty() ? next(of_run.value) : Estimate{of_run.value});
   result.shares = std::move(shares);
   return result;
 }
@@ -167,12 +168,11 @@ void require_law(const Fitted& found) {
 
 FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   Fitted found = fit_route(route, runs, options);
-  const Uncertainty uncertainty = uncertainty_of(found);
-  NoiseErrors noise = noise_errors(found, uncertainty);
-  const auto eccentricity = eccentricity_of(found, uncertainty.variance);
+  Uncertainty noise = uncertainty_of(found);
+  const auto eccentricity = eccentricity_of(found, noise.variance);
   const auto off = off_readings(route, runs, options, found);
   const auto agreement = agreement_of(route, runs, options, noise, found);
-  std::vector<ErrorShare> shares{noise.share};
+  std::vector<ErrorShare> shares{{"noise", noise.covariance}};
   const double rms = rms_of(found);
   require_seen(found);
   require_determined(result_of(found, rms, noise, shares), options, found);

@@ -47,11 +47,9 @@ struct OffReadings {
 struct ErrorShare {
   /// "noise"; the name of a given number, "K", or "K 0.5" where the runs have several; or "bias"
   std::string of;
-  Matrix law = {};  ///< contribution to the covariance of the coefficients of the law
-  double slope = 0;
-  std::vector<double> v0 = {}, x0 = {};  ///< one for each run, if Fitted has them
+  Matrix covariance;  ///< contribution to that of Fitted::numbers(), first of the coefficients
 
-  double sigma(std::size_t coefficient) const { return std::sqrt(law[coefficient][coefficient]); }
+  double sigma(std::size_t number) const { return std::sqrt(covariance[number][number]); }
 };
 
 /// The covariance that a change brings when it has a standard uncertainty of one.
@@ -76,7 +74,9 @@ struct FitResult {
   double whiteness;          ///< p of the autocorrelation of the noise (Ljung and Box); NaN
                              ///< where it is not tested
   double reversals = 1;      ///< p of so few steps against the motion, see few_reversals()
-  std::vector<Estimate> v0 = {};      ///< at the first row [m/s], of each run (trajectory routes)
+  /// At the first row [m/s], of each run (trajectory routes). Of several runs only the first has an
+  /// error.
+  std::vector<Estimate> v0 = {};
   std::vector<Estimate> x0 = {};      ///< likewise [m] (positions)
   double slope = 0, sigma_slope = 0;  ///< the slope of the mat, if it was fitted
   Errors errors;

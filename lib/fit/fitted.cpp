@@ -49,6 +49,14 @@ Law Fitted::law() const {
   return Law::as_written(parameters->form(), std::span(written).first(coefficients.size()));
 }
 
+std::vector<FittedNumber> Fitted::numbers() const {
+  std::vector<FittedNumber> all = coefficients;
+  if (slope) all.push_back(*slope);
+  if (!v0.empty()) all.push_back(v0.front());
+  if (!x0.empty()) all.push_back(x0.front());
+  return all;
+}
+
 double Fitted::fastest() const {
   double speed = shifts ? std::ranges::max(shifts->v) : 0;
   for (const FittedNumber& number : v0) speed = std::max(speed, std::abs(number.value));

@@ -65,6 +65,9 @@ struct Fitted {
   std::shared_ptr<const ShiftRows> shifts = {};  ///< the rows, if the model is a law D(v)
 
   Law law() const;
+  /// The numbers that have errors: the coefficients, the slope if it is a parameter, and v0 and x0
+  /// of the first run, if the model has them. A row reports these of a single run alone.
+  std::vector<FittedNumber> numbers() const;
   /// The highest speed that was fitted.
   double fastest() const;
   std::size_t means_taken() const {

@@ -168,10 +168,10 @@ double independent_rows(const std::vector<LawMinimum>& all, const std::vector<st
 /// Writes the coefficients with their standard errors, estimated as in fit(), and their
 /// correlations.
 void report_coefficients(LawFit& result, const Fitted& fit) {
-  const Matrix covariance = noise_errors(fit, uncertainty_of(fit)).share.law;
-  for (std::size_t j = 0; j < covariance.size(); ++j)
+  const Matrix covariance = uncertainty_of(fit).covariance;
+  for (std::size_t j = 0; j < fit.coefficients.size(); ++j)
     result.coefficients.push_back({fit.coefficients[j].value, std::sqrt(covariance[j][j])});
-  result.correlations = correlations_of(covariance);
+  result.correlations = correlations_of(covariance, fit.coefficients.size());
 }
 
 }  // namespace

@@ -60,12 +60,6 @@ Estimate OwnLaw::log_D(double log_v) const {
           std::sqrt(std::max(0.0, C.aa + log_v * (2 * C.ab + log_v * C.bb)))};
 }
 
-OwnLaw OwnLaw::in_unit(double log_v) const {
-  const Symmetric& C = covariance;
-  const Estimate D = log_D(log_v);
-  return {run, {D.value, law.b}, {D.sigma * D.sigma, C.ab + log_v * C.bb, C.bb}, freedom};
-}
-
 // The sum of least_from() may have several minima: the law of a joint fit is the start that suits
 // runs of equal noise, and the weighted mean one that suits unequal ones.
 Agreement compare(const std::vector<OwnLaw>& laws, Pair start, std::size_t parameters,
@@ -100,31 +94,33 @@ double common_log_v(const std::vector<OwnLaw>& laws,
   return log_v;
 }
 
-namespace {
-
-RandomEffectsMean mean_of(const std::vector<OwnLaw>& laws, Estimate (*number)(const OwnLaw&),
-                          double freedom) {
-  std::vector<Estimate> numbers;
-  for (const OwnLaw& one : laws) numbers.push_back(number(one));
-  return random_effects_mean(numbers, freedom);
-}
-
-}  // namespace
-
-ScatteredMean::ScatteredMean(const std::vector<OwnLaw>& laws, double unit, double freedom)
-    : log_v(unit), D(mean_of(
-                       laws, [](const OwnLaw& one) { return one.log_D(0); }, freedom)),
-      b(mean_of(
-          laws, [](const OwnLaw& one) { return one.b(); }, freedom)) {}
-
-Symmetric ScatteredMean::square(double log_D, double exponent) const {
-  return outer_square({log_D - log_v * exponent, exponent});
-}
-
-Symmetric ScatteredMean::covariance() const {
-  Symmetric C{};
-  for (std::size_t i = 0; i < D.parts.size(); ++i) C = C + square(D.parts[i], b.parts[i]);
-  return C;
+JointLaw scattered_mean(const std::vector<OwnLaw>& laws, double log_v, double freedom,
+                        const std::vector<CommonError>& common) {
+  const auto mean_of = [&](const auto& number) {
+    std::vector<Estimate> numbers;
+    for (const OwnLaw& one : laws) numbers.push_back(number(one));
+    return random_effects_mean(numbers, freedom);
+  };
+  const auto D = mean_of([&](const OwnLaw&one) { return one.log_D(log_v); }),
+             D_at_unit = mean_of([](const OwnLaw&one) { return one.log_D(0); }),
+             b = mean_of([](const OwnLaw&one) { return one.b(); });
+  JointLaw mean{.law = in_unit({D.value, b.value}, -log_v),
+                .covariance = {},
+                .scatter_log_a = std::sqrt(D_at_unit.tau_square),
+                .scatter_b = std::sqrt(b.tau_square)};
+  const auto add = [&](Pair error) {
+    mean.covariance = mean.covariance + outer_square(in_unit(error, -log_v));
+  };
+  for (std::size_t i = 0; i < laws.size(); ++i) add({D.parts[i], b.parts[i]});
+  for (const CommonError& error : common) {
+    Pair all{};
+    for (std::size_t i = 0; i < laws.size(); ++i) {
+      const Pair one = in_unit(error[i], log_v);
+      all = all + Pair{D.shares[i] * one.a, b.shares[i] * one.b};
+    }
+    add(all);
+  }
+  return mean;
 }
 
 namespace {
@@ -155,26 +151,6 @@ std::vector<Symmetric> covariances_of(const std::vector<LawRow>& rows) {
   return all;
 }
 
-/// Rows that do not agree: their mean, and how much they scatter.
-void take_scatter(JointLaw& joint, std::vector<OwnLaw> laws,
-                  const std::vector<CommonError>& common) {
-  const double freedom = static_cast<double>(laws.size()) - 1;
-  const ScatteredMean at_unit_speed(laws, 0, freedom);
-  joint.scatter_log_a = std::sqrt(at_unit_speed.D.tau_square);
-  joint.scatter_b = std::sqrt(at_unit_speed.b.tau_square);
-  const double log_v = common_log_v(laws, [](const OwnLaw& one) { return one.best_log_v(); });
-  for (OwnLaw& one : laws) one = one.in_unit(log_v);
-  const ScatteredMean mean(laws, log_v, freedom);
-  if (mean.b.free) joint.law.b = mean.b.value;
-  if (mean.D.free) joint.law.a = mean.D.value - log_v * joint.law.b;
-  joint.covariance = mean.covariance();
-  for (const CommonError& error : common) {
-    double share = 0;
-    for (const std::size_t row : error.rows) share += mean.D.shares[row];
-    joint.covariance = joint.covariance + mean.square(share * error.log_a, 0);
-  }
-}
-
 }  // namespace
 
 JointLaw joint_law(std::vector<LawRow> rows, const std::vector<CommonError>& common) {
@@ -192,14 +168,16 @@ JointLaw joint_law(std::vector<LawRow> rows, const std::vector<CommonError>& com
   if (C.bb == 0) joint.law.b = laws.front().law.b;
   joint.agreement = compare(laws, joint.law, static_cast<std::size_t>(C.aa > 0) + (C.bb > 0), 0);
   if (!joint.agreement.agree()) {
-    take_scatter(joint, std::move(laws), common);
-    return joint;
+    const double log_v = common_log_v(laws, [](const OwnLaw& one) { return one.best_log_v(); });
+    JointLaw mean = scattered_mean(laws, log_v, static_cast<double>(laws.size()) - 1, common);
+    mean.agreement = joint.agreement;
+    return mean;
   }
   const Symmetric V = joint.covariance;
   for (const CommonError& error : common) {
     Pair share{};
-    for (const std::size_t row : error.rows)
-      share = share + covariances[row].inverse() * Pair{error.log_a, 0};
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      share = share + covariances[i].inverse() * error[i];
     joint.covariance = joint.covariance + outer_square(V * share);
   }
   return joint;

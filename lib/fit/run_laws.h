@@ -44,6 +44,9 @@ inline Symmetric operator+(Symmetric X, Symmetric Y) {
 inline Symmetric operator-(Symmetric X, Symmetric Y) {
   return {X.aa - Y.aa, X.ab - Y.ab, X.bb - Y.bb};
 }
+inline Pair operator*(double s, Pair x) { return {s * x.a, s * x.b}; }
+/// The same law in the unit of speed exp(log_v): ln D there in the place of ln a.
+inline Pair in_unit(Pair law, double log_v) { return {law.a + log_v * law.b, law.b}; }
 inline Symmetric operator*(double s, Symmetric X) { return {s * X.aa, s * X.ab, s * X.bb}; }
 
 /// The law of one run that is fitted by itself.
@@ -58,8 +61,6 @@ struct OwnLaw {
   /// The logarithm of the speed at which the error of D is least; D and b are uncorrelated there.
   double best_log_v() const { return covariance.bb > 0 ? -covariance.ab / covariance.bb : 0; }
   Estimate b() const { return {law.b, std::sqrt(covariance.bb)}; }
-  /// The same law in the unit of speed exp(log_v): ln D there in the place of ln a.
-  OwnLaw in_unit(double log_v) const;
 };
 
 /// The sums for a weighted mean of laws.
@@ -102,19 +103,22 @@ Agreement compare(const std::vector<OwnLaw>&, Pair start, std::size_t parameters
 double common_log_v(const std::vector<OwnLaw>&,
                     const std::function<double(const OwnLaw&)>& log_v_of);
 
-/// The mean law of runs that scatter: that of the mean of b and of the mean of ln D at the common
-/// speed, where both scatter independently (random_effects.h). The scatter of a itself, which is D
-/// at 1 m/s, is that of b if the runs are slower, and would depend on the unit of speed.
-struct ScatteredMean {
-  double log_v;
-  RandomEffectsMean D, b;
+/// What an error that laws have in common, as that of the shape factor of their body, brings to ln
+/// a and b of each.
+using CommonError = std::vector<Pair>;
 
-  /// `laws` in the unit of speed exp(`unit`).
-  ScatteredMean(const std::vector<OwnLaw>& laws, double unit, double freedom);
-  /// Of ln a and b, a change of ln D and b at the common speed.
-  Symmetric square(double log_D, double exponent) const;
-  Symmetric covariance() const;  ///< of ln a and b
+struct JointLaw {
+  Pair law;              ///< ln a and b
+  Symmetric covariance;  ///< common errors included
+  Agreement agreement = {};
+  double scatter_log_a = 0, scatter_b = 0;  ///< standard deviations beyond the noise
 };
+
+/// The mean law of runs that scatter: that of the mean of b and of the mean of ln D at the speed
+/// exp(log_v), where both scatter independently (random_effects.h). The scatter of a itself, which
+/// is D at 1 m/s, is that of b if the runs are slower, and would depend on the unit of speed.
+JointLaw scattered_mean(const std::vector<OwnLaw>&, double log_v, double freedom,
+                        const std::vector<CommonError>&);
 
 /// The fit of one run: its law with the errors of the noise, and the rms of its residuals, by which
 /// the noise of runs is compared; 0 where it is not known. `OwnLaw::freedom` is the number of
@@ -125,23 +129,10 @@ struct LawRow {
 };
 inline constexpr double known_errors = 1e6;
 
-/// An error of ln a that rows have in common, as that of the shape factor of their body.
-struct CommonError {
-  double log_a;                   ///< the standard uncertainty of ln a
-  std::vector<std::size_t> rows;  ///< the rows that have it, by their place
-};
-
-struct JointLaw {
-  Pair law;              ///< ln a and b
-  Symmetric covariance;  ///< common errors included
-  Agreement agreement = {};
-  double scatter_log_a = 0, scatter_b = 0;  ///< standard deviations beyond the noise
-};
-
 /// What agreement_of() makes of the runs themselves. Rows that agree have the
 /// mean weighted by their inverse covariances; if the noise of all is of one size (Bartlett 1937 at
 /// 1 %), that size is the common one, as in a joint fit. Rows that do not agree have the
-/// ScatteredMean. Two or more rows, all with the same of a and b free.
+/// scattered_mean(). Two or more rows, all with the same of a and b free.
 JointLaw joint_law(std::vector<LawRow>, const std::vector<CommonError>&);
 
 }  // namespace rolling

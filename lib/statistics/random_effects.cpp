@@ -57,9 +57,12 @@ double student(double freedom) { return gsl_cdf_tdist_Pinv(0.975, freedom) / 1.9
 RandomEffectsMean random_effects_mean(const std::vector<Estimate>& x, double freedom) {
   const std::size_t n = x.size();
   const RandomEffectsLine line = random_effects_line(x, std::vector<double>(n, 0), freedom);
-  RandomEffectsMean mean{std::isfinite(line.weight), line.mean, line.tau_square,
-                         std::vector<double>(n, 0), std::vector<double>(n, 0)};
-  if (!mean.free) return mean;
+  RandomEffectsMean mean{line.mean, line.tau_square, std::vector<double>(n, 0),
+                         std::vector<double>(n, 0)};
+  if (!std::isfinite(line.weight)) {
+    mean.value = x.front().value;
+    return mean;
+  }
   for (std::size_t i = 0; i < n; ++i) mean.shares[i] = line.weight_of(x[i]) / line.weight;
   double inverse = 0, k_before = 0;  // of the degrees of freedom
   for (std::size_t i = 0; i < n; ++i) {

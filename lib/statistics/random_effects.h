@@ -39,10 +39,9 @@ double student(double freedom);
 /// 1 if the weights are equal, and down to 1 if one run has them all (Bell and McCaffrey 2002,
 /// Survey Methodology 28, 169; Imbens and Kolesar 2016, Rev. Econ. Stat. 98, 701). The root of
 /// 1/sum(weights) would not do: where one run is more precise than the others, few runs tell tau
-/// too roughly.
+/// too roughly. Numbers that are equal without errors, as those of a fixed parameter, are their own
+/// mean, without shares.
 struct RandomEffectsMean {
-  bool free;  ///< not all numbers are equal without errors, as those of a fixed parameter are; else
-              ///< the value is NaN, and all others are 0
   double value, tau_square;
   std::vector<double> shares;  ///< of the runs in the weights
   std::vector<double> parts;   ///< of the runs in the error, with their signs

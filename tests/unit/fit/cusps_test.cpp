@@ -17,7 +17,7 @@ const Body cylinder{1.375, 0.04, 0.5};
 double lower_by_another_exponent(Route route, const FitRun& run) {
   const Fitted found = fit_route(route, {run}, {});
   const auto n = static_cast<double>(found.minimum.f.size() - found.minimum.theta.size());
-  const double sigma = noise_errors(found, uncertainty_of(found)).share.sigma(1);
+  const double sigma = std::sqrt(uncertainty_of(found).covariance[1][1]);
   double most = 0;
   for (double step = -2; step <= 2; step += 0.25) {
     FitOptions held;

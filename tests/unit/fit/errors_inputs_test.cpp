@@ -80,7 +80,7 @@ TEST_CASE("input quantities: on a level mat the shares are those of fits with ot
       CHECK(std::abs(share(level, of, 0) / moved - 1) < 1e-5);
     }
     for (std::size_t i = 0; i < level.shares.size(); ++i)
-      CHECK(level.shares[i].v0.size() == all_but_level.shares[i].v0.size());
+      CHECK(level.shares[i].covariance.size() == all_but_level.shares[i].covariance.size());
   }
 }
 

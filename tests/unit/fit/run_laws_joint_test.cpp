@@ -130,14 +130,15 @@ TEST_CASE("joint law: an error that rows have in common counts once", "[fit]") {
   std::vector<LawRow> rows;
   for (const double log_a : {0.01, -0.01, 0.005, -0.005})
     rows.push_back({{0, {log_a, 0.2}, C, known_errors}});
+  const Pair k{0.02, 0}, g{0.03, 0};
   const JointLaw alone = joint_law(rows, {}),
-                 common = joint_law(rows, {{0.02, {0, 1}}, {0.03, {0, 1, 2, 3}}});
+                 common = joint_law(rows, {{k, k, {}, {}}, {g, g, g, g}});
   CHECK(alone.covariance.aa == Approx(1e-4 / 4));
   CHECK(common.covariance.aa == Approx(1e-4 / 4 + 0.01 * 0.01 + 0.03 * 0.03));
   CHECK(common.covariance.bb == Approx(1e-4 / 4));
   CHECK(common.agreement.ratio == alone.agreement.ratio);
   for (LawRow& row : rows) row.own.law.a *= 100;
-  const JointLaw scattered = joint_law(rows, {}), all = joint_law(rows, {{0.03, {0, 1, 2, 3}}});
+  const JointLaw scattered = joint_law(rows, {}), all = joint_law(rows, {{g, g, g, g}});
   REQUIRE_FALSE(all.agreement.agree());
   CHECK(all.covariance.aa == Approx(scattered.covariance.aa + 0.03 * 0.03));
   CHECK(scattered.scatter_log_a == Approx(std::sqrt(2.5 / 3 - 1e-4)).epsilon(1e-6));
