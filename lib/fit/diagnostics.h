@@ -15,12 +15,12 @@ namespace rolling {
 /// cosine of x/R are shifts; they are carried through the equation of motion (to first order around
 /// the fitted roll, A = 1) and through the filters of the data, and made orthogonal to the columns
 /// of the Jacobian, because the fit can follow those. The noise before the filters is assumed
-/// white, of its own size in each run; `variance` is that of all runs.
+/// white, of its own size in each run.
 ///
 /// The result is the run with the smallest p. It is empty if no run reaches 1 % (after Bonferroni's
 /// correction), or if the period 0.7 or 1.4 times as long has as small a p: the residuals then have
 /// another cause. A run of less than one turn, or with less than two rows in a turn, is not tested.
-std::optional<Eccentricity> eccentricity_of(const Fitted&, double variance);
+std::optional<Eccentricity> eccentricity_of(const Fitted&);
 
 /// The probability that white noise turns back as few of the steps from reading to reading, against
 /// the motion of the fitted roll, as these readings do. A median of readings turns back hardly any,
@@ -34,11 +34,9 @@ double few_reversals(const Fitted&);
 /// one after another the reading that is furthest off is left out, to first order, up to a tenth of
 /// the run, and those up to the last that is so far off count (Rosner 1983, Technometrics 25, 165):
 /// a burst does not hide behind itself. Where a reading has bent the roll too far for that, the
-/// robust roll is the one to look from. None for a robust fit. For known filters the readings are
-/// those of the raw column. Returns the reading that is furthest off, of the run where that is
-/// most.
-std::optional<OffReadings> off_readings(Route, const std::vector<FitRun>&, const FitOptions&,
-                                        const Fitted&);
+/// robust roll is the one to look from. For known filters the readings are those of the raw column.
+/// Returns the reading that is furthest off, of the run where that is most.
+std::optional<OffReadings> off_readings(const Fitted&);
 
 /// The same around the robust roll, for unfiltered runs of which no fit by squares need be known.
 std::optional<OffReadings> off_robust_roll(Route, const std::vector<FitRun>&, FitOptions);

@@ -27,16 +27,11 @@ double local_variance(std::span<const double> f) {
   return squares / (6 * static_cast<double>(f.size() - 2));
 }
 
-struct TestedBeginning {
-  Beginning beginning;
-  std::vector<double> rest;  // the residuals of the other rows of the run
-  std::size_t parameters;    // of its fit
-};
-
 /// The beginnings of all runs that were tested, and that of the smallest p.
 struct BeginningSearch {
   double tests = 0;
-  std::optional<TestedBeginning> found;
+  Beginning found{.run = 0, .rows = 0, .time = 0, .p = levels::beginning};
+  std::vector<double> rest = {};  // the residuals of the other rows of its run
 
   /// `fit` is that of this run by itself.
   void add(const Fitted& fit, std::size_t run) {
@@ -46,9 +41,9 @@ struct BeginningSearch {
     const std::size_t q = Q.size(), n = f.size();
     LeftOut others(f, {Q.begin(), Q.end()});
     const auto residuals = [&](std::size_t from, std::size_t end) {
-      std::vector<double> rest;
-      for (std::size_t i = from; i < end; ++i) rest.push_back(others.residual(i));
-      return rest;
+      std::vector<double> some;
+      for (std::size_t i = from; i < end; ++i) some.push_back(others.residual(i));
+      return some;
     };
     std::size_t out = 0;
     for (std::size_t k = 3, next = 5; 4 * k <= n; k = std::exchange(next, k + next)) {
@@ -62,8 +57,7 @@ struct BeginningSearch {
       if (!(squares > 0)) continue;
       const double noise = std::max(squares / left, local_variance(residuals(0, k + 5))),
                    chance = gsl_cdf_fdist_Q((fit.minimum.rss - squares) / gone / noise, gone, left);
-      if (chance >= (found ? found->beginning.p : levels::beginning)) continue;
-      found = {{run, k, t[k] - t[0], chance}, residuals(k, n), q};
+      if (chance < found.p) found = {run, k, t[k] - t[0], chance}, rest = residuals(k, n);
     }
   }
 };
@@ -78,22 +72,18 @@ std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitR
   silence_gsl();
   const Fitted joint = fit_route(route, runs, options);
   if (!joint.rolls || joint.noise->known()) return {};
-  const std::size_t fewest = 20 + joint.rolls->parameters().of_one_run().count();
+  const std::size_t parameters = joint.rolls->parameters().of_one_run().count();
   BeginningSearch search;
   for (std::size_t r = 0; r < runs.size(); ++r) try {
-      if (joint.system.runs[r] < fewest) continue;
-      else if (runs.size() == 1 && !options.fit_slope) search.add(joint, r);
-      else search.add(fit_of_run(joint, r, options), r);
+      if (joint.system.runs[r] >= 20 + parameters) search.add(fit_of_run(joint, r, options), r);
     } catch (const Error&) {  // the run does not determine a law by itself
     }
-  if (!search.found) return {};
-  auto& [found, rest, parameters] = *search.found;
-  found.p = std::min(1.0, found.p * search.tests);
-  const std::size_t size[] = {rest.size()};
-  if (found.p > levels::beginning ||
-      ljung_box(rest, taken_by_few(parameters), size) <= levels::beginning_white)
+  search.found.p *= search.tests;
+  const std::size_t size[] = {search.rest.size()};
+  if (search.rest.empty() || search.found.p > levels::beginning ||
+      ljung_box(search.rest, taken_by_few(parameters), size) <= levels::beginning_white)
     return {};
-  return found;
+  return search.found;
 }
 
 }  // namespace rolling

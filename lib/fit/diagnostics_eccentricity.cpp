@@ -76,15 +76,10 @@ class Wobble {
   double fastest_ = 0, way_ = 0;
 };
 
-/// The noise of a run: the sum of squares of its residuals, their degrees of freedom, and the
-/// variance of the noise before the filters.
-struct RunNoise {
-  double squares, freedom, variance;
-};
-
-/// The amplitude of this response in the residuals f of a run, and its p.
-Eccentricity amplitude(const Fitted& fit, std::size_t run, const Wobble& wobble,
-                       const RunNoise& noise, std::span<const double> f) {
+/// The amplitude of this response in the residuals f of a run, of so many degrees of freedom, and
+/// its p.
+Eccentricity amplitude(const Fitted& fit, std::size_t run, const Wobble& wobble, double freedom,
+                       std::span<const double> f) {
   // The QR decomposition of J with the two columns of the response behind it: the last 2 x 2 block
   // of R belongs to these columns after projection orthogonal to J, and theta holds their
   // coefficients.
@@ -107,45 +102,37 @@ Eccentricity amplitude(const Fitted& fit, std::size_t run, const Wobble& wobble,
                by_cos = theta[q - 2], by_sin = theta[q - 1];
   if (!(ss * ss > 1e-12 * (cs * cs + ss * ss))) return {run, 1, 0, 0, 0};
   const double reduction = square(cc * by_cos + cs * by_sin) + square(ss * by_sin),
-               e = std::hypot(by_cos, by_sin), freedom = noise.freedom - 2,
-               variance =
-                   noise.variance * (1 - reduction / noise.squares) * noise.freedom / freedom;
+               e = std::hypot(by_cos, by_sin), left = freedom - 2,
+               variance = (dot(f, f) - reduction) / left;
   // The standard error of e is the norm of R^-T (by_cos, by_sin)/e times the standard deviation.
   const double u = by_cos / (e * cc), w = (by_sin / e - u * cs) / ss;
-  return {run, gsl_cdf_fdist_Q(reduction / variance / 2, 2, freedom), e,
+  return {run, gsl_cdf_fdist_Q(reduction / variance / 2, 2, left), e,
           std::sqrt(variance * (u * u + w * w)), std::atan2(by_sin, by_cos)};
 }
 
-/// Cuts residuals off at a few standard deviations: a burst or a lost echo has all periods. Returns
-/// what is left of the sum of their squares, as a share.
-double cut_off(std::span<double> f) {
-  const double before = dot(f, f);
+/// Cuts residuals off at a few standard deviations: a burst or a lost echo has all periods.
+void cut_off(std::span<double> f) {
   std::vector<double> sizes(f.begin(), f.end());
   for (double& x : sizes) x = std::abs(x);
   const double most = levels::cut_off * deviation(sizes);
-  if (!(most > 0)) return 1;
+  if (!(most > 0)) return;
   for (double& x : f) x = std::clamp(x, -most, most);
-  return dot(f, f) / before;
 }
 
 }  // namespace
 
-std::optional<Eccentricity> eccentricity_of(const Fitted& fit, double variance) {
+std::optional<Eccentricity> eccentricity_of(const Fitted& fit) {
   if (!fit.rolls || fit.minimum.f.size() < fit.minimum.theta.size() + 10) return {};
   std::optional<Eccentricity> found;
   std::vector<double> f = fit.minimum.f;
   const auto f_of = by_run(f, fit.system.runs);
-  const std::size_t n = fit.minimum.f.size(), p = fit.minimum.theta.size();
-  const double of_all = fit.minimum.rss / static_cast<double>(n - p);
-  const auto residuals = by_run(fit.minimum.f, fit.system.runs);
-  for (std::size_t r = 0; r < residuals.size(); ++r) {
-    const double squares = dot(residuals[r], residuals[r]) * cut_off(f_of[r]),
-                 freedom = static_cast<double>(residuals[r].size()) -
-                           static_cast<double>(fit.system.columns());
-    if (!(freedom > 2 && squares > 0)) continue;
-    const RunNoise noise{squares, freedom, variance * (squares / freedom) / of_all};
+  for (std::size_t r = 0; r < f_of.size(); ++r) {
+    cut_off(f_of[r]);
+    const double freedom =
+        static_cast<double>(f_of[r].size()) - static_cast<double>(fit.system.columns());
+    if (!(freedom > 2 && dot(f_of[r], f_of[r]) > 0)) continue;
     const auto signal = [&](const Wobble& wobble) {
-      return amplitude(fit, r, wobble, noise, f_of[r]);
+      return amplitude(fit, r, wobble, freedom, f_of[r]);
     };
     const ObservedRun& run = fit.rolls->runs()[r];
     const double R = run.body.R;
@@ -155,7 +142,7 @@ std::optional<Eccentricity> eccentricity_of(const Fitted& fit, double variance) 
     const Wobble turns = wobble(1);
     if (!turns.worth(run, f_of[r].size(), R)) continue;
     Eccentricity once_a_turn = signal(turns);
-    once_a_turn.p *= static_cast<double>(residuals.size());
+    once_a_turn.p *= static_cast<double>(f_of.size());
     if (once_a_turn.p > levels::one_turn || (found && found->p < once_a_turn.p)) continue;
     if (once_a_turn.p < std::min(signal(wobble(0.7)).p, signal(wobble(1.4)).p)) found = once_a_turn;
   }

@@ -138,14 +138,12 @@ std::optional<OffReadings> off_robust_roll(Route route, const std::vector<FitRun
   }
 }
 
-std::optional<OffReadings> off_readings(Route route, const std::vector<FitRun>& runs,
-                                        const FitOptions& options, const Fitted& fit) {
-  if (!fit.rolls || fit.degrees_left() == 0 || options.robust) return {};
+std::optional<OffReadings> off_readings(const Fitted& fit) {
+  if (!fit.rolls || fit.degrees_left() == 0) return {};
   double most_off = 0;
   auto found = around(fit, most_off);
   if (found || most_off < 5) return found;
   // A reading far off may have bent the roll to itself, away from where it is linear.
-  if (!fit.noise->known()) return off_robust_roll(route, runs, options);
   try {
     Fitted straight = fit;
     straight.minimum = minimise_robust(straight.system, {fit.minimum.theta});

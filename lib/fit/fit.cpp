@@ -169,8 +169,9 @@ void require_law(const Fitted& found) {
 FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   Fitted found = fit_route(route, runs, options);
   Uncertainty noise = uncertainty_of(found);
-  const auto eccentricity = eccentricity_of(found, noise.variance);
-  const auto off = off_readings(route, runs, options, found);
+  const auto eccentricity = eccentricity_of(found);
+  std::optional<OffReadings> off;  // --robust lets them count little
+  if (!options.robust) off = off_readings(found);
   const auto agreement = agreement_of(route, runs, options, noise, found);
   std::vector<ErrorShare> shares{{"noise", noise.covariance}};
   const double rms = rms_of(found);
@@ -192,12 +193,19 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   return result;
 }
 
-/// The fit. Where single readings spoil it, the error names them and not what came of them.
-FitResult fit_or_name(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+}  // namespace
+
+FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   constexpr std::size_t single = 3;
   try {
     return fit_from_start(route, runs, options);
-  } catch (const Error&) {
+  } catch (const Error&) {  // of the data, of the start alone, or of single readings
+    if (options.fits_power() && (options.start_a || options.start_b)) {
+      FitOptions free = options;
+      free.start_a = free.start_b = {};
+      fit(route, runs, free);
+      fail("the search does not find the fit from the start that is given, but it does without it");
+    }
     const auto off = off_robust_roll(route, runs, options);
     if (!off || off->count > single) throw;
     fail(
@@ -205,21 +213,6 @@ FitResult fit_or_name(Route route, const std::vector<FitRun>& runs, const FitOpt
         "look at it, and leave it out (smooth --outliers), or fit with --robust",
         runs.size() > 1 ? fmt::format("run {}: ", runs[off->run].name) : "", off->time,
         off->distance);
-  }
-}
-
-}  // namespace
-
-FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
-  if ((!options.start_a && !options.start_b) || !options.fits_power())
-    return fit_or_name(route, runs, options);
-  try {
-    return fit_from_start(route, runs, options);
-  } catch (const Error&) {  // of the data, or of the start alone
-    FitOptions free = options;
-    free.start_a = free.start_b = {};
-    fit_from_start(route, runs, free);
-    fail("the search does not find the fit from the start that is given, but it does without it");
   }
 }
 

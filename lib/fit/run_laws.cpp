@@ -101,9 +101,9 @@ JointLaw scattered_mean(const std::vector<OwnLaw>& laws, double log_v, double fr
     for (const OwnLaw& one : laws) numbers.push_back(number(one));
     return random_effects_mean(numbers, freedom);
   };
-  const auto D = mean_of([&](const OwnLaw&one) { return one.log_D(log_v); }),
-             D_at_unit = mean_of([](const OwnLaw&one) { return one.log_D(0); }),
-             b = mean_of([](const OwnLaw&one) { return one.b(); });
+  const auto D = mean_of([&](const OwnLaw& one) { return one.log_D(log_v); });
+  const auto D_at_unit = mean_of([](const OwnLaw& one) { return one.log_D(0); });
+  const auto b = mean_of([](const OwnLaw& one) { return one.b(); });
   JointLaw mean{.law = in_unit({D.value, b.value}, -log_v),
                 .covariance = {},
                 .scatter_log_a = std::sqrt(D_at_unit.tau_square),
