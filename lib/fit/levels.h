@@ -11,8 +11,8 @@ inline constexpr double not_white = 0.003;
 /// With 60 rows the test often misses an autocorrelation of 0.5. At or below this limit a
 /// positive one gets errors that allow for it: one run in ten, at 1 to 2 % in their size.
 inline constexpr double nearly_white = 0.1;
-/// White noise turns back so few steps with at most this probability, by a bound of it: 1 % of white
-/// speeds on rubber, 0.4 % on felt.
+/// White noise turns back so few steps with at most this probability, by a bound of it: 1 % of
+/// white speeds on rubber, 0.4 % on felt.
 inline constexpr double few_reversals = 0.1;
 /// Unequal variance, along one run and in several: 1 %.
 inline constexpr double uneven = 0.01, uneven_runs = 0.005;

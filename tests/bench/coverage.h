@@ -39,7 +39,8 @@ struct Row {
   double cover_a = 0, cover_b = 0;  ///< those of 95 %
   double cover_slope = 0;
   double sigma_a = 0, sigma_b = 0;  ///< root of the mean square of the standard errors, over the sd
-  double told = 0;  ///< share of runs of which is told that their noise is not white through the filters
+  /// Share of runs of which is told that their noise is not white through the filters.
+  double told = 0;
   double differ = 0;  ///< share of joint fits whose runs are said to disagree
   int far = 0;        ///< runs further than 6 of their own standard errors from the truth
   int refused = 0;
