@@ -131,7 +131,9 @@ int main(int argc, char** argv) {
     if (options.width.seconds > 0) tool.refuse({"width"}, "does not go with --seconds: give one");
     if (!options.method->has_order) tool.refuse({"order"}, "goes with --method savgol");
     select.width = options.width;
-    if (!select.all() && !asks_to_smooth(tool)) options.width.samples = 1;
+    const bool selects =
+        !select.all() && !asks_to_smooth(tool);  // and leaves the numbers as they are
+    if (selects) options.width.samples = 1;
     make_signal(options);  // refuses wrong options before anything is read
     Reader& in = tool.filter({"t", "v"});
     const auto t = in.need_time();
@@ -158,8 +160,9 @@ int main(int argc, char** argv) {
       std::size_t row = 0, kept = 0;
       const auto take = [&](std::span<const Judged> samples) {
         for (const Judged& s : samples) {
-          if (s.kept) filter.put(smoother->push(s.t, s.y)), ++kept;
-          else filter.drop(row);
+          if (!s.kept) filter.drop(row);
+          else if (selects) filter.put(s.y), ++kept;
+          else filter.put(smoother->push(s.t, s.y)), ++kept;
           ++row;
         }
       };
