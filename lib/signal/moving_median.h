@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The median over a centred window, which shrinks symmetrically at the ends of a run; a monotonic
-// sequence is unchanged. O(sqrt w) per sample.
+// sequence is unchanged.
 #pragma once
 
 #include "signal/signal.h"
@@ -14,9 +14,12 @@ class MovingMedian : public WindowedSignal<MovingMedian> {
   explicit MovingMedian(Width width) : WindowedSignal(width, Windows::Ends::shrink) {}
 
   double value(const Windows& window) {
-    window.slide(
-        begin_, end_, [this](const Sample& s) { sorted_.insert(s.y); },
-        [this](const Sample& s) { sorted_.erase(s.y); });
+    if (begin_ + 1 == window.begin() && end_ + 1 == window.end())
+      sorted_.exchange(window.sample(end_++).y, window.sample(begin_++).y);
+    else
+      window.slide(
+          begin_, end_, [this](const Sample& s) { sorted_.insert(s.y); },
+          [this](const Sample& s) { sorted_.erase(s.y); });
     return sorted_.median();
   }
 
