@@ -14,42 +14,49 @@ namespace rolling {
 
 class ExactSum {
  public:
-  void add(double y) {
-    std::size_t left = 0;
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-      const DoubleDouble sum = two_sum(y, parts_[i]);
-      if (sum.lo != 0) parts_[left++] = sum.lo;
-      y = sum.hi;
-    }
-    parts_.resize(left);
-    if (y != 0) parts_.push_back(y);
-  }
+  void add(double y) { y == 0 ? add_zero(y, 1) : add_term(y); }
+  void subtract(double y) { y == 0 ? add_zero(y, -1) : add_term(-y); }
   /// Adds y and subtracts `old`.
   void exchange(double y, double old) {
     const DoubleDouble change = two_sum(y, -old);  // usually exact for neighbours in a column
-    if (change.lo == 0) return add(change.hi);
-    add(-old);
+    if (change.lo == 0 && y != 0 && old != 0) return add_term(change.hi);
     add(y);
+    subtract(old);
   }
-  /// The sum divided by n, within 1 ulp of the exact quotient; n is 1 to 2^30. Not finite where a
-  /// sum was beyond the range of a double.
-  double over(std::size_t n) const {
-    DoubleDouble sum;
-    for (std::size_t i = parts_.size(); i-- > 0;) {
-      const DoubleDouble next = two_sum(sum.hi, parts_[i]);
-      sum = {next.hi, sum.lo + next.lo};
-    }
-    sum = two_sum(sum.hi, sum.lo);
-    // The rounding error of the quotient is corrected; the correction is so small that the rounding
-    // of 1/n does not matter.
-    const double count = static_cast<double>(n), inverse = 1 / count, quotient = sum.hi * inverse;
-    return quotient + (std::fma(-quotient, count, sum.hi) + sum.lo) * inverse;
-  }
+  /// The sum divided by n, within 1 ulp of the exact quotient; -0 if all n terms are -0. n is 1 to
+  /// 2^30.
+  double over(std::size_t n) const;
 
  private:
   /// Doubles whose digits do not overlap, the smallest first; their sum is exact (Shewchuk 1997,
   /// Discrete Comput. Geom. 18, 305).
-  std::vector<double> parts_;
+  struct Parts {
+    std::size_t size = 0;
+    std::vector<double> at = std::vector<double>(4);  // with room behind them
+
+    void add(double y) {
+      std::size_t left = 0;
+      for (std::size_t i = 0; i < size; ++i) {
+        const DoubleDouble sum = two_sum(y, at[i]);
+        if (sum.lo != 0) at[left++] = sum.lo;
+        y = sum.hi;
+      }
+      size = y == 0 ? left : left + 1;
+      if (size > at.size()) at.resize(2 * size);
+      if (y != 0) at[left] = y;
+    }
+    double over(std::size_t n) const;
+  };
+  void add_zero(double zero, int sign) {
+    negative_zeros_ += static_cast<std::size_t>(std::signbit(zero) ? sign : 0);
+  }
+  void add_term(double y) {
+    if (std::abs(y) < 0x1p900) parts_.add(y);
+    else large_.add(y * 0x1p-100);
+  }
+
+  Parts parts_, large_;  // large_ holds terms whose sum could overflow, times 2^-100
+  std::size_t negative_zeros_ = 0;
 };
 
 }  // namespace rolling

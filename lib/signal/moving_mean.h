@@ -20,9 +20,8 @@ class MovingMean : public WindowedSignal<MovingMean> {
     else
       window.slide(
           begin_, end_, [this](const Sample& s) { sum_.add(s.y); },
-          [this](const Sample& s) { sum_.add(-s.y); });
-    // A reading alone is its own mean, the sign of a 0 included.
-    return window.size() == 1 ? window.sample(window.at()).y : sum_.over(window.size());
+          [this](const Sample& s) { sum_.subtract(s.y); });
+    return sum_.over(window.size());
   }
 
  private:

@@ -29,11 +29,17 @@ TEST_CASE("exact_sum: what can be said by hand", "[signal]") {
   CHECK(mean_of({-1, -2}) == -1.5);
   CHECK(mean_of({1, -1}) == 0);
   CHECK(mean_of({-0.0}) == 0);
+  CHECK(std::signbit(mean_of({-0.0})));
+  CHECK(std::signbit(mean_of({-0.0, -0.0})));
+  CHECK_FALSE(std::signbit(mean_of({-0.0, 0.0})));
   CHECK_FALSE(std::signbit(mean_of({1, -1})));
-  CHECK_FALSE(std::isfinite(mean_of({largest, largest})));
+  CHECK(mean_of({1e308, 1e308, 1e308}) == 1e308);
+  CHECK(mean_of({largest, largest, largest, largest}) == largest);
+  CHECK(mean_of({-largest, -largest}) == -largest);
+  CHECK(mean_of({largest, -largest, 3}) == 1);
   CHECK(mean_of({tiny, tiny, tiny}) == tiny);
   CHECK(mean_of({tiny, tiny, -5 * tiny}) == -tiny);
-  CHECK(mean_of({1e307, tiny, -1e307}) * 3 == 0);  // a third of the least number rounds to nothing
+  CHECK(mean_of({1e308, tiny, -1e308}) * 3 == 0);  // a third of the least number rounds to nothing
   CHECK(mean_of({0x1p900, -0x1p899, -0x1p899, 4 * tiny}) == tiny);
   CHECK(mean_of({9e33, 1, -9e33}) == 1. / 3);
   CHECK(mean_of({0.1}) == 0.1);
@@ -42,7 +48,7 @@ TEST_CASE("exact_sum: what can be said by hand", "[signal]") {
 TEST_CASE("exact_sum: an even count of one number is that number", "[signal]") {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> mantissa(-2, 2);
-  for (int exponent = -1074; exponent < 1010; exponent += 13) {
+  for (int exponent = -1074; exponent < 1023; exponent += 13) {
     const double y = std::ldexp(mantissa(random), exponent);
     for (const std::size_t n : {1u, 2u, 3u, 7u, 11u, 101u})
       CHECK(mean_of(std::vector<double>(n, y)) == y);
@@ -55,7 +61,7 @@ TEST_CASE("exact_sum: a hair below a power of two rounds to it", "[signal]") {
     for (const int below : {60, 84, 97, 110, 160}) {
       ExactSum sum;
       sum.add(whole);
-      sum.add(-std::ldexp(1, std::max(power - below, -1074)));
+      sum.subtract(std::ldexp(1, std::max(power - below, -1074)));
       INFO(power << " " << below);
       const double mean = sum.over(1);
       REQUIRE((mean == whole || mean == std::nextafter(whole, 0)));
@@ -93,11 +99,11 @@ TEST_CASE("exact_sum: subtracting restores the sum to the last bit", "[signal]")
     passing.push_back(std::ldexp(mantissa(random), static_cast<int>(random() % 2000) - 1000));
     sum.add(passing.back());
   }
-  for (const double y : passing) sum.add(-y);
+  for (const double y : passing) sum.subtract(y);
   CHECK(sum.over(2) == before);
-  sum.add(-0.1);
+  sum.subtract(0.1);
   CHECK(sum.over(1) == -1e-300);
-  sum.add(1e-300);
+  sum.subtract(-1e-300);
   CHECK(sum.over(1) == 0);
   sum.add(-3);
   CHECK(sum.over(3) == -1);
@@ -125,4 +131,27 @@ TEST_CASE("exact_sum: terms that are exchanged leave nothing behind, near one an
     if (!within_one_ulp(window, sum.over(7))) ++failures;
   }
   CHECK(failures == 0);
+  for (double& y : window) sum.exchange(-0.0, y), y = -0.0;
+  CHECK(std::signbit(sum.over(7)));
+  sum.exchange(largest, -0.0);
+  sum.exchange(-largest, largest);
+  CHECK(sum.over(1) == -largest);
+}
+
+TEST_CASE("exact_sum: -0 is forgotten with the terms that were", "[signal]") {
+  ExactSum sum;
+  sum.add(-0.0);
+  sum.add(0.5);
+  sum.subtract(0.5);
+  CHECK(std::signbit(sum.over(1)));
+  sum.add(0.0);
+  CHECK_FALSE(std::signbit(sum.over(2)));
+  sum.subtract(-0.0);
+  CHECK_FALSE(std::signbit(sum.over(1)));
+}
+
+TEST_CASE("exact_sum: ten million of the largest terms do not overflow", "[signal]") {
+  ExactSum sum;
+  for (int i = 0; i < 10000000; ++i) sum.add(largest);
+  CHECK(sum.over(10000000) == largest);
 }

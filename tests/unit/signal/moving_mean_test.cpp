@@ -103,9 +103,8 @@ TEST_CASE("moving_mean: each mean is within 1 ulp of its window's, next to an ou
   CHECK(with[120] == without[120]);  // an outlier leaves no trace
 }
 
-TEST_CASE("moving_mean: the least doubles, and the greatest alone", "[signal]") {
-  CHECK(smoothed({1e308, -1e308, 1e308}, 1) == Series{1e308, -1e308, 1e308});
-  CHECK(std::signbit(smoothed({-0.0}, 1)[0]));
+TEST_CASE("moving_mean: the greatest and the least doubles", "[signal]") {
+  CHECK(smoothed({1e308, 1e308, 1e308}, 3) == Series{1e308, 1e308, 1e308});
   const double tiny = std::numeric_limits<double>::denorm_min();
   CHECK(smoothed({tiny, 4 * tiny, tiny, 0, -tiny}, 3) ==
         Series{tiny, 2 * tiny, 2 * tiny, 0, -tiny});
@@ -191,7 +190,7 @@ namespace {
 
 /// The largest distance, in ulps, of a mean over 11 of `rows` samples from the exact mean of its
 /// window. The samples come in stretches, each harder on a running sum than the last: speeds, an
-/// outlier of -9e33, 1e307 three times, denormal numbers, 0.1.
+/// outlier of -9e33, 1e308 three times, denormal numbers, 0.1.
 double largest_error_in_ulps(std::size_t rows) {
   constexpr std::size_t half = 5, width = 2 * half + 1, stretch = 1000;
   std::mt19937_64 random(11);
@@ -204,7 +203,7 @@ double largest_error_in_ulps(std::size_t rows) {
       case 1:
         return at == 500 ? -9e33 : speed(random);
       case 2:
-        return at >= 500 && at < 503 ? 1e307 : speed(random);
+        return at >= 500 && at < 503 ? 1e308 : speed(random);
       case 3:
         return std::ldexp(static_cast<double>(random() % 100000), -1074);
       default:
