@@ -56,8 +56,9 @@ void warn_of_same_rows(Tool& tool, const FitRows& rows) {
 FitRows read_rows(Tool& tool) {
   Reader& in = tool.read({});
   if (!in.find("sigma_a")) fail("no rows of fitpower: there is no column sigma_a");
-  const RowColumn a(in, "a", "m"), sigma_a(in, "sigma_a", "m"), b(in, "b"), sigma_b(in, "sigma_b"),
-      corr(in, "corr");
+  const auto a = in.need_as_is("a", "m"), sigma_a = in.need_as_is("sigma_a", "m"),
+             b = in.need_as_is("b"), sigma_b = in.need_as_is("sigma_b"),
+             corr = in.need_as_is("corr");
   FitRows rows;
   while (in.next_run()) {
     const auto name = in.find("run");
@@ -67,8 +68,8 @@ FitRows read_rows(Tool& tool) {
     for (const char* number : {"sigma_a", "sigma_b", "sigma_v0", "sigma_x0", "sigma_slope"})
       if (in.find(number)) sigmas.push_back(in.want(number));
     while (in.next()) {
-      rows.add(name ? std::string(in.text(*name)) : in.where(), {a.value(), sigma_a.value()},
-               {b.value(), sigma_b.value()}, corr.value());
+      rows.add(name ? std::string(in.text(*name)) : in.where(), {in[a], in[sigma_a]},
+               {in[b], in[sigma_b]}, in[corr]);
       const auto parameters = static_cast<double>(  // what is fixed has no error
           std::ranges::count_if(sigmas, [&](std::size_t sigma) { return in[sigma] > 0; }));
       if (!sized || !(in[n] > parameters) || !(in[rms] > 0)) continue;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "base/error.h"
 
@@ -37,24 +36,27 @@ LawOfFile read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& 
   std::erase_if(numbers, [&](const RowNumber& number) {
     return !in.find(number.name) || tool.on_command_line(number.name);
   });
-  std::vector<RowColumn> columns, coefficients, sigmas, correlations;
-  for (const RowNumber& number : numbers) columns.emplace_back(in, number.name, number.unit);
+  std::vector<std::size_t> columns, coefficients, sigmas, correlations;  // slots
+  for (const RowNumber& number : numbers)
+    columns.push_back(in.need_as_is(number.name, number.unit));
   for (const Column& c : columns_of(form)) {
-    coefficients.emplace_back(in, c.name, c.unit);
-    if (uncertainties == Uncertainties::needed) sigmas.emplace_back(in, "sigma_" + c.name, c.unit);
+    coefficients.push_back(in.need_as_is(c.name, c.unit));
+    if (uncertainties == Uncertainties::needed)
+      sigmas.push_back(in.need_as_is("sigma_" + c.name, c.unit));
   }
   if (uncertainties == Uncertainties::needed)
-    for (const std::string& name : correlations_of(form)) correlations.emplace_back(in, name);
+    for (const std::string& name : correlations_of(form))
+      correlations.push_back(in.need_as_is(name));
   if (!in.next_run() || !in.next()) fail<InputError>("{}: no row of fitpower", in.where());
-  for (std::size_t i = 0; i < numbers.size(); ++i) *numbers[i].value = columns[i].value();
+  for (std::size_t i = 0; i < numbers.size(); ++i) *numbers[i].value = in[columns[i]];
   std::vector<double> written;
-  for (const RowColumn& coefficient : coefficients) written.push_back(coefficient.value());
+  for (const std::size_t coefficient : coefficients) written.push_back(in[coefficient]);
   LawOfFile row{};
   for (std::size_t j = 0; j < sigmas.size(); ++j) {
-    row.coefficients.push_back({written[j], sigmas[j].value()});
+    row.coefficients.push_back({written[j], in[sigmas[j]]});
     row.correlations.emplace_back();
     for (std::size_t i = 0; i < j; ++i)
-      row.correlations[j].push_back(correlations[j * (j - 1) / 2 + i].value());
+      row.correlations[j].push_back(in[correlations[j * (j - 1) / 2 + i]]);
   }
   const bool a_told = !tool.on_command_line("coefficient"),
              b_told = !tool.on_command_line("exponent");
@@ -69,16 +71,6 @@ LawOfFile read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& 
 }
 
 }  // namespace
-
-Conversion RowColumn::to_si() const {
-  static const std::map<std::string, std::string> quantities{{"m", "D"}, {"m/s", "v"}, {"s", "t"}};
-  const Column& column = in_.columns()[in_.column_of(slot_)];
-  if (const auto quantity = quantities.find(unit_); quantity != quantities.end())
-    return conversion_to_si(quantity->second, column);
-  if (column.unit == unit_) return {};
-  fail("column '{}': {} is a number {}", shown(to_text(column)), name_,
-       unit_.empty() ? "without a unit" : "in " + unit_);
-}
 
 const LawForm& law_named(const std::string& formula) {
   std::string known;

@@ -15,24 +15,6 @@
 
 namespace rolling {
 
-/// A column of a row of fitpower, in this SI unit. In a file of readings its name may mean another
-/// quantity (a is an acceleration there), so it is read without conversion and converted here.
-class RowColumn {
- public:
-  RowColumn(Reader& in, const std::string& name, const std::string& unit = {})
-      : in_(in), name_(name), unit_(unit), slot_(in.need_as_is(name)) {
-    to_si();
-  }
-  double value() const { return to_si()(in_[slot_]); }
-
- private:
-  Conversion to_si() const;  // of the present run
-
-  Reader& in_;
-  std::string name_, unit_;
-  std::size_t slot_;
-};
-
 /// The law of the table with this formula: "d0+d2*v^2", blanks and * or not. The exponent of
 /// d0 + a v^b may be called n. Throws Error, which lists them, for another.
 const LawForm& law_named(const std::string& formula);

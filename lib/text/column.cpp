@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "base/error.h"
 #include "text/delimiters.h"
 #include "text/number.h"
 
@@ -132,16 +131,6 @@ std::string free_name(const std::vector<Column>& columns, std::string name) {
 }
 
 bool is_known(const Column& column) { return is_quantity(column.name); }
-
-Conversion conversion_to_si(std::string_view quantity, const Column& column) {
-  if (!is_quantity(quantity) || column.unit.empty()) return {};
-  if (const auto found = unit_of(quantity, column.unit)) return *found;
-  fail("column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); {}",
-       shown(to_text(column)), quantity, shown(column.unit), known_units(quantity),
-       column.unit.find(':') == std::string::npos
-           ? "convert it first"
-           : "make seconds of clock times first (rolling-recipes(7))");
-}
 
 std::vector<std::string> split_names(std::string_view line, char separator) {
   std::vector<std::string> names;

@@ -45,10 +45,6 @@ std::string lower(std::string_view text);
 /// Whether a column is t, x, v, a or D.
 bool is_known(const Column&);
 
-/// The conversion to SI of a column that serves as `quantity`. A column without
-/// a unit is in SI units. Throws Error for a unit that is not one of this quantity.
-Conversion conversion_to_si(std::string_view quantity, const Column&);
-
 /// The names in a line, one for each field; a name may stand in quotes. With `separator` 0 blanks
 /// separate the names; a unit in brackets, which may contain blanks, then belongs to the name
 /// before it.

@@ -45,7 +45,7 @@ NeededColumns::NeededColumns(const std::vector<std::string>& use, bool has_use,
     const std::string whole = text.substr(equals + 1);
     const Column column = read_column(whole);
     const std::string& name = column.run.empty() ? column.name : whole;
-    if (!use_.emplace(quantity, Use{name, column.unit, whole}).second)
+    if (!use_.emplace(quantity, Use{name, column.unit}).second)
       fail("--use: '{}' comes after another for {}", shown(text), quantity);
   }
 }
@@ -71,19 +71,21 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits
   place_ = std::move(place);
   quantities_.clear();
   for (const Column& column : as_read_) quantities_.push_back(column.name);
+  auto served = quantities_;
   for (const auto& [quantity, use] : use_)
-    std::ranges::replace(quantities_, quantity, free_name(as_read_, quantity));
+    std::ranges::replace(served, quantity, free_name(as_read_, quantity));
   for (const auto& [quantity, use] : use_) {
-    const auto at = find_column(use.column);
+    const auto at = find(use.column);
     if (!at)
       fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", place_, quantity,
-                       shown(use.text), shown(use.text), list());
-    if (use_.contains(quantities_[*at]))
+                       shown(use.column), shown(use.column), list());
+    if (use_.contains(served[*at]))
       fail<InputError>("{}: --use: column {} cannot serve as both {} and {}", place_, *at + 1,
-                       quantities_[*at], quantity);
-    quantities_[*at] = quantity;
+                       served[*at], quantity);
+    served[*at] = quantity;
     if (!use.unit.empty()) give_unit(*at, quantity, use.unit);
   }
+  quantities_ = std::move(served);
   serve_by_units();
   resolve();
 }
@@ -131,6 +133,7 @@ bool NeededColumns::may_be_time(std::size_t i) const {
 
 /// Refuses t in `column` where another one may be it too.
 void NeededColumns::refuse_other_times(std::size_t column) const {
+  if (!named_ || use_.contains("t")) return;
   for (std::size_t i = 0; i < as_read_.size(); ++i)
     if (const auto [one, other] = std::minmax({i, column}); one != other && may_be_time(i))
       fail<InputError>("{}: columns {}, '{}', and {}, '{}', may both be t; say --use t=N", place_,
@@ -139,20 +142,6 @@ void NeededColumns::refuse_other_times(std::size_t column) const {
 }
 
 std::optional<std::size_t> NeededColumns::find(std::string_view name) const {
-  const std::string quantity = read_column(name).name;
-  if (const auto use = use_.find(quantity); use != use_.end())
-    return find_column(use->second.column);
-  auto at = find_column(name);
-  if (const auto by_unit = std::ranges::find(quantities_, quantity);
-      !at && quantity == name && by_unit != quantities_.end())
-    at = static_cast<std::size_t>(by_unit - quantities_.begin());
-  // The column of this name serves as another quantity.
-  if (at && is_quantity(quantity) && quantities_[*at] != quantity) return {};
-  if (at && quantity == "t" && named_) refuse_other_times(*at);
-  return at;
-}
-
-std::optional<std::size_t> NeededColumns::find_column(std::string_view name) const {
   if (double number; is_whole(name) && parse_number(name, number))
     return number >= 1 && number <= static_cast<double>(as_read_.size())
                ? std::optional(static_cast<std::size_t>(number) - 1)
@@ -160,19 +149,21 @@ std::optional<std::size_t> NeededColumns::find_column(std::string_view name) con
   const Column asked = read_column(name);
   std::optional<std::size_t> found;
   bool of_another_run = false;
-  for (std::size_t i = 0; i < as_read_.size(); ++i)
-    if (as_read_[i].name == asked.name ||
-        (!asked.run.empty() && as_read_[i].name == asked.labelled)) {
-      if (!asked.run.empty() && asked.run != as_read_[i].run &&
-          as_read_[i].name != asked.labelled) {
+  for (std::size_t i = 0; i < as_read_.size(); ++i) {
+    const Column& read = as_read_[i];
+    if (asked.run.empty() || read.name != asked.labelled) {
+      // A column that serves as a quantity has its own name too, if that is none of another.
+      if (quantities_[i] != asked.name && (is_known(asked) || read.name != asked.name)) continue;
+      if (!asked.run.empty() && asked.run != read.run) {
         of_another_run = true;
         continue;
       }
-      if (found)
-        fail<InputError>("{}: columns {} and {} are both {}; say --use {}=N", place_, *found + 1,
-                         i + 1, asked.name, asked.name);
-      found = i;
     }
+    if (found)
+      fail<InputError>("{}: columns {} and {} are both {}; say --use {}=N", place_, *found + 1,
+                       i + 1, asked.name, asked.name);
+    found = i;
+  }
   if (of_another_run && !found)
     fail<InputError>("{}: '{}' is a column of another run: choose that with --run", place_,
                      shown(name));
@@ -192,9 +183,10 @@ std::string NeededColumns::list() const {
 
 /// Says why there is no such column.
 void NeededColumns::refuse(std::string_view name) const {
-  if (const auto of_name = find_column(name))
-    fail<InputError>("{}: column {} cannot serve as both {} and {}", place_, *of_name + 1,
-                     quantities_[*of_name], name);
+  for (std::size_t i = 0; i < as_read_.size(); ++i)
+    if (as_read_[i].name == name)
+      fail<InputError>("{}: column {} cannot serve as both {} and {}", place_, i + 1,
+                       quantities_[i], name);
   std::string way_out;
   if (const auto by = appended_by_.find(std::string(name)); by != appended_by_.end())
     way_out = fmt::format("; {} appends it", by->second);
@@ -210,14 +202,16 @@ void NeededColumns::resolve(Needed& needed) {
   needed.column = found.value_or(no_column);
   needed.to_si = {};
   if (!found) return;
+  if (needed.name == "t") refuse_other_times(*found);
   const bool first = needed.quantity.empty();
   const Column& read = as_read_[*found];
   const std::string& quantity = quantities_[*found];
-  if (first) needed.quantity = quantity, needed.unit = read.unit;
+  if (first) needed.quantity = quantity;
+  if (first && needed.kind != Kind::as_is) needed.unit = read.unit;
   if (quantity != needed.quantity)
     fail<InputError>("{}: column {} is {}, and {} in the runs before", place_, *found + 1,
                      shown(quantity), shown(needed.quantity));
-  if (needed.kind == Kind::as_is) return;
+  if (needed.kind == Kind::as_is) return convert_from_unit(needed);
   if (!is_quantity(quantity) && read.unit != needed.unit)
     fail<InputError>("{}: column {} is in {}, and in {} in the runs before", place_,
                      shown(quantity), read.unit.empty() ? "no unit" : shown(read.unit),
@@ -255,12 +249,26 @@ Conversion NeededColumns::conversion(std::size_t at, const std::string& quantity
   // A length beside a speed may be its accuracy.
   if (by_unit_.size() > 1 && std::ranges::count(by_unit_, at) > 0)
     assume(at, quantity, ", by its unit alone");
-  try {
-    return conversion_to_si(quantity, meant);
-  } catch (const Error& error) {
-    fail<InputError>("{}: {}{}", place_, error.what(),
-                     has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", quantity, at + 1) : "");
-  }
+  if (meant.unit.empty() || !is_quantity(quantity)) return {};
+  if (const auto found = unit_of(quantity, meant.unit)) return *found;
+  fail<InputError>(
+      "{}: column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); {}{}",
+      place_, shown(to_text(meant)), quantity, shown(meant.unit), known_units(quantity),
+      meant.unit.find(':') == std::string::npos
+          ? "convert it first"
+          : "make seconds of clock times first (rolling-recipes(7))",
+      has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", quantity, at + 1) : "");
+}
+
+/// Takes the unit of a column alone for what it is, not its name.
+void NeededColumns::convert_from_unit(Needed& needed) const {
+  const Column& read = as_read_[needed.column];
+  if (read.unit.empty() || read.unit == needed.unit) return;
+  for (const char* quantity : {"t", "x", "v"})
+    if (const auto found = unit_of(quantity, read.unit); found && si_unit(quantity) == needed.unit)
+      return void(needed.to_si = *found);
+  fail<InputError>("{}: column '{}': {} is a number {}", place_, shown(to_text(read)), needed.name,
+                   needed.unit.empty() ? "without a unit" : "in " + needed.unit);
 }
 
 void NeededColumns::resolve() {
@@ -300,8 +308,8 @@ bool NeededColumns::renames() const {
   });
 }
 
-std::size_t NeededColumns::add(std::string_view name, Kind kind) {
-  Needed asked{std::string(name), {}, kind};
+std::size_t NeededColumns::add(std::string_view name, Kind kind, std::string_view unit) {
+  Needed asked{std::string(name), {}, kind, std::string(unit)};
   resolve(asked);
   for (std::size_t slot = 0; slot < needed_.size(); ++slot)
     if (Needed& known = needed_[slot]; known.column == asked.column &&

@@ -20,12 +20,13 @@ class NeededColumns {
   enum class Kind {
     needed,  ///< of a quantity: converted to SI, and a row without it is left out
     wanted,  ///< the same, but it may be absent, and its readings may be missing
-    as_is    ///< under this name and without conversion
+    as_is    ///< under this name, and converted from its unit alone
   };
   struct Needed {
     std::string name, quantity;  ///< the name in the call of add(); the quantity it serves as
     Kind kind;
-    std::string unit{};  ///< of a quantity that is not known; it may not change between runs
+    /// Of a quantity that is not known; it may not change between runs. As it is: the SI unit.
+    std::string unit{};
     std::size_t column = no_column;
     Conversion to_si{};
   };
@@ -45,15 +46,16 @@ class NeededColumns {
   /// units in its comments. `place` begins the messages.
   /// Throws InputError if one is absent, or has another quantity or unit than in the runs before.
   void begin_run(std::vector<Column> as_read, bool named, SaidUnits said, std::string place);
-  /// Declares a column; returns its slot, its index in all(). Throws InputError like begin_run().
-  std::size_t add(std::string_view name, Kind);
+  /// Declares a column, as it is in this SI unit; returns its slot, its index in all(). Throws
+  /// InputError like begin_run().
+  std::size_t add(std::string_view name, Kind, std::string_view unit = {});
   const std::vector<Needed>& all() const { return needed_; }
   /// A column of this run must be converted.
   bool converts() const { return converts_; }
 
   /// Index of the column that serves as `name` (a name, a 1-based number, or what --use says), if
   /// there is one. Where no name is t, or x or v, the only column in a unit of it serves as it.
-  /// Throws InputError for t where several columns may be it.
+  /// Throws InputError where there are several.
   std::optional<std::size_t> find(std::string_view name) const;
   /// What each column of this run serves as: by --use, by its unit, else its own name.
   const std::vector<std::string>& quantities() const { return quantities_; }
@@ -70,9 +72,7 @@ class NeededColumns {
  private:
   struct Use {
     std::string column, unit;  // the column by its number or name, with the run that it carries
-    std::string text;          // as it was given
   };
-  std::optional<std::size_t> find_column(std::string_view name) const;
   void refuse(std::string_view name) const;
   void give_unit(std::size_t column, const std::string& quantity, const std::string& unit);
   bool may_be_time(std::size_t column) const;
@@ -83,6 +83,7 @@ class NeededColumns {
   void resolve(Needed&);
   void assume(std::size_t column, std::string_view quantity, std::string_view what);
   Conversion conversion(std::size_t column, const std::string& quantity);
+  void convert_from_unit(Needed&) const;
   void name_columns();
 
   std::map<std::string, Use> use_;  // by quantity

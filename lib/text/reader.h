@@ -59,9 +59,12 @@ class Reader {
   std::size_t need(std::string_view name) { return add(name, NeededColumns::Kind::needed); }
   /// The same for a column with missing readings, which are NaN. It may be absent from later runs.
   std::size_t want(std::string_view name) { return add(name, NeededColumns::Kind::wanted); }
-  /// The same as need(), without conversion, for a column whose name means something else than the
-  /// known quantity (a is the coefficient in a row of fitpower, not an acceleration).
-  std::size_t need_as_is(std::string_view name) { return add(name, NeededColumns::Kind::as_is); }
+  /// The same for a column in this SI unit whose name means something else than the known quantity
+  /// (a is the coefficient in a row of fitpower, not an acceleration). Without a unit it is in this
+  /// one.
+  std::size_t need_as_is(std::string_view name, std::string_view unit = {}) {
+    return add(name, NeededColumns::Kind::as_is, unit);
+  }
   /// Needs t, and refuses times that do not increase within a run.
   std::size_t need_time() {
     time_slot_ = need("t");
@@ -115,7 +118,7 @@ class Reader {
  private:
   enum class State { found, in_run, between, ended };
 
-  std::size_t add(std::string_view name, NeededColumns::Kind);
+  std::size_t add(std::string_view name, NeededColumns::Kind, std::string_view unit = {});
   void read_needed();
   const Layout::Run& layout() const { return head_.layout.runs[side_]; }
 

@@ -242,8 +242,8 @@ void Reader::begin_run() {
   read_needed();
 }
 
-std::size_t Reader::add(std::string_view name, NeededColumns::Kind kind) {
-  const std::size_t slot = needed_.add(name, kind);
+std::size_t Reader::add(std::string_view name, NeededColumns::Kind kind, std::string_view unit) {
+  const std::size_t slot = needed_.add(name, kind, unit);
   refuse_passed();
   read_needed();
   return slot;

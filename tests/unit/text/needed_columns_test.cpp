@@ -141,10 +141,10 @@ TEST_CASE("needed columns: the next run may have other places and units", "[text
 
 TEST_CASE("needed columns: a column as it is has no unit of its quantity", "[text]") {
   NeededColumns needed({}, true);
-  needed.begin_run(columns({"a[m s^-1]", "v[km/h]"}), true, {}, "FILE");
-  const auto a = needed.add("a", Kind::as_is);
-  CHECK_FALSE(needed.all()[a].to_si.changes());
-  CHECK(to_text(needed.in_output()[0]) == "a[m s^-1]");
+  needed.begin_run(columns({"a[mm]", "v[km/h]"}), true, {}, "FILE");
+  const auto a = needed.add("a", Kind::as_is, "m");
+  CHECK(needed.all()[a].to_si(3) == 3e-3);
+  CHECK(to_text(needed.in_output()[0]) == "a[mm]");
   CHECK_FALSE(needed.renames());
 }
 

@@ -232,19 +232,6 @@ TEST_CASE("reader: a unit that only a comment gives is not passed over", "[text]
   CHECK(told("# v [m/s]: by a GPS\n# x [cm]\n# t v\n0 36\n").empty());
 }
 
-TEST_CASE("reader: no unit of another line of names is passed over", "[text]") {
-  for (const std::string unit : {"min", "cm", "h", "us", "um", "ms", "furlong"})
-    for (const std::string name : {"Time ({}), v", "t[{}]\tv", "t[{}] v"}) {
-      const std::string line = "t is column 1, 't', taken in s although line 1 says " + unit,
-                        names = replace_all(name, "{}", unit);
-      CHECK(told("# " + names + "\n# t v\n0 36\n") == line);
-      CHECK(told(names + "\nt v\n0 36\n") == line);
-      CHECK(told("# t v\n# " + names + "\n# t[s] v\n0 36\n").empty());
-    }
-  CHECK(told("# t_min v\n# t v\n0 36\n").ends_with("line 1 says min"));
-  CHECK(told("# t/h v\n# t v\n0 36\n").ends_with("line 1 says h"));
-}
-
 TEST_CASE("reader: no words about units are passed over, whatever names the columns", "[text]") {
   struct Form {
     std::string before, behind;  // what stands around the words
