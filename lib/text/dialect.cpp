@@ -71,7 +71,7 @@ bool Dialect::choose(std::string_view line, bool tabs) {
   separator_ = first == separators.end() ? '\0' : *first;
   decimal_mark_ = '\0';
   asks_ = allows_foreign();
-  grouped_ = passed_thousands_ = false;
+  passed_thousands_ = false;
   seen_.clear();
   fields_.clear();
   if (separator_ == '\t' && !tabs) {
@@ -259,7 +259,7 @@ bool Dialect::may_be_grouped(const Field& field) {
 /// field. False for any other text, which is left unchanged.
 bool Dialect::rewrite(Field& field) {
   if (asks_ && decimal_mark_ == '\0' && may_be_grouped(field)) {
-    grouped_ |= field.wanted;
+    passed_thousands_ |= field.wanted;
     return field.wanted && parse_number(field.text, field.number);
   }
   const bool other_minus = holds(field.text, minus[0]), comma = holds(field.text, ','),
@@ -282,11 +282,11 @@ bool Dialect::rewrite(Field& field) {
     const char mark = comma ? ',' : '.';
     if (comma && passed_thousands_)
       fail(
-          "field {}: '{}' has a decimal comma, and the comma of a number before it could be read "
-          "in two ways: replace each decimal comma by a point, and remove each other comma",
+          "field {}: '{}' has a decimal comma, and the mark of a number before it could be read in "
+          "two ways: replace each decimal comma by a point, and remove each other mark",
           count_, shown(field.text));
     if (decimal_mark_ == '\0') decimal_mark_ = mark;
-    if (decimal_mark_ != mark || (comma && grouped_))
+    if (decimal_mark_ != mark)
       fail("field {}: the decimal mark of '{}' is not that of the numbers before it", count_,
            shown(field.text));
   }

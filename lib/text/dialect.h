@@ -78,9 +78,8 @@ class Dialect {
   char separator_ = '\0';
   char decimal_mark_ = '\0';       // of the numbers so far; '\0' if none had one
   bool asks_ = false;              // a point may separate thousands
-  bool grouped_ = false;           // one that may has been read as a decimal one
+  bool passed_thousands_ = false;  // a number has passed whose mark may separate thousands
   std::vector<Seen> seen_;         // by field
-  bool passed_thousands_ = false;  // a number whose comma may separate thousands went out as text
   bool as_it_stands_ = false, may_need_quotes_ = false;
   std::vector<Field> fields_;  // as many as the longest line had
   std::size_t count_ = 0;      // fields of this line

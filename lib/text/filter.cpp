@@ -78,7 +78,7 @@ bool Filter::next_run() {
   }
   if (!any_row_) fail("no rows are left{}", why_none_ ? why_none_() : "");
   take_remarks(in_.comments());
-  if (head_) out_.text(remarks_of(head_->comments));
+  out_.text(remarks_of(comments_));
   return false;
 }
 
@@ -101,12 +101,11 @@ void Filter::drop(std::size_t i) {
 /// Writes the head of a run before its first row. The comments of a run without rows are written
 /// with the head of the next run.
 void Filter::write_head() {
-  if (!head_) return;
+  if (names_.empty()) return;
   if (any_row_) out_.end_line();
-  out_.text(head_->comments);
+  out_.text(std::exchange(comments_, {}));
   out_.text(*history_);
-  out_.text(head_->names), out_.end_line();
-  head_.reset();
+  out_.text(std::exchange(names_, {})), out_.end_line();
 }
 
 /// Writes a row with its numbers, which are finite, at this place of its text.
@@ -122,18 +121,14 @@ inline void Filter::write_row(std::string_view text, std::size_t place,
   out_.end_line();
 }
 
-/// Writes the remarks above the next row. Its head waits until a row of its run is written.
+/// Writes the remarks above the next row, unless a head waits for a row of its run.
 void Filter::take_above() {
   for (; !above_.empty() && above_.front().row == done_; above_.pop()) {
-    Above& above = above_.front();
-    if (!above.names.empty()) {
-      if (head_) above.comments.insert(0, remarks_of(head_->comments));
-      head_ = std::move(above);
-    } else if (head_) {
-      (head_->comments += above.comments) += '\n';
-    } else {
-      out_.text(above.comments), out_.end_line();
-    }
+    const Above& above = above_.front();
+    if (!above.names.empty())
+      comments_ = remarks_of(comments_) + above.comments, names_ = above.names;
+    else if (!names_.empty()) (comments_ += above.comments) += '\n';
+    else out_.text(above.comments), out_.end_line();
   }
 }
 

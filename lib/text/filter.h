@@ -99,7 +99,7 @@ class Filter {
   std::size_t enough_;               // put() writes rows at this count of numbers
   // Counts of the rows of all runs: read; read before this run; written or left out.
   std::size_t read_ = 0, run_begins_ = 0, done_ = 0;
-  std::optional<Above> head_;  // of a run none of whose rows has been written
+  std::string comments_, names_;  // the head of a run none of whose rows has been written
   bool any_row_ = false;
   std::function<std::string()> why_none_;
   bool writing_ = false;  // write_rows() is at work; stays true if it has failed

@@ -196,8 +196,8 @@ TEST_CASE("reader: a comma that may separate thousands is refused, whatever minu
   // In a column that is not needed it is text, but then no decimal comma may follow.
   CHECK(rows({"x\tt\tv\n1,002\t0\t1\n3\t1\t2\n"}) == "0 1 | 1 2");
   CHECK(rows({"x\tt\tv\n1,002\t0\t1\n3,5\t1\t2\n"}) ==
-        "FILE:3: field 1: '3,5' has a decimal comma, and the comma of a number before it could be "
-        "read in two ways: replace each decimal comma by a point, and remove each other comma");
+        "FILE:3: field 1: '3,5' has a decimal comma, and the mark of a number before it could be "
+        "read in two ways: replace each decimal comma by a point, and remove each other mark");
 }
 
 TEST_CASE("reader: in a file separated by tabs, a tab in front is a blank field", "[text]") {
