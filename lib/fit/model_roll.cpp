@@ -45,8 +45,8 @@ Rows rows_of_speeds(Route route, const FitRun& run, Rows rows) {
 }
 
 /// The direction before the furthest place, from which the body comes back; 0 if it does not.
-double way_before_turn(bool position, const std::vector<double>& t, const std::vector<double>& rows,
-                       double least_back) {
+double way_before_turn(bool position, const std::vector<double>& t,
+                       const std::vector<double>& rows) {
   constexpr std::size_t most = 2000;  // a direction needs no more
   std::vector<double> x;
   double way = 0;
@@ -61,16 +61,16 @@ double way_before_turn(bool position, const std::vector<double>& t, const std::v
                down = std::min(begin - least, end - least);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::abs(x[i] - smooth[i]);
   const double errors = position ? 10 : 3 * std::sqrt(static_cast<double>(x.size())),  // of a sum
-      limit = least_back * (greatest - least) + errors * deviation(x);
+      limit = 0.002 * (greatest - least) + errors * deviation(x);
   return std::max(up, down) > limit ? std::copysign(1.0, up - down) : 0;
 }
 
 }  // namespace
 
 double way_of(bool position, const std::vector<double>& t, const std::vector<double>& rows,
-              double slope, const FitOptions& options, double least_back) {
+              double slope, const FitOptions& options) {
   if (slope != 0 || options.fit_slope)
-    if (const double way = way_before_turn(position, t, rows, least_back); way != 0) return way;
+    if (const double way = way_before_turn(position, t, rows); way != 0) return way;
   const auto sum = [](auto first, auto last) { return std::accumulate(first, last, 0.0); };
   const double all = sum(rows.begin(), rows.end());
   if (!position) return all < 0 ? -1 : 1;
@@ -114,20 +114,21 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     const Rows fitted = rows_of_speeds(route, run, rows[r]);
     seen.y = taken(route == Route::position ? run.x : run.v, fitted);
     if (route == Route::shift) {
-      const ShiftOf& by = *run.shift_of;
-      seen.body = by.body;
-      seen.geometry = by.geometry;
+      seen.body = run.shift_of->body;
+      seen.geometry = run.shift_of->geometry;
+    }
+    if (route == Route::shift && known) {
       std::vector<double> accelerations(run.D.size(), std::numeric_limits<double>::quiet_NaN());
-      for (std::size_t i : rows[r]) accelerations[i] = acceleration_of(by, run.D[i]);
+      for (std::size_t i : rows[r]) accelerations[i] = acceleration_of(*run.shift_of, run.D[i]);
       seen.shifts = {responses[r].of.at("D"), std::move(accelerations), rows[r].size(),
-                     (by.body.K + 1) * by.body.R / by.body.g};
+                     (seen.body.K + 1) * seen.body.R / seen.body.g};
     }
     seen.raw_is_position = known ? responses[r].source == "x" : route == Route::position;
     if (known) {
       seen.t = run.t;
       seen.H = filters_of_rows(responses[r], route == Route::position ? "x" : "v", fitted);
     } else {
-      seen.t = taken(run.t, rows[r]);
+      seen.t = taken(run.t, fitted);
     }
     for (double& t : seen.t) t -= seen.origin;
     seen.way =

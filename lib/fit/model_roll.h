@@ -30,9 +30,9 @@ namespace rolling {
 
 /// The direction of motion, +1 or -1, of positions or speeds at these times: the first one, where
 /// the body turns on a slope, which its furthest place tells. A few false echoes do not decide.
-/// What it comes back must be more than noise, and than this share of the way.
+/// What it comes back must be more than noise.
 double way_of(bool position, const std::vector<double>& t, const std::vector<double>& rows,
-              double slope, const FitOptions&, double least_back = 0.002);
+              double slope, const FitOptions&);
 
 /// The indices of the rows of one run that a route fits.
 using Rows = std::vector<std::size_t>;

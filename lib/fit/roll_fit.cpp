@@ -230,7 +230,6 @@ Fitted of_means(Fitted fit, const FitOptions& options) {
 Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows,
                  std::vector<Response> responses, const FitOptions& options, AddedNoise added) {
   std::optional<FirstGuess> guess;
-  std::vector<double> ways;  // directions of motion, by the first round
   Fitted fit{};
   for (int round = 0; round < 4; ++round) {  // each round removes the slow rows of the last fit
     auto runs = observe(route, all, rows, responses, options);
@@ -242,14 +241,10 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       // Shifts are fitted for what all runs share: the v0 of their rolls is not reported.
       const bool asked = is_trajectory(route) || q.shared() > 0;
       require_rows(n, asked ? q.count() : 0, informative_rows(runs, q, *noise));
-      std::vector<ObservedRun> smooth;
-      if (noise->known()) smooth = smooth_motion(route, runs, *noise, options);
-      const std::vector<ObservedRun>& plain = noise->known() ? smooth : runs;
-      require_ways(plain, options);
-      for (const ObservedRun& run : plain) ways.push_back(run.way);
+      require_ways(runs, options);
+      const auto plain = noise->known() ? observe(route, all, rows, {}, options) : runs;
       guess = first_guess(options.robust ? some_of(plain) : plain, options);
     }
-    for (std::size_t r = 0; r < runs.size(); ++r) runs[r].way = ways[r];
     if (options.min_speed <= 0) responses = {}, rows.clear();  // frees memory: no round follows
     fit = {};                                                  // frees memory
     fit = minimum_of(std::move(runs), std::move(noise), *guess, options);
