@@ -135,10 +135,11 @@ bool Outliers::belongs(std::size_t i, bool again) const {
   double noise = (few() ? least_scatter() : s.noise) / others.unit;
   Polynomial<3> motion = others.parabola();
   if (others.scatter(motion) > 1.7 * noise) {  // of normal noise, one in 200
+    if (again) return true;
     motion = others.best_parabola();
     const double own = others.scatter(motion) / of_best(others.size);
     if (few()) noise = std::max(noise, 1.5 * own);
-    else if (own > 4 * noise) noise = own;
+    else if (own > 4.5 * noise) noise = own;
     motion = others.near_parabola(motion, 4 * noise);
   }
   const auto [value, error] = motion.derivative(0, 0);
