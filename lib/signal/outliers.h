@@ -24,7 +24,7 @@ struct Judged {
 /// all but three of them, those that lie on a parabola best (least trimmed squares, Rousseeuw 1984,
 /// J. Am. Stat. Assoc. 79, 871), and then all within four standard deviations of it, so that a
 /// burst of three does not decide. The scatter is that of the readings of the window about their
-/// parabolas (its lower quartile, which outliers hardly move); that of the best, if it is four
+/// parabolas (its lower quartile, which outliers hardly move); that of the best, if it is 4.5
 /// times as large: a push or a stop bends the motion itself. What passes next to an outlier is
 /// tested again without it: of a burst each hides the others. It is at least a third of the
 /// smallest first or second difference so far, which is the last digit of readings that are
