@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // smooth - smooth a column and select its rows; see smooth(1)
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/enumeration.h"
 #include "cli/tool.h"
 #include "signal/selection.h"
 #include "signal/smoother.h"
@@ -44,7 +46,7 @@ std::string history(const std::string& column, const SelectionOptions& selected,
   return lines;
 }
 
-/// Tells which outliers are left out, and what --coast keeps of each run.
+/// Tells what --coast keeps: of one run in a line, of more in a line for all.
 class Told {
  public:
   explicit Told(Tool& tool) : tool_(tool) {}
@@ -54,10 +56,10 @@ class Told {
       if (++outliers_ <= 10) add_item(times_, fmt::format("{:.12g}", t));
     if (!selection.roll()) return;
     const Selection::Roll& roll = *selection.roll();
-    ++runs_;
+    ++runs_, kept_ += roll.samples, rows_ += roll.of;
+    ++ends_[static_cast<std::size_t>(roll.how)];
     one_ = fmt::format("--coast keeps {:.12g} to {:.12g} s ({} of {} rows); the roll {}", roll.from,
                        roll.to, roll.samples, roll.of, end(roll));
-    rolls_.add(run, one_);
     if (roll.other)
       doubts_.add(run,
                   fmt::format("the free roll may also be {:.12g} to {:.12g} s, and not {:.12g} to "
@@ -69,8 +71,17 @@ class Told {
       tool_.warn(fmt::format("{} outlier{} left out: at {}{} s", outliers_,
                              outliers_ == 1 ? "" : "s", times_, outliers_ > 10 ? ", ..." : ""));
     if (runs_ == 1) tool_.warn(one_);
-    if (runs_ > 1)
-      for (const std::string& roll : rolls_.all()) tool_.warn(roll);
+    if (runs_ > 1) {
+      std::vector<std::string> ends;
+      constexpr const char* how[][2] = {
+          {"ends by itself", "end by themselves"},
+          {"is ended", "are ended"},
+          {"goes on to the end of its run", "go on to the end of their runs"}};
+      for (std::size_t i = 0; i < ends_.size(); ++i)
+        if (ends_[i] > 0) ends.push_back(fmt::format("{} {}", ends_[i], how[i][ends_[i] > 1]));
+      tool_.warn(fmt::format("--coast keeps {} of {} rows of {} runs; of the rolls {}", kept_,
+                             rows_, runs_, enumeration(ends)));
+    }
     for (const std::string& doubt : doubts_.all()) tool_.warn(doubt);
   }
 
@@ -82,9 +93,10 @@ class Told {
   }
 
   Tool& tool_;
-  std::size_t outliers_ = 0, runs_ = 0;
-  std::string times_, one_;  // one_ is the line of the last run, without its name
-  LinesOfRuns rolls_, doubts_;
+  std::size_t outliers_ = 0, runs_ = 0, kept_ = 0, rows_ = 0;
+  std::array<std::size_t, 3> ends_{};
+  std::string times_, one_;
+  LinesOfRuns doubts_;
 };
 
 void add_width(Tool& tool, std::size_t& samples, bool& choose) {
@@ -131,8 +143,7 @@ int main(int argc, char** argv) {
     if (options.width.seconds > 0) tool.refuse({"width"}, "does not go with --seconds: give one");
     if (!options.method->has_order) tool.refuse({"order"}, "goes with --method savgol");
     select.width = options.width;
-    const bool selects =
-        !select.all() && !asks_to_smooth(tool);  // and leaves the numbers as they are
+    const bool selects = !select.all() && !asks_to_smooth(tool);  // and changes no number
     if (selects) options.width.samples = 1;
     make_signal(options);  // refuses wrong options before anything is read
     Reader& in = tool.filter({"t", "v"});

@@ -232,9 +232,9 @@ void warn_of_residuals(Tool& tool, Route route, const FitResult& r,
   else if (r.reversals <= levels::few_reversals)
     tool.warn(
         run,
-        "hardly a reading turns back against the motion, as so much noise would make them: the "
-        "readings look like medians or means of others, whose noise is correlated; sigma_a and "
-        "sigma_b may be too small: fit what the sensor read, and see --report");
+        "fewer readings turn back against the motion than their noise would make: they look like "
+        "medians or means of others, whose noise is correlated, and sigma_a and sigma_b may be too "
+        "small; fit what the sensor read");
   if (r.errors == Errors::uneven)
     tool.warn(run,
               "the noise is not of one size along the run, which its uncertainties take "

@@ -26,8 +26,8 @@ struct Judged {
 /// burst of three does not decide. The scatter is that of the readings of the window about their
 /// parabolas (its lower quartile, which outliers hardly move); that of the best, if it is 4.5
 /// times as large: a push or a stop bends the motion itself. What passes next to an outlier is
-/// tested again without it: of a burst each hides the others. It is at least a third of the
-/// smallest first or second difference so far, which is the last digit of readings that are
+/// tested again without it: of a burst each hides the others. The scatter is at least a third of
+/// the smallest first or second difference so far, which is the last digit of readings that are
 /// rounded, however fast the body moves: a step of it is no outlier. In a window of less than 33
 /// samples it is 1.5 times that of the best. Windows are cut off at the ends of a run and hold 151
 /// samples or more, because the scatter of few is often far too small. About 1 us for a sample, 30

@@ -64,13 +64,21 @@ RandomEffectsMean random_effects_mean(const std::vector<Estimate>& x, double fre
     return mean;
   }
   for (std::size_t i = 0; i < n; ++i) mean.shares[i] = line.weight_of(x[i]) / line.weight;
+  // Of the other runs: rest = 1 - h also where that rounds to 0, and the sum of h x.
+  std::vector<double> rest(n), sum(n);
+  double h_seen = 0, hx_seen = 0;
+  const auto add_others = [&](std::size_t i) {
+    rest[i] += h_seen, sum[i] += hx_seen;
+    h_seen += mean.shares[i], hx_seen += mean.shares[i] * x[i].value;
+  };
+  for (std::size_t i = 0; i < n; ++i) add_others(i);
+  h_seen = hx_seen = 0;
+  for (std::size_t i = n; i-- > 0;) add_others(i);
   double inverse = 0, k_before = 0;  // of the degrees of freedom
   for (std::size_t i = 0; i < n; ++i) {
-    double rest = 0, sum = 0;  // of the other runs: 1 - h also where that rounds to 0, and of h x
-    for (std::size_t j = 0; j < n; ++j)
-      if (j != i) rest += mean.shares[j], sum += mean.shares[j] * x[j].value;
-    const double h = mean.shares[i], k = h * h / rest;
-    mean.parts[i] = h * std::sqrt(rest) * (x[i].value - sum / rest);  // r/(1 - h) = x - sum/rest
+    const double h = mean.shares[i], k = h * h / rest[i];
+    mean.parts[i] =
+        h * std::sqrt(rest[i]) * (x[i].value - sum[i] / rest[i]);  // r/(1 - h) = x - sum/rest
     inverse += h * h + 2 * k * k_before;
     k_before += k;
   }
