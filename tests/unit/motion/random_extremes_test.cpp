@@ -3,7 +3,6 @@
 // numbers or with an Error of one line, and on a mat that does not fall v is never above v0.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -16,8 +15,6 @@
 using namespace rolling;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class Extremes {
  public:
