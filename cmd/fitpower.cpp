@@ -28,20 +28,22 @@ void keep_freed_memory() {
 #endif
 }
 
-/// Sets one of these parameters to the value of a text NAME=VALUE.
-Options::Set setter_of(std::map<std::string, std::optional<double>*> parameters) {
-  return [parameters = std::move(parameters)](const std::string& setting) {
-    const auto equals = setting.find('=');
-    const auto parameter = parameters.find(setting.substr(0, equals));
-    double value;
-    if (equals == std::string::npos || parameter == parameters.end())
-      fail("'{}' is not NAME=VALUE with a name that it knows", shown(setting));
-    if (!parse_number(std::string_view(setting).substr(equals + 1), value))
-      fail("the value in '{}' is not a number", shown(setting));
-    if (*parameter->second)
-      fail("'{}' comes after another for {}", shown(setting), parameter->first);
-    *parameter->second = value;
-  };
+/// Holds a parameter at the value of a text NAME=VALUE.
+void fix(FitOptions& options, const std::string& setting) {
+  const auto equals = setting.find('=');
+  const std::string name = setting.substr(0, equals);
+  std::optional<double>* const parameter = name == "a"    ? &options.a
+                                           : name == "b"  ? &options.b
+                                           : name == "v0" ? &options.v0
+                                           : name == "x0" ? &options.x0
+                                                          : nullptr;
+  double value;
+  if (equals == std::string::npos || !parameter)
+    fail("'{}' is not NAME=VALUE with a name that it knows", shown(setting));
+  if (!parse_number(std::string_view(setting).substr(equals + 1), value))
+    fail("the value in '{}' is not a number", shown(setting));
+  if (*parameter) fail("'{}' comes after another for {}", shown(setting), name);
+  *parameter = value;
 }
 
 void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
@@ -62,10 +64,7 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
            [&](const std::string& text) { options.law = &law_named(text); });
   tool.add(
       "--fix", "NAME=VALUE", "hold a, b, v0 or x0 fixed",
-      setter_of({{"a", &options.a}, {"b", &options.b}, {"v0", &options.v0}, {"x0", &options.x0}}),
-      Options::Values::many);
-  tool.add("--start", "NAME=VALUE", "begin the search at this a or b",
-           setter_of({{"a", &options.start_a}, {"b", &options.start_b}}), Options::Values::many);
+      [&](const std::string& setting) { fix(options, setting); }, Options::Values::many);
 }
 
 /// Runs that are fitted together, and their fit, if they can be fitted.
@@ -151,7 +150,7 @@ std::map<std::string, std::optional<Route>> route_choices() {
 }
 
 int joint_of_rows(Tool& tool, const Bodies& bodies, bool with_check) {
-  tool.refuse({"each", "exact", "fix", "law", "min-speed", "report", "robust", "slope", "start"},
+  tool.refuse({"each", "exact", "fix", "law", "min-speed", "report", "robust", "slope"},
               "is for the fits of the runs: --route fits reads their rows");
   return fit_rows(tool, bodies, with_check);
 }
@@ -201,9 +200,6 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    for (const auto& [fixed, begin, name] :
-         {std::tuple(options.a, options.start_a, "a"), {options.b, options.start_b, "b"}})
-      if (fixed && begin) fail("--fix and --start are two values of {}: give one", name);
     if (tool.on_command_line("route") && !given_route)
       return joint_of_rows(tool, bodies, with_check);
     Reader& in = tool.read(order_without_names(given_route, tool.used("t")));
@@ -211,8 +207,6 @@ int main(int argc, char** argv) {
     options.possible_filters = filters_of_sensors();
     const bool trajectory = is_trajectory(route);
     if (trajectory) tool.need({"radius", "shape-factor"});
-    if (route == Route::loglog && !with_report)
-      tool.refuse({"start"}, "goes with a route that searches: loglog is a straight line");
     if (options.v0 && !trajectory) fail<OptionError>("--fix: this route has no v0");
     if (options.x0 && route != Route::position) fail<OptionError>("--fix: this route has no x0");
 

@@ -61,9 +61,6 @@ bool scales_a(Route route, const std::vector<FitRun>& runs, const FitOptions& op
 
 std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& runs,
                                         const FitOptions& options, const Fitted& fit, bool agree) {
-  FitOptions warm = options;
-  if (options.fits_power())
-    warm.start_a = fit.coefficients[0].value, warm.start_b = fit.coefficients[1].value;
   const auto numbers = fit.numbers();
   std::vector<ErrorShare> all;
   for (const UncertainNumber& number : uncertain_numbers) {
@@ -91,8 +88,8 @@ std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& 
           changes[j] = options.law->coefficients[j].D * fit.coefficients[j].value *
                        change(unit(step), unit(-step)) / unit(0);
       } else {
-        const auto above = fit_with(route, runs, warm, agree, number, value, step).numbers(),
-                   below = fit_with(route, runs, warm, agree, number, value, -step).numbers();
+        const auto above = fit_with(route, runs, options, agree, number, value, step).numbers(),
+                   below = fit_with(route, runs, options, agree, number, value, -step).numbers();
         for (std::size_t j = 0; j < numbers.size(); ++j)
           changes[j] = change(above[j].value, below[j].value);
       }

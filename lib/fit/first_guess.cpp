@@ -151,11 +151,11 @@ std::vector<std::vector<double>> starts(const std::vector<Thinned>& thin, const 
   }
   const EvenRoll even = even_roll(thin, options.fit_slope);
   std::vector<double> exponents{0.25, 0, 1, -0.5};
-  if (const auto given = options.given_b()) exponents = {*given};
+  if (options.b) exponents = {*options.b};
   std::vector<std::vector<double>> all;
   for (const double b : exponents) {
     const double a = even.D * std::pow(thin.front().fastest() / 2, -b);
-    all.push_back(q.theta({options.given_a().value_or(a), b}, v0, x0, even.slope));
+    all.push_back(q.theta({options.a.value_or(a), b}, v0, x0, even.slope));
   }
   return all;
 }

@@ -199,13 +199,7 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
   constexpr std::size_t single = 3;
   try {
     return fit_from_start(route, runs, options);
-  } catch (const Error&) {  // of the data, of the start alone, or of single readings
-    if (options.fits_power() && (options.start_a || options.start_b)) {
-      FitOptions free = options;
-      free.start_a = free.start_b = {};
-      fit(route, runs, free);
-      fail("the search does not find the fit from the start that is given, but it does without it");
-    }
+  } catch (const Error&) {  // of the data, or of single readings
     const auto off = off_robust_roll(route, runs, options);
     if (!off || off->count > single) throw;
     fail(

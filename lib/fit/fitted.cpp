@@ -103,9 +103,8 @@ Fitted fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions&
          options.law->formula);
   if (options.robust)
     fail("D = {} is fitted by squares only, not with --robust", options.law->formula);
-  if (options.a || options.b || options.start_a || options.start_b)
-    fail("a and b are fixed, or have a start, in a law a v^b alone, not in D = {}",
-         options.law->formula);
+  if (options.a || options.b)
+    fail("a and b are fixed in a law a v^b alone, not in D = {}", options.law->formula);
   return fit_of_law(fit_power(route, runs, options), *options.law);
 }
 

@@ -53,10 +53,7 @@ struct FitOptions {
   const LawForm* law = &laws().front();  ///< a v^b, or the law that is fitted instead
   bool fits_power() const { return law == &laws().front(); }
   Geometry geometry = Geometry::approximate;
-  std::optional<double> a, b, v0, x0;      ///< parameters that are fixed
-  std::optional<double> start_a, start_b;  ///< starting values; without them they are estimated
-  std::optional<double> given_a() const { return a ? a : start_a; }  ///< fixed, or where to start
-  std::optional<double> given_b() const { return b ? b : start_b; }
+  std::optional<double> a, b, v0, x0;  ///< parameters that are fixed
   bool fit_slope = false;  ///< the slope of the mat is a further parameter, common to all runs
   double min_speed = 0;    ///< rows slower than this are not fitted [m/s]
   /// Filters that the software of a sensor may have applied to the speeds (velocity route, 30 or

@@ -47,12 +47,11 @@ ShiftRows thinned(const ShiftRows& rows, std::size_t most) {
 }
 
 /// A starting point: the exponent of a coarse grid with the smallest sum of squares (the height
-/// follows by linear least squares), or the values that the user gives. From one exponent of the
+/// follows by linear least squares), or the values that are fixed. From one exponent of the
 /// grid to the next no D changes by more than a factor e^(1/2) relative to D at the mean of ln v.
 PowerLaw power_start(const ShiftRows& few, const FitOptions& options) {
-  const auto a_given = options.given_a(), b_given = options.given_b();
   std::vector<double> exponents;
-  if (b_given) exponents = {*b_given};
+  if (options.b) exponents = {*options.b};
   else {
     double widest = 2;
     for (const double v : few.v) widest = std::max(widest, std::abs(std::log(v / few.v_ref)));
@@ -68,7 +67,7 @@ PowerLaw power_start(const ShiftRows& few, const FitOptions& options) {
       mm += m * m;
       mD += m * few.y[i];
     }
-    const double a = a_given.value_or(unit.a * mD / mm);
+    const double a = options.a.value_or(unit.a * mD / mm);
     for (std::size_t i = 0; i < few.y.size(); ++i) {
       const double f = PowerLaw{a, b}(few.v[i]) - few.y[i];
       rss += f * f;

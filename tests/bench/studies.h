@@ -125,8 +125,6 @@ inline InputQuantities input_quantities(int draws, unsigned seed) {
   Roll truth(body, Geometry::exact, CR, troubled::v0);
   FitOptions options;
   options.geometry = Geometry::exact;
-  options.start_a = CR.a;
-  options.start_b = CR.b;
   simulated::Noise noise(seed);
   InputQuantities all{{CR.a}, {CR.b}, {troubled::v0}};
   double ab = 0;

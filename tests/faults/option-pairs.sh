@@ -19,10 +19,8 @@ printf 'gravity = 9.8\nslope = 1e-4\n' >scene
 
 # Each tool with what it needs, and its other options, with values that are not the default.
 # -q and -u say how something is printed. A temperature describes the mat, as a scene does: it may
-# be given whatever is printed. The error of a solver is below the resolution of a sensor, and where
-# a search began shows in its last digits only.
-excused='--sensor pasco --method rkf45|--use D=x --scene scene|--digits 5 --start b=0.3'
-excused+='|--fix a=1.7e-3 --start b=0.3'
+# be given whatever is printed. The error of a solver is below the resolution of a sensor.
+excused='--sensor pasco --method rkf45|--use D=x --scene scene'
 scene='-g 9.7|--slope 0.001|--exact|--scene scene'
 input='--run 2|--strict|--digits 5'
 declare -A begin=(
@@ -37,7 +35,7 @@ declare -A options=(
   [smooth]="-c x|-M savgol|-w 5|--seconds 0.3|--order 4|--outliers 2|--coast|--from 3|--to 4|--use t=x|$input"
   [differentiate]="-c x|-M savgol|-w 5|--order 4|--use t=x|$input"
   [shift-from-accel]="--use a=v|$scene|$input"
-  [fitpower]="--min-speed 0.2|--law d0+d1*v|--robust|--each|--fix a=1.7e-3|--start b=0.3|--report|--check|--use D=x|$scene|$input"
+  [fitpower]="--min-speed 0.2|--law d0+d1*v|--robust|--each|--fix a=1.7e-3|--report|--check|--use D=x|$scene|$input"
   [simulate]="--x0 0.1|--t0 1|--law law|--law row|--law table|--memory 1e-3|--damping 0.01|--method rkf45|--rtol 1e-3|--report|--dt 0.1|--until 1.5|--at moments|--columns x,v|--sensor pasco|--seed 5|--rate 20|--resolution 0.01|--noise 0.002|--lost 0.2|$scene|--digits 16"
   [energy-ledger]="-a 1e-3|-b 0.1|--law row|--law table|--columns E_trans,F_N,A,Pi_S,W_g|--summary|--check 1e-3|--use v=x|$scene|$input"
 )

@@ -116,7 +116,6 @@ fitpower --route velocity -K 0.5, -R 1 @|'' is not a number
 fitpower --route velocity -K 0.5,0.8 -R 1 @|gives 2 values for 1 run: give one
 fitpower --route velocity -K 0.5 -R 0 @|'0' must be greater than 0
 fitpower --fix a=1 --fix a=2 @|--fix: 'a=2' comes after another
-fitpower --start b=1 --start b=2 @|--start: 'b=2' comes after another
 fitpower --fix a @|'a' is not NAME=VALUE
 fitpower --fix a= @|the value in 'a=' is not a number
 fitpower --fix a=1e400 @|the value in 'a=1e400' is not a number
