@@ -14,7 +14,7 @@
 #include "base/enumeration.h"
 #include "signal/savitzky_golay.h"
 #include "text/column.h"
-#include "text/input.h"
+#include "text/lines.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -44,9 +44,10 @@ constexpr std::array<std::string_view, 12> keys = {
 
 /// What a scene file assigns, as CLI11 reads TOML.
 std::vector<CLI::ConfigItem> read_scene(const std::string& file) {
-  Input input(file);
+  Lines lines(file);
+  lines.separate_by('\0');
   std::string text;
-  for (std::string_view line; input.next(line);) (text += line) += '\n';
+  while (lines.next()) (text += lines.text()) += '\n';
   std::istringstream scene(text);
   scene.exceptions(std::ios::badbit);  // so that memory that has run out does not end it in silence
   return CLI::ConfigTOML().from_config(scene);

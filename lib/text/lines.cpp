@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "text/lines.h"
 
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
+#include <utility>
 
 #include "base/error.h"
 #include "text/delimiters.h"
@@ -10,6 +18,26 @@
 
 namespace rolling {
 namespace {
+
+/// Bytes. A row of motion data has tens of bytes; a file with longer lines is not one of columns.
+constexpr std::size_t longest_line = 1 << 20;
+constexpr std::size_t block = 1 << 18;
+
+/// read(2), repeated after a signal, and waiting if another process has made the descriptor
+/// non-blocking.
+ssize_t read_some(int fd, char* to, std::size_t size) {
+  for (;;) {
+    const ssize_t count = ::read(fd, to, size);
+    if (count >= 0 || (errno != EINTR && errno != EAGAIN)) return count;
+    pollfd ready{fd, POLLIN, 0};
+    if (errno == EAGAIN) ::poll(&ready, 1, -1);
+  }
+}
+
+int open_for_reading(const std::string& name) {
+  refuse_output(name);  // first: if standard output is closed, open() may return its number
+  return name == "-" ? STDIN_FILENO : ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
+}
 
 /// The error values of spreadsheets.
 constexpr std::array<std::string_view, 8> error_values = {
@@ -35,6 +63,83 @@ bool begins_with_error_value(std::string_view line) {
 }
 
 }  // namespace
+
+void refuse_output(const std::string& name) {
+  struct stat in, out;
+  if ((name == "-" ? ::fstat(STDIN_FILENO, &in) : ::stat(name.c_str(), &in)) == 0 &&
+      ::fstat(STDOUT_FILENO, &out) == 0 && S_ISREG(in.st_mode) && in.st_dev == out.st_dev &&
+      in.st_ino == out.st_ino)
+    fail<InputError>("{}: this input is the output too", name);
+}
+
+Lines::Lines(std::string name)
+    : name_(std::move(name)), fd_(open_for_reading(name_)), kept_(buffer_.reserve(block)),
+      at_(kept_), end_(kept_) {
+  if (fd_ < 0) fail<InputError>("{}: {}", name_.empty() ? "''" : name_, std::strerror(errno));
+#ifdef F_SETPIPE_SZ
+  // A larger pipe lets the tools of a chain wait less for each other. Failure does no harm.
+  ::fcntl(fd_, F_SETPIPE_SZ, 1 << 20);
+#endif
+  struct stat status;
+  has_size_ = ::fstat(fd_, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0;
+}
+
+Lines::~Lines() {
+  if (fd_ > STDIN_FILENO) ::close(fd_);
+}
+
+/// Reads the next block; false at the end of the file.
+bool Lines::fill() {
+  const std::size_t size = ahead().size();  // of the line so far
+  if (size >= longest_line)
+    fail<InputError>("{}:{}: a line of more than {} bytes", name_, count_ + 1, longest_line);
+  if (kept_ != buffer_.data())
+    buffer_.erase_front(static_cast<std::size_t>(kept_ - buffer_.data()));
+  char* const to = buffer_.reserve(block);
+  const ssize_t count = read_some(fd_, to, std::min(block, longest_line - size));
+  kept_ = buffer_.data(), at_ = to - size, end_ = to;
+  if (count < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
+  buffer_.set_end(to + count);
+  end_ += count;
+  return count > 0;
+}
+
+/// Reads on until the end of the line at at_, whose line feed is not in memory yet, and returns it;
+/// null if there is no further line.
+const char* Lines::end_of_line() {
+  for (std::size_t searched = 0; !at_end_;) {
+    searched = static_cast<std::size_t>(end_ - at_);
+    at_end_ = !fill();
+    const void* const feed =
+        std::memchr(at_ + searched, '\n', static_cast<std::size_t>(end_ - at_) - searched);
+    if (feed) return static_cast<const char*>(feed);
+  }
+  return at_ == end_ ? nullptr : end_;
+}
+
+bool Lines::next() {
+  if (!held_) kept_ = at_, kept_count_ = count_;
+  if (!next_in_file()) return false;
+  number_ = count_;
+  if (!separators_.empty()) join_quoted();
+  check_bytes();
+  return true;
+}
+
+/// Goes to the next line of the file, whether a quoted field goes on in it or not.
+bool Lines::next_in_file() {
+  const char* feed =
+      static_cast<const char*>(std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_)));
+  if (!feed && !(feed = end_of_line())) return false;
+  text_ = {at_, feed};
+  at_ = feed == end_ ? feed : feed + 1;
+  if (text_.ends_with('\r')) text_.remove_suffix(1);
+  ++count_;
+  // Joined files have a byte order mark each, and one that has nothing else leaves two together.
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  while (text_.starts_with(mark)) text_.remove_prefix(mark.size());
+  return true;
+}
 
 LineKind Lines::kind_of(std::string_view line) const {
   const std::size_t first = line.find_first_not_of(" \t");
@@ -64,7 +169,8 @@ bool Lines::is_blank_row(std::string_view line) const {
 }
 
 bool Lines::another_run() const {
-  std::string_view ahead = input_.has_size() ? input_.ahead() : std::string_view();
+  if (!has_size_) return false;
+  std::string_view ahead = this->ahead();
   for (bool blank = false; !ahead.empty();) {
     const auto end = std::min(ahead.find('\n'), ahead.size());
     std::string_view line = ahead.substr(0, end);
@@ -89,7 +195,7 @@ void Lines::join_quoted() {
     return;
   joined_ = text_;
   for (bool open = true; open;) {
-    if (joined_.size() > longest_line || !input_.next(text_))
+    if (joined_.size() > longest_line || !next_in_file())
       fail<InputError>("{}:{}: a quote that is not closed", name(), number_);
     (joined_ += '\n') += text_;
     const char *const end = text_.data() + text_.size(), *close = closing_quote(text_.data(), end);

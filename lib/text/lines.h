@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Logical lines of a file: a line end inside a quoted field does not end the line.
+// Logical lines of a file, which is read in blocks: a line end inside a quoted field does not end
+// the line.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <utility>
 
+#include "base/growing.h"
 #include "text/delimiters.h"
-#include "text/input.h"
 
 namespace rolling {
+
+/// Throws InputError if standard output is this regular file: the tool would read what it writes,
+/// or append its output to its input.
+void refuse_output(const std::string& name);
 
 enum class LineKind { blank, comment, history, row };
 
@@ -20,26 +24,26 @@ std::string history_line(std::string_view line);
 
 class Lines {
  public:
-  /// Opens the file, see Input.
-  explicit Lines(std::string name) : input_(std::move(name)) {}
+  /// Opens a file; `-` is standard input. Throws InputError when it cannot be read.
+  explicit Lines(std::string name);
+  ~Lines();
+  Lines(const Lines&) = delete;
+  Lines& operator=(const Lines&) = delete;
 
-  /// Goes to the next line; false at the end. Throws InputError for a quote that is not closed, and
-  /// for a NUL or a carriage return within the line.
-  bool next() {
-    if (std::exchange(again_, false)) return true;
-    if (!input_.next(text_)) return false;
-    number_ = input_.line_number();
-    if (!separators_.empty()) join_quoted();
-    check_bytes();
-    return true;
-  }
+  /// Goes to the next line, without its end (LF or CR LF); false at the end. Throws InputError for
+  /// a line that is too long, a quote that is not closed, and for a NUL or a carriage return within
+  /// the line.
+  bool next();
   /// From now on only this character separates fields, and a quote opens a field behind it. With 0,
   /// blanks separate and there are no quoted fields. Before this call any separator counts.
   void separate_by(char separator) {
     separators_ = separator ? std::string(1, separator) : std::string();
   }
-  /// The next call of next() returns to the present line.
-  void put_back() { again_ = true; }
+  /// The next call of next() returns to the present line or, while lines are held, to the first one
+  /// of them.
+  void put_back() { at_ = kept_, count_ = kept_count_; }
+  /// While `on`, lines are held: those from the present one on, which has been put back.
+  void hold(bool on) { held_ = on; }
   /// The present line, valid until the next one.
   std::string_view text() const { return text_; }
   /// A blank line contains blanks, tabs and separators only, blank cells in quotes perhaps, or the
@@ -48,18 +52,17 @@ class Lines {
   /// if the other fields of its line are blank. A line that begins with an error value of a
   /// spreadsheet (#N/A) is a row.
   LineKind kind() const { return kind_of(text_); }
-  std::size_t number() const { return number_; }  ///< of its first line in the file, from 1
-  const std::string& name() const { return input_.name(); }
+  std::size_t number() const { return number_; }     ///< of its first line in the file, from 1
+  const std::string& name() const { return name_; }  ///< of the file, as the user gave it
 
-  /// The bytes that are in memory behind the present line; they may end within a line. Empty after
-  /// put_back().
-  std::string_view ahead() const { return again_ ? std::string_view() : input_.ahead(); }
+  /// The bytes that are in memory from the next line on; they may end within a line.
+  std::string_view ahead() const { return {at_, end_}; }
   /// Goes to the line at the beginning of ahead(), which has no quoted line end: `size` bytes, and
   /// `end` bytes of its line end.
   void take(std::size_t size, std::size_t end) {
-    text_ = ahead().substr(0, size);
-    input_.skip(size + end);
-    number_ = input_.line_number();
+    text_ = {at_, size};
+    at_ += size + end;
+    number_ = ++count_;
   }
 
   /// True for a regular file with a blank line, and a row below it, in memory behind the present
@@ -67,15 +70,23 @@ class Lines {
   bool another_run() const;
 
  private:
+  bool next_in_file();
+  const char* end_of_line();
+  bool fill();
   void join_quoted();
   void check_bytes() const;
   LineKind kind_of(std::string_view line) const;
   bool is_blank_row(std::string_view line) const;
 
-  Input input_;
+  std::string name_;
+  int fd_;
+  bool has_size_ = false;  // a regular file, and not empty
+  Bytes buffer_;
+  const char *kept_, *at_, *end_;           // in it: where put_back() returns to; ahead()
+  std::size_t kept_count_ = 0, count_ = 0;  // lines of the file before kept_ and at_
+  bool held_ = false, at_end_ = false;
   std::string_view text_;
   std::size_t number_ = 0;
-  bool again_ = false;
   std::string joined_, separators_{separators};
 };
 

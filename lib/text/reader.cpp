@@ -21,41 +21,24 @@ Reader::Reader(ReaderOptions options, std::vector<std::string> order)
 
 /// Goes to the next line of this run that is a row; false at its end.
 bool Reader::next_line() {
-  if (!kept_.empty()) return next_kept_line();
   while (lines_->next()) {
-    line_ = lines_->text();
     const LineKind kind = lines_->kind();
     if (kind == LineKind::row) {
-      line_number_ = lines_->number();
-      return true;
-    }
-    if (kind == LineKind::comment) {
-      if (state_ == State::in_run && are_names(line_.substr(line_.find('#'))))
+      if (lines_->number() <= last_row_) return true;
+    } else if (kind == LineKind::comment) {
+      const std::string_view comment = lines_->text().substr(lines_->text().find('#'));
+      if (state_ == State::in_run && are_names(comment))
         fail<InputError>(
-            "{}:{}: names among the rows; where another run begins, put a blank line before it",
-            lines_->name(), lines_->number());
-      remarks_.emplace_back(line_.substr(line_.find('#')));
-      continue;
+            "{}: names among the rows; where another run begins, put a blank line before it",
+            here());
+      if (side_ == 0) remarks_.emplace_back(comment);
+    } else {
+      if (kind == LineKind::history) {  // it belongs to the run below it
+        refuse_error_line(*lines_);
+        lines_->put_back();
+      }
+      break;
     }
-    // A `##` line belongs to the run below it.
-    if (kind == LineKind::history) {
-      refuse_error_line(*lines_);
-      lines_->put_back();
-    }
-    state_ = State::between;
-    return false;
-  }
-  state_ = State::between;
-  return false;
-}
-
-bool Reader::next_kept_line() {
-  while (next_kept_ < kept_.size()) {
-    const Kept& kept = kept_[next_kept_++];
-    line_ = kept.text;
-    line_number_ = kept.number;
-    if (kept.kind == LineKind::comment && side_ == 0) remarks_.emplace_back(line_);
-    if (kept.kind == LineKind::row && next_kept_ <= kept_end_) return true;
   }
   state_ = State::between;
   return false;
@@ -80,13 +63,11 @@ bool Reader::are_names(std::string_view comment) const {
 /// Fast path for most lines: a row of the same form as the one before it in this run is found
 /// and split in one pass. False for any other line, which is left to next_line().
 inline bool Reader::take_plain_line() {
-  if (!kept_.empty()) return false;
+  if (lines_->number() >= last_row_) return false;
   const std::string_view ahead = lines_->ahead();
   const char* const end = dialect_.split_plain(ahead, fields_);
   if (!end) return false;
   lines_->take(static_cast<std::size_t>(end - ahead.data()), *end == '\r' ? 2 : 1);
-  line_ = lines_->text();
-  line_number_ = lines_->number();
   return true;
 }
 
@@ -96,16 +77,16 @@ bool Reader::next() {
   for (;;) {
     if (!take_plain_line()) {
       if (!next_line()) return false;
-      fields_ = split(line_);
+      fields_ = split();
     }
     if (take_row()) return row_found_ = true;
     ++left_out_;
   }
 }
 
-std::span<const Field> Reader::split(std::string_view line) {
+std::span<const Field> Reader::split() {
   try {
-    return dialect_.split(line);
+    return dialect_.split(lines_->text());
   } catch (const Error& error) {
     fail<InputError>("{}: {}", here(), error.what());
   }
@@ -239,11 +220,11 @@ std::vector<std::string> Reader::warnings() const {
   return all;
 }
 
-std::string Reader::here() const { return fmt::format("{}:{}", lines_->name(), line_number_); }
+std::string Reader::here() const { return fmt::format("{}:{}", lines_->name(), lines_->number()); }
 
 std::string Reader::where() const {
   if (state_ == State::between) return place_;
-  return line_number_ > 0 ? here() : std::string();
+  return state_ == State::in_run ? here() : std::string();
 }
 
 }  // namespace rolling

@@ -93,11 +93,12 @@ class Reader {
   std::size_t append_text(Bytes& to, std::size_t column = no_column) {
     if (!dialect_.as_it_stands() || needed_.converts() || fields_changed_)
       return append_made(to, column);
-    if (column >= fields_.size()) return to.append(line_), line_.size();
+    const std::string_view line = lines_->text();
+    if (column >= fields_.size()) return to.append(line), line.size();
     const std::string_view field = fields_[column].text;
-    const auto first = static_cast<std::size_t>(field.data() - line_.data());
-    to.append(line_.substr(0, first));
-    if (column + 1 < fields_.size()) to.append(line_.substr(first + field.size()));
+    const auto first = static_cast<std::size_t>(field.data() - line.data());
+    to.append(line.substr(0, first));
+    if (column + 1 < fields_.size()) to.append(line.substr(first + field.size()));
     return first;
   }
   /// The comments between the previous row and the present one; after the last row of a run,
@@ -137,11 +138,9 @@ class Reader {
 
   // Rows.
   bool next_line();
-  void keep_rows();
-  bool next_kept_line();
   bool take_plain_line();
   bool are_names(std::string_view comment) const;
-  std::span<const Field> split(std::string_view line);
+  std::span<const Field> split();
   void take_fields();
   bool take_row();
   void check_time();
@@ -162,14 +161,7 @@ class Reader {
   int run_ = 0;  // number of the run in the input, from 1
   Head head_;
   std::size_t side_ = 0;
-  /// The lines of runs side by side, which are read once for each of them.
-  struct Kept {
-    LineKind kind;
-    std::size_t number;
-    std::string text;
-  };
-  std::vector<Kept> kept_;                    // else empty
-  std::size_t next_kept_ = 0, kept_end_ = 0;  // which is behind the last reading of this run
+  std::size_t last_row_ = 0;  // its number; side by side, rows below it are padding
   Dialect dialect_;
   std::vector<std::string> comments_, remarks_;
   std::size_t run_in_file_ = 0;  // number of the run in the file
@@ -180,8 +172,6 @@ class Reader {
 
   // The present row.
   std::vector<double> values_;  // of the needed columns, by slot
-  std::string_view line_;
-  std::size_t line_number_ = 0;  // 0: there is none
   std::span<const Field> fields_;
   std::vector<Field> changed_fields_;
   bool fields_changed_ = false, coarse_time_ = false, distant_time_ = false;

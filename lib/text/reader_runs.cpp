@@ -64,7 +64,6 @@ bool Reader::find_run() {
   }
   if (passed) comments_.clear();  // of the run that was passed over last
   state_ = State::ended;
-  line_number_ = 0;
   if (options_.run && !run_found_) fail("there is no run {} (runs: {})", *options_.run, runs_);
   if (left_out_ > 0 && !row_found_)
     fail<InputError>("{}no rows: a needed reading is missing in every one",
@@ -103,7 +102,6 @@ bool Reader::next_head() {
 
 bool Reader::next_file() {
   if (next_file_ == options_.files.size()) return false;
-  line_number_ = 0;
   run_in_file_ = 0;
   lines_.emplace(options_.files[next_file_++]);
   return file_open_ = true;
@@ -117,20 +115,6 @@ void Reader::take_head(Head head) {
                      head_.named ? "those have names" : fmt::format("{}, not {}", width, before));
   head_ = std::move(head);
   side_ = 0;
-  kept_.clear();
-  if (head_.layout.side_by_side()) keep_rows();
-}
-
-/// Keeps the lines of runs side by side, up to a run break.
-void Reader::keep_rows() {
-  while (lines_->next() && lines_->kind() != LineKind::blank) {
-    if (lines_->kind() == LineKind::history) {
-      refuse_error_line(*lines_);
-      lines_->put_back();
-      break;
-    }
-    kept_.push_back({lines_->kind(), lines_->number(), std::string(lines_->text())});
-  }
 }
 
 /// True if there are several runs, or if the run has a name or a number in the input.
@@ -157,19 +141,23 @@ std::string Reader::run_name() const {
 /// Goes before the first row of the present run. The blanks of a run side by side below its last
 /// reading, beside a longer run, are no rows.
 void Reader::begin_rows() {
-  next_kept_ = 0;
   dialect_.want_none();
-  const std::size_t number = line_number_;
+  last_row_ = std::numeric_limits<std::size_t>::max();
+  if (!head_.layout.side_by_side()) return;
   const auto is_reading = [&](std::size_t i) {
     return i < fields_.size() && !head_.layout.shared[i] && !fields_[i].text.empty();
   };
-  for (kept_end_ = kept_.size(); kept_end_ > 0; --kept_end_) {
-    const Kept& kept = kept_[kept_end_ - 1];
-    line_number_ = kept.number;
-    fields_ = split(kept.text);
-    if (kept.kind == LineKind::row && std::ranges::any_of(layout().fields, is_reading)) break;
+  lines_->hold(true);
+  lines_->put_back();
+  std::size_t last = 0;
+  while (next_line()) {
+    fields_ = split();
+    if (std::ranges::any_of(layout().fields, is_reading)) last = lines_->number();
   }
-  line_number_ = number;
+  last_row_ = last;
+  remarks_.clear();
+  lines_->put_back();
+  lines_->hold(side_ + 1 < head_.layout.runs.size());
 }
 
 /// Reads the present run as strictly as one that is kept: what is wrong in a column is an error as
@@ -190,7 +178,7 @@ void Reader::pass_over() {
   double last = std::numeric_limits<double>::quiet_NaN();
   while (next_line()) {
     remarks_.clear();
-    fields_ = split(line_);
+    fields_ = split();
     take_fields();
     for (std::size_t i = 0; i < quantities.size(); ++i) {
       const bool missing = is_missing(fields_[i].text);
@@ -227,10 +215,10 @@ std::string Reader::place_of_head() const {
 
 /// Prepares for the rows of the run whose head has been read.
 void Reader::begin_run() {
-  state_ = State::found;
   run_found_ = true;
   last_time_ = std::numeric_limits<double>::quiet_NaN();
   begin_rows();
+  state_ = State::found;
   place_ = lines_->name();
   if (run_is_named()) {
     place_ = "run " + run_name();

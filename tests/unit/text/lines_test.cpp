@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "text/lines.h"
 
+#include <unistd.h>
+
 #include <utility>
 
 #include "unit/text/files.h"
@@ -75,8 +77,23 @@ TEST_CASE("lines: a line that is put back comes once more", "[text]") {
   Lines all(file.name());
   REQUIRE(all.next());
   all.put_back();
-  CHECK(all.ahead().empty());
   CHECK(rest(all) == "<1 a><2 b>");
+}
+
+TEST_CASE("lines: those that are held come again, from where they were held", "[text]") {
+  std::string text = "a\n\"b\n\",1\n";
+  for (int i = 0; i < 100000; ++i) text += std::to_string(i) + '\n';
+  const TemporaryFile file(text);
+  Lines all(file.name());
+  REQUIRE(all.next());
+  REQUIRE(all.next());
+  all.put_back();
+  all.hold(true);
+  const std::string first = rest(all);
+  CHECK(first.starts_with("<2 \"b\n\",1><4 0>"));
+  all.put_back();
+  all.hold(false);
+  CHECK((rest(all) == first));
 }
 
 TEST_CASE("lines: what a line is", "[text]") {
@@ -129,4 +146,73 @@ TEST_CASE("lines: blank cells make a blank row, a quote that is text or opens a 
     while (lines.next()) all += lines.kind() == LineKind::blank ? "blank " : "row ";
     CHECK(all == kinds);
   }
+}
+
+TEST_CASE("lines: lines end with LF, CR LF, or the file", "[text]") {
+  CHECK(lines("a\nb\n") == "<1 a><2 b>");
+  CHECK(lines("a\r\nb\r\n") == "<1 a><2 b>");
+  CHECK(lines("a\nb") == "<1 a><2 b>");
+  CHECK(lines("a\n\nb\n\n") == "<1 a><2 ><3 b><4 >");
+  CHECK(lines("").empty());
+  CHECK(lines("\n") == "<1 >");
+}
+
+TEST_CASE(
+    "lines: a byte order mark is taken off any line: each of two joined files may begin with one",
+    "[text]") {
+  CHECK(lines("\xEF\xBB\xBF"
+              "a\n\xEF\xBB\xBF"
+              "b\n") == "<1 a><2 b>");
+  CHECK(lines("\xEF\xBB\xBF\xEF\xBB\xBF"  // the first of them has nothing else
+              "a\n") == "<1 a>");
+}
+
+TEST_CASE("lines: lines across the blocks of reading are whole", "[text]") {
+  std::string text, expected;
+  for (int i = 0; i < 20000; ++i) {
+    const std::string line = std::to_string(i) + std::string(static_cast<std::size_t>(i % 97), 'x');
+    text += line + '\n';
+    expected += fmt::format("<{} {}>", i + 1, line);
+  }
+  CHECK((lines(text) == expected));
+  for (const std::size_t length : {(1u << 18) - 1, 1u << 18, (1u << 18) + 1, (1u << 19) - 1,
+                                   1u << 19})  // a line's end where a block ends
+    CHECK((lines(std::string(length, 'x') + "\nz\n") ==
+           fmt::format("<1 {}><2 z>", std::string(length, 'x'))));
+  CHECK((lines(std::string(900000, 'y') + "\nz\n") ==
+         fmt::format("<1 {}><2 z>", std::string(900000, 'y'))));
+}
+
+TEST_CASE("lines: a line of more than a megabyte is refused, and says where", "[text]") {
+  const TemporaryFile file("a\n" + std::string((1 << 20) + 10, 'x') + "\n");
+  CHECK(anonymous(refusal([&] {
+          Lines all(file.name());
+          while (all.next()) continue;
+        })) == "FILE:2: a line of more than 1048576 bytes");
+}
+
+TEST_CASE("lines: what cannot be read is refused with the system's reason", "[text]") {
+  CHECK(refusal([] { Lines("/no/such/file"); }) == "/no/such/file: No such file or directory");
+  CHECK(refusal([] { Lines("/tmp").next(); }) == "/tmp: Is a directory");
+}
+
+TEST_CASE("lines: - is standard input", "[text]") {
+  const TemporaryFile file("a\nb\n");
+  const Redirect from_file(STDIN_FILENO, file.name());
+  Lines input("-");
+  CHECK(rest(input) == "<1 a><2 b>");
+}
+
+TEST_CASE("lines: a pipe may give one byte at a time", "[text]") {
+  int ends[2];
+  REQUIRE(::pipe(ends) == 0);
+  Lines input("/dev/fd/" + std::to_string(ends[0]));
+  for (const std::string text : {"\n", "b\n"}) {
+    REQUIRE(::write(ends[1], text.data(), text.size()) == static_cast<ssize_t>(text.size()));
+    REQUIRE(input.next());
+    CHECK(input.text() == text.substr(0, text.size() - 1));
+  }
+  ::close(ends[1]);
+  CHECK_FALSE(input.next());
+  ::close(ends[0]);
 }
