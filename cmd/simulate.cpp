@@ -51,16 +51,16 @@ void write_run(Output& out, Motion& motion, const SonarOptions& sonar) {
 void report(Tool& tool, const Scene& scene, double rtol, double end) {
   const Reference right = reference(scene, 200, end);
   const Method best = best_method(scene);
-  tool.say(fmt::format("{:8} {:>7} {:>9} {:>10} {:>11} {:>11} {:>8}", "method", "rtol",
-                       "max|dv|/v0", "dt*/t*", "evaluations", "ns/sample", "scatter"));
+  tool.say(fmt::format("{:8} {:>7} {:>9} {:>10} {:>11} {:>11}", "method", "rtol", "max|dv|/v0",
+                       "dt*/t*", "evaluations", "ns/sample"));
   const auto row = [&](const std::string& name, const Method& method, double tolerance) {
     const Measured m =
-        measure([&] { return start(scene, method, tolerance); }, right, std::abs(scene.v0), 7);
+        measure([&] { return start(scene, method, tolerance); }, right, std::abs(scene.v0));
     const std::string text = fmt::format(
         "{:8} {:>7}", name, method.kind == Method::solver ? fmt::format("{:g}", tolerance) : "-");
     if (!m.failure.empty()) return tool.say(text + " failed: " + m.failure);
-    tool.say(fmt::format("{} {:10.2g} {:10.2g} {:11} {:11.4g} {:8.2g}", text, m.v_error,
-                         m.stop_error, m.evaluations, 1e9 * m.seconds, 1e9 * m.scatter));
+    tool.say(fmt::format("{} {:10.2g} {:10.2g} {:11} {:11.4g}", text, m.v_error, m.stop_error,
+                         m.evaluations, 1e9 * m.seconds));
   };
   for (const auto& [name, method] : methods)
     if (method.kind == best.kind && (best.kind != Method::solver || method.stepper == best.stepper))

@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "motion/measure.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
 #include "base/error.h"
 
 namespace rolling {
-
-namespace {
-
-/// The processor time of this thread [s], which other processes do not affect.
-double processor_time() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-}  // namespace
 
 Reference reference(const Scene& scene, std::size_t n, double end) {
   const auto motion = start(scene, best_method(scene), 1e-13);
@@ -36,7 +24,7 @@ Reference reference(const Scene& scene, std::size_t n, double end) {
 }
 
 Measured measure(const std::function<std::unique_ptr<Motion>()>& start, const Reference& right,
-                 double v0, int repeats) {
+                 double v0) {
   Measured result;
   try {
     const auto motion = start();
@@ -49,24 +37,20 @@ Measured measure(const std::function<std::unique_ptr<Motion>()>& start, const Re
     result.evaluations = motion->evaluations();
     if (std::isfinite(right.stop))
       result.stop_error = std::abs(motion->stop_time() / right.stop - 1);
-    std::vector<double> seconds;
-    for (int i = 0; i < repeats; ++i) {
-      const double begin = processor_time();
+    const std::clock_t begin = std::clock(), least = CLOCKS_PER_SEC / 50;
+    std::clock_t taken = 0;
+    double samples = 0, sum = 0;
+    do {
       const auto timed = start();
-      double sum = 0;
       for (const double t : right.times) {
         timed->seek(t);
         sum += timed->velocity();
+        ++samples;
       }
-      const double taken = processor_time() - begin;
-      [[maybe_unused]] volatile const double kept = sum;  // else a compiler may drop the loop
-      seconds.push_back(taken / static_cast<double>(right.times.size()));
-      if (taken > 0.5) break;
-    }
-    std::sort(seconds.begin(), seconds.end());
-    const std::size_t n = seconds.size();
-    result.seconds = seconds[n / 2];
-    result.scatter = (seconds[3 * n / 4] - seconds[n / 4]) / 2;
+      taken = std::clock() - begin;
+    } while (taken < least);
+    [[maybe_unused]] volatile const double kept = sum;  // else a compiler may drop the loop
+    result.seconds = static_cast<double>(taken) / CLOCKS_PER_SEC / samples;
   } catch (const Error& error) {
     result.failure = error.what();
   }

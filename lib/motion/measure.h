@@ -28,14 +28,13 @@ struct Measured {
   double v_error = 0;     ///< largest |v - reference| / v0
   double stop_error = 0;  ///< relative; 0 if there is no stop
   unsigned long evaluations = 0;
-  double seconds = 0;   ///< of the processor per sample, with the start: median of the repeats
-  double scatter = 0;   ///< half of the interquartile range [s]
+  double seconds = 0;   ///< of the processor per sample, with the start
   std::string failure;  ///< message of the Error that ended the measurement, or empty
 };
 
-/// Computes one roll for the errors, which also warms the cache, and `repeats` rolls for the time.
-/// A roll that takes more than half a second is not repeated.
-Measured measure(const std::function<std::unique_ptr<Motion>()>& start, const Reference&, double v0,
-                 int repeats);
+/// Computes one roll for the errors, which also warms the cache, and for the time as many as take
+/// 20 ms.
+Measured measure(const std::function<std::unique_ptr<Motion>()>& start, const Reference&,
+                 double v0);
 
 }  // namespace rolling

@@ -18,7 +18,6 @@ using namespace rolling;
 namespace {
 
 constexpr std::size_t samples = 200;  // to 1.2 times the stop, with memory to the stop, or to 10 s
-constexpr int repeats = 5;
 
 Scene scene(double a, double b, double K) {
   Scene roll{};
@@ -66,9 +65,9 @@ void row(std::FILE* file, const std::string& who, const std::string& method, dou
          const Measured& m) {
   fmt::print(file, "{}\t{}\t{:g}\t", who, method, rtol);
   if (m.failure.empty())
-    fmt::print(file, "{:.3g}\t{:.3g}\t{}\t{:.4g}\t{:.2g}\tdone\n", m.v_error, m.stop_error,
-               m.evaluations, 1e9 * m.seconds, 1e9 * m.scatter);
-  else fmt::print(file, "nan\tnan\t{}\tnan\tnan\tfailed: {}\n", m.evaluations, m.failure);
+    fmt::print(file, "{:.3g}\t{:.3g}\t{}\t{:.4g}\tdone\n", m.v_error, m.stop_error, m.evaluations,
+               1e9 * m.seconds);
+  else fmt::print(file, "nan\tnan\t{}\tnan\tfailed: {}\n", m.evaluations, m.failure);
 }
 
 }  // namespace
@@ -95,12 +94,11 @@ int main(int argc, char** argv) {
       return 2;
     }
     const Reference right = reference(roll, samples, 10);
-    fmt::print(
-        file,
-        "# by\tmethod\trtol\tmax_error\tstop_error\tevaluations\tns_sample\tscatter\toutcome\n");
+    fmt::print(file,
+               "# by\tmethod\trtol\tmax_error\tstop_error\tevaluations\tns_sample\toutcome\n");
     const Method best = best_method(roll);
     const auto rolled = [&, &scene = roll](const Method& method, double rtol) {
-      return measure([&] { return start(scene, method, rtol); }, right, scene.v0, repeats);
+      return measure([&] { return start(scene, method, rtol); }, right, scene.v0);
     };
     if (best.kind != Method::solver) {
       row(file, "rolling", best.kind == Method::closed ? "closed" : "exact", 0, rolled(best, 0));
@@ -118,7 +116,7 @@ int main(int argc, char** argv) {
           row(file, odd ? "GSL-odd" : "GSL", method, rtol,
               measure([&, &scene = roll,
                        type = type] { return std::make_unique<BareGsl>(scene, type, rtol, odd); },
-                      right, roll.v0, repeats));
+                      right, roll.v0));
         fmt::print(file, "\n\n");
       }
     }
@@ -128,7 +126,7 @@ int main(int argc, char** argv) {
         row(file, "CVODE", method, rtol,
             measure([&, &scene = roll,
                      kind = kind] { return std::make_unique<Cvode>(scene, kind, rtol); },
-                    right, roll.v0, repeats));
+                    right, roll.v0));
       fmt::print(file, "\n\n");
     }
 #endif
