@@ -14,11 +14,9 @@ namespace rolling {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
 constexpr double last_part =
     1e-10;  // of v0 and of the time; in a smaller one, rounding of t exceeds a step
-constexpr double first_part = 1e-13;  // of v0: the way back begins there
 
 double unit_of_speed(const Scene& s) { return s.v0 > 0 ? s.v0 : std::sqrt(s.body.g * s.body.R); }
 
@@ -27,22 +25,20 @@ OdeSystem equations(const Body& body, Geometry geometry, const Law& law, double 
   const auto shift = [law, floor](double v) {
     return law(std::copysign(std::max(std::abs(v), floor), v));
   };
-  const auto derivative = [body, geometry, shift](double, const double* y, double* dydt) {
+  const auto derivative = [body, geometry, shift](const double* y, double* dydt) {
     dydt[0] = y[1];
     dydt[1] = trial_acceleration(body, geometry, shift(y[1]));
   };
-  const auto jacobian =
-      [body, geometry, shift, law, floor](double, const double* y, double* dfdy, double* dfdt) {
+  const auto jacobian = [body, geometry, shift, law, floor](const double* y, double* dfdy) {
     const double v = std::abs(y[1]);
     dfdy[0] = 0, dfdy[1] = 1, dfdy[2] = 0;
     dfdy[3] = v <= floor
                   ? 0
                   : trial_acceleration_slope(body, geometry, shift(y[1])) * law.at(v).by_log_v / v;
-    dfdt[0] = dfdt[1] = 0;
   };
   const auto longest = [body, geometry, shift, floor](const double* y) {
     const double v = std::max(std::abs(y[1]), floor);
-    return v > 0 ? v / (2 * std::abs(trial_acceleration(body, geometry, shift(y[1])))) : infinity;
+    return v > 0 ? v / (2 * std::abs(trial_acceleration(body, geometry, shift(y[1])))) : INFINITY;
   };
   return {derivative, jacobian, longest};
 }
@@ -62,55 +58,42 @@ IntegratedRoll::IntegratedRoll(const Scene& s, Stepper stepper, double rtol,
                                unsigned long most_steps)
     : IntegratedRoll(s, end_of(s), stepper, rtol, most_steps) {}
 
-// From v0 = 0 the way back begins at once.
+// From v0 = 0 the way back begins at once. The sign of a v that is 0 tells its direction.
 IntegratedRoll::IntegratedRoll(const Scene& s, End end, Stepper stepper, double rtol,
                                unsigned long most_steps)
-    : SolvedRoll(s.body, s.geometry, equations(s.body, s.geometry, s.law, end.floor),
-                 {stepper, rounding, rtol * last_part * unit_of_speed(s), rtol, most_steps},
-                 {s.x0, s.v0 > 0 || !end.turns
-                            ? s.v0
-                            : -std::copysign(first_part, s.body.slope) * unit_of_speed(s)}),
-      law_(s.law), end_(end), turned_(s.v0 == 0 && end.turns), at_rest_(s.v0 == 0 && !end.turns) {
+    : SolvedRoll(
+          s, most_steps,
+          [=] {
+  return Integrator(equations(s.body, s.geometry, s.law, end.floor), stepper,
+                    {rounding, rtol * last_part, rtol, {unit_of_speed(s), unit_of_speed(s)}},
+                    {s.x0, s.v0 > 0 ? s.v0 : -std::copysign(0, s.body.slope)});
+          }),
+law_(s.law), end_(end) {
+  turns_ = end.turns, at_rest_ = s.v0 == 0 && !end.turns;
   if (s.v0 == 0) stop_time_ = 0;
+  else if (end.floor == 0) stop_time_ = infinity;
 }
 
-bool IntegratedRoll::reaches_floor(Integrator& ode, double t) {
-  const bool reaches = ode.advance(t, [this](const std::vector<double>& y) {
-    return turned_ || end_.floor == 0 ? 1 : y[1] - end_.floor;
-  });
-  const double v = ode.state()[1], D = std::abs(law_(v));
-  if (geometry_ == Geometry::exact && D >= body_.R)
-    fail("at t = {:.6g} s the shift has grown to the radius {:.6g} m", ode.time(), body_.R);
-  if (std::abs(v) > law_.highest() * (1 + 1e-9))
-    fail("at t = {:.6g} s the speed {:.6g} m/s is above the table of the law, which ends at {}",
-         ode.time(), std::abs(v), law_.highest());
-  // The first value that was returned remains valid: within the error of the solver it depends on
-  // the steps.
-  if (reaches && !stop_time_) {
-    const double a = trial_acceleration(body_, geometry_, D),
-                 q = law_.at(v).by_log_v * trial_acceleration_slope(body_, geometry_, D) / a;
-    stop_time_ = ode.time() + (end_.creeps ? 0 : v / ((1 - q) * -a));
-  }
-  return reaches;
-}
-
-double IntegratedRoll::stop_time() {
-  if (!stop_time_ && end_.floor > 0) {
-    Integrator ode = from_start();
-    reaches_floor(ode, infinity);
-  }
-  return stop_time_.value_or(infinity);
-}
-
-void IntegratedRoll::seek(double t) {
-  if (at_rest_) return;
-  const double end = end_.turns ? infinity : stop_time_.value_or(infinity);
-  const bool reaches = reaches_floor(ode_, std::min(t, end));
-  at_rest_ = !end_.turns && (reaches || t >= end);
-  if (!reaches || at_rest_) return;
-  ode_.restart(*stop_time_, {x(), -first_part * v0()});
-  turned_ = true;
-  reaches_floor(ode_, t);
+bool IntegratedRoll::advance(Course& course, double t, unsigned long steps) {
+  Integrator& ode = course.ode;
+  const bool stops = ode.advance(
+      t,
+      [&](const std::vector<double>& y) {
+    const double v = y[1];
+    if (geometry_ == Geometry::exact && std::abs(law_(v)) >= body_.R)
+      fail("at t = {:.6g} s the shift has grown to the radius {:.6g} m", ode.time(), body_.R);
+    if (std::abs(v) > law_.highest() * (1 + 1e-9))
+      fail("at t = {:.6g} s the speed {:.6g} m/s is above the table of the law, which ends at {}",
+           ode.time(), std::abs(v), law_.highest());
+    return v0_ > 0 ? v - end_.floor : 1;
+      },
+      steps);
+  if (!stops) return false;
+  const double v = ode.state()[1], D = law_(v), a = trial_acceleration(body_, geometry_, D),
+               q = law_.at(v).by_log_v * trial_acceleration_slope(body_, geometry_, D) / a;
+  ode.restart(ode.time() + (end_.creeps ? 0 : v / ((1 - q) * -a)),
+              {ode.state()[0], -std::copysign(0, body_.slope)});
+  return true;
 }
 
 double IntegratedRoll::shift() {

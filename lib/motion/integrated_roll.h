@@ -4,10 +4,6 @@
 // that have neither.
 #pragma once
 
-#include <algorithm>
-#include <optional>
-
-#include "motion/scene.h"
 #include "motion/solved_roll.h"
 
 namespace rolling {
@@ -24,15 +20,10 @@ namespace rolling {
 /// v / ((1 - q) |dv/dt|) later: for q near 1 that is not small.
 class IntegratedRoll final : public SolvedRoll {
  public:
-  /// For what check_roll accepts. seek() and stop_time() throw the errors of the solver: more than
-  /// most_steps steps in one call, D above R, and v above the range of the law.
+  /// For what check_roll accepts. seek() and stop_time() throw Error, too, for D above R and v
+  /// above the range of the law.
   IntegratedRoll(const Scene&, Stepper, double rtol, unsigned long most_steps);
 
-  /// The first call integrates to the stop, independently of seek().
-  double stop_time() override;
-  void seek(double t) override;
-  double position() override { return x(); }
-  double velocity() override { return at_rest_ ? 0 : turned_ ? v() : std::max(0.0, v()); }
   double shift() override;
 
  private:
@@ -44,12 +35,10 @@ class IntegratedRoll final : public SolvedRoll {
   };
   static End end_of(const Scene&);
   IntegratedRoll(const Scene&, End, Stepper, double rtol, unsigned long most_steps);
-  bool reaches_floor(Integrator&, double t);
+  bool advance(Course&, double t, unsigned long steps) override;
 
   Law law_;
   End end_;
-  bool turned_, at_rest_;
-  std::optional<double> stop_time_;
 };
 
 }  // namespace rolling

@@ -3,40 +3,30 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "base/error.h"
 #include "contact/contact.h"
-#include "motion/roll.h"
 
 namespace rolling {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rest_fraction = 1e-3;  // of v0
 constexpr double stiff = 3e4;           // measured: above it an implicit solver is faster
 
-OdeSystem equations(const Body& body, Geometry geometry, PowerLaw law, Bulge bulge, double v0) {
-  check_roll(body, law, v0);
-  if (law.b < 0)
-    fail(
-        "the exponent b = {} is negative: a bulge with memory needs a shift that is finite at rest",
-        law.b);
-  if (!(bulge.length > 0 && std::isfinite(bulge.length)))
-    fail("the length of the memory = {} m must be a positive number", bulge.length);
-  if (!(bulge.damping >= 0 && std::isfinite(bulge.damping)))
-    fail("the damping of the memory = {} s must be a number that is not negative", bulge.damping);
-  // y = (x, v, z).
-  const auto derivative = [body, geometry, law, bulge](double, const double* y, double* dydt) {
+// y = (x, v, z).
+OdeSystem equations(const Scene& scene, PowerLaw law) {
+  const Body body = scene.body;
+  const Geometry geometry = scene.geometry;
+  const Bulge bulge = scene.bulge;
+  const auto derivative = [=](const double* y, double* dydt) {
     const double v = y[1], z = y[2];
     dydt[0] = v;
     dydt[2] = std::abs(v) * (law(v) - z) / bulge.length;
     dydt[1] = trial_acceleration(body, geometry, z + bulge.damping * dydt[2]);
   };
-  const auto jacobian =
-      [body, geometry, law, bulge](double, const double* y, double* dfdy, double* dfdt) {
+  const auto jacobian = [=](const double* y, double* dfdy) {
     const double v = y[1], z = y[2], speed = std::abs(v);
     const double dv_dD = trial_acceleration_slope(
         body, geometry, z + bulge.damping * speed * (law(v) - z) / bulge.length);
@@ -47,36 +37,55 @@ OdeSystem equations(const Body& body, Geometry geometry, PowerLaw law, Bulge bul
         0, 1,     0,    0, dv_dD * bulge.damping * dz_dv, dv_dD * (1 + bulge.damping * dz_dz),
         0, dz_dv, dz_dz};
     std::copy(rows, rows + 9, dfdy);
-    dfdt[0] = dfdt[1] = dfdt[2] = 0;
   };
-  return {derivative, jacobian};
+  // Where the error of a step vanishes, as under a constant shift, nothing else limits it.
+  const auto longest = [derivative, v0 = scene.v0](const double* y) {
+    double dydt[3];
+    derivative(y, dydt);
+    return (v0 + std::abs(y[1])) / std::abs(dydt[1]);
+  };
+  return {derivative, jacobian, longest};
+}
+
+PowerLaw law_of(const Scene& scene) {
+  const auto law = scene.law.power();
+  if (!law || law->b < 0)
+    fail("the memory goes with a law a v^b alone, whose shift is finite at rest: b is not below 0");
+  return *law;
 }
 
 }  // namespace
 
-Stepper memory_stepper(const Body& body, PowerLaw law, Bulge bulge, double v0) {
+Stepper memory_stepper(const Scene& scene) {
   // With z near the law, the shift z + damping z' of a body that slows down is smaller than z, by
   // the factor 1 + damping c dD/dv.
-  const double q = std::abs(trial_acceleration(body, Geometry::approximate, law(v0))),
-               slowing = v0 / q + bulge.damping * law.b,
-               following = bulge.length / (v0 + bulge.damping * q);
+  const auto [D, by_log_v] = scene.law.at(scene.v0);
+  const double damping = scene.bulge.damping,
+               q = std::abs(trial_acceleration(scene.body, Geometry::approximate, D)),
+               slowing = scene.v0 / q + damping * by_log_v / D,
+               following = scene.bulge.length / (scene.v0 + damping * q);
   return slowing > stiff * following ? Stepper::rk4imp : Stepper::rk8pd;
 }
 
 // The unit of z is the largest shift on a level mat or, on a slope, one that balances gravity if
-// that is larger. advance() counts evaluations, of which a step takes one at least.
-MemoryRoll::MemoryRoll(const Body& body, Geometry geometry, PowerLaw law, Bulge bulge, double v0,
-                       double x0, Stepper stepper, double rtol, unsigned long most_steps)
+// that is larger; it is above 0.
+MemoryRoll::MemoryRoll(const Scene& s, Stepper stepper, double rtol, unsigned long most_steps)
     : SolvedRoll(
-          body, geometry, equations(body, geometry, law, bulge, v0),
-          {stepper,
-           rtol,
-           1e-3 * rtol,
-           0,
-           40 * most_steps,
-           {bulge.length, v0, std::max({law(v0), body.R * std::abs(body.slope), least_speed})}},
-          {x0, v0, law(v0)}),
-      law_(law), bulge_(bulge), most_evaluations_(40 * most_steps), at_rest_(v0 == 0) {}
+          s, most_steps,
+          [=, law = law_of(s), D0 = s.law(s.v0)] {
+  return Integrator(
+      equations(s, law), stepper,
+      {rtol,
+       1e-3 * rtol,
+       0,
+       {s.bulge.length, s.v0, std::max({D0, s.body.R * std::abs(s.body.slope), least_speed})}},
+      {s.x0, s.v0, D0});
+          }),
+law_(law_of(s)), bulge_(s.bulge) {
+  at_rest_ = v0_ == 0;
+  if (at_rest_) stop_time_ = 0;
+  else if (law_.b >= 2 || body_.slope != 0) stop_time_ = infinity;
+}
 
 double MemoryRoll::fastest(const std::vector<double>& y) const {
   const double z = y[2], c = body_.g / ((body_.K + arm_factor(body_, geometry_, z)) * body_.R),
@@ -86,56 +95,33 @@ double MemoryRoll::fastest(const std::vector<double>& y) const {
       1 / power);
 }
 
-bool MemoryRoll::advance(Integrator& ode, double& crept, double t) const {
-  const unsigned long before = ode.evaluations();
-  const bool rests = law_.b < 2 && body_.slope == 0;
+bool MemoryRoll::advance(Course& course, double t, unsigned long steps) {
+  auto& [ode, creep] = course;  // creep: the bound of |v| at which it is rest, after the first zero
   // The right-hand side has a kink at v = 0; therefore each zero is located, and the integration
   // restarts from v = 0 exactly. The bulge pushes the body away from there, against z.
   for (;;) {
     const double v = ode.state()[1], way = v > 0 || (v == 0 && ode.state()[2] < 0) ? 1 : -1;
-    if (!ode.advance(t,
-                     [&](const std::vector<double>& y) {
-      if (ode.evaluations() - before > most_evaluations_)
-        fail(
-            "the roll with memory takes more than {} evaluations, at t = {:.6g} s: msbdf, if the "
-            "problem is stiff, an earlier end, another length or a damping",
-            most_evaluations_, ode.time());
-      return std::min(way * y[1], crept > 0 ? fastest(y) - crept : infinity);
-        }))
+    if (!ode.advance(
+            t,
+            [&, creep = creep](const std::vector<double>& y) {
+      return std::min(way * y[1], creep > 0 ? fastest(y) - creep : infinity);
+            },
+            steps))
       return false;
     std::vector<double> y = ode.state();
-    if (crept > 0 && fastest(y) - crept <= way * y[1]) return true;
+    const double bound = fastest(y);
+    if (creep > 0 && bound - creep <= way * y[1]) return true;
     y[1] = 0;
     ode.restart(ode.time(), y);
-    if (rests && crept > 0 && fastest(y) <= rest_fraction * v0()) return true;
-    if (rests && crept == 0) crept = rest_fraction * fastest(y);
+    if (stop_time_ == infinity) continue;
+    if (creep == 0) creep = rest_fraction * bound;
+    else if (bound <= rest_fraction * v0_) return true;
   }
-}
-
-double MemoryRoll::stop_time() {
-  if (v0() == 0) return 0;
-  if (law_.b >= 2 || body_.slope != 0) return infinity;
-  if (!stop_time_) {
-    Integrator ode = from_start();
-    double crept = 0;
-    advance(ode, crept, infinity);
-    stop_time_ = ode.time();
-  }
-  return *stop_time_;
-}
-
-void MemoryRoll::seek(double t) {
-  if (at_rest_) return;
-  // The computed time of rest depends, within rounding, on the steps. The first value that was
-  // returned remains valid.
-  const double stop = stop_time_.value_or(infinity);
-  at_rest_ = advance(ode_, crept_, std::min(t, stop)) || t >= stop;
-  if (at_rest_ && !stop_time_) stop_time_ = ode_.time();
 }
 
 double MemoryRoll::shift() {
-  const double z = ode_.state()[2];
-  return at_rest_ ? 0 : z + bulge_.damping * std::abs(v()) * (law_(v()) - z) / bulge_.length;
+  const double v = velocity(), z = course_.ode.state()[2];
+  return at_rest_ ? 0 : z + bulge_.damping * std::abs(v) * (law_(v) - z) / bulge_.length;
 }
 
 }  // namespace rolling

@@ -9,6 +9,7 @@
 #include "contact/contact.h"
 #include "motion/closed_form.h"
 #include "motion/integrated_roll.h"
+#include "motion/memory.h"
 #include "motion/roll.h"
 
 namespace rolling {
@@ -84,15 +85,16 @@ class MirroredRoll final : public Motion {
   std::unique_ptr<Motion> image_;
 };
 
+bool has_closed_form(const Scene& scene) {
+  return scene.law.power() && scene.geometry == Geometry::approximate && scene.body.slope == 0;
+}
+
 }  // namespace
 
 Method best_method(const Scene& scene) {
   if (scene.v0 < 0) return best_method(mirrored(scene));
-  const auto power = scene.law.power();
-  if (scene.bulge.length > 0 && power)
-    return {Method::solver, memory_stepper(scene.body, *power, scene.bulge, scene.v0)};
-  const bool closed = power && scene.geometry == Geometry::approximate && scene.body.slope == 0;
-  return {closed ? Method::closed : Method::exact};
+  if (scene.bulge.length > 0) return {Method::solver, memory_stepper(scene)};
+  return {has_closed_form(scene) ? Method::closed : Method::exact};
 }
 
 std::unique_ptr<Motion> start(const Scene& scene, Method method, double rtol,
@@ -101,34 +103,22 @@ std::unique_ptr<Motion> start(const Scene& scene, Method method, double rtol,
     return std::make_unique<MirroredRoll>(start(mirrored(scene), method, rtol, most_steps));
   const auto& [body, geometry, law, bulge, v0, x0] = scene;
   if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
-  const auto power = law.power();
   check_roll(body, law, v0);
   if (bulge.length > 0) {
-    if (!power) fail("the memory goes with a law a v^b alone");
     if (method.kind != Method::solver)
       fail(
           "a bulge with memory has no closed form and no integral over speed: its methods are the "
           "solvers");
     if (v0 == 0 && body.slope != 0)
       fail("v0 = 0: the memory of a mat at rest does not hold a body on a slope: say a small v0");
-    return std::make_unique<MemoryRoll>(body, geometry, *power, bulge, v0, x0, method.stepper, rtol,
-                                        most_steps);
+    return std::make_unique<MemoryRoll>(scene, method.stepper, rtol, most_steps);
   }
   if (method.kind == Method::solver)
     return std::make_unique<IntegratedRoll>(scene, method.stepper, rtol, most_steps);
-  if (method.kind == Method::exact) {
-    if (power && geometry == Geometry::approximate && body.slope == 0)
-      fail(
-          "the method exact goes with the exact geometry, a table or a slope: for A = 1 there is "
-          "closed");
-    return std::make_unique<SpeedRoll>(scene);
-  }
-  if (!power) fail("the method closed goes with a law a v^b: no other has a closed form here");
-  if (geometry == Geometry::exact)
-    fail("the method closed goes with A = 1: the exact geometry has no closed form");
-  if (body.slope != 0)
-    fail("the method closed goes with a level mat: on a slope there is no closed form");
-  return std::make_unique<ClosedForm>(body, *power, v0, x0);
+  if (method.kind == Method::exact) return std::make_unique<SpeedRoll>(scene);
+  if (!has_closed_form(scene))
+    fail("the closed form is that of a law a v^b with A = 1 on a level mat");
+  return std::make_unique<ClosedForm>(body, *law.power(), v0, x0);
 }
 
 }  // namespace rolling

@@ -6,11 +6,18 @@
 
 #include "contact/body.h"
 #include "contact/law.h"
-#include "motion/memory.h"
 #include "motion/motion.h"
 #include "ode/integrator.h"
 
 namespace rolling {
+
+/// The bulge has the state z, with z' = (v D(|v|) - |v| z) / length, and the shift is
+/// z + damping z': the bristle of Dahl's and the LuGre model of friction (Canudas de Wit et al.
+/// 1995, IEEE Trans. Automat. Contr. 40, 419).
+struct Bulge {
+  double length;       ///< rolled length over which the shift approaches the law [m], > 0
+  double damping = 0;  ///< sigma_1 [s], >= 0
+};
 
 struct Scene {
   Body body;

@@ -2,52 +2,62 @@
 // The common part of the rolls that are solutions of differential equations.
 #pragma once
 
+#include <functional>
+#include <limits>
+#include <optional>
 #include <utility>
-#include <vector>
 
 #include "base/error.h"
 #include "contact/contact.h"
-#include "motion/motion.h"
+#include "motion/scene.h"
 #include "ode/integrator.h"
 
 namespace rolling {
 
 /// The state vector begins with x and v; further elements belong to the derived class. At rest v
-/// and D are 0. There are two integrations of the same equations: seek() advances one of them; a
-/// second one determines the time of the stop when it is requested, because seek() only goes
-/// forward.
+/// and D are 0. There are two courses of the same equations: seek() advances one of them; a second
+/// one determines the time of the stop when it is requested, because seek() only goes forward.
+/// seek() and stop_time() throw the errors of Integrator, also after more than most_steps steps.
 class SolvedRoll : public Motion {
  public:
+  double stop_time() override;
+  void seek(double t) override;
+  double position() override { return course_.ode.state()[0]; }
+  double velocity() override { return at_rest_ ? 0 : course_.ode.state()[1]; }
   double acceleration() override {
     const double D = shift();
-    return D == 0 && velocity() == 0 ? 0 : acceleration_from_shift(body_, geometry_, D);
+    return at_rest_ ? 0 : acceleration_from_shift(body_, geometry_, D);
   }
-  unsigned long evaluations() const override { return ode_.evaluations(); }
+  unsigned long evaluations() const override { return course_.ode.evaluations(); }
 
  protected:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  struct Course {
+    Integrator ode;
+    double creep = 0;  // of the derived class
+  };
+
   /// A part of it, times a tolerance, is still a number with all digits.
   static constexpr double least_speed = 1e-280;
-  /// `start` is the state at t = 0. Throws Error if its v is positive and below least_speed, and
-  /// the errors of Integrator.
-  SolvedRoll(const Body& body, Geometry geometry, OdeSystem equations, const OdeOptions& options,
-             std::vector<double> start)
-      : body_(body), geometry_(geometry), equations_(std::move(equations)), options_(options),
-        start_(std::move(start)), ode_(equations_, options_, 0, start_) {
-    if (v0() > 0 && v0() < least_speed)
-      fail("the initial velocity v0 = {} is too small for a solver: the least is {:g} m/s", v0(),
+  /// Throws Error for a v0 that is positive and below least_speed.
+  SolvedRoll(const Scene& scene, unsigned long most_steps, std::function<Integrator()> from_start)
+      : body_(scene.body), geometry_(scene.geometry), v0_(scene.v0), most_steps_(most_steps),
+        from_start_(std::move(from_start)), course_{from_start_()} {
+    if (v0_ > 0 && v0_ < least_speed)
+      fail("the initial velocity v0 = {} is too small for a solver: the least is {:g} m/s", v0_,
            least_speed);
   }
-  Integrator from_start() const { return {equations_, options_, 0, start_}; }
-  double v0() const { return start_[1]; }
-  double x() const { return ode_.state()[0]; }
-  double v() const { return ode_.state()[1]; }
+  /// Integrates to t, or to the rest or the turning point if it is earlier: then it returns true.
+  virtual bool advance(Course&, double t, unsigned long steps) = 0;
 
   Body body_;
   Geometry geometry_;
-  OdeSystem equations_;
-  OdeOptions options_;
-  std::vector<double> start_;
-  Integrator ode_;  // that seek() advances
+  double v0_;
+  unsigned long most_steps_;
+  std::function<Integrator()> from_start_;
+  bool at_rest_ = false, turns_ = false;
+  std::optional<double> stop_time_;  // 0 and infinity are known from the beginning
+  Course course_;                    // that seek() advances
 };
 
 }  // namespace rolling

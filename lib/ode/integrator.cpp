@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <utility>
 
@@ -21,33 +20,23 @@ struct Integrator::Problem {
   std::unique_ptr<gsl_odeiv2_driver, void (*)(gsl_odeiv2_driver*)> driver{nullptr,
                                                                           gsl_odeiv2_driver_free};
   unsigned long evaluations = 0;
-  std::exception_ptr thrown;  // of the system; it is rethrown behind GSL, which is C
 
-  template <typename Call>
-  int guard(Call&& call) {
-    try {
-      call();
-      return GSL_SUCCESS;
-    } catch (...) {
-      thrown = std::current_exception();
-      return GSL_EBADFUNC;
-    }
-  }
-
-  static int derivative(double t, const double* y, double* dydt, void* self) {
+  static int derivative(double, const double* y, double* dydt, void* self) {
     auto& p = *static_cast<Problem*>(self);
     ++p.evaluations;
-    const int status = p.guard([&] { p.system.derivative(t, y, dydt); });
+    p.system.derivative(y, dydt);
     // A step to a state without a finite derivative is halved. GSL would accept it whatever its
     // error: the scale of the error is then NaN.
     const bool finite = std::all_of(dydt, dydt + p.gsl.dimension,
                                     [](double slope) { return std::isfinite(slope); });
-    return status == GSL_SUCCESS && !finite ? GSL_FAILURE : status;
+    return finite ? GSL_SUCCESS : GSL_FAILURE;
   }
 
-  static int jacobian(double t, const double* y, double* dfdy, double* dfdt, void* self) {
+  static int jacobian(double, const double* y, double* dfdy, double* dfdt, void* self) {
     auto& p = *static_cast<Problem*>(self);
-    return p.guard([&] { p.system.jacobian(t, y, dfdy, dfdt); });
+    p.system.jacobian(y, dfdy);
+    std::fill_n(dfdt, p.gsl.dimension, 0.0);
+    return GSL_SUCCESS;
   }
 };
 
@@ -67,76 +56,49 @@ const gsl_odeiv2_step_type* gsl_type(Stepper stepper) {
 
 const char* name_of(Stepper stepper) { return gsl_type(stepper)->name; }
 
-Integrator::Integrator(OdeSystem system, const OdeOptions& options, double t, std::vector<double> y)
-    : problem_(std::make_shared<Problem>()), max_steps_(options.max_steps), t_(t),
-      y_(std::move(y)) {
-  const std::vector<double> units =
-      options.units.empty() ? std::vector<double>(y_.size(), 1) : options.units;
-  if (units.size() != y_.size())
-    fail("{} units for a state of {} numbers", units.size(), y_.size());
-  if (!(options.rtol >= 0 && options.atol >= 0 && options.rtol + options.atol > 0 &&
-        std::isfinite(options.rtol + options.atol)))
-    fail("the tolerances rtol = {} and atol = {} must be positive", options.rtol, options.atol);
-  if (!is_explicit(options.stepper) && !system.jacobian)
-    fail("an implicit stepper needs the Jacobian");
+Integrator::Integrator(OdeSystem system, Stepper stepper, const Tolerance& tolerance,
+                       std::vector<double> y)
+    : problem_(std::make_shared<Problem>()), y_(std::move(y)) {
   problem_->system = std::move(system);
   std::vector<double> rate(y_.size());
-  problem_->system.derivative(t_, y_.data(), rate.data());
+  problem_->system.derivative(y_.data(), rate.data());
   for (std::size_t i = 0; i < y_.size(); ++i)
     if (const double part = 1e-3 * std::abs(y_[i] / rate[i]); part > 0) h_ = std::min(h_, part);
-  problem_->gsl = {Problem::derivative, problem_->system.jacobian ? Problem::jacobian : nullptr,
-                   y_.size(), problem_.get()};
+  problem_->gsl = {Problem::derivative, Problem::jacobian, y_.size(), problem_.get()};
   silence_gsl();
   problem_->driver = own(gsl_odeiv2_driver_alloc_scaled_new(
-                             &problem_->gsl, gsl_type(options.stepper), h_, options.atol, 1,
-                             options.rtol, options.change, units.data()),
+                             &problem_->gsl, gsl_type(stepper), h_, tolerance.of_unit, 1,
+                             tolerance.of_value, tolerance.of_change, tolerance.units.data()),
                          gsl_odeiv2_driver_free);
 }
 
 unsigned long Integrator::evaluations() const { return problem_->evaluations; }
 
-void Integrator::step(double t) {
-  if (steps_left_ == 0)
+void Integrator::step(double t, unsigned long& steps) {
+  if (steps == 0)
     fail(
-        "the integration has reached its limit of {} steps at t = {:.6g} s (rk8pd or, if the "
-        "problem is stiff, msbdf takes far fewer)",
-        max_steps_, t_);
-  --steps_left_;
+        "the integration has reached its limit of steps at t = {:.6g} s (rk8pd or, if the problem "
+        "is stiff, msbdf takes far fewer)",
+        t_);
+  --steps;
   const double before = t_;
-  before_ = y_;
   const gsl_odeiv2_driver& driver = *problem_->driver;
-  const auto finite = [this] {
-    return std::isfinite(t_) &&
-           std::all_of(y_.begin(), y_.end(), [](double y) { return std::isfinite(y); });
-  };
-  if (problem_->system.longest_step) h_ = std::min(h_, problem_->system.longest_step(y_.data()));
-  for (;;) {
-    const int status = gsl_odeiv2_evolve_apply(driver.e, driver.c, driver.s, &problem_->gsl, &t_, t,
-                                               &h_, y_.data());
-    if (problem_->thrown) std::rethrow_exception(std::exchange(problem_->thrown, nullptr));
-    if (status != GSL_SUCCESS)
-      fail("the integration fails at t = {:.6g} s: no step is short enough", t_);
-    if (finite()) break;
-    // GSL accepts a step whose error estimate is NaN, and steps grow without bound where the
-    // estimate is 0.
-    h_ = std::min(t_ - before, std::numeric_limits<double>::max()) / 10;
-    if (!(before + h_ > before)) fail("the state is no longer finite after t = {:.6g} s", before);
-    restart(before, before_);
-  }
-  if (t_ == before)
-    fail("the integration cannot go on at t = {:.6g} s: its step is below the rounding of t", t_);
+  h_ = std::min(h_, problem_->system.longest_step(y_.data()));
+  const int status =
+      gsl_odeiv2_evolve_apply(driver.e, driver.c, driver.s, &problem_->gsl, &t_, t, &h_, y_.data());
+  if (status != GSL_SUCCESS || t_ == before)
+    fail("the integration fails at t = {:.6g} s: no step is short enough", t_);
 }
 
-bool Integrator::advance(double t, const Event& event) {
-  steps_left_ = max_steps_;
+bool Integrator::advance(double t, const Event& event, unsigned long& steps) {
   double before = event(y_);
   while (t_ < t) {
     const double t_before = t_;
-    step(t);
+    std::vector<double> y_before = y_;
+    step(t, steps);
     const double now = event(y_);
-    if (now == 0 && before != 0) return true;
-    if (before != 0 && (before < 0) != (now < 0)) {
-      locate(t_before, before, event);
+    if (before != 0 && (now == 0 || (before < 0) != (now < 0))) {
+      if (now != 0) locate(t_before, std::move(y_before), event, steps);
       return true;
     }
     before = now;
@@ -146,15 +108,15 @@ bool Integrator::advance(double t, const Event& event) {
 
 /// Locates the sign change within the last step by the Illinois form of regula falsi. Each trial
 /// integrates anew from the beginning of the step, so its state is as accurate as any other.
-void Integrator::locate(double t_before, double value_before, const Event& event) {
-  const std::vector<double> y_before = before_;
-  double lo = t_before, f_lo = value_before, hi = t_, f_hi = event(y_);
+void Integrator::locate(double t_before, std::vector<double> y_before, const Event& event,
+                        unsigned long& steps) {
+  double lo = t_before, f_lo = event(y_before), hi = t_, f_hi = event(y_);
   const double rounding = 2 * std::numeric_limits<double>::epsilon() * std::abs(hi), h = h_;
   for (int i = 0, side = 0; i < 100 && hi - lo > rounding; ++i) {
     const double last = t_, t = std::clamp(hi - f_hi * (hi - lo) / (f_hi - f_lo), lo, hi);
     restart(t_before, y_before);
     h_ = std::min(h, t - t_before);
-    while (t_ < t) step(t);
+    while (t_ < t) step(t, steps);
     const double f = event(y_);
     if (f == 0 || std::abs(t - last) <= rounding) break;
     if ((f < 0) == (f_lo < 0)) {

@@ -17,9 +17,20 @@ namespace {
 const Body cylinder{1.375, 0.04, 0.5};
 const PowerLaw rubber{1.87e-3, 0.215};
 
+Scene scene(Bulge bulge, Geometry geometry = Geometry::approximate, PowerLaw law = rubber,
+            double v0 = 0.5, double x0 = 0) {
+  return {cylinder, geometry, law, bulge, v0, x0};
+}
+
+MemoryRoll roll(const Scene& of, Stepper stepper, double rtol = 1e-10,
+                unsigned long most_steps = 3'000'000) {
+  return {of, stepper, rtol, most_steps};
+}
+
 MemoryRoll roll(Bulge bulge, Geometry geometry = Geometry::approximate, PowerLaw law = rubber,
                 double v0 = 0.5, double x0 = 0) {
-  return {cylinder, geometry, law, bulge, v0, x0, memory_stepper(cylinder, law, bulge, v0), 1e-10};
+  const Scene of = scene(bulge, geometry, law, v0, x0);
+  return roll(of, memory_stepper(of));
 }
 
 struct Backwards {
@@ -84,7 +95,7 @@ TEST_CASE("MemoryRoll: every stepper that is fit for it finds the same rest", "[
       for (const Stepper stepper : {Stepper::rkf45, Stepper::bsimp, Stepper::rk4imp}) {
         INFO("length " << length << " damping " << bulge.damping << " stepper "
                        << static_cast<int>(stepper));
-        MemoryRoll motion(cylinder, Geometry::approximate, rubber, bulge, 0.5, 0, stepper, 1e-10);
+        MemoryRoll motion = roll(scene(bulge), stepper);
         CHECK(std::abs(motion.stop_time() / stop - 1) < 1e-6);
       }
     }
@@ -97,7 +108,7 @@ TEST_CASE("MemoryRoll: the rest does not depend on the units of length and time"
       const Body body{1, 0.04 * m, 0.5, 9.81 * m / (s * s)};
       const PowerLaw law{1.87e-3 * m * std::pow(s / m, 0.215), 0.215};
       for (const Stepper stepper : {Stepper::rk8pd, Stepper::rk4imp, Stepper::msbdf}) {
-        MemoryRoll motion(body, Geometry::exact, law, {1e-3 * m}, 0.5 * m / s, 0, stepper, 1e-10);
+        MemoryRoll motion = roll({body, Geometry::exact, law, {1e-3 * m}, 0.5 * m / s, 0}, stepper);
         INFO("metre " << m << " second " << s << " stepper " << static_cast<int>(stepper));
         CHECK(std::abs(motion.stop_time() / (s * stop) - 1) < 1e-6);
       }
@@ -110,7 +121,8 @@ TEST_CASE("MemoryRoll: a shift that vanishes at v0", "[rolling]") {
     for (const double b : {50.0, 110.0, 1000.0}) {
       const auto speed = [&](Stepper stepper) {
         const Body body{1, 0.04, 0.5, 9.81, slope};
-        MemoryRoll motion(body, Geometry::approximate, {1e-3, b}, {1e-2}, 1e-3, 0, stepper, 1e-10);
+        MemoryRoll motion =
+            roll({body, Geometry::approximate, PowerLaw{1e-3, b}, {1e-2}, 1e-3, 0}, stepper);
         motion.seek(3);
         return motion.velocity();
       };
@@ -127,9 +139,7 @@ TEST_CASE("MemoryRoll: under a constant shift too", "[rolling]") {
   for (const double damping : {1e-4, 1e-3, 3e-3}) {
     const auto stop = [&](Stepper stepper) {
       const Bulge bulge{1e-4, damping};
-      return MemoryRoll(cylinder, Geometry::approximate, {1.87e-3, 0}, bulge, 0.5, 0, stepper,
-                        1e-10)
-          .stop_time();
+      return roll(scene(bulge, Geometry::approximate, {1.87e-3, 0}), stepper).stop_time();
     };
     const double by_rkf45 = stop(Stepper::rkf45);
     CHECK(std::abs(stop(Stepper::rk8pd) - by_rkf45) < 1e-8);
@@ -144,8 +154,7 @@ TEST_CASE("MemoryRoll: every stepper finds the same rest of a bulge that creeps 
   for (const double b : {0.0, 0.1, 0.215})
     for (const double damping : {0.05, 0.1, 0.13, 0.5, 5.0}) {
       const auto stop = [&](Stepper stepper) {
-        return MemoryRoll(cylinder, Geometry::approximate, {1.87e-3, b}, {1e-3, damping}, 0.5, 0,
-                          stepper, 1e-10)
+        return roll(scene({1e-3, damping}, Geometry::approximate, {1.87e-3, b}), stepper)
             .stop_time();
       };
       const double by_rk8pd = stop(Stepper::rk8pd);
@@ -161,10 +170,10 @@ TEST_CASE("MemoryRoll: every stepper finds the same rest of a bulge that creeps 
 
 TEST_CASE("MemoryRoll: stiff lengths take an implicit solver, with few evaluations and damping too",
           "[rolling]") {
-  CHECK(memory_stepper(cylinder, rubber, {1e-3}, 0.5) == Stepper::rk8pd);
+  CHECK(memory_stepper(scene({1e-3})) == Stepper::rk8pd);
   for (const double damping : {0.0, 1e-3, 0.02}) {
     MemoryRoll motion = roll({1e-7, damping});
-    CHECK(memory_stepper(cylinder, rubber, {1e-7, damping}, 0.5) == Stepper::rk4imp);
+    CHECK(memory_stepper(scene({1e-7, damping})) == Stepper::rk4imp);
     ClosedForm law(cylinder, {1.87e-3, 0.215}, 0.5, 0);
     motion.seek(2);
     law.seek(2);
@@ -265,24 +274,18 @@ TEST_CASE("MemoryRoll: at rest from the start, never at rest, and refusals", "[r
   MemoryRoll swings = roll({5}, Geometry::approximate, {1.87e-3, 2});
   swings.seek(1e8);
   CHECK((swings.velocity() != 0 && std::isinf(swings.stop_time())));
-  CHECK_THROWS_AS(roll({0}), Error);
-  CHECK_THROWS_AS(roll({std::nan("")}), Error);
-  CHECK_THROWS_AS(roll({1e-3, -1}), Error);
   CHECK_THROWS_AS(roll({1e-3}, Geometry::approximate, {1.87e-3, -0.1}), Error);
-  CHECK_THROWS_AS(roll({1e-3}, Geometry::exact, {0.05, 0}), Error);
-  CHECK_THROWS_AS(roll({1e-3}, Geometry::exact, rubber, -0.5), Error);
+  CHECK_THROWS_AS(start(scene({1e-3}, Geometry::exact, {0.05, 0}), {Method::solver}, 1e-10), Error);
 }
 
 TEST_CASE("MemoryRoll: too much work is refused", "[rolling]") {
   // An explicit solver is slow where the bulge is short, and is let do it.
-  MemoryRoll slow(cylinder, Geometry::approximate, rubber, {1e-6}, 0.5, 0, Stepper::rk8pd, 1e-6);
+  MemoryRoll slow = roll(scene({1e-6}), Stepper::rk8pd, 1e-6);
   CHECK(std::abs(slow.stop_time() / roll({1e-6}).stop_time() - 1) < 1e-5);
-  MemoryRoll never_done(cylinder, Geometry::approximate, rubber, {1e-9}, 0.5, 0, Stepper::rk8pd,
-                        1e-10, 10'000);
+  MemoryRoll never_done = roll(scene({1e-9}), Stepper::rk8pd, 1e-10, 10'000);
   CHECK_THROWS_AS(never_done.stop_time(), Error);
   CHECK_THROWS_AS(never_done.seek(2), Error);
-  MemoryRoll rings(cylinder, Geometry::approximate, rubber, {1e300}, 0.5, 0, Stepper::rk8pd, 1e-10,
-                   10'000);
+  MemoryRoll rings = roll(scene({1e300}), Stepper::rk8pd, 1e-10, 10'000);
   CHECK_THROWS_AS(rings.stop_time(), Error);
   rings.seek(1);  // the roll before it
   CHECK((rings.evaluations() > 0 && rings.evaluations() < 500'000));
@@ -294,7 +297,7 @@ TEST_CASE("MemoryRoll: a strong damping makes the roll long and stiff", "[rollin
   for (const double damping : {3.0, 30.0}) {
     const Bulge bulge{1e-4, damping};
     INFO("damping " << damping);
-    CHECK(memory_stepper(cylinder, rubber, bulge, 0.5) == Stepper::rk4imp);
+    CHECK(memory_stepper(scene(bulge)) == Stepper::rk4imp);
     MemoryRoll motion = roll(bulge);
     const double stop = motion.stop_time();
     motion.seek(stop);
