@@ -41,8 +41,7 @@ struct SonarSample {
 /// rolls freely, and finally it is at rest. White Gaussian noise is added to each position before
 /// the rounding. The same seed gives the same run on every machine; `lost` does not change the
 /// noise of the other rows. `write` receives one sample after the other; five are kept in
-/// memory. Throws Error for an option out of range, for a motion that never stops if `until` is
-/// infinite, and for more than 1e9 samples.
+/// memory. Throws Error for more than 1e9 samples, as where the motion never stops.
 void sonar_run(Motion&, const SonarOptions&, const std::function<void(const SonarSample&)>& write);
 
 }  // namespace rolling

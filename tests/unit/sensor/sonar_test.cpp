@@ -146,7 +146,7 @@ TEST_CASE("sonar: a seed gives one row, on every machine", "[sensor]") {
   CHECK_FALSE(known[41].x);
 }
 
-TEST_CASE("sonar: until, never stopping, at rest all the time, refusals", "[sensor]") {
+TEST_CASE("sonar: until, never stopping, at rest all the time, too many rows", "[sensor]") {
   SonarOptions options;
   options.until = 1;
   CHECK(std::abs(run(options).back().t - 2.5) < 0.04);
@@ -161,18 +161,4 @@ TEST_CASE("sonar: until, never stopping, at rest all the time, refusals", "[sens
   CHECK_THROWS_AS(run(never, {}), Error);
   CHECK(std::abs(run(never, options).back().t - 2.5) < 0.04);
   for (const auto& s : run(still, perfect())) CHECK(s.x == 0.3);
-  const auto refused = [](auto&& change) {
-    SonarOptions bad;
-    change(bad);
-    CHECK_THROWS_AS(run(bad), Error);
-  };
-  for (const double value : {-1.0, std::nan(""), HUGE_VAL}) {
-    refused([&](SonarOptions& o) { o.rate = value; });
-    refused([&](SonarOptions& o) { o.resolution = value; });
-    refused([&](SonarOptions& o) { o.noise = value; });
-    refused([&](SonarOptions& o) { o.lost = value; });
-    if (!std::isinf(value)) refused([&](SonarOptions& o) { o.until = value; });
-  }
-  refused([](SonarOptions& o) { o.rate = 0; });
-  refused([](SonarOptions& o) { o.rate = 1e12; });
 }
