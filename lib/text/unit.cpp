@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -14,29 +13,27 @@
 namespace rolling {
 namespace {
 
-enum class Dimension { length, time, speed };
-
 /// A unit with a name of its own, by its spellings. Those of SI units may have a prefix.
 struct Unit {
   Conversion to_si;
   std::array<std::string_view, 5> spellings;
-  Dimension dimension;
+  std::string_view quantity;
   bool prefixed = false;
 };
 constexpr Unit units[] = {
-    {{}, {"m", "meter", "meters", "metre", "metres"}, Dimension::length, true},
-    {{127, 5000}, {"in", "inch", "inches"}, Dimension::length},
-    {{381, 1250}, {"ft", "foot", "feet"}, Dimension::length},
-    {{1143, 1250}, {"yd", "yard", "yards"}, Dimension::length},
-    {{201168, 125}, {"mi", "mile", "miles"}, Dimension::length},
-    {{}, {"s", "sec", "secs", "second", "seconds"}, Dimension::time, true},
-    {{60, 1}, {"min", "mins", "minute", "minutes"}, Dimension::time},
-    {{3600, 1}, {"h", "hr", "hrs", "hour", "hours"}, Dimension::time},
-    {{}, {"mps"}, Dimension::speed},
-    {{5, 18}, {"km/h", "kmh", "kph", "kmph"}, Dimension::speed},
-    {{1397, 3125}, {"mph"}, Dimension::speed},
-    {{381, 1250}, {"fps"}, Dimension::speed},
-    {{463, 900}, {"kn", "kt", "kts", "knot", "knots"}, Dimension::speed},
+    {{}, {"m", "meter", "meters", "metre", "metres"}, "x", true},
+    {{127, 5000}, {"in", "inch", "inches"}, "x"},
+    {{381, 1250}, {"ft", "foot", "feet"}, "x"},
+    {{1143, 1250}, {"yd", "yard", "yards"}, "x"},
+    {{201168, 125}, {"mi", "mile", "miles"}, "x"},
+    {{}, {"s", "sec", "secs", "second", "seconds"}, "t", true},
+    {{60, 1}, {"min", "mins", "minute", "minutes"}, "t"},
+    {{3600, 1}, {"h", "hr", "hrs", "hour", "hours"}, "t"},
+    {{}, {"mps"}, "v"},
+    {{5, 18}, {"km/h", "kmh", "kph", "kmph"}, "v"},
+    {{1397, 3125}, {"mph"}, "v"},
+    {{381, 1250}, {"fps"}, "v"},
+    {{463, 900}, {"kn", "kt", "kts", "knot", "knots"}, "v"},
 };
 struct Prefix {
   std::string_view letter, word;
@@ -63,82 +60,51 @@ const KnownQuantity* known(std::string_view name) {
   return found == std::end(quantities) ? nullptr : found;
 }
 
-/// In the lowest terms, so that a product with a short number is exact.
-Conversion reduced(double multiply, double divide) {
-  double common = multiply;  // by Euclid: fmod is exact, and km/ns^2 is beyond an integer's range
-  for (double rest = divide; rest != 0;) common = std::exchange(rest, std::fmod(common, rest));
-  return {multiply / common, divide / common};
-}
-Conversion product(Conversion a, Conversion b) {
-  return reduced(a.multiply * b.multiply, a.divide * b.divide);
-}
-Conversion quotient(Conversion a, Conversion b) {
-  return reduced(a.multiply * b.divide, a.divide * b.multiply);
-}
-
-std::optional<Conversion> spelled(Dimension dimension, std::string_view word) {
+std::optional<Conversion> spelled(std::string_view quantity, std::string_view word) {
   const auto is_one_of = [](const Unit& unit, std::string_view text) {
     return !text.empty() && std::ranges::count(unit.spellings, text) > 0;
   };
   for (const Unit& unit : units) {
-    if (unit.dimension != dimension) continue;
+    if (unit.quantity != quantity) continue;
     if (is_one_of(unit, word)) return unit.to_si;
     for (const Prefix& prefix : prefixes)
       for (const std::string_view front : {prefix.word, prefix.letter})
         if (unit.prefixed && word.starts_with(front) && is_one_of(unit, word.substr(front.size())))
-          return product(prefix.size, unit.to_si);
+          return prefix.size;
   }
   return {};
 }
 
-/// A unit of length or time. Case does not matter in words, but in letters: Ms is no millisecond.
-std::optional<Conversion> base_unit(Dimension dimension, std::string_view text) {
-  text = trim(text);
-  if (const auto found = spelled(dimension, text); found || text.size() < 3) return found;
-  return spelled(dimension, lower(text));
-}
-
-/// With a slash for `per`, and for a product with a power of time, as in `m s^-1`, `cm*s-1` and
-/// `ms-2`. There the time is s, min or h, so that mms-1 is mm/s.
+/// Products with a power of time, `m s^-1`, `cm*s-1` and `ms-2`, and squares as quotients: `m/s/s`.
 std::string as_quotient(std::string text) {
-  text = replace_all(std::move(text), " per ", "/");
-  for (const auto& [power, squared] :
-       {std::pair{"^-1", ""}, {"-1", ""}, {"^-2", "^2"}, {"-2", "^2"}})
-    for (const std::string_view time : {"s", "min", "h"}) {
-      const std::string end = std::string(time) + power;
-      if (!text.ends_with(end)) continue;
-      std::string front = text.substr(0, text.size() - end.size());
-      for (const std::string_view times : {"\xC2\xB7", "\xE2\x8B\x85", "*", "."})
-        front = replace_all(std::move(front), times, " ");
-      if (base_unit(Dimension::length, front)) return front + "/" + std::string(time) + squared;
-    }
+  for (const auto& [from, to] : {std::pair{" per ", "/"},
+                                 {"s^-", "/s^"},
+                                 {"s-", "/s^"},
+                                 {"h^-", "/h^"},
+                                 {"h-", "/h^"},
+                                 {"^1", ""}})
+    text = replace_all(std::move(text), from, to);
+  for (const std::string_view times : {"\xC2\xB7", "\xE2\x8B\x85", "*", "."})
+    text = replace_all(std::move(text), times, " ");
+  if (const auto slash = text.rfind('/'); slash != std::string::npos && text.ends_with("^2")) {
+    text.resize(text.size() - 2);
+    text += text.substr(slash);
+  }
   return text;
 }
 
-/// The quotient LENGTH/TIME, or LENGTH/TIME^2 and LENGTH/TIME/TIME if `power` is 2.
-std::optional<Conversion> rate(std::string_view text, int power) {
-  const auto slash = text.find('/');
-  if (slash == std::string_view::npos) return {};
-  const auto length = base_unit(Dimension::length, text.substr(0, slash));
-  std::string_view below = trim(text.substr(slash + 1));
-  if (power == 2) {
-    const auto second = below.find('/');
-    if (below.ends_with("^2")) below.remove_suffix(2);
-    else if (second == std::string_view::npos ||
-             trim(below.substr(0, second)) != trim(below.substr(second + 1)))
-      return {};
-    else below = below.substr(0, second);
-  }
-  const auto time = base_unit(Dimension::time, below);
-  if (!length || !time) return {};
-  const Conversion speed = quotient(*length, *time);
-  return power == 2 ? quotient(speed, *time) : speed;
-}
-
-/// Case does not matter in the names of speeds.
-std::optional<Conversion> speed(const std::string& text) {
-  const auto named = spelled(Dimension::speed, lower(text));
-  return named ? named : rate(text, 1);
+/// A unit with a name, or one of length or speed over one of time. Case does not matter in words,
+/// but in letters: Ms is no millisecond.
+std::optional<Conversion> conversion(std::string_view quantity, std::string_view text) {
+  text = trim(text);
+  if (const auto found = spelled(quantity, text)) return found;
+  if (const auto found = spelled(quantity, lower(text)); found && text.size() > 2) return found;
+  const auto slash = text.rfind('/');
+  if (slash == std::string_view::npos || (quantity != "v" && quantity != "a")) return {};
+  const auto above = conversion(quantity == "a" ? "v" : "x", text.substr(0, slash)),
+             below = conversion("t", text.substr(slash + 1));
+  if (!above || !below) return {};
+  return Conversion{above->multiply * below->divide, above->divide * below->multiply};
 }
 
 /// Words of English, and signs in the names of columns.
@@ -180,11 +146,7 @@ std::string_view known_units(std::string_view quantity) { return known(quantity)
 
 std::optional<Conversion> unit_of(std::string_view quantity, std::string_view unit) {
   if (!is_quantity(quantity)) return {};
-  const std::string text = as_quotient(plain_unit(unit));
-  const auto found = quantity == "t"   ? base_unit(Dimension::time, text)
-                     : quantity == "v" ? speed(text)
-                     : quantity == "a" ? rate(text, 2)
-                                       : base_unit(Dimension::length, text);
+  const auto found = conversion(quantity == "D" ? "x" : quantity, as_quotient(plain_unit(unit)));
   constexpr std::string_view in = "in ";  // Zeit (in s)
   return !found && unit.starts_with(in) ? unit_of(quantity, unit.substr(in.size())) : found;
 }

@@ -10,7 +10,7 @@
 namespace rolling {
 
 /// Value in SI units = value * multiply / divide. Both factors are whole numbers and exact in a
-/// double, so that a decimal unit adds one rounding error only.
+/// double; one of a decimal unit is 1, so that it adds one rounding error only.
 struct Conversion {
   double multiply = 1, divide = 1;
   bool changes() const { return multiply != divide; }
