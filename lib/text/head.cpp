@@ -107,7 +107,6 @@ class HeadReader {
       if (i < units.size())
         add_unit(columns.back(), units[i], fmt::format("{}:{}", lines_.name(), head_.line));
     }
-    note_units_of_other_names(columns);
     head_.layout = Layout::of(columns, sides);
     const bool side_by_side = head_.layout.side_by_side();
     if (head_.named && (side_by_side ? width > names.size() : width != names.size()))
@@ -236,24 +235,6 @@ class HeadReader {
       return has_units;
     });
     return names;
-  }
-
-  /// Notes the units that other comments with a name for each column give to these columns.
-  void note_units_of_other_names(const std::vector<Column>& columns) {
-    for (const Comment& comment : comments_) {
-      const UnnamedColumns unnamed{columns.size()};
-      if (!holds_names(comment, unnamed)) continue;
-      const auto names = names_in_comment(comment.text, unnamed).names;
-      for (std::size_t i = 0; i < columns.size(); ++i) {
-        const Column other = read_column(names[i]);
-        const std::string& quantity = columns[i].name;
-        const std::string unit =
-            other.unit.empty() ? unit_at_end(quantity, other.name) : other.unit;
-        const auto to_si = unit_of(quantity, unit);
-        if (to_si ? to_si->changes() : !other.unit.empty())
-          head_.said[quantity] = {unit, comment.line};
-      }
-    }
   }
 
   /// Notes that several `##` lines were sorted, if one stands below the comment with the names: the

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -176,15 +178,20 @@ std::string unit_at_end(std::string_view quantity, std::string_view name) {
 void note_units(std::string_view comment, std::size_t line, SaidUnits& said) {
   if (comment.starts_with("##")) return;
   std::string text = plain_unit(comment);
-  for (const std::string_view per : {" per ", " / "}) text = replace_all(std::move(text), per, "/");
-  std::ranges::replace_if(
-      text, [](unsigned char c) { return c < 0x80 && !std::isalnum(c) && c != '/' && c != '^'; },
-      ' ');
-  const std::vector<std::string> words = split_names(text, '\0');
+  for (const auto& [from, to] : {std::pair{" per ", "/"}, {" / ", "/"}, {"(", " [ "}, {"[", " [ "}})
+    text = replace_all(std::move(text), from, to);
+  const auto is_other = [](unsigned char c) {
+    return c < 0x80 && !std::isalnum(c) &&
+           std::string_view("/^[").find(static_cast<char>(c)) == std::string_view::npos;
+  };
+  std::ranges::replace_if(text, is_other, ' ');
+  std::istringstream in(text);
+  const std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
   for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool in_bracket = i > 0 && words[i - 1] == "[";
     const bool of_value =
         (i > 0 && is_number(words[i - 1])) || (i + 1 < words.size() && is_number(words[i + 1]));
-    if (of_value || is_ambiguous(words[i])) continue;
+    if (of_value || (is_ambiguous(words[i]) && !in_bracket)) continue;
     for (const KnownQuantity& of : quantities)
       if (const auto found = unit_of(of.name, words[i]); found && found->changes())
         said[std::string(of.name)] = {words[i], line};

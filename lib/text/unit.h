@@ -56,7 +56,7 @@ struct SaidUnit {
 using SaidUnits = std::map<std::string, SaidUnit>;
 
 /// Adds those of a comment. The word beside a number is part of a value; what is a word of English
-/// too (in, min, us) does not count.
+/// too (in, min, us) counts only at the beginning of a bracket.
 void note_units(std::string_view comment, std::size_t line, SaidUnits&);
 
 }  // namespace rolling
