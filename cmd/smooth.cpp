@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/enumeration.h"
@@ -99,14 +98,6 @@ class Told {
   LinesOfRuns doubts_;
 };
 
-void add_width(Tool& tool, std::size_t& samples, bool& choose) {
-  tool.add("-w,--width", "N", "width of the window, an odd number of samples (11), or auto",
-           [&](const std::string& text) {
-    choose = text == "auto";
-    if (!choose) samples = static_cast<std::size_t>(to_number(text, odd));
-  });
-}
-
 void add_options(Tool& tool, SelectionOptions& select) {
   tool.number(
       "--outliers", select.outliers, positive,
@@ -124,14 +115,14 @@ int main(int argc, char** argv) {
             "Replace a column by its mean over a moving window, or smooth it otherwise; select its "
             "rows.");
   std::string column;
-  bool choose = false;
   SelectionOptions select;
   auto methods = by_name(smoothing_methods);
   SignalOptions options{methods["mean"]};
   tool.text("-c,--column", column, "COLUMN",
             "the column to smooth (v, else the first that is not t)");
   tool.choice("-M,--method", options.method, methods, "what takes the place of a reading (mean)");
-  add_width(tool, options.width.samples, choose);
+  tool.count("-w,--width", options.width.samples, odd,
+             "width of the window, an odd number of samples (11)");
   tool.number("--seconds", options.width.seconds, positive,
               "width of the window in seconds, instead");
   tool.count("--order", options.order, polynomial, "order of savgol's polynomial (2)");
@@ -153,46 +144,34 @@ int main(int argc, char** argv) {
     const std::string name = in.columns()[in.column_of(y)].name;
     select.positions = name == "x";
     if (select.coast) need_motion(name);
-    Filter filter(in, tool.out);
+    Filter filter(in, tool.out, history(name, select, options));
     filter.replace(y);
-    auto tell = [&, told = false]() mutable {
-      if (!std::exchange(told, true)) filter.set_history(history(name, select, options));
-    };
     double first = INFINITY, last = -INFINITY;
     filter.say_why_none([&] {
       return fmt::format(": the times of the file go from {:.12g} to {:.12g} s", first, last);
     });
     Told selected(tool);
     while (filter.next_run()) {
-      if (!choose && !select.coast) tell();  // else the first run may still be refused
       Selection selection(select);
-      std::unique_ptr<Signal> smoother =
-          choose ? std::make_unique<AutoSmoother>(options) : make_signal(options);
-      std::size_t row = 0, kept = 0;
+      const auto smoother = make_signal(options);
+      std::size_t row = 0;
       const auto take = [&](std::span<const Judged> samples) {
         for (const Judged& s : samples) {
           if (!s.kept) filter.drop(row);
-          else if (selects) filter.put(s.y), ++kept;
-          else filter.put(smoother->push(s.t, s.y)), ++kept;
+          else if (selects) filter.put(s.y);
+          else filter.put(smoother->push(s.t, s.y));
           ++row;
         }
       };
       while (filter.next()) {
         first = std::min(first, filter[t]), last = std::max(last, filter[t]);
-        if (select.all()) filter.put(smoother->push(filter[t], filter[y])), ++kept;
+        if (select.all()) filter.put(smoother->push(filter[t], filter[y]));
         else take(selection.push(filter[t], filter[y]));
       }
       selection.finish();
       selected.add(selection, in.run_name());
-      if (!choose) tell();
       for (auto more = selection.next(); !more.empty(); more = selection.next()) take(more);
-      const auto rest = smoother->finish();
-      if (choose && kept > 0) {  // the first run with rows decides for all
-        options = static_cast<AutoSmoother&>(*smoother).options();
-        choose = false;
-        tell();
-      }
-      filter.put(rest);
+      filter.put(smoother->finish());
     }
     selected.say();
     return 0;

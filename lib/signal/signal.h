@@ -60,16 +60,4 @@ class WindowedSignal : public Signal {
   Growing<double> known_;
 };
 
-/// A filter that needs the whole run.
-class WholeRunSignal : public Signal {
- public:
-  std::span<const double> push(double t, double y) final {
-    run_.push_back({t, y});
-    return {};
-  }
-
- protected:
-  std::vector<Sample> run_;
-};
-
 }  // namespace rolling

@@ -13,8 +13,12 @@ namespace rolling {
 /// 66, 337). With the original factor 1 the spline is sometimes hardly smoothed, and always so if
 /// the noise of neighbours is correlated. Each trial costs O(n) (Hutchinson and de Hoog 1985,
 /// Numer. Math. 47, 99).
-class SplineDerivative : public WholeRunSignal {
+class SplineDerivative : public Signal {
  public:
+  std::span<const double> push(double t, double y) override {
+    run_.push_back({t, y});
+    return {};
+  }
   /// Throws Error for a run of one sample.
   std::span<const double> finish() override;
 
@@ -22,6 +26,7 @@ class SplineDerivative : public WholeRunSignal {
   double solve(double alpha);
   double Qg(std::size_t i) const;
 
+  std::vector<Sample> run_;
   std::vector<double> slopes_;
   std::vector<double> h_;                  // time steps in units of their mean
   std::vector<double> qy_, q0_, q1_, q2_;  // Q^T y, and the bands of Q^T Q (Green and Silverman)

@@ -23,20 +23,14 @@ std::string remarks_of(const std::string& comments) {
 }  // namespace
 
 Filter::Filter(Reader& in, Output& out, std::string history)
-    : in_(in), out_(out), enough_(rows_at_once()) {
-  if (!history.empty()) set_history(std::move(history));
-}
+    : in_(in), out_(out), history_(history.empty() ? "" : "## " + std::move(history) + '\n'),
+      enough_(rows_at_once()) {}
 
 Filter::~Filter() {
   try {
     if (!writing_) write_rows();
   } catch (...) {  // the error that ended the work is reported, not this one
   }
-}
-
-void Filter::set_history(std::string history) {
-  history_ = history.empty() ? "" : "## " + std::move(history) + '\n';
-  write_rows();
 }
 
 void Filter::append(Column column) {
@@ -104,7 +98,7 @@ void Filter::write_head() {
   if (names_.empty()) return;
   if (any_row_) out_.end_line();
   out_.text(std::exchange(comments_, {}));
-  out_.text(*history_);
+  out_.text(history_);
   out_.text(std::exchange(names_, {})), out_.end_line();
 }
 
@@ -134,7 +128,6 @@ void Filter::take_above() {
 
 /// Writes all rows before the first one that lacks a number.
 void Filter::write_rows() {
-  if (!history_) return;
   writing_ = true;
   const std::size_t each = std::max<std::size_t>(appended_.size(), 1);
   std::span<const double> numbers(numbers_.data(), numbers_.size());

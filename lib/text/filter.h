@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <queue>
 #include <span>
 #include <string>
@@ -28,15 +27,13 @@ inline constexpr std::string_view columns_renamed = "columns renamed";
 
 class Filter {
  public:
-  /// `history` is the `##` line, without the marks, that says what this filter does. If it is not
-  /// known yet, it is set by set_history(); nothing is written before.
-  Filter(Reader& in, Output& out, std::string history = {});
+  /// `history` is the `##` line, without the marks, that says what this filter does; empty if it
+  /// changes no number.
+  Filter(Reader& in, Output& out, std::string history);
   /// If an Error ends the work early, writes the rows that are complete.
   ~Filter();
   Filter(const Filter&) = delete;
   Filter& operator=(const Filter&) = delete;
-  /// An empty history writes no line: this filter changes no number.
-  void set_history(std::string history);
   /// What the error says behind "no rows are left".
   void say_why_none(std::function<std::string()> why) { why_none_ = std::move(why); }
 
@@ -86,7 +83,7 @@ class Filter {
 
   Reader& in_;
   Output& out_;
-  std::optional<std::string> history_;  // lines; nullopt until they are known
+  std::string history_;  // lines
   std::vector<Column> appended_;
   std::size_t replaced_ = Reader::no_column;  // a slot
   std::size_t cut_ = Reader::no_column;       // its column in this run

@@ -89,13 +89,12 @@ class Simulation {
     if (c_.unknown) run.v = c_.unknown(raw);
     if (c_.gate > 0 && c_.route == Route::velocity) pulses(run);
     if (c_.history.empty()) return run;
-    const auto history_lines = lines(run.t, raw);
-    rolling::History history = rolling::history_of(history_lines, run.t);
+    rolling::History history = rolling::history_of(c_.history, run.t);
     run.filters = std::move(history.filters);
     run.shift_of = history.shift_of;
     if (run.shift_of) run.shift_of->body.K = scene_.K;
     std::map<std::string, Column> columns{{c_.raw == Case::x ? "x" : "v", raw}};
-    for (const std::string& line : history_lines) filter(line, run.t, columns);
+    for (const std::string& line : c_.history) filter(line, run.t, columns);
     run.v = columns["v"];
     run.D = columns["a"];
     for (double& D : run.D) D *= -(1 + run.body.K) * run.body.R / run.body.g;
@@ -212,20 +211,6 @@ class Simulation {
       for (double& value : y)
         value = std::strtod(fmt::format("{:.{}g}", value, c_.digits).c_str(), nullptr);
     columns[!derivative ? column : column == "x" ? "v" : "a"] = std::move(y);
-  }
-  /// The `##` lines, with the width that `smooth -w auto` takes for these speeds.
-  std::vector<std::string> lines(const Column& t, const Column& x) {
-    std::vector<std::string> lines = c_.history;
-    for (std::string& line : lines) {
-      if (line != "smooth v auto") continue;
-      std::map<std::string, Column> columns{{"x", x}};
-      filter(lines[0], t, columns);
-      rolling::AutoSmoother smoother({rolling::by_name(rolling::smoothing_methods).at("mean")});
-      for (std::size_t i = 0; i < t.size(); ++i) smoother.push(t[i], columns["v"][i]);
-      smoother.finish();
-      line = "smooth v " + rolling::describe(smoother.options());
-    }
-    return lines;
   }
   double uniform() { return static_cast<double>(random_()) / 4294967296.0; }
 

@@ -176,7 +176,6 @@ inline std::vector<Case> cases() {
       {.name = "D from x, mean 11, spline",
        .route = shift,
        .history = to_shift(Case::x, "mean width 11", "spline")},
-      {.name = "D from x, mean auto", .route = shift, .history = to_shift(Case::x, "auto")},
       {.name = "D from x, AR(1) 0.5", .route = shift, .history = mean_11, .AR = 0.5},
       {.name = "D from x, AR(1) 0.8", .route = shift, .history = mean_11, .AR = 0.8},
       {.name = "D from x, AR(1) 0.95", .route = shift, .history = mean_11, .AR = 0.95},

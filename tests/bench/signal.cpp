@@ -82,7 +82,7 @@ Roll roll(const Scene& scene, unsigned long seed) {
 
 struct Method {
   std::string name;
-  double width;  // NaN: none, or one that differs from run to run
+  double width;  // NaN: none
   std::function<void(const Roll&, const Series& v, Series& smooth, Series& a)> apply;
 };
 
@@ -118,14 +118,6 @@ std::vector<Method> methods() {
                  [=](const Roll& r, const Series&, Series& s, Series& a) {
     s = apply({differentiation.at("spline")}, r.t, r.x), a = apply(central, r.t, s);
                  }});
-  for (const auto method : {smoothing.at("mean"), smoothing.at("savgol")})
-    all.push_back({method->has_order ? "savgol2_auto" : "mean_auto+central", NAN,
-                   [=](const Roll& r, const Series& v, Series& s, Series& a) {
-      AutoSmoother smoother({method});
-      s = through(smoother, r.t, v);
-      if (!method->has_order) a = apply(central, r.t, s);
-      else a = apply({differentiation.at("savgol"), smoother.options().width}, r.t, v);
-                   }});
   return all;
 }
 

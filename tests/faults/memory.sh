@@ -32,7 +32,6 @@ for route in loglog shift; do  # the filters are part of the fit, which takes a 
 done
 each_allocation smooth -M savgol --outliers 9 -u --digits 3 "$scratch/good"
 each_allocation smooth -M median --coast "$scratch/good"
-each_allocation smooth -w auto "$scratch/good"
 each_allocation differentiate -M spline "$scratch/good"
 each_allocation fitpower --route velocity -K 0.5 --scene "$scratch/scene" "$scratch/good"
 for method in rkf45 msadams rk4imp msbdf; do  # not bsimp: GSL does not look at five of its allocations, and asks malloc for them

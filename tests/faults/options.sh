@@ -71,7 +71,6 @@ smooth -w 010 @|'010' must be an odd whole number from 1 to 1e9
 smooth --seconds 0 @|'0' must be greater than 0
 smooth --seconds -1 @|'-1' must be greater than 0
 smooth -w 3 --seconds 1 @|--width does not go with --seconds
-smooth -w auto --seconds 1 @|--width does not go with --seconds
 smooth --outliers 0 @|'0' must be greater than 0
 smooth --order 2 @|--order goes with --method savgol
 smooth -M savgol -w 3 --order 3 @|order

@@ -170,7 +170,7 @@ TEST_CASE("filter: rows left out before the first run with a history", "[text]")
           Reader in({.files = {file.name()}}, {"t", "v"});
           Output out;
           const auto v = in.need("v");
-          Filter filter(in, out);
+          Filter filter(in, out, "test it");
           filter.replace(v);
           filter.next_run();
           for (std::size_t i = 0; filter.next(); ++i) filter.drop(i);
@@ -180,7 +180,6 @@ TEST_CASE("filter: rows left out before the first run with a history", "[text]")
           filter.drop(1);
           filter.put(30);
           filter.put(50);
-          filter.set_history("test it");
           filter.next_run();
           out.flush();
         })) == "# between\n## run FILE 2\n## test it\n# t[s]\tv[m/s]\n0\t30\n2\t50\n");
@@ -192,7 +191,7 @@ TEST_CASE("filter: no row left is an error of its own", "[text]") {
   printed([&] {
     Reader in({.files = {file.name()}}, {"t", "v"});
     Output out;
-    Filter filter(in, out);
+    Filter filter(in, out, "");
     message = refusal([&] {
       while (filter.next_run())
         for (std::size_t i = 0; filter.next(); ++i) filter.drop(i);
