@@ -2,7 +2,7 @@
 // differentiate - append the time derivative of a column; see differentiate(1)
 #include "cli/history.h"
 #include "cli/tool.h"
-#include "signal/derivative.h"
+#include "signal/method.h"
 #include "text/filter.h"
 
 int main(int argc, char** argv) {

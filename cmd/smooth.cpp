@@ -9,7 +9,7 @@
 #include "base/enumeration.h"
 #include "cli/tool.h"
 #include "signal/selection.h"
-#include "signal/smoother.h"
+#include "signal/method.h"
 #include "text/filter.h"
 
 namespace {

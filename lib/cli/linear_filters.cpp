@@ -3,8 +3,6 @@
 
 #include <numeric>
 
-#include "signal/derivative.h"
-
 namespace rolling {
 
 LinearFilter linear(const std::string& from, const std::string& to, const SignalOptions& options,

@@ -3,10 +3,6 @@
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "signal/savitzky_golay.h"
-#include "signal/smoothing_spline.h"
-
 namespace rolling {
 
 // Newton's form of the parabola through three samples: slopes s1, s2 over steps h1, h2, and the
@@ -27,7 +23,7 @@ std::span<const double> CentralDerivative::push(double t, double y) {
 
 std::span<const double> CentralDerivative::finish() {
   if (count_ == 0) return {};
-  if (count_ == 1) fail("a run of one row has no derivative");
+  require_slope(count_);
   known_[0] = known_[1] = slope_ + bend_ * step_;  // bend_ is 0 in a run of two
   return {known_.data(), count_ == 2 ? std::size_t{2} : std::size_t{1}};
 }
@@ -35,7 +31,7 @@ std::span<const double> CentralDerivative::finish() {
 // The order of operations is that of Vernier's programs, so that the results agree to the last bit:
 // the weight multiplies the rise before the division.
 double VernierDerivative::value(const Windows& window) {
-  if (window.size() == 1) fail("a run of one row has no derivative");
+  require_slope(window.size());
   const std::size_t i = window.at(), last = window.end() - 1;
   const auto slope = [&](std::size_t k, double weight) {
     const Sample &a = window.sample(std::max(i, window.begin() + k) - k),
@@ -46,7 +42,7 @@ double VernierDerivative::value(const Windows& window) {
 }
 
 double PascoDerivative::value(const Windows& window) {
-  if (window.size() == 1) fail("a run of one row has no derivative");
+  require_slope(window.size());
   const std::size_t i = window.at(), before = i - window.begin(), after = window.end() - 1 - i;
   const auto rise = [&](const Sample& a, const Sample& b) { return Sample{b.t - a.t, b.y - a.y}; };
   if (before > 0 && after > 0) {
@@ -63,30 +59,5 @@ double PascoDerivative::value(const Windows& window) {
   const Sample two = rise(inwards(1), inwards(2));
   return one.y / one.t - (two.y / two.t - one.y / one.t) / (one.t + two.t) * one.t;
 }
-
-namespace {
-
-template <typename Derivative>
-std::unique_ptr<Signal> make(const SignalOptions&) {
-  return std::make_unique<Derivative>();
-}
-
-std::unique_ptr<Signal> make_savgol(const SignalOptions& options) {
-  return std::make_unique<SavitzkyGolay>(options.width, options.order, SavitzkyGolay::What::slope);
-}
-
-// The spline is not linear, because its parameter depends on the readings.
-constexpr SignalMethod methods[] = {
-    // name, reach, linear, shift-invariant, has an order, make
-    {"central", 1, true, false, false, make<CentralDerivative>},
-    {"savgol", half_width, true, false, true, make_savgol},
-    {"spline", whole_run, false, false, false, make<SplineDerivative>},
-    {"vernier", 3, true, false, false, make<VernierDerivative>},
-    {"pasco", 2, true, false, false, make<PascoDerivative>},
-};
-
-}  // namespace
-
-const std::span<const SignalMethod> derivative_methods = methods;
 
 }  // namespace rolling

@@ -6,7 +6,7 @@
 #include <array>
 #include <span>
 
-#include "signal/method.h"
+#include "signal/signal.h"
 
 namespace rolling {
 
@@ -46,8 +46,5 @@ class PascoDerivative : public WindowedSignal<PascoDerivative> {
   PascoDerivative() : WindowedSignal({5, 0}, Windows::Ends::cut) {}
   double value(const Windows&);
 };
-
-/// The methods central, savgol (the only one with a width), spline, vernier and pasco.
-extern const std::span<const SignalMethod> derivative_methods;
 
 }  // namespace rolling

@@ -4,10 +4,45 @@
 #include <algorithm>
 #include <locale>
 #include <sstream>
+#include <type_traits>
 
 #include "base/error.h"
+#include "signal/derivative.h"
+#include "signal/moving.h"
+#include "signal/savitzky_golay.h"
+#include "signal/smoothing_spline.h"
 
 namespace rolling {
+namespace {
+
+template <typename Filter>
+std::unique_ptr<Signal> make(const SignalOptions& options) {
+  if constexpr (std::is_constructible_v<Filter, Width>)
+    return std::make_unique<Filter>(options.width);
+  else return std::make_unique<Filter>();
+}
+
+template <SavitzkyGolay::What what>
+std::unique_ptr<Signal> make(const SignalOptions& options) {
+  return std::make_unique<SavitzkyGolay>(options.width, options.order, what);
+}
+
+// The spline is not linear, because its parameter depends on the readings.
+constexpr SignalMethod all[] = {
+    // name, reach, linear, shift-invariant, has an order, make
+    {"mean", half_width, true, true, false, make<MovingMean>},
+    {"median", half_width, false, false, false, make<MovingMedian>},
+    {"savgol", half_width, true, false, true, make<SavitzkyGolay::What::value>},
+    {"central", 1, true, false, false, make<CentralDerivative>},
+    {"savgol", half_width, true, false, true, make<SavitzkyGolay::What::slope>},
+    {"spline", whole_run, false, false, false, make<SplineDerivative>},
+    {"vernier", 3, true, false, false, make<VernierDerivative>},
+    {"pasco", 2, true, false, false, make<PascoDerivative>},
+};
+
+}  // namespace
+
+const std::span<const SignalMethod> smoothing_methods{all, 3}, derivative_methods{all + 3, 5};
 
 std::unique_ptr<Signal> make_signal(const SignalOptions& options) {
   return options.method->make(options);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The properties of each method of smooth and differentiate, in one table for each tool. The
-// construction of a filter, its description in a `##` line and the parsing of that line all use
-// this table.
+// The properties of each method of smooth and differentiate, in one table. The construction of a
+// filter, its description in a `##` line and the parsing of that line all use this table.
 #pragma once
 
 #include <map>
@@ -42,6 +41,10 @@ struct SignalOptions {
   Width width{};
   std::size_t order = 2;  ///< of the polynomial
 };
+
+/// The methods mean, median and savgol, which all have a width; and central, savgol (the only one
+/// with a width), spline, vernier and pasco.
+extern const std::span<const SignalMethod> smoothing_methods, derivative_methods;
 
 /// Constructs the filter. Throws Error if width and order do not suit each other.
 std::unique_ptr<Signal> make_signal(const SignalOptions&);

@@ -112,7 +112,7 @@ std::span<const Judged> Outliers::finish() {
 double Outliers::least_scatter() const { return std::max(step_ / 3, program_rounding * large_); }
 
 /// Whether one outlier is in so many windows that these do not tell the scatter of the others.
-bool Outliers::few() const { return sorted_.size() < 3 * near; }
+bool Outliers::few() const { return scatter_.size() < 3 * near; }
 
 /// Whether sample i is on the motion of its neighbours. `again`: outliers beside it are known,
 /// which may have hidden it.
@@ -166,13 +166,11 @@ void Outliers::judge() {
     scatter_.push(s.t, std::sqrt(all.parabola().rss()) * all.unit);
   }
   while (scatter_.next()) {
-    scatter_.slide(
-        begin_, end_, [this](const Sample& s) { sorted_.insert(s.y); },
-        [this](const Sample& s) { sorted_.erase(s.y); });
+    const SortedWindow& sorted = sorted_.of(scatter_);
     const std::size_t i = scatter_.at();
     Judged& s = samples_[i - first_];
     s.noise =
-        std::max(sorted_[sorted_.size() / 4] / std::sqrt(static_cast<double>(near - 3)) / quartile,
+        std::max(sorted[sorted.size() / 4] / std::sqrt(static_cast<double>(near - 3)) / quartile,
                  least_scatter());
     // No reading is further from the motion than the root of the RSS, in standard errors.
     const bool near_all = !few() && scatter_.sample(i).y <= threshold_ * s.noise;

@@ -53,9 +53,8 @@ class Outliers {
   double before_ = 0, last_ = 0;  // the last two readings
   double large_ = 0;              // the largest reading so far that a neighbour reaches too
   double step_ = 0;               // the smallest difference so far
-  SortedWindow sorted_;
-  std::size_t begin_ = 0, end_ = 0;  // range of the samples in sorted_
-  std::deque<Judged> samples_;       // of the run, from the index first_ on, tested once
+  Sliding<SortedWindow> sorted_;
+  std::deque<Judged> samples_;  // of the run, from the index first_ on, tested once
   std::size_t first_ = 0, next_ = 0, count_ = 0;
   std::vector<Judged> judged_;
 };

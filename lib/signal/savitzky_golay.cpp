@@ -54,7 +54,7 @@ SavitzkyGolay::SavitzkyGolay(Width width, std::size_t order, What what)
 }
 
 double SavitzkyGolay::value(const Windows& window) {
-  if (what_ == What::slope && window.size() == 1) fail("a run of one row has no derivative");
+  if (what_ == What::slope) require_slope(window.size());
   samples_.clear();
   for (std::size_t i = window.begin(); i < window.end(); ++i) samples_.push_back(window.sample(i));
   const auto [value, slope] = polynomial_(samples_, window.sample(window.at()), order_);

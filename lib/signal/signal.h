@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/error.h"
 #include "base/growing.h"
 #include "signal/windows.h"
 
@@ -31,6 +32,11 @@ std::vector<double> output_of(Signal& filter, std::size_t n, auto&& sample) {
   }
   for (const double value : filter.finish()) output.push_back(value);
   return output;
+}
+
+/// Throws Error for a run of one sample.
+inline void require_slope(std::size_t samples) {
+  if (samples == 1) fail("a run of one row has no derivative");
 }
 
 /// A filter whose output depends on a window around each sample: Of::value(window).

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
 #include "base/golden_section.h"
 #include "signal/units.h"
 
@@ -64,7 +63,7 @@ double SplineDerivative::Qg(std::size_t i) const {
 std::span<const double> SplineDerivative::finish() {
   const std::size_t n = run_.size();
   if (n == 0) return {};
-  if (n == 1) fail("a run of one row has no derivative");
+  require_slope(n);
   const Units units(run_);
   std::ranges::transform(run_, run_.begin(), units);
   const auto step = [this](std::size_t i) { return run_[i + 1].t - run_[i].t; };

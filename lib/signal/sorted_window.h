@@ -12,10 +12,10 @@ namespace rolling {
 /// Insertion and removal move half of the readings by one place, which takes 1 us for 10,000.
 class SortedWindow {
  public:
-  void insert(double y) { sorted_.insert(std::ranges::upper_bound(sorted_, y), y); }
+  void add(double y) { sorted_.insert(std::ranges::upper_bound(sorted_, y), y); }
   /// Of a reading that is in the window.
-  void erase(double y) { sorted_.erase(std::ranges::lower_bound(sorted_, y)); }
-  /// The same as erase(old) and insert(y); the readings between them alone are moved.
+  void subtract(double y) { sorted_.erase(std::ranges::lower_bound(sorted_, y)); }
+  /// The same as subtract(old) and add(y); the readings between them alone are moved.
   void exchange(double y, double old) {
     const auto from = std::ranges::lower_bound(sorted_, old),
                to = std::ranges::lower_bound(sorted_, y);

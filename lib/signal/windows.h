@@ -62,16 +62,6 @@ class Windows {
   std::size_t at() const { return next_ - 1; }
   const Sample& sample(std::size_t i) const { return ring_[i & mask_]; }
 
-  /// Moves the range [from, to) of an earlier window to the present one, sample by sample, and
-  /// calls add and remove for each sample that enters and leaves.
-  template <typename Add, typename Remove>
-  void slide(std::size_t& from, std::size_t& to, Add add, Remove remove) const {
-    while (from > begin_) add(sample(--from));
-    while (to < end_) add(sample(to++));
-    while (from < begin_) remove(sample(from++));
-    while (to > end_) remove(sample(--to));
-  }
-
  private:
   /// The samples [begin, end) within the width around one of them, and whether no more will be.
   struct Within {
@@ -96,6 +86,27 @@ class Windows {
   std::size_t begin_ = 0, end_ = 0;   // the present window
   std::size_t left_ = 0, right_ = 0;  // range of the samples within the duration
   double start_ = 0;                  // time of the first sample of the run
+};
+
+/// What is made of the readings of a window, one after the other, as it moves along a run.
+template <typename Held>
+class Sliding {
+ public:
+  /// Of the present window: each reading that has entered is added, each that has left subtracted.
+  const Held& of(const Windows& window) {
+    const auto y = [&](std::size_t i) { return window.sample(i).y; };
+    if (begin_ + 1 == window.begin() && end_ + 1 == window.end())
+      held_.exchange(y(end_++), y(begin_++));
+    while (begin_ > window.begin()) held_.add(y(--begin_));
+    while (end_ < window.end()) held_.add(y(end_++));
+    while (begin_ < window.begin()) held_.subtract(y(begin_++));
+    while (end_ > window.end()) held_.subtract(y(--end_));
+    return held_;
+  }
+
+ private:
+  Held held_;
+  std::size_t begin_ = 0, end_ = 0;  // the samples that are in it
 };
 
 }  // namespace rolling

@@ -12,10 +12,9 @@
 #include "motion/roll.h"
 #include "motion/scene.h"
 #include "sensor/sonar.h"
-#include "signal/derivative.h"
+#include "signal/method.h"
 #include "signal/free_roll.h"
 #include "signal/pulses.h"
-#include "signal/smoother.h"
 #include "unit/fit/simulated.h"
 
 #include <fmt/format.h>

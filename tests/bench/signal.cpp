@@ -20,8 +20,7 @@
 
 #include "motion/closed_form.h"
 #include "sensor/sonar.h"
-#include "signal/derivative.h"
-#include "signal/smoother.h"
+#include "signal/method.h"
 
 using namespace rolling;
 

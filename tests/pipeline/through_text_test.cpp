@@ -12,7 +12,7 @@
 
 #include "contact/contact.h"
 #include "signal/derivative.h"
-#include "signal/moving_mean.h"
+#include "signal/moving.h"
 #include "text/number.h"
 #include "unit/catch.h"
 #include "unit/text/files.h"

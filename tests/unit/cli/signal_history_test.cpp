@@ -2,8 +2,7 @@
 // What smooth and differentiate say in their `##` lines, read back.
 #include "cli/history.h"
 
-#include "signal/derivative.h"
-#include "signal/smoother.h"
+#include "signal/method.h"
 #include "unit/catch.h"
 #include "unit/signal/through.h"
 

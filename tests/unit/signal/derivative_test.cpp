@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "signal/method.h"
 #include "unit/catch.h"
 #include "unit/signal/through.h"
 

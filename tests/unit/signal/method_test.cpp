@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "signal/derivative.h"
-#include "signal/smoother.h"
 #include "unit/catch.h"
 #include "unit/signal/through.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "signal/moving_mean.h"
+#include "signal/moving.h"
 
 #include <algorithm>
 #include <cmath>

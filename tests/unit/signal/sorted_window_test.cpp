@@ -27,12 +27,12 @@ TEST_CASE("sorted_window: as sorting has it, with ties too", "[signal]") {
     };
     std::size_t from = 0, to = 0;
     for (const std::size_t size : {0u, 1u, 2u, 7u, 600u, 5000u, 5001u, 300u, 3u, 0u}) {
-      while (to - from < size) window.insert(all[to++]);
-      while (to - from > size) window.erase(all[from++]);
+      while (to - from < size) window.add(all[to++]);
+      while (to - from > size) window.subtract(all[from++]);
       check(from, to);
     }
     while (to < 7000) {  // it slides
-      if (to - from < 100) window.insert(all[to++]);
+      if (to - from < 100) window.add(all[to++]);
       else window.exchange(all[to++], all[from++]);
     }
     check(from, to);

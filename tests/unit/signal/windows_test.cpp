@@ -19,25 +19,29 @@ struct Window {
   bool operator==(const Window&) const = default;
 };
 
-/// The windows of a run, and with each how many samples had come when it was known. What slide()
-/// adds and removes on the way to each window are the samples of the run.
+struct Held {
+  std::multiset<double> readings;
+  void add(double y) { readings.insert(y); }
+  void subtract(double y) { CHECK(readings.erase(y) == 1); }
+  void exchange(double y, double old) { add(y), subtract(old); }
+};
+
+/// The windows of a run, and with each how many samples had come when it was known. What Sliding
+/// holds at each window are its readings, which are their times.
 std::vector<Window> windows(const Series& t, Width width, Windows::Ends ends,
                             std::vector<std::size_t>* known = nullptr) {
   Windows all(width, ends);
   std::vector<Window> out;
-  std::size_t from = 0, to = 0;
-  std::multiset<double> held;
+  Sliding<Held> held;
   const auto take = [&](std::size_t count) {
     while (all.next()) {
       out.push_back({all.at(), all.begin(), all.end()});
-      all.slide(
-          from, to, [&](const Sample& s) { held.insert(s.t); },
-          [&](const Sample& s) { CHECK(held.erase(s.t) == 1); });
-      CHECK(std::ranges::equal(held, std::span(t).subspan(all.begin(), all.size())));
+      CHECK(
+          std::ranges::equal(held.of(all).readings, std::span(t).subspan(all.begin(), all.size())));
       if (known) known->push_back(count);
     }
   };
-  for (std::size_t i = 0; i < t.size(); ++i) all.push(t[i], 0), take(i + 1);
+  for (std::size_t i = 0; i < t.size(); ++i) all.push(t[i], t[i]), take(i + 1);
   all.finish();
   take(t.size());
   return out;
