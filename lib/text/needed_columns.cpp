@@ -2,7 +2,6 @@
 #include "text/needed_columns.h"
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "base/enumeration.h"
@@ -14,12 +13,8 @@ namespace {
 
 /// A word of the name begins with Time, or the name is t and a number.
 bool says_time(const std::string& name) {
-  const std::string small = lower(name);
-  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
-  for (auto at = small.find("time"); at != std::string::npos; at = small.find("time", at + 1))
-    if (at == 0 || !is_letter(small[at - 1])) return true;
-  return small.starts_with("t") && small.size() > 1 &&
-         std::ranges::none_of(small.substr(1), is_letter);
+  return ("_" + lower(name)).find("_time") != std::string::npos ||
+         (name.starts_with("t") && name.find_first_not_of("0123456789._", 1) == std::string::npos);
 }
 
 /// The column is to have the name and the unit of the quantity that it serves as.
@@ -34,14 +29,12 @@ NeededColumns::NeededColumns(const std::vector<std::string>& use, bool has_use,
     : has_use_(has_use), appended_by_(std::move(appended_by)) {
   for (const std::string& text : use) {
     const auto equals = text.find('=');
-    if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
-      fail("--use: '{}' is not NAME=COLUMN", shown(text));
     const Column of = read_column(text.substr(0, equals));
-    const std::string &quantity = of.name, &unit = of.unit;
-    if (!unit.empty() || !of.run.empty())
-      fail("--use: '{}': a unit goes behind the column: {}=COLUMN[{}]", shown(text), quantity,
-           shown(unit));
-    if (!is_quantity(quantity)) fail("--use: '{}' is not about t, x, v, a or D", shown(text));
+    const std::string& quantity = of.name;
+    if (equals == std::string::npos || equals + 1 == text.size() || !is_quantity(quantity) ||
+        !of.unit.empty() || !of.run.empty())
+      fail("--use: '{}' is not NAME=COLUMN or NAME=COLUMN[UNIT], with t, x, v, a or D as NAME",
+           shown(text));
     const std::string whole = text.substr(equals + 1);
     const Column column = read_column(whole);
     const std::string& name = column.run.empty() ? column.name : whole;
@@ -206,20 +199,14 @@ void NeededColumns::resolve(Needed& needed) {
   const bool first = needed.quantity.empty();
   const Column& read = as_read_[*found];
   const std::string& quantity = quantities_[*found];
+  const bool as_is = needed.kind == Kind::as_is;
   if (first) needed.quantity = quantity;
-  if (first && needed.kind != Kind::as_is) needed.unit = read.unit;
-  if (quantity != needed.quantity)
-    fail<InputError>("{}: column {} is {}, and {} in the runs before", place_, *found + 1,
-                     shown(quantity), shown(needed.quantity));
-  if (needed.kind == Kind::as_is) return convert_from_unit(needed);
-  if (!is_quantity(quantity) && read.unit != needed.unit)
-    fail<InputError>("{}: column {} is in {}, and in {} in the runs before", place_,
-                     shown(quantity), read.unit.empty() ? "no unit" : shown(read.unit),
-                     needed.unit.empty() ? "no unit" : shown(needed.unit));
-  if (const std::string asked = read_column(needed.name).unit;
-      first && !asked.empty() && asked != read.unit && asked != si_unit(quantity))
-    fail<InputError>("{}: '{}' is asked for, but column {} is '{}'", place_, shown(needed.name),
-                     *found + 1, shown(to_text(read)));
+  if (first && !as_is) needed.unit = read.unit;
+  if (quantity != needed.quantity || (!as_is && !is_quantity(quantity) && read.unit != needed.unit))
+    fail<InputError>("{}: column {} is '{}', and '{}' in the runs before", place_, *found + 1,
+                     shown(to_text({quantity, read.unit})),
+                     shown(to_text({needed.quantity, needed.unit})));
+  if (as_is) return convert_from_unit(needed);
   needed.to_si = conversion(*found, quantity);
 }
 
@@ -252,11 +239,10 @@ Conversion NeededColumns::conversion(std::size_t at, const std::string& quantity
   if (meant.unit.empty() || !is_quantity(quantity)) return {};
   if (const auto found = unit_of(quantity, meant.unit)) return *found;
   fail<InputError>(
-      "{}: column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); {}{}",
+      "{}: column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); convert "
+      "it "
+      "first (rolling-recipes(7)){}",
       place_, shown(to_text(meant)), quantity, shown(meant.unit), known_units(quantity),
-      meant.unit.find(':') == std::string::npos
-          ? "convert it first"
-          : "make seconds of clock times first (rolling-recipes(7))",
       has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", quantity, at + 1) : "");
 }
 

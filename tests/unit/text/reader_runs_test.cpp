@@ -175,11 +175,12 @@ TEST_CASE("reader: names and units hold until others come", "[text]") {
         "FILE:4: there is no column 'v' among t[s], x[m]; say --use v=COLUMN");
   CHECK(rows({first + "# t[s]\tv[furlong/s]\n1\t2\n"}) ==
         "FILE:4: column 'v[furlong/s]' cannot serve as v: its unit 'furlong/s' is not one of those "
-        "known (m/s, mm/s, cm/s, km/h, mph, ft/s); convert it first or say --use 'v=2[UNIT]'");
+        "known (m/s, mm/s, cm/s, km/h, mph, ft/s); convert it first (rolling-recipes(7)) or say "
+        "--use 'v=2[UNIT]'");
   CHECK(rows({"# t w[rpm]\n0 1\n\n# t w[rad/s]\n0 2\n"}, {}, {"t", "w"}) ==
-        "FILE:4: column w is in rad/s, and in rpm in the runs before");
+        "FILE:4: column 2 is 'w[rad/s]', and 'w[rpm]' in the runs before");
   CHECK(rows({"# t w\n0 1\n\n# t u\n0 2\n"}, {}, {"t", "2"}) ==
-        "FILE:4: column 2 is u, and w in the runs before");
+        "FILE:4: column 2 is 'u', and 'w' in the runs before");
   CHECK(rows({first + "1\t2\t3\n"}) == "FILE:4: 3 fields where the first row has 2");
 }
 

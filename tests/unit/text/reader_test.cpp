@@ -172,7 +172,8 @@ TEST_CASE("reader: --use says which column serves, by name or number", "[text]")
   CHECK(rows({"# t v\n0 1\n"}, use({"t=v", "v=t"})) == "1 0");
   CHECK(rows({"# t w[rpm]\n0 1\n"}, use({"v=w"})) ==
         "FILE: column 'w[rpm]' cannot serve as v: its unit 'rpm' is not one of those known (m/s, "
-        "mm/s, cm/s, km/h, mph, ft/s); convert it first or say --use 'v=2[UNIT]'");
+        "mm/s, cm/s, km/h, mph, ft/s); convert it first (rolling-recipes(7)) or say --use "
+        "'v=2[UNIT]'");
   CHECK(rows({"0 1 72\n"}, use({"v=3[km/h]"})) == "0 20");
   CHECK(rows({"# t w\n0 72\n"}, use({"v=w[MPH]"})) == "0 32.18688");
   CHECK(rows({"# t w[m/s]\n0 72\n"}, use({"v=w[km/h]"})) ==
@@ -270,7 +271,7 @@ TEST_CASE("reader: units are converted, and go out converted", "[text]") {
   CHECK(
       rows({"# t[parsec] v\n0 1\n"}) ==
       "FILE: column 't[parsec]' cannot serve as t: its unit 'parsec' is not one of those known (s, "
-      "sec, ms, us, min, h); convert it first or say --use 't=1[UNIT]'");
+      "sec, ms, us, min, h); convert it first (rolling-recipes(7)) or say --use 't=1[UNIT]'");
   CHECK(rows({"# t[h] v\n1e308 1\n"}) ==
         "FILE:2: field 1 (t): '1e308' is beyond the range of a double in SI units");
 }
