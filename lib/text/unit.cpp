@@ -95,12 +95,13 @@ std::string as_quotient(std::string text) {
   return text;
 }
 
-/// A unit with a name, or one of length or speed over one of time. Case does not matter in words,
-/// but in letters: Ms is no millisecond.
+/// A unit with a name, or one of length or speed over one of time. Case does not matter in words
+/// and in the names of speeds, but in letters: Ms is no millisecond.
 std::optional<Conversion> conversion(std::string_view quantity, std::string_view text) {
   text = trim(text);
   if (const auto found = spelled(quantity, text)) return found;
-  if (const auto found = spelled(quantity, lower(text)); found && text.size() > 2) return found;
+  if (text.size() > 2 || quantity == "v")
+    if (const auto found = spelled(quantity, lower(text))) return found;
   const auto slash = text.rfind('/');
   if (slash == std::string_view::npos || (quantity != "v" && quantity != "a")) return {};
   const auto above = conversion(quantity == "a" ? "v" : "x", text.substr(0, slash)),

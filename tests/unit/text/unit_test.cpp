@@ -79,7 +79,7 @@ TEST_CASE("unit: speeds with a name, and products with a power of time", "[text]
   CHECK(size_of("v", "mms-1") == 1e-3);
   CHECK(size_of("v", "mph") == 0.44704);
   CHECK(size_of("v", "knots") == 1852 / 3600.);
-  CHECK(size_of("v", "KTS") == 1852 / 3600.);
+  CHECK(size_of("v", "KN") == 1852 / 3600.);
   CHECK(size_of("v", "fps") == 0.3048);
   CHECK(size_of("a", "cms-2") == 0.01);
   for (const char* unit : {"ms", "M/S", "rpm", "furlong/s", "m", "", "1/s", "/s", "m/", "mms"})
