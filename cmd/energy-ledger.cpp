@@ -196,7 +196,7 @@ int main(int argc, char** argv) {
       task.law = read_law(tool, law_file, power, {{"slope", "", &task.body.slope}},
                           is_chosen("sigma_D") ? Uncertainties::needed : Uncertainties::ignored);
     tool.need({"mass", "radius", "shape-factor"});
-    Reader& in = task.summary ? tool.read({"t", "v", "D"}) : tool.filter({"t", "v", "D"});
+    Reader& in = tool.read({"t", "v", "D"});
     // A law on the command line takes precedence over a column D, the law of a scene does not.
     const bool law_given = !law_file.empty() || tool.on_command_line("coefficient") ||
                            tool.on_command_line("exponent");

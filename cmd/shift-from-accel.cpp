@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     tool.need({"radius", "shape-factor"});
-    Reader& in = tool.filter({"t", "v", "a"});
+    Reader& in = tool.read({"t", "v", "a"});
     const auto a = in.need("a");
     Filter filter(in, tool.out, line_of(by));
     filter.append({"D", "m"});

@@ -137,7 +137,7 @@ int main(int argc, char** argv) {
     const bool selects = !select.all() && !asks_to_smooth(tool);  // and changes no number
     if (selects) options.width.samples = 1;
     make_signal(options);  // refuses wrong options before anything is read
-    Reader& in = tool.filter({"t", "v"});
+    Reader& in = tool.read({"t", "v"});
     const auto t = in.need_time();
     if (column.empty()) column = default_column(in, t);
     const auto y = in.need(column);

@@ -50,15 +50,6 @@ bool Tool::used(const std::string& quantity) const {
 
 Reader& Tool::read(std::vector<std::string> order) { return open(input_, std::move(order)); }
 
-Reader& Tool::filter(std::vector<std::string> order) {
-  ReaderOptions options = input_;
-  options.on_comment = [this](std::string_view comment) {
-    out.text(comment);
-    out.end_line();
-  };
-  return open(std::move(options), std::move(order));
-}
-
 Reader& Tool::read_file(const std::string& file, std::vector<std::string> order) {
   // --use is about the operands
   return open({.files = {file}, .strict = input_.strict, .has_use = false}, std::move(order));
@@ -70,7 +61,6 @@ Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
       fail("standard input cannot be read twice: name a file for one of the two");
     if (::isatty(STDIN_FILENO)) warn("reading columns from the terminal; end with Ctrl-D");
   }
-  if (!options.on_comment) options.on_comment = [](std::string_view) {};
   options.appended_by = {{"a", "differentiate"}, {"D", "shift-from-accel"}};
   return *readers_.emplace_back(std::make_unique<Reader>(std::move(options), std::move(order)));
 }

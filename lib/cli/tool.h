@@ -30,9 +30,6 @@ class Tool : public Options {
 
   /// The rows of the operands. `order` names the columns of a file without names.
   Reader& read(std::vector<std::string> order);
-  /// The same for a filter, whose output has the comments too: of very many in front of the first
-  /// row most go out at once.
-  Reader& filter(std::vector<std::string> order);
   /// The rows of a file that is the value of an option.
   Reader& read_file(const std::string& file, std::vector<std::string> order);
 

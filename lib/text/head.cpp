@@ -2,7 +2,6 @@
 #include "text/head.h"
 
 #include <algorithm>
-#include <deque>
 #include <functional>
 #include <utility>
 
@@ -64,8 +63,8 @@ bool holds_names(const Comment& comment, const UnnamedColumns& columns) {
 /// The comments and other lines in front of the first row.
 class HeadReader {
  public:
-  HeadReader(Lines& lines, Dialect& dialect, const Head* before, const CommentHook& pass)
-      : lines_(lines), dialect_(dialect), before_(before), pass_(pass) {}
+  HeadReader(Lines& lines, Dialect& dialect, const Head* before)
+      : lines_(lines), dialect_(dialect), before_(before) {}
 
   Head read(const std::vector<std::string>& order, Sides sides) {
     const bool found = find_row();
@@ -122,27 +121,13 @@ class HeadReader {
     const std::string_view text = trim(std::string_view(line).substr(2));
     if (text.starts_with("run ")) {  // the `##` lines above belong to a run without rows
       head_.run = trim(text.substr(4));
-      const auto far = comments_.begin() + static_cast<std::ptrdiff_t>(far_);
-      const auto is_history = std::mem_fn(&Comment::is_history);
-      far_ -= static_cast<std::size_t>(std::count_if(comments_.begin(), far, is_history));
-      std::erase_if(comments_, is_history);
+      std::erase_if(comments_, std::mem_fn(&Comment::is_history));
     } else {
       keep(line);
     }
   }
 
-  /// Keeps a comment, and passes one on that is too far from the row: a sensor that idles may
-  /// write millions.
-  void keep(std::string comment) {
-    comments_.push_back({std::move(comment), lines_.number()});
-    constexpr std::size_t most = 100;
-    if (!pass_ || comments_.size() - far_ <= most) return;
-    const auto first = comments_.begin() + static_cast<std::ptrdiff_t>(far_);
-    if (first->is_history() || (far_ < most && (first->text.find('\t') != std::string::npos ||
-                                                holds_known_name(first->text))))
-      ++far_;
-    else pass_(first->text), comments_.erase(first);
-  }
+  void keep(std::string comment) { comments_.push_back({std::move(comment), lines_.number()}); }
 
   /// True for a first row with missing readings: a field is NaN, which is no name of a column; or
   /// all are blank, dates or times below known names; or one is blank below those of a comment.
@@ -319,19 +304,17 @@ class HeadReader {
   Lines& lines_;
   Dialect& dialect_;
   const Head* before_;
-  const CommentHook& pass_;
   Head head_;
-  std::deque<Comment> comments_;
-  std::size_t far_ = 0;            // of them stand too far from the row but are kept
+  std::vector<Comment> comments_;
   std::vector<Comment> preamble_;  // lines that are neither comments nor rows
 };
 
 }  // namespace
 
 Head read_head(Lines& lines, Dialect& dialect, const Head* before,
-               const std::vector<std::string>& order, Sides sides, const CommentHook& pass) {
+               const std::vector<std::string>& order, Sides sides) {
   try {
-    return HeadReader(lines, dialect, before, pass).read(order, sides);
+    return HeadReader(lines, dialect, before).read(order, sides);
   } catch (const InputError&) {
     throw;
   } catch (const Error& error) {

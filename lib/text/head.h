@@ -2,7 +2,6 @@
 // The head of a run: the comments, history and names before its first row.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,11 +32,7 @@ inline constexpr std::string_view lines_sorted = "lines sorted";
 /// Reads up to the next row, which is then the present line again. `before` is the previous head
 /// of the file: its names and units hold until there are others. It is null for the first head,
 /// where the dialect is chosen by the row and `order` names the columns if the file does not.
-/// Of more than 100 comments, `pass` gets all but the last 100, the history, and the first 100 that
-/// may be names, as soon as they have been read; without it all are kept. Throws InputError, also
-/// for the line that a tool writes when it ends with an error.
-using CommentHook = std::function<void(std::string_view)>;
-Head read_head(Lines&, Dialect&, const Head* before, const std::vector<std::string>& order, Sides,
-               const CommentHook& pass = {});
+/// Throws InputError, also for the line that a tool writes when it ends with an error.
+Head read_head(Lines&, Dialect&, const Head* before, const std::vector<std::string>& order, Sides);
 
 }  // namespace rolling

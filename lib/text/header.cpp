@@ -124,7 +124,7 @@ CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns& 
   return found;
 }
 
-std::optional<std::size_t> choose_names(const std::deque<Comment>& comments,
+std::optional<std::size_t> choose_names(const std::vector<Comment>& comments,
                                         const UnnamedColumns& columns, bool first,
                                         std::string_view file) {
   std::vector<CommentedNames> all;

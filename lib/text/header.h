@@ -3,7 +3,6 @@
 // units that may stand in a line below them.
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,7 +50,7 @@ bool holds_known_name(std::string_view line);
 /// head of a file (`first`), else of the last without known names. Nothing if there is none. Throws
 /// InputError, unless tabs separate the names or all are known, if another comment may be meant, or
 /// if words between blanks would move known columns of the run before.
-std::optional<std::size_t> choose_names(const std::deque<Comment>&, const UnnamedColumns&,
+std::optional<std::size_t> choose_names(const std::vector<Comment>&, const UnnamedColumns&,
                                         bool first, std::string_view file);
 
 /// Whether the fields of the line above the rows are the units of the names in the line above

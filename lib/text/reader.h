@@ -24,8 +24,6 @@ struct ReaderOptions {
   std::vector<std::string> use = {};    ///< NAME=COLUMN, or NAME=COLUMN[UNIT]
   std::optional<int> run = {};          ///< the only run to be read
   bool strict = false;                  ///< a missing reading is an error
-  /// Gets most of very many comments in front of the first run, see read_head(); not with `run`.
-  CommentHook on_comment = {};
   bool has_use = true;  ///< the option --use applies to these files
   /// By quantity, the program that appends it: messages name it where there is no such column.
   std::map<std::string, std::string> appended_by = {};

@@ -82,8 +82,7 @@ bool Reader::next_head() {
   const Sides sides = needed_.use_has_numbers() ? Sides::one : Sides::by_names;
   while (file_open_ || next_file()) {
     const bool first = run_in_file_ == 0;
-    Head head = read_head(*lines_, dialect_, first ? nullptr : &head_, order_, sides,
-                          run_ == 0 && !options_.run ? options_.on_comment : CommentHook());
+    Head head = read_head(*lines_, dialect_, first ? nullptr : &head_, order_, sides);
     if (!head.layout.runs.empty()) {
       take_head(std::move(head));
       return true;

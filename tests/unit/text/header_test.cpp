@@ -19,7 +19,7 @@ std::string in_brackets(const std::vector<std::string>& names) {
 /// The names that are chosen among comments on the lines 1, 2, ..., or what refuses them.
 std::string chosen(const std::vector<std::string>& texts, const UnnamedColumns& columns,
                    bool first = true) {
-  std::deque<Comment> comments;
+  std::vector<Comment> comments;
   for (const std::string& text : texts) comments.push_back({text, comments.size() + 1});
   std::string all;
   const std::string message = refusal([&] {
