@@ -13,13 +13,6 @@
 namespace rolling {
 namespace {
 
-/// Lines without a number; more mean that the file has no columns.
-constexpr std::size_t longest_preamble = 100;
-
-std::string name_of(char separator) {
-  return separator == '\0' ? "blanks" : separator == '\t' ? "tabs" : fmt::format("'{}'", separator);
-}
-
 /// The names in a line that is not a comment.
 std::vector<std::string> names_in(std::string_view line, char separator) {
   auto names = split_names(line, separator);
@@ -29,16 +22,14 @@ std::vector<std::string> names_in(std::string_view line, char separator) {
 
 /// Refuses a line that begins with a number and has another one, between other separators than
 /// those of the file: it is no heading, and the run would be lost.
-void refuse_other_separator(std::string_view line, char separator) {
+void refuse_other_separator(std::string_view line) {
   Dialect other;
   if (!other.choose(line)) return;
   const auto fields = other.split(line);
   const auto is_reading = [](const Field& f) { return is_number(f.text) || is_missing(f.text); };
   if (is_reading(fields.front()) && std::ranges::count_if(fields, is_reading) > 1)
-    fail(
-        "'{}' is separated by {}, and the rows before by {}; if it is a heading, begin it with "
-        "#",
-        shown(line), name_of(other.separator()), name_of(separator));
+    fail("'{}' is not separated as the rows before; if it is a heading, begin it with #",
+         shown(line));
 }
 
 /// Refuses a row without names, `1,5, 2,5`, whose commas without a blank behind them may be
@@ -69,10 +60,7 @@ class HeadReader {
   Head read(const std::vector<std::string>& order, Sides sides) {
     const bool found = find_row();
     if (!found) {
-      const bool empty = lines_.name() == "-" && comments_.empty() && preamble_.empty();
-      if (!before_ && empty)
-        fail<InputError>("standard input is empty: did the tool before this one fail?");
-      if (!before_) refuse_without_rows("no rows");
+      if (!before_) refuse_without_rows();
       comment_preamble();
       return finish();
     }
@@ -182,10 +170,8 @@ class HeadReader {
                        : dialect_.choose(line, has_tabs_above(line))) ||
               is_missing_row(line))
             return true;
-          if (before_) refuse_other_separator(line, dialect_.separator());
+          if (before_) refuse_other_separator(line);
           preamble_.push_back({line, lines_.number()});
-          if (preamble_.size() > longest_preamble)
-            refuse_without_rows(fmt::format("no numbers in the first {} lines", longest_preamble));
       }
     }
     return false;
@@ -262,18 +248,13 @@ class HeadReader {
     return names;
   }
 
-  /// Says what is wrong in the last line with a digit, which may have been meant as a row.
-  [[noreturn]] void refuse_without_rows(const std::string& what) const {
-    const auto has_digit = [](const Comment& line) {
-      return line.text.find_first_of(decimal_digits) != std::string::npos;
-    };
-    const auto last = std::find_if(preamble_.rbegin(), preamble_.rend(), has_digit);
-    if (last == preamble_.rend()) fail<InputError>("{}: {}", lines_.name(), what);
-    Dialect dialect;
-    dialect.choose(last->text);
-    fail<InputError>("{}:{}: {}: '{}' is separated by {}, and no field of it is a number",
-                     lines_.name(), last->line, what, shown(last->text),
-                     name_of(dialect.separator()));
+  [[noreturn]] void refuse_without_rows() const {
+    if (!preamble_.empty())
+      fail<InputError>("{}:{}: no rows: no field of '{}' is a number", lines_.name(),
+                       preamble_.back().line, shown(preamble_.back().text));
+    if (lines_.name() == "-" && comments_.empty())
+      fail<InputError>("standard input is empty: did the tool before this one fail?");
+    fail<InputError>("{}: no rows", lines_.name());
   }
 
   /// Makes comments of the lines that are neither names nor units.

@@ -24,7 +24,7 @@ struct ReaderOptions {
   std::vector<std::string> use = {};    ///< NAME=COLUMN, or NAME=COLUMN[UNIT]
   std::optional<int> run = {};          ///< the only run to be read
   bool strict = false;                  ///< a missing reading is an error
-  bool has_use = true;  ///< the option --use applies to these files
+  bool has_use = true;                  ///< the option --use applies to these files
   /// By quantity, the program that appends it: messages name it where there is no such column.
   std::map<std::string, std::string> appended_by = {};
 };

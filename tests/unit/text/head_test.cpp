@@ -159,22 +159,10 @@ TEST_CASE("head: no columns are refused, with the line", "[text]") {
         "packed, make UTF-16 UTF-8 (iconv -f UTF-16)");
   CHECK(head("t v\r0 1\r") ==
         "1: a carriage return within the line; make the line ends LF first (tr '\\r' '\\n')");
-  std::string words;
-  for (int i = 0; i < 101; ++i) words += "once upon a time\n";
-  CHECK(head(words) == " no numbers in the first 100 lines");
 }
 
-TEST_CASE("head: where no line is a row, the last one with a digit is said to be none", "[text]") {
-  CHECK(head("0 1,\n1 2,\n2 3,\n") ==
-        "3: no rows: '2 3,' is separated by ',', and no field of it is a number");
+TEST_CASE("head: where no line is a row, the last one is said to be none", "[text]") {
+  CHECK(head("0 1,\n1 2,\n2 3,\n") == "3: no rows: no field of '2 3,' is a number");
   CHECK(head("Time (ms)|Velocity (cm/s)\n0|1\n1|2\n") ==
-        "3: no rows: '1|2' is separated by blanks, and no field of it is a number");
-  CHECK(head("t=0 v=1\nt=1 v=2\nend\n") ==
-        "2: no rows: 't=1 v=2' is separated by blanks, and no field of it is a number");
-  std::string bars;
-  for (int i = 0; i < 200; ++i) bars += fmt::format("{}|0\n", i);
-  CHECK(
-      head(bars) ==
-      "101: no numbers in the first 100 lines: '100|0' is separated by blanks, and no field of it "
-      "is a number");
+        "3: no rows: no field of '1|2' is a number");
 }
