@@ -68,12 +68,9 @@ bool Dialect::choose(std::string_view line, bool tabs) {
   const std::string outside = outside_quotes(line, separators).text;
   const auto first = std::find_if(separators.begin(), separators.end(),
                                   [&](char separator) { return holds(outside, separator); });
+  *this = Dialect();
   separator_ = first == separators.end() ? '\0' : *first;
-  decimal_mark_ = '\0';
   asks_ = allows_foreign();
-  passed_thousands_ = false;
-  seen_.clear();
-  fields_.clear();
   if (separator_ == '\t' && !tabs) {
     const auto fields = split(line);
     const bool has_blanks = std::any_of(fields.begin(), fields.end(),
@@ -163,19 +160,15 @@ const char* Dialect::split_with_points(std::string_view text, std::span<const Fi
   as_it_stands_ = separator_ == '\t';
   may_need_quotes_ = false;
   for (Field* field = fields_.data(); field != fields_.data() + fields_.size(); ++field, ++at) {
-    if (at != end && *at == quote) {
-      const char* const first = ++at;
-      at = read_plain(at, end, *field);
-      field->text = {first, at};
-      if (at == first || at == end || *at++ != quote) return nullptr;
+    const bool quoted = at != end && *at == quote;
+    const char* const first = at += quoted;
+    at = read_plain(first, end, *field);
+    field->text = {first, at};
+    if (at == first || at == end) return nullptr;
+    if (quoted) {
       as_it_stands_ = false;
-    } else {
-      const char* const first = at;
-      at = read_plain(at, end, *field);
-      field->text = {first, at};
-      if (at == first) return nullptr;
+      if (*at++ != quote || at == end) return nullptr;
     }
-    if (at == end) return nullptr;
     if (*at == separator_) continue;
     if (*at != '\n' && (*at != '\r' || end - at < 2 || at[1] != '\n')) return nullptr;
     fields = {fields_.data(), field + 1};

@@ -35,7 +35,11 @@ ssize_t read_some(int fd, char* to, std::size_t size) {
 }
 
 int open_for_reading(const std::string& name) {
-  refuse_output(name);  // first: if standard output is closed, open() may return its number
+  struct stat in, out;  // before open(), which may return the number of a closed standard output
+  if ((name == "-" ? ::fstat(STDIN_FILENO, &in) : ::stat(name.c_str(), &in)) == 0 &&
+      ::fstat(STDOUT_FILENO, &out) == 0 && S_ISREG(in.st_mode) && in.st_dev == out.st_dev &&
+      in.st_ino == out.st_ino)
+    fail<InputError>("{}: this input is the output too", name);
   return name == "-" ? STDIN_FILENO : ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
 }
 
@@ -63,14 +67,6 @@ bool begins_with_error_value(std::string_view line) {
 }
 
 }  // namespace
-
-void refuse_output(const std::string& name) {
-  struct stat in, out;
-  if ((name == "-" ? ::fstat(STDIN_FILENO, &in) : ::stat(name.c_str(), &in)) == 0 &&
-      ::fstat(STDOUT_FILENO, &out) == 0 && S_ISREG(in.st_mode) && in.st_dev == out.st_dev &&
-      in.st_ino == out.st_ino)
-    fail<InputError>("{}: this input is the output too", name);
-}
 
 Lines::Lines(std::string name)
     : name_(std::move(name)), fd_(open_for_reading(name_)), kept_(buffer_.reserve(block)),

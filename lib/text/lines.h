@@ -12,10 +12,6 @@
 
 namespace rolling {
 
-/// Throws InputError if standard output is this regular file: the tool would read what it writes,
-/// or append its output to its input.
-void refuse_output(const std::string& name);
-
 enum class LineKind { blank, comment, history, row };
 
 /// A `##` line without the quotes and separators that a spreadsheet has put around it, and with
@@ -24,7 +20,8 @@ std::string history_line(std::string_view line);
 
 class Lines {
  public:
-  /// Opens a file; `-` is standard input. Throws InputError when it cannot be read.
+  /// Opens a file; `-` is standard input. Throws InputError when it cannot be read, and if it is
+  /// the standard output too: the tool would read what it writes.
   explicit Lines(std::string name);
   ~Lines();
   Lines(const Lines&) = delete;
