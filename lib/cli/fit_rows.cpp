@@ -14,7 +14,7 @@ namespace rolling {
 namespace {
 
 struct FitRows {
-  std::vector<LawRow> laws;
+  std::vector<OwnLaw> laws;
   std::vector<FitRun> runs;  ///< the names and bodies of the runs, without readings
   bool a_fixed = false, b_fixed = false;
   std::string common;  ///< "K, R": the numbers of take_common()
@@ -28,14 +28,14 @@ struct FitRows {
     if (laws.empty()) a_fixed = a.sigma == 0, b_fixed = b.sigma == 0;
     if (a_fixed != (a.sigma == 0) || b_fixed != (b.sigma == 0))
       fail("{} is fixed in some rows only", a_fixed != (a.sigma == 0) ? "a" : "b");
-    if (!laws.empty() && ((a_fixed && std::log(a.value) != laws.front().own.law.a) ||
-                          (b_fixed && b.value != laws.front().own.law.b)))
+    if (!laws.empty() && ((a_fixed && std::log(a.value) != laws.front().law.a) ||
+                          (b_fixed && b.value != laws.front().law.b)))
       fail("{} is fixed at another value than in the first row", a_fixed ? "a" : "b");
     const double log_a = a.sigma / a.value;
     const Symmetric C{log_a * log_a, corr * log_a * b.sigma, b.sigma * b.sigma};
     if (!C.inverse().is_finite() || !(C.aa * C.bb >= C.ab * C.ab))
       fail("corr = {}: its digits do not tell a from b: write the rows with more", corr);
-    laws.push_back({{laws.size(), {std::log(a.value), b.value}, C, known_errors}});
+    laws.push_back({laws.size(), {std::log(a.value), b.value}, C, known_errors});
     runs.emplace_back().name = std::move(name);
   }
 };
@@ -44,7 +44,7 @@ struct FitRows {
 void warn_of_same_rows(Tool& tool, const FitRows& rows) {
   std::map<std::vector<double>, std::size_t> different;
   for (std::size_t i = 0; i < rows.laws.size(); ++i) {
-    const OwnLaw& one = rows.laws[i].own;
+    const OwnLaw& one = rows.laws[i];
     const Symmetric& C = one.covariance;
     const auto [same, inserted] = different.insert({{one.law.a, one.law.b, C.aa, C.ab, C.bb}, i});
     if (inserted) continue;
@@ -74,7 +74,7 @@ FitRows read_rows(Tool& tool) {
           std::ranges::count_if(sigmas, [&](std::size_t sigma) { return in[sigma] > 0; }));
       if (!sized || !(in[n] > parameters) || !(in[rms] > 0)) continue;
       rows.laws.back().rms = in[rms];
-      rows.laws.back().own.freedom = in[n] - parameters;
+      rows.laws.back().freedom = in[n] - parameters;
     }
   }
   if (rows.laws.size() < 2)
@@ -95,7 +95,7 @@ std::vector<CommonError> take_common(FitRows& rows) {
       if (!(sigma > 0)) continue;
       const double log_a = sigma / (number.value == &Body::K ? value + 1 : value);
       by_value.try_emplace({value, sigma}, rows.runs.size()).first->second[i] = {log_a, 0};
-      Symmetric& C = rows.laws[i].own.covariance;
+      Symmetric& C = rows.laws[i].covariance;
       C.aa -= log_a * log_a;
       if (!rows.a_fixed && !(C.aa > 0 && C.aa * C.bb >= C.ab * C.ab))
         fail(

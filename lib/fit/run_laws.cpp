@@ -125,44 +125,35 @@ JointLaw scattered_mean(const std::vector<OwnLaw>& laws, double log_v, double fr
 
 namespace {
 
-/// The variance of the noise if it is of one size in all rows, else 0: Bartlett's test.
-double common_variance(const std::vector<LawRow>& rows) {
+/// The variance of the noise if it is of one size in all runs, else 0: Bartlett's test.
+double common_variance(const std::vector<OwnLaw>& laws) {
   double freedom = 0, squares = 0, logarithms = 0, inverse = 0;
-  for (const LawRow& row : rows) {
-    if (!(row.rms > 0)) return 0;
-    const double nu = row.own.freedom, variance = row.rms * row.rms;
+  for (const OwnLaw& one : laws) {
+    if (!(one.rms > 0)) return 0;
+    const double nu = one.freedom, variance = one.rms * one.rms;
     freedom += nu;
     squares += nu * variance;
     logarithms += nu * std::log(variance);
     inverse += 1 / nu;
   }
-  const double variance = squares / freedom, others = static_cast<double>(rows.size()) - 1,
+  const double variance = squares / freedom, others = static_cast<double>(laws.size()) - 1,
                correction = 1 + (inverse - 1 / freedom) / (3 * others),
                chi2 = (freedom * std::log(variance) - logarithms) / correction;
   return gsl_cdf_chisq_Q(std::max(0.0, chi2), others) > levels::uneven ? variance : 0;
 }
 
-/// The covariances, of rows whose noise is of one size with that size.
-std::vector<Symmetric> covariances_of(const std::vector<LawRow>& rows) {
-  const double variance = common_variance(rows);
-  std::vector<Symmetric> all;
-  for (const LawRow& row : rows)
-    all.push_back((variance > 0 ? variance / (row.rms * row.rms) : 1) * row.own.covariance);
-  return all;
-}
-
 }  // namespace
 
-JointLaw joint_law(std::vector<LawRow> rows, const std::vector<CommonError>& common) {
-  std::vector<OwnLaw> laws;
+JointLaw joint_law(const std::vector<OwnLaw>& laws, const std::vector<CommonError>& common) {
+  const double variance = common_variance(laws);
+  std::vector<Symmetric> weights;
   Weighted all;
-  const auto covariances = covariances_of(rows);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    laws.push_back(rows[i].own);
-    laws.back().run = i;
-    all.add(covariances[i].inverse(), laws.back().law);
+  for (const OwnLaw& one : laws) {
+    const double size = variance > 0 ? variance / (one.rms * one.rms) : 1;
+    weights.push_back((size * one.covariance).inverse());
+    all.add(weights.back(), one.law);
   }
-  const Symmetric C = covariances.front();
+  const Symmetric& C = laws.front().covariance;
   JointLaw joint{.law = all.mean(), .covariance = all.weights.inverse()};
   if (C.aa == 0) joint.law.a = laws.front().law.a;
   if (C.bb == 0) joint.law.b = laws.front().law.b;
@@ -176,8 +167,7 @@ JointLaw joint_law(std::vector<LawRow> rows, const std::vector<CommonError>& com
   const Symmetric V = joint.covariance;
   for (const CommonError& error : common) {
     Pair share{};
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      share = share + covariances[i].inverse() * error[i];
+    for (std::size_t i = 0; i < laws.size(); ++i) share = share + weights[i] * error[i];
     joint.covariance = joint.covariance + outer_square(V * share);
   }
   return joint;

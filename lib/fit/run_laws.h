@@ -49,12 +49,18 @@ inline Pair operator*(double s, Pair x) { return {s * x.a, s * x.b}; }
 inline Pair in_unit(Pair law, double log_v) { return {law.a + log_v * law.b, law.b}; }
 inline Symmetric operator*(double s, Symmetric X) { return {s * X.aa, s * X.ab, s * X.bb}; }
 
-/// The law of one run that is fitted by itself.
+/// The degrees of freedom of errors that are known.
+inline constexpr double known_errors = 1e6;
+
+/// The law of one run that is fitted by itself, with the errors of the noise.
 struct OwnLaw {
   std::size_t run;
   Pair law;
   Symmetric covariance;
-  double freedom;  ///< degrees of freedom of its residuals
+  double freedom;  ///< degrees of freedom of its residuals; of many, about known_errors, where they
+                   ///< are not known
+  double rms = 0;  ///< of its residuals, by which the noise of runs is compared; 0 where that is
+                   ///< not known
 
   /// The logarithm of D at the speed exp(log_v), with its standard error.
   Estimate log_D(double log_v) const;
@@ -120,19 +126,10 @@ struct JointLaw {
 JointLaw scattered_mean(const std::vector<OwnLaw>&, double log_v, double freedom,
                         const std::vector<CommonError>&);
 
-/// The fit of one run: its law with the errors of the noise, and the rms of its residuals, by which
-/// the noise of runs is compared; 0 where it is not known. `OwnLaw::freedom` is the number of
-/// degrees of freedom of rms; of many, about known_errors, where it is not known either.
-struct LawRow {
-  OwnLaw own;
-  double rms = 0;
-};
-inline constexpr double known_errors = 1e6;
-
-/// What agreement_of() makes of the runs themselves. Rows that agree have the
+/// The joint law of runs, as agreement_of() makes it of their readings. Runs that agree have the
 /// mean weighted by their inverse covariances; if the noise of all is of one size (Bartlett 1937 at
-/// 1 %), that size is the common one, as in a joint fit. Rows that do not agree have the
-/// scattered_mean(). Two or more rows, all with the same of a and b free.
-JointLaw joint_law(std::vector<LawRow>, const std::vector<CommonError>&);
+/// 1 %), that size is the common one, as in a joint fit. Runs that do not agree have the
+/// scattered_mean(). Two or more runs, all with the same of a and b free.
+JointLaw joint_law(const std::vector<OwnLaw>&, const std::vector<CommonError>&);
 
 }  // namespace rolling

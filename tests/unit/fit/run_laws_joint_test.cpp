@@ -14,12 +14,12 @@ using rolls::felt, rolls::roll, rolls::rubber;
 
 namespace {
 
-LawRow row_of(const FitResult& r, std::size_t parameters) {
+OwnLaw row_of(const FitResult& r, std::size_t run, std::size_t parameters) {
   const double log_a = r.sigma_a / r.a;
-  return {{0,
-           {std::log(r.a), r.b},
-           {log_a * log_a, r.corr * log_a * r.sigma_b, r.sigma_b * r.sigma_b},
-           static_cast<double>(r.n - parameters)},
+  return {run,
+          {std::log(r.a), r.b},
+          {log_a * log_a, r.corr * log_a * r.sigma_b, r.sigma_b * r.sigma_b},
+          static_cast<double>(r.n - parameters),
           r.rms};
 }
 
@@ -28,9 +28,9 @@ LawRow row_of(const FitResult& r, std::size_t parameters) {
 class Rows {
  public:
   explicit Rows(unsigned seed) : random_(seed) {}
-  std::vector<LawRow> operator()(std::size_t count, double scatter, double freedom,
+  std::vector<OwnLaw> operator()(std::size_t count, double scatter, double freedom,
                                  double uneven = 1) {
-    std::vector<LawRow> rows;
+    std::vector<OwnLaw> rows;
     for (std::size_t i = 0; i < count; ++i) {
       const double size = i % 2 ? uneven : 1, a = size * 0.012 * (1 + 0.3 * uniform_(random_)),
                    b = 0.66 * a, x = normal_(random_), y = normal_(random_), corr = 0.99;
@@ -39,7 +39,7 @@ class Rows {
           scatter / 5 * normal_(random_) + b * (corr * x + std::sqrt(1 - corr * corr) * y)};
       const double factor =
           gsl_cdf_chisq_Pinv((uniform_(random_) + 1e-12) / (1 + 2e-12), freedom) / freedom;
-      rows.push_back({{i, law, factor * Symmetric{a * a, corr * a * b, b * b}, freedom},
+      rows.push_back({i, law, factor * Symmetric{a * a, corr * a * b, b * b}, freedom,
                       size * std::sqrt(factor)});
     }
     return rows;
@@ -101,10 +101,10 @@ TEST_CASE("joint law: rows say what a joint fit of their runs says", "[fit]") {
     double off = 0;
     for (int set = 0; set < 10; ++set) {
       std::vector<FitRun> runs;
-      std::vector<LawRow> rows;
+      std::vector<OwnLaw> rows;
       for (int i = 0; i < 5; ++i) {
         runs.push_back(roll({rubber.a * (1 + noise(scatter)), rubber.b}, 0, 1, noise));
-        rows.push_back(row_of(fit(Route::position, {runs.back()}, {}), 4));
+        rows.push_back(row_of(fit(Route::position, {runs.back()}, {}), rows.size(), 4));
       }
       const FitResult r = fit(Route::position, runs, {});
       const JointLaw joint = joint_law(rows, {});
@@ -127,9 +127,9 @@ TEST_CASE("joint law: rows say what a joint fit of their runs says", "[fit]") {
 // rows, that of g for all.
 TEST_CASE("joint law: an error that rows have in common counts once", "[fit]") {
   const Symmetric C{1e-4, 0, 1e-4};
-  std::vector<LawRow> rows;
+  std::vector<OwnLaw> rows;
   for (const double log_a : {0.01, -0.01, 0.005, -0.005})
-    rows.push_back({{0, {log_a, 0.2}, C, known_errors}});
+    rows.push_back({rows.size(), {log_a, 0.2}, C, known_errors});
   const Pair k{0.02, 0}, g{0.03, 0};
   const JointLaw alone = joint_law(rows, {}),
                  common = joint_law(rows, {{k, k, {}, {}}, {g, g, g, g}});
@@ -137,7 +137,7 @@ TEST_CASE("joint law: an error that rows have in common counts once", "[fit]") {
   CHECK(common.covariance.aa == Approx(1e-4 / 4 + 0.01 * 0.01 + 0.03 * 0.03));
   CHECK(common.covariance.bb == Approx(1e-4 / 4));
   CHECK(common.agreement.ratio == alone.agreement.ratio);
-  for (LawRow& row : rows) row.own.law.a *= 100;
+  for (OwnLaw& row : rows) row.law.a *= 100;
   const JointLaw scattered = joint_law(rows, {}), all = joint_law(rows, {{g, g, g, g}});
   REQUIRE_FALSE(all.agreement.agree());
   CHECK(all.covariance.aa == Approx(scattered.covariance.aa + 0.03 * 0.03));
@@ -146,9 +146,9 @@ TEST_CASE("joint law: an error that rows have in common counts once", "[fit]") {
 }
 
 TEST_CASE("joint law: b that all rows hold fixed", "[fit]") {
-  std::vector<LawRow> rows;
+  std::vector<OwnLaw> rows;
   for (const double log_a : {0.01, -0.02, 0.01})
-    rows.push_back({{0, {log_a, 0.2}, {1e-4, 0, 0}, known_errors}});
+    rows.push_back({rows.size(), {log_a, 0.2}, {1e-4, 0, 0}, known_errors});
   const JointLaw joint = joint_law(rows, {});
   CHECK(joint.agreement.dof == 2);
   CHECK(joint.agreement.ratio == Approx(6).epsilon(1e-4));
@@ -162,9 +162,9 @@ TEST_CASE("joint law: b that all rows hold fixed", "[fit]") {
 // their rows.
 TEST_CASE("joint law: noise of one size by Bartlett's test, by hand", "[fit]") {
   for (const double variance : {19.0, 40.0}) {
-    std::vector<LawRow> rows;
+    std::vector<OwnLaw> rows;
     for (const double of_row : {1.0, 1.0, 1.0, 1.0, variance})
-      rows.push_back({{rows.size(), {0, 0.2}, {0, 0, 1e-4 * of_row}, 3}, std::sqrt(of_row)});
+      rows.push_back({rows.size(), {0, 0.2}, {0, 0, 1e-4 * of_row}, 3, std::sqrt(of_row)});
     const double weights = variance < 30 ? 5 / ((4 + variance) / 5) : 4 + 1 / variance;
     CHECK(joint_law(rows, {}).covariance.bb == Approx(1e-4 / weights).epsilon(1e-12));
   }
