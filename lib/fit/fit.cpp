@@ -125,15 +125,18 @@ void require_determined(const FitResult& result, const FitOptions& options, cons
     fail("as many parameters as rows do not determine b: it comes out as {:.3g}", result.b);
 }
 
-/// Throws Error if the roll has no shift, as a body at rest, or if it has lost nearly all of v0
-/// before the second reading, as where the first one is wrong.
-void require_seen(const Fitted& found) {
+/// Throws Error if the roll has no shift, as a body at rest; if it has lost nearly all of v0 before
+/// the second reading, as where the first one is wrong; or if rows follow after D has reached R
+/// (exact geometry, b < 0) at a speed that is not next to rest. There the model lets D be R, which
+/// serves the search, but is not the law.
+void require_roll(const Fitted& found) {
   if (!found.rolls) return;
+  constexpr double rest = 1e-3;  // of v0; below it MemoryRoll, too, counts a body as at rest
   const auto& runs = found.rolls->runs();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const ObservedRun& run = runs[r];
     Roll roll = found.rolls->roll(found.minimum.theta, r);
-    const double v0 = std::abs(found.v0[r].value), D = found.law().at(v0).D;
+    const double v0 = std::abs(found.v0[r].value), D = found.law().at(v0).D, last = run.t.back();
     if (run.body.slope == 0 && !found.slope && std::abs(D) < program_rounding * run.body.R)
       fail("{}the body does not slow down: D comes out as {:.2g} m", run.place, D);
     double fastest = 0;
@@ -145,24 +148,12 @@ void require_seen(const Fitted& found) {
           "{}no reading comes near v0 = {:.3g} m/s: is the first one, at t = {} s, of the roll? "
           "Leave it out (smooth --outliers or --from), or fit with --robust",
           run.place, found.v0[r].value, run.origin);
-  }
-}
-
-/// Throws Error if rows follow after D has reached R (exact geometry, b < 0) at a speed that is
-/// not next to rest. There the model lets D be R, which serves the search, but is not the law.
-void require_law(const Fitted& found) {
-  if (!found.rolls) return;
-  constexpr double rest = 1e-3;  // of v0; below it MemoryRoll, too, counts a body as at rest
-  const auto& runs = found.rolls->runs();
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    Roll roll = found.rolls->roll(found.minimum.theta, r);
-    const double last = runs[r].t.back();
-    if (roll.radius_time(last) < last && roll.radius_speed() > rest * std::abs(found.v0[r].value))
+    if (roll.radius_time(last) < last && roll.radius_speed() > rest * v0)
       fail(
           "{}{} have no meaning below {:.2g} m/s, where D is beyond the radius {} m: leave the "
           "rows out that follow, or fit with A = 1",
-          runs[r].place, names_of(found.parameters->form(), found.coefficients),
-          roll.radius_speed(), runs[r].body.R);
+          run.place, names_of(found.parameters->form(), found.coefficients), roll.radius_speed(),
+          run.body.R);
   }
 }
 
@@ -175,9 +166,8 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   const auto agreement = agreement_of(route, runs, options, noise, found);
   std::vector<ErrorShare> shares{{"noise", noise.covariance}};
   const double rms = rms_of(found);
-  require_seen(found);
+  require_roll(found);
   require_determined(result_of(found, rms, noise, shares), options, found);
-  require_law(found);
   for (ErrorShare& share :
        shares_of_given(route, runs, options, found, !agreement || agreement->agree()))
     shares.push_back(std::move(share));
