@@ -196,13 +196,9 @@ bool warn_of_causes(Tool& tool, Route route, const FitResult& r, const std::vect
                             "the radius {} m: the units of a column are hardly right",
                             v0, D, beyond ? "beyond" : "not a ten-thousandth of", R));
   }
-  if (r.a < 0)
-    tool.warn(of_run(runs),
-              "a is negative: D has the other sign than v, as if the mat drove the "
-              "body on, which simulate refuses");
   const bool reasons = tell_against(r, runs, noisy, tell);
   const bool repeats = noisy && is_trajectory(route) && warn_of_rounding(tool, route, r, runs);
-  return beyond || r.a < 0 || reasons || repeats;
+  return beyond || reasons || repeats;
 }
 
 /// Warns of what the residuals show. A body out of balance makes the rest of it.

@@ -141,13 +141,7 @@ std::vector<std::vector<double>> starts(const std::vector<Thinned>& thin, const 
   std::vector<double> v0, x0;
   for (const auto& [run, most, turns, speeds] : thin) {
     v0.push_back(std::max(speeds[0], 0.05 * std::ranges::max(speeds)));
-    std::vector<double> begins;  // as each row tells x0
-    double way = v0.back() * run.t[0];
-    for (std::size_t i = 0; i < speeds.size(); ++i) {
-      if (i > 0) way += (speeds[i] + speeds[i - 1]) / 2 * (run.t[i] - run.t[i - 1]);
-      begins.push_back(run.y[i] - run.way * way);
-    }
-    x0.push_back(median(begins));
+    x0.push_back(run.y[0] - run.way * v0.back() * run.t[0]);
   }
   const EvenRoll even = even_roll(thin, options.fit_slope);
   std::vector<double> exponents{0.25, 0, 1, -0.5};
@@ -204,9 +198,8 @@ std::vector<ObservedRun> means_of_many(const std::vector<ObservedRun>& runs) {
 
 FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& options) {
   std::vector<Thinned> thin;
-  std::vector<ObservedRun> thin_runs,
-      few = options.robust ? std::vector<ObservedRun>() : means_of_many(runs);
-  for (ObservedRun run : few.empty() ? runs : few) {
+  std::vector<ObservedRun> thin_runs;
+  for (ObservedRun run : runs) {
     if (options.robust) run.y = medians_of_five(run.y);  // suppresses false echoes
     thin.push_back(thinned(run, options));
     thin_runs.push_back(thin.back().run);
@@ -221,7 +214,6 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
   for (std::size_t i = 1; i < all.size(); ++i)
     if (Minimum found = attempt(system, all[i]); found.rss < best.rss) best = std::move(found);
   require_near(thin, best.rss, options);
-  if (!few.empty()) best = attempt(unweighted(std::move(few), q), best.theta);
   return {q, std::move(best.theta), std::move(all)};
 }
 

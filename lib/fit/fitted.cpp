@@ -30,10 +30,34 @@ std::size_t Fitted::degrees_left() const {
   return noise_of_roll ? std::min(left, noise_of_roll->freedom) : left;
 }
 
-void report_law(Fitted& fit, const Parameters& q) {
-  fit.parameters = q;
-  fit.coefficients.clear();
+namespace {
+
+void report_rolls(Fitted& fit) {
+  const std::vector<double>& theta = fit.minimum.theta;
+  const Parameters& q = *fit.parameters;
+  const std::array<double, LawForm::most> none{};
+  const auto quantity = [&](double value, double v0, double x0, double slope) {
+    FittedNumber result{value, std::vector<double>(q.columns())};
+    q.chain(result.gradient.data(), 1, 0, {none, v0, x0, slope});
+    return result;
+  };
+  fit.v0.clear(), fit.x0.clear(), fit.rows = 0;
+  if (q.fits_slope()) fit.slope = quantity(q.slope(theta, 0), 0, 0, 1);
+  const auto& runs = fit.rolls->runs();
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const double way = runs[r].way;
+    fit.v0.push_back(quantity(way * q.v0(theta, r), way, 0, 0));
+    if (q.has_x0()) fit.x0.push_back(quantity(q.x0(theta, r), 0, 1, 0));
+    fit.rows += runs[r].shifts ? runs[r].shifts->fitted : runs[r].y.size();
+  }
+}
+
+}  // namespace
+
+void report(Fitted& fit) {
+  const Parameters& q = *fit.parameters;
   const Law law = q.law(fit.minimum.theta);
+  fit.coefficients.clear();
   for (std::size_t j = 0; j < law.size(); ++j) {
     std::array<double, LawForm::most> by_c{};
     FittedNumber& number = fit.coefficients.emplace_back(
@@ -41,6 +65,7 @@ void report_law(Fitted& fit, const Parameters& q) {
     if (const auto fixed = q.fixed(j)) number.value = *fixed;
     else q.chain(number.gradient.data(), 1, law.c(0), {by_c});
   }
+  if (fit.rolls) report_rolls(fit);
 }
 
 Law Fitted::law() const {

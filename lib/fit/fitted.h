@@ -78,8 +78,9 @@ struct Fitted {
   std::size_t degrees_left() const;
 };
 
-/// Writes the coefficients of the law with their gradients into the fit.
-void report_law(Fitted&, const Parameters&);
+/// Writes the coefficients of the law with their gradients into the fit, and of a roll the slope,
+/// v0, x0 and the number of rows.
+void report(Fitted&);
 
 /// Minimises by the loss that the options name: squares from the first start.
 Minimum solve(const System&, const std::vector<std::vector<double>>& starts, const FitOptions&);

@@ -28,22 +28,6 @@ std::vector<double> taken(const std::vector<double>& column, const Rows& rows) {
   return few;
 }
 
-/// The rows of a run whose speeds are fitted where these rows are chosen: for shift, also those
-/// that the derivative at these rows has read.
-Rows rows_of_speeds(Route route, const FitRun& run, Rows rows) {
-  const std::size_t n = run.t.size();
-  if (route != Route::shift || rows.size() == n) return rows;
-  std::size_t reach = 0;
-  for (const LinearFilter& filter : run.filters)
-    if (filter.from == "v" && filter.to != "v") reach = filter.reach;
-  Rows read;
-  std::size_t next = 0;
-  for (const std::size_t i : rows)
-    for (next = std::max(next, i - std::min(i, reach)); next < std::min(n, i + reach + 1); ++next)
-      if (std::isfinite(run.v[next])) read.push_back(next);
-  return read;
-}
-
 /// The direction before the furthest place, from which the body comes back; 0 if it does not.
 double way_before_turn(bool position, const std::vector<double>& t,
                        const std::vector<double>& rows) {
@@ -111,8 +95,7 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     seen.body = run.body;
     seen.geometry = options.geometry;
     seen.origin = run.t.front();
-    const Rows fitted = rows_of_speeds(route, run, rows[r]);
-    seen.y = taken(route == Route::position ? run.x : run.v, fitted);
+    seen.y = taken(route == Route::position ? run.x : run.v, rows[r]);
     if (route == Route::shift) {
       seen.body = run.shift_of->body;
       seen.geometry = run.shift_of->geometry;
@@ -126,13 +109,13 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     seen.raw_is_position = known ? responses[r].source == "x" : route == Route::position;
     if (known) {
       seen.t = run.t;
-      seen.H = filters_of_rows(responses[r], route == Route::position ? "x" : "v", fitted);
+      seen.H = filters_of_rows(responses[r], route == Route::position ? "x" : "v", rows[r]);
     } else {
-      seen.t = taken(run.t, fitted);
+      seen.t = taken(run.t, rows[r]);
     }
     for (double& t : seen.t) t -= seen.origin;
     seen.way =
-        way_of(route == Route::position, taken(run.t, fitted), seen.y, seen.body.slope, options);
+        way_of(route == Route::position, taken(run.t, rows[r]), seen.y, seen.body.slope, options);
     runs.push_back(std::move(seen));
   }
   return runs;
@@ -159,16 +142,16 @@ std::size_t informative_rows(const std::vector<ObservedRun>& runs, const Paramet
 }
 
 Roll RollModel::roll(const std::vector<double>& theta, std::size_t run) const {
-  Body body = runs_[run].body;
+  Body body = runs()[run].body;
   body.slope = slope(theta, run);
   const Law law = parameters_.law(theta);
   const double v0 = parameters_.v0(theta, run);
   if (law.at(v0).D < 0) fail("the mat does not slow the body down");
-  return {body, runs_[run].geometry, law, v0};
+  return {body, runs()[run].geometry, law, v0};
 }
 
 double RollModel::slope(const std::vector<double>& theta, std::size_t run) const {
-  return runs_[run].way * parameters_.slope(theta, runs_[run].body.slope);
+  return runs()[run].way * parameters_.slope(theta, runs()[run].body.slope);
 }
 
 namespace {
@@ -189,7 +172,7 @@ auto rolled(const ObservedRun& run, Roll roll) {
 }  // namespace
 
 RawModel RollModel::raw(const std::vector<double>& theta, std::size_t r) const {
-  const ObservedRun& run = runs_[r];
+  const ObservedRun& run = runs()[r];
   const Law law = parameters_.law(theta);
   return
       [&q = parameters_, law, x0 = parameters_.x0(theta, r), way = run.way,
@@ -203,7 +186,7 @@ RawModel RollModel::raw(const std::vector<double>& theta, std::size_t r) const {
 }
 
 std::vector<double> RollModel::raw_column(const std::vector<double>& theta, std::size_t r) const {
-  const ObservedRun& run = runs_[r];
+  const ObservedRun& run = runs()[r];
   auto at = rolled(run, roll(theta, r));
   const double x0 = parameters_.x0(theta, r);
   std::vector<double> column;

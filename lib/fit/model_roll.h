@@ -92,9 +92,16 @@ void evaluate(const ObservedRun& run, std::size_t number, std::size_t parameters
 class RollModel {
  public:
   RollModel(std::vector<ObservedRun> runs, const Parameters& parameters)
-      : runs_(std::move(runs)), parameters_(parameters) {}
+      : runs_(std::make_shared<const std::vector<ObservedRun>>(std::move(runs))),
+        parameters_(parameters) {}
+  /// The same runs under another law.
+  RollModel with(const Parameters& parameters) const {
+    RollModel other = *this;
+    other.parameters_ = parameters;
+    return other;
+  }
 
-  const std::vector<ObservedRun>& runs() const { return runs_; }
+  const std::vector<ObservedRun>& runs() const { return *runs_; }
   const Parameters& parameters() const { return parameters_; }
   Roll roll(const std::vector<double>& theta, std::size_t run) const;
   /// Refers to this object.
@@ -105,7 +112,7 @@ class RollModel {
   double slope(const std::vector<double>& theta, std::size_t run) const;
 
  private:
-  std::vector<ObservedRun> runs_;
+  std::shared_ptr<const std::vector<ObservedRun>> runs_;
   Parameters parameters_;
 };
 

@@ -13,7 +13,7 @@ namespace rolling {
 
 /// For each run, theta holds v0 in units of v_ref and x0 in units of x_ref. The parameters shared
 /// by all runs follow: the coefficients of the law in units of its own, and the slope of the mat in
-/// millimetres per metre. Of a v^b they are ln D or D at the unit of speed, in place of a, which is
+/// millimetres per metre. Of a v^b they are ln D at the unit of speed, in place of a, which is
 /// nearly collinear with b, and b. Parameters that are fixed have no element in theta. v0 is
 /// the speed along the direction of motion and is not negative.
 class Parameters {
@@ -24,15 +24,14 @@ class Parameters {
   Parameters(const FitOptions& options, bool position, std::size_t runs, double v_ref, double x_ref)
       : a_(options.a), b_(options.b), v0_(options.v0), x0_(options.x0), slope_(options.fit_slope),
         position_(position), runs_(runs), v_ref_(v_ref), x_ref_(x_ref), v_unit_(v_ref) {}
-  /// Of D = a v^b alone. `logarithm`: ln D at the unit of speed is the parameter, else D.
-  Parameters(const FitOptions& options, bool logarithm, double D_unit, double v_unit)
-      : a_(options.a), b_(options.b), v0_(0), logarithm_(logarithm), D_unit_(D_unit),
-        v_unit_(v_unit) {}
+  /// Of D = a v^b alone.
+  Parameters(const FitOptions& options, double v_unit)
+      : a_(options.a), b_(options.b), v0_(0), v_unit_(v_unit) {}
   /// The same parameters with another law, all of whose coefficients are free.
   Parameters with(const LawForm& form, double D_unit, double v_unit) const {
     Parameters other = *this;
     other.form_ = &form, other.D_unit_ = D_unit, other.v_unit_ = v_unit;
-    other.a_.reset(), other.b_.reset(), other.logarithm_ = false;
+    other.a_.reset(), other.b_.reset();
     return other;
   }
 
@@ -54,7 +53,7 @@ class Parameters {
     for (std::size_t j = 0; j < form_->coefficients.size(); ++j)
       c[j] = j == 0 && a_ ? 0 : j == 1 && b_ ? *b_ : *from++;
     if (a_) c[0] = *a_ * std::pow(v_unit_, c[1]) / D_unit_;
-    else if (logarithm_) c[0] = std::exp(c[0]);
+    else if (logarithm()) c[0] = std::exp(c[0]);
     return {*form_, c, D_unit_, v_unit_};
   }
   double v0(const std::vector<double>& theta, std::size_t run) const {
@@ -90,8 +89,7 @@ class Parameters {
       if (!v0_) all.push_back(v0[r] / v_ref_);
       if (free_x0()) all.push_back(x0[r] / x_ref_);
     }
-    const double D = law(v_unit_) / D_unit_;
-    if (!a_) all.push_back(logarithm_ ? std::log(D) : D);
+    if (!a_) all.push_back(std::log(law(v_unit_)));
     if (!b_) all.push_back(law.b);
     if (slope_) all.push_back(slope / slope_unit);
     return all;
@@ -111,19 +109,20 @@ class Parameters {
     if (free_x0()) put(by.x0 * x_ref_);
     for (std::size_t j = 0; j < form_->coefficients.size(); ++j) {
       if (fixed(j)) continue;
-      put(j == 0 && logarithm_ ? c0 * by.by_c[0]
-          : j == 1 && a_       ? by.by_c[1] + c0 * std::log(v_unit_) * by.by_c[0]
-                               : by.by_c[j]);
+      put(j == 0 && logarithm() ? c0 * by.by_c[0]
+          : j == 1 && a_        ? by.by_c[1] + c0 * std::log(v_unit_) * by.by_c[0]
+                                : by.by_c[j]);
     }
     if (slope_) put(by.slope * slope_unit);
   }
 
  private:
   bool free_x0() const { return position_ && !x0_; }
+  bool logarithm() const { return form_ == &laws().front(); }
 
   const LawForm* form_ = &laws().front();
   std::optional<double> a_, b_, v0_, x0_;
-  bool slope_ = false, position_ = false, logarithm_ = true;
+  bool slope_ = false, position_ = false;
   std::size_t runs_ = 0;
   double v_ref_ = 1, x_ref_ = 1, D_unit_ = 1, v_unit_ = 1;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/error.h"
@@ -14,6 +15,8 @@
 namespace rolling {
 
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Throws Error if a v0 that is fixed has the other sign than the motion of a run.
 void require_ways(const std::vector<ObservedRun>& runs, const FitOptions& options) {
@@ -49,116 +52,43 @@ double squares_of_shifts(const RollModel& rolls, const std::vector<double>& thet
   return sum * shifts.unit * shifts.unit;
 }
 
-}  // namespace
-
-void report_roll(Fitted& fit) {
-  const std::vector<double>& theta = fit.minimum.theta;
-  const Parameters& q = fit.rolls->parameters();
-  const std::array<double, LawForm::most> none{};
-  const auto quantity = [&](double value, double v0, double x0, double slope) {
-    FittedNumber result{value, std::vector<double>(q.columns())};
-    q.chain(result.gradient.data(), 1, 0, {none, v0, x0, slope});
-    return result;
-  };
-  report_law(fit, q);
-  fit.v0.clear(), fit.x0.clear(), fit.rows = 0;
-  if (q.fits_slope()) fit.slope = quantity(q.slope(theta, 0), 0, 0, 1);
-  const auto& runs = fit.rolls->runs();
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    const double way = runs[r].way;
-    fit.v0.push_back(quantity(way * q.v0(theta, r), way, 0, 0));
-    if (q.has_x0()) fit.x0.push_back(quantity(q.x0(theta, r), 0, 1, 0));
-    fit.rows += runs[r].shifts ? runs[r].shifts->fitted : runs[r].y.size();
-  }
-}
-
-namespace {
-
-/// Every k-th row of each run, at most 4096 of them.
-std::vector<ObservedRun> some_of(std::vector<ObservedRun> runs) {
-  for (ObservedRun& run : runs) {
-    const std::size_t n = run.y.size(), step = 1 + n / 4096;
-    for (std::size_t i = 0; i * step < n; ++i)
-      run.t[i] = run.t[i * step], run.y[i] = run.y[i * step];
-    run.t.resize((n + step - 1) / step), run.y.resize(run.t.size());
-  }
-  return runs;
-}
-
-/// Times in the interval between two rows that holds the stop, and in those beside it: most of
-/// them close to the row before, where the speed of that row changes fastest. None if the
-/// stop is beyond all rows.
-std::vector<double> other_stops(const std::vector<double>& t, double stop) {
-  const auto n = t.size(),
-             next = static_cast<std::size_t>(std::ranges::upper_bound(t, stop) - t.begin());
-  std::vector<double> stops;
-  if (n < 2 || !(stop < 2 * t[n - 1] - t[n - 2])) return stops;
-  for (std::size_t i = std::max<std::size_t>(next, 2) - 1; i <= std::min(next + 1, n); ++i) {
-    const double step = i < n ? t[i] - t[i - 1] : t[i - 1] - t[i - 2];
-    for (const double share : {1.0 / 64, 1.0 / 8, 1.0 / 2})
-      stops.push_back(t[i - 1] + share * step);
-  }
-  return stops;
-}
-
-/// Searches again from starts around the stop of one run. Throws Error, and leaves `best` as it is,
-/// if the roll has no stop close to this one.
-void search_around(const RollModel& rolls, const System& system, std::size_t run, Minimum& best) {
-  const std::vector<double> from = best.theta;
-  const double stop = rolls.roll(from, run).stop_time();
-  const std::vector<double> stops = other_stops(rolls.runs()[run].t, stop);
-  if (stops.empty()) return;
-  // The body stops later with a larger v0 or, where that is fixed, under a weaker law.
-  const Roll::Point first = rolls.roll(from, run).at(0);
-  for (const double other : stops) {
-    std::vector<double> start = from;
-    start[system.place(run, 0)] *=
-        system.own ? 1 - (other - stop) * first.a / first.v : stop / other;
-    if (Minimum found = attempt(system, start); found.rss < best.rss) best = std::move(found);
-  }
-}
-
-/// True if the second derivative of the speed before the stop is unbounded. On a slope the body
-/// slows down at a rate that is not 0 at the stop, as with b = 0.
-bool has_cusps(const RollModel& rolls, const std::vector<double>& theta, std::size_t run) {
-  const auto law = rolls.parameters().law(theta).power();  // another stops as a constant one
-  return !rolls.runs()[run].raw_is_position &&
-         (law.value_or(PowerLaw{1, 0}).b < 0.5 || rolls.slope(theta, run) != 0) &&
-         !rolls.roll(theta, run).turns();  // it does not rest: v goes on through 0
-}
-
 /// The sum of the squares of speeds, as a function of the time T of the stop, has a cusp at each
 /// row where b < 1/2: the speed just before the stop grows like (T - t)^(1/(1 - b)), whose
 /// second derivative is unbounded. So the sum may have a minimum in each interval between two
-/// rows, and Gauss-Newton steps do not leave it. This function starts the search again with T in
-/// the interval of the minimum and in those beside it, until no such start leads to a smaller sum.
-/// Positions are smoother by one order, and nothing is done.
+/// rows, and Gauss-Newton steps do not leave it. This function starts the search again with T
+/// earlier and later, up to the interval beside that of the minimum, until no such start leads to a
+/// smaller sum. Positions are smoother by one order, and nothing is done.
 ///
 /// The minima differ the less the more rows there are: above 2048 rows times runs nothing is done.
 Minimum beyond_cusps(const RollModel& rolls, const System& system, Minimum best) {
   constexpr std::size_t many = 2048;  // rows times runs
-  if (system.residuals() * system.runs.size() > many) return best;
-  for (double before = std::numeric_limits<double>::infinity(); best.rss < before * (1 - 1e-6);) {
-    before = best.rss;
-    for (std::size_t r = 0; r < system.runs.size(); ++r) try {
-        if (has_cusps(rolls, best.theta, r)) search_around(rolls, system, r, best);
-      } catch (const Error&) {  // the roll has no stop near this one: its minimum stays
-      }
+  const auto& runs = rolls.runs();
+  if (runs.front().raw_is_position || system.own == 0 || system.residuals() * runs.size() > many)
+    return best;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const double end = runs[r].t.back(),
+                 step = end / static_cast<double>(std::max<std::size_t>(runs[r].t.size(), 2) - 1);
+    for (double before = infinity; best.rss < before * (1 - 1e-6);) {
+      before = best.rss;
+      for (const double rows : {-1.0, -0.5, -0.25, -0.1, 0.1, 0.25, 0.5, 1.0}) try {
+          Roll roll = rolls.roll(best.theta, r);
+          if (roll.turns() || !(roll.stop_time() < end + step)) break;
+          const Roll::Point first = roll.at(0);
+          std::vector<double> start = best.theta;
+          start[system.place(r, 0)] *= 1 - rows * step * first.a / first.v;
+          if (Minimum found = attempt(system, start); found.rss < best.rss) best = std::move(found);
+        } catch (const Error&) {  // there is no roll whose stop is then
+        }
+    }
   }
   return best;
 }
 
-/// The minimum of the system of these rolls. The robust loss ignores what the cusps make. Of many
-/// rows its search begins at the minimum of some of them.
+/// The minimum of the system of these rolls. The robust loss ignores what the cusps make.
 Minimum search(const RollModel& rolls, const System& system,
-               std::vector<std::vector<double>> starts, const FitOptions& options) {
-  if (options.robust && system.residuals() > 16384 * system.runs.size()) {
-    const auto some = std::make_shared<const RollModel>(some_of(rolls.runs()), rolls.parameters());
-    starts = {solve(system_of(some, std::make_shared<const Noise>()), starts, options).theta};
-  }
+               const std::vector<std::vector<double>>& starts, const FitOptions& options) {
   Minimum found = solve(system, starts, options);
-  if (options.robust) return found;
-  return beyond_cusps(rolls, system, std::move(found));
+  return options.robust ? found : beyond_cusps(rolls, system, std::move(found));
 }
 
 /// The minimum over these runs with these weights; the results are not yet reported.
@@ -172,6 +102,7 @@ Fitted minimum_of(std::vector<ObservedRun> runs, std::shared_ptr<const Noise> no
   return {.system = std::move(system),
           .minimum = std::move(minimum),
           .noise = std::move(noise),
+          .parameters = start.parameters,
           .rolls = std::move(rolls)};
 }
 
@@ -213,7 +144,7 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   require_rows(run.y.size(), own.count(), informative_rows({run}, own, *noise));
   Fitted fit =
       minimum_of({std::move(run)}, std::move(noise), {own, all.theta_of_run(theta, r)}, options);
-  report_roll(fit);
+  report(fit);
   return fit;
 }
 
@@ -223,7 +154,7 @@ Fitted of_means(Fitted fit, const FitOptions& options) {
   if (few.empty()) return fit;
   Fitted means = minimum_of(std::move(few), fit.noise,
                             {fit.rolls->parameters(), fit.minimum.theta, {}}, options);
-  report_roll(means);
+  report(means);
   return means;
 }
 
@@ -243,7 +174,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       require_rows(n, asked ? q.count() : 0, informative_rows(runs, q, *noise));
       require_ways(runs, options);
       const auto plain = noise->known() ? observe(route, all, rows, {}, options) : runs;
-      guess = first_guess(options.robust ? some_of(plain) : plain, options);
+      guess = first_guess(plain, options);
     }
     if (options.min_speed <= 0) responses = {}, rows.clear();  // frees memory: no round follows
     fit = {};                                                  // frees memory
@@ -254,7 +185,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
       break;
   }
   allow_for_rounding(fit, options);
-  report_roll(fit);
+  report(fit);
   return fit;
 }
 

@@ -15,10 +15,6 @@ std::vector<Rows> usable(Route, const std::vector<FitRun>&);
 Fitted fit_rolls(Route, const std::vector<FitRun>&, std::vector<Rows>, std::vector<Response>,
                  const FitOptions&, AddedNoise = {});
 
-/// Writes the law, the slope, v0 and x0 with their gradients, and the number of rows, into a fit
-/// of rolls.
-void report_roll(Fitted&);
-
 /// Fits one run of a joint fit of rolls separately: the same rows and weights, the slope of the
 /// mat fixed at the joint value. Throws Error if the run does not determine its parameters, or has
 /// none.

@@ -154,7 +154,7 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
   std::optional<KnownRoll> roll = known_roll(runs, options, std::move(theirs));
   auto rows = std::make_shared<const ShiftRows>(
       shift_rows(runs, options, true, roll ? roll->stops : std::vector<double>()));
-  const Parameters q(options, true, 1, rows->v_ref);
+  const Parameters q(options, rows->v_ref);
   Fitted line{.system = system_of(rows, q), .minimum = {}};
   line.rows = rows->y.size();
   if (!roll) line.negative = rows->negative;
@@ -162,7 +162,8 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
   const double mean =
       std::accumulate(rows->y.begin(), rows->y.end(), 0.0) / static_cast<double>(rows->y.size());
   line.minimum = solve(line.system, {q.theta({std::exp(mean), 0}, {}, {})}, options);
-  report_law(line, q);
+  line.parameters = q;
+  report(line);
   if (roll) carry_noise(line, runs, std::move(*roll), options);
   return line;
 }

@@ -211,28 +211,6 @@ TEST_CASE("shift: as precise as the positions at any rate of the rows", "[fit]")
   }
 }
 
-// A central difference at the last shift has read the speed behind it, and that speed is fitted.
-TEST_CASE("shift: the speeds that the first and last shifts have read count", "[fit]") {
-  const Body body{1.375, 0.04, 0.5};
-  const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.5);
-  simulated::Noise noise(8);
-  std::vector<double> t, x;
-  for (int i = 0; i < 55; ++i) t.push_back(0.04 * i), x.push_back(truth.x(0.04 * i) + noise(3e-4));
-  FitRun run = simulated::shifts(body, t, x, 11, "x");
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  std::fill(run.D.begin() + 30, run.D.end(), nan);
-  const auto all = fit(Route::shift, {run}, {});
-  std::fill(run.v.begin() + 31, run.v.end(), nan);
-  const auto one_more = fit(Route::shift, {run}, {});
-  run.v[30] = nan;
-  const auto none = fit(Route::shift, {run}, {});
-  CHECK(all.n == 30);
-  CHECK(one_more.n == 30);
-  CHECK(one_more.b == all.b);
-  CHECK(one_more.sigma_b == all.sigma_b);
-  CHECK(none.sigma_b > 1.05 * all.sigma_b);
-}
-
 // A lost echo makes a window lopsided and a difference longer; the filters act on the times of the
 // run and know.
 TEST_CASE("shift: without noise, lost echoes and wide windows leave the law as it is", "[fit]") {

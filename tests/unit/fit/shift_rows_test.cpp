@@ -66,7 +66,7 @@ TEST_CASE("shift rows: the derivatives of the residuals are those of differences
         if (hold_a) options.a = 4e-3;
         if (hold_b) options.b = 0.3;
         auto rows = std::make_shared<const ShiftRows>(shift_rows(runs, options, logarithms));
-        const Parameters q(options, logarithms, logarithms ? 1 : 3e-3, rows->v_ref);
+        const Parameters q(options, rows->v_ref);
         const System system = system_of(rows, q);
         const auto at = [&](const std::vector<double>& theta) {
           std::vector<double> all;
