@@ -13,7 +13,10 @@ namespace {
 
 /// A word of the name begins with Time, or the name is t and a number.
 bool says_time(const std::string& name) {
-  return ("_" + lower(name)).find("_time") != std::string::npos ||
+  std::string small = "_" + lower(name);
+  std::ranges::replace_if(
+      small, [](char c) { return c < 'a' || c > 'z'; }, '_');
+  return small.find("_time") != std::string::npos ||
          (name.starts_with("t") && name.find_first_not_of("0123456789._", 1) == std::string::npos);
 }
 
@@ -239,9 +242,8 @@ Conversion NeededColumns::conversion(std::size_t at, const std::string& quantity
   if (meant.unit.empty() || !is_quantity(quantity)) return {};
   if (const auto found = unit_of(quantity, meant.unit)) return *found;
   fail<InputError>(
-      "{}: column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); convert "
-      "it "
-      "first (rolling-recipes(7)){}",
+      "{}: column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); "
+      "convert it first (rolling-recipes(7)){}",
       place_, shown(to_text(meant)), quantity, shown(meant.unit), known_units(quantity),
       has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", quantity, at + 1) : "");
 }

@@ -96,7 +96,7 @@ class RandomHeader {
     }
     if (below(4) == 0) {
       columns.push_back({one_of<std::string>({"Time (velocity) (s)", "Time 2 (s)", "GPS Time (s)",
-                                              "t2 (s)", "Time (s).1", "Uhr (s)"}),
+                                              "GPS-Time", "t2 (s)", "Time (s).1", "Uhr (s)"}),
                          'c'});
       question = true;
     }
