@@ -96,18 +96,26 @@ struct Trial {
   double scale = std::numeric_limits<double>::infinity();
 };
 
-/// Fits the best half of the rows of each run, again and again, as long as the scale falls.
-Trial concentrated(const System& system, const std::vector<double>& start) try {
-  Trial at{start, residuals_at(system, start).scale};
-  for (;;) {
-    std::vector<double> theta =
-        attempt(weighted(system, best_half(system, at.theta)), at.theta).theta;
-    const double scale = residuals_at(system, theta).scale;
-    if (!(scale < 0.99 * at.scale)) return at;
-    at = {std::move(theta), scale};
-  }
+/// Of infinite scale if theta is not allowed.
+Trial trial_at(const System& system, std::vector<double> theta) try {
+  const double scale = residuals_at(system, theta).scale;
+  return {std::move(theta), scale};
 } catch (const Error&) {
   return {};
+}
+
+/// Steps towards the fit of the best half of the rows of each run, halved where necessary, as long
+/// as they lower the scale.
+Trial concentrated(const System& system, Trial at) {
+  for (int round = 0; round < 20 && std::isfinite(at.scale); ++round) {
+    const std::vector<double> factors = best_half(system, at.theta);
+    Trial next;
+    for (double share = 1; share > 0.05 && !(next.scale < 0.99 * at.scale); share /= 2)
+      next = trial_at(system, stepped(weighted(system, factors), at.theta, share));
+    if (!(next.scale < 0.99 * at.scale)) break;
+    at = std::move(next);
+  }
+  return at;
 }
 
 /// The theta of the smallest scale of all that least trimmed squares, of the half of the rows of
@@ -119,7 +127,7 @@ std::vector<double> least_trimmed(const System& system, std::vector<std::vector<
     starts.push_back(attempt(weighted(system, half_at_end(system, last)), starts.front()).theta);
   Trial best;
   for (const auto& start : starts)
-    if (Trial found = concentrated(system, start); found.scale < best.scale)
+    if (Trial found = concentrated(system, trial_at(system, start)); found.scale < best.scale)
       best = std::move(found);
   if (best.theta.empty()) evaluated(system, starts.front());  // throws
   return best.theta;
