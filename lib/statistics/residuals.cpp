@@ -159,24 +159,17 @@ std::vector<double> cumulative(std::span<const double> x) {
 }
 
 /// The sum of w(|i - j|) x_i y_j over one run, given the cumulative sums X and Y of both, with
-/// w(l) = 1 - l/(width + 1) up to lags of half the run. The triangular weights are the
+/// w(l) = 1 - l/(width + 1), and a width of half the run at most. The triangular weights are the
 /// autocorrelation of a box, so that the sum is one of products of moving sums, at a cost that does
-/// not depend on the width. Where the limit of half the run cuts the triangle off, the remaining
-/// part is a box.
+/// not depend on the width.
 double bartlett(std::span<const double> X, std::span<const double> Y, std::size_t width) {
-  const std::size_t m = X.size() - 1, most = std::min({width, m / 2, m - 1});
-  const double triangle = 1 / static_cast<double>(width + 1),
-               box = 1 - static_cast<double>(most + 1) * triangle;
-  double of_triangle = 0, of_box = 0;
-  for (std::size_t end = 1; end <= m + most; ++end) {
-    const std::size_t from = end > most + 1 ? end - most - 1 : 0, to = std::min(end, m);
-    of_triangle += (X[to] - X[from]) * (Y[to] - Y[from]);
+  const std::size_t m = X.size() - 1, box = std::min({width, m / 2, m - 1}) + 1;
+  double sum = 0;
+  for (std::size_t end = 1; end < m + box; ++end) {
+    const std::size_t from = end > box ? end - box : 0, to = std::min(end, m);
+    sum += (X[to] - X[from]) * (Y[to] - Y[from]);
   }
-  for (std::size_t i = 0; box > 0 && i < m; ++i) {
-    const std::size_t from = i > most ? i - most : 0, to = std::min(i + most + 1, m);
-    of_box += (X[i + 1] - X[i]) * (Y[to] - Y[from]);
-  }
-  return triangle * of_triangle + std::max(box, 0.0) * of_box;
+  return sum / static_cast<double>(box);
 }
 
 }  // namespace

@@ -98,8 +98,8 @@ TEST_CASE(
   CHECK(unequal_runs(std::vector<double>{1, 2, 3}, std::vector<std::size_t>{3}) == 1);
 }
 
-// In a run that is shorter than twice the bandwidth the weights 1 - lag/(width + 1) are cut off at
-// half the run. By the definition, the sum over all pairs.
+// In a run that is shorter than twice the bandwidth the width is half the run. By the definition,
+// the sum over all pairs.
 TEST_CASE("residuals: Newey-West of a run that is shorter than twice the bandwidth",
           "[statistics]") {
   constexpr std::size_t runs[] = {60, 9};
@@ -128,7 +128,6 @@ TEST_CASE("residuals: Newey-West of a run that is shorter than twice the bandwid
   for (int i = 60; i < 69; ++i)
     for (int j = 60; j < 69; ++j)
       if (const int lag = std::abs(i - j); lag <= 4)
-        sum += (1 - lag / (width + 1)) * u[static_cast<std::size_t>(i)] *
-               u[static_cast<std::size_t>(j)];
+        sum += (1 - lag / 5.0) * u[static_cast<std::size_t>(i)] * u[static_cast<std::size_t>(j)];
   CHECK(newey_west({r}, 2, r, runs)[1] == Approx(sum / ((1 - AR) * (1 - AR))).epsilon(1e-12));
 }
