@@ -65,14 +65,13 @@ bool Roll::rolls_down() const {
   return lift > 0 && !holds(law_.at_rest()) && !holds(law_.at(Leg::negligible * v0_).D);
 }
 
-/// The way down from rest. Up to a speed that is not seen the acceleration is constant.
+/// The way down from rest, or from a speed that is not seen.
 Leg& Roll::back() {
   if (!back_) {
     Body down = body_;
     down.slope = -std::abs(body_.slope);
     const double first = first_part * (v0_ > 0 ? v0_ : std::sqrt(body_.g * body_.R));
     back_.emplace(down, geometry_, law_, first);
-    back_begin_ = first / back_->at(0).a;
   }
   return *back_;
 }
@@ -90,11 +89,11 @@ Roll::Point Roll::at(double t) {
   const Point turn = leg_ ? leg_->at(stop_time()) : Point{};
   const Leg::Derivatives T_c = leg_ ? leg_->stop_time_by_c() : Leg::Derivatives{};
   Leg& leg = back();
-  Point p{}, q = leg.at(std::max(0.0, since - back_begin_));
+  Point p{}, q = leg.at(since);
 
   const double T_v0 = leg_ ? leg_->stop_time_by_v0() : 0;
   p.a = sign * q.a;
-  p.v = since <= back_begin_ ? 0 : sign * q.v, p.x = turn.x + sign * q.x;
+  p.v = since > 0 ? sign * q.v : 0, p.x = turn.x + sign * q.x;
   p.v_v0 = -sign * q.a * T_v0, p.x_v0 = turn.x_v0 - sign * q.v * T_v0;
   for (std::size_t j = 0; j <= law_.size(); ++j) {
     const double by = j < law_.size() || body_.slope < 0 ? 1 : -1;  // its slope is -|slope|

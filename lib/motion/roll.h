@@ -70,7 +70,6 @@ class Roll {
   Law law_;
   double v0_;
   std::optional<Leg> leg_, back_;
-  double back_begin_ = 0;  // from the turning point to the beginning of back_ [s]
   bool turns_;
 };
 
