@@ -88,11 +88,6 @@ double log1p_cubic(double x) {
           x2 * ((1. / 5 - x * (1. / 6)) + x2 * ((1. / 7 - x * (1. / 8)) + x2 * (1. / 9))));
 }
 
-/// m 2^exponent, rounded once but for the denormals.
-double scale(double m, int exponent) {
-  return exponent > -1000 && exponent < 1000 ? m * power_of_two(exponent) : std::ldexp(m, exponent);
-}
-
 /// e^x = 2^(n/128) (1 + expm1).
 struct Reduced {
   int n;
@@ -146,41 +141,12 @@ DoubleDouble quick_log(DoubleDouble x) {
                             (log1p_cubic(r) - r2 * (r1 + r) / 2))};
 }
 
-Scaled::Scaled(DoubleDouble x) {
-  m.hi = std::frexp(x.hi, &exponent);
-  m.lo = std::ldexp(x.lo, -exponent);
-}
-
-Scaled operator*(const Scaled& a, const Scaled& b) {
-  Scaled product(a.m * b.m);
-  product.exponent += a.exponent + b.exponent;
-  return product;
-}
-
-Scaled operator/(const Scaled& a, const Scaled& b) {
-  Scaled quotient(a.m / b.m);
-  quotient.exponent += a.exponent - b.exponent;
-  return quotient;
-}
-
-Scaled power(double x, DoubleDouble p) {
-  const Scaled s(x);
-  const DoubleDouble binary = p * static_cast<double>(s.exponent);  // of 2
-  const double whole = std::round(binary.hi);
-  Scaled result(exp(p * log(s.m) + (binary - whole) * ln2));
-  result.exponent += static_cast<int>(whole);
-  return result;
-}
-
-double times(const Scaled& f, DoubleDouble x) {
-  const DoubleDouble product = quick_product(f.m, x);
-  return scale(product.hi + product.lo, f.exponent);
-}
-
-double times_exp(const Scaled& f, DoubleDouble x) {
+double times_exp(DoubleDouble f, DoubleDouble x) {
   const Reduced e = reduce(x);
-  const auto [hi, lo] = quick_product(f.m, e.power());
-  return scale(hi + (lo + (hi + lo) * e.expm1), f.exponent + e.exponent());
+  const auto [hi, lo] = quick_product(f, e.power());
+  const double m = hi + (lo + (hi + lo) * e.expm1);  // rounded once but for the denormals
+  const int n = e.exponent();
+  return n > -1000 && n < 1000 ? m * power_of_two(n) : std::ldexp(m, n);
 }
 
 DoubleDouble one_minus_exp(DoubleDouble x) {

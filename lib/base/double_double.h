@@ -115,25 +115,8 @@ DoubleDouble log1p_ratio(DoubleDouble r);
 /// ln(x) for a normal number x with |lo| <= ulp(hi): absolute error below 2^-66 max(1, |ln x|).
 DoubleDouble quick_log(DoubleDouble x);
 
-/// The number m 2^exponent, for products whose factors or partial products are beyond the range of
-/// a double.
-struct Scaled {
-  DoubleDouble m;
-  int exponent = 0;
-
-  Scaled() = default;
-  Scaled(DoubleDouble x);
-  Scaled(double x) : Scaled(DoubleDouble(x)) {}
-};
-Scaled operator*(const Scaled&, const Scaled&);
-Scaled operator/(const Scaled&, const Scaled&);
-/// x^p for x > 0: relative error about 1e-31 max(1, |p|).
-Scaled power(double x, DoubleDouble p);
-
-/// f x, rounded.
-double times(const Scaled& f, DoubleDouble x);
 /// f e^x: within 0.51 ulp; |x| below 1e5.
-double times_exp(const Scaled& f, DoubleDouble x);
+double times_exp(DoubleDouble f, DoubleDouble x);
 /// 1 - e^x: relative error below 2^-55 for |x| > 1/32.
 DoubleDouble one_minus_exp(DoubleDouble x);
 /// (e^x - 1)/x for |x| <= 1/32: relative error below 2^-57.

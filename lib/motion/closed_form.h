@@ -19,11 +19,12 @@ namespace rolling {
 /// and dv/dt are within 2 ulp and x within 4 ulp of the true value.
 class ClosedForm final : public Motion {
  public:
-  /// Throws Error as check_roll does. v0 = 0 is rest for ever.
+  /// Throws Error as check_roll does. v0 = 0 is rest for ever. v0, a, D(v0), D(v0)/a and dv/dt at
+  /// v0 are in range of 1e-70 to 1e70 (SI units).
   ClosedForm(const Body&, PowerLaw, double v0, double x0);
 
   double stop_time() override { return stop_time_; }  ///< t* rounded up
-  void seek(double t) override;
+  void seek(double t) override;                       ///< throws Error for rate t above 1e140
   double position() override;
   double velocity() override;
   /// Both throw Error if |D| > R (b < 0, just before the stop).
@@ -33,12 +34,8 @@ class ClosedForm final : public Motion {
  private:
   Body body_;
   double b_, v0_, x0_, stop_time_ = 0;
-  // -s rate = slope_ unit1_ unit2_. There are two powers of two, because a single one could
-  // overflow.
-  double unit1_ = 1, unit2_ = 1;
-  DoubleDouble slope_, minus_rate_, inverse_s_, s1_;  // minus_rate_: -rate / (unit1_ unit2_)
-  Scaled speed_, shift_, deceleration_, length_;      // v0, a v0^b, k v0^b, v0/rate
-  Scaled distance_;                                   // v0/rate / (1+s)
+  DoubleDouble rate_, slope_, inverse_s_, s1_;             // slope_: -s rate
+  DoubleDouble shift_, deceleration_, length_, distance_;  // a v0^b, k v0^b, v0/rate, that/(1+s)
 
   double t_ = 0;
   DoubleDouble log_;  // L

@@ -91,12 +91,6 @@ TEST_CASE("DoubleDouble: the functions keep the errors that they state", "[base]
           const Real exact = exp(real(x));
           return Compared{real(exp(x)), exact, exact * Real(1 + abs(real(x)))};
         }) < 1e-31);
-  CHECK(worst(100, [](auto between) {
-          const double x = std::pow(10, between(-300, 300)), p = between(-1, 1);
-          const Real exact = pow(Real(x), Real(p));
-          const Scaled power = rolling::power(x, p);
-          return Compared{ldexp(real(power.m), power.exponent), exact, exact};
-        }) < 1e-30);
   CHECK(worst(3000, [](auto between) {
           const double hi = std::pow(10, between(-25, 3));
           const DoubleDouble x(hi, hi * between(-1, 1) * 0x1p-54);
@@ -127,6 +121,6 @@ TEST_CASE("DoubleDouble: the functions keep the errors that they state", "[base]
           const DoubleDouble x(between(-600, 600), between(-1, 1) * 1e-15);
           const double f = between(1, 100);
           const Real exact = Real(f) * exp(real(x));
-          return Compared{Real(ulp_error(times_exp(Scaled(f), x), exact)), 0, 1};
+          return Compared{Real(ulp_error(times_exp(f, x), exact)), 0, 1};
         }) < 0.51);
 }
