@@ -28,22 +28,19 @@ void keep_freed_memory() {
 #endif
 }
 
-/// Holds a parameter at the value of a text NAME=VALUE.
+/// Holds a parameter fixed by a text NAME=VALUE.
 void fix(FitOptions& options, const std::string& setting) {
+  const std::map<std::string, std::optional<double>*> parameters{
+      {"a", &options.a}, {"b", &options.b}, {"v0", &options.v0}, {"x0", &options.x0}};
   const auto equals = setting.find('=');
-  const std::string name = setting.substr(0, equals);
-  std::optional<double>* const parameter = name == "a"    ? &options.a
-                                           : name == "b"  ? &options.b
-                                           : name == "v0" ? &options.v0
-                                           : name == "x0" ? &options.x0
-                                                          : nullptr;
+  const auto parameter = parameters.find(setting.substr(0, equals));
   double value;
-  if (equals == std::string::npos || !parameter)
+  if (equals == std::string::npos || parameter == parameters.end())
     fail("'{}' is not NAME=VALUE with a name that it knows", shown(setting));
   if (!parse_number(std::string_view(setting).substr(equals + 1), value))
     fail("the value in '{}' is not a number", shown(setting));
-  if (*parameter) fail("'{}' comes after another for {}", shown(setting), name);
-  *parameter = value;
+  if (*parameter->second) fail("'{}' comes after another for {}", shown(setting), parameter->first);
+  *parameter->second = value;
 }
 
 void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
@@ -67,27 +64,24 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
       [&](const std::string& setting) { fix(options, setting); }, Options::Values::many);
 }
 
-/// Runs that are fitted together, and their fit, if they can be fitted.
-struct Group {
-  std::vector<FitRun> runs = {};
-  std::optional<FitResult> result = {};
-};
-
 /// Fits all runs together, or with `each` every run by itself: if one cannot be fitted, a message
 /// names it and the others are fitted all the same.
-std::vector<Group> fit_all(Tool& tool, Route route, std::vector<FitRun> runs,
-                           const FitOptions& options, bool each) {
-  std::vector<Group> groups;
+std::vector<FitOfRuns> fit_all(Tool& tool, Route route, std::vector<FitRun> runs,
+                               const FitOptions& options, bool each) {
+  std::vector<FitOfRuns> fits;
   if (each)
-    for (FitRun& run : runs) groups.emplace_back().runs.push_back(std::move(run));
-  else groups.push_back({std::move(runs)});
-  for (Group& group : groups) try {
-      group.result = fit(route, group.runs, options);
+    for (FitRun& run : runs) {
+      fits.push_back({route, {}});
+      fits.back().runs.push_back(std::move(run));
+    }
+  else fits.push_back({route, std::move(runs)});
+  for (FitOfRuns& one : fits) try {
+      one.result = fit(route, one.runs, options);
     } catch (const Error& error) {
       if (!each) throw;
-      tool.say(group.runs.front().name, error.what());
+      tool.say(one.runs.front().name, error.what());
     }
-  return groups;
+  return fits;
 }
 
 /// A number of the row of a fit, and its column.
@@ -98,8 +92,8 @@ struct Cell {
 };
 
 /// The row of a fit.
-std::vector<Cell> row_of(const Group& group, bool with_slope) {
-  const FitResult& r = *group.result;
+std::vector<Cell> row_of(const FitOfRuns& fit, bool with_slope) {
+  const FitResult& r = *fit.result;
   std::vector<Cell> row;
   const auto estimate = [&](const Column& c, const Estimate& x) {
     row.insert(row.end(), {{c, x.value}, {{"sigma_" + c.name, c.unit}, x.sigma}});
@@ -114,52 +108,35 @@ std::vector<Cell> row_of(const Group& group, bool with_slope) {
   if (roll) estimate({"v0", "m/s"}, r.v0.front());
   if (with_slope) estimate({"slope"}, {r.slope, r.sigma_slope});
   if (r.x0.size() == 1) estimate({"x0", "m"}, r.x0.front());
-  if (roll) row.push_back({{"t0", "s"}, group.runs.front().t.front()});
+  if (roll) row.push_back({{"t0", "s"}, fit.runs.front().t.front()});
   return row;
 }
 
-/// Writes a row for each group, of which `one` has been fitted. A run that could not be fitted has
-/// blank cells, and so have errors that do not exist.
-void write(Output& out, const std::vector<Group>& groups, const Group& one, bool with_slope,
-           bool with_run) {
+/// Writes a row for each fit, of which `fitted` is one. A run that could not be fitted has blank
+/// cells, and so have errors that do not exist.
+void write(Output& out, const std::vector<FitOfRuns>& fits, const FitOfRuns& fitted,
+           bool with_slope, bool with_run) {
   std::vector<Column> columns;
-  for (const Cell& cell : row_of(one, with_slope)) columns.push_back(cell.column);
-  const std::size_t cells = columns.size();
+  std::vector<Cell> blank = row_of(fitted, with_slope);
+  for (Cell& cell : blank) columns.push_back(cell.column), cell.value = NAN;
   if (with_run) columns.push_back({"run"});
   out.names(columns);
-  for (const Group& group : groups) {
-    if (!group.result)
-      for (std::size_t j = 0; j < cells; ++j) out.blank();
-    else
-      for (const auto& [column, value, is_count] : row_of(group, with_slope)) {
-        if (is_count) out.cell(std::to_string(static_cast<std::size_t>(value)));
-        else if (group.result->errors == Errors::none && std::isnan(value)) out.blank();
-        else out.cell(value);
-      }
-    if (with_run) out.cell(group.runs.front().name);
+  for (const FitOfRuns& fit : fits) {
+    for (const auto& [column, value, is_count] : fit.result ? row_of(fit, with_slope) : blank)
+      if (std::isnan(value)) out.blank();
+      else if (is_count) out.cell(std::to_string(static_cast<std::size_t>(value)));
+      else out.cell(value);
+    if (with_run) out.cell(fit.runs.front().name);
     out.end_line();
   }
   out.flush();  // the rows stand above the report
-}
-
-/// The values of --route, `fits` without a route.
-std::map<std::string, std::optional<Route>> route_choices() {
-  std::map<std::string, std::optional<Route>> choices{{"fits", {}}};
-  for (const RouteWords& words : all_routes()) choices[words.name] = words.route;
-  return choices;
-}
-
-int joint_of_rows(Tool& tool, const Bodies& bodies, bool with_check) {
-  tool.refuse({"each", "exact", "fix", "law", "min-speed", "report", "robust", "slope"},
-              "is for the fits of the runs: --route fits reads their rows");
-  return fit_rows(tool, bodies, with_check);
 }
 
 /// The columns of a file without names. If --use says where t is and there is no --route, the route
 /// is a trajectory: no column then counts as v or D by its position.
 std::vector<std::string> order_without_names(std::optional<Route> given, bool times_given) {
   if (!given && times_given) return {};
-  return words_of(given.value_or(Route::shift)).columns;
+  return columns_of(given.value_or(Route::shift));
 }
 
 /// The route without --route, by the columns of the input.
@@ -169,18 +146,35 @@ Route default_route(const Reader& in) {
                                          : Route::velocity;
 }
 
+/// Why a route leaves rows out.
+std::string why_left_out(Route route, const FitOptions& options) {
+  std::string why = route == Route::loglog  ? "v or D is not above 0, or the body has stopped"
+                    : route == Route::shift ? "v is not above 0"
+                    : route == Route::velocity
+                        ? "they lie beside an end or a lost reading, where a sensor's speeds are "
+                          "not to be trusted"
+                        : "";
+  if (options.min_speed > 0) add_item(why, "slower than --min-speed", ", or ");
+  return why;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   using enum BodyOption;
   keep_freed_memory();
   Tool tool("fitpower", "Fit the power law D = a v^b to columns.");
-  std::optional<Route> given_route;
+  std::optional<Route> given_route;  // none for `fits`
   Bodies bodies;
   FitOptions options;
-  bool each = false, with_report = false, with_check = false;
-  tool.choice(
-      "--route", given_route, route_choices(),
+  bool each = false, with_report = false;
+  tool.choice<std::optional<Route>>(
+      "--route", given_route,
+      {{"fits", {}},
+       {"loglog", Route::loglog},
+       {"position", Route::position},
+       {"shift", Route::shift},
+       {"velocity", Route::velocity}},
       "D of v (loglog, shift), v of t, x of t, or rows of fitpower (fits); without it shift "
       "if there is D, else position if x, else velocity");
   tool.numbers("-K,--shape-factor", bodies.shape_factors, not_negative,
@@ -191,8 +185,8 @@ int main(int argc, char** argv) {
   add_options(tool, options, bodies);
   tool.flag("--each", each, "fit each run by itself, a row for each");
   tool.flag("--report", with_report,
-            "tell on standard error what each route finds, and whether another law is better");
-  tool.flag("--check", with_check,
+            "tell on standard error how the uncertainties were made, and the fits of other laws");
+  tool.flag("--check", tool.checks,
             "exit with 1 if runs disagree, a beginning, another law or the residuals speak against "
             "the fit");
   tool.scene();
@@ -200,8 +194,12 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    if (tool.on_command_line("route") && !given_route)
-      return joint_of_rows(tool, bodies, with_check);
+    if (tool.on_command_line("route") && !given_route) {
+      tool.refuse({"each", "exact", "fix", "law", "min-speed", "report", "robust", "slope"},
+                  "is for the fits of the runs: --route fits reads their rows");
+      fit_rows(tool, bodies);
+      return 0;
+    }
     Reader& in = tool.read(order_without_names(given_route, tool.used("t")));
     Route route = given_route ? *given_route : default_route(in);
     options.possible_filters = filters_of_sensors();
@@ -210,35 +208,33 @@ int main(int argc, char** argv) {
     if (options.v0 && !trajectory) fail<OptionError>("--fix: this route has no v0");
     if (options.x0 && route != Route::position) fail<OptionError>("--fix: this route has no x0");
 
-    auto runs =
-        read_runs(tool, in, route, with_report ? Columns::of_all_routes : Columns::of_route);
+    auto runs = read_runs(tool, in, route);
     if (!each) warn_of_copies(tool, route, runs);
     if (route == Route::velocity && take_pulses(tool, runs)) route = Route::position;
     bodies.give_to(runs);
     if (!trajectory && !options.fit_slope) warn_of_unused_body(tool, runs, options.geometry);
-    const auto groups = fit_all(tool, route, std::move(runs), options, each);
-    const auto fitted = [](const Group& group) { return group.result.has_value(); };
-    const auto one = std::ranges::find_if(groups, fitted);
-    if (one == groups.end()) return 2;
+    auto fits = fit_all(tool, route, std::move(runs), options, each);
+    const auto fitted = [](const FitOfRuns& one) { return one.result.has_value(); };
+    const auto first = std::ranges::find_if(fits, fitted);
+    if (first == fits.end()) return 2;
 
-    write(tool.out, groups, *one, options.fit_slope, each);
-    const bool compares = with_report || with_check;
+    write(tool.out, fits, *first, options.fit_slope, each);
+    const bool compares = with_report || tool.checks;
     if (options.robust && compares)
       tool.warn(
           "neither other laws nor the beginning are looked at with --robust: this needs sums "
           "of squares");
     std::size_t left_out = 0;
-    for (const auto& [grouped, result] : groups) {
-      if (!result) continue;
-      left_out += result->left_out;
-      std::optional<LawComparison> laws;  // AICc needs sums of squares
-      if (compares && !options.robust) laws = compare_laws(route, grouped, options);
-      remark(tool, route, *result, grouped, options, laws, with_check);
+    for (FitOfRuns& one : fits) {
+      if (!one.result) continue;
+      left_out += one.result->left_out;
+      if (compares && !options.robust) one.laws = compare_laws(route, one.runs, options);
+      remark(tool, one, options);
       if (!with_report) continue;
-      if (each) tool.say(fmt::format("run {}, the report:", grouped.front().name));
-      report(tool, grouped, options, laws);
+      if (each) tool.say(fmt::format("run {}, the report:", one.runs.front().name));
+      report(tool, one, *options.law);
     }
     tool.count_left_out(left_out, why_left_out(route, options));
-    return std::ranges::all_of(groups, fitted) ? 0 : 2;
+    return std::ranges::all_of(fits, fitted) ? 0 : 2;
   });
 }

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/tool.h"
 #include "fit/diagnostics.h"
@@ -12,27 +13,29 @@
 
 namespace rolling {
 
-/// "the runs disagree ...: run 3 stands out, its D(0.21 m/s) is 4.1 +- 0.4 % less than that of the
-/// others, its b 0.012 +- 0.004 more; this test takes K as exact; ...". `given` names the numbers
-/// that have uncertainties.
-std::string disagreement(const Agreement&, const std::vector<FitRun>&, const std::string& given);
+/// Runs that are fitted together, and their fit.
+struct FitOfRuns {
+  Route route;
+  std::vector<FitRun> runs;
+  std::optional<FitResult> result = {};    ///< none where they cannot be fitted
+  std::optional<LawComparison> laws = {};  ///< where laws are compared
+};
 
-/// Why a route leaves rows out.
-std::string why_left_out(Route, const FitOptions&);
+/// "the runs disagree ...: run 3 stands out, its D(0.21 m/s) by -4.1 +- 0.4 %, its b by +0.012 +-
+/// 0.004; ...".
+std::string disagreement(const Agreement&, const std::vector<FitRun>&);
 
 /// Warns of what spoils a fit: a shift beyond the radius, runs that disagree, readings that are off
 /// or repeat, a b far below what mats have. Where there is none of it, and no law is better, also
 /// of what such a cause would bring with it: noise that is not white, an eccentric body, an a whose
-/// error is not that of a normal distribution. With a check, runs that disagree, a reading that is
-/// off and such a b make it fail; so do standard errors that do not exist (unless a and b are both
-/// fixed), another law that is better by 10 in AICc, the beginning of a run that is disturbed, and
+/// error is not that of a normal distribution. A check fails by runs that disagree, a reading that
+/// is off and such a b; by standard errors that do not exist (unless a and b are both fixed),
+/// another law that is better by 10 in AICc, the beginning of a run that is disturbed, and
 /// residuals that are not white.
-void remark(Tool&, Route, const FitResult&, const std::vector<FitRun>&, const FitOptions&,
-            const std::optional<LawComparison>&, bool with_check);
+void remark(Tool&, const FitOfRuns&, const FitOptions&);
 
-/// Reports the result and the computing time of each route, the coefficients of the laws, and
-/// whether another law is better.
-void report(Tool&, const std::vector<FitRun>&, const FitOptions&,
-            const std::optional<LawComparison>&);
+/// Reports how the uncertainties were made, and of which parts; the coefficients of all laws, and
+/// whether another is better than this.
+void report(Tool&, const FitOfRuns&, const LawForm&);
 
 }  // namespace rolling

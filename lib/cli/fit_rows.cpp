@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "cli/fit_report.h"
 #include "cli/law_file.h"
@@ -17,7 +18,6 @@ struct FitRows {
   std::vector<OwnLaw> laws;
   std::vector<FitRun> runs;  ///< the names and bodies of the runs, without readings
   bool a_fixed = false, b_fixed = false;
-  std::string common;  ///< "K, R": the numbers of take_common()
 
   /// Throws Error for a row that is none of a fit with errors.
   void add(std::string name, Estimate a, Estimate b, double corr) {
@@ -42,14 +42,11 @@ struct FitRows {
 
 /// A row that is there twice would count twice.
 void warn_of_same_rows(Tool& tool, const FitRows& rows) {
-  std::map<std::vector<double>, std::size_t> different;
-  for (std::size_t i = 0; i < rows.laws.size(); ++i) {
-    const OwnLaw& one = rows.laws[i];
-    const Symmetric& C = one.covariance;
-    const auto [same, inserted] = different.insert({{one.law.a, one.law.b, C.aa, C.ab, C.bb}, i});
-    if (inserted) continue;
-    return tool.warn(fmt::format("row {}: its numbers are those of row {}: leave copies out",
-                                 rows.runs[i].name, rows.runs[same->second].name));
+  std::set<std::vector<double>> different;
+  for (const OwnLaw& row : rows.laws) {
+    const Symmetric& C = row.covariance;
+    if (!different.insert({row.law.a, row.law.b, C.aa, C.ab, C.bb}).second)
+      tool.warn(rows.runs[row.run].name, "its numbers are those of a row before it: leave copies out");
   }
 }
 
@@ -103,7 +100,6 @@ std::vector<CommonError> take_common(FitRows& rows) {
             "and -R as for the fits of the rows",
             rows.runs[i].name, number.name);
     }
-    if (!by_value.empty()) add_item(rows.common, number.name);
     for (auto& [value, common] : by_value) all.push_back(std::move(common));
   }
   return all;
@@ -136,7 +132,7 @@ void write(Output& out, const JointLaw& joint, std::size_t n) {
 
 }  // namespace
 
-int fit_rows(Tool& tool, const Bodies& bodies, bool with_check) {
+void fit_rows(Tool& tool, const Bodies& bodies) {
   FitRows rows = read_rows(tool);
   warn_of_same_rows(tool, rows);
   bodies.give_to(rows.runs);
@@ -144,10 +140,7 @@ int fit_rows(Tool& tool, const Bodies& bodies, bool with_check) {
   const JointLaw joint = joint_law(rows.laws, common);
   write(tool.out, joint, rows.laws.size());
   tool.out.flush();
-  if (joint.agreement.agree()) return 0;
-  const std::string text = disagreement(joint.agreement, rows.runs, rows.common);
-  with_check ? tool.check_failed("", text) : tool.warn(text);
-  return 0;
+  if (!joint.agreement.agree()) tool.object("", disagreement(joint.agreement, rows.runs));
 }
 
 }  // namespace rolling

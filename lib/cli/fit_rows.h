@@ -9,6 +9,6 @@ namespace rolling {
 /// Reads rows of fitpower and prints their joint law (fit/run_laws.h). What the
 /// uncertainties of K, R and g have brought to each row is common to the rows that give the same
 /// number with the same uncertainty.
-int fit_rows(Tool&, const Bodies&, bool with_check);
+void fit_rows(Tool&, const Bodies&);
 
 }  // namespace rolling

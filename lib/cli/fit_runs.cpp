@@ -18,6 +18,14 @@ struct Slot {
   std::vector<double> FitRun::*column;
 };
 
+/// The column of a run with this short name.
+std::vector<double> FitRun::*column_of(std::string_view name) {
+  return name == "t"   ? &FitRun::t
+         : name == "x" ? &FitRun::x
+         : name == "v" ? &FitRun::v
+                       : &FitRun::D;
+}
+
 /// Adds the columns of the other routes, as far as there are any.
 void add_others(Reader& in, std::vector<Slot>& slots) {
   for (const char* name : {"t", "x", "v", "D"})
@@ -52,7 +60,7 @@ void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
     history = {.doubt = "--use takes other columns than its `##` lines speak of"};
   if (run.t.empty() && change_numbers(history_of(in.history(), std::array{0.0}).filters))
     history.doubt = "it has no times, without which its `##` lines tell nothing";
-  history = give_filters(std::move(history), run, words_of(route).columns.back());
+  history = give_filters(std::move(history), run, columns_of(route).back());
   if (!history.doubt.empty())
     tool.warn(run.name, history.doubt + ": the fit goes on as if no filter were known");
   if (history.left_out > 0)
@@ -62,16 +70,15 @@ void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
                           history.left_out));
 }
 
-/// Warns of a run without history beside one with filters: a run break takes the `##` lines away.
-void warn_of_lost_history(Tool& tool, const std::vector<FitRun>& runs,
-                          const std::vector<bool>& has_history) {
+/// Warns of a run without known filters beside one with filters: a run break takes the `##` lines
+/// away.
+void warn_of_lost_history(Tool& tool, const std::vector<FitRun>& runs) {
   const auto first =
       std::ranges::find_if(runs, [](const FitRun& run) { return change_numbers(run.filters); });
-  if (first == runs.end()) return;
-  for (std::size_t i = 0; i < runs.size(); ++i)
-    if (!has_history[i])
-      tool.warn(runs[i].name, "no `##` lines tell how it was made, as those of run " + first->name +
-                                  " do: it is fitted as if no filter were known");
+  for (const FitRun& run : runs)
+    if (first != runs.end() && run.filters.empty())
+      tool.warn(run.name, "no `##` lines tell how it was made, as those of run " + first->name +
+                              " do: it is fitted as if no filter were known");
 }
 
 /// A number of the body for run i of n.
@@ -87,40 +94,19 @@ Estimate of_run(const std::vector<Estimate>& values, const char* option, std::si
 
 }  // namespace
 
-const std::vector<RouteWords>& all_routes() {
-  static const std::vector<RouteWords> routes{
-      {Route::loglog, "loglog", {"v", "D"}, "v or D is not above 0, or the body has stopped"},
-      {Route::position, "position", {"t", "x"}, ""},
-      {Route::shift, "shift", {"v", "D"}, "v is not above 0"},
-      {Route::velocity,
-       "velocity",
-       {"t", "v"},
-       "they lie beside an end or a lost reading, where a sensor's speeds are not to be trusted"}};
-  return routes;
+std::vector<std::string> columns_of(Route route) {
+  if (!is_trajectory(route)) return {"v", "D"};
+  return {"t", route == Route::position ? "x" : "v"};
 }
 
-const RouteWords& words_of(Route route) {
-  return *std::ranges::find(all_routes(), route, &RouteWords::route);
-}
-
-std::vector<double> FitRun::*column_of(std::string_view name) {
-  return name == "t"   ? &FitRun::t
-         : name == "x" ? &FitRun::x
-         : name == "v" ? &FitRun::v
-                       : &FitRun::D;
-}
-
-std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, Columns columns) {
+std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route) {
   std::vector<Slot> slots;
-  for (const std::string& name : words_of(route).columns)
+  for (const std::string& name : columns_of(route))
     if (name != "t") slots.push_back({in.need(name), column_of(name)});
   if (is_trajectory(route)) slots.push_back({in.need_time(), &FitRun::t});
-  if (columns == Columns::of_all_routes) add_others(in, slots);
   std::vector<FitRun> runs;
-  std::vector<bool> has_history;
   while (in.next_run()) {
     FitRun& run = runs.emplace_back();
-    has_history.push_back(!in.history().empty());
     run.name = in.run_name();
     if (!in.history().empty()) add_others(in, slots);  // the `##` lines are compared with them
     while (in.next())
@@ -128,7 +114,7 @@ std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route, Columns colum
     warn_of_held(tool, route, run, in.history());
     set_filters(tool, in, route, run);
   }
-  warn_of_lost_history(tool, runs, has_history);
+  warn_of_lost_history(tool, runs);
   return runs;
 }
 
@@ -167,7 +153,7 @@ void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
   std::set<std::vector<std::string_view>> different;  // the readings, as their bytes
   for (const FitRun& run : runs) {
     std::vector<std::string_view> readings;
-    for (const std::string& name : words_of(route).columns) {
+    for (const std::string& name : columns_of(route)) {
       const std::vector<double>& x = run.*column_of(name);
       readings.emplace_back(reinterpret_cast<const char*>(x.data()), x.size() * sizeof(double));
     }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "cli/tool.h"
@@ -11,27 +10,13 @@
 
 namespace rolling {
 
-/// A route as the command line and the columns know it.
-struct RouteWords {
-  Route route;
-  const char* name;
-  std::vector<std::string> columns;  ///< that it fits, by their short names
-  const char* why_left_out;          ///< why it leaves rows out
-};
-/// In the order of their names.
-const std::vector<RouteWords>& all_routes();
-const RouteWords& words_of(Route);
-
-/// The column of a run with this short name: t, x, v or D.
-std::vector<double> FitRun::*column_of(std::string_view name);
-
-/// The columns that are read: those that the route fits, or those of the other routes too.
-enum class Columns { of_route, of_all_routes };
+/// The columns that a route fits, by their short names; the one that it compares stands last.
+std::vector<std::string> columns_of(Route);
 
 /// Reads all runs with their names and their filters, but without the numbers of the body. Warns
 /// of readings that a logger held, of `##` lines that are not trusted or that one run lacks, and of
 /// rows that are left out because their windows are not known.
-std::vector<FitRun> read_runs(Tool&, Reader&, Route, Columns);
+std::vector<FitRun> read_runs(Tool&, Reader&, Route);
 
 /// Where the speeds of all runs are those of pulses, a fixed way over the time from row to row,
 /// gives the runs that way as positions, says so, and returns true: the positions are what was

@@ -25,7 +25,8 @@ class Tool : public Options {
   void output();  ///< --digits -u
 
   /// Parses the command line, runs `work` and flushes the output. Returns the exit status: that of
-  /// `work`, 1 after check_failed(), or 2 after an error, which is one line on standard error.
+  /// `work`, 1 after an object() that fails a check, or 2 after an error, which is one line on
+  /// standard error.
   int run(int argc, char** argv, const std::function<int()>& work);
 
   /// The rows of the operands. `order` names the columns of a file without names.
@@ -48,11 +49,15 @@ class Tool : public Options {
   /// Prints how many rows were left out and why, unless -q is given.
   void count_left_out(std::size_t count, const std::string& why);
 
-  /// Reports that a check of a run, or of all, does not hold: run() returns 1.
-  void check_failed(const std::string& run, const std::string& text) {
+  /// What speaks against the result of a run, or of all: a warning; with `checks` a line that -q
+  /// does not silence, and run() returns 1.
+  void object(const std::string& run, const std::string& text) {
+    if (!checks) return warn(run, text);
     say(run, text);
     failed_ = true;
   }
+
+  bool checks = false;  ///< --check
 
   Output out;
 
@@ -64,7 +69,7 @@ class Tool : public Options {
   ReaderOptions input_;
   bool quiet_ = false;
   bool standard_input_taken_ = false;  // a Reader reads it; a second one cannot
-  bool failed_ = false;                // a check
+  bool failed_ = false;
   LinesOfRuns waiting_;
   std::vector<std::unique_ptr<Reader>> readers_;
 };

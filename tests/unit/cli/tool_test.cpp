@@ -39,9 +39,10 @@ TEST_CASE("tool: a check that does not hold is a line and 1, beside a refusal 2"
     std::string name = "tool";
     std::array<char*, 2> arguments{name.data(), nullptr};
     Tool tool("tool", "");
+    tool.checks = true;
     const int status = tool.run(1, arguments.data(), [&] {
       for (const char* run : {"one", "two", "three"})
-        tool.check_failed(run, run[0] == 't' && run[1] == 'w' ? "open" : "off by 1.5");
+        tool.object(run, run[0] == 't' && run[1] == 'w' ? "open" : "off by 1.5");
       if (refused) fail("no way");
       return 0;
     });
