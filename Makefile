@@ -66,7 +66,7 @@ build/%.o: %.cpp
 ifeq ($(origin CXX)$(filter Darwin FreeBSD,$(system)),default)
 common  := $(patsubst %,<%>,algorithm array cmath cstddef functional limits map memory numeric \
              optional span string string_view utility vector fmt/core.h)
-of_tool := $(call object,$(filter-out %/options.cpp,$(source)) $(wildcard cmd/*.cpp))
+of_tool := $(call object,$(filter-out %/tool_options.cpp,$(source)) $(wildcard cmd/*.cpp))
 $(of_tool): parsed := -include build/common.h
 $(of_tool): | build/common.h.gch
 build/common.h.gch:

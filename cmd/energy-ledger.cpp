@@ -60,14 +60,6 @@ struct Task {
   bool law_of_scene = false;  ///< it uses the law because the first run has no column D
   bool summary = false;
   double tolerance = not_given;  ///< NaN without --check
-
-  /// The shift at a velocity.
-  double shift(double v) const {
-    if (std::abs(v) > law.law.highest())
-      fail("v = {:.6g} m/s is beyond the table of the law, which ends at {:.6g} m/s", v,
-           law.law.highest());
-    return law.law(v);
-  }
 };
 
 /// The energy balances of the runs, and the warnings after the last one.
@@ -94,7 +86,10 @@ class Accounts {
 
   /// Adds the present row to the balance of its run.
   Ledger enter(Balance& balance) {
-    const double v = in_[v_], D = task_.uses_law ? task_.shift(v) : in_[D_];
+    const double v = in_[v_], highest = task_.law.law.highest();
+    if (task_.uses_law && std::abs(v) > highest)
+      fail("v = {:.6g} m/s is beyond the table of the law, which ends at {:.6g} m/s", v, highest);
+    const double D = task_.uses_law ? task_.law.law(v) : in_[D_];
     const Ledger now(task_.body, task_.geometry, v, D);
     balance.push(in_[t_], now);
     beyond_ += std::abs(D) > task_.body.R;
@@ -158,17 +153,13 @@ void write_summary(Output& out, Reader& in, Accounts& accounts, const Task& task
 }  // namespace
 
 int main(int argc, char** argv) {
-  using enum BodyOption;
   Tool tool("energy-ledger", "Append the energies and the flows of energy of a rolling body.");
   Task task;
-  PowerLaw power{};
+  LawOptions law;
   double temperature = not_given;
-  std::string law_file, columns = "E_trans,E_rot,I_E1,I_E2,P_T1,P_R1,P_R2,P_T2,P_diss,E_diss";
-  tool.body(task.body, {mass, radius, shape_factor, gravity, slope});
-  tool.law(power);
-  tool.text("--law", law_file, "FILE",
-            "file (- is standard input) with a row of fitpower or a table of v D: the law, instead "
-            "of the column D");
+  std::string columns = "E_trans,E_rot,I_E1,I_E2,P_T1,P_R1,P_R2,P_T2,P_diss,E_diss";
+  tool.body(task.body, {&Body::m, &Body::R, &Body::K, &Body::g, &Body::slope});
+  add_options(tool, law);
   tool.geometry(task.geometry);
   tool.text("--columns", columns, "NAME,...",
             "what to append: any quantities of the paper (energies and flows of energy)");
@@ -191,22 +182,20 @@ int main(int argc, char** argv) {
       return std::ranges::count(row, name, [](const auto& quantity) { return quantity.name; }) > 0;
     };
     if (is_chosen("Pi_S") && std::isnan(temperature)) fail("Pi_S needs --temperature");
-    if (is_chosen("sigma_D") && law_file.empty())
+    if (is_chosen("sigma_D") && law.file.empty())
       fail("sigma_D is that of a law: it needs --law and a row of fitpower");
-    if (!law_file.empty())
-      task.law = read_law(tool, law_file, power, {{"slope", "", &task.body.slope}},
-                          is_chosen("sigma_D") ? Uncertainties::needed : Uncertainties::ignored);
     tool.need({"mass", "radius", "shape-factor"});
-    Reader& in = tool.read({"t", "v", "D"});
     // A law on the command line takes precedence over a column D, the law of a scene does not.
-    const bool law_given = !law_file.empty() || tool.on_command_line("coefficient") ||
-                           tool.on_command_line("exponent");
-    task.law_of_scene = !law_given && !std::isnan(power.a) && !in.find("D");
-    task.uses_law = law_given || task.law_of_scene;
-    if (law_file.empty()) {
-      if (task.uses_law) tool.need({"coefficient", "exponent"});
-      task.law.law = power;
-    }
+    task.uses_law = !law.file.empty() || tool.on_command_line("coefficient") ||
+                    tool.on_command_line("exponent");
+    const auto read = [&] {
+      return read_law(tool, law, {{"slope", "", &task.body.slope}},
+                      is_chosen("sigma_D") ? Uncertainties::needed : Uncertainties::ignored);
+    };
+    if (task.uses_law) task.law = read();
+    Reader& in = tool.read({"t", "v", "D"});
+    task.law_of_scene = !task.uses_law && !std::isnan(law.power.a) && !in.find("D");
+    if (task.law_of_scene) task.uses_law = true, task.law = read();
     Accounts accounts(tool, in, task);
     if (task.summary) {
       write_summary(tool.out, in, accounts, task);

@@ -8,10 +8,9 @@
 #include <cmath>
 
 #include "cli/fit_report.h"
-#include "cli/fit_rows.h"
 #include "cli/fit_runs.h"
 #include "cli/law_file.h"
-#include "cli/linear_filters.h"
+#include "cli/history.h"
 #include "fit/fit.h"
 #include "text/number.h"
 
@@ -61,7 +60,7 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
            [&](const std::string& text) { options.law = &law_named(text); });
   tool.add(
       "--fix", "NAME=VALUE", "hold a, b, v0 or x0 fixed",
-      [&](const std::string& setting) { fix(options, setting); }, Options::Values::many);
+      [&](const std::string& setting) { fix(options, setting); }, Tool::Values::many);
 }
 
 /// Fits all runs together, or with `each` every run by itself: if one cannot be fitted, a message
@@ -122,21 +121,15 @@ void write(Output& out, const std::vector<FitOfRuns>& fits, const FitOfRuns& fit
   if (with_run) columns.push_back({"run"});
   out.names(columns);
   for (const FitOfRuns& fit : fits) {
+    const bool without_errors = !fit.result || fit.result->errors == Errors::none;
     for (const auto& [column, value, is_count] : fit.result ? row_of(fit, with_slope) : blank)
-      if (std::isnan(value)) out.blank();
+      if (std::isnan(value) && without_errors) out.blank();
       else if (is_count) out.cell(std::to_string(static_cast<std::size_t>(value)));
       else out.cell(value);
     if (with_run) out.cell(fit.runs.front().name);
     out.end_line();
   }
   out.flush();  // the rows stand above the report
-}
-
-/// The columns of a file without names. If --use says where t is and there is no --route, the route
-/// is a trajectory: no column then counts as v or D by its position.
-std::vector<std::string> order_without_names(std::optional<Route> given, bool times_given) {
-  if (!given && times_given) return {};
-  return columns_of(given.value_or(Route::shift));
 }
 
 /// The route without --route, by the columns of the input.
@@ -161,7 +154,6 @@ std::string why_left_out(Route route, const FitOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  using enum BodyOption;
   keep_freed_memory();
   Tool tool("fitpower", "Fit the power law D = a v^b to columns.");
   std::optional<Route> given_route;  // none for `fits`
@@ -179,9 +171,8 @@ int main(int argc, char** argv) {
       "if there is D, else position if x, else velocity");
   tool.numbers("-K,--shape-factor", bodies.shape_factors, not_negative,
                "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
-  tool.numbers("-R,--radius", bodies.radii, radius_in_metres,
-               "radius [m]; one, or one for each run");
-  tool.body(bodies.body, {gravity}, &bodies.uncertainty);
+  tool.numbers("-R,--radius", bodies.radii, positive, "radius [m]; one, or one for each run");
+  tool.body(bodies.body, {&Body::g}, &bodies.uncertainty);
   add_options(tool, options, bodies);
   tool.flag("--each", each, "fit each run by itself, a row for each");
   tool.flag("--report", with_report,
@@ -200,7 +191,7 @@ int main(int argc, char** argv) {
       fit_rows(tool, bodies);
       return 0;
     }
-    Reader& in = tool.read(order_without_names(given_route, tool.used("t")));
+    Reader& in = tool.read(columns_of(given_route.value_or(Route::shift)));
     Route route = given_route ? *given_route : default_route(in);
     options.possible_filters = filters_of_sensors();
     const bool trajectory = is_trajectory(route);

@@ -10,12 +10,11 @@
 
 int main(int argc, char** argv) {
   using namespace rolling;
-  using enum BodyOption;
   Tool tool("shift-from-accel",
             "Append the forward shift D of the contact force, from the acceleration.");
   ShiftOf by{};
   const Body& body = by.body;
-  tool.body(by.body, {radius, shape_factor, gravity, slope}, &by.given);
+  tool.body(by.body, {&Body::R, &Body::K, &Body::g, &Body::slope}, &by.given);
   tool.geometry(by.geometry);
   tool.scene();
   tool.input();

@@ -71,42 +71,25 @@ void report(Tool& tool, const Scene& scene, double rtol, double end) {
                                        : "errors are against the first");
 }
 
-std::string why_endless(const Scene& scene, Motion& motion) {
-  const double last = motion.last_speed();
-  if (std::isinf(last)) return "the body gains speed on this slope for ever";
-  if (last != 0)
-    return fmt::format("the body never stops on this slope: its speed tends to {:.4g} m/s",
-                       std::abs(last));
-  return scene.law.at_rest() >= scene.body.R ? "the shift grows to the radius before the body stops"
-                                             : "the body never stops";
-}
-
 /// What the options and the scene describe: the roll and how it is solved.
 struct Task {
   Scene roll{};
   double t0 = 0;
-  PowerLaw law{};
+  LawOptions law{};
   Method method{};
   double rtol = 1e-10;
-  std::string law_file;
   bool report = false;
 
   /// Reads the law, checks that nothing is missing, and chooses the method.
   void complete(Tool& tool) {
-    std::vector<std::string> needed = {"radius", "shape-factor"};
-    if (law_file.empty()) {
-      needed.insert(needed.end(), {"coefficient", "exponent"});
-      roll.law = law;
-    } else {
-      roll.law = read_law(tool, law_file, law,
-                          {{"slope", "", &roll.body.slope},
-                           {"v0", "m/s", &roll.v0},
-                           {"x0", "m", &roll.x0},
-                           {"t0", "s", &t0}})
-                     .law;
-    }
-    if (std::isnan(roll.v0)) needed.push_back("v0");
-    tool.need(needed);
+    tool.need({"radius", "shape-factor"});
+    roll.law = read_law(tool, law,
+                        {{"slope", "", &roll.body.slope},
+                         {"v0", "m/s", &roll.v0},
+                         {"x0", "m", &roll.x0},
+                         {"t0", "s", &t0}})
+                   .law;
+    if (std::isnan(roll.v0)) tool.need({"v0"});
     if (!tool.on_command_line("method")) method = best_method(roll);
   }
   std::unique_ptr<Motion> start() const { return rolling::start(roll, method, rtol); }
@@ -134,25 +117,26 @@ double last_time(const Task& task, Motion& motion, double until) {
   const double t0 = task.t0;
   if (until < t0) fail("--until {} is before the roll, which begins at {}", until, t0);
   const double stop = std::isnan(until) ? motion.stop_time() : until - t0;
-  if (!std::isfinite(stop)) fail("{}: say --until when to end", why_endless(task.roll, motion));
+  if (!std::isfinite(stop))
+    fail(
+        "the body does not stop, or D grows to the radius first: its speed tends to {:.4g} m/s; "
+        "say "
+        "--until when to end",
+        std::abs(motion.last_speed()));
   double end = std::isnan(until) ? t0 + stop : until;
   while (end - t0 < stop) end = std::nextafter(end, INFINITY);  // v is 0 there
   return end;
 }
 
 void add_options(Tool& tool, Task& task) {
-  using enum BodyOption;
   Scene& roll = task.roll;
   roll.v0 = not_given;
-  tool.body(roll.body, {radius, shape_factor, gravity, slope});
-  tool.law(task.law);
+  tool.body(roll.body, {&Body::R, &Body::K, &Body::g, &Body::slope});
+  add_options(tool, task.law);
   tool.geometry(roll.geometry);
   tool.number("--v0", roll.v0, any_number, "velocity at t0 [m/s]: below 0 towards falling x");
   tool.number("--x0", roll.x0, any_number, "position at t0 [m] (0)");
   tool.number("--t0", task.t0, any_number, "time at which the roll begins [s] (0)");
-  tool.text("--law", task.law_file, "FILE",
-            "file (- is standard input) with a table of v D, or with a row of fitpower: a, b, "
-            "slope, v0, x0 and t0 that are not given otherwise");
   tool.number("--memory", roll.bulge.length, positive,
               "length over which the bulge follows the law [m]: rolls backwards before rest");
   tool.number("--damping", roll.bulge.damping, not_negative, "damping of the bulge [s] (0)");
@@ -179,8 +163,7 @@ void add_options(Tool& tool, SonarOptions& sonar) {
 class RowWriter {
  public:
   RowWriter(Output& out, const Task& task, const std::string& columns)
-      : out_(out), task_(task), row_(chosen(columns, quantities)),
-        only_t_(row_.size() == 1 && row_[0].name == "t"), numbers_(row_.size()) {}
+      : out_(out), task_(task), row_(chosen(columns, quantities)) {}
 
   void write_header() const {
     const auto& [body, geometry, law, bulge, v0, x0] = task_.roll;
@@ -195,9 +178,9 @@ class RowWriter {
   }
 
   void write(double t, Motion& motion) {
-    if (!only_t_) motion.seek(t - task_.t0);
-    for (std::size_t i = 0; i < row_.size(); ++i) numbers_[i] = row_[i].of(t, motion);
-    out_.row(numbers_);
+    motion.seek(t - task_.t0);
+    for (const auto& quantity : row_) out_.cell(quantity.of(t, motion));
+    out_.end_line();
   }
 
   /// At the times in the column t of a file; each run of the file starts the roll anew.
@@ -238,8 +221,6 @@ class RowWriter {
   Output& out_;
   const Task& task_;
   std::vector<Quantity<double (*)(double t, Motion&)>> row_;
-  bool only_t_;
-  std::vector<double> numbers_;
 };
 
 }  // namespace

@@ -144,19 +144,17 @@ class Remarks {
                          "down, but a hand, a wall, an incline or a magnet at the end of the roll "
                          "does; cut it off",
                          r_.b, r_.sigma_b));
-    if (is_trajectory(fit_.route) &&
-        std::ranges::any_of(fit_.runs, [&](const FitRun& run) { return rounding(run); }))
-      spoilt_ = true;
+    spoilt_ |= std::ranges::any_of(fit_.runs, [&](const FitRun& run) { return rounding(run); });
   }
 
-  /// Warns of readings that repeat since they are rounded to steps that the body hardly makes, or
-  /// that have hardly any other noise: rounding errors are correlated then, which residuals of few
-  /// rows do not show. True if it does, or read_runs() has.
+  /// Warns of readings that repeat since a logger held them or rounded them to steps that the body
+  /// hardly makes, or that have hardly any noise but their rounding: their errors are correlated
+  /// then, which residuals of few rows do not show. True if it does.
   bool rounding(const FitRun& run) {
     const bool positions = fit_.route == Route::position;
     const std::vector<double>& y = positions ? run.x : run.v;
-    if (rows_held(y) > 1) return true;
-    if (!run.filters.empty()) return false;
+    const std::string name = positions ? "x" : "v";
+    if (std::ranges::count(run.filters, name, &LinearFilter::to) > 0) return false;
     std::size_t rows = 0, repeats = 0, waiting = 0;
     for (std::size_t i = 1; i < y.size(); ++i) {  // without the rest at the end
       ++waiting;
@@ -169,13 +167,12 @@ class Remarks {
     const bool bare = of_grid > levels::gates_of_grid && of_grid < levels::rounding_of_grid,
                repeat = repeats >= 10 && of_grid < levels::grid_of_rms &&
                         share > levels::repeats_of_grid;
-    if (!bare && !repeat) return false;
-    tool_.warn(run.name,
-               fmt::format("the {} repeat, or have hardly any noise, beside their rounding to "
-                           "{:.3g} {}: rounding errors are then correlated, and sigma_a and "
-                           "sigma_b may be too small; keep only the rows in which a new one "
-                           "comes, or see how several runs scatter",
-                           positions ? "positions" : "speeds", grid, positions ? "m" : "m/s"));
+    if (rows_held(y) == 1 && (!is_trajectory(fit_.route) || (!bare && !repeat))) return false;
+    tool_.warn(run.name, fmt::format("the {} repeat, or have hardly any noise but their rounding: "
+                                     "these errors are correlated, and sigma_a and sigma_b may be "
+                                     "too small; keep only the rows in which a new one comes, or "
+                                     "see how several runs scatter",
+                                     positions ? "positions" : "speeds"));
     return true;
   }
 

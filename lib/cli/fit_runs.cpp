@@ -7,7 +7,6 @@
 
 #include "cli/history.h"
 #include "signal/pulses.h"
-#include "signal/repeats.h"
 
 namespace rolling {
 namespace {
@@ -31,22 +30,6 @@ void add_others(Reader& in, std::vector<Slot>& slots) {
   for (const char* name : {"t", "x", "v", "D"})
     if (in.find(name) && std::ranges::count(slots, column_of(name), &Slot::column) == 0)
       slots.push_back({*name == 't' ? in.need_time() : in.want(name), column_of(name)});
-}
-
-/// Warns of readings that a logger held: the fit counts each repetition as a new reading. Speeds
-/// that were made of positions are no readings.
-void warn_of_held(Tool& tool, Route route, const FitRun& run,
-                  const std::vector<std::string>& history) {
-  const bool position = route == Route::position;
-  if (!position && std::ranges::any_of(history, [](const std::string& line) {
-        return line.starts_with("differentiate x ");
-      }))
-    return;
-  const double held = rows_held(position ? run.x : run.v);
-  if (held > 1)
-    tool.warn(run.name, fmt::format("{} repeat: each stands in {:.2g} rows on average; keep only "
-                                    "the row in which a new one comes",
-                                    position ? "positions" : "speeds", held));
 }
 
 bool change_numbers(const std::vector<LinearFilter>& filters) {
@@ -111,7 +94,6 @@ std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route) {
     if (!in.history().empty()) add_others(in, slots);  // the `##` lines are compared with them
     while (in.next())
       for (const auto& [slot, column] : slots) (run.*column).push_back(in[slot]);
-    warn_of_held(tool, route, run, in.history());
     set_filters(tool, in, route, run);
   }
   warn_of_lost_history(tool, runs);
@@ -165,22 +147,19 @@ void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
 }
 
 void warn_of_unused_body(Tool& tool, const std::vector<FitRun>& runs, Geometry geometry) {
+  const auto options = {"shape-factor", "radius", "gravity", "slope", "exact"};
+  const bool on_command_line = std::ranges::any_of(
+      options, [&](const char* option) { return tool.on_command_line(option); });
   for (const FitRun& run : runs) {
-    if (!run.shift_of) {
-      std::string unused;
-      for (const char* option : {"shape-factor", "radius", "gravity", "slope", "exact"})
-        if (tool.on_command_line(option) && !tool.on_command_line("report"))
-          add_item(unused, std::string("--") + option);
-      if (!unused.empty())
-        tool.warn(run.name, "not used: " + unused + ": no `##` line tells how D was computed");
-      continue;
-    }
-    Body given = run.body;
-    if (!tool.given("gravity")) given.g = not_given;
-    if (!tool.given("slope")) given.slope = not_given;
-    std::string others = other_body(run.shift_of, given, run.given);
-    if (geometry == Geometry::exact && run.shift_of->geometry != geometry)
-      add_item(others, "A = 1 (here --exact)");
+    std::string others;
+    if (run.shift_of) {
+      Body given = run.body;
+      if (!tool.given("gravity")) given.g = not_given;
+      if (!tool.given("slope")) given.slope = not_given;
+      others = other_body(run.shift_of, given, run.given);
+      if (geometry == Geometry::exact && run.shift_of->geometry != geometry)
+        add_item(others, "A = 1 (here --exact)");
+    } else if (on_command_line) others = "numbers that no `##` line tells";
     if (!others.empty())
       tool.warn(run.name, "D was computed with " + others + ": the fit uses the numbers of D");
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The runs of a fit, read from columns and their `##` lines.
+// The runs of a fit, read from columns and their `##` lines; or their fits, read from rows.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace rolling {
 std::vector<std::string> columns_of(Route);
 
 /// Reads all runs with their names and their filters, but without the numbers of the body. Warns
-/// of readings that a logger held, of `##` lines that are not trusted or that one run lacks, and of
+/// of `##` lines that are not trusted or that one run lacks, and of
 /// rows that are left out because their windows are not known.
 std::vector<FitRun> read_runs(Tool&, Reader&, Route);
 
@@ -41,5 +41,10 @@ void warn_of_copies(Tool&, Route, const std::vector<FitRun>&);
 /// Warns of a geometry and of numbers of the body that a fit of D does not use: D was computed with
 /// others, or it is not known with which.
 void warn_of_unused_body(Tool&, const std::vector<FitRun>&, Geometry);
+
+/// The route fits: reads rows of fitpower and prints their joint law (fit/run_laws.h). What the
+/// uncertainties of K, R and g have brought to each row is common to the rows that give the same
+/// number with the same uncertainty.
+void fit_rows(Tool&, const Bodies&);
 
 }  // namespace rolling

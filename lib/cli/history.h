@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The `##` lines, in which the tools describe what they did to the columns: what they say, and the
-// filters that are constructed from them.
+// The filters that columns have gone through: those of the `##` lines, in which the tools describe
+// what they did to the columns, and those that the software of a sensor may have applied.
 #pragma once
 
 #include <optional>
@@ -48,5 +48,12 @@ bool shifts_of_speeds(const std::vector<std::string>& lines);
 /// differ elsewhere, or if fewer than 10 readings of the column that is fitted remain, the lines
 /// are not trusted. Returns the history as far as it is.
 History give_filters(History, FitRun&, const std::string& column);
+
+/// The filters that the software of sensors may apply to speeds: the differences of positions to
+/// the row before and to the row after (of spreadsheets, gates and encoders; where times are even,
+/// those in the middle between them differ in the clock alone), the central one, and those of
+/// Vernier's and PASCO's programs; and means of 2, 3 or 5 speeds,
+/// whose noise is similar to some of these.
+std::vector<LinearFilter> filters_of_sensors();
 
 }  // namespace rolling

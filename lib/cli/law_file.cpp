@@ -118,11 +118,24 @@ std::string words_of(const Law& law) {
   return words;
 }
 
-LawOfFile read_law(Tool& tool, const std::string& file, const PowerLaw& given,
-                   const std::vector<RowNumber>& numbers, Uncertainties uncertainties) {
+void add_options(Tool& tool, LawOptions& law) {
+  tool.number("-a,--coefficient", law.power.a, positive,
+              "coefficient a of the law D = a v^b [m (s/m)^b]");
+  tool.number("-b,--exponent", law.power.b, any_number, "exponent b of the law");
+  tool.text("--law", law.file, "FILE",
+            "file (- is standard input) with the law: a row of fitpower or a table of v D");
+}
+
+LawOfFile read_law(Tool& tool, const LawOptions& options, const std::vector<RowNumber>& numbers,
+                   Uncertainties uncertainties) {
+  const std::string& file = options.file;
+  if (file.empty()) {
+    tool.need({"coefficient", "exponent"});
+    return {options.power};
+  }
   Reader& in = tool.read_file(file, {"v", "D"});
   if (const LawForm* form = law_of_columns(in))
-    return read_row(tool, in, *form, given, numbers, uncertainties);
+    return read_row(tool, in, *form, options.power, numbers, uncertainties);
   tool.refuse({"coefficient", "exponent"}, "does not go with a table of v D");
   if (!in.find("v") || !in.find("D"))
     fail<InputError>("{}: neither a table of v and D nor a row of fitpower", shown(file));

@@ -28,6 +28,15 @@ std::vector<std::string> correlations_of(const LawForm&);
 /// "a 0.00187 b 0.215", "d0 0.001 d2 0.0004" or "table", for `##` lines.
 std::string words_of(const Law&);
 
+/// The options of a law, and their values.
+struct LawOptions {
+  PowerLaw power{not_given, not_given};
+  std::string file = {};
+};
+
+/// -a, -b and --law.
+void add_options(Tool&, LawOptions&);
+
 /// A number that a row of fitpower may have, under the name of an option of the tool.
 struct RowNumber {
   const char* name;  ///< slope, v0, x0 or t0
@@ -51,12 +60,13 @@ struct LawOfFile {
 /// Whether the uncertainties of a row are needed.
 enum class Uncertainties { ignored, needed };
 
-/// Reads a table of v and D, or a row of fitpower, a file with the columns of the coefficients of a
-/// law, which sets these numbers too. `-` is standard input. What the command line gives takes
-/// precedence: a and b of this law, and the numbers; these keep their values where the row has no
-/// such column. Columns with units are converted to SI. Throws Error for any other file, for more
-/// than one row, for a row that sets nothing, and for another law than a v^b beside -a or -b.
-LawOfFile read_law(Tool&, const std::string& file, const PowerLaw& given,
-                   const std::vector<RowNumber>&, Uncertainties = Uncertainties::ignored);
+/// The law that the options tell: a v^b if there is no file, which then needs a and b; else a table
+/// of v and D, or a row of fitpower, a file with the columns of the coefficients of a law, which
+/// sets these numbers too. `-` is standard input. What the command line gives takes precedence: a
+/// and b, and the numbers; these keep their values where the row has no such column. Columns with
+/// units are converted to SI. Throws Error for any other file, for more than one row, for a row
+/// that sets nothing, and for another law than a v^b beside -a or -b.
+LawOfFile read_law(Tool&, const LawOptions&, const std::vector<RowNumber>&,
+                   Uncertainties = Uncertainties::ignored);
 
 }  // namespace rolling

@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <csignal>
 #include <exception>
-#include <new>
 
 #include "base/enumeration.h"
 #include "base/error.h"
@@ -56,32 +55,23 @@ void LinesOfRuns::add(const std::string& run, const std::string& text) {
   if (!run.empty()) line->runs.push_back(run);
 }
 
-std::string LinesOfRuns::Line::all() const {
-  if (runs.empty()) return text;
-  if (runs.size() == 1) return fmt::format("run {}: {}", runs[0], text);
-  return fmt::format("run {} (and {}): {}", runs[0], some_of({runs.begin() + 1, runs.end()}), text);
-}
-
 std::vector<std::string> LinesOfRuns::all() const {
   std::vector<std::string> all;
-  for (const Line& line : lines_) all.push_back(line.all());
+  for (const auto& [text, alike, runs] : lines_)
+    if (runs.empty()) all.push_back(text);
+    else if (runs.size() == 1) all.push_back(fmt::format("run {}: {}", runs[0], text));
+    else
+      all.push_back(fmt::format("run {} (and {}): {}", runs[0],
+                                some_of({runs.begin() + 1, runs.end()}), text));
   return all;
 }
 
 namespace {
 
-/// The terminate handler. It reports exceptions that nothing catches: before main(), from a static
-/// object, or while a message is being made.
+/// The terminate handler: where nothing catches an exception, before Tool::run() or while a message
+/// is being made, memory has run out.
 [[noreturn]] void report_uncaught() {
-  const char* what = "unknown error";
-  try {
-    if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
-  } catch (const std::bad_alloc&) {
-    what = "out of memory";
-  } catch (const std::exception& error) {
-    what = error.what();
-  } catch (...) {}
-  write_message(program_invocation_short_name, what);
+  write_message(program_invocation_short_name, "out of memory");
   ::_exit(trouble);
 }
 

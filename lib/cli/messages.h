@@ -30,8 +30,6 @@ class LinesOfRuns {
   struct Line {
     std::string text, alike;  ///< of the first run; without numbers
     std::vector<std::string> runs;
-
-    std::string all() const;
   };
   std::vector<Line> lines_;
 };

@@ -16,11 +16,6 @@
 
 namespace rolling {
 
-Tool::Tool(std::string name, const std::string& purpose)
-    : Options(name, purpose), name_(std::move(name)) {
-  flag("-q,--quiet", quiet_, "print no warnings or counts on standard error");
-}
-
 void Tool::input() {
   const auto append_to = [](std::vector<std::string>& words) {
     return [&words](const std::string& word) { words.push_back(word); };
@@ -40,12 +35,6 @@ void Tool::output() {
         {"a whole number from 1 to 17", [](double x) { return whole.holds(x) && x <= 17; }},
         "round computed numbers to this many significant digits");
   flag("-u,--unbuffered", out.unbuffered, "write each row at once");
-}
-
-bool Tool::used(const std::string& quantity) const {
-  return std::ranges::any_of(input_.use, [&](const std::string& use) {
-    return read_column(use.substr(0, use.find('='))).name == quantity;
-  });
 }
 
 Reader& Tool::read(std::vector<std::string> order) { return open(input_, std::move(order)); }
@@ -99,13 +88,13 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   try {
     error_line_ = error_line(name_);
     end_output_on_signals(out, error_line_);
-    if (const std::string asked = parse(name_, argc, argv); !asked.empty()) {
+    if (const std::string asked = parse(argc, argv); !asked.empty()) {
       out.text(asked);
       out.flush();
       return 0;
     }
     standard_input_taken_ = take_scene();
-    for (const std::string& doubt : doubts_) warn(doubt);
+    doubt_radii();
     return finish(work());
   } catch (const Error& error) {  // one of no class of its own is about the present row
     const bool of_row =

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cmath>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -61,11 +60,6 @@ class Output {
     if (unbuffered || whole_ >= block) flush();
   }
   void names(const std::vector<Column>&);  ///< the header
-  /// The cells and the end of a line.
-  void row(std::span<const double> values) {
-    for (const double value : values) cell(value);
-    end_line();
-  }
   /// Writes the buffer. Throws OutputError if the system reports an error.
   void flush();
   /// Removes the current line and writes this one as the last of the output, if there has been any

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "bench/coverage_cases.h"
 #include "cli/history.h"
-#include "cli/linear_filters.h"
+#include "cli/history.h"
 #include "fit/fit.h"
 #include "motion/roll.h"
 #include "motion/scene.h"

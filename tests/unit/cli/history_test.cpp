@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/history.h"
-#include "cli/linear_filters.h"
 
 #include "base/error.h"
 #include "unit/catch.h"

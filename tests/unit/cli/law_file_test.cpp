@@ -14,6 +14,7 @@ using namespace rolling;
 namespace {
 
 struct Given {
+  LawOptions options{};
   PowerLaw law{};
   LawOfFile file{};
   double slope = 0, v0 = not_given, x0 = 0, t0 = 0;
@@ -28,8 +29,8 @@ Given law_of(const std::string& text, std::vector<std::string> words = {},
   Given given;
   Tool tool("tool", "");
   Body body{};
-  tool.body(body, {BodyOption::slope});
-  tool.law(given.law);
+  tool.body(body, {&Body::slope});
+  add_options(tool, given.options);
   tool.number("--v0", given.v0, any_number, "");
   tool.number("--x0", given.x0, any_number, "");
   tool.number("--t0", given.t0, any_number, "");
@@ -41,13 +42,14 @@ Given law_of(const std::string& text, std::vector<std::string> words = {},
     const Redirect to_file(STDERR_FILENO, errors.name());
     given.status = tool.run(static_cast<int>(words.size()), arguments.data(), [&] {
       given.slope = body.slope;
-      given.file = read_law(tool, file.name(), given.law,
+      given.options.file = file.name();
+      given.file = read_law(tool, given.options,
                             {{"slope", "", &given.slope},
                              {"v0", "m/s", &given.v0},
                              {"x0", "m", &given.x0},
                              {"t0", "s", &given.t0}},
                             uncertainties);
-      given.law = given.file.law.power().value_or(given.law);
+      given.law = given.file.law.power().value_or(given.options.power);
       return 0;
     });
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
-#include "cli/linear_filters.h"
+#include "cli/history.h"
 #include "motion/roll.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"

@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/options.h"
+#include "cli/tool.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <sstream>
 #include <utility>
 
-#include "base/enumeration.h"
 #include "signal/savitzky_golay.h"
-#include "text/column.h"
 #include "text/lines.h"
-#include "text/number.h"
 
 namespace rolling {
 
@@ -24,7 +20,7 @@ static_assert(polynomial.holds(SavitzkyGolay::most_order) &&
 namespace {
 
 constexpr std::string_view version = "1.0.0";
-constexpr std::size_t page_width = 79, help_column = 30;
+constexpr std::size_t help_column = 30;
 
 /// Refuses a text that is not a number of the domain.
 void require(bool is_number, double value, const Domain& domain, const std::string& text) {
@@ -38,9 +34,9 @@ bool to_bool(const std::string& text) {
 }
 
 /// The keys of a scene. A tool ignores those that it does not need.
-constexpr std::array<std::string_view, 12> keys = {
-    "mass",     "radius", "shape-factor", "gravity", "slope",  "coefficient",
-    "exponent", "exact",  "v0",           "x0",      "memory", "damping"};
+constexpr std::string_view keys[] = {"mass",  "radius",      "shape-factor", "gravity",
+                                     "slope", "coefficient", "exponent",     "exact",
+                                     "v0",    "x0",          "memory",       "damping"};
 
 /// What a scene file assigns, as CLI11 reads TOML.
 std::vector<CLI::ConfigItem> read_scene(const std::string& file) {
@@ -53,35 +49,22 @@ std::vector<CLI::ConfigItem> read_scene(const std::string& file) {
   return CLI::ConfigTOML().from_config(scene);
 }
 
-/// Appends the line of an option or operand, with its explanation from help_column on, wrapped.
-void append_item(std::string& page, const std::string& names, std::string_view words) {
-  std::string line = "  " + names;
-  if (line.size() + 2 > help_column) {
-    page += line + '\n';
-    line.clear();
+/// An explanation in lines that fit beside the names of the options.
+std::string wrapped(std::string words) {
+  constexpr std::size_t width = 79 - help_column;
+  for (std::size_t begin = 0; begin + width < words.size();) {
+    const std::size_t blank = words.rfind(' ', begin + width);
+    words[blank] = '\n';
+    begin = blank + 1;
   }
-  line.resize(help_column, ' ');
-  while (line.size() + words.size() > page_width) {
-    const std::size_t blank = words.rfind(' ', page_width - line.size());
-    (page += line) += words.substr(0, blank);
-    page += '\n';
-    line.assign(help_column, ' ');
-    words.remove_prefix(blank + 1);
-  }
-  ((page += line) += words) += '\n';
+  return words;
 }
 
-bool may_repeat(const CLI::Option& option) { return option.get_items_expected_max() > 1; }
-
-/// `-w,--width N`, with ` ...` behind where the option may be repeated.
-std::string synopsis(const CLI::Option& option) {
-  std::string text;
-  for (const std::string& name : option.get_snames()) text += '-' + name + ',';
-  text += "--" + option.get_lnames().front();
-  if (option.get_items_expected_max() == 0) return text;
-  text += ' ' + option.get_type_name();
-  if (may_repeat(option)) text += " ...";
-  return text;
+Estimate to_estimate(const std::string& text, const Domain& domain) {
+  Estimate estimate;
+  const bool is_number = parse_estimate(text, estimate);
+  require(is_number, estimate.value, domain, text);
+  return estimate;
 }
 
 }  // namespace
@@ -93,26 +76,18 @@ double to_number(const std::string& text, const Domain& domain) {
   return value;
 }
 
-Estimate Options::to_estimate(const std::string& text, const Domain& domain) {
-  Estimate estimate;
-  const bool is_number = parse_estimate(text, estimate);
-  require(is_number, estimate.value, domain, text);
-  if (estimate.value > domain.doubted)
-    doubts_.insert(fmt::format("R = {} m: if that is millimetres, write {}", estimate.value,
-                               estimate.value / 1000));
-  return estimate;
-}
-
-Options::Options(const std::string& name, const std::string& purpose)
-    : app_(new CLI::App(purpose, name)) {
+Tool::Tool(std::string name, const std::string& purpose)
+    : name_(std::move(name)), app_(new CLI::App(purpose, name_)) {
+  app_->get_formatter()->column_width(help_column);
   app_->set_help_flag("-h,--help", "print this and exit")->disable_flag_override();
   app_->set_version_flag("--version", "", "print the version and exit")->disable_flag_override();
+  flag("-q,--quiet", quiet_, "print no warnings or counts on standard error");
 }
 
-Options::~Options() = default;
+Tool::~Tool() = default;
 
-void Options::add(const std::string& names, const std::string& type, const std::string& help,
-                  Set set, Values values) {
+void Tool::add(const std::string& names, const std::string& type, const std::string& help, Set set,
+               Values values) {
   CLI::callback_t take = [names, set = std::move(set)](const std::vector<std::string>& texts) {
     try {
       for (const std::string& text : texts) set(text);
@@ -121,7 +96,7 @@ void Options::add(const std::string& names, const std::string& type, const std::
     }
     return true;
   };
-  app_->add_option(names, std::move(take), help)
+  app_->add_option(names, std::move(take), wrapped(help))
       ->type_name(type)
       ->expected(values == Values::many ? CLI::detail::expected_max_vector_size
                                         : static_cast<int>(values))
@@ -129,23 +104,23 @@ void Options::add(const std::string& names, const std::string& type, const std::
       ->disable_flag_override();
 }
 
-void Options::flag(const std::string& names, bool& value, const std::string& help) {
+void Tool::flag(const std::string& names, bool& value, const std::string& help) {
   add(
       names, "", help, [&value](const std::string& text) { value = to_bool(text); }, Values::none);
 }
 
-void Options::number(const std::string& names, double& value, const Domain& domain,
-                     const std::string& help, double* sigma) {
-  add(names, "NUMBER", help, [this, &value, domain, sigma](const std::string& text) {
+void Tool::number(const std::string& names, double& value, const Domain& domain,
+                  const std::string& help, double* sigma) {
+  add(names, "NUMBER", help, [&value, domain, sigma](const std::string& text) {
     const Estimate read = sigma ? to_estimate(text, domain) : Estimate{to_number(text, domain)};
     value = read.value;
     if (sigma) *sigma = read.sigma;
   });
 }
 
-void Options::numbers(const std::string& names, std::vector<Estimate>& values, const Domain& domain,
-                      const std::string& help) {
-  add(names, "NUMBER,...", help, [this, &values, domain](const std::string& text) {
+void Tool::numbers(const std::string& names, std::vector<Estimate>& values, const Domain& domain,
+                   const std::string& help) {
+  add(names, "NUMBER,...", help, [&values, domain](const std::string& text) {
     const auto parts = split_names(text, ',');
     const auto is_whole = [](const std::string& part) {
       return part.find_first_not_of("0123456789") == std::string::npos;
@@ -163,16 +138,16 @@ void Options::numbers(const std::string& names, std::vector<Estimate>& values, c
   });
 }
 
-void Options::text(const std::string& names, std::string& value, const std::string& type,
-                   const std::string& help) {
+void Tool::text(const std::string& names, std::string& value, const std::string& type,
+                const std::string& help) {
   add(names, type, help, [&value](const std::string& text) {
     if (text.empty()) fail("'' is no value");
     value = text;
   });
 }
 
-void Options::body(Body& body, std::initializer_list<BodyOption> options,
-                   BodyUncertainty* uncertainty) {
+void Tool::body(Body& body, std::initializer_list<double Body::*> numbers,
+                BodyUncertainty* uncertainty) {
   body = {not_given, not_given, not_given};
   BodyUncertainty& u = uncertainty ? *uncertainty : ignored_;
   static constexpr struct {
@@ -181,27 +156,19 @@ void Options::body(Body& body, std::initializer_list<BodyOption> options,
     double BodyUncertainty::*sigma;
     Domain domain;
     const char* help;
-  } all[] = {// in the order of BodyOption
-             {"-m,--mass", &Body::m, nullptr, positive, "mass m [kg]"},
-             {"-R,--radius", &Body::R, &BodyUncertainty::R, radius_in_metres, "radius R [m]"},
+  } all[] = {{"-m,--mass", &Body::m, nullptr, positive, "mass m [kg]"},
+             {"-R,--radius", &Body::R, &BodyUncertainty::R, positive, "radius R [m]"},
              {"-K,--shape-factor", &Body::K, &BodyUncertainty::K, not_negative,
               "shape factor K of J = K m R^2"},
              {"-g,--gravity", &Body::g, &BodyUncertainty::g, positive, "gravity g [m/s^2] (9.81)"},
              {"--slope", &Body::slope, &BodyUncertainty::slope, any_number,
               "rise of the mat in metres per metre of growing x (0)"}};
-  for (const BodyOption option : options) {
-    const auto& [names, value, sigma, domain, help] = all[static_cast<std::size_t>(option)];
-    number(names, body.*value, domain, help, sigma ? &(u.*sigma) : nullptr);
-  }
+  for (const auto& [names, value, sigma, domain, help] : all)
+    if (std::ranges::find(numbers, value) != numbers.end())
+      number(names, body.*value, domain, help, sigma ? &(u.*sigma) : nullptr);
 }
 
-void Options::law(PowerLaw& law) {
-  law = {not_given, not_given};
-  number("-a,--coefficient", law.a, positive, "coefficient a of the law D = a v^b [m (s/m)^b]");
-  number("-b,--exponent", law.b, any_number, "exponent b of the law");
-}
-
-void Options::geometry(Geometry& geometry) {
+void Tool::geometry(Geometry& geometry) {
   add(
       "--exact", "", "keep A = sqrt(1 - D^2/R^2) (the paper sets A = 1)",
       [&geometry](const std::string& text) {
@@ -210,31 +177,28 @@ void Options::geometry(Geometry& geometry) {
       Values::none);
 }
 
-void Options::scene() {
+void Tool::scene() {
   text("--scene", scene_file_, "FILE",
        "TOML file with the long names of a scene's options; the command line wins");
 }
 
-std::string Options::parse(const std::string& name, int argc, const char* const* argv) {
+std::string Tool::parse(int argc, const char* const* argv) {
   try {
     app_->parse(argc, argv);
+    return {};
   } catch (const CLI::CallForHelp&) {
-    return help(name);
+    app_->name(name_)->footer("In full: man " + name_ + ". A tutorial: man rolling.");
+    return app_->help();
   } catch (const CLI::CallForVersion&) {
-    return fmt::format("{} (rolling) {}\n", name, version);
+    return fmt::format("{} (rolling) {}\n", name_, version);
   } catch (const CLI::ExtrasError&) {
     fail("no such option or operand: {} (see --help)", shown(app_->remaining().front()));
   } catch (const CLI::ParseError& error) {
     fail("{} (see --help)", error.what());
   }
-  if (const CLI::Option* const files = app_->get_option_no_throw("FILE"))
-    for (const std::string& file : files->results())
-      if (std::count(argv, argv + argc, file) == 0)  // CLI11 reads an operand [a,b] as a and b
-        fail("'{}' is from a name in brackets: write ./ before it", shown(file));
-  return {};
 }
 
-bool Options::take_scene() {
+bool Tool::take_scene() {
   if (scene_file_.empty()) return false;
   for (const CLI::ConfigItem& item : read_scene(scene_file_)) try {
       if (!item.parents.empty() || std::ranges::count(keys, item.name) == 0)
@@ -251,33 +215,29 @@ bool Options::take_scene() {
   return scene_file_ == "-";
 }
 
-bool Options::given(const std::string& option) const {
+bool Tool::given(const std::string& option) const {
   return app_->get_option("--" + option)->count() > 0;
 }
 
-void Options::need(const std::vector<std::string>& options) const {
+void Tool::need(const std::vector<std::string>& options) const {
   std::vector<std::string> missing;
   for (const std::string& option : options)
     if (!given(option)) missing.push_back("--" + option);
   if (!missing.empty()) fail<OptionError>("neither given nor in a scene: {}", enumeration(missing));
 }
 
-void Options::refuse(std::initializer_list<const char*> options, std::string_view why) const {
+void Tool::refuse(std::initializer_list<const char*> options, std::string_view why) const {
   for (const char* option : options)
     if (on_command_line(option)) fail<OptionError>("--{} {}", option, why);
 }
 
-std::string Options::help(const std::string& name) const {
-  const CLI::App& app = *app_;
-  std::string operands = "\n", options = "\nOptions:\n";
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->nonpositional()) append_item(options, synopsis(*option), option->get_description());
-    else append_item(operands, option->get_name() + "...", option->get_description());
-  }
-  const bool reads = operands.size() > 1;
-  return "Usage: " + name + " [OPTION...]" + (reads ? " [FILE...]" : "") + "\n" +
-         app.get_description() + '\n' + (reads ? operands : "") + options + "\nIn full: man " +
-         name + ". A tutorial: man rolling.\n";
+void Tool::doubt_radii() {
+  const CLI::Option* const radius = app_->get_option_no_throw("--radius");
+  if (!radius) return;
+  for (const std::string& text : radius->results())
+    for (const std::string& part : split_names(text, ','))
+      if (Estimate R; parse_estimate(part, R) && R.value > 1)
+        warn(fmt::format("R = {} m: if that is millimetres, write {}", R.value, R.value / 1000));
 }
 
 }  // namespace rolling

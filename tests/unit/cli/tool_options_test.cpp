@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/options.h"
+#include "cli/tool.h"
 
 #include <unistd.h>
 
 #include <cmath>
 
-#include "cli/tool.h"
 #include "unit/catch.h"
 #include "unit/text/files.h"
 
 using namespace rolling;
 
 TEST_CASE("options: what is given about a body, on the command line and in a scene", "[cli]") {
-  using enum BodyOption;
   Body body{};
   BodyUncertainty sigma;
   std::vector<std::string> operands;
@@ -24,11 +22,11 @@ TEST_CASE("options: what is given about a body, on the command line and in a sce
     for (std::string& word : words) arguments.push_back(word.data());
     sigma = {};
     Tool tool("tool", "");
-    tool.body(body, {mass, radius, shape_factor, gravity, slope}, &sigma);
+    tool.body(body, {&Body::m, &Body::R, &Body::K, &Body::g, &Body::slope}, &sigma);
     tool.scene();
     tool.add(
         "--word", "WORD", "", [&](const auto& word) { operands.push_back(word); },
-        Options::Values::many);
+        Tool::Values::many);
     const int status = tool.run(static_cast<int>(words.size()), arguments.data(), [&] {
       tool.need(needed);
       return 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/fit_rows.h"
+#include "cli/fit_runs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +46,8 @@ void warn_of_same_rows(Tool& tool, const FitRows& rows) {
   for (const OwnLaw& row : rows.laws) {
     const Symmetric& C = row.covariance;
     if (!different.insert({row.law.a, row.law.b, C.aa, C.ab, C.bb}).second)
-      tool.warn(rows.runs[row.run].name, "its numbers are those of a row before it: leave copies out");
+      tool.warn(rows.runs[row.run].name,
+                "its numbers are those of a row before it: leave copies out");
   }
 }
 

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/fit_report.h"
+
+#include "unit/catch.h"
+
+using namespace rolling;
+
+TEST_CASE("fit report: runs that disagree are told with the run that stands out, and by how much",
+          "[cli]") {
+  std::vector<FitRun> runs(3);
+  runs[1].name = "two";
+  Agreement found{.dof = 2, .ratio = 20, .p = 1e-4, .runs = 3, .run = 1, .speed = 0.5};
+  found.log_D = {std::log(1.1), 0.01};
+  const std::string before =
+                        "the runs disagree by more than their noise (chi2 20 of 2 degrees of "
+                        "freedom, p = 0.0001): run two stands out, in D(0.5 m/s) by +10 +- 1 %",
+                    after = "; the row is their mean, with their scatter in its uncertainties";
+  CHECK(disagreement(found, runs) == before + after);  // b is fixed
+  found.b = {-0.02, 0.003};
+  CHECK(disagreement(found, runs) == before + ", in b by -0.02 +- 0.003" + after);
+}
