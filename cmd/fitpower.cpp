@@ -191,7 +191,10 @@ int main(int argc, char** argv) {
       fit_rows(tool, bodies);
       return 0;
     }
-    Reader& in = tool.read(columns_of(given_route.value_or(Route::shift)));
+    // In a file without names no column is v or D by its place where --use says which is t.
+    Reader& in =
+        tool.read(!given_route && tool.uses("t") ? std::vector<std::string>{}
+                                                 : columns_of(given_route.value_or(Route::shift)));
     Route route = given_route ? *given_route : default_route(in);
     options.possible_filters = filters_of_sensors();
     const bool trajectory = is_trajectory(route);

@@ -37,6 +37,12 @@ void Tool::output() {
   flag("-u,--unbuffered", out.unbuffered, "write each row at once");
 }
 
+bool Tool::uses(const std::string& quantity) const {
+  return std::ranges::any_of(input_.use, [&](const std::string& use) {
+    return read_column(use.substr(0, use.find('='))).name == quantity;
+  });
+}
+
 Reader& Tool::read(std::vector<std::string> order) { return open(input_, std::move(order)); }
 
 Reader& Tool::read_file(const std::string& file, std::vector<std::string> order) {

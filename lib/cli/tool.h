@@ -112,7 +112,9 @@ class Tool {
   void geometry(Geometry&);  ///< --exact
   void scene();              ///< --scene, whose keys are listed in tool_options.cpp
   void input();              ///< operands, --use --run --strict
-  void output();             ///< --digits -u
+  /// Whether --use says which column this quantity is.
+  bool uses(const std::string& quantity) const;
+  void output();  ///< --digits -u
 
   /// Throws one Error that lists those of these options (long names) which have a value neither on
   /// the command line nor in the scene.
