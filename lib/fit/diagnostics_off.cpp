@@ -82,26 +82,17 @@ OffReadings of_run(LeftOut others, double freedom, double& most_off) {
   return found;
 }
 
-std::optional<OffReadings> around(const Fitted& fit, double& most_off) {
+/// `robust`: the fit is the robust roll, at which single readings have no share.
+std::optional<OffReadings> around(const Fitted& fit, bool robust, double& most_off) {
   const bool known = fit.noise->from_sources_alone();
   const auto raw = [&](std::vector<double> x) {
     return known ? fit.noise->to_sources(std::move(x)) : x;
   };
   const auto& sizes = known ? fit.noise->sources() : fit.system.runs;
-  std::vector<double> e = raw(fit.minimum.f);
+  const std::vector<double> e = raw(fit.minimum.f);
   Matrix B;  // in long runs no reading has a share in the fit
-  if (e.size() <= 1000 * sizes.size())
+  if (!robust && e.size() <= 1000 * sizes.size())
     for (std::vector<double>& column : orthonormal(fit)) B.push_back(raw(std::move(column)));
-  const auto project = [](std::span<const double> column, std::span<double> from) {
-    const double along = dot(column, from);
-    for (std::size_t i = 0; i < from.size(); ++i) from[i] -= along * column[i];
-  };
-  for (std::size_t j = 0; j < B.size(); ++j) {  // to the minimum, if this is not one
-    if (j >= fit.system.own) project(B[j], e);
-    else
-      for (std::size_t r = 0; r < sizes.size(); ++r)
-        project(by_run(B[j], sizes)[r], by_run(e, sizes)[r]);
-  }
   std::optional<OffReadings> found;
   const auto e_of = by_run(e, sizes);
   const auto B_of = rows_by_run(std::as_const(B), sizes);
@@ -122,6 +113,13 @@ std::optional<OffReadings> around(const Fitted& fit, double& most_off) {
   return found;
 }
 
+/// Around the roll of this theta, which is that of a robust fit.
+std::optional<OffReadings> around_robust(Fitted fit, const std::vector<double>& theta) {
+  double most_off = 0;
+  fit.minimum = evaluated(fit.system, theta);
+  return around(fit, true, most_off);
+}
+
 }  // namespace
 
 std::optional<OffReadings> off_robust_roll(Route route, const std::vector<FitRun>& runs,
@@ -129,10 +127,8 @@ std::optional<OffReadings> off_robust_roll(Route route, const std::vector<FitRun
   if (!is_trajectory(route) || options.robust) return {};
   options.robust = true;
   try {
-    Fitted straight = fit_route(route, runs, options);
-    straight.minimum = evaluated(straight.system, straight.minimum.theta);
-    double most_off = 0;
-    return around(straight, most_off);
+    const Fitted fit = fit_route(route, runs, options);
+    return around_robust(fit, fit.minimum.theta);
   } catch (const Error&) {
     return {};
   }
@@ -141,14 +137,11 @@ std::optional<OffReadings> off_robust_roll(Route route, const std::vector<FitRun
 std::optional<OffReadings> off_readings(const Fitted& fit) {
   if (!fit.rolls || fit.degrees_left() == 0) return {};
   double most_off = 0;
-  auto found = around(fit, most_off);
+  auto found = around(fit, false, most_off);
   if (found || most_off < 5) return found;
   // A reading far off may have bent the roll to itself, away from where it is linear.
   try {
-    Fitted straight = fit;
-    straight.minimum = minimise_robust(straight.system, {fit.minimum.theta});
-    straight.minimum = evaluated(straight.system, straight.minimum.theta);
-    return around(straight, most_off);
+    return around_robust(fit, minimise_robust(fit.system, {fit.minimum.theta}).theta);
   } catch (const Error&) {
     return {};
   }

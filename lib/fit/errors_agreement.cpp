@@ -125,21 +125,26 @@ CommonError take_slope(std::vector<OwnLaw>& laws, double log_v, double freedom, 
   return common;
 }
 
-/// The law becomes the scattered_mean() of the runs; where the slope is fitted, that at the slope
-/// at which the runs agree best.
-void take_means(std::vector<OwnLaw> laws, double freedom, Uncertainty& errors, Fitted& joint) {
+/// The law of runs that disagree becomes their scattered_mean(); where the slope is fitted, that at
+/// the slope at which they agree best. Returns the covariance of a, b and the slope; or nothing,
+/// and does nothing, where the law stays that of the joint fit.
+std::optional<Matrix> take_means(std::vector<OwnLaw> laws, const FitOptions& options,
+                                 Fitted& joint) {
+  const double freedom = static_cast<double>(laws.size()) - 1 - options.fit_slope;
+  if (freedom < 1 || !options.fits_power() ||
+      (options.fit_slope && (options.a || of_one_way(laws, joint))))
+    return {};
   const double log_v = common_log_v(laws, [&](const OwnLaw& one) { return log_v_of(one, joint); });
   std::vector<CommonError> common;
   double sigma_slope = 0;
   if (joint.slope) common.push_back(take_slope(laws, log_v, freedom, joint, sigma_slope));
   const JointLaw mean = scattered_mean(laws, log_v, freedom, common);
-  FittedNumber &a = joint.coefficients[0], &b = joint.coefficients[1];
-  if (!a.fixed()) a.value = std::exp(mean.law.a);
-  if (!b.fixed()) b.value = mean.law.b;
+  double &a = joint.coefficients[0].value, &b = joint.coefficients[1].value;
+  if (!options.a) a = std::exp(mean.law.a);
+  if (!options.b) b = mean.law.b;
   const Symmetric& C = mean.covariance;
-  Matrix& to = errors.covariance;
-  to[0][0] = a.value * a.value * C.aa, to[0][1] = to[1][0] = a.value * C.ab, to[1][1] = C.bb;
-  if (joint.slope) to[2][2] = sigma_slope * sigma_slope;
+  return Matrix{
+      {a * a * C.aa, a * C.ab, 0}, {a * C.ab, C.bb, 0}, {0, 0, sigma_slope * sigma_slope}};
 }
 
 /// Each run fitted by itself; nothing for one that does not determine a law.
@@ -153,18 +158,6 @@ std::vector<std::optional<Fitted>> own_fits(Route route, const std::vector<FitRu
       own.emplace_back();
     }
   return own;
-}
-
-/// Takes the means of runs that disagree; returns false, and does nothing, where the law stays that
-/// of the joint fit.
-bool follow_means(std::vector<OwnLaw> laws, const FitOptions& options, Uncertainty& errors,
-                  Fitted& joint) {
-  const double freedom = static_cast<double>(laws.size()) - 1 - options.fit_slope;
-  if (freedom < 1 || !options.fits_power() ||
-      (options.fit_slope && (options.a || of_one_way(laws, joint))))
-    return false;
-  take_means(std::move(laws), freedom, errors, joint);
-  return true;
 }
 
 }  // namespace
@@ -188,17 +181,20 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
       joint.bias.resize(joint.coefficients.size());
       joint.bias[j] += own[one.run]->bias[j] / static_cast<double>(laws.size());
     }
-  if (!follow_means(laws, options, errors, joint))
-    for (std::vector<double>& row : errors.covariance)
-      for (double& both : row) both *= std::max(1.0, found.chi2 / static_cast<double>(found.dof));
+  const std::size_t shared = joint.coefficients.size() + options.fit_slope;
+  const auto of_means = take_means(laws, options, joint);
+  for (std::size_t i = 0; i < errors.covariance.size(); ++i)
+    for (std::size_t j = 0; j < errors.covariance.size(); ++j) {
+      double& both = errors.covariance[i][j];
+      if (!of_means) both *= std::max(1.0, found.chi2 / static_cast<double>(found.dof));
+      else if (i < shared && j < shared) both = (*of_means)[i][j];
+    }
   return found;
 }
 
 Fitted fit_of_disagreeing(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   Fitted joint = fit_route(route, runs, options);
-  Uncertainty unused{Errors::none, 0, 0, Matrix(3, std::vector<double>(3))};
-  follow_means(own_laws(own_fits(route, runs, options, joint), joint.fastest()), options, unused,
-               joint);
+  take_means(own_laws(own_fits(route, runs, options, joint), joint.fastest()), options, joint);
   return joint;
 }
 
