@@ -86,9 +86,8 @@ class Accounts {
 
   /// Adds the present row to the balance of its run.
   Ledger enter(Balance& balance) {
-    const double v = in_[v_], highest = task_.law.law.highest();
-    if (task_.uses_law && std::abs(v) > highest)
-      fail("v = {:.6g} m/s is beyond the table of the law, which ends at {:.6g} m/s", v, highest);
+    const double v = in_[v_];
+    if (task_.uses_law) task_.law.law.check_speed(v);
     const double D = task_.uses_law ? task_.law.law(v) : in_[D_];
     const Ledger now(task_.body, task_.geometry, v, D);
     balance.push(in_[t_], now);

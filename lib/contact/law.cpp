@@ -152,6 +152,12 @@ const std::vector<LawForm>& laws() {
   return all;
 }
 
+void Law::check_speed(double v) const {
+  if (std::abs(v) > highest() * (1 + 1e-9))
+    fail("the speed {:.6g} m/s is above the table of the law, which ends at {:.6g}", std::abs(v),
+         highest());
+}
+
 double Law::in_SI(std::size_t j, std::span<double> by_c) const {
   std::array<double, LawForm::most> d = c_;
   std::array<double, LawForm::most * LawForm::most> J{};

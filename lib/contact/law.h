@@ -139,6 +139,8 @@ class Law {
   double highest() const {
     return points_ ? points_->speeds().back() : std::numeric_limits<double>::infinity();
   }
+  /// Throws Error for a speed above that by more than the error of a roll.
+  void check_speed(double v) const;
   /// The speeds, in increasing order, where a derivative of the law jumps.
   std::span<const double> corners() const {
     return points_ ? std::span<const double>(points_->speeds()) : std::span<const double>();

@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "contact/contact.h"
-#include "motion/roll.h"
 
 namespace rolling {
 
@@ -20,7 +19,6 @@ constexpr double gone = -1e4;     // for L below it, v = 0 in a double
 
 ClosedForm::ClosedForm(const Body& body, PowerLaw law, double v0, double x0)
     : body_(body), b_(law.b), v0_(v0), x0_(x0) {
-  check_roll(body, law, v0);
   if (v0 == 0) return;
   const DoubleDouble s = two_sum(1, -law.b), s1 = two_sum(2, -law.b);
   const DoubleDouble arm = two_sum(body.K, 1) * body.R / body.g;

@@ -19,8 +19,8 @@ namespace rolling {
 /// and dv/dt are within 2 ulp and x within 4 ulp of the true value.
 class ClosedForm final : public Motion {
  public:
-  /// Throws Error as check_roll does. v0 = 0 is rest for ever. v0, a, D(v0), D(v0)/a and dv/dt at
-  /// v0 are in range of 1e-70 to 1e70 (SI units).
+  /// For what check_roll accepts. v0 = 0 is rest for ever; else v0, a, D(v0), D(v0)/a and dv/dt at
+  /// v0 are within 1e-70 to 1e70 (SI units).
   ClosedForm(const Body&, PowerLaw, double v0, double x0);
 
   double stop_time() override { return stop_time_; }  ///< t* rounded up

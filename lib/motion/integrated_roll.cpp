@@ -54,24 +54,20 @@ IntegratedRoll::End IntegratedRoll::end_of(const Scene& s) {
   return {std::max(floor, rest), rest > floor, roll.turns()};
 }
 
-IntegratedRoll::IntegratedRoll(const Scene& s, Stepper stepper, double rtol,
-                               unsigned long most_steps)
-    : IntegratedRoll(s, end_of(s), stepper, rtol, most_steps) {}
-
 // From v0 = 0 the way back begins at once. The sign of a v that is 0 tells its direction.
-IntegratedRoll::IntegratedRoll(const Scene& s, End end, Stepper stepper, double rtol,
+IntegratedRoll::IntegratedRoll(const Scene& s, Stepper stepper, double rtol,
                                unsigned long most_steps)
     : SolvedRoll(
           s, most_steps,
-          [=] {
-  return Integrator(equations(s.body, s.geometry, s.law, end.floor), stepper,
+          [=, floor = end_of(s).floor] {
+  return Integrator(equations(s.body, s.geometry, s.law, floor), stepper,
                     {rounding, rtol * last_part, rtol, {unit_of_speed(s), unit_of_speed(s)}},
                     {s.x0, s.v0 > 0 ? s.v0 : -std::copysign(0, s.body.slope)});
           }),
-law_(s.law), end_(end) {
-  turns_ = end.turns, at_rest_ = s.v0 == 0 && !end.turns;
+law_(s.law), end_(end_of(s)) {
+  turns_ = end_.turns, at_rest_ = s.v0 == 0 && !turns_;
   if (s.v0 == 0) stop_time_ = 0;
-  else if (end.floor == 0) stop_time_ = infinity;
+  else if (end_.floor == 0) stop_time_ = infinity;
 }
 
 bool IntegratedRoll::advance(Course& course, double t, unsigned long steps) {
@@ -82,9 +78,7 @@ bool IntegratedRoll::advance(Course& course, double t, unsigned long steps) {
     const double v = y[1];
     if (geometry_ == Geometry::exact && std::abs(law_(v)) >= body_.R)
       fail("at t = {:.6g} s the shift has grown to the radius {:.6g} m", ode.time(), body_.R);
-    if (std::abs(v) > law_.highest() * (1 + 1e-9))
-      fail("at t = {:.6g} s the speed {:.6g} m/s is above the table of the law, which ends at {}",
-           ode.time(), std::abs(v), law_.highest());
+    law_.check_speed(v);
     return v0_ > 0 ? v - end_.floor : 1;
       },
       steps);

@@ -34,7 +34,6 @@ class IntegratedRoll final : public SolvedRoll {
     bool turns;
   };
   static End end_of(const Scene&);
-  IntegratedRoll(const Scene&, End, Stepper, double rtol, unsigned long most_steps);
   bool advance(Course&, double t, unsigned long steps) override;
 
   Law law_;

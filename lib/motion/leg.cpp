@@ -71,6 +71,10 @@ double integral_of_log(double m, double r, double e) {
 Leg::Leg(const Body& body, Geometry geometry, Law law, double v0)
     : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0), cos_(incline(body).cos),
       sin_(incline(body).sin), way_(1) {
+  if (v0 == 0) {  // a leg of no length, from which nothing moves the end
+    end_ = End::stop, stop_ = 0, q0_ = infinity;
+    return;
+  }
   Rate start = rate(v0);
   if (start.q < 0) way_ = -1, start = rate(v0);
   q0_ = std::abs(start.q);
@@ -296,7 +300,7 @@ Leg::Point Leg::beyond_panels(double since) const {
 }
 
 Leg::Point Leg::at(double t) {
-  if (t == 0) return point({}, v0_, q0_);
+  if (t == 0 && v0_ > 0) return point({}, v0_, q0_);
   reach(t);
   if (t >= stop_) {
     Point p = point(sums_, rest_, 0);
@@ -330,7 +334,7 @@ Leg::Point Leg::at(double t) {
 double Leg::stop_time() {
   if (way_ < 0) return infinity;
   // A level mat under a power of v that is not below 1 never stops the body.
-  if (body_.slope == 0) {
+  if (body_.slope == 0 && end_ == End::none) {
     const Shift s = law_.at(v0_ * 1e-3);
     if (law_.at_rest() == 0 && s.by_log_v >= s.D) return infinity;
   }

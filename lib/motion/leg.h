@@ -40,8 +40,8 @@ class Leg {
     double v_v0, x_v0;
     Derivatives v_c, x_c;
   };
-  /// From the speed v0 > 0, on a mat that rises by body.slope along the motion. Throws Error if the
-  /// law is not defined there.
+  /// From the speed v0 >= 0, on a mat that rises by body.slope along the motion; from 0 it ends at
+  /// once. Throws Error if the law is not defined there.
   Leg(const Body&, Geometry, Law, double v0);
 
   /// The state at t >= 0, and its derivatives at fixed t. From the stop on, v = 0 and its

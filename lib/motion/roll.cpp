@@ -13,7 +13,7 @@ namespace {
 
 constexpr double first_part = 1e-18;  // of v0: the way back begins there
 
-void check_numbers(const Body& body, const Law& law, double v0) {
+const Body& checked(const Body& body, const Law& law, double v0) {
   const auto check = [](const char* name, double value, bool positive) {
     if (!(value >= 0 && std::isfinite(value)) || (positive && value == 0))
       fail("{} = {} must be a {}", name, value,
@@ -24,15 +24,14 @@ void check_numbers(const Body& body, const Law& law, double v0) {
   check("gravity g", body.g, true);
   check("the initial velocity v0", v0, false);
   if (!std::isfinite(body.slope)) fail("the slope {} must be finite", body.slope);
-  if (v0 > law.highest())
-    fail("the initial velocity v0 = {} is above the table of the law, which ends at {}", v0,
-         law.highest());
+  law.check_speed(v0);
+  return body;
 }
 
 }  // namespace
 
 void check_roll(const Body& body, const Law& law, double v0) {
-  check_numbers(body, law, v0);
+  checked(body, law, v0);
   const auto power = law.power();
   if (!power) {
     double largest = law.at(v0).D;
@@ -49,11 +48,9 @@ void check_roll(const Body& body, const Law& law, double v0) {
 }
 
 Roll::Roll(const Body& body, Geometry geometry, Law law, double v0)
-    : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0) {
-  check_numbers(body, law_, v0);
-  if (v0 > 0) leg_.emplace(body, geometry, law_, v0);
-  turns_ = (v0 == 0 || (body.slope > 0 && leg_->slows())) && rolls_down();
-}
+    : body_(checked(body, law, v0)), geometry_(geometry), law_(std::move(law)), v0_(v0),
+      leg_(body, geometry, law_, v0),
+      turns_((v0 == 0 || (body.slope > 0 && leg_.slows())) && rolls_down()) {}
 
 /// True if the mat does not hold the body at rest, nor at a speed that counts as rest.
 bool Roll::rolls_down() const {
@@ -78,20 +75,20 @@ Leg& Roll::back() {
 
 double Roll::last_speed() {
   if (turns_) return (body_.slope > 0 ? -1 : 1) * back().last_speed();
-  return leg_ ? leg_->last_speed() : 0;
+  return leg_.last_speed();
 }
 
 // With T and X the time and the place of the turning point, on the way back v = -u(t - T) and
 // x = X - way(t - T).
 Roll::Point Roll::at(double t) {
-  if (!turns_ || (leg_ && leg_->stop_until(t) > t)) return leg_ ? leg_->at(t) : Point{};
+  if (!turns_ || leg_.stop_until(t) > t) return leg_.at(t);
   const double since = t - stop_time(), sign = body_.slope > 0 ? -1 : 1;
-  const Point turn = leg_ ? leg_->at(stop_time()) : Point{};
-  const Leg::Derivatives T_c = leg_ ? leg_->stop_time_by_c() : Leg::Derivatives{};
+  const Point turn = leg_.at(stop_time());
+  const Leg::Derivatives T_c = leg_.stop_time_by_c();
   Leg& leg = back();
   Point p{}, q = leg.at(since);
 
-  const double T_v0 = leg_ ? leg_->stop_time_by_v0() : 0;
+  const double T_v0 = leg_.stop_time_by_v0();
   p.a = sign * q.a;
   p.v = since > 0 ? sign * q.v : 0, p.x = turn.x + sign * q.x;
   p.v_v0 = -sign * q.a * T_v0, p.x_v0 = turn.x_v0 - sign * q.v * T_v0;

@@ -3,7 +3,6 @@
 // time, with its derivatives by the coefficients of the law, by the slope and by v0.
 #pragma once
 
-#include <limits>
 #include <optional>
 
 #include "motion/leg.h"
@@ -44,24 +43,23 @@ class Roll {
   /// When v first becomes 0: the stop or the turning point [s]; infinity if it never does. On a
   /// falling mat the speed may tend to last_speed(); one below 1e-6 v0 counts as rest, from where
   /// v is within 1e-7 of it.
-  double stop_time() { return leg_ ? leg_->stop_time() : 0; }
+  double stop_time() { return leg_.stop_time(); }
   /// The same if it is not later than t, else infinity: what takes no longer than at(t).
-  double stop_until(double t) { return leg_ ? leg_->stop_until(t) : 0; }
+  double stop_until(double t) { return leg_.stop_until(t); }
   /// True if the body rolls back after stop_time().
   bool turns() const { return turns_; }
   /// The limit of v for a body that rolls for ever [m/s], which may be infinite; else 0.
   double last_speed();
   /// The speed at the stop [m/s]: 0, or that just named.
-  double rest_speed() const { return leg_ ? leg_->rest_speed() : 0; }
+  double rest_speed() const { return leg_.rest_speed(); }
   /// When D reaches R, if that is not later than t, else infinity; and the speed there.
-  double radius_time(double t) { return leg_ ? leg_->radius_time(t) : infinity; }
-  double radius_speed() const { return leg_ ? leg_->radius_speed() : 0; }
+  double radius_time(double t) { return leg_.radius_time(t); }
+  double radius_speed() const { return leg_.radius_speed(); }
 
   const Body& body() const { return body_; }
   const Law& law() const { return law_; }
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
   bool rolls_down() const;
   Leg& back();
 
@@ -69,7 +67,8 @@ class Roll {
   Geometry geometry_;
   Law law_;
   double v0_;
-  std::optional<Leg> leg_, back_;
+  Leg leg_;
+  std::optional<Leg> back_;
   bool turns_;
 };
 

@@ -37,13 +37,8 @@ class SpeedRoll final : public Motion {
   void seek(double t) override {
     state_ = roll_.at(t);
     if (const double end = roll_.radius_time(t); t > end)
-      fail(
-          "at t = {:.6g} s the shift has grown beyond the radius {:.6g} m (since t = {:.6g} s): "
-          "b < 0 has no meaning there",
-          t, roll_.body().R, end);
-    if (std::abs(state_.v) > roll_.law().highest())
-      fail("at t = {:.6g} s the speed {:.6g} m/s is above the table of the law, which ends at {}",
-           t, std::abs(state_.v), roll_.law().highest());
+      fail("at t = {:.6g} s the shift has grown to the radius {:.6g} m", end, roll_.body().R);
+    roll_.law().check_speed(state_.v);
   }
   double position() override { return x0_ + state_.x; }
   double velocity() override { return state_.v; }

@@ -40,7 +40,7 @@ Method best_method(const Scene&);
 
 /// Constructs the motion at t = 0. rtol and most_steps concern solvers: the tolerance of a step,
 /// and the largest number of steps from one seek() to the next. Throws Error if x0 is not finite,
-/// for a D(v0) > R, and if the method does not suit the scene. Where D grows to R, the law loses
+/// as check_roll does, and if the method does not suit the scene. Where D grows to R, the law loses
 /// its meaning: later times throw Error, and stop_time() is infinite.
 std::unique_ptr<Motion> start(const Scene&, Method, double rtol,
                               unsigned long most_steps = 1'000'000);

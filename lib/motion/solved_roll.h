@@ -2,6 +2,7 @@
 // The common part of the rolls that are solutions of differential equations.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -20,8 +21,25 @@ namespace rolling {
 /// seek() and stop_time() throw the errors of Integrator, also after more than most_steps steps.
 class SolvedRoll : public Motion {
  public:
-  double stop_time() override;
-  void seek(double t) override;
+  double stop_time() override {
+    if (!stop_time_) {
+      Course course{from_start_()};
+      advance(course, infinity, most_steps_);
+      stop_time_ = course.ode.time();
+    }
+    return *stop_time_;
+  }
+  void seek(double t) override {
+    if (at_rest_) return;
+    // The first value that stop_time() has returned remains valid: within the error of the solver
+    // it depends on the steps.
+    const double end = turns_ ? infinity : stop_time_.value_or(infinity);
+    const bool stops = advance(course_, std::min(t, end), most_steps_);
+    at_rest_ = !turns_ && (stops || t >= end);
+    if (!stops) return;
+    if (!stop_time_) stop_time_ = course_.ode.time();
+    if (turns_) advance(course_, t, most_steps_);
+  }
   double position() override { return course_.ode.state()[0]; }
   double velocity() override { return at_rest_ ? 0 : course_.ode.state()[1]; }
   double acceleration() override {

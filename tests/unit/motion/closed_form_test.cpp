@@ -176,8 +176,3 @@ TEST_CASE("ClosedForm: at rest from the start", "[rolling]") {
            motion.shift() == 0));
   }
 }
-
-TEST_CASE("ClosedForm: what has no meaning is refused", "[rolling]") {
-  CHECK_THROWS_AS(ClosedForm(cylinder, {1.87e-3, 0.215}, -0.5, 0), Error);
-  CHECK_THROWS_AS(ClosedForm(cylinder, {0.05, 0}, 0.5, 0), Error);
-}
