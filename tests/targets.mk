@@ -50,7 +50,7 @@ build/unit-%: $$(call object,$$(wildcard tests/unit/$$*/*.cpp)) build/catch_main
 # multiplications and additions: tests/pipeline/fused.sh compares what the two print, and smooth and
 # differentiate with their sums and numbers built so.
 exact_source := lib/base/double_double.cpp lib/contact/contact.cpp tests/fused/fused.cpp \
-                lib/base/gsl.cpp $(wildcard lib/contact/*law.cpp lib/ode/*.cpp) \
+                $(wildcard lib/contact/*law.cpp lib/ode/*.cpp) \
                 $(filter-out lib/motion/measure.cpp,$(wildcard lib/motion/*.cpp))
 has_fma := $(shell grep -qw avx2 /proc/cpuinfo 2>/dev/null && grep -qw fma /proc/cpuinfo && \
                    uname -m | grep -x x86_64)

@@ -2,6 +2,8 @@
 // GSL without its aborting error handler, and owners of its objects.
 #pragma once
 
+#include <gsl/gsl_errno.h>
+
 #include <memory>
 #include <new>
 
@@ -9,7 +11,15 @@ namespace rolling {
 
 /// Replaces GSL's error handler, which aborts the program: a failed allocation throws
 /// std::bad_alloc, any other error is a status that GSL returns. Call it before using GSL.
-void silence_gsl();
+///
+/// The exception passes through C code. A status would not do: GSL does not test all its
+/// allocations (LU_decomp, the error control of a driver) and would go on with a null pointer. The
+/// memory that GSL holds at that moment is not freed.
+inline void silence_gsl() {
+  gsl_set_error_handler([](const char*, const char*, int, int status) {
+    if (status == GSL_ENOMEM) throw std::bad_alloc();
+  });
+}
 
 /// Owns a GSL object: `auto x = own(gsl_vector_alloc(n), gsl_vector_free)`. A null pointer (no
 /// memory) throws std::bad_alloc.
