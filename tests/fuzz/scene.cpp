@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "cli/law_file.h"
 #include "cli/tool.h"
 #include "streams.h"
 
@@ -10,14 +11,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace rolling;
   const MemoryFile file({reinterpret_cast<const char*>(data), size});
   Body body{};
-  PowerLaw law{};
+  LawOptions law;
   Geometry geometry{};
   double v0 = 0;
   const Ran ran = with_streams("", [&] {
     Tool tool("scene", "");
-    using enum BodyOption;
-    tool.body(body, {mass, radius, shape_factor, gravity, slope});
-    tool.law(law);
+    tool.body(body, {&Body::m, &Body::R, &Body::K, &Body::g, &Body::slope});
+    add_options(tool, law);
     tool.geometry(geometry);
     tool.number("--v0", v0, not_negative, "");
     tool.scene();
@@ -33,7 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(holds(body.m, positive) && holds(body.R, positive) && holds(body.K, not_negative) &&
               holds(body.g, positive),
           "a body that is none");
-  require(holds(law.a, positive) && holds(law.b, any_number) && holds(v0, not_negative),
+  require(holds(law.power.a, positive) && holds(law.power.b, any_number) && holds(v0, not_negative),
           "a law that is none");
   return 0;
 }
