@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
+#include <random>
 #include <utility>
 
 #include "base/error.h"
@@ -55,6 +57,26 @@ Residuals residuals_at(const System& system, const std::vector<double>& theta) {
   return at;
 }
 
+/// The system that is linear in its parameters, which are 0 at theta, with the residuals and the J
+/// that the system has there. It refers to the system.
+System linearised(const System& system, const std::vector<double>& theta) {
+  std::vector<std::pair<std::vector<double>, std::vector<double>>> runs;  // f and J
+  system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
+    runs.push_back({{f.begin(), f.end()}, {J.begin(), J.end()}});
+  });
+  return {
+      system.runs, system.own, system.shared,
+      [&system, runs = std::move(runs)](const std::vector<double>& delta, const TakeRows& take) {
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      auto [f, J] = runs[r];
+      for (std::size_t j = 0; j < system.columns(); ++j)
+        for (std::size_t i = 0; i < f.size(); ++i)
+          f[i] += J[j * f.size() + i] * delta[system.place(r, j)];
+      take(r, f, J);
+    }
+      }};
+}
+
 /// The system whose residuals are multiplied by these factors. It refers to both.
 System weighted(const System& system, const std::vector<double>& factors) {
   return {system.runs, system.own, system.shared,
@@ -70,64 +92,105 @@ System weighted(const System& system, const std::vector<double>& factors) {
           }};
 }
 
-/// Factors 1 of the half of the rows of each run that theta fits best, and 0 of the others.
-std::vector<double> best_half(const System& system, const std::vector<double>& theta) {
-  std::vector<double> factors;
-  system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double>) {
-    for (double& x : f) x = std::abs(x);
-    const std::size_t half = std::min(f.size(), (f.size() + system.columns() + 1) / 2);
-    std::vector<double> sizes(f.begin(), f.end());
-    const double most = nth_smallest(sizes, half - 1);
-    for (const double size : f) factors.push_back(size <= most);
+/// The half of the rows of each run that a delta fits best, as factors 1 and 0 of all rows, and
+/// the sum of their squares.
+struct Half {
+  std::vector<double> delta;
+  double squares = 0;
+  std::vector<double> factors = {};
+};
+
+Half best_half(const System& linear, std::vector<double> delta) {
+  Half found{std::move(delta)};
+  linear.evaluate(found.delta, [&](std::size_t, std::span<double> f, std::span<double>) {
+    for (double& x : f) x = std::isfinite(x) ? x * x : std::numeric_limits<double>::infinity();
+    std::vector<double> squares(f.begin(), f.end());
+    const std::size_t half = std::min(f.size(), (f.size() + linear.columns() + 1) / 2);
+    const double most = nth_smallest(squares, half - 1);
+    found.squares = std::accumulate(&squares[0], &squares[0] + half, found.squares);
+    for (const double square : f) found.factors.push_back(square <= most);
   });
+  return found;
+}
+
+/// The factor 1 for as many rows as there are parameters, far apart: of each run those of its own
+/// parameters, and of the longest those of the shared ones as well, one of each of as many equal
+/// parts of the run.
+std::vector<double> drawn(const System& system, std::mt19937& random) {
+  const auto& runs = system.runs;
+  const auto longest = static_cast<std::size_t>(std::ranges::max_element(runs) - runs.begin());
+  std::vector<double> factors(system.residuals());
+  std::size_t of_run = 0;
+  for (std::size_t r = 0; r < runs.size(); of_run += runs[r++]) {
+    const std::size_t n = runs[r],
+                      few = std::min(n, system.own + (r == longest ? system.shared : 0));
+    for (std::size_t j = 0; j < few; ++j) {
+      const std::size_t first = j * n / few, end = (j + 1) * n / few;
+      factors[of_run + first + random() % (end - first)] = 1;
+    }
+  }
   return factors;
 }
 
-/// Factors 1 of the first or the last half of the rows of each run.
-std::vector<double> half_at_end(const System& system, bool last) {
-  std::vector<double> factors;
-  for (const std::size_t n : system.runs)
-    for (std::size_t i = 0; i < n; ++i) factors.push_back((2 * i >= n) == last);
-  return factors;
+/// The least trimmed squares, as far as exact fits of random rows and the fits of their best halves
+/// lead to them (Rousseeuw and Van Driessen 2006, Data Min. Knowl. Discov. 12, 29).
+std::vector<double> trimmed_step(const System& system, const std::vector<double>& theta) {
+  constexpr int draws = 100;
+  const System linear = linearised(system, theta);
+  const std::vector<double> start(system.parameters());
+  const auto half_of_fit = [&](const std::vector<double>& factors) {
+    return best_half(linear, stepped(weighted(linear, factors), start, 1));
+  };
+  std::mt19937 random;  // with the seed of the standard: the same draws in each run
+  Half best = best_half(linear, start);
+  for (int draw = 0; draw < draws; ++draw) {
+    Half found = half_of_fit(drawn(system, random));
+    for (int step = 0; step < 2; ++step) found = half_of_fit(found.factors);
+    if (found.squares < best.squares) best = std::move(found);
+  }
+  return best.delta;
 }
 
 struct Trial {
   std::vector<double> theta;
-  double scale = std::numeric_limits<double>::infinity();
+  double scale;
 };
 
-/// Of infinite scale if theta is not allowed.
+/// An infinite scale if theta is not allowed.
 Trial trial_at(const System& system, std::vector<double> theta) try {
   const double scale = residuals_at(system, theta).scale;
   return {std::move(theta), scale};
 } catch (const Error&) {
-  return {};
+  return {{}, std::numeric_limits<double>::infinity()};
 }
 
-/// Steps towards the fit of the best half of the rows of each run, halved where necessary, as long
-/// as they lower the scale.
-Trial concentrated(const System& system, Trial at) {
-  for (int round = 0; round < 20 && std::isfinite(at.scale); ++round) {
-    const std::vector<double> factors = best_half(system, at.theta);
-    Trial next;
-    for (double share = 1; share > 0.05 && !(next.scale < 0.99 * at.scale); share /= 2)
-      next = trial_at(system, stepped(weighted(system, factors), at.theta, share));
+/// Steps of least trimmed squares, halved where necessary, as long as they lower the scale.
+Trial descend(const System& system, Trial at) {
+  constexpr int rounds = 20, halvings = 5;
+  for (int round = 0; round < rounds && std::isfinite(at.scale); ++round) {
+    const std::vector<double> step = trimmed_step(system, at.theta);
+    Trial next = at;
+    double share = 1;
+    for (int k = 0; k < halvings && !(next.scale < 0.99 * at.scale); ++k, share /= 2) {
+      std::vector<double> theta = at.theta;
+      for (std::size_t j = 0; j < step.size(); ++j) theta[j] += share * step[j];
+      next = trial_at(system, std::move(theta));
+    }
     if (!(next.scale < 0.99 * at.scale)) break;
     at = std::move(next);
   }
   return at;
 }
 
-/// The theta of the smallest scale of all that least trimmed squares, of the half of the rows of
-/// each run that they fit best (Rousseeuw and Van Driessen 2006, Data Min. Knowl. Discov. 12, 29),
-/// lead to: from these starts, and from the fits of the first and of the last half of the rows,
-/// without the outliers of the other end. Throws Error if the model has no finite values.
-std::vector<double> least_trimmed(const System& system, std::vector<std::vector<double>> starts) {
-  for (const bool last : {false, true})
-    starts.push_back(attempt(weighted(system, half_at_end(system, last)), starts.front()).theta);
-  Trial best;
+/// The theta with the smallest scale of all that steps of least trimmed squares reach from these
+/// starts. Least trimmed squares fit half of the rows of each run, those that they fit best
+/// (Rousseeuw 1984, J. Am. Stat. Assoc. 79, 871). The cost grows with the cube of the number of
+/// parameters. Throws Error if the model has no finite values at any of the starts.
+std::vector<double> least_trimmed(const System& system,
+                                  const std::vector<std::vector<double>>& starts) {
+  Trial best = trial_at(system, starts.front());
   for (const auto& start : starts)
-    if (Trial found = concentrated(system, trial_at(system, start)); found.scale < best.scale)
+    if (Trial found = descend(system, trial_at(system, start)); found.scale < best.scale)
       best = std::move(found);
   if (best.theta.empty()) evaluated(system, starts.front());  // throws
   return best.theta;
