@@ -55,7 +55,7 @@ build/lib.a: $(call object,$(source))
 	rm -f $@ && $(AR) rcs $@ $^
 
 # CLI11 runs once, and at -O2 it takes as long to compile as five other sources.
-build/lib/cli/options.o: override CXXFLAGS := $(CXXFLAGS:-O2=-Og)
+build/lib/cli/tool_options.o: override CXXFLAGS := $(CXXFLAGS:-O2=-Og)
 
 build/%.o: %.cpp
 	@mkdir -p $(@D)
