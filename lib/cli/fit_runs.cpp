@@ -147,9 +147,9 @@ void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
 }
 
 void warn_of_unused_body(Tool& tool, const std::vector<FitRun>& runs, Geometry geometry) {
-  const auto options = {"shape-factor", "radius", "gravity", "slope", "exact"};
-  const bool on_command_line = std::ranges::any_of(
-      options, [&](const char* option) { return tool.on_command_line(option); });
+  std::string unused;
+  for (const char* option : {"shape-factor", "radius", "gravity", "slope", "exact"})
+    if (tool.on_command_line(option)) add_item(unused, std::string("--") + option);
   for (const FitRun& run : runs) {
     std::string others;
     if (run.shift_of) {
@@ -159,7 +159,8 @@ void warn_of_unused_body(Tool& tool, const std::vector<FitRun>& runs, Geometry g
       others = other_body(run.shift_of, given, run.given);
       if (geometry == Geometry::exact && run.shift_of->geometry != geometry)
         add_item(others, "A = 1 (here --exact)");
-    } else if (on_command_line) others = "numbers that no `##` line tells";
+    } else if (!unused.empty())
+      tool.warn(run.name, "not used: " + unused + ": no `##` line tells how D was computed");
     if (!others.empty())
       tool.warn(run.name, "D was computed with " + others + ": the fit uses the numbers of D");
   }

@@ -76,7 +76,7 @@ done <<'END'
 empty	standard input is empty: did the tool before this one fail?	
 a line end	standard input is empty: did the tool before this one fail?	\n
 only blank lines	standard input is empty: did the tool before this one fail?	\n\n \t\n\n
-only names	-: no rows	t v a D\n
+only names	-:1: no rows: no field of 't v a D' is a number	t v a D\n
 only a comment	-: no rows	# t v a D
 only a history	-: no rows	## smooth v mean width 11\n# t[s]\tv[m/s]\ta\tD\n
 a row cut short	-:4: 2 fields where the first row has 4	# t v a D\n0 .5 -.1 1e-3\n1 .4 -.1 1e-3\n77 .7\n
@@ -110,7 +110,7 @@ large 'a token of 16 MiB' '-:1: a line of more than 1048576 bytes'
 { good 3; head -c 16777216 /dev/zero | tr '\0' 7; } >"$scratch/in"
 large 'a token of 16 MiB in the fifth line' '-:5: a line of more than 1048576 bytes'
 head -c 400000 /dev/urandom | LC_ALL=C tr -d '0-9#"\n\r\0' >"$scratch/in"
-large 'random bytes' '-: no rows'
+large 'random bytes' '-:1: no rows: no field of '
 # Half a million columns are a line of columns.
 awk 'BEGIN { for (i = 0; i < 2; i++) { printf "%d 1e-3 1e-3 1e-3", i; for (k = 4; k < 500000; k++) printf " 1"; print "" } }' >"$scratch/in"
 for tool in $tools; do

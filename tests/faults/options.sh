@@ -139,7 +139,7 @@ simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --memory 0|'0' must be greater tha
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --damping 1|--damping goes with --memory
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1e308|is beyond the radius
 simulate -K 0.5 -R 0.04 -a 1e-3 -b -1e300 --v0 0.5|is beyond -1000 to 1000
-simulate -K 0.5 -R 0.04 -a 1e-3 -b 1.5 --v0 1|the body never stops
+simulate -K 0.5 -R 0.04 -a 1e-3 -b 1.5 --v0 1|the body does not stop
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --sensor pasco --rate 0|'0' must be greater than 0
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --sensor pasco --rate 1e10|the sensor would make
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --sensor pasco --noise 1e308|not a finite number
