@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   tool.text("-c,--column", column, "COLUMN", "the column to differentiate (v, else x)");
   tool.choice("-M,--method", options.method, methods, "how the slope is found (central)");
   tool.count("-w,--width", options.width.samples, odd,
-             "width of savgol's window, an odd number of samples (23)");
+             "width of savgol's window, an odd number of rows (23)");
   tool.count("--order", options.order, polynomial, "order of savgol's polynomial (2)");
   tool.input();
   tool.output();

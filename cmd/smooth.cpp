@@ -122,7 +122,7 @@ int main(int argc, char** argv) {
             "the column to smooth (v, else the first that is not t)");
   tool.choice("-M,--method", options.method, methods, "what takes the place of a reading (mean)");
   tool.count("-w,--width", options.width.samples, odd,
-             "width of the window, an odd number of samples (11)");
+             "width of the window, an odd number of rows (11)");
   tool.number("--seconds", options.width.seconds, positive,
               "width of the window in seconds, instead");
   tool.count("--order", options.order, polynomial, "order of savgol's polynomial (2)");

@@ -14,8 +14,8 @@ namespace rolling {
 std::vector<std::string> columns_of(Route);
 
 /// Reads all runs with their names and their filters, but without the numbers of the body. Warns
-/// of `##` lines that are not trusted or that one run lacks, and of
-/// rows that are left out because their windows are not known.
+/// of `##` lines that are not trusted or that one run lacks, and of rows that are left out because
+/// their windows are not known.
 std::vector<FitRun> read_runs(Tool&, Reader&, Route);
 
 /// Where the speeds of all runs are those of pulses, a fixed way over the time from row to row,

@@ -52,8 +52,8 @@ History give_filters(History, FitRun&, const std::string& column);
 /// The filters that the software of sensors may apply to speeds: the differences of positions to
 /// the row before and to the row after (of spreadsheets, gates and encoders; where times are even,
 /// those in the middle between them differ in the clock alone), the central one, and those of
-/// Vernier's and PASCO's programs; and means of 2, 3 or 5 speeds,
-/// whose noise is similar to some of these.
+/// Vernier's and PASCO's programs; and means of 2, 3 or 5 speeds, whose noise is similar to some of
+/// these.
 std::vector<LinearFilter> filters_of_sensors();
 
 }  // namespace rolling

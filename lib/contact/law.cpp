@@ -154,8 +154,8 @@ const std::vector<LawForm>& laws() {
 
 void Law::check_speed(double v) const {
   if (std::abs(v) > highest() * (1 + 1e-9))
-    fail("the speed {:.6g} m/s is above the table of the law, which ends at {:.6g}", std::abs(v),
-         highest());
+    fail("the speed {:.6g} m/s is above the table of the law, which ends at {:.6g} m/s",
+         std::abs(v), highest());
 }
 
 double Law::in_SI(std::size_t j, std::span<double> by_c) const {

@@ -82,20 +82,28 @@ OffReadings of_run(LeftOut others, double freedom, double& most_off) {
   return found;
 }
 
-/// `robust`: the fit is the robust roll, at which single readings have no share.
-std::optional<OffReadings> around(const Fitted& fit, bool robust, double& most_off) {
+/// Of known filters, the noise of the raw column.
+std::vector<double> raw(const Fitted& fit, std::vector<double> x) {
+  return fit.noise->from_sources_alone() ? fit.noise->to_sources(std::move(x)) : x;
+}
+
+/// The columns that a fit by squares can follow. Of long runs there are none: no single reading has
+/// a share in the fit.
+Matrix followed(const Fitted& fit) {
+  Matrix B;
+  if (raw(fit, fit.minimum.f).size() <= 1000 * fit.system.runs.size())
+    for (std::vector<double>& column : orthonormal(fit)) B.push_back(raw(fit, std::move(column)));
+  return B;
+}
+
+/// B: the columns that the fit can follow.
+std::optional<OffReadings> around(const Fitted& fit, const Matrix& B, double& most_off) {
   const bool known = fit.noise->from_sources_alone();
-  const auto raw = [&](std::vector<double> x) {
-    return known ? fit.noise->to_sources(std::move(x)) : x;
-  };
   const auto& sizes = known ? fit.noise->sources() : fit.system.runs;
-  const std::vector<double> e = raw(fit.minimum.f);
-  Matrix B;  // in long runs no reading has a share in the fit
-  if (!robust && e.size() <= 1000 * sizes.size())
-    for (std::vector<double>& column : orthonormal(fit)) B.push_back(raw(std::move(column)));
+  const std::vector<double> e = raw(fit, fit.minimum.f);
   std::optional<OffReadings> found;
   const auto e_of = by_run(e, sizes);
-  const auto B_of = rows_by_run(std::as_const(B), sizes);
+  const auto B_of = rows_by_run(B, sizes);
   for (std::size_t r = 0; r < sizes.size(); ++r) {
     const double freedom =
         static_cast<double>(sizes[r]) - static_cast<double>(fit.system.columns());
@@ -113,11 +121,12 @@ std::optional<OffReadings> around(const Fitted& fit, bool robust, double& most_o
   return found;
 }
 
-/// Around the roll of this theta, which is that of a robust fit.
+/// Around the roll of this theta, which is that of a robust fit: single readings have no share in
+/// it.
 std::optional<OffReadings> around_robust(Fitted fit, const std::vector<double>& theta) {
   double most_off = 0;
   fit.minimum = evaluated(fit.system, theta);
-  return around(fit, true, most_off);
+  return around(fit, {}, most_off);
 }
 
 }  // namespace
@@ -137,7 +146,7 @@ std::optional<OffReadings> off_robust_roll(Route route, const std::vector<FitRun
 std::optional<OffReadings> off_readings(const Fitted& fit) {
   if (!fit.rolls || fit.degrees_left() == 0) return {};
   double most_off = 0;
-  auto found = around(fit, false, most_off);
+  auto found = around(fit, followed(fit), most_off);
   if (found || most_off < 5) return found;
   // A reading far off may have bent the roll to itself, away from where it is linear.
   try {

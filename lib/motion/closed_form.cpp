@@ -39,7 +39,8 @@ void ClosedForm::seek(double t) {
   t_ = t;
   rolls_ = t < stop_time_;
   if (!rolls_) return;
-  if (rate_.hi * t > beyond) fail("t = {} s is beyond the closed form", t);
+  if (rate_.hi * t > beyond)
+    fail("t = {} s is beyond the closed form: --method exact reaches it", t);
   const DoubleDouble minus_sq = slope_ * t;
   if (rate_.hi * t < unseen) {
     log_ = 0;

@@ -121,8 +121,8 @@ std::unique_ptr<Motion> start(const Scene& scene, Method method, double rtol,
   if (method.kind == Method::exact) return std::make_unique<SpeedRoll>(scene);
   if (!has_closed_form(scene))
     fail(
-        "the closed form is that of a law a v^b with A = 1 on a level mat, in numbers of ordinary "
-        "size");
+        "the closed form is that of a law a v^b with A = 1 on a level mat, of v0, a and D from "
+        "1e-70 to 1e70: take --method exact");
   return std::make_unique<ClosedForm>(body, *law.power(), v0, x0);
 }
 
