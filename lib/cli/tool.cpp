@@ -70,8 +70,26 @@ void Tool::count_left_out(std::size_t count, const std::string& why) {
     say(fmt::format("{} row{} left out: {}", count, count == 1 ? "" : "s", why));
 }
 
+namespace {
+
+/// A stream of the standard library catches std::bad_alloc and goes on, cut off, so that the failure
+/// is noted where the allocation fails.
+bool memory_has_run_out = false;
+
+void note_memory_has_run_out() {
+  memory_has_run_out = true;
+  throw std::bad_alloc();
+}
+
+void check_memory() {
+  if (memory_has_run_out) throw std::bad_alloc();
+}
+
+}  // namespace
+
 /// Flushes the output and prints the counts; returns the exit status.
 int Tool::finish(int status) {
+  check_memory();
   if (status == trouble) out.end_with(error_line_);
   out.flush();
   say("");
@@ -91,10 +109,12 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   name_.erase(0, name_.rfind('/') + 1);
   // A write beyond the limit of the file size then fails, which flush() reports.
   std::signal(SIGXFSZ, SIG_IGN);
+  std::set_new_handler(note_memory_has_run_out);
   try {
     error_line_ = error_line(name_);
     end_output_on_signals(out, error_line_);
     if (const std::string asked = parse(argc, argv); !asked.empty()) {
+      check_memory();
       out.text(asked);
       out.flush();
       return 0;

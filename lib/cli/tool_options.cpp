@@ -45,7 +45,6 @@ std::vector<CLI::ConfigItem> read_scene(const std::string& file) {
   std::string text;
   while (lines.next()) (text += lines.text()) += '\n';
   std::istringstream scene(text);
-  scene.exceptions(std::ios::badbit);  // so that memory that has run out does not end it in silence
   return CLI::ConfigTOML().from_config(scene);
 }
 

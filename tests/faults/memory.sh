@@ -39,6 +39,6 @@ for method in rkf45 msadams rk4imp msbdf; do  # not bsimp: GSL does not look at 
 done
 step=1 each_allocation simulate --scene "$scratch/scene" -a 1e-3 -b 0.2 --v0 0.5 --sensor pasco  # of which GSL makes but two
 each_allocation energy-ledger --scene "$scratch/scene" --summary "$scratch/good"
-each_allocation smooth --help
+step=1 each_allocation smooth --help  # of which a stream of the library may go on without memory
 each_allocation smooth --version
 finish
