@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <stdexcept>
+#include <string_view>
 
 namespace rolling {
 
