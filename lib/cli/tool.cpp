@@ -72,8 +72,8 @@ void Tool::count_left_out(std::size_t count, const std::string& why) {
 
 namespace {
 
-/// A stream of the standard library catches std::bad_alloc and goes on, cut off, so that the failure
-/// is noted where the allocation fails.
+/// Streams of the standard library catch std::bad_alloc and go on, cut off, so that the failure is
+/// noted where the allocation fails.
 bool memory_has_run_out = false;
 
 void note_memory_has_run_out() {
