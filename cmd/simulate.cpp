@@ -117,11 +117,12 @@ double last_time(const Task& task, Motion& motion, double until) {
   const double t0 = task.t0;
   if (until < t0) fail("--until {} is before the roll, which begins at {}", until, t0);
   const double stop = std::isnan(until) ? motion.stop_time() : until - t0;
-  if (!std::isfinite(stop))
-    fail(
-        "the body does not stop, or D grows to the radius first: its speed tends to {:.4g} m/s; "
-        "say --until when to end",
-        std::abs(motion.last_speed()));
+  if (!std::isfinite(stop)) {
+    const double last = std::abs(motion.last_speed());
+    fail("the body does not stop: {}; say --until when to end",
+         last > 0 ? fmt::format("its speed tends to {:.4g} m/s", last)
+                  : "its speed falls and is never 0, or D grows to the radius");
+  }
   double end = std::isnan(until) ? t0 + stop : until;
   while (end - t0 < stop) end = std::nextafter(end, INFINITY);  // v is 0 there
   return end;
