@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // fitpower - fit the power law D = a v^b, or another law, to columns; see fitpower(1)
-#ifdef __linux__
-#include <malloc.h>
-#endif
-
 #include <algorithm>
 #include <cmath>
 
@@ -17,15 +13,6 @@
 using namespace rolling;
 
 namespace {
-
-/// Keeps memory that is freed for the next column. A fit needs columns of the same size many times,
-/// and each page that the system takes away must be given, and filled with zeros, again.
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  mallopt(M_MMAP_MAX, 0);
-  mallopt(M_TRIM_THRESHOLD, -1);
-#endif
-}
 
 /// Holds a parameter fixed by a text NAME=VALUE.
 void fix(FitOptions& options, const std::string& setting) {
@@ -154,7 +141,6 @@ std::string why_left_out(Route route, const FitOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  keep_freed_memory();
   Tool tool("fitpower", "Fit the power law D = a v^b to columns.");
   std::optional<Route> given_route;  // none for `fits`
   Bodies bodies;
