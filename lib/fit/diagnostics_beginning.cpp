@@ -36,7 +36,7 @@ struct BeginningSearch {
   /// `fit` is that of this run by itself.
   void add(const Fitted& fit, std::size_t run) {
     const auto& f = fit.minimum.f;
-    const auto& t = fit.rolls->runs().front().t;
+    const auto& t = fit.model->runs().front().t;
     const Matrix Q = orthonormal(fit);
     const std::size_t q = Q.size(), n = f.size();
     LeftOut others(f, {Q.begin(), Q.end()});
@@ -71,8 +71,8 @@ std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitR
     if (!run.filters.empty()) return {};
   silence_gsl();
   const Fitted joint = fit_route(route, runs, options);
-  if (!joint.rolls || joint.noise->known()) return {};
-  const std::size_t parameters = joint.rolls->parameters().of_one_run().count();
+  if (!joint.is_roll() || joint.noise->known()) return {};
+  const std::size_t parameters = joint.parameters().of_one_run().count();
   BeginningSearch search;
   for (std::size_t r = 0; r < runs.size(); ++r) try {
       if (joint.system.runs[r] >= 20 + parameters) search.add(fit_of_run(joint, r, options), r);

@@ -44,8 +44,8 @@ class Wobble {
         dx[k] += dv[k] * h;
         w[k] += 2 * half_w;
       }
-      const auto& raw = run.raw_is_position ? dx : dv;
-      t_.push_back(run.raw_is_position ? t + h : t + h / 2);
+      const auto& raw = run.column == RawColumn::x ? dx : dv;
+      t_.push_back(run.column == RawColumn::x ? t + h : t + h / 2);
       of_t_.push_back({run.way * raw[0], run.way * raw[1]});
     }
   }
@@ -85,7 +85,7 @@ Eccentricity amplitude(const Fitted& fit, std::size_t run, const Wobble& wobble,
   // coefficients.
   const std::size_t own = fit.system.columns(), q = own + 2;
   Triangles all(1, 0, q);
-  const RawModel model = fit.rolls->raw(fit.minimum.theta, run);
+  const RawModel model = fit.model->raw(fit.minimum.theta, run);
   const RawModel with_wobble = [&](double t, double* slopes, std::size_t stride) {
     const auto by_e = wobble.at(t);
     for (std::size_t k = 0; k < 2; ++k) slopes[(own + k) * stride] = by_e[k];
@@ -95,7 +95,7 @@ Eccentricity amplitude(const Fitted& fit, std::size_t run, const Wobble& wobble,
     std::ranges::copy(f, of_rows.begin());
     all.add(0, of_rows, J);
   };
-  evaluate(fit.rolls->runs()[run], run, q, *fit.noise, with_wobble, take);
+  evaluate(fit.model->runs()[run], run, q, *fit.noise, with_wobble, take);
   all.join();
   const std::vector<double> R = all.without_f(), theta = all.solve();
   const double cc = R[(q - 2) * q + q - 2], cs = R[(q - 2) * q + q - 1], ss = R[q * q - 1],
@@ -122,7 +122,7 @@ void cut_off(std::span<double> f) {
 }  // namespace
 
 std::optional<Eccentricity> eccentricity_of(const Fitted& fit) {
-  if (!fit.rolls || fit.minimum.f.size() < fit.minimum.theta.size() + 10) return {};
+  if (!fit.is_roll() || fit.minimum.f.size() < fit.minimum.theta.size() + 10) return {};
   std::optional<Eccentricity> found;
   std::vector<double> f = fit.minimum.f;
   const auto f_of = by_run(f, fit.system.runs);
@@ -134,10 +134,10 @@ std::optional<Eccentricity> eccentricity_of(const Fitted& fit) {
     const auto signal = [&](const Wobble& wobble) {
       return amplitude(fit, r, wobble, freedom, f_of[r]);
     };
-    const ObservedRun& run = fit.rolls->runs()[r];
+    const ObservedRun& run = fit.model->runs()[r];
     const double R = run.body.R;
     const auto wobble = [&](double stretch) {
-      return Wobble(run, fit.rolls->roll(fit.minimum.theta, r), stretch * R);
+      return Wobble(run, fit.model->roll(fit.minimum.theta, r), stretch * R);
     };
     const Wobble turns = wobble(1);
     if (!turns.worth(run, f_of[r].size(), R)) continue;

@@ -110,7 +110,7 @@ std::optional<OffReadings> around(const Fitted& fit, const Matrix& B, double& mo
     if (freedom < 13) continue;
     OffReadings off = of_run({e_of[r], B_of[r]}, freedom, most_off);
     if (off.count == 0 || (found && found->distance > off.distance)) continue;
-    const ObservedRun& run = fit.rolls->runs()[r];
+    const ObservedRun& run = fit.model->runs()[r];
     off.run = r;
     auto at = static_cast<std::size_t>(off.time);
     if (run.H && !known)  // the middle of what a filtered reading has read
@@ -144,7 +144,7 @@ std::optional<OffReadings> off_robust_roll(Route route, const std::vector<FitRun
 }
 
 std::optional<OffReadings> off_readings(const Fitted& fit) {
-  if (!fit.rolls || fit.degrees_left() == 0) return {};
+  if (!fit.is_roll() || fit.degrees_left() == 0) return {};
   double most_off = 0;
   auto found = around(fit, followed(fit), most_off);
   if (found || most_off < 5) return found;

@@ -11,12 +11,12 @@
 namespace rolling {
 
 double few_reversals(const Fitted& fit) {
-  if (!fit.rolls || fit.noise->known()) return 1;
+  if (!fit.is_roll() || fit.noise->known()) return 1;
   double expected = 0;
   unsigned seen = 0;
   const auto residuals = by_run(fit.minimum.f, fit.system.runs);  // model - reading
   for (std::size_t r = 0; r < residuals.size(); ++r) {
-    const std::vector<double>& y = fit.rolls->runs()[r].y;
+    const std::vector<double>& y = fit.model->runs()[r].y;
     const auto f = residuals[r];
     std::vector<double> sizes;
     for (const double residual : f) sizes.push_back(std::abs(residual));

@@ -205,10 +205,10 @@ bool by_a_clock(const std::vector<double>& t) {
 }  // namespace
 
 double variance_of_rounding(const Fitted& fit) {
-  if (!fit.rolls || fit.noise->known()) return 0;
+  if (!fit.is_roll() || fit.noise->known()) return 0;
   double sum = 0;
   bool rounded = false;
-  for (const ObservedRun& run : fit.rolls->runs()) {
+  for (const ObservedRun& run : fit.model->runs()) {
     sum += std::pow(grid_of(run.y), 2) / 12 * static_cast<double>(run.y.size());
     rounded |= by_a_clock(run.t) || std::ranges::adjacent_find(run.y) != run.y.end();
   }

@@ -44,7 +44,7 @@ std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own, doub
     const Matrix of_c = uncertainty_of(fit).covariance;
     const auto [law, by_c] = local_power(fit, v);
     const auto of_rounding = [&](std::size_t j) {  // in rows without noise
-      return fit.parameters->fixed(j) ? 0 : 1e-26;
+      return fit.parameters().fixed(j) ? 0 : 1e-26;
     };
     Symmetric C{of_rounding(0), 0, of_rounding(1)};
     for (std::size_t i = 0; i < by_c.size(); ++i)
@@ -79,7 +79,7 @@ Fitted around_own(const Fitted& joint, const std::vector<std::optional<Fitted>>&
 }
 
 bool of_one_way(const std::vector<OwnLaw>& laws, const Fitted& joint) {
-  const auto way = [&](const OwnLaw& one) { return joint.rolls->runs()[one.run].way; };
+  const auto way = [&](const OwnLaw& one) { return joint.model->runs()[one.run].way; };
   return std::all_of(laws.begin(), laws.end(),
                      [&](const OwnLaw& one) { return way(one) == way(laws.front()); });
 }
@@ -88,9 +88,9 @@ bool of_one_way(const std::vector<OwnLaw>& laws, const Fitted& joint) {
 /// or, where b is fixed and D has the same error at all speeds, the mean speed of the roll, at
 /// which a slope acts like more D.
 double log_v_of(const OwnLaw& one, const Fitted& joint) {
-  if (one.covariance.bb > 0 || !joint.rolls) return one.best_log_v();
-  Roll roll = joint.rolls->roll(joint.minimum.theta, one.run);
-  const double last = joint.rolls->runs()[one.run].t.back(),
+  if (one.covariance.bb > 0 || !joint.is_roll()) return one.best_log_v();
+  Roll roll = joint.model->roll(joint.minimum.theta, one.run);
+  const double last = joint.model->runs()[one.run].t.back(),
                end = std::min(last, roll.stop_until(last));
   return std::log(roll.at(end).x / end);
 }
@@ -107,7 +107,7 @@ CommonError take_slope(std::vector<OwnLaw>& laws, double log_v, double freedom, 
   std::vector<Estimate> log_D;
   std::vector<double> by_slope;
   for (const OwnLaw& one : laws) {
-    const ObservedRun& run = joint.rolls->runs()[one.run];
+    const ObservedRun& run = joint.model->runs()[one.run];
     log_D.push_back(one.log_D(log_v));
     by_slope.push_back(run.way * run.body.R / D);
   }
@@ -152,8 +152,8 @@ std::vector<std::optional<Fitted>> own_fits(Route route, const std::vector<FitRu
                                             const FitOptions& options, const Fitted& joint) {
   std::vector<std::optional<Fitted>> own;
   for (std::size_t r = 0; r < runs.size(); ++r) try {
-      own.emplace_back(joint.rolls ? fit_of_run(joint, r, options)
-                                   : fit_route(route, {runs[r]}, options));
+      own.emplace_back(joint.is_roll() ? fit_of_run(joint, r, options)
+                                       : fit_route(route, {runs[r]}, options));
     } catch (const Error&) {
       own.emplace_back();
     }

@@ -2,7 +2,7 @@
 // The starting point for the fit of a roll.
 #pragma once
 
-#include "fit/model_roll.h"
+#include "fit/model.h"
 
 namespace rolling {
 

@@ -31,7 +31,7 @@ FitResult result_of(const Fitted& found, double rms, const Uncertainty& noise,
                     std::vector<ErrorShare> shares) {
   FitResult result{.law = found.law(),
                    .rms = rms,
-                   .n = found.rows,
+                   .n = found.minimum.f.size(),
                    .freedom = found.degrees_left(),
                    .negative = found.negative,
                    .whiteness = noise.whiteness,
@@ -77,9 +77,9 @@ std::string names_of(const LawForm& form, const std::vector<FittedNumber>& value
 
 /// True if the rolls together go up the slope and down.
 bool both_ways(const Fitted& found) {
-  const auto& runs = found.rolls->runs();
+  const auto& runs = found.model->runs();
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    Roll roll = found.rolls->roll(found.minimum.theta, r);
+    Roll roll = found.model->roll(found.minimum.theta, r);
     if (runs[r].way != runs[0].way || (roll.turns() && roll.at(runs[r].t.back()).v < 0))
       return true;
   }
@@ -130,12 +130,12 @@ void require_determined(const FitResult& result, const FitOptions& options, cons
 /// (exact geometry, b < 0) at a speed that is not next to rest. There the model lets D be R, which
 /// serves the search, but is not the law.
 void require_roll(const Fitted& found) {
-  if (!found.rolls) return;
+  if (!found.is_roll()) return;
   constexpr double rest = 1e-3;  // of v0; below it MemoryRoll, too, counts a body as at rest
-  const auto& runs = found.rolls->runs();
+  const auto& runs = found.model->runs();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const ObservedRun& run = runs[r];
-    Roll roll = found.rolls->roll(found.minimum.theta, r);
+    Roll roll = found.model->roll(found.minimum.theta, r);
     const double v0 = std::abs(found.v0[r].value), D = found.law().at(v0).D, last = run.t.back();
     if (run.body.slope == 0 && !found.slope && std::abs(D) < program_rounding * run.body.R)
       fail("{}the body does not slow down: D comes out as {:.2g} m", run.place, D);
@@ -152,7 +152,7 @@ void require_roll(const Fitted& found) {
       fail(
           "{}{} have no meaning below {:.2g} m/s, where D is beyond the radius {} m: leave the "
           "rows out that follow, or fit with A = 1",
-          run.place, names_of(found.parameters->form(), found.coefficients), roll.radius_speed(),
+          run.place, names_of(found.parameters().form(), found.coefficients), roll.radius_speed(),
           run.body.R);
   }
 }

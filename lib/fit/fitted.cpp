@@ -9,7 +9,6 @@
 #include "fit/laws.h"
 #include "fit/roll_fit.h"
 #include "fit/shift_rows.h"
-#include "least_squares/robust.h"
 
 namespace rolling {
 
@@ -24,8 +23,7 @@ void require_rows(std::size_t n, std::size_t p, std::size_t independent) {
 }
 
 std::size_t Fitted::degrees_left() const {
-  const std::size_t n = rolls ? informative_rows(rolls->runs(), rolls->parameters(), *noise)
-                              : minimum.f.size(),
+  const std::size_t n = informative_rows(model->runs(), parameters(), *noise),
                     p = minimum.theta.size(), left = n > p ? n - p : 0;
   return noise_of_roll ? std::min(left, noise_of_roll->freedom) : left;
 }
@@ -34,28 +32,27 @@ namespace {
 
 void report_rolls(Fitted& fit) {
   const std::vector<double>& theta = fit.minimum.theta;
-  const Parameters& q = *fit.parameters;
+  const Parameters& q = fit.parameters();
   const std::array<double, LawForm::most> none{};
   const auto quantity = [&](double value, double v0, double x0, double slope) {
     FittedNumber result{value, std::vector<double>(q.columns())};
     q.chain(result.gradient.data(), 1, 0, {none, v0, x0, slope});
     return result;
   };
-  fit.v0.clear(), fit.x0.clear(), fit.rows = 0;
+  fit.v0.clear(), fit.x0.clear();
   if (q.fits_slope()) fit.slope = quantity(q.slope(theta, 0), 0, 0, 1);
-  const auto& runs = fit.rolls->runs();
+  const auto& runs = fit.model->runs();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const double way = runs[r].way;
     fit.v0.push_back(quantity(way * q.v0(theta, r), way, 0, 0));
     if (q.has_x0()) fit.x0.push_back(quantity(q.x0(theta, r), 0, 1, 0));
-    fit.rows += runs[r].shifts ? runs[r].shifts->fitted : runs[r].y.size();
   }
 }
 
 }  // namespace
 
 void report(Fitted& fit) {
-  const Parameters& q = *fit.parameters;
+  const Parameters& q = fit.parameters();
   const Law law = q.law(fit.minimum.theta);
   fit.coefficients.clear();
   for (std::size_t j = 0; j < law.size(); ++j) {
@@ -65,13 +62,13 @@ void report(Fitted& fit) {
     if (const auto fixed = q.fixed(j)) number.value = *fixed;
     else q.chain(number.gradient.data(), 1, law.c(0), {by_c});
   }
-  if (fit.rolls) report_rolls(fit);
+  if (fit.is_roll()) report_rolls(fit);
 }
 
 Law Fitted::law() const {
   std::array<double, LawForm::most> written{};
   for (std::size_t j = 0; j < coefficients.size(); ++j) written[j] = coefficients[j].value;
-  return Law::as_written(parameters->form(), std::span(written).first(coefficients.size()));
+  return Law::as_written(parameters().form(), std::span(written).first(coefficients.size()));
 }
 
 std::vector<FittedNumber> Fitted::numbers() const {
@@ -83,14 +80,11 @@ std::vector<FittedNumber> Fitted::numbers() const {
 }
 
 double Fitted::fastest() const {
-  double speed = shifts ? std::ranges::max(shifts->v) : 0;
+  double speed = 0;
   for (const FittedNumber& number : v0) speed = std::max(speed, std::abs(number.value));
+  for (const ObservedRun& run : model->runs())
+    if (!is_roll()) speed = std::max(speed, std::ranges::max(run.t));
   return speed;
-}
-
-Minimum solve(const System& system, const std::vector<std::vector<double>>& starts,
-              const FitOptions& options) {
-  return options.robust ? minimise_robust(system, starts) : minimise(system, starts.front());
 }
 
 namespace {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "fit/model_roll.h"
+#include "fit/model.h"
 #include "least_squares/minimise.h"
 #include "statistics/residuals.h"
 
@@ -34,7 +34,7 @@ struct SeenNoise {
   std::vector<std::size_t> sources = {};  ///< their number in each run
   Matrix B = {};                          ///< one row for each source; empty for that of the fit
   std::vector<double> meat = {};          ///< B^T B of each run
-  std::size_t means_taken = 0;            ///< see means_taken() of model_roll.h
+  std::size_t means_taken = 0;            ///< see means_taken() of model.h
   /// The weighted residuals that are not determined by those before them (see
   /// Noise::innovations()), which are white if the noise is; and their number in each run.
   std::vector<double> innovations = {};
@@ -44,8 +44,6 @@ struct SeenNoise {
                                   ///< empty where that is nearly all, and behind filters
 };
 
-struct ShiftRows;
-
 /// A minimum with what its errors need. fit(), compare_laws() and the other questions about a fit
 /// start from it.
 struct Fitted {
@@ -53,37 +51,31 @@ struct Fitted {
   Minimum minimum;
   std::shared_ptr<const Noise> noise = std::make_shared<const Noise>();  ///< of the weights
   std::optional<SeenNoise> noise_of_roll = {};  ///< that made the rows of a log-log line
-  std::size_t rows = 0;
   std::size_t negative = 0;                     ///< see FitResult
-  std::optional<Parameters> parameters = {};    ///< theta of the minimum
   std::vector<FittedNumber> coefficients = {};  ///< of the law, as its formula names them
   std::vector<double> bias = {};  ///< the expected bias of each; empty where it is not known
-  std::optional<FittedNumber> slope = {};        ///< if it is a parameter
-  std::vector<FittedNumber> v0 = {};             ///< one for each run, if the model is a roll
-  std::vector<FittedNumber> x0 = {};             ///< likewise, if positions are fitted
-  std::shared_ptr<const RollModel> rolls = {};   ///< the model, if it is a roll
-  std::shared_ptr<const ShiftRows> shifts = {};  ///< the rows, if the model is a law D(v)
+  std::optional<FittedNumber> slope = {};  ///< if it is a parameter
+  std::vector<FittedNumber> v0 = {};       ///< one for each run, if the model is a roll
+  std::vector<FittedNumber> x0 = {};       ///< likewise, if positions are fitted
+  std::shared_ptr<const Model> model = {};
 
+  bool is_roll() const { return model->is_roll(); }
+  const Parameters& parameters() const { return model->parameters(); }
   Law law() const;
   /// The numbers that have errors: the coefficients, the slope if it is a parameter, and v0 and x0
   /// of the first run, if the model has them. A row reports these of a single run alone.
   std::vector<FittedNumber> numbers() const;
   /// The highest speed that was fitted.
   double fastest() const;
-  std::size_t means_taken() const {
-    return rolls ? rolling::means_taken(rolls->runs(), rolls->parameters()) : 0;
-  }
+  std::size_t means_taken() const { return rolling::means_taken(model->runs(), parameters()); }
   /// The number of degrees of freedom that are left for the size of the noise; with none left there
   /// are no errors. Filters at the ends of a short run may leave fewer than its rows less the mean.
   std::size_t degrees_left() const;
 };
 
 /// Writes the coefficients of the law with their gradients into the fit, and of a roll the slope,
-/// v0, x0 and the number of rows.
+/// v0 and x0.
 void report(Fitted&);
-
-/// Minimises by the loss that the options name: squares from the first start.
-Minimum solve(const System&, const std::vector<std::vector<double>>& starts, const FitOptions&);
 
 /// Throws Error if n rows, so many of which filters leave independent, are too few for p
 /// parameters, or if p = 0.

@@ -26,7 +26,7 @@ struct Linearised {
 
 /// Takes as many residuals of each run as the system has.
 std::vector<Linearised> linear_around(const std::vector<double>& theta, const System& system,
-                                      const RollModel& model) {
+                                      const Model& model) {
   std::vector<Linearised> runs;
   system.evaluate(theta, [&](std::size_t r, std::span<double> f, std::span<double> J) {
     const std::size_t n = system.runs[r], all = f.size();
@@ -42,7 +42,7 @@ std::vector<Linearised> linear_around(const std::vector<double>& theta, const Sy
 
 }  // namespace
 
-WhiteShare most_likely_share(const std::shared_ptr<const RollModel>& model,
+WhiteShare most_likely_share(const std::shared_ptr<const Model>& model,
                              const std::vector<double>& theta, double least, double most) {
   System system = system_of(model, std::make_shared<const Noise>());
   for (std::size_t& rows : system.runs) rows = std::min(rows, searched_for_white_noise);
@@ -90,8 +90,8 @@ Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
   const double least = std::exp(-12), most = std::exp(4);
   const std::vector<double>& theta = plain.minimum.theta;
   const auto model_of = [&](const std::vector<Response>& responses) {
-    return std::make_shared<const RollModel>(
-        observe(Route::velocity, all, rows, responses, options), plain.rolls->parameters());
+    return std::make_shared<const Model>(observe(Route::velocity, all, rows, responses, options),
+                                         plain.parameters());
   };
   const double of_white_noise =
       restricted_likelihood(system_of(model_of({}), std::make_shared<const Noise>()), theta);
@@ -155,7 +155,7 @@ void set_clock(Fitted& fit, const LinearFilter& filter, const std::vector<FitRun
   for (std::size_t r = 0; r < all.size(); ++r) {
     double& v0 = fit.v0[r].value;
     v0 -=
-        std::copysign(lag_of(filter, all[r].t), v0) * fit.rolls->roll(fit.minimum.theta, r).at(0).a;
+        std::copysign(lag_of(filter, all[r].t), v0) * fit.model->roll(fit.minimum.theta, r).at(0).a;
   }
 }
 

@@ -13,7 +13,6 @@
 #include "fit/first_guess.h"
 #include "fit/roll_fit.h"
 #include "fit/fitted.h"
-#include "fit/shift_rows.h"
 #include "statistics/residuals.h"
 
 namespace rolling {
@@ -27,15 +26,11 @@ bool was_found(const Fitted& fit) { return std::isfinite(fit.minimum.rss); }
 /// in units in which shifts and speeds are of order one.
 Fitted unsolved(const Fitted& power, const LawForm& form) {
   Fitted fit{};
-  fit.noise = power.noise, fit.shifts = power.shifts, fit.rows = power.rows;
+  fit.noise = power.noise;
   const double v = power.fastest();
-  fit.parameters = power.parameters->with(form, power.law()(v), v);
-  if (power.rolls) {
-    fit.rolls = std::make_shared<const RollModel>(power.rolls->with(*fit.parameters));
-    fit.system = system_of(fit.rolls, fit.noise);
-  } else {
-    fit.system = system_of(fit.shifts, *fit.parameters);
-  }
+  fit.model = std::make_shared<const Model>(
+      power.model->with(power.parameters().with(form, power.law()(v), v)));
+  fit.system = system_of(fit.model, fit.noise);
   fit.minimum.rss = infinity;
   return fit;
 }
@@ -45,14 +40,15 @@ Fitted unsolved(const Fitted& power, const LawForm& form) {
 /// the result is exact.
 std::vector<std::vector<double>> closest(const LawForm& law, const Law& other, double D_unit,
                                          double v_unit) {
-  ShiftRows curve;
+  ObservedRun curve;
+  curve.column = RawColumn::D;
   for (int i = 1; i <= 20; ++i) {
-    curve.v.push_back(i / 20.);
-    curve.y.push_back(other(v_unit * curve.v.back()) / D_unit);
+    curve.t.push_back(i / 20.);
+    curve.y.push_back(other(v_unit * curve.t.back()) / D_unit);
   }
-  curve.runs = {curve.v.size()};
-  const System system = system_of(std::make_shared<const ShiftRows>(std::move(curve)),
-                                  Parameters({}, 1).with(law, 1, 1));
+  const System system = system_of(std::make_shared<const Model>(std::vector{std::move(curve)},
+                                                                Parameters({}, 1).with(law, 1, 1)),
+                                  std::make_shared<const Noise>());
   std::vector<std::vector<double>> all;
   for (const auto& start : law.starts) all.push_back(attempt(system, start).theta);
   return all;
@@ -168,7 +164,7 @@ LawComparison compare_laws(Route route, const std::vector<FitRun>& runs, FitOpti
     const double aicc = independent * std::log(std::max(m.rss / n, least)) + 2 * k +
                         2 * k * (k + 1) / (independent - k - 1);
     LawFit& of_law =
-        result.fits.emplace_back(LawFit{&found.parameters->form(),
+        result.fits.emplace_back(LawFit{&found.parameters().form(),
                                         was_found(found) && independent > k + 1 ? aicc : infinity,
                                         {},
                                         {}});

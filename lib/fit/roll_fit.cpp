@@ -11,6 +11,7 @@
 #include "base/matrix.h"
 #include "fit/first_guess.h"
 #include "fit/inferred_noise.h"
+#include "least_squares/robust.h"
 
 namespace rolling {
 
@@ -29,7 +30,7 @@ void require_ways(const std::vector<ObservedRun>& runs, const FitOptions& option
 /// Removes from `rows` the rows whose fitted speed is below the limit; returns whether there
 /// were any. The fitted speed decides, because a threshold on noisy speeds would select rows by
 /// their noise.
-bool leave_out_slow(const RollModel& model, const std::vector<double>& theta,
+bool leave_out_slow(const Model& model, const std::vector<double>& theta,
                     const std::vector<FitRun>& all, std::vector<Rows>& rows, double limit) {
   std::size_t slow = 0;
   for (std::size_t r = 0; r < all.size(); ++r) {
@@ -42,14 +43,15 @@ bool leave_out_slow(const RollModel& model, const std::vector<double>& theta,
 }
 
 /// The sum of squares of model - data for the shifts of a run.
-double squares_of_shifts(const RollModel& rolls, const std::vector<double>& theta, std::size_t r) {
+double squares_of_shifts(const Model& rolls, const std::vector<double>& theta, std::size_t r) {
   const ObservedRun::Shifts& shifts = *rolls.runs()[r].shifts;
   const std::vector<double> fitted = shifts.H->times(rolls.raw_column(theta, r));
   double sum = 0;
   for (std::size_t i = 0; i < fitted.size(); ++i)
     if (const double residual = fitted[i] - shifts.accelerations[i]; !std::isnan(residual))
       sum += residual * residual;
-  return sum * shifts.unit * shifts.unit;
+  const Body& body = rolls.runs()[r].body;
+  return sum * std::pow((body.K + 1) * body.R / body.g, 2);
 }
 
 /// The sum of the squares of speeds, as a function of the time T of the stop, has a cusp at each
@@ -60,10 +62,11 @@ double squares_of_shifts(const RollModel& rolls, const std::vector<double>& thet
 /// smaller sum. Positions are smoother by one order, and nothing is done.
 ///
 /// The minima differ the less the more rows there are: above 2048 rows times runs nothing is done.
-Minimum beyond_cusps(const RollModel& rolls, const System& system, Minimum best) {
+Minimum beyond_cusps(const Model& rolls, const System& system, Minimum best) {
   constexpr std::size_t many = 2048;  // rows times runs
   const auto& runs = rolls.runs();
-  if (runs.front().raw_is_position || system.own == 0 || system.residuals() * runs.size() > many)
+  if (runs.front().column == RawColumn::x || system.own == 0 ||
+      system.residuals() * runs.size() > many)
     return best;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const double end = runs[r].t.back(),
@@ -84,26 +87,12 @@ Minimum beyond_cusps(const RollModel& rolls, const System& system, Minimum best)
   return best;
 }
 
-/// The minimum of the system of these rolls. The robust loss ignores what the cusps make.
-Minimum search(const RollModel& rolls, const System& system,
+/// Minimises by the loss that the options name: squares from the first start. The robust loss
+/// ignores what the cusps make.
+Minimum search(const Model& model, const System& system,
                const std::vector<std::vector<double>>& starts, const FitOptions& options) {
-  Minimum found = solve(system, starts, options);
-  return options.robust ? found : beyond_cusps(rolls, system, std::move(found));
-}
-
-/// The minimum over these runs with these weights; the results are not yet reported.
-Fitted minimum_of(std::vector<ObservedRun> runs, std::shared_ptr<const Noise> noise,
-                  const FirstGuess& start, const FitOptions& options) {
-  auto rolls = std::make_shared<const RollModel>(std::move(runs), start.parameters);
-  System system = system_of(rolls, noise);
-  std::vector<std::vector<double>> starts = start.others;
-  starts.insert(starts.begin(), start.theta);
-  Minimum minimum = search(*rolls, system, starts, options);
-  return {.system = std::move(system),
-          .minimum = std::move(minimum),
-          .noise = std::move(noise),
-          .parameters = start.parameters,
-          .rolls = std::move(rolls)};
+  return options.robust ? minimise_robust(system, starts)
+                        : beyond_cusps(model, system, minimise(system, starts.front()));
 }
 
 /// True if the weighted sum of squares is more than four times what the unweighted residuals and
@@ -125,37 +114,47 @@ void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   if (!rounded(fit)) return;
   const bool many = std::ranges::max(fit.system.runs) > searched_for_white_noise;
   fit.system = {}, fit.noise = {};  // frees memory: these are large, and the search needs as much
-  const WhiteShare found = most_likely_share(fit.rolls, fit.minimum.theta, 1e-7, 100);
+  const WhiteShare found = most_likely_share(fit.model, fit.minimum.theta, 1e-7, 100);
   const bool adopted = many || found.decisive();
-  fit.noise = noise_of(fit.rolls->runs(), {adopted ? found.share : 0});
-  fit.system = system_of(fit.rolls, fit.noise);
-  if (adopted) fit.minimum = search(*fit.rolls, fit.system, {fit.minimum.theta}, options);
+  fit.noise = noise_of(fit.model->runs(), {adopted ? found.share : 0});
+  fit.system = system_of(fit.model, fit.noise);
+  if (adopted) fit.minimum = search(*fit.model, fit.system, {fit.minimum.theta}, options);
+  report(fit);
 }
 
 }  // namespace
 
-Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options) {
-  const auto& theta = joint.minimum.theta;
-  const Parameters& all = joint.rolls->parameters();
-  ObservedRun run = joint.rolls->runs()[r];
-  const Parameters own = all.of_one_run();
-  run.body.slope = all.slope(theta, run.body.slope);
-  auto noise = noise_of({run}, joint.noise->added());
-  require_rows(run.y.size(), own.count(), informative_rows({run}, own, *noise));
-  Fitted fit =
-      minimum_of({std::move(run)}, std::move(noise), {own, all.theta_of_run(theta, r)}, options);
+Fitted fit_from(const FirstGuess& start, std::vector<ObservedRun> runs,
+                std::shared_ptr<const Noise> noise, const FitOptions& options) {
+  auto model = std::make_shared<const Model>(std::move(runs), start.parameters);
+  System system = system_of(model, noise);
+  std::vector<std::vector<double>> starts = start.others;
+  starts.insert(starts.begin(), start.theta);
+  Minimum minimum = search(*model, system, starts, options);
+  Fitted fit{.system = std::move(system),
+             .minimum = std::move(minimum),
+             .noise = std::move(noise),
+             .model = std::move(model)};
   report(fit);
   return fit;
 }
 
+Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options) {
+  const auto& theta = joint.minimum.theta;
+  const Parameters& all = joint.parameters();
+  ObservedRun run = joint.model->runs()[r];
+  const Parameters own = all.of_one_run();
+  run.body.slope = all.slope(theta, run.body.slope);
+  auto noise = noise_of({run}, joint.noise->added());
+  require_rows(run.y.size(), own.count(), informative_rows({run}, own, *noise));
+  return fit_from({own, all.theta_of_run(theta, r)}, {std::move(run)}, std::move(noise), options);
+}
+
 Fitted of_means(Fitted fit, const FitOptions& options) {
-  if (!fit.rolls || fit.noise->known()) return fit;
-  std::vector<ObservedRun> few = means_of_many(fit.rolls->runs());
+  if (!fit.is_roll() || fit.noise->known()) return fit;
+  std::vector<ObservedRun> few = means_of_many(fit.model->runs());
   if (few.empty()) return fit;
-  Fitted means = minimum_of(std::move(few), fit.noise,
-                            {fit.rolls->parameters(), fit.minimum.theta, {}}, options);
-  report(means);
-  return means;
+  return fit_from({fit.parameters(), fit.minimum.theta}, std::move(few), fit.noise, options);
 }
 
 Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows,
@@ -178,14 +177,13 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
     }
     if (options.min_speed <= 0) responses = {}, rows.clear();  // frees memory: no round follows
     fit = {};                                                  // frees memory
-    fit = minimum_of(std::move(runs), std::move(noise), *guess, options);
+    fit = fit_from(*guess, std::move(runs), std::move(noise), options);
     guess->theta = fit.minimum.theta;
     if (options.min_speed <= 0 ||
-        !leave_out_slow(*fit.rolls, guess->theta, all, rows, options.min_speed))
+        !leave_out_slow(*fit.model, guess->theta, all, rows, options.min_speed))
       break;
   }
   allow_for_rounding(fit, options);
-  report(fit);
   return fit;
 }
 
@@ -204,13 +202,13 @@ std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
 
 double sum_of_squares(const Fitted& fit) {
   if (!fit.noise->known()) return fit.minimum.rss;
-  if (!fit.rolls->runs().front().shifts) {
+  if (!fit.model->runs().front().shifts) {
     const auto plain = fit.noise->without_weights(fit.minimum.f);
     return dot(plain, plain);
   }
   double sum = 0;
   for (std::size_t r = 0; r < fit.system.runs.size(); ++r)
-    sum += squares_of_shifts(*fit.rolls, fit.minimum.theta, r);
+    sum += squares_of_shifts(*fit.model, fit.minimum.theta, r);
   return sum;
 }
 

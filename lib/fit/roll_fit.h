@@ -2,6 +2,7 @@
 // Fits of rolls: positions, speeds, and shifts whose filters are known.
 #pragma once
 
+#include "fit/first_guess.h"
 #include "fit/fitted.h"
 
 namespace rolling {
@@ -14,6 +15,10 @@ std::vector<Rows> usable(Route, const std::vector<FitRun>&);
 /// Fits a roll: position, velocity, and shift with known filters (`responses`).
 Fitted fit_rolls(Route, const std::vector<FitRun>&, std::vector<Rows>, std::vector<Response>,
                  const FitOptions&, AddedNoise = {});
+
+/// The fit of these runs with the weights of this noise.
+Fitted fit_from(const FirstGuess&, std::vector<ObservedRun>, std::shared_ptr<const Noise>,
+                const FitOptions&);
 
 /// Fits one run of a joint fit of rolls separately: the same rows and weights, the slope of the
 /// mat fixed at the joint value. Throws Error if the run does not determine its parameters, or has

@@ -2,7 +2,6 @@
 #include "fit/shift_rows.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "base/error.h"
 #include "base/median.h"
 #include "base/grid.h"
+#include "fit/roll_fit.h"
 
 namespace rolling {
 namespace {
@@ -37,30 +37,36 @@ double rounding_of(const std::vector<double>& column) {
 /// follows by linear least squares), or the values that are fixed; of a few thousand of the rows.
 /// From one exponent of the grid to the next no D changes by more than a factor e^(1/2) relative to
 /// D at the mean of ln v.
-PowerLaw power_start(const ShiftRows& rows, const FitOptions& options) {
+PowerLaw power_start(const std::vector<ObservedRun>& runs, double v_ref,
+                     const FitOptions& options) {
   constexpr std::size_t most = 4096;
-  const std::size_t n = rows.y.size(), step = (n + most - 1) / most;
+  std::size_t n = 0;
+  for (const ObservedRun& run : runs) n += run.y.size();
+  std::vector<double> v, D;
+  double widest = 2;
+  for (const ObservedRun& run : runs)
+    for (std::size_t i = 0; i < run.y.size(); i += (n + most - 1) / most) {
+      v.push_back(run.t[i]), D.push_back(run.y[i]);
+      widest = std::max(widest, std::abs(std::log(v.back() / v_ref)));
+    }
   std::vector<double> exponents;
   if (options.b) exponents = {*options.b};
-  else {
-    double widest = 2;
-    for (const double v : rows.v) widest = std::max(widest, std::abs(std::log(v / rows.v_ref)));
+  else
     for (double b = -4; b <= 8; b += 0.5 / widest) exponents.push_back(b);
-  }
   double least = std::numeric_limits<double>::infinity();
   PowerLaw best{0, 0};
   for (double b : exponents) {
-    double mm = 0, mD = 0, DD = 0;
-    const PowerLaw unit{std::pow(rows.v_ref, -b), b};
-    for (std::size_t i = 0; i < n; i += step) {
-      const double m = unit(rows.v[i]), D = rows.y[i];
-      mm += m * m, mD += m * D, DD += D * D;
+    const PowerLaw unit{std::pow(v_ref, -b), b};
+    double mm = 0, mD = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      const double m = unit(v[i]);
+      mm += m * m, mD += m * D[i];
     }
     const double height = options.a ? *options.a / unit.a : mD / mm,
-                 rss = DD + height * (height * mm - 2 * mD);
+                 rss = height * (height * mm - 2 * mD);  // but for the squares of D
     if (height > 0 && rss < least) least = rss, best = {unit.a * height, b};
   }
-  if (best.a == 0) fail("D has the other sign than v, as if the mat drove the body on");
+  if (best.a == 0) fail("D is 0 or has the other sign than v, as if the mat drove the body on");
   return best;
 }
 
@@ -79,65 +85,40 @@ Rows shift_rows(const FitRun& run, const FitOptions& options, bool logarithms, d
   return rows;
 }
 
-ShiftRows shift_rows(const std::vector<FitRun>& all, const FitOptions& options, bool logarithms,
-                     const std::vector<double>& stops) {
-  ShiftRows rows;
-  rows.logarithms = logarithms;
-  double sum = 0;
+std::vector<ObservedRun> observed_shifts(const std::vector<FitRun>& all, const FitOptions& options,
+                                         bool logarithms, const std::vector<double>& stops) {
+  std::vector<ObservedRun> runs;
+  std::vector<double> speeds;
   for (std::size_t r = 0; r < all.size(); ++r) {
     const FitRun& run = all[r];
     const double stop = stops.empty() ? never : stops[r], way = way_of(run, stop);
-    const Rows used = shift_rows(run, options, logarithms, stop);
-    if (logarithms) rows.negative += shift_rows(run, options, false, stop).size() - used.size();
-    for (const std::size_t i : used) {
-      rows.v.push_back(way * run.v[i]);
-      rows.y.push_back(logarithms ? std::log(way * run.D[i]) : way * run.D[i]);
-      sum += std::log(rows.v.back());
+    ObservedRun& seen = runs.emplace_back();
+    seen.column = logarithms ? RawColumn::ln_D : RawColumn::D;
+    for (const std::size_t i : shift_rows(run, options, logarithms, stop)) {
+      seen.t.push_back(way * run.v[i]);
+      seen.y.push_back(logarithms ? std::log(way * run.D[i]) : way * run.D[i]);
     }
-    rows.runs.push_back(used.size());
+    speeds.insert(speeds.end(), seen.t.begin(), seen.t.end());
   }
-  const std::size_t n = rows.y.size();
-  require_rows(n, !options.a + !options.b, n);
-  if (!options.b && std::ranges::all_of(rows.v, [&](double v) { return v == rows.v[0]; }))
+  require_rows(speeds.size(), !options.a + !options.b, speeds.size());
+  if (!options.b && std::ranges::all_of(speeds, [&](double v) { return v == speeds[0]; }))
     fail("all speeds are equal: b cannot be determined");
-  rows.v_ref = std::exp(sum / static_cast<double>(n));
-  return rows;
+  return runs;
 }
 
-System system_of(std::shared_ptr<const ShiftRows> rows, const Parameters& q) {
-  const std::size_t p = q.columns();
-  const std::vector<std::size_t>& runs = rows->runs;
-  return {runs, 0, p,
-          [rows = std::move(rows), q, p](const std::vector<double>& theta, const TakeRows& take) {
-    const Law law = q.law(theta);
-    std::size_t i = 0;
-    for (std::size_t r = 0; r < rows->runs.size(); ++r) {
-      std::vector<double> f(rows->runs[r]), J(f.size() * p);
-      for (std::size_t k = 0; k < f.size(); ++k, ++i) {
-        std::array<double, LawForm::most> by_c{};
-        const double D = law.at(rows->v[i], by_c.data()).D;
-        f[k] = (rows->logarithms ? std::log(D) : D) - rows->y[i];
-        if (rows->logarithms)
-          for (double& by : by_c) by /= D;
-        q.chain(&J[k], f.size(), law.c(0), {by_c});
-      }
-      take(r, f, J);
-    }
-          }};
+Parameters parameters_of_shifts(const std::vector<ObservedRun>& runs, const FitOptions& options) {
+  double sum = 0, n = 0;
+  for (const ObservedRun& run : runs)
+    for (const double v : run.t) sum += std::log(v), ++n;
+  return {options, std::exp(sum / n)};
 }
 
 Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
-  auto rows = std::make_shared<const ShiftRows>(shift_rows(all, options, false));
-  if (std::ranges::all_of(rows->y, [](double D) { return D == 0; }))
-    fail("all shifts are 0: b cannot be determined");
-  const Parameters q(options, rows->v_ref);
-  Fitted fit{.system = system_of(rows, q), .minimum = {}};
-  fit.minimum = solve(fit.system, {q.theta(power_start(*rows, options), {}, {})}, options);
-  fit.rows = rows->y.size();
-  fit.parameters = q;
-  fit.shifts = std::move(rows);
-  report(fit);
-  return fit;
+  std::vector<ObservedRun> runs = observed_shifts(all, options, false);
+  const Parameters q = parameters_of_shifts(runs, options);
+  const PowerLaw start = power_start(runs, q.speed_unit(), options);
+  return fit_from({q, q.theta(start, {}, {})}, std::move(runs), std::make_shared<const Noise>(),
+                  options);
 }
 
 }  // namespace rolling

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -90,8 +89,8 @@ std::optional<KnownRoll> known_roll(const std::vector<FitRun>& runs, const FitOp
   roll.fit.system = {}, roll.fit.noise = {};
   roll.responses = std::move(responses);
   for (std::size_t r = 0; r < runs.size(); ++r)
-    roll.stops.push_back(roll.fit.rolls->runs()[r].origin +
-                         roll.fit.rolls->roll(roll.fit.minimum.theta, r).stop_time());
+    roll.stops.push_back(roll.fit.model->runs()[r].origin +
+                         roll.fit.model->roll(roll.fit.minimum.theta, r).stop_time());
   return roll;
 }
 
@@ -106,8 +105,8 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
   B.resize(Q.size());
   std::vector<double> along(Q.size());  // Q^T bias
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    const ObservedRun& run = roll.rolls->runs()[r];
-    std::vector<double> raw = roll.rolls->raw_column(roll.minimum.theta, r);
+    const ObservedRun& run = roll.model->runs()[r];
+    std::vector<double> raw = roll.model->raw_column(roll.minimum.theta, r);
     for (double& value : raw) value *= run.way;  // along the motion
     const auto shift = [&, by = *runs[r].shift_of](double a) {
       return run.way * shift_from_acceleration(by.body, by.geometry, run.way * a);
@@ -152,18 +151,16 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
   if (runs.empty() && std::ranges::any_of(usable(Route::loglog, all), some))
     fail("no row has v > 0 and D > 0: there is no logarithm to fit");
   std::optional<KnownRoll> roll = known_roll(runs, options, std::move(theirs));
-  auto rows = std::make_shared<const ShiftRows>(
-      shift_rows(runs, options, true, roll ? roll->stops : std::vector<double>()));
-  const Parameters q(options, rows->v_ref);
-  Fitted line{.system = system_of(rows, q), .minimum = {}};
-  line.rows = rows->y.size();
-  if (!roll) line.negative = rows->negative;
+  std::vector<ObservedRun> rows =
+      observed_shifts(runs, options, true, roll ? roll->stops : std::vector<double>());
+  const Parameters q = parameters_of_shifts(rows, options);
   // The residuals are linear: any start will do.
-  const double mean =
-      std::accumulate(rows->y.begin(), rows->y.end(), 0.0) / static_cast<double>(rows->y.size());
-  line.minimum = solve(line.system, {q.theta({std::exp(mean), 0}, {}, {})}, options);
-  line.parameters = q;
-  report(line);
+  Fitted line = fit_from({q, q.theta({1e-3, 0}, {}, {})}, std::move(rows),
+                         std::make_shared<const Noise>(), options);
+  for (const FitRun& run : runs)
+    if (!roll)
+      line.negative +=
+          shift_rows(run, options, false).size() - shift_rows(run, options, true).size();
   if (roll) carry_noise(line, runs, std::move(*roll), options);
   return line;
 }

@@ -30,7 +30,7 @@ WhiteShare found_share(double share, simulated::Noise& noise, std::size_t n = 40
   const std::vector<FitRun> runs{run};
   const Fitted fit = fit_rolls(Route::velocity, runs, usable(Route::velocity, runs),
                                responses_of(Route::velocity, runs), {});
-  return most_likely_share(fit.rolls, fit.minimum.theta, 1e-7, 1);
+  return most_likely_share(fit.model, fit.minimum.theta, 1e-7, 1);
 }
 
 }  // namespace
@@ -73,11 +73,11 @@ TEST_CASE("white share: of a filter that changes nothing each is as likely as no
   const Fitted fit =
       fit_rolls(Route::velocity, runs, rows, responses_of(Route::velocity, runs), {});
   REQUIRE(fit.noise->known());
-  const auto plain = std::make_shared<const RollModel>(observe(Route::velocity, read, rows, {}, {}),
-                                                       fit.rolls->parameters());
+  const auto plain = std::make_shared<const Model>(observe(Route::velocity, read, rows, {}, {}),
+                                                   fit.model->parameters());
   const double of_white_noise =
       restricted_likelihood(system_of(plain, std::make_shared<const Noise>()), fit.minimum.theta);
-  const WhiteShare found = most_likely_share(fit.rolls, fit.minimum.theta, 1e-3, 10);
+  const WhiteShare found = most_likely_share(fit.model, fit.minimum.theta, 1e-3, 10);
   CHECK(found.likelihood == Approx(of_white_noise).epsilon(0).margin(1e-9));
   CHECK(found.gain == Approx(0).margin(1e-9));
 }

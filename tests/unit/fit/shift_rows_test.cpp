@@ -28,26 +28,28 @@ TEST_CASE("shift rows: along the motion, v finite and positive, D positive for l
           "[fit]") {
   const std::vector<FitRun> runs{run_of({0.4, missing, 0.1, 0, 0.2}, {3, 2, -1, 1, missing}),
                                  run_of({-0.4, -0.1, 0.05}, {-3, -1, -1})};
-  const ShiftRows all = shift_rows(runs, {}, false);
-  CHECK(all.y == std::vector<double>{3, -1, 3, 1});
+  const std::vector<ObservedRun> all = observed_shifts(runs, {}, false);
+  CHECK(all[0].y == std::vector<double>{3, -1});
+  CHECK(all[1].y == std::vector<double>{3, 1});
   CHECK(shift_rows(runs[0], {}, false) == Rows{0, 2});
   CHECK(shift_rows(runs[1], {}, true) == Rows{0, 1});
-  CHECK(all.runs == std::vector<std::size_t>{2, 2});
   CHECK(usable(Route::loglog, runs) == std::vector<Rows>{{0, 2, 3}, {0, 1, 2}});
   // The geometric mean of 0.4 and 0.1, twice.
-  CHECK(all.v_ref == Approx(0.2).epsilon(1e-15));
-  CHECK(all.v == std::vector<double>{0.4, 0.1, 0.4, 0.1});
+  CHECK(parameters_of_shifts(all, {}).speed_unit() == Approx(0.2).epsilon(1e-15));
+  for (const ObservedRun& run : all) CHECK(run.t == std::vector<double>{0.4, 0.1});
 
-  const ShiftRows positive = shift_rows(runs, {}, true);
-  CHECK(positive.y == std::vector<double>{std::log(3), std::log(3), 0});
+  const std::vector<ObservedRun> positive = observed_shifts(runs, {}, true);
+  CHECK(positive[0].y == std::vector<double>{std::log(3)});
+  CHECK(positive[1].y == std::vector<double>{std::log(3), 0});
   CHECK(shift_rows(runs[0], {}, true) == Rows{0});
 
   FitOptions fast;
   fast.min_speed = 0.3;
   fast.b = 1;  // with one speed alone b has to be held
-  CHECK(shift_rows(runs, fast, false).y == std::vector<double>{3, 3});
+  for (const ObservedRun& run : observed_shifts(runs, fast, false))
+    CHECK(run.y == std::vector<double>{3});
   fast.b.reset();
-  CHECK_THROWS_AS(shift_rows(runs, fast, false), Error);
+  CHECK_THROWS_AS(observed_shifts(runs, fast, false), Error);
 }
 
 TEST_CASE("shift rows: what rounding leaves of a difference is 0", "[fit]") {
@@ -65,9 +67,10 @@ TEST_CASE("shift rows: the derivatives of the residuals are those of differences
         FitOptions options;
         if (hold_a) options.a = 4e-3;
         if (hold_b) options.b = 0.3;
-        auto rows = std::make_shared<const ShiftRows>(shift_rows(runs, options, logarithms));
-        const Parameters q(options, rows->v_ref);
-        const System system = system_of(rows, q);
+        const std::vector<ObservedRun> rows = observed_shifts(runs, options, logarithms);
+        const Parameters q = parameters_of_shifts(rows, options);
+        const System system =
+            system_of(std::make_shared<const Model>(rows, q), std::make_shared<const Noise>());
         const auto at = [&](const std::vector<double>& theta) {
           std::vector<double> all;
           system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
@@ -80,8 +83,8 @@ TEST_CASE("shift rows: the derivatives of the residuals are those of differences
         REQUIRE(theta.size() == 2u - hold_a - hold_b);
         const auto f = at(theta);
         for (std::size_t i = 0; i < 4; ++i) {
-          const double D = 4e-3 * std::pow(rows->v[i], 0.3);
-          CHECK(f[i] == Approx((logarithms ? std::log(D) : D) - rows->y[i]).epsilon(1e-12));
+          const double D = 4e-3 * std::pow(rows[0].t[i], 0.3);
+          CHECK(f[i] == Approx((logarithms ? std::log(D) : D) - rows[0].y[i]).epsilon(1e-12));
         }
         for (std::size_t j = 0; j < theta.size(); ++j) {
           auto up = theta, down = theta;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/model_roll.h"
+#include "fit/model.h"
 
 #include "base/chebyshev.h"
 #include "base/error.h"
@@ -103,10 +103,10 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     if (route == Route::shift && known) {
       std::vector<double> accelerations(run.D.size(), std::numeric_limits<double>::quiet_NaN());
       for (std::size_t i : rows[r]) accelerations[i] = acceleration_of(*run.shift_of, run.D[i]);
-      seen.shifts = {responses[r].of.at("D"), std::move(accelerations), rows[r].size(),
-                     (seen.body.K + 1) * seen.body.R / seen.body.g};
+      seen.shifts = {responses[r].of.at("D"), std::move(accelerations)};
     }
-    seen.raw_is_position = known ? responses[r].source == "x" : route == Route::position;
+    const bool position = known ? responses[r].source == "x" : route == Route::position;
+    seen.column = position ? RawColumn::x : RawColumn::v;
     if (known) {
       seen.t = run.t;
       seen.H = filters_of_rows(responses[r], route == Route::position ? "x" : "v", rows[r]);
@@ -123,7 +123,7 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
 
 std::size_t means_taken(const std::vector<ObservedRun>& runs, const Parameters& parameters) {
   if (parameters.has_x0()) return 0;
-  return static_cast<std::size_t>(std::ranges::count_if(runs, &ObservedRun::raw_is_position));
+  return static_cast<std::size_t>(std::ranges::count(runs, RawColumn::x, &ObservedRun::column));
 }
 
 std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>& runs, AddedNoise added) {
@@ -141,7 +141,7 @@ std::size_t informative_rows(const std::vector<ObservedRun>& runs, const Paramet
   return n - means_taken(runs, parameters);
 }
 
-Roll RollModel::roll(const std::vector<double>& theta, std::size_t run) const {
+Roll Model::roll(const std::vector<double>& theta, std::size_t run) const {
   Body body = runs()[run].body;
   body.slope = slope(theta, run);
   const Law law = parameters_.law(theta);
@@ -150,7 +150,7 @@ Roll RollModel::roll(const std::vector<double>& theta, std::size_t run) const {
   return {body, runs()[run].geometry, law, v0};
 }
 
-double RollModel::slope(const std::vector<double>& theta, std::size_t run) const {
+double Model::slope(const std::vector<double>& theta, std::size_t run) const {
   return runs()[run].way * parameters_.slope(theta, runs()[run].body.slope);
 }
 
@@ -160,7 +160,8 @@ namespace {
 auto rolled(const ObservedRun& run, Roll roll) {
   const double last = run.t.back();
   const std::array corners{roll.stop_until(last), roll.radius_time(last)};
-  const auto direct = [roll = std::move(roll), position = run.raw_is_position](double t) mutable {
+  const auto direct =
+      [roll = std::move(roll), position = run.column == RawColumn::x](double t) mutable {
     const Roll::Point p = roll.at(t);
     std::array<double, 2 + Roll::most> values{position ? p.x : p.v, position ? p.x_v0 : p.v_v0};
     std::ranges::copy(position ? p.x_c : p.v_c, values.begin() + 2);
@@ -171,9 +172,19 @@ auto rolled(const ObservedRun& run, Roll roll) {
 
 }  // namespace
 
-RawModel RollModel::raw(const std::vector<double>& theta, std::size_t r) const {
+RawModel Model::raw(const std::vector<double>& theta, std::size_t r) const {
   const ObservedRun& run = runs()[r];
   const Law law = parameters_.law(theta);
+  if (!is_roll())
+    return [&q = parameters_, law, logarithm = run.column == RawColumn::ln_D](
+               double v, double* slopes, std::size_t stride) {
+      std::array<double, LawForm::most> by_c{};
+      const double D = law.at(v, by_c.data()).D;
+      if (logarithm)
+        for (double& by : by_c) by /= D;
+      q.chain(slopes, stride, law.c(0), {by_c});
+      return logarithm ? std::log(D) : D;
+    };
   return
       [&q = parameters_, law, x0 = parameters_.x0(theta, r), way = run.way,
        rolled = rolled(run, roll(theta, r))](double t, double* slopes, std::size_t stride) mutable {
@@ -185,7 +196,7 @@ RawModel RollModel::raw(const std::vector<double>& theta, std::size_t r) const {
       };
 }
 
-std::vector<double> RollModel::raw_column(const std::vector<double>& theta, std::size_t r) const {
+std::vector<double> Model::raw_column(const std::vector<double>& theta, std::size_t r) const {
   const ObservedRun& run = runs()[r];
   auto at = rolled(run, roll(theta, r));
   const double x0 = parameters_.x0(theta, r);
@@ -206,7 +217,7 @@ void evaluate(const ObservedRun& run, std::size_t number, std::size_t parameters
   take(number, std::span(all).first(rows), std::span(all).subspan(rows));
 }
 
-System system_of(std::shared_ptr<const RollModel> model, std::shared_ptr<const Noise> noise) {
+System system_of(std::shared_ptr<const Model> model, std::shared_ptr<const Noise> noise) {
   std::vector<std::size_t> runs;
   for (const ObservedRun& run : model->runs()) runs.push_back(run.y.size());
   const Parameters& q = model->parameters();

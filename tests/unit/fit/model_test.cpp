@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/model_roll.h"
+#include "fit/model.h"
 
 #include <array>
 
@@ -338,11 +338,12 @@ TEST_CASE("model: at dense times the roll is that of single times", "[fit]") {
           options.fit_slope = inclined;
           const Parameters q(options, position, 1, 1, 1);
           ObservedRun run;
-          run.body = cylinder, run.geometry = geometry, run.raw_is_position = position;
+          run.body = cylinder, run.geometry = geometry,
+          run.column = position ? RawColumn::x : RawColumn::v;
           for (int i = 0; i < 60000; ++i)
             run.t.push_back(5e-5 * i);  // the first law stops at 2.4 s
           const auto theta = q.theta(of, {v0}, {0.3});
-          const RollModel model({run}, q);
+          const Model model({run}, q);
           const RawModel dense = model.raw(theta, 0);
           const auto column = model.raw_column(theta, 0);
           Roll roll = model.roll(theta, 0);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The model of a roll that is observed through filters. Every route uses it, except plain fits of D
-// = a v^b.
+// The model of the runs that every route fits: a roll that is observed through filters,
 //
 //   y = H r(t; a, b, v0, x0) + H e
 //
@@ -14,6 +13,8 @@
 // therefore those of v alone, and y is v. The noise of a second derivative could not be whitened in
 // double precision: in n rows, that of a slow motion is n^2 times smaller than that of a fast
 // one, in the covariance n^4 times.
+//
+// Shifts whose filters are not known, and logarithms of shifts, are no roll: y = D(v), or ln D(v).
 #pragma once
 
 #include "fit/parameters.h"
@@ -37,6 +38,9 @@ double way_of(bool position, const std::vector<double>& t, const std::vector<dou
 /// The indices of the rows of one run that a route fits.
 using Rows = std::vector<std::size_t>;
 
+/// What a column holds: positions and speeds of a roll, or shifts and their logarithms.
+enum class RawColumn { x, v, D, ln_D };
+
 /// The data of one run in the form that the model needs.
 struct ObservedRun {
   std::string place;  ///< begins messages about the run; empty if there is no other
@@ -44,17 +48,17 @@ struct ObservedRun {
   Geometry geometry = Geometry::approximate;
   double way = 1;     ///< direction of motion: -1 if the body rolls towards falling x (v < 0)
   double origin = 0;  ///< the time of the first row [s]: v0 and x0 hold there, t counts from it
-  bool raw_is_position = false;
-  std::vector<double> t;  ///< times of the raw column, at which the model is evaluated [s]
+  RawColumn column = RawColumn::v;  ///< the raw one
+  /// The times of the raw column, at which the model is evaluated [s]; of shifts, their speeds
+  /// [m/s]
+  std::vector<double> t;
   Filters H;              ///< y = H raw; without H, y is the raw column itself
   std::vector<double> y;  ///< the fitted rows
   /// For shift: the accelerations of the shifts of all rows are H raw; those that are not fitted
-  /// are NaN. A shift is `unit` times an acceleration.
+  /// are NaN.
   struct Shifts {
     Filters H;
     std::vector<double> accelerations;
-    std::size_t fitted;  ///< number of shifts that are fitted
-    double unit;
   };
   std::optional<Shifts> shifts = {};
 };
@@ -78,9 +82,9 @@ std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>&, AddedNois
 /// The number of rows of these runs that filters leave independent of the others.
 std::size_t informative_rows(const std::vector<ObservedRun>&, const Parameters&, const Noise&);
 
-/// The model of the raw column of one run: returns the value at time t from the origin, and writes
-/// the derivatives with respect to the parameters of the run, then the shared ones, to `slopes`,
-/// `stride` apart.
+/// The model of the raw column of one run: returns the value at time t from the origin (of shifts,
+/// at this speed), and writes the derivatives with respect to the parameters of the run, then the
+/// shared ones, to `slopes`, `stride` apart.
 using RawModel = std::function<double(double t, double* slopes, std::size_t stride)>;
 
 /// Passes the residuals H raw - y of one run and their derivatives, whitened if the noise is known,
@@ -88,21 +92,22 @@ using RawModel = std::function<double(double t, double* slopes, std::size_t stri
 void evaluate(const ObservedRun& run, std::size_t number, std::size_t parameters, const Noise&,
               const RawModel& raw, const TakeRows&);
 
-/// The rolls of all runs under one law.
-class RollModel {
+/// All runs under one law.
+class Model {
  public:
-  RollModel(std::vector<ObservedRun> runs, const Parameters& parameters)
+  Model(std::vector<ObservedRun> runs, const Parameters& parameters)
       : runs_(std::make_shared<const std::vector<ObservedRun>>(std::move(runs))),
         parameters_(parameters) {}
   /// The same runs under another law.
-  RollModel with(const Parameters& parameters) const {
-    RollModel other = *this;
+  Model with(const Parameters& parameters) const {
+    Model other = *this;
     other.parameters_ = parameters;
     return other;
   }
 
   const std::vector<ObservedRun>& runs() const { return *runs_; }
   const Parameters& parameters() const { return parameters_; }
+  bool is_roll() const { return runs().front().column <= RawColumn::v; }
   Roll roll(const std::vector<double>& theta, std::size_t run) const;
   /// Refers to this object.
   RawModel raw(const std::vector<double>& theta, std::size_t run) const;
@@ -117,6 +122,6 @@ class RollModel {
 };
 
 /// The weighted least-squares problem of a model and its noise.
-System system_of(std::shared_ptr<const RollModel>, std::shared_ptr<const Noise>);
+System system_of(std::shared_ptr<const Model>, std::shared_ptr<const Noise>);
 
 }  // namespace rolling
