@@ -49,7 +49,7 @@ TEST_CASE("agreement: the scatter of means, by hand", "[fit]") {
   std::vector<FitRun> runs;
   for (double mean : means) {
     FitRun& run = runs.emplace_back();
-    for (double d : off) run.v.push_back(1), run.D.push_back(mean + d);
+    for (double d : off) run.v.push_back(1 + std::abs(d)), run.D.push_back(mean + d);
   }
   FitOptions options;
   options.b = 0;
@@ -103,6 +103,14 @@ TEST_CASE("agreement: the scatter of means, by hand", "[fit]") {
   for (double a : means) chi2 += std::pow(a * (std::log(a) - sum / by_noise), 2);
   CHECK(std::abs(r.agreement->chi2 / (chi2 / variance) - 1) < 1e-9);
   CHECK(r.sigma_b == 0);
+
+  // Another law has the errors of the pooled noise, which grow as the root of chi^2 does.
+  FitOptions constant;
+  constant.law = &laws()[1];
+  const auto other = fit(Route::shift, runs, constant);
+  CHECK(std::abs(other.coefficients[0].value - 5.1) < 1e-9);
+  CHECK(std::abs(other.coefficients[0].sigma / std::sqrt(0.0258 / 6 / 28 * chi2 / variance / 3) -
+                 1) < 1e-6);
 
   // Runs that agree have the errors of one fit.
   for (std::size_t i = 0; i < 4; ++i)
