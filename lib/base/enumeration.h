@@ -2,6 +2,8 @@
 // Words in a row, as a sentence has them.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +22,11 @@ inline std::string enumeration(const std::vector<std::string>& words) {
 inline void add_item(std::string& list, std::string_view item, std::string_view separator = ", ") {
   if (!list.empty()) list += separator;
   list += item;
+}
+
+/// `1 row`, `2 rows`.
+inline std::string counted(std::size_t count, std::string_view thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
 }  // namespace rolling

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 #include <utility>
 
+#include "base/enumeration.h"
 #include "base/error.h"
 #include "text/delimiters.h"
 #include "text/header.h"
@@ -48,7 +50,8 @@ void refuse_two_readings(const std::string& line) {
 
 /// True if the comment has names for these columns, one of them known.
 bool holds_names(const Comment& comment, const UnnamedColumns& columns) {
-  return !comment.is_history() && names_in_comment(comment.text, columns).known > 0;
+  return !comment.is_bare() && !comment.is_history() &&
+         names_in_comment(comment.text, columns).known > 0;
 }
 
 /// The comments and other lines in front of the first row.
@@ -61,7 +64,6 @@ class HeadReader {
     const bool found = find_row();
     if (!found) {
       if (!before_) refuse_without_rows();
-      comment_preamble();
       return finish();
     }
     lines_.put_back();
@@ -70,10 +72,13 @@ class HeadReader {
     const auto fields = dialect_.split(lines_.text());
     const std::size_t width = fields.size();
     const bool blank_field = fields.back().text.empty();
-    auto units = take_units();
-    const auto names = take_names(width, blank_field, units);
+    std::vector<std::string> units;
+    const auto names =
+        take_names({width, blank_field,
+                    before_ ? before_->layout.runs.front().columns : std::vector<Column>()},
+                   units);
     if (names.empty() && before_) head_.said = before_->said;
-    for (const Comment& comment : comments_) note_units(comment.text, comment.line, head_.said);
+    for (const Comment& comment : above_) note_units(comment.text, comment.line, head_.said);
     if (names.empty() && before_) {
       head_.named = before_->named;
       head_.blank_end = before_->blank_end;
@@ -97,8 +102,8 @@ class HeadReader {
     head_.layout = Layout::of(columns, sides);
     const bool side_by_side = head_.layout.side_by_side();
     if (head_.named && (side_by_side ? width > names.size() : width != names.size()))
-      fail("{} field{} under a line of {} name{}{}", width, width == 1 ? "" : "s", names.size(),
-           names.size() == 1 ? "" : "s", way_out(width, names.size()));
+      fail("{} under a line of {}{}", counted(width, "field"), counted(names.size(), "name"),
+           way_out(width, names.size()));
     return finish();
   }
 
@@ -109,13 +114,22 @@ class HeadReader {
     const std::string_view text = trim(std::string_view(line).substr(2));
     if (text.starts_with("run ")) {  // the `##` lines above belong to a run without rows
       head_.run = trim(text.substr(4));
-      std::erase_if(comments_, std::mem_fn(&Comment::is_history));
+      std::erase_if(above_, std::mem_fn(&Comment::is_history));
     } else {
       keep(line);
     }
   }
 
-  void keep(std::string comment) { comments_.push_back({std::move(comment), lines_.number()}); }
+  void keep(std::string line) {
+    tabs_.insert(std::ranges::count(line, '\t'));
+    above_.push_back({std::move(line), lines_.number()});
+  }
+
+  /// The last line that is no comment; null without one.
+  const Comment* last_bare() const {
+    const auto found = std::find_if(above_.rbegin(), above_.rend(), std::mem_fn(&Comment::is_bare));
+    return found == above_.rend() ? nullptr : &*found;
+  }
 
   /// True for a first row with missing readings: a field is NaN, which is no name of a column; or
   /// all are blank, dates or times below known names; or one is blank below those of a comment.
@@ -123,39 +137,22 @@ class HeadReader {
     const auto fields = dialect_.split(line);
     const auto any = [&](auto&& is) { return std::ranges::any_of(fields, is); };
     if (any([](const Field& f) { return is_missing(f.text) && !f.text.empty(); })) return true;
-    if (preamble_.empty() && !before_)
+    const Comment* const above = last_bare();
+    if (!above && !before_)
       return any([](const Field& f) { return f.text.empty(); }) && !holds_known_name(line) &&
-             std::ranges::any_of(comments_, [&](const Comment& comment) {
+             std::ranges::any_of(above_, [&](const Comment& comment) {
                return holds_names(comment, {fields.size()});
              });
     if (any([](const Field& f) { return !f.text.empty() && !is_date(f.text); })) return false;
     if (before_) return fields.size() == before_->layout.width;
-    const std::string& above = preamble_.back().text;
-    return holds_known_name(above) && names_in(above, dialect_.separator()).size() == fields.size();
-  }
-
-  /// True if a comment, or the last other line, has as many tabs as this line.
-  bool has_tabs_above(std::string_view line) const {
-    const auto tabs = std::ranges::count(line, '\t');
-    const auto agrees = [tabs](const Comment& above) {
-      return std::ranges::count(above.text, '\t') == tabs;
-    };
-    return std::ranges::any_of(comments_, agrees) ||
-           (!preamble_.empty() && agrees(preamble_.back()));
-  }
-
-  /// True for a first row with a blank cell and behind it one that begins with #.
-  bool is_row_from_blank(std::string_view line) {
-    if (lines_.kind() != LineKind::comment || line.find('\t') >= line.find('#')) return false;
-    const bool tabs = has_tabs_above(line);
-    return dialect_.choose(line, tabs) || (tabs && is_missing_row(line));
+    return holds_known_name(above->text) &&
+           names_in(above->text, dialect_.separator()).size() == fields.size();
   }
 
   /// Goes to the first row; false if there is none.
   bool find_row() {
     while (lines_.next()) {
       const std::string line(lines_.text());
-      if (!before_ && is_row_from_blank(line)) return true;
       switch (lines_.kind()) {
         case LineKind::blank:
           break;
@@ -163,48 +160,69 @@ class HeadReader {
           take_history();
           break;
         case LineKind::comment:
+          // In a file separated by tabs, a blank field may stand before one that begins with #.
+          if (!before_ && line.find('\t') < line.find('#') && dialect_.choose(line, true))
+            return true;
           keep(line.substr(line.find('#')));
           break;
         case LineKind::row:
           if ((before_ ? dialect_.holds_number(line)
-                       : dialect_.choose(line, has_tabs_above(line))) ||
+                       : dialect_.choose(line, tabs_.contains(std::ranges::count(line, '\t')))) ||
               is_missing_row(line))
             return true;
           if (before_) refuse_other_separator(line);
-          preamble_.push_back({line, lines_.number()});
+          keep(line);
       }
     }
     return false;
   }
 
-  /// True if no line of the preamble has a known name, and a comment below it has some.
-  bool is_named_below(const UnnamedColumns& columns) const {
-    const auto has_name = [](const Comment& line) { return holds_known_name(line.text); };
-    const auto names_columns = [&](const Comment& comment) {
-      return comment.line > preamble_.back().line && holds_names(comment, columns);
-    };
-    return std::ranges::none_of(preamble_, has_name) &&
-           std::ranges::any_of(comments_, names_columns);
+  /// The names in a line above the row.
+  std::vector<std::string> names_of(const Comment& line, const UnnamedColumns& columns) const {
+    return line.is_bare() ? names_in(line.text, dialect_.separator())
+                          : names_in_comment(line.text, columns).names;
   }
 
-  /// The names in a comment, and the units if another one below it has them.
-  std::vector<std::string> take_commented_names(const UnnamedColumns& columns,
-                                                std::vector<std::string>& units) {
-    const auto chosen = choose_names(comments_, columns, !before_, lines_.name());
-    if (!chosen) return {};
-    const Comment header = comments_[*chosen];
+  /// The place of the header: the last line that is no comment, but for one of units; or a comment
+  /// where there is none, or where none of them has a known name and a comment below has some.
+  std::optional<std::size_t> find_header(const UnnamedColumns& columns) const {
+    std::vector<std::size_t> bare;
+    for (std::size_t i = 0; i < above_.size(); ++i)
+      if (above_[i].is_bare()) bare.push_back(i);
+    if (bare.size() > 1 && are_units_of(names_of(above_[bare.end()[-2]], columns),
+                                        names_of(above_[bare.back()], columns)))
+      bare.pop_back();
+    const auto has_name = [](const Comment& line) {
+      return line.is_bare() && holds_known_name(line.text);
+    };
+    const auto names_columns = [&](const Comment& line) { return holds_names(line, columns); };
+    if (bare.empty() || (std::ranges::none_of(above_, has_name) &&
+                         std::any_of(above_.begin() + static_cast<std::ptrdiff_t>(bare.back()),
+                                     above_.end(), names_columns)))
+      return choose_names(above_, columns, !before_, lines_.name());
+    return bare.back();
+  }
+
+  /// The names of the columns, empty if there are none here, and the units in a line below them.
+  std::vector<std::string> take_names(const UnnamedColumns& columns,
+                                      std::vector<std::string>& units) {
+    const auto place = find_header(columns);
+    if (!place) return {};
+    const Comment header = above_[*place];
     if (header.text.starts_with("# ") && header.text.find('\t') != std::string::npos)
       dialect_.has_points();
     head_.line = header.line;
-    note_sorted_history(*chosen);
-    const auto names = names_in_comment(header.text, columns).names;
-    std::erase_if(comments_, [&](const Comment& comment) {
-      if (comment.line <= header.line) return comment.line == header.line;
-      auto below = names_in_comment(comment.text, columns).names;
+    note_sorted_history(*place);
+    auto names = names_of(header, columns);
+    std::erase_if(above_, [&](const Comment& line) {
+      if (line.line <= header.line) return line.line == header.line;
+      auto below = names_of(line, columns);
       const bool has_units = units.empty() && are_units_of(names, below);
       if (has_units) units = std::move(below);
       return has_units;
     });
+    if (names.size() == columns.count + 1 && names.back().empty()) names.pop_back();
+    else if (names.size() + 1 == columns.count && columns.blank_end) names.emplace_back();
     return names;
   }
 
@@ -212,64 +230,29 @@ class HeadReader {
   /// tools write the names last, and what sorts rows by a column puts `# t` before `##`.
   void note_sorted_history(std::size_t names) {
     const auto count = [&](std::size_t from) {
-      return std::count_if(comments_.begin() + static_cast<std::ptrdiff_t>(from), comments_.end(),
+      return std::count_if(above_.begin() + static_cast<std::ptrdiff_t>(from), above_.end(),
                            std::mem_fn(&Comment::is_history));
     };
     if (count(names) > 0 && count(0) > 1)
-      comments_.push_back({fmt::format("## {}", lines_sorted), comments_.back().line});
-  }
-
-  /// The units in the line below the header; empty if there is none.
-  std::vector<std::string> take_units() {
-    if (preamble_.size() < 2) return {};
-    auto units = names_in(preamble_.back().text, dialect_.separator());
-    if (!are_units_of(names_in(preamble_[preamble_.size() - 2].text, dialect_.separator()), units))
-      return {};
-    preamble_.pop_back();
-    return units;
-  }
-
-  /// The names of `width` columns, empty if there are none here. `blank_end`: the row ends blank.
-  std::vector<std::string> take_names(std::size_t width, bool blank_end,
-                                      std::vector<std::string>& units) {
-    const UnnamedColumns columns{
-        width, blank_end, before_ ? before_->layout.runs.front().columns : std::vector<Column>()};
-    if (preamble_.empty() || is_named_below(columns)) {
-      auto names = take_commented_names(columns, units);
-      comment_preamble();
-      return names;
-    }
-    auto names = names_in(preamble_.back().text, dialect_.separator());
-    head_.line = preamble_.back().line;
-    preamble_.pop_back();
-    comment_preamble();
-    if (names.size() == width + 1 && names.back().empty()) names.pop_back();
-    else if (names.size() + 1 == width && blank_end) names.emplace_back();
-    return names;
+      above_.push_back({fmt::format("## {}", lines_sorted), above_.back().line});
   }
 
   [[noreturn]] void refuse_without_rows() const {
-    if (!preamble_.empty())
-      fail<InputError>("{}:{}: no rows: no field of '{}' is a number", lines_.name(),
-                       preamble_.back().line, shown(preamble_.back().text));
-    if (lines_.name() == "-" && comments_.empty())
+    if (const Comment* const bare = last_bare())
+      fail<InputError>("{}:{}: no rows: no field of '{}' is a number", lines_.name(), bare->line,
+                       shown(bare->text));
+    if (lines_.name() == "-" && above_.empty())
       fail<InputError>("standard input is empty: did the tool before this one fail?");
     fail<InputError>("{}: no rows", lines_.name());
   }
 
-  /// Makes comments of the lines that are neither names nor units.
-  void comment_preamble() {
-    for (Comment& line : preamble_) {
-      std::replace(line.text.begin(), line.text.end(), '\n', ' ');
-      comments_.push_back({"# " + std::move(line.text), line.line});
-    }
-  }
-
+  /// The lines that are neither names nor units are comments.
   Head finish() {
-    for (Comment& comment : comments_) {
-      if (comment.is_history())
-        head_.history.emplace_back(trim(std::string_view(comment.text).substr(2)));
-      head_.comments.push_back(std::move(comment.text));
+    for (Comment& line : above_) {
+      if (line.is_history())
+        head_.history.emplace_back(trim(std::string_view(line.text).substr(2)));
+      std::ranges::replace(line.text, '\n', ' ');
+      head_.comments.push_back((line.is_bare() ? "# " : "") + std::move(line.text));
     }
     return std::move(head_);
   }
@@ -286,8 +269,8 @@ class HeadReader {
   Dialect& dialect_;
   const Head* before_;
   Head head_;
-  std::vector<Comment> comments_;
-  std::vector<Comment> preamble_;  // lines that are neither comments nor rows
+  std::vector<Comment> above_;     // the lines above the row, but for blank ones
+  std::set<std::ptrdiff_t> tabs_;  // how many each of them has
 };
 
 }  // namespace

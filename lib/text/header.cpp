@@ -5,6 +5,7 @@
 #include <cctype>
 #include <utility>
 
+#include "base/enumeration.h"
 #include "base/error.h"
 #include "text/delimiters.h"
 #include "text/number.h"
@@ -19,27 +20,26 @@ std::string_view without_end(std::string_view text) {
   return text.substr(0, text.find_last_not_of(filling) + 1);
 }
 
-/// The names between these separators, 0 for blanks: none if they are not as many as the columns,
-/// or if some are blank, unless one is known or `blanks` allows it.
-CommentedNames names_between(char separator, std::string_view text, const UnnamedColumns& columns,
-                             bool blanks) {
+/// The names of as many columns between these separators, 0 for blanks; none if there are not as
+/// many, or if words between blanks end as in a sentence.
+CommentedNames names_between(char separator, std::string_view text, const UnnamedColumns& columns) {
   CommentedNames found{split_names(text, separator), separator};
   auto& names = found.names;
   while (names.size() > columns.count && names.back().empty()) names.pop_back();
   while (names.size() > columns.count && names.front().empty()) names.erase(names.begin());
   const bool words = separator == '\0';
-  bool sentence = false;
+  const auto ends_a_phrase = [](const std::string& word) {
+    return !word.empty() && std::string_view(",;:").find(word.back()) != std::string_view::npos;
+  };
+  if (names.size() != columns.count || (words && std::ranges::any_of(names, ends_a_phrase)))
+    return {};
   for (const std::string& name : names) {
-    sentence |= words && std::string_view(",;:").find(name.back()) != std::string_view::npos;
     if (words && names.size() > 1 && name == "a") continue;  // the article, perhaps
     const Column column = read_column(name);
     found.known +=
         is_known(column) || std::ranges::count(columns.before, column.name, &Column::name);
   }
-  const bool is_blank = std::ranges::count(names, "") > 0;
-  return names.size() != columns.count || sentence || (is_blank && !blanks && found.known == 0)
-             ? CommentedNames()
-             : found;
+  return found;
 }
 
 /// The words of a line, whatever separates them: `t [ms]`, `time` and `x [cm]` of `t [ms]: time, x
@@ -64,25 +64,13 @@ bool looks_like_names(std::string_view comment) {
   return units > 1 || ((words.size() > 1 || units > 0) && std::ranges::all_of(words, is_known));
 }
 
-/// True if each known quantity is in the same place in both, in the same unit.
-bool agree(const std::vector<std::string>& one, const std::vector<std::string>& other) {
-  const auto same = [](const std::string& x, const std::string& y) {
-    const auto unit = [](const Column& of) {
-      return of.unit.empty() ? std::string(si_unit(of.name)) : of.unit;
-    };
-    const Column a = read_column(x), b = read_column(y);
-    return !(is_known(a) || is_known(b)) || (a.name == b.name && unit(a) == unit(b));
-  };
-  return std::ranges::equal(one, other, same);
-}
-
-/// True if a known quantity is not in the same place in these names and in the columns before.
-bool moves_known(const std::vector<std::string>& names, const std::vector<Column>& before) {
-  for (std::size_t i = 0; i < std::min(names.size(), before.size()); ++i) {
-    const Column now = read_column(names[i]);
-    if (now.name != before[i].name && (is_known(now) || is_known(before[i]))) return true;
+/// True if each known quantity is in the same place in both, as far as both go.
+bool agree(const std::vector<std::string>& names, const std::vector<Column>& columns) {
+  for (std::size_t i = 0; i < std::min(names.size(), columns.size()); ++i) {
+    const Column read = read_column(names[i]);
+    if (read.name != columns[i].name && (is_known(read) || is_known(columns[i]))) return false;
   }
-  return false;
+  return true;
 }
 
 }  // namespace
@@ -112,12 +100,15 @@ bool holds_known_name(std::string_view line) {
 
 CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns& columns) {
   const std::string_view text = without_marks(comment);
-  for (const bool blanks : {false, true})
-    for (const char separator : std::string(separators) + '\0')
-      for (const std::string_view part : {without_end(text), text})
-        if (auto found = names_between(separator, part, columns, blanks); !found.names.empty())
-          return found;
-  if (!columns.blank_end) return {};
+  CommentedNames with_blanks;  // names of which some are blank and none is known
+  for (const char separator : std::string(separators) + '\0')
+    for (const std::string_view part : {without_end(text), text}) {
+      auto found = names_between(separator, part, columns);
+      if (found.names.empty()) continue;
+      if (found.known > 0 || std::ranges::count(found.names, "") == 0) return found;
+      if (with_blanks.names.empty()) with_blanks = std::move(found);
+    }
+  if (!with_blanks.names.empty() || !columns.blank_end) return with_blanks;
   CommentedNames found = names_in_comment(comment, {columns.count - 1, false, columns.before});
   if (found.known == 0) return {};
   found.names.emplace_back();
@@ -127,39 +118,39 @@ CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns& 
 std::optional<std::size_t> choose_names(const std::vector<Comment>& comments,
                                         const UnnamedColumns& columns, bool first,
                                         std::string_view file) {
-  std::vector<CommentedNames> all;
-  for (const Comment& of : comments) all.push_back(names_in_comment(of.text, columns));
   std::optional<std::size_t> chosen;
-  const auto may_be_chosen = [&](std::size_t i) {
-    const auto is_figure = [](const std::string& s) { return is_number(s) || is_date(s); };
-    return !comments[i].is_history() &&
-           (all[i].known > 0 ||
-            (first && (!chosen || all[*chosen].known == 0) && !all[i].names.empty() &&
-             std::ranges::none_of(all[i].names, is_figure)));
-  };
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (may_be_chosen(i)) chosen = i;
-  const CommentedNames names = chosen ? all[*chosen] : CommentedNames();
+  CommentedNames names;  // in it
+  const auto is_figure = [](const std::string& s) { return is_number(s) || is_date(s); };
+  for (std::size_t i = comments.size(); i-- > 0 && names.known == 0;) {
+    if (comments[i].is_bare() || comments[i].is_history()) continue;
+    CommentedNames found = names_in_comment(comments[i].text, columns);
+    if (found.known > 0 ||
+        (first && !chosen && !found.names.empty() && std::ranges::none_of(found.names, is_figure)))
+      chosen = i, names = std::move(found);
+  }
   if (names.known > 0 &&
       (names.separator == '\t' || names.known + columns.blank_end >= columns.count))
     return chosen;
-  const auto is_other = [&](std::size_t i) {
-    if (i == chosen || (chosen && agree(all[i].names, names.names))) return false;
-    return looks_like_names(comments[i].text) ||
-           (all[i].known > comments[i].is_history() && all[i].known >= names.known);
-  };
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (is_other(i))
+  std::vector<Column> read;
+  for (const std::string& name : names.names) read.push_back(read_column(name));
+  for (std::size_t i = 0; i < comments.size(); ++i) {
+    if (i == chosen || comments[i].is_bare()) continue;
+    const CommentedNames other = names_in_comment(comments[i].text, columns);
+    const bool may_be_meant =
+        looks_like_names(comments[i].text) ||
+        (other.known > comments[i].is_history() && other.known >= names.known);
+    if (may_be_meant && (!chosen || other.names.empty() || !agree(other.names, read)))
       fail<InputError>(
           "{}:{}: '{}' may be the names of the columns, {}", file, comments[i].line,
           shown(comments[i].text),
           comments[i].is_history() ? "but it begins with ##, as history does; leave one # there"
-          : chosen ? fmt::format("and so may line {}: give one of them another number of words",
-                                 comments[*chosen].line)
-                   : fmt::format("but has not one for each of {} column{}", columns.count,
-                                 columns.count == 1 ? "" : "s"));
+          : chosen
+              ? fmt::format("and so may line {}: give one of them another number of words",
+                            comments[*chosen].line)
+              : fmt::format("but has not one for each of {}", counted(columns.count, "column")));
+  }
   const bool article = names.known == 0 && std::ranges::count(names.names, "a") > 0;
-  if (names.separator == '\0' && (article || moves_known(names.names, columns.before)))
+  if (chosen && names.separator == '\0' && (article || !agree(names.names, columns.before)))
     fail<InputError>(
         "{}:{}: '{}' can be names of the columns or a sentence: put tabs between names, or give "
         "the sentence another number of words",

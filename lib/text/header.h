@@ -14,10 +14,11 @@ namespace rolling {
 
 /// A line above the first row that is no row.
 struct Comment {
-  std::string text;  ///< with its marks
+  std::string text;  ///< with its marks; bare if it is no comment
   std::size_t line;  ///< its number in the file
 
   bool is_history() const { return text.starts_with("##"); }
+  bool is_bare() const { return !text.starts_with('#'); }
 };
 
 /// A comment without the # or ## before it.
@@ -37,7 +38,8 @@ struct CommentedNames {
   char separator = '\0';                ///< of the names; 0 for blanks, as in a sentence
   std::size_t known = 0;  ///< number that are t, x, v, a, D or names of the run before
 };
-/// The names are separated by the first of tabs, ; , and blanks that gives one for each column.
+/// The names are separated by the first of tabs, ; , and blanks that gives one for each column,
+/// none of them blank unless one is known; else by the first that gives some blank ones.
 CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns&);
 
 /// A date or a time of day, in digits: `24/11/2026`, `10:15:00.5`, `2026-11-24T10:15:00Z`.

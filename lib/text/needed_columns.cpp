@@ -167,8 +167,7 @@ std::optional<std::size_t> NeededColumns::find(std::string_view name) const {
 }
 
 std::string NeededColumns::list() const {
-  const std::size_t n = as_read_.size();
-  if (!named_) return fmt::format("{} column{} without names", n, n == 1 ? "" : "s");
+  if (!named_) return counted(as_read_.size(), "column") + " without names";
   std::string list;
   for (const Column& column : as_read_) {
     add_item(list, shown(to_text(column)));

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/enumeration.h"
 #include "text/delimiters.h"
 #include "text/header.h"
 #include "text/number.h"
@@ -103,8 +104,7 @@ void Reader::take_fields() {
   const bool more = count == width + 1 && fields_.back().text.empty() && head_.named,
              less = count + 1 == width && head_.blank_end;
   if (side_by_side ? count > width : !more && !less)
-    fail<InputError>("{}: {} field{} where the first row has {}{}", here(), count,
-                     count == 1 ? "" : "s", width,
+    fail<InputError>("{}: {} where the first row has {}{}", here(), counted(count, "field"), width,
                      count > width ? way_out_of_commas(dialect_.separator()) : "");
   changed_fields_.clear();
   for (const std::size_t i : layout().fields)

@@ -193,8 +193,10 @@ void note_units(std::string_view comment, std::size_t line, SaidUnits& said) {
     const bool of_value =
         (i > 0 && is_number(words[i - 1])) || (i + 1 < words.size() && is_number(words[i + 1]));
     if (of_value || (is_ambiguous(words[i]) && !in_bracket)) continue;
+    const std::string unit = as_quotient(words[i]);
     for (const KnownQuantity& of : quantities)
-      if (const auto found = unit_of(of.name, words[i]); found && found->changes())
+      if (const auto found = conversion(of.name == "D" ? "x" : of.name, unit);
+          found && found->changes())
         said[std::string(of.name)] = {words[i], line};
   }
 }

@@ -37,7 +37,7 @@ TEST_CASE("head: names in the last comment, in a line, or in the order of the to
         "# about three words| no names, t v in 1 of 2; 2: 0 1");
   CHECK(head("sep=;\n# t[ms];x[cm]\n0;1\n") == "# sep=;| t[ms] x[cm] in 1 of 2; 3: 0;1");
   CHECK(head("Hall three\n# t, made by hand, y\n# t[ms],x[cm],y\n0,1,2\n") ==
-        "# t, made by hand, y|# Hall three| t[ms] x[cm] y in 1 of 3; 4: 0,1,2");
+        "# Hall three|# t, made by hand, y| t[ms] x[cm] y in 1 of 3; 4: 0,1,2");
   CHECK(head("p,q\n# v and t\n0,1\n") == "# v and t| p q in 1 of 2; 3: 0,1");
   CHECK(head("t,x\n# v,t\n0,1\n") == "# v,t| t x in 1 of 2; 3: 0,1");
   CHECK(head("# t,x\np,q\n0,1\n") == "# t,x| p q in 1 of 2; 3: 0,1");

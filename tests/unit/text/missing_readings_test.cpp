@@ -19,9 +19,8 @@ TEST_CASE("reader: a first row whose readings are all missing is a row, not name
 
 TEST_CASE("reader: a first row with a blank cell before one that begins with # is a row",
           "[text]") {
-  for (const char* const row : {"\t#\t2\n", "\t\t#\n", "\t#\t\n"})
-    CHECK(rows({std::string("# t\tx\tv\n") + row + "0\t1\t2\n"}, strict) ==
-          "FILE:2: field 1 (t): a reading is missing");
+  CHECK(rows({"# t\tx\tv\n\t#\t2\n0\t1\t2\n"}, strict) ==
+        "FILE:2: field 1 (t): a reading is missing");
   CHECK(rows({"\t# a comment\n# t v\n\t# another\n0 1\n"}) == "0 1");
 }
 
