@@ -56,7 +56,6 @@ Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
       fail("standard input cannot be read twice: name a file for one of the two");
     if (::isatty(STDIN_FILENO)) warn("reading columns from the terminal; end with Ctrl-D");
   }
-  options.appended_by = {{"a", "differentiate"}, {"D", "shift-from-accel"}};
   return *readers_.emplace_back(std::make_unique<Reader>(std::move(options), std::move(order)));
 }
 

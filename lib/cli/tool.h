@@ -92,7 +92,7 @@ class Tool {
     add(names, '{' + all + '}', help, [&value, choices, all](const std::string& text) {
       const auto found = choices.find(text);
       if (found == choices.end())
-        fail("'{}' is not one of {}", shown(text), replace_all(all, ",", ", "));
+        fail("'{}' is not one of {}", shown(text), replace_all(all, {{",", ", "}}));
       value = found->second;
     });
   }

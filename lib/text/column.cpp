@@ -56,21 +56,10 @@ std::optional<std::string> take_quoted(std::string_view line, std::size_t& at, c
   if (behind != end && !(separator ? *behind == separator : is_blank(*behind))) return {};
   const std::string_view inside(line.data() + at + 1, close);
   at = static_cast<std::size_t>(behind - line.data());
-  return replace_all(std::string(trim(inside)), "\"\"", "\"");
+  return replace_all(trim(inside), {{"\"\"", "\""}});
 }
 
 }  // namespace
-
-std::string replace_all(std::string text, std::string_view from, std::string_view to) {
-  std::size_t begin = 0, at = text.find(from);
-  if (at == std::string::npos) return text;
-  std::string replaced;
-  for (; at != std::string::npos; at = text.find(from, begin)) {
-    replaced.append(text, begin, at - begin).append(to);
-    begin = at + from.size();
-  }
-  return replaced.append(text, begin, std::string::npos);
-}
 
 std::string lower(std::string_view text) {
   std::string out(text);
@@ -86,9 +75,9 @@ std::string short_name(std::string_view name) {
 
 Column read_column(std::string_view text) {
   Column column;
-  std::string line = with_plain_blanks(text);
-  line = replace_all(replace_all(line, "\xEF\xBC\x88", "("), "\xEF\xBC\x89", ")");  // full width
-  std::replace(line.begin(), line.end(), '\n', ' ');  // a quoted name may go over two lines
+  // Brackets of full width; and a quoted name may go over two lines.
+  const std::string line = replace_all(with_plain_blanks(text),
+                                       {{"\xEF\xBC\x88", "("}, {"\xEF\xBC\x89", ")"}, {"\n", " "}});
   std::string_view name = trim(line);
   const auto whole = name;
   column.run = take_run(name);
@@ -132,7 +121,7 @@ std::string free_name(const std::vector<Column>& columns, std::string name) {
   return name;
 }
 
-bool is_known(const Column& column) { return is_quantity(column.name); }
+bool is_known(const Column& column) { return known_quantity(column.name) != nullptr; }
 
 std::vector<std::string> split_names(std::string_view line, char separator) {
   std::vector<std::string> names;

@@ -37,8 +37,6 @@ std::string to_text(const Column&);
 /// on if that name exists too.
 std::string free_name(const std::vector<Column>&, std::string name);
 
-std::string replace_all(std::string text, std::string_view from, std::string_view to);
-
 /// In small letters.
 std::string lower(std::string_view text);
 

@@ -37,7 +37,7 @@ void refuse_other_separator(std::string_view line) {
 /// Refuses a row without names, `1,5, 2,5`, whose commas without a blank behind them may be
 /// decimal ones.
 void refuse_two_readings(const std::string& line) {
-  const std::string other = replace_all(line, ", ", "; ");
+  const std::string other = replace_all(line, {{", ", "; "}});
   if (other == line || other.find(',') == std::string::npos) return;
   Dialect dialect;
   dialect.choose(other);

@@ -90,9 +90,7 @@ bool holds_known_name(std::string_view line) {
   };
   for (auto at = line.begin(); at != line.end();) {
     const auto end = std::find_if_not(at, line.end(), is_letter);
-    if (end - at == 1 ? is_quantity({at, end})
-                      : end - at >= 4 && is_quantity(short_name({at, end})))
-      return true;
+    if (known_quantity(short_name({at, end}))) return true;
     at = end == line.end() ? end : end + 1;
   }
   return false;

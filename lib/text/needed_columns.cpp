@@ -27,14 +27,13 @@ bool serves(const NeededColumns::Needed& needed) {
 
 }  // namespace
 
-NeededColumns::NeededColumns(const std::vector<std::string>& use, bool has_use,
-                             std::map<std::string, std::string> appended_by)
-    : has_use_(has_use), appended_by_(std::move(appended_by)) {
+NeededColumns::NeededColumns(const std::vector<std::string>& use, bool has_use)
+    : has_use_(has_use) {
   for (const std::string& text : use) {
     const auto equals = text.find('=');
     const Column of = read_column(text.substr(0, equals));
     const std::string& quantity = of.name;
-    if (equals == std::string::npos || equals + 1 == text.size() || !is_quantity(quantity) ||
+    if (equals == std::string::npos || equals + 1 == text.size() || !known_quantity(quantity) ||
         !of.unit.empty() || !of.run.empty())
       fail("--use: '{}' is not NAME=COLUMN or NAME=COLUMN[UNIT], with t, x, v, a or D as NAME",
            shown(text));
@@ -90,8 +89,7 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits
 void NeededColumns::give_unit(std::size_t column, const std::string& quantity,
                               const std::string& unit) {
   Column& read = as_read_[column];
-  const auto own = unit_of(quantity, read.unit), given = unit_of(quantity, unit);
-  if (is_unit(read.unit) && !(own && given && *own == *given))
+  if (const auto own = read_unit(read.unit); own && own != read_unit(unit))
     fail<InputError>("{}: --use {} says {}, but the column's name {}", place_, quantity,
                      shown(unit), shown(to_text(read)));
   read.unit = unit;
@@ -111,7 +109,7 @@ void NeededColumns::serve_by_units() {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < as_read_.size(); ++i)
       if (!as_read_[i].unit.empty() && unit_of(quantity, as_read_[i].unit) &&
-          !is_quantity(quantities_[i]))
+          !known_quantity(quantities_[i]))
         found.push_back(i);
     if (found.size() != 1) continue;
     quantities_[found.front()] = quantity;
@@ -123,7 +121,7 @@ void NeededColumns::serve_by_units() {
 bool NeededColumns::may_be_time(std::size_t i) const {
   const Column& column = as_read_[i];
   return quantities_[i] == "t" ||
-         (!is_quantity(quantities_[i]) && !column.name.ends_with("_in") &&
+         (!known_quantity(quantities_[i]) && !column.name.ends_with("_in") &&
           (says_time(column.name) || (!column.unit.empty() && unit_of("t", column.unit))));
 }
 
@@ -183,10 +181,10 @@ void NeededColumns::refuse(std::string_view name) const {
       fail<InputError>("{}: column {} cannot serve as both {} and {}", place_, i + 1,
                        quantities_[i], name);
   std::string way_out;
-  if (const auto by = appended_by_.find(std::string(name)); by != appended_by_.end())
-    way_out = fmt::format("; {} appends it", by->second);
+  if (const KnownQuantity* asked = known_quantity(name); asked && !asked->appended_by.empty())
+    way_out = fmt::format("; {} appends it", asked->appended_by);
   if (!named_) way_out += "; if this line is a heading, begin it with #";
-  if (has_use_ && is_quantity(read_column(name).name))
+  if (has_use_ && known_quantity(read_column(name).name))
     way_out += fmt::format("{} say --use {}=COLUMN", way_out.empty() ? ";" : ", or", name);
   fail<InputError>("{}: there is no column '{}' among {}{}", place_, shown(name), list(), way_out);
 }
@@ -204,7 +202,8 @@ void NeededColumns::resolve(Needed& needed) {
   const bool as_is = needed.kind == Kind::as_is;
   if (first) needed.quantity = quantity;
   if (first && !as_is) needed.unit = read.unit;
-  if (quantity != needed.quantity || (!as_is && !is_quantity(quantity) && read.unit != needed.unit))
+  if (quantity != needed.quantity ||
+      (!as_is && !known_quantity(quantity) && read.unit != needed.unit))
     fail<InputError>("{}: column {} is '{}', and '{}' in the runs before", place_, *found + 1,
                      shown(to_text({quantity, read.unit})),
                      shown(to_text({needed.quantity, needed.unit})));
@@ -228,7 +227,7 @@ Conversion NeededColumns::conversion(std::size_t at, const std::string& quantity
   const bool named = named_ && meant.name == quantity;
   if (meant.unit.empty() && named_) meant.unit = unit_at_end(quantity, meant.name);
   if (const auto said = said_.find(quantity);
-      meant.unit.empty() && is_quantity(quantity) && (!named || said != said_.end()))
+      meant.unit.empty() && known_quantity(quantity) && (!named || said != said_.end()))
     assume(at, quantity,
            fmt::format(", taken in {}{}", si_unit(quantity),
                        said == said_.end()
@@ -238,12 +237,12 @@ Conversion NeededColumns::conversion(std::size_t at, const std::string& quantity
   // A length beside a speed may be its accuracy.
   if (by_unit_.size() > 1 && std::ranges::count(by_unit_, at) > 0)
     assume(at, quantity, ", by its unit alone");
-  if (meant.unit.empty() || !is_quantity(quantity)) return {};
+  if (meant.unit.empty() || !known_quantity(quantity)) return {};
   if (const auto found = unit_of(quantity, meant.unit)) return *found;
   fail<InputError>(
       "{}: column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); "
       "convert it first (rolling-recipes(7)){}",
-      place_, shown(to_text(meant)), quantity, shown(meant.unit), known_units(quantity),
+      place_, shown(to_text(meant)), quantity, shown(meant.unit), known_quantity(quantity)->units,
       has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", quantity, at + 1) : "");
 }
 
@@ -251,9 +250,8 @@ Conversion NeededColumns::conversion(std::size_t at, const std::string& quantity
 void NeededColumns::convert_from_unit(Needed& needed) const {
   const Column& read = as_read_[needed.column];
   if (read.unit.empty() || read.unit == needed.unit) return;
-  for (const char* quantity : {"t", "x", "v"})
-    if (const auto found = unit_of(quantity, read.unit); found && si_unit(quantity) == needed.unit)
-      return void(needed.to_si = *found);
+  if (const auto found = read_unit(read.unit); found && si_unit(found->quantity) == needed.unit)
+    return void(needed.to_si = found->to_si);
   fail<InputError>("{}: column '{}': {} is a number {}", place_, shown(to_text(read)), needed.name,
                    needed.unit.empty() ? "without a unit" : "in " + needed.unit);
 }

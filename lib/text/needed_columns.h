@@ -32,10 +32,8 @@ class NeededColumns {
   };
 
   /// `use`: texts of the form NAME=COLUMN or NAME=COLUMN[UNIT]. `has_use`: messages may name the
-  /// option --use. `appended_by`: by quantity, the program that appends it. Throws Error for
-  /// another form of `use`, and for two columns of one quantity.
-  NeededColumns(const std::vector<std::string>& use, bool has_use,
-                std::map<std::string, std::string> appended_by = {});
+  /// option --use. Throws Error for another form of `use`, and for two columns of one quantity.
+  NeededColumns(const std::vector<std::string>& use, bool has_use);
   /// The names that a file without names has: `order` up to the first one that --use assigns to
   /// another place, because the order of those behind it is then unknown.
   std::vector<std::string> names_without_use(std::vector<std::string> order) const;
@@ -88,7 +86,6 @@ class NeededColumns {
 
   std::map<std::string, Use> use_;  // by quantity
   bool has_use_;
-  std::map<std::string, std::string> appended_by_;
   std::vector<Needed> needed_;
   bool converts_ = false;
   std::string assumed_;

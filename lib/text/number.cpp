@@ -122,16 +122,23 @@ char* write_number(char* to, double value, int digits) {
   return write_shortest(to, value);
 }
 
-std::string with_plain_blanks(std::string_view text) {
+std::string replace_all(
+    std::string_view text,
+    std::initializer_list<std::pair<std::string_view, std::string_view>> pairs) {
   std::string out;
   while (!text.empty()) {
-    std::size_t blank = 0;
-    for (const std::string_view wide : {"\xC2\xA0", "\xE2\x80\x89", "\xE2\x80\xAF"})
-      if (text.starts_with(wide)) blank = wide.size();
-    out += blank ? ' ' : text.front();
-    text.remove_prefix(blank ? blank : 1);
+    const auto found = std::find_if(pairs.begin(), pairs.end(),
+                                    [&](const auto& pair) { return text.starts_with(pair.first); });
+    const auto& [from, to] =
+        found == pairs.end() ? std::pair(text.substr(0, 1), text.substr(0, 1)) : *found;
+    out += to;
+    text.remove_prefix(from.size());
   }
   return out;
+}
+
+std::string with_plain_blanks(std::string_view text) {
+  return replace_all(text, {{"\xC2\xA0", " "}, {"\xE2\x80\x89", " "}, {"\xE2\x80\xAF", " "}});
 }
 
 std::string shown(std::string_view text) {

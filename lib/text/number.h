@@ -2,8 +2,10 @@
 // Numbers as text, with an uncertainty (0.50+-0.005) or without: reading and writing.
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/estimate.h"
 
@@ -41,6 +43,11 @@ inline constexpr std::size_t longest_number = 32;
 
 /// `text` as a message shows it: printable ASCII only, at most 40 characters.
 std::string shown(std::string_view text);
+
+/// The text with the second of the first of these pairs that it has at a place in the place of its
+/// first.
+std::string replace_all(std::string_view text,
+                        std::initializer_list<std::pair<std::string_view, std::string_view>>);
 
 /// With a plain blank for each no-break or thin one (U+00A0, U+2009, U+202F).
 std::string with_plain_blanks(std::string_view text);

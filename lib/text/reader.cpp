@@ -14,7 +14,7 @@
 namespace rolling {
 
 Reader::Reader(ReaderOptions options, std::vector<std::string> order)
-    : options_(std::move(options)), needed_(options_.use, options_.has_use, options_.appended_by),
+    : options_(std::move(options)), needed_(options_.use, options_.has_use),
       order_(needed_.names_without_use(std::move(order))) {
   if (options_.files.empty()) options_.files = {"-"};
   find_run();

@@ -25,8 +25,6 @@ struct ReaderOptions {
   std::optional<int> run = {};          ///< the only run to be read
   bool strict = false;                  ///< a missing reading is an error
   bool has_use = true;                  ///< the option --use applies to these files
-  /// By quantity, the program that appends it: messages name it where there is no such column.
-  std::map<std::string, std::string> appended_by = {};
 };
 
 class Reader {

@@ -16,13 +16,13 @@ namespace rolling {
 namespace {
 
 /// A unit with a name of its own, by its spellings. Those of SI units may have a prefix.
-struct Unit {
+struct NamedUnit {
   Conversion to_si;
   std::array<std::string_view, 5> spellings;
   std::string_view quantity;
   bool prefixed = false;
 };
-constexpr Unit units[] = {
+constexpr NamedUnit units[] = {
     {{}, {"m", "meter", "meters", "metre", "metres"}, "x", true},
     {{127, 5000}, {"in", "inch", "inches"}, "x"},
     {{381, 1250}, {"ft", "foot", "feet"}, "x"},
@@ -45,69 +45,45 @@ constexpr Prefix prefixes[] = {{"k", "kilo", {1e3, 1}},  {"d", "deci", {1, 1e1}}
                                {"c", "centi", {1, 1e2}}, {"m", "milli", {1, 1e3}},
                                {"u", "micro", {1, 1e6}}, {"n", "nano", {1, 1e9}}};
 
-struct KnownQuantity {
-  std::string_view name, si, units;
-};
 constexpr std::string_view lengths = "m, mm, cm, dm, um, km, in, ft";
 constexpr KnownQuantity quantities[] = {
     {"t", "s", "s, sec, ms, us, min, h"},
     {"x", "m", lengths},
     {"v", "m/s", "m/s, mm/s, cm/s, km/h, mph, ft/s"},
-    {"a", "m/s^2", "m/s^2, m/s/s, mm/s^2, cm/s^2"},
-    {"D", "m", lengths},
+    {"a", "m/s^2", "m/s^2, m/s/s, mm/s^2, cm/s^2", "differentiate"},
+    {"D", "m", lengths, "shift-from-accel"},
 };
 
-const KnownQuantity* known(std::string_view name) {
-  const auto found = std::ranges::find(quantities, name, &KnownQuantity::name);
-  return found == std::end(quantities) ? nullptr : found;
-}
-
-std::optional<Conversion> spelled(std::string_view quantity, std::string_view word) {
-  const auto is_one_of = [](const Unit& unit, std::string_view text) {
+std::optional<Unit> spelled(std::string_view word) {
+  const auto is_one_of = [](const NamedUnit& unit, std::string_view text) {
     return !text.empty() && std::ranges::count(unit.spellings, text) > 0;
   };
-  for (const Unit& unit : units) {
-    if (unit.quantity != quantity) continue;
-    if (is_one_of(unit, word)) return unit.to_si;
+  for (const NamedUnit& unit : units) {
+    if (is_one_of(unit, word)) return Unit{unit.quantity, unit.to_si};
+    if (!unit.prefixed) continue;
     for (const Prefix& prefix : prefixes)
       for (const std::string_view front : {prefix.word, prefix.letter})
-        if (unit.prefixed && word.starts_with(front) && is_one_of(unit, word.substr(front.size())))
-          return prefix.size;
+        if (word.starts_with(front) && is_one_of(unit, word.substr(front.size())))
+          return Unit{unit.quantity, prefix.size};
   }
   return {};
 }
 
 /// Products with a power of time, `m s^-1`, `cm*s-1` and `ms-2`, and squares as quotients: `m/s/s`.
-std::string as_quotient(std::string text) {
-  for (const auto& [from, to] : {std::pair{" per ", "/"},
-                                 {"s^-", "/s^"},
-                                 {"s-", "/s^"},
-                                 {"h^-", "/h^"},
-                                 {"h-", "/h^"},
-                                 {"^1", ""}})
-    text = replace_all(std::move(text), from, to);
-  for (const std::string_view times : {"\xC2\xB7", "\xE2\x8B\x85", "*", "."})
-    text = replace_all(std::move(text), times, " ");
-  if (const auto slash = text.rfind('/'); slash != std::string::npos && text.ends_with("^2")) {
-    text.resize(text.size() - 2);
-    text += text.substr(slash);
-  }
-  return text;
-}
-
-/// A unit with a name, or one of length or speed over one of time. Case does not matter in words
-/// and in the names of speeds, but in letters: Ms is no millisecond.
-std::optional<Conversion> conversion(std::string_view quantity, std::string_view text) {
-  text = trim(text);
-  if (const auto found = spelled(quantity, text)) return found;
-  if (text.size() > 2 || quantity == "v")
-    if (const auto found = spelled(quantity, lower(text))) return found;
+std::string as_quotient(std::string_view unit) {
+  std::string text = replace_all(unit, {{" per ", "/"},
+                                        {"s^-", "/s^"},
+                                        {"s-", "/s^"},
+                                        {"h^-", "/h^"},
+                                        {"h-", "/h^"},
+                                        {"\xC2\xB7", " "},
+                                        {"\xE2\x8B\x85", " "},
+                                        {"*", " "},
+                                        {".", " "}});
+  const bool square = text.ends_with("^2");
+  if (square || text.ends_with("^1")) text.resize(text.size() - 2);
   const auto slash = text.rfind('/');
-  if (slash == std::string_view::npos || (quantity != "v" && quantity != "a")) return {};
-  const auto above = conversion(quantity == "a" ? "v" : "x", text.substr(0, slash)),
-             below = conversion("t", text.substr(slash + 1));
-  if (!above || !below) return {};
-  return Conversion{above->multiply * below->divide, above->divide * below->multiply};
+  return square && slash != std::string::npos ? text + text.substr(slash) : text;
 }
 
 /// Words of English, and signs in the names of columns.
@@ -119,17 +95,15 @@ bool is_ambiguous(std::string_view word) {
 }  // namespace
 
 std::string plain_unit(std::string_view text) {
-  std::string unit = with_plain_blanks(text);
-  for (const auto& [from, to] : {std::pair{"\xE2\x81\xBB\xC2\xB9", "^-1"},
-                                 {"\xE2\x81\xBB\xC2\xB2", "^-2"},
-                                 {"\xC2\xB2", "^2"},
-                                 {"\xB2", "^2"},
-                                 {"\xC2\xB5", "u"},
-                                 {"\xCE\xBC", "u"},
-                                 {"\xB5", "u"},
-                                 {"\n", " "}})
-    unit = replace_all(std::move(unit), from, to);
-  return replace_all(std::move(unit), "s2", "s^2");
+  return replace_all(with_plain_blanks(text), {{"\xE2\x81\xBB\xC2\xB9", "^-1"},
+                                               {"\xE2\x81\xBB\xC2\xB2", "^-2"},
+                                               {"\xC2\xB2", "^2"},
+                                               {"\xB2", "^2"},
+                                               {"s2", "s^2"},
+                                               {"\xC2\xB5", "u"},
+                                               {"\xCE\xBC", "u"},
+                                               {"\xB5", "u"},
+                                               {"\n", " "}});
 }
 
 std::string bare_unit(std::string_view text) {
@@ -138,30 +112,45 @@ std::string bare_unit(std::string_view text) {
   return std::string(trim(plain_unit(text)));
 }
 
-bool is_quantity(std::string_view name) { return known(name) != nullptr; }
+const KnownQuantity* known_quantity(std::string_view name) {
+  const auto found = std::ranges::find(quantities, name, &KnownQuantity::name);
+  return found == std::end(quantities) ? nullptr : found;
+}
 
 std::string_view si_unit(std::string_view quantity) {
-  const KnownQuantity* q = known(quantity);
+  const KnownQuantity* q = known_quantity(quantity);
   return q ? q->si : std::string_view();
 }
 
-std::string_view known_units(std::string_view quantity) { return known(quantity)->units; }
+std::optional<Unit> read_unit(std::string_view text) {
+  const std::string quotient = as_quotient(plain_unit(text));
+  const std::string_view unit = trim(quotient);
+  if (const auto found = spelled(unit)) return found;
+  if (const auto found = spelled(lower(unit)); found && (unit.size() > 2 || found->quantity == "v"))
+    return found;
+  const auto slash = unit.rfind('/');
+  constexpr std::string_view in = "in ";  // Zeit (in s)
+  if (slash == std::string_view::npos)
+    return unit.starts_with(in) ? read_unit(unit.substr(in.size())) : std::nullopt;
+  const auto above = read_unit(unit.substr(0, slash)), below = read_unit(unit.substr(slash + 1));
+  if (!above || !below || below->quantity != "t") return {};
+  const Conversion &of = above->to_si, &per = below->to_si;
+  const Conversion to_si{of.multiply * per.divide, of.divide * per.multiply};
+  if (above->quantity == "x") return Unit{"v", to_si};
+  if (above->quantity == "v") return Unit{"a", to_si};
+  return {};
+}
 
 std::optional<Conversion> unit_of(std::string_view quantity, std::string_view unit) {
-  if (!is_quantity(quantity)) return {};
-  const auto found = conversion(quantity == "D" ? "x" : quantity, as_quotient(plain_unit(unit)));
-  constexpr std::string_view in = "in ";  // Zeit (in s)
-  return !found && unit.starts_with(in) ? unit_of(quantity, unit.substr(in.size())) : found;
+  const auto found = read_unit(unit);
+  if (!found || found->quantity != (quantity == "D" ? "x" : quantity)) return {};
+  return found->to_si;
 }
 
-bool is_unit(std::string_view text) {
-  return std::ranges::any_of(quantities, [unit = bare_unit(text)](const KnownQuantity& of) {
-    return unit_of(of.name, unit).has_value();
-  });
-}
+bool is_unit(std::string_view text) { return read_unit(bare_unit(text)).has_value(); }
 
 std::string unit_at_end(std::string_view quantity, std::string_view name) {
-  if (!is_quantity(quantity)) return {};
+  if (!known_quantity(quantity)) return {};
   constexpr std::string_view between = "_/";
   for (auto at = name.find_first_of(between); at != std::string_view::npos;
        at = name.find_first_of(between, at + 1)) {
@@ -178,9 +167,8 @@ std::string unit_at_end(std::string_view quantity, std::string_view name) {
 
 void note_units(std::string_view comment, std::size_t line, SaidUnits& said) {
   if (comment.starts_with("##")) return;
-  std::string text = plain_unit(comment);
-  for (const auto& [from, to] : {std::pair{" per ", "/"}, {" / ", "/"}, {"(", " [ "}, {"[", " [ "}})
-    text = replace_all(std::move(text), from, to);
+  std::string text =
+      replace_all(plain_unit(comment), {{" per ", "/"}, {" / ", "/"}, {"(", " [ "}, {"[", " [ "}});
   const auto is_other = [](unsigned char c) {
     return c < 0x80 && !std::isalnum(c) &&
            std::string_view("/^[").find(static_cast<char>(c)) == std::string_view::npos;
@@ -193,11 +181,10 @@ void note_units(std::string_view comment, std::size_t line, SaidUnits& said) {
     const bool of_value =
         (i > 0 && is_number(words[i - 1])) || (i + 1 < words.size() && is_number(words[i + 1]));
     if (of_value || (is_ambiguous(words[i]) && !in_bracket)) continue;
-    const std::string unit = as_quotient(words[i]);
-    for (const KnownQuantity& of : quantities)
-      if (const auto found = conversion(of.name == "D" ? "x" : of.name, unit);
-          found && found->changes())
-        said[std::string(of.name)] = {words[i], line};
+    const auto found = read_unit(words[i]);
+    if (!found || !found->to_si.changes()) continue;
+    said[std::string(found->quantity)] = {words[i], line};
+    if (found->quantity == "x") said["D"] = said["x"];
   }
 }
 

@@ -18,6 +18,13 @@ struct Conversion {
   bool operator==(const Conversion&) const = default;
 };
 
+/// A unit of t, x, v or a.
+struct Unit {
+  std::string_view quantity;
+  Conversion to_si;
+  bool operator==(const Unit&) const = default;
+};
+
 /// A unit in ASCII: superscripts in UTF-8 or Latin-1 become ^2 and ^-1, micro signs become u, and
 /// no-break blanks plain ones.
 std::string plain_unit(std::string_view text);
@@ -25,14 +32,21 @@ std::string plain_unit(std::string_view text);
 /// The same without the brackets around it.
 std::string bare_unit(std::string_view text);
 
-/// Whether a name is that of a known quantity: t, x, v, a or D.
-bool is_quantity(std::string_view name);
+/// A known quantity: t, x, v, a or D.
+struct KnownQuantity {
+  std::string_view name, si, units;   ///< its units by common spellings, as a message shows them
+  std::string_view appended_by = {};  ///< the tool that computes it
+};
+/// Null for any other name.
+const KnownQuantity* known_quantity(std::string_view name);
 
 /// The SI unit of a known quantity; empty for any other name.
 std::string_view si_unit(std::string_view quantity);
 
-/// The units of a known quantity, by their common spellings, as a message shows them.
-std::string_view known_units(std::string_view quantity);
+/// A unit with a name, or one of length or speed over one of time; nothing if it is none that is
+/// known. Case does not matter in words and in the names of speeds, but in letters: Ms is no
+/// millisecond.
+std::optional<Unit> read_unit(std::string_view text);
 
 /// The conversion of a unit to the SI unit of a known quantity; nothing if it is not one of this
 /// quantity.

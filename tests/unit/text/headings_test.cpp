@@ -6,6 +6,7 @@
 #include <array>
 #include <random>
 
+#include "text/number.h"
 #include "unit/text/rows.h"
 
 using namespace rolling;
@@ -193,7 +194,7 @@ TEST_CASE("reader: a unit in brackets in another line of names is told", "[text]
   for (const std::string unit : {"min", "h", "us", "ms"})
     for (const std::string name : {"Time ({}), v", "t[{}]\tv", "t[{}] v"}) {
       const std::string line = "t is column 1, 't', taken in s although line 1 says " + unit,
-                        names = replace_all(name, "{}", unit);
+                        names = replace_all(name, {{"{}", unit}});
       CHECK(told("# " + names + "\n# t v\n0 36\n") == line);
       CHECK(told(names + "\nt v\n0 36\n") == line);
       CHECK(told("# t v\n# " + names + "\n# t[s] v\n0 36\n").empty());
