@@ -10,8 +10,17 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#ifndef __cpp_lib_to_chars
+#include <stdlib.h>
 
-#include "base/decimal.h"
+#include <cerrno>
+#if defined(__APPLE__) || defined(__FreeBSD__)
+#include <xlocale.h>
+#else
+#include <locale.h>
+#endif
+#endif
+
 #include "base/double_double.h"
 #include "text/shortest.h"
 
@@ -62,9 +71,25 @@ std::uint64_t number_of(std::uint64_t eight) {
 /// 19 digits, or close to the middle of two doubles.
 [[gnu::noinline]] const char* read_any_number(const char* const begin, const char* const end,
                                               double& value) {
-  const char* const from = *begin == '+' ? begin + 1 : begin;  // from_chars does not accept a plus
-  const char* const behind = read_decimal(from, end, value);
-  return behind == from ? begin : behind;
+#ifdef __cpp_lib_to_chars
+  // A plus in front is not accepted.
+  const auto [behind, status] = std::from_chars(begin + (*begin == '+'), end, value);
+  return status == std::errc() ? behind : begin;
+#else
+  // libc++ has from_chars of integers alone up to its version 19. strtod rounds correctly in
+  // glibc, macOS and FreeBSD; it reads hexadecimal digits too, which have other signs.
+  static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
+  const std::string_view rest(begin, end);
+  const std::string text(rest.substr(0, rest.find_first_not_of("+-.0123456789eE")));
+  char* behind = nullptr;
+  errno = 0;
+  const double read = ::strtod_l(text.c_str(), &behind, plain);
+  const bool too_large = errno == ERANGE && (read > 1 || read < -1),
+             too_small = read == 0 && text.find_first_of("123456789") < text.find_first_of("eE");
+  if (too_large || too_small) return begin;
+  value = read;
+  return begin + (behind - text.c_str());
+#endif
 }
 
 }  // namespace
@@ -150,18 +175,13 @@ std::string shown(std::string_view text) {
 }
 
 bool parse_estimate(std::string_view text, Estimate& estimate) {
-  const auto sign = text.find("+-");
-  const auto value_text = text.substr(0, sign);
+  const auto sign = std::min(text.find("+-"), text.size());
+  const std::string_view sigma = sign < text.size() ? text.substr(sign + 2) : "0";
   Estimate read;
-  if (sign == std::string_view::npos) {
-    if (!parse_number(text, read.value)) return false;
-  } else {
-    // Blanks are allowed around +-, but not around the whole.
-    const auto sigma_text = text.substr(sign + 2);
-    if (trim(text) != text || !parse_number(trim(value_text), read.value) ||
-        !parse_number(trim(sigma_text), read.sigma) || std::signbit(read.sigma))
-      return false;
-  }
+  // Blanks are allowed around +-, but not around the whole.
+  if (trim(text) != text || !parse_number(trim(text.substr(0, sign)), read.value) ||
+      !parse_number(trim(sigma), read.sigma) || std::signbit(read.sigma))
+    return false;
   estimate = read;
   return true;
 }
