@@ -130,14 +130,14 @@ class Remarks {
       tool_.warn(run_,
                  "the noise of D biases its logarithms by more than the uncertainty of the line: "
                  "use --route shift");
-    if (r_.off)
-      object(fit_.runs[r_.off->run].name,
+    if (r_.off.count > 0)
+      object(fit_.runs[r_.off.run].name,
              fmt::format(
                  "the reading at t = {:.12g} s is {:.2g} standard deviations off the roll"
                  "{}: look at it, and leave it out (smooth --outliers), or fit the raw "
                  "column with --robust",
-                 r_.off->time, r_.off->distance,
-                 r_.off->count > 1 ? fmt::format(", and {} more are off", r_.off->count - 1) : ""));
+                 r_.off.time, r_.off.distance,
+                 r_.off.count > 1 ? fmt::format(", and {} more are off", r_.off.count - 1) : ""));
     if (r_.b + levels::below_least_b * r_.sigma_b < levels::least_b)
       object(run_,
              fmt::format("b is {:.3g} +- {:.2g}: no mat resists so much more as the body slows "

@@ -35,11 +35,12 @@ double few_reversals(const Fitted&);
 /// the run, and those up to the last that is so far off count (Rosner 1983, Technometrics 25, 165):
 /// a burst does not hide behind itself. Where a reading has bent the roll too far for that, the
 /// robust roll is the one to look from. For known filters the readings are those of the raw column.
-/// Returns the reading that is furthest off, of the run where that is most.
-std::optional<OffReadings> off_readings(const Fitted&);
+/// Returns the reading that is furthest off, of the run where that is most; the count is 0 where
+/// none is.
+OffReadings off_readings(const Fitted&);
 
 /// The same around the robust roll, for unfiltered runs of which no fit by squares need be known.
-std::optional<OffReadings> off_robust_roll(Route, const std::vector<FitRun>&, FitOptions);
+OffReadings off_robust_roll(Route, const std::vector<FitRun>&, FitOptions);
 
 /// A disturbed beginning: the first rows of a run do not follow the motion of the other ones,
 /// because of a hand that still pushes or of sliding.

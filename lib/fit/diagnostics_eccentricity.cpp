@@ -25,60 +25,54 @@ double square(double x) { return x * x; }
 /// motion. Variation of the constant gives dv = v' w with w' = -(g cos theta/((K + 1) R)) dD / v'.
 class Wobble {
  public:
-  Wobble(const ObservedRun& run, Roll roll, double r) {
-    constexpr double longest = 0.1, shares = 512;  // of a step: angle of the body [rad], and part
-    constexpr double slow = 0.05;  // share of v0 below which w is constant: it diverges at the stop
-    const double by_D = -run.body.g * incline(run.body).cos / ((run.body.K + 1) * run.body.R),
-                 v0 = roll.at(0).v, last = run.t.back();
-    std::array<double, 2> w{}, dx{}, dv{};
-    for (double t = 0, h = 0; t < last; t += h) {
-      const double speed = std::abs(roll.at(t).v);
-      h = std::min(last / shares, last - t);
-      if (speed * h > longest * r) h = longest * r / speed;
-      const auto s = roll.at(t + h / 2);
-      fastest_ = std::max(fastest_, s.v), way_ = s.x;
-      const double by_force = s.v > slow * v0 ? by_D / s.a * h / 2 : 0;
-      for (std::size_t k = 0; k < 2; ++k) {
-        const double half_w = by_force * (k ? std::sin(s.x / r) : std::cos(s.x / r));
-        dv[k] = s.a * (w[k] + half_w);
-        dx[k] += dv[k] * h;
-        w[k] += 2 * half_w;
-      }
-      const auto& raw = run.column == RawColumn::x ? dx : dv;
-      t_.push_back(run.column == RawColumn::x ? t + h : t + h / 2);
-      of_t_.push_back({run.way * raw[0], run.way * raw[1]});
-    }
-  }
+  Wobble(const ObservedRun& run, Roll roll, double r)
+      : run_(run), roll_(std::move(roll)), v0_(roll_.at(0).v), r_(r) {}
 
-  /// The response at time t, by linear interpolation.
-  std::array<double, 2> at(double t) const {
-    const auto i = static_cast<std::size_t>(std::ranges::upper_bound(t_, t) - t_.begin());
-    if (i == t_.size()) return of_t_.back();
-    const double before = i ? t_[i - 1] : 0, share = (t - before) / (t_[i] - before);
-    const auto between = [&](std::size_t k) {
-      const double from = i ? of_t_[i - 1][k] : 0;
-      return from + share * (of_t_[i][k] - from);
-    };
-    return {between(0), between(1)};
-  }
-
-  /// True if a run of so many residuals shows a turn of R: it has one, and two rows in each.
-  bool worth(const ObservedRun& run, std::size_t n, double R) const {
-    double longest = 0;
-    for (std::size_t i = 1; i < run.t.size(); ++i)
-      longest = std::max(longest, run.t[i] - run.t[i - 1]);
-    return n >= 30 && way_ >= 2 * std::numbers::pi * R && fastest_ * longest < std::numbers::pi * R;
+  /// The response at time t, which must not be before that of the last call: by linear
+  /// interpolation in a step.
+  std::array<double, 2> at(double t) {
+    while (t_ < t) step();
+    const double share = t > from_ ? (t - from_) / (t_ - from_) : 0;
+    return {std::lerp(before_[0], now_[0], share), std::lerp(before_[1], now_[1], share)};
   }
 
  private:
-  std::vector<double> t_;
-  std::vector<std::array<double, 2>> of_t_;
-  double fastest_ = 0, way_ = 0;
+  void step() {
+    constexpr double longest = 0.1, shares = 512;  // of a step: angle of the body [rad], and part
+    constexpr double slow = 0.05;  // share of v0 below which w is constant: it diverges at the stop
+    const double by_D = -run_.body.g * incline(run_.body).cos / ((run_.body.K + 1) * run_.body.R),
+                 h = std::min(run_.t.back() / shares, longest * r_ / std::abs(roll_.at(t_).v));
+    const auto s = roll_.at(t_ + h / 2);
+    const double by_force = s.v > slow * v0_ ? by_D / s.a * h / 2 : 0;
+    before_ = now_, from_ = t_, t_ += h;
+    const double a = roll_.at(t_).a;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double half_w = by_force * (k ? std::sin(s.x / r_) : std::cos(s.x / r_));
+      dx_[k] += s.a * (w_[k] + half_w) * h;
+      w_[k] += 2 * half_w;
+      now_[k] = run_.way * (run_.column == RawColumn::x ? dx_[k] : a * w_[k]);
+    }
+  }
+
+  const ObservedRun& run_;
+  Roll roll_;
+  double v0_, r_, from_ = 0, t_ = 0;
+  std::array<double, 2> w_{}, dx_{}, before_{}, now_{};
 };
+
+/// True if a run of so many residuals shows a turn: its roll has one, and two rows in each.
+bool shows_a_turn(const ObservedRun& run, Roll roll, std::size_t n) {
+  const double turn = 2 * std::numbers::pi * run.body.R;
+  const auto first = roll.at(0), last = roll.at(run.t.back());
+  double longest = 0;
+  for (std::size_t i = 1; i < run.t.size(); ++i)
+    longest = std::max(longest, run.t[i] - run.t[i - 1]);
+  return n >= 30 && last.x >= turn && 2 * std::max(first.v, last.v) * longest < turn;
+}
 
 /// The amplitude of this response in the residuals f of a run, of so many degrees of freedom, and
 /// its p.
-Eccentricity amplitude(const Fitted& fit, std::size_t run, const Wobble& wobble, double freedom,
+Eccentricity amplitude(const Fitted& fit, std::size_t run, Wobble wobble, double freedom,
                        std::span<const double> f) {
   // The QR decomposition of J with the two columns of the response behind it: the last 2 x 2 block
   // of R belongs to these columns after projection orthogonal to J, and theta holds their
@@ -131,20 +125,16 @@ std::optional<Eccentricity> eccentricity_of(const Fitted& fit) {
     const double freedom =
         static_cast<double>(f_of[r].size()) - static_cast<double>(fit.system.columns());
     if (!(freedom > 2 && dot(f_of[r], f_of[r]) > 0)) continue;
-    const auto signal = [&](const Wobble& wobble) {
-      return amplitude(fit, r, wobble, freedom, f_of[r]);
-    };
     const ObservedRun& run = fit.model->runs()[r];
-    const double R = run.body.R;
-    const auto wobble = [&](double stretch) {
-      return Wobble(run, fit.model->roll(fit.minimum.theta, r), stretch * R);
+    const Roll roll = fit.model->roll(fit.minimum.theta, r);
+    if (!shows_a_turn(run, roll, f_of[r].size())) continue;
+    const auto signal = [&](double stretch) {
+      return amplitude(fit, r, Wobble(run, roll, stretch * run.body.R), freedom, f_of[r]);
     };
-    const Wobble turns = wobble(1);
-    if (!turns.worth(run, f_of[r].size(), R)) continue;
-    Eccentricity once_a_turn = signal(turns);
+    Eccentricity once_a_turn = signal(1);
     once_a_turn.p *= static_cast<double>(f_of.size());
     if (once_a_turn.p > levels::one_turn || (found && found->p < once_a_turn.p)) continue;
-    if (once_a_turn.p < std::min(signal(wobble(0.7)).p, signal(wobble(1.4)).p)) found = once_a_turn;
+    if (once_a_turn.p < std::min(signal(0.7).p, signal(1.4).p)) found = once_a_turn;
   }
   return found;
 }

@@ -52,9 +52,9 @@ double correlation_of(const LeftOut& others, const std::vector<bool>& is_out) {
   return sum / squares;
 }
 
-/// The time is the number of the reading here. `most_off`: becomes the distance of the first
-/// reading that is left out, if that is larger.
-OffReadings of_run(LeftOut others, double freedom, double& most_off) {
+/// The time is the number of the reading here. Where no reading counts as off, the distance is that
+/// of the one that is furthest off.
+OffReadings of_run(LeftOut others, double freedom) {
   OffReadings found{};
   const std::size_t n = others.rows(), most = std::min<std::size_t>(n / 10 + 1, 100);
   std::vector<std::size_t> out;
@@ -63,7 +63,7 @@ OffReadings of_run(LeftOut others, double freedom, double& most_off) {
   while (out.size() < most && freedom > 12) {
     const std::size_t i = furthest(others, is_out);
     const double size = size_of(others, i, freedom);
-    most_off = std::max(most_off, size);
+    if (found.count == 0) found.distance = std::max(found.distance, size);
     if (size < by_chance) break;
     others.leave_out(i);
     out.push_back(i), is_out[i] = true;
@@ -97,19 +97,20 @@ Matrix followed(const Fitted& fit) {
 }
 
 /// B: the columns that the fit can follow.
-std::optional<OffReadings> around(const Fitted& fit, const Matrix& B, double& most_off) {
+OffReadings around(const Fitted& fit, const Matrix& B) {
   const bool known = fit.noise->from_sources_alone();
   const auto& sizes = known ? fit.noise->sources() : fit.system.runs;
   const std::vector<double> e = raw(fit, fit.minimum.f);
-  std::optional<OffReadings> found;
+  OffReadings found{};
+  const auto rank = [](const OffReadings& x) { return std::pair(x.count > 0, x.distance); };
   const auto e_of = by_run(e, sizes);
   const auto B_of = rows_by_run(B, sizes);
   for (std::size_t r = 0; r < sizes.size(); ++r) {
     const double freedom =
         static_cast<double>(sizes[r]) - static_cast<double>(fit.system.columns());
     if (freedom < 13) continue;
-    OffReadings off = of_run({e_of[r], B_of[r]}, freedom, most_off);
-    if (off.count == 0 || (found && found->distance > off.distance)) continue;
+    OffReadings off = of_run({e_of[r], B_of[r]}, freedom);
+    if (rank(off) <= rank(found)) continue;
     const ObservedRun& run = fit.model->runs()[r];
     off.run = r;
     auto at = static_cast<std::size_t>(off.time);
@@ -123,16 +124,14 @@ std::optional<OffReadings> around(const Fitted& fit, const Matrix& B, double& mo
 
 /// Around the roll of this theta, which is that of a robust fit: single readings have no share in
 /// it.
-std::optional<OffReadings> around_robust(Fitted fit, const std::vector<double>& theta) {
-  double most_off = 0;
+OffReadings around_robust(Fitted fit, const std::vector<double>& theta) {
   fit.minimum = evaluated(fit.system, theta);
-  return around(fit, {}, most_off);
+  return around(fit, {});
 }
 
 }  // namespace
 
-std::optional<OffReadings> off_robust_roll(Route route, const std::vector<FitRun>& runs,
-                                           FitOptions options) {
+OffReadings off_robust_roll(Route route, const std::vector<FitRun>& runs, FitOptions options) {
   if (!is_trajectory(route) || options.robust) return {};
   options.robust = true;
   try {
@@ -143,11 +142,10 @@ std::optional<OffReadings> off_robust_roll(Route route, const std::vector<FitRun
   }
 }
 
-std::optional<OffReadings> off_readings(const Fitted& fit) {
+OffReadings off_readings(const Fitted& fit) {
   if (!fit.is_roll() || fit.degrees_left() == 0) return {};
-  double most_off = 0;
-  auto found = around(fit, followed(fit), most_off);
-  if (found || most_off < 5) return found;
+  const OffReadings found = around(fit, followed(fit));
+  if (found.count > 0 || found.distance < 5) return found;
   // A reading far off may have bent the roll to itself, away from where it is linear.
   try {
     return around_robust(fit, minimise_robust(fit.system, {fit.minimum.theta}).theta);

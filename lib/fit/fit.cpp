@@ -161,7 +161,7 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   Fitted found = fit_route(route, runs, options);
   Uncertainty noise = uncertainty_of(found);
   const auto eccentricity = eccentricity_of(found);
-  std::optional<OffReadings> off;  // --robust lets them count little
+  OffReadings off{};  // --robust lets them count little
   if (!options.robust) off = off_readings(found);
   const auto agreement = agreement_of(route, runs, options, noise, found);
   std::vector<ErrorShare> shares{{"noise", noise.covariance}};
@@ -191,12 +191,11 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
     return fit_from_start(route, runs, options);
   } catch (const Error&) {  // of the data, or of single readings
     const auto off = off_robust_roll(route, runs, options);
-    if (!off || off->count > single) throw;
+    if (off.count == 0 || off.count > single) throw;
     fail(
         "{}the reading at t = {:.12g} s is {:.2g} standard deviations off the roll of the others: "
         "look at it, and leave it out (smooth --outliers), or fit with --robust",
-        runs.size() > 1 ? fmt::format("run {}: ", runs[off->run].name) : "", off->time,
-        off->distance);
+        runs.size() > 1 ? fmt::format("run {}: ", runs[off.run].name) : "", off.time, off.distance);
   }
 }
 

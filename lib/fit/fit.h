@@ -36,7 +36,7 @@ struct Eccentricity {
 /// Single readings that are off the motion of the others, see off_readings().
 struct OffReadings {
   std::size_t run;      ///< the number of the run, from 0
-  std::size_t count;    ///< of the readings of that run
+  std::size_t count;    ///< of the readings of that run; 0 if none is off
   double time;          ///< of the reading that is furthest off [s]
   double distance = 0;  ///< of that reading, in standard deviations of the others
 };
@@ -82,7 +82,7 @@ struct FitResult {
   Errors errors;
   std::optional<Eccentricity> eccentricity = {};  ///< of the run with the signal of the smallest p
   std::optional<Agreement> agreement = {};        ///< for two or more runs
-  std::optional<OffReadings> off = {};            ///< of the run with the reading furthest off
+  OffReadings off = {};                           ///< of the run with the reading furthest off
   std::vector<ErrorShare> shares = {};            ///< the noise first
 };
 
