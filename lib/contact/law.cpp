@@ -126,7 +126,7 @@ void written_peak(const double* c, double* d, double* by_c) {
 const std::vector<LawForm>& laws() {
   constexpr int per_speed = -1, per_square = -2;
   static const std::vector<LawForm> all{
-      {"a v^b", {{"a", 1, 0, 1}, {"b", 0}}, power, nullptr, nullptr, {{1, 0.3}}, true},
+      {"a v^b", {{"a", 1, 0, 1}, {"b", 0}}, power, nullptr, nullptr, {}, true},
       {"d0", {{"d0"}}, powers<0>, nullptr, nullptr, {{1}}, true},
       {"d0 + d1 v", {{"d0"}, {"d1", 1, per_speed}}, powers<0, 1>, nullptr, nullptr, {{1, 0}}},
       {"d0 + d1 v + d2 v^2",

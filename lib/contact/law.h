@@ -68,7 +68,8 @@ struct LawForm {
   void (*written)(const double* c, double* as_written, double* by_c);
   /// The inverse: the coefficients that `shift` takes, of those that the formula names.
   void (*taken)(const double* as_written, double* c);
-  /// Starting points of a search, for a D of order one at speeds up to 1.
+  /// Starting points of a search, for a D of order one at speeds up to 1; none of a v^b, which the
+  /// routes start by themselves.
   std::vector<std::vector<double>> starts;
   bool is_power = false;  ///< a v^b itself, or a special case of it
 

@@ -2,7 +2,6 @@
 #include "fit/laws.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -10,7 +9,6 @@
 #include "base/matrix.h"
 #include "base/error.h"
 #include "fit/errors.h"
-#include "fit/first_guess.h"
 #include "fit/roll_fit.h"
 #include "fit/fitted.h"
 #include "statistics/residuals.h"
@@ -22,79 +20,28 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool was_found(const Fitted& fit) { return std::isfinite(fit.minimum.rss); }
 
-/// The fit of another law to the rows, with the weights, of this one, before its minimum is found,
-/// in units in which shifts and speeds are of order one.
-Fitted unsolved(const Fitted& power, const LawForm& form) {
+/// The fit of another law to the rows, with the weights, of a fit of a v^b, in units in which
+/// shifts and speeds are of order one: the smallest minimum from the starts of the law, since near
+/// a law without a peak a law with a peak has another minimum than at its peak. The sum of squares
+/// is infinite where none is found.
+Fitted fit_beside(const Fitted& power, const LawForm& law) {
   Fitted fit{};
   fit.noise = power.noise;
   const double v = power.fastest();
   fit.model = std::make_shared<const Model>(
-      power.model->with(power.parameters().with(form, power.law()(v), v)));
+      power.model->with(power.parameters().with(law, power.law()(v), v)));
   fit.system = system_of(fit.model, fit.noise);
   fit.minimum.rss = infinity;
-  return fit;
-}
-
-/// The coefficients in these units that bring a law closest to another one, by least squares over
-/// the speeds, from each of its starting points. If the other law is a special case of this one,
-/// the result is exact.
-std::vector<std::vector<double>> closest(const LawForm& law, const Law& other, double D_unit,
-                                         double v_unit) {
-  ObservedRun curve;
-  curve.column = RawColumn::D;
-  for (int i = 1; i <= 20; ++i) {
-    curve.t.push_back(i / 20.);
-    curve.y.push_back(other(v_unit * curve.t.back()) / D_unit);
-  }
-  const System system = system_of(std::make_shared<const Model>(std::vector{std::move(curve)},
-                                                                Parameters({}, 1).with(law, 1, 1)),
-                                  std::make_shared<const Noise>());
-  std::vector<std::vector<double>> all;
-  for (const auto& start : law.starts) all.push_back(attempt(system, start).theta);
-  return all;
-}
-
-/// The smallest minimum of a law over several starting points. The search starts where the law is
-/// closest to a v^b or to one of the laws fitted before, so that it never ends above a special case
-/// of the law. If the law has several starts of its own, they are tried as well: close to a law
-/// without a peak, a law with a peak has another minimum than at its peak.
-Fitted fit_after(const std::vector<Fitted>& before, const LawForm& law) {
-  const Fitted& power = before.front();
-  Fitted fit = unsolved(power, law);
-  const auto theta_of = [&](const Fitted& other, const std::vector<double>& c) {
-    std::vector<double> theta = other.minimum.theta;  // its v0, x0 and slope
-    const auto first = theta.end() - static_cast<std::ptrdiff_t>(other.system.shared),
-               end = theta.end() - other.slope.has_value();
+  for (const auto& c : law.starts) {
+    std::vector<double> theta = power.minimum.theta;  // its v0, x0 and slope
+    const auto first = theta.end() - static_cast<std::ptrdiff_t>(power.system.shared),
+               end = theta.end() - power.slope.has_value();
     theta.insert(theta.erase(first, end), c.begin(), c.end());
-    return theta;
-  };
-  const double v = power.fastest();
-  Minimum near{{}, {}, {}, infinity};
-  for (const Fitted& other : before) {
-    if (!was_found(other)) continue;
-    for (const auto& c : closest(law, other.law(), power.law()(v), v)) try {
-        Minimum at = evaluated(fit.system, theta_of(other, c));
-        if (at.rss < near.rss) near = std::move(at);
-      } catch (const Error&) {  // no law of a roll
-      }
-  }
-  std::vector<std::vector<double>> starts;
-  if (std::isfinite(near.rss)) starts.push_back(std::move(near.theta));
-  if (law.starts.size() > 1)
-    for (const auto& c : law.starts) starts.push_back(theta_of(power, c));
-  for (const auto& start : starts)
-    if (Minimum found = attempt(fit.system, start); found.rss < fit.minimum.rss)
+    if (Minimum found = attempt(fit.system, theta); found.rss < fit.minimum.rss)
       fit.minimum = std::move(found);
+  }
   if (was_found(fit)) report(fit);
   return fit;
-}
-
-/// The fit of a v^b, and those of the laws behind it in the table, each of which the next begins
-/// from, up to this one.
-std::vector<Fitted> fits_up_to(const LawForm& last, Fitted power) {
-  std::vector<Fitted> all{std::move(power)};
-  for (const LawForm* law = &laws().front(); law != &last;) all.push_back(fit_after(all, *++law));
-  return all;
 }
 
 /// The number of independent rows, from the law that leaves the smallest autocorrelation.
@@ -136,10 +83,10 @@ bool LawComparison::possible(const LawForm& law) const {
          std::isfinite(best_other(law).aicc);
 }
 
-Fitted fit_of_law(Fitted power, const LawForm& law) {
+Fitted fit_of_law(const Fitted& power, const LawForm& law) {
   const char* const slope =
       power.slope ? " and the slope of the mat: add runs in the other direction" : "";
-  Fitted found = std::move(fits_up_to(law, std::move(power)).back());
+  Fitted found = fit_beside(power, law);
   if (!was_found(found)) fail("the rows do not determine D = {}{}", law.formula, slope);
   return found;
 }
@@ -150,8 +97,9 @@ LawComparison compare_laws(Route route, const std::vector<FitRun>& runs, FitOpti
   // difference.
   if (route == Route::loglog) route = Route::shift;
   options.law = &laws().front();
-  const std::vector<Fitted> all =
-      fits_up_to(laws().back(), of_means(fit_route(route, runs, options), options));
+  std::vector<Fitted> all{of_means(fit_route(route, runs, options), options)};
+  for (const LawForm& law : laws())
+    if (&law != options.law) all.push_back(fit_beside(all.front(), law));
   const double n = static_cast<double>(all.front().minimum.f.size()),
                independent = independent_rows(all),
                least =

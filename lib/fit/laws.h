@@ -37,9 +37,9 @@ struct LawComparison {
 
 struct Fitted;
 
-/// The fit of this law to the rows, with the weights, of a fit of a v^b, from which the search
-/// begins. Throws Error if the rows do not determine it.
-Fitted fit_of_law(Fitted power, const LawForm&);
+/// The fit of this law, which is another one, to the rows, with the weights, of a fit of a v^b.
+/// Throws Error if the rows do not determine it.
+Fitted fit_of_law(const Fitted& power, const LawForm&);
 
 /// Fits every law to the same rows with the same weights that fit() uses for a v^b; the model is
 /// a roll on the routes where fit() uses a roll. Correlated residuals count as n (1 - r)/(1 + r)
