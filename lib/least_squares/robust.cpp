@@ -18,6 +18,8 @@
 namespace rolling {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// The median size of residuals, divided by that of a standard normal variable. The p smallest are
 /// not counted: the p parameters may have made as many vanish.
 double median_scale(std::vector<double> residuals, std::size_t p) {
@@ -26,24 +28,24 @@ double median_scale(std::vector<double> residuals, std::size_t p) {
   return nth_smallest(residuals, first + (residuals.size() - first) / 2) / 0.6745;
 }
 
-/// The residuals at theta, and the root of the mean square of the scales of the runs: of the median
-/// size of the residuals of a run, divided by that of a standard normal variable (0.6745). So a run
-/// of much noise is no outlier as a whole. A scale of its own would be known to a fifth for a run
-/// of 30 rows, and few rows that outliers have drawn away would take them for their noise. Runs
-/// without noise, as at rest, do not count. Where most rows lie on the model, the scale is above
-/// rounding, as theta is of order one.
+/// theta, the residuals there, and the root of the mean square of the scales of the runs: of the
+/// median size of the residuals of a run, divided by that of a standard normal variable (0.6745).
+/// So a run of much noise is no outlier as a whole. A scale of its own would be known to a fifth
+/// for a run of 30 rows, and few rows that outliers have drawn away would take them for their
+/// noise. Runs without noise, as at rest, do not count. Where most rows lie on the model, the scale
+/// is above rounding, as theta is of order one.
 struct Residuals {
-  std::vector<double> f;
-  double scale = 0;
+  std::vector<double> theta, f;
+  double scale = infinity;
 };
 
 /// Throws Error if the model has no finite values at theta.
-Residuals residuals_at(const System& system, const std::vector<double>& theta) {
-  Residuals at;
+Residuals residuals_at(const System& system, std::vector<double> theta) {
+  Residuals at{.theta = std::move(theta), .f = {}};
   at.f.reserve(system.residuals());
   std::vector<double> scales;
   double squares = 0;  // of J
-  system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
+  system.evaluate(at.theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
     at.f.insert(at.f.end(), f.begin(), f.end());
     scales.push_back(median_scale({f.begin(), f.end()}, system.columns()));
     squares += dot(J, J);
@@ -103,7 +105,7 @@ struct Half {
 Half best_half(const System& linear, std::vector<double> delta) {
   Half found{std::move(delta)};
   linear.evaluate(found.delta, [&](std::size_t, std::span<double> f, std::span<double>) {
-    for (double& x : f) x = std::isfinite(x) ? x * x : std::numeric_limits<double>::infinity();
+    for (double& x : f) x = std::isfinite(x) ? x * x : infinity;
     std::vector<double> squares(f.begin(), f.end());
     const std::size_t half = std::min(f.size(), (f.size() + linear.columns() + 1) / 2);
     const double most = nth_smallest(squares, half - 1);
@@ -151,30 +153,24 @@ std::vector<double> trimmed_step(const System& system, const std::vector<double>
   return best.delta;
 }
 
-struct Trial {
-  std::vector<double> theta;
-  double scale;
-};
-
-/// An infinite scale if theta is not allowed.
-Trial trial_at(const System& system, std::vector<double> theta) try {
-  const double scale = residuals_at(system, theta).scale;
-  return {std::move(theta), scale};
+/// The same with an infinite scale if theta is not allowed.
+Residuals tried(const System& system, std::vector<double> theta) try {
+  return residuals_at(system, std::move(theta));
 } catch (const Error&) {
-  return {{}, std::numeric_limits<double>::infinity()};
+  return {};
 }
 
 /// Steps of least trimmed squares, halved where necessary, as long as they lower the scale.
-Trial descend(const System& system, Trial at) {
+Residuals descend(const System& system, Residuals at) {
   constexpr int rounds = 20, halvings = 5;
   for (int round = 0; round < rounds && std::isfinite(at.scale); ++round) {
     const std::vector<double> step = trimmed_step(system, at.theta);
-    Trial next = at;
+    Residuals next = at;
     double share = 1;
     for (int k = 0; k < halvings && !(next.scale < 0.99 * at.scale); ++k, share /= 2) {
       std::vector<double> theta = at.theta;
       for (std::size_t j = 0; j < step.size(); ++j) theta[j] += share * step[j];
-      next = trial_at(system, std::move(theta));
+      next = tried(system, std::move(theta));
     }
     if (!(next.scale < 0.99 * at.scale)) break;
     at = std::move(next);
@@ -182,18 +178,16 @@ Trial descend(const System& system, Trial at) {
   return at;
 }
 
-/// The theta with the smallest scale of all that steps of least trimmed squares reach from these
+/// The residuals of the smallest scale of all that steps of least trimmed squares reach from these
 /// starts. Least trimmed squares fit half of the rows of each run, those that they fit best
 /// (Rousseeuw 1984, J. Am. Stat. Assoc. 79, 871). The cost grows with the cube of the number of
 /// parameters. Throws Error if the model has no finite values at any of the starts.
-std::vector<double> least_trimmed(const System& system,
-                                  const std::vector<std::vector<double>>& starts) {
-  Trial best = trial_at(system, starts.front());
+Residuals least_trimmed(const System& system, const std::vector<std::vector<double>>& starts) {
+  Residuals best;
   for (const auto& start : starts)
-    if (Trial found = descend(system, trial_at(system, start)); found.scale < best.scale)
+    if (Residuals found = descend(system, tried(system, start)); found.scale < best.scale)
       best = std::move(found);
-  if (best.theta.empty()) evaluated(system, starts.front());  // throws
-  return best.theta;
+  return std::isfinite(best.scale) ? best : residuals_at(system, starts.front());
 }
 
 /// psi(u)/u and psi'(u) of a loss with influence function psi.
@@ -223,8 +217,7 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
   constexpr std::size_t few = 1000, few_parameters = 12;
   const std::size_t p = system.parameters();
   const bool trimmed = system.residuals() <= few && p <= few_parameters;
-  std::vector<double> theta = trimmed ? least_trimmed(system, starts) : starts.front();
-  Residuals at = residuals_at(system, theta);
+  Residuals at = trimmed ? least_trimmed(system, starts) : residuals_at(system, starts.front());
   std::vector<double> u = sizes_of(at), factors(u.size());
   std::vector<bool> outliers;
   for (const double size : u) outliers.push_back(trimmed && size > 30);
@@ -243,12 +236,12 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
       // A step of reweighted squares is too short by the ratio of these sums: with it Newton's.
       const double longer = slopes > squares / 2 ? squares / slopes : 1;
       const auto next =
-          change > 0.01 ? minimise(weights, theta).theta : stepped(weights, theta, longer);
+          change > 0.01 ? minimise(weights, at.theta).theta : stepped(weights, at.theta, longer);
       change = 0;
       for (std::size_t j = 0; j < p; ++j)
-        change = std::max(change, std::abs(next[j] - theta[j]) / std::max(1.0, std::abs(next[j])));
-      theta = next;
-      Residuals now = residuals_at(system, theta);
+        change =
+            std::max(change, std::abs(next[j] - at.theta[j]) / std::max(1.0, std::abs(next[j])));
+      Residuals now = residuals_at(system, next);
       // The bisquare loss has a fixed scale, and so has Huber's after a while: it is made of
       // medians, which may go to and fro between two rows without end.
       if (influence == bisquare || round > 50) now.scale = at.scale;
@@ -266,7 +259,7 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
   if (!(mean > 0)) fail("too many outliers: no robust fit");
   const double correction =
       1 + static_cast<double>(p) / n * (squares - mean * mean) / (mean * mean);
-  Minimum minimum = evaluated(system, theta);
+  Minimum minimum = evaluated(system, at.theta);
   for (std::size_t i = 0; i < u.size(); ++i)
     minimum.f[i] *= bisquare(u[i]).weight * correction / mean;
   minimum.rss = dot(minimum.f, minimum.f);
