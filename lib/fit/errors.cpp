@@ -19,16 +19,14 @@ Matrix orthonormal(const Fitted& fit) {
   const std::size_t q = fit.system.columns();
   const double* R = fit.minimum.R.data();
   Matrix Q(q);
+  for (std::vector<double>& column : Q) column.reserve(fit.minimum.f.size());
   fit.system.evaluate(fit.minimum.theta,
                       [&](std::size_t, std::span<double> f, std::span<double> J) {
-    const std::size_t n = f.size();
-    for (std::size_t j = 0; j < q; ++j) {
-      const auto column = J.subspan(j * n, n);
-      for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t k = 0; k < j; ++k) column[i] -= R[k * q + j] * J[k * n + i];
-        column[i] /= R[j * q + j];
-      }
-      Q[j].insert(Q[j].end(), column.begin(), column.end());
+    std::vector<double> row(q);
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      for (std::size_t j = 0; j < q; ++j) row[j] = J[j * f.size() + i];
+      solve_transposed(R, row);
+      for (std::size_t j = 0; j < q; ++j) Q[j].push_back(row[j]);
     }
     R += q * q;
   });
