@@ -155,9 +155,9 @@ int main(int argc, char** argv) {
       Selection selection(select);
       const auto smoother = make_signal(options);
       std::size_t row = 0;
-      const auto take = [&](std::span<const Judged> samples) {
-        for (const Judged& s : samples) {
-          if (!s.kept) filter.drop(row);
+      const auto take = [&](std::span<const Sample> samples) {
+        for (const Sample& s : samples) {
+          if (std::isnan(s.y)) filter.drop(row);
           else if (selects) filter.put(s.y);
           else filter.put(smoother->push(s.t, s.y));
           ++row;
@@ -168,9 +168,8 @@ int main(int argc, char** argv) {
         if (select.all()) filter.put(smoother->push(filter[t], filter[y]));
         else take(selection.push(filter[t], filter[y]));
       }
-      selection.finish();
+      take(selection.finish());
       selected.add(selection, in.run_name());
-      for (auto more = selection.next(); !more.empty(); more = selection.next()) take(more);
       filter.put(smoother->finish());
     }
     selected.say();

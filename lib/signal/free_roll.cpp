@@ -255,12 +255,12 @@ FreeRoll roll_of(std::span<const Sample> run, bool positions, double step) {
   std::vector<std::size_t> index;  // of the samples that are on the motion of their neighbours
   Outliers outliers({201, 0}, off);
   std::size_t i = 0;
-  const auto take = [&](std::span<const Judged> judged) {
-    for (const Judged& s : judged) {
+  const auto take = [&](std::span<const Sample> judged) {
+    for (const Sample& s : judged) {
       while (readings[i].t < s.t) ++i;
       // The last reading is beyond its neighbours: a stop there looks like an outlier.
-      if (s.kept || i + 1 == readings.size())
-        samples.push_back(units({s.t, s.y})), index.push_back(i);
+      if (!std::isnan(s.y) || i + 1 == readings.size())
+        samples.push_back(units(readings[i])), index.push_back(i);
     }
   };
   for (std::size_t k = 0; k < y.size(); ++k)  // of held readings the first alone is one

@@ -85,7 +85,7 @@ Outliers::Outliers(Width width, double threshold)
     : near_({near, 0}, Windows::Ends::stay), scatter_(at_least_151(width), Windows::Ends::cut),
       threshold_(threshold) {}
 
-std::span<const Judged> Outliers::push(double t, double y) {
+std::span<const Sample> Outliers::push(double t, double y) {
   judged_.clear();
   if (count_++ > 0) large_ = std::max(large_, std::min(std::abs(y), std::abs(last_)));
   const double least = program_rounding * large_, step = y - last_, before = last_ - before_;
@@ -99,7 +99,7 @@ std::span<const Judged> Outliers::push(double t, double y) {
   return judged_;
 }
 
-std::span<const Judged> Outliers::finish() {
+std::span<const Sample> Outliers::finish() {
   judged_.clear();
   near_.finish();
   judge();
@@ -149,9 +149,8 @@ bool Outliers::belongs(std::size_t i, bool again) const {
 /// Judges, now that the neighbours of the samples before `end` have been tested.
 void Outliers::judge_before(std::size_t end) {
   for (; next_ < end; ++next_) {
-    Judged s = samples_[next_ - first_];
-    s.kept = s.kept && (few() || belongs(next_, true));
-    judged_.push_back(s);
+    const Judged& s = samples_[next_ - first_];
+    judged_.push_back({s.t, s.kept && (few() || belongs(next_, true)) ? s.y : NAN});
   }
   for (; next_ > first_ + near_end; ++first_) samples_.pop_front();
 }

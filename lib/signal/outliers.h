@@ -9,13 +9,6 @@
 
 namespace rolling {
 
-/// A sample and the result of the test.
-struct Judged {
-  double t, y;
-  bool kept = true;
-  double noise = 0;  ///< of its neighbours
-};
-
 /// A reading is an outlier if it lies further from the local motion than `threshold` standard
 /// errors of a prediction.
 ///
@@ -36,11 +29,16 @@ class Outliers {
  public:
   Outliers(Width, double threshold);
 
-  /// As in Signal: the samples that have now been tested, in order.
-  std::span<const Judged> push(double t, double y);
-  std::span<const Judged> finish();
+  /// As in Signal: the samples that have now been tested, in order; y of an outlier is NaN.
+  std::span<const Sample> push(double t, double y);
+  std::span<const Sample> finish();
 
  private:
+  struct Judged {
+    double t, y;
+    bool kept = true;
+    double noise = 0;  // of its neighbours
+  };
   void judge();
   bool belongs(std::size_t i, bool again) const;
   void judge_before(std::size_t end);
@@ -56,7 +54,7 @@ class Outliers {
   Sliding<SortedWindow> sorted_;
   std::deque<Judged> samples_;  // of the run, from the index first_ on, tested once
   std::size_t first_ = 0, next_ = 0, count_ = 0;
-  std::vector<Judged> judged_;
+  std::vector<Sample> judged_;
 };
 
 }  // namespace rolling

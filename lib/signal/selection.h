@@ -32,12 +32,10 @@ class Selection {
  public:
   explicit Selection(const SelectionOptions&);
 
-  /// As in Signal: the samples for which the decision is now known, in order.
-  std::span<const Judged> push(double t, double y);
-  /// Ends the run. Throws Error as free_roll does.
-  void finish();
-  /// The next samples for which the decision is known; behind the last one, none.
-  std::span<const Judged> next();
+  /// As in Signal: the samples for which the decision is now known, in order; y of one that is left
+  /// out is NaN. finish() throws Error as free_roll does.
+  std::span<const Sample> push(double t, double y);
+  std::span<const Sample> finish();
   const std::vector<double>& outliers() const { return outliers_; }  ///< their times so far
   /// After finish(), for coast: the free roll, and the times [s] of its first and last sample, of
   /// that with which something else begins, and those of another roll.
@@ -50,18 +48,13 @@ class Selection {
   const std::optional<Roll>& roll() const { return roll_; }
 
  private:
-  void take(std::span<const Judged>);
+  void take(std::span<const Sample>);
   void keep_roll();
+  std::span<const Sample> known() const { return {run_.data(), run_.size()}; }
 
   SelectionOptions options_;
   std::optional<Outliers> test_;
-  // Samples that next() has not returned, for coast the whole run; and the indices of those that
-  // are not kept, whatever the roll is.
-  Growing<Sample> run_;
-  std::vector<std::size_t> off_;
-  std::size_t next_ = 0, next_off_ = 0;
-  Stretch kept_{0, std::numeric_limits<std::size_t>::max()};  // of the others
-  std::vector<Judged> decided_;
+  Growing<Sample> run_;  // for coast the whole run, otherwise what was returned last
   std::vector<double> outliers_;
   std::optional<Roll> roll_;
 };

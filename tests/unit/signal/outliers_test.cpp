@@ -17,10 +17,10 @@ Indices outliers(const Series& y, const Series& t, double threshold = 5, Width w
   Outliers test(width, threshold);
   Indices out;
   std::size_t i = 0;
-  const auto take = [&](std::span<const Judged> samples) {
-    for (const Judged& s : samples) {
-      CHECK((s.t == t[i] && s.y == y[i]));
-      if (!s.kept) out.push_back(i);
+  const auto take = [&](std::span<const Sample> samples) {
+    for (const Sample& s : samples) {
+      CHECK((s.t == t[i] && (std::isnan(s.y) || s.y == y[i])));
+      if (std::isnan(s.y)) out.push_back(i);
       ++i;
     }
   };

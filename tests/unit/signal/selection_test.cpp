@@ -24,15 +24,14 @@ TEST_CASE("selection: times, then outliers, then the roll; nothing reaches into 
   Selection selection(options);
   for (const Sample& s : run)
     CHECK(selection.push(s.t, s.y).empty());  // it waits for the whole run
-  selection.finish();
-  const auto all = selection.next();
+  const auto all = selection.finish();
   REQUIRE(all.size() == run.size());
   CHECK(selection.outliers() == std::vector<double>{run[20].t, run[100].t});
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double t = run[i].t;
     INFO(t);
-    if (t < 1.55 || t > 4.3 || i == 100) CHECK(!all[i].kept);
-    else if (t > 2) CHECK((all[i].kept && all[i].t == t && all[i].y == run[i].y));
+    if (t < 1.55 || t > 4.3 || i == 100) CHECK(std::isnan(all[i].y));
+    else if (t > 2) CHECK((all[i].t == t && all[i].y == run[i].y));
   }
 }
 
@@ -49,16 +48,14 @@ TEST_CASE("selection: of a long run that begins later, each sample once and the 
   options.coast = true, options.from = run[late].t;
   Selection selection(options);
   for (const Sample& s : run) CHECK(selection.push(s.t, s.y).empty());
-  selection.finish();
+  const auto all = selection.finish();
   const Stretch roll = free_roll(std::span(run).subspan(late), false).kept;
-  std::size_t i = 0;
-  for (auto more = selection.next(); !more.empty(); more = selection.next())
-    for (const Judged& s : more) {
-      CHECK((s.t == run[i].t && s.y == run[i].y));
-      CHECK(s.kept == (i >= late + roll.begin && i < late + roll.end));
-      ++i;
-    }
-  CHECK(i == run.size());
+  REQUIRE(all.size() == run.size());
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    CHECK(all[i].t == run[i].t);
+    if (i >= late + roll.begin && i < late + roll.end) CHECK(all[i].y == run[i].y);
+    else CHECK(std::isnan(all[i].y));
+  }
 }
 
 TEST_CASE("selection: without the roll it waits for no more than a window", "[signal]") {
@@ -68,18 +65,16 @@ TEST_CASE("selection: without the roll it waits for no more than a window", "[si
   for (int i = 0; i < 10; ++i) {
     const auto now = times.push(i, 0);
     REQUIRE(now.size() == 1);
-    CHECK(now[0].kept == (i >= 2 && i <= 7));
+    CHECK(std::isnan(now[0].y) == (i < 2 || i > 7));
   }
-  times.finish();
-  CHECK(times.next().empty());
+  CHECK(times.finish().empty());
   options.outliers = 3, options.width = {5, 0};
   Selection both(options);
   std::vector<std::size_t> counts;
   for (int i = 0; i < 10; ++i) counts.push_back(both.push(i, 0).size());
   CHECK(counts == std::vector<std::size_t>{1, 1, 0, 0, 0, 0, 0, 0, 7,
                                            1});  // the window ends with the selection
-  both.finish();
-  CHECK(both.next().empty());
+  CHECK(both.finish().empty());
 }
 
 namespace {
@@ -109,12 +104,11 @@ std::pair<std::vector<bool>, std::string> selected(const std::vector<Sample>& ru
                                                    const SelectionOptions& options) {
   Selection selection(options);
   std::vector<bool> kept;
-  const auto take = [&](std::span<const Judged> samples) {
-    for (const Judged& s : samples) kept.push_back(s.kept);
+  const auto take = [&](std::span<const Sample> samples) {
+    for (const Sample& s : samples) kept.push_back(!std::isnan(s.y));
   };
   for (const Sample& s : run) take(selection.push(s.t, s.y));
-  selection.finish();
-  for (auto more = selection.next(); !more.empty(); more = selection.next()) take(more);
+  take(selection.finish());
   std::string told;
   if (const auto& roll = selection.roll())
     told = std::to_string(static_cast<int>(roll->how)) + (roll->other ? ", or another" : "");
