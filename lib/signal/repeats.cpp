@@ -13,18 +13,6 @@
 namespace rolling {
 namespace {
 
-/// The place of the last digit that the largest reading was written to, if all readings have as
-/// many significant digits, and the rounding.
-double last_place(std::span<const double> readings, double largest, double rounding) {
-  const auto first_place = [](double y) { return std::pow(10, std::floor(std::log10(y))); };
-  double digits = 1;  // the least share of the first place that all readings are multiples of
-  for (const double reading : readings)
-    if (const double y = std::abs(reading); y > rounding)
-      for (double first = first_place(y); first * digits > rounding; digits /= 10)
-        if (std::abs(y - std::round(y / (first * digits)) * first * digits) <= rounding) break;
-  return first_place(largest) * digits + rounding;
-}
-
 /// The unit of a grid on which the readings lie: the largest step of which three in five steps
 /// are whole multiples, to 2 % of the unit or to the place; a step of fewer than 8 places must be
 /// exact. Otherwise the smallest step, but no more than 8 places, since a coarser grid would show.
@@ -63,7 +51,7 @@ double rows_held(std::span<const double> readings) {
   for (std::size_t i = 1; i < readings.size(); ++i)
     if (step(i) > rounding) steps.push_back(step(i));
   if (steps.empty() || 4 * steps.size() >= 3 * readings.size()) return 1;
-  const double unit = unit_of(steps, last_place(readings, largest, rounding), rounding);
+  const double unit = unit_of(steps, grid_of(readings) + rounding, rounding);
   std::size_t waiting = 0, held = 0, stretches = 0;  // held between two jumps
   bool after_jump = false;
   for (std::size_t i = 1; i < readings.size(); ++i) {
