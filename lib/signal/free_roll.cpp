@@ -13,6 +13,7 @@
 #include "signal/partition.h"
 #include "signal/repeats.h"
 #include "signal/resolution.h"
+#include "signal/units.h"
 
 namespace rolling {
 namespace {
@@ -248,6 +249,7 @@ FreeRoll roll_of(std::span<const Sample> run, bool positions, double step) {
   std::vector<double> y;
   for (const Sample& s : run)
     readings.push_back({s.t - origin.t, s.y - origin.y}), y.push_back(s.y);
+  const Units units(readings);
   const bool held = rows_held(y) > 1;
   std::vector<Sample> samples;
   std::vector<std::size_t> index;  // of the samples that are on the motion of their neighbours
@@ -258,14 +260,14 @@ FreeRoll roll_of(std::span<const Sample> run, bool positions, double step) {
       while (readings[i].t < s.t) ++i;
       // The last reading is beyond its neighbours: a stop there looks like an outlier.
       if (!std::isnan(s.y) || i + 1 == readings.size())
-        samples.push_back(readings[i]), index.push_back(i);
+        samples.push_back(units(readings[i])), index.push_back(i);
     }
   };
   for (std::size_t k = 0; k < y.size(); ++k)  // of held readings the first alone is one
     if (!held || k == 0 || k + 1 == y.size() || y[k] != y[k - 1])
       take(outliers.push(readings[k].t, readings[k].y));
   take(outliers.finish());
-  const double noise = noise_of(samples, positions, step);
+  const double noise = noise_of(samples, positions, std::ldexp(step, -units.y));
   const auto found =
       positions ? Search<4>(samples, noise, true).roll() : Search<3>(samples, noise, false).roll();
   if (!found) {
@@ -273,7 +275,7 @@ FreeRoll roll_of(std::span<const Sample> run, bool positions, double step) {
     fail(
         "no free roll is found: the readings go from {:.4g} to {:.4g}, and no motion in them that "
         "slows down stands out of their noise of {:.1g}{}",
-        low.y, high.y, noise, choose);
+        low.y, high.y, std::ldexp(noise, units.y), choose);
   }
   FreeRoll roll = *found;
   const auto whole = [&](std::size_t end) {

@@ -25,11 +25,9 @@ double smallest_step(std::span<const Sample> readings) {
 }
 
 double noise_of(std::span<const Sample> samples, bool positions, double step) {
-  constexpr double least = 1e-6;  // of the largest reading: what no sensor resolves
+  constexpr double least = 1e-6;  // of the range of readings: what no sensor resolves
   constexpr std::size_t size = 9;
   constexpr double typical = 0.94;  // median of normal noise
-  double largest = 0;
-  for (const Sample& s : samples) largest = std::max(largest, std::abs(s.y));
   std::vector<double> moved, scatter;
   for (std::size_t i = 0; i + size <= samples.size(); ++i) {
     const auto near = samples.subspan(i, size);
@@ -38,7 +36,7 @@ double noise_of(std::span<const Sample> samples, bool positions, double step) {
     moved.push_back(std::abs(positions ? near.back().y - near[0].y : near[size / 2].y));
     scatter.push_back(std::sqrt(fit.rss() / (size - 3)) / typical);
   }
-  const double noise = std::max(least * largest, positions ? step / std::sqrt(12) : step);
+  const double noise = std::max(least, positions ? step / std::sqrt(12) : step);
   if (moved.empty()) return noise;
   std::vector<double> speeds = moved;
   const double slow = 0.2 * nth_smallest(speeds, speeds.size() - 1 - speeds.size() / 50);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/golden_section.h"
+#include "signal/units.h"
 
 namespace rolling {
 
@@ -63,6 +64,8 @@ std::span<const double> SplineDerivative::finish() {
   const std::size_t n = run_.size();
   if (n == 0) return {};
   require_slope(n);
+  const Units units(run_);
+  std::ranges::transform(run_, run_.begin(), units);
   const auto step = [this](std::size_t i) { return run_[i + 1].t - run_[i].t; };
   const auto difference = [this](std::size_t i) { return run_[i + 1].y - run_[i].y; };
   const double unit = (run_.back().t - run_.front().t) / static_cast<double>(n - 1);
@@ -99,6 +102,7 @@ std::span<const double> SplineDerivative::finish() {
   for (std::size_t i = 0; i + 1 < n; ++i)
     slopes_.push_back((rise(i) - h_[i] * (2 * g_[i] + g_[i + 1]) / 6) / unit);
   slopes_.push_back((rise(n - 2) + h_[n - 2] * g_[n - 2] / 6) / unit);
+  for (double& slope : slopes_) slope = std::ldexp(slope, units.y - units.t);
   return slopes_;
 }
 

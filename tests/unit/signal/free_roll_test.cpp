@@ -348,8 +348,16 @@ TEST_CASE("free_roll: the units of time and readings change nothing", "[signal]"
     for (const double rate : {25.0, 5000.0}) {  // 5000: means of several runs are searched first
       const auto run = made_run(rate, positions ? 0.0004 : 0.004, 1, positions);
       const FreeRoll expected = free_roll(run, positions);
-      for (const auto& [of_t, of_y] :
-           {std::pair{0, -400}, {0, 400}, {-100, 0}, {100, 0}, {50, -50}, {-60, 60}}) {
+      for (const auto& [of_t, of_y] : {std::pair{0, -900},
+                                       {0, -560},
+                                       {0, 560},
+                                       {0, 900},
+                                       {-900, 0},
+                                       {-300, 0},
+                                       {300, 0},
+                                       {900, 0},
+                                       {500, -500},
+                                       {-600, 600}}) {
         std::vector<Sample> scaled = run;
         for (Sample& s : scaled) s = {std::ldexp(s.t, of_t), std::ldexp(s.y, of_y)};
         const FreeRoll found = free_roll(scaled, positions);
