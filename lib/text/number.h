@@ -44,8 +44,8 @@ inline constexpr std::size_t longest_number = 32;
 /// `text` as a message shows it: printable ASCII only, at most 40 characters.
 std::string shown(std::string_view text);
 
-/// The text with the second of the first of these pairs that it has at a place in the place of its
-/// first.
+/// The text, in which the second text of a pair replaces each occurrence of the first; where two
+/// pairs begin at a place, the one that is listed first.
 std::string replace_all(std::string_view text,
                         std::initializer_list<std::pair<std::string_view, std::string_view>>);
 
