@@ -42,7 +42,8 @@ class Search {
       pieces_.emplace_back(samples, joints[i - 1], joints[i], noise, positions);
     for (const auto& p : pieces_)
       for (const double t : {p.from, p.middle(), p.to})
-        fastest_ = std::max(fastest_, std::abs(p.v(t).value) - 3 * p.v(t).error);
+        if (const auto v = p.v(t); !p.is_short())
+          fastest_ = std::max(fastest_, std::abs(v.value) - 3 * v.error);
   }
 
   std::optional<FreeRoll> roll() const {
@@ -72,8 +73,8 @@ class Search {
     std::vector<Chain> chains;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       const Piece<P>& p = pieces_[i];
-      if (const auto a = p.a(p.middle()); p.is_short() && std::abs(a.value) < 20 * a.error)
-        continue;
+      const auto a = p.a(p.middle());
+      if (p.is_short() && std::abs(a.value) < 20 * a.error) continue;
       if (!chains.empty() && continues(pieces_[chains.back().last], p)) chains.back().last = i;
       else if (!p.is_short() && is_roll(p)) chains.push_back({i, i});
     }
@@ -84,8 +85,9 @@ class Search {
       c.fastest = std::max(std::abs(v0), std::abs(v1));
       c.lost = std::abs(v0 - v1) / c.fastest;
     }
-    std::erase_if(chains,
-                  [&](const Chain& c) { return !stands_out(pieces_[c.first], pieces_[c.last]); });
+    std::erase_if(chains, [&](const Chain& c) {
+      return c.fastest < 0.2 * fastest_ || !stands_out(pieces_[c.first], pieces_[c.last]);
+    });
     return chains;
   }
 
@@ -143,6 +145,9 @@ class Search {
     const Piece<P>& last = pieces_[c.last];
     if (last.end == samples_.size()) return FreeRoll::End::goes_on;
     const auto v = last.v(last.to);
+    const auto back = last.v(last.middle());
+    if (back.is_known() && back.value * pieces_[c.first].v(pieces_[c.first].from).value < 0)
+      return FreeRoll::End::is_ended;
     return std::abs(v.value) < std::max(3 * v.error, slow * c.fastest) ? FreeRoll::End::by_itself
                                                                        : FreeRoll::End::is_ended;
   }

@@ -62,18 +62,22 @@ class Joints {
     return best;
   }
   /// The end of a roll whose body comes to rest by itself, at s: its speed falls to 0 without a
-  /// jump, so that its positions are y + sum c_k (s - t)^k, k > 1, before s and y from then on.
-  /// Also the RSS of the best s, of the samples [begin, end); s is sought behind the middle of
-  /// begin and `roughly`.
+  /// jump, so that its positions are y + sum c_k (s - t)^k, k > 1, before s and y from then on, but
+  /// for the rounding that all readings of the rest share. Also the RSS of the best s, of the
+  /// samples [begin, end); s is sought behind the middle of begin and `roughly`.
   std::pair<std::size_t, double> before_stop(std::size_t begin, std::size_t roughly,
                                              std::size_t end) const {
     const std::size_t least = begin + (roughly - begin) / 2;
     const auto rss = [&](std::size_t joint, double stop) {
-      Polynomial<P> fit;
+      Polynomial<P + 1> fit;
+      std::array<double, P + 1> row{};
+      row[P] = 1;
+      fit.add(row, 0);
       for (std::size_t i = begin; i < end; ++i) {
         const double u = i < joint ? samples_[i].t - stop : 0;
-        std::array<double, P> row{1, positions_ ? u * u : u};
+        row = {1, positions_ ? u * u : u};
         for (std::size_t k = 2; k < P; ++k) row[k] = row[k - 1] * u;
+        row[P] = positions_ && i >= joint;
         fit.add(row, samples_[i].y / noise_);
       }
       return fit.rss();
@@ -85,6 +89,7 @@ class Joints {
         cost.back() = std::min(
             cost.back(), rss(joint, std::lerp(samples_[joint - 1].t, samples_[joint].t, part)));
     }
+    cost.push_back(sums<P>(begin, end - 1, [](const auto& fit) { return fit.rss(); }).back());
     const auto lowest = std::min_element(cost.begin(), cost.end());
     const auto best = static_cast<std::size_t>(lowest - cost.begin());
     return {least + inner(cost, best, best, -1), *lowest};

@@ -13,8 +13,9 @@ namespace rolling {
 /// if all are.
 double smallest_step(std::span<const Sample> readings);
 
-/// The noise of samples while the body moves, at a fifth of its largest speed or faster: the median
-/// scatter of nine neighbours about their parabola, and at least that of rounding.
+/// The noise of samples while the body moves: the median scatter about the parabolas of few
+/// neighbours. Where a body moves by less than a step of rounded positions it is at least that of
+/// rounding.
 double noise_of(std::span<const Sample> samples, bool positions, double step);
 
 }  // namespace rolling
