@@ -46,7 +46,11 @@ TEST_CASE("noise: its variance and the covariance of the parameters, whatever th
       std::vector<double> e, data;
       for (std::size_t i = 0; i < n; ++i) e.push_back(random(2));
       for (const double of_e : E.times(e)) data.push_back(3 + 0.5 * t[data.size()] + of_e);
-      Fitted fit{.system = line(data, noise), .minimum = {}};
+      ObservedRun run;
+      run.y = data;
+      Fitted fit{.system = line(data, noise),
+                 .minimum = {},
+                 .model = std::make_shared<const Model>(std::vector{run}, Parameters({}, 1))};
       fit.minimum = minimise(fit.system, {0, 0});
       fit.noise = noise;
       variances += seen_noise(fit, true).variance / runs;
