@@ -67,8 +67,8 @@ class Told {
   }
   void say() const {
     if (outliers_ > 0)
-      tool_.warn(fmt::format("{} outlier{} left out: at {}{} s", outliers_,
-                             outliers_ == 1 ? "" : "s", times_, outliers_ > 10 ? ", ..." : ""));
+      tool_.warn(fmt::format("{} left out: at {}{} s", counted(outliers_, "outlier"), times_,
+                             outliers_ > 10 ? ", ..." : ""));
     if (runs_ == 1) tool_.warn(one_);
     if (runs_ > 1) {
       std::vector<std::string> ends;

@@ -257,9 +257,8 @@ void remark(Tool& tool, const FitOfRuns& fit, const FitOptions& options) {
 
 void report(Tool& tool, const FitOfRuns& fit, const LawForm& law) {
   const FitResult& r = *fit.result;
-  tool.say(fmt::format("n {} ({} degree{} of freedom), errors {}{}", r.n, r.freedom,
-                       r.freedom == 1 ? "" : "s", kinds.at(r.errors),
-                       known(" (Ljung and Box: p = {:.2g})", r.whiteness)));
+  tool.say(fmt::format("n {} ({} of freedom), errors {}{}", r.n, counted(r.freedom, "degree"),
+                       kinds.at(r.errors), known(" (Ljung and Box: p = {:.2g})", r.whiteness)));
   if (r.shares.size() > 1 && r.errors != Errors::none) tool.say(budget(r));
   if (!fit.laws) return;
   if (!fit.laws->possible(law))

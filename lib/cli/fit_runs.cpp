@@ -36,6 +36,15 @@ bool change_numbers(const std::vector<LinearFilter>& filters) {
   return std::ranges::any_of(filters, [](const LinearFilter& filter) { return filter.reach > 0; });
 }
 
+/// Leaves out the filters that none of these columns has gone through.
+void keep_filters_of(const std::vector<std::string>& columns, FilterChain& filters) {
+  std::set<std::string> read(columns.begin(), columns.end());
+  FilterChain kept;
+  for (auto filter = filters.rbegin(); filter != filters.rend(); ++filter)
+    if (read.contains(filter->to)) read.insert(filter->from), kept.push_back(std::move(*filter));
+  filters.assign(kept.rbegin(), kept.rend());
+}
+
 /// Gives a run the filters that its `##` lines name, as far as they are trusted.
 void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
   History history = history_of(in.history(), run.t);
@@ -44,6 +53,7 @@ void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
   if (run.t.empty() && change_numbers(history_of(in.history(), std::array{0.0}).filters))
     history.doubt = "it has no times, without which its `##` lines tell nothing";
   history = give_filters(std::move(history), run, columns_of(route).back());
+  keep_filters_of(columns_of(route), run.filters);
   if (!history.doubt.empty())
     tool.warn(run.name, history.doubt + ": the fit goes on as if no filter were known");
   if (history.left_out > 0)
@@ -68,9 +78,8 @@ void warn_of_lost_history(Tool& tool, const std::vector<FitRun>& runs) {
 Estimate of_run(const std::vector<Estimate>& values, const char* option, std::size_t i,
                 std::size_t n) {
   if (values.size() > 1 && values.size() != n)
-    fail(
-        "--{} gives {} values for {} run{}: give one for all, or one for each, with decimal points",
-        option, values.size(), n, n == 1 ? "" : "s");
+    fail("--{} gives {} values for {}: give one for all, or one for each, with decimal points",
+         option, values.size(), counted(n, "run"));
   if (values.empty()) return {not_given};
   return values[values.size() > 1 ? i : 0];
 }

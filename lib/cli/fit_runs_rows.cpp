@@ -76,8 +76,7 @@ FitRows read_rows(Tool& tool) {
     }
   }
   if (rows.laws.size() < 2)
-    fail("{} row{}: a joint law is that of two or more", rows.laws.size(),
-         rows.laws.size() == 1 ? "" : "s");
+    fail("{}: a joint law is that of two or more", counted(rows.laws.size(), "row"));
   return rows;
 }
 

@@ -65,8 +65,7 @@ void Tool::say(const std::string& text) {
 }
 
 void Tool::count_left_out(std::size_t count, const std::string& why) {
-  if (count > 0 && !quiet_)
-    say(fmt::format("{} row{} left out: {}", count, count == 1 ? "" : "s", why));
+  if (count > 0 && !quiet_) say(fmt::format("{} left out: {}", counted(count, "row"), why));
 }
 
 namespace {

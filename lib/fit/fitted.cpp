@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/enumeration.h"
 #include "base/error.h"
 #include "fit/inferred_noise.h"
 #include "fit/laws.h"
@@ -16,7 +17,7 @@ void require_rows(std::size_t n, std::size_t p, std::size_t independent) {
   if (n == 0) fail("no row can be fitted");
   if (p == 0) fail("a and b are both fixed: nothing is left to fit");
   if (independent < p)
-    fail("{} row{} cannot determine {} parameters{}", n, n == 1 ? "" : "s", p,
+    fail("{} cannot determine {} parameters{}", counted(n, "row"), p,
          independent < n
              ? fmt::format(", for their filters leave {} of them independent", independent)
              : "");

@@ -41,7 +41,7 @@ void Selection::keep_roll() {
   const auto first = [&](std::size_t at) { return run[std::min(at, run.size() - 1)].t; };
   const auto last = [&](std::size_t end) { return run[end - 1].t; };
   const double from = first(kept.begin), to = last(kept.end);
-  roll_ = Roll{kept.end - kept.begin, run.size(), how, from, to, first(after), {}};
+  roll_ = Roll{kept.end - kept.begin, run_.size(), how, from, to, first(after), {}};
   if (other) roll_->other = {first(other->begin), last(other->end)};
   for (std::size_t i = 0; i < run_.size(); ++i)
     if (double& y = run_.data()[i].y; run_[i].t < from || run_[i].t > to) y = NAN;
