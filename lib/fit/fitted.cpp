@@ -83,7 +83,7 @@ std::vector<FittedNumber> Fitted::numbers() const {
 double Fitted::fastest() const {
   double speed = 0;
   for (const FittedNumber& number : v0) speed = std::max(speed, std::abs(number.value));
-  for (const ObservedRun& run : model->runs())
+  for (const ObservedRun& run : model->runs())  // of shifts, t are the speeds
     if (!is_roll()) speed = std::max(speed, std::ranges::max(run.t));
   return speed;
 }

@@ -92,9 +92,11 @@ std::vector<ObservedRun> observed_shifts(const std::vector<FitRun>& all, const F
   for (std::size_t r = 0; r < all.size(); ++r) {
     const FitRun& run = all[r];
     const double stop = stops.empty() ? never : stops[r], way = way_of(run, stop);
+    const Rows rows = shift_rows(run, options, logarithms, stop);
+    if (rows.empty()) continue;
     ObservedRun& seen = runs.emplace_back();
     seen.column = logarithms ? RawColumn::ln_D : RawColumn::D;
-    for (const std::size_t i : shift_rows(run, options, logarithms, stop)) {
+    for (const std::size_t i : rows) {
       seen.t.push_back(way * run.v[i]);
       seen.y.push_back(logarithms ? std::log(way * run.D[i]) : way * run.D[i]);
     }

@@ -16,8 +16,8 @@ namespace rolling {
 Rows shift_rows(const FitRun&, const FitOptions&, bool logarithms,
                 double stop = std::numeric_limits<double>::infinity());
 
-/// These rows as runs of the columns D [m] or ln D. `stops`, if not empty, has the stop of each
-/// run. Throws Error if the rows do not determine the parameters.
+/// These rows as runs of the columns D [m] or ln D, without the runs that have none. `stops`, if
+/// not empty, has the stop of each run. Throws Error if the rows do not determine the parameters.
 std::vector<ObservedRun> observed_shifts(const std::vector<FitRun>&, const FitOptions&,
                                          bool logarithms, const std::vector<double>& stops = {});
 

@@ -100,7 +100,13 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
                  const FitOptions& options) {
   const Fitted& roll = known.fit;
   Matrix Q = orthonormal(line);
-  const auto Q_of = rows_by_run(Q, line.system.runs);
+  std::vector<Rows> rows;
+  std::vector<std::size_t> sizes;  // 0 for a run that the line has not
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    rows.push_back(shift_rows(runs[r], options, true, known.stops[r]));
+    sizes.push_back(rows.back().size());
+  }
+  const auto Q_of = rows_by_run(Q, sizes);
   Matrix& B = known.noise.B;
   B.resize(Q.size());
   std::vector<double> along(Q.size());  // Q^T bias
@@ -111,9 +117,8 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
     const auto shift = [&, by = *runs[r].shift_of](double a) {
       return run.way * shift_from_acceleration(by.body, by.geometry, run.way * a);
     };
-    const Rows rows = shift_rows(runs[r], options, true, known.stops[r]);
-    const BandMatrix D_of = known.responses[r].of.at("D")->of_rows(rows),
-                     v_of = known.responses[r].of.at("v")->of_rows(rows);
+    const BandMatrix D_of = known.responses[r].of.at("D")->of_rows(rows[r]),
+                     v_of = known.responses[r].of.at("v")->of_rows(rows[r]);
     const Points points =
         points_of(D_of, v_of, raw, *roll.law().power(), shift, std::sqrt(known.noise.variance));
     for (std::size_t j = 0; j < Q.size(); ++j) {
