@@ -35,7 +35,7 @@ class Parameters {
     return other;
   }
 
-  double speed_unit() const { return v_unit_; }
+  double speed_unit() const { return v_unit_; }  ///< [m/s], see Law
   const LawForm& form() const { return *form_; }
   /// The value of coefficient j in SI units if it is fixed.
   std::optional<double> fixed(std::size_t j) const {

@@ -72,12 +72,13 @@ std::uint64_t number_of(std::uint64_t eight) {
 [[gnu::noinline]] const char* read_any_number(const char* const begin, const char* const end,
                                               double& value) {
 #ifdef __cpp_lib_to_chars
-  // A plus in front is not accepted.
+  // from_chars does not accept a plus in front.
   const auto [behind, status] = std::from_chars(begin + (*begin == '+'), end, value);
   return status == std::errc() ? behind : begin;
 #else
   // libc++ has from_chars of integers alone up to its version 19. strtod rounds correctly in
-  // glibc, macOS and FreeBSD; it reads hexadecimal digits too, which have other signs.
+  // glibc, macOS and FreeBSD. It reads more than from_chars does, as hexadecimal digits, but
+  // nothing more that is written with these characters alone.
   static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
   const std::string_view rest(begin, end);
   const std::string text(rest.substr(0, rest.find_first_not_of("+-.0123456789eE")));
