@@ -147,9 +147,9 @@ inline void Reader::check_time() {
            fmt::format("does not come after {}{}{}", last_time_,
                        needed_.all()[time_slot_].to_si.changes() ? " s" : "",
                        t < last_time_ ? "; put a blank line before another run" : ""));
-  // The roundings of two times, 2^-53 t each, are then more than 2^-13 of the step between them.
-  coarse_time_ |= t - last_time_ < 0x1p-39 * std::abs(t);
-  distant_time_ |= std::abs(t) > 1e11;
+  // The roundings of two times, 2^-53 t each, are then more than 2^-13 of the step between them; or
+  // the times are beyond 3000 years, where milliseconds since 1970 are.
+  large_time_ |= t - last_time_ < 0x1p-39 * std::abs(t) || std::abs(t) > 1e11;
   last_time_ = t;
 }
 
@@ -209,14 +209,10 @@ std::string Reader::way_out(std::size_t column) const {
 std::vector<std::string> Reader::warnings() const {
   std::vector<std::string> all;
   if (!needed_.assumed().empty()) all.push_back(needed_.assumed());
-  if (coarse_time_)
+  if (large_time_)
     all.emplace_back(
-        "the times are so large that the time between rows keeps fewer than four digits; subtract "
-        "the first");
-  if (distant_time_)
-    all.emplace_back(
-        "the times are beyond 1e11 s, some 3000 years: if they are in ms or us, write that in "
-        "brackets behind the name of their column");
+        "the times are so large that the time between rows loses digits: subtract the first; if "
+        "they are in ms or us, write that in brackets behind the name of their column");
   return all;
 }
 

@@ -107,9 +107,8 @@ class Reader {
   std::string where() const;
   /// Number of rows that were left out because a needed reading was missing.
   std::size_t left_out() const { return left_out_; }
-  /// What to tell of the input at its end: what was assumed of columns (see NeededColumns), times
-  /// so large that a double keeps fewer than four digits of the step between two rows, and times
-  /// beyond 3000 years, where milliseconds since 1970 are.
+  /// What to tell of the input at its end: what was assumed of columns (see NeededColumns), and
+  /// times so large that the step between two rows loses digits, or that they are hardly in s.
   std::vector<std::string> warnings() const;
 
  private:
@@ -170,7 +169,7 @@ class Reader {
   std::vector<double> values_;  // of the needed columns, by slot
   std::span<const Field> fields_;
   std::vector<Field> changed_fields_;
-  bool fields_changed_ = false, coarse_time_ = false, distant_time_ = false;
+  bool fields_changed_ = false, large_time_ = false;
   std::size_t time_slot_ = no_column;
   double last_time_ = 0;  // NaN before the first row of a run
   std::size_t left_out_ = 0;
