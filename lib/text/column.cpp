@@ -44,21 +44,6 @@ std::string take_run(std::string_view& name) {
   return std::string(number_at_end(prefix).empty() ? prefix : number_at_end(prefix));
 }
 
-/// The quoted name that begins at `at`, which is moved behind it; nothing if none does, or if other
-/// text stands behind its quote.
-std::optional<std::string> take_quoted(std::string_view line, std::size_t& at, char separator) {
-  const char* const end = line.data() + line.size();
-  if (at == line.size() || line[at] != quote) return {};
-  const char* const close = closing_quote(line.data() + at + 1, end);
-  if (close == end) return {};
-  const char* behind = close + 1;
-  while (separator && behind != end && *behind != separator && is_blank(*behind)) ++behind;
-  if (behind != end && !(separator ? *behind == separator : is_blank(*behind))) return {};
-  const std::string_view inside(line.data() + at + 1, close);
-  at = static_cast<std::size_t>(behind - line.data());
-  return replace_all(trim(inside), {{"\"\"", "\""}});
-}
-
 }  // namespace
 
 std::string lower(std::string_view text) {
@@ -131,8 +116,10 @@ std::vector<std::string> split_names(std::string_view line, char separator) {
   for (std::size_t at = 0;; at += separator != '\0') {
     while (at < line.size() && line[at] != separator && is_blank(line[at])) ++at;
     if (separator ? at > line.size() : at == line.size()) return names;
-    if (auto quoted = open ? std::nullopt : take_quoted(line, at, separator)) {
+    std::string_view rest = line.substr(at);
+    if (auto quoted = open ? std::nullopt : take_quoted(rest, separator)) {
       names.push_back(std::move(*quoted));
+      at = line.size() - rest.size();
       continue;
     }
     const auto begin = std::exchange(at, std::min(line.find_first_of(between, at), line.size()));

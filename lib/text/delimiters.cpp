@@ -14,6 +14,20 @@ const char* closing_quote(const char* at, const char* end) {
   }
 }
 
+std::optional<std::string> take_quoted(std::string_view& line, char separator) {
+  if (!line.starts_with(quote)) return {};
+  const char *const first = line.data() + 1, *const end = line.data() + line.size(),
+                    *const close = closing_quote(first, end);
+  if (close == end) return {};
+  std::string_view behind(close + 1, end);
+  while (separator && !behind.empty() && behind.front() != separator && is_blank(behind.front()))
+    behind.remove_prefix(1);
+  if (!behind.empty() && (separator ? behind.front() != separator : !is_blank(behind.front())))
+    return {};
+  line = behind;
+  return replace_all(trim({first, close}), {{"\"\"", "\""}});
+}
+
 Unquoted outside_quotes(std::string_view text, std::string_view between, bool field_begins) {
   Unquoted outside;
   const char *at = text.data(), *const end = at + text.size();

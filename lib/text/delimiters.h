@@ -2,6 +2,7 @@
 // The separators of fields, and quoted fields.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,11 @@ inline constexpr char quote = '"';
 /// Finds the quote that closes a field; `at` is behind the opening quote. Returns `end` if there is
 /// none. Two quotes in a row stand for one quote inside the field.
 const char* closing_quote(const char* at, const char* end);
+
+/// Takes a quoted field from the beginning of `line`, and the blanks behind it; with `separator` 0
+/// a blank ends it. Returns its text without blanks around it, with one quote for two; nothing if
+/// there is none, if no quote closes it, or if other text stands behind that quote.
+std::optional<std::string> take_quoted(std::string_view& line, char separator);
 
 /// The part of a text that is outside quoted fields.
 struct Unquoted {

@@ -197,8 +197,13 @@ const char* Dialect::take_text(const char* at, const char* end, Field& field) {
   const char* const first = at;
   while (at != end && is_blank(*at) && *at != separator_) ++at;
   if (at != end && *at == quote) {
-    field.text = trim(take_quoted(at, end));
+    std::string_view rest(at, end);
+    const auto text = take_quoted(rest, separator_);
+    if (!text) fail("field {}: text behind the quotes of '{}'", count_, shown(rest));
+    made_ += *text;
+    field.text = std::string_view(made_).substr(made_.size() - text->size());
     as_it_stands_ = false;
+    at = rest.data();
   } else {
     at += std::min(std::string_view(at, end).find(separator_), static_cast<std::size_t>(end - at));
     field.text = trim({first, at});
@@ -208,23 +213,6 @@ const char* Dialect::take_text(const char* at, const char* end, Field& field) {
   if (allows_foreign() && rewrite(field)) return at;
   if (field.wanted && !parse_number(field.text, field.number)) field.number = Field().number;
   return at;
-}
-
-/// The text of the quoted field at `at`; moves `at` to the end of the field.
-std::string_view Dialect::take_quoted(const char*& at, const char* end) {
-  const char *const first = ++at, *const close = closing_quote(first, end);
-  if (close == end) fail("field {}: a quote that is not closed", count_);
-  at = close + 1;
-  while (at != end && is_blank(*at) && *at != separator_) ++at;
-  if (at != end && *at != separator_)
-    fail("field {}: text behind the quote that closes '{}'", count_, shown({first, close}));
-  if (std::find(first, close, quote) == close) return {first, close};
-  const auto from = made_.size();
-  for (const char* c = first; c != close; ++c) {
-    made_ += *c;
-    c += *c == quote;  // two stand for one
-  }
-  return std::string_view(made_).substr(from);
 }
 
 /// True for `1.000`, which is read as 1 as long as its column says nothing else. Refuses it beside

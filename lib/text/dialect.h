@@ -64,7 +64,6 @@ class Dialect {
   const char* split_with_points(std::string_view text, std::span<const Field>& fields);
   void split_blanks(const char* at, const char* end);
   const char* take_text(const char* at, const char* end, Field&);
-  std::string_view take_quoted(const char*& at, const char* end);
   bool rewrite(Field&);
   bool may_be_grouped(const Field&);
 

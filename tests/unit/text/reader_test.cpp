@@ -95,7 +95,7 @@ TEST_CASE("reader: byte order mark, CR LF, quotes", "[text]") {
   CHECK(copies("t,v,u\n0,0,\"\"\"\"\n") == "<0\t0\t\"\"\"\">");  // quoted where it has to be
   CHECK(copies("u,t,v\n\"#1\",0,5\n\"a\tb\",1,5\n\"a\nb\",2,5\n") ==
         "<\"#1\"\t0\t5><\"a\tb\"\t1\t5><\"a\nb\"\t2\t5>");
-  CHECK(rows({"t,v\n0,\"1\"5\n"}) == "FILE:2: field 2: text behind the quote that closes '1'");
+  CHECK(rows({"t,v\n0,\"1\"5\n"}) == "FILE:2: field 2: text behind the quotes of '\"1\"5'");
 }
 
 TEST_CASE("reader: a decimal comma where ; or tab separates", "[text]") {
