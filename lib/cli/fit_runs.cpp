@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fmt/ranges.h>
 #include <set>
 
 #include "cli/history.h"
@@ -36,13 +37,17 @@ bool change_numbers(const std::vector<LinearFilter>& filters) {
   return std::ranges::any_of(filters, [](const LinearFilter& filter) { return filter.reach > 0; });
 }
 
-/// Leaves out the filters that none of these columns has gone through.
-void keep_filters_of(const std::vector<std::string>& columns, FilterChain& filters) {
-  std::set<std::string> read(columns.begin(), columns.end());
+/// Leaves out the filters that none of these columns has gone through. Returns the raw columns of
+/// which the filters made them.
+std::set<std::string> keep_filters_of(std::set<std::string> columns, FilterChain& filters) {
   FilterChain kept;
   for (auto filter = filters.rbegin(); filter != filters.rend(); ++filter)
-    if (read.contains(filter->to)) read.insert(filter->from), kept.push_back(std::move(*filter));
+    if (columns.erase(filter->to) > 0) {
+      columns.insert(filter->from);
+      kept.push_back(std::move(*filter));
+    }
   filters.assign(kept.rbegin(), kept.rend());
+  return columns;
 }
 
 /// Gives a run the filters that its `##` lines name, as far as they are trusted.
@@ -53,7 +58,15 @@ void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
   if (run.t.empty() && change_numbers(history_of(in.history(), std::array{0.0}).filters))
     history.doubt = "it has no times, without which its `##` lines tell nothing";
   history = give_filters(std::move(history), run, columns_of(route).back());
-  keep_filters_of(columns_of(route), run.filters);
+  const std::vector<std::string> columns = columns_of(route);
+  std::set<std::string> raw = keep_filters_of({columns.begin(), columns.end()}, run.filters);
+  raw.erase("t");
+  if (raw != std::set<std::string>{"x"} && raw != std::set<std::string>{"v"}) {
+    if (change_numbers(run.filters))
+      history.doubt = fmt::format("its filtered columns were made of {}, not of x or v alone",
+                                  fmt::join(raw, " and "));
+    run.filters.clear();
+  }
   if (!history.doubt.empty())
     tool.warn(run.name, history.doubt + ": the fit goes on as if no filter were known");
   if (history.left_out > 0)
@@ -70,8 +83,8 @@ void warn_of_lost_history(Tool& tool, const std::vector<FitRun>& runs) {
       std::ranges::find_if(runs, [](const FitRun& run) { return change_numbers(run.filters); });
   for (const FitRun& run : runs)
     if (first != runs.end() && run.filters.empty())
-      tool.warn(run.name, "no `##` lines tell how it was made, as those of run " + first->name +
-                              " do: it is fitted as if no filter were known");
+      tool.warn(run.name, "its filters are not known, as those of run " + first->name +
+                              " are: the fit goes on as if no filter were known");
 }
 
 /// A number of the body for run i of n.

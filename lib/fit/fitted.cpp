@@ -94,7 +94,7 @@ namespace {
 Fitted fit_power(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   if (options.a && !(*options.a > 0))
     fail("a = {} cannot be fixed: it must be positive", *options.a);
-  std::vector<Response> responses = responses_of(route, runs);
+  std::vector<Response> responses = responses_of(runs);
   const bool known = !responses.empty();
   if (options.fit_slope && route == Route::loglog)
     fail("the slope shows in a roll alone, not in a line through ln D: --route shift");

@@ -34,9 +34,9 @@ inline double acceleration_of(const ShiftOf& by, double D) {
 struct FitRun {
   std::vector<double> t, x, v, D;
   Body body;            ///< the body and its mat: K, R, g and slope (trajectory routes only)
-  FilterChain filters;  ///< the filters that produced these columns, in order; empty if they are
-                        ///< unknown. In the chain, the column D stands for the acceleration from
-                        ///< which shift_of computed D.
+  FilterChain filters;  ///< the filters that made the fitted columns of x alone or of v alone, in
+                        ///< order; empty if they are unknown. In the chain, the column D stands for
+                        ///< the acceleration from which shift_of computed D.
   std::optional<ShiftOf> shift_of = {};
   BodyUncertainty given = {};  ///< the standard uncertainties of `body`; runs that give the same
                                ///< number with the same uncertainty share its error

@@ -63,20 +63,11 @@ double way_of(bool position, const std::vector<double>& t, const std::vector<dou
   return sum(rows.end() - half, rows.end()) < sum(rows.begin(), rows.begin() + half) ? -1 : 1;
 }
 
-std::vector<Response> responses_of(Route route, const std::vector<FitRun>& all) {
+std::vector<Response> responses_of(const std::vector<FitRun>& all) {
   std::vector<Response> responses;
   for (const FitRun& run : all) {
     if (run.filters.empty()) return {};
-    try {
-      responses.push_back(response_of(run.filters, run.t));
-    } catch (const Error&) {  // the chain does not suit the run
-      return {};
-    }
-    const Response& r = responses.back();
-    const bool roll = r.source == "x" || (r.source == "v" && route != Route::position);
-    if (!roll || !r.of.contains(route == Route::position ? "x" : "v") ||
-        (!is_trajectory(route) && !(run.shift_of && r.of.contains("D"))))
-      return {};
+    responses.push_back(response_of(run.filters, run.t));
   }
   return responses;
 }

@@ -63,9 +63,8 @@ struct ObservedRun {
   std::optional<Shifts> shifts = {};
 };
 
-/// The response of each run, if the chain of each run leads from positions or speeds to the columns
-/// that the route reads (for v and D with a known shift_of); otherwise empty.
-std::vector<Response> responses_of(Route, const std::vector<FitRun>&);
+/// The response of each run, if the filters of all runs are known; otherwise empty.
+std::vector<Response> responses_of(const std::vector<FitRun>&);
 
 /// The runs in the form that the model needs, with the chosen rows alone. Throws Error for a run
 /// without a row.

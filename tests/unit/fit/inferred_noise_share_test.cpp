@@ -28,8 +28,8 @@ WhiteShare found_share(double share, simulated::Noise& noise, std::size_t n = 40
   for (double& v : run.v) v += noise(share * of_v);
   run.filters = {simulated::differentiate("x", "v")};
   const std::vector<FitRun> runs{run};
-  const Fitted fit = fit_rolls(Route::velocity, runs, usable(Route::velocity, runs),
-                               responses_of(Route::velocity, runs), {});
+  const Fitted fit =
+      fit_rolls(Route::velocity, runs, usable(Route::velocity, runs), responses_of(runs), {});
   return most_likely_share(fit.model, fit.minimum.theta, 1e-7, 1);
 }
 
@@ -70,8 +70,7 @@ TEST_CASE("white share: of a filter that changes nothing each is as likely as no
   run.filters = {simulated::smooth_v(1)};
   const std::vector<FitRun> runs{run};
   const auto rows = usable(Route::velocity, runs);
-  const Fitted fit =
-      fit_rolls(Route::velocity, runs, rows, responses_of(Route::velocity, runs), {});
+  const Fitted fit = fit_rolls(Route::velocity, runs, rows, responses_of(runs), {});
   REQUIRE(fit.noise->known());
   const auto plain = std::make_shared<const Model>(observe(Route::velocity, read, rows, {}, {}),
                                                    fit.model->parameters());

@@ -287,16 +287,6 @@ TEST_CASE("shift: towards the sensor v and D are negative and the law is the sam
   }
 }
 
-TEST_CASE("shift: columns of which the filters lead nowhere are fitted as they are", "[fit]") {
-  FitRun run{};
-  for (double v : {0.1, 0.2, 0.3, 0.5, 0.8})
-    run.v.push_back(v), run.D.push_back(1.87e-3 * std::pow(v, 0.215));
-  run.t = {4, 3, 2, 1, 0.5};
-  run.filters = {simulated::shift()};  // of accelerations that nothing tells of
-  run.shift_of = ShiftOf{{1, 0.04, 0.5}};
-  CHECK(std::abs(fit(Route::shift, {run}, {}).a / 1.87e-3 - 1) < 1e-12);
-}
-
 TEST_CASE("shift: another unit of length gives the same law, the filters known", "[fit]") {
   const auto fitted = [](double unit) {
     Body body{1.375, 0.04 * unit, 0.5};
