@@ -10,11 +10,10 @@
 #include "base/error.h"
 #include "base/gsl.h"
 #include "base/matrix.h"
-#include "fit/errors.h"
 #include "fit/fitted.h"
-#include "fit/left_out.h"
 #include "fit/levels.h"
 #include "fit/roll_fit.h"
+#include "least_squares/triangles.h"
 #include "statistics/residuals.h"
 
 namespace rolling {
@@ -33,32 +32,33 @@ struct BeginningSearch {
   Beginning found{.run = 0, .rows = 0, .time = 0, .p = levels::beginning};
   std::vector<double> rest = {};  // the residuals of the other rows of its run
 
-  /// `fit` is that of this run by itself.
+  /// `fit` is that of this run by itself, taken as linear around its minimum.
   void add(const Fitted& fit, std::size_t run) {
-    const auto& f = fit.minimum.f;
     const auto& t = fit.model->runs().front().t;
-    const Matrix Q = orthonormal(fit);
-    const std::size_t q = Q.size(), n = f.size();
-    LeftOut others(f, {Q.begin(), Q.end()});
-    const auto residuals = [&](std::size_t from, std::size_t end) {
-      std::vector<double> some;
-      for (std::size_t i = from; i < end; ++i) some.push_back(others.residual(i));
-      return some;
-    };
-    std::size_t out = 0;
-    for (std::size_t k = 3, next = 5; 4 * k <= n; k = std::exchange(next, k + next)) {
-      ++tests;
-      for (; out < k; ++out) {
-        if (!(others.left(out) > 1e-6)) return;  // they alone determine a parameter
-        others.leave_out(out);
+    fit.system.evaluate(fit.minimum.theta,
+                        [&](std::size_t, std::span<double> f, std::span<double> J) {
+      const std::size_t n = f.size(), q = fit.system.columns();
+      for (std::size_t k = 3, next = 5; 4 * k <= n; k = std::exchange(next, k + next)) {
+        ++tests;
+        std::vector<double> f_of(f.begin(), f.end()), J_of(J.begin(), J.end());  // of the others
+        std::fill_n(f_of.begin(), k, 0.0);
+        for (std::size_t j = 0; j < q; ++j) std::fill_n(&J_of[j * n], k, 0.0);
+        Triangles others(1, q, 0);
+        others.add(0, f_of, J_of);
+        if (!(others.smallest_sine() > 1e-6)) return;  // the first alone determine a parameter
+        const std::vector<double> step = others.solve();
+        std::vector<double> e(f.begin(), f.end());  // around the roll of the others
+        for (std::size_t i = 0; i < J.size(); ++i) e[i % n] += J[i] * step[i / n];
+        const std::span<const double> of_others = std::span(e).subspan(k);
+        const double gone = static_cast<double>(k), squares = dot(of_others, of_others),
+                     left = static_cast<double>(n - q - k);
+        if (!(squares > 0)) continue;
+        const double noise = std::max(squares / left, local_variance(std::span(e).first(k + 5))),
+                     p = gsl_cdf_fdist_Q((fit.minimum.rss - squares) / gone / noise, gone, left);
+        if (p < found.p)
+          found = {run, k, t[k] - t[0], p}, rest.assign(of_others.begin(), of_others.end());
       }
-      const double gone = static_cast<double>(k), squares = others.squares(),
-                   left = static_cast<double>(n - q - k);
-      if (!(squares > 0)) continue;
-      const double noise = std::max(squares / left, local_variance(residuals(0, k + 5))),
-                   chance = gsl_cdf_fdist_Q((fit.minimum.rss - squares) / gone / noise, gone, left);
-      if (chance < found.p) found = {run, k, t[k] - t[0], chance}, rest = residuals(k, n);
-    }
+    });
   }
 };
 
