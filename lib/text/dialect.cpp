@@ -94,7 +94,7 @@ bool Dialect::holds_number(std::string_view line) {
     while (!bare.empty() && (bare.front() == quote || bare.front() == '\'')) bare.remove_prefix(1);
     while (!bare.empty() && (bare.back() == quote || bare.back() == '\'')) bare.remove_suffix(1);
     std::string text;
-    return is_number(append_plain(text, bare));
+    return is_number(append_plain(text, bare)) || (is_missing(bare) && !bare.empty());
   });
 }
 

@@ -23,9 +23,9 @@ class Dialect {
  public:
   /// Chooses the separator from a line: the first of the separators that the line contains outside
   /// quotes, else blanks; also if blanks and tabs both separate numbers, unless `tabs` says that
-  /// tabs separate the names. True if the line contains a number.
+  /// tabs separate the names. True if the line contains a number or NaN.
   bool choose(std::string_view line, bool tabs = false);
-  /// True if a line, split by the chosen separator, contains a number.
+  /// True if a line, split by the chosen separator, contains a number or NaN.
   bool holds_number(std::string_view line);
   /// From now on the number of this field (counted from 0) is read, until the next choose() or
   /// want_none().

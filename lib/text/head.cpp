@@ -48,12 +48,6 @@ void refuse_two_readings(const std::string& line) {
         shown(line));
 }
 
-/// True if the comment has names for these columns, one of them known.
-bool holds_names(const Comment& comment, const UnnamedColumns& columns) {
-  return !comment.is_bare() && !comment.is_history() &&
-         names_in_comment(comment.text, columns).known > 0;
-}
-
 /// The comments and other lines in front of the first row.
 class HeadReader {
  public:
@@ -77,9 +71,8 @@ class HeadReader {
         take_names({width, blank_field,
                     before_ ? before_->layout.runs.front().columns : std::vector<Column>()},
                    units);
-    if (names.empty() && before_) head_.said = before_->said;
-    for (const Comment& comment : above_) note_units(comment.text, comment.line, head_.said);
     if (names.empty() && before_) {
+      head_.said = before_->said;
       head_.named = before_->named;
       head_.blank_end = before_->blank_end;
       head_.layout = before_->layout;
@@ -102,8 +95,11 @@ class HeadReader {
     head_.layout = Layout::of(columns, sides);
     const bool side_by_side = head_.layout.side_by_side();
     if (head_.named && (side_by_side ? width > names.size() : width != names.size()))
-      fail("{} under a line of {}{}", counted(width, "field"), counted(names.size(), "name"),
-           way_out(width, names.size()));
+      fail(
+          "{} under a line of {}: begin that with # if it is no header, put quotes around names "
+          "that "
+          "hold a separator, and make decimal commas points",
+          counted(width, "field"), counted(names.size(), "name"));
     return finish();
   }
 
@@ -131,24 +127,6 @@ class HeadReader {
     return found == above_.rend() ? nullptr : &*found;
   }
 
-  /// True for a first row with missing readings: a field is NaN, which is no name of a column; or
-  /// all are blank, dates or times below known names; or one is blank below those of a comment.
-  bool is_missing_row(std::string_view line) {
-    const auto fields = dialect_.split(line);
-    const auto any = [&](auto&& is) { return std::ranges::any_of(fields, is); };
-    if (any([](const Field& f) { return is_missing(f.text) && !f.text.empty(); })) return true;
-    const Comment* const above = last_bare();
-    if (!above && !before_)
-      return any([](const Field& f) { return f.text.empty(); }) && !holds_known_name(line) &&
-             std::ranges::any_of(above_, [&](const Comment& comment) {
-               return holds_names(comment, {fields.size()});
-             });
-    if (any([](const Field& f) { return !f.text.empty() && !is_date(f.text); })) return false;
-    if (before_) return fields.size() == before_->layout.width;
-    return holds_known_name(above->text) &&
-           names_in(above->text, dialect_.separator()).size() == fields.size();
-  }
-
   /// Goes to the first row; false if there is none.
   bool find_row() {
     while (lines_.next()) {
@@ -166,9 +144,8 @@ class HeadReader {
           keep(line.substr(line.find('#')));
           break;
         case LineKind::row:
-          if ((before_ ? dialect_.holds_number(line)
-                       : dialect_.choose(line, tabs_.contains(std::ranges::count(line, '\t')))) ||
-              is_missing_row(line))
+          if (before_ ? dialect_.holds_number(line)
+                      : dialect_.choose(line, tabs_.contains(std::ranges::count(line, '\t'))))
             return true;
           if (before_) refuse_other_separator(line);
           keep(line);
@@ -183,36 +160,39 @@ class HeadReader {
                           : names_in_comment(line.text, columns).names;
   }
 
-  /// The place of the header: the last line that is no comment, but for one of units; or a comment
-  /// where there is none, or where none of them has a known name and a comment below has some.
-  std::optional<std::size_t> find_header(const UnnamedColumns& columns) const {
+  /// The header: the last line that is no comment, but for one of units; or a comment where there
+  /// is none, or where none has a known name and a comment below has some. Null without one.
+  const Comment* find_header(const UnnamedColumns& columns) const {
     std::vector<std::size_t> bare;
     for (std::size_t i = 0; i < above_.size(); ++i)
       if (above_[i].is_bare()) bare.push_back(i);
     if (bare.size() > 1 && are_units_of(names_of(above_[bare.end()[-2]], columns),
                                         names_of(above_[bare.back()], columns)))
       bare.pop_back();
+    const Comment* const last = bare.empty() ? nullptr : &above_[bare.back()];
+    const auto names_columns = [&](const Comment& line) {
+      return !line.is_bare() && !line.is_history() &&
+             names_in_comment(line.text, columns).known > 0;
+    };
     const auto has_name = [](const Comment& line) {
       return line.is_bare() && holds_known_name(line.text);
     };
-    const auto names_columns = [&](const Comment& line) { return holds_names(line, columns); };
-    if (bare.empty() || (std::ranges::none_of(above_, has_name) &&
-                         std::any_of(above_.begin() + static_cast<std::ptrdiff_t>(bare.back()),
-                                     above_.end(), names_columns)))
-      return choose_names(above_, columns, !before_, lines_.name());
-    return bare.back();
+    if (last && (std::ranges::any_of(above_, has_name) ||
+                 std::none_of(last, above_.data() + above_.size(), names_columns)))
+      return last;
+    return choose_names(above_, columns, !before_, lines_.name());
   }
 
   /// The names of the columns, empty if there are none here, and the units in a line below them.
   std::vector<std::string> take_names(const UnnamedColumns& columns,
                                       std::vector<std::string>& units) {
-    const auto place = find_header(columns);
-    if (!place) return {};
-    const Comment header = above_[*place];
+    const Comment* const found = find_header(columns);
+    if (!found) return {};
+    const Comment header = *found;
     if (header.text.starts_with("# ") && header.text.find('\t') != std::string::npos)
       dialect_.has_points();
     head_.line = header.line;
-    note_sorted_history(*place);
+    note_sorted_history();
     auto names = names_of(header, columns);
     std::erase_if(above_, [&](const Comment& line) {
       if (line.line <= header.line) return line.line == header.line;
@@ -221,19 +201,17 @@ class HeadReader {
       if (has_units) units = std::move(below);
       return has_units;
     });
-    if (names.size() == columns.count + 1 && names.back().empty()) names.pop_back();
-    else if (names.size() + 1 == columns.count && columns.blank_end) names.emplace_back();
+    fit_end(names, columns);
     return names;
   }
 
   /// Notes that several `##` lines were sorted, if one stands below the comment with the names: the
   /// tools write the names last, and what sorts rows by a column puts `# t` before `##`.
-  void note_sorted_history(std::size_t names) {
-    const auto count = [&](std::size_t from) {
-      return std::count_if(above_.begin() + static_cast<std::ptrdiff_t>(from), above_.end(),
-                           std::mem_fn(&Comment::is_history));
-    };
-    if (count(names) > 0 && count(0) > 1)
+  void note_sorted_history() {
+    std::size_t all = 0, below = 0;
+    for (const Comment& line : above_)
+      if (line.is_history()) ++all, below += line.line > head_.line;
+    if (below > 0 && all > 1)
       above_.push_back({fmt::format("## {}", lines_sorted), above_.back().line});
   }
 
@@ -249,20 +227,13 @@ class HeadReader {
   /// The lines that are neither names nor units are comments.
   Head finish() {
     for (Comment& line : above_) {
+      note_units(line.text, line.line, head_.said);
       if (line.is_history())
         head_.history.emplace_back(trim(std::string_view(line.text).substr(2)));
       std::ranges::replace(line.text, '\n', ' ');
       head_.comments.push_back((line.is_bare() ? "# " : "") + std::move(line.text));
     }
     return std::move(head_);
-  }
-
-  /// What to do about a row of another number of fields than there are names.
-  std::string way_out(std::size_t width, std::size_t names) const {
-    if (before_) return fmt::format("; if line {} is a heading, begin it with #", head_.line);
-    if (names > width)
-      return dialect_.separator() == '\0' ? "; if a name has blanks in it, put it in quotes" : "";
-    return way_out_of_commas(dialect_.separator());
   }
 
   Lines& lines_;

@@ -23,9 +23,9 @@ std::string_view without_end(std::string_view text) {
 /// The names of as many columns between these separators, 0 for blanks; none if there are not as
 /// many, or if words between blanks end as in a sentence.
 CommentedNames names_between(char separator, std::string_view text, const UnnamedColumns& columns) {
-  CommentedNames found{split_names(text, separator), separator};
+  CommentedNames found{split_names(text, separator), {}, separator};
   auto& names = found.names;
-  while (names.size() > columns.count && names.back().empty()) names.pop_back();
+  fit_end(names, columns);
   while (names.size() > columns.count && names.front().empty()) names.erase(names.begin());
   const bool words = separator == '\0';
   const auto ends_a_phrase = [](const std::string& word) {
@@ -34,10 +34,10 @@ CommentedNames names_between(char separator, std::string_view text, const Unname
   if (names.size() != columns.count || (words && std::ranges::any_of(names, ends_a_phrase)))
     return {};
   for (const std::string& name : names) {
-    if (words && names.size() > 1 && name == "a") continue;  // the article, perhaps
-    const Column column = read_column(name);
-    found.known +=
-        is_known(column) || std::ranges::count(columns.before, column.name, &Column::name);
+    const Column& column = found.columns.emplace_back(read_column(name));
+    const bool article = words && names.size() > 1 && name == "a";  // perhaps
+    found.known += !article && (is_known(column) ||
+                                std::ranges::count(columns.before, column.name, &Column::name) > 0);
   }
   return found;
 }
@@ -65,23 +65,22 @@ bool looks_like_names(std::string_view comment) {
 }
 
 /// True if each known quantity is in the same place in both, as far as both go.
-bool agree(const std::vector<std::string>& names, const std::vector<Column>& columns) {
-  for (std::size_t i = 0; i < std::min(names.size(), columns.size()); ++i) {
-    const Column read = read_column(names[i]);
-    if (read.name != columns[i].name && (is_known(read) || is_known(columns[i]))) return false;
-  }
+bool agree(const std::vector<Column>& one, const std::vector<Column>& other) {
+  for (std::size_t i = 0; i < std::min(one.size(), other.size()); ++i)
+    if (one[i].name != other[i].name && (is_known(one[i]) || is_known(other[i]))) return false;
   return true;
+}
+
+/// A date or a time of day, in digits: `24/11/2026`, `10:15:00.5`, `2026-11-24T10:15:00Z`.
+bool is_date(std::string_view text) {
+  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) &&
+         text.find_first_not_of("0123456789+-.:/ TZ") == std::string_view::npos;
 }
 
 }  // namespace
 
 std::string_view without_marks(std::string_view comment) {
   return comment.substr(std::min(comment.find_first_not_of('#'), comment.size()));
-}
-
-bool is_date(std::string_view text) {
-  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) &&
-         text.find_first_not_of("0123456789+-.:/ TZ") == std::string_view::npos;
 }
 
 bool holds_known_name(std::string_view line) {
@@ -96,27 +95,25 @@ bool holds_known_name(std::string_view line) {
   return false;
 }
 
-CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns& columns) {
-  const std::string_view text = without_marks(comment);
-  CommentedNames with_blanks;  // names of which some are blank and none is known
-  for (const char separator : std::string(separators) + '\0')
-    for (const std::string_view part : {without_end(text), text}) {
-      auto found = names_between(separator, part, columns);
-      if (found.names.empty()) continue;
-      if (found.known > 0 || std::ranges::count(found.names, "") == 0) return found;
-      if (with_blanks.names.empty()) with_blanks = std::move(found);
-    }
-  if (!with_blanks.names.empty() || !columns.blank_end) return with_blanks;
-  CommentedNames found = names_in_comment(comment, {columns.count - 1, false, columns.before});
-  if (found.known == 0) return {};
-  found.names.emplace_back();
-  return found;
+void fit_end(std::vector<std::string>& names, const UnnamedColumns& columns) {
+  while (names.size() > columns.count && names.back().empty()) names.pop_back();
+  if (columns.blank_end && names.size() + 1 == columns.count) names.emplace_back();
 }
 
-std::optional<std::size_t> choose_names(const std::vector<Comment>& comments,
-                                        const UnnamedColumns& columns, bool first,
-                                        std::string_view file) {
-  std::optional<std::size_t> chosen;
+CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns& columns) {
+  const std::string_view text = without_marks(comment);
+  CommentedNames best;
+  for (const std::string_view part : {without_end(text), text})
+    for (const char separator : std::string(separators) + '\0')
+      if (auto found = names_between(separator, part, columns);
+          best.names.empty() || found.known > best.known)
+        best = std::move(found);
+  return best;
+}
+
+const Comment* choose_names(std::span<const Comment> comments, const UnnamedColumns& columns,
+                            bool first, std::string_view file) {
+  const Comment* chosen = nullptr;
   CommentedNames names;  // in it
   const auto is_figure = [](const std::string& s) { return is_number(s) || is_date(s); };
   for (std::size_t i = comments.size(); i-- > 0 && names.known == 0;) {
@@ -124,35 +121,28 @@ std::optional<std::size_t> choose_names(const std::vector<Comment>& comments,
     CommentedNames found = names_in_comment(comments[i].text, columns);
     if (found.known > 0 ||
         (first && !chosen && !found.names.empty() && std::ranges::none_of(found.names, is_figure)))
-      chosen = i, names = std::move(found);
+      chosen = &comments[i], names = std::move(found);
   }
   if (names.known > 0 &&
       (names.separator == '\t' || names.known + columns.blank_end >= columns.count))
     return chosen;
-  std::vector<Column> read;
-  for (const std::string& name : names.names) read.push_back(read_column(name));
-  for (std::size_t i = 0; i < comments.size(); ++i) {
-    if (i == chosen || comments[i].is_bare()) continue;
-    const CommentedNames other = names_in_comment(comments[i].text, columns);
-    const bool may_be_meant =
-        looks_like_names(comments[i].text) ||
-        (other.known > comments[i].is_history() && other.known >= names.known);
-    if (may_be_meant && (!chosen || other.names.empty() || !agree(other.names, read)))
-      fail<InputError>(
-          "{}:{}: '{}' may be the names of the columns, {}", file, comments[i].line,
-          shown(comments[i].text),
-          comments[i].is_history() ? "but it begins with ##, as history does; leave one # there"
-          : chosen
-              ? fmt::format("and so may line {}: give one of them another number of words",
-                            comments[*chosen].line)
-              : fmt::format("but has not one for each of {}", counted(columns.count, "column")));
+  const auto refuse = [&](const Comment& comment) {
+    fail<InputError>(
+        "{}:{}: '{}' may be the names of the columns, or a sentence: put tabs between names, one "
+        "for each of {}, behind one #; or give the sentence another number of words",
+        file, comment.line, shown(comment.text), counted(columns.count, "column"));
+  };
+  for (const Comment& comment : comments) {
+    if (&comment == chosen || comment.is_bare()) continue;
+    const CommentedNames other = names_in_comment(comment.text, columns);
+    const bool may_be_meant = looks_like_names(comment.text) ||
+                              (other.known > comment.is_history() && other.known >= names.known);
+    if (may_be_meant && (!chosen || other.names.empty() || !agree(other.columns, names.columns)))
+      refuse(comment);
   }
   const bool article = names.known == 0 && std::ranges::count(names.names, "a") > 0;
-  if (chosen && names.separator == '\0' && (article || !agree(names.names, columns.before)))
-    fail<InputError>(
-        "{}:{}: '{}' can be names of the columns or a sentence: put tabs between names, or give "
-        "the sentence another number of words",
-        file, comments[*chosen].line, shown(comments[*chosen].text));
+  if (chosen && names.separator == '\0' && (article || !agree(names.columns, columns.before)))
+    refuse(*chosen);
   return chosen;
 }
 

@@ -3,7 +3,7 @@
 // units that may stand in a line below them.
 #pragma once
 
-#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,28 +32,29 @@ struct UnnamedColumns {
   std::vector<Column> before = {};  ///< those of the run before
 };
 
+/// Leaves out blank names at the end that are too many, and gives one to a blank column there.
+void fit_end(std::vector<std::string>& names, const UnnamedColumns&);
+
 /// A comment that is read as the names of columns.
 struct CommentedNames {
   std::vector<std::string> names = {};  ///< empty if the comment has another number of words
+  std::vector<Column> columns = {};     ///< as these names tell them
   char separator = '\0';                ///< of the names; 0 for blanks, as in a sentence
   std::size_t known = 0;  ///< number that are t, x, v, a, D or names of the run before
 };
-/// The names are separated by the first of tabs, ; , and blanks that gives one for each column,
-/// none of them blank unless one is known; else by the first that gives some blank ones.
+/// The names are separated by that of tabs, ; , and blanks which gives one for each column and the
+/// most known ones; of several, by the first.
 CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns&);
-
-/// A date or a time of day, in digits: `24/11/2026`, `10:15:00.5`, `2026-11-24T10:15:00Z`.
-bool is_date(std::string_view text);
 
 /// True if t, x, v, a or D is a word of the line, by its short name or its long one.
 bool holds_known_name(std::string_view line);
 
-/// The place of the last comment that has one name for each column, one of them known; in the first
-/// head of a file (`first`), else of the last without known names. Nothing if there is none. Throws
-/// InputError, unless tabs separate the names or all are known, if another comment may be meant, or
-/// if words between blanks would move known columns of the run before.
-std::optional<std::size_t> choose_names(const std::vector<Comment>&, const UnnamedColumns&,
-                                        bool first, std::string_view file);
+/// The last comment that has one name for each column, one of them known; in the first head of a
+/// file (`first`), else the last without known names. Null if there is none. Throws InputError,
+/// unless tabs separate the names or all are known, if another comment may be meant, or if words
+/// between blanks would move known columns of the run before.
+const Comment* choose_names(std::span<const Comment>, const UnnamedColumns&, bool first,
+                            std::string_view file);
 
 /// Whether the fields of the line above the rows are the units of the names in the line above
 /// it, which has as many: none of them is a known name, and two are known units, or one under names

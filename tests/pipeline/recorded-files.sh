@@ -63,7 +63,7 @@ expect 3752 differentiate -c x "$data/ball-on-curved-track/P1100902-data.csv"
 # Tracker with decimal commas between commas has two readings; by its six decimals it has one, the
 # authors' own.
 pucks=$data/air-table-pucks/ResultatKollisjon1.txt
-refuse "10 fields under a line of 6 names; if some of its commas are decimal ones, make them points first" smooth "$pucks"
+refuse "10 fields under a line of 6 names: begin that with # if it is no header, put quotes around names that hold a separator, and make decimal commas points" smooth "$pucks"
 [ "$(sed -E 's/([0-9]),([0-9]{6}E)/\1.\2/g; s/−/-/g' "$pucks" | smooth -q -w 1 --use t=1 --use v=2 |
   awk '!/^#/ { print $1 + 0, $2 + 0, $3 + 0 }' | md5sum)" = \
   "$(awk -F ';' '{ print $1 + 0, $2 + 0, $3 + 0 }' "${pucks%.txt}.csv" | md5sum)" ] ||

@@ -23,11 +23,19 @@ std::string chosen(const std::vector<std::string>& texts, const UnnamedColumns& 
   for (const std::string& text : texts) comments.push_back({text, comments.size() + 1});
   std::string all;
   const std::string message = refusal([&] {
-    if (const auto found = choose_names(comments, columns, first, "f"))
-      all = fmt::format("{} {}", *found + 1,
-                        in_brackets(names_in_comment(texts[*found], columns).names));
+    if (const Comment* const found = choose_names(comments, columns, first, "f"))
+      all = fmt::format("{} {}", found->line,
+                        in_brackets(names_in_comment(found->text, columns).names));
   });
   return message.empty() ? all : message;
+}
+
+/// What refuses a comment on this line.
+std::string refused(int line, const std::string& comment, std::size_t columns) {
+  return fmt::format(
+      "f:{}: '{}' may be the names of the columns, or a sentence: put tabs between names, one for "
+      "each of {} columns, behind one #; or give the sentence another number of words",
+      line, comment, columns);
 }
 
 }  // namespace
@@ -59,7 +67,7 @@ TEST_CASE("commented names: the names in a comment, and what speaks for them", "
   CHECK(names("# a b", 3).empty());
   CHECK(names("## t v", 2) == "2 <t><v>");
   CHECK(names("# t v", 3, true) == "2 <t><v><>");
-  CHECK(names("# p q", 3, true).empty());
+  CHECK(names("# p q", 3, true) == "<p><q><>");
 }
 
 TEST_CASE("commented names: the last comment with known names, else the last with words",
@@ -82,9 +90,7 @@ TEST_CASE(
     "commented names: behind a run, words that would move its known columns may be a sentence",
     "[text]") {
   const std::vector<Column> before{{"t"}, {"v"}, {"w"}};
-  CHECK(chosen({"# t has v"}, {3, false, before}, false) ==
-        "f:1: '# t has v' can be names of the columns or a sentence: put tabs between names, or "
-        "give the sentence another number of words");
+  CHECK(chosen({"# t has v"}, {3, false, before}, false) == refused(1, "# t has v", 3));
   CHECK(chosen({"# was pushed to"}, {3, false, before}, false).empty());
   CHECK(chosen({"# t v n"}, {3, false, before}, false) == "1 <t><v><n>");
   CHECK(chosen({"# t, n, v"}, {3, false, before}, false) == "1 <t><n><v>");
@@ -93,31 +99,19 @@ TEST_CASE(
 
 TEST_CASE("commented names: a comment with more known names than the chosen one is no remark",
           "[text]") {
-  CHECK(chosen({"# t x v", "# v before t"}, {3}) ==
-        "f:1: '# t x v' may be the names of the columns, and so may line 2: give one of them "
-        "another number of words");
-  CHECK(chosen({"# n t v", "# v or t"}, {3}) ==
-        "f:1: '# n t v' may be the names of the columns, and so may line 2: give one of them "
-        "another number of words");
-  CHECK(chosen({"# trial D", "# t angle"}, {2}) ==
-        "f:1: '# trial D' may be the names of the columns, and so may line 2: give one of them "
-        "another number of words");
+  CHECK(chosen({"# t x v", "# v before t"}, {3}) == refused(1, "# t x v", 3));
+  CHECK(chosen({"# n t v", "# v or t"}, {3}) == refused(1, "# n t v", 3));
+  CHECK(chosen({"# trial D", "# t angle"}, {2}) == refused(1, "# trial D", 2));
   CHECK(chosen({"# trial D", "# t\tangle"}, {2}) == "2 <t><angle>");
 }
 
 TEST_CASE("commented names: names of columns in a history line are refused", "[text]") {
-  const auto refused = [](const std::string& line) {
-    return fmt::format(
-        "'{}' may be the names of the columns, but it begins with ##, as history does; leave one # "
-        "there",
-        line);
-  };
   for (const char* line :
        {"## t[s] x[cm]", "##Time (s),Position (cm)", "## t x v", "###w;x;v;", "## x,v"})
-    CHECK(chosen({"# made by me", line}, {3}) == "f:2: " + refused(line));
+    CHECK(chosen({"# made by me", line}, {3}) == refused(2, line, 3));
   CHECK(chosen({"## t[ms] n v[m/s] x", "# v Time Monday test"}, {4}) ==
-        "f:1: " + refused("## t[ms] n v[m/s] x"));
-  CHECK(chosen({"## t x v"}, {5}) == "f:1: " + refused("## t x v"));
+        refused(1, "## t[ms] n v[m/s] x", 4));
+  CHECK(chosen({"## t x v"}, {5}) == refused(1, "## t x v", 5));
   CHECK(chosen({"## smooth v coast", "## smooth v mean width 3"}, {3}).empty());
   CHECK(chosen({"## t x v", "# v x t"}, {3}) == "2 <v><x><t>");
   CHECK(chosen({"## t x v", "# t x v"}, {3}) == "2 <t><x><v>");
@@ -128,26 +122,17 @@ TEST_CASE("commented names: nothing but known quantities, but not one for each c
   for (const std::string text : {"#v[mm/s]", "# t x v", "# t[s]\tx", "# Time (s), v, a"})
     for (const std::size_t columns : {4U, 5U})
       for (const bool first : {true, false})
-        CHECK(
-            chosen({text}, {columns}, first) ==
-            fmt::format(
-                "f:1: '{}' may be the names of the columns, but has not one for each of {} columns",
-                shown(text), columns));
+        CHECK(chosen({text}, {columns}, first) == refused(1, shown(text), columns));
   CHECK(chosen({"#v[mm/s]", "# t x"}, {2}) == "2 <t><x>");
-  CHECK(chosen({"# a;v;t", "# cart v t run"}, {4}) ==
-        "f:1: '# a;v;t' may be the names of the columns, and so may line 2: give one of them "
-        "another number of words");
+  CHECK(chosen({"# a;v;t", "# cart v t run"}, {4}) == refused(1, "# a;v;t", 4));
   CHECK(chosen({"# v t", "# n\ta\tv\tt"}, {4}) == "2 <n><a><v><t>");
   CHECK(chosen({"# v", "# the v", "# v, fast", "#", "# 5"}, {3}).empty());
 }
 
 TEST_CASE("commented names: a comment with units and names of other columns is refused", "[text]") {
-  CHECK(
-      chosen({"# t [ms]: time, x [cm]"}, {3}) ==
-      "f:1: '# t [ms]: time, x [cm]' may be the names of the columns, but has not one for each of "
-      "3 columns");
+  CHECK(chosen({"# t [ms]: time, x [cm]"}, {3}) == refused(1, "# t [ms]: time, x [cm]", 3));
   for (const char* comment : {"# Time (s); Position (m)", "#,t[s],w,x[m]", "# w[N]\tt[s]; x[m]"})
-    CHECK(chosen({comment}, {5}).ends_with("but has not one for each of 5 columns"));
+    CHECK(chosen({comment}, {5}) == refused(1, shown(comment), 5));
   for (const char* comment : {"# t[s] alone now", "# w[ms] n[cm]", "# t in s, v in m/s", "##"})
     CHECK(chosen({comment}, {4}, false).empty());
 }

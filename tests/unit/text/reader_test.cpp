@@ -50,9 +50,11 @@ TEST_CASE("reader: names in a first line that is not numeric", "[text]") {
   CHECK(rows({"# a comment\n\nv t\n\n5 0\n"}) == "0 5");
   CHECK(rows({"A preamble of words\nv t\n5 0\n"}) == "0 5");
   CHECK(rows({"t v a\n0 5\n"}) ==
-        "FILE:2: 2 fields under a line of 3 names; if a name has blanks in it, put it in quotes");
+        "FILE:2: 2 fields under a line of 3 names: begin that with # if it is no header, put "
+        "quotes around names that hold a separator, and make decimal commas points");
   CHECK(rows({"t v\n0\n"}) ==
-        "FILE:2: 1 field under a line of 2 names; if a name has blanks in it, put it in quotes");
+        "FILE:2: 1 field under a line of 2 names: begin that with # if it is no header, put quotes "
+        "around names that hold a separator, and make decimal commas points");
   CHECK(rows({"t v\r\n0 5\r\n\x1A"}) == "0 5");
   CHECK(rows({"# t\tv\n0\t5\n\n# t v\n0 7\n"}) ==
         "FILE:5: '0 7' is not separated as the rows before; if it is a heading, begin it with #");
@@ -72,7 +74,8 @@ TEST_CASE("reader: names in a first line that is not numeric", "[text]") {
   CHECK(rows({"t v\n0 5\n\n\"1\" \"6\"\n"}) ==
         "FILE:4: field 1 (t): '\"1\"' is not a number" + signs);
   CHECK(rows({"t,v\n0,5\n\nSecond\n0,5\n"}) ==
-        "FILE:5: 2 fields under a line of 1 name; if line 4 is a heading, begin it with #");
+        "FILE:5: 2 fields under a line of 1 name: begin that with # if it is no header, put quotes "
+        "around names that hold a separator, and make decimal commas points");
   CHECK(rows({"\"Velocity (m/s)\",\"Time (s)\"\n5,0\n"}) == "0 5");
 }
 
@@ -310,10 +313,10 @@ TEST_CASE("reader: the names are the last comment with as many fields as the row
   CHECK(rows({"# t[ms], v[km/h]\n0 36\n"}) == "0 10");
   CHECK(rows({"# t[s] v[cm s^-1]\n0 100\n"}) == "0 1");
   CHECK(rows({"# t[ms] v[km/h] n\n# made on Tuesday\n0 36 1\n"}) == "0 10");
-  CHECK(
-      rows({"# t[ms] v[km/h] x[m]\n0 36\n"}) ==
-      "FILE:1: '# t[ms] v[km/h] x[m]' may be the names of the columns, but has not one for each of "
-      "2 columns");
+  CHECK(rows({"# t[ms] v[km/h] x[m]\n0 36\n"}) ==
+        "FILE:1: '# t[ms] v[km/h] x[m]' may be the names of the columns, or a sentence: put tabs "
+        "between names, one for each of 2 columns, behind one #; or give the sentence another "
+        "number of words");
   CHECK(told("# Speed (km/h) from GPS\n0 36\n") ==
         "t is column 1, taken in s; v is column 2, taken in m/s although line 1 says km/h");
   CHECK(rows({"# t[s] v[m/s]\n0 1\n# t[ms] v[km/h]\n1000 36\n"}) ==
@@ -380,8 +383,8 @@ TEST_CASE("reader: a separator that ends every line is an empty last column", "[
   CHECK(rows({"t,v,\n0,1\n1,2,\n"}) == "0 1 | 1 2");
   CHECK(rows({"t,v\n0,1,\n1,2\n"}) == "0 1 | 1 2");
   CHECK(rows({"t,v\n0,1,7\n"}) ==
-        "FILE:2: 3 fields under a line of 2 names; if some of its commas are decimal ones, make "
-        "them points first");
+        "FILE:2: 3 fields under a line of 2 names: begin that with # if it is no header, put "
+        "quotes around names that hold a separator, and make decimal commas points");
 }
 
 TEST_CASE("reader: a quoted field may hold separators and line ends", "[text]") {
