@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fmt/ranges.h>
 #include <set>
 
 #include "cli/history.h"
@@ -33,23 +32,6 @@ void add_others(Reader& in, std::vector<Slot>& slots) {
       slots.push_back({*name == 't' ? in.need_time() : in.want(name), column_of(name)});
 }
 
-bool change_numbers(const std::vector<LinearFilter>& filters) {
-  return std::ranges::any_of(filters, [](const LinearFilter& filter) { return filter.reach > 0; });
-}
-
-/// Leaves out the filters that none of these columns has gone through. Returns the raw columns of
-/// which the filters made them.
-std::set<std::string> keep_filters_of(std::set<std::string> columns, FilterChain& filters) {
-  FilterChain kept;
-  for (auto filter = filters.rbegin(); filter != filters.rend(); ++filter)
-    if (columns.erase(filter->to) > 0) {
-      columns.insert(filter->from);
-      kept.push_back(std::move(*filter));
-    }
-  filters.assign(kept.rbegin(), kept.rend());
-  return columns;
-}
-
 /// Gives a run the filters that its `##` lines name, as far as they are trusted.
 void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
   History history = history_of(in.history(), run.t);
@@ -57,16 +39,7 @@ void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
     history = {.doubt = "--use takes other columns than its `##` lines speak of"};
   if (run.t.empty() && change_numbers(history_of(in.history(), std::array{0.0}).filters))
     history.doubt = "it has no times, without which its `##` lines tell nothing";
-  history = give_filters(std::move(history), run, columns_of(route).back());
-  const std::vector<std::string> columns = columns_of(route);
-  std::set<std::string> raw = keep_filters_of({columns.begin(), columns.end()}, run.filters);
-  raw.erase("t");
-  if (raw != std::set<std::string>{"x"} && raw != std::set<std::string>{"v"}) {
-    if (change_numbers(run.filters))
-      history.doubt = fmt::format("its filtered columns were made of {}, not of x or v alone",
-                                  fmt::join(raw, " and "));
-    run.filters.clear();
-  }
+  history = give_filters(std::move(history), run, columns_of(route));
   if (!history.doubt.empty())
     tool.warn(run.name, history.doubt + ": the fit goes on as if no filter were known");
   if (history.left_out > 0)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/ranges.h>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -157,6 +158,21 @@ class ChainBuilder {
   bool known_;  ///< the filters depend on the times
 };
 
+/// Leaves out the filters that none of these columns has gone through. Returns the raw columns of
+/// which the filters made them.
+std::set<std::string> keep_filters_of(const std::vector<std::string>& fitted,
+                                      FilterChain& filters) {
+  std::set<std::string> columns(fitted.begin(), fitted.end());
+  FilterChain kept;
+  for (auto filter = filters.rbegin(); filter != filters.rend(); ++filter)
+    if (columns.erase(filter->to) > 0) {
+      columns.insert(filter->from);
+      kept.push_back(std::move(*filter));
+    }
+  filters.assign(kept.rbegin(), kept.rend());
+  return columns;
+}
+
 }  // namespace
 
 Column derivative_of(const Column& column) {
@@ -197,6 +213,10 @@ std::string other_body(const std::optional<ShiftOf>& shift_of, const Body& body,
   return others;
 }
 
+bool change_numbers(const FilterChain& filters) {
+  return std::ranges::any_of(filters, [](const LinearFilter& filter) { return filter.reach > 0; });
+}
+
 bool shifts_of_speeds(const std::vector<std::string>& lines) {
   constexpr std::string_view smoothed = "smooth v ";
   const bool sorted = std::ranges::count(lines, lines_sorted) > 0;  // `smooth v` may be the first
@@ -213,7 +233,7 @@ bool shifts_of_speeds(const std::vector<std::string>& lines) {
 
 // How many rows were removed is not known, nor at which times, and thus not the windows at the
 // former end. Further inside, they are those of the times of the run.
-History give_filters(History history, FitRun& run, const std::string& column) {
+History give_filters(History history, FitRun& run, const std::vector<std::string>& columns) {
   run.shift_of = history.shift_of;
   const Mismatch found = mismatch(history.filters, run);
   history.cut_begin |= found.begin;
@@ -221,18 +241,28 @@ History give_filters(History history, FitRun& run, const std::string& column) {
   std::map<std::string, std::size_t> windows;  // the rows on either side that a column has read
   for (const LinearFilter& filter : history.filters)
     windows[filter.to] = windows[filter.from] + filter.reach;
-  history.left_out = windows[column] * (std::size_t{history.cut_begin} + history.cut_end);
+  std::size_t widest = 0;
+  for (const std::string& column : columns) widest = std::max(widest, windows[column]);
+  history.left_out = widest * (std::size_t{history.cut_begin} + history.cut_end);
   if (found.inside) history = {.doubt = "the columns are not what the `##` lines say"};
   else if (history.left_out > 0 && run.t.size() < history.left_out + 10)
     history = {.shift_of = history.shift_of,
                .doubt =
                    "it was cut after the filters that its `##` lines name, and fewer than 10 rows "
                    "are far enough from the cut"};
+  std::set<std::string> raw = keep_filters_of(columns, history.filters);
+  raw.erase("t");
+  if (raw != std::set<std::string>{"x"} && raw != std::set<std::string>{"v"}) {
+    const bool filtered = change_numbers(history.filters);
+    history.filters.clear();
+    if (filtered)
+      history = {.shift_of = history.shift_of,
+                 .doubt = fmt::format("its filtered columns were made of {}, not of x or v alone",
+                                      fmt::join(raw, " and "))};
+  }
   run.filters = history.filters;
   run.shift_of = history.shift_of;
-  const std::pair<const char*, std::vector<double>*> columns[] = {
-      {"x", &run.x}, {"v", &run.v}, {"D", &run.D}};
-  for (const auto& [name, readings] : columns) {
+  for (const auto& [name, readings] : {std::pair("x", &run.x), {"v", &run.v}, {"D", &run.D}}) {
     if (readings->empty()) continue;
     const std::size_t n = std::min(windows[name], readings->size());
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();

@@ -42,12 +42,17 @@ std::string other_body(const std::optional<ShiftOf>&, const Body&, const BodyUnc
 /// True if, by the lines, D was computed from the derivative of the speeds in the file.
 bool shifts_of_speeds(const std::vector<std::string>& lines);
 
-/// Gives the run its filters, as far as its columns are what the filters make of each other. If
-/// they differ only at an end, rows were removed there after the filters, as the lines may tell,
-/// too: the readings whose windows may have reached to them become NaN in x, v and D. If they
-/// differ elsewhere, or if fewer than 10 readings of the column that is fitted remain, the lines
-/// are not trusted. Returns the history as far as it is.
-History give_filters(History, FitRun&, const std::string& column);
+/// True if some of the filters do not return what they read.
+bool change_numbers(const FilterChain&);
+
+/// Gives the run the filters of these columns, those that are fitted, as far as its columns are
+/// what the filters make of each other, and as far as they were made of positions alone or of
+/// speeds alone: of these alone a roll explains what filters make. If they differ only at an end,
+/// rows were removed there after the filters, as the lines may tell, too: the readings whose
+/// windows may have reached to them become NaN in x, v and D. If they differ elsewhere, or if fewer
+/// than 10 readings of the columns that are fitted remain, the lines are not trusted. Returns the
+/// history as far as it is.
+History give_filters(History, FitRun&, const std::vector<std::string>& columns);
 
 /// The filters that the software of sensors may apply to speeds: the differences of positions to
 /// the row before and to the row after (of spreadsheets, gates and encoders; where times are even,

@@ -246,7 +246,7 @@ TEST_CASE("history: rows cut off the ends after the filters are noticed by the c
   const FitRun whole = shifts(40);
   const auto cuts = [&](std::size_t first, std::size_t last) {
     FitRun run = cut(whole, first, last);
-    const History history = give_filters(claimed(run), run, "D");
+    const History history = give_filters(claimed(run), run, {"v", "D"});
     CHECK(history.filters.size() == 3);
     return std::pair(history.cut_begin, history.cut_end);
   };
@@ -260,7 +260,7 @@ TEST_CASE("history: rows cut off the ends after the filters are noticed by the c
   for (double& D : other.D) D *= 1.2;
   for (double& D : scaled.D) D *= 1.0001;
   for (FitRun run : {hole, other, scaled}) {
-    const History history = give_filters(claimed(run), run, "D");
+    const History history = give_filters(claimed(run), run, {"v", "D"});
     CHECK(history.filters.empty());
     CHECK(history.doubt == "the columns are not what the `##` lines say");
   }
@@ -269,12 +269,12 @@ TEST_CASE("history: rows cut off the ends after the filters are noticed by the c
   for (const int digits : {3, 4, 6}) {
     FitRun rounded = shifts(50000, 0.085);
     for (double& D : rounded.D) D = std::stod(fmt::format("{:.{}g}", D, digits));
-    CHECK(give_filters(claimed(rounded), rounded, "D").filters.size() == 3);
+    CHECK(give_filters(claimed(rounded), rounded, {"v", "D"}).filters.size() == 3);
   }
   for (const double unit : {1e-7, 1e-6, 1e-5}) {
     FitRun rounded = whole;
     for (double& D : rounded.D) D = unit * std::round(D / unit);
-    CHECK(give_filters(claimed(rounded), rounded, "D").filters.size() == 3);
+    CHECK(give_filters(claimed(rounded), rounded, {"v", "D"}).filters.size() == 3);
   }
 }
 
@@ -284,7 +284,7 @@ TEST_CASE("history: the readings beside a cut are left out, their times are not"
     const FitRun whole = run;
     History history = claimed(run);
     history.cut_begin = begin == 1, history.cut_end = end == 1;
-    history = give_filters(std::move(history), run, "D");
+    history = give_filters(std::move(history), run, {"v", "D"});
     CHECK(history.filters.size() == 3);
     CHECK(run.t == whole.t);
     // A mean of 5 and a central difference reach 3 rows to either side.
@@ -300,7 +300,7 @@ TEST_CASE("history: the readings beside a cut are left out, their times are not"
   FitRun few = shifts(15);
   History history = claimed(few);
   history.cut_begin = history.cut_end = true;
-  history = give_filters(std::move(history), few, "D");
+  history = give_filters(std::move(history), few, {"v", "D"});
   CHECK(history.filters.empty());
   CHECK(history.doubt.ends_with("fewer than 10 rows are far enough from the cut"));
   CHECK(std::isfinite(few.D.front()));
@@ -345,11 +345,11 @@ TEST_CASE("history: damaged at random, it gives a fit or a refusal", "[cli][fit]
     run.x = run.v;
     run.body = {1, 0.04, 0.5};
     for (const Route route : {Route::loglog, Route::shift, Route::velocity, Route::position}) try {
-        if (run.t.empty() && (route == Route::velocity || route == Route::position)) continue;
-        give_filters(history_of(lines, run.t), run,
-                     route == Route::position   ? "x"
-                     : route == Route::velocity ? "v"
-                                                : "D");
+        if (run.t.empty() && is_trajectory(route)) continue;
+        const Lines columns = route == Route::position   ? Lines{"x"}
+                              : route == Route::velocity ? Lines{"v"}
+                                                         : Lines{"v", "D"};
+        give_filters(history_of(lines, run.t), run, columns);
         const FitResult r = fit(route, {run}, {});
         CHECK(std::isfinite(r.a));
         ++fitted;
