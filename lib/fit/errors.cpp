@@ -69,33 +69,6 @@ std::vector<double> times(double factor, std::vector<double> M) {
   return M;
 }
 
-/// B of a fit (see Noise::to_sources). Q^T Q minus the part of the added noise is B^T B in fewer
-/// steps, but a difference: where the covariance is nearly singular, rounding makes variances
-/// negative.
-Matrix at_sources(const Fitted& fit, Matrix Q) {
-  for (std::vector<double>& column : Q) column = fit.noise->to_sources(std::move(column));
-  return Q;
-}
-
-/// Q^T Q of a fit whose sources are its residuals, with the shared parameters in its first run.
-std::vector<double> identity(const System& system) {
-  const std::size_t q = system.columns();
-  std::vector<double> M(system.runs.size() * q * q);
-  for (std::size_t i = 0; i < M.size(); i += q * q)
-    for (std::size_t j = 0; j < (i ? system.own : q); ++j) M[i + j * (q + 1)] = 1;
-  return M;
-}
-
-/// The expectation of f f^T is the variance of the sources times A A^T, A = W E, before the fit,
-/// and the fit removes the component along Q. Hence the expectation of |f|^2 is the variance times
-/// tr((I - Q Q^T) A A^T) = tr A A^T - |B|^2.
-double variance_of_sources(const Fitted& fit, const std::vector<double>& meat) {
-  const std::size_t q = fit.system.columns();
-  double taken = 0;
-  for (std::size_t i = 0; i < meat.size(); ++i) taken += i % (q * q) % (q + 1) == 0 ? meat[i] : 0;
-  return fit.minimum.rss / (fit.noise->trace() - taken);
-}
-
 /// The share of the variance of each residual that the fit has left: 1 - h, h the leverage.
 std::vector<double> left_of(const Matrix& Q, std::size_t n) {
   std::vector<double> left(n, 1);
@@ -107,58 +80,43 @@ std::vector<double> left_of(const Matrix& Q, std::size_t n) {
 
 }  // namespace
 
-SeenNoise seen_noise(const Fitted& fit, bool filtered) {
-  // In long runs the fit takes nearly nothing of one residual, and what it takes of sums of their
-  // products is the limit to a few hundredths.
+SeenNoise seen_noise(const Fitted& fit) {
+  if (fit.noise_of_roll) return *fit.noise_of_roll;
   const auto& f = fit.minimum.f;
-  const bool short_runs = f.size() <= 1000 * fit.system.runs.size();
-  Matrix Q;
-  if (filtered || short_runs) Q = orthonormal(fit);
-  SeenNoise seen{.filtered = filtered, .freedom = fit.degrees_left()};
-  if (filtered) {
-    seen.e = fit.noise->to_sources(f), seen.sources = fit.noise->sources();
-    seen.meat = products(at_sources(fit, Q), seen.sources);
-    seen.variance = variance_of_sources(fit, seen.meat);
-    seen.means_taken = fit.means_taken();
-  } else {
-    seen.meat = identity(fit.system);
-    seen.variance = fit.minimum.rss / static_cast<double>(f.size() - fit.minimum.theta.size());
-    seen.e = f, seen.sources = fit.system.runs;
-    if (short_runs) seen.left = left_of(Q, f.size());
-  }
-  seen.innovations = f, seen.runs = fit.system.runs;
-  if (fit.noise->from_sources_alone()) {
+  SeenNoise seen{.filtered = fit.noise->from_sources_alone(), .freedom = fit.degrees_left()};
+  seen.e = seen.innovations = f, seen.sources = seen.runs = fit.system.runs;
+  seen.B = orthonormal(fit);
+  if (seen.filtered) {
     seen.innovations = fit.noise->innovations(f, seen.runs);
-    for (std::vector<double>& column : Q) column = fit.noise->innovations(column, seen.runs);
+    Matrix few;
+    for (const auto& column : seen.B) few.push_back(fit.noise->innovations(column, seen.runs));
+    seen.taken = taken_by(few, seen.runs);
+    seen.e = fit.noise->to_sources(f), seen.sources = fit.noise->sources();
+    for (auto& column : seen.B) column = fit.noise->to_sources(std::move(column));
+  } else {
+    seen.taken = taken_by(seen.B, seen.runs);
+    seen.left = left_of(seen.B, f.size());
   }
-  seen.taken = short_runs ? taken_by(Q, seen.runs) : taken_by_few(fit.minimum.theta.size());
+  seen.variance = dot(seen.innovations, seen.innovations) / static_cast<double>(seen.freedom);
   return seen;
 }
-
-SeenNoise seen_noise(const Fitted& fit) {
-  return fit.noise_of_roll ? *fit.noise_of_roll : seen_noise(fit, fit.noise->from_sources_alone());
-}
-
-std::vector<double> meat_of(const SeenNoise& seen) { return products(seen.B, seen.sources); }
 
 namespace {
 
 /// The meat that allows for noise that is uneven (HC3 for single rows) or correlated.
 std::vector<double> consistent_meat(const Fitted& fit, const SeenNoise& seen, Errors kind) {
-  Matrix B = seen.B.empty() ? orthonormal(fit) : seen.B;
-  if (seen.B.empty() && seen.filtered) B = at_sources(fit, std::move(B));
   // HC3: the fit multiplies the noise of a residual by 1 - h, with h its leverage (MacKinnon and
   // White 1985, J. Econometrics 29, 305).
   const bool by_leverage = kind == Errors::uneven && !seen.filtered;
-  for (std::size_t i = 0; i < seen.e.size(); ++i) {
-    double h = 0;  // the leverage
-    for (const auto& column : B) h += by_leverage ? column[i] * column[i] : 0;
-    for (auto& column : B) column[i] *= seen.e[i] / (1 - std::min(h, 0.99));
-  }
-  std::vector<double> M =
-      kind == Errors::uneven ? products(B, seen.sources)
-                             : newey_west(std::move(B), fit.minimum.theta.size() + seen.means_taken,
-                                          seen.e, seen.sources);
+  Matrix scores = seen.B;
+  for (auto& column : scores)
+    for (std::size_t i = 0; i < seen.e.size(); ++i)
+      column[i] *= seen.e[i] / (by_leverage ? std::max(seen.left[i], 0.01) : 1);
+  const std::size_t taken =
+      fit.minimum.theta.size() + means_taken(fit.model->runs(), fit.parameters());
+  std::vector<double> M = kind == Errors::uneven
+                              ? products(scores, seen.sources)
+                              : newey_west(std::move(scores), taken, seen.e, seen.sources);
   if (by_leverage) return M;
   // The fit has removed part of the noise from the residuals; the ratio of the variances corrects
   // for that.
@@ -220,16 +178,18 @@ double variance_of_rounding(const Fitted& fit) {
 Uncertainty uncertainty_of(const Fitted& fit) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const SeenNoise seen = seen_noise(fit);
-  const auto with = [&](Errors kind, double whiteness, double variance, std::vector<double> M) {
-    return Uncertainty{kind, whiteness, variance, covariance_of(fit, std::move(M))};
+  const auto with = [&](Errors kind, double whiteness, double variance) {
+    const bool consistent = kind == Errors::autocorrelation || kind == Errors::uneven;
+    return Uncertainty{
+        kind, whiteness, variance,
+        covariance_of(fit, consistent ? consistent_meat(fit, seen, kind)
+                                      : times(variance, products(seen.B, seen.sources)))};
   };
-  if (seen.freedom == 0) return with(Errors::none, nan, nan, times(nan, seen.meat));
+  if (seen.freedom == 0) return with(Errors::none, nan, nan);
   const double floor = variance_of_rounding(fit);
-  if (seen.variance < floor) return with(Errors::classical, nan, floor, times(floor, seen.meat));
+  if (seen.variance < floor) return with(Errors::classical, nan, floor);
   const auto [whiteness, kind] = tested(fit, seen);
-  const bool consistent = kind == Errors::autocorrelation || kind == Errors::uneven;
-  return with(kind, whiteness, seen.variance,
-              consistent ? consistent_meat(fit, seen, kind) : times(seen.variance, seen.meat));
+  return with(kind, whiteness, seen.variance);
 }
 
 Matrix correlations_of(const Matrix& covariance, std::size_t n) {

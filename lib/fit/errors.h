@@ -19,10 +19,6 @@ struct Uncertainty {
 /// The noise that the residuals of a fit show; of a log-log line behind known filters, that of the
 /// roll that made its rows.
 SeenNoise seen_noise(const Fitted&);
-/// The same of the sources before the filters that are known (`filtered`), or of the residuals.
-SeenNoise seen_noise(const Fitted&, bool filtered);
-/// B^T B of each run for noise with the B of its sources.
-std::vector<double> meat_of(const SeenNoise&);
 
 /// The covariance of a fit, R^-1 M R^-T with the meat M of the sandwich. For known filters it is
 /// exact, otherwise the classical s^2 (J^T J)^-1. With 30 or more rows the noise is tested (for

@@ -32,16 +32,14 @@ struct SeenNoise {
   double variance = 0;                    ///< of the sources
   std::vector<double> e = {};             ///< the estimated noise of each source
   std::vector<std::size_t> sources = {};  ///< their number in each run
-  Matrix B = {};                          ///< one row for each source; empty for that of the fit
-  std::vector<double> meat = {};          ///< B^T B of each run
-  std::size_t means_taken = 0;            ///< see means_taken() of model.h
+  Matrix B = {};                          ///< one row for each source
   /// The weighted residuals that are not determined by those before them (see
   /// Noise::innovations()), which are white if the noise is; and their number in each run.
   std::vector<double> innovations = {};
   std::vector<std::size_t> runs = {};
   LagSums taken = {};             ///< of them, by the fit
   std::vector<double> left = {};  ///< the share of the variance of each that the fit has left;
-                                  ///< empty where that is nearly all, and behind filters
+                                  ///< empty behind filters
 };
 
 /// A minimum with what its errors need. fit(), compare_laws() and the other questions about a fit
@@ -67,7 +65,6 @@ struct Fitted {
   std::vector<FittedNumber> numbers() const;
   /// The highest speed that was fitted.
   double fastest() const;
-  std::size_t means_taken() const { return rolling::means_taken(model->runs(), parameters()); }
   /// The number of degrees of freedom that are left for the size of the noise; with none left there
   /// are no errors. Filters at the ends of a short run may leave fewer than its rows less the mean.
   std::size_t degrees_left() const;

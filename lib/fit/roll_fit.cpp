@@ -95,16 +95,21 @@ Minimum search(const Model& model, const System& system,
                         : beyond_cusps(model, system, minimise(system, starts.front()));
 }
 
+/// The sum of squares of the residuals without weights.
+double unweighted(const Fitted& fit) {
+  return evaluated(system_of(fit.model, std::make_shared<const Noise>()), fit.minimum.theta).rss;
+}
+
 /// True if the weighted sum of squares is more than four times what the unweighted residuals and
 /// the filters predict, that is, if the columns hold noise that did not pass the filters.
 bool rounded(const Fitted& fit) {
   if (!fit.noise->from_sources_alone()) return false;
   double variances = 0;
-  const auto plain = fit.noise->without_weights(fit.minimum.f);
   for (std::size_t r = 0; r < fit.system.runs.size(); ++r)
     for (std::size_t i = 0; i < fit.system.runs[r]; ++i)
       variances += fit.noise->whitener(r).variance(i);
-  return fit.minimum.rss * variances > 4 * dot(plain, plain) * static_cast<double>(plain.size());
+  return fit.minimum.rss * variances >
+         4 * unweighted(fit) * static_cast<double>(fit.minimum.f.size());
 }
 
 /// Columns that were rounded after a filter hold additional white noise. Its share is estimated by
@@ -202,10 +207,7 @@ std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
 
 double sum_of_squares(const Fitted& fit) {
   if (!fit.noise->known()) return fit.minimum.rss;
-  if (!fit.model->runs().front().shifts) {
-    const auto plain = fit.noise->without_weights(fit.minimum.f);
-    return dot(plain, plain);
-  }
+  if (!fit.model->runs().front().shifts) return unweighted(fit);
   double sum = 0;
   for (std::size_t r = 0; r < fit.system.runs.size(); ++r)
     sum += squares_of_shifts(*fit.model, fit.minimum.theta, r);

@@ -74,8 +74,9 @@ struct KnownRoll {
   std::vector<double> stops;
 };
 
-/// The best-fitting roll; nothing if the filters are unknown or no roll fits. It is fitted to all
-/// rows; a selection of those with D > 0 would select by their noise.
+/// The best-fitting roll; nothing if the filters are unknown, no roll fits, or the columns hold
+/// other noise, as that of rounding. It is fitted to all rows; a selection of those with D > 0
+/// would select by their noise.
 std::optional<KnownRoll> known_roll(const std::vector<FitRun>& runs, const FitOptions& options,
                                     std::vector<Response> responses) {
   if (responses.empty()) return {};
@@ -85,7 +86,8 @@ std::optional<KnownRoll> known_roll(const std::vector<FitRun>& runs, const FitOp
   } catch (const Error&) {
     return {};
   }
-  roll.noise = seen_noise(roll.fit, true);
+  if (!roll.fit.noise->from_sources_alone()) return {};
+  roll.noise = seen_noise(roll.fit);
   roll.fit.system = {}, roll.fit.noise = {};
   roll.responses = std::move(responses);
   for (std::size_t r = 0; r < runs.size(); ++r)
@@ -108,7 +110,7 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
   }
   const auto Q_of = rows_by_run(Q, sizes);
   Matrix& B = known.noise.B;
-  B.resize(Q.size());
+  B.assign(Q.size(), {});
   std::vector<double> along(Q.size());  // Q^T bias
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const ObservedRun& run = roll.model->runs()[r];
@@ -130,7 +132,6 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
       along[j] += dot(Q_of[r][j], points.bias);
     }
   }
-  known.noise.meat = meat_of(known.noise);
   line.noise_of_roll = std::move(known.noise);
   // The bias of theta is R^-1 Q^T bias.
   const auto bias_of = [&](std::vector<double> gradient) {

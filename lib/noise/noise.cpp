@@ -29,16 +29,6 @@ Noise::Noise(std::vector<Filters> E, AddedNoise added) : E_(std::move(E)), added
   }
 }
 
-double Noise::trace() const {
-  double sum = 0;
-  for (const auto& whitener : whiteners_) sum += whitener.trace();
-  return sum;
-}
-
-std::vector<double> Noise::without_weights(const std::vector<double>& f) const {
-  return each(by_run(f, rows_), [&](std::size_t r, auto f_of) { return whiteners_[r].undo(f_of); });
-}
-
 std::vector<double> Noise::to_sources(std::vector<double> x) const {
   return each(by_run(x, rows_), [&](std::size_t r, auto of_run) {
     whiteners_[r].apply_transposed(of_run);

@@ -29,17 +29,12 @@ class Noise {
   /// True if the covariance is known and no noise was added to that of the sources.
   bool from_sources_alone() const { return known() && added_.share == 0; }
   const Whitener& whitener(std::size_t run) const { return whiteners_[run]; }
-  /// The unweighted residuals W^-1 f of all runs; W^T W is the weight matrix.
-  std::vector<double> without_weights(const std::vector<double>& f) const;
 
   /// (W E)^T x, one number for each source, run by run, for one number x for each residual. For the
   /// weighted residuals f these are the sources of least norm that explain f. B consists of these
   /// columns for Q = J R^-1 of a fit with these weights: the error of the parameters is -R^-1 B^T
   /// e, with e the noise of the sources, whatever the weights are.
   std::vector<double> to_sources(std::vector<double> x) const;
-  /// tr W E E^T W^T: the expected weighted sum of squares for sources of variance one without a
-  /// fit.
-  double trace() const;
   /// The innovations: the weighted residuals that the residuals before them do not determine (see
   /// Whitener::informative()), and in `runs` their number in each run.
   std::vector<double> innovations(const std::vector<double>& f,

@@ -80,40 +80,10 @@ void Whitener::apply_transposed(std::span<double> x) const {
   }
 }
 
-std::vector<double> Whitener::undo(std::span<const double> f) const {
-  std::vector<double> all(n_);
-  for (std::size_t k = 0; k < n_; ++k)
-    for (std::size_t j = 0; j < std::min(band_, n_ - k); ++j)
-      all[k + j] += R_[k * band_ + j] * f[k];
-  return all;
-}
-
 double Whitener::log_size() const {
   double sum = 0;
   for (std::size_t k = 0; k < n_; ++k) sum += std::log(R_[k * band_]);
   return sum;
-}
-
-/// R^-T E E^T R^-1 = I - R^-T F R^-1, and tr R^-T F R^-1 = tr F Z with Z = (R^T R)^-1. The elements
-/// of Z within the band follow from the last row upwards (Erisman and Tinney 1975, Commun. ACM 18,
-/// 177), because R Z = R^-T is 0 above the diagonal and 1/R(k,k) on it.
-double Whitener::trace() const {
-  const std::size_t w = band_;
-  // Z(i, j) is stored in row i mod w at place w + j - i, for columns on both sides of the diagonal.
-  std::vector<double> Z(w * 2 * w);
-  std::vector<double*> rows(w);  // rows k, k + 1, ... of Z
-  double of_F = 0;
-  for (std::size_t k = n_; k-- > 0;) {
-    const double* const R = &R_[k * w];
-    const std::size_t end = std::min(w, n_ - k);
-    for (std::size_t j = 0, slot = k % w; j < end; ++j, slot = slot + 1 == w ? 0 : slot + 1)
-      rows[j] = &Z[slot * 2 * w + w];
-    for (std::size_t j = end; j-- > 1;)
-      rows[0][j] = *(rows[j] - j) = -dot(R + 1, rows[j] - j + 1, end - 1) / R[0];
-    rows[0][0] = (1 / R[0] - dot(R + 1, rows[0] + 1, end - 1)) / R[0];
-    of_F += white_ * variance(k) * rows[0][0];
-  }
-  return static_cast<double>(n_) - of_F;
 }
 
 }  // namespace rolling

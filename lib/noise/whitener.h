@@ -32,8 +32,6 @@ class Whitener {
   void apply(std::span<double> X) const;
   /// Replaces x by R^-1 x.
   void apply_transposed(std::span<double> x) const;
-  /// The vector R^T f, from which apply() made f.
-  std::vector<double> undo(std::span<const double> f) const;
   /// True if residual i has noise of its own: its standard deviation, given the residuals before
   /// it, is above 30 times that of F. If it is not, the residual is a linear combination of those
   /// before it.
@@ -44,8 +42,6 @@ class Whitener {
   double variance(std::size_t i) const;
   /// ln det R.
   double log_size() const;
-  /// tr R^-T E E^T R^-1: the number of residuals minus the contribution of F.
-  double trace() const;
 
  private:
   std::size_t n_, band_;   // as in Covariance
