@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/matrix.h"
+#include "fit/errors.h"
 #include "fit/fitted.h"
 #include "fit/levels.h"
 #include "least_squares/robust.h"
@@ -19,47 +20,58 @@
 namespace rolling {
 namespace {
 
+/// `left` is 1 - leverage: without reading i, the squares of the residuals are less by e^2/left.
 /// The time is the number of the reading here. Where no reading counts as off, the distance is that
 /// of the one that is furthest off.
-OffReadings of_run(std::span<const double> e, double freedom) {
+OffReadings of_run(std::span<const double> e, std::span<const double> left, double freedom) {
   OffReadings found{};
   const std::size_t n = e.size(), most = std::min<std::size_t>(n / 10 + 1, 100), runs[] = {n};
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::partial_sort(order, order.begin() + static_cast<std::ptrdiff_t>(most),
-                            std::greater(), [&](std::size_t i) { return std::abs(e[i]); });
+                            std::greater(), [&](std::size_t i) { return e[i] * e[i] / left[i]; });
   const double by_chance = std::sqrt(2 * std::log(static_cast<double>(n)));
   std::vector<double> others(e.begin(), e.end());
+  double squares = dot(e, e), first = 0;
   for (std::size_t out = 0; out < most && --freedom >= 12;) {
-    const double off = std::abs(e[order[out]]);
-    others[order[out++]] = 0;
-    const double squares = dot(others, others),
-                 size = squares > 1e-12 * off * off ? off / std::sqrt(squares / freedom) : 0;
+    const std::size_t i = order[out];
+    const double off = e[i] * e[i] / left[i];
+    squares -= off, others[i] = 0;
+    if (out++ == 0) first = off;
+    const double size = squares > 1e-12 * off ? std::sqrt(off / squares * freedom) : 0;
     if (found.count == 0) found.distance = std::max(found.distance, size);
     if (size < by_chance) break;
     // Smooth residuals are those of another law, which no single reading makes.
-    if (size < levels::off || lagged(others, runs, 1) > 0.5 * squares ||
+    if (size < levels::off || lagged(others, runs, 1) > 0.5 * dot(others, others) ||
         static_cast<double>(n) * gsl_cdf_tdist_Q(size, freedom) > levels::off_chance / 2)
       continue;
     found = {.run = 0,
              .count = out,
              .time = static_cast<double>(order[0]),
-             .distance = std::abs(e[order[0]]) / std::sqrt(squares / freedom)};
+             .distance = std::sqrt(first / squares * freedom)};
   }
   return found;
 }
 
-OffReadings around(const Fitted& fit) {
+/// Q: the columns that the fit follows.
+OffReadings around(const Fitted& fit, const Matrix& Q) {
   const bool known = fit.noise->known();
   const auto& sizes = known ? fit.noise->sources() : fit.system.runs;
-  const std::vector<double> e = known ? fit.noise->to_sources(fit.minimum.f) : fit.minimum.f;
+  const auto raw = [&](const std::vector<double>& x) {
+    return known ? fit.noise->to_sources(x) : x;
+  };
+  const std::vector<double> e = raw(fit.minimum.f);
+  std::vector<double> left(e.size(), 1);
+  for (const std::vector<double>& column : Q)
+    std::ranges::transform(left, raw(column), left.begin(),
+                           [](double all, double q) { return std::max(all - q * q, 1e-3); });
   OffReadings found{};
   const auto rank = [](const OffReadings& x) { return std::pair(x.count > 0, x.distance); };
-  const auto e_of = by_run(e, sizes);
+  const auto e_of = by_run(e, sizes), left_of = by_run(std::as_const(left), sizes);
   for (std::size_t r = 0; r < sizes.size(); ++r) {
     const double freedom =
         static_cast<double>(sizes[r]) - static_cast<double>(fit.system.columns());
-    OffReadings off = of_run(e_of[r], freedom);
+    OffReadings off = of_run(e_of[r], left_of[r], freedom);
     if (rank(off) <= rank(found)) continue;
     const ObservedRun& run = fit.model->runs()[r];
     off.run = r;
@@ -69,10 +81,11 @@ OffReadings around(const Fitted& fit) {
   return found;
 }
 
-/// Around the roll of this theta, which is that of a robust fit.
+/// Around the roll of this theta, which is that of a robust fit: single readings have no share in
+/// it.
 OffReadings around_robust(Fitted fit, const std::vector<double>& theta) {
   fit.minimum = evaluated(fit.system, theta);
-  return around(fit);
+  return around(fit, {});
 }
 
 }  // namespace
@@ -90,13 +103,18 @@ OffReadings off_robust_roll(Route route, const std::vector<FitRun>& runs, FitOpt
 
 OffReadings off_readings(const Fitted& fit) {
   if (!fit.is_roll() || fit.degrees_left() == 0) return {};
-  const OffReadings found = around(fit);
-  if (found.count > 0 || found.distance < 5) return found;
-  // A reading far off may have bent the roll to itself, away from where it is linear.
+  // In long runs no single reading has a share in the fit.
+  const bool few = fit.minimum.f.size() <= 1000 * fit.system.runs.size();
+  const OffReadings found = around(fit, few ? orthonormal(fit) : Matrix());
+  if (found.distance < 5) return {};
+  // Readings far off have bent the roll to themselves, away from where it is linear; a robust one
+  // follows only those at the ends of a short run.
   try {
-    return around_robust(fit, minimise_robust(fit.system, {fit.minimum.theta}).theta);
+    const OffReadings off =
+        around_robust(fit, minimise_robust(fit.system, {fit.minimum.theta}).theta);
+    return off.count > 0 ? off : found;
   } catch (const Error&) {
-    return {};
+    return found;
   }
 }
 

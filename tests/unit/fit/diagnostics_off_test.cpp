@@ -41,6 +41,28 @@ TEST_CASE("a zero, a spike and a burst are named with their time", "[many]") {
   }
 }
 
+// The first and the last reading of a short run bend the roll to themselves.
+TEST_CASE("a reading that is off at an end of twenty is named", "[many]") {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const FitRun all = roll_of(seed);
+    FitRun good = all;
+    good.t.clear(), good.x.clear();
+    for (std::size_t i = 0; i < 20; ++i) {
+      const std::size_t k = i * (all.t.size() - 1) / 19;
+      good.t.push_back(all.t[k]), good.x.push_back(all.x[k]);
+    }
+    CHECK(fitted(good).off.count == 0);
+    for (const std::size_t at : {0U, 1U, 18U, 19U}) {
+      FitRun run = good;
+      run.x[at] += 0.012;  // 40 times the noise
+      const auto off = fitted(run).off;
+      INFO(seed << ", " << at);
+      CHECK(off.count == 1);
+      CHECK(off.time == run.t[at]);
+    }
+  }
+}
+
 TEST_CASE("a spike in positions is found behind differences and means") {
   const FitRun raw = roll_of(3, felt);
   std::vector<double> x = raw.x;
