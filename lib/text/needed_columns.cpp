@@ -96,24 +96,21 @@ void NeededColumns::give_unit(std::size_t column, const std::string& quantity,
 }
 
 /// Headers in other languages: the only column in a unit of time serves as t, and where none is x
-/// or v by its name, the only length as x and the only speed as v.
+/// or v by its name, the only speed as v, or else the only length as x. (A length beside a speed
+/// may be its accuracy.)
 void NeededColumns::serve_by_units() {
   if (!named_) return;
   const auto names = [&](const std::string& quantity) {
     return std::ranges::count(quantities_, quantity) > 0;
   };
-  const bool moves = names("x") || names("v");
-  by_unit_.clear();
-  for (const std::string quantity : {"t", "x", "v"}) {
-    if (quantity == "t" ? names("t") : moves) continue;
+  for (const std::string quantity : {"t", "v", "x"}) {
+    if (quantity == "t" ? names("t") : names("x") || names("v")) continue;
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < as_read_.size(); ++i)
       if (!as_read_[i].unit.empty() && unit_of(quantity, as_read_[i].unit) &&
           !known_quantity(quantities_[i]))
         found.push_back(i);
-    if (found.size() != 1) continue;
-    quantities_[found.front()] = quantity;
-    if (quantity != "t") by_unit_.push_back(found.front());
+    if (found.size() == 1) quantities_[found.front()] = quantity;
   }
 }
 
@@ -142,25 +139,18 @@ std::optional<std::size_t> NeededColumns::find(std::string_view name) const {
                : std::nullopt;
   const Column asked = read_column(name);
   std::optional<std::size_t> found;
-  bool of_another_run = false;
   for (std::size_t i = 0; i < as_read_.size(); ++i) {
     const Column& read = as_read_[i];
     if (asked.run.empty() || read.name != asked.labelled) {
       // A column that serves as a quantity has its own name too, if that is none of another.
       if (quantities_[i] != asked.name && (is_known(asked) || read.name != asked.name)) continue;
-      if (!asked.run.empty() && asked.run != read.run) {
-        of_another_run = true;
-        continue;
-      }
+      if (!asked.run.empty() && asked.run != read.run) continue;
     }
     if (found)
       fail<InputError>("{}: columns {} and {} are both {}; say --use {}=N", place_, *found + 1,
                        i + 1, asked.name, asked.name);
     found = i;
   }
-  if (of_another_run && !found)
-    fail<InputError>("{}: '{}' is a column of another run: choose that with --run", place_,
-                     shown(name));
   return found;
 }
 
@@ -207,8 +197,7 @@ void NeededColumns::resolve(Needed& needed) {
     fail<InputError>("{}: column {} is '{}', and '{}' in the runs before", place_, *found + 1,
                      shown(to_text({quantity, read.unit})),
                      shown(to_text({needed.quantity, needed.unit})));
-  if (as_is) return convert_from_unit(needed);
-  needed.to_si = conversion(*found, quantity);
+  needed.to_si = conversion(needed);
 }
 
 /// Notes what is assumed of a column that serves as `quantity`, once for all runs.
@@ -219,41 +208,36 @@ void NeededColumns::assume(std::size_t at, std::string_view quantity, std::strin
   if (assumed_.find(line) == std::string::npos) add_item(assumed_, line, "; ");
 }
 
-/// The conversion of a column that serves as `quantity`. Its unit may stand at the end of its name;
-/// a column without one is in SI units, which is noted where its name does not say so. Refuses a
-/// unit that is not known.
-Conversion NeededColumns::conversion(std::size_t at, const std::string& quantity) {
-  Column meant = as_read_[at];
-  const bool named = named_ && meant.name == quantity;
-  if (meant.unit.empty() && named_) meant.unit = unit_at_end(quantity, meant.name);
+/// The conversion of a column to the SI unit of the quantity that it serves as, or to that in which
+/// it is needed as it is. The unit of a quantity may stand at the end of its name; a column without
+/// one is in SI units, which is noted where its name does not say so. Refuses any other unit.
+Conversion NeededColumns::conversion(const Needed& needed) {
+  Column meant = as_read_[needed.column];
+  const bool as_is = needed.kind == Kind::as_is;
+  const std::string& quantity = needed.quantity;
+  const KnownQuantity* const known = as_is ? nullptr : known_quantity(quantity);
+  if (!known && !as_is) return {};
+  if (known && named_ && meant.unit.empty()) meant.unit = unit_at_end(quantity, meant.name);
   if (const auto said = said_.find(quantity);
-      meant.unit.empty() && known_quantity(quantity) && (!named || said != said_.end()))
-    assume(at, quantity,
-           fmt::format(", taken in {}{}", si_unit(quantity),
+      known && meant.unit.empty() && (!named_ || meant.name != quantity || said != said_.end()))
+    assume(needed.column, quantity,
+           fmt::format(", taken in {}{}", known->si,
                        said == said_.end()
                            ? ""
                            : fmt::format(" although line {} says {}", said->second.line,
                                          shown(said->second.unit))));
-  // A length beside a speed may be its accuracy.
-  if (by_unit_.size() > 1 && std::ranges::count(by_unit_, at) > 0)
-    assume(at, quantity, ", by its unit alone");
-  if (meant.unit.empty() || !known_quantity(quantity)) return {};
-  if (const auto found = unit_of(quantity, meant.unit)) return *found;
+  const std::string_view si = known ? known->si : needed.unit;
+  if (meant.unit.empty() || meant.unit == si) return {};
+  if (const auto found = read_unit(meant.unit); found && si_unit(found->quantity) == si)
+    return found->to_si;
   fail<InputError>(
       "{}: column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); "
       "convert it first (rolling-recipes(7)){}",
-      place_, shown(to_text(meant)), quantity, shown(meant.unit), known_quantity(quantity)->units,
-      has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", quantity, at + 1) : "");
-}
-
-/// Takes the unit of a column alone for what it is, not its name.
-void NeededColumns::convert_from_unit(Needed& needed) const {
-  const Column& read = as_read_[needed.column];
-  if (read.unit.empty() || read.unit == needed.unit) return;
-  if (const auto found = read_unit(read.unit); found && si_unit(found->quantity) == needed.unit)
-    return void(needed.to_si = found->to_si);
-  fail<InputError>("{}: column '{}': {} is a number {}", place_, shown(to_text(read)), needed.name,
-                   needed.unit.empty() ? "without a unit" : "in " + needed.unit);
+      place_, shown(to_text(meant)), needed.name, shown(meant.unit),
+      known        ? known->units
+      : si.empty() ? "none"
+                   : si,
+      has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", quantity, needed.column + 1) : "");
 }
 
 void NeededColumns::resolve() {

@@ -52,7 +52,7 @@ class NeededColumns {
   bool converts() const { return converts_; }
 
   /// Index of the column that serves as `name` (a name, a 1-based number, or what --use says), if
-  /// there is one. Where no name is t, or x or v, the only column in a unit of it serves as it.
+  /// there is one. Where no name is t, or v or x, the only column in a unit of it serves as it.
   /// Throws InputError where there are several.
   std::optional<std::size_t> find(std::string_view name) const;
   /// What each column of this run serves as: by --use, by its unit, else its own name.
@@ -63,8 +63,7 @@ class NeededColumns {
   /// A needed column of this run has another name in the file.
   bool renames() const;
   /// The quantities so far whose columns say neither quantity nor unit, or have no unit where a
-  /// comment says one, or of which both x and v are told by their units alone: `t is column 1,
-  /// 'Frame', taken in s; ...`. Empty if there is none.
+  /// comment says one: `t is column 1, 'Frame', taken in s; ...`. Empty if there is none.
   const std::string& assumed() const { return assumed_; }
 
  private:
@@ -80,8 +79,7 @@ class NeededColumns {
   void resolve();
   void resolve(Needed&);
   void assume(std::size_t column, std::string_view quantity, std::string_view what);
-  Conversion conversion(std::size_t column, const std::string& quantity);
-  void convert_from_unit(Needed&) const;
+  Conversion conversion(const Needed&);
   void name_columns();
 
   std::map<std::string, Use> use_;  // by quantity
@@ -93,7 +91,6 @@ class NeededColumns {
   // The run.
   std::vector<Column> as_read_, in_output_;
   std::vector<std::string> quantities_;
-  std::vector<std::size_t> by_unit_;  // the columns of x and v that only their units tell
   bool named_ = false;
   SaidUnits said_;
   std::string place_;

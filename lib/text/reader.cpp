@@ -24,9 +24,8 @@ Reader::Reader(ReaderOptions options, std::vector<std::string> order)
 bool Reader::next_line() {
   while (lines_->next()) {
     const LineKind kind = lines_->kind();
-    if (kind == LineKind::row) {
-      if (lines_->number() <= last_row_) return true;
-    } else if (kind == LineKind::comment) {
+    if (kind == LineKind::row) return true;
+    if (kind == LineKind::comment) {
       const std::string_view comment = lines_->text().substr(lines_->text().find('#'));
       if (state_ == State::in_run && are_names(comment))
         fail<InputError>(
@@ -45,26 +44,17 @@ bool Reader::next_line() {
   return false;
 }
 
-/// True for a comment that names all of the needed columns; where they have no names, two known
-/// ones are enough.
+/// True for a comment that has a name for each column, of which two are known ones or those of this
+/// run.
 bool Reader::are_names(std::string_view comment) const {
-  if (needed_.all().empty()) return false;
-  const CommentedNames found =
-      names_in_comment(comment, {layout().columns.size(), head_.blank_end, layout().columns});
-  if (!head_.named && found.known > 1) return true;
-  const auto has = [&](const NeededColumns::Needed& needed) {
-    return needed.column != no_column &&
-           std::ranges::any_of(found.names, [&](const std::string& name) {
-             return read_column(name).name == layout().columns[needed.column].name;
-           });
-  };
-  return std::all_of(needed_.all().begin(), needed_.all().end(), has);
+  const std::vector<Column>& columns = layout().columns;
+  return names_in_comment(comment, {columns.size(), head_.blank_end, columns}).known >=
+         std::min<std::size_t>(2, columns.size());
 }
 
 /// Fast path for most lines: a row of the same form as the one before it in this run is found
 /// and split in one pass. False for any other line, which is left to next_line().
 inline bool Reader::take_plain_line() {
-  if (lines_->number() >= last_row_) return false;
   const std::string_view ahead = lines_->ahead();
   const char* const end = dialect_.split_plain(ahead, fields_);
   if (!end) return false;
@@ -77,7 +67,7 @@ bool Reader::next() {
   if (state_ != State::in_run) return false;
   for (;;) {
     if (!take_plain_line()) {
-      if (!next_line()) return false;
+      if (!next_line()) return left_out_ -= std::exchange(blank_rows_, 0), false;
       fields_ = split();
     }
     if (take_row()) return row_found_ = true;
@@ -95,26 +85,34 @@ std::span<const Field> Reader::split() {
 
 /// Leaves of the fields of a line those of the present run. A line of one run may have one more or
 /// less than the first if the difference is a separator at its end; runs side by side may end
-/// early. Refuses any other number.
-void Reader::take_fields() {
+/// early. Refuses any other number. False if all that this run does not share is blank: where no
+/// reading follows, beside a longer run, that is no row.
+bool Reader::take_fields() {
   const std::size_t width = head_.layout.width, count = fields_.size();
   const bool side_by_side = head_.layout.side_by_side();
   fields_changed_ = side_by_side || count != width;
-  if (!fields_changed_) return;
+  if (!fields_changed_) return true;
   const bool more = count == width + 1 && fields_.back().text.empty() && head_.named,
              less = count + 1 == width && head_.blank_end;
   if (side_by_side ? count > width : !more && !less)
     fail<InputError>("{}: {} where the first row has {}{}", here(), counted(count, "field"), width,
                      count > width ? way_out_of_commas(dialect_.separator()) : "");
   changed_fields_.clear();
-  for (const std::size_t i : layout().fields)
+  bool blank = side_by_side;
+  for (const std::size_t i : layout().fields) {
     changed_fields_.push_back(i < count ? fields_[i] : Field());
+    blank &= head_.layout.shared[i] || changed_fields_.back().text.empty();
+  }
   fields_ = changed_fields_;
+  if (blank) return ++blank_rows_, false;
+  if (std::exchange(blank_rows_, 0) > 0 && options_.strict)
+    fail<InputError>("{}: the readings of the row above are missing", here());
+  return true;
 }
 
 /// Reads the needed numbers of the row; false if one is missing.
 bool Reader::take_row() {
-  take_fields();
+  if (!take_fields()) return false;
   double* to = values_.data();
   const bool converts = needed_.converts();
   for (const NeededColumns::Needed& needed : needed_.all()) {
@@ -122,7 +120,7 @@ bool Reader::take_row() {
     if (needed.column != no_column) value = fields_[needed.column].number;
     if (std::isnan(value)) {
       if (needed.column != no_column && !is_missing(fields_[needed.column].text))
-        reject(needed.column, "is not a number" + way_out(needed.column));
+        reject(needed.column, not_a_number);
       if (needed.kind != NeededColumns::Kind::wanted) {
         if (options_.strict)
           fail<InputError>("{}: field {} ({}): a reading is missing", here(),
@@ -185,25 +183,6 @@ std::string Reader::wrong(std::size_t column, std::string_view name, std::string
 
 void Reader::reject(std::size_t column, std::string_view why) const {
   fail<InputError>("{}", wrong(column, columns()[column].name, why));
-}
-
-/// What to do about a field that is not a number, where its text shows the likely reason: a time of
-/// day, a decimal comma, the names of another run; else a missing reading or a line of text.
-std::string Reader::way_out(std::size_t column) const {
-  const std::string_view field = fields_[column].text;
-  const bool digits =
-      !field.starts_with('#') && field.find_first_of(decimal_digits) < field.size();  // #DIV/0!
-  if (digits && field.find(':') < field.size())
-    return "; make it one number of seconds first (rolling-recipes(7))";
-  const auto blank = field.find(' ');
-  if (digits &&
-      (field.find(',') < field.size() ||  // or the field of 0 1,5 between commas
-       (dialect_.separator() == ',' && blank < field.size() && is_number(field.substr(blank + 1)))))
-    return "; if a comma here is a decimal one, make it a point first";
-  if (head_.named && read_column(field).name == layout().columns[column].name)
-    return "; put a blank line before the names of another run";
-  return digits ? "; write the number alone, with the digits 0 to 9, a hyphen and a point"
-                : "; write NaN for a missing reading, and # before a line that is no row";
 }
 
 std::vector<std::string> Reader::warnings() const {

@@ -113,6 +113,9 @@ class Reader {
 
  private:
   enum class State { found, in_run, between, ended };
+  static constexpr std::string_view not_a_number =
+      "is not a number; write one with a decimal point (a time of day in seconds), NaN for a "
+      "missing reading, # before a line that is no row, and a blank line before another run";
 
   std::size_t add(std::string_view name, NeededColumns::Kind, std::string_view unit = {});
   void read_needed();
@@ -129,6 +132,7 @@ class Reader {
   void pass_over();
   void refuse_passed() const;
   std::string place_of_head() const;
+  bool one_of_several() const;
   bool run_is_named() const;
 
   // Rows.
@@ -136,13 +140,12 @@ class Reader {
   bool take_plain_line();
   bool are_names(std::string_view comment) const;
   std::span<const Field> split();
-  void take_fields();
+  bool take_fields();
   bool take_row();
   void check_time();
   std::size_t append_made(Bytes& to, std::size_t column);
   std::string wrong(std::size_t column, std::string_view name, std::string_view why) const;
   [[noreturn]] void reject(std::size_t column, std::string_view why) const;
-  std::string way_out(std::size_t column) const;
   std::string here() const;
 
   ReaderOptions options_;
@@ -156,7 +159,7 @@ class Reader {
   int run_ = 0;  // number of the run in the input, from 1
   Head head_;
   std::size_t side_ = 0;
-  std::size_t last_row_ = 0;  // its number; side by side, rows below it are padding
+  std::size_t blank_rows_ = 0;  // side by side, since the last row of this run
   Dialect dialect_;
   std::vector<std::string> comments_, remarks_;
   std::size_t run_in_file_ = 0;  // number of the run in the file

@@ -116,10 +116,15 @@ void Reader::take_head(Head head) {
   side_ = 0;
 }
 
+/// True if the file has several runs.
+bool Reader::one_of_several() const {
+  return head_.layout.side_by_side() || run_in_file_ > 1 || lines_->another_run();
+}
+
 /// True if there are several runs, or if the run has a name or a number in the input.
 bool Reader::run_is_named() const {
   return !head_.run.empty() || is_number(layout().label) || options_.files.size() > 1 ||
-         head_.layout.side_by_side() || run_in_file_ > 1 || lines_->another_run();
+         one_of_several();
 }
 
 std::string Reader::run_name() const {
@@ -130,31 +135,17 @@ std::string Reader::run_name() const {
     if (static_cast<unsigned char>(c) < ' ') c = '?';
   name = trim(name);
   const std::string& label = layout().label;
-  const bool several = head_.layout.side_by_side() || run_in_file_ > 1 || lines_->another_run();
   if (!label.empty()) name += ' ' + label;
   else if (name.empty()) name = fmt::format("{}", run_);
-  else if (several) name += fmt::format(" {}", run_in_file_);
+  else if (one_of_several()) name += fmt::format(" {}", run_in_file_);
   return std::string(trim(name));
 }
 
-/// Goes before the first row of the present run. The blanks of a run side by side below its last
-/// reading, beside a longer run, are no rows.
+/// Goes before the first row of the present run.
 void Reader::begin_rows() {
   dialect_.want_none();
-  last_row_ = std::numeric_limits<std::size_t>::max();
+  blank_rows_ = 0;
   if (!head_.layout.side_by_side()) return;
-  const auto is_reading = [&](std::size_t i) {
-    return i < fields_.size() && !head_.layout.shared[i] && !fields_[i].text.empty();
-  };
-  lines_->hold(true);
-  lines_->put_back();
-  std::size_t last = 0;
-  while (next_line()) {
-    fields_ = split();
-    if (std::ranges::any_of(layout().fields, is_reading)) last = lines_->number();
-  }
-  last_row_ = last;
-  remarks_.clear();
   lines_->put_back();
   lines_->hold(side_ + 1 < head_.layout.runs.size());
 }
@@ -178,14 +169,13 @@ void Reader::pass_over() {
   while (next_line()) {
     remarks_.clear();
     fields_ = split();
-    take_fields();
+    if (!take_fields()) continue;
     for (std::size_t i = 0; i < quantities.size(); ++i) {
       const bool missing = is_missing(fields_[i].text);
       const double number = fields_[i].number;
       if (missing ? options_.strict : std::isnan(number))
         passed_.emplace(quantities[i],
-                        wrong(i, quantities[i],
-                              missing ? "is a missing reading" : "is not a number" + way_out(i)));
+                        wrong(i, quantities[i], missing ? "is a missing reading" : not_a_number));
       if (quantities[i] != "t" || std::isnan(number)) continue;
       if (number <= last)
         passed_.emplace(order_of_times, wrong(i, "t", fmt::format("does not come after {}", last)));

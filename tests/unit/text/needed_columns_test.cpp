@@ -55,10 +55,10 @@ TEST_CASE("needed columns: what is asked for may have a unit, and the run of the
     CHECK(output(file, {}, {"t", asked}).starts_with("t[s] v["));
   CHECK(output(file, {}, {"v[cm/s]"}) == "t v[m/s] F[N] w");
   CHECK(output(file, {"v=w[cm/s]"}, {"v[cm/s]"}) == "t v_in[km/h] F[N] v[m/s]");
-  const std::string other = "' is a column of another run: choose that with --run";
-  for (const char* asked : {"F Run #3", "v Run 2", "Latest: F"}) {
-    CHECK(output(file, {}, {asked}) == "FILE: '" + std::string(asked) + other);
-    CHECK(output(file, {std::string("x=") + asked}) == "FILE: '" + std::string(asked) + other);
+  for (const std::string asked : {"F Run #3", "v Run 2", "Latest: F"}) {
+    const std::string none = "there is no column '" + asked + "' among t, v[km/h], F[N], w";
+    CHECK(output(file, {}, {asked}).starts_with("FILE: " + none));
+    CHECK(output(file, {"x=" + asked}) == "FILE: --use x=" + asked + ": " + none);
   }
 }
 
