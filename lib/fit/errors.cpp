@@ -137,14 +137,9 @@ Tested tested(const Fitted& fit, const SeenNoise& seen) {
                                                              : Errors::classical;
   double whiteness = ljung_box(noise, seen.taken, runs);
   if (fit.minimum.f.size() < 30) return {whiteness, white};
-  std::vector<double> alike;  // of one variance, if the noise has one
-  for (std::size_t i = 0; i < seen.left.size(); ++i)
-    alike.push_back(seen.left[i] > 0 ? noise[i] / std::sqrt(seen.left[i]) : 0);
-  const bool uneven = std::min(breusch_pagan(alike.empty() ? noise : alike, runs),
-                               unequal_runs(noise, runs, seen.left)) <=
-                      (runs.size() > 1 ? levels::uneven_runs : levels::uneven);
+  const bool uneven = breusch_pagan(noise, runs, seen.left) <= levels::uneven;
   if (uneven && whiteness <= levels::not_white)
-    whiteness = ljung_box_uneven(noise, seen.taken, runs);
+    whiteness = ljung_box(noise, seen.taken, runs, uneven);
   if (whiteness <= levels::not_white) return {whiteness, Errors::autocorrelation};
   if (uneven) return {whiteness, Errors::uneven};
   const bool near = whiteness <= levels::nearly_white && lagged(noise, runs, 1) > 0;

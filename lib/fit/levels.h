@@ -14,8 +14,8 @@ inline constexpr double nearly_white = 0.1;
 /// White noise turns back so few steps with at most this probability, by a bound of it: 1 % of
 /// white speeds on rubber, 0.4 % on felt.
 inline constexpr double few_reversals = 0.1;
-/// Unequal variance, along one run and in several: 1 %.
-inline constexpr double uneven = 0.01, uneven_runs = 0.005;
+/// Unequal variance, along the runs or between them: 1 %.
+inline constexpr double uneven = 0.01;
 /// Runs of a joint fit disagree: 1 % (tests/unit/fit/errors_agreement_test.cpp).
 inline constexpr double runs_disagree = 0.01;
 /// The beginning is disturbed, after Bonferroni's correction: 0.1 %. The others must be white.

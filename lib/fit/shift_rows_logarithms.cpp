@@ -34,7 +34,6 @@ Points points_of(const BandMatrix& D, const BandMatrix& v, std::span<const doubl
                  PowerLaw law, const std::function<double(double)>& shift, double sigma) {
   const std::vector<double> accelerations = D.times(raw), speeds = v.times(raw);
   Points points;
-  LogarithmOfNoise logarithm;
   for (std::size_t i = 0; i < speeds.size(); ++i) {
     constexpr double step = 1e-4;
     const double a_i = accelerations[i], v_i = speeds[i], D_i = shift(a_i);
@@ -46,7 +45,7 @@ Points points_of(const BandMatrix& D, const BandMatrix& v, std::span<const doubl
                  s = sigma *
                      std::sqrt(by_D * by_D * dot(D, i, D, i) + 2 * by_D * by_v * dot(D, i, v, i) +
                                by_v * by_v * dot(v, i, v, i));
-    const Estimate log_noise = s > 0 && std::isfinite(s) ? logarithm(s) : Estimate{};
+    const Estimate log_noise = s > 0 && std::isfinite(s) ? logarithm_of_noise(s) : Estimate{};
     const double factor = log_noise.sigma > 0 ? log_noise.sigma / s : 0;
     points.by_D.push_back(by_D * factor);
     points.by_v.push_back(by_v * factor);

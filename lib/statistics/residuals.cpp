@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <tuple>
 
@@ -66,74 +65,49 @@ double p_of_sums(const LagSums& sums, const LagSums& variances, std::size_t lags
 
 }  // namespace
 
-double ljung_box(std::span<const double> r, const LagSums& taken,
-                 std::span<const std::size_t> runs) {
+double ljung_box(std::span<const double> r, const LagSums& taken, std::span<const std::size_t> runs,
+                 bool uneven) {
   const std::size_t lags = lags_of(r);
   LagSums all{}, variances{};
   for (const auto run : by_run(r, runs)) {
     const LagSums sums = sums_of_products(run, lags);
-    const double n = static_cast<double>(run.size()), square = sums[0] * sums[0];
-    for (std::size_t k = 0; k <= lags; ++k) {
+    std::vector<double> squares;
+    for (const double x : run.first(uneven ? run.size() : 0)) squares.push_back(x * x);
+    const LagSums of_squares = sums_of_products(squares, lags);
+    const double n = static_cast<double>(run.size()), even = sums[0] * sums[0] / (n * (n + 2));
+    for (std::size_t k = 0; k <= lags && k < run.size(); ++k) {
       all[k] += sums[k];
-      if (k < run.size()) variances[k] += (n - static_cast<double>(k)) / (n * (n + 2)) * square;
+      variances[k] += uneven ? of_squares[k] : (n - static_cast<double>(k)) * even;
     }
   }
   return p_of_sums(all, variances, lags, taken, static_cast<double>(r.size()));
 }
 
-double ljung_box_uneven(std::span<const double> r, const LagSums& taken,
-                        std::span<const std::size_t> runs) {
-  const std::size_t lags = lags_of(r);
-  std::vector<double> squares(r.begin(), r.end());
-  for (double& x : squares) x *= x;
-  LagSums all{}, variances{};
-  const auto add = [lags](LagSums& to, std::span<const double> run) {
-    const LagSums sums = sums_of_products(run, lags);
-    std::ranges::transform(to, sums, to.begin(), std::plus());
-  };
-  for (const auto run : by_run(r, runs)) add(all, run);
-  for (const auto run : by_run(squares, runs)) add(variances, run);
-  return p_of_sums(all, variances, lags, taken, static_cast<double>(r.size()));
-}
-
-double breusch_pagan(std::span<const double> residuals, std::span<const std::size_t> runs) {
+double breusch_pagan(std::span<const double> residuals, std::span<const std::size_t> runs,
+                     std::span<const double> left) {
   // n R^2 of the regression of the squared residuals on the first two Legendre polynomials of the
-  // position u in the run (orthogonal up to 1/n^2) has a chi-square distribution with two degrees
-  // of freedom.
-  const double n = static_cast<double>(residuals.size());
-  const double mean = lagged(residuals, runs, 0) / n;
-  double P1 = 0, P2 = 0, along1 = 0, along2 = 0, all = 0;
-  for (const auto run : by_run(residuals, runs))
-    for (std::size_t i = 0; i < run.size(); ++i) {
-      const double u = (2 * static_cast<double>(i) + 1) / static_cast<double>(run.size()) - 1,
-                   p2 = (3 * u * u - 1) / 2, square = run[i] * run[i] - mean;
-      P1 += u * u;
-      P2 += p2 * p2;
-      along1 += u * square;
-      along2 += p2 * square;
-      all += square * square;
-    }
-  if (!(all > 0) || !(P1 > 0) || !(P2 > 0)) return 1;
-  return gsl_cdf_chisq_Q(n * (along1 * along1 / P1 + along2 * along2 / P2) / all, 2);
-}
-
-double unequal_runs(std::span<const double> residuals, std::span<const std::size_t> runs,
-                    std::span<const double> left) {
-  if (runs.size() < 2) return 1;
+  // position u in the run and on the mean of each run. They are orthogonal up to 1/n^2.
   const double n = static_cast<double>(residuals.size()),
-               freedom = left.empty() ? n : std::reduce(left.begin(), left.end());
-  const double mean = lagged(residuals, runs, 0) / freedom;
-  double between = 0, all = 0;
-  std::size_t i = 0;
+               freedom = left.empty() ? n : std::reduce(left.begin(), left.end()),
+               mean = lagged(residuals, runs, 0) / freedom;
+  double P1 = 0, P2 = 0, along1 = 0, along2 = 0, between = 0, all = 0;
+  auto share = left.begin();
   for (const auto run : by_run(residuals, runs)) {
     double sum = 0, of_run = 0;
-    for (const double r : run) {
-      const double share = left.empty() ? 1 : left[i], off = r * r / share - mean;
-      sum += r * r - mean * share, of_run += share, all += share > 0 ? off * off : 0, ++i;
+    for (std::size_t i = 0; i < run.size(); ++i) {
+      const double u = (2 * static_cast<double>(i) + 1) / static_cast<double>(run.size()) - 1,
+                   p2 = (3 * u * u - 1) / 2, h = left.empty() ? 1 : *share++,
+                   square = h > 0 ? run[i] * run[i] / h - mean : 0;
+      P1 += u * u, along1 += u * square;
+      P2 += p2 * p2, along2 += p2 * square;
+      sum += h * square, of_run += h;
+      all += square * square;
     }
     if (of_run > 0) between += sum * sum / of_run;
   }
-  return all > 0 ? gsl_cdf_chisq_Q(n * between / all, static_cast<double>(runs.size() - 1)) : 1;
+  if (!(all > 0) || !(P1 > 0) || !(P2 > 0)) return 1;
+  return gsl_cdf_chisq_Q(n * (along1 * along1 / P1 + along2 * along2 / P2 + between) / all,
+                         static_cast<double>(runs.size() + 1));
 }
 
 namespace {

@@ -24,23 +24,18 @@ LagSums taken_by_few(std::size_t p);
 
 /// The p of the autocorrelation of the residuals of a fit, after Ljung and Box (1978,
 /// Biometrika 65, 297): the smaller of the values for one lag and for n/10 lags (at least 1, at
-/// most 10). Corrected for what the fit has taken. The noise of each run has its own variance.
+/// most 10). Corrected for what the fit has taken. The noise of each run has its own variance;
+/// where it is `uneven` along a run, too, the variance of each sum of products is the sum of their
+/// squares (Lobato, Nankervis and Savin 2001, Int. Econ. Rev. 42, 187).
 double ljung_box(std::span<const double> residuals, const LagSums&,
-                 std::span<const std::size_t> runs);
-/// The same for residuals of which not even those of one run are of one size: the variance of each
-/// sum of products is the sum of their squares (Lobato, Nankervis and Savin 2001, Int. Econ. Rev.
-/// 42, 187).
-double ljung_box_uneven(std::span<const double> residuals, const LagSums&,
-                        std::span<const std::size_t> runs);
+                 std::span<const std::size_t> runs, bool uneven = false);
 
-/// The p of a trend of the variance along the runs, linear and quadratic in the row
-/// number: the studentised test of Breusch and Pagan (Koenker 1981, J. Econometrics 17, 107).
-double breusch_pagan(std::span<const double> residuals, std::span<const std::size_t> runs);
-
-/// The p of a difference of the variance between the runs, by the same test; 1 for one run.
-/// `left` is the share that a fit has left of the variance of each residual; without it all of it.
-double unequal_runs(std::span<const double> residuals, std::span<const std::size_t> runs,
-                    std::span<const double> left = {});
+/// The p of a variance that differs between the runs, or that has a trend along them, linear and
+/// quadratic in the row number: the studentised test of Breusch and Pagan (Koenker 1981,
+/// J. Econometrics 17, 107). `left` is the share that a fit has left of the variance of each
+/// residual; without it all of it.
+double breusch_pagan(std::span<const double> residuals, std::span<const std::size_t> runs,
+                     std::span<const double> left = {});
 
 /// The sum of the products of residuals that are `lag` rows apart within a run.
 double lagged(std::span<const double> residuals, std::span<const std::size_t> runs,
