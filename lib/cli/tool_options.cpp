@@ -121,12 +121,7 @@ void Tool::numbers(const std::string& names, std::vector<Estimate>& values, cons
                    const std::string& help) {
   add(names, "NUMBER,...", help, [&values, domain](const std::string& text) {
     const auto parts = split_names(text, ',');
-    const auto is_whole = [](const std::string& part) {
-      return part.find_first_not_of("0123456789") == std::string::npos;
-    };
-    const auto both_whole = [&](const auto& a, const auto& b) {
-      return is_whole(a) && is_whole(b);
-    };
+    const auto both_whole = [](const auto& a, const auto& b) { return is_whole(a) && is_whole(b); };
     if (std::ranges::adjacent_find(parts, both_whole) != parts.end())
       fail(
           "'{}' can be read in two ways: if its comma is a decimal one, make it a point; else "
