@@ -216,7 +216,7 @@ const char* Dialect::take_text(const char* at, const char* end, Field& field) {
 }
 
 /// True for `1.000`, which is read as 1 as long as its column says nothing else. Refuses it beside
-/// a whole number below 1000.
+/// a whole number below 1000: neither one number of decimals nor the fewest would give both.
 bool Dialect::may_be_grouped(const Field& field) {
   if (seen_.size() < count_) seen_.resize(count_);
   const std::string_view size = without_sign(field.text);
@@ -225,8 +225,10 @@ bool Dialect::may_be_grouped(const Field& field) {
   if (!field.wanted || !(is_grouped || is_small)) return is_grouped;
   Seen& seen = seen_[count_ - 1];
   seen.whole |= is_small;
+  seen.three_digits |= is_small && size.size() == 3;
   seen.grouped |= is_grouped;
-  if (seen.whole && seen.grouped)
+  seen.zero_at_the_end |= is_grouped && size.ends_with('0');
+  if (seen.whole && seen.grouped && (seen.three_digits || seen.zero_at_the_end))
     fail(
         "field {}: '{}' can be read in two ways in a column where whole numbers stand beside such "
         "as 1.000: if its points separate thousands, remove them, else give all numbers decimals",

@@ -70,7 +70,8 @@ class Dialect {
   /// Readings of a column that speak for a point between thousands, while no number has shown that
   /// it is a decimal one.
   struct Seen {
-    bool whole = false, grouped = false;  // 0 to 999; 1.000
+    bool whole = false, three_digits = false;       // 0 to 999; one from 100 on
+    bool grouped = false, zero_at_the_end = false;  // 1.000; which no shortest number ends with
   };
 
   char separator_ = '\0';

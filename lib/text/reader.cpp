@@ -120,7 +120,7 @@ bool Reader::take_row() {
     if (needed.column != no_column) value = fields_[needed.column].number;
     if (std::isnan(value)) {
       if (needed.column != no_column && !is_missing(fields_[needed.column].text))
-        reject(needed.column, not_a_number);
+        reject(needed.column, not_a_number(needed.column));
       if (needed.kind != NeededColumns::Kind::wanted) {
         if (options_.strict)
           fail<InputError>("{}: field {} ({}): a reading is missing", here(),
@@ -179,6 +179,17 @@ std::size_t Reader::append_made(Bytes& to, std::size_t column) {
 std::string Reader::wrong(std::size_t column, std::string_view name, std::string_view why) const {
   return fmt::format("{}: field {} ({}): '{}' {}", here(), layout().fields[column] + 1, shown(name),
                      shown(fields_[column].text), why);
+}
+
+/// Why a field is refused that is no number, and what to do.
+std::string Reader::not_a_number(std::size_t column) const {
+  const std::string_view text = fields_[column].text;
+  const bool digits =  // not of #DIV/0!
+      !text.starts_with('#') && text.find_first_of(decimal_digits) != std::string_view::npos;
+  return std::string("is not a number; ") +
+         (digits ? "write it with digits and a decimal point alone, a time in seconds"
+                 : "write NaN for a missing reading, # before a line that is no row, and a blank "
+                   "line before another run");
 }
 
 void Reader::reject(std::size_t column, std::string_view why) const {

@@ -113,9 +113,6 @@ class Reader {
 
  private:
   enum class State { found, in_run, between, ended };
-  static constexpr std::string_view not_a_number =
-      "is not a number; write one with a decimal point (a time of day in seconds), NaN for a "
-      "missing reading, # before a line that is no row, and a blank line before another run";
 
   std::size_t add(std::string_view name, NeededColumns::Kind, std::string_view unit = {});
   void read_needed();
@@ -145,6 +142,7 @@ class Reader {
   void check_time();
   std::size_t append_made(Bytes& to, std::size_t column);
   std::string wrong(std::size_t column, std::string_view name, std::string_view why) const;
+  std::string not_a_number(std::size_t column) const;
   [[noreturn]] void reject(std::size_t column, std::string_view why) const;
   std::string here() const;
 

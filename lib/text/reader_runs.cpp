@@ -174,8 +174,8 @@ void Reader::pass_over() {
       const bool missing = is_missing(fields_[i].text);
       const double number = fields_[i].number;
       if (missing ? options_.strict : std::isnan(number))
-        passed_.emplace(quantities[i],
-                        wrong(i, quantities[i], missing ? "is a missing reading" : not_a_number));
+        passed_.emplace(quantities[i], wrong(i, quantities[i],
+                                             missing ? "is a missing reading" : not_a_number(i)));
       if (quantities[i] != "t" || std::isnan(number)) continue;
       if (number <= last)
         passed_.emplace(order_of_times, wrong(i, "t", fmt::format("does not come after {}", last)));

@@ -42,13 +42,11 @@ TEST_CASE("reader: a missing reading leaves its row out, and is counted", "[text
 
 TEST_CASE("reader: what spreadsheets write for an error is no comment", "[text]") {
   CHECK(rows({"0\t1\n#N/A\t2\n"}) ==
-        "FILE:2: field 1 (t): '#N/A' is not a number; write one with a decimal point (a time of "
-        "day in seconds), NaN for a missing reading, # before a line that is no row, and a blank "
-        "line before another run");
+        "FILE:2: field 1 (t): '#N/A' is not a number; write NaN for a missing reading, # before a "
+        "line that is no row, and a blank line before another run");
   CHECK(rows({"0 1\n#DIV/0! 2\n"}) ==
-        "FILE:2: field 1 (t): '#DIV/0!' is not a number; write one with a decimal point (a time of "
-        "day in seconds), NaN for a missing reading, # before a line that is no row, and a blank "
-        "line before another run");
+        "FILE:2: field 1 (t): '#DIV/0!' is not a number; write NaN for a missing reading, # before "
+        "a line that is no row, and a blank line before another run");
   CHECK(rows({"0,1\n#1,2\n"}) == "0 1");  // a row that was taken out
 }
 

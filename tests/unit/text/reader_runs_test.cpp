@@ -22,9 +22,8 @@ TEST_CASE("reader: blank lines end a run, however many", "[text]") {
   CHECK(rows({"0 1\n# a comment is no break\n1 2\n"}) == "0 1 | 1 2");
   CHECK(rows({"t,v\n0,1\n\nt,v\n0,2\n"}) == "0 1 || 0 2");  // each run under its own header
   CHECK(rows({"t,v\n0,1\nt,v\n1,2\n"}) ==
-        "FILE:3: field 1 (t): 't' is not a number; write one with a decimal point (a time of day "
-        "in seconds), NaN for a missing reading, # before a line that is no row, and a blank line "
-        "before another run");
+        "FILE:3: field 1 (t): 't' is not a number; write NaN for a missing reading, # before a "
+        "line that is no row, and a blank line before another run");
 }
 
 TEST_CASE("reader: files in order, a run break between them", "[text]") {
@@ -59,13 +58,11 @@ TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]
   CHECK(rows({"0 1\n\n0 2\n"}, run(1)) == "0 1");
   // What is passed over is read as strictly, in the columns that are needed.
   CHECK(rows({"0 1\n\n0 bad\n\n0 4\n"}, run(3)) ==
-        "FILE:3: field 2 (v): 'bad' is not a number; write one with a decimal point (a time of day "
-        "in seconds), NaN for a missing reading, # before a line that is no row, and a blank line "
-        "before another run");
+        "FILE:3: field 2 (v): 'bad' is not a number; write NaN for a missing reading, # before a "
+        "line that is no row, and a blank line before another run");
   CHECK(rows({"0 1\n\n0 bad\n\n0 4\n"}, run(1)) ==
-        "FILE:3: field 2 (v): 'bad' is not a number; write one with a decimal point (a time of day "
-        "in seconds), NaN for a missing reading, # before a line that is no row, and a blank line "
-        "before another run");
+        "FILE:3: field 2 (v): 'bad' is not a number; write NaN for a missing reading, # before a "
+        "line that is no row, and a blank line before another run");
   CHECK(rows({"0 1\n\n0 bad\n\n0 4\n"}, run(3), {"t"}) == "0");
   CHECK(rows({"1 1\n1 2\n\n0 4\n"}, run(2)) == "FILE:2: field 1 (t): '1' does not come after 1");
   CHECK(rows({"1 1\n1 2\n\n0 4\n"}, run(2), {"v"}) == "4");
@@ -266,9 +263,8 @@ TEST_CASE(
   CHECK(in.left_out() == 1);  // data follows the torn row, so that it is no padding
   CHECK(rows({"t Run 1,v Run 1,t Run 2,v (km/h) Run 2,n Run 2\n0,1,0,36,7\n"}) == "0 1 || 0 10");
   CHECK(rows({"t Run 1,v Run 1,t Run 2,v Run 2\n0,1,0,x\n"}) ==
-        "FILE:2: field 4 (v): 'x' is not a number; write one with a decimal point (a time of day "
-        "in seconds), NaN for a missing reading, # before a line that is no row, and a blank line "
-        "before another run");
+        "FILE:2: field 4 (v): 'x' is not a number; write NaN for a missing reading, # before a "
+        "line that is no row, and a blank line before another run");
   CHECK(copies("Time (s) Run #2,v Run #2,Time (s) Run #4,v Run #4\n0.0,1,0.00,5\n") ==
         "<0.0\t1><0.00\t5>");
 }

@@ -7,9 +7,12 @@ using namespace rolling;
 
 /// What to do about a number with signs that are none of it.
 /// What the message of a text that is no number ends with.
-static const std::string hint =
-    "; write one with a decimal point (a time of day in seconds), NaN for a missing reading, # "
-    "before a line that is no row, and a blank line before another run";
+static const std::string digits_alone =
+                             "; write it with digits and a decimal point alone, a time in seconds",
+                         hint =
+                             "; write NaN for a missing reading, # before a line that is no row, "
+                             "and a blank line before "
+                             "another run";
 
 TEST_CASE("reader: blanks, tabs, commas and semicolons separate", "[text]") {
   CHECK(rows({"0 1\n1 2\n"}) == "0 1 | 1 2");
@@ -69,10 +72,11 @@ TEST_CASE("reader: names in a first line that is not numeric", "[text]") {
   CHECK(rows({"t,v\n0,5\n\nRun 2\n\nThe end of 3 runs\n\n1. try\n"}) == "0 5");
   // Quotes that are none in this file do not make a row a header, or a remark.
   CHECK(rows({"# t v\n\"0\" \"5\"\n1 6\n"}, use({"t=1", "v=2"})) ==
-        "FILE:2: field 1 (t): '\"0\"' is not a number" + hint);
-  CHECK(rows({"t,v\n'0','5'\n1,6\n"}) == "FILE:2: field 1 (t): ''0'' is not a number" + hint);
+        "FILE:2: field 1 (t): '\"0\"' is not a number" + digits_alone);
+  CHECK(rows({"t,v\n'0','5'\n1,6\n"}) ==
+        "FILE:2: field 1 (t): ''0'' is not a number" + digits_alone);
   CHECK(rows({"t v\n0 5\n\n\"1\" \"6\"\n"}) ==
-        "FILE:4: field 1 (t): '\"1\"' is not a number" + hint);
+        "FILE:4: field 1 (t): '\"1\"' is not a number" + digits_alone);
   CHECK(rows({"t,v\n0,5\n\nSecond\n0,5\n"}) ==
         "FILE:5: 2 fields under a line of 1 name: begin that with # if it is no header, put quotes "
         "around names that hold a separator, and make decimal commas points");
@@ -131,29 +135,33 @@ TEST_CASE("reader: a row of blank cells is a run break, whatever separates them"
 
 TEST_CASE("reader: what is no number is refused with what to do about it", "[text]") {
   CHECK(rows({"t,v\n0,1\n10:15:00.5,2\n"}) ==
-        "FILE:3: field 1 (t): '10:15:00.5' is not a number" + hint);
-  CHECK(rows({"t,v\n0,1\n1 5,2\n"}) == "FILE:3: field 1 (t): '1 5' is not a number" + hint);
-  CHECK(rows({"t,v\n0,1\n1 x,2\n"}) == "FILE:3: field 1 (t): '1 x' is not a number" + hint);
+        "FILE:3: field 1 (t): '10:15:00.5' is not a number" + digits_alone);
+  CHECK(rows({"t,v\n0,1\n1 5,2\n"}) == "FILE:3: field 1 (t): '1 5' is not a number" + digits_alone);
+  CHECK(rows({"t,v\n0,1\n1 x,2\n"}) == "FILE:3: field 1 (t): '1 x' is not a number" + digits_alone);
   for (const char* text : {"t;v\n1 000;2\n",
                            "t;v\n1\xE2\x80\xAF"
                            "000;2\n"})
-    CHECK(rows({text}) == "FILE:2: field 1 (t): '1 000' is not a number" + hint);
-  CHECK(rows({"t;v\n1.000,5;2\n"}) == "FILE:2: field 1 (t): '1.000,5' is not a number" + hint);
-  CHECK(rows({"t v\n5\xC2\xA0 2\n"}) == "FILE:2: field 1 (t): '5 ' is not a number" + hint);
+    CHECK(rows({text}) == "FILE:2: field 1 (t): '1 000' is not a number" + digits_alone);
+  CHECK(rows({"t;v\n1.000,5;2\n"}) ==
+        "FILE:2: field 1 (t): '1.000,5' is not a number" + digits_alone);
+  CHECK(rows({"t v\n5\xC2\xA0 2\n"}) == "FILE:2: field 1 (t): '5 ' is not a number" + digits_alone);
 }
 
 TEST_CASE("reader: two decimal marks in one file are refused", "[text]") {
   CHECK(rows({"t;v\n0,5;1\n1.5;2\n"}) ==
         "FILE:3: field 1: the decimal mark of '1.5' is not that of the numbers before it");
-  CHECK(rows({"t;v\n0.5;1\n1,5;2\n"}) == "FILE:3: field 1 (t): '1,5' is not a number" + hint);
-  CHECK(rows({"0.5 1\n1,5 2\n"}) == "FILE:2: field 1 (t): '1,5' is not a number" + hint);
+  CHECK(rows({"t;v\n0.5;1\n1,5;2\n"}) ==
+        "FILE:3: field 1 (t): '1,5' is not a number" + digits_alone);
+  CHECK(rows({"0.5 1\n1,5 2\n"}) == "FILE:2: field 1 (t): '1,5' is not a number" + digits_alone);
   CHECK(rows({"t\tv\n0\t998\n1\t1,002\n"}) ==
         "FILE:3: field 2: '1,002' can be read in two ways: if its comma is a decimal one, replace "
         "it by "
         "a point, else remove it");
   CHECK(rows({"t\tv\n0,0\t1,002\n"}) == "0 1.002");
-  CHECK(rows({"t;v\n0;1,234,567\n"}) == "FILE:2: field 2 (v): '1,234,567' is not a number" + hint);
-  CHECK(rows({"t;v\n0;1,234.5\n"}) == "FILE:2: field 2 (v): '1,234.5' is not a number" + hint);
+  CHECK(rows({"t;v\n0;1,234,567\n"}) ==
+        "FILE:2: field 2 (v): '1,234,567' is not a number" + digits_alone);
+  CHECK(rows({"t;v\n0;1,234.5\n"}) ==
+        "FILE:2: field 2 (v): '1,234.5' is not a number" + digits_alone);
 }
 
 TEST_CASE("reader: --use says which column serves, by name or number", "[text]") {
@@ -270,7 +278,7 @@ TEST_CASE("reader: units are converted, and go out converted", "[text]") {
 TEST_CASE("reader: what is neither number nor missing is refused, and says where", "[text]") {
   CHECK(rows({"0 1\n1 abc\n"}) == "FILE:2: field 2 (v): 'abc' is not a number" + hint);
   CHECK(rows({"0 1\n\n# c\n1 inf\n"}) == "FILE:4: field 2 (v): 'inf' is not a number" + hint);
-  CHECK(rows({"0 1\n1 1e400\n"}) == "FILE:2: field 2 (v): '1e400' is not a number" + hint);
+  CHECK(rows({"0 1\n1 1e400\n"}) == "FILE:2: field 2 (v): '1e400' is not a number" + digits_alone);
   const auto begins = [](const std::string& row, const std::string& message) {
     CHECK(rows({"0 1\n" + row}).starts_with(message));
   };
@@ -278,7 +286,7 @@ TEST_CASE("reader: what is neither number nor missing is refused, and says where
   begins("1 " + std::string(50, '9') + "x\n",
          "FILE:2: field 2 (v): '" + std::string(40, '9') + "...' is not a number");
   CHECK(rows({"0 1\n1 \xE2\x88\x92"
-              "1\n"}) == "FILE:2: field 2 (v): '???1' is not a number" + hint);
+              "1\n"}) == "FILE:2: field 2 (v): '???1' is not a number" + digits_alone);
 }
 
 TEST_CASE("reader: an empty file, a header alone, words alone", "[text]") {
