@@ -19,6 +19,7 @@ struct Moment {
   const Ledger& now;
   const Balance& balance;
   double temperature;
+  const LawOfFile& law;
 };
 
 constexpr Quantity<double (*)(const Moment&)> quantities[] = {
@@ -27,6 +28,7 @@ constexpr Quantity<double (*)(const Moment&)> quantities[] = {
     {"L", "N m s", [](const Moment& m) { return m.now.L(); }},
     {"A", "", [](const Moment& m) { return m.now.A(); }},
     {"D", "m", [](const Moment& m) { return m.now.D(); }},
+    {"sigma_D", "m", [](const Moment& m) { return m.law.sigma(m.now.v()); }},
     {"F_N", "N", [](const Moment& m) { return m.now.F_N(); }},
     {"F_H", "N", [](const Moment& m) { return m.now.F_H(); }},
     {"tau_N", "N m", [](const Moment& m) { return m.now.tau_N(); }},
@@ -53,8 +55,9 @@ constexpr Quantity<double (*)(const Moment&)> quantities[] = {
 struct Task {
   Body body{};
   Geometry geometry{};
-  Law law = {};
-  bool uses_law = false;  ///< instead of the column D
+  LawOfFile law = {};
+  bool uses_law = false;      ///< instead of the column D
+  bool law_of_scene = false;  ///< it uses the law because the first run has no column D
   bool summary = false;
   double tolerance = not_given;  ///< NaN without --check
 };
@@ -68,6 +71,11 @@ class Accounts {
 
   /// Begins the balance of a run.
   Balance open() {
+    if (task_.law_of_scene && in_.find("D"))
+      fail<InputError>(
+          "run {} has a column D, and the runs before it have none: choose the law by -a and -b, "
+          "or give the runs one by one",
+          in_.run_name());
     const bool shows_balance = task_.summary || !std::isnan(task_.tolerance);
     tests_nothing_ |= shows_balance && !task_.uses_law && shifts_of_speeds(in_.history());
     const auto shift_of = history_of(in_.history(), {}).shift_of;
@@ -79,8 +87,8 @@ class Accounts {
   /// Adds the present row to the balance of its run.
   Ledger enter(Balance& balance) {
     const double v = in_[v_];
-    if (task_.uses_law) task_.law.check_speed(v);
-    const double D = task_.uses_law ? task_.law(v) : in_[D_];
+    if (task_.uses_law) task_.law.law.check_speed(v);
+    const double D = task_.uses_law ? task_.law.law(v) : in_[D_];
     const Ledger now(task_.body, task_.geometry, v, D);
     balance.push(in_[t_], now);
     beyond_ += std::abs(D) > task_.body.R;
@@ -169,15 +177,24 @@ int main(int argc, char** argv) {
     if (task.summary)
       tool.refuse({"columns"}, "does not go with --summary, which has its own columns");
     const auto row = chosen(columns, quantities);
-    if (std::isnan(temperature) &&
-        std::ranges::any_of(row, [](const auto& quantity) { return quantity.name == "Pi_S"; }))
-      fail("Pi_S needs --temperature");
+    const auto is_chosen = [&](std::string_view name) {
+      return std::ranges::count(row, name, [](const auto& quantity) { return quantity.name; }) > 0;
+    };
+    if (is_chosen("Pi_S") && std::isnan(temperature)) fail("Pi_S needs --temperature");
+    if (is_chosen("sigma_D") && law.file.empty())
+      fail("sigma_D is that of a law: it needs --law and a row of fitpower");
     tool.need({"mass", "radius", "shape-factor"});
-    // The law of a scene is for other tools: the rows bring D.
+    // A law on the command line takes precedence over a column D, the law of a scene does not.
     task.uses_law = !law.file.empty() || tool.on_command_line("coefficient") ||
                     tool.on_command_line("exponent");
-    if (task.uses_law) task.law = read_law(tool, law, {{"slope", "", &task.body.slope}});
+    const auto read = [&] {
+      return read_law(tool, law, {{"slope", "", &task.body.slope}},
+                      is_chosen("sigma_D") ? Uncertainties::needed : Uncertainties::ignored);
+    };
+    if (task.uses_law) task.law = read();
     Reader& in = tool.read({"t", "v", "D"});
+    task.law_of_scene = !task.uses_law && !std::isnan(law.power.a) && !in.find("D");
+    if (task.law_of_scene) task.uses_law = true, task.law = read();
     Accounts accounts(tool, in, task);
     if (task.summary) {
       write_summary(tool.out, in, accounts, task);
@@ -186,14 +203,15 @@ int main(int argc, char** argv) {
     }
     Filter filter(
         in, tool.out,
-        fmt::format("energy-ledger {}{}", task.uses_law ? words_of(task.law) : "D",
+        fmt::format("energy-ledger {}{}", task.uses_law ? words_of(task.law.law) : "D",
                     task.body.slope == 0 ? "" : fmt::format(" slope {}", task.body.slope)));
     for (const auto& quantity : row) filter.append(quantity.column());
     while (filter.next_run()) {
       Balance balance = accounts.open();
       while (filter.next()) {
         const Ledger now = accounts.enter(balance);
-        for (const auto& quantity : row) filter.put(quantity.of({now, balance, temperature}));
+        for (const auto& quantity : row)
+          filter.put(quantity.of({now, balance, temperature, task.law}));
       }
       accounts.close(balance);
     }

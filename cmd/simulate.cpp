@@ -87,7 +87,8 @@ struct Task {
                         {{"slope", "", &roll.body.slope},
                          {"v0", "m/s", &roll.v0},
                          {"x0", "m", &roll.x0},
-                         {"t0", "s", &t0}});
+                         {"t0", "s", &t0}})
+                   .law;
     if (std::isnan(roll.v0)) tool.need({"v0"});
     if (!tool.on_command_line("method")) method = best_method(roll);
   }

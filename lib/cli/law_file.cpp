@@ -28,22 +28,36 @@ const LawForm* law_of_columns(const Reader& in) {
 }
 
 /// The row of fitpower in a file.
-Law read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& given,
-             std::vector<RowNumber> numbers) {
+LawOfFile read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& given,
+                   std::vector<RowNumber> numbers, Uncertainties uncertainties) {
   const bool power = &form == &laws().front();
   if (!power)
     tool.refuse({"coefficient", "exponent"}, fmt::format("does not go with D = {}", form.formula));
   std::erase_if(numbers, [&](const RowNumber& number) {
     return !in.find(number.name) || tool.on_command_line(number.name);
   });
-  std::vector<std::size_t> columns, coefficients;  // slots
+  std::vector<std::size_t> columns, coefficients, sigmas, correlations;  // slots
   for (const RowNumber& number : numbers)
     columns.push_back(in.need_as_is(number.name, number.unit));
-  for (const Column& c : columns_of(form)) coefficients.push_back(in.need_as_is(c.name, c.unit));
+  for (const Column& c : columns_of(form)) {
+    coefficients.push_back(in.need_as_is(c.name, c.unit));
+    if (uncertainties == Uncertainties::needed)
+      sigmas.push_back(in.need_as_is("sigma_" + c.name, c.unit));
+  }
+  if (uncertainties == Uncertainties::needed)
+    for (const std::string& name : correlations_of(form))
+      correlations.push_back(in.need_as_is(name));
   if (!in.next_run() || !in.next()) fail<InputError>("{}: no row of fitpower", in.where());
   for (std::size_t i = 0; i < numbers.size(); ++i) *numbers[i].value = in[columns[i]];
   std::vector<double> written;
   for (const std::size_t coefficient : coefficients) written.push_back(in[coefficient]);
+  LawOfFile row{};
+  for (std::size_t j = 0; j < sigmas.size(); ++j) {
+    row.coefficients.push_back({written[j], in[sigmas[j]]});
+    row.correlations.emplace_back();
+    for (std::size_t i = 0; i < j; ++i)
+      row.correlations[j].push_back(in[correlations[j * (j - 1) / 2 + i]]);
+  }
   const bool a_told = !tool.on_command_line("coefficient"),
              b_told = !tool.on_command_line("exponent");
   if (power && a_told && !(written[0] > 0)) fail("a = {} must be greater than 0", written[0]);
@@ -52,7 +66,8 @@ Law read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& given,
   if (in.next() || in.next_run()) fail("more than one row: a law is one row of fitpower");
   if (!a_told) written[0] = given.a;
   if (!b_told) written[1] = given.b;
-  return Law::as_written(form, written);
+  row.law = Law::as_written(form, written);
+  return row;
 }
 
 }  // namespace
@@ -111,27 +126,52 @@ void add_options(Tool& tool, LawOptions& law) {
             "file (- is standard input) with the law: a row of fitpower or a table of v D");
 }
 
-Law read_law(Tool& tool, const LawOptions& options, const std::vector<RowNumber>& numbers) {
+LawOfFile read_law(Tool& tool, const LawOptions& options, const std::vector<RowNumber>& numbers,
+                   Uncertainties uncertainties) {
   const std::string& file = options.file;
   if (file.empty()) {
     tool.need({"coefficient", "exponent"});
-    return options.power;
+    return {options.power};
   }
   Reader& in = tool.read_file(file, {"v", "D"});
   if (const LawForm* form = law_of_columns(in))
-    return read_row(tool, in, *form, options.power, numbers);
+    return read_row(tool, in, *form, options.power, numbers, uncertainties);
   tool.refuse({"coefficient", "exponent"}, "does not go with a table of v D");
   if (!in.find("v") || !in.find("D"))
     fail<InputError>("{}: neither a table of v and D nor a row of fitpower", shown(file));
+  if (uncertainties == Uncertainties::needed)
+    fail("{}: a table of v and D has no uncertainties: give a row of fitpower", shown(file));
   const auto v = in.need("v"), D = in.need("D");
   std::vector<double> speeds, shifts;
   while (in.next_run())
     while (in.next()) speeds.push_back(in[v]), shifts.push_back(in[D]);
   try {
-    return TableLaw(std::move(speeds), std::move(shifts));
+    return {TableLaw(std::move(speeds), std::move(shifts))};
   } catch (const Error& error) {
     fail<InputError>("{}: {}", file, error.what());
   }
+}
+
+double LawOfFile::sigma(double v) const {
+  if (coefficients.empty()) return not_given;
+  std::vector<double> part;  // what each coefficient brings
+  for (std::size_t j = 0; j < coefficients.size(); ++j) {
+    // a central difference, since the law is known by its formula's coefficients alone
+    constexpr double step = 1e-3;
+    const auto moved = [&](double by) {
+      std::vector<double> written;
+      for (const Estimate& c : coefficients) written.push_back(c.value);
+      written[j] += by * coefficients[j].sigma;
+      return Law::as_written(law.form(), written)(v);
+    };
+    part.push_back((moved(step) - moved(-step)) / (2 * step));
+  }
+  double variance = 0;
+  for (std::size_t j = 0; j < part.size(); ++j) {
+    variance += part[j] * part[j];
+    for (std::size_t i = 0; i < j; ++i) variance += 2 * correlations[j][i] * part[i] * part[j];
+  }
+  return std::sqrt(std::max(variance, 0.0));
 }
 
 }  // namespace rolling

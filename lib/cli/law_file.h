@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/matrix.h"
 #include "cli/tool.h"
 #include "contact/law.h"
 #include "text/column.h"
@@ -43,12 +44,29 @@ struct RowNumber {
   double* value;
 };
 
+/// A law as a file tells it.
+struct LawOfFile {
+  Law law;
+  /// Of a row, where they are asked for: the coefficients of the formula in SI units, and their
+  /// correlations row by row below the diagonal.
+  std::vector<Estimate> coefficients = {};
+  Matrix correlations = {};
+
+  /// The standard uncertainty of D [m] at a velocity: that of a function of quantities that are
+  /// correlated (GUM, Eq. 16). NaN where the law is not a row with its uncertainties.
+  double sigma(double v) const;
+};
+
+/// Whether the uncertainties of a row are needed.
+enum class Uncertainties { ignored, needed };
+
 /// The law that the options tell: a v^b if there is no file, which then needs a and b; else a table
 /// of v and D, or a row of fitpower, a file with the columns of the coefficients of a law, which
 /// sets these numbers too. `-` is standard input. What the command line gives takes precedence: a
 /// and b, and the numbers; these keep their values where the row has no such column. Columns with
 /// units are converted to SI. Throws Error for any other file, for more than one row, for a row
 /// that sets nothing, and for another law than a v^b beside -a or -b.
-Law read_law(Tool&, const LawOptions&, const std::vector<RowNumber>&);
+LawOfFile read_law(Tool&, const LawOptions&, const std::vector<RowNumber>&,
+                   Uncertainties = Uncertainties::ignored);
 
 }  // namespace rolling

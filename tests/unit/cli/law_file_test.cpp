@@ -16,14 +16,15 @@ namespace {
 struct Given {
   LawOptions options{};
   PowerLaw law{};
-  Law file{};
+  LawOfFile file{};
   double slope = 0, v0 = not_given, x0 = 0, t0 = 0;
   int status = 0;
   std::string said;
 };
 
 /// What a file with this text sets, beside these words on the command line.
-Given law_of(const std::string& text, std::vector<std::string> words = {}) {
+Given law_of(const std::string& text, std::vector<std::string> words = {},
+             Uncertainties uncertainties = Uncertainties::ignored) {
   const TemporaryFile file(text), errors;
   Given given;
   Tool tool("tool", "");
@@ -46,8 +47,9 @@ Given law_of(const std::string& text, std::vector<std::string> words = {}) {
                             {{"slope", "", &given.slope},
                              {"v0", "m/s", &given.v0},
                              {"x0", "m", &given.x0},
-                             {"t0", "s", &given.t0}});
-      given.law = given.file.power().value_or(given.options.power);
+                             {"t0", "s", &given.t0}},
+                            uncertainties);
+      given.law = given.file.law.power().value_or(given.options.power);
       return 0;
     });
   }
@@ -60,7 +62,7 @@ Given law_of(const std::string& text, std::vector<std::string> words = {}) {
 TEST_CASE("law file: a row of fitpower, in its units; the command line wins", "[cli]") {
   const std::string row = "# a[mm]\tsigma_a[mm]\tb\tv0[cm/s]\tslope\n1.5\t0.1\t0.25\t50\t0.001\n";
   const Given all = law_of(row);
-  CHECK((all.status == 0 && all.said.empty() && !all.file.has_points()));
+  CHECK((all.status == 0 && all.said.empty() && !all.file.law.has_points()));
   CHECK((all.law.a == 1.5e-3 && all.law.b == 0.25 && all.v0 == 0.5 && all.slope == 0.001));
   const Given some = law_of(row, {"-a", "2e-3", "--v0", "1", "--slope", "0"});
   CHECK((some.law.a == 2e-3 && some.law.b == 0.25 && some.v0 == 1 && some.slope == 0));
@@ -79,10 +81,34 @@ TEST_CASE("law file: where the roll of a row begins", "[cli]") {
   CHECK(law_of("# a[m]\tb\tt0[m]\n1e-3\t0\t1\n").status == 2);
 }
 
+// Of a v^b: (sigma_D/D)^2 = (sigma_a/a)^2 + (sigma_b ln v)^2 + 2 corr (sigma_a/a) sigma_b ln v. Of
+// d0 + d2 v^2, which is linear: C00 + 2 C02 v^2 + C22 v^4.
+TEST_CASE("law file: the standard uncertainty of D at a speed, from a row", "[cli]") {
+  const Given power = law_of("# a[mm]\tsigma_a[mm]\tb\tsigma_b\tcorr\n2\t0.04\t0.2\t0.01\t0.8\n",
+                             {}, Uncertainties::needed);
+  const Given square = law_of(
+      "# d0[mm]\tsigma_d0[mm]\td2[s^2/m]\tsigma_d2[s^2/m]\tcorr_d0_d2\n1\t0.02\t4e-4\t1e-4\t-0.7\n",
+      {}, Uncertainties::needed);
+  for (const double v : {0.02, 0.5, 1.0, -3.0}) {
+    CAPTURE(v);
+    const double log = std::log(std::abs(v)), D = 2e-3 * std::pow(std::abs(v), 0.2);
+    CHECK(
+        power.file.sigma(v) ==
+        Approx(D * std::sqrt(4e-4 + 1e-4 * log * log + 2 * 0.8 * 0.02 * 0.01 * log)).epsilon(1e-6));
+    const double square_v = v * v;
+    CHECK(square.file.sigma(v) ==
+          Approx(std::sqrt(4e-10 - 2 * 0.7 * 2e-9 * square_v + 1e-8 * square_v * square_v))
+              .epsilon(1e-6));
+  }
+  const std::string bare = "a b\n2e-3 0\n";
+  CHECK(std::isnan(law_of(bare).file.sigma(1)));
+  CHECK(law_of(bare, {}, Uncertainties::needed).status == 2);
+}
+
 TEST_CASE("law file: a table of v and D", "[cli]") {
   const Given given = law_of("# v[cm/s]\tD[mm]\n100\t2\n0\t1\n");
-  REQUIRE(given.file.has_points());
-  CHECK((given.file(1) == 2e-3 && given.file.highest() == 1));
+  REQUIRE(given.file.law.has_points());
+  CHECK((given.file.law(1) == 2e-3 && given.file.law.highest() == 1));
 }
 
 TEST_CASE("law file: what is neither is refused", "[cli]") {
