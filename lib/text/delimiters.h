@@ -45,9 +45,4 @@ bool needs_quotes(std::string_view field);
 /// Appends a field to a tab-separated line, in quotes if it needs them.
 void append_field(Bytes& line, std::string_view field);
 
-/// What to do about a line with too many fields.
-constexpr const char* way_out_of_commas(char separator) {
-  return separator == ',' ? "; if some of its commas are decimal ones, make them points first" : "";
-}
-
 }  // namespace rolling

@@ -121,12 +121,6 @@ class HeadReader {
     above_.push_back({std::move(line), lines_.number()});
   }
 
-  /// The last line that is no comment; null without one.
-  const Comment* last_bare() const {
-    const auto found = std::find_if(above_.rbegin(), above_.rend(), std::mem_fn(&Comment::is_bare));
-    return found == above_.rend() ? nullptr : &*found;
-  }
-
   /// Goes to the first row; false if there is none.
   bool find_row() {
     while (lines_.next()) {
@@ -216,7 +210,9 @@ class HeadReader {
   }
 
   [[noreturn]] void refuse_without_rows() const {
-    if (const Comment* const bare = last_bare())
+    if (const auto bare =
+            std::find_if(above_.rbegin(), above_.rend(), std::mem_fn(&Comment::is_bare));
+        bare != above_.rend())
       fail<InputError>("{}:{}: no rows: no field of '{}' is a number", lines_.name(), bare->line,
                        shown(bare->text));
     if (lines_.name() == "-" && above_.empty())

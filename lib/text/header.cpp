@@ -15,6 +15,11 @@ namespace {
 
 bool is_known_name(const std::string& text) { return is_known(read_column(text)); }
 
+/// A comment without the # or ## before it.
+std::string_view without_marks(std::string_view comment) {
+  return comment.substr(std::min(comment.find_first_not_of('#'), comment.size()));
+}
+
 /// The text without separators at its end.
 std::string_view without_end(std::string_view text) {
   return text.substr(0, text.find_last_not_of(filling) + 1);
@@ -78,10 +83,6 @@ bool is_date(std::string_view text) {
 }
 
 }  // namespace
-
-std::string_view without_marks(std::string_view comment) {
-  return comment.substr(std::min(comment.find_first_not_of('#'), comment.size()));
-}
 
 bool holds_known_name(std::string_view line) {
   const auto is_letter = [](char c) {

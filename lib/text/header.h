@@ -21,9 +21,6 @@ struct Comment {
   bool is_bare() const { return !text.starts_with('#'); }
 };
 
-/// A comment without the # or ## before it.
-std::string_view without_marks(std::string_view comment);
-
 /// The columns of the rows that comments may name.
 struct UnnamedColumns {
   std::size_t count = 0;

@@ -96,7 +96,9 @@ bool Reader::take_fields() {
              less = count + 1 == width && head_.blank_end;
   if (side_by_side ? count > width : !more && !less)
     fail<InputError>("{}: {} where the first row has {}{}", here(), counted(count, "field"), width,
-                     count > width ? way_out_of_commas(dialect_.separator()) : "");
+                     count > width && dialect_.separator() == ','
+                         ? "; if some of its commas are decimal ones, make them points first"
+                         : "");
   changed_fields_.clear();
   bool blank = side_by_side;
   for (const std::size_t i : layout().fields) {
