@@ -176,7 +176,7 @@ Uncertainty uncertainty_of(const Fitted& fit) {
   const auto with = [&](Errors kind, double whiteness, double variance) {
     const bool consistent = kind == Errors::autocorrelation || kind == Errors::uneven;
     return Uncertainty{
-        kind, whiteness, variance,
+        kind, whiteness,
         covariance_of(fit, consistent ? consistent_meat(fit, seen, kind)
                                       : times(variance, products(seen.B, seen.sources)))};
   };

@@ -12,7 +12,6 @@ namespace rolling {
 struct Uncertainty {
   Errors kind;
   double whiteness;   ///< as in FitResult
-  double variance;    ///< variance of the noise: of the raw column if the filters are known
   Matrix covariance;  ///< of Fitted::numbers(); 0 for one that is fixed
 };
 

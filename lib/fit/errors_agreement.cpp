@@ -169,9 +169,8 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
   const auto own = own_fits(route, runs, options, joint);
   const auto laws = own_laws(own, joint.fastest());
   if (laws.size() < 2) return {};
-  const Pair common = local_power(joint, joint.fastest()).law;
   const bool b_held = options.b || joint.coefficients.size() < 2;
-  const Agreement found = compare(laws, common, !options.a + !b_held, options.fit_slope);
+  const Agreement found = compare(laws, !options.a + !b_held, options.fit_slope);
   if (found.agree()) return found;
   errors = uncertainty_of(around_own(joint, own));
   // The bias of logarithms comes from the noise too.

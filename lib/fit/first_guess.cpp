@@ -213,7 +213,8 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
   for (std::size_t i = 1; i < all.size(); ++i)
     if (Minimum found = attempt(system, all[i]); found.rss < best.rss) best = std::move(found);
   require_near(thin, best.rss, options);
-  return {q, std::move(best.theta), std::move(all)};
+  all.insert(all.begin(), std::move(best.theta));
+  return {q, std::move(all)};
 }
 
 }  // namespace rolling

@@ -8,8 +8,8 @@ namespace rolling {
 
 struct FirstGuess {
   Parameters parameters;  ///< with units v_ref and x_ref that suit the data
-  std::vector<double> theta;
-  std::vector<std::vector<double>> others = {};  ///< where a robust search may start as well
+  /// theta; behind it others where a robust search may start as well.
+  std::vector<std::vector<double>> starts;
 };
 
 /// Estimates theta from positions or speeds as if they were not filtered (without H). Throws Error

@@ -110,19 +110,17 @@ void require_determined(const FitResult& result, const FitOptions& options, cons
     fail("the fit gives no finite errors of {}: {}", names_of(form), choose_the_roll);
   // Large errors of a nonlinear fit are not reliable themselves; hence these limits on them.
   if (options.fit_slope && !both_ways(found)) require_slope(result);
-  for (std::size_t j = 0; j < form.coefficients.size() && !options.fits_power(); ++j)
-    if (const auto& of = form.coefficients[j];
-        of.D == 0 && of.v == 0 && !determines_b(result.coefficients[j].sigma))
-      fail("the rows do not determine {} of D = {}, which comes out as {:.3g} +- {:.3g}", of.name,
-           form.formula, result.coefficients[j].value, result.coefficients[j].sigma);
-  if (!options.fits_power()) return;
-  if (result.errors != Errors::none && !determines_b(result.sigma_b))
-    fail(
-        "the data do not determine b, which comes out as {:.3g} +- {:.3g}: {}; or fix it, --fix "
-        "b=0",
-        result.b, result.sigma_b, choose_the_roll);
-  if (result.errors == Errors::none && !options.b && std::abs(result.b) > 10)
-    fail("as many parameters as rows do not determine b: it comes out as {:.3g}", result.b);
+  for (std::size_t j = 0; j < form.coefficients.size(); ++j) {
+    const auto& [value, sigma] = result.coefficients[j];
+    const bool is_exponent = form.coefficients[j].D == 0 && form.coefficients[j].v == 0,
+               known = result.errors == Errors::none ? options.b || std::abs(value) <= 10
+                                                     : determines_b(sigma);
+    if (is_exponent && !known)
+      fail("the data do not determine {}, which comes out as {:.3g}{}: {}{}",
+           form.coefficients[j].name, value,
+           result.errors == Errors::none ? "" : fmt::format(" +- {:.3g}", sigma), choose_the_roll,
+           options.fits_power() ? "; or fix it, --fix b=0" : "");
+  }
 }
 
 /// Throws Error if the roll has no shift, as a body at rest; if it has lost nearly all of v0 before

@@ -188,12 +188,10 @@ RawModel Model::raw(const std::vector<double>& theta, std::size_t r) const {
 }
 
 std::vector<double> Model::raw_column(const std::vector<double>& theta, std::size_t r) const {
-  const ObservedRun& run = runs()[r];
-  auto at = rolled(run, roll(theta, r));
-  const double x0 = parameters_.x0(theta, r);
-  std::vector<double> column;
-  column.reserve(run.t.size());
-  for (double t : run.t) column.push_back(x0 + run.way * at(t)[0]);
+  const RawModel at = raw(theta, r);
+  std::vector<double> column, slopes(parameters_.columns());
+  column.reserve(runs()[r].t.size());
+  for (double t : runs()[r].t) column.push_back(at(t, slopes.data(), 1));
   return column;
 }
 

@@ -133,9 +133,7 @@ Fitted fit_from(const FirstGuess& start, std::vector<ObservedRun> runs,
                 std::shared_ptr<const Noise> noise, const FitOptions& options) {
   auto model = std::make_shared<const Model>(std::move(runs), start.parameters);
   System system = system_of(model, noise);
-  std::vector<std::vector<double>> starts = start.others;
-  starts.insert(starts.begin(), start.theta);
-  Minimum minimum = search(*model, system, starts, options);
+  Minimum minimum = search(*model, system, start.starts, options);
   Fitted fit{.system = std::move(system),
              .minimum = std::move(minimum),
              .noise = std::move(noise),
@@ -152,14 +150,14 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   run.body.slope = all.slope(theta, run.body.slope);
   auto noise = noise_of({run}, joint.noise->added());
   require_rows(run.y.size(), own.count(), informative_rows({run}, own, *noise));
-  return fit_from({own, all.theta_of_run(theta, r)}, {std::move(run)}, std::move(noise), options);
+  return fit_from({own, {all.theta_of_run(theta, r)}}, {std::move(run)}, std::move(noise), options);
 }
 
 Fitted of_means(Fitted fit, const FitOptions& options) {
   if (!fit.is_roll() || fit.noise->known()) return fit;
   std::vector<ObservedRun> few = means_of_many(fit.model->runs());
   if (few.empty()) return fit;
-  return fit_from({fit.parameters(), fit.minimum.theta}, std::move(few), fit.noise, options);
+  return fit_from({fit.parameters(), {fit.minimum.theta}}, std::move(few), fit.noise, options);
 }
 
 Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows,
@@ -183,9 +181,9 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
     if (options.min_speed <= 0) responses = {}, rows.clear();  // frees memory: no round follows
     fit = {};                                                  // frees memory
     fit = fit_from(*guess, std::move(runs), std::move(noise), options);
-    guess->theta = fit.minimum.theta;
+    guess->starts.front() = fit.minimum.theta;
     if (options.min_speed <= 0 ||
-        !leave_out_slow(*fit.model, guess->theta, all, rows, options.min_speed))
+        !leave_out_slow(*fit.model, guess->starts.front(), all, rows, options.min_speed))
       break;
   }
   allow_for_rounding(fit, options);

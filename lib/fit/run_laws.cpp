@@ -60,10 +60,7 @@ Estimate OwnLaw::log_D(double log_v) const {
           std::sqrt(std::max(0.0, C.aa + log_v * (2 * C.ab + log_v * C.bb)))};
 }
 
-// The sum of least_from() may have several minima: the law of a joint fit is the start that suits
-// runs of equal noise, and the weighted mean one that suits unequal ones.
-Agreement compare(const std::vector<OwnLaw>& laws, Pair start, std::size_t parameters,
-                  std::size_t taken) {
+Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, std::size_t taken) {
   Weighted all;
   for (const OwnLaw& one : laws) all.add(one.covariance.inverse(), one.law);
   Agreement result{};
@@ -77,7 +74,7 @@ Agreement compare(const std::vector<OwnLaw>& laws, Pair start, std::size_t param
     stand_out(result, one, rest * (all.sum - weight * one.law), rest, most);
   }
   result.dof = parameters * (laws.size() - 1) - taken;
-  result.ratio = std::min(least_from(start, laws, parameters), least_from(mean, laws, parameters));
+  result.ratio = least_from(mean, laws, parameters);
   if (result.dof > 0) result.p = gsl_cdf_chisq_Q(result.ratio, static_cast<double>(result.dof));
   return result;
 }
@@ -157,7 +154,7 @@ JointLaw joint_law(const std::vector<OwnLaw>& laws, const std::vector<CommonErro
   JointLaw joint{.law = all.mean(), .covariance = all.weights.inverse()};
   if (C.aa == 0) joint.law.a = laws.front().law.a;
   if (C.bb == 0) joint.law.b = laws.front().law.b;
-  joint.agreement = compare(laws, joint.law, static_cast<std::size_t>(C.aa > 0) + (C.bb > 0), 0);
+  joint.agreement = compare(laws, static_cast<std::size_t>(C.aa > 0) + (C.bb > 0), 0);
   if (!joint.agreement.agree()) {
     const double log_v = common_log_v(laws, [](const OwnLaw& one) { return one.best_log_v(); });
     JointLaw mean = scattered_mean(laws, log_v, static_cast<double>(laws.size()) - 1, common);

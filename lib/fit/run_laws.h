@@ -99,11 +99,9 @@ struct Agreement {
   bool agree() const { return p > levels::runs_disagree; }
 };
 
-/// Compares two or more laws. `start` is a common law from which the search for that of the
-/// likelihood begins, beside the weighted mean; `parameters`, how many of a and b are free; `taken`
-/// degrees of freedom were spent on what the runs have in common beside the law.
-Agreement compare(const std::vector<OwnLaw>&, Pair start, std::size_t parameters,
-                  std::size_t taken);
+/// Compares two or more laws. `parameters`: how many of a and b are free; `taken` degrees of
+/// freedom were spent on what the runs have in common beside the law.
+Agreement compare(const std::vector<OwnLaw>&, std::size_t parameters, std::size_t taken);
 
 /// The logarithm of the speed that is common to laws which are known best at the speeds `log_v_of`.
 double common_log_v(const std::vector<OwnLaw>&,

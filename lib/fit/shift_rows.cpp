@@ -119,7 +119,7 @@ Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
   std::vector<ObservedRun> runs = observed_shifts(all, options, false);
   const Parameters q = parameters_of_shifts(runs, options);
   const PowerLaw start = power_start(runs, q.speed_unit(), options);
-  return fit_from({q, q.theta(start, {}, {})}, std::move(runs), std::make_shared<const Noise>(),
+  return fit_from({q, {q.theta(start, {}, {})}}, std::move(runs), std::make_shared<const Noise>(),
                   options);
 }
 

@@ -160,7 +160,7 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
       observed_shifts(runs, options, true, roll ? roll->stops : std::vector<double>());
   const Parameters q = parameters_of_shifts(rows, options);
   // The residuals are linear: any start will do.
-  Fitted line = fit_from({q, q.theta({1e-3, 0}, {}, {})}, std::move(rows),
+  Fitted line = fit_from({q, {q.theta({1e-3, 0}, {}, {})}}, std::move(rows),
                          std::make_shared<const Noise>(), options);
   for (const FitRun& run : runs)
     if (!roll)

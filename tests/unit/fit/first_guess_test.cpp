@@ -29,7 +29,8 @@ TEST_CASE("first guess: near the law of exact runs, whatever the exponent, from 
       Rows all(150);
       std::iota(all.begin(), all.end(), 0);
       const Route route = position ? Route::position : Route::velocity;
-      const auto [q, theta, others] = first_guess(observe(route, {run}, {all}, {}, {}), {});
+      const auto [q, starts] = first_guess(observe(route, {run}, {all}, {}, {}), {});
+      const std::vector<double>& theta = starts.front();
       const PowerLaw law = *q.law(theta).power();
       const double at = 0.3, D = law(at), true_D = 1e-3 * std::pow(at, b);
       INFO((position ? "x, b " : "v, b ")

@@ -8,7 +8,7 @@ using namespace rolling;
 TEST_CASE("run laws: two laws whose errors are known, by hand", "[fit]") {
   const std::vector<OwnLaw> laws{{4, {0, 0.2}, {1e-4, 0, 4e-4}, 1e6},
                                  {7, {0.03, 0.2}, {1e-4, 0, 4e-4}, 1e6}};
-  const Agreement found = compare(laws, {0, 0.2}, 2, 0);
+  const Agreement found = compare(laws, 2, 0);
   CHECK(found.chi2 == Approx(0.03 * 0.03 / 2e-4));
   CHECK(found.ratio == Approx(found.chi2).epsilon(1e-4));
   CHECK(found.p == Approx(std::exp(-4.5 / 2)).epsilon(1e-4));
