@@ -21,7 +21,8 @@ namespace {
 /// Share of the largest speed below which a body may come to rest by itself.
 constexpr double slow = 0.15;
 
-constexpr double five_sigma = 25;  // in RSS
+/// Of RSS: 2.5 and 5 standard errors.
+constexpr double rather = 6, five_sigma = 25;
 
 constexpr const char* choose = ": choose the roll by its times (--from, --to)";
 
@@ -178,12 +179,8 @@ class Search {
       s.end = last.begin + joints_.inner(cost, last.size(), last.size() / 3, -1);
       s.end = std::min(s.end, last.begin + joints_.agreeing(last.begin, last.end - 1));
     }
-    if (how != FreeRoll::End::is_ended && std::abs(last.v(last.to).value) < slow * c.fastest) {
-      const std::size_t end = s.end < samples_.size() ? pieces_[c.last + 1].end : last.end;
-      const auto [stop, rss] = joints_.before_stop(last.begin, last.end, end);
-      if (rss < sudden + five_sigma) s.end = stop;
-      else how = FreeRoll::End::is_ended;
-    }
+    if (how != FreeRoll::End::is_ended && std::abs(last.v(last.to).value) < slow * c.fastest)
+      how = slow_end(c, how, sudden, s);
     if (how == FreeRoll::End::is_ended) {
       const double t = samples_[s.end - 1].t - unseen(last, samples_[s.end - 1].t);
       while (s.end > std::max(last.begin, s.begin) + 1 && samples_[s.end - 1].t > t) --s.end;
@@ -203,6 +200,27 @@ class Search {
       break;
     }
     return {s, how, last.end};
+  }
+
+  /// Of a roll that is slow at its end: how it ends, and where. `sudden`: RSS of an end with a
+  /// jump.
+  FreeRoll::End slow_end(const Chain& c, FreeRoll::End how, double sudden, Stretch& s) const {
+    const Piece<P>& last = pieces_[c.last];
+    const std::size_t end = s.end < samples_.size() ? pieces_[c.last + 1].end : last.end;
+    const auto [stop, rss] = joints_.before_stop(last.begin, last.end, end);
+    if (rss > sudden + five_sigma) how = FreeRoll::End::is_ended;
+    else s.end = stop;
+    // A hand that slows a slow body by hardly more than D may seem to be the last piece, or of it.
+    const std::size_t before = std::max(c.first + 1, c.last) - 1,
+                      begin = std::max(s.begin, pieces_[before].begin);
+    double any = five_sigma;  // RSS of what agrees with the readings as well as the pieces do
+    for (const Piece<P>& p : std::span(pieces_).subspan(before))
+      if (p.end <= end) any += p.rss();
+    const double by_itself = joints_.before_stop(begin, last.end, end).second;
+    const auto [hand, by_hand] = joints_.before_hand(begin, last.end, end);
+    if (by_hand > any || by_hand > by_itself - rather) return how;
+    s.end = std::min(s.end, hand);
+    return by_hand > by_itself - five_sigma ? how : FreeRoll::End::is_ended;
   }
 
   /// The time for which positions do not show a change: a body that a hand moves from rest to v, or

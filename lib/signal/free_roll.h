@@ -42,7 +42,9 @@ struct FreeRoll {
 /// with the rest of it, less the time in which a push or a hand stays within two standard
 /// deviations of the noise. Where the roll is slow at its end, the joint is that of a body that
 /// stops by itself, whose speed does not jump: a short rest, too, shows when. If the readings speak
-/// against that by five standard errors, something else ended the roll.
+/// against that by five standard errors, something else ended the roll. A hand that slows a slow
+/// body by hardly more than D leaves hardly a joint: if such a hand agrees with the readings by 2.5
+/// standard errors better than a stop, the roll ends where it begins.
 ///
 /// A run of more than 1000 samples is reduced to means of equal numbers of samples; if the roll is
 /// short, the search is repeated around it. O(n). Throws Error if nothing moves or no roll is

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
@@ -93,6 +94,43 @@ class Joints {
     const auto lowest = std::min_element(cost.begin(), cost.end());
     const auto best = static_cast<std::size_t>(lowest - cost.begin());
     return {least + inner(cost, best, best, -1), *lowest};
+  }
+  /// The same of a roll that a hand ends: it takes the speed v to 0 as v (1 + cos(pi s/T))/2,
+  /// within a time T of no more than a quarter of the roll.
+  std::pair<std::size_t, double> before_hand(std::size_t begin, std::size_t roughly,
+                                             std::size_t end) const {
+    std::pair best{roughly, std::numeric_limits<double>::infinity()};
+    Polynomial<P + 1> roll;
+    std::array<double, P + 1> row{}, slope{};
+    row[P] = 1;
+    roll.add(row, 0);
+    for (std::size_t joint = begin; joint + 1 < roughly; ++joint) {
+      const double past = samples_[joint].t - samples_[begin].t;
+      row = {1};
+      for (std::size_t k = 1; k < P; ++k) {
+        slope[k] = static_cast<double>(k) * row[k - 1];
+        row[k] = row[k - 1] * past;
+      }
+      roll.add(row, samples_[joint].y / noise_);
+      if (3 * (joint - begin) < 2 * (roughly - begin)) continue;
+      const double longest = std::min(samples_[end - 1].t - samples_[joint].t, past / 4);
+      for (double T = samples_[joint + 1].t - samples_[joint].t; T < longest; T *= 1.25) {
+        Polynomial<P + 1> fit = roll;
+        for (std::size_t i = joint + 1; i < end && fit.rss() < best.second; ++i) {
+          constexpr double pi = std::numbers::pi;
+          const double s = std::min(1.0, (samples_[i].t - samples_[joint].t) / T),
+                       share = (1 + std::cos(pi * s)) / 2,
+                       way = T * (s + std::sin(pi * s) / pi) / 2;
+          auto held = row;
+          for (std::size_t k = 0; k < P; ++k)
+            held[k] = positions_ ? row[k] + way * slope[k] : share * row[k];
+          held[P] = positions_ && s == 1;
+          fit.add(held, samples_[i].y / noise_);
+        }
+        if (fit.rss() < best.second) best = {joint, fit.rss()};
+      }
+    }
+    return best;
   }
 
  private:

@@ -176,23 +176,33 @@ TEST_CASE("free_roll: readings that a logger held count once", "[signal]") {
   CHECK(right >= 48);
 }
 
+namespace {
+
+/// made_run, of which a hand takes hold at `caught` and stops it within `in` seconds.
+std::vector<Sample> caught_run(double caught, double in, unsigned seed, bool positions,
+                               double phase) {
+  auto run = made_run(25, positions ? 3e-4 : 2e-3, seed, positions, 1, phase);
+  for (Sample& s : run)
+    if (const double t = s.t + phase; t > caught) {
+      const double u = std::min(t - caught, in), v = speed(caught), pi = std::acos(-1),
+                   moved = v * (u + in / pi * std::sin(pi * u / in)) / 2,
+                   now = v * (1 + std::cos(pi * u / in)) / 2, left = stop - t;
+      s.y += positions ? moved - v * v / 0.2 + (left > 0 ? 0.05 * left * left : 0) : now - speed(t);
+    }
+  return run;
+}
+
+}  // namespace
+
 TEST_CASE("free_roll: a slow body that a hand stops does not end by itself", "[signal]") {
-  // The roll of made_run, up to where a hand stops it within 0.2 s at a tenth of its speed.
-  constexpr double caught = 6, in = 0.2;
+  // At a tenth of its speed, within 0.2 s.
+  constexpr double caught = 6;
   unsigned by_itself = 0, is_ended = 0;
   for (unsigned seed = 1; seed <= 100; ++seed)
     for (const bool positions : {true, false}) {
       const double phase = seed / 2500.;  // of the clock, so that the stop lies between readings
-      auto natural = made_run(25, positions ? 3e-4 : 2e-3, seed, positions, 1, phase),
-           hand = natural;
-      for (Sample& s : hand)
-        if (const double t = s.t + phase; t > caught) {
-          const double u = std::min(t - caught, in), v = speed(caught), pi = std::acos(-1),
-                       moved = v * (u + in / pi * std::sin(pi * u / in)) / 2,
-                       now = v * (1 + std::cos(pi * u / in)) / 2, left = 6.5 - t;
-          s.y += positions ? moved - v * v / 0.2 + (left > 0 ? 0.05 * left * left : 0)
-                           : now - speed(t);
-        }
+      const auto natural = made_run(25, positions ? 3e-4 : 2e-3, seed, positions, 1, phase),
+                 hand = caught_run(caught, 0.2, seed, positions, phase);
       by_itself += free_roll(natural, positions).how == FreeRoll::End::by_itself;
       const auto [kept, how, after, other] = free_roll(hand, positions);
       if (how != FreeRoll::End::is_ended) continue;
@@ -201,6 +211,24 @@ TEST_CASE("free_roll: a slow body that a hand stops does not end by itself", "[s
     }
   CHECK(by_itself == 200);
   CHECK(is_ended >= 190);
+}
+
+TEST_CASE("free_roll: a hand that slows a body by little more than its friction is not kept",
+          "[signal]") {
+  constexpr double caught = 5.9;  // 0.6 s before the stop
+  for (const bool positions : {true, false})
+    for (const double in : {0.6, 0.7}) {
+      unsigned with_hand = 0;
+      for (unsigned seed = 1; seed <= 100; ++seed) {
+        const double phase = seed / 2500.;
+        const auto run = caught_run(caught, in, seed, positions, phase);
+        const double end = run[free_roll(run, positions).kept.end - 1].t + phase;
+        CHECK(end > caught - 1);
+        with_hand += end > caught + 0.1;
+      }
+      INFO("positions " << positions << ", within " << in << " s: " << with_hand);
+      CHECK(with_hand <= 5);
+    }
 }
 
 // A step tells the place of the body: an end at a step would bias the last position by half of it.
