@@ -77,7 +77,7 @@ TEST_CASE(
   const auto ends = free_roll(whole.subspan(0, 100), false).kept;
   CHECK(ends.end == 100);
   const auto fine = made_run(500, 0, 1, false);  // means of several runs are searched first
-  for (const std::size_t n : {1999, 2000, 2001, 2002}) {
+  for (const std::size_t n : {1999U, 2000U, 2001U, 2002U}) {
     INFO(n << " runs");
     const auto all = free_roll(std::span(fine).subspan(800, n), false).kept;
     CHECK((all.begin == 0 && all.end == n));
