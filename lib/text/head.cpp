@@ -97,8 +97,7 @@ class HeadReader {
     if (head_.named && (side_by_side ? width > names.size() : width != names.size()))
       fail(
           "{} under a line of {}: begin that with # if it is no header, put quotes around names "
-          "that "
-          "hold a separator, and make decimal commas points",
+          "that hold a separator, and make decimal commas points",
           counted(width, "field"), counted(names.size(), "name"));
     return finish();
   }
