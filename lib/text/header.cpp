@@ -103,13 +103,14 @@ void fit_end(std::vector<std::string>& names, const UnnamedColumns& columns) {
 
 CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns& columns) {
   const std::string_view text = without_marks(comment);
-  CommentedNames best;
-  for (const std::string_view part : {without_end(text), text})
-    for (const char separator : std::string(separators) + '\0')
-      if (auto found = names_between(separator, part, columns);
-          best.names.empty() || found.known > best.known)
-        best = std::move(found);
-  return best;
+  CommentedNames unknown;
+  for (const char separator : std::string(separators) + '\0')
+    for (const std::string_view part : {without_end(text), text}) {
+      auto found = names_between(separator, part, columns);
+      if (found.known > 0) return found;
+      if (unknown.names.empty()) unknown = std::move(found);
+    }
+  return unknown;
 }
 
 const Comment* choose_names(std::span<const Comment> comments, const UnnamedColumns& columns,

@@ -39,8 +39,8 @@ struct CommentedNames {
   char separator = '\0';                ///< of the names; 0 for blanks, as in a sentence
   std::size_t known = 0;  ///< number that are t, x, v, a, D or names of the run before
 };
-/// The names are separated by that of tabs, ; , and blanks which gives one for each column and the
-/// most known ones; of several, by the first.
+/// The names are separated by the first of tabs, ; , and blanks that gives one for each column, a
+/// known one among them; else by the first that gives one for each.
 CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns&);
 
 /// True if t, x, v, a or D is a word of the line, by its short name or its long one.
