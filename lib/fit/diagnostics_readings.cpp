@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -30,14 +29,15 @@ OffReadings of_run(std::span<const double> e, std::span<const double> left, doub
   const std::size_t n = e.size(), most = std::min<std::size_t>(n / 10 + 1, 100), runs[] = {n};
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::partial_sort(order, order.begin() + static_cast<std::ptrdiff_t>(most),
-                            std::greater(), [&](std::size_t i) { return e[i] * e[i] / left[i]; });
+  const auto squared = [&](std::size_t i) { return e[i] * e[i] / left[i]; };
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(most), order.end(),
+                    [&](std::size_t i, std::size_t j) { return squared(i) > squared(j); });
   const double by_chance = std::sqrt(2 * std::log(static_cast<double>(n)));
   std::vector<double> others(e.begin(), e.end());
   double squares = dot(e, e), first = 0;
   for (std::size_t out = 0; out < most && --freedom >= 12;) {
     const std::size_t i = order[out];
-    const double off = e[i] * e[i] / left[i];
+    const double off = squared(i);
     squares -= off, others[i] = 0;
     if (out++ == 0) first = off;
     const double size = squares > 1e-12 * off ? std::sqrt(off / squares * freedom) : 0;
