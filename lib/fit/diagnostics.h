@@ -30,12 +30,13 @@ std::optional<Eccentricity> eccentricity_of(const Fitted&);
 /// for laws that are no roll.
 double few_reversals(const Fitted&);
 
-/// The readings of a roll that lie ten standard deviations off it or further: one after another the
-/// residual that is largest is left out of their variance, up to a tenth of the run, and those up
-/// to the last that is so far off count (Rosner 1983, Technometrics 25, 165): a burst does not hide
-/// behind itself. Where a reading has bent the roll too far for that, the robust roll is the one to
-/// look from. For known filters the readings are those of the raw column. Returns the reading that
-/// is furthest off, of the run where that is most; the count is 0 where none is.
+/// The readings of a roll that lie ten standard deviations off the motion of the others or further:
+/// one after another the reading with the largest residual, studentised by its leverage, is left
+/// out of the variance, up to a tenth of the run, and those up to the last that is so far off count
+/// (Rosner 1983, Technometrics 25, 165): a burst does not hide behind itself. Where one is far off
+/// the robust roll is looked from first, since such readings bend the roll. For known filters the
+/// readings are those of the raw column. Returns the reading that is furthest off, of the run where
+/// that is most; the count is 0 where none is.
 OffReadings off_readings(const Fitted&);
 
 /// The same around the robust roll, for unfiltered runs of which no fit by squares need be known.
