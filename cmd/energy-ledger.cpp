@@ -7,7 +7,7 @@
 #include "cli/law_file.h"
 #include "cli/quantities.h"
 #include "cli/tool.h"
-#include "contact/balance.h"
+#include "contact/ledger.h"
 #include "text/filter.h"
 
 using namespace rolling;

@@ -21,16 +21,6 @@
 namespace rolling {
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
-
-/// The sign of the velocities of a run up to a stop or a turning point.
-double way_of(const FitRun& run, double stop) {
-  double sum = 0;
-  for (std::size_t i = 0; i < run.v.size(); ++i)
-    if (std::isfinite(run.v[i]) && (stop == never || run.t[i] < stop)) sum += run.v[i];
-  return sum < 0 ? -1 : 1;
-}
-
 /// What is left where the terms of a sum cancel: a share of the median size, which no single
 /// reading can shift, of about a thousand readings.
 double rounding_of(const std::vector<double>& column) {
@@ -80,30 +70,35 @@ PowerLaw power_start(const std::vector<ObservedRun>& runs, double v_ref,
 }  // namespace
 
 Rows shift_rows(const FitRun& run, const FitOptions& options, bool logarithms, double stop) {
-  const double way = way_of(run, stop), least_v = rounding_of(run.v),
-               least_D = logarithms ? rounding_of(run.D) : -std::numeric_limits<double>::infinity();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto rolls = [&](std::size_t i) { return stop == infinity || run.t[i] < stop; };
+  double sum = 0;
+  for (std::size_t i = 0; i < run.v.size(); ++i)
+    if (std::isfinite(run.v[i]) && rolls(i)) sum += run.v[i];
+  const double way = sum < 0 ? -1 : 1, least_v = rounding_of(run.v),
+               least_D = logarithms ? rounding_of(run.D) : -infinity;
   Rows rows;
   for (std::size_t i = 0; i < run.v.size(); ++i) {
     const double v = way * run.v[i], D = way * run.D[i];
     if (v > least_v && v >= options.min_speed && std::isfinite(v) && std::isfinite(D) &&
-        D > least_D && (stop == never || run.t[i] < stop))
+        D > least_D && rolls(i))
       rows.push_back(i);
   }
   return rows;
 }
 
-std::vector<ObservedRun> observed_shifts(const std::vector<FitRun>& all, const FitOptions& options,
-                                         bool logarithms, const std::vector<double>& stops) {
+std::vector<ObservedRun> observed_shifts(const std::vector<FitRun>& all,
+                                         const std::vector<Rows>& rows, const FitOptions& options,
+                                         bool logarithms) {
   std::vector<ObservedRun> runs;
   std::vector<double> speeds;
   for (std::size_t r = 0; r < all.size(); ++r) {
     const FitRun& run = all[r];
-    const double stop = stops.empty() ? never : stops[r], way = way_of(run, stop);
-    const Rows rows = shift_rows(run, options, logarithms, stop);
-    if (rows.empty()) continue;
+    if (rows[r].empty()) continue;
+    const double way = run.v[rows[r].front()] < 0 ? -1 : 1;
     ObservedRun& seen = runs.emplace_back();
     seen.column = logarithms ? RawColumn::ln_D : RawColumn::D;
-    for (const std::size_t i : rows) {
+    for (const std::size_t i : rows[r]) {
       seen.t.push_back(way * run.v[i]);
       seen.y.push_back(logarithms ? std::log(way * run.D[i]) : way * run.D[i]);
     }
@@ -123,7 +118,9 @@ Parameters parameters_of_shifts(const std::vector<ObservedRun>& runs, const FitO
 }
 
 Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
-  std::vector<ObservedRun> runs = observed_shifts(all, options, false);
+  std::vector<Rows> rows;
+  for (const FitRun& run : all) rows.push_back(shift_rows(run, options, false));
+  std::vector<ObservedRun> runs = observed_shifts(all, rows, options, false);
   const Parameters q = parameters_of_shifts(runs, options);
   const PowerLaw start = power_start(runs, q.speed_unit(), options);
   return fit_from({q, {q.theta(start, {}, {})}}, std::move(runs), std::make_shared<const Noise>(),
@@ -211,16 +208,12 @@ std::optional<KnownRoll> known_roll(const std::vector<FitRun>& runs, const FitOp
 
 /// Adds the noise and the bias of ln D - b ln v to a line: those of the roll, observed through the
 /// known filters.
-void carry_noise(Fitted& line, const std::vector<FitRun>& runs, KnownRoll known,
-                 const FitOptions& options) {
+void carry_noise(Fitted& line, const std::vector<FitRun>& runs, const std::vector<Rows>& rows,
+                 KnownRoll known) {
   const Fitted& roll = known.fit;
   Matrix Q = orthonormal(line);
-  std::vector<Rows> rows;
   std::vector<std::size_t> sizes;  // 0 for a run that the line has not
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    rows.push_back(shift_rows(runs[r], options, true, known.stops[r]));
-    sizes.push_back(rows.back().size());
-  }
+  for (const Rows& of_run : rows) sizes.push_back(of_run.size());
   const auto Q_of = rows_by_run(Q, sizes);
   Matrix& B = known.noise.B;
   B.assign(Q.size(), {});
@@ -270,17 +263,20 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
   if (runs.empty() && std::ranges::any_of(usable(Route::loglog, all), some))
     fail("no row has v > 0 and D > 0: there is no logarithm to fit");
   std::optional<KnownRoll> roll = known_roll(runs, options, std::move(theirs));
-  std::vector<ObservedRun> rows =
-      observed_shifts(runs, options, true, roll ? roll->stops : std::vector<double>());
-  const Parameters q = parameters_of_shifts(rows, options);
+  std::vector<Rows> rows;
+  std::size_t all_rows = 0, positive = 0;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    rows.push_back(roll ? shift_rows(runs[r], options, true, roll->stops[r])
+                        : shift_rows(runs[r], options, true));
+    all_rows += shift_rows(runs[r], options, false).size(), positive += rows.back().size();
+  }
+  std::vector<ObservedRun> logarithms = observed_shifts(runs, rows, options, true);
+  const Parameters q = parameters_of_shifts(logarithms, options);
   // The residuals are linear: any start will do.
-  Fitted line = fit_from({q, {q.theta({1e-3, 0}, {}, {})}}, std::move(rows),
+  Fitted line = fit_from({q, {q.theta({1e-3, 0}, {}, {})}}, std::move(logarithms),
                          std::make_shared<const Noise>(), options);
-  for (const FitRun& run : runs)
-    if (!roll)
-      line.negative +=
-          shift_rows(run, options, false).size() - shift_rows(run, options, true).size();
-  if (roll) carry_noise(line, runs, std::move(*roll), options);
+  if (roll) carry_noise(line, runs, rows, std::move(*roll));
+  else line.negative = all_rows - positive;
   return line;
 }
 

@@ -16,10 +16,10 @@ namespace rolling {
 Rows shift_rows(const FitRun&, const FitOptions&, bool logarithms,
                 double stop = std::numeric_limits<double>::infinity());
 
-/// These rows as runs of the columns D [m] or ln D, without the runs that have none. `stops`, if
-/// not empty, has the stop of each run. Throws Error if the rows do not determine the parameters.
-std::vector<ObservedRun> observed_shifts(const std::vector<FitRun>&, const FitOptions&,
-                                         bool logarithms, const std::vector<double>& stops = {});
+/// The runs of the columns D [m] or ln D with these rows, without the runs that have none. Throws
+/// Error if the rows do not determine the parameters.
+std::vector<ObservedRun> observed_shifts(const std::vector<FitRun>&, const std::vector<Rows>&,
+                                         const FitOptions&, bool logarithms);
 
 /// The parameters of a law of these runs: the unit of speed is the geometric mean of theirs, where
 /// the estimates of ln D and b are uncorrelated.

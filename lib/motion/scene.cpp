@@ -10,8 +10,7 @@
 #include "base/error.h"
 #include "contact/contact.h"
 #include "motion/closed_form.h"
-#include "motion/integrated_roll.h"
-#include "motion/memory.h"
+#include "motion/solved_roll.h"
 #include "motion/roll.h"
 
 namespace rolling {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fit/input.h"
-#include "motion/memory.h"
+#include "motion/solved_roll.h"
 
 namespace coverage {
 

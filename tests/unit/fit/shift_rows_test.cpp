@@ -22,13 +22,20 @@ FitRun run_of(std::vector<double> v, std::vector<double> D) {
   return run;
 }
 
+std::vector<ObservedRun> observed(const std::vector<FitRun>& runs, const FitOptions& options,
+                                  bool logarithms) {
+  std::vector<Rows> rows;
+  for (const FitRun& run : runs) rows.push_back(shift_rows(run, options, logarithms));
+  return observed_shifts(runs, rows, options, logarithms);
+}
+
 }  // namespace
 
 TEST_CASE("shift rows: along the motion, v finite and positive, D positive for logarithms",
           "[fit]") {
   const std::vector<FitRun> runs{run_of({0.4, missing, 0.1, 0, 0.2}, {3, 2, -1, 1, missing}),
                                  run_of({-0.4, -0.1, 0.05}, {-3, -1, -1})};
-  const std::vector<ObservedRun> all = observed_shifts(runs, {}, false);
+  const std::vector<ObservedRun> all = observed(runs, {}, false);
   CHECK(all[0].y == std::vector<double>{3, -1});
   CHECK(all[1].y == std::vector<double>{3, 1});
   CHECK(shift_rows(runs[0], {}, false) == Rows{0, 2});
@@ -38,7 +45,7 @@ TEST_CASE("shift rows: along the motion, v finite and positive, D positive for l
   CHECK(parameters_of_shifts(all, {}).speed_unit() == Approx(0.2).epsilon(1e-15));
   for (const ObservedRun& run : all) CHECK(run.t == std::vector<double>{0.4, 0.1});
 
-  const std::vector<ObservedRun> positive = observed_shifts(runs, {}, true);
+  const std::vector<ObservedRun> positive = observed(runs, {}, true);
   CHECK(positive[0].y == std::vector<double>{std::log(3)});
   CHECK(positive[1].y == std::vector<double>{std::log(3), 0});
   CHECK(shift_rows(runs[0], {}, true) == Rows{0});
@@ -46,10 +53,9 @@ TEST_CASE("shift rows: along the motion, v finite and positive, D positive for l
   FitOptions fast;
   fast.min_speed = 0.3;
   fast.b = 1;  // with one speed alone b has to be held
-  for (const ObservedRun& run : observed_shifts(runs, fast, false))
-    CHECK(run.y == std::vector<double>{3});
+  for (const ObservedRun& run : observed(runs, fast, false)) CHECK(run.y == std::vector<double>{3});
   fast.b.reset();
-  CHECK_THROWS_AS(observed_shifts(runs, fast, false), Error);
+  CHECK_THROWS_AS(observed(runs, fast, false), Error);
 }
 
 TEST_CASE("shift rows: what rounding leaves of a difference is 0", "[fit]") {
@@ -67,7 +73,7 @@ TEST_CASE("shift rows: the derivatives of the residuals are those of differences
         FitOptions options;
         if (hold_a) options.a = 4e-3;
         if (hold_b) options.b = 0.3;
-        const std::vector<ObservedRun> rows = observed_shifts(runs, options, logarithms);
+        const std::vector<ObservedRun> rows = observed(runs, options, logarithms);
         const Parameters q = parameters_of_shifts(rows, options);
         const System system =
             system_of(std::make_shared<const Model>(rows, q), std::make_shared<const Noise>());

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "motion/memory.h"
+#include "motion/solved_roll.h"
 #include "unit/catch.h"
 
 using namespace rolling;

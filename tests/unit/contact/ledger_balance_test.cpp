@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/balance.h"
+#include "contact/ledger.h"
 
 #include <cmath>
 

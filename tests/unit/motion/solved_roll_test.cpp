@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "motion/integrated_roll.h"
+#include "motion/solved_roll.h"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "motion/memory.h"
+#include "motion/solved_roll.h"
 
 #include <algorithm>
 #include <cmath>
