@@ -37,14 +37,6 @@ void move(Route route, FitRun& run, const UncertainNumber& number, double by) {
   run.shift_of = to;
 }
 
-/// The fit after the number has changed by `by` in each run that has this value and uncertainty.
-Fitted fit_with(Route route, std::vector<FitRun> runs, const FitOptions& options, bool agree,
-                const UncertainNumber& number, const Estimate& value, double by) {
-  for (FitRun& run : runs)
-    if (given(body_of(route, run, options), number) == value) move(route, run, number, by);
-  return agree ? fit_route(route, runs, options) : fit_of_disagreeing(route, runs, options);
-}
-
 /// True if all runs have this value, and D alone depends on it, in proportion to (K + 1) R/g. With
 /// A = 1 on a level mat v and x depend on a g/((K + 1) R) (Eq. 12), and D is (K + 1) R/g times the
 /// deceleration (Eq. 11).
@@ -61,7 +53,6 @@ bool scales_a(Route route, const std::vector<FitRun>& runs, const FitOptions& op
 
 std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& runs,
                                         const FitOptions& options, const Fitted& fit, bool agree) {
-  const auto numbers = fit.numbers();
   std::vector<ErrorShare> all;
   for (const UncertainNumber& number : uncertain_numbers) {
     std::vector<Estimate> values;
@@ -71,28 +62,30 @@ std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& 
         values.push_back(value);
     }
     for (const Estimate& value : values) {
+      // The numbers of the fit after this one has changed in each run that has it.
+      const auto numbers_with = [&](double by) {
+        std::vector<FittedNumber> numbers = fit.numbers();
+        if (scales_a(route, runs, options, number, value)) {
+          Body body = body_of(route, runs.front(), options).body;
+          const double unit = (body.K + 1) * body.R / body.g;
+          body.*number.value += by;
+          for (std::size_t j = 0; j < fit.coefficients.size(); ++j)
+            if (options.law->coefficients[j].D > 0)
+              numbers[j].value *= (body.K + 1) * body.R / body.g / unit;
+          return numbers;
+        }
+        std::vector<FitRun> changed = runs;
+        for (FitRun& run : changed)
+          if (given(body_of(route, run, options), number) == value) move(route, run, number, by);
+        return (agree ? fit_route : fit_of_disagreeing)(route, changed, options).numbers();
+      };
       const double step = value.value == 0 || number.value == &Body::slope
                               ? value.sigma
                               : std::min(value.sigma, 0.1 * std::abs(value.value));
-      std::vector<double> changes(numbers.size(), 0);
-      const auto change = [&](double high, double low) {
-        return (high - low) / 2 * value.sigma / step;
-      };
-      if (scales_a(route, runs, options, number, value)) {
-        const auto unit = [&](double by) {
-          Body body = body_of(route, runs.front(), options).body;
-          body.*number.value += by;
-          return (body.K + 1) * body.R / body.g;
-        };
-        for (std::size_t j = 0; j < fit.coefficients.size(); ++j)
-          changes[j] = options.law->coefficients[j].D * fit.coefficients[j].value *
-                       change(unit(step), unit(-step)) / unit(0);
-      } else {
-        const auto above = fit_with(route, runs, options, agree, number, value, step).numbers(),
-                   below = fit_with(route, runs, options, agree, number, value, -step).numbers();
-        for (std::size_t j = 0; j < numbers.size(); ++j)
-          changes[j] = change(above[j].value, below[j].value);
-      }
+      const auto above = numbers_with(step), below = numbers_with(-step);
+      std::vector<double> changes;
+      for (std::size_t j = 0; j < above.size(); ++j)
+        changes.push_back((above[j].value - below[j].value) / 2 * value.sigma / step);
       all.push_back(
           {values.size() == 1 ? number.name : fmt::format("{} {}", number.name, value.value),
            outer_square(changes)});
