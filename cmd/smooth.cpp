@@ -50,20 +50,26 @@ class Told {
  public:
   explicit Told(Tool& tool) : tool_(tool) {}
 
-  void add(const Selection& selection, const std::string& run) {
+  /// Adds a run of so many rows.
+  void add(const Selection& selection, const std::string& run, std::size_t rows) {
     for (const double t : selection.outliers())
       if (++outliers_ <= 10) add_item(times_, fmt::format("{:.12g}", t));
     if (!selection.roll()) return;
-    const Selection::Roll& roll = *selection.roll();
-    ++runs_, kept_ += roll.samples, rows_ += roll.of;
-    ++ends_[static_cast<std::size_t>(roll.how)];
-    one_ = fmt::format("--coast keeps {:.12g} to {:.12g} s ({} of {} rows); the roll {}", roll.from,
-                       roll.to, roll.samples, roll.of, end(roll));
-    if (roll.other)
+    const auto& [kept, how, after, other] = *selection.roll();
+    const std::size_t count = kept.end - kept.begin;
+    ++runs_, kept_ += count, rows_ += rows;
+    ++ends_[static_cast<std::size_t>(how)];
+    one_ =
+        fmt::format("--coast keeps {:.12g} to {:.12g} s ({} of {} rows); the roll {}", kept.from,
+                    kept.to, count, rows,
+                    how == FreeRoll::End::by_itself ? "ends by itself"
+                    : how == FreeRoll::End::goes_on ? "goes on to the end of the run"
+                                                    : fmt::format("is ended at {:.12g} s", after));
+    if (other)
       doubts_.add(run,
                   fmt::format("the free roll may also be {:.12g} to {:.12g} s, and not {:.12g} to "
                               "{:.12g} s: choose with --from and --to",
-                              roll.other->first, roll.other->second, roll.from, roll.to));
+                              other->from, other->to, kept.from, kept.to));
   }
   void say() const {
     if (outliers_ > 0)
@@ -85,12 +91,6 @@ class Told {
   }
 
  private:
-  static std::string end(const Selection::Roll& roll) {
-    if (roll.how == FreeRoll::End::by_itself) return "ends by itself";
-    if (roll.how == FreeRoll::End::goes_on) return "goes on to the end of the run";
-    return fmt::format("is ended at {:.12g} s", roll.after);
-  }
-
   Tool& tool_;
   std::size_t outliers_ = 0, runs_ = 0, kept_ = 0, rows_ = 0;
   std::array<std::size_t, 3> ends_{};
@@ -169,7 +169,7 @@ int main(int argc, char** argv) {
         else take(selection.push(filter[t], filter[y]));
       }
       take(selection.finish());
-      selected.add(selection, in.run_name());
+      selected.add(selection, in.run_name(), row);
       filter.put(smoother->finish());
     }
     selected.say();

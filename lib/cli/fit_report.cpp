@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/grid.h"
-#include "signal/repeats.h"
+#include "signal/readings.h"
 
 namespace rolling {
 
@@ -167,7 +167,7 @@ class Remarks {
     const bool bare = of_grid > levels::gates_of_grid && of_grid < levels::rounding_of_grid,
                repeat = repeats >= 10 && of_grid < levels::grid_of_rms &&
                         share > levels::repeats_of_grid;
-    if (rows_held(y) == 1 && (!is_trajectory(fit_.route) || (!bare && !repeat))) return false;
+    if (!are_held(y) && (!is_trajectory(fit_.route) || (!bare && !repeat))) return false;
     tool_.warn(run.name, fmt::format("the {} repeat, or have hardly any noise but their rounding: "
                                      "these errors are correlated, and sigma_a and sigma_b may be "
                                      "too small; keep only the rows in which a new one comes, or "

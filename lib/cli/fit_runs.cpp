@@ -6,7 +6,7 @@
 #include <set>
 
 #include "cli/history.h"
-#include "signal/pulses.h"
+#include "signal/readings.h"
 
 namespace rolling {
 namespace {

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/grid.h"
 #include "signal/joints.h"
 #include "signal/outliers.h"
 #include "signal/partition.h"
-#include "signal/repeats.h"
-#include "signal/resolution.h"
+#include "signal/readings.h"
 #include "signal/units.h"
 
 namespace rolling {
@@ -23,8 +23,6 @@ constexpr double slow = 0.15;
 
 /// Of RSS: 2.5 and 5 standard errors.
 constexpr double rather = 6, five_sigma = 25;
-
-constexpr const char* choose = ": choose the roll by its times (--from, --to)";
 
 /// Pieces that are one roll, by their indices.
 struct Chain {
@@ -199,7 +197,7 @@ class Search {
       s.end = (from + to + 1) / 2;
       break;
     }
-    return {s, how, last.end};
+    return {s, how, samples_[std::min(last.end, samples_.size() - 1)].t};
   }
 
   /// Of a roll that is slow at its end: how it ends, and where. `sudden`: RSS of an end with a
@@ -247,35 +245,35 @@ class Search {
   std::vector<Piece<P>> pieces_;
 };
 
-/// The means of t and y over consecutive blocks of `size` samples; an incomplete last block is
-/// dropped.
-std::vector<Sample> means(std::span<const Sample> samples, std::size_t size) {
+/// The means of t and y over consecutive blocks of `size` samples, from those of the first sample
+/// on, positions too; an incomplete last block is dropped.
+std::vector<Sample> means(std::span<const Sample> run, std::size_t size, bool positions) {
+  const Sample origin{run[0].t, positions ? run[0].y : 0};
   std::vector<Sample> blocks;
-  blocks.reserve(samples.size() / size);
-  for (std::size_t i = 0; i + size <= samples.size(); i += size) {
-    const Sample& begin = samples[i];  // means of differences from it lose no digits
+  for (std::size_t i = 0; i + size <= run.size(); i += size) {
+    const Sample& begin = run[i];  // means of differences from it lose no digits
     double t = 0, y = 0;
-    for (const Sample& s : samples.subspan(i, size)) t += s.t - begin.t, y += s.y - begin.y;
-    blocks.push_back(
-        {begin.t + t / static_cast<double>(size), begin.y + y / static_cast<double>(size)});
+    for (const Sample& s : run.subspan(i, size)) t += s.t - begin.t, y += s.y - begin.y;
+    blocks.push_back({begin.t - origin.t + t / static_cast<double>(size),
+                      begin.y - origin.y + y / static_cast<double>(size)});
   }
   return blocks;
 }
 
-constexpr std::size_t at_once = 1000;
-
-/// The roll in at most at_once samples.
-FreeRoll roll_of(std::span<const Sample> run, bool positions, double step) {
+/// The roll in the means of so many samples each.
+FreeRoll roll_in_means(std::span<const Sample> run, bool positions, std::size_t size) {
   constexpr double off = 6;  // standard errors
-  const Sample origin{run[0].t, positions ? run[0].y : 0};
-  std::vector<Sample> readings;
-  std::vector<double> y;
-  for (const Sample& s : run)
-    readings.push_back({s.t - origin.t, s.y - origin.y}), y.push_back(s.y);
+  std::vector<double> y;     // of the first sample of each mean
+  for (std::size_t i = 0; i < run.size(); i += size) y.push_back(run[i].y);
+  // Speeds that a sensor takes from rounded positions have errors that follow each other.
+  const double step = positions  ? grid_of(y)
+                      : size > 1 ? 2 * grid_of(y) / static_cast<double>(size)
+                                 : 0;
+  const bool held = are_held(y);
+  const std::vector<Sample> readings = means(run, size, positions);
   const Units units(readings);
-  const bool held = rows_held(y) > 1;
-  std::vector<Sample> samples;
-  std::vector<std::size_t> index;  // of the samples that are on the motion of their neighbours
+  std::vector<Sample> samples;     // those that are on the motion of their neighbours
+  std::vector<std::size_t> index;  // in the run, of their first
   Outliers outliers({201, 0}, off);
   std::size_t i = 0;
   const auto take = [&](std::span<const Sample> judged) {
@@ -283,51 +281,44 @@ FreeRoll roll_of(std::span<const Sample> run, bool positions, double step) {
       while (readings[i].t < s.t) ++i;
       // The last reading is beyond its neighbours: a stop there looks like an outlier.
       if (!std::isnan(s.y) || i + 1 == readings.size())
-        samples.push_back(units(readings[i])), index.push_back(i);
+        samples.push_back(units(readings[i])), index.push_back(i * size);
     }
   };
-  for (std::size_t k = 0; k < y.size(); ++k)  // of held readings the first alone is one
-    if (!held || k == 0 || k + 1 == y.size() || y[k] != y[k - 1])
+  for (std::size_t k = 0; k < readings.size(); ++k)  // of held readings the first alone is one
+    if (!held || k == 0 || k + 1 == readings.size() || readings[k].y != readings[k - 1].y)
       take(outliers.push(readings[k].t, readings[k].y));
   take(outliers.finish());
   const double noise = noise_of(samples, positions, std::ldexp(step, -units.y));
   const auto found =
       positions ? Search<4>(samples, noise, true).roll() : Search<3>(samples, noise, false).roll();
   if (!found) {
-    const auto [low, high] = std::ranges::minmax(run, {}, &Sample::y);
+    const auto [low, high] = std::ranges::minmax(y);
     fail(
         "no free roll is found: the readings go from {:.4g} to {:.4g}, and no motion in them that "
-        "slows down stands out of their noise of {:.1g}{}",
-        low.y, high.y, std::ldexp(noise, units.y), choose);
+        "slows down stands out of their noise of {:.1g}: choose the "
+        "roll by its times (--from, --to)",
+        low, high, std::ldexp(noise, units.y));
   }
   FreeRoll roll = *found;
-  const auto whole = [&](std::size_t end) {
-    return end == samples.size() ? readings.size() : end == 0 ? 0 : index[end - 1] + 1;
+  const auto of_run = [&](const Stretch& s) {
+    const std::size_t begin = index[s.begin],
+                      end = s.end == samples.size() ? run.size() : index[s.end - 1] + size;
+    return Stretch{begin, end, run[begin].t, run[end - 1].t};
   };
-  const auto of_readings = [&](Stretch s) {
-    return Stretch{s.begin == 0 ? 0 : index[s.begin], whole(s.end)};
-  };
-  roll.kept = of_readings(roll.kept);
-  if (roll.other) roll.other = of_readings(*roll.other);
-  roll.after = whole(roll.after);
+  roll.kept = of_run(roll.kept);
+  if (roll.other) roll.other = of_run(*roll.other);
+  roll.after = std::ldexp(roll.after, units.t) + run[0].t;
   return roll;
 }
 
 }  // namespace
 
 FreeRoll free_roll(std::span<const Sample> run, bool positions) {
-  const std::size_t n = run.size();
+  constexpr std::size_t at_once = 1000;
+  const std::size_t n = run.size(), size = (n + at_once - 1) / at_once;
   if (n < 10) fail("a run of {} rows is too short to find its free roll", n);
-  const double step = smallest_step(run);
-  if (std::isinf(step)) fail("nothing moves: there is no free roll to find");
-  if (n <= at_once) return roll_of(run, positions, positions ? step : 0);
-  const std::size_t size = (n + at_once - 1) / at_once;
-  // Speeds that a sensor takes from rounded positions have errors that follow each other.
-  const double coarse = positions ? step : 2 * step / static_cast<double>(size);
-  FreeRoll roll = roll_of(means(run, size), positions, coarse);
-  const auto rows = [&](std::size_t& i) { i = i == n / size ? n : i * size; };
-  for (std::size_t* i : {&roll.kept.begin, &roll.kept.end, &roll.after}) rows(*i);
-  if (roll.other) rows(roll.other->begin), rows(roll.other->end);
+  FreeRoll roll = roll_in_means(run, positions, size);
+  if (size == 1) return roll;
   // As much on either side as the roll is long shows its beginning and its end. If that is more
   // than half of the run, a second search would see little more.
   const std::size_t around = std::max(roll.kept.end - roll.kept.begin, 20 * size),
@@ -336,7 +327,7 @@ FreeRoll free_roll(std::span<const Sample> run, bool positions) {
   if (to - from > n / 2) return roll;
   const auto other = roll.other;
   roll = free_roll(run.subspan(from, to - from), positions);
-  for (std::size_t* i : {&roll.kept.begin, &roll.kept.end, &roll.after}) *i += from;
+  roll.kept.begin += from, roll.kept.end += from;
   if (roll.how == FreeRoll::End::goes_on && to < n) roll.how = FreeRoll::End::is_ended;
   roll.other = other;
   return roll;

@@ -10,17 +10,18 @@
 
 namespace rolling {
 
-/// The samples [begin, end) of a run, by their indices.
+/// The samples [begin, end) of a run, and the times of the first and the last of them.
 struct Stretch {
   std::size_t begin, end;
+  double from = 0, to = 0;
 };
 
 struct FreeRoll {
   enum class End { by_itself, is_ended, goes_on };
 
   Stretch kept;
-  End how;            ///< at rest; by a hand, a brake, a wall, ...; not before the run is over
-  std::size_t after;  ///< the sample with which something else begins, if it does not go on
+  End how;       ///< at rest; by a hand, a brake, a wall, ...; not before the run is over
+  double after;  ///< the time at which something else begins, if it does not go on
   std::optional<Stretch> other{};  ///< another roll, or what may be the roll as well
 };
 
@@ -47,8 +48,7 @@ struct FreeRoll {
 /// standard errors better than a stop, the roll ends where it begins.
 ///
 /// A run of more than 1000 samples is reduced to means of equal numbers of samples; if the roll is
-/// short, the search is repeated around it. O(n). Throws Error if nothing moves or no roll is
-/// found.
+/// short, the search is repeated around it. O(n). Throws Error if no roll is found.
 FreeRoll free_roll(std::span<const Sample> run, bool positions);
 
 }  // namespace rolling

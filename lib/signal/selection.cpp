@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "signal/selection.h"
 
-#include <algorithm>
-
 namespace rolling {
 
 Selection::Selection(const SelectionOptions& options) : options_(options) {
@@ -37,14 +35,10 @@ void Selection::keep_roll() {
   for (const Sample& s : known())
     if (!std::isnan(s.y)) run.push_back(s);
   if (run.empty()) return;
-  const auto [kept, how, after, other] = free_roll(run, options_.positions);
-  const auto first = [&](std::size_t at) { return run[std::min(at, run.size() - 1)].t; };
-  const auto last = [&](std::size_t end) { return run[end - 1].t; };
-  const double from = first(kept.begin), to = last(kept.end);
-  roll_ = Roll{kept.end - kept.begin, run_.size(), how, from, to, first(after), {}};
-  if (other) roll_->other = {first(other->begin), last(other->end)};
+  roll_ = free_roll(run, options_.positions);
   for (std::size_t i = 0; i < run_.size(); ++i)
-    if (double& y = run_.data()[i].y; run_[i].t < from || run_[i].t > to) y = NAN;
+    if (double& y = run_.data()[i].y; run_[i].t < roll_->kept.from || run_[i].t > roll_->kept.to)
+      y = NAN;
 }
 
 }  // namespace rolling

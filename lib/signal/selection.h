@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "base/growing.h"
@@ -37,15 +36,8 @@ class Selection {
   std::span<const Sample> push(double t, double y);
   std::span<const Sample> finish();
   const std::vector<double>& outliers() const { return outliers_; }  ///< their times so far
-  /// After finish(), for coast: the free roll, and the times [s] of its first and last sample, of
-  /// that with which something else begins, and those of another roll.
-  struct Roll {
-    std::size_t samples, of;
-    FreeRoll::End how;
-    double from, to, after;
-    std::optional<std::pair<double, double>> other;
-  };
-  const std::optional<Roll>& roll() const { return roll_; }
+  /// After finish(), for coast: its indices do not count the outliers.
+  const std::optional<FreeRoll>& roll() const { return roll_; }
 
  private:
   void take(std::span<const Sample>);
@@ -56,7 +48,7 @@ class Selection {
   std::optional<Outliers> test_;
   Growing<Sample> run_;  // for coast the whole run, otherwise what was returned last
   std::vector<double> outliers_;
-  std::optional<Roll> roll_;
+  std::optional<FreeRoll> roll_;
 };
 
 }  // namespace rolling

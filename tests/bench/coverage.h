@@ -14,7 +14,7 @@
 #include "sensor/sonar.h"
 #include "signal/method.h"
 #include "signal/free_roll.h"
-#include "signal/pulses.h"
+#include "signal/readings.h"
 #include "unit/fit/simulated.h"
 
 #include <fmt/format.h>

@@ -20,7 +20,7 @@ cd build/speed
 by_part='
 { n = $1; gsub(/,/, "", n); sub(/^[^)]*\) /, ""); sub(/ \[[^]]*\]$/, ""); part = "other" }
 /rolling::|main|e_log|log@/ { part = "computing" }
-/lagged|ljung_box|breusch_pagan|rows_held/ { part = "testing" }
+/lagged|ljung_box|breusch_pagan|are_held/ { part = "testing" }
 /rolling::(Reader|Lines|Input|Dialect|Layout)|read_runs|memchr/ { part = "reading" }
 /rolling::(Filter|Output)|mem(move|cpy)|Writer::/ { part = "writing" }
 /read_number|read_any_number|rolling::.*divide|from_chars/ { part = "parsing" }

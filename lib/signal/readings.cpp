@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "signal/readings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "base/grid.h"
+#include "base/median.h"
+#include "signal/polynomial.h"
+
+namespace rolling {
+namespace {
+
+/// The last place that was written of the readings, or an upper bound where grid_of() tells none.
+double place_of(std::span<const double> readings) {
+  const auto [least, most] = std::ranges::minmax(readings);
+  return std::max(grid_of(readings), finest_grid * std::max(std::abs(least), std::abs(most)));
+}
+
+/// The way that all rows allow, each by the rounding of its numbers. `row`: 1 where the speed of a
+/// row is that since the row before, 0 where it is that to the next.
+std::optional<double> way_by(std::span<const double> t, std::span<const double> v,
+                             std::size_t row) {
+  std::vector<double> since_first(t.begin(), t.end());
+  for (double& time : since_first) time -= t[0];
+  const double of_clock = std::numeric_limits<double>::epsilon() *
+                          (std::abs(t.front()) + std::abs(t.back())),
+               of_t = place_of(since_first) + of_clock, of_v = place_of(v);
+  double least = -std::numeric_limits<double>::infinity(), most = -least, coarsest = 0;
+  std::vector<double> steps;
+  for (std::size_t i = 0; i + 1 < t.size(); ++i) {
+    const double step = t[i + 1] - t[i], speed = v[i + row],
+                 rounding = std::abs(speed) * of_t + step * of_v / 2;
+    if (std::isnan(speed)) return {};
+    steps.push_back(step);
+    coarsest = std::max(coarsest, rounding);
+    least = std::max(least, speed * step - rounding),
+    most = std::min(most, speed * step + rounding);
+  }
+  const double way = std::midpoint(least, most);
+  const auto [shortest, longest] = std::ranges::minmax(steps);
+  return least <= most && coarsest < 0.05 * std::abs(way) && longest > 1.3 * shortest
+             ? std::optional(way)
+             : std::nullopt;
+}
+
+}  // namespace
+
+double noise_of(std::span<const Sample> samples, bool positions, double step) {
+  constexpr double least = 1e-6;  // of the range of readings: what no sensor resolves
+  double noise = std::max(least, positions ? step / std::sqrt(12) : step);
+  for (const auto& [size, typical] :
+       {std::pair<std::size_t, double>{4, 0.6745}, {9, 0.94}, {25, 0.98}}) {
+    std::vector<std::pair<double, double>> found;  // speed, scatter
+    std::vector<double> speeds, scatter, all;
+    for (std::size_t i = 0; i + size <= samples.size(); ++i) {
+      const auto near = samples.subspan(i, size);
+      Polynomial<3> fit;
+      for (const Sample& s : near) fit.add(s.t - near[0].t, s.y);
+      const double own = std::sqrt(fit.rss() / static_cast<double>(size - 3)),
+                   moved = std::abs(positions ? near.back().y - near[0].y : near[size / 2].y);
+      all.push_back(own);
+      if (own > 0.12 * moved) continue;  // a jump or rest
+      const bool coarse = positions && moved < 0.99 * step * static_cast<double>(size - 1);
+      found.push_back({positions ? moved / (near.back().t - near[0].t) : moved,
+                       std::max(own / typical, coarse ? 0.43 * step : 0)});
+      speeds.push_back(found.back().first);
+    }
+    // A quarter of all tells the noise of a run in which nothing moves.
+    if (size == 4 && !all.empty())
+      noise = std::max(noise, nth_smallest(all, all.size() / 4) / 0.32);
+    if (found.size() < (size == 4 ? 1 : 4 * size)) continue;
+    const double fast = nth_smallest(speeds, speeds.size() - 1 - speeds.size() / 50);
+    for (const auto& [speed, here] : found)
+      if (speed >= 0.2 * fast) scatter.push_back(here);
+    noise =
+        std::max(noise, size == 25 ? nth_smallest(scatter, scatter.size() / 4) : median(scatter));
+  }
+  return noise;
+}
+
+bool are_held(std::span<const double> readings) {
+  double largest = 0;
+  for (const double y : readings) largest = std::max(largest, std::abs(y));
+  const double rounding = program_rounding * largest;
+  const auto step = [&](std::size_t i) { return std::abs(readings[i] - readings[i - 1]); };
+  std::vector<double> steps;  // other than 0
+  for (std::size_t i = 1; i < readings.size(); ++i)
+    if (step(i) > rounding) steps.push_back(step(i));
+  if (steps.empty() || 4 * steps.size() >= 3 * readings.size()) return false;
+  const double low = nth_smallest(steps, steps.size() / 4), place = grid_of(readings) + rounding;
+  const auto multiples = std::ranges::count_if(steps, [&](double of) {
+    return std::abs(of - std::round(of / low) * low) <= std::max(0.02 * low, place);
+  });
+  const bool on_grid = 5 * static_cast<std::size_t>(multiples) >= 3 * steps.size();
+  const double unit = on_grid ? low : std::min(low, 8 * place);
+  std::size_t waiting = 0, held = 0, stretches = 0;  // held between two jumps
+  bool after_jump = false;
+  for (std::size_t i = 1; i < readings.size(); ++i) {
+    if (step(i) <= rounding) {
+      waiting += readings[i] != 0;
+      continue;
+    }
+    const bool jump = step(i) > 2.5 * unit;
+    if (jump && after_jump) held += waiting, ++stretches;
+    after_jump = jump;
+    waiting = 0;
+  }
+  if (3 * held <= stretches) return false;
+  // In each stretch one step is not 0. Chernoff's bound for so large a share of zeros by chance.
+  const double zero = std::min(unit / (2 * median(steps)), 0.5),
+               n = static_cast<double>(held + stretches), share = static_cast<double>(held) / n,
+               distance = share * std::log(share / zero) +
+                          (1 - share) * std::log((1 - share) / (1 - zero));
+  return share > zero && std::exp(-n * distance) <= 0.01;
+}
+
+std::optional<double> way_between_pulses(std::span<const double> t, std::span<const double> v) {
+  if (t.size() < 5 || v.size() != t.size()) return {};
+  const auto since = way_by(t, v, 1);
+  return since ? since : way_by(t, v, 0);
+}
+
+}  // namespace rolling

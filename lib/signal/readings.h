@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What readings tell of the sensor and the logger: their noise, whether they were held, and whether
+// they are pulses.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "signal/windows.h"
+
+namespace rolling {
+
+/// The noise of samples while the body moves: the median scatter about the parabolas of few
+/// neighbours. Where a body moves by less than a step of rounded positions it is at least that of
+/// rounding.
+double noise_of(std::span<const Sample> samples, bool positions, double step);
+
+/// Whether a logger repeated readings because no newer one had arrived.
+///
+/// Held readings stay constant between two jumps. Readings on a grid repeat, too: rounded ones, and
+/// differences of rounded ones. They do so between steps of a unit or two, or at the beginning and
+/// the end of a run, where the body rests: these repetitions do not count. The unit is the lower
+/// quartile of the steps if three in five are multiples of it, else at most 8 times the last place
+/// that was written. By chance readings on a grid repeat between larger steps as well. The chance
+/// that a step is 0 is at most half the unit over the median size of the other steps: of normal
+/// steps that are large it is 0.27 of that. Readings therefore count as held if there are more than
+/// one repetition for three stretches between jumps, and so many by chance less than once in a
+/// hundred times.
+///
+/// Held readings that fall in equal steps cannot be distinguished from a grid and do not count; nor
+/// does rest (readings of 0).
+bool are_held(std::span<const double> readings);
+
+/// The way [m] from one pulse to the next, with the sign of the speeds, if each speed but the first
+/// times the time since the row before it (or each but the last times that to the row after it) is
+/// that one way, as far as the numbers are written, and the times between rows differ enough to
+/// tell. The rows then are the pulses: row i is i ways from the first, and its time is what was
+/// measured. Row by row the speed is the mean one over an interval that grows as the body slows
+/// down, and not that of the row.
+std::optional<double> way_between_pulses(std::span<const double> t, std::span<const double> v);
+
+}  // namespace rolling
