@@ -9,9 +9,8 @@
 
 #include "base/error.h"
 #include "base/grid.h"
-#include "signal/joints.h"
 #include "signal/outliers.h"
-#include "signal/partition.h"
+#include "signal/pieces.h"
 #include "signal/readings.h"
 #include "signal/units.h"
 
@@ -36,7 +35,7 @@ class Search {
   Search(std::span<const Sample> samples, double noise, bool positions)
       : samples_(samples), noise_(noise), positions_(positions),
         joints_(samples, noise, positions) {
-    const auto joints = Partition<P>(samples, noise).joints();
+    const auto joints = best_partition<P>(samples, noise);
     for (std::size_t i = 1; i < joints.size(); ++i)
       pieces_.emplace_back(samples, joints[i - 1], joints[i], noise, positions);
     for (const auto& p : pieces_)
