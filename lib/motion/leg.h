@@ -65,6 +65,12 @@ class Leg {
   double stop_time_by_v0() const { return 1 / q0_; }
   Derivatives stop_time_by_c();
 
+ protected:
+  Body body_;
+  Geometry geometry_;
+  Law law_;
+  double v0_;
+
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr std::size_t terms = 20, values = 2 + 2 * most;
@@ -108,10 +114,7 @@ class Leg {
   Point beyond_panels(double since) const;  // since the end of the last panel [s]
   Point point(const Sums&, double v, double q) const;
 
-  Body body_;
-  Geometry geometry_;
-  Law law_;
-  double v0_, q0_, cos_, sin_;
+  double q0_, cos_, sin_;
   double way_;                   // 1 if the speed falls, -1 if it grows
   std::optional<double> power_;  // b of the closed forms
   Derivatives q_c_{};            // q_c/q at v0, for these

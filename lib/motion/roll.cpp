@@ -47,10 +47,9 @@ void check_roll(const Body& body, const Law& law, double v0) {
   check_shift(body, D);
 }
 
-Roll::Roll(const Body& body, Geometry geometry, Law law, double v0)
-    : body_(checked(body, law, v0)), geometry_(geometry), law_(std::move(law)), v0_(v0),
-      leg_(body, geometry, law_, v0),
-      turns_((v0 == 0 || (body.slope > 0 && leg_.slows())) && rolls_down()) {}
+Roll::Roll(const Body& body, Geometry geometry, const Law& law, double v0)
+    : Leg(checked(body, law, v0), geometry, law, v0),
+      turns_((v0 == 0 || (body.slope > 0 && slows())) && rolls_down()) {}
 
 /// True if the mat does not hold the body at rest, nor at a speed that counts as rest.
 bool Roll::rolls_down() const {
@@ -75,20 +74,19 @@ Leg& Roll::back() {
 
 double Roll::last_speed() {
   if (turns_) return (body_.slope > 0 ? -1 : 1) * back().last_speed();
-  return leg_.last_speed();
+  return Leg::last_speed();
 }
 
 // With T and X the time and the place of the turning point, on the way back v = -u(t - T) and
 // x = X - way(t - T).
 Roll::Point Roll::at(double t) {
-  if (!turns_ || leg_.stop_until(t) > t) return leg_.at(t);
+  if (!turns_ || stop_until(t) > t) return Leg::at(t);
   const double since = t - stop_time(), sign = body_.slope > 0 ? -1 : 1;
-  const Point turn = leg_.at(stop_time());
-  const Leg::Derivatives T_c = leg_.stop_time_by_c();
-  Leg& leg = back();
-  Point p{}, q = leg.at(since);
+  const Point turn = Leg::at(stop_time());
+  const Derivatives T_c = stop_time_by_c();
+  const double T_v0 = stop_time_by_v0();
+  Point p{}, q = back().at(since);
 
-  const double T_v0 = leg_.stop_time_by_v0();
   p.a = sign * q.a;
   p.v = since > 0 ? sign * q.v : 0, p.x = turn.x + sign * q.x;
   p.v_v0 = -sign * q.a * T_v0, p.x_v0 = turn.x_v0 - sign * q.v * T_v0;

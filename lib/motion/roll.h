@@ -25,36 +25,26 @@ void check_roll(const Body&, const Law&, double v0);
 /// the speed comes near to its last one. x and v0 count along the motion, so the slope of the Body
 /// is the one that this roll sees: whoever describes a roll towards falling x by v0 > 0 turns the
 /// sign of the slope.
-class Roll {
+class Roll : Leg {
  public:
-  using Point = Leg::Point;
-  static constexpr std::size_t most = Leg::most;
+  using Leg::most, Leg::Point;
+  // Of the first leg; its stop is the turning point of a roll that turns.
+  using Leg::radius_speed, Leg::radius_time, Leg::rest_speed, Leg::stop_time, Leg::stop_until;
 
   /// Throws Error unless R > 0, g > 0, K >= 0, v0 >= 0, all of them and the slope finite; where the
   /// law, which may be a table, does not reach up to v0 or has no finite value there; and in the
   /// exact geometry for D(v0) > R.
-  Roll(const Body&, Geometry, Law, double v0);
+  Roll(const Body&, Geometry, const Law&, double v0);
 
   /// The state at t >= 0 [s], x counted from 0, and its partial derivatives at fixed t: by v0, by
   /// the coefficients of the law and, behind them, by the slope. Once the body rests, v is 0 with
   /// derivatives 0.
   Point at(double t);
 
-  /// When v first becomes 0: the stop or the turning point [s]; infinity if it never does. On a
-  /// falling mat the speed may tend to last_speed(); one below 1e-6 v0 counts as rest, from where
-  /// v is within 1e-7 of it.
-  double stop_time() { return leg_.stop_time(); }
-  /// The same if it is not later than t, else infinity: what takes no longer than at(t).
-  double stop_until(double t) { return leg_.stop_until(t); }
   /// True if the body rolls back after stop_time().
   bool turns() const { return turns_; }
   /// The limit of v for a body that rolls for ever [m/s], which may be infinite; else 0.
   double last_speed();
-  /// The speed at the stop [m/s]: 0, or that just named.
-  double rest_speed() const { return leg_.rest_speed(); }
-  /// When D reaches R, if that is not later than t, else infinity; and the speed there.
-  double radius_time(double t) { return leg_.radius_time(t); }
-  double radius_speed() const { return leg_.radius_speed(); }
 
   const Body& body() const { return body_; }
   const Law& law() const { return law_; }
@@ -63,11 +53,6 @@ class Roll {
   bool rolls_down() const;
   Leg& back();
 
-  Body body_;
-  Geometry geometry_;
-  Law law_;
-  double v0_;
-  Leg leg_;
   std::optional<Leg> back_;
   bool turns_;
 };
