@@ -148,12 +148,12 @@ class Joints {
       Polynomial<P + 1> fit;
       std::array<double, P + 1> row{};
       row[P] = 1;
-      fit.add(row, 0);
+      if (positions_) fit.add(row, 0);
       for (std::size_t i = begin; i < end; ++i) {
         const double u = i < joint ? samples_[i].t - stop : 0;
         row = {1, positions_ ? u * u : u};
-        for (std::size_t k = 2; k < P; ++k) row[k] = row[k - 1] * u;
-        row[P] = positions_ && i >= joint;
+        for (std::size_t k = 2; k <= P; ++k) row[k] = row[k - 1] * u;
+        if (positions_) row[P] = i >= joint;
         fit.add(row, samples_[i].y / noise_);
       }
       return fit.rss();
