@@ -60,93 +60,77 @@ struct Task {
   bool law_of_scene = false;  ///< it uses the law because the first run has no column D
   bool summary = false;
   double tolerance = not_given;  ///< NaN without --check
+  std::size_t t, v, D;           ///< slots of the reader
 };
 
-/// The energy balances of the runs, and the warnings after the last one.
-class Accounts {
- public:
-  Accounts(Tool& tool, Reader& in, const Task& task)
-      : tool_(tool), in_(in), task_(task), t_(in.need_time()), v_(in.need("v")),
-        D_(task.uses_law ? v_ : in.need("D")) {}
+/// Checks the balance of a run.
+void check(Tool& tool, const std::string& run, const Balance& balance, double tolerance) {
+  std::string beyond;
+  if (!(std::abs(balance.closure()) <= tolerance))
+    beyond = fmt::format("closure {:.4g}", balance.closure());
+  if (!(balance.imbalance() <= tolerance))
+    add_item(beyond, fmt::format("imbalance {:.4g} at t = {:.6g} s", balance.imbalance(),
+                                 balance.time_of_imbalance()));
+  if (!beyond.empty())
+    tool.object(run, fmt::format("the check does not hold: {}: beyond {}", beyond, tolerance));
+}
 
-  /// Begins the balance of a run.
-  Balance open() {
-    if (task_.law_of_scene && in_.find("D"))
+/// Balances the runs of `rows`, which are the reader or a filter behind it: of_row(now, balance) is
+/// called for each row, of_run(balance) at the end of each run that has rows.
+void balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& of_row,
+                  auto&& of_run) {
+  std::size_t beyond = 0;
+  bool tests_nothing = false;
+  while (rows.next_run()) {
+    if (task.law_of_scene && in.find("D"))
       fail<InputError>(
           "run {} has a column D, and the runs before it have none: choose the law by -a and -b, "
           "or give the runs one by one",
-          in_.run_name());
-    const bool shows_balance = task_.summary || !std::isnan(task_.tolerance);
-    tests_nothing_ |= shows_balance && !task_.uses_law && shifts_of_speeds(in_.history());
-    const auto shift_of = history_of(in_.history(), {}).shift_of;
-    if (const auto others = other_body(shift_of, task_.body); !task_.uses_law && !others.empty())
-      tool_.warn(in_.run_name(), "D was computed with " + others);
-    return Balance(task_.body);
+          in.run_name());
+    if (!task.uses_law) {
+      tests_nothing |= shifts_of_speeds(in.history());
+      const auto others = other_body(history_of(in.history(), {}).shift_of, task.body);
+      if (!others.empty()) tool.warn(in.run_name(), "D was computed with " + others);
+    }
+    Balance balance(task.body);
+    while (rows.next()) {
+      const double v = in[task.v];
+      if (task.uses_law) task.law.law.check_speed(v);
+      const double D = task.uses_law ? task.law.law(v) : in[task.D];
+      const Ledger now(task.body, task.geometry, v, D);
+      balance.push(in[task.t], now);
+      beyond += std::abs(D) > task.body.R;
+      of_row(now, balance);
+    }
+    if (balance.empty()) continue;
+    of_run(balance);
+    if (tool.checks) check(tool, in.run_name(), balance, task.tolerance);
   }
+  if (beyond > 0)
+    tool.warn(fmt::format("{} shift{} beyond the radius {} m", beyond,
+                          beyond == 1 ? " is" : "s are", task.body.R));
+  if (tests_nothing && (task.summary || tool.checks))
+    tool.warn(
+        "D was computed from the derivative of the same v: the balance compares v with itself "
+        "and tests no law; give one with --law, or with -a and -b");
+}
 
-  /// Adds the present row to the balance of its run.
-  Ledger enter(Balance& balance) {
-    const double v = in_[v_];
-    if (task_.uses_law) task_.law.law.check_speed(v);
-    const double D = task_.uses_law ? task_.law.law(v) : in_[D_];
-    const Ledger now(task_.body, task_.geometry, v, D);
-    balance.push(in_[t_], now);
-    beyond_ += std::abs(D) > task_.body.R;
-    return now;
-  }
-
-  /// Checks the balance at the end of a run.
-  void close(const Balance& balance) {
-    const double tolerance = task_.tolerance;
-    if (std::isnan(tolerance) || balance.empty()) return;
-    std::string beyond;
-    if (!(std::abs(balance.closure()) <= tolerance))
-      beyond = fmt::format("closure {:.4g}", balance.closure());
-    if (!(balance.imbalance() <= tolerance))
-      add_item(beyond, fmt::format("imbalance {:.4g} at t = {:.6g} s", balance.imbalance(),
-                                   balance.time_of_imbalance()));
-    if (!beyond.empty())
-      tool_.object(in_.run_name(),
-                   fmt::format("the check does not hold: {}: beyond {}", beyond, tolerance));
-  }
-
-  /// Prints the warnings about all runs.
-  void finish() const {
-    if (beyond_ > 0)
-      tool_.warn(fmt::format("{} shift{} beyond the radius {} m", beyond_,
-                             beyond_ == 1 ? " is" : "s are", task_.body.R));
-    if (tests_nothing_)
-      tool_.warn(
-          "D was computed from the derivative of the same v: the balance compares v with itself "
-          "and tests no law; give one with --law, or with -a and -b");
-  }
-
- private:
-  Tool& tool_;
-  Reader& in_;
-  const Task& task_;
-  std::size_t t_, v_, D_, beyond_ = 0;
-  bool tests_nothing_ = false;
-};
-
-/// Writes the table of --summary: a row for each run.
-void write_summary(Output& out, Reader& in, Accounts& accounts, const Task& task) {
+/// The table of --summary: a row for each run.
+void write_summary(Tool& tool, Reader& in, const Task& task) {
   const bool inclined = task.body.slope != 0;
   std::vector<Column> columns = {
       {"E_start", "J"}, {"E_end", "J"}, {"E_diss", "J"}, {"closure", ""}, {"imbalance", ""}};
   if (inclined) columns.push_back({"W_g", "J"});
-  out.names(columns);
-  while (in.next_run()) {
-    Balance balance = accounts.open();
-    while (in.next()) accounts.enter(balance);
-    if (balance.empty()) continue;
+  tool.out.names(columns);
+  balance_runs(
+      tool, in, task, in, [](const Ledger&, const Balance&) {},
+      [&](const Balance& balance) {
     for (const double cell : {balance.start(), balance.end(), balance.dissipated(),
                               balance.closure(), balance.imbalance()})
-      out.cell(cell);
-    if (inclined) out.cell(balance.lifted());
-    out.end_line();
-    accounts.close(balance);
-  }
+      tool.out.cell(cell);
+    if (inclined) tool.out.cell(balance.lifted());
+    tool.out.end_line();
+      });
 }
 
 }  // namespace
@@ -195,10 +179,10 @@ int main(int argc, char** argv) {
     Reader& in = tool.read({"t", "v", "D"});
     task.law_of_scene = !task.uses_law && !std::isnan(law.power.a) && !in.find("D");
     if (task.law_of_scene) task.uses_law = true, task.law = read();
-    Accounts accounts(tool, in, task);
+    task.t = in.need_time(), task.v = in.need("v");
+    task.D = task.uses_law ? task.v : in.need("D");
     if (task.summary) {
-      write_summary(tool.out, in, accounts, task);
-      accounts.finish();
+      write_summary(tool, in, task);
       return 0;
     }
     Filter filter(
@@ -206,16 +190,13 @@ int main(int argc, char** argv) {
         fmt::format("energy-ledger {}{}", task.uses_law ? words_of(task.law.law) : "D",
                     task.body.slope == 0 ? "" : fmt::format(" slope {}", task.body.slope)));
     for (const auto& quantity : row) filter.append(quantity.column());
-    while (filter.next_run()) {
-      Balance balance = accounts.open();
-      while (filter.next()) {
-        const Ledger now = accounts.enter(balance);
-        for (const auto& quantity : row)
-          filter.put(quantity.of({now, balance, temperature, task.law}));
-      }
-      accounts.close(balance);
-    }
-    accounts.finish();
+    balance_runs(
+        tool, in, task, filter,
+        [&](const Ledger& now, const Balance& balance) {
+      for (const auto& quantity : row)
+        filter.put(quantity.of({now, balance, temperature, task.law}));
+        },
+        [](const Balance&) {});
     return 0;
   });
 }

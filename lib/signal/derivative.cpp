@@ -42,22 +42,21 @@ double VernierDerivative::value(const Windows& window) {
 }
 
 double PascoDerivative::value(const Windows& window) {
-  require_slope(window.size());
   const std::size_t i = window.at(), before = i - window.begin(), after = window.end() - 1 - i;
-  const auto rise = [&](const Sample& a, const Sample& b) { return Sample{b.t - a.t, b.y - a.y}; };
-  if (before > 0 && after > 0) {
-    const Sample one = rise(window.sample(i - 1), window.sample(i + 1));
-    if (before == 1 || after == 1) return one.y / one.t;
-    const Sample two = rise(window.sample(i - 2), window.sample(i + 2));
-    return (one.y + two.y) / (one.t + two.t);
+  if (before == 0 || after == 0) {
+    CentralDerivative parabola;
+    const auto slopes = output_of(parabola, window.size(),
+                                  [&](std::size_t k) { return window.sample(window.begin() + k); });
+    return before == 0 ? slopes.front() : slopes.back();
   }
-  const auto inwards = [&](std::size_t k) -> const Sample& {
-    return window.sample(before == 0 ? i + k : i - k);
+  const auto rise = [&](std::size_t k) {
+    const Sample &a = window.sample(i - k), &b = window.sample(i + k);
+    return Sample{b.t - a.t, b.y - a.y};
   };
-  const Sample one = rise(inwards(0), inwards(1));
-  if (window.size() == 2) return one.y / one.t;
-  const Sample two = rise(inwards(1), inwards(2));
-  return one.y / one.t - (two.y / two.t - one.y / one.t) / (one.t + two.t) * one.t;
+  const Sample one = rise(1);
+  if (before == 1 || after == 1) return one.y / one.t;
+  const Sample two = rise(2);
+  return (one.y + two.y) / (one.t + two.t);
 }
 
 }  // namespace rolling
