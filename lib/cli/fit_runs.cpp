@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "cli/history.h"
 #include "signal/readings.h"
@@ -11,25 +13,12 @@
 namespace rolling {
 namespace {
 
-/// A slot of the reader, and the column of a run that it fills.
-struct Slot {
-  std::size_t number;
-  std::vector<double> FitRun::*column;
-};
-
 /// The column of a run with this short name.
 std::vector<double> FitRun::*column_of(std::string_view name) {
   return name == "t"   ? &FitRun::t
          : name == "x" ? &FitRun::x
          : name == "v" ? &FitRun::v
                        : &FitRun::D;
-}
-
-/// Adds the columns of the other routes, as far as there are any.
-void add_others(Reader& in, std::vector<Slot>& slots) {
-  for (const char* name : {"t", "x", "v", "D"})
-    if (in.find(name) && std::ranges::count(slots, column_of(name), &Slot::column) == 0)
-      slots.push_back({*name == 't' ? in.need_time() : in.want(name), column_of(name)});
 }
 
 /// Gives a run the filters that its `##` lines name, as far as they are trusted.
@@ -78,17 +67,21 @@ std::vector<std::string> columns_of(Route route) {
 }
 
 std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route) {
-  std::vector<Slot> slots;
+  std::map<std::string, std::size_t> slots;
   for (const std::string& name : columns_of(route))
-    if (name != "t") slots.push_back({in.need(name), column_of(name)});
-  if (is_trajectory(route)) slots.push_back({in.need_time(), &FitRun::t});
+    slots[name] = name == "t" ? in.need_time() : in.need(name);
   std::vector<FitRun> runs;
   while (in.next_run()) {
     FitRun& run = runs.emplace_back();
     run.name = in.run_name();
-    if (!in.history().empty()) add_others(in, slots);  // the `##` lines are compared with them
+    if (!in.history().empty())  // the `##` lines are compared with the other columns
+      for (const std::string name : {"t", "x", "v", "D"})
+        if (in.find(name) && !slots.contains(name))
+          slots[name] = name == "t" ? in.need_time() : in.want(name);
+    std::vector<std::pair<std::size_t, std::vector<double>*>> columns;
+    for (const auto& [name, slot] : slots) columns.push_back({slot, &(run.*column_of(name))});
     while (in.next())
-      for (const auto& [slot, column] : slots) (run.*column).push_back(in[slot]);
+      for (const auto& [slot, column] : columns) column->push_back(in[slot]);
     set_filters(tool, in, route, run);
   }
   warn_of_lost_history(tool, runs);

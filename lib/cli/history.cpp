@@ -66,97 +66,62 @@ LinearFilter step(bool forward) {
           }};
 }
 
-/// Builds the chain line by line.
-class ChainBuilder {
- public:
-  explicit ChainBuilder(std::span<const double> t) : t_(t), known_(!t.empty()) {}
-  History take() && { return std::move(history_); }
+/// Removes the filters of a column and of what was made of it: a derivative of the same name has
+/// taken its place (in the file it has another name since).
+void forget(FilterChain& filters, const std::string& column) {
+  std::set<std::string> gone{column};
+  std::erase_if(filters, [&](const LinearFilter& filter) {
+    if (gone.contains(filter.from)) gone.insert(filter.to);
+    return gone.contains(filter.to);
+  });
+}
 
-  /// Adds a line. The numbers of shift-from-accel are known even if the filters before it are not.
-  void add(const std::string& line) {
-    const auto words = split_names(line, '\0');
-    if (words.empty() || !history_.doubt.empty()) return;
-    const std::span<const std::string> rest = std::span(words).subspan(1);
-    if (words[0] == "shift-from-accel") history_.shift_of = shift_line(rest);
-    if (known_ && !rest.empty()) known_ = extend(line, words[0], rest);
-  }
-
- private:
-  /// False if the chain is unknown from here on.
-  bool extend(const std::string& line, const std::string& tool, std::span<const std::string> rest) {
-    if (line == columns_renamed) return unknown();
-    if (line == lines_sorted)
-      return distrust("its `##` lines were sorted, so that their order tells nothing");
-    if (tool == "smooth") return smooth(line, rest);
-    if (tool == "differentiate") return filter(line, derivative_methods, rest, true);
-    if (tool == "shift-from-accel") {
-      if (!history_.shift_of) return doubt(line);
-      append({"a", "D", 0, [](auto, auto a) { return std::vector<double>(a.begin(), a.end()); },
-              true});
-    }
+/// Adds what a line of these words tells. False if the chain is unknown from here on. Throws Error
+/// if the lines are not trusted.
+bool extend(History& history, const std::string& line, std::span<const std::string> words,
+            std::span<const double> t) {
+  const auto believe = [&](bool is_right) {
+    if (!is_right) fail("`## {}` is not what its tool writes", shown(line));
+  };
+  if (line == columns_renamed) return false;
+  if (line == lines_sorted) fail("its `##` lines were sorted, so that their order tells nothing");
+  FilterChain& filters = history.filters;
+  if (words[0] == "shift-from-accel") {
+    believe(history.shift_of.has_value());
+    filters.push_back(
+        {"a", "D", 0, [](auto, auto a) { return std::vector<double>(a.begin(), a.end()); }, true});
     return true;
   }
-  bool distrust(std::string why) {
-    history_ = {.doubt = std::move(why)};
-    return false;
-  }
-  bool doubt(const std::string& line) {
-    return distrust(fmt::format("`## {}` is not what its tool writes", shown(line)));
-  }
-  bool unknown() {
-    history_ = {.shift_of = history_.shift_of};
-    return false;
-  }
-  /// Removes the filters of a column and of what was made of it: a derivative of the same name has
-  /// taken its place (in the file it has another name since).
-  void forget(const std::string& column) {
-    std::set<std::string> gone{column};
-    std::erase_if(history_.filters, [&](const LinearFilter& filter) {
-      if (gone.contains(filter.from)) gone.insert(filter.to);
-      return gone.contains(filter.to);
-    });
-  }
-  void append(LinearFilter filter) { history_.filters.push_back(std::move(filter)); }
-  bool smooth(const std::string& line, std::span<const std::string> words) {
-    if (words.size() < 2) return doubt(line);
-    const std::string& method = words[1];
+  const bool derivative = words[0] == "differentiate";
+  if (!derivative && words[0] != "smooth") return true;
+  believe(words.size() > 2);
+  const std::string &column = words[1], &method = words[2];
+  const bool coast = method == "coast", from = method == "from", to = method == "to",
+             outliers = method == "outliers";
+  if (!derivative && (coast || from || to || outliers)) {
     double number;
-    if (method == "coast" || method == "from" || method == "to") {
-      if (words.size() != (method == "coast" ? 2U : 3U) ||
-          (words.size() == 3 && !parse_number(words[2], number)))
-        return doubt(line);
-      history_.cut_begin |= reach_ > 0 && method != "to";
-      history_.cut_end |= reach_ > 0 && method != "from";
-      return true;
-    }
-    if (method == "outliers")  // the rows that it leaves out depend on the readings: not linear
-      return words.size() == 3 && parse_number(words[2], number) ? unknown() : doubt(line);
-    return filter(line, smoothing_methods, words, false);
+    believe(coast ? words.size() == 3 : words.size() == 4 && parse_number(words[3], number));
+    const bool filtered = change_numbers(filters);
+    history.cut_begin |= filtered && (coast || from);
+    history.cut_end |= filtered && (coast || to);
+    return !outliers;  // the rows that it leaves out depend on the readings: not linear
   }
-  bool filter(const std::string& line, std::span<const SignalMethod> methods,
-              std::span<const std::string> words, bool derivative) {
-    if (words.size() < 2) return doubt(line);
-    std::string method;
-    for (const std::string& word : words.subspan(1)) add_item(method, word, " ");
-    const auto options = signal_options(methods, method);
-    if (!options) return doubt(line);
-    if (!options->method->linear) return unknown();
-    const std::string &column = words[0], to = derivative ? derivative_of({column}).name : column;
-    if (derivative) forget(to);
-    append(linear(column, to, *options, reach(*options, t_)));
-    reach_ += history_.filters.back().reach;
-    // The matrices of wider filters would not fit into memory.
-    constexpr std::size_t most = 50'000'000;
-    if (reach_ * t_.size() <= most && history_.filters.size() <= 100) return true;
-    return distrust(fmt::format(
-        "the filters in its `##` lines are too wide or too many for {} rows", t_.size()));
-  }
-
-  std::span<const double> t_;
-  History history_;
-  std::size_t reach_ = 0;
-  bool known_;  ///< the filters depend on the times
-};
+  const auto options =
+      signal_options(derivative ? derivative_methods : smoothing_methods,
+                     fmt::format("{}", fmt::join(words.begin() + 2, words.end(), " ")));
+  believe(options.has_value());
+  if (!options->method->linear) return false;
+  const std::string made = derivative ? derivative_of({column}).name : column;
+  if (derivative) forget(filters, made);
+  filters.push_back(linear(column, made, *options, reach(*options, t)));
+  // The matrices of wider filters would not fit into memory.
+  constexpr std::size_t most = 50'000'000;
+  std::size_t wide = 0;
+  for (const LinearFilter& filter : filters) wide += filter.reach;
+  if (wide * t.size() > most || filters.size() > 100)
+    fail("the filters in its `##` lines are too wide or too many for {} rows", t.size());
+  return true;
+}
 
 /// Leaves out the filters that none of these columns has gone through. Returns the raw columns of
 /// which the filters made them.
@@ -192,10 +157,22 @@ std::string line_of(const ShiftOf& of) {
   return line;
 }
 
+// The numbers of shift-from-accel are known even if the filters before it are not.
 History history_of(const std::vector<std::string>& lines, std::span<const double> t) {
-  ChainBuilder chain(t);
-  for (const std::string& line : lines) chain.add(line);
-  return std::move(chain).take();
+  History history;
+  bool known = !t.empty();  // the filters depend on the times
+  for (const std::string& line : lines) try {
+      const auto words = split_names(line, '\0');
+      if (words.size() < 2) continue;
+      if (words[0] == "shift-from-accel")
+        history.shift_of = shift_line(std::span(words).subspan(1));
+      if (!known) continue;
+      known = extend(history, line, words, t);
+      if (!known) history = {.shift_of = history.shift_of};
+    } catch (const Error& error) {
+      return {.doubt = error.what()};
+    }
+  return history;
 }
 
 std::string other_body(const std::optional<ShiftOf>& shift_of, const Body& body,
@@ -244,21 +221,23 @@ History give_filters(History history, FitRun& run, const std::vector<std::string
   std::size_t widest = 0;
   for (const std::string& column : columns) widest = std::max(widest, windows[column]);
   history.left_out = widest * (std::size_t{history.cut_begin} + history.cut_end);
-  if (found.inside) history = {.doubt = "the columns are not what the `##` lines say"};
-  else if (history.left_out > 0 && run.t.size() < history.left_out + 10)
-    history = {.shift_of = history.shift_of,
-               .doubt =
-                   "it was cut after the filters that its `##` lines name, and fewer than 10 rows "
-                   "are far enough from the cut"};
+  const auto distrust = [&](std::string why) {
+    history = {.shift_of = history.shift_of, .doubt = std::move(why)};
+  };
+  if (found.inside) {
+    history.shift_of.reset();
+    distrust("the columns are not what the `##` lines say");
+  } else if (history.left_out > 0 && run.t.size() < history.left_out + 10)
+    distrust(
+        "it was cut after the filters that its `##` lines name, and fewer than 10 rows are far "
+        "enough from the cut");
   std::set<std::string> raw = keep_filters_of(columns, history.filters);
   raw.erase("t");
   if (raw != std::set<std::string>{"x"} && raw != std::set<std::string>{"v"}) {
-    const bool filtered = change_numbers(history.filters);
+    if (change_numbers(history.filters))
+      distrust(fmt::format("its filtered columns were made of {}, not of x or v alone",
+                           fmt::join(raw, " and ")));
     history.filters.clear();
-    if (filtered)
-      history = {.shift_of = history.shift_of,
-                 .doubt = fmt::format("its filtered columns were made of {}, not of x or v alone",
-                                      fmt::join(raw, " and "))};
   }
   run.filters = history.filters;
   run.shift_of = history.shift_of;

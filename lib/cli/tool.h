@@ -51,8 +51,9 @@ inline constexpr Domain odd{"an odd whole number from 1 to 1e9", [](double x) {
 inline constexpr Domain polynomial{"a whole number from 1 to 10",
                                    [](double x) { return whole.holds(x) && x <= 10; }};
 
-/// The number in a text. Throws Error for another text and for a number outside the domain.
-double to_number(const std::string& text, const Domain&);
+/// The number in a text; with `sigma` it may have an uncertainty (0.5+-0.005). Throws Error for
+/// another text and for a number outside the domain.
+double to_number(const std::string& text, const Domain&, double* sigma = nullptr);
 
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 

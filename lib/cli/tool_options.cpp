@@ -22,12 +22,6 @@ namespace {
 constexpr std::string_view version = "1.0.0";
 constexpr std::size_t help_column = 30;
 
-/// Refuses a text that is not a number of the domain.
-void require(bool is_number, double value, const Domain& domain, const std::string& text) {
-  if (!is_number) fail("'{}' is not a number (decimal point, no unit)", shown(text));
-  if (!domain.holds(value)) fail("'{}' must be {}", shown(text), domain.text);
-}
-
 bool to_bool(const std::string& text) {
   if (text != "true" && text != "false") fail("'{}' is neither true nor false", shown(text));
   return text == "true";
@@ -59,20 +53,15 @@ std::string wrapped(std::string words) {
   return words;
 }
 
-Estimate to_estimate(const std::string& text, const Domain& domain) {
-  Estimate estimate;
-  const bool is_number = parse_estimate(text, estimate);
-  require(is_number, estimate.value, domain, text);
-  return estimate;
-}
-
 }  // namespace
 
-double to_number(const std::string& text, const Domain& domain) {
-  double value = 0;
-  const bool is_number = parse_number(text, value);
-  require(is_number, value, domain, text);
-  return value;
+double to_number(const std::string& text, const Domain& domain, double* sigma) {
+  Estimate read;
+  if (!(sigma ? parse_estimate(text, read) : parse_number(text, read.value)))
+    fail("'{}' is not a number (decimal point, no unit)", shown(text));
+  if (!domain.holds(read.value)) fail("'{}' must be {}", shown(text), domain.text);
+  if (sigma) *sigma = read.sigma;
+  return read.value;
 }
 
 Tool::Tool(std::string name, const std::string& purpose)
@@ -110,11 +99,8 @@ void Tool::flag(const std::string& names, bool& value, const std::string& help) 
 
 void Tool::number(const std::string& names, double& value, const Domain& domain,
                   const std::string& help, double* sigma) {
-  add(names, "NUMBER", help, [&value, domain, sigma](const std::string& text) {
-    const Estimate read = sigma ? to_estimate(text, domain) : Estimate{to_number(text, domain)};
-    value = read.value;
-    if (sigma) *sigma = read.sigma;
-  });
+  add(names, "NUMBER", help,
+      [&value, domain, sigma](const std::string& text) { value = to_number(text, domain, sigma); });
 }
 
 void Tool::numbers(const std::string& names, std::vector<Estimate>& values, const Domain& domain,
@@ -128,7 +114,10 @@ void Tool::numbers(const std::string& names, std::vector<Estimate>& values, cons
           "write whole numbers with one, as 1.0,2.0",
           shown(text));
     values.clear();
-    for (const std::string& part : parts) values.push_back(to_estimate(part, domain));
+    for (const std::string& part : parts) {
+      Estimate& one = values.emplace_back();
+      one.value = to_number(part, domain, &one.sigma);
+    }
   });
 }
 
