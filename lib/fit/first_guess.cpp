@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/first_guess.h"
 
-#include "base/matrix.h"
 #include "base/error.h"
 #include "base/median.h"
-#include "contact/contact.h"
 #include "least_squares/minimise.h"
 #include "least_squares/triangles.h"
 

@@ -2,13 +2,11 @@
 #include "fit/roll_fit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "base/error.h"
-#include "base/matrix.h"
 #include "fit/first_guess.h"
 #include "fit/inferred_noise.h"
 #include "least_squares/robust.h"
