@@ -40,9 +40,8 @@ inline std::vector<double> medians_of_five(const std::vector<double>& values) {
 
 /// The standard deviation of normal numbers with outliers, from how far they are from their mean:
 /// 68.27 % of the distances are less. Steps of rounded readings, of which most are 0, do not make
-/// it 0 as early as they do the median. 0 for none. Changes the order of the distances. O(n).
+/// it 0 as early as they do the median. There is at least one. Changes the order of them. O(n).
 inline double deviation(std::span<double> distances) {
-  if (distances.empty()) return 0;
   const auto count = static_cast<double>(distances.size());
   return nth_smallest(distances, static_cast<std::size_t>(0.6827 * count));
 }
