@@ -71,6 +71,8 @@ LITERAL = re.compile(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'')
 
 # The tools whose output shows what a room computes.
 TOOLS = {
+    "base": ["simulate"],
+    "cli": ["fitpower", "simulate"],
     "contact": ["energy-ledger", "shift-from-accel"],
     "fit": ["fitpower"],
     "least_squares": ["fitpower"],
@@ -80,10 +82,11 @@ TOOLS = {
     "sensor": ["simulate"],
     "signal": ["smooth", "differentiate"],
     "statistics": ["fitpower"],
+    "text": ["smooth", "fitpower"],
 }
 
 # The room whose unit tests show most of what another room does for it.
-USER = {"least_squares": "fit", "noise": "fit", "statistics": "fit"}
+USER = {"base": "fit", "least_squares": "fit", "noise": "fit", "statistics": "fit"}
 
 
 def places(text):
