@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "base/enumeration.h"
 #include "cli/tool.h"
 #include "signal/selection.h"
 #include "signal/method.h"
@@ -66,28 +65,21 @@ class Told {
                     : how == FreeRoll::End::goes_on ? "goes on to the end of the run"
                                                     : fmt::format("is ended at {:.12g} s", after));
     if (other)
-      doubts_.add(run,
-                  fmt::format("the free roll may also be {:.12g} to {:.12g} s, and not {:.12g} to "
-                              "{:.12g} s: choose with --from and --to",
-                              other->from, other->to, kept.from, kept.to));
+      tool_.warn(run,
+                 fmt::format("the free roll may also be {:.12g} to {:.12g} s, and not {:.12g} to "
+                             "{:.12g} s: choose with --from and --to",
+                             other->from, other->to, kept.from, kept.to));
   }
   void say() const {
     if (outliers_ > 0)
       tool_.warn(fmt::format("{} left out: at {}{} s", counted(outliers_, "outlier"), times_,
                              outliers_ > 10 ? ", ..." : ""));
     if (runs_ == 1) tool_.warn(one_);
-    if (runs_ > 1) {
-      std::vector<std::string> ends;
-      constexpr const char* how[][2] = {
-          {"ends by itself", "end by themselves"},
-          {"is ended", "are ended"},
-          {"goes on to the end of its run", "go on to the end of their runs"}};
-      for (std::size_t i = 0; i < ends_.size(); ++i)
-        if (ends_[i] > 0) ends.push_back(fmt::format("{} {}", ends_[i], how[i][ends_[i] > 1]));
-      tool_.warn(fmt::format("--coast keeps {} of {} rows of {} runs; of the rolls {}", kept_,
-                             rows_, runs_, enumeration(ends)));
-    }
-    for (const std::string& doubt : doubts_.all()) tool_.warn(doubt);
+    if (runs_ > 1)
+      tool_.warn(
+          fmt::format("--coast keeps {} of {} rows of {} runs; rolls that end by themselves: "
+                      "{}, that are ended: {}, that go on to the end of their runs: {}",
+                      kept_, rows_, runs_, ends_[0], ends_[1], ends_[2]));
   }
 
  private:
@@ -95,7 +87,6 @@ class Told {
   std::size_t outliers_ = 0, runs_ = 0, kept_ = 0, rows_ = 0;
   std::array<std::size_t, 3> ends_{};
   std::string times_, one_;
-  LinesOfRuns doubts_;
 };
 
 void add_options(Tool& tool, SelectionOptions& select) {

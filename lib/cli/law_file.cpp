@@ -85,14 +85,12 @@ std::vector<Column> columns_of(const LawForm& form) {
   std::vector<Column> all;
   for (const LawForm::Coefficient& c : form.coefficients) {
     const int m = c.D + c.v, s = -c.v;  // m^m s^s
-    const auto power = [](const char* unit, int p) {
-      return p == 0 ? "" : p == 1 ? unit : fmt::format("{}^{}", unit, p);
-    };
-    const auto product = [&](int of_m, int of_s) {
-      return power("m", std::max(of_m, 0)) + power("s", std::max(of_s, 0));
-    };
-    const std::string below = product(-m, -s);
-    all.push_back({c.name, fmt::format("{}{}{}", product(m, s), below.empty() ? "" : "/", below)});
+    std::string above, below;
+    for (const auto& [unit, power] : {std::pair("m", m), {"s", s}})
+      if (power != 0)
+        (power > 0 ? above : below) +=
+            std::abs(power) == 1 ? unit : fmt::format("{}^{}", unit, std::abs(power));
+    all.push_back({c.name, above + (below.empty() ? "" : "/" + below)});
   }
   return all;
 }

@@ -48,9 +48,13 @@ struct Neighbours {
   double scatter(const Polynomial<3>& motion) const {
     return std::sqrt(motion.rss() / static_cast<double>(motion.size() - 3));
   }
-  Polynomial<3> parabola() const {
+  /// Through those that lie within `most` of another parabola, as all do that it was fitted to:
+  /// none of n is further off than the root of n - 3 of their scatter.
+  Polynomial<3> parabola(const Polynomial<3>& other = {}, double most = INFINITY) const {
     Polynomial<3> fit;
-    for (std::size_t i = 0; i < size; ++i) fit.add(at[i].t, at[i].y);
+    for (std::size_t i = 0; i < size; ++i)
+      if (most == INFINITY || std::abs(at[i].y - other.derivative(0, at[i].t).value) <= most)
+        fit.add(at[i].t, at[i].y);
     return fit;
   }
   /// Through all but three, or fewer if there are hardly more.
@@ -67,15 +71,6 @@ struct Neighbours {
     };
     without(without, none, 0);
     return best;
-  }
-  /// Through those that lie within `most` of a parabola, as all do that it was fitted to: none of
-  /// n is further off than the root of n - 3 of their scatter.
-  Polynomial<3> near_parabola(const Polynomial<3>& motion, double most) const {
-    Polynomial<3> fit;
-    for (std::size_t i = 0; i < size; ++i)
-      if (std::abs(at[i].y - motion.derivative(0, at[i].t).value) <= most)
-        fit.add(at[i].t, at[i].y);
-    return fit;
   }
 };
 
@@ -140,7 +135,7 @@ bool Outliers::belongs(std::size_t i, bool again) const {
     const double own = others.scatter(motion) / of_best(others.size);
     if (few()) noise = std::max(noise, 1.5 * own);
     else if (own > 4.5 * noise) noise = own;
-    motion = others.near_parabola(motion, 4 * noise);
+    motion = others.parabola(motion, 4 * noise);
   }
   const auto [value, error] = motion.derivative(0, 0);
   return std::abs(value) <= threshold_ * noise * std::sqrt(1 + error * error);
