@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <random>
 #include <utility>
 
 #include "base/median.h"
@@ -51,9 +50,9 @@ double typical_size(std::vector<double> numbers) {
   return numbers.empty() ? 0 : median(numbers);
 }
 
-/// The third divided differences, which a quadratic function of time does not have, in units of the
-/// standard deviation of white noise that would make them.
-std::vector<double> roughness(std::span<const double> t, std::span<const double> y) {
+/// The noise of y from row to row: the median size of the third divided differences, which a
+/// quadratic function of time does not have, in units of those of white noise of variance one.
+double roughness(std::span<const double> t, std::span<const double> y) {
   std::vector<double> all;
   for (std::size_t first = 0; first + 4 <= t.size(); ++first) {
     double sum = 0, squares = 0;
@@ -66,36 +65,8 @@ std::vector<double> roughness(std::span<const double> t, std::span<const double>
     }
     all.push_back(sum / std::sqrt(squares));
   }
-  return all;
+  return typical_size(std::move(all));
 }
-
-/// What the filters of a run make of white noise, from which the noise of its columns is known. The
-/// first rows are enough for that.
-class WhiteNoise {
- public:
-  explicit WhiteNoise(std::span<const double> t)
-      : t_(t.first(std::min<std::size_t>(t.size(), 4000))) {}
-
-  void apply(const LinearFilter& filter) {
-    std::vector<double>& input = columns_[filter.from];
-    if (input.empty()) {  // a raw column
-      std::mt19937 random;
-      for (std::size_t i = 0; i < t_.size(); ++i)
-        input.push_back(static_cast<double>(random()) - 0x1p31);
-    }
-    columns_[filter.to] = filter.apply(t_, input);
-  }
-  /// The median size of the noise in a column: its roughness tells how large the white noise was.
-  double noise_in(const Recomputed& column, const std::string& name) const {
-    const std::vector<double>& white = columns_.at(name);
-    const double rough = typical_size(roughness(t_, white));
-    return rough > 0 ? typical_size(roughness(t_, column.values)) / rough * typical_size(white) : 0;
-  }
-
- private:
-  std::span<const double> t_;
-  std::map<std::string, std::vector<double>> columns_;
-};
 
 /// The last decimal place of a number that is not 0, down to `least`.
 double last_place(double y, double least) {
@@ -105,9 +76,9 @@ double last_place(double y, double least) {
   return place;
 }
 
-/// Compares a column that was computed again with that of the run. `noise`: its median size.
-void compare(const Recomputed& computed, const std::vector<double>& given, double noise,
-             Mismatch& result) {
+/// Compares a column that was computed again with that of the run, both at the times t.
+void compare(std::span<const double> t, const Recomputed& computed,
+             const std::vector<double>& given, Mismatch& result) {
   const std::size_t n = given.size(), reach = computed.reach;
   if (n < 2 * reach + 3) return;
   std::vector<double> off(n);
@@ -121,24 +92,20 @@ void compare(const Recomputed& computed, const std::vector<double>& given, doubl
     if (i >= reach && i + reach < n)
       along += y * difference, computed2 += y * y, off2 += difference * difference;
   }
-  const double large = typical_size(given), typical = typical_size(off);
-  const double unseen = 0.2 * noise;  // what adds 2 % to the noise, or less
-  const auto rounded = [&](std::size_t i) {
-    const double least = program_rounding * largest;
-    return given[i] != 0 && off[i] <= least + last_place(given[i], least) / 2;
+  const double large = typical_size(given), typical = typical_size(off),
+               unseen = roughness(t, computed.values) / 2, least = program_rounding * largest;
+  const auto beyond_rounding = [&](std::size_t i) {
+    return off[i] > unseen && (given[i] == 0 || off[i] > least + last_place(given[i], least) / 2);
   };
-  if (typical > std::max(1e-5 * large, unseen)) {
-    std::size_t all = 0, by_rounding = 0;
-    for (std::size_t i = 0; i < n; ++i)
-      if (std::isfinite(off[i]) && given[i] != 0) ++all, by_rounding += rounded(i);
-    result.inside |= 4 * by_rounding < 3 * all;
-  }
+  std::size_t beyond = 0;
+  for (std::size_t i = 0; i < n; ++i) beyond += beyond_rounding(i);
+  result.inside |= typical > 1e-5 * large && 2 * beyond > n;
   // Differences that are proportional to the column are a factor, not rounding.
   result.inside |= std::abs(along) > 1e-6 * computed2 && along * along > 0.99 * computed2 * off2;
   const double most = std::max(20 * typical, 1e-6 * large);
   for (std::size_t i = 0; i < n; ++i) {
     const bool differs =
-        off[i] > most && (off[i] > 0.01 * std::abs(given[i]) || (off[i] > unseen && !rounded(i)));
+        off[i] > most && (off[i] > 0.01 * std::abs(given[i]) || beyond_rounding(i));
     if (differs) (i < reach ? result.begin : i + reach >= n ? result.end : result.inside) = true;
   }
 }
@@ -148,7 +115,6 @@ void compare(const Recomputed& computed, const std::vector<double>& given, doubl
 Mismatch mismatch(const FilterChain& filters, const FitRun& run) {
   Mismatch result;
   std::map<std::string, Recomputed> columns;
-  WhiteNoise white(run.t);
   for (std::size_t k = 0; k < filters.size(); ++k) {
     const LinearFilter& filter = filters[k];
     const auto changed_from = [&](std::size_t first, const std::string& name) {
@@ -162,7 +128,6 @@ Mismatch mismatch(const FilterChain& filters, const FitRun& run) {
           for (double& y : of_run) y = acceleration_of(*run.shift_of, y);
         input = {std::move(of_run)};
       }
-    white.apply(filter);
     const Recomputed& output = columns[filter.to] = applied(filter, run.t, std::move(input));
     const std::vector<double> given = column_of_run(run, filter.to);
     if (output.reach == 0 || output.values.empty() || given.empty() ||
@@ -172,7 +137,7 @@ Mismatch mismatch(const FilterChain& filters, const FitRun& run) {
     if (filter.to == "D")  // the filters speak of the acceleration
       for (double& y : computed.values)
         y = shift_from_acceleration(run.shift_of->body, run.shift_of->geometry, y);
-    compare(computed, given, white.noise_in(computed, filter.to), result);
+    compare(run.t, computed, given, result);
   }
   return result;
 }
