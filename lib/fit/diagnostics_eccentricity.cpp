@@ -18,8 +18,6 @@
 namespace rolling {
 namespace {
 
-double square(double x) { return x * x; }
-
 /// The response of the raw column to an eccentricity of one metre, to first order: to dD = cos(x/r)
 /// and to dD = sin(x/r). The law is autonomous, so that v'(t) solves the linearised equation of
 /// motion. Variation of the constant gives dv = v' w with w' = -(g cos theta/((K + 1) R)) dD / v'.
@@ -74,11 +72,8 @@ bool shows_a_turn(const ObservedRun& run, Roll roll, std::size_t n) {
 /// its p.
 Eccentricity amplitude(const Fitted& fit, std::size_t run, Wobble wobble, double freedom,
                        std::span<const double> f) {
-  // The QR decomposition of J with the two columns of the response behind it: the last 2 x 2 block
-  // of R belongs to these columns after projection orthogonal to J, and theta holds their
-  // coefficients.
   const std::size_t own = fit.system.columns(), q = own + 2;
-  Triangles all(1, 0, q);
+  Triangles all(1, q, 0);  // of J with the two columns of the response behind it
   const RawModel model = fit.model->raw(fit.minimum.theta, run);
   const RawModel with_wobble = [&](double t, double* slopes, std::size_t stride) {
     const auto by_e = wobble.at(t);
@@ -90,18 +85,16 @@ Eccentricity amplitude(const Fitted& fit, std::size_t run, Wobble wobble, double
     all.add(0, of_rows, J);
   };
   evaluate(fit.model->runs()[run], run, q, *fit.noise, with_wobble, take);
-  all.join();
-  const std::vector<double> R = all.without_f(), theta = all.solve();
-  const double cc = R[(q - 2) * q + q - 2], cs = R[(q - 2) * q + q - 1], ss = R[q * q - 1],
-               by_cos = theta[q - 2], by_sin = theta[q - 1];
-  if (!(ss * ss > 1e-12 * (cs * cs + ss * ss))) return {run, 1, 0, 0, 0};
-  const double reduction = square(cc * by_cos + cs * by_sin) + square(ss * by_sin),
-               e = std::hypot(by_cos, by_sin), left = freedom - 2,
+  if (!(all.smallest_sine() > 1e-6)) return {run, 1, 0, 0, 0};
+  const std::vector<double> theta = all.solve();
+  const double by_cos = theta[own], by_sin = theta[own + 1], e = std::hypot(by_cos, by_sin),
+               reduction = all.reduction(own), left = freedom - 2,
                variance = (dot(f, f) - reduction) / left;
-  // The standard error of e is the norm of R^-T (by_cos, by_sin)/e times the standard deviation.
-  const double u = by_cos / (e * cc), w = (by_sin / e - u * cs) / ss;
+  std::vector<double> gradient(q);  // of e
+  gradient[own] = by_cos / e, gradient[own + 1] = by_sin / e;
+  all.solve_transposed(0, gradient);
   return {run, gsl_cdf_fdist_Q(reduction / variance / 2, 2, left), e,
-          std::sqrt(variance * (u * u + w * w)), std::atan2(by_sin, by_cos)};
+          std::sqrt(variance * dot(gradient, gradient)), std::atan2(by_sin, by_cos)};
 }
 
 /// Cuts residuals off at a few standard deviations: a burst or a lost echo has all periods.

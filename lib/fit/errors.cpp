@@ -17,18 +17,16 @@ namespace rolling {
 
 Matrix orthonormal(const Fitted& fit) {
   const std::size_t q = fit.system.columns();
-  const double* R = fit.minimum.R.data();
   Matrix Q(q);
   for (std::vector<double>& column : Q) column.reserve(fit.minimum.f.size());
   fit.system.evaluate(fit.minimum.theta,
-                      [&](std::size_t, std::span<double> f, std::span<double> J) {
+                      [&](std::size_t run, std::span<double> f, std::span<double> J) {
     std::vector<double> row(q);
     for (std::size_t i = 0; i < f.size(); ++i) {
       for (std::size_t j = 0; j < q; ++j) row[j] = J[j * f.size() + i];
-      solve_transposed(R, row);
+      fit.minimum.R.solve_transposed(run, row);
       for (std::size_t j = 0; j < q; ++j) Q[j].push_back(row[j]);
     }
-    R += q * q;
   });
   return Q;
 }
@@ -43,7 +41,7 @@ Matrix covariance_of(const Fitted& fit, std::vector<double> M) {
     for (std::size_t j = fit.system.own; j < q; ++j)
       for (std::size_t at = i * q + j + q * q; at < M.size(); at += q * q) M[i * q + j] += M[at];
   auto numbers = fit.numbers();
-  for (FittedNumber& x : numbers) solve_transposed(fit.minimum.R.data(), x.gradient);
+  for (FittedNumber& x : numbers) fit.minimum.R.solve_transposed(0, x.gradient);
   Matrix C(numbers.size(), std::vector<double>(numbers.size(), 0));
   for (std::size_t a = 0; a < numbers.size(); ++a)
     for (std::size_t b = 0; b < numbers.size(); ++b) {

@@ -59,7 +59,7 @@ WhiteShare most_likely_share(const std::shared_ptr<const Model>& model,
              std::span(columns).subspan(system.runs[r]));
       }
     };
-    const double of_weighted = restricted_likelihood(system, theta);
+    const double of_weighted = restricted_likelihood(evaluated(system, theta));
     return of_weighted - log_size;
   };
   const Largest found = golden_section(std::log(least), std::log(most), 0.1,
@@ -93,8 +93,8 @@ Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
     return std::make_shared<const Model>(observe(Route::velocity, all, rows, responses, options),
                                          plain.parameters());
   };
-  const double of_white_noise =
-      restricted_likelihood(system_of(model_of({}), std::make_shared<const Noise>()), theta);
+  const double of_white_noise = restricted_likelihood(
+      evaluated(system_of(model_of({}), std::make_shared<const Noise>()), theta));
   Maker best;
   for (const LinearFilter& filter : options.possible_filters) {
     const WhiteShare found =

@@ -241,7 +241,7 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, const std::vecto
   line.noise_of_roll = std::move(known.noise);
   // The bias of theta is R^-1 Q^T bias.
   const auto bias_of = [&](std::vector<double> gradient) {
-    solve_transposed(line.minimum.R.data(), gradient);
+    line.minimum.R.solve_transposed(0, gradient);
     return dot(gradient, along);
   };
   for (const FittedNumber& number : line.coefficients)

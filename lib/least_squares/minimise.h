@@ -3,7 +3,10 @@
 // steps. Each step comes from a QR decomposition of the Jacobian.
 #pragma once
 
+#include <limits>
+
 #include "least_squares/system.h"
+#include "least_squares/triangles.h"
 
 namespace rolling {
 
@@ -12,12 +15,12 @@ inline constexpr const char* choose_the_roll =
     "are all of these rows of one free roll that slows down (up a slope and back: --slope fit)? "
     "Choose it with smooth --coast, or with --from and --to";
 
+/// The residuals f at theta, and J = Q R there. R and not J^T J, because the condition number of
+/// the normal equations is the square of that of J.
 struct Minimum {
-  std::vector<double> theta, f;
-  /// J = Q R for the columns of each run: one upper triangle for each run, row by row. The rows of
-  /// the shared parameters are the same in all triangles.
-  std::vector<double> R;
-  double rss;  ///< |f|^2
+  std::vector<double> theta, f = {};
+  Triangles R = {};
+  double rss = std::numeric_limits<double>::infinity();  ///< |f|^2
 };
 
 /// The minimum that the search finds from `start`. Throws Error if the search does not converge or
@@ -28,20 +31,13 @@ Minimum minimise(const System&, const std::vector<double>& start);
 /// solved: if the search finds no minimum, theta is `start`, rss is infinite and the rest is empty.
 Minimum attempt(const System&, const std::vector<double>& start);
 
-/// theta after a Gauss-Newton step, times this factor. Throws Error where the model has no finite
-/// values.
-std::vector<double> stepped(const System&, std::vector<double> theta, double longer);
-
 /// f and R at theta, which need not be a minimum. Throws Error where the model has no finite
 /// values.
 Minimum evaluated(const System&, std::vector<double> theta);
 
-/// Replaces g by R^-T g, for the triangle R of one run of a Minimum, of as many rows as g has.
-void solve_transposed(const double* R, std::span<double> g);
-
 /// ln of the restricted likelihood (Patterson and Thompson 1971, Biometrika 58, 545) of normal
 /// white residuals, up to a constant, with the model linear around theta: -(n - p)/2 ln RSS - ln
-/// |det R|, J = Q R. Throws Error where the law has no finite values.
-double restricted_likelihood(const System&, const std::vector<double>& theta);
+/// |det R|.
+double restricted_likelihood(const Minimum& at);
 
 }  // namespace rolling

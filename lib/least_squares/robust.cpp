@@ -141,7 +141,7 @@ std::vector<double> trimmed_step(const System& system, const std::vector<double>
   const System linear = linearised(system, theta);
   const std::vector<double> start(system.parameters());
   const auto half_of_fit = [&](const std::vector<double>& factors) {
-    return best_half(linear, stepped(weighted(linear, factors), start, 1));
+    return best_half(linear, evaluated(weighted(linear, factors), start).R.solve());
   };
   std::mt19937 random;  // with the seed of the standard: the same draws in each run
   Half best = best_half(linear, start);
@@ -235,8 +235,11 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
       const System weights = weighted(system, factors);
       // A step of reweighted squares is too short by the ratio of these sums: with it Newton's.
       const double longer = slopes > squares / 2 ? squares / slopes : 1;
-      const auto next =
-          change > 0.01 ? minimise(weights, at.theta).theta : stepped(weights, at.theta, longer);
+      std::vector<double> next = at.theta;
+      if (change > 0.01) next = minimise(weights, next).theta;
+      else
+        std::ranges::transform(next, evaluated(weights, next).R.solve(), next.begin(),
+                               [&](double x, double step) { return x + longer * step; });
       change = 0;
       for (std::size_t j = 0; j < p; ++j)
         change =

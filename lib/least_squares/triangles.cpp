@@ -88,9 +88,19 @@ std::vector<double> Triangles::solve() const {
   return theta;
 }
 
-double Triangles::reduction() const {
+void Triangles::solve_transposed(std::size_t run, std::span<double> g) const {
+  const double* row = of(run);
+  for (std::size_t j = 0; j < q(); ++j, row += q() + 1) {
+    g[j] /= row[j];
+    for (std::size_t k = j + 1; k < q(); ++k) g[k] -= row[k] * g[j];
+  }
+}
+
+double Triangles::reduction(std::size_t from) const {
   double sum = 0;
-  rows([&](std::size_t, std::size_t, const double* row) { sum += row[q()] * row[q()]; });
+  rows([&](std::size_t, std::size_t j, const double* row) {
+    if (j >= from) sum += row[q()] * row[q()];
+  });
   return sum;
 }
 
@@ -116,13 +126,6 @@ double Triangles::log_determinant() const {
   double sum = 0;
   rows([&](std::size_t, std::size_t j, const double* row) { sum += std::log(std::abs(row[j])); });
   return sum;
-}
-
-std::vector<double> Triangles::without_f() const {
-  std::vector<double> all;
-  for (std::size_t i = 0; i < R_.size(); ++i)
-    if (i % (q() + 1) != q()) all.push_back(R_[i]);
-  return all;
 }
 
 }  // namespace rolling

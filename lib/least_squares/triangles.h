@@ -14,6 +14,7 @@ namespace rolling {
 /// with the number of runs.
 class Triangles {
  public:
+  Triangles() = default;
   /// `own` parameters of each run, `shared` ones of all (see System).
   Triangles(std::size_t runs, std::size_t own, std::size_t shared)
       : runs_(runs), own_(own), shared_(shared), R_(runs_ * triangle()) {}
@@ -27,8 +28,11 @@ class Triangles {
 
   /// The theta that minimises |J theta + f|.
   std::vector<double> solve() const;
-  /// The reduction of the sum of squares from theta = 0 to that minimum.
-  double reduction() const;
+  /// Replaces g by R^-T g for the columns of one run.
+  void solve_transposed(std::size_t run, std::span<double> g) const;
+  /// The reduction of the sum of squares from theta = 0 to that minimum; of a single run, by the
+  /// columns from this one on alone, beside those before them.
+  double reduction(std::size_t from = 0) const;
   /// The norms of the columns of J.
   std::vector<double> lengths() const;
   /// The smallest sine of the angle between a column of J and the span of the columns before it; 0
@@ -36,8 +40,6 @@ class Triangles {
   double smallest_sine() const;
   /// ln |det R|.
   double log_determinant() const;
-  /// R without the column of f: the upper triangle of each run, row by row, run after run.
-  std::vector<double> without_f() const;
 
  private:
   template <typename Row>
@@ -50,7 +52,7 @@ class Triangles {
   double* of(std::size_t run) { return R_.data() + run * triangle(); }
   const double* of(std::size_t run) const { return R_.data() + run * triangle(); }
 
-  std::size_t runs_, own_, shared_;
+  std::size_t runs_ = 0, own_ = 0, shared_ = 0;
   std::vector<double> R_;  // triangles of all runs, row by row, f last in each row
 };
 

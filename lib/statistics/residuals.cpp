@@ -6,16 +6,23 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <tuple>
 
 #include "base/matrix.h"
 
 namespace rolling {
 
+namespace {
+
+/// The sum of the products of numbers that are `lag` rows apart.
+double product(std::span<const double> run, std::size_t lag) {
+  return run.size() > lag ? dot(run.first(run.size() - lag), run.subspan(lag)) : 0;
+}
+
+}  // namespace
+
 double lagged(std::span<const double> r, std::span<const std::size_t> runs, std::size_t lag) {
   double sum = 0;
-  for (const auto run : by_run(r, runs))
-    if (run.size() > lag) sum += dot(run.first(run.size() - lag), run.subspan(lag));
+  for (const auto run : by_run(r, runs)) sum += product(run, lag);
   return sum;
 }
 
@@ -32,27 +39,21 @@ LagSums taken_by_few(std::size_t p) {
   return taken;
 }
 
-namespace {
-
-constexpr std::size_t most_lags = std::tuple_size_v<LagSums> - 1;
-
-std::size_t lags_of(std::span<const double> r) {
-  return std::clamp<std::size_t>(r.size() / 10, 1, most_lags);
-}
-
-/// The sums of products of the residuals of a run.
-LagSums sums_of_products(std::span<const double> run, std::size_t lags) {
-  constexpr std::size_t block = 1024;  // stays in the cache for all lags
-  LagSums sums{};
-  for (std::size_t i = 0; i < run.size(); i += block)
-    for (std::size_t k = 0; k <= lags && i + k < run.size(); ++k)
-      sums[k] += dot(&run[i], &run[i + k], std::min(block, run.size() - i - k));
-  return sums;
-}
-
-/// The smaller p, for sums of products of n residuals and their variances.
-double p_of_sums(const LagSums& sums, const LagSums& variances, std::size_t lags,
-                 const LagSums& taken, double n) {
+double ljung_box(std::span<const double> r, const LagSums& taken, std::span<const std::size_t> runs,
+                 bool uneven) {
+  const std::size_t lags = std::clamp<std::size_t>(r.size() / 10, 1, taken.size() - 1);
+  LagSums sums{}, variances{};
+  for (const auto run : by_run(r, runs)) {
+    std::vector<double> squares;
+    for (const double x : run.first(uneven ? run.size() : 0)) squares.push_back(x * x);
+    const double n = static_cast<double>(run.size()), sum = product(run, 0),
+                 even = sum * sum / (n * (n + 2));
+    for (std::size_t k = 0; k <= lags && k < run.size(); ++k) {
+      sums[k] += product(run, k);
+      variances[k] += uneven ? product(squares, k) : (n - static_cast<double>(k)) * even;
+    }
+  }
+  const double n = static_cast<double>(r.size());
   if (!(sums[0] > 0 && n > taken[0])) return 1;
   double Q = 0, least = 1;
   for (std::size_t k = 1; k <= lags; ++k) {
@@ -61,26 +62,6 @@ double p_of_sums(const LagSums& sums, const LagSums& variances, std::size_t lags
     if (k == 1 || k == lags) least = std::min(least, gsl_cdf_chisq_Q(Q, static_cast<double>(k)));
   }
   return least;
-}
-
-}  // namespace
-
-double ljung_box(std::span<const double> r, const LagSums& taken, std::span<const std::size_t> runs,
-                 bool uneven) {
-  const std::size_t lags = lags_of(r);
-  LagSums all{}, variances{};
-  for (const auto run : by_run(r, runs)) {
-    const LagSums sums = sums_of_products(run, lags);
-    std::vector<double> squares;
-    for (const double x : run.first(uneven ? run.size() : 0)) squares.push_back(x * x);
-    const LagSums of_squares = sums_of_products(squares, lags);
-    const double n = static_cast<double>(run.size()), even = sums[0] * sums[0] / (n * (n + 2));
-    for (std::size_t k = 0; k <= lags && k < run.size(); ++k) {
-      all[k] += sums[k];
-      variances[k] += uneven ? of_squares[k] : (n - static_cast<double>(k)) * even;
-    }
-  }
-  return p_of_sums(all, variances, lags, taken, static_cast<double>(r.size()));
 }
 
 double breusch_pagan(std::span<const double> residuals, std::span<const std::size_t> runs,

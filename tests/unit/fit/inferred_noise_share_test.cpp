@@ -74,8 +74,8 @@ TEST_CASE("white share: of a filter that changes nothing each is as likely as no
   REQUIRE(fit.noise->known());
   const auto plain = std::make_shared<const Model>(observe(Route::velocity, read, rows, {}, {}),
                                                    fit.model->parameters());
-  const double of_white_noise =
-      restricted_likelihood(system_of(plain, std::make_shared<const Noise>()), fit.minimum.theta);
+  const double of_white_noise = restricted_likelihood(
+      evaluated(system_of(plain, std::make_shared<const Noise>()), fit.minimum.theta));
   const WhiteShare found = most_likely_share(fit.model, fit.minimum.theta, 1e-3, 10);
   CHECK(found.likelihood == Approx(of_white_noise).epsilon(0).margin(1e-9));
   CHECK(found.gain == Approx(0).margin(1e-9));

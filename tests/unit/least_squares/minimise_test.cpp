@@ -120,9 +120,11 @@ TEST_CASE("minimise: a line through many rows has the sums of the closed form, a
   constexpr double tt = n * (n * n - 1.0) / 12;
   CHECK(std::abs(m.theta[0] - static_cast<double>(mean / n)) < 1e-14);
   CHECK(std::abs(m.theta[1] - static_cast<double>(ty / tt)) < 1e-16);
-  CHECK(std::abs(m.R[0] * m.R[0] / n - 1) < 1e-13);
-  CHECK(std::abs(m.R[1]) < 1e-9);  // the times are centred
-  CHECK(std::abs(m.R[3] * m.R[3] / tt - 1) < 1e-13);
+  std::vector<double> mean_of{1, 0}, slope_of{0, 1};
+  m.R.solve_transposed(0, mean_of), m.R.solve_transposed(0, slope_of);
+  CHECK(std::abs(n * mean_of[0] * mean_of[0] - 1) < 1e-13);
+  CHECK(std::abs(mean_of[1]) < 1e-9);  // the times are centred
+  CHECK(std::abs(tt * slope_of[1] * slope_of[1] - 1) < 1e-13);
 }
 
 TEST_CASE(
@@ -169,8 +171,9 @@ TEST_CASE(
   CHECK(std::abs(many.rss / one.rss - 1) < 1e-12);
 
   // The covariance of two functions of the parameters, of their gradients.
-  const auto covariance = [](const double* R, std::vector<double> g, std::vector<double> h) {
-    solve_transposed(R, g), solve_transposed(R, h);
+  const auto covariance =
+      [](const Triangles& R, std::size_t run, std::vector<double> g, std::vector<double> h) {
+    R.solve_transposed(run, g), R.solve_transposed(run, h);
     return dot(g, h);
   };
   const auto place = [](std::size_t run, std::size_t j) { return j < 2 ? 2 * run + j : 6; };
@@ -179,8 +182,8 @@ TEST_CASE(
       for (std::size_t k = 0; k < 3; ++k) {
         std::vector<double> g(7, 0), h(7, 0), g_run(3, 0), h_run(3, 0);
         g[place(r, j)] = h[place(r, k)] = g_run[j] = h_run[k] = 1;
-        CHECK(std::abs(covariance(&many.R[9 * r], g_run, h_run) / covariance(one.R.data(), g, h) -
-                       1) < 1e-8);
+        CHECK(std::abs(covariance(many.R, r, g_run, h_run) / covariance(one.R, 0, g, h) - 1) <
+              1e-8);
       }
 
   // Q^T Q = I, where the shared column is that of all runs.
@@ -196,10 +199,8 @@ TEST_CASE(
       }
 
   const double freedom = n - 7;
-  double log_det = 0;
-  for (std::size_t j = 0; j < 7; ++j) log_det += std::log(std::abs(one.R[8 * j]));
-  CHECK(std::abs(restricted_likelihood(blocks, many.theta) -
-                 (-freedom / 2 * std::log(one.rss) - log_det)) < 1e-9);
+  CHECK(std::abs(restricted_likelihood(many) -
+                 (-freedom / 2 * std::log(one.rss) - one.R.log_determinant())) < 1e-9);
 }
 
 TEST_CASE("minimise: a start at which the model has no finite values is refused", "[fit]") {
