@@ -20,15 +20,6 @@ std::string default_column(const Reader& in, std::size_t t) {
   return in.find("v") || in.columns().size() == 1 ? "v" : in.column_of(t) == 0 ? "2" : "1";
 }
 
-void need_motion(const std::string& name) {
-  if (name != "x" && name != "v")
-    fail("--coast needs x or v, not {}: say --use v=COLUMN, or --use x=COLUMN -c x", shown(name));
-}
-
-bool asks_to_smooth(const Tool& tool) {
-  return tool.given("width") || tool.given("seconds") || tool.given("method");
-}
-
 /// The `##` lines.
 std::string history(const std::string& column, const SelectionOptions& selected,
                     const SignalOptions& smoothed) {
@@ -125,7 +116,8 @@ int main(int argc, char** argv) {
     if (options.width.seconds > 0) tool.refuse({"width"}, "does not go with --seconds: give one");
     if (!options.method->has_order) tool.refuse({"order"}, "goes with --method savgol");
     select.width = options.width;
-    const bool selects = !select.all() && !asks_to_smooth(tool);  // and changes no number
+    const bool smooths = tool.given("width") || tool.given("seconds") || tool.given("method"),
+               selects = !select.all() && !smooths;  // and changes no number
     if (selects) options.width.samples = 1;
     make_signal(options);  // refuses wrong options before anything is read
     Reader& in = tool.read({"t", "v"});
@@ -134,7 +126,8 @@ int main(int argc, char** argv) {
     const auto y = in.need(column);
     const std::string name = in.columns()[in.column_of(y)].name;
     select.positions = name == "x";
-    if (select.coast) need_motion(name);
+    if (select.coast && name != "x" && name != "v")
+      fail("--coast needs x or v, not {}: say --use v=COLUMN, or --use x=COLUMN -c x", shown(name));
     Filter filter(in, tool.out, history(name, select, options));
     filter.replace(y);
     double first = INFINITY, last = -INFINITY;

@@ -65,7 +65,7 @@ build/fused/plain: $(exact_source:%.cpp=build/%.o)
 	@mkdir -p $(@D)
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
 fused_room := $(patsubst %,build/fused/obj/lib/%.o,text/number \
-                $(addprefix signal/,derivative exact_sum method savitzky_golay windows))
+                $(addprefix signal/,derivative method savitzky_golay windows))
 build/fused/bin/%: $(fused_room) build/cmd/%.o build/lib.a
 	@mkdir -p $(@D)
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)

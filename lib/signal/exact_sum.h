@@ -25,7 +25,16 @@ class ExactSum {
   }
   /// The sum divided by n, within 1 ulp of the exact quotient; -0 if all n terms are -0. n is 1 to
   /// 2^30.
-  double over(std::size_t n) const;
+  double over(std::size_t n) const {
+    if (large_.size == 0) return negative_zeros_ == n ? -0.0 : parts_.over(n);
+    // What 2^-100 takes from the other parts matters only where the large ones have cancelled.
+    const bool is_large = std::abs(large_.at[large_.size - 1]) >= 0x1p900;
+    Parts sum = is_large ? large_ : parts_;
+    const Parts& others = is_large ? parts_ : large_;
+    for (std::size_t i = 0; i < others.size; ++i)
+      sum.add(others.at[i] * (is_large ? 0x1p-100 : 0x1p100));
+    return sum.over(n) * (is_large ? 0x1p100 : 1);
+  }
 
  private:
   /// Doubles whose digits do not overlap, the smallest first; their sum is exact (Shewchuk 1997,
@@ -45,7 +54,18 @@ class ExactSum {
       if (size > at.size()) at.resize(2 * size);
       if (y != 0) at[left] = y;
     }
-    double over(std::size_t n) const;
+    double over(std::size_t n) const {
+      DoubleDouble sum;
+      for (std::size_t i = size; i-- > 0;) {
+        const DoubleDouble next = two_sum(sum.hi, at[i]);
+        sum = {next.hi, sum.lo + next.lo};
+      }
+      sum = two_sum(sum.hi, sum.lo);
+      // The rounding error of the quotient is corrected; the correction is so small that the
+      // rounding of 1/n does not matter.
+      const double count = static_cast<double>(n), inverse = 1 / count, quotient = sum.hi * inverse;
+      return quotient + (std::fma(-quotient, count, sum.hi) + sum.lo) * inverse;
+    }
   };
   void add_zero(double zero, int sign) {
     negative_zeros_ += static_cast<std::size_t>(std::signbit(zero) ? sign : 0);

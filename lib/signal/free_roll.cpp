@@ -92,11 +92,10 @@ class Search {
   /// Of noise alone, a piece in some thousand would.
   bool stands_out(const Piece<P>& a, const Piece<P>& b) const {
     if (!positions_) return std::abs(a.v(a.from).value) > 5 * noise_;
-    return std::max({way(a, b, b.to), way(a, a, a.to), way(a, a, a.middle())}) > 12 * noise_;
-  }
-  /// Between the beginning of a piece and t, which may be in another.
-  double way(const Piece<P>& from, const Piece<P>& to, double t) const {
-    return std::abs(to.y(t).value - from.y(from.from).value);
+    const auto way = [&](const Piece<P>& in, double t) {
+      return std::abs(in.y(t).value - a.y(a.from).value);
+    };
+    return std::max({way(b, b.to), way(a, a.to), way(a, a.middle())}) > 12 * noise_;
   }
   /// Whether the body slows down, or turns and comes back.
   bool is_roll(const Piece<P>& p) const {

@@ -2,6 +2,7 @@
 #include "signal/method.h"
 
 #include <algorithm>
+#include <limits>
 #include <locale>
 #include <sstream>
 #include <type_traits>
@@ -27,14 +28,16 @@ std::unique_ptr<Signal> make(const SignalOptions& options) {
   return std::make_unique<SavitzkyGolay>(options.width, options.order, what);
 }
 
+constexpr std::size_t whole_run = std::numeric_limits<std::size_t>::max();
+
 // The spline is not linear, because its parameter depends on the readings.
 constexpr SignalMethod all[] = {
     // name, reach, linear, shift-invariant, has an order, make
-    {"mean", half_width, true, true, false, make<MovingMean>},
-    {"median", half_width, false, false, false, make<MovingMedian>},
-    {"savgol", half_width, true, false, true, make<SavitzkyGolay::What::value>},
+    {"mean", 0, true, true, false, make<MovingMean>},
+    {"median", 0, false, false, false, make<MovingMedian>},
+    {"savgol", 0, true, false, true, make<SavitzkyGolay::What::value>},
     {"central", 1, true, false, false, make<CentralDerivative>},
-    {"savgol", half_width, true, false, true, make<SavitzkyGolay::What::slope>},
+    {"savgol", 0, true, false, true, make<SavitzkyGolay::What::slope>},
     {"spline", whole_run, false, false, false, make<SplineDerivative>},
     {"vernier", 3, true, false, false, make<VernierDerivative>},
     {"pasco", 2, true, false, false, make<PascoDerivative>},
@@ -82,7 +85,7 @@ std::optional<SignalOptions> signal_options(std::span<const SignalMethod> method
   return options;
 }
 
-Reach reach(const SignalOptions& options, std::span<const double> t) {
+std::size_t reach(const SignalOptions& options, std::span<const double> t) {
   const std::size_t samples =
       options.method->has_width() ? samples_within(options.width, t) : options.method->reach;
   return std::min(samples, t.size());

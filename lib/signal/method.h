@@ -3,6 +3,7 @@
 // filter, its description in a `##` line and the parsing of that line all use this table.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
@@ -16,14 +17,11 @@ namespace rolling {
 
 struct SignalOptions;
 
-/// The number of samples on either side on which an output value depends; at the ends of a run,
-/// where windows are one-sided, it may be twice as many.
-using Reach = std::size_t;
-inline constexpr Reach half_width = static_cast<Reach>(-1), whole_run = half_width - 1;
-
 struct SignalMethod {
   std::string_view name;
-  Reach reach;  ///< half_width for a method that has a width
+  /// The number of samples on either side on which an output value depends; at the ends of a run,
+  /// where windows are one-sided, it may be twice as many. 0 for a method that has a width.
+  std::size_t reach;
   /// True if an output is a linear combination of readings with coefficients that depend on the
   /// times alone.
   bool linear;
@@ -32,7 +30,7 @@ struct SignalMethod {
   bool has_order;  ///< the order of a polynomial
   std::unique_ptr<Signal> (*make)(const SignalOptions&);
 
-  bool has_width() const { return reach == half_width; }
+  bool has_width() const { return reach == 0; }
 };
 
 /// A method with its parameters.
@@ -58,7 +56,7 @@ std::string describe(const SignalOptions&);
 std::optional<SignalOptions> signal_options(std::span<const SignalMethod>, std::string_view words);
 
 /// The reach for a run with these times; at most its number of samples.
-Reach reach(const SignalOptions&, std::span<const double> t);
+std::size_t reach(const SignalOptions&, std::span<const double> t);
 
 /// The methods by their names.
 std::map<std::string, const SignalMethod*> by_name(std::span<const SignalMethod>);

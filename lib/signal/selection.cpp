@@ -26,19 +26,16 @@ std::span<const Sample> Selection::push(double t, double y) {
 std::span<const Sample> Selection::finish() {
   if (!options_.coast) run_.truncate(0);
   if (test_) take(test_->finish());
-  if (options_.coast) keep_roll();
-  return known();
-}
-
-void Selection::keep_roll() {
+  if (!options_.coast) return known();
   std::vector<Sample> run;
   for (const Sample& s : known())
     if (!std::isnan(s.y)) run.push_back(s);
-  if (run.empty()) return;
+  if (run.empty()) return known();
   roll_ = free_roll(run, options_.positions);
   for (std::size_t i = 0; i < run_.size(); ++i)
     if (double& y = run_.data()[i].y; run_[i].t < roll_->kept.from || run_[i].t > roll_->kept.to)
       y = NAN;
+  return known();
 }
 
 }  // namespace rolling

@@ -41,7 +41,6 @@ class Selection {
 
  private:
   void take(std::span<const Sample>);
-  void keep_roll();
   std::span<const Sample> known() const { return {run_.data(), run_.size()}; }
 
   SelectionOptions options_;
