@@ -9,16 +9,35 @@
 #include "base/matrix.h"
 
 namespace rolling {
-namespace {
-
-constexpr double undetermined = 1e-10;  // sine between a column of J and those before it
-constexpr double round_off = 1e-15;     // relative size of a step that is rounding alone
-constexpr double unseen = 1e-11;        // negligible step / (standard deviation * residuals)
 
 std::vector<double> moved(std::vector<double> theta, const std::vector<double>& step) {
   std::transform(theta.begin(), theta.end(), step.begin(), theta.begin(), std::plus());
   return theta;
 }
+
+Minimum tried(const System& system, std::vector<double> theta) {
+  Minimum at{std::move(theta), {}, {system.runs.size(), system.own, system.shared}, 0};
+  at.f.reserve(system.residuals());
+  try {
+    system.evaluate(at.theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
+      at.f.insert(at.f.end(), f.begin(), f.end());
+      at.rss += dot(f, f);
+      at.R.add(run, f, J);
+    });
+  } catch (const Error&) {
+    return {std::move(at.theta)};
+  }
+  at.R.join();
+  const std::vector<double> lengths = at.R.lengths();
+  if (!std::isfinite(at.rss + dot(lengths, lengths))) return {std::move(at.theta)};
+  return at;
+}
+
+namespace {
+
+constexpr double undetermined = 1e-10;  // sine between a column of J and those before it
+constexpr double round_off = 1e-15;     // relative size of a step that is rounding alone
+constexpr double unseen = 1e-11;        // negligible step / (standard deviation * residuals)
 
 /// The largest relative change of a parameter in the Gauss-Newton step.
 double size_of_step(const Minimum& at) {
@@ -37,25 +56,6 @@ bool negligible(const Minimum& at) {
 }
 
 bool determined(const Minimum& at) { return at.R.smallest_sine() > undetermined; }
-
-/// f and R at theta; rss is infinite if theta is not allowed or if they are not finite.
-Minimum tried(const System& system, std::vector<double> theta) {
-  Minimum at{std::move(theta), {}, {system.runs.size(), system.own, system.shared}, 0};
-  at.f.reserve(system.residuals());
-  try {
-    system.evaluate(at.theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
-      at.f.insert(at.f.end(), f.begin(), f.end());
-      at.rss += dot(f, f);
-      at.R.add(run, f, J);
-    });
-  } catch (const Error&) {
-    return {std::move(at.theta)};
-  }
-  at.R.join();
-  const std::vector<double> lengths = at.R.lengths();
-  if (!std::isfinite(at.rss + dot(lengths, lengths))) return {std::move(at.theta)};
-  return at;
-}
 
 /// Levenberg-Marquardt steps, scaled after More (1978, Lecture Notes in Mathematics 630, 105) and
 /// damped after Nielsen (1999, IMM-REP-1999-05), until they make no further progress. The caller

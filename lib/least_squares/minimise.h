@@ -31,9 +31,15 @@ Minimum minimise(const System&, const std::vector<double>& start);
 /// solved: if the search finds no minimum, theta is `start`, rss is infinite and the rest is empty.
 Minimum attempt(const System&, const std::vector<double>& start);
 
-/// f and R at theta, which need not be a minimum. Throws Error where the model has no finite
-/// values.
+/// f and R at theta, which need not be a minimum; rss is infinite, and the rest empty, where the
+/// model has no finite values.
+Minimum tried(const System&, std::vector<double> theta);
+
+/// The same; throws Error where the model has no finite values.
 Minimum evaluated(const System&, std::vector<double> theta);
+
+/// theta + step.
+std::vector<double> moved(std::vector<double> theta, const std::vector<double>& step);
 
 /// ln of the restricted likelihood (Patterson and Thompson 1971, Biometrika 58, 545) of normal
 /// white residuals, up to a constant, with the model linear around theta: -(n - p)/2 ln RSS - ln

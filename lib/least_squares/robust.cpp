@@ -28,35 +28,22 @@ double median_scale(std::vector<double> residuals, std::size_t p) {
   return nth_smallest(residuals, first + (residuals.size() - first) / 2) / 0.6745;
 }
 
-/// theta, the residuals there, and the root of the mean square of the scales of the runs: of the
-/// median size of the residuals of a run, divided by that of a standard normal variable (0.6745).
-/// So a run of much noise is no outlier as a whole. A scale of its own would be known to a fifth
-/// for a run of 30 rows, and few rows that outliers have drawn away would take them for their
-/// noise. Runs without noise, as at rest, do not count. Where most rows lie on the model, the scale
-/// is above rounding, as theta is of order one.
-struct Residuals {
-  std::vector<double> theta, f;
-  double scale = infinity;
-};
-
-/// Throws Error if the model has no finite values at theta.
-Residuals residuals_at(const System& system, std::vector<double> theta) {
-  Residuals at{.theta = std::move(theta), .f = {}};
-  at.f.reserve(system.residuals());
+/// The root of the mean square of the scales of the runs: of the median size of the residuals of a
+/// run, divided by that of a standard normal variable (0.6745). So a run of much noise is no
+/// outlier as a whole. A scale of its own would be known to a fifth for a run of 30 rows, and few
+/// rows that outliers have drawn away would take them for their noise. Runs without noise, as at
+/// rest, do not count. Where most rows lie on the model, the scale is above rounding, as theta is
+/// of order one. Infinite where the model has no finite values.
+double scale_of(const System& system, const Minimum& at) {
+  if (!std::isfinite(at.rss)) return infinity;
   std::vector<double> scales;
-  double squares = 0;  // of J
-  system.evaluate(at.theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
-    at.f.insert(at.f.end(), f.begin(), f.end());
+  for (const auto f : by_run(at.f, system.runs))
     scales.push_back(median_scale({f.begin(), f.end()}, system.columns()));
-    squares += dot(J, J);
-  });
-  const double n = static_cast<double>(at.f.size());
-  if (!std::isfinite(dot(at.f, at.f))) fail("the law has no finite values");
   const double least = program_rounding * std::ranges::max(scales);
   std::erase_if(scales, [&](double scale) { return scale < least; });
-  at.scale = std::max(std::sqrt(dot(scales, scales) / static_cast<double>(scales.size())),
-                      1e-13 * std::sqrt(squares / n));
-  return at;
+  const std::vector<double> J = at.R.lengths();
+  return std::max(std::sqrt(dot(scales, scales) / static_cast<double>(scales.size())),
+                  1e-13 * std::sqrt(dot(J, J) / static_cast<double>(at.f.size())));
 }
 
 /// The system that is linear in its parameters, which are 0 at theta, with the residuals and the J
@@ -153,41 +140,34 @@ std::vector<double> trimmed_step(const System& system, const std::vector<double>
   return best.delta;
 }
 
-/// The same with an infinite scale if theta is not allowed.
-Residuals tried(const System& system, std::vector<double> theta) try {
-  return residuals_at(system, std::move(theta));
-} catch (const Error&) {
-  return {};
-}
-
 /// Steps of least trimmed squares, halved where necessary, as long as they lower the scale.
-Residuals descend(const System& system, Residuals at) {
+Minimum descend(const System& system, Minimum at) {
   constexpr int rounds = 20, halvings = 5;
-  for (int round = 0; round < rounds && std::isfinite(at.scale); ++round) {
-    const std::vector<double> step = trimmed_step(system, at.theta);
-    Residuals next = at;
-    double share = 1;
-    for (int k = 0; k < halvings && !(next.scale < 0.99 * at.scale); ++k, share /= 2) {
-      std::vector<double> theta = at.theta;
-      for (std::size_t j = 0; j < step.size(); ++j) theta[j] += share * step[j];
-      next = tried(system, std::move(theta));
+  for (int round = 0; round < rounds && std::isfinite(at.rss); ++round) {
+    std::vector<double> step = trimmed_step(system, at.theta);
+    const double enough = 0.99 * scale_of(system, at);
+    Minimum next;
+    for (int k = 0; k < halvings && !(scale_of(system, next) < enough); ++k) {
+      next = tried(system, moved(at.theta, step));
+      for (double& x : step) x /= 2;
     }
-    if (!(next.scale < 0.99 * at.scale)) break;
+    if (!(scale_of(system, next) < enough)) break;
     at = std::move(next);
   }
   return at;
 }
 
-/// The residuals of the smallest scale of all that steps of least trimmed squares reach from these
+/// The place of the smallest scale of all that steps of least trimmed squares reach from these
 /// starts. Least trimmed squares fit half of the rows of each run, those that they fit best
 /// (Rousseeuw 1984, J. Am. Stat. Assoc. 79, 871). The cost grows with the cube of the number of
 /// parameters. Throws Error if the model has no finite values at any of the starts.
-Residuals least_trimmed(const System& system, const std::vector<std::vector<double>>& starts) {
-  Residuals best;
+Minimum least_trimmed(const System& system, const std::vector<std::vector<double>>& starts) {
+  Minimum best;
   for (const auto& start : starts)
-    if (Residuals found = descend(system, tried(system, start)); found.scale < best.scale)
+    if (Minimum found = descend(system, tried(system, start));
+        scale_of(system, found) < scale_of(system, best))
       best = std::move(found);
-  return std::isfinite(best.scale) ? best : residuals_at(system, starts.front());
+  return std::isfinite(best.rss) ? best : evaluated(system, starts.front());
 }
 
 /// psi(u)/u and psi'(u) of a loss with influence function psi.
@@ -205,9 +185,9 @@ Influence bisquare(double u) {
 }
 
 /// The sizes of residuals in units of their scale.
-std::vector<double> sizes_of(const Residuals& at) {
+std::vector<double> sizes_of(const std::vector<double>& f, double scale) {
   std::vector<double> sizes;
-  for (const double x : at.f) sizes.push_back(std::abs(x) / at.scale);
+  for (const double x : f) sizes.push_back(std::abs(x) / scale);
   return sizes;
 }
 
@@ -217,8 +197,9 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
   constexpr std::size_t few = 1000, few_parameters = 12;
   const std::size_t p = system.parameters();
   const bool trimmed = system.residuals() <= few && p <= few_parameters;
-  Residuals at = trimmed ? least_trimmed(system, starts) : residuals_at(system, starts.front());
-  std::vector<double> u = sizes_of(at), factors(u.size());
+  Minimum at = trimmed ? least_trimmed(system, starts) : evaluated(system, starts.front());
+  double scale = scale_of(system, at);
+  std::vector<double> u = sizes_of(at.f, scale), factors(u.size());
   std::vector<bool> outliers;
   for (const double size : u) outliers.push_back(trimmed && size > 30);
   for (const auto influence : {huber, bisquare}) {
@@ -235,21 +216,23 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
       const System weights = weighted(system, factors);
       // A step of reweighted squares is too short by the ratio of these sums: with it Newton's.
       const double longer = slopes > squares / 2 ? squares / slopes : 1;
-      std::vector<double> next = at.theta;
-      if (change > 0.01) next = minimise(weights, next).theta;
-      else
-        std::ranges::transform(next, evaluated(weights, next).R.solve(), next.begin(),
-                               [&](double x, double step) { return x + longer * step; });
+      std::vector<double> next;
+      if (change > 0.01) {
+        next = minimise(weights, at.theta).theta;
+      } else {
+        std::vector<double> step = evaluated(weights, at.theta).R.solve();
+        for (double& x : step) x *= longer;
+        next = moved(at.theta, step);
+      }
       change = 0;
       for (std::size_t j = 0; j < p; ++j)
         change =
             std::max(change, std::abs(next[j] - at.theta[j]) / std::max(1.0, std::abs(next[j])));
-      Residuals now = residuals_at(system, next);
+      at = evaluated(system, std::move(next));
       // The bisquare loss has a fixed scale, and so has Huber's after a while: it is made of
       // medians, which may go to and fro between two rows without end.
-      if (influence == bisquare || round > 50) now.scale = at.scale;
-      at = std::move(now);
-      u = sizes_of(at);
+      if (influence == huber && round <= 50) scale = scale_of(system, at);
+      u = sizes_of(at.f, scale);
     }
   }
   const double n = static_cast<double>(u.size());
@@ -262,11 +245,9 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
   if (!(mean > 0)) fail("too many outliers: no robust fit");
   const double correction =
       1 + static_cast<double>(p) / n * (squares - mean * mean) / (mean * mean);
-  Minimum minimum = evaluated(system, at.theta);
-  for (std::size_t i = 0; i < u.size(); ++i)
-    minimum.f[i] *= bisquare(u[i]).weight * correction / mean;
-  minimum.rss = dot(minimum.f, minimum.f);
-  return minimum;
+  for (std::size_t i = 0; i < u.size(); ++i) at.f[i] *= bisquare(u[i]).weight * correction / mean;
+  at.rss = dot(at.f, at.f);
+  return at;
 }
 
 }  // namespace rolling
