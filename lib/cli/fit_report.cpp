@@ -90,7 +90,7 @@ class Remarks {
                      "K for each");
     if (noisy_) causes();
     const LawForm& law = r_.law.form();
-    const bool other_law = fit_.laws && fit_.laws->against(law) >= levels::another_law;
+    const bool other_law = fit_.laws && fit_.laws->against >= levels::another_law;
     if (noisy_ && !spoilt_ && !other_law) residuals();
     if (noisy_ && r_.sigma_slope > 0 && fit_.runs.size() == 2)
       tool_.warn("",
@@ -99,8 +99,7 @@ class Remarks {
     if (!tool_.checks) return;
     if (other_law)
       object(run_, fmt::format("D = {} is better than {} by {:.1f} in AICc; see --report",
-                               fit_.laws->best_other(law).law->formula, law.formula,
-                               fit_.laws->against(law)));
+                               fit_.laws->other->formula, law.formula, fit_.laws->against));
     check();
   }
 
@@ -261,14 +260,17 @@ void report(Tool& tool, const FitOfRuns& fit, const LawForm& law) {
                        kinds.at(r.errors), known(" (Ljung and Box: p = {:.2g})", r.whiteness)));
   if (r.shares.size() > 1 && r.errors != Errors::none) tool.say(budget(r));
   if (!fit.laws) return;
-  if (!fit.laws->possible(law))
+  const std::vector<LawFit>& fits = fit.laws->fits;
+  const double against = fit.laws->against;
+  if (std::isnan(against))
     return tool.say(
         fmt::format("too few independent readings to compare {} with other laws", law.formula));
-  for (const LawFit& other : fit.laws->fits) tool.say(described(other, fit.laws->least()));
-  tool.say(fmt::format("{} better than D = {}",
-                       fit.laws->against(law) <= levels::no_better_law ? "no law that was tried is"
-                                                                       : "another law is",
-                       law.formula));
+  const double least = std::ranges::min(fits, {}, &LawFit::aicc).aicc;
+  for (const LawFit& one : fits) tool.say(described(one, least));
+  tool.say(
+      fmt::format("{} better than D = {}",
+                  against <= levels::no_better_law ? "no law that was tried is" : "another law is",
+                  law.formula));
 }
 
 }  // namespace rolling

@@ -65,24 +65,6 @@ void report_coefficients(LawFit& result, const Fitted& fit) {
 
 }  // namespace
 
-double LawComparison::least() const { return std::ranges::min(fits, {}, &LawFit::aicc).aicc; }
-
-const LawFit& LawComparison::best_other(const LawForm& law) const {
-  return *std::ranges::min_element(fits, {}, [&](const LawFit& fit) {
-    return std::pair(fit.law == &law || (fit.law->is_power && law.is_power), fit.aicc);
-  });
-}
-
-double LawComparison::against(const LawForm& law) const {
-  return possible(law) ? std::ranges::find(fits, &law, &LawFit::law)->aicc - best_other(law).aicc
-                       : 0;
-}
-
-bool LawComparison::possible(const LawForm& law) const {
-  return std::isfinite(std::ranges::find(fits, &law, &LawFit::law)->aicc) &&
-         std::isfinite(best_other(law).aicc);
-}
-
 Fitted fit_of_law(const Fitted& power, const LawForm& law) {
   const char* const slope =
       power.slope ? " and the slope of the mat: add runs in the other direction" : "";
@@ -96,7 +78,7 @@ LawComparison compare_laws(Route route, const std::vector<FitRun>& runs, FitOpti
   // The mean of ln D is not the logarithm of the mean of D if D is noisy; other laws would fit the
   // difference.
   if (route == Route::loglog) route = Route::shift;
-  options.law = &laws().front();
+  const LawForm* const asked = std::exchange(options.law, &laws().front());
   std::vector<Fitted> all{of_means(fit_route(route, runs, options), options)};
   for (const LawForm& law : laws())
     if (&law != options.law) all.push_back(fit_beside(all.front(), law));
@@ -118,6 +100,12 @@ LawComparison compare_laws(Route route, const std::vector<FitRun>& runs, FitOpti
                                         {}});
     if (was_found(found)) report_coefficients(of_law, found);
   }
+  double of_asked = infinity, of_other = infinity;
+  for (const LawFit& fit : result.fits)
+    if (fit.law == asked) of_asked = fit.aicc;
+    else if (fit.aicc < of_other && !(fit.law->is_power && asked->is_power))
+      result.other = fit.law, of_other = fit.aicc;
+  if (std::isfinite(of_asked) && result.other) result.against = of_asked - of_other;
   return result;
 }
 

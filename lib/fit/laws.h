@@ -2,6 +2,7 @@
 // Comparison of the power law D = a v^b with other laws on the same rows by AICc.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "base/estimate.h"
@@ -25,14 +26,12 @@ struct LawFit {
 /// The fits of all laws of contact/law.h, a v^b first.
 struct LawComparison {
   std::vector<LawFit> fits;
-
-  double least() const;  ///< AICc of the best law
-  /// The best law beside this one; a special case of a v^b is no evidence against that.
-  const LawFit& best_other(const LawForm&) const;
-  /// AICc of this law minus AICc of best_other(); 0 if the comparison is not possible().
-  double against(const LawForm&) const;
-  /// False if there are too few independent rows for the AICc of two laws.
-  bool possible(const LawForm&) const;
+  /// The best law beside the one that was asked for (FitOptions::law), in `fits`; a special case of
+  /// a v^b is no evidence against that.
+  const LawForm* other = nullptr;
+  /// AICc of the one that was asked for minus that of the other; NaN if there are too few
+  /// independent rows for the AICc of two laws.
+  double against = NAN;
 };
 
 struct Fitted;
