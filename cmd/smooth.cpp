@@ -103,11 +103,11 @@ int main(int argc, char** argv) {
   tool.text("-c,--column", column, "COLUMN",
             "the column to smooth (v, else the first that is not t)");
   tool.choice("-M,--method", options.method, methods, "what takes the place of a reading (mean)");
-  tool.count("-w,--width", options.width.samples, odd,
+  tool.count("-w,--width", options.width.samples, whole,
              "width of the window, an odd number of rows (11)");
   tool.number("--seconds", options.width.seconds, positive,
               "width of the window in seconds, instead");
-  tool.count("--order", options.order, polynomial, "order of savgol's polynomial (2)");
+  tool.count("--order", options.order, whole, "order of savgol's polynomial (2)");
   add_options(tool, select);
   tool.input();
   tool.output();

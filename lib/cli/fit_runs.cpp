@@ -99,12 +99,11 @@ bool take_pulses(Tool& tool, std::vector<FitRun>& runs) {
     for (std::size_t i = 0; i < runs[r].t.size(); ++i)
       runs[r].x.push_back(ways[r] * static_cast<double>(i));
     std::vector<double>().swap(runs[r].v);
+    tool.warn(runs[r].name,
+              fmt::format("each speed is {:.4g} m over the time between two rows: the rows are "
+                          "pulses, and their positions are fitted",
+                          ways[r]));
   }
-  tool.warn(fmt::format(
-      "run {}{}: each speed is {:.4g} m over the time between two rows: the rows are pulses, and "
-      "their positions are fitted",
-      runs[0].name, runs.size() > 1 ? fmt::format(" and {} others", runs.size() - 1) : "",
-      ways[0]));
   return true;
 }
 

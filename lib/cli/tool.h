@@ -43,14 +43,6 @@ inline constexpr Domain whole{"a whole number from 1 to 1e9", [](double x) {
                                        x == static_cast<double>(static_cast<std::int64_t>(x));
                               }};
 
-inline constexpr Domain odd{"an odd whole number from 1 to 1e9", [](double x) {
-                              return whole.holds(x) && static_cast<std::int64_t>(x) % 2 == 1;
-                            }};
-
-/// The order of the polynomial of SavitzkyGolay.
-inline constexpr Domain polynomial{"a whole number from 1 to 10",
-                                   [](double x) { return whole.holds(x) && x <= 10; }};
-
 /// The number in a text; with `sigma` it may have an uncertainty (0.5+-0.005). Throws Error for
 /// another text and for a number outside the domain.
 double to_number(const std::string& text, const Domain&, double* sigma = nullptr);

@@ -10,13 +10,10 @@
 #include <sstream>
 #include <utility>
 
-#include "signal/savitzky_golay.h"
 #include "text/lines.h"
 
 namespace rolling {
 
-static_assert(polynomial.holds(SavitzkyGolay::most_order) &&
-              !polynomial.holds(SavitzkyGolay::most_order + 1));
 namespace {
 
 constexpr std::string_view version = "1.0.0";
