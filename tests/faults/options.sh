@@ -61,21 +61,21 @@ while IFS='|' read -r arguments says; do
   attempt $arguments
   refused "$arguments" "$says"
 done <<'END'
-smooth -w 0 @|'0' must be an odd whole number from 1 to 1e9
-smooth -w 2 @|'2' must be an odd whole number from 1 to 1e9
-smooth -w -3 @|'-3' must be an odd whole number from 1 to 1e9
-smooth -w 2.5 @|'2.5' must be an odd whole number from 1 to 1e9
-smooth -w 1e10 @|'1e10' must be an odd whole number from 1 to 1e9
+smooth -w 0 @|'0' must be a whole number from 1 to 1e9
+smooth -w 2 @|is an odd number of samples, not 2
+smooth -w -3 @|'-3' must be a whole number from 1 to 1e9
+smooth -w 2.5 @|'2.5' must be a whole number from 1 to 1e9
+smooth -w 1e10 @|'1e10' must be a whole number from 1 to 1e9
 simulate --seed 1e10|'1e10' must be a whole number from 1 to 1e9
-smooth -w 010 @|'010' must be an odd whole number from 1 to 1e9
+smooth -w 010 @|is an odd number of samples, not 10
 smooth --seconds 0 @|'0' must be greater than 0
 smooth --seconds -1 @|'-1' must be greater than 0
 smooth -w 3 --seconds 1 @|--width does not go with --seconds
 smooth --outliers 0 @|'0' must be greater than 0
 smooth --order 2 @|--order goes with --method savgol
 smooth -M savgol -w 3 --order 3 @|order
-smooth -M savgol --order 0 @|'0' must be a whole number from 1 to 10
-smooth -M savgol -w 75 --order 11 @|'11' must be a whole number from 1 to 10
+smooth -M savgol --order 0 @|'0' must be a whole number from 1 to 1e9
+smooth -M savgol -w 75 --order 11 @|a polynomial of order 11: at most 10
 smooth --seconds 0,5 @|'0,5' is not a number (decimal point, no unit)
 smooth -w 3 -w 5 @|--width: At Most 1 required but received 2
 smooth -q @ -q|--quiet: At Most 1 required but received 2
@@ -97,7 +97,7 @@ smooth --run 2 @|there is no run 2
 smooth --digits 0 @|from 1 to 17
 smooth --digits 18 @|from 1 to 17
 smooth --digits 1.5 @|from 1 to 17
-differentiate -w 4 -M savgol @|'4' must be an odd whole number from 1 to 1e9
+differentiate -w 4 -M savgol @|is an odd number of samples, not 4
 differentiate -w 5 @|goes with --method savgol
 differentiate -w 3 --order 3 -M savgol @|order
 differentiate -M mean @|'mean' is not one of
