@@ -58,7 +58,6 @@ double way_of(bool position, const std::vector<double>& t, const std::vector<dou
   const auto sum = [](auto first, auto last) { return std::accumulate(first, last, 0.0); };
   const double all = sum(rows.begin(), rows.end());
   if (!position) return all < 0 ? -1 : 1;
-  if (options.x0) return all < static_cast<double>(rows.size()) * *options.x0 ? -1 : 1;
   const auto half = static_cast<std::ptrdiff_t>(rows.size() / 2);
   return sum(rows.end() - half, rows.end()) < sum(rows.begin(), rows.begin() + half) ? -1 : 1;
 }
