@@ -153,6 +153,7 @@ LawOfFile read_law(Tool& tool, const LawOptions& options, const std::vector<RowN
 double LawOfFile::sigma(double v) const {
   if (coefficients.empty()) return not_given;
   std::vector<double> part;  // what each coefficient brings
+  double variance = 0;
   for (std::size_t j = 0; j < coefficients.size(); ++j) {
     // a central difference, since the law is known by its formula's coefficients alone
     constexpr double step = 1e-3;
@@ -163,9 +164,6 @@ double LawOfFile::sigma(double v) const {
       return Law::as_written(law.form(), written)(v);
     };
     part.push_back((moved(step) - moved(-step)) / (2 * step));
-  }
-  double variance = 0;
-  for (std::size_t j = 0; j < part.size(); ++j) {
     variance += part[j] * part[j];
     for (std::size_t i = 0; i < j; ++i) variance += 2 * correlations[j][i] * part[i] * part[j];
   }

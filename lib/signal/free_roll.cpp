@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -48,8 +49,7 @@ class Search {
     std::vector<Chain> chains = rolls();
     if (chains.empty()) return {};
     const auto rank = [](const Chain& c) { return std::pair(c.lost > 0.1, c.duration); };
-    const auto longer = [&](const Chain& a, const Chain& b) { return rank(a) > rank(b); };
-    std::sort(chains.begin(), chains.end(), longer);
+    std::ranges::sort(chains, std::greater(), rank);
     const Chain& best = chains[0];
     FreeRoll found = kept(best);
     // A rest at the end of the run may be too short for a piece of its own.

@@ -4,11 +4,85 @@
 // rises or falls.
 #pragma once
 
-#include "signal/exact_sum.h"
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "base/double_double.h"
 #include "signal/signal.h"
 #include "signal/sorted_window.h"
 
 namespace rolling {
+
+/// A sum of doubles without rounding error, from which terms can be subtracted again. After any
+/// sequence of additions and subtractions it is the exact sum of the remaining terms; a moving sum
+/// does not drift, and an outlier leaves no trace.
+class ExactSum {
+ public:
+  void add(double y) { y == 0 ? add_zero(y, 1) : add_term(y); }
+  void subtract(double y) { y == 0 ? add_zero(y, -1) : add_term(-y); }
+  /// Adds y and subtracts `old`.
+  void exchange(double y, double old) {
+    const DoubleDouble change = two_sum(y, -old);  // usually exact for neighbours in a column
+    if (change.lo == 0 && y != 0 && old != 0) return add_term(change.hi);
+    add(y);
+    subtract(old);
+  }
+  /// The sum divided by n, within 1 ulp of the exact quotient; -0 if all n terms are -0. n is 1 to
+  /// 2^30.
+  double over(std::size_t n) const {
+    if (large_.size == 0) return negative_zeros_ == n ? -0.0 : parts_.over(n);
+    // What 2^-100 takes from the other parts matters only where the large ones have cancelled.
+    const bool is_large = std::abs(large_.at[large_.size - 1]) >= 0x1p900;
+    Parts sum = is_large ? large_ : parts_;
+    const Parts& others = is_large ? parts_ : large_;
+    for (std::size_t i = 0; i < others.size; ++i)
+      sum.add(others.at[i] * (is_large ? 0x1p-100 : 0x1p100));
+    return sum.over(n) * (is_large ? 0x1p100 : 1);
+  }
+
+ private:
+  /// Doubles whose digits do not overlap, the smallest first; their sum is exact (Shewchuk 1997,
+  /// Discrete Comput. Geom. 18, 305).
+  struct Parts {
+    std::size_t size = 0;
+    std::vector<double> at = std::vector<double>(4);  // with room behind them
+
+    void add(double y) {
+      std::size_t left = 0;
+      for (std::size_t i = 0; i < size; ++i) {
+        const DoubleDouble sum = two_sum(y, at[i]);
+        if (sum.lo != 0) at[left++] = sum.lo;
+        y = sum.hi;
+      }
+      size = y == 0 ? left : left + 1;
+      if (size > at.size()) at.resize(2 * size);
+      if (y != 0) at[left] = y;
+    }
+    double over(std::size_t n) const {
+      DoubleDouble sum;
+      for (std::size_t i = size; i-- > 0;) {
+        const DoubleDouble next = two_sum(sum.hi, at[i]);
+        sum = {next.hi, sum.lo + next.lo};
+      }
+      sum = two_sum(sum.hi, sum.lo);
+      // The rounding error of the quotient is corrected; the correction is so small that the
+      // rounding of 1/n does not matter.
+      const double count = static_cast<double>(n), inverse = 1 / count, quotient = sum.hi * inverse;
+      return quotient + (std::fma(-quotient, count, sum.hi) + sum.lo) * inverse;
+    }
+  };
+  void add_zero(double zero, int sign) {
+    negative_zeros_ += static_cast<std::size_t>(std::signbit(zero) ? sign : 0);
+  }
+  void add_term(double y) {
+    if (std::abs(y) < 0x1p900) parts_.add(y);
+    else large_.add(y * 0x1p-100);
+  }
+
+  Parts parts_, large_;  // large_ holds terms whose sum could overflow, times 2^-100
+  std::size_t negative_zeros_ = 0;
+};
 
 /// Each mean is within 1 ulp of the exact mean of its window, independent of earlier readings.
 class MovingMean : public WindowedSignal<MovingMean> {

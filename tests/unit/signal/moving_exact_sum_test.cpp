@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "signal/exact_sum.h"
+#include "signal/moving.h"
 
 #include <cmath>
 #include <limits>
