@@ -81,10 +81,10 @@ std::vector<double> left_of(const Matrix& Q, std::size_t n) {
 SeenNoise seen_noise(const Fitted& fit) {
   if (fit.noise_of_roll) return *fit.noise_of_roll;
   const auto& f = fit.minimum.f;
-  SeenNoise seen{.filtered = fit.noise->from_sources_alone(), .freedom = fit.degrees_left()};
+  SeenNoise seen{.freedom = fit.degrees_left()};
   seen.e = seen.innovations = f, seen.sources = seen.runs = fit.system.runs;
   seen.B = orthonormal(fit);
-  if (seen.filtered) {
+  if (fit.noise->from_sources_alone()) {
     seen.innovations = fit.noise->innovations(f, seen.runs);
     Matrix few;
     for (const auto& column : seen.B) few.push_back(fit.noise->innovations(column, seen.runs));
@@ -105,7 +105,7 @@ namespace {
 std::vector<double> consistent_meat(const Fitted& fit, const SeenNoise& seen, Errors kind) {
   // HC3: the fit multiplies the noise of a residual by 1 - h, with h its leverage (MacKinnon and
   // White 1985, J. Econometrics 29, 305).
-  const bool by_leverage = kind == Errors::uneven && !seen.filtered;
+  const bool by_leverage = kind == Errors::uneven && !seen.left.empty();
   Matrix scores = seen.B;
   for (auto& column : scores)
     for (std::size_t i = 0; i < seen.e.size(); ++i)
@@ -130,9 +130,9 @@ struct Tested {
 
 Tested tested(const Fitted& fit, const SeenNoise& seen) {
   const auto& [noise, runs] = std::tie(seen.innovations, seen.runs);
-  const Errors white = fit.noise->added().inferred           ? Errors::differences
-                       : seen.filtered || fit.noise->known() ? Errors::filters
-                                                             : Errors::classical;
+  const Errors white = fit.noise->added().inferred               ? Errors::differences
+                       : seen.left.empty() || fit.noise->known() ? Errors::filters
+                                                                 : Errors::classical;
   double whiteness = ljung_box(noise, seen.taken, runs);
   if (fit.minimum.f.size() < 30) return {whiteness, white};
   const bool uneven = breusch_pagan(noise, runs, seen.left) <= levels::uneven;

@@ -27,7 +27,6 @@ struct FittedNumber {
 /// White noise beside it makes the weighted residuals those of independent noise, as if nothing had
 /// been filtered: then, and without filters, the residuals are the sources, and B is Q.
 struct SeenNoise {
-  bool filtered;                          ///< the sources lie before filters
   std::size_t freedom;                    ///< degrees of freedom of the variance
   double variance = 0;                    ///< of the sources
   std::vector<double> e = {};             ///< the estimated noise of each source

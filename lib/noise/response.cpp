@@ -10,19 +10,6 @@ namespace rolling {
 
 namespace {
 
-/// The columns of each row, in a filter with this reach, that may be different from 0.
-struct Band {
-  std::size_t n, reach;
-
-  std::size_t most() const { return std::min(2 * reach, n); }  // reach of a row at an end
-  bool inside(std::size_t i) const { return i >= reach && i + reach < n; }
-  std::size_t first(std::size_t i) const {
-    const std::size_t side = inside(i) ? reach : most();
-    return i > side ? i - side : 0;
-  }
-  std::size_t end(std::size_t i) const { return std::min(n, i + (inside(i) ? reach : most()) + 1); }
-};
-
 /// A run whose rows stand for all rows of a longer one: row i of that has the elements of row
 /// `row[i]` of this, as many columns further on as i is beyond row[i].
 struct Short {
@@ -76,32 +63,28 @@ Short shortened(const LinearFilter& filter, std::span<const double> t) {
 
 BandMatrix probe(const LinearFilter& filter, std::span<const double> times) {
   const Short few = shortened(filter, times);
-  const std::vector<double>& t = few.t;
   // A row inside the run reads 2 * reach + 1 columns, and one of the `reach` rows at either end at
   // most 3 * reach: it responds to only one of several impulses at this distance.
-  const Band rows{t.size(), filter.reach};
-  const std::size_t n = t.size(),
-                    spacing = std::min(std::max(2 * filter.reach + 1, 3 * filter.reach), n);
-  std::vector<std::size_t> start{0};
-  start.reserve(n + 1);
-  for (std::size_t i = 0; i < n; ++i) start.push_back(start.back() + rows.end(i) - rows.first(i));
-  std::vector<double> all(start.back()), comb(n);
+  const std::size_t n = few.t.size(), reach = filter.reach,
+                    spacing = std::min(std::max(2 * reach + 1, 3 * reach), n);
+  std::vector<double> all(n * spacing), comb(n), row;
   for (std::size_t k = 0; k < spacing; ++k) {
     for (std::size_t j = k; j < n; j += spacing) comb[j] = 1;
-    const auto response = filter.apply(t, comb);
+    const auto response = filter.apply(few.t, comb);
     if (response.size() != n)
       fail("a filter of {} gives {} values for {} rows", filter.from, response.size(), n);
-    for (std::size_t j = k; j < n; j += spacing) {
-      comb[j] = 0;
-      const std::size_t end = std::min(n, j + rows.most() + 1);
-      for (std::size_t i = j > rows.most() ? j - rows.most() : 0; i < end; ++i)
-        if (rows.first(i) <= j && j < rows.end(i)) all[start[i] + j - rows.first(i)] = response[i];
-    }
+    for (std::size_t j = k; j < n; j += spacing) comb[j] = 0;
+    for (std::size_t i = 0; i < n; ++i) all[i * spacing + k] = response[i];
   }
-  BandMatrix L(times.size());
+  BandMatrix L(times.size());  // what a row reads lies within `spacing` columns around it
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const std::size_t k = few.row[i];
-    L.append(rows.first(k) + i - k, std::span(all).subspan(start[k], start[k + 1] - start[k]));
+    const std::size_t k = few.row[i], first = std::min(k - std::min(k, spacing / 2), n - spacing);
+    if (i == 0 || k != few.row[i - 1]) {
+      row.clear();
+      for (std::size_t j = first; j < first + spacing; ++j)
+        row.push_back(all[k * spacing + j % spacing]);
+    }
+    L.append(first + i - k, row);
   }
   return L;
 }
