@@ -128,7 +128,7 @@ inline Verdict judge(const Trouble& wrong, rolling::PowerLaw law, int runs, unsi
       double against = 0;
       if (!options.robust)
         against = rolling::compare_laws(rolling::Route::position, {run}, options).against;
-      sum.adequate += against <= 2;
+      sum.adequate += !(against > 2);
       const bool other = against >= better, coloured = r.whiteness <= rolling::levels::not_white,
                  hand = !options.robust &&
                         rolling::disturbed_beginning(rolling::Route::position, {run}, options);
