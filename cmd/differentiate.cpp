@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
     if (!options.method->has_width()) tool.refuse({"width", "order"}, "goes with --method savgol");
     make_signal(options);  // refuses wrong options before anything is read
     Reader& in = tool.read({"t", "v"});
-    const auto t = in.need_time();
+    const auto t = in.need("t");
     const auto y = in.need(!column.empty() ? column : in.find("v") || !in.find("x") ? "v" : "x");
     const Column& from = in.columns()[in.column_of(y)];
     Filter filter(in, tool.out, fmt::format("differentiate {} {}", from.name, describe(options)));

@@ -179,7 +179,7 @@ int main(int argc, char** argv) {
     Reader& in = tool.read({"t", "v", "D"});
     task.law_of_scene = !task.uses_law && !std::isnan(law.power.a) && !in.find("D");
     if (task.law_of_scene) task.uses_law = true, task.law = read();
-    task.t = in.need_time(), task.v = in.need("v");
+    task.t = in.need("t"), task.v = in.need("v");
     task.D = task.uses_law ? task.v : in.need("D");
     if (task.summary) {
       write_summary(tool, in, task);

@@ -188,7 +188,7 @@ class RowWriter {
 
   /// At the times in the column t of a file; each run of the file starts the roll anew.
   void write_at(Reader& in) {
-    const auto t = in.need_time();
+    const auto t = in.need("t");
     for (bool first = true; in.next_run();) {
       std::unique_ptr<Motion> motion;
       while (in.next()) {

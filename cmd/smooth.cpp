@@ -121,7 +121,7 @@ int main(int argc, char** argv) {
     if (selects) options.width.samples = 1;
     make_signal(options);  // refuses wrong options before anything is read
     Reader& in = tool.read({"t", "v"});
-    const auto t = in.need_time();
+    const auto t = in.need("t");
     if (column.empty()) column = default_column(in, t);
     const auto y = in.need(column);
     const std::string name = in.columns()[in.column_of(y)].name;

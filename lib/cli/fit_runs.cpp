@@ -69,7 +69,7 @@ std::vector<std::string> columns_of(Route route) {
 std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route) {
   std::map<std::string, std::size_t> slots;
   for (const std::string& name : columns_of(route))
-    slots[name] = name == "t" ? in.need_time() : in.need(name);
+    slots[name] = in.need(name);
   std::vector<FitRun> runs;
   while (in.next_run()) {
     FitRun& run = runs.emplace_back();
@@ -77,7 +77,7 @@ std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route) {
     if (!in.history().empty())  // the `##` lines are compared with the other columns
       for (const std::string name : {"t", "x", "v", "D"})
         if (in.find(name) && !slots.contains(name))
-          slots[name] = name == "t" ? in.need_time() : in.want(name);
+          slots[name] = name == "t" ? in.need("t") : in.want(name);
     std::vector<std::pair<std::size_t, std::vector<double>*>> columns;
     for (const auto& [name, slot] : slots) columns.push_back({slot, &(run.*column_of(name))});
     while (in.next())

@@ -12,6 +12,19 @@
 #include "text/number.h"
 
 namespace rolling {
+namespace {
+
+/// Why a field is refused that is no number, and what to do.
+std::string not_a_number(std::string_view text) {
+  const bool digits =  // not of #DIV/0!
+      !text.starts_with('#') && text.find_first_of(decimal_digits) != std::string_view::npos;
+  return std::string("is not a number; ") +
+         (digits ? "write it with digits and a decimal point alone, a time in seconds"
+                 : "write NaN for a missing reading, # before a line that is no row, and a blank "
+                   "line before another run");
+}
+
+}  // namespace
 
 Reader::Reader(ReaderOptions options, std::vector<std::string> order)
     : options_(std::move(options)), needed_(options_.use, options_.has_use),
@@ -112,40 +125,37 @@ bool Reader::take_fields() {
   return true;
 }
 
+/// The number in a needed column of the present row [SI]; NaN for a missing reading.
+double Reader::read(const NeededColumns::Needed& needed) const {
+  if (needed.column == no_column) return std::numeric_limits<double>::quiet_NaN();
+  const Field& field = fields_[needed.column];
+  if (std::isnan(field.number)) {
+    if (!is_missing(field.text)) refuse(needed, not_a_number(field.text));
+    if (options_.strict && needed.kind != NeededColumns::Kind::wanted)
+      refuse(needed, "is a missing reading");
+    return field.number;
+  }
+  const double value = needed.to_si(field.number);
+  if (!std::isfinite(value)) refuse(needed, "is beyond the range of a double in SI units");
+  return value;
+}
+
 /// Reads the needed numbers of the row; false if one is missing.
 bool Reader::take_row() {
   if (!take_fields()) return false;
   double* to = values_.data();
-  const bool converts = needed_.converts();
   for (const NeededColumns::Needed& needed : needed_.all()) {
-    double value = std::numeric_limits<double>::quiet_NaN();
-    if (needed.column != no_column) value = fields_[needed.column].number;
-    if (std::isnan(value)) {
-      if (needed.column != no_column && !is_missing(fields_[needed.column].text))
-        reject(needed.column, not_a_number(needed.column));
-      if (needed.kind != NeededColumns::Kind::wanted) {
-        if (options_.strict)
-          fail<InputError>("{}: field {} ({}): a reading is missing", here(),
-                           layout().fields[needed.column] + 1, shown(needed.quantity));
-        return false;
-      }
-    } else if (converts) {
-      value = needed.to_si(value);
-      if (!std::isfinite(value))
-        reject(needed.column, "is beyond the range of a double in SI units");
-    }
-    *to++ = value;
+    *to = read(needed);
+    if (std::isnan(*to++) && needed.kind != NeededColumns::Kind::wanted) return false;
   }
-  if (time_slot_ != no_column) check_time();
+  if (time_slot_ != no_column) check_time(needed_.all()[time_slot_], values_[time_slot_]);
   return true;
 }
 
-inline void Reader::check_time() {
-  const double t = values_[time_slot_];
+void Reader::check_time(const NeededColumns::Needed& needed, double t) {
   if (t <= last_time_)
-    reject(column_of(time_slot_),
-           fmt::format("does not come after {}{}{}", last_time_,
-                       needed_.all()[time_slot_].to_si.changes() ? " s" : "",
+    refuse(needed,
+           fmt::format("does not come after {}{}{}", last_time_, needed.to_si.changes() ? " s" : "",
                        t < last_time_ ? "; put a blank line before another run" : ""));
   // The roundings of two times, 2^-53 t each, are then more than 2^-13 of the step between them; or
   // the times are beyond 3000 years, where milliseconds since 1970 are.
@@ -178,24 +188,9 @@ std::size_t Reader::append_made(Bytes& to, std::size_t column) {
   return std::min(place, to.size() - begin);
 }
 
-std::string Reader::wrong(std::size_t column, std::string_view name, std::string_view why) const {
-  return fmt::format("{}: field {} ({}): '{}' {}", here(), layout().fields[column] + 1, shown(name),
-                     shown(fields_[column].text), why);
-}
-
-/// Why a field is refused that is no number, and what to do.
-std::string Reader::not_a_number(std::size_t column) const {
-  const std::string_view text = fields_[column].text;
-  const bool digits =  // not of #DIV/0!
-      !text.starts_with('#') && text.find_first_of(decimal_digits) != std::string_view::npos;
-  return std::string("is not a number; ") +
-         (digits ? "write it with digits and a decimal point alone, a time in seconds"
-                 : "write NaN for a missing reading, # before a line that is no row, and a blank "
-                   "line before another run");
-}
-
-void Reader::reject(std::size_t column, std::string_view why) const {
-  fail<InputError>("{}", wrong(column, columns()[column].name, why));
+void Reader::refuse(const NeededColumns::Needed& needed, std::string_view why) const {
+  fail<InputError>("{}: field {} ({}): '{}' {}", here(), layout().fields[needed.column] + 1,
+                   shown(needed.quantity), shown(fields_[needed.column].text), why);
 }
 
 std::vector<std::string> Reader::warnings() const {

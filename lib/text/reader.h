@@ -50,8 +50,8 @@ class Reader {
   std::string run_name() const;
 
   /// Declares that a column is needed: its numbers are read and converted to SI, and rows
-  /// without one are left out. Returns its slot for operator[]. Throws Error if the column does not
-  /// exist, in this run or in a later one.
+  /// without one are left out. Times must increase within a run. Returns its slot for operator[].
+  /// Throws Error if the column does not exist, in this run or in a later one.
   std::size_t need(std::string_view name) { return add(name, NeededColumns::Kind::needed); }
   /// The same for a column with missing readings, which are NaN. It may be absent from later runs.
   std::size_t want(std::string_view name) { return add(name, NeededColumns::Kind::wanted); }
@@ -60,12 +60,6 @@ class Reader {
   /// one.
   std::size_t need_as_is(std::string_view name, std::string_view unit = {}) {
     return add(name, NeededColumns::Kind::as_is, unit);
-  }
-  /// Needs t, and refuses times that do not increase within a run.
-  std::size_t need_time() {
-    time_slot_ = need("t");
-    refuse_passed();
-    return time_slot_;
   }
   /// The index of a needed column in the rows of the present run.
   std::size_t column_of(std::size_t slot) const { return needed_.all()[slot].column; }
@@ -139,11 +133,10 @@ class Reader {
   std::span<const Field> split();
   bool take_fields();
   bool take_row();
-  void check_time();
+  double read(const NeededColumns::Needed&) const;
+  void check_time(const NeededColumns::Needed&, double t);
   std::size_t append_made(Bytes& to, std::size_t column);
-  std::string wrong(std::size_t column, std::string_view name, std::string_view why) const;
-  std::string not_a_number(std::size_t column) const;
-  [[noreturn]] void reject(std::size_t column, std::string_view why) const;
+  [[noreturn]] void refuse(const NeededColumns::Needed&, std::string_view why) const;
   std::string here() const;
 
   ReaderOptions options_;

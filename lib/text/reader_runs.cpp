@@ -10,13 +10,6 @@
 #include "text/reader.h"
 
 namespace rolling {
-namespace {
-
-/// The key of what is wrong with the order of the times of a run that was passed over.
-constexpr const char* order_of_times = "order of t";
-
-}  // namespace
-
 /// True if the present run is to be read: by the number in its header or at the end of its name,
 /// which is the same behind a tool, else by its place.
 bool Reader::asked_for() {
@@ -145,42 +138,38 @@ std::string Reader::run_name() const {
 void Reader::begin_rows() {
   dialect_.want_none();
   blank_rows_ = 0;
+  last_time_ = std::numeric_limits<double>::quiet_NaN();
   if (!head_.layout.side_by_side()) return;
   lines_->put_back();
   lines_->hold(side_ + 1 < head_.layout.runs.size());
 }
 
-/// Reads the present run as strictly as one that is kept: what is wrong in a column is an error as
-/// soon as this column is needed.
+/// Reads the present run as strictly as one that is kept: what is wrong in a quantity is an error
+/// as soon as it is needed.
 void Reader::pass_over() {
   begin_rows();
-  NeededColumns judge(options_.use, options_.has_use);
-  judge.begin_run(layout().columns, head_.named, head_.said, place_of_head());
-  const std::vector<std::string>& quantities = judge.quantities();
-  for (std::size_t i = 0; i < quantities.size(); ++i) {
-    dialect_.want(layout().fields[i]);
+  NeededColumns all(options_.use, options_.has_use);
+  all.begin_run(layout().columns, head_.named, head_.said, place_of_head());
+  const auto note = [&](const std::string& quantity, auto&& reads) {
     try {
-      judge.add(fmt::format("{}", i + 1), NeededColumns::Kind::wanted);
+      if (!passed_.contains(quantity)) reads();
     } catch (const InputError& error) {
-      passed_.emplace(quantities[i], error.what());
+      passed_.emplace(quantity, error.what());
     }
+  };
+  for (std::size_t i = 0; i < layout().fields.size(); ++i) {
+    dialect_.want(layout().fields[i]);
+    note(all.quantities()[i],
+         [&] { all.add(fmt::format("{}", i + 1), NeededColumns::Kind::needed); });
   }
-  double last = std::numeric_limits<double>::quiet_NaN();
   while (next_line()) {
-    remarks_.clear();
     fields_ = split();
     if (!take_fields()) continue;
-    for (std::size_t i = 0; i < quantities.size(); ++i) {
-      const bool missing = is_missing(fields_[i].text);
-      const double number = fields_[i].number;
-      if (missing ? options_.strict : std::isnan(number))
-        passed_.emplace(quantities[i], wrong(i, quantities[i],
-                                             missing ? "is a missing reading" : not_a_number(i)));
-      if (quantities[i] != "t" || std::isnan(number)) continue;
-      if (number <= last)
-        passed_.emplace(order_of_times, wrong(i, "t", fmt::format("does not come after {}", last)));
-      last = number;
-    }
+    for (const NeededColumns::Needed& needed : all.all())
+      note(needed.quantity, [&] {
+        const double value = read(needed);
+        if (needed.quantity == "t" && !std::isnan(value)) check_time(needed, value);
+      });
   }
   remarks_.clear();
   refuse_passed();
@@ -188,12 +177,9 @@ void Reader::pass_over() {
 
 /// Refuses what is wrong in a needed column of a run that was passed over.
 void Reader::refuse_passed() const {
-  const auto refuse = [&](const std::string& what) {
-    if (const auto found = passed_.find(what); found != passed_.end())
+  for (const NeededColumns::Needed& needed : needed_.all())
+    if (const auto found = passed_.find(needed.quantity); found != passed_.end())
       fail<InputError>("{}", found->second);
-  };
-  for (const NeededColumns::Needed& needed : needed_.all()) refuse(needed.quantity);
-  if (time_slot_ != no_column) refuse(order_of_times);
 }
 
 /// What begins the messages about the columns of the present run.
@@ -205,7 +191,6 @@ std::string Reader::place_of_head() const {
 /// Prepares for the rows of the run whose head has been read.
 void Reader::begin_run() {
   run_found_ = true;
-  last_time_ = std::numeric_limits<double>::quiet_NaN();
   begin_rows();
   state_ = State::found;
   place_ = lines_->name();
@@ -221,6 +206,7 @@ void Reader::begin_run() {
 
 std::size_t Reader::add(std::string_view name, NeededColumns::Kind kind, std::string_view unit) {
   const std::size_t slot = needed_.add(name, kind, unit);
+  if (needed_.all()[slot].quantity == "t") time_slot_ = slot;
   refuse_passed();
   read_needed();
   return slot;

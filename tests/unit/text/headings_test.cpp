@@ -171,7 +171,7 @@ TEST_CASE("headings: random ones are read as they are meant, or refused", "[text
     std::vector<std::array<double, 2>> found;
     const std::string message = refusal([&] {
       Reader in({.files = {file.name()}}, {"t", "v"});
-      const std::size_t t = in.need_time(), v = in.need("v");
+      const std::size_t t = in.need("t"), v = in.need("v");
       while (in.next_run())
         while (in.next()) found.push_back({in[t], in[v]});
     });

@@ -20,14 +20,14 @@ TEST_CASE("reader: a first row whose readings are all missing is a row, not name
 TEST_CASE("reader: a first row with a blank cell before one that begins with # is a row",
           "[text]") {
   CHECK(rows({"# t\tx\tv\n\t#\t2\n0\t1\t2\n"}, strict) ==
-        "FILE:2: field 1 (t): a reading is missing");
+        "FILE:2: field 1 (t): '' is a missing reading");
   CHECK(rows({"\t# a comment\n# t v\n\t# another\n0 1\n"}) == "0 1");
 }
 
 TEST_CASE("reader: a missing reading leaves its row out, and is counted", "[text]") {
   const TemporaryFile file("t,v,x\n0,1,\n1,,5\n2,NaN,5\n3,nan,\n4,2,NaN\n");
   Reader in({.files = {file.name()}}, {});
-  in.need_time();
+  in.need("t");
   in.need("v");
   std::size_t seen = 0;
   while (in.next_run())
@@ -35,9 +35,9 @@ TEST_CASE("reader: a missing reading leaves its row out, and is counted", "[text
   CHECK(seen == 2);
   CHECK(in.left_out() == 3);
   CHECK(rows({"t,v\n0,1\n1,\n2,3\n"}) == "0 1 | 2 3");
-  CHECK(rows({"t,v\n0,1\n1,\n"}, strict) == "FILE:3: field 2 (v): a reading is missing");
+  CHECK(rows({"t,v\n0,1\n1,\n"}, strict) == "FILE:3: field 2 (v): '' is a missing reading");
   CHECK(rows({"t,v,x\n0,1,\n"}, strict) == "0 1");  // x is not needed
-  CHECK(rows({"t v\n0 1\n1 NaN\n"}, strict) == "FILE:3: field 2 (v): a reading is missing");
+  CHECK(rows({"t v\n0 1\n1 NaN\n"}, strict) == "FILE:3: field 2 (v): 'NaN' is a missing reading");
 }
 
 TEST_CASE("reader: what spreadsheets write for an error is no comment", "[text]") {

@@ -45,7 +45,7 @@ TEST_CASE("reader: a second file that is not there is refused, and where() is st
           "[text]") {
   const TemporaryFile file("0 1\n");
   Reader in({.files = {file.name(), "/no/such/file"}}, {"t", "v"});
-  in.need_time();
+  in.need("t");
   REQUIRE(in.next_run());
   REQUIRE(in.next());
   CHECK_FALSE(in.next());
@@ -249,7 +249,7 @@ TEST_CASE(
   CHECK(rows({wide}, run(2)) == "0 1 | 1 2 | 2 3");
   CHECK(rows({wide, "Time (s),Velocity (m/s)\n0,7\n", wide}) ==
         "0 1 | 1 2 | 2 3 || 0 5 || 0 7 || 0 1 | 1 2 | 2 3 || 0 5");
-  CHECK(rows({wide}, strict) == "FILE:3: field 4 (v): a reading is missing");
+  CHECK(rows({wide}, strict) == "FILE:3: field 4 (v): '' is a missing reading");
   CHECK(rows({wide}, use({"t=3", "v=4"})) == "0 5");
   CHECK(rows({"Time (s),v Run 1,v Run 2\n0,1,5\n1,2,\n"}) == "0 1 | 1 2 || 0 5");
   CHECK(rows({"t v t v\n0 1 0 5\n1 2 1 6\n"}) == "0 1 | 1 2 || 0 5 | 1 6");
@@ -257,7 +257,7 @@ TEST_CASE(
         "0 1 | 1 2 || 0 5");  // a line that ends where the longer runs do
   const TemporaryFile torn("t,v,t,v\n0,1,5,3\n1,2\n2,3,7,4\n3,4\n");
   Reader in({.files = {torn.name()}}, {});
-  in.need_time();
+  in.need("t");
   while (in.next_run())
     while (in.next()) continue;
   CHECK(in.left_out() == 1);  // data follows the torn row, so that it is no padding

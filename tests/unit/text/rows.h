@@ -26,8 +26,7 @@ inline std::string rows(const Texts& texts, ReaderOptions options = {},
   const std::string message = refusal([&] {
     Reader in(options, {"t", "v"});
     std::vector<std::size_t> slots;
-    for (const std::string& name : wanted)
-      slots.push_back(name == "t" ? in.need_time() : in.need(name));
+    for (const std::string& name : wanted) slots.push_back(in.need(name));
     for (bool first_run = true; in.next_run(); first_run = false) {
       if (!first_run) all += " || ";
       for (bool first = true; in.next(); first = false) {
@@ -47,7 +46,7 @@ inline std::string told(const std::string& text, ReaderOptions options = {}) {
   std::string said;
   const std::string message = refusal([&] {
     Reader in(options, {"t", "v"});
-    in.need_time();
+    in.need("t");
     in.need("v");
     while (in.next_run())
       while (in.next()) continue;
