@@ -64,25 +64,22 @@ class HeadReader {
     lines_.separate_by(dialect_.separator());
     head_.line = lines_.number();
     const auto fields = dialect_.split(lines_.text());
-    const std::size_t width = fields.size();
-    const bool blank_field = fields.back().text.empty();
+    std::size_t width = fields.size();
+    const bool blank_end = width > 1 && fields.back().text.empty();
     std::vector<std::string> units;
-    const auto names =
-        take_names({width, blank_field,
-                    before_ ? before_->layout.runs.front().columns : std::vector<Column>()},
-                   units);
+    const auto names = take_names(
+        {width, blank_end, before_ ? before_->layout.runs.front().columns : std::vector<Column>()},
+        units);
     if (names.empty() && before_) {
       head_.said = before_->said;
       head_.named = before_->named;
-      head_.blank_end = before_->blank_end;
       head_.layout = before_->layout;
       return finish();
     }
     head_.named = !names.empty();
     if (!head_.named && dialect_.separator() == ',')
       refuse_two_readings(std::string(lines_.text()));
-    head_.blank_end =
-        blank_field && width > 1 && (names.size() < width ? !head_.named : names.back().empty());
+    if (blank_end && names.size() + 1 == width) --width;
     std::vector<Column> columns;
     for (std::size_t i = 0; i < std::max(width, names.size()); ++i) {
       if (i < names.size()) columns.push_back(read_column(names[i]));

@@ -21,7 +21,6 @@ struct Head {
   std::string run;                   ///< NAME of the line `## run NAME`; empty without one
   std::size_t line = 0;              ///< number of the header, else of the first row
   bool named = false;                ///< the columns have names, from this head or an earlier one
-  bool blank_end = false;            ///< the lines end with a separator, behind the last column
   SaidUnits said;                    ///< by comments, since the names
   Layout layout;                     ///< without runs if the file has no further row
 };

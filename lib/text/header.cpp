@@ -20,11 +20,6 @@ std::string_view without_marks(std::string_view comment) {
   return comment.substr(std::min(comment.find_first_not_of('#'), comment.size()));
 }
 
-/// The text without separators at its end.
-std::string_view without_end(std::string_view text) {
-  return text.substr(0, text.find_last_not_of(filling) + 1);
-}
-
 /// The names of as many columns between these separators, 0 for blanks; none if there are not as
 /// many, or if words between blanks end as in a sentence.
 CommentedNames names_between(char separator, std::string_view text, const UnnamedColumns& columns) {
@@ -36,8 +31,7 @@ CommentedNames names_between(char separator, std::string_view text, const Unname
   const auto ends_a_phrase = [](const std::string& word) {
     return !word.empty() && std::string_view(",;:").find(word.back()) != std::string_view::npos;
   };
-  if (names.size() != columns.count || (words && std::ranges::any_of(names, ends_a_phrase)))
-    return {};
+  if (!columns.fit(names.size()) || (words && std::ranges::any_of(names, ends_a_phrase))) return {};
   for (const std::string& name : names) {
     const Column& column = found.columns.emplace_back(read_column(name));
     const bool article = words && names.size() > 1 && name == "a";  // perhaps
@@ -97,19 +91,18 @@ bool holds_known_name(std::string_view line) {
 }
 
 void fit_end(std::vector<std::string>& names, const UnnamedColumns& columns) {
-  while (names.size() > columns.count && names.back().empty()) names.pop_back();
-  if (columns.blank_end && names.size() + 1 == columns.count) names.emplace_back();
+  while (names.size() > columns.count - columns.blank_end && names.back().empty()) names.pop_back();
 }
 
 CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns& columns) {
-  const std::string_view text = without_marks(comment);
+  std::string_view text = without_marks(comment);
+  text = text.substr(0, text.find_last_not_of(filling) + 1);
   CommentedNames unknown;
-  for (const char separator : std::string(separators) + '\0')
-    for (const std::string_view part : {without_end(text), text}) {
-      auto found = names_between(separator, part, columns);
-      if (found.known > 0) return found;
-      if (unknown.names.empty()) unknown = std::move(found);
-    }
+  for (const char separator : std::string(separators) + '\0') {
+    auto found = names_between(separator, text, columns);
+    if (found.known > 0) return found;
+    if (unknown.names.empty()) unknown = std::move(found);
+  }
   return unknown;
 }
 
@@ -125,8 +118,7 @@ const Comment* choose_names(std::span<const Comment> comments, const UnnamedColu
         (first && !chosen && !found.names.empty() && std::ranges::none_of(found.names, is_figure)))
       chosen = &comments[i], names = std::move(found);
   }
-  if (names.known > 0 &&
-      (names.separator == '\t' || names.known + columns.blank_end >= columns.count))
+  if (names.known > 0 && (names.separator == '\t' || names.known == names.names.size()))
     return chosen;
   const auto refuse = [&](const Comment& comment) {
     fail<InputError>(

@@ -24,12 +24,13 @@ struct Comment {
 /// The columns of the rows that comments may name.
 struct UnnamedColumns {
   std::size_t count = 0;
-  /// The last field is blank: the column may have no name, because its separator ends each line.
-  bool blank_end = false;
+  bool blank_end = false;           ///< the last field is blank: a separator may end each line
   std::vector<Column> before = {};  ///< those of the run before
+  /// As many names are theirs.
+  bool fit(std::size_t names) const { return names == count || names + blank_end == count; }
 };
 
-/// Leaves out blank names at the end that are too many, and gives one to a blank column there.
+/// Leaves out blank names at the end that are too many.
 void fit_end(std::vector<std::string>& names, const UnnamedColumns&);
 
 /// A comment that is read as the names of columns.

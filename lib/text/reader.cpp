@@ -61,7 +61,7 @@ bool Reader::next_line() {
 /// run.
 bool Reader::are_names(std::string_view comment) const {
   const std::vector<Column>& columns = layout().columns;
-  return names_in_comment(comment, {columns.size(), head_.blank_end, columns}).known >=
+  return names_in_comment(comment, {columns.size(), !head_.named, columns}).known >=
          std::min<std::size_t>(2, columns.size());
 }
 
@@ -96,24 +96,24 @@ std::span<const Field> Reader::split() {
   }
 }
 
-/// Leaves of the fields of a line those of the present run. A line of one run may have one more or
-/// less than the first if the difference is a separator at its end; runs side by side may end
-/// early. Refuses any other number. False if all that this run does not share is blank: where no
-/// reading follows, beside a longer run, that is no row.
+/// Leaves of the fields of a line those of the present run. A line may have a separator at its end;
+/// with runs side by side it may end early. Refuses any other number of fields. False if all that
+/// this run does not share is blank: where no reading follows, beside a longer run, that is no row.
 bool Reader::take_fields() {
-  const std::size_t width = head_.layout.width, count = fields_.size();
+  const std::size_t width = head_.layout.width;
   const bool side_by_side = head_.layout.side_by_side();
-  fields_changed_ = side_by_side || count != width;
+  fields_changed_ = side_by_side || fields_.size() != width;
   if (!fields_changed_) return true;
-  const bool more = count == width + 1 && fields_.back().text.empty() && head_.named,
-             less = count + 1 == width && head_.blank_end;
-  if (side_by_side ? count > width : !more && !less)
+  if (fields_.size() == width + 1 && fields_.back().text.empty()) fields_ = fields_.first(width);
+  const std::size_t count = fields_.size();
+  if (side_by_side ? count > width : count != width)
     fail<InputError>("{}: {} where the first row has {}{}", here(), counted(count, "field"), width,
                      count > width && dialect_.separator() == ','
                          ? "; if some of its commas are decimal ones, make them points first"
                          : "");
+  if (!side_by_side) return true;
   changed_fields_.clear();
-  bool blank = side_by_side;
+  bool blank = true;
   for (const std::size_t i : layout().fields) {
     changed_fields_.push_back(i < count ? fields_[i] : Field());
     blank &= head_.layout.shared[i] || changed_fields_.back().text.empty();

@@ -62,12 +62,12 @@ TEST_CASE("commented names: the names in a comment, and what speaks for them", "
   CHECK(names("# t b x D", 4) == "3 <t><b><x><D>");
   CHECK(names("# a sigma_a", 2) == "<a><sigma_a>");
   CHECK(names("# a, second", 2) == "1 <a><second>");
-  CHECK(names("# \"t (min)\"; \"v\"", 3, true) == "2 <t (min)><v><>");
+  CHECK(names("# \"t (min)\"; \"v\"", 3, true) == "2 <t (min)><v>");
   CHECK(names("# \"t, of the clock (s)\",\"v\"", 2) == "1 <t, of the clock (s)><v>");
   CHECK(names("# a b", 3).empty());
   CHECK(names("## t v", 2) == "2 <t><v>");
-  CHECK(names("# t v", 3, true) == "2 <t><v><>");
-  CHECK(names("# p q", 3, true) == "<p><q><>");
+  CHECK(names("# t v", 3, true) == "2 <t><v>");
+  CHECK(names("# p q", 3, true) == "<p><q>");
 }
 
 TEST_CASE("commented names: the last comment with known names, else the last with words",
@@ -80,7 +80,7 @@ TEST_CASE("commented names: the last comment with known names, else the last wit
   CHECK(chosen({"# p q", "# 12:30 2"}, {2}) == "1 <p><q>");
   CHECK(chosen({"# p q"}, {2}, false).empty());
   CHECK(chosen({"# w q"}, {2, false, {{"w"}}}, false) == "1 <w><q>");
-  CHECK(chosen({"# t v"}, {3, true}) == "1 <t><v><>");
+  CHECK(chosen({"# t v"}, {3, true}) == "1 <t><v>");
   CHECK(chosen({}, {2}).empty());
   CHECK(chosen({"# t,v"}, {2}) == "1 <t><v>");
   CHECK(chosen({"# t v,"}, {2}) == "1 <t><v>");

@@ -28,7 +28,7 @@ TEST_CASE("reader: the first row sets the separator, and the others have it", "[
   CHECK(rows({"0,1\n1;2\n"}) == "FILE:2: 1 field where the first row has 2");
   CHECK(rows({"0\t1\n1 2\n"}) == "FILE:2: 1 field where the first row has 2");
   CHECK(rows({"0 1\n1 2 3\n"}) == "FILE:2: 3 fields where the first row has 2");
-  CHECK(rows({"0,1\n1,2,\n"}) ==
+  CHECK(rows({"0,1\n1,2,3\n"}) ==
         "FILE:2: 3 fields where the first row has 2; if some of its commas are decimal ones, "
         "make them points first");
 }
@@ -367,12 +367,14 @@ TEST_CASE("reader: a row goes out without the text of a column, and says where i
   CHECK(in.where() == file.name() + ":1");
 }
 
-TEST_CASE("reader: a separator that ends every line is an empty last column", "[text]") {
-  CHECK(names("t\tv\t\n0\t1\t\n1\t2\t\n") == "t v c3");
-  CHECK(names("# t\tv\t\n0\t1\t\n") == "t v c3");
-  CHECK(names("# t\tv\n0\t1\t\n") == "t v c3");
-  CHECK(copies("t\tv\t\n0\t1\t\n") == "<0\t1\t>");
-  CHECK(copies("t\tv\t\n0\t1\t\n1\t2\n") == "<0\t1\t><1\t2\t>");
+TEST_CASE("reader: a separator at the end of a line is no column", "[text]") {
+  CHECK(names("t\tv\t\n0\t1\t\n1\t2\t\n") == "t v");
+  CHECK(names("# t\tv\t\n0\t1\t\n") == "t v");
+  CHECK(names("# t\tv\n0\t1\t\n") == "t v");
+  CHECK(names("t\tv\t\n0\t1\t5\n") == "t v c3");
+  CHECK(copies("t\tv\t\n0\t1\t\n") == "<0\t1>");
+  CHECK(copies("t\tv\t\n0\t1\t\n1\t2\n") == "<0\t1><1\t2>");
+  CHECK(copies("0\t1\n1\t2\t\n") == "<0\t1><1\t2>");
   CHECK(copies("t\tv\n0\t1\n1\t2\t\n") == "<0\t1><1\t2>");
   CHECK(rows({"t,v,\n0,1,\n1,2,\n"}) == "0 1 | 1 2");
   CHECK(rows({"t,v,\n0,1\n1,2,\n"}) == "0 1 | 1 2");
