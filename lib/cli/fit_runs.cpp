@@ -68,8 +68,7 @@ std::vector<std::string> columns_of(Route route) {
 
 std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route) {
   std::map<std::string, std::size_t> slots;
-  for (const std::string& name : columns_of(route))
-    slots[name] = in.need(name);
+  for (const std::string& name : columns_of(route)) slots[name] = in.need(name);
   std::vector<FitRun> runs;
   while (in.next_run()) {
     FitRun& run = runs.emplace_back();

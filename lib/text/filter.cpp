@@ -9,16 +9,7 @@
 namespace rolling {
 namespace {
 
-/// The lines of `comments` that do not begin with ##.
-std::string remarks_of(const std::string& comments) {
-  std::string remarks;
-  for (std::size_t at = 0; at < comments.size();) {
-    const auto end = comments.find('\n', at) + 1;
-    if (comments.compare(at, 2, "##") != 0) remarks.append(comments, at, end - at);
-    at = end;
-  }
-  return remarks;
-}
+bool is_history(std::string_view comment) { return comment.starts_with("##"); }
 
 }  // namespace
 
@@ -49,40 +40,41 @@ std::vector<Column> Filter::columns() const {
   return all;
 }
 
-/// The head of the present run waits like a row.
-void Filter::take_head() {
-  std::string comments;
-  for (const std::string& comment : in_.comments()) (comments += comment) += '\n';
-  if (in_.renames() && !in_.history().empty()) comments += fmt::format("## {}\n", columns_renamed);
-  above_.push({read_, std::move(comments), names_line(columns())});
-  if (replaced_ != Reader::no_column) cut_ = in_.column_of(replaced_);
+void Filter::hold(std::string_view text, Kind kind) {
+  texts_.append(text);
+  lines_.append(Line{static_cast<std::uint32_t>(text.size()), 0, kind});
 }
 
-void Filter::take_remarks(const std::vector<std::string>& remarks) {
-  for (const std::string& remark : remarks) above_.push({read_, remark, {}});
-  if (!remarks.empty()) write_rows();
+void Filter::take_comments(const std::vector<std::string>& comments) {
+  for (const std::string& comment : comments) hold(comment, Kind::comment);
+  if (!comments.empty()) write_rows();
 }
 
 bool Filter::next_run() {
   write_rows();
   run_begins_ = read_;
   if (in_.next_run()) {
-    take_head();
+    hold(names_line(columns()), Kind::names);
+    take_comments(in_.comments());
+    if (in_.renames() && !in_.history().empty())
+      hold(fmt::format("## {}", columns_renamed), Kind::comment);
+    if (replaced_ != Reader::no_column) cut_ = in_.column_of(replaced_);
     return true;
   }
   if (!any_row_) fail("no rows are left{}", why_none_ ? why_none_() : "");
-  take_remarks(in_.comments());
-  out_.text(remarks_of(comments_));
+  take_comments(in_.comments());
+  std::erase_if(comments_, is_history);
+  write_comments();
   return false;
 }
 
 bool Filter::next() {
   const bool more = in_.next();
-  if (!in_.remarks().empty()) take_remarks(in_.remarks());
+  take_comments(in_.remarks());
   if (!more) return false;
   const std::size_t begin = texts_.size(), place = in_.append_text(texts_, cut_);
-  rows_.append(
-      {static_cast<std::uint32_t>(texts_.size() - begin), static_cast<std::uint32_t>(place)});
+  lines_.append(Line{static_cast<std::uint32_t>(texts_.size() - begin),
+                     static_cast<std::uint32_t>(place), Kind::row});
   ++read_;
   return true;
 }
@@ -92,14 +84,18 @@ void Filter::drop(std::size_t i) {
   write_rows();
 }
 
-/// Writes the head of a run before its first row. The comments of a run without rows are written
-/// with the head of the next run.
+/// Writes the head of a run before its first row.
 void Filter::write_head() {
   if (names_.empty()) return;
   if (any_row_) out_.end_line();
-  out_.text(std::exchange(comments_, {}));
+  write_comments();
   out_.text(history_);
   out_.text(std::exchange(names_, {})), out_.end_line();
+}
+
+void Filter::write_comments() {
+  for (const std::string& comment : std::exchange(comments_, {}))
+    out_.text(comment), out_.end_line();
 }
 
 /// Writes a row with its numbers, which are finite, at this place of its text.
@@ -115,40 +111,38 @@ inline void Filter::write_row(std::string_view text, std::size_t place,
   out_.end_line();
 }
 
-/// Writes the remarks above the next row, unless a head waits for a row of its run.
-void Filter::take_above() {
-  for (; !above_.empty() && above_.front().row == done_; above_.pop()) {
-    const Above& above = above_.front();
-    if (!above.names.empty())
-      comments_ = remarks_of(comments_) + above.comments, names_ = above.names;
-    else if (!names_.empty()) (comments_ += above.comments) += '\n';
-    else out_.text(above.comments), out_.end_line();
-  }
-}
-
-/// Writes all rows before the first one that lacks a number.
+/// Writes all lines before the first row that lacks a number. The comments of a run without rows,
+/// but for its history, are written with the head of the next run.
 void Filter::write_rows() {
   writing_ = true;
   const std::size_t each = std::max<std::size_t>(appended_.size(), 1);
   std::span<const double> numbers(numbers_.data(), numbers_.size());
-  for (take_above(); first_ < rows_.size(); take_above()) {
-    const Row& row = rows_[first_];
-    if (!dropped_.empty() && dropped_.front() == done_) {
+  for (; first_ < lines_.size(); ++first_) {
+    const Line& line = lines_[first_];
+    const std::string_view text(texts_.data() + front_, line.size);
+    if (line.kind == Kind::names) {
+      std::erase_if(comments_, is_history);
+      names_ = text;
+    } else if (line.kind == Kind::comment) {
+      comments_.emplace_back(text);
+      if (names_.empty()) write_comments();
+    } else if (!dropped_.empty() && dropped_.front() == done_) {
       dropped_.pop();
+      ++done_;
     } else {
       if (numbers.size() < each) break;
       write_head();
-      write_row({texts_.data() + front_, row.size}, row.place, numbers.first(each));
+      write_row(text, line.place, numbers.first(each));
       numbers = numbers.subspan(each);
       any_row_ = true;
+      ++done_;
     }
-    front_ += row.size;
-    ++first_, ++done_;
+    front_ += line.size;
   }
   numbers_.erase_front(numbers_.size() - numbers.size());
-  // Amortised, each row is moved at most once.
-  if (2 * first_ >= rows_.size()) {
-    rows_.erase_front(std::exchange(first_, 0));
+  // Amortised, each line is moved at most once.
+  if (2 * first_ >= lines_.size()) {
+    lines_.erase_front(std::exchange(first_, 0));
     texts_.erase_front(std::exchange(front_, 0));
   }
   writing_ = false;

@@ -61,24 +61,22 @@ class Filter {
   void drop(std::size_t i);
 
  private:
-  /// A row that waits to be written. Many rows may wait (smooth --coast): they are kept small. No
-  /// line is as long as 2^32.
-  struct Row {
-    std::uint32_t size, place;  // of its text; in it, of the numbers
-  };
-  /// What stands above the row with this index: the head of a run or, without names, a remark.
-  struct Above {
-    std::size_t row;
-    std::string comments, names;
+  enum class Kind : std::uint8_t { row, comment, names };
+  /// A line that waits to be written. Many may wait (smooth --coast): they are kept small. No line
+  /// is as long as 2^32.
+  struct Line {
+    std::uint32_t size;   // of its text
+    std::uint32_t place;  // in it, of the numbers of a row
+    Kind kind;
   };
 
   std::size_t rows_at_once() const { return out_.unbuffered ? 1 : 32; }
   std::vector<Column> columns() const;
-  void take_head();
-  void take_remarks(const std::vector<std::string>&);
-  void take_above();
+  void hold(std::string_view text, Kind);
+  void take_comments(const std::vector<std::string>&);
   void write_rows();
   void write_head();
+  void write_comments();
   void write_row(std::string_view text, std::size_t place, std::span<const double> numbers);
 
   Reader& in_;
@@ -87,16 +85,17 @@ class Filter {
   std::vector<Column> appended_;
   std::size_t replaced_ = Reader::no_column;  // a slot
   std::size_t cut_ = Reader::no_column;       // its column in this run
-  Growing<Row> rows_;                         // those from first_ on are not written yet
+  Growing<Line> lines_;                       // those from first_ on are not written yet
   Bytes texts_;                               // one after the other; that of first_ is at front_
   std::size_t first_ = 0, front_ = 0;
-  std::queue<Above> above_;
-  std::queue<std::size_t> dropped_;  // indices of the rows among rows_ to leave out
+  std::queue<std::size_t> dropped_;  // indices of the rows among them to leave out
   Growing<double> numbers_;          // of these rows, in order
   std::size_t enough_;               // put() writes rows at this count of numbers
   // Counts of the rows of all runs: read; read before this run; written or left out.
   std::size_t read_ = 0, run_begins_ = 0, done_ = 0;
-  std::string comments_, names_;  // the head of a run none of whose rows has been written
+  // The head of a run none of whose rows has been written.
+  std::vector<std::string> comments_;
+  std::string names_;
   bool any_row_ = false;
   std::function<std::string()> why_none_;
   bool writing_ = false;  // write_rows() is at work; stays true if it has failed
