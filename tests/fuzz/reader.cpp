@@ -20,8 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (choice & 8) options.use = {"v=2"};
   try {
     Reader in(options, {"t", "v"});
-    const auto t = in.need("t"),
-               v = choice & 16 ? in.want("v") : in.need(choice & 32 ? "2" : "v");
+    const auto t = in.need("t"), v = choice & 16 ? in.want("v") : in.need(choice & 32 ? "2" : "v");
     double last = 0;
     while (in.next_run()) {
       bool first = true;

@@ -55,12 +55,11 @@ function names_line(   i, between, text, mark, style) {
   if (ended && between != ", ") text = text between
   return mark text
 }
-function tell_columns(   i, text, plain, all, last) {
-  last = ended ? width + 1 : width
-  for (i = 1; i <= last; i++) {
-    plain = i > width ? "c" i : name[i]
+function tell_columns(   i, text, plain, all) {
+  for (i = 1; i <= width; i++) {
+    plain = name[i]
     gsub(/ /, "_", plain)
-    text = i > width ? "" : kind[i] == "t" ? "s" : kind[i] == "v" ? "m/s" : unit[i]
+    text = kind[i] == "t" ? "s" : kind[i] == "v" ? "m/s" : unit[i]
     all = all "COL " plain (text == "" ? "" : "[" text "]") "\n"
   }
   return all
@@ -104,7 +103,7 @@ BEGIN {
         if (kind[i] == "v" && unit[i] == "km/h") text = text * 5 / 18
         out = out (i > 1 ? "|" : "") shown(text)
       }
-      if (ended) { row = row separator; out = out "|" }
+      if (ended) row = row separator
       if (k && random(6) == 0) { text = remark(); printf "#%s\n", text >file; print "REM #" shown(text) >expected }
       print row >file
       if (!missing) print "ROW " out >expected

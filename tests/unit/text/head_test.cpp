@@ -99,8 +99,7 @@ TEST_CASE("head: a row of NaN is one; dates, times and blanks alone make none", 
   CHECK(head("My cart,\n24/11/2026,\nt,v\n0,1\n") ==
         "# My cart,|# 24/11/2026,| t v in 1 of 2; 4: 0,1");
   CHECK(head("My cart,\n,\nt,v\n0,1\n") == "# My cart,| t v in 1 of 2; 4: 0,1");
-  CHECK(head("# x of my cart\nv;t;n;\n0;1;2;\n") ==
-        "# x of my cart| v t n in 1 of 3; 3: 0;1;2;");
+  CHECK(head("# x of my cart\nv;t;n;\n0;1;2;\n") == "# x of my cart| v t n in 1 of 3; 3: 0;1;2;");
 }
 
 TEST_CASE("head: a separator that ends the header or the row is no column", "[text]") {
