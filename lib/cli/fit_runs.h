@@ -42,9 +42,9 @@ void warn_of_copies(Tool&, Route, const std::vector<FitRun>&);
 /// others, or it is not known with which.
 void warn_of_unused_body(Tool&, const std::vector<FitRun>&, Geometry);
 
-/// The route fits: reads rows of fitpower and prints their joint law (fit/run_laws.h). What the
-/// uncertainties of K, R and g have brought to each row is common to the rows that give the same
-/// number with the same uncertainty.
+/// The route fits: reads rows of fitpower and prints their joint law (statistics/run_laws.h). What
+/// the uncertainties of K, R and g have brought to each row is common to the rows that give the
+/// same number with the same uncertainty.
 void fit_rows(Tool&, const Bodies&);
 
 }  // namespace rolling

@@ -9,7 +9,7 @@
 #include "cli/fit_report.h"
 #include "cli/law_file.h"
 #include "contact/body.h"
-#include "fit/run_laws.h"
+#include "statistics/run_laws.h"
 
 namespace rolling {
 namespace {

@@ -11,7 +11,7 @@
 #include "base/gsl.h"
 #include "base/matrix.h"
 #include "fit/fitted.h"
-#include "fit/levels.h"
+#include "statistics/levels.h"
 #include "fit/roll_fit.h"
 #include "least_squares/triangles.h"
 #include "statistics/residuals.h"

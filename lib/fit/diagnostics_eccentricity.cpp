@@ -12,7 +12,7 @@
 #include "base/matrix.h"
 #include "base/median.h"
 #include "contact/contact.h"
-#include "fit/levels.h"
+#include "statistics/levels.h"
 #include "least_squares/triangles.h"
 
 namespace rolling {

@@ -14,7 +14,7 @@
 #include "base/median.h"
 #include "fit/errors.h"
 #include "fit/fitted.h"
-#include "fit/levels.h"
+#include "statistics/levels.h"
 #include "least_squares/robust.h"
 #include "statistics/residuals.h"
 

@@ -12,7 +12,7 @@
 #include "base/matrix.h"
 #include "contact/law.h"
 #include "fit/input.h"
-#include "fit/run_laws.h"
+#include "statistics/run_laws.h"
 
 namespace rolling {
 

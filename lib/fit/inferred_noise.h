@@ -4,7 +4,7 @@
 #pragma once
 
 #include "fit/fitted.h"
-#include "fit/levels.h"
+#include "statistics/levels.h"
 #include "fit/model.h"
 
 namespace rolling {

@@ -17,7 +17,7 @@ declare -A may=(
   [statistics]='base'
   [fit]='base contact motion noise least_squares statistics'
   [sensor]='base motion'
-  [cli]='base text contact signal noise fit'  # signal and noise: what a `##` line says becomes a filter of the noise
+  [cli]='base text contact signal noise statistics fit'  # signal and noise: what a `##` line says becomes a filter of the noise
 )
 wrong=0 files=0
 complain() { echo "$*" && wrong=1; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Speeds that turn back against the motion less often than their noise would make them.
 #include "base/median.h"
-#include "fit/levels.h"
+#include "statistics/levels.h"
 #include "unit/catch.h"
 #include "unit/fit/rolls.h"
 

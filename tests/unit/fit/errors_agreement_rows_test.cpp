@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/run_laws.h"
+#include "statistics/run_laws.h"
 
 #include <gsl/gsl_cdf.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/run_laws.h"
+#include "statistics/run_laws.h"
 
 #include "unit/catch.h"
 
 using namespace rolling;
 
-TEST_CASE("run laws: two laws whose errors are known, by hand", "[fit]") {
+TEST_CASE("run laws: two laws whose errors are known, by hand", "[statistics]") {
   const std::vector<OwnLaw> laws{{4, {0, 0.2}, {1e-4, 0, 4e-4}, 1e6},
                                  {7, {0.03, 0.2}, {1e-4, 0, 4e-4}, 1e6}};
   const Agreement found = compare(laws, 2, 0);
@@ -16,7 +16,7 @@ TEST_CASE("run laws: two laws whose errors are known, by hand", "[fit]") {
   CHECK(found.log_D.value == Approx(-0.03));
 }
 
-TEST_CASE("run laws: in another unit of speed ln D takes the place of ln a", "[fit]") {
+TEST_CASE("run laws: in another unit of speed ln D takes the place of ln a", "[statistics]") {
   const OwnLaw one{0, {-6, 0.2}, {1e-4, 1.5e-4, 4e-4}, 10};
   CHECK(one.best_log_v() == Approx(-0.375));
   const Pair there = in_unit(one.law, one.best_log_v());

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/estimate.h"
-#include "fit/levels.h"
+#include "statistics/levels.h"
 #include "statistics/random_effects.h"
 
 namespace rolling {
