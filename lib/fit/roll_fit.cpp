@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "fit/first_guess.h"
 #include "fit/inferred_noise.h"
 #include "least_squares/robust.h"
 
@@ -149,13 +148,6 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   auto noise = noise_of({run}, joint.noise->added());
   require_rows(run.y.size(), own.count(), informative_rows({run}, own, *noise));
   return fit_from({own, {all.theta_of_run(theta, r)}}, {std::move(run)}, std::move(noise), options);
-}
-
-Fitted of_means(Fitted fit, const FitOptions& options) {
-  if (!fit.is_roll() || fit.noise->known()) return fit;
-  std::vector<ObservedRun> few = means_of_many(fit.model->runs());
-  if (few.empty()) return fit;
-  return fit_from({fit.parameters(), {fit.minimum.theta}}, std::move(few), fit.noise, options);
 }
 
 Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows,

@@ -2,10 +2,20 @@
 // Fits of rolls: positions, speeds, and shifts whose filters are known.
 #pragma once
 
-#include "fit/first_guess.h"
 #include "fit/fitted.h"
 
 namespace rolling {
+
+/// The starting point for the fit of a roll.
+struct FirstGuess {
+  Parameters parameters;  ///< with units v_ref and x_ref that suit the data
+  /// theta; behind it others where a robust search may start as well.
+  std::vector<std::vector<double>> starts;
+};
+
+/// Estimates theta from positions or speeds as if they were not filtered (without H). Throws Error
+/// if the body does not move or if no law comes near the data.
+FirstGuess first_guess(const std::vector<ObservedRun>&, const FitOptions&);
 
 /// The rows of each run in which no reading is missing: those with finite values. For a roll under
 /// shifts a row with v <= 0 counts too: to select by noisy speeds would be to select by their
@@ -25,9 +35,9 @@ Fitted fit_from(const FirstGuess&, std::vector<ObservedRun>, std::shared_ptr<con
 /// none.
 Fitted fit_of_run(const Fitted& joint, std::size_t run, const FitOptions&);
 
-/// The fit of block means of equal size, at most 4096 of each run, where there are more rows
-/// than that and no filter is known; otherwise the fit itself. The means hold what a smooth law can
-/// tell.
+/// The fit of block means of equal size, at most 4096 of each run, where there are more rows than
+/// that on average and no filter is known; otherwise the fit itself. The means hold what a smooth
+/// law can tell.
 Fitted of_means(Fitted, const FitOptions&);
 
 /// The sum of squares of model - data in the unit of the fitted column, without weights.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/first_guess.h"
+#include "fit/roll_fit.h"
 
 #include "base/error.h"
 #include "base/median.h"
@@ -180,17 +180,17 @@ System unweighted(std::vector<ObservedRun> runs, const Parameters& q) {
 
 }  // namespace
 
-std::vector<ObservedRun> means_of_many(const std::vector<ObservedRun>& runs) {
+Fitted of_means(Fitted fit, const FitOptions& options) {
   constexpr std::size_t longest = 4096;
-  std::size_t n = 0;
-  for (const ObservedRun& run : runs) n += run.t.size();
-  if (n <= longest * runs.size()) return {};
+  const auto& runs = fit.model->runs();
+  if (!fit.is_roll() || fit.noise->known() || fit.minimum.f.size() <= longest * runs.size())
+    return fit;
   std::vector<ObservedRun> few;
   for (const ObservedRun& run : runs) {
     const std::size_t rows = run.t.size(), size = (rows + longest - 1) / longest;
     few.push_back(means(run, rows, size));  // of equal size: the means have equal weights
   }
-  return few;
+  return fit_from({fit.parameters(), {fit.minimum.theta}}, std::move(few), fit.noise, options);
 }
 
 FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& options) {
