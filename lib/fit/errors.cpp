@@ -122,13 +122,8 @@ std::vector<double> consistent_meat(const Fitted& fit, const SeenNoise& seen, Er
   return times(seen.variance / shown, std::move(M));
 }
 
-/// Which estimator suits the noise, and the p-value of its whiteness.
-struct Tested {
-  double whiteness;
-  Errors kind;
-};
-
-Tested tested(const Fitted& fit, const SeenNoise& seen) {
+/// The p of the whiteness of the noise, and the estimator that suits it.
+std::pair<double, Errors> tested(const Fitted& fit, const SeenNoise& seen) {
   const auto& [noise, runs] = std::tie(seen.innovations, seen.runs);
   const Errors white = fit.noise->added().inferred               ? Errors::differences
                        : seen.left.empty() || fit.noise->known() ? Errors::filters

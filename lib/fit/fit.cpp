@@ -85,40 +85,36 @@ bool both_ways(const Fitted& found) {
   return false;
 }
 
-/// Throws Error if a slope of the mat, which slows the body down as the law does, is not told from
-/// it by runs in one direction, as a constant d0 never is.
-void require_slope(const FitResult& result) {
-  const Estimate first = result.coefficients.front();
-  if (result.law.power() && first.sigma < first.value / 10 && result.sigma_b < 0.1) return;
-  fail(
-      "a slope of the mat and its law slow the body down alike, and these runs do not tell them "
-      "apart ({} comes out as {:.3g}{}): add runs in the other direction",
-      result.law.form().coefficients.front().name, first.value,
-      result.errors == Errors::none ? "" : fmt::format(" +- {:.2g}", first.sigma));
-}
-
-/// Throws Error if the data do not determine the law or the slope.
+/// Throws Error if the data do not determine the law; or the slope of the mat, which slows the body
+/// down as the law does and is told from it by runs in both directions, or by a law a v^b that is
+/// well known, but never from a constant d0.
 void require_determined(const FitResult& result, const FitOptions& options, const Fitted& found) {
   const LawForm& form = result.law.form();
-  double sum = 0, errors = result.rms;
-  for (const Estimate& c : result.coefficients) sum += c.value, errors += c.sigma;
+  const bool has_errors = result.errors != Errors::none;
+  double all = has_errors ? result.rms : 0;
+  for (const Estimate& c : result.coefficients) all += c.value + (has_errors ? c.sigma : 0);
   for (const std::vector<double>& row : result.correlations)
-    for (const double correlation : row) errors += correlation;
-  if (!std::isfinite(sum)) fail("the fit gives no finite {}", names_of(form));
-  if (result.errors != Errors::none && !std::isfinite(errors))
-    fail("the fit gives no finite errors of {}: {}", names_of(form), choose_the_roll);
+    for (const double correlation : row) all += has_errors ? correlation : 0;
+  if (!std::isfinite(all))
+    fail("the fit gives no finite {}, or no finite errors: {}", names_of(form), choose_the_roll);
+  const auto shown = [&](const Estimate& c) {
+    return fmt::format("{:.3g}{}", c.value, has_errors ? fmt::format(" +- {:.3g}", c.sigma) : "");
+  };
   // Large errors of a nonlinear fit are not reliable themselves; hence these limits on them.
-  if (options.fit_slope && !both_ways(found)) require_slope(result);
+  const Estimate first = result.coefficients.front();
+  if (options.fit_slope && !both_ways(found) &&
+      !(result.law.power() && first.sigma < first.value / 10 && result.sigma_b < 0.1))
+    fail(
+        "a slope of the mat and its law slow the body down alike, and these runs do not tell them "
+        "apart ({} comes out as {}): add runs in the other direction",
+        form.coefficients.front().name, shown(first));
   for (std::size_t j = 0; j < form.coefficients.size(); ++j) {
-    const auto& [value, sigma] = result.coefficients[j];
+    const Estimate& c = result.coefficients[j];
     const bool is_exponent = form.coefficients[j].D == 0 && form.coefficients[j].v == 0,
-               known = result.errors == Errors::none ? options.b || std::abs(value) <= 10
-                                                     : determines_b(sigma);
+               known = has_errors ? determines_b(c.sigma) : options.b || std::abs(c.value) <= 10;
     if (is_exponent && !known)
-      fail("the data do not determine {}, which comes out as {:.3g}{}: {}{}",
-           form.coefficients[j].name, value,
-           result.errors == Errors::none ? "" : fmt::format(" +- {:.3g}", sigma), choose_the_roll,
-           options.fits_power() ? "; or fix it, --fix b=0" : "");
+      fail("the data do not determine {}, which comes out as {}: {}{}", form.coefficients[j].name,
+           shown(c), choose_the_roll, options.fits_power() ? "; or fix it, --fix b=0" : "");
   }
 }
 
