@@ -3,9 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace rolling {
@@ -38,12 +40,19 @@ inline std::vector<double> medians_of_five(const std::vector<double>& values) {
   return medians;
 }
 
-/// The standard deviation of normal numbers with outliers, from how far they are from their mean:
-/// 68.27 % of the distances are less. Steps of rounded readings, of which most are 0, do not make
-/// it 0 as early as they do the median. There is at least one. Changes the order of them. O(n).
-inline double deviation(std::span<double> distances) {
-  const auto count = static_cast<double>(distances.size());
-  return nth_smallest(distances, static_cast<std::size_t>(0.6827 * count));
+/// The size that this share of the numbers does not reach. Missing ones, which are not finite, do
+/// not count; 0 if there are no others. O(n).
+inline double size_at(double share, std::vector<double> numbers) {
+  std::erase_if(numbers, [](double x) { return !std::isfinite(x); });
+  if (numbers.empty()) return 0;
+  for (double& x : numbers) x = std::abs(x);
+  return nth_smallest(numbers,
+                      static_cast<std::size_t>(share * static_cast<double>(numbers.size())));
 }
+inline double typical_size(std::vector<double> numbers) { return size_at(0.5, std::move(numbers)); }
+
+/// The standard deviation of normal numbers around 0, with outliers. Steps of rounded readings, of
+/// which most are 0, do not make it 0 as early as they do the median.
+inline double deviation(std::vector<double> numbers) { return size_at(0.6827, std::move(numbers)); }
 
 }  // namespace rolling

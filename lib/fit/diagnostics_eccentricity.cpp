@@ -99,9 +99,7 @@ Eccentricity amplitude(const Fitted& fit, std::size_t run, Wobble wobble, double
 
 /// Cuts residuals off at a few standard deviations: a burst or a lost echo has all periods.
 void cut_off(std::span<double> f) {
-  std::vector<double> sizes(f.begin(), f.end());
-  for (double& x : sizes) x = std::abs(x);
-  const double most = levels::cut_off * deviation(sizes);
+  const double most = levels::cut_off * deviation({f.begin(), f.end()});
   if (!(most > 0)) return;
   for (double& x : f) x = std::clamp(x, -most, most);
 }

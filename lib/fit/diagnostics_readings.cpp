@@ -128,9 +128,7 @@ double few_reversals(const Fitted& fit) {
   for (std::size_t r = 0; r < residuals.size(); ++r) {
     const std::vector<double>& y = fit.model->runs()[r].y;
     const auto f = residuals[r];
-    std::vector<double> sizes;
-    for (const double residual : f) sizes.push_back(std::abs(residual));
-    const double sigma = deviation(sizes);
+    const double sigma = deviation({f.begin(), f.end()});
     for (std::size_t i = 1; i < f.size(); ++i) {
       const double step = y[i] - y[i - 1], motion = step + f[i] - f[i - 1];
       seen += step * motion <= 0;

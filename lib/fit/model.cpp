@@ -43,7 +43,7 @@ double way_before_turn(bool position, const std::vector<double>& t,
   const double begin = smooth.front(), end = smooth.back(),
                up = std::min(greatest - begin, greatest - end),
                down = std::min(begin - least, end - least);
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::abs(x[i] - smooth[i]);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] -= smooth[i];
   const double errors = position ? 10 : 3 * std::sqrt(static_cast<double>(x.size())),  // of a sum
       limit = 0.002 * (greatest - least) + errors * deviation(x);
   return std::max(up, down) > limit ? std::copysign(1.0, up - down) : 0;

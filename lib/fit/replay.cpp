@@ -43,13 +43,6 @@ Recomputed applied(const LinearFilter& filter, std::span<const double> t, Recomp
   return output;
 }
 
-/// The median size of the numbers that exist; 0 if there are none.
-double typical_size(std::vector<double> numbers) {
-  std::erase_if(numbers, [](double y) { return !std::isfinite(y); });
-  for (double& y : numbers) y = std::abs(y);
-  return numbers.empty() ? 0 : median(numbers);
-}
-
 /// The noise of y from row to row: the median size of the third divided differences, which a
 /// quadratic function of time does not have, in units of those of white noise of variance one.
 double roughness(std::span<const double> t, std::span<const double> y) {

@@ -21,15 +21,6 @@
 namespace rolling {
 namespace {
 
-/// What is left where the terms of a sum cancel: a share of the median size, which no single
-/// reading can shift, of about a thousand readings.
-double rounding_of(const std::vector<double>& column) {
-  std::vector<double> sizes;
-  for (std::size_t i = 0; i < column.size(); i += 1 + column.size() / 1000)
-    if (std::isfinite(column[i])) sizes.push_back(std::abs(column[i]));
-  return sizes.empty() ? 0 : program_rounding * median(sizes);
-}
-
 /// A starting point: the exponent of a coarse grid with the smallest sum of squares (the height
 /// follows by linear least squares), or the values that are fixed; of a few thousand of the rows.
 /// From one exponent of the grid to the next no D changes by more than a factor e^(1/2) relative to
@@ -75,8 +66,10 @@ Rows shift_rows(const FitRun& run, const FitOptions& options, bool logarithms, d
   double sum = 0;
   for (std::size_t i = 0; i < run.v.size(); ++i)
     if (std::isfinite(run.v[i]) && rolls(i)) sum += run.v[i];
-  const double way = sum < 0 ? -1 : 1, least_v = rounding_of(run.v),
-               least_D = logarithms ? rounding_of(run.D) : -infinity;
+  // What is left where the terms of a sum cancel is 0: a share of the median size, which no single
+  // reading can shift.
+  const double way = sum < 0 ? -1 : 1, least_v = program_rounding * typical_size(run.v),
+               least_D = logarithms ? program_rounding * typical_size(run.D) : -infinity;
   Rows rows;
   for (std::size_t i = 0; i < run.v.size(); ++i) {
     const double v = way * run.v[i], D = way * run.D[i];
