@@ -54,15 +54,6 @@ double independent_rows(const std::vector<Fitted>& all) {
   return r > 0 && r < 1 ? n * (1 - r) / (1 + r) : n;
 }
 
-/// Writes the coefficients with their standard errors, estimated as in fit(), and their
-/// correlations.
-void report_coefficients(LawFit& result, const Fitted& fit) {
-  const Matrix covariance = uncertainty_of(fit).covariance;
-  for (std::size_t j = 0; j < fit.coefficients.size(); ++j)
-    result.coefficients.push_back({fit.coefficients[j].value, std::sqrt(covariance[j][j])});
-  result.correlations = correlations_of(covariance, fit.coefficients.size());
-}
-
 }  // namespace
 
 Fitted fit_of_law(const Fitted& power, const LawForm& law) {
@@ -88,17 +79,18 @@ LawComparison compare_laws(Route route, const std::vector<FitRun>& runs, FitOpti
                    std::max(variance_of_rounding(all.front()), std::numeric_limits<double>::min());
   LawComparison result;
   for (const Fitted& found : all) {
+    LawFit& of_law = result.fits.emplace_back(LawFit{.law = &found.parameters().form()});
+    if (!was_found(found)) continue;
     const Minimum& m = found.minimum;
     const double k =
         static_cast<double>(m.theta.size()) + 1;  // the variance of the noise is a parameter, too
-    const double aicc = independent * std::log(std::max(m.rss / n, least)) + 2 * k +
-                        2 * k * (k + 1) / (independent - k - 1);
-    LawFit& of_law =
-        result.fits.emplace_back(LawFit{&found.parameters().form(),
-                                        was_found(found) && independent > k + 1 ? aicc : infinity,
-                                        {},
-                                        {}});
-    if (was_found(found)) report_coefficients(of_law, found);
+    if (independent > k + 1)
+      of_law.aicc = independent * std::log(std::max(m.rss / n, least)) + 2 * k +
+                    2 * k * (k + 1) / (independent - k - 1);
+    const Matrix covariance = uncertainty_of(found).covariance;
+    for (std::size_t j = 0; j < found.coefficients.size(); ++j)
+      of_law.coefficients.push_back({found.coefficients[j].value, std::sqrt(covariance[j][j])});
+    of_law.correlations = correlations_of(covariance, found.coefficients.size());
   }
   double of_asked = infinity, of_other = infinity;
   for (const LawFit& fit : result.fits)

@@ -18,8 +18,8 @@ struct LawFit {
   /// The corrected Akaike information criterion (Burnham and Anderson 2002, Model Selection and
   /// Multimodel Inference). Smaller is better; a difference below 2 says nothing. Infinite if
   /// the law cannot be fitted.
-  double aicc;
-  std::vector<Estimate> coefficients;  ///< in SI units; empty if the law cannot be fitted
+  double aicc = INFINITY;
+  std::vector<Estimate> coefficients = {};  ///< in SI units; empty if the law cannot be fitted
   Matrix correlations = {};
 };
 
