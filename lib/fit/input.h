@@ -22,10 +22,8 @@ struct ShiftOf {
 /// The acceleration [m/s^2] from which the shift D [m] was computed. For A = 1 the relation is
 /// linear and holds for any D.
 inline double acceleration_of(const ShiftOf& by, double D) {
-  const Body& body = by.body;
-  if (by.geometry == Geometry::exact) return acceleration_from_shift(body, by.geometry, D);
-  const auto [cos, sin] = incline(body);
-  return -body.g * (D * cos + body.R * sin) / ((body.K + 1) * body.R);
+  if (by.geometry == Geometry::exact) check_shift(by.body, D);
+  return trial_acceleration(by.body, by.geometry, D);
 }
 
 /// The data of one run in SI units: t [s], x [m], v [m/s], D [m], one element for each row. The

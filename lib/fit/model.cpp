@@ -133,15 +133,11 @@ std::size_t informative_rows(const std::vector<ObservedRun>& runs, const Paramet
 
 Roll Model::roll(const std::vector<double>& theta, std::size_t run) const {
   Body body = runs()[run].body;
-  body.slope = slope(theta, run);
+  body.slope = runs()[run].way * parameters_.slope(theta, body.slope);
   const Law law = parameters_.law(theta);
   const double v0 = parameters_.v0(theta, run);
   if (law.at(v0).D < 0) fail("the mat does not slow the body down");
   return {body, runs()[run].geometry, law, v0};
-}
-
-double Model::slope(const std::vector<double>& theta, std::size_t run) const {
-  return runs()[run].way * parameters_.slope(theta, runs()[run].body.slope);
 }
 
 namespace {

@@ -112,8 +112,6 @@ class Model {
   RawModel raw(const std::vector<double>& theta, std::size_t run) const;
   /// The raw column of a run without derivatives: x or v at its times.
   std::vector<double> raw_column(const std::vector<double>& theta, std::size_t run) const;
-  /// The slope of the mat along the direction of motion of a run.
-  double slope(const std::vector<double>& theta, std::size_t run) const;
 
  private:
   std::shared_ptr<const std::vector<ObservedRun>> runs_;
