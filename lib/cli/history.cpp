@@ -195,10 +195,15 @@ bool change_numbers(const FilterChain& filters) {
 }
 
 bool shifts_of_speeds(const std::vector<std::string>& lines) {
+  constexpr std::string_view smoothed = "smooth v ";
+  const bool sorted = std::ranges::count(lines, lines_sorted) > 0;  // `smooth v` may be the first
   bool a_of_v = false, D_of_v = false;
   for (const std::string& line : lines) {
-    a_of_v |= line.starts_with("differentiate v ");
+    if (line.starts_with("differentiate v ")) a_of_v = true;
     if (line.starts_with("shift-from-accel ")) D_of_v = a_of_v;
+    if (!sorted && line.starts_with(smoothed) &&
+        signal_options(smoothing_methods, line.substr(smoothed.size())))
+      a_of_v = D_of_v = false;  // v has been replaced since
   }
   return D_of_v;
 }

@@ -39,8 +39,7 @@ History history_of(const std::vector<std::string>& lines, std::span<const double
 /// NaN is not known.
 std::string other_body(const std::optional<ShiftOf>&, const Body&, const BodyUncertainty& = {});
 
-/// True if, by the lines, D was computed from the derivative of the speeds in the file, be they
-/// smoothed since or not.
+/// True if, by the lines, D was computed from the derivative of the speeds in the file.
 bool shifts_of_speeds(const std::vector<std::string>& lines);
 
 /// True if some of the filters do not return what they read.
