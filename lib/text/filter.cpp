@@ -47,7 +47,7 @@ void Filter::hold(std::string_view text, Kind kind) {
 
 void Filter::take_comments(const std::vector<std::string>& comments) {
   for (const std::string& comment : comments) hold(comment, Kind::comment);
-  if (!comments.empty()) write_rows();
+  write_rows();
 }
 
 bool Filter::next_run() {
@@ -70,7 +70,7 @@ bool Filter::next_run() {
 
 bool Filter::next() {
   const bool more = in_.next();
-  take_comments(in_.remarks());
+  if (!in_.remarks().empty()) take_comments(in_.remarks());
   if (!more) return false;
   const std::size_t begin = texts_.size(), place = in_.append_text(texts_, cut_);
   lines_.append(Line{static_cast<std::uint32_t>(texts_.size() - begin),

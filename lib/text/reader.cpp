@@ -126,7 +126,7 @@ bool Reader::take_fields() {
 }
 
 /// The number in a needed column of the present row [SI]; NaN for a missing reading.
-double Reader::read(const NeededColumns::Needed& needed) const {
+inline double Reader::read(const NeededColumns::Needed& needed) const {
   if (needed.column == no_column) return std::numeric_limits<double>::quiet_NaN();
   const Field& field = fields_[needed.column];
   if (std::isnan(field.number)) {
@@ -135,6 +135,7 @@ double Reader::read(const NeededColumns::Needed& needed) const {
       refuse(needed, "is a missing reading");
     return field.number;
   }
+  if (!needed.to_si.changes()) return field.number;
   const double value = needed.to_si(field.number);
   if (!std::isfinite(value)) refuse(needed, "is beyond the range of a double in SI units");
   return value;
@@ -152,7 +153,7 @@ bool Reader::take_row() {
   return true;
 }
 
-void Reader::check_time(const NeededColumns::Needed& needed, double t) {
+inline void Reader::check_time(const NeededColumns::Needed& needed, double t) {
   if (t <= last_time_)
     refuse(needed,
            fmt::format("does not come after {}{}{}", last_time_, needed.to_si.changes() ? " s" : "",
@@ -161,6 +162,37 @@ void Reader::check_time(const NeededColumns::Needed& needed, double t) {
   // the times are beyond 3000 years, where milliseconds since 1970 are.
   large_time_ |= t - last_time_ < 0x1p-39 * std::abs(t) || std::abs(t) > 1e11;
   last_time_ = t;
+}
+
+/// Reads the present run as strictly as one that is kept: what is wrong in a quantity is an error
+/// as soon as it is needed.
+void Reader::pass_over() {
+  begin_rows();
+  NeededColumns all(options_.use, options_.has_use);
+  all.begin_run(layout().columns, head_.named, head_.said, place_of_head());
+  const auto note = [&](const std::string& quantity, auto&& reads) {
+    try {
+      if (!passed_.contains(quantity)) reads();
+    } catch (const InputError& error) {
+      passed_.emplace(quantity, error.what());
+    }
+  };
+  for (std::size_t i = 0; i < layout().fields.size(); ++i) {
+    dialect_.want(layout().fields[i]);
+    note(all.quantities()[i],
+         [&] { all.add(fmt::format("{}", i + 1), NeededColumns::Kind::needed); });
+  }
+  while (next_line()) {
+    fields_ = split();
+    if (!take_fields()) continue;
+    for (const NeededColumns::Needed& needed : all.all())
+      note(needed.quantity, [&] {
+        const double value = read(needed);
+        if (needed.quantity == "t" && !std::isnan(value)) check_time(needed, value);
+      });
+  }
+  remarks_.clear();
+  refuse_passed();
 }
 
 /// append_text() of a row that is not written as it was read.

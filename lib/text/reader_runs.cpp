@@ -144,37 +144,6 @@ void Reader::begin_rows() {
   lines_->hold(side_ + 1 < head_.layout.runs.size());
 }
 
-/// Reads the present run as strictly as one that is kept: what is wrong in a quantity is an error
-/// as soon as it is needed.
-void Reader::pass_over() {
-  begin_rows();
-  NeededColumns all(options_.use, options_.has_use);
-  all.begin_run(layout().columns, head_.named, head_.said, place_of_head());
-  const auto note = [&](const std::string& quantity, auto&& reads) {
-    try {
-      if (!passed_.contains(quantity)) reads();
-    } catch (const InputError& error) {
-      passed_.emplace(quantity, error.what());
-    }
-  };
-  for (std::size_t i = 0; i < layout().fields.size(); ++i) {
-    dialect_.want(layout().fields[i]);
-    note(all.quantities()[i],
-         [&] { all.add(fmt::format("{}", i + 1), NeededColumns::Kind::needed); });
-  }
-  while (next_line()) {
-    fields_ = split();
-    if (!take_fields()) continue;
-    for (const NeededColumns::Needed& needed : all.all())
-      note(needed.quantity, [&] {
-        const double value = read(needed);
-        if (needed.quantity == "t" && !std::isnan(value)) check_time(needed, value);
-      });
-  }
-  remarks_.clear();
-  refuse_passed();
-}
-
 /// Refuses what is wrong in a needed column of a run that was passed over.
 void Reader::refuse_passed() const {
   for (const NeededColumns::Needed& needed : needed_.all())
