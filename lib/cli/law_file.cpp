@@ -61,6 +61,8 @@ LawOfFile read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& 
   const bool a_told = !tool.on_command_line("coefficient"),
              b_told = !tool.on_command_line("exponent");
   if (power && a_told && !(written[0] > 0)) fail("a = {} must be greater than 0", written[0]);
+  if (power && !a_told && !b_told && numbers.empty())
+    fail<OptionError>("--law tells nothing that is not on the command line: leave it out");
   if (in.next() || in.next_run()) fail("more than one row: a law is one row of fitpower");
   if (!a_told) written[0] = given.a;
   if (!b_told) written[1] = given.b;
