@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "base/error.h"
 #include "fit/fitted.h"
@@ -51,7 +52,7 @@ std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own, doub
       for (std::size_t j = 0; j < by_c.size(); ++j)
         C = C + of_c[i][j] *
                     Symmetric{by_c[i].a * by_c[j].a, by_c[i].a * by_c[j].b, by_c[i].b * by_c[j].b};
-    if (C.is_positive() && C.inverse().is_finite() && determines_b(std::sqrt(C.bb)))
+    if (C.is_positive() && C.inverse().is_finite() && std::sqrt(C.bb) <= levels::largest_sigma_b)
       laws.push_back({r, law, C, static_cast<double>(fit.degrees_left())});
   }
   return laws;
@@ -76,12 +77,6 @@ Fitted around_own(const Fitted& joint, const std::vector<std::optional<Fitted>>&
   around.minimum.rss = dot(f, f);
   around.minimum.f = std::move(f);
   return around;
-}
-
-bool of_one_way(const std::vector<OwnLaw>& laws, const Fitted& joint) {
-  const auto way = [&](const OwnLaw& one) { return joint.model->runs()[one.run].way; };
-  return std::all_of(laws.begin(), laws.end(),
-                     [&](const OwnLaw& one) { return way(one) == way(laws.front()); });
 }
 
 /// The logarithm of the speed to which the ln D of a run belongs: that at which D is known best;
@@ -131,8 +126,9 @@ CommonError take_slope(std::vector<OwnLaw>& laws, double log_v, double freedom, 
 std::optional<Matrix> take_means(std::vector<OwnLaw> laws, const FitOptions& options,
                                  Fitted& joint) {
   const double freedom = static_cast<double>(laws.size()) - 1 - options.fit_slope;
-  if (freedom < 1 || !options.fits_power() ||
-      (options.fit_slope && (options.a || of_one_way(laws, joint))))
+  const auto way = [&](const OwnLaw& one) { return joint.model->runs()[one.run].way; };
+  const bool of_one_way = std::ranges::adjacent_find(laws, std::not_equal_to(), way) == laws.end();
+  if (freedom < 1 || !options.fits_power() || (options.fit_slope && (options.a || of_one_way)))
     return {};
   const double log_v = common_log_v(laws, [&](const OwnLaw& one) { return log_v_of(one, joint); });
   std::vector<CommonError> common;

@@ -111,7 +111,8 @@ void require_determined(const FitResult& result, const FitOptions& options, cons
   for (std::size_t j = 0; j < form.coefficients.size(); ++j) {
     const Estimate& c = result.coefficients[j];
     const bool is_exponent = form.coefficients[j].D == 0 && form.coefficients[j].v == 0,
-               known = has_errors ? determines_b(c.sigma) : options.b || std::abs(c.value) <= 10;
+               known = has_errors ? c.sigma <= levels::largest_sigma_b
+                                  : options.b || std::abs(c.value) <= 10;
     if (is_exponent && !known)
       fail("the data do not determine {}, which comes out as {}: {}{}", form.coefficients[j].name,
            shown(c), choose_the_roll, options.fits_power() ? "; or fix it, --fix b=0" : "");

@@ -86,9 +86,6 @@ struct FitResult {
   std::vector<ErrorShare> shares = {};            ///< the noise first
 };
 
-/// True if the data determine b.
-inline bool determines_b(double sigma_b) { return sigma_b <= levels::largest_sigma_b; }
-
 /// True if the noise is autocorrelated, by a small p, and the standard errors allow for that.
 inline bool noise_is_correlated(const FitResult& r) {
   return r.errors == Errors::autocorrelation && r.whiteness <= levels::not_white;

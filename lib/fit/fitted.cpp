@@ -103,8 +103,7 @@ Fitted fit_power(Route route, const std::vector<FitRun>& runs, const FitOptions&
   if (options.robust && known)
     fail(
         "--robust judges single readings, and a filter spreads an outlier over many: fit the "
-        "column "
-        "that was not smoothed");
+        "column that was not smoothed");
   if (route == Route::loglog) return fit_log_log(runs, options, std::move(responses));
   if (!known && route == Route::shift) return fit_shift(runs, options);
   Fitted fit = fit_rolls(route, runs, usable(route, runs), std::move(responses), options);

@@ -252,8 +252,7 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
     runs.push_back(all[r]);
     if (!responses.empty()) theirs.push_back(std::move(responses[r]));
   }
-  const auto some = [](const Rows& readings) { return !readings.empty(); };
-  if (runs.empty() && std::ranges::any_of(usable(Route::loglog, all), some))
+  if (runs.empty() && !std::ranges::all_of(usable(Route::loglog, all), &Rows::empty))
     fail("no row has v > 0 and D > 0: there is no logarithm to fit");
   std::optional<KnownRoll> roll = known_roll(runs, options, std::move(theirs));
   std::vector<Rows> rows;
