@@ -293,8 +293,8 @@ FreeRoll roll_in_means(std::span<const Sample> run, bool positions, std::size_t 
     const auto [low, high] = std::ranges::minmax(y);
     fail(
         "no free roll is found: the readings go from {:.4g} to {:.4g}, and no motion in them that "
-        "slows down stands out of their noise of {:.1g}: choose the "
-        "roll by its times (--from, --to)",
+        "slows down stands out of their noise of {:.1g}: choose the roll by its times (--from, "
+        "--to)",
         low, high, std::ldexp(noise, units.y));
   }
   FreeRoll roll = *found;

@@ -139,8 +139,10 @@ class Joints {
   }
   /// The end of a roll whose body comes to rest by itself, at s: its speed falls to 0 without a
   /// jump, so that its positions are y + sum c_k (s - t)^k, k > 1, before s and y from then on, but
-  /// for the rounding that all readings of the rest share. Also the RSS of the best s, of the
-  /// samples [begin, end); s is sought behind the middle of begin and `roughly`.
+  /// for the rounding that all readings of the rest share. The sum has three powers, and so has
+  /// that of speeds, from k = 1 on: with fewer, a law whose speed falls like another power looks
+  /// like a hand. Also the RSS of the best s, of the samples [begin, end); s is sought behind the
+  /// middle of begin and `roughly`.
   std::pair<std::size_t, double> before_stop(std::size_t begin, std::size_t roughly,
                                              std::size_t end) const {
     const std::size_t least = begin + (roughly - begin) / 2;

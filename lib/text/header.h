@@ -26,7 +26,7 @@ struct UnnamedColumns {
   std::size_t count = 0;
   bool blank_end = false;           ///< the last field is blank: a separator may end each line
   std::vector<Column> before = {};  ///< those of the run before
-  /// As many names are theirs.
+  /// Whether that many names can be theirs.
   bool fit(std::size_t names) const { return names == count || names + blank_end == count; }
 };
 
