@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "base/growing.h"
 #include "signal/free_roll.h"
 #include "signal/outliers.h"
 
@@ -41,11 +40,10 @@ class Selection {
 
  private:
   void take(std::span<const Sample>);
-  std::span<const Sample> known() const { return {run_.data(), run_.size()}; }
 
   SelectionOptions options_;
   std::optional<Outliers> test_;
-  Growing<Sample> run_;  // for coast the whole run, otherwise what was returned last
+  std::vector<Sample> run_;  // for coast the whole run, otherwise what was returned last
   std::vector<double> outliers_;
   std::optional<FreeRoll> roll_;
 };

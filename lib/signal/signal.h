@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/growing.h"
 #include "signal/windows.h"
 
 namespace rolling {
@@ -57,13 +56,13 @@ class WindowedSignal : public Signal {
 
  private:
   std::span<const double> known() {
-    known_.truncate(0);
-    while (windows_.next()) known_.append(static_cast<Of*>(this)->value(windows_));
-    return {known_.data(), known_.size()};
+    known_.clear();
+    while (windows_.next()) known_.push_back(static_cast<Of*>(this)->value(windows_));
+    return known_;
   }
 
   Windows windows_;
-  Growing<double> known_;
+  std::vector<double> known_;
 };
 
 }  // namespace rolling

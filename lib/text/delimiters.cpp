@@ -53,12 +53,12 @@ bool needs_quotes(std::string_view field) {
 
 void append_field(Bytes& line, std::string_view field) {
   if (!needs_quotes(field)) return line.append(field);
-  line.append(quote);
+  line.push_back(quote);
   for (const char c : field) {
-    if (c == quote) line.append(quote);
-    line.append(c);
+    if (c == quote) line.push_back(quote);
+    line.push_back(c);
   }
-  line.append(quote);
+  line.push_back(quote);
 }
 
 }  // namespace rolling

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/growing.h"
+#include "text/bytes.h"
 
 namespace rolling {
 

@@ -42,7 +42,7 @@ std::vector<Column> Filter::columns() const {
 
 void Filter::hold(std::string_view text, Kind kind) {
   texts_.append(text);
-  lines_.append(Line{static_cast<std::uint32_t>(text.size()), 0, kind});
+  lines_.push_back({static_cast<std::uint32_t>(text.size()), 0, kind});
 }
 
 void Filter::take_comments(const std::vector<std::string>& comments) {
@@ -73,8 +73,8 @@ bool Filter::next() {
   if (!in_.remarks().empty()) take_comments(in_.remarks());
   if (!more) return false;
   const std::size_t begin = texts_.size(), place = in_.append_text(texts_, cut_);
-  lines_.append(Line{static_cast<std::uint32_t>(texts_.size() - begin),
-                     static_cast<std::uint32_t>(place), Kind::row});
+  lines_.push_back({static_cast<std::uint32_t>(texts_.size() - begin),
+                    static_cast<std::uint32_t>(place), Kind::row});
   ++read_;
   return true;
 }
@@ -101,13 +101,14 @@ void Filter::write_comments() {
 /// Writes a row with its numbers, which are finite, at this place of its text.
 inline void Filter::write_row(std::string_view text, std::size_t place,
                               std::span<const double> numbers) {
-  char* to = out_.reserve(text.size() + numbers.size() * (1 + longest_number));
+  char* to = space(out_.line(), text.size() + numbers.size() * (1 + longest_number));
   to = std::copy_n(text.begin(), place, to);
   for (const double number : numbers) {
     if (!appended_.empty()) *to++ = '\t';
     to = write_number(to, number, out_.digits);
   }
-  out_.set_end(std::copy(text.begin() + static_cast<std::ptrdiff_t>(place), text.end(), to));
+  set_end(out_.line(),
+          std::copy(text.begin() + static_cast<std::ptrdiff_t>(place), text.end(), to));
   out_.end_line();
 }
 
@@ -116,7 +117,7 @@ inline void Filter::write_row(std::string_view text, std::size_t place,
 void Filter::write_rows() {
   writing_ = true;
   const std::size_t each = std::max<std::size_t>(appended_.size(), 1);
-  std::span<const double> numbers(numbers_.data(), numbers_.size());
+  std::span<const double> numbers(numbers_);
   for (; first_ < lines_.size(); ++first_) {
     const Line& line = lines_[first_];
     const std::string_view text(texts_.data() + front_, line.size);
@@ -139,11 +140,12 @@ void Filter::write_rows() {
     }
     front_ += line.size;
   }
-  numbers_.erase_front(numbers_.size() - numbers.size());
+  numbers_.erase(numbers_.begin(), numbers_.end() - static_cast<std::ptrdiff_t>(numbers.size()));
   // Amortised, each line is moved at most once.
   if (2 * first_ >= lines_.size()) {
-    lines_.erase_front(std::exchange(first_, 0));
-    texts_.erase_front(std::exchange(front_, 0));
+    lines_.erase(lines_.begin(),
+                 lines_.begin() + static_cast<std::ptrdiff_t>(std::exchange(first_, 0)));
+    erase_front(texts_, std::exchange(front_, 0));
   }
   writing_ = false;
 }

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "base/growing.h"
+#include "text/bytes.h"
 #include "text/output.h"
 #include "text/reader.h"
 
@@ -50,7 +50,7 @@ class Filter {
   /// Gives the next number to the oldest row that lacks one. Throws Error if it is not finite.
   void put(double value) {
     require_finite(value);
-    numbers_.append(value);
+    numbers_.push_back(value);
     if (numbers_.size() >= enough_) write_rows();
   }
   void put(std::span<const double> values) {
@@ -85,11 +85,11 @@ class Filter {
   std::vector<Column> appended_;
   std::size_t replaced_ = Reader::no_column;  // a slot
   std::size_t cut_ = Reader::no_column;       // its column in this run
-  Growing<Line> lines_;                       // those from first_ on are not written yet
+  std::vector<Line> lines_;                   // those from first_ on are not written yet
   Bytes texts_;                               // one after the other; that of first_ is at front_
   std::size_t first_ = 0, front_ = 0;
   std::queue<std::size_t> dropped_;  // indices of the rows among them to leave out
-  Growing<double> numbers_;          // of these rows, in order
+  std::vector<double> numbers_;      // of these rows, in order
   std::size_t enough_;               // put() writes rows at this count of numbers
   // Counts of the rows of all runs: read; read before this run; written or left out.
   std::size_t read_ = 0, run_begins_ = 0, done_ = 0;

@@ -69,7 +69,7 @@ bool begins_with_error_value(std::string_view line) {
 }  // namespace
 
 Lines::Lines(std::string name)
-    : name_(std::move(name)), fd_(open_for_reading(name_)), kept_(buffer_.reserve(block)),
+    : name_(std::move(name)), fd_(open_for_reading(name_)), kept_(space(buffer_, block)),
       at_(kept_), end_(kept_) {
   if (fd_ < 0) fail<InputError>("{}: {}", name_.empty() ? "''" : name_, std::strerror(errno));
 #ifdef F_SETPIPE_SZ
@@ -90,12 +90,12 @@ bool Lines::fill() {
   if (size >= longest_line)
     fail<InputError>("{}:{}: a line of more than {} bytes", name_, count_ + 1, longest_line);
   if (kept_ != buffer_.data())
-    buffer_.erase_front(static_cast<std::size_t>(kept_ - buffer_.data()));
-  char* const to = buffer_.reserve(block);
+    erase_front(buffer_, static_cast<std::size_t>(kept_ - buffer_.data()));
+  char* const to = space(buffer_, block);
   const ssize_t count = read_some(fd_, to, std::min(block, longest_line - size));
   kept_ = buffer_.data(), at_ = to - size, end_ = to;
   if (count < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
-  buffer_.set_end(to + count);
+  set_end(buffer_, to + count);
   end_ += count;
   return count > 0;
 }

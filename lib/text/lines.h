@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/growing.h"
+#include "text/bytes.h"
 #include "text/delimiters.h"
 
 namespace rolling {

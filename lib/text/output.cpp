@@ -73,7 +73,7 @@ void Output::flush() {
 
 void Output::end_with(std::string_view line) noexcept {
   drop_line();
-  if (!written_ && buffer_.empty()) return;
+  if (!written_ && buffer_.size() == 0) return;
   try {
     if (torn_) text('\n');
     text(line);

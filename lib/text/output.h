@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/growing.h"
+#include "text/bytes.h"
 #include "text/column.h"
 #include "text/delimiters.h"
 #include "text/number.h"
@@ -34,14 +34,12 @@ class Output {
 
   // These append to the current line.
   void text(std::string_view text) { buffer_.append(text); }
-  void text(char c) { buffer_.append(c); }
-  /// Space for `size` characters; what is written there ends at the argument of set_end().
-  char* reserve(std::size_t size) { return buffer_.reserve(size); }
-  void set_end(char* end) { buffer_.set_end(end); }
+  void text(char c) { buffer_.push_back(c); }
+  Bytes& line() { return buffer_; }
   /// Throws Error for a number that is not finite.
   void number(double value) {
     require_finite(value);
-    buffer_.set_end(write_number(buffer_.reserve(longest_number), value, digits));
+    set_end(buffer_, write_number(space(buffer_, longest_number), value, digits));
   }
   /// Appends the next cell of a tab-separated row.
   void cell(double value) {
@@ -68,7 +66,7 @@ class Output {
   bool has_printed() const { return written_; }  ///< something has been written
   /// Removes the current line.
   void drop_line() {
-    buffer_.truncate(whole_);
+    buffer_.resize(whole_);
     cells_ = 0;
   }
 

@@ -201,7 +201,7 @@ std::size_t Reader::append_made(Bytes& to, std::size_t column) {
   const std::size_t begin = to.size();
   std::size_t place = no_column;
   for (std::size_t i = 0; i < fields_.size(); ++i) {
-    if (i) to.append('\t');
+    if (i) to.push_back('\t');
     if (i == column) {
       place = to.size() - begin;
       continue;
@@ -212,8 +212,8 @@ std::size_t Reader::append_made(Bytes& to, std::size_t column) {
       return n.column == i && n.to_si.changes();
                                                  });
     if (converted != needed.end() && !std::isnan(fields_[i].number))
-      to.set_end(write_number(to.reserve(longest_number),
-                              values_[static_cast<std::size_t>(converted - needed.begin())]));
+      set_end(to, write_number(space(to, longest_number),
+                               values_[static_cast<std::size_t>(converted - needed.begin())]));
     else if (dialect_.may_need_quotes()) append_field(to, fields_[i].text);
     else to.append(fields_[i].text);
   }

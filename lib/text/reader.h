@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/growing.h"
+#include "text/bytes.h"
 #include "text/dialect.h"
 #include "text/head.h"
 #include "text/lines.h"
