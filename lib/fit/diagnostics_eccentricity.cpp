@@ -18,45 +18,19 @@
 namespace rolling {
 namespace {
 
-/// The response of the raw column to an eccentricity of one metre, to first order: to dD = cos(x/r)
-/// and to dD = sin(x/r). The law is autonomous, so that v'(t) solves the linearised equation of
-/// motion. Variation of the constant gives dv = v' w with w' = -(g cos theta/((K + 1) R)) dD / v'.
-class Wobble {
- public:
-  Wobble(const ObservedRun& run, Roll roll, double r)
-      : run_(run), roll_(std::move(roll)), v0_(roll_.at(0).v), r_(r) {}
-
-  /// The response at time t, which must not be before that of the last call: by linear
-  /// interpolation in a step.
-  std::array<double, 2> at(double t) {
-    while (t_ < t) step();
-    const double share = t > from_ ? (t - from_) / (t_ - from_) : 0;
-    return {std::lerp(before_[0], now_[0], share), std::lerp(before_[1], now_[1], share)};
-  }
-
- private:
-  void step() {
-    constexpr double longest = 0.1, shares = 512;  // of a step: angle of the body [rad], and part
-    constexpr double slow = 0.05;  // share of v0 below which w is constant: it diverges at the stop
-    const double by_D = -run_.body.g * incline(run_.body).cos / ((run_.body.K + 1) * run_.body.R),
-                 h = std::min(run_.t.back() / shares, longest * r_ / std::abs(roll_.at(t_).v));
-    const auto s = roll_.at(t_ + h / 2);
-    const double by_force = s.v > slow * v0_ ? by_D / s.a * h / 2 : 0;
-    before_ = now_, from_ = t_, t_ += h;
-    const double a = roll_.at(t_).a;
-    for (std::size_t k = 0; k < 2; ++k) {
-      const double half_w = by_force * (k ? std::sin(s.x / r_) : std::cos(s.x / r_));
-      dx_[k] += s.a * (w_[k] + half_w) * h;
-      w_[k] += 2 * half_w;
-      now_[k] = run_.way * (run_.column == RawColumn::x ? dx_[k] : a * w_[k]);
-    }
-  }
-
-  const ObservedRun& run_;
-  Roll roll_;
-  double v0_, r_, from_ = 0, t_ = 0;
-  std::array<double, 2> w_{}, dx_{}, before_{}, now_{};
-};
+/// The response of the raw column to dD = cos(x/r) and to dD = sin(x/r) [m] at the time t, as far
+/// as the speed hardly changes in a turn: the acceleration -rate dD integrated once or twice over
+/// x = v t.
+std::array<double, 2> response(const ObservedRun& run, Roll& roll, double r, double t) {
+  constexpr double slow = 0.15;  // of v0: below it a body makes hardly a part of a turn
+  const auto p = roll.at(t);
+  const double rate = run.body.g * incline(run.body).cos / ((run.body.K + 1) * run.body.R),
+               time = r / std::max(std::abs(p.v), slow * roll.at(0).v), cos = std::cos(p.x / r),
+               sin = std::sin(p.x / r);
+  if (run.column == RawColumn::x)
+    return {run.way * rate * time * time * cos, run.way * rate * time * time * sin};
+  return {-run.way * rate * time * sin, run.way * rate * time * cos};
+}
 
 /// True if a run of so many residuals shows a turn: its roll has one, and two rows in each.
 bool shows_a_turn(const ObservedRun& run, Roll roll, std::size_t n) {
@@ -70,13 +44,13 @@ bool shows_a_turn(const ObservedRun& run, Roll roll, std::size_t n) {
 
 /// The amplitude of this response in the residuals f of a run, of so many degrees of freedom, and
 /// its p.
-Eccentricity amplitude(const Fitted& fit, std::size_t run, Wobble wobble, double freedom,
+Eccentricity amplitude(const Fitted& fit, std::size_t run, Roll roll, double r, double freedom,
                        std::span<const double> f) {
   const std::size_t own = fit.system.columns(), q = own + 2;
   Triangles all(1, q, 0);  // of J with the two columns of the response behind it
   const RawModel model = fit.model->raw(fit.minimum.theta, run);
-  const RawModel with_wobble = [&](double t, double* slopes, std::size_t stride) {
-    const auto by_e = wobble.at(t);
+  const RawModel with_response = [&](double t, double* slopes, std::size_t stride) {
+    const auto by_e = response(fit.model->runs()[run], roll, r, t);
     for (std::size_t k = 0; k < 2; ++k) slopes[(own + k) * stride] = by_e[k];
     return model(t, slopes, stride);
   };
@@ -84,7 +58,7 @@ Eccentricity amplitude(const Fitted& fit, std::size_t run, Wobble wobble, double
     std::ranges::copy(f, of_rows.begin());
     all.add(0, of_rows, J);
   };
-  evaluate(fit.model->runs()[run], run, q, *fit.noise, with_wobble, take);
+  evaluate(fit.model->runs()[run], run, q, *fit.noise, with_response, take);
   if (!(all.smallest_sine() > 1e-6)) return {run, 1, 0, 0, 0};
   const std::vector<double> theta = all.solve();
   const double by_cos = theta[own], by_sin = theta[own + 1], e = std::hypot(by_cos, by_sin),
@@ -120,7 +94,7 @@ std::optional<Eccentricity> eccentricity_of(const Fitted& fit) {
     const Roll roll = fit.model->roll(fit.minimum.theta, r);
     if (!shows_a_turn(run, roll, f_of[r].size())) continue;
     const auto signal = [&](double stretch) {
-      return amplitude(fit, r, Wobble(run, roll, stretch * run.body.R), freedom, f_of[r]);
+      return amplitude(fit, r, roll, stretch * run.body.R, freedom, f_of[r]);
     };
     Eccentricity once_a_turn = signal(1);
     once_a_turn.p *= static_cast<double>(f_of.size());
