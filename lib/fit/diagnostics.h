@@ -12,9 +12,9 @@ namespace rolling {
 
 /// The eccentricity from the periodogram of Lomb (1976, Astrophys. Space Sci. 39, 447) and Scargle
 /// (1982, Astrophys. J. 263, 835) of the residuals over x, at the one period 2 pi R. Sine and
-/// cosine of x/R are shifts; they are carried through the equation of motion (to first order around
-/// the fitted roll, A = 1) and through the filters of the data, and made orthogonal to the columns
-/// of the Jacobian, because the fit can follow those. The noise before the filters is assumed
+/// cosine of x/R are shifts; they are carried through the equation of motion (A = 1, as if the speed
+/// were steady in a turn) and through the filters of the data, and made orthogonal to the columns of
+/// the Jacobian, because the fit can follow those. The noise before the filters is assumed
 /// white, of its own size in each run.
 ///
 /// The result is the run with the smallest p. It is empty if no run reaches 1 % (after Bonferroni's
