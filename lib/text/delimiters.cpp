@@ -28,19 +28,18 @@ std::optional<std::string> take_quoted(std::string_view& line, char separator) {
   return replace_all(trim({first, close}), {{"\"\"", "\""}});
 }
 
-Unquoted outside_quotes(std::string_view text, std::string_view between, bool field_begins) {
+Unquoted outside_quotes(std::string_view text, std::string_view between, bool within) {
   Unquoted outside;
   const char *at = text.data(), *const end = at + text.size();
-  for (; at != end; ++at) {
-    if (field_begins && *at == quote) {
-      at = closing_quote(at + 1, end);
-      outside.ends_within = at == end;
-      if (outside.ends_within) break;
-      field_begins = false;
-      continue;
+  for (bool begins = true; within || at != end; ++at) {
+    if (within || (begins && *at == quote)) {
+      at = closing_quote(within ? at : at + 1, end);
+      if (at == end) return {outside.text, true};
+      begins = within = false;
+    } else {
+      outside.text += *at;
+      begins = between.find(*at) != std::string_view::npos || (begins && is_blank(*at));
     }
-    outside.text += *at;
-    field_begins = between.find(*at) != std::string_view::npos || (field_begins && is_blank(*at));
   }
   return outside;
 }

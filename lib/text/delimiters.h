@@ -33,10 +33,9 @@ struct Unquoted {
   std::string text;
   bool ends_within = false;  ///< a quoted field is still open at the end
 };
-/// A quote opens a quoted field only where a field begins: behind one of these separators, and at
-/// the beginning of `text` if a field begins there.
-Unquoted outside_quotes(std::string_view text, std::string_view separators,
-                        bool field_begins = true);
+/// A quote opens a quoted field only where a field begins: at the beginning of `text`, which may be
+/// within such a field already, and behind one of these separators.
+Unquoted outside_quotes(std::string_view text, std::string_view separators, bool within = false);
 
 /// True for a field that must be quoted in a tab-separated line: it contains a tab, a line end or a
 /// quote, or begins with #.

@@ -65,9 +65,9 @@ inline std::string copies(const std::string& text, ReaderOptions options = {},
   for (const std::string& name : wanted) in.need(name);
   while (in.next_run())
     while (in.next()) {
-      all.append('<');
+      all.push_back('<');
       in.append_text(all);
-      all.append('>');
+      all.push_back('>');
     }
   return {all.data(), all.size()};
 }
