@@ -64,7 +64,6 @@ Column read_column(std::string_view text) {
   const std::string line = replace_all(with_plain_blanks(text),
                                        {{"\xEF\xBC\x88", "("}, {"\xEF\xBC\x89", ")"}, {"\n", " "}});
   std::string_view name = trim(line);
-  const auto whole = name;
   column.run = take_run(name);
   const char close = name.empty() ? '\0' : name.back();
   const auto open = close == ')'   ? name.rfind('(')
@@ -73,12 +72,6 @@ Column read_column(std::string_view text) {
   if (open != std::string_view::npos && open > 0) {
     column.unit = plain_unit(trim(name.substr(open + 1, name.size() - open - 2)));
     name = trim(name.substr(0, open));
-  }
-  // Everything but the unit, where the label stands before it or behind it.
-  if (!column.run.empty()) {
-    const auto behind = static_cast<std::size_t>(name.data() + name.size() - whole.data());
-    column.labelled = name.data() == whole.data() ? fmt::format("{} Run {}", name, column.run)
-                                                  : whole.substr(0, behind);
   }
   const auto slash = column.unit.empty() ? name.find('/') : std::string_view::npos;
   const std::string quantity = short_name(trim(name.substr(0, slash)));
@@ -90,9 +83,15 @@ Column read_column(std::string_view text) {
   } else {
     column.name = name;
   }
-  for (std::string* const text_of : {&column.name, &column.labelled})
-    std::ranges::replace_if(*text_of, is_blank, '_');
+  std::ranges::replace_if(column.name, is_blank, '_');
   return column;
+}
+
+std::string labelled_name(const Column& column) {
+  std::string name = is_number(column.run) ? fmt::format("{}_Run_{}", column.name, column.run)
+                                           : fmt::format("{}:{}", column.run, column.name);
+  std::ranges::replace_if(name, is_blank, '_');
+  return name;
 }
 
 std::string to_text(const Column& column) {
@@ -110,36 +109,27 @@ bool is_known(const Column& column) { return known_quantity(column.name) != null
 
 std::vector<std::string> split_names(std::string_view line, char separator) {
   std::vector<std::string> names;
-  const std::string between = separator ? std::string(1, separator) : " \t";
-  const auto closing = line.find_last_of(")]");
-  bool open = false;  // the last name has an open bracket; between blanks
+  constexpr std::string_view opening = "([";
+  const auto last_bracket = line.find_last_of(")]") + 1;
   for (std::size_t at = 0;; at += separator != '\0') {
     while (at < line.size() && line[at] != separator && is_blank(line[at])) ++at;
     if (separator ? at > line.size() : at == line.size()) return names;
     std::string_view rest = line.substr(at);
-    if (auto quoted = open ? std::nullopt : take_quoted(rest, separator)) {
+    if (auto quoted = take_quoted(rest, separator)) {
       names.push_back(std::move(*quoted));
       at = line.size() - rest.size();
       continue;
     }
-    const auto begin = std::exchange(at, std::min(line.find_first_of(between, at), line.size()));
-    const std::string_view word = line.substr(begin, at - begin);
-    if (separator) {
-      names.emplace_back(trim(word));
-      continue;
-    }
-    const bool opens = word.front() == '(' || word.front() == '[';
+    const auto begin = at;
+    for (; at < line.size() && (separator ? line[at] != separator : !is_blank(line[at])); ++at)
+      if (opening.find(line[at]) != std::string_view::npos && at < last_bracket)
+        at = line.find_first_of(")]", at);
+    const std::string_view name = trim(line.substr(begin, at - begin));
     // Behind a name that is a bracket itself, as in a line of units, another name begins.
-    if (!names.empty() && ((opens && names.back().find_first_of("([") != 0) ||
-                           (open && closing != std::string_view::npos && closing >= begin))) {
-      names.back().append(" ").append(word);
-    } else {
-      names.emplace_back(word);
-      open = false;
-    }
-    if (const auto last = word.find_last_of("(["); last != std::string_view::npos)
-      open = word.find_first_of(")]", last) == std::string_view::npos;
-    else if (word.find_first_of(")]") != std::string_view::npos) open = false;
+    if (!separator && name.find_first_of(opening) == 0 && !names.empty() &&
+        names.back().find_first_of(opening) != 0)
+      names.back().append(" ").append(name);
+    else names.emplace_back(name);
   }
 }
 

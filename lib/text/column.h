@@ -17,8 +17,6 @@ struct Column {
   std::string unit{};
   /// The number in `Run #2` or `Data Set 1:`, the word in `Latest:`; empty if the name has neither.
   std::string run{};
-  /// The name with that label, for a column that is of no run of its own: `Engine:_Load`.
-  std::string labelled{};
 
   bool operator==(const Column&) const = default;
 };
@@ -26,6 +24,9 @@ struct Column {
 /// Reads `v[m/s]`, `Velocity (m/s)`, `Time(s)`, `Latest: Time (s)`, `Data Set 1:Time(s)`, `Velocity
 /// (m/s) Run #2`, or a bare name.
 Column read_column(std::string_view text);
+
+/// The name with the label of a run, for a column that is of no run of its own: `Engine:Load`.
+std::string labelled_name(const Column&);
 
 /// t for Time, x for Position and so on, in any case; any other name as it is.
 std::string short_name(std::string_view name);
@@ -43,9 +44,9 @@ std::string lower(std::string_view text);
 /// Whether a column is t, x, v, a or D.
 bool is_known(const Column&);
 
-/// The names in a line, one for each field; a name may stand in quotes. With `separator` 0 blanks
-/// separate the names; a unit in brackets, which may contain blanks, then belongs to the name
-/// before it.
+/// The names in a line, one for each field; a name may stand in quotes, and what is in brackets is
+/// not separated. With `separator` 0 blanks separate the names; a unit in brackets then belongs to
+/// the name before it.
 std::vector<std::string> split_names(std::string_view line, char separator);
 
 }  // namespace rolling

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <utility>
 
 #include "base/error.h"
 #include "text/number.h"
@@ -15,25 +14,21 @@ namespace {
 /// label brings too (or of any other column, if they are numbers); else the only one, if it is of a
 /// known quantity or a number.
 std::vector<std::string> labels_of_runs(const std::vector<Column>& line) {
-  std::vector<std::string> all, timed, alike;
-  const auto note = [](std::vector<std::string>& labels, const std::string& label) {
-    if (std::ranges::count(labels, label) == 0) labels.push_back(label);
+  const auto labels = [&](auto&& counts) {
+    std::vector<std::string> all;
+    for (const Column& c : line)
+      if (!c.run.empty() && counts(c) && std::ranges::count(all, c.run) == 0) all.push_back(c.run);
+    return all;
   };
-  for (const Column& c : line) {
-    if (c.run.empty()) continue;
-    note(all, c.run);
-    if (c.name == "t") note(timed, c.run);
-    const bool counts = is_known(c) || is_number(c.run);
-    if (counts && std::ranges::any_of(line, [&](const Column& other) {
-          return other.name == c.name && !other.run.empty() && other.run != c.run;
-        }))
-      note(alike, c.run);
-  }
-  if (!timed.empty()) return timed;
-  const bool one = all.size() == 1 && std::ranges::any_of(line, [](const Column& c) {
-                     return !c.run.empty() && (is_known(c) || is_number(c.run));
-                   });
-  return one ? all : alike;
+  if (auto timed = labels([](const Column& c) { return c.name == "t"; }); !timed.empty())
+    return timed;
+  const bool one = labels([](const Column&) { return true; }).size() == 1;
+  return labels([&](const Column& c) {
+    const auto is_alike = [&](const Column& other) {
+      return other.name == c.name && !other.run.empty() && other.run != c.run;
+    };
+    return (is_known(c) || is_number(c.run)) && (one || std::ranges::any_of(line, is_alike));
+  });
 }
 
 /// The columns, of which those that are of none of these runs have no label but in their names.
@@ -41,7 +36,7 @@ std::vector<Column> without_other_labels(std::vector<Column> line,
                                          const std::vector<std::string>& runs) {
   for (Column& c : line)
     if (!c.run.empty() && !is_known(c) && std::ranges::count(runs, c.run) == 0)
-      c.name = std::exchange(c.labelled, ""), c.run.clear();
+      c.name = labelled_name(c), c.run.clear();
   return line;
 }
 
