@@ -78,21 +78,13 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits
       fail<InputError>("{}: --use: column {} cannot serve as both {} and {}", place_, *at + 1,
                        served[*at], quantity);
     served[*at] = quantity;
-    if (!use.unit.empty()) give_unit(*at, quantity, use.unit);
+    if (!use.unit.empty()) as_read_[*at].unit = use.unit;
   }
   quantities_ = std::move(served);
   serve_by_units();
-  resolve();
-}
-
-/// Gives a column the unit of --use, which stands for one of its name that no tool knows.
-void NeededColumns::give_unit(std::size_t column, const std::string& quantity,
-                              const std::string& unit) {
-  Column& read = as_read_[column];
-  if (const auto own = read_unit(read.unit); own && own != read_unit(unit))
-    fail<InputError>("{}: --use {} says {}, but the column's name {}", place_, quantity,
-                     shown(unit), shown(to_text(read)));
-  read.unit = unit;
+  converts_ = false;
+  for (Needed& needed : needed_) resolve(needed);
+  name_columns();
 }
 
 /// Headers in other languages: the only column in a unit of time serves as t, and where none is x
@@ -141,7 +133,7 @@ std::optional<std::size_t> NeededColumns::find(std::string_view name) const {
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < as_read_.size(); ++i) {
     const Column& read = as_read_[i];
-    if (asked.run.empty() || read.name != asked.labelled) {
+    if (asked.run.empty() || read.name != labelled_name(asked)) {
       // A column that serves as a quantity has its own name too, if that is none of another.
       if (quantities_[i] != asked.name && (is_known(asked) || read.name != asked.name)) continue;
       if (!asked.run.empty() && asked.run != read.run) continue;
@@ -198,6 +190,7 @@ void NeededColumns::resolve(Needed& needed) {
                      shown(to_text({quantity, read.unit})),
                      shown(to_text({needed.quantity, needed.unit})));
   needed.to_si = conversion(needed);
+  converts_ |= needed.to_si.changes();
 }
 
 /// Notes what is assumed of a column that serves as `quantity`, once for all runs.
@@ -240,31 +233,18 @@ Conversion NeededColumns::conversion(const Needed& needed) {
       has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", quantity, needed.column + 1) : "");
 }
 
-void NeededColumns::resolve() {
-  converts_ = false;
-  for (Needed& needed : needed_) {
-    resolve(needed);
-    converts_ |= needed.to_si.changes();
-  }
-  name_columns();
-}
-
 void NeededColumns::name_columns() {
   in_output_ = as_read_;
   for (Column& column : in_output_)
     if (!named_ && column.unit.empty()) column.unit = si_unit(column.name);
   for (const Needed& needed : needed_) {
     if (!serves(needed)) continue;
+    // The next tool of a pipe has no --use that tells one t of two.
+    const bool chosen = named_ && needed.quantity == "t" && use_.contains("t");
     for (std::size_t i = 0; i < as_read_.size(); ++i)
-      if (i != needed.column && as_read_[i].name == needed.quantity)
-        in_output_[i].name = free_name(in_output_, needed.quantity);
-  }
-  for (const Needed& needed : needed_) {
-    if (!serves(needed)) continue;
-    if (needed.quantity == "t" && use_.contains("t"))  // the next tool of a pipe has no choice
-      for (std::size_t i = 0; i < as_read_.size(); ++i)
-        if (i != needed.column && named_ && may_be_time(i) && as_read_[i].name != "t")
-          in_output_[i].name = free_name(in_output_, in_output_[i].name);
+      if (std::string& name = in_output_[i].name;
+          i != needed.column && (name == needed.quantity || (chosen && may_be_time(i))))
+        name = free_name(in_output_, name);
     Column& column = in_output_[needed.column];
     column.name = needed.quantity;
     if (const auto unit = si_unit(needed.quantity); !unit.empty()) column.unit = unit;
@@ -278,17 +258,10 @@ bool NeededColumns::renames() const {
 }
 
 std::size_t NeededColumns::add(std::string_view name, Kind kind, std::string_view unit) {
-  Needed asked{std::string(name), {}, kind, std::string(unit)};
-  resolve(asked);
-  for (std::size_t slot = 0; slot < needed_.size(); ++slot)
-    if (Needed& known = needed_[slot]; known.column == asked.column &&
-                                       known.quantity == asked.quantity &&
-                                       known.column != no_column) {
-      if (known.kind == Kind::wanted) known.kind = kind;
-      return slot;
-    }
-  needed_.push_back(std::move(asked));
-  resolve();
+  Needed needed{std::string(name), {}, kind, std::string(unit)};
+  resolve(needed);
+  needed_.push_back(std::move(needed));
+  name_columns();
   return needed_.size() - 1;
 }
 

@@ -71,12 +71,10 @@ class NeededColumns {
     std::string column, unit;  // the column by its number or name, with the run that it carries
   };
   void refuse(std::string_view name) const;
-  void give_unit(std::size_t column, const std::string& quantity, const std::string& unit);
   bool may_be_time(std::size_t column) const;
   void serve_by_units();
   void refuse_other_times(std::size_t column) const;
   std::string list() const;
-  void resolve();
   void resolve(Needed&);
   void assume(std::size_t column, std::string_view quantity, std::string_view what);
   Conversion conversion(const Needed&);
