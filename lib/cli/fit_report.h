@@ -8,7 +8,6 @@
 
 #include "cli/tool.h"
 #include "fit/diagnostics.h"
-#include "fit/laws.h"
 #include "fit/fit.h"
 
 namespace rolling {

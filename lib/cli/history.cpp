@@ -12,7 +12,7 @@
 #include "base/enumeration.h"
 #include "base/error.h"
 #include "contact/body.h"
-#include "fit/replay.h"
+#include "fit/input.h"
 #include "signal/method.h"
 #include "text/column.h"
 #include "text/filter.h"

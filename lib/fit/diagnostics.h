@@ -12,10 +12,10 @@ namespace rolling {
 
 /// The eccentricity from the periodogram of Lomb (1976, Astrophys. Space Sci. 39, 447) and Scargle
 /// (1982, Astrophys. J. 263, 835) of the residuals over x, at the one period 2 pi R. Sine and
-/// cosine of x/R are shifts; they are carried through the equation of motion (A = 1, as if the speed
-/// were steady in a turn) and through the filters of the data, and made orthogonal to the columns of
-/// the Jacobian, because the fit can follow those. The noise before the filters is assumed
-/// white, of its own size in each run.
+/// cosine of x/R are shifts; they are carried through the equation of motion (A = 1, as if the
+/// speed were steady in a turn) and through the filters of the data, and made orthogonal to the
+/// columns of the Jacobian, because the fit can follow those. The noise before the filters is
+/// assumed white, of its own size in each run.
 ///
 /// The result is the run with the smallest p. It is empty if no run reaches 1 % (after Bonferroni's
 /// correction), or if the period 0.7 or 1.4 times as long has as small a p: the residuals then have
@@ -34,13 +34,10 @@ double few_reversals(const Fitted&);
 /// one after another the reading with the largest residual, studentised by its leverage, is left
 /// out of the variance, up to a tenth of the run, and those up to the last that is so far off count
 /// (Rosner 1983, Technometrics 25, 165): a burst does not hide behind itself. Where one is far off
-/// the robust roll is looked from first, since such readings bend the roll. For known filters the
-/// readings are those of the raw column. Returns the reading that is furthest off, of the run where
-/// that is most; the count is 0 where none is.
-OffReadings off_readings(const Fitted&);
-
-/// The same around the robust roll, for unfiltered runs of which no fit by squares need be known.
-OffReadings off_robust_roll(Route, const std::vector<FitRun>&, FitOptions);
+/// the robust roll is looked from first, since such readings bend the roll, as from a fit that is
+/// `robust` itself. For known filters the readings are those of the raw column. Returns the reading
+/// that is furthest off, of the run where that is most; the count is 0 where none is.
+OffReadings off_readings(const Fitted&, bool robust = false);
 
 /// A disturbed beginning: the first rows of a run do not follow the motion of the other ones,
 /// because of a hand that still pushes or of sliding.

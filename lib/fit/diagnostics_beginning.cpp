@@ -12,7 +12,7 @@
 #include "base/matrix.h"
 #include "fit/fitted.h"
 #include "statistics/levels.h"
-#include "fit/roll_fit.h"
+#include "fit/routes.h"
 #include "least_squares/triangles.h"
 #include "statistics/residuals.h"
 
@@ -35,9 +35,9 @@ struct BeginningSearch {
   /// `fit` is that of this run by itself, taken as linear around its minimum.
   void add(const Fitted& fit, std::size_t run) {
     const auto& t = fit.model->runs().front().t;
-    fit.system.evaluate(fit.minimum.theta,
-                        [&](std::size_t, std::span<double> f, std::span<double> J) {
-      const std::size_t n = f.size(), q = fit.system.columns();
+    const System system = fit.system();
+    system.evaluate(fit.minimum.theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
+      const std::size_t n = f.size(), q = system.columns();
       for (std::size_t k = 3, next = 5; 4 * k <= n; k = std::exchange(next, k + next)) {
         ++tests;
         std::vector<double> f_of(f.begin(), f.end()), J_of(J.begin(), J.end());  // of the others
@@ -75,7 +75,8 @@ std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitR
   const std::size_t parameters = joint.parameters().of_one_run().count();
   BeginningSearch search;
   for (std::size_t r = 0; r < runs.size(); ++r) try {
-      if (joint.system.runs[r] >= 20 + parameters) search.add(fit_of_run(joint, r, options), r);
+      if (joint.model->runs()[r].y.size() >= 20 + parameters)
+        search.add(fit_of_run(joint, r, options), r);
     } catch (const Error&) {  // the run does not determine a law by itself
     }
   search.found.p *= search.tests;

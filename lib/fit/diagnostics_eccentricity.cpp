@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/chebyshev.h"
 #include "base/matrix.h"
 #include "base/median.h"
 #include "contact/contact.h"
@@ -18,52 +19,67 @@
 namespace rolling {
 namespace {
 
-/// The response of the raw column to dD = cos(x/r) and to dD = sin(x/r) [m] at the time t, as far
-/// as the speed hardly changes in a turn: the acceleration -rate dD integrated once or twice over
-/// x = v t.
-std::array<double, 2> response(const ObservedRun& run, Roll& roll, double r, double t) {
-  constexpr double slow = 0.15;  // of v0: below it a body makes hardly a part of a turn
-  const auto p = roll.at(t);
-  const double rate = run.body.g * incline(run.body).cos / ((run.body.K + 1) * run.body.R),
-               time = r / std::max(std::abs(p.v), slow * roll.at(0).v), cos = std::cos(p.x / r),
-               sin = std::sin(p.x / r);
-  if (run.column == RawColumn::x)
-    return {run.way * rate * time * time * cos, run.way * rate * time * time * sin};
-  return {-run.way * rate * time * sin, run.way * rate * time * cos};
+/// The way and the speed of a roll at the times of a run.
+using Path = std::vector<std::array<double, 2>>;
+
+Path path_of(const ObservedRun& run, Roll roll) {
+  const double last = run.t.back();
+  ChebyshevPanels at(run.t, {roll.stop_until(last), roll.radius_time(last)}, [&](double t) {
+    const Roll::Point p = roll.at(t);
+    return std::array{p.x, p.v};
+  });
+  Path path;
+  for (const double t : run.t) path.push_back(at(t));
+  return path;
 }
 
 /// True if a run of so many residuals shows a turn: its roll has one, and two rows in each.
-bool shows_a_turn(const ObservedRun& run, Roll roll, std::size_t n) {
+bool shows_a_turn(const ObservedRun& run, const Path& path, std::size_t n) {
   const double turn = 2 * std::numbers::pi * run.body.R;
-  const auto first = roll.at(0), last = roll.at(run.t.back());
   double longest = 0;
   for (std::size_t i = 1; i < run.t.size(); ++i)
     longest = std::max(longest, run.t[i] - run.t[i - 1]);
-  return n >= 30 && last.x >= turn && 2 * std::max(first.v, last.v) * longest < turn;
+  return n >= 30 && path.back()[0] >= turn &&
+         2 * std::max(path.front()[1], path.back()[1]) * longest < turn;
 }
 
-/// The amplitude of this response in the residuals f of a run, of so many degrees of freedom, and
-/// its p.
-Eccentricity amplitude(const Fitted& fit, std::size_t run, Roll roll, double r, double freedom,
-                       std::span<const double> f) {
-  const std::size_t own = fit.system.columns(), q = own + 2;
-  Triangles all(1, q, 0);  // of J with the two columns of the response behind it
-  const RawModel model = fit.model->raw(fit.minimum.theta, run);
-  const RawModel with_response = [&](double t, double* slopes, std::size_t stride) {
-    const auto by_e = response(fit.model->runs()[run], roll, r, t);
-    for (std::size_t k = 0; k < 2; ++k) slopes[(own + k) * stride] = by_e[k];
-    return model(t, slopes, stride);
-  };
-  const TakeRows take = [&](std::size_t, std::span<double> of_rows, std::span<double> J) {
-    std::ranges::copy(f, of_rows.begin());
-    all.add(0, of_rows, J);
-  };
-  evaluate(fit.model->runs()[run], run, q, *fit.noise, with_response, take);
+/// The response of the raw column to dD = cos(x/r), and behind it that to dD = sin(x/r) [m], as far
+/// as the speed hardly changes in a turn: the acceleration -rate dD integrated once or twice over
+/// x = v t.
+std::vector<double> response(const ObservedRun& run, const Path& path, double r) {
+  constexpr double slow = 0.15;  // of v0: below it a body makes hardly a part of a turn
+  const double rate = run.body.g * incline(run.body).cos / ((run.body.K + 1) * run.body.R);
+  const std::size_t n = path.size();
+  std::vector<double> columns(2 * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto [x, v] = path[i];
+    const double time = r / std::max(std::abs(v), slow * path[0][1]), by_v = run.way * rate * time,
+                 cos = by_v * std::cos(x / r), sin = by_v * std::sin(x / r);
+    const bool position = run.column == RawColumn::x;
+    columns[i] = position ? time * cos : -sin;
+    columns[n + i] = position ? time * sin : cos;
+  }
+  return columns;
+}
+
+/// The amplitude of the response to a period of 2 pi r in the residuals f of a run, of so many
+/// degrees of freedom, and its p. J holds the derivatives of the residuals.
+Eccentricity amplitude(const Fitted& fit, std::size_t run, const Path& path, double r,
+                       double freedom, std::vector<double> f, std::span<const double> J) {
+  const ObservedRun& of = fit.model->runs()[run];
+  std::vector<double> by_e = response(of, path, r);
+  if (of.H) by_e = of.H->times(by_e);
+  if (fit.noise->known()) fit.noise->whitener(run).apply(by_e);
+  std::vector<double> columns(J.begin(), J.end());
+  columns.insert(columns.end(), by_e.begin(), by_e.end());
+  const double squares = dot(f, f), left = freedom - 2;
+  const std::size_t q = columns.size() / f.size(), own = q - 2;
+  Triangles all(1, q, 0);
+  all.add(0, f, columns);
   if (!(all.smallest_sine() > 1e-6)) return {run, 1, 0, 0, 0};
   const std::vector<double> theta = all.solve();
   const double by_cos = theta[own], by_sin = theta[own + 1], e = std::hypot(by_cos, by_sin),
-               reduction = all.reduction(own), left = freedom - 2,
-               variance = (dot(f, f) - reduction) / left;
+               reduction = all.reduction(own), variance = (squares - reduction) / left;
   std::vector<double> gradient(q);  // of e
   gradient[own] = by_cos / e, gradient[own + 1] = by_sin / e;
   all.solve_transposed(0, gradient);
@@ -72,10 +88,12 @@ Eccentricity amplitude(const Fitted& fit, std::size_t run, Roll roll, double r, 
 }
 
 /// Cuts residuals off at a few standard deviations: a burst or a lost echo has all periods.
-void cut_off(std::span<double> f) {
+std::vector<double> cut_off(std::span<const double> f) {
   const double most = levels::cut_off * deviation({f.begin(), f.end()});
-  if (!(most > 0)) return;
-  for (double& x : f) x = std::clamp(x, -most, most);
+  std::vector<double> cut(f.begin(), f.end());
+  for (double& x : cut)
+    if (most > 0) x = std::clamp(x, -most, most);
+  return cut;
 }
 
 }  // namespace
@@ -83,24 +101,24 @@ void cut_off(std::span<double> f) {
 std::optional<Eccentricity> eccentricity_of(const Fitted& fit) {
   if (!fit.is_roll() || fit.minimum.f.size() < fit.minimum.theta.size() + 10) return {};
   std::optional<Eccentricity> found;
-  std::vector<double> f = fit.minimum.f;
-  const auto f_of = by_run(f, fit.system.runs);
-  for (std::size_t r = 0; r < f_of.size(); ++r) {
-    cut_off(f_of[r]);
+  const auto f_of = by_run(fit.minimum.f, fit.model->rows());
+  fit.system().evaluate(fit.minimum.theta,
+                        [&](std::size_t r, std::span<double>, std::span<double> J) {
+    const std::vector<double> f = cut_off(f_of[r]);
     const double freedom =
-        static_cast<double>(f_of[r].size()) - static_cast<double>(fit.system.columns());
-    if (!(freedom > 2 && dot(f_of[r], f_of[r]) > 0)) continue;
+        static_cast<double>(f.size()) - static_cast<double>(fit.parameters().columns());
+    if (!(freedom > 2 && dot(f, f) > 0)) return;
     const ObservedRun& run = fit.model->runs()[r];
-    const Roll roll = fit.model->roll(fit.minimum.theta, r);
-    if (!shows_a_turn(run, roll, f_of[r].size())) continue;
+    const Path path = path_of(run, fit.model->roll(fit.minimum.theta, r));
+    if (!shows_a_turn(run, path, f.size())) return;
     const auto signal = [&](double stretch) {
-      return amplitude(fit, r, roll, stretch * run.body.R, freedom, f_of[r]);
+      return amplitude(fit, r, path, stretch * run.body.R, freedom, f, J);
     };
     Eccentricity once_a_turn = signal(1);
-    once_a_turn.p *= static_cast<double>(f_of.size());
-    if (once_a_turn.p > levels::one_turn || (found && found->p < once_a_turn.p)) continue;
+    once_a_turn.p *= static_cast<double>(fit.model->runs().size());
+    if (once_a_turn.p > levels::one_turn || (found && found->p < once_a_turn.p)) return;
     if (once_a_turn.p < std::min(signal(0.7).p, signal(1.4).p)) found = once_a_turn;
-  }
+  });
   return found;
 }
 

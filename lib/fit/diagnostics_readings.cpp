@@ -15,7 +15,7 @@
 #include "fit/errors.h"
 #include "fit/fitted.h"
 #include "statistics/levels.h"
-#include "least_squares/robust.h"
+#include "least_squares/minimise.h"
 #include "statistics/residuals.h"
 
 namespace rolling {
@@ -58,7 +58,7 @@ OffReadings of_run(std::span<const double> e, std::span<const double> left, doub
 /// Q: the columns that the fit follows.
 OffReadings around(const Fitted& fit, const Matrix& Q) {
   const bool known = fit.noise->known();
-  const auto& sizes = known ? fit.noise->sources() : fit.system.runs;
+  const auto sizes = known ? fit.noise->sources() : fit.model->rows();
   const auto raw = [&](const std::vector<double>& x) {
     return known ? fit.noise->to_sources(x) : x;
   };
@@ -72,7 +72,7 @@ OffReadings around(const Fitted& fit, const Matrix& Q) {
   const auto e_of = by_run(e, sizes), left_of = by_run(std::as_const(left), sizes);
   for (std::size_t r = 0; r < sizes.size(); ++r) {
     const double freedom =
-        static_cast<double>(sizes[r]) - static_cast<double>(fit.system.columns());
+        static_cast<double>(sizes[r]) - static_cast<double>(fit.parameters().columns());
     OffReadings off = of_run(e_of[r], left_of[r], freedom);
     if (rank(off) <= rank(found)) continue;
     const ObservedRun& run = fit.model->runs()[r];
@@ -86,34 +86,24 @@ OffReadings around(const Fitted& fit, const Matrix& Q) {
 /// Around the roll of this theta, which is that of a robust fit: single readings have no share in
 /// it.
 OffReadings around_robust(Fitted fit, const std::vector<double>& theta) {
-  fit.minimum = evaluated(fit.system, theta);
+  fit.minimum = evaluated(fit.system(), theta);
   return around(fit, {});
 }
 
 }  // namespace
 
-OffReadings off_robust_roll(Route route, const std::vector<FitRun>& runs, FitOptions options) {
-  if (!is_trajectory(route) || options.robust) return {};
-  options.robust = true;
-  try {
-    const Fitted fit = fit_route(route, runs, options);
-    return around_robust(fit, fit.minimum.theta);
-  } catch (const Error&) {
-    return {};
-  }
-}
-
-OffReadings off_readings(const Fitted& fit) {
+OffReadings off_readings(const Fitted& fit, bool robust) {
   if (!fit.is_roll() || fit.degrees_left() == 0) return {};
+  if (robust) return around_robust(fit, fit.minimum.theta);
   // In long runs no single reading has a share in the fit.
-  const bool few = fit.minimum.f.size() <= 1000 * fit.system.runs.size();
-  const OffReadings found = around(fit, few ? orthonormal(fit) : Matrix());
+  const bool few = fit.minimum.f.size() <= 1000 * fit.model->runs().size();
+  const OffReadings found = around(fit, few ? orthonormal(fit.system(), fit.minimum) : Matrix());
   if (found.distance < 5) return {};
   // Readings far off have bent the roll to themselves, away from where it is linear; a robust one
   // follows only those at the ends of a short run.
   try {
     const OffReadings off =
-        around_robust(fit, minimise_robust(fit.system, {fit.minimum.theta}).theta);
+        around_robust(fit, minimise_robust(fit.system(), {fit.minimum.theta}).theta);
     return off.count > 0 ? off : found;
   } catch (const Error&) {
     return found;
@@ -124,7 +114,7 @@ double few_reversals(const Fitted& fit) {
   if (!fit.is_roll() || fit.noise->known()) return 1;
   double expected = 0;
   unsigned seen = 0;
-  const auto residuals = by_run(fit.minimum.f, fit.system.runs);  // model - reading
+  const auto residuals = by_run(fit.minimum.f, fit.model->rows());  // model - reading
   for (std::size_t r = 0; r < residuals.size(); ++r) {
     const std::vector<double>& y = fit.model->runs()[r].y;
     const auto f = residuals[r];

@@ -15,16 +15,15 @@
 
 namespace rolling {
 
-Matrix orthonormal(const Fitted& fit) {
-  const std::size_t q = fit.system.columns();
+Matrix orthonormal(const System& system, const Minimum& at) {
+  const std::size_t q = system.columns();
   Matrix Q(q);
-  for (std::vector<double>& column : Q) column.reserve(fit.minimum.f.size());
-  fit.system.evaluate(fit.minimum.theta,
-                      [&](std::size_t run, std::span<double> f, std::span<double> J) {
+  for (std::vector<double>& column : Q) column.reserve(at.f.size());
+  system.evaluate(at.theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
     std::vector<double> row(q);
     for (std::size_t i = 0; i < f.size(); ++i) {
       for (std::size_t j = 0; j < q; ++j) row[j] = J[j * f.size() + i];
-      fit.minimum.R.solve_transposed(run, row);
+      at.R.solve_transposed(run, row);
       for (std::size_t j = 0; j < q; ++j) Q[j].push_back(row[j]);
     }
   });
@@ -36,16 +35,15 @@ namespace {
 /// The covariance R^-1 M R^-T of the numbers of a fit, of the meat M of each run. The meat of the
 /// parameters that the runs share is the sum over the runs.
 Matrix covariance_of(const Fitted& fit, std::vector<double> M) {
-  const std::size_t q = fit.system.columns();
-  for (std::size_t i = fit.system.own; i < q; ++i)
-    for (std::size_t j = fit.system.own; j < q; ++j)
+  const std::size_t own = fit.parameters().own(), q = fit.parameters().columns();
+  for (std::size_t i = own; i < q; ++i)
+    for (std::size_t j = own; j < q; ++j)
       for (std::size_t at = i * q + j + q * q; at < M.size(); at += q * q) M[i * q + j] += M[at];
   auto numbers = fit.numbers();
   for (FittedNumber& x : numbers) fit.minimum.R.solve_transposed(0, x.gradient);
   Matrix C(numbers.size(), std::vector<double>(numbers.size(), 0));
   for (std::size_t a = 0; a < numbers.size(); ++a)
     for (std::size_t b = 0; b < numbers.size(); ++b) {
-      if (numbers[a].fixed() || numbers[b].fixed()) continue;
       for (std::size_t i = 0; i < q; ++i)
         for (std::size_t j = 0; j < q; ++j)
           C[a][b] += numbers[a].gradient[i] * M[i * q + j] * numbers[b].gradient[j];
@@ -82,8 +80,8 @@ SeenNoise seen_noise(const Fitted& fit) {
   if (fit.noise_of_roll) return *fit.noise_of_roll;
   const auto& f = fit.minimum.f;
   SeenNoise seen{.freedom = fit.degrees_left()};
-  seen.e = seen.innovations = f, seen.sources = seen.runs = fit.system.runs;
-  seen.B = orthonormal(fit);
+  seen.e = seen.innovations = f, seen.sources = seen.runs = fit.model->rows();
+  seen.B = orthonormal(fit.system(), fit.minimum);
   if (fit.noise->from_sources_alone()) {
     seen.innovations = fit.noise->innovations(f, seen.runs);
     Matrix few;

@@ -37,7 +37,7 @@ Matrix correlations_of(const Matrix& covariance, std::size_t n);
 
 /// Q = J R^-1 at the minimum. The meat M of the covariance R^-1 M R^-T is a quadratic form of the
 /// rows of Q.
-Matrix orthonormal(const Fitted&);
+Matrix orthonormal(const System&, const Minimum&);
 
 /// Compares the runs of a joint fit. Each run is fitted by itself, with a and b of its own (the
 /// slope of the mat is fixed at that of the joint fit); its law (ln a, b) is compared with the mean

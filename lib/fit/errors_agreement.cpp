@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "fit/fitted.h"
-#include "fit/roll_fit.h"
+#include "fit/routes.h"
 #include "statistics/run_laws.h"
 
 namespace rolling {

@@ -12,7 +12,7 @@
 #include "fit/diagnostics.h"
 #include "fit/errors.h"
 #include "fit/fitted.h"
-#include "fit/roll_fit.h"
+#include "fit/routes.h"
 
 namespace rolling {
 
@@ -65,12 +65,10 @@ FitResult result_of(const Fitted& found, double rms, const Uncertainty& noise,
   return result;
 }
 
-/// "a and b", "d0, a and b": the coefficients of a law; with values, "a = 0.002 and b = -0.5".
-std::string names_of(const LawForm& form, const std::vector<FittedNumber>& values = {}) {
+/// "a and b", "d0, a and b": the coefficients of a law.
+std::string names_of(const LawForm& form) {
   std::vector<std::string> all;
-  for (std::size_t j = 0; j < form.coefficients.size(); ++j)
-    all.push_back(form.coefficients[j].name +
-                  (values.empty() ? "" : fmt::format(" = {:.4g}", values[j].value)));
+  for (const auto& c : form.coefficients) all.push_back(c.name);
   return enumeration(all);
 }
 
@@ -146,8 +144,7 @@ void require_roll(const Fitted& found) {
       fail(
           "{}{} have no meaning below {:.2g} m/s, where D is beyond the radius {} m: leave the "
           "rows out that follow, or fit with A = 1",
-          run.place, names_of(found.parameters().form(), found.coefficients), roll.radius_speed(),
-          run.body.R);
+          run.place, names_of(found.parameters().form()), roll.radius_speed(), run.body.R);
   }
 }
 
@@ -184,7 +181,14 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
   try {
     return fit_from_start(route, runs, options);
   } catch (const Error&) {  // of the data, or of single readings
-    const auto off = off_robust_roll(route, runs, options);
+    if (options.robust) throw;
+    FitOptions robust = options;
+    robust.robust = true;
+    OffReadings off{};
+    try {
+      off = off_readings(fit_route(route, runs, robust), true);
+    } catch (const Error&) {  // they are not fitted so either
+    }
     if (off.count == 0 || off.count > single) throw;
     fail(
         "{}the reading at t = {:.12g} s is {:.2g} standard deviations off the roll of the others: "

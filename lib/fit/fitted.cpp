@@ -6,10 +6,8 @@
 
 #include "base/enumeration.h"
 #include "base/error.h"
-#include "fit/inferred_noise.h"
-#include "fit/laws.h"
-#include "fit/roll_fit.h"
-#include "fit/shift_rows.h"
+#include "fit/routes.h"
+#include "fit/fit.h"
 
 namespace rolling {
 
@@ -29,41 +27,29 @@ std::size_t Fitted::degrees_left() const {
   return noise_of_roll ? std::min(left, noise_of_roll->freedom) : left;
 }
 
-namespace {
-
-void report_rolls(Fitted& fit) {
+void report(Fitted& fit) {
   const std::vector<double>& theta = fit.minimum.theta;
   const Parameters& q = fit.parameters();
-  const std::array<double, LawForm::most> none{};
-  const auto quantity = [&](double value, double v0, double x0, double slope) {
+  const Law law = q.law(theta);
+  const auto number = [&](double value, const Parameters::Derivatives& by) {
     FittedNumber result{value, std::vector<double>(q.columns())};
-    q.chain(result.gradient.data(), 1, 0, {none, v0, x0, slope});
+    q.chain(result.gradient.data(), 1, law.c(0), by);
     return result;
   };
-  fit.v0.clear(), fit.x0.clear();
-  if (q.fits_slope()) fit.slope = quantity(q.slope(theta, 0), 0, 0, 1);
-  const auto& runs = fit.model->runs();
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    const double way = runs[r].way;
-    fit.v0.push_back(quantity(way * q.v0(theta, r), way, 0, 0));
-    if (q.has_x0()) fit.x0.push_back(quantity(q.x0(theta, r), 0, 1, 0));
+  fit.coefficients.clear(), fit.v0.clear(), fit.x0.clear();
+  std::array<double, LawForm::most> by_c{};
+  for (std::size_t j = 0; j < law.size(); ++j, by_c = {}) {
+    const double value = law.in_SI(j, by_c);
+    if (q.fixed(j)) by_c = {};
+    fit.coefficients.push_back(number(q.fixed(j).value_or(value), {by_c}));
   }
-}
-
-}  // namespace
-
-void report(Fitted& fit) {
-  const Parameters& q = fit.parameters();
-  const Law law = q.law(fit.minimum.theta);
-  fit.coefficients.clear();
-  for (std::size_t j = 0; j < law.size(); ++j) {
-    std::array<double, LawForm::most> by_c{};
-    FittedNumber& number = fit.coefficients.emplace_back(
-        FittedNumber{law.in_SI(j, by_c), std::vector<double>(q.columns())});
-    if (const auto fixed = q.fixed(j)) number.value = *fixed;
-    else q.chain(number.gradient.data(), 1, law.c(0), {by_c});
+  if (!fit.is_roll()) return;
+  if (q.fits_slope()) fit.slope = number(q.slope(theta, 0), {by_c, 0, 0, 1});
+  for (std::size_t r = 0; r < fit.model->runs().size(); ++r) {
+    const double way = fit.model->runs()[r].way;
+    fit.v0.push_back(number(way * q.v0(theta, r), {by_c, way}));
+    if (q.has_x0()) fit.x0.push_back(number(q.x0(theta, r), {by_c, 0, 1}));
   }
-  if (fit.is_roll()) report_rolls(fit);
 }
 
 Law Fitted::law() const {

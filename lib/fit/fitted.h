@@ -3,8 +3,6 @@
 // their gradients with respect to the parameters.
 #pragma once
 
-#include <algorithm>
-
 #include "fit/model.h"
 #include "least_squares/minimise.h"
 #include "statistics/residuals.h"
@@ -16,10 +14,6 @@ namespace rolling {
 struct FittedNumber {
   double value;
   std::vector<double> gradient;
-
-  bool fixed() const {
-    return std::ranges::all_of(gradient, [](double slope) { return slope == 0; });
-  }
 };
 
 /// The noise of independent sources, as the residuals of a fit show it: theta - truth is
@@ -44,7 +38,6 @@ struct SeenNoise {
 /// A minimum with what its errors need. fit(), compare_laws() and the other questions about a fit
 /// start from it.
 struct Fitted {
-  System system;  ///< weighted
   Minimum minimum;
   std::shared_ptr<const Noise> noise = std::make_shared<const Noise>();  ///< of the weights
   std::optional<SeenNoise> noise_of_roll = {};  ///< that made the rows of a log-log line
@@ -57,6 +50,8 @@ struct Fitted {
   std::shared_ptr<const Model> model = {};
 
   bool is_roll() const { return model->is_roll(); }
+  /// The weighted problem of which this is the minimum.
+  System system() const { return system_of(model, noise); }
   const Parameters& parameters() const { return model->parameters(); }
   Law law() const;
   /// The numbers that have errors: the coefficients, the slope if it is a parameter, and v0 and x0
@@ -80,5 +75,9 @@ void require_rows(std::size_t n, std::size_t p, std::size_t independent);
 /// Fits by one route, without the errors. Throws Error as fit() does, except for the limits on the
 /// standard errors.
 Fitted fit_route(Route, const std::vector<FitRun>&, const FitOptions&);
+
+/// The fit of this law, which is another one, to the rows, with the weights, of a fit of a v^b.
+/// Throws Error if the rows do not determine it.
+Fitted fit_of_law(const Fitted& power, const LawForm&);
 
 }  // namespace rolling

@@ -91,9 +91,9 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
       seen.geometry = run.shift_of->geometry;
     }
     if (route == Route::shift && known) {
-      std::vector<double> accelerations(run.D.size(), std::numeric_limits<double>::quiet_NaN());
-      for (std::size_t i : rows[r]) accelerations[i] = acceleration_of(*run.shift_of, run.D[i]);
-      seen.shifts = {responses[r].of.at("D"), std::move(accelerations)};
+      for (std::size_t i : rows[r])
+        seen.accelerations.push_back(acceleration_of(*run.shift_of, run.D[i]));
+      seen.H_of_accelerations = filters_of_rows(responses[r], "D", rows[r]);
     }
     const bool position = known ? responses[r].source == "x" : route == Route::position;
     seen.column = position ? RawColumn::x : RawColumn::v;
@@ -190,27 +190,28 @@ std::vector<double> Model::raw_column(const std::vector<double>& theta, std::siz
   return column;
 }
 
-void evaluate(const ObservedRun& run, std::size_t number, std::size_t parameters,
-              const Noise& noise, const RawModel& raw, const TakeRows& take) {
-  const std::size_t n = run.t.size(), rows = run.y.size();
-  std::vector<double> all(n * (1 + parameters));  // the residuals, then the columns of J
-  for (std::size_t i = 0; i < n; ++i) all[i] = raw(run.t[i], &all[n + i], n);
-  if (run.H) all = run.H->times(all);
-  for (std::size_t i = 0; i < rows; ++i) all[i] -= run.y[i];
-  if (noise.known()) noise.whitener(number).apply(all);
-  take(number, std::span(all).first(rows), std::span(all).subspan(rows));
+std::vector<std::size_t> Model::rows() const {
+  std::vector<std::size_t> rows;
+  for (const ObservedRun& run : runs()) rows.push_back(run.y.size());
+  return rows;
 }
 
 System system_of(std::shared_ptr<const Model> model, std::shared_ptr<const Noise> noise) {
-  std::vector<std::size_t> runs;
-  for (const ObservedRun& run : model->runs()) runs.push_back(run.y.size());
   const Parameters& q = model->parameters();
-  return {std::move(runs), q.own(), q.shared(),
-          [model = std::move(model), noise = std::move(noise)](const std::vector<double>& theta,
-                                                               const TakeRows& take) {
-    for (std::size_t r = 0; r < model->runs().size(); ++r)
-      evaluate(model->runs()[r], r, model->parameters().columns(), *noise, model->raw(theta, r),
-               take);
+  return {model->rows(), q.own(), q.shared(),
+          [model, noise, columns = q.columns()](const std::vector<double>& theta,
+                                                const TakeRows& take) {
+    for (std::size_t r = 0; r < model->runs().size(); ++r) {
+      const ObservedRun& run = model->runs()[r];
+      const RawModel raw = model->raw(theta, r);
+      const std::size_t n = run.t.size(), rows = run.y.size();
+      std::vector<double> all(n * (1 + columns));  // the residuals, then the columns of J
+      for (std::size_t i = 0; i < n; ++i) all[i] = raw(run.t[i], &all[n + i], n);
+      if (run.H) all = run.H->times(all);
+      for (std::size_t i = 0; i < rows; ++i) all[i] -= run.y[i];
+      if (noise->known()) noise->whitener(r).apply(all);
+      take(r, std::span(all).first(rows), std::span(all).subspan(rows));
+    }
           }};
 }
 

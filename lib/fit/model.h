@@ -18,7 +18,7 @@
 #pragma once
 
 #include "fit/parameters.h"
-#include "least_squares/system.h"
+#include "least_squares/minimise.h"
 #include "motion/roll.h"
 #include "noise/noise.h"
 #include "noise/response.h"
@@ -54,13 +54,9 @@ struct ObservedRun {
   std::vector<double> t;
   Filters H;              ///< y = H raw; without H, y is the raw column itself
   std::vector<double> y;  ///< the fitted rows
-  /// For shift: the accelerations of the shifts of all rows are H raw; those that are not fitted
-  /// are NaN.
-  struct Shifts {
-    Filters H;
-    std::vector<double> accelerations;
-  };
-  std::optional<Shifts> shifts = {};
+  /// For shift: the accelerations of the shifts of these rows, and their filters.
+  std::vector<double> accelerations = {};
+  Filters H_of_accelerations = {};
 };
 
 /// The response of each run, if the filters of all runs are known; otherwise empty.
@@ -86,11 +82,6 @@ std::size_t informative_rows(const std::vector<ObservedRun>&, const Parameters&,
 /// shared ones, to `slopes`, `stride` apart.
 using RawModel = std::function<double(double t, double* slopes, std::size_t stride)>;
 
-/// Passes the residuals H raw - y of one run and their derivatives, whitened if the noise is known,
-/// to the callback. `number` is the index of the run, `parameters` the number of columns of J.
-void evaluate(const ObservedRun& run, std::size_t number, std::size_t parameters, const Noise&,
-              const RawModel& raw, const TakeRows&);
-
 /// All runs under one law.
 class Model {
  public:
@@ -105,6 +96,8 @@ class Model {
   }
 
   const std::vector<ObservedRun>& runs() const { return *runs_; }
+  /// The number of fitted rows of each run.
+  std::vector<std::size_t> rows() const;
   const Parameters& parameters() const { return parameters_; }
   bool is_roll() const { return runs().front().column <= RawColumn::v; }
   Roll roll(const std::vector<double>& theta, std::size_t run) const;
@@ -118,7 +111,9 @@ class Model {
   Parameters parameters_;
 };
 
-/// The weighted least-squares problem of a model and its noise.
-System system_of(std::shared_ptr<const Model>, std::shared_ptr<const Noise>);
+/// The least-squares problem of a model: the residuals H raw - y and their derivatives, whitened
+/// if the noise is known.
+System system_of(std::shared_ptr<const Model>,
+                 std::shared_ptr<const Noise> = std::make_shared<const Noise>());
 
 }  // namespace rolling

@@ -163,6 +163,25 @@ Minimum evaluated(const System& system, std::vector<double> theta) {
   return at;
 }
 
+System linearised(const System& system, const std::vector<double>& theta) {
+  std::vector<std::pair<std::vector<double>, std::vector<double>>> runs;  // f and J
+  system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
+    runs.push_back({{f.begin(), f.end()}, {J.begin(), J.end()}});
+  });
+  System linear{system.runs, system.own, system.shared, {}};
+  linear.evaluate = [layout = linear, runs = std::move(runs)](const std::vector<double>& delta,
+                                                              const TakeRows& take) {
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      auto [f, J] = runs[r];
+      for (std::size_t j = 0; j < layout.columns(); ++j)
+        for (std::size_t i = 0; i < f.size(); ++i)
+          f[i] += J[j * f.size() + i] * delta[layout.place(r, j)];
+      take(r, f, J);
+    }
+  };
+  return linear;
+}
+
 double restricted_likelihood(const Minimum& at) {
   const double freedom = static_cast<double>(at.f.size()) - static_cast<double>(at.theta.size());
   return -0.5 * freedom * std::log(at.rss - at.R.reduction()) - at.R.log_determinant();

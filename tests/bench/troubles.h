@@ -8,7 +8,7 @@
 #include "contact/law.h"
 #include "fit/diagnostics.h"
 #include "fit/fitted.h"
-#include "fit/laws.h"
+#include "fit/fit.h"
 #include "unit/fit/simulated.h"
 
 #include <cmath>

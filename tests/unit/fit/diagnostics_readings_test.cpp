@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Readings that are off, what they do to the search for a period, and the rounding of readings.
 #include "base/error.h"
-#include "fit/laws.h"
+#include "fit/fit.h"
 #include "unit/catch.h"
 #include "unit/fit/rolls.h"
 

@@ -187,7 +187,7 @@ TEST_CASE(
       }
 
   // Q^T Q = I, where the shared column is that of all runs.
-  const auto Q = orthonormal({.system = blocks, .minimum = many});
+  const auto Q = orthonormal(blocks, many);
   for (std::size_t r = 0; r < runs; ++r)
     for (std::size_t j = 0; j < 3; ++j)
       for (std::size_t k = 0; k < 3; ++k) {

@@ -2,7 +2,7 @@
 // Small least-squares problems for the tests.
 #pragma once
 
-#include "least_squares/system.h"
+#include "least_squares/minimise.h"
 
 #include <functional>
 #include <vector>

@@ -17,25 +17,11 @@ const BandMatrix E =
     probe(simulated::differentiate("v", "a"), t) * probe(simulated::smooth_v(5), t);
 const Filters filters = std::make_shared<const BandMatrix>(E);
 
-/// A straight line through data whose noise is E times white noise, with a share of white noise in
-/// the weights.
-System line(const std::vector<double>& data, std::shared_ptr<const Noise> noise) {
-  return {{n}, 0, 2, [=](const std::vector<double>& c, const TakeRows& take) {
-            std::vector<double> f(n), J(2 * n);
-            for (std::size_t i = 0; i < n; ++i) {
-              f[i] = c[0] + c[1] * t[i] - data[i];
-              J[i] = 1;
-              J[n + i] = t[i];
-            }
-            noise->whitener(0).apply(f), noise->whitener(0).apply(J);
-            take(0, f, J);
-          }};
-}
-
 }  // namespace
 
-// The covariance of the line is R^-1 B^T B R^-T whatever the weights are; the sum of squares tells
-// the variance where the weights are those of the noise.
+// A straight line through data whose noise is E times white noise, with a share of white noise in
+// the weights. The covariance of the line is R^-1 B^T B R^-T whatever the weights are; the sum of
+// squares tells the variance where the weights are those of the noise.
 TEST_CASE("noise: its variance and the covariance of the parameters", "[fit]") {
   for (const double share : {0.0, 1e-3, 0.1, 1.0, 30.0}) {
     const auto noise = std::make_shared<const Noise>(std::vector{filters}, AddedNoise{share});
@@ -47,17 +33,17 @@ TEST_CASE("noise: its variance and the covariance of the parameters", "[fit]") {
       for (std::size_t i = 0; i < n; ++i) e.push_back(random(2));
       for (const double of_e : E.times(e)) data.push_back(3 + 0.5 * t[data.size()] + of_e);
       ObservedRun run;
-      run.y = data;
-      Fitted fit{.system = line(data, noise),
-                 .minimum = {},
-                 .model = std::make_shared<const Model>(std::vector{run}, Parameters({}, 1))};
-      fit.minimum = minimise(fit.system, {0, 0});
-      fit.noise = noise;
+      run.column = RawColumn::D, run.t = t, run.y = data;
+      Fitted fit{.minimum = {},
+                 .noise = noise,
+                 .model = std::make_shared<const Model>(std::vector{run},
+                                                        Parameters({}, 1).with(laws()[2], 1, 1))};
+      fit.minimum = minimise(fit.system(), {0, 0});
       const SeenNoise seen = seen_noise(fit);
       variances += seen.variance / runs;
       squares += (fit.minimum.theta[1] - 0.5) * (fit.minimum.theta[1] - 0.5) / runs;
       if (k > 0) continue;
-      const std::vector<double> B = noise->to_sources(orthonormal(fit)[1]);
+      const std::vector<double> B = noise->to_sources(orthonormal(fit.system(), fit.minimum)[1]);
       std::vector<double> slope{0, 1};
       fit.minimum.R.solve_transposed(0, slope);
       REQUIRE(B.size() == noise->sources()[0]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/laws.h"
+#include "fit/fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "base/matrix.h"
 #include "base/error.h"
 #include "fit/errors.h"
-#include "fit/roll_fit.h"
+#include "fit/routes.h"
 #include "fit/fitted.h"
 #include "statistics/residuals.h"
 
@@ -30,14 +30,13 @@ Fitted fit_beside(const Fitted& power, const LawForm& law) {
   const double v = power.fastest();
   fit.model = std::make_shared<const Model>(
       power.model->with(power.parameters().with(law, power.law()(v), v)));
-  fit.system = system_of(fit.model, fit.noise);
   fit.minimum.rss = infinity;
   for (const auto& c : law.starts) {
     std::vector<double> theta = power.minimum.theta;  // its v0, x0 and slope
-    const auto first = theta.end() - static_cast<std::ptrdiff_t>(power.system.shared),
+    const auto first = theta.end() - static_cast<std::ptrdiff_t>(power.parameters().shared()),
                end = theta.end() - power.slope.has_value();
     theta.insert(theta.erase(first, end), c.begin(), c.end());
-    if (Minimum found = attempt(fit.system, theta); found.rss < fit.minimum.rss)
+    if (Minimum found = attempt(fit.system(), theta); found.rss < fit.minimum.rss)
       fit.minimum = std::move(found);
   }
   if (was_found(fit)) report(fit);
@@ -50,7 +49,7 @@ double independent_rows(const std::vector<Fitted>& all) {
   double r = 1;
   for (const Fitted& law : all)
     if (const Minimum& m = law.minimum; m.rss > 0 && was_found(law))
-      r = std::min(r, lagged(m.f, law.system.runs, 1) / m.rss);
+      r = std::min(r, lagged(m.f, law.model->rows(), 1) / m.rss);
   return r > 0 && r < 1 ? n * (1 - r) / (1 + r) : n;
 }
 

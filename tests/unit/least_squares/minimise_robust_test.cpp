@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "least_squares/robust.h"
+#include "least_squares/minimise.h"
 
 #include "base/error.h"
 #include "unit/catch.h"

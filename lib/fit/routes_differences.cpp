@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/inferred_noise.h"
+#include "fit/routes.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "base/error.h"
@@ -10,56 +11,45 @@
 #include "base/matrix.h"
 #include "base/median.h"
 #include "fit/errors.h"
-#include "fit/roll_fit.h"
 #include "least_squares/minimise.h"
 #include "statistics/residuals.h"
 
 namespace rolling {
 namespace {
 
-/// The unweighted residuals at the beginning of a run, their Jacobian, and the covariance of their
-/// noise.
-struct Linearised {
-  Covariance noise;
-  std::vector<double> columns;  // f, then the columns of J
-};
-
-/// Takes as many residuals of each run as the system has.
-std::vector<Linearised> linear_around(const std::vector<double>& theta, const System& system,
-                                      const Model& model) {
-  std::vector<Linearised> runs;
-  system.evaluate(theta, [&](std::size_t r, std::span<double> f, std::span<double> J) {
-    const std::size_t n = system.runs[r], all = f.size();
-    std::vector<double> columns;
-    const auto begin_of = [&](std::span<double> x) {
-      columns.insert(columns.end(), x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n));
-    };
-    for (begin_of(f); !J.empty(); J = J.subspan(all)) begin_of(J);
-    runs.push_back({Covariance(*model.runs()[r].H, n), std::move(columns)});
-  });
-  return runs;
+/// The model with the first `rows` of each run alone.
+std::shared_ptr<const Model> heads_of(const Model& model, std::size_t rows) {
+  std::vector<ObservedRun> runs = model.runs();
+  for (ObservedRun& run : runs) {
+    Rows first(std::min(rows, run.y.size()));
+    std::iota(first.begin(), first.end(), std::size_t{0});
+    run.y.resize(first.size());
+    run.H = std::make_shared<const BandMatrix>(run.H->of_rows(first));
+  }
+  return std::make_shared<const Model>(std::move(runs), model.parameters());
 }
 
 }  // namespace
 
 WhiteShare most_likely_share(const std::shared_ptr<const Model>& model,
                              const std::vector<double>& theta, double least, double most) {
-  System system = system_of(model, std::make_shared<const Noise>());
-  for (std::size_t& rows : system.runs) rows = std::min(rows, searched_for_white_noise);
-  const std::vector<Linearised> runs = linear_around(theta, system, *model);
+  const auto heads = heads_of(*model, searched_for_white_noise);
+  const System linear = linearised(system_of(heads), theta);
+  std::vector<Covariance> noise;
+  for (const ObservedRun& run : heads->runs()) noise.emplace_back(*run.H);
   const auto likelihood = [&](double share) {
     double log_size = 0;
-    system.evaluate = [&](const std::vector<double>&, const TakeRows& take) {
-      for (std::size_t r = 0; r < runs.size(); ++r) {
-        const Whitener whitener(runs[r].noise, share);
+    System weighted = linear;
+    weighted.evaluate = [&](const std::vector<double>& delta, const TakeRows& take) {
+      linear.evaluate(delta, [&](std::size_t r, std::span<double> f, std::span<double> J) {
+        const Whitener whitener(noise[r], share);
         log_size += whitener.log_size();
-        std::vector<double> columns = runs[r].columns;
-        whitener.apply(columns);
-        take(r, std::span(columns).first(system.runs[r]),
-             std::span(columns).subspan(system.runs[r]));
-      }
+        whitener.apply(f), whitener.apply(J);
+        take(r, f, J);
+      });
     };
-    const double of_weighted = restricted_likelihood(evaluated(system, theta));
+    const double of_weighted =
+        restricted_likelihood(evaluated(weighted, std::vector<double>(theta.size())));
     return of_weighted - log_size;
   };
   const Largest found = golden_section(std::log(least), std::log(most), 0.1,
@@ -93,8 +83,7 @@ Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
     return std::make_shared<const Model>(observe(Route::velocity, all, rows, responses, options),
                                          plain.parameters());
   };
-  const double of_white_noise = restricted_likelihood(
-      evaluated(system_of(model_of({}), std::make_shared<const Noise>()), theta));
+  const double of_white_noise = restricted_likelihood(evaluated(system_of(model_of({})), theta));
   Maker best;
   for (const LinearFilter& filter : options.possible_filters) {
     const WhiteShare found =
@@ -108,15 +97,13 @@ Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
 /// For each row, the number of gaps before it: of steps that are much longer than those around
 /// them. The steps of a wheel that slows down grow, and uneven times differ, without a gap.
 std::vector<std::size_t> gaps_before(const std::vector<double>& t) {
-  constexpr std::size_t around = 5;
   constexpr double longer = 1.7;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
+  const std::vector<double> usual = medians_of_five(steps);
   std::vector<std::size_t> gaps(t.size());
-  for (std::size_t i = 1; i < t.size(); ++i) {
-    std::vector<double> near;
-    for (std::size_t k = i - std::min(i - 1, around); k < std::min(i + around + 1, t.size()); ++k)
-      near.push_back(t[k] - t[k - 1]);
-    gaps[i] = gaps[i - 1] + (t[i] - t[i - 1] > longer * median(near));
-  }
+  for (std::size_t i = 1; i < t.size(); ++i)
+    gaps[i] = gaps[i - 1] + (steps[i - 1] > longer * usual[i - 1]);
   return gaps;
 }
 
@@ -168,7 +155,7 @@ constexpr std::size_t searched = 2000;
 bool may_be_differences(const Fitted& plain) {
   std::vector<double> f;
   std::vector<std::size_t> runs;
-  for (const auto of_run : by_run(plain.minimum.f, plain.system.runs)) {
+  for (const auto of_run : by_run(plain.minimum.f, plain.model->rows())) {
     const auto head = of_run.first(std::min(of_run.size(), searched));
     runs.push_back(head.size());
     f.insert(f.end(), head.begin(), head.end());
@@ -185,11 +172,10 @@ std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const FitO
   for (const auto& filter : options.possible_filters) reach = std::max(reach, filter.reach);
   std::vector<FitRun> heads;
   for (std::size_t r = 0; r < all.size(); ++r) {
-    const std::size_t n = std::min(all[r].t.size(), searched);
-    const auto head = [n](const std::vector<double>& x) {
-      return std::vector(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n));
-    };
-    heads.push_back({head(all[r].t), {}, head(all[r].v), {}, all[r].body, {}});
+    FitRun& head = heads.emplace_back();
+    head.body = all[r].body;
+    for (std::size_t i = 0; i < std::min(all[r].t.size(), searched); ++i)
+      head.t.push_back(all[r].t[i]), head.v.push_back(all[r].v[i]);
   }
   std::vector<Rows> head_rows = usable(Route::velocity, heads);
   try {

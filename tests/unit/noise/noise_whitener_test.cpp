@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "noise/whitener.h"
+#include "noise/noise.h"
 
 #include "base/matrix.h"
 #include "base/error.h"
-#include "noise/noise.h"
 #include "noise/response.h"
 #include "unit/fit/simulated.h"
 #include "unit/noise/dense.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/roll_fit.h"
+#include "fit/routes.h"
 
 #include "base/error.h"
 #include "base/median.h"
@@ -173,11 +173,6 @@ void require_near(const std::vector<Thinned>& thin, double rss, const FitOptions
     fail("no law a v^b comes near the data: {}", choose_the_roll);
 }
 
-System unweighted(std::vector<ObservedRun> runs, const Parameters& q) {
-  return system_of(std::make_shared<const Model>(std::move(runs), q),
-                   std::make_shared<const Noise>());
-}
-
 }  // namespace
 
 Fitted of_means(Fitted fit, const FitOptions& options) {
@@ -206,7 +201,7 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
                time = std::max(thin.front().run.t.back(), std::numeric_limits<double>::min());
   const Parameters q(options, position, runs.size(), v, position ? v * time : 1);
   std::vector<std::vector<double>> all = starts(thin, q, options);
-  const System system = unweighted(std::move(thin_runs), q);
+  const System system = system_of(std::make_shared<const Model>(std::move(thin_runs), q));
   Minimum best = attempt(system, all[0]);
   for (std::size_t i = 1; i < all.size(); ++i)
     if (Minimum found = attempt(system, all[i]); found.rss < best.rss) best = std::move(found);

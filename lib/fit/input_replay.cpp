@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/replay.h"
+#include "fit/input.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/laws.h"
+#include "fit/fit.h"
 
 #include "base/error.h"
 #include "unit/fit/simulated.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/roll_fit.h"
+#include "fit/routes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/error.h"
-#include "fit/inferred_noise.h"
-#include "least_squares/robust.h"
+#include "base/matrix.h"
+#include "least_squares/minimise.h"
 
 namespace rolling {
 
@@ -37,18 +37,6 @@ bool leave_out_slow(const Model& model, const std::vector<double>& theta,
     });
   }
   return slow > 0;
-}
-
-/// The sum of squares of model - data for the shifts of a run.
-double squares_of_shifts(const Model& rolls, const std::vector<double>& theta, std::size_t r) {
-  const ObservedRun::Shifts& shifts = *rolls.runs()[r].shifts;
-  const std::vector<double> fitted = shifts.H->times(rolls.raw_column(theta, r));
-  double sum = 0;
-  for (std::size_t i = 0; i < fitted.size(); ++i)
-    if (const double residual = fitted[i] - shifts.accelerations[i]; !std::isnan(residual))
-      sum += residual * residual;
-  const Body& body = rolls.runs()[r].body;
-  return sum * std::pow((body.K + 1) * body.R / body.g, 2);
 }
 
 /// The sum of the squares of speeds, as a function of the time T of the stop, has a cusp at each
@@ -94,7 +82,7 @@ Minimum search(const Model& model, const System& system,
 
 /// The sum of squares of the residuals without weights.
 double unweighted(const Fitted& fit) {
-  return evaluated(system_of(fit.model, std::make_shared<const Noise>()), fit.minimum.theta).rss;
+  return evaluated(system_of(fit.model), fit.minimum.theta).rss;
 }
 
 /// True if the weighted sum of squares is more than four times what the unweighted residuals and
@@ -102,9 +90,9 @@ double unweighted(const Fitted& fit) {
 bool rounded(const Fitted& fit) {
   if (!fit.noise->from_sources_alone()) return false;
   double variances = 0;
-  for (std::size_t r = 0; r < fit.system.runs.size(); ++r)
-    for (std::size_t i = 0; i < fit.system.runs[r]; ++i)
-      variances += fit.noise->whitener(r).variance(i);
+  const std::vector<std::size_t> rows = fit.model->rows();
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    for (std::size_t i = 0; i < rows[r]; ++i) variances += fit.noise->whitener(r).variance(i);
   return fit.minimum.rss * variances >
          4 * unweighted(fit) * static_cast<double>(fit.minimum.f.size());
 }
@@ -114,13 +102,12 @@ bool rounded(const Fitted& fit) {
 /// residuals may be large by chance: there the likelihood decides.
 void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   if (!rounded(fit)) return;
-  const bool many = std::ranges::max(fit.system.runs) > searched_for_white_noise;
-  fit.system = {}, fit.noise = {};  // frees memory: these are large, and the search needs as much
+  const bool many = std::ranges::max(fit.model->rows()) > searched_for_white_noise;
+  fit.noise = {};  // frees memory: it is large, and the search needs as much
   const WhiteShare found = most_likely_share(fit.model, fit.minimum.theta, 1e-7, 100);
   const bool adopted = many || found.decisive();
   fit.noise = noise_of(fit.model->runs(), {adopted ? found.share : 0});
-  fit.system = system_of(fit.model, fit.noise);
-  if (adopted) fit.minimum = search(*fit.model, fit.system, {fit.minimum.theta}, options);
+  if (adopted) fit.minimum = search(*fit.model, fit.system(), {fit.minimum.theta}, options);
   report(fit);
 }
 
@@ -129,12 +116,8 @@ void allow_for_rounding(Fitted& fit, const FitOptions& options) {
 Fitted fit_from(const FirstGuess& start, std::vector<ObservedRun> runs,
                 std::shared_ptr<const Noise> noise, const FitOptions& options) {
   auto model = std::make_shared<const Model>(std::move(runs), start.parameters);
-  System system = system_of(model, noise);
-  Minimum minimum = search(*model, system, start.starts, options);
-  Fitted fit{.system = std::move(system),
-             .minimum = std::move(minimum),
-             .noise = std::move(noise),
-             .model = std::move(model)};
+  Minimum minimum = search(*model, system_of(model, noise), start.starts, options);
+  Fitted fit{.minimum = std::move(minimum), .noise = std::move(noise), .model = std::move(model)};
   report(fit);
   return fit;
 }
@@ -195,10 +178,17 @@ std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
 
 double sum_of_squares(const Fitted& fit) {
   if (!fit.noise->known()) return fit.minimum.rss;
-  if (!fit.model->runs().front().shifts) return unweighted(fit);
+  const auto& runs = fit.model->runs();
+  if (!runs.front().H_of_accelerations) return unweighted(fit);
   double sum = 0;
-  for (std::size_t r = 0; r < fit.system.runs.size(); ++r)
-    sum += squares_of_shifts(*fit.model, fit.minimum.theta, r);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const ObservedRun& run = runs[r];
+    const double unit = (run.body.K + 1) * run.body.R / run.body.g;
+    std::vector<double> off =
+        run.H_of_accelerations->times(fit.model->raw_column(fit.minimum.theta, r));
+    std::ranges::transform(off, run.accelerations, off.begin(), std::minus());
+    sum += unit * unit * dot(off, off);
+  }
   return sum;
 }
 

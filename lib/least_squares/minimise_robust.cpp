@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "least_squares/robust.h"
+#include "least_squares/minimise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,6 @@
 #include "base/grid.h"
 #include "base/matrix.h"
 #include "base/median.h"
-#include "least_squares/minimise.h"
 
 namespace rolling {
 namespace {
@@ -44,26 +43,6 @@ double scale_of(const System& system, const Minimum& at) {
   const std::vector<double> J = at.R.lengths();
   return std::max(std::sqrt(dot(scales, scales) / static_cast<double>(scales.size())),
                   1e-13 * std::sqrt(dot(J, J) / static_cast<double>(at.f.size())));
-}
-
-/// The system that is linear in its parameters, which are 0 at theta, with the residuals and the J
-/// that the system has there. It refers to the system.
-System linearised(const System& system, const std::vector<double>& theta) {
-  std::vector<std::pair<std::vector<double>, std::vector<double>>> runs;  // f and J
-  system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
-    runs.push_back({{f.begin(), f.end()}, {J.begin(), J.end()}});
-  });
-  return {
-      system.runs, system.own, system.shared,
-      [&system, runs = std::move(runs)](const std::vector<double>& delta, const TakeRows& take) {
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-      auto [f, J] = runs[r];
-      for (std::size_t j = 0; j < system.columns(); ++j)
-        for (std::size_t i = 0; i < f.size(); ++i)
-          f[i] += J[j * f.size() + i] * delta[system.place(r, j)];
-      take(r, f, J);
-    }
-      }};
 }
 
 /// The system whose residuals are multiplied by these factors. It refers to both.

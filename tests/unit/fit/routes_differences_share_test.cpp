@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/inferred_noise.h"
+#include "fit/routes.h"
 
 #include "fit/errors.h"
-#include "fit/roll_fit.h"
 #include "least_squares/minimise.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
@@ -74,8 +73,8 @@ TEST_CASE("white share: of a filter that changes nothing each is as likely as no
   REQUIRE(fit.noise->known());
   const auto plain = std::make_shared<const Model>(observe(Route::velocity, read, rows, {}, {}),
                                                    fit.model->parameters());
-  const double of_white_noise = restricted_likelihood(
-      evaluated(system_of(plain, std::make_shared<const Noise>()), fit.minimum.theta));
+  const double of_white_noise =
+      restricted_likelihood(evaluated(system_of(plain), fit.minimum.theta));
   const WhiteShare found = most_likely_share(fit.model, fit.minimum.theta, 1e-3, 10);
   CHECK(found.likelihood == Approx(of_white_noise).epsilon(0).margin(1e-9));
   CHECK(found.gain == Approx(0).margin(1e-9));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/roll_fit.h"
+#include "fit/routes.h"
 
 #include "fit/errors.h"
 #include "fit/fitted.h"

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The fits of the routes: rolls, of positions, speeds, and shifts whose filters are known; laws
+// D(v) and ln D of rows; speeds that the software of a sensor has made as differences of positions.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "fit/fitted.h"
+#include "statistics/levels.h"
+
+namespace rolling {
+
+/// The starting point for the fit of a roll.
+struct FirstGuess {
+  Parameters parameters;  ///< with units v_ref and x_ref that suit the data
+  /// theta; behind it others where a robust search may start as well.
+  std::vector<std::vector<double>> starts;
+};
+
+/// Estimates theta from positions or speeds as if they were not filtered (without H). Throws Error
+/// if the body does not move or if no law comes near the data.
+FirstGuess first_guess(const std::vector<ObservedRun>&, const FitOptions&);
+
+/// The rows of each run in which no reading is missing: those with finite values. For a roll under
+/// shifts a row with v <= 0 counts too: to select by noisy speeds would be to select by their
+/// noise.
+std::vector<Rows> usable(Route, const std::vector<FitRun>&);
+
+/// Fits a roll: position, velocity, and shift with known filters (`responses`).
+Fitted fit_rolls(Route, const std::vector<FitRun>&, std::vector<Rows>, std::vector<Response>,
+                 const FitOptions&, AddedNoise = {});
+
+/// The fit of these runs with the weights of this noise.
+Fitted fit_from(const FirstGuess&, std::vector<ObservedRun>, std::shared_ptr<const Noise>,
+                const FitOptions&);
+
+/// Fits one run of a joint fit of rolls separately: the same rows and weights, the slope of the
+/// mat fixed at the joint value. Throws Error if the run does not determine its parameters, or has
+/// none.
+Fitted fit_of_run(const Fitted& joint, std::size_t run, const FitOptions&);
+
+/// The fit of block means of equal size, at most 4096 of each run, where there are more rows than
+/// that on average and no filter is known; otherwise the fit itself. The means hold what a smooth
+/// law can tell.
+Fitted of_means(Fitted, const FitOptions&);
+
+/// The sum of squares of model - data in the unit of the fitted column, without weights.
+double sum_of_squares(const Fitted&);
+
+/// The rows of a run that the routes loglog and shift use: with finite v > 0 of at least
+/// options.min_speed, and with D > 0 if `logarithms`; what is no more than the rounding of a
+/// difference (base/grid.h) counts as 0. From the time `stop` on no row is used. A body that rolls
+/// towards falling x has v < 0 and D < 0; both are taken positive along its direction of motion.
+Rows shift_rows(const FitRun&, const FitOptions&, bool logarithms,
+                double stop = std::numeric_limits<double>::infinity());
+
+/// The runs of the columns D [m] or ln D with these rows, without the runs that have none. Throws
+/// Error if the rows do not determine the parameters.
+std::vector<ObservedRun> observed_shifts(const std::vector<FitRun>&, const std::vector<Rows>&,
+                                         const FitOptions&, bool logarithms);
+
+/// The parameters of a law of these runs: the unit of speed is the geometric mean of theirs, where
+/// the estimates of ln D and b are uncorrelated.
+Parameters parameters_of_shifts(const std::vector<ObservedRun>&, const FitOptions&);
+
+/// Unweighted least squares on D (or the robust loss) for rows whose filters are not known. D
+/// and a are in metres, v in m/s; runs that roll towards falling x are reflected. Throws Error if
+/// the rows do not determine the parameters.
+Fitted fit_shift(const std::vector<FitRun>&, const FitOptions&);
+
+/// The log-log regression line of ln D on ln v through all rows with v > 0 and D > 0, with equal
+/// weights, as one would draw it through a plot. If the filters are known (`responses`), the errors
+/// are those of the noise of the raw column, propagated through the filters and the logarithms, and
+/// the expected bias of the line is reported. Throws Error if the rows do not determine the
+/// parameters.
+Fitted fit_log_log(const std::vector<FitRun>&, const FitOptions&, std::vector<Response> responses);
+
+/// The velocity fit with the difference filter of options.possible_filters, and the share of white
+/// noise, that have the largest restricted likelihood; the likelihood is computed around `plain`, a
+/// fit without a filter. None if white noise alone, or a mean of speeds, is nearly as likely or
+/// more likely, or if the residuals of the new fit are not white or are uneven along the runs.
+std::optional<Fitted> fit_differences(const std::vector<FitRun>&, const FitOptions&,
+                                      const Fitted& plain);
+
+/// An estimate of the share of white noise (the share of Noise).
+struct WhiteShare {
+  double share;
+  double likelihood;  ///< ln of it, comparable with restricted_likelihood() under other noise
+  double gain;        ///< ln of the likelihood ratio to no white noise
+
+  /// Noise without additional white noise reaches this gain in about 1 % of the runs.
+  bool decisive() const { return gain >= levels::likely; }
+};
+
+/// The search for the share of white noise uses at most this many rows from the beginning of
+/// each run. They show a share that is larger than the noise which the filters leave of their
+/// slowest motion, about 1e-4 of the noise of a run.
+inline constexpr std::size_t searched_for_white_noise = 100'000;
+
+/// The share between `least` and `most` with the largest restricted likelihood of the residuals,
+/// with the model linear around theta. H of every run must be known.
+WhiteShare most_likely_share(const std::shared_ptr<const Model>&, const std::vector<double>& theta,
+                             double least, double most);
+
+}  // namespace rolling
