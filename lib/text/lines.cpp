@@ -139,11 +139,8 @@ bool Lines::next_in_file() {
 
 LineKind Lines::kind_of(std::string_view line) const {
   const std::size_t first = line.find_first_not_of(" \t");
-  const auto is_text = [&](char c) {
-    return !is_blank(c) &&
-           (separators_.empty() || (c != quote && separators_.find(c) == std::string::npos));
-  };
-  if (line == "\x1A" || std::ranges::none_of(line, is_text)) return LineKind::blank;
+  if (first == std::string_view::npos || line == "\x1A" || is_blank_row(line.substr(first)))
+    return LineKind::blank;
   const bool is_field = separators_ == "\t" && line.find('\t') < first;  // a blank one before it
   if (line[first] == quote && !is_field && only_cell(line).starts_with("##"))
     return LineKind::history;
@@ -151,6 +148,20 @@ LineKind Lines::kind_of(std::string_view line) const {
   line.remove_prefix(first);
   if (line.starts_with("##")) return LineKind::history;
   return begins_with_error_value(line) ? LineKind::row : LineKind::comment;
+}
+
+/// True for a row whose cells are all blank, in quotes perhaps.
+bool Lines::is_blank_row(std::string_view line) const {
+  if (separators_.empty()) return false;
+  for (; !line.empty(); line.remove_prefix(1)) {
+    if (line.front() == quote) {  // a second one closes the cell, a third one would be text
+      if (!line.starts_with("\"\"") || line.starts_with("\"\"\"")) return false;
+      line.remove_prefix(1);
+    } else if (!is_blank(line.front()) && separators_.find(line.front()) == std::string::npos) {
+      return false;
+    }
+  }
+  return true;
 }
 
 bool Lines::another_run() const {

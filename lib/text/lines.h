@@ -73,6 +73,7 @@ class Lines {
   void join_quoted();
   void check_bytes() const;
   LineKind kind_of(std::string_view line) const;
+  bool is_blank_row(std::string_view line) const;
 
   std::string name_;
   int fd_;
