@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "base/enumeration.h"
@@ -32,6 +33,174 @@ Reader::Reader(ReaderOptions options, std::vector<std::string> order)
   if (options_.files.empty()) options_.files = {"-"};
   find_run();
 }
+
+// Runs: which one is read, its name, and its head.
+
+/// True if the present run is to be read: by the number in its header or at the end of its name,
+/// which is the same behind a tool, else by its place.
+bool Reader::asked_for() {
+  std::string number = layout().label;
+  if (!is_number(number)) number = run_is_named() ? run_name() : "";
+  number.erase(0, number.rfind(' ') + 1);
+  const auto is_label = [](const Layout::Run& run) { return is_number(run.label); };
+  if (!is_whole(number)) {
+    if (std::ranges::any_of(head_.layout.runs, is_label)) return false;
+    number = fmt::format("{}", run_);
+  }
+  add_item(runs_, number);
+  return number == fmt::format("{}", *options_.run);
+}
+
+bool Reader::next_run() {
+  if (state_ == State::in_run)
+    while (next_line()) continue;
+  bool passed = false;
+  while (state_ == State::found || find_run()) {
+    state_ = State::in_run;
+    if (!options_.run) return true;
+    if (asked_for()) {
+      if (run_found_)
+        fail<InputError>("{}:{}: another run {}; give the file of one of them alone",
+                         lines_->name(), head_.line, *options_.run);
+      return run_found_ = true;
+    }
+    const std::pair kept(left_out_, row_found_);
+    while (next()) continue;
+    std::tie(left_out_, row_found_) = kept;
+    passed = true;
+  }
+  if (passed) comments_.clear();  // of the run that was passed over last
+  return false;
+}
+
+/// Goes to the next run, and reads its head.
+bool Reader::find_run() {
+  remarks_.clear();
+  comments_.clear();
+  place_.clear();
+  if (state_ != State::ended && next_head()) {
+    begin_run();
+    return true;
+  }
+  state_ = State::ended;
+  if (options_.run && !run_found_) fail("there is no run {} (runs: {})", *options_.run, runs_);
+  if (left_out_ > 0 && !row_found_)
+    fail<InputError>("{}no rows: a needed reading is missing in every one",
+                     options_.files.size() == 1 ? lines_->name() + ": " : "");
+  return false;
+}
+
+/// Reads the head of the next run. Comments behind the last run of a file are added to those of the
+/// next run.
+bool Reader::next_head() {
+  if (file_open_ && side_ + 1 < head_.layout.runs.size()) {
+    ++side_;
+    return true;
+  }
+  // Column numbers in --use count the fields of a line: the line is then one row.
+  const Sides sides = needed_.use_has_numbers() ? Sides::one : Sides::by_names;
+  while (file_open_ || next_file()) {
+    const bool first = run_in_file_ == 0;
+    Head head = read_head(*lines_, dialect_, first ? nullptr : &head_, order_, sides);
+    if (!head.layout.runs.empty()) {
+      take_head(std::move(head));
+      return true;
+    }
+    for (std::string& comment : head.comments) {
+      if (!head_.named && are_names(comment))
+        fail<InputError>(
+            "{}: the names of the columns stand behind the last row; put them above the first",
+            lines_->name());
+      if (!comment.starts_with("##")) comments_.push_back(std::move(comment));
+    }
+    file_open_ = false;
+  }
+  return false;
+}
+
+bool Reader::next_file() {
+  if (next_file_ == options_.files.size()) return false;
+  run_in_file_ = 0;
+  lines_.emplace(options_.files[next_file_++]);
+  return file_open_ = true;
+}
+
+void Reader::take_head(Head head) {
+  const std::size_t width = head.layout.width, before = head_.layout.width;
+  if (run_in_file_ == 0 && next_file_ > 1 && !head.named && (head_.named || width != before))
+    fail<InputError>("{}: its columns are not those of {}: {}; give it a header", lines_->name(),
+                     options_.files.front(),
+                     head_.named ? "those have names" : fmt::format("{}, not {}", width, before));
+  head_ = std::move(head);
+  side_ = 0;
+}
+
+/// True if the file has several runs.
+bool Reader::one_of_several() const {
+  return head_.layout.side_by_side() || run_in_file_ > 1 || lines_->another_run();
+}
+
+/// True if there are several runs, or if the run has a name or a number in the input.
+bool Reader::run_is_named() const {
+  return !head_.run.empty() || is_number(layout().label) || options_.files.size() > 1 ||
+         one_of_several();
+}
+
+std::string Reader::run_name() const {
+  if (!head_.run.empty()) return head_.run;
+  const std::string& file = options_.files[next_file_ - 1];
+  std::string name = file == "-" ? "" : file.substr(file.rfind('/') + 1);
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < ' ') c = '?';
+  name = trim(name);
+  const std::string& label = layout().label;
+  if (!label.empty()) name += ' ' + label;
+  else if (name.empty()) name = fmt::format("{}", run_);
+  else if (one_of_several()) name += fmt::format(" {}", run_in_file_);
+  return std::string(trim(name));
+}
+
+/// Prepares for the rows of the run whose head has been read.
+void Reader::begin_run() {
+  ++run_;
+  ++run_in_file_;
+  blank_rows_ = 0;
+  last_time_ = std::numeric_limits<double>::quiet_NaN();
+  if (head_.layout.side_by_side()) {
+    lines_->put_back();
+    lines_->hold(side_ + 1 < head_.layout.runs.size());
+  }
+  state_ = State::found;
+  place_ = lines_->name();
+  if (run_is_named()) {
+    place_ = "run " + run_name();
+    comments_.push_back("## " + place_);
+  }
+  for (const std::string& comment : head_.comments)
+    if (side_ == 0 || comment.starts_with("##")) comments_.push_back(comment);
+  needed_.begin_run(layout().columns, head_.named, head_.said,
+                    run_in_file_ > 1 || !head_.named
+                        ? fmt::format("{}:{}", lines_->name(), head_.line)
+                        : lines_->name());
+  read_needed();
+}
+
+std::size_t Reader::add(std::string_view name, NeededColumns::Kind kind, std::string_view unit) {
+  const std::size_t slot = needed_.add(name, kind, unit);
+  if (needed_.all()[slot].quantity == "t") time_slot_ = slot;
+  read_needed();
+  return slot;
+}
+
+/// Declares to the dialect the fields whose numbers are read.
+void Reader::read_needed() {
+  values_.resize(needed_.all().size());
+  dialect_.want_none();
+  for (const NeededColumns::Needed& needed : needed_.all())
+    if (needed.column != no_column) dialect_.want(layout().fields[needed.column]);
+}
+
+// Rows.
 
 /// Goes to the next line of this run that is a row; false at its end.
 bool Reader::next_line() {
@@ -162,37 +331,6 @@ inline void Reader::check_time(const NeededColumns::Needed& needed, double t) {
   // the times are beyond 3000 years, where milliseconds since 1970 are.
   large_time_ |= t - last_time_ < 0x1p-39 * std::abs(t) || std::abs(t) > 1e11;
   last_time_ = t;
-}
-
-/// Reads the present run as strictly as one that is kept: what is wrong in a quantity is an error
-/// as soon as it is needed.
-void Reader::pass_over() {
-  begin_rows();
-  NeededColumns all(options_.use, options_.has_use);
-  all.begin_run(layout().columns, head_.named, head_.said, place_of_head());
-  const auto note = [&](const std::string& quantity, auto&& reads) {
-    try {
-      if (!passed_.contains(quantity)) reads();
-    } catch (const InputError& error) {
-      passed_.emplace(quantity, error.what());
-    }
-  };
-  for (std::size_t i = 0; i < layout().fields.size(); ++i) {
-    dialect_.want(layout().fields[i]);
-    note(all.quantities()[i],
-         [&] { all.add(fmt::format("{}", i + 1), NeededColumns::Kind::needed); });
-  }
-  while (next_line()) {
-    fields_ = split();
-    if (!take_fields()) continue;
-    for (const NeededColumns::Needed& needed : all.all())
-      note(needed.quantity, [&] {
-        const double value = read(needed);
-        if (needed.quantity == "t" && !std::isnan(value)) check_time(needed, value);
-      });
-  }
-  remarks_.clear();
-  refuse_passed();
 }
 
 /// append_text() of a row that is not written as it was read.

@@ -3,7 +3,6 @@
 // names in each head, converts them to SI units, and passes all other text through.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -29,8 +28,8 @@ struct ReaderOptions {
 
 class Reader {
  public:
-  /// Reads up to the first row of the first run. `order` names the columns of a file without
-  /// names, up to the first column that --use assigns to another place.
+  /// Reads up to the first row of the first run, to be read or not. `order` names the columns of a
+  /// file without names, up to the first column that --use assigns to another place.
   Reader(ReaderOptions, std::vector<std::string> order);
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
@@ -68,7 +67,8 @@ class Reader {
   bool renames() const { return needed_.renames(); }
 
   // The rows.
-  /// Goes to the next run; false when there is none.
+  /// Goes to the next run that is to be read; false when there is none. One that is passed over is
+  /// read as strictly.
   bool next_run();
   /// Goes to the next row of this run; false at its end.
   bool next();
@@ -118,11 +118,7 @@ class Reader {
   bool next_file();
   void take_head(Head);
   bool asked_for();
-  void begin_rows();
   void begin_run();
-  void pass_over();
-  void refuse_passed() const;
-  std::string place_of_head() const;
   bool one_of_several() const;
   bool run_is_named() const;
 
@@ -156,7 +152,6 @@ class Reader {
   std::size_t run_in_file_ = 0;  // number of the run in the file
   std::string place_;            // where() behind its last row
   std::string runs_;             // the numbers of the runs so far, where one is asked for
-  std::map<std::string, std::string> passed_;  // what is wrong in runs passed over, by quantity
   bool run_found_ = false, row_found_ = false, file_open_ = false;
 
   // The present row.

@@ -153,13 +153,13 @@ TEST_CASE("reader: --run gives the head of its run and nothing of another", "[te
   const TemporaryFile file(
       "# one\n## smooth v mean width 3\n# t[s] v[m/s]\n0 1\n\n# two\n# t[ms] v[km/h] n\n0 36 1\n");
   Reader in({.files = {file.name()}, .run = 2}, {});
+  const auto v = in.need("v");
+  REQUIRE(in.next_run());
   CHECK(in.history().empty());
   REQUIRE(in.comments().size() == 2);
   CHECK(in.comments()[0] == "## run " + in.run_name());
   CHECK(in.comments()[1] == "# two");
-  const auto v = in.need("v");
   CHECK(in.columns().size() == 3);
-  REQUIRE(in.next_run());
   REQUIRE(in.next());
   CHECK(in[v] == 10);
 }
