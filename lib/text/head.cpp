@@ -2,6 +2,7 @@
 #include "text/head.h"
 
 #include <algorithm>
+#include <cctype>
 #include <functional>
 #include <set>
 #include <utility>
@@ -9,10 +10,152 @@
 #include "base/enumeration.h"
 #include "base/error.h"
 #include "text/delimiters.h"
-#include "text/header.h"
 #include "text/number.h"
 
 namespace rolling {
+
+// Names in comments.
+
+namespace {
+
+bool is_known_name(const std::string& text) { return is_known(read_column(text)); }
+
+/// A comment without the # or ## before it.
+std::string_view without_marks(std::string_view comment) {
+  return comment.substr(std::min(comment.find_first_not_of('#'), comment.size()));
+}
+
+/// Leaves out blank names at the end that are too many.
+void fit_end(std::vector<std::string>& names, const UnnamedColumns& columns) {
+  while (names.size() > columns.count - columns.blank_end && names.back().empty()) names.pop_back();
+}
+
+/// The names of as many columns between these separators, 0 for blanks; none if there are not as
+/// many, or if words between blanks end as in a sentence.
+CommentedNames names_between(char separator, std::string_view text, const UnnamedColumns& columns) {
+  CommentedNames found{split_names(text, separator), {}, separator};
+  auto& names = found.names;
+  fit_end(names, columns);
+  while (names.size() > columns.count && names.front().empty()) names.erase(names.begin());
+  const bool words = separator == '\0';
+  const auto ends_a_phrase = [](const std::string& word) {
+    return !word.empty() && std::string_view(",;:").find(word.back()) != std::string_view::npos;
+  };
+  if (!columns.fit(names.size()) || (words && std::ranges::any_of(names, ends_a_phrase))) return {};
+  for (const std::string& name : names) {
+    const Column& column = found.columns.emplace_back(read_column(name));
+    const bool article = words && names.size() > 1 && name == "a";  // perhaps
+    found.known += !article && (is_known(column) ||
+                                std::ranges::count(columns.before, column.name, &Column::name) > 0);
+  }
+  return found;
+}
+
+/// The words of a line, whatever separates them: `t [ms]`, `time` and `x [cm]` of `t [ms]: time, x
+/// [cm]`.
+std::vector<Column> words_of(std::string_view line) {
+  std::string text(line);
+  for (const char separator : separators) std::ranges::replace(text, separator, ' ');
+  std::vector<Column> words;
+  for (std::string& word : split_names(text, '\0')) {
+    word.erase(word.find_last_not_of(",;:=") + 1);
+    words.push_back(read_column(word));
+  }
+  return words;
+}
+
+/// True if t, x, v, a or D is a word of the line.
+bool holds_known_name(std::string_view line) {
+  return std::ranges::any_of(words_of(line), is_known);
+}
+
+/// True for a comment of nothing but known quantities, or that gives two of them units. One word
+/// without a unit may be a label.
+bool looks_like_names(std::string_view comment) {
+  const std::vector<Column> words = words_of(without_marks(comment));
+  const auto units = std::ranges::count_if(
+      words, [](const Column& word) { return is_known(word) && !word.unit.empty(); });
+  return units > 1 || ((words.size() > 1 || units > 0) && std::ranges::all_of(words, is_known));
+}
+
+/// True if each known quantity is in the same place in both, as far as both go.
+bool agree(const std::vector<Column>& one, const std::vector<Column>& other) {
+  for (std::size_t i = 0; i < std::min(one.size(), other.size()); ++i)
+    if (one[i].name != other[i].name && (is_known(one[i]) || is_known(other[i]))) return false;
+  return true;
+}
+
+/// A date or a time of day, in digits: `24/11/2026`, `10:15:00.5`, `2026-11-24T10:15:00Z`.
+bool is_date(std::string_view text) {
+  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) &&
+         text.find_first_not_of("0123456789+-.:/ TZ") == std::string_view::npos;
+}
+
+}  // namespace
+
+CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns& columns) {
+  std::string_view text = without_marks(comment);
+  text = text.substr(0, text.find_last_not_of(filling) + 1);
+  CommentedNames unknown;
+  for (const char separator : std::string(separators) + '\0') {
+    auto found = names_between(separator, text, columns);
+    if (found.known > 0) return found;
+    if (unknown.names.empty()) unknown = std::move(found);
+  }
+  return unknown;
+}
+
+const Comment* choose_names(std::span<const Comment> comments, const UnnamedColumns& columns,
+                            bool first, std::string_view file) {
+  const Comment* chosen = nullptr;
+  CommentedNames names;  // in it
+  const auto is_figure = [](const std::string& s) { return is_number(s) || is_date(s); };
+  for (std::size_t i = comments.size(); i-- > 0 && names.known == 0;) {
+    if (comments[i].is_bare() || comments[i].is_history()) continue;
+    CommentedNames found = names_in_comment(comments[i].text, columns);
+    if (found.known > 0 ||
+        (first && !chosen && !found.names.empty() && std::ranges::none_of(found.names, is_figure)))
+      chosen = &comments[i], names = std::move(found);
+  }
+  if (names.known > 0 && (names.separator == '\t' || names.known == names.names.size()))
+    return chosen;
+  const auto refuse = [&](const Comment& comment) {
+    fail<InputError>(
+        "{}:{}: '{}' may be the names of the columns, or a sentence: put tabs between names, one "
+        "for each of {}, behind one #; or give the sentence another number of words",
+        file, comment.line, shown(comment.text), counted(columns.count, "column"));
+  };
+  for (const Comment& comment : comments) {
+    if (&comment == chosen || comment.is_bare()) continue;
+    const CommentedNames other = names_in_comment(comment.text, columns);
+    const bool may_be_meant = looks_like_names(comment.text) ||
+                              (other.known > comment.is_history() && other.known >= names.known);
+    if (may_be_meant && (!chosen || other.names.empty() || !agree(other.columns, names.columns)))
+      refuse(comment);
+  }
+  const bool article = names.known == 0 && std::ranges::count(names.names, "a") > 0;
+  if (chosen && names.separator == '\0' && (article || !agree(names.columns, columns.before)))
+    refuse(*chosen);
+  return chosen;
+}
+
+bool are_units_of(const std::vector<std::string>& names, const std::vector<std::string>& fields) {
+  const auto units = std::ranges::count_if(fields, is_unit);
+  return names.size() == fields.size() && std::ranges::none_of(fields, is_known_name) &&
+         units + std::ranges::any_of(names, is_known_name) > 1;
+}
+
+void add_unit(Column& column, std::string_view unit, std::string_view place) {
+  const std::string below = bare_unit(unit);
+  if (below.empty()) return;
+  if (!column.unit.empty() && column.unit != below)
+    fail<InputError>("{}: the column '{}' has another unit in the line below, '{}'", place,
+                     shown(to_text(column)), shown(below));
+  column.unit = below;
+}
+
+// All lines above the first row.
+
 namespace {
 
 /// The names in a line that is not a comment.
@@ -64,12 +207,12 @@ class HeadReader {
     lines_.separate_by(dialect_.separator());
     head_.line = lines_.number();
     const auto fields = dialect_.split(lines_.text());
-    std::size_t width = fields.size();
-    const bool blank_end = width > 1 && fields.back().text.empty();
+    const bool blank_end = fields.size() > 1 && fields.back().text.empty();
     std::vector<std::string> units;
-    const auto names = take_names(
-        {width, blank_end, before_ ? before_->layout.runs.front().columns : std::vector<Column>()},
-        units);
+    const auto names =
+        take_names({fields.size(), blank_end,
+                    before_ ? before_->layout.runs.front().columns : std::vector<Column>()},
+                   units);
     if (names.empty() && before_) {
       head_.said = before_->said;
       head_.named = before_->named;
@@ -79,19 +222,17 @@ class HeadReader {
     head_.named = !names.empty();
     if (!head_.named && dialect_.separator() == ',')
       refuse_two_readings(std::string(lines_.text()));
-    if (blank_end && names.size() + 1 == width) --width;
     std::vector<Column> columns;
-    for (std::size_t i = 0; i < std::max(width, names.size()); ++i) {
-      if (i < names.size()) columns.push_back(read_column(names[i]));
-      else if (i < order.size() && !head_.named) columns.push_back({order[i]});
-      else columns.emplace_back();
+    for (std::size_t i = 0; i < (head_.named ? names.size() : fields.size()); ++i) {
+      if (head_.named) columns.push_back(read_column(names[i]));
+      else columns.push_back({i < order.size() ? order[i] : ""});
       if (columns.back().name.empty()) columns.back().name = fmt::format("c{}", i + 1);
       if (i < units.size())
         add_unit(columns.back(), units[i], fmt::format("{}:{}", lines_.name(), head_.line));
     }
     head_.layout = Layout::of(columns, sides);
-    const bool side_by_side = head_.layout.side_by_side();
-    if (head_.named && (side_by_side ? width > names.size() : width != names.size()))
+    const std::size_t width = fields.size() - (blank_end && names.size() + 1 == fields.size());
+    if (head_.named && (head_.layout.side_by_side() ? width > names.size() : width != names.size()))
       fail(
           "{} under a line of {}: begin that with # if it is no header, put quotes around names "
           "that hold a separator, and make decimal commas points",

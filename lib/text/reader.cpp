@@ -9,7 +9,6 @@
 
 #include "base/enumeration.h"
 #include "text/delimiters.h"
-#include "text/header.h"
 #include "text/number.h"
 
 namespace rolling {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "text/header.h"
+#include "text/head.h"
 
 #include <fmt/format.h>
 
