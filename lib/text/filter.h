@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <queue>
 #include <span>
@@ -72,6 +73,7 @@ class Filter {
 
   std::size_t rows_at_once() const { return out_.unbuffered ? 1 : 32; }
   std::vector<Column> columns() const;
+  Bytes& block();
   void hold(std::string_view text, Kind);
   void take_comments(const std::vector<std::string>&);
   void write_rows();
@@ -86,11 +88,11 @@ class Filter {
   std::size_t replaced_ = Reader::no_column;  // a slot
   std::size_t cut_ = Reader::no_column;       // its column in this run
   std::vector<Line> lines_;                   // those from first_ on are not written yet
-  Bytes texts_;                               // one after the other; that of first_ is at front_
-  std::size_t first_ = 0, front_ = 0;
-  std::queue<std::size_t> dropped_;  // indices of the rows among them to leave out
-  std::vector<double> numbers_;      // of these rows, in order
-  std::size_t enough_;               // put() writes rows at this count of numbers
+  std::deque<Bytes> texts_;                   // of these, one after the other, in blocks
+  std::size_t first_ = 0, front_ = 0;         // front_: where that of first_ begins in its block
+  std::queue<std::size_t> dropped_;           // indices of the rows among them to leave out
+  std::vector<double> numbers_;               // of these rows, in order
+  std::size_t enough_;                        // put() writes rows at this count of numbers
   // Counts of the rows of all runs: read; read before this run; written or left out.
   std::size_t read_ = 0, run_begins_ = 0, done_ = 0;
   // The head of a run none of whose rows has been written.

@@ -3,6 +3,7 @@
 // names in each head, converts them to SI units, and passes all other text through.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
@@ -84,12 +85,12 @@ class Reader {
     if (!dialect_.as_it_stands() || needed_.converts() || fields_changed_)
       return append_made(to, column);
     const std::string_view line = lines_->text();
-    if (column >= fields_.size()) return to.append(line), line.size();
-    const std::string_view field = fields_[column].text;
-    const auto first = static_cast<std::size_t>(field.data() - line.data());
-    to.append(line.substr(0, first));
-    if (column + 1 < fields_.size()) to.append(line.substr(first + field.size()));
-    return first;
+    const std::string_view field =
+        column < fields_.size() ? fields_[column].text : line.substr(line.size());
+    const char* const begin = line.data();
+    char* const place = std::copy(begin, field.data(), space(to, line.size()));
+    set_end(to, std::copy(field.data() + field.size(), begin + line.size(), place));
+    return static_cast<std::size_t>(field.data() - begin);
   }
   /// The comments between the previous row and the present one; after the last row of a run,
   /// those up to the end of the run.
